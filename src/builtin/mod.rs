@@ -1,0 +1,8 @@
+//! What the language has built in, as tables: functions (GLSL 1.50 §8), variables and constants (§7).
+//!
+//! *In:* nothing. *Out:* the identities [`BuiltinFunction`] and [`BuiltinVariable`], which every phase matches without
+//! a wildcard, and the tables that say for which versions, profiles, stages and types each exists.
+
+mod ids;
+
+pub use ids::{BuiltinFunction, BuiltinVariable};

@@ -1,0 +1,102 @@
+//! [`Diagnostics`]: collects findings, drops repetitions, and keeps to a limit.
+
+use super::{Diagnostic, Severity};
+use crate::source::Span;
+use rustc_hash::FxHashSet;
+
+/// The findings of a compilation in the order in which they were found.
+///
+/// The same code at the same place is kept once, so an error in a file that is included twice is
+/// reported once. Past [`Diagnostics::LIMIT`] findings the rest is only counted.
+#[derive(Clone, Debug, Default)]
+pub struct Diagnostics {
+    list: Vec<Diagnostic>,
+    seen: FxHashSet<(&'static str, Span)>,
+    errors: usize,
+    dropped: usize,
+}
+
+impl Diagnostics {
+    /// The largest number of findings kept.
+    pub const LIMIT: usize = 500;
+
+    /// Adds a finding.
+    pub fn push(&mut self, diagnostic: Diagnostic) {
+        if diagnostic.is_error() {
+            self.errors += 1;
+        }
+        if self.list.len() >= Self::LIMIT {
+            self.dropped += 1;
+            return;
+        }
+        if self.seen.insert((diagnostic.code.id, diagnostic.primary.span)) || !diagnostic.primary.span.is_known() {
+            self.list.push(diagnostic);
+        }
+    }
+
+    /// Whether an error is among them.
+    pub fn has_errors(&self) -> bool {
+        self.errors > 0
+    }
+
+    /// How many findings past the limit were dropped.
+    pub fn dropped(&self) -> usize {
+        self.dropped
+    }
+
+    /// Whether no room is left; a phase may stop then.
+    pub fn is_full(&self) -> bool {
+        self.list.len() >= Self::LIMIT
+    }
+
+    /// All findings.
+    pub fn iter(&self) -> std::slice::Iter<'_, Diagnostic> {
+        self.list.iter()
+    }
+
+    /// All findings, to change severities by the user's levels.
+    pub fn iter_mut(&mut self) -> std::slice::IterMut<'_, Diagnostic> {
+        self.list.iter_mut()
+    }
+
+    /// The number of findings kept.
+    pub fn len(&self) -> usize {
+        self.list.len()
+    }
+
+    /// Whether nothing was found.
+    pub fn is_empty(&self) -> bool {
+        self.list.is_empty()
+    }
+
+    /// Keeps the findings that `keep` wants and counts the errors anew (`severity` may have changed).
+    pub fn retain(&mut self, keep: impl FnMut(&Diagnostic) -> bool) {
+        self.list.retain(keep);
+        self.errors = self.list.iter().filter(|diagnostic| diagnostic.severity == Severity::Error).count();
+    }
+
+    /// Takes over the findings of another phase.
+    pub fn extend(&mut self, others: impl IntoIterator<Item = Diagnostic>) {
+        for diagnostic in others {
+            self.push(diagnostic);
+        }
+    }
+}
+
+impl IntoIterator for Diagnostics {
+    type Item = Diagnostic;
+    type IntoIter = std::vec::IntoIter<Diagnostic>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.list.into_iter()
+    }
+}
+
+impl<'a> IntoIterator for &'a Diagnostics {
+    type Item = &'a Diagnostic;
+    type IntoIter = std::slice::Iter<'a, Diagnostic>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.list.iter()
+    }
+}

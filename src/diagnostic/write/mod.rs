@@ -1,0 +1,1 @@
+//! Writers of diagnostics, one file a format. They know nothing of rules.

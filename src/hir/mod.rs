@@ -1,0 +1,46 @@
+//! The typed program: what a shader means, every name resolved and every expression typed.
+//!
+//! *In:* built by [`analysis`](crate::analysis) from the syntax tree. *Out:* read by `link`, `lint`, `lower`
+//! and `cpu`. A [`Shader`] is one stage; [`Types`] is shared by all stages of a compilation, so that equal types
+//! have equal handles.
+//!
+//! *Holds:* no naga type is known here. Implicit conversions (§4.1.10) are explicit [`ExprKind::Convert`]s,
+//! constructors are in normal form, `.length()` is a literal. Expression children precede their parents in the
+//! arena. A shader with errors still has a HIR: what was not understood is [`ExprKind::Error`] of
+//! [`TypeId::ERROR`]; nothing behind `link` ever sees one, because a program with errors is not handed on.
+
+mod expr;
+mod shader;
+mod stmt;
+mod ty;
+mod value;
+
+pub use expr::{BinaryOp, ConstructKind, Expr, ExprId, ExprKind, IncDec, LogicalOp, Swizzle, UnaryOp, VarRef};
+pub use shader::{
+    BlockInfo, BlockLayout, FragCoordLayout, Function, FunctionId, GeometryLayout, Global, GlobalId, Interpolation,
+    Local, LocalId, LocalKind, ParamMode, PrimitiveIn, PrimitiveOut, Shader, Stage, Storage,
+};
+pub use stmt::{Case, CaseLabel, Condition, LoopKind, Stmt, StmtKind};
+pub use ty::{
+    ArraySize, MatrixLayout, Member, SamplerDim, SamplerType, Scalar, StructId, StructType, Type, TypeId, Types,
+};
+pub use value::{ScalarValue, Value};
+
+/// Runs a walk that recurses `depth` levels with enough stack: here if that is shallow, else on a thread of its own.
+/// A walk may use up to 8 KiB a level.
+pub(crate) fn with_stack<R: Send>(depth: u32, walk: impl FnOnce() -> R + Send) -> R {
+    const SHALLOW: u32 = 48;
+    const BYTES_A_LEVEL: usize = 8 << 10;
+    if depth <= SHALLOW {
+        return walk();
+    }
+    let bytes = (depth as usize * BYTES_A_LEVEL).max(4 << 20);
+    std::thread::scope(|scope| {
+        let thread = std::thread::Builder::new().stack_size(bytes).spawn_scoped(scope, walk);
+        match thread.map(std::thread::ScopedJoinHandle::join) {
+            Ok(Ok(result)) => result,
+            Ok(Err(panic)) => std::panic::resume_unwind(panic),
+            Err(error) => panic!("the system gives no thread with {bytes} bytes of stack: {error}"),
+        }
+    })
+}

@@ -1,0 +1,371 @@
+//! [`Types`]: the types of §4.1, interned.
+
+use rustc_hash::FxHashMap;
+
+/// A type in [`Types`]; equal handles mean equal types.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct TypeId(u32);
+
+/// A struct in [`Types`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct StructId(u32);
+
+/// The basic scalar types.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum Scalar {
+    Bool,
+    Int,
+    Uint,
+    Float,
+}
+
+impl Scalar {
+    /// All four, in the order of [`TypeId::vector`].
+    pub const ALL: [Self; 4] = [Self::Bool, Self::Int, Self::Uint, Self::Float];
+
+    /// `bool`, `int`, `uint`, `float`
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Bool => "bool",
+            Self::Int => "int",
+            Self::Uint => "uint",
+            Self::Float => "float",
+        }
+    }
+
+    /// Whether the type is `int` or `uint`.
+    pub fn is_integer(self) -> bool {
+        matches!(self, Self::Int | Self::Uint)
+    }
+}
+
+/// The shape of a texture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum SamplerDim {
+    D1,
+    D2,
+    D3,
+    Cube,
+    Rect,
+    Buffer,
+    Multisample,
+}
+
+/// A sampler type (§4.1.7).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct SamplerType {
+    /// What a texel's components are: `Float`, `Int` or `Uint`.
+    pub texel: Scalar,
+    /// The shape.
+    pub dim: SamplerDim,
+    /// `...Array`
+    pub arrayed: bool,
+    /// `...Shadow`
+    pub shadow: bool,
+}
+
+impl SamplerType {
+    /// As it is written: `isampler2DArray`.
+    pub fn name(self) -> String {
+        let prefix = match self.texel {
+            Scalar::Int => "i",
+            Scalar::Uint => "u",
+            Scalar::Bool | Scalar::Float => "",
+        };
+        let dim = match self.dim {
+            SamplerDim::D1 => "1D",
+            SamplerDim::D2 => "2D",
+            SamplerDim::D3 => "3D",
+            SamplerDim::Cube => "Cube",
+            SamplerDim::Rect => "2DRect",
+            SamplerDim::Buffer => "Buffer",
+            SamplerDim::Multisample => "2DMS",
+        };
+        let array = if self.arrayed { "Array" } else { "" };
+        let shadow = if self.shadow { "Shadow" } else { "" };
+        format!("{prefix}sampler{dim}{array}{shadow}")
+    }
+}
+
+/// The size of an array type.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum ArraySize {
+    /// `[n]`
+    Sized(u32),
+    /// `[]`: the analysis replaces it in the variable's type by the size that initializer, redeclaration or use
+    /// gives (§4.1.9); it stays only on geometry inputs before their layout is known, and in shaders with errors.
+    Unsized,
+}
+
+/// A type.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Type {
+    /// Already reported; agrees with everything.
+    Error,
+    /// `void`
+    Void,
+    /// `float`
+    Scalar(Scalar),
+    /// `vec3`: 2 to 4 components.
+    Vector(Scalar, u8),
+    /// `mat2x3`: columns, rows; always of float.
+    Matrix(u8, u8),
+    /// `sampler2D`
+    Sampler(SamplerType),
+    /// `struct S`, and the members of a block.
+    Struct(StructId),
+    /// `float[3]`
+    Array(TypeId, ArraySize),
+}
+
+/// The order of a matrix in a block.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum MatrixLayout {
+    #[default]
+    ColumnMajor,
+    RowMajor,
+}
+
+/// A member of a struct or a block.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Member {
+    /// Its name.
+    pub name: String,
+    /// Its type.
+    pub ty: TypeId,
+    /// In uniform blocks: the member's own or inherited order.
+    pub matrix_layout: MatrixLayout,
+    /// In `in` and `out` blocks: interpolation and `centroid` of the member.
+    pub interpolation: Option<super::Interpolation>,
+    /// `centroid`
+    pub centroid: bool,
+    /// Where it is declared.
+    pub span: crate::source::Span,
+}
+
+/// A struct type; two declarations are two types, whatever they hold.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct StructType {
+    /// The name; empty for `struct { .. } s;`. For the type of a block, the block's name.
+    pub name: String,
+    /// The members.
+    pub members: Vec<Member>,
+    /// Whether this is the type behind an interface block.
+    pub is_block: bool,
+    /// Where it is declared.
+    pub span: crate::source::Span,
+}
+
+/// All types of a compilation.
+#[derive(Clone, Debug)]
+pub struct Types {
+    types: Vec<Type>,
+    ids: FxHashMap<Type, TypeId>,
+    structs: Vec<StructType>,
+}
+
+impl Default for Types {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl TypeId {
+    /// Already reported; agrees with everything.
+    pub const ERROR: Self = Self(0);
+    /// `void`
+    pub const VOID: Self = Self(1);
+    /// `bool`
+    pub const BOOL: Self = Self::vector(Scalar::Bool, 1);
+    /// `int`
+    pub const INT: Self = Self::vector(Scalar::Int, 1);
+    /// `uint`
+    pub const UINT: Self = Self::vector(Scalar::Uint, 1);
+    /// `float`
+    pub const FLOAT: Self = Self::vector(Scalar::Float, 1);
+    /// `vec2`
+    pub const VEC2: Self = Self::vector(Scalar::Float, 2);
+    /// `vec3`
+    pub const VEC3: Self = Self::vector(Scalar::Float, 3);
+    /// `vec4`
+    pub const VEC4: Self = Self::vector(Scalar::Float, 4);
+
+    /// The scalar (`size` 1) or vector (2 to 4) type, without a table; sizes outside are clamped.
+    pub const fn vector(scalar: Scalar, size: u8) -> Self {
+        let size = if size < 1 {
+            1
+        } else if size > 4 {
+            4
+        } else {
+            size
+        };
+        Self(2 + scalar as u32 * 4 + size as u32 - 1)
+    }
+
+    /// The matrix type of so many columns and rows (2 to 4 each, others are clamped), without a table.
+    pub const fn matrix(columns: u8, rows: u8) -> Self {
+        let columns = if columns < 2 {
+            2
+        } else if columns > 4 {
+            4
+        } else {
+            columns
+        };
+        let rows = if rows < 2 {
+            2
+        } else if rows > 4 {
+            4
+        } else {
+            rows
+        };
+        Self(18 + (columns as u32 - 2) * 3 + rows as u32 - 2)
+    }
+
+    /// Whether this is the poison type.
+    pub fn is_error(self) -> bool {
+        self == Self::ERROR
+    }
+
+    pub(crate) fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+impl Types {
+    /// The basic types alone.
+    pub fn new() -> Self {
+        let mut types = Self { types: Vec::new(), ids: FxHashMap::default(), structs: Vec::new() };
+        types.intern(Type::Error);
+        types.intern(Type::Void);
+        for scalar in Scalar::ALL {
+            types.intern(Type::Scalar(scalar));
+            for size in 2..=4 {
+                types.intern(Type::Vector(scalar, size));
+            }
+        }
+        for columns in 2..=4 {
+            for rows in 2..=4 {
+                types.intern(Type::Matrix(columns, rows));
+            }
+        }
+        types
+    }
+
+    /// The handle of a type.
+    pub fn intern(&mut self, ty: Type) -> TypeId {
+        let next = TypeId(self.types.len() as u32);
+        let id = *self.ids.entry(ty).or_insert(next);
+        if id == next {
+            self.types.push(ty);
+        }
+        id
+    }
+
+    /// The type behind a handle of this table.
+    pub fn get(&self, id: TypeId) -> Type {
+        self.types.get(id.index()).copied().unwrap_or(Type::Error)
+    }
+
+    /// Adds a struct and gives its type.
+    pub fn add_struct(&mut self, declaration: StructType) -> TypeId {
+        let id = StructId(self.structs.len() as u32);
+        self.structs.push(declaration);
+        self.intern(Type::Struct(id))
+    }
+
+    /// The struct behind a handle of this table.
+    pub fn structure(&self, id: StructId) -> &StructType {
+        // A `StructId` is only ever made by `add_struct` of this table.
+        &self.structs[id.0 as usize]
+    }
+
+    /// The struct behind a handle, to complete it.
+    pub fn structure_mut(&mut self, id: StructId) -> &mut StructType {
+        &mut self.structs[id.0 as usize]
+    }
+
+    /// `element[size]`
+    pub fn array(&mut self, element: TypeId, size: ArraySize) -> TypeId {
+        self.intern(Type::Array(element, size))
+    }
+
+    /// The scalar behind a scalar, vector or matrix; `None` for all else.
+    pub fn scalar_of(&self, id: TypeId) -> Option<Scalar> {
+        match self.get(id) {
+            Type::Scalar(scalar) | Type::Vector(scalar, _) => Some(scalar),
+            Type::Matrix(..) => Some(Scalar::Float),
+            Type::Error | Type::Void | Type::Sampler(_) | Type::Struct(_) | Type::Array(..) => None,
+        }
+    }
+
+    /// How many scalars a value holds when it is laid out flat: members in order, elements in order, matrices by
+    /// columns. Samplers count as one. Saturates; unsized arrays count 0.
+    pub fn flat_len(&self, id: TypeId) -> u32 {
+        match self.get(id) {
+            Type::Error | Type::Void => 0,
+            Type::Scalar(_) | Type::Sampler(_) => 1,
+            Type::Vector(_, size) => u32::from(size),
+            Type::Matrix(columns, rows) => u32::from(columns) * u32::from(rows),
+            Type::Struct(id) => self
+                .structure(id)
+                .members
+                .iter()
+                .fold(0, |sum: u32, member| sum.saturating_add(self.flat_len(member.ty))),
+            Type::Array(element, ArraySize::Sized(size)) => self.flat_len(element).saturating_mul(size),
+            Type::Array(_, ArraySize::Unsized) => 0,
+        }
+    }
+
+    /// Whether a sampler is anywhere inside.
+    pub fn contains_sampler(&self, id: TypeId) -> bool {
+        match self.get(id) {
+            Type::Sampler(_) => true,
+            Type::Struct(id) => self.structure(id).members.iter().any(|member| self.contains_sampler(member.ty)),
+            Type::Array(element, _) => self.contains_sampler(element),
+            Type::Error | Type::Void | Type::Scalar(_) | Type::Vector(..) | Type::Matrix(..) => false,
+        }
+    }
+
+    /// As it is written in GLSL: `vec4`, `mat2x3`, `Light[2]`.
+    pub fn name(&self, id: TypeId) -> String {
+        match self.get(id) {
+            Type::Error => "<error>".into(),
+            Type::Void => "void".into(),
+            Type::Scalar(scalar) => scalar.name().into(),
+            Type::Vector(scalar, size) => {
+                let prefix = match scalar {
+                    Scalar::Bool => "b",
+                    Scalar::Int => "i",
+                    Scalar::Uint => "u",
+                    Scalar::Float => "",
+                };
+                format!("{prefix}vec{size}")
+            }
+            Type::Matrix(columns, rows) if columns == rows => format!("mat{columns}"),
+            Type::Matrix(columns, rows) => format!("mat{columns}x{rows}"),
+            Type::Sampler(sampler) => sampler.name(),
+            Type::Struct(id) => match self.structure(id).name.as_str() {
+                "" => "struct".into(),
+                name => name.into(),
+            },
+            Type::Array(element, size) => {
+                let (mut base, mut dims) = (element, vec![size]);
+                while let Type::Array(inner, size) = self.get(base) {
+                    dims.push(size);
+                    base = inner;
+                }
+                let mut name = self.name(base);
+                for dim in dims {
+                    match dim {
+                        ArraySize::Sized(size) => name.push_str(&format!("[{size}]")),
+                        ArraySize::Unsized => name.push_str("[]"),
+                    }
+                }
+                name
+            }
+        }
+    }
+}

@@ -1,0 +1,1 @@
+//! Rules over legal programs that will hurt, one file a rule. Reads and never changes.

@@ -1,0 +1,3 @@
+//! The `glisten` program: hands over to the command line.
+
+fn main() {}

@@ -1,0 +1,1 @@
+//! Error against run time, as tables, plots and pages.

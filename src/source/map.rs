@@ -1,0 +1,247 @@
+//! [`SourceMap`]: all texts of a compilation, and the translation of spans to files, lines and columns.
+
+use super::{ExpansionId, Span};
+use std::sync::Arc;
+
+/// A text in a [`SourceMap`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct FileId(u32);
+
+impl FileId {
+    fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// One text with its name and the starts of its lines.
+#[derive(Clone, Debug)]
+pub struct SourceFile {
+    name: String,
+    text: Arc<str>,
+    base: u32,
+    line_starts: Vec<u32>,
+}
+
+impl SourceFile {
+    /// The name that diagnostics show: the path as the user gave it.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The whole text.
+    pub fn text(&self) -> &Arc<str> {
+        &self.text
+    }
+
+    /// The text of line `line`, counted from 1, without its line end.
+    pub fn line(&self, line: u32) -> Option<&str> {
+        let index = (line as usize).checked_sub(1)?;
+        let start = *self.line_starts.get(index)? as usize;
+        let end = self.line_starts.get(index + 1).map_or(self.text.len(), |&next| next as usize);
+        self.text.get(start..end).map(|line| line.trim_end_matches(['\n', '\r']))
+    }
+
+    /// The global offset of the file's first byte.
+    pub fn base(&self) -> u32 {
+        self.base
+    }
+
+    /// The global offset one past the file's last byte.
+    pub fn end(&self) -> u32 {
+        self.base + self.text.len() as u32
+    }
+
+    fn line_and_column(&self, global: u32) -> (u32, u32) {
+        let offset = (global.saturating_sub(self.base) as usize).min(self.text.len());
+        let line = self.line_starts.partition_point(|&start| start as usize <= offset).max(1);
+        let start = self.line_starts.get(line - 1).map_or(0, |&start| start as usize);
+        let mut end = offset;
+        while !self.text.is_char_boundary(end) {
+            end -= 1;
+        }
+        let column = self.text.get(start..end).map_or(0, |text| text.chars().count());
+        (line as u32, column as u32 + 1)
+    }
+}
+
+/// A macro use: which macro, where it is written, and where it was defined.
+#[derive(Clone, Debug)]
+pub struct Expansion {
+    /// The macro's name.
+    pub name: Arc<str>,
+    /// The use (name and arguments), itself perhaps inside another expansion.
+    pub call: Span,
+    /// The name in the `#define`.
+    pub definition: Span,
+}
+
+/// A place for people: file, lines and columns, all counted from 1 (columns in Unicode scalar values,
+/// a tab is one), the end exclusive.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Location {
+    /// The file.
+    pub file: FileId,
+    /// First line.
+    pub line: u32,
+    /// First column.
+    pub column: u32,
+    /// Last line.
+    pub end_line: u32,
+    /// One past the last column.
+    pub end_column: u32,
+}
+
+/// All texts of a compilation.
+#[derive(Clone, Debug, Default)]
+pub struct SourceMap {
+    files: Vec<SourceFile>,
+    expansions: Vec<Expansion>,
+}
+
+impl SourceMap {
+    /// The largest number of bytes that all texts together may have, 1 GiB; each file and the
+    /// preprocessor have far smaller budgets of their own.
+    pub const MAX_BYTES: u32 = 1 << 30;
+
+    /// Adds a text; `None` if there is no room for it ([`Self::MAX_BYTES`]).
+    pub fn add(&mut self, name: impl Into<String>, text: impl Into<Arc<str>>) -> Option<FileId> {
+        let text = text.into();
+        let base = self.files.last().map_or(1, |file| file.end() + 1);
+        if text.len() >= (Self::MAX_BYTES - base.min(Self::MAX_BYTES)) as usize {
+            return None;
+        }
+        let line_starts = line_starts(&text);
+        let id = FileId(self.files.len() as u32);
+        self.files.push(SourceFile { name: name.into(), text, base, line_starts });
+        Some(id)
+    }
+
+    /// The text behind a handle that [`Self::add`] gave.
+    pub fn file(&self, id: FileId) -> &SourceFile {
+        // A `FileId` is only ever made by `add` of this map.
+        &self.files[id.index()]
+    }
+
+    /// All texts in the order in which they were added.
+    pub fn files(&self) -> impl Iterator<Item = (FileId, &SourceFile)> {
+        self.files.iter().enumerate().map(|(index, file)| (FileId(index as u32), file))
+    }
+
+    /// Notes a macro use.
+    pub fn add_expansion(&mut self, expansion: Expansion) -> ExpansionId {
+        self.expansions.push(expansion);
+        ExpansionId::new(self.expansions.len() as u32)
+    }
+
+    /// The macro use behind a span's expansion number.
+    pub fn expansion(&self, id: ExpansionId) -> Option<&Expansion> {
+        self.expansions.get(id.index()?)
+    }
+
+    /// The file in which a span is written.
+    pub fn file_of(&self, span: Span) -> Option<FileId> {
+        if !span.is_known() {
+            return None;
+        }
+        let index = self.files.partition_point(|file| file.base <= span.start).checked_sub(1)?;
+        (span.start <= self.files.get(index)?.end()).then_some(FileId(index as u32))
+    }
+
+    /// The text that a span covers where it is written.
+    pub fn snippet(&self, span: Span) -> &str {
+        let Some(file) = self.file_of(span).map(|id| self.file(id)) else { return "" };
+        let start = span.start.saturating_sub(file.base) as usize;
+        let end = (span.end.saturating_sub(file.base) as usize).min(file.text.len());
+        file.text.get(start..end).unwrap_or("")
+    }
+
+    /// The place outside all macros to show to a user: the outermost use that brought the text here.
+    pub fn call_site(&self, span: Span) -> Span {
+        let mut outer = span;
+        // Each expansion's call lies in an earlier one, so this ends.
+        while let Some(expansion) = self.expansion(outer.expansion) {
+            outer = expansion.call;
+        }
+        outer
+    }
+
+    /// The smallest span from the start of `first` to the end of `last`. Where they come out of different
+    /// macro uses or files, it joins their call sites, and keeps to `first` if those lie in two files.
+    pub fn join(&self, first: Span, last: Span) -> Span {
+        if !first.is_known() {
+            return last;
+        }
+        if !last.is_known() {
+            return first;
+        }
+        if first.expansion == last.expansion && (first.expansion == ExpansionId::NONE || first.start <= last.start) {
+            if !first.expansion.is_some() && self.file_of(first) != self.file_of(last) {
+                return first;
+            }
+            return Span { start: first.start, end: last.end.max(first.end), expansion: first.expansion };
+        }
+        let (first, last) = (self.call_site(first), self.call_site(last));
+        if self.file_of(first) != self.file_of(last) {
+            return first;
+        }
+        Span::new(first.start, last.end.max(first.end))
+    }
+
+    /// Lines and columns of the place where a span is written.
+    pub fn location(&self, span: Span) -> Option<Location> {
+        let id = self.file_of(span)?;
+        let file = self.file(id);
+        let (line, column) = file.line_and_column(span.start);
+        let (end_line, end_column) = file.line_and_column(span.end.max(span.start));
+        Some(Location { file: id, line, column, end_line, end_column })
+    }
+}
+
+fn line_starts(text: &str) -> Vec<u32> {
+    let bytes = text.as_bytes();
+    let mut starts = vec![0];
+    for (index, &byte) in bytes.iter().enumerate() {
+        // "\n", "\r\n" and a lone "\r" each end a line (GLSL 1.50 section 3.1).
+        if byte == b'\n' || (byte == b'\r' && bytes.get(index + 1) != Some(&b'\n')) {
+            starts.push(index as u32 + 1);
+        }
+    }
+    starts
+}
+
+/// How an include names its file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum IncludeForm {
+    /// `#include "x"`: beside the including file, then along the search path.
+    Quoted,
+    /// `#include <x>`: along the search path, then among the embedded modules.
+    Angled,
+}
+
+/// A file that an include found.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Included {
+    /// The name to show and to resolve further includes against.
+    pub name: String,
+    /// Its text.
+    pub text: Arc<str>,
+}
+
+/// Finds the files that `#include` names. The compiler itself reads nothing.
+pub trait IncludeResolver {
+    /// The file that `path` names in the file called `from`.
+    ///
+    /// # Errors
+    /// A sentence for people, without a full stop: what was looked for, where, and why it failed.
+    fn resolve(&self, path: &str, form: IncludeForm, from: &str) -> Result<Included, String>;
+}
+
+/// Resolves nothing: for sources that stand alone.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct NoIncludes;
+
+impl IncludeResolver for NoIncludes {
+    fn resolve(&self, path: &str, _: IncludeForm, _: &str) -> Result<Included, String> {
+        Err(format!("no include path is set up, so `{path}` cannot be found"))
+    }
+}

@@ -1,0 +1,1 @@
+//! All integration tests, in one binary so that wgpu is linked once. One module an area.
