@@ -12,6 +12,13 @@ use crate::source::Span;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct ExprId(u32);
 
+impl ExprId {
+    /// The place in the arena.
+    pub fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
 /// The profile in a `#version` line. 1.50 has `core` (the default) and `compatibility`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
 pub enum Profile {
