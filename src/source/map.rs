@@ -35,10 +35,20 @@ impl SourceFile {
 
     /// The text of line `line`, counted from 1, without its line end.
     pub fn line(&self, line: u32) -> Option<&str> {
+        self.text.get(self.line_range(line)?).map(|line| line.trim_end_matches(['\n', '\r']))
+    }
+
+    /// How many lines there are; an empty text has one.
+    pub fn line_count(&self) -> u32 {
+        self.line_starts.len() as u32
+    }
+
+    /// The bytes of line `line`, counted from 1, with its line end, as offsets in [`Self::text`].
+    pub fn line_range(&self, line: u32) -> Option<std::ops::Range<usize>> {
         let index = (line as usize).checked_sub(1)?;
         let start = *self.line_starts.get(index)? as usize;
         let end = self.line_starts.get(index + 1).map_or(self.text.len(), |&next| next as usize);
-        self.text.get(start..end).map(|line| line.trim_end_matches(['\n', '\r']))
+        Some(start..end)
     }
 
     /// The global offset of the file's first byte.

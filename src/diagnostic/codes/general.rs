@@ -1,6 +1,6 @@
 //! Limits, what is not supported yet, and slips of glisten's own.
 
-use super::Example::{Fragment, None};
+use super::Example::{Fragment, None, Text, Vertex};
 
 codes! {
     NOT_SUPPORTED_YET = "E0001" "not-supported-yet" Error ""
@@ -17,4 +17,29 @@ codes! {
     TOO_LARGE = "E0004" "source-too-large" Error ""
         "A source may have 8 MiB after its includes."
         bad None, good None;
+    FILE_NOT_FOUND = "E0010" "file-not-found" Error ""
+        "A file that the command line, a scene or an include names does not exist. Paths on the command line count from \
+         the current folder, paths in a scene from the folder of the scene file."
+        bad Text("glisten lint fong.vert"), good Text("glisten lint phong.vert");
+    FILE_UNREADABLE = "E0011" "file-unreadable" Error ""
+        "A file exists and the system does not let it be read; the message says what the system answered."
+        bad None, good None;
+    FILE_IS_FOLDER = "E0012" "file-is-folder" Error ""
+        "A folder stands where a file should. Of all commands only `lint` scans folders."
+        bad Text("glisten compile shaders/ -o out"), good Text("glisten compile shaders/phong.vert shaders/phong.frag -o out");
+    EMPTY_SOURCE = "E0013" "empty-source" Error "GLSL 1.50 §3.3"
+        "The file holds nothing, or nothing but white space. A shader has at least a `#version` line and a `main`; an \
+         empty file is most often a save or a download that failed."
+        bad None, good Vertex("void main() { gl_Position = vec4(0.0); }");
+    BINARY_SOURCE = "E0014" "binary-source" Error "GLSL 1.50 §3.1"
+        "The file is not text: it holds NUL bytes or mostly bytes that no text has. Compiled SPIR-V, a picture, or text \
+         in UTF-16 looks like that. Single bytes that are not UTF-8 are forgiven, and are legal in comments alone."
+        bad None, good Vertex("void main() { gl_Position = vec4(0.0); }");
+    BAD_CONFIG = "E0015" "bad-configuration" Error ""
+        "A `glisten.toml` is not TOML, or holds a key or a code that glisten does not know."
+        bad Text("[lint]\nalow = [\"L0001\"]"), good Text("[lint]\nallow = [\"L0001\"]");
+    LONE_STAGE = "W0001" "lone-stage" Warning "OpenGL 3.2 §2.11"
+        "A stage is compiled without its partner. Locations of varyings, the uniform block and bindings are then those of \
+         this stage alone, and will not fit another stage that is compiled alone, too. Give both files in one command."
+        bad Text("glisten compile phong.vert -o out"), good Text("glisten compile phong.vert phong.frag -o out");
 }

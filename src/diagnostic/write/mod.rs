@@ -1,1 +1,148 @@
 //! Writers of diagnostics, one file a format. They know nothing of rules.
+//!
+//! *In:* a [`SourceMap`] and [`Diagnostic`]s. *Out:* text for people ([`human`]), or [`Finding`]s, which
+//! [`json`], [`sarif`] and [`github`] turn into theirs. A [`Finding`] no longer needs its source map, so that the
+//! findings of many programs can be joined, sorted and freed of repetitions.
+//!
+//! *Holds:* places are those of the text on disk, whatever `#line` says. What came out of a macro stands at the
+//! macro's use; the text in the macro's body is a label.
+
+mod github;
+mod human;
+mod json;
+mod sarif;
+
+pub use github::github;
+pub use human::human;
+pub use json::json;
+pub use sarif::sarif;
+
+use super::{Diagnostic, Label, Severity};
+use crate::source::{SourceMap, Span};
+
+/// A range of text for people. Lines and columns count from 1, columns in Unicode scalar values (a tab is one), the
+/// end exclusive.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Place {
+    /// The file's name as the user gave it.
+    pub file: String,
+    /// First line.
+    pub line: u32,
+    /// First column.
+    pub column: u32,
+    /// Last line.
+    pub end_line: u32,
+    /// One past the last column.
+    pub end_column: u32,
+}
+
+/// A place with a word about it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FindingLabel {
+    /// Where.
+    pub place: Place,
+    /// Why there.
+    pub message: String,
+}
+
+/// A diagnostic whose places are resolved.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Finding {
+    /// The offending tokens; of something without a place, the start of the first text.
+    pub place: Place,
+    /// How bad.
+    pub severity: Severity,
+    /// The rule.
+    pub code: &'static super::Code,
+    /// What is wrong.
+    pub message: String,
+    /// What to do.
+    pub help: Option<String>,
+    /// Why here, if more is to be said than the message does, and further places.
+    pub labels: Vec<FindingLabel>,
+    /// Facts that need no place.
+    pub notes: Vec<String>,
+    /// The line that a `#line` directive gave the place.
+    pub presented_line: Option<u32>,
+}
+
+impl Finding {
+    /// Resolves the places of a diagnostic.
+    pub fn new(sources: &SourceMap, diagnostic: &Diagnostic) -> Self {
+        let outer = sources.call_site(diagnostic.primary.span);
+        let labels = labels(sources, diagnostic)
+            .into_iter()
+            .map(|label| FindingLabel { place: place(sources, label.span), message: label.message })
+            .collect();
+        Self {
+            place: place(sources, outer),
+            severity: diagnostic.severity,
+            code: diagnostic.code,
+            message: diagnostic.message.clone(),
+            help: diagnostic.help.clone(),
+            labels,
+            notes: diagnostic.notes.clone(),
+            presented_line: diagnostic.presented_line,
+        }
+    }
+}
+
+/// The findings of a compilation.
+pub fn findings<'a>(sources: &SourceMap, diagnostics: impl IntoIterator<Item = &'a Diagnostic>) -> Vec<Finding> {
+    diagnostics.into_iter().map(|diagnostic| Finding::new(sources, diagnostic)).collect()
+}
+
+/// How many macros are shown between a place and the use that brought it there.
+const MAX_MACRO_LABELS: usize = 3;
+
+/// The labels to show beside the primary place: why here (if that is said), the bodies of the macros through which
+/// the text came, and the diagnostic's own. All stand outside macros or where a macro is written.
+fn labels(sources: &SourceMap, diagnostic: &Diagnostic) -> Vec<Label> {
+    let primary = &diagnostic.primary;
+    let mut labels = Vec::new();
+    if !primary.message.is_empty() {
+        labels.push(Label { span: sources.call_site(primary.span), message: primary.message.clone() });
+    }
+    let mut span = primary.span;
+    while let Some(expansion) = sources.expansion(span.expansion) {
+        if labels.len() > MAX_MACRO_LABELS {
+            break;
+        }
+        let written = Span::new(span.start, span.end);
+        // An argument is written at the use itself: nothing more to show.
+        let in_call = expansion.call.start <= span.start && span.end <= expansion.call.end;
+        if !in_call {
+            labels.push(Label { span: written, message: format!("in the macro `{}`", expansion.name) });
+        }
+        span = expansion.call;
+    }
+    labels.extend(
+        diagnostic
+            .secondary
+            .iter()
+            .map(|label| Label { span: sources.call_site(label.span), message: label.message.clone() }),
+    );
+    labels
+}
+
+fn place(sources: &SourceMap, span: Span) -> Place {
+    match sources.location(span) {
+        Some(at) => Place {
+            file: sources.file(at.file).name().to_owned(),
+            line: at.line,
+            column: at.column,
+            end_line: at.end_line,
+            end_column: at.end_column,
+        },
+        None => Place {
+            file: sources.files().next().map(|(_, file)| file.name().to_owned()).unwrap_or_default(),
+            line: 1,
+            column: 1,
+            end_line: 1,
+            end_column: 1,
+        },
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,47 @@
+//! Diagnostics as workflow commands of GitHub Actions, which show them beside the changed lines.
+
+use super::Finding;
+use crate::diagnostic::Severity;
+
+/// Writes one `::error file=...::` line a finding.
+pub fn github(findings: &[Finding]) -> String {
+    findings.iter().map(line).collect()
+}
+
+fn line(finding: &Finding) -> String {
+    let command = match finding.severity {
+        Severity::Note => "notice",
+        Severity::Warning => "warning",
+        Severity::Error => "error",
+    };
+    let place = &finding.place;
+    let mut message = finding.message.clone();
+    if let Some(help) = &finding.help {
+        message.push_str("\nhelp: ");
+        message.push_str(help);
+    }
+    // Columns are for annotations within one line only; GitHub refuses them otherwise.
+    let columns = if place.line == place.end_line {
+        format!(",col={},endColumn={}", place.column, place.end_column)
+    } else {
+        String::new()
+    };
+    format!(
+        "::{command} file={},line={},endLine={}{columns},title={}::{}\n",
+        property(&place.file),
+        place.line,
+        place.end_line,
+        property(&format!("{} {}", finding.code.id, finding.code.name)),
+        data(&message),
+    )
+}
+
+/// Escapes the text behind `::`.
+fn data(text: &str) -> String {
+    text.replace('%', "%25").replace('\r', "%0D").replace('\n', "%0A")
+}
+
+/// Escapes a property's value.
+fn property(text: &str) -> String {
+    data(text).replace(':', "%3A").replace(',', "%2C")
+}

@@ -1,0 +1,76 @@
+//! Diagnostics as one JSON array, for editors and scripts.
+//!
+//! *Holds:* keys are only ever added. Lines and columns count from 1, `end_column` is exclusive.
+
+use super::{Finding, Place};
+use serde::Serialize;
+
+/// A place's keys.
+#[derive(Serialize)]
+struct JsonPlace<'a> {
+    file: &'a str,
+    line: u32,
+    column: u32,
+    end_line: u32,
+    end_column: u32,
+}
+
+#[derive(Serialize)]
+struct JsonLabel<'a> {
+    #[serde(flatten)]
+    place: JsonPlace<'a>,
+    message: &'a str,
+}
+
+#[derive(Serialize)]
+struct JsonFinding<'a> {
+    #[serde(flatten)]
+    place: JsonPlace<'a>,
+    severity: String,
+    code: &'a str,
+    name: &'a str,
+    message: &'a str,
+    help: Option<&'a str>,
+    labels: Vec<JsonLabel<'a>>,
+    notes: &'a [String],
+    section: Option<&'a str>,
+    presented_line: Option<u32>,
+}
+
+impl<'a> From<&'a Place> for JsonPlace<'a> {
+    fn from(place: &'a Place) -> Self {
+        Self {
+            file: &place.file,
+            line: place.line,
+            column: place.column,
+            end_line: place.end_line,
+            end_column: place.end_column,
+        }
+    }
+}
+
+/// Writes the findings as a JSON array with a line end.
+pub fn json(findings: &[Finding]) -> String {
+    let rows: Vec<JsonFinding<'_>> = findings.iter().map(row).collect();
+    let mut text = serde_json::to_string_pretty(&rows).expect("strings and numbers are always JSON");
+    text.push('\n');
+    text
+}
+
+fn row(finding: &Finding) -> JsonFinding<'_> {
+    let labels = finding.labels.iter();
+    JsonFinding {
+        place: JsonPlace::from(&finding.place),
+        severity: finding.severity.to_string(),
+        code: finding.code.id,
+        name: finding.code.name,
+        message: &finding.message,
+        help: finding.help.as_deref(),
+        labels: labels
+            .map(|label| JsonLabel { place: JsonPlace::from(&label.place), message: &label.message })
+            .collect(),
+        notes: &finding.notes,
+        section: Some(finding.code.section).filter(|section| !section.is_empty()),
+        presented_line: finding.presented_line,
+    }
+}
