@@ -112,8 +112,9 @@ identities!(
 );
 
 identities!(
-    /// A built-in variable (§7.1, §7.2). `gl_in` is the block of a geometry shader's inputs, whose members are ordinary
-    /// struct members named `gl_Position`, `gl_PointSize`, `gl_ClipDistance`.
+    /// A built-in variable (§7.1, §7.2, §7.5). `gl_in` is the block of a geometry shader's inputs, whose members are
+    /// ordinary struct members named `gl_Position`, `gl_PointSize`, `gl_ClipDistance`. `gl_DepthRange` is a loose uniform
+    /// like any other, which link gives the default (0, 1, 1).
     BuiltinVariable {
         Position = "gl_Position",
         PointSize = "gl_PointSize",
@@ -130,5 +131,6 @@ identities!(
         FragColor = "gl_FragColor",
         FragData = "gl_FragData",
         FragDepth = "gl_FragDepth",
+        DepthRange = "gl_DepthRange",
     }
 );

@@ -3,6 +3,11 @@
 //! *In:* nothing. *Out:* the identities [`BuiltinFunction`] and [`BuiltinVariable`], which every phase matches without
 //! a wildcard, and the tables that say for which versions, profiles, stages and types each exists.
 
+mod availability;
+pub mod constants;
+pub mod functions;
 mod ids;
+pub mod variables;
 
+pub use availability::{Availability, Stages};
 pub use ids::{BuiltinFunction, BuiltinVariable};

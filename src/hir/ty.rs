@@ -67,6 +67,44 @@ pub struct SamplerType {
 }
 
 impl SamplerType {
+    /// All that GLSL 1.50 has, in the order in which [`Types`] holds them.
+    pub const ALL: [Self; 36] = Self::list();
+
+    const fn list() -> [Self; 36] {
+        const SHAPES: [(SamplerDim, bool); 10] = [
+            (SamplerDim::D1, false),
+            (SamplerDim::D2, false),
+            (SamplerDim::D3, false),
+            (SamplerDim::Cube, false),
+            (SamplerDim::Rect, false),
+            (SamplerDim::D1, true),
+            (SamplerDim::D2, true),
+            (SamplerDim::Buffer, false),
+            (SamplerDim::Multisample, false),
+            (SamplerDim::Multisample, true),
+        ];
+        const SHADOWS: [usize; 6] = [0, 1, 3, 4, 5, 6];
+        const TEXELS: [Scalar; 3] = [Scalar::Float, Scalar::Int, Scalar::Uint];
+        let (dim, arrayed) = SHAPES[0];
+        let mut list = [Self { texel: Scalar::Float, dim, arrayed, shadow: false }; 36];
+        let mut index = 0;
+        while index < 36 {
+            let plain = index < 30;
+            let (dim, arrayed) = SHAPES[if plain { index / 3 } else { SHADOWS[index - 30] }];
+            let texel = if plain { TEXELS[index % 3] } else { Scalar::Float };
+            list[index] = Self { texel, dim, arrayed, shadow: !plain };
+            index += 1;
+        }
+        list
+    }
+
+    const fn same(self, other: Self) -> bool {
+        self.texel as u8 == other.texel as u8
+            && self.dim as u8 == other.dim as u8
+            && self.arrayed == other.arrayed
+            && self.shadow == other.shadow
+    }
+
     /// As it is written: `isampler2DArray`.
     pub fn name(self) -> String {
         let prefix = match self.texel {
@@ -224,6 +262,18 @@ impl TypeId {
         Self(18 + (columns as u32 - 2) * 3 + rows as u32 - 2)
     }
 
+    /// The sampler type, without a table; [`Self::ERROR`] for a combination that no GLSL 1.50 sampler has.
+    pub const fn sampler(sampler: SamplerType) -> Self {
+        let mut index = 0;
+        while index < SamplerType::ALL.len() {
+            if SamplerType::ALL[index].same(sampler) {
+                return Self(27 + index as u32);
+            }
+            index += 1;
+        }
+        Self::ERROR
+    }
+
     /// Whether this is the poison type.
     pub fn is_error(self) -> bool {
         self == Self::ERROR
@@ -251,7 +301,16 @@ impl Types {
                 types.intern(Type::Matrix(columns, rows));
             }
         }
+        for sampler in SamplerType::ALL {
+            types.intern(Type::Sampler(sampler));
+        }
         types
+    }
+
+    /// A shared table of the basic types, whose handles are the same in every table.
+    pub fn basic() -> &'static Self {
+        static BASIC: std::sync::OnceLock<Types> = std::sync::OnceLock::new();
+        BASIC.get_or_init(Self::new)
     }
 
     /// The handle of a type.
@@ -367,5 +426,20 @@ impl Types {
                 name
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn handles_without_a_table_are_those_of_the_table() {
+        let mut types = Types::new();
+        for sampler in SamplerType::ALL {
+            assert_eq!(types.intern(Type::Sampler(sampler)), TypeId::sampler(sampler), "{}", sampler.name());
+        }
+        assert_eq!(types.intern(Type::Matrix(4, 2)), TypeId::matrix(4, 2));
+        assert_eq!(types.intern(Type::Vector(Scalar::Uint, 3)), TypeId::vector(Scalar::Uint, 3));
     }
 }

@@ -1,0 +1,77 @@
+//! Angle, trigonometry, exponential and common functions (GLSL 1.50 §8.1 to §8.3): component by component.
+
+use super::{BuiltinFunction, Effect, Parameter, Row, matcher, rows};
+
+const A110: Row = Row::base("§8.1", 110);
+const A130: Row = Row::base("§8.1", 130);
+const E110: Row = Row::base("§8.2", 110);
+const C110: Row = Row::base("§8.3", 110);
+const C130: Row = Row::base("§8.3", 130);
+const OUT130: Row = C130.with(Effect::WritesArgument, false);
+
+pub(super) static ROWS: &[Row] = rows! {
+    A110 Radians: genType radians(genType degrees);
+    A110 Degrees: genType degrees(genType radians);
+    A110 Sin: genType sin(genType angle);
+    A110 Cos: genType cos(genType angle);
+    A110 Tan: genType tan(genType angle);
+    A110 Asin: genType asin(genType x);
+    A110 Acos: genType acos(genType x);
+    A110 Atan: genType atan(genType y, genType x);
+    A110 Atan: genType atan(genType y_over_x);
+    A130 Sinh: genType sinh(genType x);
+    A130 Cosh: genType cosh(genType x);
+    A130 Tanh: genType tanh(genType x);
+    A130 Asinh: genType asinh(genType x);
+    A130 Acosh: genType acosh(genType x);
+    A130 Atanh: genType atanh(genType x);
+
+    E110 Pow: genType pow(genType x, genType y);
+    E110 Exp: genType exp(genType x);
+    E110 Log: genType log(genType x);
+    E110 Exp2: genType exp2(genType x);
+    E110 Log2: genType log2(genType x);
+    E110 Sqrt: genType sqrt(genType x);
+    E110 Inversesqrt: genType inversesqrt(genType x);
+
+    C110 Abs: genType abs(genType x);
+    C130 Abs: genIType abs(genIType x);
+    C110 Sign: genType sign(genType x);
+    C130 Sign: genIType sign(genIType x);
+    C110 Floor: genType floor(genType x);
+    C130 Trunc: genType trunc(genType x);
+    C130 Round: genType round(genType x);
+    C130 RoundEven: genType roundEven(genType x);
+    C110 Ceil: genType ceil(genType x);
+    C110 Fract: genType fract(genType x);
+    C110 Mod: genType mod(genType x, float y);
+    C110 Mod: genType mod(genType x, genType y);
+    OUT130 Modf: genType modf(genType x, out_genType i);
+    C110 Min: genType min(genType x, genType y);
+    C110 Min: genType min(genType x, float y);
+    C130 Min: genIType min(genIType x, genIType y);
+    C130 Min: genIType min(genIType x, int y);
+    C130 Min: genUType min(genUType x, genUType y);
+    C130 Min: genUType min(genUType x, uint y);
+    C110 Max: genType max(genType x, genType y);
+    C110 Max: genType max(genType x, float y);
+    C130 Max: genIType max(genIType x, genIType y);
+    C130 Max: genIType max(genIType x, int y);
+    C130 Max: genUType max(genUType x, genUType y);
+    C130 Max: genUType max(genUType x, uint y);
+    C110 Clamp: genType clamp(genType x, genType minVal, genType maxVal);
+    C110 Clamp: genType clamp(genType x, float minVal, float maxVal);
+    C130 Clamp: genIType clamp(genIType x, genIType minVal, genIType maxVal);
+    C130 Clamp: genIType clamp(genIType x, int minVal, int maxVal);
+    C130 Clamp: genUType clamp(genUType x, genUType minVal, genUType maxVal);
+    C130 Clamp: genUType clamp(genUType x, uint minVal, uint maxVal);
+    C110 Mix: genType mix(genType x, genType y, genType a);
+    C110 Mix: genType mix(genType x, genType y, float a);
+    C130 Mix: genType mix(genType x, genType y, genBType a);
+    C110 Step: genType step(genType edge, genType x);
+    C110 Step: genType step(float edge, genType x);
+    C110 Smoothstep: genType smoothstep(genType edge0, genType edge1, genType x);
+    C110 Smoothstep: genType smoothstep(float edge0, float edge1, genType x);
+    C130 Isnan: genBType isnan(genType x);
+    C130 Isinf: genBType isinf(genType x);
+};
