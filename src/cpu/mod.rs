@@ -3,3 +3,6 @@
 //! *In:* a [`Scene`](crate::scene::Scene). *Out:* a [`Picture`](crate::compare::Picture).
 //!
 //! *Holds:* never sees naga IR, so that a mistake in lowering shows as a difference.
+
+pub mod domain;
+pub mod exec;

@@ -1,0 +1,147 @@
+//! [`Integer`]: the `int`, `uint` and `bool` of a domain.
+
+use std::fmt::Debug;
+
+/// 32 bits that are an `int` in two's complement, a `uint`, or a `bool` as 0 or 1; arithmetic wraps (GLSL 1.50 §4.1.3).
+///
+/// Defined here where GLSL is not: division by zero gives all bits set, so does the remainder; the least `int` divided by
+/// -1 wraps; shift counts are taken modulo 32.
+pub trait Integer: Copy + Default + Send + Sync + Debug + 'static {
+    /// Exactly these bits.
+    fn from_bits(bits: u32) -> Self;
+    /// The bits, those of the most likely value where they are not sure.
+    fn bits(self) -> u32;
+    /// Whether every conforming GPU has these bits.
+    fn sure(self) -> bool {
+        true
+    }
+    /// A function of one.
+    fn lift1(self, f: impl Fn(u32) -> u32) -> Self;
+    /// A function of two.
+    fn lift2(self, other: Self, f: impl Fn(u32, u32) -> u32) -> Self;
+
+    /// 0 or 1.
+    #[inline(always)]
+    fn from_bool(value: bool) -> Self {
+        Self::from_bits(u32::from(value))
+    }
+    /// Whether the bits are not all 0.
+    #[inline(always)]
+    fn is_true(self) -> bool {
+        self.bits() != 0
+    }
+    /// `a + b`
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        self.lift2(other, u32::wrapping_add)
+    }
+    /// `a - b`
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        self.lift2(other, u32::wrapping_sub)
+    }
+    /// `a * b`
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        self.lift2(other, u32::wrapping_mul)
+    }
+    /// `a / b` of `int`s.
+    #[inline(always)]
+    fn div_signed(self, other: Self) -> Self {
+        self.lift2(other, |a, b| if b == 0 { u32::MAX } else { (a as i32).wrapping_div(b as i32) as u32 })
+    }
+    /// `a % b` of `int`s; the sign is the dividend's.
+    #[inline(always)]
+    fn rem_signed(self, other: Self) -> Self {
+        self.lift2(other, |a, b| if b == 0 { u32::MAX } else { (a as i32).wrapping_rem(b as i32) as u32 })
+    }
+    /// `a / b` of `uint`s.
+    #[inline(always)]
+    fn div_unsigned(self, other: Self) -> Self {
+        self.lift2(other, |a, b| a.checked_div(b).unwrap_or(u32::MAX))
+    }
+    /// `a % b` of `uint`s.
+    #[inline(always)]
+    fn rem_unsigned(self, other: Self) -> Self {
+        self.lift2(other, |a, b| a.checked_rem(b).unwrap_or(u32::MAX))
+    }
+    /// `a << b`
+    #[inline(always)]
+    fn shl(self, other: Self) -> Self {
+        self.lift2(other, u32::wrapping_shl)
+    }
+    /// `a >> b` of an `int`.
+    #[inline(always)]
+    fn shr_signed(self, other: Self) -> Self {
+        self.lift2(other, |a, b| (a as i32).wrapping_shr(b) as u32)
+    }
+    /// `a >> b` of a `uint`.
+    #[inline(always)]
+    fn shr_unsigned(self, other: Self) -> Self {
+        self.lift2(other, u32::wrapping_shr)
+    }
+    /// `a & b`
+    #[inline(always)]
+    fn and(self, other: Self) -> Self {
+        self.lift2(other, |a, b| a & b)
+    }
+    /// `a | b`
+    #[inline(always)]
+    fn or(self, other: Self) -> Self {
+        self.lift2(other, |a, b| a | b)
+    }
+    /// `a ^ b`
+    #[inline(always)]
+    fn xor(self, other: Self) -> Self {
+        self.lift2(other, |a, b| a ^ b)
+    }
+    /// `a == b`
+    #[inline(always)]
+    fn equal(self, other: Self) -> Self {
+        self.lift2(other, |a, b| u32::from(a == b))
+    }
+    /// `a < b` of `int`s.
+    #[inline(always)]
+    fn less_signed(self, other: Self) -> Self {
+        self.lift2(other, |a, b| u32::from((a as i32) < b as i32))
+    }
+    /// `a < b` of `uint`s.
+    #[inline(always)]
+    fn less_unsigned(self, other: Self) -> Self {
+        self.lift2(other, |a, b| u32::from(a < b))
+    }
+    /// `a <= b` of `int`s.
+    #[inline(always)]
+    fn less_equal_signed(self, other: Self) -> Self {
+        self.lift2(other, |a, b| u32::from(a as i32 <= b as i32))
+    }
+    /// `a <= b` of `uint`s.
+    #[inline(always)]
+    fn less_equal_unsigned(self, other: Self) -> Self {
+        self.lift2(other, |a, b| u32::from(a <= b))
+    }
+    /// `c ? a : b` with `c` this.
+    #[inline(always)]
+    fn select(self, yes: Self, no: Self) -> Self {
+        if self.is_true() { yes } else { no }
+    }
+}
+
+impl Integer for u32 {
+    #[inline(always)]
+    fn from_bits(bits: u32) -> Self {
+        bits
+    }
+    #[inline(always)]
+    fn bits(self) -> u32 {
+        self
+    }
+    #[inline(always)]
+    fn lift1(self, f: impl Fn(u32) -> u32) -> Self {
+        f(self)
+    }
+    #[inline(always)]
+    fn lift2(self, other: Self, f: impl Fn(u32, u32) -> u32) -> Self {
+        f(self, other)
+    }
+}

@@ -1,0 +1,65 @@
+//! Number domains: what a `float` and an `int` are while a shader runs on the CPU.
+//!
+//! *In:* f32 values of literals, uniforms and attributes. *Out:* the results of each operation of GLSL 1.50 (§5, §8).
+//! One executor serves every domain; a domain says only what one number is and what one operation does to it.
+//!
+//! | domain | a `float` is | an operation |
+//! | --- | --- | --- |
+//! | [`F64`] | an f64 | is f64's: the reference |
+//! | [`F32`] | an f32 | rounds once; a built-in function is computed in f64 and rounded once: a strict GPU |
+//! | [`Bound`] | an f64 and a first-order bound on a GPU's distance from it | adds the ULPs of [`rules`] |
+//!
+//! *Holds:* every operation is total: nothing panics, whatever the bits. What GLSL leaves undefined is defined here,
+//! beside the operation. Comparisons give [`Integer`]s, so that a domain may leave an answer open
+//! ([`Integer::sure`]); the executor asks only where the answer decides what runs.
+
+mod bound;
+mod integer;
+mod number;
+pub mod rules;
+mod single;
+mod wide;
+
+pub use bound::{BoundFloat, BoundInt};
+pub use integer::Integer;
+pub use number::Number;
+
+/// A pair of number types.
+pub trait Domain: Copy + Send + Sync + std::fmt::Debug + 'static {
+    /// The `float`.
+    type Float: Number<Int = Self::Int>;
+    /// The `int`, `uint` (as bits) and `bool` (0 or 1).
+    type Int: Integer;
+    /// `f64`, `f32`, `bound`
+    const NAME: &'static str;
+}
+
+/// The reference: IEEE f64.
+#[derive(Clone, Copy, Debug)]
+pub struct F64;
+
+/// A strict GPU: IEEE f32, one rounding an operation or built-in function.
+#[derive(Clone, Copy, Debug)]
+pub struct F32;
+
+/// f64 with a running bound on what a conforming f32 GPU may differ by.
+#[derive(Clone, Copy, Debug)]
+pub struct Bound;
+
+impl Domain for F64 {
+    type Float = f64;
+    type Int = u32;
+    const NAME: &'static str = "f64";
+}
+
+impl Domain for F32 {
+    type Float = f32;
+    type Int = u32;
+    const NAME: &'static str = "f32";
+}
+
+impl Domain for Bound {
+    type Float = BoundFloat;
+    type Int = BoundInt;
+    const NAME: &'static str = "bound";
+}

@@ -1,0 +1,71 @@
+//! The executor: a stage's HIR compiled to register code that runs 64 lanes at once.
+//!
+//! *In:* a linked [`Program`](crate::link::Program). *Out:* [`Code`], instructions for one stage that no domain is part
+//! of, and [`Machine`]s that run it in a [`Domain`](super::domain::Domain), one a thread.
+//!
+//! ```text
+//! let code = Code::compile(&program, Stage::Fragment)?;
+//! let mut machine = Machine::<F64>::new(&code, &uniforms, &textures);
+//! if let Some(lanes) = machine.float_input(varying, 0) { lanes[3] = 0.25; }
+//! machine.run(live, helpers);
+//! let red = machine.float_output(color, 0);
+//! ```
+//!
+//! *Holds:* a run never panics and always ends, whatever the program does: indices are clamped into range, integer
+//! division by zero is defined ([`Integer`](super::domain::Integer)), loops stop at [`LOOP_BUDGET`].
+
+mod code;
+mod compile;
+mod inst;
+mod machine;
+
+pub use code::Code;
+pub use machine::{LOOP_BUDGET, Machine};
+
+/// How many invocations run at once: a tile of 8x8 pixels (quad by quad), or 64 vertices.
+///
+/// Lanes `4q` to `4q + 3` are a quad: x0y0, x1y0, x0y1, x1y1, where y0 is the row *above* y1 in the picture (rows of a
+/// picture are stored top row first). OpenGL's y points up, so `dFdy` is the value at y0 minus that at y1:
+/// [`DFDY_SIGN`].
+pub const LANES: usize = 64;
+
+/// What `value(y1) - value(y0)` is multiplied by to give `dFdy`: see [`LANES`].
+pub const DFDY_SIGN: f64 = -1.0;
+
+/// A set of lanes: bit `i` is lane `i`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Mask(pub u64);
+
+impl Mask {
+    /// No lane.
+    pub const NONE: Self = Self(0);
+    /// Every lane.
+    pub const ALL: Self = Self(u64::MAX);
+
+    /// The first `count` lanes.
+    pub fn first(count: usize) -> Self {
+        Self(if count >= LANES { u64::MAX } else { (1 << count) - 1 })
+    }
+
+    /// Whether the lane is in it.
+    pub fn contains(self, lane: usize) -> bool {
+        lane < LANES && self.0 >> lane & 1 == 1
+    }
+
+    /// Whether no lane is in it.
+    pub fn is_empty(self) -> bool {
+        self.0 == 0
+    }
+
+    /// The lanes in it, in order.
+    pub fn lanes(self) -> impl Iterator<Item = usize> {
+        let mut rest = self.0;
+        std::iter::from_fn(move || {
+            (rest != 0).then(|| {
+                let lane = rest.trailing_zeros() as usize;
+                rest &= rest - 1;
+                lane
+            })
+        })
+    }
+}
