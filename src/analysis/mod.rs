@@ -2,3 +2,5 @@
 //!
 //! *In:* an [`Ast`](crate::syntax::ast::Ast) and the stage. *Out:* a [`Shader`](crate::hir::Shader) of what was
 //! understood, and diagnostics.
+
+pub mod fold;

@@ -378,6 +378,16 @@ impl Types {
         }
     }
 
+    /// What an index selects: an array's element, a matrix's column, a vector's component.
+    pub fn element(&self, id: TypeId) -> Option<TypeId> {
+        match self.get(id) {
+            Type::Array(element, _) => Some(element),
+            Type::Matrix(_, rows) => Some(TypeId::vector(Scalar::Float, rows)),
+            Type::Vector(scalar, _) => Some(TypeId::vector(scalar, 1)),
+            Type::Error | Type::Void | Type::Scalar(_) | Type::Sampler(_) | Type::Struct(_) => None,
+        }
+    }
+
     /// Whether a sampler is anywhere inside.
     pub fn contains_sampler(&self, id: TypeId) -> bool {
         match self.get(id) {

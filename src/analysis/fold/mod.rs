@@ -1,0 +1,181 @@
+//! Exact evaluation of constant expressions (GLSL 1.50 §4.3.3).
+//!
+//! *In:* an expression of the typed program. *Out:* its value, or `None` if it is not constant. *Holds:* integers wrap
+//! at 32 bits; each operator on floats rounds once to f32, each built-in function is computed in f64 and rounded once,
+//! so the value is the same on every machine. What the specification leaves undefined is defined here:
+//!
+//! | expression | value |
+//! | --- | --- |
+//! | integer `a / 0`, `a % 0` | `a`, `0` |
+//! | the least `int` divided by -1 | itself, remainder 0 |
+//! | shifts by 32 or more | by the lowest five bits |
+//! | `float` to an integer it does not fit | the nearest integer, 0 for NaN |
+//! | built-ins outside their domain | what IEEE arithmetic and C's library functions give |
+//!
+//! The walk is a loop: chains of any length need no stack. *Not done here:* saying why something is not constant.
+
+mod builtins;
+mod construct;
+mod operators;
+
+use crate::hir::{Expr, ExprId, ExprKind, ScalarValue, Shader, Storage, Type, TypeId, Types, Value, VarRef};
+use smallvec::SmallVec;
+
+/// The scalars of a value in flat order.
+type Scalars = SmallVec<[ScalarValue; 4]>;
+
+/// What an evaluation knows.
+struct Context<'a, 'v> {
+    shader: &'a Shader,
+    types: &'a Types,
+    variables: &'a dyn Fn(VarRef) -> Option<&'v Value>,
+}
+
+enum Task {
+    Visit(ExprId),
+    Apply(ExprId),
+}
+
+/// A value under way, with its type.
+struct Operand {
+    ty: TypeId,
+    scalars: Scalars,
+}
+
+/// The value of an expression if it is constant. `variables` gives the values of variables that count as constant beside
+/// global constants, which know their own: local constants, or what a specialization fixes.
+pub fn evaluate<'v>(
+    shader: &Shader,
+    types: &Types,
+    expr: ExprId,
+    variables: &dyn Fn(VarRef) -> Option<&'v Value>,
+) -> Option<Value> {
+    let context = Context { shader, types, variables };
+    let mut tasks = vec![Task::Visit(expr)];
+    let mut operands: Vec<Operand> = Vec::new();
+    while let Some(task) = tasks.pop() {
+        match task {
+            Task::Visit(id) => match &shader.expr(id).kind {
+                ExprKind::Literal(value) => {
+                    operands.push(Operand { ty: shader.expr(id).ty, scalars: Scalars::from_slice(&[*value]) });
+                }
+                ExprKind::Var(variable) => operands.push(context.variable(*variable)?),
+                kind => {
+                    let children = children(kind)?;
+                    tasks.push(Task::Apply(id));
+                    tasks.extend(children.into_iter().rev().map(Task::Visit));
+                }
+            },
+            Task::Apply(id) => {
+                let expr = shader.expr(id);
+                let n_children = children(&expr.kind)?.len();
+                let arguments = operands.split_off(operands.len().checked_sub(n_children)?);
+                let scalars = context.apply(expr, &arguments)?;
+                operands.push(Operand { ty: expr.ty, scalars });
+            }
+        }
+    }
+    let Operand { ty, scalars } = operands.pop()?;
+    Some(Value { ty, scalars: scalars.into_vec() })
+}
+
+/// The operands of an expression that may be constant; `None` for one that never is.
+fn children(kind: &ExprKind) -> Option<SmallVec<[ExprId; 4]>> {
+    Some(match kind {
+        ExprKind::Literal(_) | ExprKind::Var(_) => SmallVec::new(),
+        ExprKind::Member(a, _) | ExprKind::Swizzle(a, _) | ExprKind::Convert(a) | ExprKind::Unary(_, a) => {
+            SmallVec::from_slice(&[*a])
+        }
+        ExprKind::Index(a, b) | ExprKind::Binary(_, a, b) | ExprKind::Logical(_, a, b) | ExprKind::Comma(a, b) => {
+            SmallVec::from_slice(&[*a, *b])
+        }
+        ExprKind::Ternary(a, b, c) => SmallVec::from_slice(&[*a, *b, *c]),
+        ExprKind::Construct(_, arguments) | ExprKind::BuiltinCall(_, arguments) => SmallVec::from_slice(arguments),
+        ExprKind::Error | ExprKind::IncDec(..) | ExprKind::Assign(..) | ExprKind::Call(..) => return None,
+    })
+}
+
+impl Context<'_, '_> {
+    fn variable(&self, variable: VarRef) -> Option<Operand> {
+        let own = match variable {
+            VarRef::Global(id) => {
+                let global = self.shader.global(id);
+                if global.storage == Storage::Const { global.value.as_ref() } else { None }
+            }
+            VarRef::Local(_) => None,
+        };
+        let value = match own {
+            Some(value) => value,
+            None => (self.variables)(variable)?,
+        };
+        Some(Operand { ty: value.ty, scalars: Scalars::from_slice(&value.scalars) })
+    }
+
+    fn apply(&self, expr: &Expr, operands: &[Operand]) -> Option<Scalars> {
+        let scalars = |index: usize| operands.get(index).map(|operand| operand.scalars.as_slice());
+        match &expr.kind {
+            ExprKind::Member(_, member) => self.member(operands.first()?, *member),
+            ExprKind::Index(..) => self.element(operands.first()?, operands.get(1)?),
+            ExprKind::Swizzle(_, swizzle) => {
+                let base = scalars(0)?;
+                swizzle.as_slice().iter().map(|&component| base.get(usize::from(component)).copied()).collect()
+            }
+            ExprKind::Convert(_) => {
+                let to = self.types.scalar_of(expr.ty)?;
+                Some(scalars(0)?.iter().map(|&scalar| operators::convert(scalar, to)).collect())
+            }
+            ExprKind::Construct(kind, _) => construct::construct(self.types, *kind, expr.ty, operands),
+            ExprKind::Unary(op, _) => scalars(0)?.iter().map(|&scalar| operators::unary(*op, scalar)).collect(),
+            ExprKind::Binary(op, ..) => operators::binary(self.types, *op, operands.first()?, operands.get(1)?),
+            ExprKind::Logical(op, ..) => {
+                let value = operators::logical(*op, boolean(scalars(0)?)?, boolean(scalars(1)?)?);
+                Some(Scalars::from_slice(&[ScalarValue::Bool(value)]))
+            }
+            ExprKind::Ternary(..) => {
+                let chosen = if boolean(scalars(0)?)? { 1 } else { 2 };
+                Some(Scalars::from_slice(scalars(chosen)?))
+            }
+            ExprKind::Comma(..) => Some(Scalars::from_slice(scalars(1)?)),
+            ExprKind::BuiltinCall(function, _) => builtins::call(self.types, *function, expr.ty, operands),
+            ExprKind::Error
+            | ExprKind::Literal(_)
+            | ExprKind::Var(_)
+            | ExprKind::IncDec(..)
+            | ExprKind::Assign(..)
+            | ExprKind::Call(..) => None,
+        }
+    }
+
+    fn member(&self, base: &Operand, member: u32) -> Option<Scalars> {
+        let Type::Struct(id) = self.types.get(base.ty) else { return None };
+        let members = &self.types.structure(id).members;
+        let before = members.get(..member as usize)?.iter().map(|member| self.types.flat_len(member.ty)).sum();
+        self.slice(base, before, members.get(member as usize)?.ty)
+    }
+
+    fn element(&self, base: &Operand, index: &Operand) -> Option<Scalars> {
+        let index = match index.scalars.first()? {
+            ScalarValue::Int(index) => u32::try_from(*index).ok()?,
+            ScalarValue::Uint(index) => *index,
+            ScalarValue::Bool(_) | ScalarValue::Float(_) => return None,
+        };
+        let element = self.types.element(base.ty)?;
+        self.slice(base, index.checked_mul(self.types.flat_len(element))?, element)
+    }
+
+    fn slice(&self, base: &Operand, start: u32, ty: TypeId) -> Option<Scalars> {
+        let start = start as usize;
+        let end = start.checked_add(self.types.flat_len(ty) as usize)?;
+        base.scalars.get(start..end).map(Scalars::from_slice)
+    }
+}
+
+fn boolean(scalars: &[ScalarValue]) -> Option<bool> {
+    match scalars.first()? {
+        ScalarValue::Bool(value) => Some(*value),
+        ScalarValue::Int(_) | ScalarValue::Uint(_) | ScalarValue::Float(_) => None,
+    }
+}
+
+#[cfg(test)]
+mod tests;
