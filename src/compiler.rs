@@ -1,9 +1,10 @@
 //! [`Compiler`]: texts in, a [`Program`] and diagnostics out. The one door to the front-end.
 
-use crate::diagnostic::Diagnostics;
+use crate::diagnostic::codes::general::NOT_SUPPORTED_YET;
+use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::hir::{Shader, Stage};
 use crate::link::Program;
-use crate::source::{IncludeResolver, NoIncludes, SourceMap};
+use crate::source::{IncludeResolver, NoIncludes, SourceMap, Span};
 use std::sync::Arc;
 
 /// What a compilation may be told.
@@ -62,8 +63,35 @@ impl Compiler {
         Self { includes: Arc::new(includes), ..self }
     }
 
+    /// The same with other options.
+    #[must_use]
+    pub fn with_options(&self, options: Options) -> Self {
+        Self { options, includes: Arc::clone(&self.includes) }
+    }
+
     /// The options.
     pub fn options(&self) -> &Options {
         &self.options
     }
+
+    /// Compiles the stages of one program.
+    pub fn compile(&self, sources: &[Source]) -> Compilation {
+        self.compile_into(SourceMap::default(), sources)
+    }
+
+    /// The same, its texts added behind those of `map`: for a file that names shaders, so that what is found in either
+    /// is shown from one map.
+    pub fn compile_into(&self, map: SourceMap, sources: &[Source]) -> Compilation {
+        let name = sources.first().map_or_else(String::new, |source| stem(&source.name));
+        let mut diagnostics = Diagnostics::default();
+        let message = "compiling is not in place yet: the phases join here";
+        diagnostics.push(Diagnostic::new(&NOT_SUPPORTED_YET, Span::default(), message));
+        Compilation { name, sources: map, program: None, diagnostics }
+    }
+}
+
+/// The file name of a path without its folder and its last extension.
+fn stem(name: &str) -> String {
+    let file = name.rsplit(['/', '\\']).next().unwrap_or(name);
+    file.rsplit_once('.').map_or(file, |(stem, _)| stem).to_owned()
 }
