@@ -4,10 +4,24 @@
 //! *Out:* a [`Scene`] in which everything is resolved: vertex data by attribute, uniform values by root, textures by
 //! sampler. `cpu` and `gpu` draw it and know nothing of TOML.
 //!
-//! *Holds:* semantics are OpenGL's (lower-left origin, last vertex provoking, clip space z in `[-w, w]`).
+//! *Holds:* semantics are OpenGL's (lower-left origin, last vertex provoking, clip space z in `[-w, w]`). Files come
+//! through a [`FileSource`]; only its implementation [`DiskFiles`] does I/O.
 
+mod attributes;
+mod draw;
+mod files;
+mod load;
+mod matrices;
+mod mesh;
+mod mipmaps;
 pub mod model;
+mod names;
+mod reader;
+mod textures;
+mod uniforms;
 
+pub use files::{DiskFiles, FileError, FileSource, MemoryFiles};
+pub use load::{Loaded, MAX_ATTACHMENTS, MAX_PIXELS, MAX_SIDE, load};
 pub use model::{
     AttributeData, AttributeValues, BlendFactor, Compare, Cull, Draw, Filter, Format, Framebuffer, Primitive, Scene,
     State, Texels, Texture, TextureLevel, Wrap,

@@ -182,7 +182,7 @@ impl AttributeData {
     /// Component `component` of column `column` (of columns `rows` components high) for a vertex and an instance.
     /// Missing components come from (0, 0, 0, 1); rows past the end are (0, 0, 0, 1), too.
     pub fn fetch(&self, vertex: u32, instance: u32, column: u32, rows: u32, component: u32) -> ScalarValue {
-        let row = if self.divisor == 0 { vertex } else { instance / self.divisor };
+        let row = instance.checked_div(self.divisor).unwrap_or(vertex);
         let within = column * rows + component;
         let index = row as usize * self.size as usize + within as usize;
         let present = within < self.size && index < self.values.len();

@@ -1,3 +1,58 @@
-//! Codes of the phase `scenes`; the table in the parent module says which range.
+//! Scene files and running them.
 
-codes! {}
+use super::Example::{None, Text};
+
+codes! {
+    SCENE_FILE_UNREADABLE = "E0901" "unreadable-scene-file" Error ""
+        "A scene, or a shader, mesh or image that it names, is missing, a folder, or cannot be read. Paths in a scene are \
+         relative to the scene file."
+        bad Text("[[draw]]\nvertex = \"no such file.vert\""), good Text("[[draw]]\nvertex = \"triangle.vert\"");
+    SCENE_SYNTAX = "E0902" "malformed-scene" Error ""
+        "The scene is not TOML: an empty or binary file, a missing bracket or quote, a key given twice."
+        bad Text("[framebuffer\nwidth = 128"), good Text("[framebuffer]\nwidth = 128");
+    SCENE_UNKNOWN_KEY = "E0903" "unknown-scene-key" Error ""
+        "The scene has a key that means nothing there. It would be ignored silently otherwise, and a misspelled key \
+         would draw a different picture."
+        bad Text("[framebuffer]\nwidht = 128"), good Text("[framebuffer]\nwidth = 128");
+    SCENE_WRONG_TYPE = "E0904" "wrong-scene-value-type" Error ""
+        "A key of the scene has a value of another type than it wants: text instead of a number, one number instead of a \
+         list, a fraction for an integer."
+        bad Text("[framebuffer]\nwidth = \"128\""), good Text("[framebuffer]\nwidth = 128");
+    SCENE_WRONG_VALUE = "E0905" "wrong-scene-value" Error ""
+        "A key of the scene has a value of the right type that is not among the values it may have: an unknown name of a \
+         primitive, a factor or a format, a number out of range."
+        bad Text("[[draw]]\nprimitive = \"quads\""), good Text("[[draw]]\nprimitive = \"triangles\"");
+    SCENE_MISSING_KEY = "E0906" "missing-scene-key" Error ""
+        "The scene leaves out a key that has no default, or a number that nothing else tells, such as how many vertices \
+         a draw without attributes has."
+        bad Text("[[draw]]\nfragment = \"a.frag\""), good Text("[[draw]]\nvertex = \"a.vert\"\nfragment = \"a.frag\"");
+    SCENE_UNKNOWN_NAME = "E0907" "undeclared-scene-name" Error ""
+        "The scene gives a value to an attribute, uniform or sampler that the program does not declare. A name that is \
+         declared and not used is accepted."
+        bad Text("[draw.uniforms]\nmodel_viev = [..]"), good Text("[draw.uniforms]\nmodel_view = [..]");
+    SCENE_WRONG_SIZE = "E0908" "wrong-scene-data-size" Error ""
+        "A list in the scene has more or fewer numbers than what it is given to takes: vertex data that is no multiple of \
+         its size, a matrix with 12 numbers for 16, texels that do not fill the texture, an index past the last vertex."
+        bad Text("mc = [1, 0, 0]  # a mat4"), good Text("mc = [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]");
+    SCENE_MISSING_ATTRIBUTE = "E0909" "attribute-without-data" Error "OpenGL 3.2 §2.8"
+        "The vertex shader reads an attribute for which the scene brings no data."
+        bad Text("[draw.attributes]  # and the shader reads `pv`"), good Text("[draw.attributes]\npv = { size = 3, values = [..] }");
+    SCENE_WRONG_KIND = "E0910" "contradicting-scene-kind" Error "OpenGL 3.2 §2.7"
+        "A `kind` or `integer` in the scene contradicts the declaration in the shader: float data for an `ivec2` input, a \
+         2D texture for a `samplerCube`, a fraction for an `int` uniform."
+        bad Text("i = { size = 1, kind = \"float\", values = [1] }  # in int i;"), good Text("i = { size = 1, values = [1] }");
+    SCENE_BAD_ASSET = "E0911" "unreadable-mesh-or-image" Error ""
+        "A mesh or image that the scene names was read and is not of the form that it should be."
+        bad None, good None;
+    SCENE_CANNOT_DRAW = "E0912" "undrawable-scene" Error "OpenGL 3.2 §2.11"
+        "The scene asks for a drawing that cannot be: a program without a vertex stage, more color outputs than \
+         attachments, a framebuffer past the limit."
+        bad None, good None;
+    SCENE_UNSET_UNIFORM = "W0901" "uniform-without-value" Warning "GLSL 1.50 §4.3.5"
+        "The program reads a uniform that has no initializer and that the scene does not list. It is 0, as in OpenGL."
+        bad Text("[draw.uniforms]  # and the shader reads `shininess`"), good Text("[draw.uniforms]\nshininess = 32");
+    SCENE_UNSET_TEXTURE = "W0902" "sampler-without-texture" Warning "OpenGL 3.2 §3.8.15"
+        "The program reads a sampler for which the scene brings no texture. Every texel reads as (0, 0, 0, 1), as of an \
+         incomplete texture in OpenGL."
+        bad Text("[draw.textures]  # and the shader reads `tex`"), good Text("[draw.textures]\ntex = { width = 1, height = 1, values = [1, 1, 1, 1] }");
+}

@@ -1,0 +1,96 @@
+//! Where scene files, shaders, meshes and images come from.
+//!
+//! *In:* a path. *Out:* its bytes, or which of the few things that matter to a user went wrong. The loader itself does no
+//! I/O: it asks a [`FileSource`], so tests and pages bring files from memory, and the program brings [`DiskFiles`].
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::io::ErrorKind;
+
+/// Why a file could not be read.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum FileError {
+    /// Nothing is there.
+    Missing,
+    /// A folder stands where a file should be.
+    Folder,
+    /// It is there and cannot be read; the system's reason.
+    Unreadable(String),
+}
+
+impl fmt::Display for FileError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Missing => f.write_str("there is no such file"),
+            Self::Folder => f.write_str("it is a folder, not a file"),
+            Self::Unreadable(reason) => write!(f, "it cannot be read: {reason}"),
+        }
+    }
+}
+
+/// Brings files to the loader.
+pub trait FileSource {
+    /// The bytes of the file at `path`.
+    ///
+    /// # Errors
+    /// Which of the ways to fail it was.
+    fn read(&self, path: &str) -> Result<Vec<u8>, FileError>;
+}
+
+/// The files of the file system, relative to the working directory.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct DiskFiles;
+
+impl FileSource for DiskFiles {
+    fn read(&self, path: &str) -> Result<Vec<u8>, FileError> {
+        std::fs::read(path).map_err(|error| match error.kind() {
+            ErrorKind::NotFound => FileError::Missing,
+            ErrorKind::IsADirectory => FileError::Folder,
+            _ => FileError::Unreadable(error.to_string()),
+        })
+    }
+}
+
+/// Files held in memory, by path.
+#[derive(Clone, Debug, Default)]
+pub struct MemoryFiles(pub BTreeMap<String, Vec<u8>>);
+
+impl MemoryFiles {
+    /// The files of a list of paths and texts.
+    pub fn new<'a>(files: impl IntoIterator<Item = (&'a str, &'a str)>) -> Self {
+        Self(files.into_iter().map(|(path, text)| (path.to_owned(), text.as_bytes().to_vec())).collect())
+    }
+}
+
+impl FileSource for MemoryFiles {
+    fn read(&self, path: &str) -> Result<Vec<u8>, FileError> {
+        self.0.get(path).cloned().ok_or(FileError::Missing)
+    }
+}
+
+/// The path of a file that the file at `from` names: beside it, unless it is absolute.
+pub(crate) fn beside(from: &str, path: &str) -> String {
+    match std::path::Path::new(from).parent() {
+        Some(folder) => folder.join(path).to_string_lossy().into_owned(),
+        None => path.to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_relative_to_the_naming_file() {
+        assert_eq!(beside("scenes/a.toml", "a.vert"), "scenes/a.vert");
+        assert_eq!(beside("a.toml", "a.vert"), "a.vert");
+        assert_eq!(beside("scenes/a.toml", "/b/a.vert"), "/b/a.vert");
+    }
+
+    #[test]
+    fn the_disk_tells_missing_files_from_folders() {
+        let folder = env!("CARGO_MANIFEST_DIR");
+        assert_eq!(DiskFiles.read(folder), Err(FileError::Folder));
+        assert_eq!(DiskFiles.read(&format!("{folder}/no such file")), Err(FileError::Missing));
+    }
+}
