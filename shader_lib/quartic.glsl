@@ -1,0 +1,25 @@
+// name: quartic
+// kind: specular
+// equation: brightness = max(R.V, 0)^4
+// source: article, program `specular`
+//
+// The power that a vertex processor without pow() can do: two squarings.
+#ifndef GLISTEN_QUARTIC
+#define GLISTEN_QUARTIC
+#include "phong.glsl"
+
+// x^4 for x limited to [0, 1].
+float quartic(float x)
+{
+    x = safeUnit(x);
+    x *= x;
+    return x * x;
+}
+
+// Phong's highlight with the exponent 4.
+float quarticFactor(vec3 N, vec3 L, vec3 V)
+{
+    return dot(N, L) > 0.0 ? quartic(dot(mirrorDirection(N, L), V)) : 0.0;
+}
+
+#endif
