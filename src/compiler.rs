@@ -2,7 +2,7 @@
 
 use crate::diagnostic::codes::general::NOT_SUPPORTED_YET;
 use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::hir::{Shader, Stage};
+use crate::hir::Stage;
 use crate::link::Program;
 use crate::source::{IncludeResolver, NoIncludes, SourceMap, Span};
 use std::sync::Arc;

@@ -3,6 +3,7 @@
 use super::{FunctionId, GlobalId, LocalId, ScalarValue, TypeId};
 use crate::builtin::BuiltinFunction;
 use crate::source::Span;
+use smallvec::{SmallVec, smallvec};
 
 pub use crate::syntax::ast::IncDec;
 
@@ -161,4 +162,23 @@ pub enum ExprKind {
     Call(FunctionId, Vec<ExprId>),
     /// A built-in function. Which overload it is, the arguments' types tell.
     BuiltinCall(BuiltinFunction, Vec<ExprId>),
+}
+
+impl ExprKind {
+    /// The operands, in the order in which they are evaluated.
+    pub fn children(&self) -> SmallVec<[ExprId; 4]> {
+        match self {
+            Self::Error | Self::Literal(_) | Self::Var(_) => SmallVec::new(),
+            Self::Member(a, _) | Self::Swizzle(a, _) | Self::Convert(a) | Self::Unary(_, a) | Self::IncDec(_, a) => {
+                smallvec![*a]
+            }
+            Self::Index(a, b)
+            | Self::Binary(_, a, b)
+            | Self::Logical(_, a, b)
+            | Self::Assign(_, a, b)
+            | Self::Comma(a, b) => smallvec![*a, *b],
+            Self::Ternary(a, b, c) => smallvec![*a, *b, *c],
+            Self::Construct(_, list) | Self::Call(_, list) | Self::BuiltinCall(_, list) => SmallVec::from_slice(list),
+        }
+    }
 }

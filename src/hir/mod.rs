@@ -10,6 +10,7 @@
 //! [`TypeId::ERROR`]; nothing behind `link` ever sees one, because a program with errors is not handed on.
 
 mod expr;
+mod reach;
 mod shader;
 mod stmt;
 mod ty;

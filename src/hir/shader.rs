@@ -1,6 +1,6 @@
 //! [`Shader`]: one stage, and what stands at global scope.
 
-use super::{Expr, ExprId, ExprKind, Stmt, TypeId, Value};
+use super::{Expr, ExprId, ExprKind, Stmt, TypeId, Value, VarRef};
 use crate::builtin::BuiltinVariable;
 use crate::source::Span;
 use crate::syntax::ast::Version;
@@ -336,6 +336,23 @@ impl Shader {
     pub fn expr(&self, id: ExprId) -> &Expr {
         // An `ExprId` is only ever made by `push` of this shader.
         &self.exprs[id.index()]
+    }
+
+    /// The operands of an expression.
+    pub fn children(&self, id: ExprId) -> smallvec::SmallVec<[ExprId; 4]> {
+        self.expr(id).kind.children()
+    }
+
+    /// The variable that an l-value or a part of a variable stands in; `None` for values of their own.
+    pub fn root_variable(&self, id: ExprId) -> Option<VarRef> {
+        let mut at = id;
+        loop {
+            match &self.expr(at).kind {
+                ExprKind::Var(var) => return Some(*var),
+                ExprKind::Member(inner, _) | ExprKind::Index(inner, _) | ExprKind::Swizzle(inner, _) => at = *inner,
+                _ => return None,
+            }
+        }
     }
 
     /// The global behind a handle of this shader.

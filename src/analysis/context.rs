@@ -1,0 +1,278 @@
+//! [`Analyzer`]: the state of the walk over one shader.
+
+use super::layout::BlockDefaults;
+use super::scope::{Entry, Scopes};
+use crate::diagnostic::codes::names;
+use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::hir::{
+    Expr, ExprId, ExprKind, Function, FunctionId, GlobalId, Local, LocalId, ScalarValue, Shader, Stage, TypeId, Types,
+    VarRef,
+};
+use crate::source::{SourceMap, Span};
+use crate::syntax::ast::{Ast, DeclarationKind, Extensions, Ident};
+use crate::syntax::token::Symbol;
+use rustc_hash::FxHashMap;
+
+/// What the analysis knows of an expression beside its type.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Facts {
+    /// How deep the tree is, along left operands too.
+    pub(super) depth: u32,
+    /// Whether it is a constant expression (§4.3.3).
+    pub(super) constant: bool,
+}
+
+/// The function whose body is being read.
+pub(super) struct Body {
+    pub(super) function: FunctionId,
+    pub(super) loops: u32,
+    pub(super) switches: u32,
+}
+
+/// What is known of a global array's size beside its type (§4.1.9).
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct ArrayUse {
+    /// The largest constant index so far, and where.
+    pub(super) largest: Option<(u32, Span)>,
+}
+
+/// The state of the walk.
+pub(super) struct Analyzer<'a> {
+    pub(super) ast: &'a Ast,
+    pub(super) stage: Stage,
+    pub(super) strict: bool,
+    pub(super) types: &'a mut Types,
+    pub(super) sources: &'a SourceMap,
+    pub(super) diagnostics: &'a mut Diagnostics,
+    pub(super) shader: Shader,
+    /// Parallel to the shader's expressions.
+    pub(super) facts: Vec<Facts>,
+    pub(super) scopes: Scopes,
+    /// The extensions that are on at the declaration being read.
+    pub(super) extensions: Extensions,
+    /// The function being read.
+    pub(super) body: Option<Body>,
+    /// The type of each type keyword met so far.
+    pub(super) keyword_types: FxHashMap<Symbol, Option<TypeId>>,
+    /// The names of blocks, which mean nothing else at global scope (§4.3.7).
+    pub(super) block_names: FxHashMap<Symbol, Span>,
+    /// The built-in variables that are named or redeclared.
+    pub(super) builtins: FxHashMap<crate::builtin::BuiltinVariable, GlobalId>,
+    /// The first use of each global.
+    pub(super) first_uses: FxHashMap<GlobalId, Span>,
+    /// Arrays without a size, by their variable and, in a block, their member.
+    pub(super) array_uses: FxHashMap<(GlobalId, Option<u32>), ArrayUse>,
+    /// `layout(...) uniform;`
+    pub(super) block_defaults: BlockDefaults,
+    /// Where the geometry input layout, or an input array's size, was first fixed.
+    pub(super) geometry_size: Option<(u32, Span)>,
+    /// Where the parts of the geometry layout were first declared.
+    pub(super) geometry_spans: GeometrySpans,
+    /// The first redeclaration of `gl_FragCoord`.
+    pub(super) frag_coord_span: Option<Span>,
+}
+
+/// Where a geometry shader's layouts were first declared.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct GeometrySpans {
+    pub(super) input: Span,
+    pub(super) output: Span,
+    pub(super) max_vertices: Span,
+}
+
+impl<'a> Analyzer<'a> {
+    pub(super) fn new(
+        ast: &'a Ast,
+        stage: Stage,
+        strict: bool,
+        types: &'a mut Types,
+        sources: &'a SourceMap,
+        diagnostics: &'a mut Diagnostics,
+    ) -> Self {
+        Self {
+            ast,
+            stage,
+            strict,
+            types,
+            sources,
+            diagnostics,
+            shader: Shader::new(stage, ast.version),
+            facts: Vec::with_capacity(ast.exprs.len()),
+            scopes: Scopes::default(),
+            extensions: Extensions::empty(),
+            body: None,
+            keyword_types: FxHashMap::default(),
+            block_names: FxHashMap::default(),
+            builtins: FxHashMap::default(),
+            first_uses: FxHashMap::default(),
+            array_uses: FxHashMap::default(),
+            block_defaults: BlockDefaults::default(),
+            geometry_size: None,
+            geometry_spans: GeometrySpans::default(),
+            frag_coord_span: None,
+        }
+    }
+
+    /// Reads all declarations, then does what needs the whole shader.
+    pub(super) fn run(mut self) -> Shader {
+        let ast = self.ast;
+        for declaration in &ast.declarations {
+            if self.diagnostics.is_full() {
+                break;
+            }
+            self.extensions = declaration.extensions;
+            match &declaration.kind {
+                DeclarationKind::Error | DeclarationKind::Empty => {}
+                DeclarationKind::Precision { qualifier, ty } => self.precision(qualifier, ty),
+                DeclarationKind::Variables(variables) => self.global_variables(variables, declaration.span),
+                DeclarationKind::Requalify { qualifiers, names } => {
+                    self.requalify(qualifiers, names, declaration.span);
+                }
+                DeclarationKind::Block(block) => self.block(block),
+                DeclarationKind::Prototype(header) => self.prototype(header),
+                DeclarationKind::Function(header, body) => self.function(header, body),
+            }
+        }
+        self.finish();
+        self.shader
+    }
+
+    /// Reports a finding.
+    pub(super) fn report(&mut self, diagnostic: Diagnostic) {
+        self.diagnostics.push(diagnostic);
+    }
+
+    /// The spelling of a name.
+    pub(super) fn name(&self, ident: Ident) -> &'a str {
+        self.ast.name(ident)
+    }
+
+    /// The name of a type as it is written.
+    pub(super) fn type_name(&self, ty: TypeId) -> String {
+        self.types.name(ty)
+    }
+
+    /// Whether an extension is on here, or the language has what it brings since `since`.
+    pub(super) fn has(&self, extension: Extensions, since: u16) -> bool {
+        self.ast.version.number >= since || self.extensions.intersects(extension)
+    }
+
+    /// Whether the rules of ARB_shading_language_420pack hold here.
+    pub(super) fn has_420pack(&self) -> bool {
+        self.has(Extensions::SHADING_LANGUAGE_420PACK, 420)
+    }
+
+    /// Adds an expression, and what is known of it.
+    pub(super) fn push(&mut self, kind: ExprKind, ty: TypeId, span: Span) -> ExprId {
+        let facts = self.facts_of(&kind);
+        self.shader.expr_depth = self.shader.expr_depth.max(facts.depth);
+        self.facts.push(facts);
+        self.shader.push(kind, ty, span)
+    }
+
+    /// An expression that was not understood; the reason is already reported.
+    pub(super) fn poison(&mut self, span: Span) -> ExprId {
+        self.push(ExprKind::Error, TypeId::ERROR, span)
+    }
+
+    /// A literal.
+    pub(super) fn literal(&mut self, value: ScalarValue, span: Span) -> ExprId {
+        self.push(ExprKind::Literal(value), TypeId::vector(value.scalar(), 1), span)
+    }
+
+    /// The expression behind a handle.
+    pub(super) fn expr_at(&self, id: ExprId) -> &Expr {
+        self.shader.expr(id)
+    }
+
+    /// The type of an expression.
+    pub(super) fn ty(&self, id: ExprId) -> TypeId {
+        self.shader.expr(id).ty
+    }
+
+    /// The text of an expression.
+    pub(super) fn span(&self, id: ExprId) -> Span {
+        self.shader.expr(id).span
+    }
+
+    /// Whether an expression is a constant expression (§4.3.3).
+    pub(super) fn is_constant(&self, id: ExprId) -> bool {
+        self.facts.get(id.index()).is_some_and(|facts| facts.constant)
+    }
+
+    /// The local of the function being read.
+    pub(super) fn local(&self, id: LocalId) -> Option<&Local> {
+        let body = self.body.as_ref()?;
+        self.shader.functions.get(body.function.index())?.locals.get(id.index())
+    }
+
+    /// Adds a local to the function being read.
+    pub(super) fn add_local(&mut self, local: Local) -> Option<LocalId> {
+        let function = self.current_function()?;
+        function.locals.push(local);
+        Some(LocalId(function.locals.len() as u32 - 1))
+    }
+
+    /// The function being read.
+    pub(super) fn current_function(&mut self) -> Option<&mut Function> {
+        let id = self.body.as_ref()?.function;
+        self.shader.functions.get_mut(id.index())
+    }
+
+    /// Enters a name, unless its scope has it already: that is reported, and the name then means nothing.
+    pub(super) fn enter(&mut self, name: Ident, entry: Entry) {
+        if let Some(earlier) = self.scopes.find_here(name.symbol) {
+            if earlier.entry != Entry::Poison {
+                let spelling = self.name(name);
+                self.report(
+                    Diagnostic::new(
+                        &names::REDEFINED,
+                        name.span,
+                        format!("`{spelling}` is declared twice in one scope"),
+                    )
+                    .here("declared again here")
+                    .label(earlier.span, "first declared here"),
+                );
+            }
+            self.scopes.replace(name.symbol, Entry::Poison);
+            return;
+        }
+        self.scopes.enter(name.symbol, entry, name.span);
+    }
+
+    /// Notes that a global is named.
+    pub(super) fn note_use(&mut self, global: GlobalId, span: Span) {
+        self.first_uses.entry(global).or_insert(span);
+    }
+
+    fn facts_of(&self, kind: &ExprKind) -> Facts {
+        let child = |id: &ExprId| self.facts.get(id.index()).copied().unwrap_or_default();
+        let join = |a: Facts, b: Facts| Facts { depth: a.depth.max(b.depth), constant: a.constant && b.constant };
+        let leaf = |constant| Facts { depth: 0, constant };
+        let mut facts = match kind {
+            ExprKind::Error | ExprKind::Literal(_) => leaf(true),
+            ExprKind::Var(VarRef::Global(id)) => leaf(self.is_constant_global(*id)),
+            ExprKind::Var(VarRef::Local(id)) => leaf(self.local(*id).is_some_and(|local| local.value.is_some())),
+            ExprKind::Member(a, _) | ExprKind::Swizzle(a, _) | ExprKind::Convert(a) | ExprKind::Unary(_, a) => child(a),
+            ExprKind::IncDec(_, a) => Facts { constant: false, ..child(a) },
+            ExprKind::Index(a, b) | ExprKind::Binary(_, a, b) | ExprKind::Logical(_, a, b) | ExprKind::Comma(a, b) => {
+                join(child(a), child(b))
+            }
+            ExprKind::Assign(_, a, b) => Facts { constant: false, ..join(child(a), child(b)) },
+            ExprKind::Ternary(a, b, c) => join(child(a), join(child(b), child(c))),
+            ExprKind::Construct(_, list) => list.iter().map(child).fold(leaf(true), join),
+            ExprKind::Call(_, list) => Facts { constant: false, ..list.iter().map(child).fold(leaf(true), join) },
+            ExprKind::BuiltinCall(function, list) => {
+                let facts = list.iter().map(child).fold(leaf(true), join);
+                Facts { constant: facts.constant && super::constant::is_foldable(*function), ..facts }
+            }
+        };
+        facts.depth += 1;
+        facts
+    }
+
+    fn is_constant_global(&self, id: GlobalId) -> bool {
+        let global = self.shader.global(id);
+        global.storage == crate::hir::Storage::Const && global.value.is_some()
+    }
+}

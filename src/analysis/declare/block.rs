@@ -1,0 +1,319 @@
+//! Interface blocks (§4.3.7).
+
+use super::super::context::Analyzer;
+use super::super::layout::{Layout, LayoutPlace};
+use super::super::qualifiers::{Place, Qualifiers, StorageWord};
+use super::super::scope::Entry;
+use crate::diagnostic::Diagnostic;
+use crate::diagnostic::codes::{names, qualifiers, types};
+use crate::hir::{
+    ArraySize, BlockInfo, GlobalId, Interpolation, MatrixLayout, Member, Scalar, Stage, Storage, StructType, Type,
+    TypeId, VarRef,
+};
+use crate::source::Span;
+use crate::syntax::ast::{ArrayDim, BlockDecl, Declarator, Ident, MemberDecl, TypeBase};
+
+/// What the members of a block have in common.
+struct Frame {
+    storage: Storage,
+    word: StorageWord,
+    word_span: Span,
+    matrix: MatrixLayout,
+}
+
+impl Analyzer<'_> {
+    /// `uniform B { .. } b[2];`
+    pub(in crate::analysis) fn block(&mut self, block: &BlockDecl) {
+        let record = self.qualifiers(&block.qualifiers, Place::Block);
+        let Some((word, word_span)) = record.storage else {
+            self.report(
+                Diagnostic::new(&qualifiers::BLOCK, block.name.span, "a block must be `in`, `out` or `uniform`")
+                    .here("no storage qualifier before it"),
+            );
+            return;
+        };
+        let Some(storage) = self.block_storage(word, word_span) else { return };
+        let name = self.name(block.name);
+        if name == "gl_PerVertex" {
+            self.redeclare_per_vertex(block, storage);
+            return;
+        }
+        let is_uniform = storage == Storage::Uniform;
+        let place = if is_uniform { LayoutPlace::UniformBlock } else { LayoutPlace::Other("an input or output block") };
+        let layout = self.layout(&record, place);
+        let good_name = self.check_name(block.name);
+        if good_name {
+            self.enter_block_name(block.name, storage);
+        }
+        let matrix = layout.matrix.unwrap_or(self.block_defaults.matrix);
+        let members = self.block_members(block, &Frame { storage, word, word_span, matrix });
+        if members.is_empty() {
+            self.report(
+                Diagnostic::new(&qualifiers::BLOCK, block.name.span, "a block must have a member").here("empty"),
+            );
+        }
+        let ty =
+            self.types.add_struct(StructType { name: name.to_owned(), members, is_block: true, span: block.name.span });
+        self.add_block(block, ty, storage, &layout, &record);
+    }
+
+    fn block_storage(&mut self, word: StorageWord, span: Span) -> Option<Storage> {
+        let storage = match word {
+            StorageWord::Uniform => Storage::Uniform,
+            StorageWord::In => Storage::In,
+            StorageWord::Out => Storage::Out,
+            StorageWord::Attribute | StorageWord::Varying | StorageWord::Inout => {
+                let message = format!("a block cannot be `{}`", word.spelling());
+                self.report(
+                    Diagnostic::new(&qualifiers::BLOCK, span, message).here("a block is `in`, `out` or `uniform`"),
+                );
+                return None;
+            }
+        };
+        let refused = match (self.stage, storage) {
+            (Stage::Vertex, Storage::In) => "an input block in a vertex shader",
+            (Stage::Fragment, Storage::Out) => "an output block in a fragment shader",
+            _ => return Some(storage),
+        };
+        self.report(
+            Diagnostic::new(&qualifiers::BLOCK, span, refused)
+                .here("not allowed")
+                .help("declare its members one by one"),
+        );
+        None
+    }
+
+    fn block_members(&mut self, block: &BlockDecl, frame: &Frame) -> Vec<Member> {
+        let mut members: Vec<Member> = Vec::new();
+        for row in &block.members {
+            let record = self.qualifiers(&row.qualifiers, Place::BlockMember);
+            self.check_member_storage(&record, frame);
+            let place = if frame.storage == Storage::Uniform {
+                LayoutPlace::UniformMember
+            } else {
+                LayoutPlace::Other("a member of an input or output block")
+            };
+            let layout = self.layout(&record, place);
+            let base = self.block_member_base(row);
+            for declarator in &row.declarators {
+                self.no_member_initializer(declarator);
+                let ty = self.with_array(base, &declarator.array);
+                let ty = self.check_member_type(ty, row, &record, frame, declarator.name.span);
+                self.add_block_member(&mut members, declarator, ty, &record, layout.matrix.unwrap_or(frame.matrix));
+            }
+        }
+        members
+    }
+
+    fn check_member_storage(&mut self, record: &Qualifiers, frame: &Frame) {
+        if let Some((word, span)) = record.storage
+            && word != frame.word
+        {
+            let (member, block) = (word.spelling(), frame.word.spelling());
+            self.report(
+                Diagnostic::new(
+                    &qualifiers::BLOCK,
+                    span,
+                    format!("a member cannot be `{member}` in an `{block}` block"),
+                )
+                .here("another storage than the block")
+                .label(frame.word_span, format!("the block is `{block}`"))
+                .help("remove it"),
+            );
+        }
+        if frame.storage == Storage::Uniform || (self.stage == Stage::Vertex && frame.storage == Storage::In) {
+            self.no_interpolation(record, "a member of a uniform block");
+        }
+    }
+
+    fn block_member_base(&mut self, row: &MemberDecl) -> TypeId {
+        if let TypeBase::Struct(_) = &row.ty.base {
+            self.report(
+                Diagnostic::new(&types::STRUCT, row.ty.span, "a struct cannot be declared inside of a struct or block")
+                    .here("declare it before"),
+            );
+            return TypeId::ERROR;
+        }
+        self.type_spec(&row.ty)
+    }
+
+    fn check_member_type(
+        &mut self,
+        ty: TypeId,
+        row: &MemberDecl,
+        record: &Qualifiers,
+        frame: &Frame,
+        name: Span,
+    ) -> TypeId {
+        let span = row.ty.span;
+        let refused = if ty == TypeId::VOID {
+            Some((&types::VOID_VALUE, "a member cannot be `void`"))
+        } else if self.types.contains_sampler(ty) {
+            Some((&types::SAMPLER, "a sampler cannot be in a block"))
+        } else if frame.storage != Storage::Uniform && self.holds(ty, |scalar| scalar == Scalar::Bool) {
+            Some((&qualifiers::INTERFACE_TYPE, "booleans do not cross stages"))
+        } else {
+            None
+        };
+        if let Some((code, message)) = refused {
+            self.report(Diagnostic::new(code, span, message).here("not allowed here").label(name, "declared here"));
+            return TypeId::ERROR;
+        }
+        let flat = matches!(record.interpolation, Some((Interpolation::Flat, _)));
+        let arrives = self.stage == Stage::Fragment && frame.storage == Storage::In;
+        if arrives && !flat && self.holds(ty, Scalar::is_integer) {
+            let type_name = self.type_name(ty);
+            self.report(
+                Diagnostic::new(
+                    &qualifiers::INTEGER_NOT_FLAT,
+                    span,
+                    format!("a `{type_name}` that comes into a fragment shader must be `flat`"),
+                )
+                .here("integers are not interpolated")
+                .label(name, "declared here")
+                .help("write `flat` before it, on both sides"),
+            );
+        }
+        ty
+    }
+
+    fn add_block_member(
+        &mut self,
+        members: &mut Vec<Member>,
+        declarator: &Declarator,
+        ty: TypeId,
+        record: &Qualifiers,
+        matrix_layout: MatrixLayout,
+    ) {
+        let name = self.name(declarator.name);
+        self.check_name(declarator.name);
+        if let Some(earlier) = members.iter().find(|member| member.name == name) {
+            self.report(
+                Diagnostic::new(&names::REDEFINED, declarator.name.span, format!("the member `{name}` is there twice"))
+                    .here("declared again here")
+                    .label(earlier.span, "first declared here"),
+            );
+            return;
+        }
+        members.push(Member {
+            name: name.to_owned(),
+            ty,
+            matrix_layout,
+            interpolation: record.interpolation.map(|(word, _)| word),
+            centroid: record.centroid.is_some(),
+            span: declarator.name.span,
+        });
+    }
+
+    /// Enters the block as a global, and its members or its instance as names.
+    fn add_block(&mut self, block: &BlockDecl, ty: TypeId, storage: Storage, layout: &Layout, record: &Qualifiers) {
+        let name = self.name(block.name);
+        let ty = match &block.instance {
+            Some((instance, dims)) => self.block_array(ty, storage, *instance, dims),
+            None => {
+                self.require_geometry_array(storage, block.name.span);
+                ty
+            }
+        };
+        let (span, own_name) = match &block.instance {
+            Some((instance, _)) => (instance.span, self.name(*instance)),
+            None => (block.name.span, name),
+        };
+        let mut global = self.new_global(span, own_name, ty, storage, record, layout, None);
+        global.binding = None;
+        global.block = Some(BlockInfo {
+            name: name.to_owned(),
+            instance: block.instance.as_ref().map(|(instance, _)| self.name(*instance).to_owned()),
+            layout: layout.block.unwrap_or(self.block_defaults.layout),
+            binding: layout.binding.map(|(value, _)| value),
+        });
+        let id = self.add_global(global);
+        match &block.instance {
+            Some((instance, _)) => {
+                if self.check_name(*instance) && self.check_block_name(*instance) {
+                    let entry = if ty.is_error() { Entry::Poison } else { Entry::Variable(VarRef::Global(id)) };
+                    self.enter(*instance, entry);
+                }
+            }
+            None => self.enter_members(block, id, ty),
+        }
+    }
+
+    fn enter_members(&mut self, block: &BlockDecl, id: GlobalId, ty: TypeId) {
+        let Type::Struct(structure) = self.types.get(ty) else { return };
+        for declarator in block.members.iter().flat_map(|row| &row.declarators) {
+            let name = self.name(declarator.name);
+            let members = &self.types.structure(structure).members;
+            if let Some(index) = members.iter().position(|member| member.name == name)
+                && self.check_block_name(declarator.name)
+            {
+                self.enter(declarator.name, Entry::Member(id, index as u32));
+            }
+        }
+    }
+
+    /// The type of an instance: arrays need a size, but for geometry inputs, which need to be arrays.
+    fn block_array(&mut self, ty: TypeId, storage: Storage, instance: Ident, dims: &[ArrayDim]) -> TypeId {
+        let array = self.with_array(ty, dims);
+        let is_geometry_input = self.stage == Stage::Geometry && storage == Storage::In;
+        match self.types.get(array) {
+            Type::Array(_, ArraySize::Unsized) if !is_geometry_input => {
+                self.report(
+                    Diagnostic::new(&types::UNSIZED_ARRAY, instance.span, "an array of blocks must have a size")
+                        .here("no size given"),
+                );
+                TypeId::ERROR
+            }
+            Type::Array(..) => self.sized_by_geometry(array, storage, instance.span),
+            _ => {
+                self.require_geometry_array(storage, instance.span);
+                array
+            }
+        }
+    }
+
+    fn require_geometry_array(&mut self, storage: Storage, span: Span) {
+        if self.stage == Stage::Geometry && storage == Storage::In {
+            self.report(
+                Diagnostic::new(&qualifiers::GEOMETRY_INPUT, span, "an input of a geometry shader must be an array")
+                    .here("one element for each vertex of the primitive")
+                    .help("give the block an instance name with `[]`"),
+            );
+        }
+    }
+
+    /// Block names are used for nothing else, and once in an interface.
+    fn enter_block_name(&mut self, name: Ident, storage: Storage) {
+        let spelling = self.name(name);
+        let earlier = self.shader.globals.iter().find(|global| {
+            global.storage == storage && global.block.as_ref().is_some_and(|block| block.name == spelling)
+        });
+        let taken = match earlier {
+            Some(global) => Some(global.span),
+            None => self.scopes.find_here(name.symbol).map(|binding| binding.span),
+        };
+        if let Some(earlier) = taken {
+            self.report(
+                Diagnostic::new(&names::REDEFINED, name.span, format!("the block name `{spelling}` is taken"))
+                    .here("declared again here")
+                    .label(earlier, "first declared here"),
+            );
+        }
+        self.block_names.entry(name.symbol).or_insert(name.span);
+    }
+
+    /// Whether a global name is not also the name of a block (§4.3.7).
+    pub(in crate::analysis) fn check_block_name(&mut self, name: Ident) -> bool {
+        if !self.scopes.is_global() {
+            return true;
+        }
+        let Some(&block) = self.block_names.get(&name.symbol) else { return true };
+        let spelling = self.name(name);
+        self.report(
+            Diagnostic::new(&names::BLOCK_NAME, name.span, format!("`{spelling}` is the name of a block"))
+                .here("cannot name anything else")
+                .label(block, "the block"),
+        );
+        false
+    }
+}

@@ -1,0 +1,200 @@
+//! Built-in variables (§7.1, §7.2): entered when they are named, and declared anew where 1.50 allows it.
+
+use super::super::context::Analyzer;
+use super::super::layout::{Layout, LayoutPlace};
+use super::super::qualifiers::{Qualifiers, StorageWord};
+use crate::builtin::variables::{self, Redeclaration, Row};
+use crate::builtin::{BuiltinVariable, constants};
+use crate::diagnostic::Diagnostic;
+use crate::diagnostic::codes::{names, qualifiers, types};
+use crate::hir::{ArraySize, BlockInfo, BlockLayout, FragCoordLayout, GlobalId, Stage, Storage, Type, TypeId};
+use crate::source::Span;
+use crate::syntax::ast::Declarator;
+
+impl Analyzer<'_> {
+    /// The global that a built-in variable is, made at its first mention.
+    pub(in crate::analysis) fn builtin_global(&mut self, row: &Row) -> GlobalId {
+        if let Some(&id) = self.builtins.get(&row.variable) {
+            return id;
+        }
+        let mut ty = row.make_type(self.types);
+        let mut global = self.new_global(
+            Span::default(),
+            row.name,
+            ty,
+            row.storage,
+            &Qualifiers::default(),
+            &Layout::default(),
+            None,
+        );
+        if row.variable == BuiltinVariable::In {
+            ty = self.sized_by_geometry(ty, Storage::In, Span::default());
+            global.block = Some(BlockInfo {
+                name: "gl_PerVertex".into(),
+                instance: Some(row.name.into()),
+                layout: BlockLayout::default(),
+                binding: None,
+            });
+        }
+        global.ty = ty;
+        global.builtin = Some(row.variable);
+        let id = self.add_global(global);
+        self.builtins.insert(row.variable, id);
+        id
+    }
+
+    /// `in vec4 gl_FragCoord;`: whether the name is built in, and the declaration therefore dealt with here.
+    pub(super) fn redeclare_builtin(&mut self, declarator: &Declarator, ty: TypeId, record: &Qualifiers) -> bool {
+        let name = self.name(declarator.name);
+        let span = declarator.name.span;
+        let Some(row) = variables::named(name, self.ast.version, self.extensions, self.stage) else {
+            let stages: Vec<&str> = variables::stages_with(name).map(Stage::name).collect();
+            if stages.is_empty() {
+                return false;
+            }
+            let stage = self.stage.name();
+            self.report(
+                Diagnostic::new(
+                    &names::BUILTIN_UNAVAILABLE,
+                    span,
+                    format!("`{name}` does not exist in a {stage} shader"),
+                )
+                .here(format!("only in {} shaders", stages.join(" and "))),
+            );
+            return true;
+        };
+        if ty.is_error() {
+            return true;
+        }
+        match row.redeclaration {
+            Redeclaration::No => self.report(
+                Diagnostic::new(&names::BUILTIN_REDECLARED, span, format!("`{name}` cannot be declared again"))
+                    .here("it is built in")
+                    .help("remove the declaration"),
+            ),
+            Redeclaration::Size => self.resize_builtin(row, declarator, ty, record),
+            Redeclaration::Layout => self.redeclare_frag_coord(row, declarator, ty, record),
+        }
+        true
+    }
+
+    /// A redeclaration must repeat the storage and the type. `None` if it does not, which is reported.
+    fn same_storage(&mut self, row: &Row, span: Span, record: &Qualifiers) -> Option<()> {
+        let wanted = if row.storage == Storage::In { StorageWord::In } else { StorageWord::Out };
+        if matches!(record.storage, Some((word, _)) if word == wanted) {
+            return Some(());
+        }
+        let (name, word) = (row.name, wanted.spelling());
+        self.report(
+            Diagnostic::new(
+                &names::BUILTIN_REDECLARED,
+                span,
+                format!("`{name}` can only be declared again as `{word}`"),
+            )
+            .here(format!("it is an `{word}` variable of a {} shader", self.stage.name())),
+        );
+        None
+    }
+
+    /// `out float gl_ClipDistance[4];`
+    fn resize_builtin(&mut self, row: &Row, declarator: &Declarator, ty: TypeId, record: &Qualifiers) {
+        let span = declarator.name.span;
+        if self.same_storage(row, span, record).is_none() {
+            return;
+        }
+        let name = row.name;
+        let Type::Array(TypeId::FLOAT, size) = self.types.get(ty) else {
+            self.report(
+                Diagnostic::new(&names::BUILTIN_REDECLARED, span, format!("`{name}` is an array of `float`"))
+                    .here("declared as something else"),
+            );
+            return;
+        };
+        let id = self.builtin_global(row);
+        if let Type::Array(_, ArraySize::Sized(_)) = self.types.get(self.shader.global(id).ty) {
+            let earlier = self.shader.global(id).span;
+            self.report(
+                Diagnostic::new(&names::REDEFINED, span, format!("`{name}` is given a size twice"))
+                    .here("again here")
+                    .label(earlier, "first here"),
+            );
+            return;
+        }
+        if let ArraySize::Sized(size) = size {
+            if !self.check_clip_distances(size, span) {
+                return;
+            }
+            self.check_resize(id, None, size, span);
+        }
+        if let Some(global) = self.shader.globals.get_mut(id.index()) {
+            global.ty = ty;
+            global.span = span;
+        }
+    }
+
+    /// §7.1: at most `gl_MaxClipDistances`.
+    pub(in crate::analysis) fn check_clip_distances(&mut self, size: u32, span: Span) -> bool {
+        let max = constants::MAX_CLIP_DISTANCES;
+        if size <= max {
+            return true;
+        }
+        self.report(
+            Diagnostic::new(&types::ARRAY_SIZE, span, format!("`gl_ClipDistance` cannot have {size} elements"))
+                .here(format!("at most gl_MaxClipDistances, which is {max}")),
+        );
+        false
+    }
+
+    /// `layout(origin_upper_left) in vec4 gl_FragCoord;` (§4.3.8.1)
+    fn redeclare_frag_coord(&mut self, row: &Row, declarator: &Declarator, ty: TypeId, record: &Qualifiers) {
+        let span = declarator.name.span;
+        let layout = self.layout(record, LayoutPlace::FragCoord);
+        if self.same_storage(row, span, record).is_none() {
+            return;
+        }
+        if ty != TypeId::VEC4 {
+            self.report(
+                Diagnostic::new(&names::BUILTIN_REDECLARED, span, "`gl_FragCoord` is a `vec4`")
+                    .here("declared as something else"),
+            );
+            return;
+        }
+        let said = FragCoordLayout {
+            origin_upper_left: layout.origin_upper_left,
+            pixel_center_integer: layout.pixel_center_integer,
+        };
+        let id = self.builtin_global(row);
+        match self.frag_coord_span {
+            Some(first) if said != self.shader.frag_coord => {
+                self.report(
+                    Diagnostic::new(
+                        &qualifiers::FRAG_COORD,
+                        span,
+                        "two declarations of `gl_FragCoord` have different layouts",
+                    )
+                    .here("another layout here")
+                    .label(first, "first declared here"),
+                );
+            }
+            Some(_) => {}
+            None => {
+                if let Some(&used) = self.first_uses.get(&id) {
+                    self.report(
+                        Diagnostic::new(
+                            &names::REDECLARED_AFTER_USE,
+                            span,
+                            "`gl_FragCoord` is declared again after it was used",
+                        )
+                        .here("too late")
+                        .label(used, "used here"),
+                    );
+                }
+                self.frag_coord_span = Some(span);
+                self.shader.frag_coord = said;
+                if let Some(global) = self.shader.globals.get_mut(id.index()) {
+                    global.span = span;
+                }
+            }
+        }
+    }
+}

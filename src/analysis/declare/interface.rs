@@ -1,0 +1,187 @@
+//! Which types a global may have, by its storage and the stage (§4.1.7, §4.3.4 to §4.3.6).
+
+use super::super::context::Analyzer;
+use super::super::qualifiers::{Qualifiers, StorageWord};
+use crate::diagnostic::Diagnostic;
+use crate::diagnostic::codes::{qualifiers, types};
+use crate::hir::{ArraySize, Interpolation, Scalar, Stage, Storage, Type, TypeId};
+use crate::source::Span;
+
+/// A border of a stage, and what may not cross it.
+struct Border {
+    stage: Option<Stage>,
+    storage: Storage,
+    what: &'static str,
+    structs: bool,
+    matrices: bool,
+    interpolation: bool,
+}
+
+const fn border(stage: Stage, storage: Storage, what: &'static str) -> Border {
+    Border { stage: Some(stage), storage, what, structs: true, matrices: true, interpolation: true }
+}
+
+static BORDERS: &[Border] = &[
+    Border {
+        structs: false,
+        interpolation: false,
+        ..border(Stage::Vertex, Storage::In, "an input of a vertex shader")
+    },
+    border(Stage::Vertex, Storage::Out, "an output of a vertex shader"),
+    border(Stage::Geometry, Storage::In, "an input of a geometry shader"),
+    border(Stage::Geometry, Storage::Out, "an output of a geometry shader"),
+    border(Stage::Fragment, Storage::In, "an input of a fragment shader"),
+    Border {
+        structs: false,
+        matrices: false,
+        interpolation: false,
+        ..border(Stage::Fragment, Storage::Out, "an output of a fragment shader")
+    },
+];
+
+impl Analyzer<'_> {
+    /// Checks a global's type and qualifiers against its storage; gives the type, or poison.
+    pub(super) fn check_global_type(
+        &mut self,
+        ty: TypeId,
+        storage: Storage,
+        record: &Qualifiers,
+        ty_span: Span,
+        name: Span,
+    ) -> TypeId {
+        if ty.is_error() {
+            return ty;
+        }
+        if ty == TypeId::VOID {
+            self.report(
+                Diagnostic::new(&types::VOID_VALUE, ty_span, "a variable cannot be `void`").here("not a value"),
+            );
+            return TypeId::ERROR;
+        }
+        if self.types.contains_sampler(ty) && storage != Storage::Uniform {
+            self.report_sampler(ty, ty_span, name);
+            return TypeId::ERROR;
+        }
+        match storage {
+            Storage::In | Storage::Out => self.check_border(ty, storage, record, ty_span, name),
+            Storage::Const | Storage::Private | Storage::Uniform => {
+                self.no_interpolation(record, "a variable that does not cross stages");
+                ty
+            }
+        }
+    }
+
+    /// Reports a sampler that is neither a uniform nor a parameter.
+    pub(in crate::analysis) fn report_sampler(&mut self, ty: TypeId, span: Span, name: Span) {
+        let type_name = self.type_name(ty);
+        self.report(
+            Diagnostic::new(&types::SAMPLER, span, format!("a `{type_name}` must be a uniform or a parameter"))
+                .here("holds a sampler")
+                .label(name, "declared here")
+                .help("write `uniform` before it"),
+        );
+    }
+
+    fn check_border(&mut self, ty: TypeId, storage: Storage, record: &Qualifiers, ty_span: Span, name: Span) -> TypeId {
+        let Some(border) = BORDERS.iter().find(|row| row.stage == Some(self.stage) && row.storage == storage) else {
+            return ty;
+        };
+        if !border.interpolation {
+            self.no_interpolation(record, border.what);
+        } else if let (Some((_, span)), Some((StorageWord::Varying | StorageWord::Attribute, _))) =
+            (record.interpolation, record.storage)
+        {
+            self.misplaced(span, "`varying` takes no interpolation qualifier", "use `in` or `out`");
+        }
+        if let Some(why) = self.cannot_cross(ty, border) {
+            let type_name = self.type_name(ty);
+            self.report(
+                Diagnostic::new(
+                    &qualifiers::INTERFACE_TYPE,
+                    ty_span,
+                    format!("{} cannot be a `{type_name}`", border.what),
+                )
+                .here(why)
+                .label(name, "declared here"),
+            );
+            return TypeId::ERROR;
+        }
+        let is_array = matches!(self.types.get(ty), Type::Array(..));
+        if self.stage == Stage::Geometry && storage == Storage::In && !is_array {
+            self.report(
+                Diagnostic::new(&qualifiers::GEOMETRY_INPUT, name, "an input of a geometry shader must be an array")
+                    .here("one element for each vertex of the primitive")
+                    .help("write `[]` behind the name"),
+            );
+            return TypeId::ERROR;
+        }
+        self.check_flat(ty, storage, record, ty_span, name);
+        ty
+    }
+
+    /// Integers reach a fragment shader only if they are `flat` (§4.3.4).
+    fn check_flat(&mut self, ty: TypeId, storage: Storage, record: &Qualifiers, ty_span: Span, name: Span) {
+        let flat = matches!(record.interpolation, Some((Interpolation::Flat, _)));
+        if self.stage == Stage::Fragment && storage == Storage::In && !flat && self.holds(ty, Scalar::is_integer) {
+            let type_name = self.type_name(ty);
+            self.report(
+                Diagnostic::new(
+                    &qualifiers::INTEGER_NOT_FLAT,
+                    ty_span,
+                    format!("a `{type_name}` that comes into a fragment shader must be `flat`"),
+                )
+                .here("integers are not interpolated")
+                .label(name, "declared here")
+                .help("write `flat` before `in`, on both sides"),
+            );
+        }
+    }
+
+    fn cannot_cross(&self, ty: TypeId, border: &Border) -> Option<&'static str> {
+        let inner = self.element_of(ty);
+        if self.holds(ty, |scalar| scalar == Scalar::Bool) {
+            return Some("booleans do not cross stages; use an integer");
+        }
+        match self.types.get(inner) {
+            Type::Struct(_) if !border.structs => Some("a struct cannot stand here; declare its members one by one"),
+            Type::Matrix(..) if !border.matrices => Some("a matrix cannot stand here; declare its columns"),
+            _ if border.storage == Storage::Out
+                && self.stage == Stage::Fragment
+                && matches!(self.types.get(ty), Type::Array(_, ArraySize::Unsized)) =>
+            {
+                None
+            }
+            _ => None,
+        }
+    }
+
+    /// The type without its array.
+    pub(in crate::analysis) fn element_of(&self, ty: TypeId) -> TypeId {
+        match self.types.get(ty) {
+            Type::Array(element, _) => element,
+            _ => ty,
+        }
+    }
+
+    /// Whether a scalar of some kind is anywhere inside.
+    pub(in crate::analysis) fn holds(&self, ty: TypeId, kind: impl Fn(Scalar) -> bool + Copy) -> bool {
+        match self.types.get(ty) {
+            Type::Scalar(scalar) | Type::Vector(scalar, _) => kind(scalar),
+            Type::Matrix(..) => kind(Scalar::Float),
+            Type::Array(element, _) => self.holds(element, kind),
+            Type::Struct(id) => self.types.structure(id).members.iter().any(|member| self.holds(member.ty, kind)),
+            Type::Error | Type::Void | Type::Sampler(_) => false,
+        }
+    }
+
+    /// Reports `smooth`, `flat`, `noperspective`, `centroid` and `invariant` where nothing is interpolated.
+    pub(super) fn no_interpolation(&mut self, record: &Qualifiers, what: &str) {
+        let interpolation = record.interpolation.map(|(word, span)| (word.name(), span));
+        let centroid = record.centroid.map(|span| ("centroid", span));
+        let is_output = matches!(record.storage, Some((StorageWord::Out, _)));
+        let invariant = record.invariant.filter(|_| !is_output).map(|span| ("invariant", span));
+        for (word, span) in interpolation.into_iter().chain(centroid).chain(invariant) {
+            self.misplaced(span, format!("`{word}` may not stand before {what}"), "remove it");
+        }
+    }
+}

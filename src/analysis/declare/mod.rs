@@ -1,0 +1,17 @@
+//! Declarations at global scope (§4.2, §4.3, §6.1): what a shader declares, entered as globals, types and functions.
+//!
+//! * [`variable`]: variables and their initializers; [`interface`]: which types may cross which stage's borders.
+//! * [`structure`]: structs. [`block`]: interface blocks. [`function`]: prototypes and definitions.
+//! * [`builtin`]: built-in variables, named or declared anew. [`requalify`]: `invariant a;`, `layout(..) in;`.
+//! * [`geometry`]: the layouts of a geometry shader, and the sizes of its inputs that hang on them.
+
+mod block;
+mod builtin;
+mod function;
+mod geometry;
+mod interface;
+mod naming;
+mod per_vertex;
+mod requalify;
+mod structure;
+mod variable;

@@ -1,0 +1,105 @@
+//! Structs (§4.1.8).
+
+use super::super::context::Analyzer;
+use super::super::qualifiers::Place;
+use super::super::scope::Entry;
+use crate::diagnostic::Diagnostic;
+use crate::diagnostic::codes::{names, types};
+use crate::hir::{ArraySize, MatrixLayout, Member, StructType, Type, TypeId};
+use crate::source::Span;
+use crate::syntax::ast::{Declarator, MemberDecl, StructSpec, TypeBase};
+
+impl Analyzer<'_> {
+    /// `struct S { .. }`: the type, entered under its name.
+    pub(in crate::analysis) fn structure(&mut self, spec: &StructSpec, span: Span) -> TypeId {
+        let name = spec.name.map_or("", |name| self.ast.name(name));
+        let declared = spec.name.map_or(span, |name| name.span);
+        let good_name = spec.name.is_none_or(|name| self.check_name(name));
+        let mut members: Vec<Member> = Vec::new();
+        for row in &spec.members {
+            self.qualifiers(&row.qualifiers, Place::StructMember);
+            let base = self.member_base(row);
+            for declarator in &row.declarators {
+                let ty = self.member_type(declarator, base, row);
+                self.add_member(&mut members, declarator, ty);
+            }
+        }
+        if members.is_empty() {
+            self.report(Diagnostic::new(&types::STRUCT, declared, "a struct must have a member").here("empty"));
+        }
+        let ty = self.types.add_struct(StructType { name: name.to_owned(), members, is_block: false, span: declared });
+        if let Some(name) = spec.name {
+            let good_name = good_name && self.check_block_name(name);
+            self.enter(name, if good_name { Entry::Struct(ty) } else { Entry::Poison });
+        }
+        ty
+    }
+
+    fn member_base(&mut self, row: &MemberDecl) -> TypeId {
+        if let TypeBase::Struct(inner) = &row.ty.base {
+            let at = inner.name.map_or(row.ty.span, |name| name.span);
+            self.report(
+                Diagnostic::new(&types::STRUCT, at, "a struct cannot be declared inside of a struct or block")
+                    .here("declare it before"),
+            );
+            return TypeId::ERROR;
+        }
+        if row.declarators.is_empty() {
+            self.report(
+                Diagnostic::new(&types::STRUCT, row.span, "a member needs a name").here("a type without a name"),
+            );
+        }
+        self.type_spec(&row.ty)
+    }
+
+    /// The type of a member: sized, and something.
+    fn member_type(&mut self, declarator: &Declarator, base: TypeId, row: &MemberDecl) -> TypeId {
+        self.no_member_initializer(declarator);
+        let ty = self.with_array(base, &declarator.array);
+        if ty == TypeId::VOID {
+            self.report(
+                Diagnostic::new(&types::VOID_VALUE, row.ty.span, "a member cannot be `void`").here("not a value"),
+            );
+            return TypeId::ERROR;
+        }
+        if let Type::Array(_, ArraySize::Unsized) = self.types.get(ty) {
+            self.report(
+                Diagnostic::new(&types::UNSIZED_ARRAY, declarator.name.span, "an array in a struct must have a size")
+                    .here("no size given"),
+            );
+            return TypeId::ERROR;
+        }
+        ty
+    }
+
+    pub(super) fn no_member_initializer(&mut self, declarator: &Declarator) {
+        if let Some(initializer) = declarator.initializer {
+            let span = self.ast.expr(initializer).span;
+            self.report(
+                Diagnostic::new(&types::STRUCT, span, "a member cannot have an initializer")
+                    .here("remove it, and initialize the variable"),
+            );
+        }
+    }
+
+    fn add_member(&mut self, members: &mut Vec<Member>, declarator: &Declarator, ty: TypeId) {
+        let name = self.name(declarator.name);
+        self.check_name(declarator.name);
+        if let Some(earlier) = members.iter().find(|member| member.name == name) {
+            self.report(
+                Diagnostic::new(&names::REDEFINED, declarator.name.span, format!("the member `{name}` is there twice"))
+                    .here("declared again here")
+                    .label(earlier.span, "first declared here"),
+            );
+            return;
+        }
+        members.push(Member {
+            name: name.to_owned(),
+            ty,
+            matrix_layout: MatrixLayout::default(),
+            interpolation: None,
+            centroid: false,
+            span: declarator.name.span,
+        });
+    }
+}

@@ -1,0 +1,264 @@
+//! Parts of values: `a.b`, `a.xyz`, `a[i]`, `a.length()` (§5.5 to §5.7).
+
+use super::super::context::Analyzer;
+use super::swizzle::{self, Fault};
+use crate::diagnostic::codes::{names, types};
+use crate::diagnostic::{Diagnostic, did_you_mean};
+use crate::hir::{ArraySize, ExprId, ExprKind, Scalar, ScalarValue, Stage, Storage, Type, TypeId, VarRef};
+use crate::source::Span;
+use crate::syntax::ast::{self, Ident};
+
+impl Analyzer<'_> {
+    /// `a.b`: a member, or components of a vector.
+    pub(super) fn field(&mut self, base: ExprId, field: Ident, span: Span) -> ExprId {
+        let spelling = self.name(field);
+        match self.types.get(self.ty(base)) {
+            Type::Error => self.poison(span),
+            Type::Struct(id) => {
+                let structure = self.types.structure(id);
+                if let Some(index) = structure.members.iter().position(|member| member.name == spelling) {
+                    return self.member(base, index as u32, span);
+                }
+                let near = did_you_mean(spelling, structure.members.iter().map(|member| member.name.as_str()));
+                let help = near.map(|near| format!("did you mean `{near}`?"));
+                let name = self.type_name(self.ty(base));
+                self.report(
+                    Diagnostic::new(&names::NO_MEMBER, field.span, format!("`{name}` has no member `{spelling}`"))
+                        .here("no such member")
+                        .maybe_help(help),
+                );
+                self.poison(span)
+            }
+            Type::Vector(scalar, size) => self.swizzle(base, field, (scalar, size), span),
+            Type::Scalar(scalar) if self.has_420pack() => self.scalar_swizzle(base, field, scalar, span),
+            _ => {
+                let name = self.type_name(self.ty(base));
+                let at = self.span(base);
+                self.report(
+                    Diagnostic::new(&names::NO_MEMBER, field.span, format!("a `{name}` has no member `{spelling}`"))
+                        .here("nothing to select")
+                        .label(at, format!("this is a `{name}`")),
+                );
+                self.poison(span)
+            }
+        }
+    }
+
+    fn swizzle(&mut self, base: ExprId, field: Ident, (scalar, size): (Scalar, u8), span: Span) -> ExprId {
+        match swizzle::parse(self.name(field), size) {
+            Ok(swizzle) => self.push(ExprKind::Swizzle(base, swizzle), TypeId::vector(scalar, swizzle.len), span),
+            Err(fault) => {
+                self.report_swizzle(base, field, fault);
+                self.poison(span)
+            }
+        }
+    }
+
+    /// Swizzles of scalars (ARB_shading_language_420pack): `f.xxx` is `vec3(f)`.
+    fn scalar_swizzle(&mut self, base: ExprId, field: Ident, scalar: Scalar, span: Span) -> ExprId {
+        match swizzle::parse(self.name(field), 1) {
+            Ok(swizzle) if swizzle.len == 1 => base,
+            Ok(swizzle) => {
+                let kind = ExprKind::Construct(crate::hir::ConstructKind::Splat, vec![base]);
+                self.push(kind, TypeId::vector(scalar, swizzle.len), span)
+            }
+            Err(fault) => {
+                self.report_swizzle(base, field, fault);
+                self.poison(span)
+            }
+        }
+    }
+
+    fn report_swizzle(&mut self, base: ExprId, field: Ident, fault: Fault) {
+        let (spelling, name) = (self.name(field), self.type_name(self.ty(base)));
+        let at = self.span(base);
+        let message = match fault {
+            Fault::NoComponent(letter) => format!("`{spelling}` selects nothing: `{letter}` names no component"),
+            Fault::Mixed => format!("`{spelling}` mixes names of different sets"),
+            Fault::TooLong => format!("`{spelling}` selects more than four components"),
+            Fault::Missing(letter) => format!("a `{name}` has no component `{letter}`"),
+        };
+        self.report(
+            Diagnostic::new(&types::SWIZZLE, field.span, message)
+                .here("not a selection of components")
+                .label(at, format!("this is a `{name}`"))
+                .help("components are named `xyzw`, `rgba` or `stpq`"),
+        );
+    }
+
+    /// `a[i]`
+    pub(super) fn index(&mut self, base: ExprId, index: Option<ExprId>, span: Span) -> ExprId {
+        let Some(index) = index else {
+            self.report(
+                Diagnostic::new(&types::INDEX, span, "an index is missing between the brackets").here("write an index"),
+            );
+            return self.poison(span);
+        };
+        let (ty, index_ty) = (self.ty(base), self.ty(index));
+        if ty.is_error() || index_ty.is_error() {
+            return self.poison(span);
+        }
+        let (element, size) = match self.types.get(ty) {
+            Type::Vector(scalar, size) => (TypeId::vector(scalar, 1), Some(u32::from(size))),
+            Type::Matrix(columns, rows) => (TypeId::vector(Scalar::Float, rows), Some(u32::from(columns))),
+            Type::Array(element, ArraySize::Sized(size)) => (element, Some(size)),
+            Type::Array(element, ArraySize::Unsized) => (element, None),
+            _ => {
+                let (name, at) = (self.type_name(ty), self.span(base));
+                self.report(
+                    Diagnostic::new(&types::INDEX, at, format!("a `{name}` cannot be indexed"))
+                        .here(format!("this is a `{name}`")),
+                );
+                return self.poison(span);
+            }
+        };
+        if index_ty != TypeId::INT && index_ty != TypeId::UINT {
+            let (name, at) = (self.type_name(index_ty), self.span(index));
+            let help = self.conversion_help(index_ty, TypeId::INT, at);
+            self.report(
+                Diagnostic::new(&types::INDEX, at, format!("an index is an `int` or a `uint`, not a `{name}`"))
+                    .here(format!("this is a `{name}`"))
+                    .maybe_help(help),
+            );
+            return self.poison(span);
+        }
+        if !self.check_index(base, index, size) {
+            return self.poison(span);
+        }
+        self.push(ExprKind::Index(base, index), element, span)
+    }
+
+    /// The rules of §4.1.7, §4.1.9, §4.3.7 on which indices may be what.
+    fn check_index(&mut self, base: ExprId, index: ExprId, size: Option<u32>) -> bool {
+        let ty = self.ty(base);
+        if let Some(value) = self.evaluate_integer(index) {
+            return self.check_constant_index(base, index, value, size);
+        }
+        let at = self.span(index);
+        if let Type::Array(element, _) = self.types.get(ty) {
+            if self.types.contains_sampler(element) && self.ast.version.number < 400 {
+                let finding = self.not_constant(index, "the index of an array of samplers");
+                self.report(Diagnostic { code: &types::SAMPLER_INDEX, ..finding });
+                return false;
+            }
+            if self.is_uniform_block_array(base) && self.ast.version.number < 400 {
+                let finding = self.not_constant(index, "the index of an array of uniform blocks");
+                self.report(Diagnostic { code: &types::SAMPLER_INDEX, ..finding });
+                return false;
+            }
+        }
+        if size.is_none() && !self.is_geometry_input(base) {
+            self.report(
+                Diagnostic::new(&types::UNSIZED_ARRAY, at, "an array without a size takes constant indices only")
+                    .here("not a constant expression")
+                    .help("declare the array with a size before this place"),
+            );
+            return false;
+        }
+        true
+    }
+
+    fn check_constant_index(&mut self, base: ExprId, index: ExprId, value: i64, size: Option<u32>) -> bool {
+        let at = self.span(index);
+        let too_large = size.is_some_and(|size| value >= i64::from(size));
+        if value < 0 || too_large {
+            let name = self.type_name(self.ty(base));
+            let last = size.map_or(String::new(), |size| format!(": the last is {}", size.saturating_sub(1)));
+            self.report(
+                Diagnostic::new(&types::INDEX_RANGE, at, format!("a `{name}` has no element {value}"))
+                    .here(format!("outside of its range{last}")),
+            );
+            return false;
+        }
+        if size.is_none() {
+            self.note_array_index(base, u32::try_from(value).unwrap_or(u32::MAX), at);
+        }
+        true
+    }
+
+    fn is_uniform_block_array(&self, base: ExprId) -> bool {
+        match self.expr_at(base).kind {
+            ExprKind::Var(VarRef::Global(id)) => {
+                let global = self.shader.global(id);
+                global.block.is_some() && global.storage == Storage::Uniform
+            }
+            _ => false,
+        }
+    }
+
+    /// An input of a geometry shader: its size is that of the input primitive, perhaps declared later.
+    fn is_geometry_input(&self, base: ExprId) -> bool {
+        match self.expr_at(base).kind {
+            ExprKind::Var(VarRef::Global(id)) => {
+                self.stage == Stage::Geometry && self.shader.global(id).storage == Storage::In
+            }
+            _ => false,
+        }
+    }
+
+    /// Notes the largest constant index of an array that has no size yet; it will have that many elements (§4.1.9).
+    fn note_array_index(&mut self, base: ExprId, index: u32, at: Span) {
+        let key = match self.expr_at(base).kind {
+            ExprKind::Var(VarRef::Global(id)) => (id, None),
+            ExprKind::Member(inner, member) => match self.shader.root_variable(inner) {
+                Some(VarRef::Global(id)) => (id, Some(member)),
+                _ => return,
+            },
+            _ => return,
+        };
+        let entry = self.array_uses.entry(key).or_default();
+        if entry.largest.is_none_or(|(largest, _)| largest < index) {
+            entry.largest = Some((index, at));
+        }
+    }
+
+    /// `a.length()`
+    pub(super) fn method(&mut self, base: ExprId, name: Ident, arguments: &[ast::ExprId], span: Span) -> ExprId {
+        let spelling = self.name(name);
+        let ty = self.ty(base);
+        if spelling != "length" {
+            self.report(
+                Diagnostic::new(&types::METHOD, name.span, format!("there is no method `{spelling}`"))
+                    .here("the only method is `length`"),
+            );
+            return self.poison(span);
+        }
+        if !arguments.is_empty() {
+            self.report(Diagnostic::new(&types::METHOD, span, "`length` takes no arguments").here("arguments given"));
+            return self.poison(span);
+        }
+        let length = match self.types.get(ty) {
+            Type::Error => return self.poison(span),
+            Type::Array(_, ArraySize::Sized(size)) => size,
+            Type::Vector(_, size) if self.has_420pack() => u32::from(size),
+            Type::Matrix(columns, _) if self.has_420pack() => u32::from(columns),
+            Type::Array(_, ArraySize::Unsized) => {
+                let at = self.span(base);
+                let help = if self.is_geometry_input(base) {
+                    "put `layout(triangles) in;` or another input primitive before this place"
+                } else {
+                    "declare the array with a size before this place"
+                };
+                self.report(
+                    Diagnostic::new(&types::UNSIZED_ARRAY, at, "the length of an array without a size is not known")
+                        .here("no size yet")
+                        .help(help),
+                );
+                return self.poison(span);
+            }
+            _ => {
+                let (name, at) = (self.type_name(ty), self.span(base));
+                self.report(
+                    Diagnostic::new(&types::METHOD, at, format!("a `{name}` has no `length()`"))
+                        .here(format!("this is a `{name}`, not an array"))
+                        .maybe_help(
+                            matches!(self.types.get(ty), Type::Vector(..))
+                                .then(|| "the function `length(...)` gives a vector's length".to_owned()),
+                        ),
+                );
+                return self.poison(span);
+            }
+        };
+        self.literal(ScalarValue::Int(i32::try_from(length).unwrap_or(i32::MAX)), span)
+    }
+}

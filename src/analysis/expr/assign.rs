@@ -1,0 +1,117 @@
+//! Assignments (§5.8), `++` and `--`.
+
+use super::super::context::Analyzer;
+use super::Purpose;
+use crate::diagnostic::Diagnostic;
+use crate::diagnostic::codes::types;
+use crate::hir::{ArraySize, ExprId, ExprKind, IncDec, Scalar, Type, TypeId};
+use crate::source::Span;
+use crate::syntax::ast;
+
+impl Analyzer<'_> {
+    /// `a = b`, `a op= b`
+    pub(super) fn assign(
+        &mut self,
+        operator: Option<ast::BinaryOp>,
+        at: Span,
+        target: ExprId,
+        value: ExprId,
+        span: Span,
+    ) -> ExprId {
+        let writable = self.require_lvalue(target, Purpose::Assign);
+        let (ty, from) = (self.ty(target), self.ty(value));
+        if !writable || ty.is_error() || from.is_error() {
+            return self.poison(span);
+        }
+        match operator {
+            None => self.assign_plainly(target, value, span),
+            Some(operator) => self.assign_by(operator, at, target, value, span),
+        }
+    }
+
+    fn assign_plainly(&mut self, target: ExprId, value: ExprId, span: Span) -> ExprId {
+        let ty = self.ty(target);
+        if let Type::Array(_, ArraySize::Unsized) = self.types.get(ty) {
+            let at = self.span(target);
+            self.report(
+                Diagnostic::new(&types::UNSIZED_ARRAY, at, "an array without a size cannot be assigned as a whole")
+                    .here("its size is not known")
+                    .help("declare it with a size"),
+            );
+            return self.poison(span);
+        }
+        let value = self.convert_or_report(value, ty, "the left side");
+        if self.ty(value).is_error() {
+            return self.poison(span);
+        }
+        self.push(ExprKind::Assign(None, target, value), ty, span)
+    }
+
+    /// `a op= b` is `a = a op b`: both must be possible.
+    fn assign_by(&mut self, operator: ast::BinaryOp, at: Span, target: ExprId, value: ExprId, span: Span) -> ExprId {
+        let ty = self.ty(target);
+        match self.typed_binary(operator, target, value) {
+            Some(typed) if typed.ty == ty && typed.left == target => {
+                self.push(ExprKind::Assign(Some(typed.operator), target, typed.right), ty, span)
+            }
+            Some(typed) => {
+                let (result, wanted) = (self.type_name(typed.ty), self.type_name(ty));
+                let (left, right) = (self.span(target), self.span(value));
+                let right_name = self.type_name(self.ty(value));
+                let spelling = operator.spelling();
+                self.report(
+                    Diagnostic::new(
+                        &types::MISMATCH,
+                        at,
+                        format!("`{spelling}` makes a `{result}`, which does not go back into a `{wanted}`"),
+                    )
+                    .label(left, format!("this is a `{wanted}`"))
+                    .label(right, format!("this is a `{right_name}`")),
+                );
+                self.poison(span)
+            }
+            None => {
+                self.report_operands(&format!("{}=", operator.spelling()), at, target, value);
+                self.poison(span)
+            }
+        }
+    }
+
+    /// `++a`, `a--`
+    pub(super) fn inc_dec(&mut self, operator: IncDec, target: ExprId, span: Span) -> ExprId {
+        let ty = self.ty(target);
+        if !self.require_lvalue(target, Purpose::Change) || ty.is_error() {
+            return self.poison(span);
+        }
+        if !self.types.scalar_of(ty).is_some_and(|scalar| scalar != Scalar::Bool) {
+            let (name, at) = (self.type_name(ty), self.span(target));
+            self.report(
+                Diagnostic::new(&types::OPERANDS, at, format!("`++` and `--` want numbers, not a `{name}`"))
+                    .here(format!("this is a `{name}`")),
+            );
+            return self.poison(span);
+        }
+        self.push(ExprKind::IncDec(operator, target), ty, span)
+    }
+
+    /// Whether an initializer or an argument may be taken as a whole: not `void`, and no array of unknown size.
+    pub(in crate::analysis) fn is_whole_value(&mut self, id: ExprId) -> bool {
+        let (ty, span) = (self.ty(id), self.span(id));
+        if ty == TypeId::VOID {
+            self.report(
+                Diagnostic::new(&types::VOID_VALUE, span, "a `void` has no value")
+                    .here("this function returns nothing"),
+            );
+            return false;
+        }
+        if let Type::Array(_, ArraySize::Unsized) = self.types.get(ty) {
+            self.report(
+                Diagnostic::new(&types::UNSIZED_ARRAY, span, "an array without a size cannot be used as a whole")
+                    .here("its size is not known here")
+                    .help("declare it with a size"),
+            );
+            return false;
+        }
+        true
+    }
+}

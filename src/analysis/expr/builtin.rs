@@ -1,0 +1,119 @@
+//! Calls of built-in functions (§8), resolved over the rows of the table.
+
+use super::super::context::Analyzer;
+use super::super::layout::extension_name;
+use super::overload::{Resolution, resolve};
+use crate::builtin::BuiltinFunction;
+use crate::builtin::functions::{self, Row, Signature};
+use crate::diagnostic::Diagnostic;
+use crate::diagnostic::codes::names;
+use crate::hir::{ExprId, ExprKind, Stage, TypeId};
+use crate::source::Span;
+use crate::syntax::ast::{Extensions, Ident};
+
+impl Analyzer<'_> {
+    /// A call of a name that some version has built in.
+    pub(super) fn builtin_call(&mut self, name: Ident, arguments: Vec<ExprId>, span: Span) -> ExprId {
+        let (stage, version, extensions) = (self.stage, self.ast.version, self.extensions);
+        let rows = functions::named(self.name(name));
+        let available = rows.iter().copied().filter(|row| row.availability.holds(version, extensions, stage));
+        let candidates: Vec<(&'static Row, Signature)> =
+            available.flat_map(|row| row.signatures(stage).map(move |signature| (row, signature))).collect();
+        if candidates.is_empty() {
+            self.report_unavailable(name, rows);
+            return self.poison(span);
+        }
+        let given: Vec<TypeId> = arguments.iter().map(|&argument| self.ty(argument)).collect();
+        let params = candidates.iter().map(|(_, signature)| signature.params().iter().copied());
+        let found = match resolve(self.types, &given, params) {
+            Resolution::Found(index) => candidates.get(index),
+            Resolution::Ambiguous(first, second) => {
+                let spelling = self.name(name);
+                let mut finding = self.ambiguous(name, &given);
+                for index in [first, second] {
+                    if let Some((_, signature)) = candidates.get(index) {
+                        finding = finding.note(format!("it fits `{}`", signature.describe(spelling, self.types)));
+                    }
+                }
+                self.report(finding);
+                None
+            }
+            Resolution::Missing => {
+                self.report_no_overload(name, rows, &given);
+                None
+            }
+        };
+        let Some(&(row, signature)) = found else { return self.poison(span) };
+        let Some(arguments) = self.pass(arguments, signature.params()) else { return self.poison(span) };
+        if !self.check_offset(row, &arguments) {
+            return self.poison(span);
+        }
+        self.push(ExprKind::BuiltinCall(row.function, arguments), signature.ret, span)
+    }
+
+    /// The offsets of the texture functions must be constant expressions (§8.7).
+    fn check_offset(&mut self, row: &Row, arguments: &[ExprId]) -> bool {
+        let position = row.params.iter().position(|param| param.name == "offset");
+        let Some(&offset) = position.and_then(|index| arguments.get(index)) else { return true };
+        if self.is_constant(offset) {
+            return true;
+        }
+        self.report(self.not_constant(offset, "the offset of a texture lookup"));
+        false
+    }
+
+    fn report_unavailable(&mut self, name: Ident, rows: &[&'static Row]) {
+        let (spelling, stage) = (self.name(name), self.stage.name());
+        let (version, extensions) = (self.ast.version, self.extensions);
+        let elsewhere: Vec<&str> = Stage::ALL
+            .into_iter()
+            .filter(|&stage| rows.iter().any(|row| row.availability.holds(version, extensions, stage)))
+            .map(Stage::name)
+            .collect();
+        let finding = if elsewhere.is_empty() {
+            let extensions = rows.iter().fold(Extensions::empty(), |all, row| all | row.availability.extensions);
+            let help = extensions
+                .iter()
+                .next()
+                .map(|extension| format!("put `#extension {} : enable` at the top", extension_name(extension)));
+            Diagnostic::new(
+                &names::BUILTIN_UNAVAILABLE,
+                name.span,
+                format!("the function `{spelling}` is not in this version of the language"),
+            )
+            .here("not available here")
+            .maybe_help(help)
+        } else {
+            Diagnostic::new(
+                &names::BUILTIN_UNAVAILABLE,
+                name.span,
+                format!("the function `{spelling}` does not exist in a {stage} shader"),
+            )
+            .here(format!("only in {} shaders", elsewhere.join(" and ")))
+        };
+        self.report(finding);
+    }
+
+    fn report_no_overload(&mut self, name: Ident, rows: &[&'static Row], given: &[TypeId]) {
+        let mut finding = self.no_overload(name, given);
+        let (version, extensions, stage) = (self.ast.version, self.extensions, self.stage);
+        let prototypes = rows.iter().filter(|row| row.availability.holds(version, extensions, stage));
+        // Those with the right number of parameters are the closest.
+        let mut closest: Vec<_> = prototypes.collect();
+        closest.sort_by_key(|row| row.params.len().abs_diff(given.len()));
+        for row in closest.iter().take(4) {
+            finding = finding.note(format!("there is `{}`", row.prototype()));
+        }
+        self.report(finding.maybe_help(derivative_help(rows, given, self)));
+    }
+}
+
+/// A hint for the slips that are made most often.
+fn derivative_help(rows: &[&'static Row], given: &[TypeId], analyzer: &Analyzer<'_>) -> Option<String> {
+    let function = rows.first()?.function;
+    let sampler = given.first().is_some_and(|&ty| analyzer.types.contains_sampler(ty));
+    match function {
+        BuiltinFunction::Texture if !sampler => Some("the first argument is a sampler".into()),
+        _ => None,
+    }
+}

@@ -1,0 +1,181 @@
+//! Calls (§5.3, §6.1): of functions of the shader and of constructors of structs. Built-in functions have a file of
+//! their own.
+
+use super::super::context::Analyzer;
+use super::super::scope::{Entry, OverloadSet};
+use super::Purpose;
+use super::overload::{Resolution, resolve};
+use crate::builtin::functions;
+use crate::diagnostic::codes::{names, types};
+use crate::diagnostic::{Diagnostic, did_you_mean};
+use crate::hir::{ExprId, ExprKind, FunctionId, ParamMode, TypeId};
+use crate::source::Span;
+use crate::syntax::ast::{self, Ident};
+
+/// The parameters of a candidate.
+pub(super) type Params = Vec<(TypeId, ParamMode)>;
+
+impl Analyzer<'_> {
+    /// `f(a, b)`, `S(a)`
+    pub(super) fn call(&mut self, name: Ident, arguments: &[ast::ExprId], span: Span) -> ExprId {
+        let binding = self.scopes.find(name.symbol);
+        match binding.map(|binding| binding.entry) {
+            Some(Entry::Struct(ty)) => self.construct(ty, arguments, name.span, span),
+            Some(Entry::Functions(set)) => {
+                let Some(arguments) = self.arguments(arguments) else { return self.poison(span) };
+                self.user_call(name, set, arguments, span)
+            }
+            None => {
+                let arguments = self.arguments(arguments);
+                let Some(arguments) = arguments.filter(|_| self.is_known_builtin(name)) else {
+                    return self.poison(span);
+                };
+                self.builtin_call(name, arguments, span)
+            }
+            Some(entry) => {
+                let arguments = self.arguments(arguments);
+                if entry != Entry::Poison && arguments.is_some() {
+                    let (spelling, declared) = (self.name(name), binding.map_or(Span::default(), |found| found.span));
+                    self.report(
+                        Diagnostic::new(&names::NOT_A_FUNCTION, name.span, format!("`{spelling}` is not a function"))
+                            .here("called here")
+                            .label(declared, "a variable is declared here, and hides any function of that name"),
+                    );
+                }
+                self.poison(span)
+            }
+        }
+    }
+
+    /// The arguments of a call; `None` if one of them is in error.
+    fn arguments(&mut self, arguments: &[ast::ExprId]) -> Option<Vec<ExprId>> {
+        let arguments: Vec<ExprId> = arguments.iter().map(|&argument| self.expr(argument)).collect();
+        if arguments.iter().any(|&argument| self.ty(argument).is_error()) {
+            return None;
+        }
+        let mut whole = true;
+        for &argument in &arguments {
+            whole &= self.is_whole_value(argument);
+        }
+        whole.then_some(arguments)
+    }
+
+    fn is_known_builtin(&mut self, name: Ident) -> bool {
+        let spelling = self.name(name);
+        if !functions::named(spelling).is_empty() {
+            return true;
+        }
+        let help = self.nearest_function(spelling).map(|near| format!("did you mean `{near}`?"));
+        self.report(
+            Diagnostic::new(&names::UNKNOWN_FUNCTION, name.span, format!("there is no function `{spelling}`"))
+                .here("not declared before this place")
+                .maybe_help(help),
+        );
+        false
+    }
+
+    fn nearest_function(&self, spelling: &str) -> Option<String> {
+        let declared = self
+            .scopes
+            .names()
+            .filter(|(_, binding)| matches!(binding.entry, Entry::Functions(_) | Entry::Struct(_)))
+            .map(|(symbol, _)| self.ast.names.spelling(symbol));
+        let mut known: Vec<&str> = declared.collect();
+        for name in functions::names() {
+            known.push(name);
+        }
+        did_you_mean(spelling, known).map(str::to_owned)
+    }
+
+    fn user_call(&mut self, name: Ident, set: OverloadSet, arguments: Vec<ExprId>, span: Span) -> ExprId {
+        let given: Vec<TypeId> = arguments.iter().map(|&argument| self.ty(argument)).collect();
+        let candidates: Vec<FunctionId> = self.scopes.functions(set).to_vec();
+        let resolution = resolve(self.types, &given, candidates.iter().map(|&id| self.params_of(id)));
+        let found = match resolution {
+            Resolution::Found(index) => candidates.get(index).copied(),
+            Resolution::Ambiguous(first, second) => {
+                let mut finding = self.ambiguous(name, &given);
+                for index in [first, second] {
+                    if let Some(&id) = candidates.get(index) {
+                        finding = finding.label(self.shader.function(id).span, "matches by conversion");
+                    }
+                }
+                self.report(finding);
+                None
+            }
+            Resolution::Missing => {
+                let mut finding = self.no_overload(name, &given);
+                for &id in candidates.iter().take(4) {
+                    finding = finding.label(self.shader.function(id).span, self.describe(id));
+                }
+                self.report(finding);
+                None
+            }
+        };
+        let Some(function) = found else { return self.poison(span) };
+        let params = self.params_of(function);
+        let Some(arguments) = self.pass(arguments, &params) else { return self.poison(span) };
+        let ret = self.shader.function(function).ret;
+        if ret.is_error() {
+            return self.poison(span);
+        }
+        self.push(ExprKind::Call(function, arguments), ret, span)
+    }
+
+    /// Converts the arguments that go in, and sees to it that those that come out can be written.
+    pub(super) fn pass(&mut self, arguments: Vec<ExprId>, params: &[(TypeId, ParamMode)]) -> Option<Vec<ExprId>> {
+        let mut passed = Vec::with_capacity(arguments.len());
+        let mut good = true;
+        for (argument, &(ty, mode)) in arguments.into_iter().zip(params) {
+            passed.push(match mode {
+                ParamMode::In | ParamMode::ConstIn => self.convert(argument, ty).unwrap_or(argument),
+                ParamMode::Out | ParamMode::Inout => {
+                    good &= self.require_lvalue(argument, Purpose::Argument);
+                    argument
+                }
+            });
+        }
+        good.then_some(passed)
+    }
+
+    pub(in crate::analysis) fn params_of(&self, id: FunctionId) -> Params {
+        let function = self.shader.function(id);
+        function.params().iter().enumerate().map(|(index, param)| (param.ty, function.param_mode(index))).collect()
+    }
+
+    /// A function as it would be declared, for messages.
+    pub(in crate::analysis) fn describe(&self, id: FunctionId) -> String {
+        let function = self.shader.function(id);
+        let params: Vec<String> = self
+            .params_of(id)
+            .into_iter()
+            .map(|(ty, mode)| {
+                let mode = match mode {
+                    ParamMode::In => "",
+                    ParamMode::ConstIn => "const ",
+                    ParamMode::Out => "out ",
+                    ParamMode::Inout => "inout ",
+                };
+                format!("{mode}{}", self.type_name(ty))
+            })
+            .collect();
+        format!("{} {}({})", self.type_name(function.ret), function.name, params.join(", "))
+    }
+
+    pub(super) fn ambiguous(&self, name: Ident, given: &[TypeId]) -> Diagnostic {
+        let call = self.call_text(name, given);
+        Diagnostic::new(&types::AMBIGUOUS_CALL, name.span, format!("`{call}` fits more than one overload"))
+            .here("which one is meant?")
+            .help("convert the arguments so that one overload matches exactly")
+    }
+
+    pub(super) fn no_overload(&self, name: Ident, given: &[TypeId]) -> Diagnostic {
+        let call = self.call_text(name, given);
+        Diagnostic::new(&types::NO_OVERLOAD, name.span, format!("no overload takes `{call}`")).here("no such overload")
+    }
+
+    fn call_text(&self, name: Ident, given: &[TypeId]) -> String {
+        let given: Vec<String> = given.iter().map(|&ty| self.type_name(ty)).collect();
+        format!("{}({})", self.name(name), given.join(", "))
+    }
+}

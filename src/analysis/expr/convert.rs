@@ -1,0 +1,80 @@
+//! Implicit conversions (§4.1.10).
+
+use super::super::context::Analyzer;
+use crate::diagnostic::Diagnostic;
+use crate::diagnostic::codes::types;
+use crate::hir::{ArraySize, ExprId, ExprKind, Scalar, Type, TypeId, Types};
+
+/// Whether one type converts to another without being asked; a type does not convert to itself.
+pub(in crate::analysis) fn converts(types: &Types, from: TypeId, to: TypeId) -> bool {
+    match (types.get(from), types.get(to)) {
+        (Type::Scalar(from), Type::Scalar(to)) => scalar_converts(from, to),
+        (Type::Vector(from, size), Type::Vector(to, other)) => size == other && scalar_converts(from, to),
+        _ => false,
+    }
+}
+
+/// The table of 1.50: integers become `float`, and nothing else converts.
+fn scalar_converts(from: Scalar, to: Scalar) -> bool {
+    matches!((from, to), (Scalar::Int | Scalar::Uint, Scalar::Float))
+}
+
+impl Analyzer<'_> {
+    /// The expression as the type that is wanted; `None` if there is no such conversion.
+    pub(in crate::analysis) fn convert(&mut self, id: ExprId, to: TypeId) -> Option<ExprId> {
+        let from = self.ty(id);
+        if from == to || from.is_error() || to.is_error() {
+            return Some(id);
+        }
+        converts(self.types, from, to).then(|| self.push_convert(id, to))
+    }
+
+    /// Like [`Self::convert`], and an expression that does not fit is reported: `what` is wanted as a `to`.
+    pub(in crate::analysis) fn convert_or_report(&mut self, id: ExprId, to: TypeId, what: &str) -> ExprId {
+        if let Some(converted) = self.convert(id, to) {
+            return converted;
+        }
+        let (from, span) = (self.ty(id), self.span(id));
+        let (from_name, to_name) = (self.type_name(from), self.type_name(to));
+        let finding =
+            Diagnostic::new(&types::MISMATCH, span, format!("{what} is a `{to_name}` and cannot take a `{from_name}`"));
+        let finding = finding.here(format!("this is a `{from_name}`")).maybe_help(self.conversion_help(from, to, span));
+        self.report(finding);
+        self.poison(span)
+    }
+
+    /// Writes the constructor that would mend a mismatch, if there is one.
+    pub(in crate::analysis) fn conversion_help(
+        &self,
+        from: TypeId,
+        to: TypeId,
+        span: crate::source::Span,
+    ) -> Option<String> {
+        let name = self.type_name(to);
+        let text = self.sources.snippet(span);
+        let short = if text.is_empty() || text.len() > 40 || span.expansion.is_some() { "..." } else { text };
+        match (self.types.get(from), self.types.get(to)) {
+            (Type::Scalar(_), Type::Scalar(_) | Type::Vector(..)) => Some(format!("write `{name}({short})`")),
+            (Type::Vector(_, from), Type::Vector(_, to)) if from >= to => Some(format!("write `{name}({short})`")),
+            (Type::Vector(_, 3), Type::Vector(_, 4)) => Some(format!("write `{name}({short}, 1.0)`")),
+            (Type::Matrix(..), Type::Matrix(..)) => Some(format!("write `{name}({short})`")),
+            (Type::Array(_, ArraySize::Unsized), _) => Some("give the array a size in its declaration".into()),
+            _ => None,
+        }
+    }
+
+    /// Converts a value of numbers or booleans component by component, as constructors do (§5.4.1).
+    pub(in crate::analysis) fn to_scalar(&mut self, id: ExprId, scalar: Scalar) -> ExprId {
+        let ty = match self.types.get(self.ty(id)) {
+            Type::Scalar(from) if from != scalar => TypeId::vector(scalar, 1),
+            Type::Vector(from, size) if from != scalar => TypeId::vector(scalar, size),
+            _ => return id,
+        };
+        self.push_convert(id, ty)
+    }
+
+    fn push_convert(&mut self, id: ExprId, to: TypeId) -> ExprId {
+        let span = self.span(id);
+        self.push(ExprKind::Convert(id), to, span)
+    }
+}

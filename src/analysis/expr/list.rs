@@ -1,0 +1,98 @@
+//! Initializer lists `{a, b}` (ARB_shading_language_420pack).
+
+use super::super::context::Analyzer;
+use super::super::layout::extension_name;
+use crate::diagnostic::Diagnostic;
+use crate::diagnostic::codes::{qualifiers, types};
+use crate::hir::{ArraySize, ConstructKind, ExprId, ExprKind, Scalar, Type, TypeId};
+use crate::source::Span;
+use crate::syntax::ast::{self, Extensions};
+
+impl Analyzer<'_> {
+    /// The initializer of a variable of type `ty`: an expression, or a list where those are on.
+    pub(in crate::analysis) fn initializer(&mut self, id: ast::ExprId, ty: TypeId) -> ExprId {
+        let expr = self.ast.expr(id);
+        let ast::ExprKind::List(elements) = &expr.kind else { return self.expr(id) };
+        if !self.has_420pack() {
+            let name = extension_name(Extensions::SHADING_LANGUAGE_420PACK);
+            self.report(
+                Diagnostic::new(&qualifiers::NEEDS_EXTENSION, expr.span, "an initializer list is not in this version")
+                    .help(format!("put `#extension {name} : enable` at the top, or use a constructor")),
+            );
+            return self.poison(expr.span);
+        }
+        self.list(elements, ty, expr.span)
+    }
+
+    /// A list anywhere but behind the `=` of a declaration.
+    pub(super) fn misplaced_list(&mut self, _: &[ast::ExprId], span: Span) -> ExprId {
+        self.report(
+            Diagnostic::new(&types::LIST, span, "a list in braces only initializes a variable")
+                .here("use a constructor here"),
+        );
+        self.poison(span)
+    }
+
+    fn list(&mut self, elements: &[ast::ExprId], ty: TypeId, span: Span) -> ExprId {
+        match self.types.get(ty) {
+            Type::Struct(id) => {
+                let members: Vec<TypeId> = self.types.structure(id).members.iter().map(|member| member.ty).collect();
+                self.list_of(elements, ty, ConstructKind::Struct, &members, span)
+            }
+            Type::Array(element, size) => {
+                let given = elements.len() as u32;
+                let count = if let ArraySize::Sized(count) = size { count } else { given };
+                let ty = self.types.array(element, ArraySize::Sized(count));
+                let wanted = vec![element; count as usize];
+                self.list_of(elements, ty, ConstructKind::Array, &wanted, span)
+            }
+            Type::Vector(scalar, size) => {
+                let wanted = vec![TypeId::vector(scalar, 1); usize::from(size)];
+                self.list_of(elements, ty, ConstructKind::Compose, &wanted, span)
+            }
+            Type::Matrix(columns, rows) => {
+                let wanted = vec![TypeId::vector(Scalar::Float, rows); usize::from(columns)];
+                self.list_of(elements, ty, ConstructKind::Compose, &wanted, span)
+            }
+            Type::Error => self.poison(span),
+            Type::Scalar(_) | Type::Void | Type::Sampler(_) => {
+                let name = self.type_name(ty);
+                self.report(
+                    Diagnostic::new(&types::LIST, span, format!("a `{name}` is not made from a list"))
+                        .here("remove the braces"),
+                );
+                self.poison(span)
+            }
+        }
+    }
+
+    fn list_of(
+        &mut self,
+        elements: &[ast::ExprId],
+        ty: TypeId,
+        kind: ConstructKind,
+        wanted: &[TypeId],
+        span: Span,
+    ) -> ExprId {
+        if elements.len() != wanted.len() {
+            let (name, n_wanted, given) = (self.type_name(ty), wanted.len(), elements.len());
+            self.report(
+                Diagnostic::new(&types::LIST, span, format!("a `{name}` takes a list of {n_wanted}, not of {given}"))
+                    .here(format!("{given} given")),
+            );
+            return self.poison(span);
+        }
+        let mut arguments = Vec::with_capacity(elements.len());
+        for (&element, &wanted) in elements.iter().zip(wanted) {
+            let value = match &self.ast.expr(element).kind {
+                ast::ExprKind::List(inner) => self.list(inner, wanted, self.ast.expr(element).span),
+                _ => self.expr(element),
+            };
+            arguments.push(self.convert_or_report(value, wanted, "the element"));
+        }
+        if arguments.iter().any(|&argument| self.ty(argument).is_error()) {
+            return self.poison(span);
+        }
+        self.push(ExprKind::Construct(kind, arguments), ty, span)
+    }
+}

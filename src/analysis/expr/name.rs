@@ -1,0 +1,123 @@
+//! Names in expressions: variables, members of blocks without an instance, built-in variables and constants.
+
+use super::super::context::Analyzer;
+use super::super::scope::Entry;
+use crate::builtin::{constants, variables};
+use crate::diagnostic::codes::names;
+use crate::diagnostic::{Diagnostic, did_you_mean};
+use crate::hir::{ExprId, ExprKind, ScalarValue, Stage, Type, TypeId, VarRef};
+use crate::source::Span;
+use crate::syntax::ast::Ident;
+
+impl Analyzer<'_> {
+    /// The variable behind a name.
+    pub(super) fn name_expr(&mut self, name: Ident) -> ExprId {
+        let span = name.span;
+        let Some(binding) = self.scopes.find(name.symbol) else { return self.builtin_name(name) };
+        match binding.entry {
+            Entry::Variable(var) => self.variable(var, span),
+            Entry::Member(block, member) => {
+                let base = self.variable(VarRef::Global(block), span);
+                self.member(base, member, span)
+            }
+            Entry::Poison => self.poison(span),
+            Entry::Struct(_) => self.not_a_variable(name, "a type", binding.span),
+            Entry::Functions(_) => self.not_a_variable(name, "a function", binding.span),
+        }
+    }
+
+    /// A variable as an expression.
+    pub(in crate::analysis) fn variable(&mut self, var: VarRef, span: Span) -> ExprId {
+        let ty = match var {
+            VarRef::Global(id) => {
+                self.note_use(id, span);
+                self.shader.global(id).ty
+            }
+            VarRef::Local(id) => self.local(id).map_or(TypeId::ERROR, |local| local.ty),
+        };
+        if ty.is_error() { self.poison(span) } else { self.push(ExprKind::Var(var), ty, span) }
+    }
+
+    /// A member of a struct or block by its number.
+    pub(in crate::analysis) fn member(&mut self, base: ExprId, member: u32, span: Span) -> ExprId {
+        let ty = match self.types.get(self.ty(base)) {
+            Type::Struct(id) => self.types.structure(id).members.get(member as usize).map(|member| member.ty),
+            _ => None,
+        };
+        match ty {
+            Some(ty) if !ty.is_error() => self.push(ExprKind::Member(base, member), ty, span),
+            _ => self.poison(span),
+        }
+    }
+
+    /// A name that the shader does not declare.
+    fn builtin_name(&mut self, name: Ident) -> ExprId {
+        let spelling = self.name(name);
+        let version = self.ast.version;
+        if let Some(constant) = constants::named(spelling, version, self.extensions) {
+            return self.literal(ScalarValue::Int(constant.value), name.span);
+        }
+        if let Some(row) = variables::named(spelling, version, self.extensions, self.stage) {
+            let id = self.builtin_global(row);
+            return self.variable(VarRef::Global(id), name.span);
+        }
+        self.report_unknown(name);
+        // From here on the name is known to be unknown: one mistake, one message.
+        self.scopes.enter(name.symbol, Entry::Poison, name.span);
+        self.poison(name.span)
+    }
+
+    fn report_unknown(&mut self, name: Ident) {
+        let spelling = self.name(name);
+        let stages: Vec<&str> = variables::stages_with(spelling).map(Stage::name).collect();
+        if !stages.is_empty() {
+            let stage = self.stage.name();
+            let known_here = stages.contains(&stage);
+            let finding = if known_here {
+                Diagnostic::new(&names::BUILTIN_UNAVAILABLE, name.span, format!("`{spelling}` needs an extension here"))
+                    .here("not in this version of the language")
+            } else {
+                let message = format!("`{spelling}` does not exist in a {stage} shader");
+                Diagnostic::new(&names::BUILTIN_UNAVAILABLE, name.span, message)
+                    .here(format!("only in {} shaders", stages.join(" and ")))
+            };
+            self.report(finding);
+            return;
+        }
+        let help = self.nearest_variable(spelling).map(|near| format!("did you mean `{near}`?"));
+        self.report(
+            Diagnostic::new(&names::UNDECLARED, name.span, format!("`{spelling}` is not declared"))
+                .here("not known at this place")
+                .maybe_help(help),
+        );
+    }
+
+    fn nearest_variable(&self, spelling: &str) -> Option<String> {
+        let declared = self
+            .scopes
+            .names()
+            .filter(|(_, binding)| matches!(binding.entry, Entry::Variable(_) | Entry::Member(..)))
+            .map(|(symbol, _)| self.ast.names.spelling(symbol));
+        let (version, extensions) = (self.ast.version, self.extensions);
+        let built_in = variables::in_stage(version, extensions, self.stage).map(|row| row.name);
+        let constants = constants::CONSTANTS
+            .iter()
+            .filter(|row| row.availability.in_language(version, extensions))
+            .map(|row| row.name);
+        let mut known: Vec<&str> = declared.collect();
+        for name in built_in.chain(constants) {
+            known.push(name);
+        }
+        did_you_mean(spelling, known).map(str::to_owned)
+    }
+
+    fn not_a_variable(&mut self, name: Ident, what: &str, declared: Span) -> ExprId {
+        let spelling = self.name(name);
+        self.report(
+            Diagnostic::new(&names::NOT_A_VARIABLE, name.span, format!("`{spelling}` is {what}, not a variable"))
+                .here("a value is wanted here")
+                .label(declared, "declared here"),
+        );
+        self.poison(name.span)
+    }
+}

@@ -1,0 +1,124 @@
+//! What needs the whole shader: the sizes of arrays that only their use sizes (§4.1.9), recursion (§6.1), static use
+//! (§3.8), and the outputs that exclude each other (§7.2).
+
+use super::context::Analyzer;
+use crate::builtin::BuiltinVariable;
+use crate::diagnostic::Diagnostic;
+use crate::diagnostic::codes::qualifiers;
+use crate::hir::{ArraySize, ExprKind, GlobalId, Stage, Storage, Type, TypeId, VarRef};
+
+impl Analyzer<'_> {
+    /// Completes the shader.
+    pub(super) fn finish(&mut self) {
+        self.size_arrays();
+        self.retype();
+        self.check_recursion();
+        self.shader.mark_static_use();
+        self.check_fragment_outputs();
+    }
+
+    /// Gives each array without a size as many elements as its use asks for.
+    fn size_arrays(&mut self) {
+        for index in 0..self.shader.globals.len() {
+            let id = GlobalId(index as u32);
+            let global = self.shader.global(id);
+            if self.stage == Stage::Geometry && global.storage == Storage::In {
+                continue;
+            }
+            let ty = global.ty;
+            match self.types.get(ty) {
+                Type::Array(element, ArraySize::Unsized) => {
+                    let ty = self.sized_by_use(id, None, element);
+                    if let Some(global) = self.shader.globals.get_mut(index) {
+                        global.ty = ty;
+                    }
+                }
+                _ if global.block.is_some() => self.size_members(id, ty),
+                _ => {}
+            }
+        }
+    }
+
+    fn size_members(&mut self, id: GlobalId, ty: TypeId) {
+        let Type::Struct(structure) = self.types.get(self.element_of(ty)) else { return };
+        for member in 0..self.types.structure(structure).members.len() {
+            let Some(declared) = self.types.structure(structure).members.get(member).map(|member| member.ty) else {
+                continue;
+            };
+            if let Type::Array(element, ArraySize::Unsized) = self.types.get(declared) {
+                let ty = self.sized_by_use(id, Some(member as u32), element);
+                if let Some(member) = self.types.structure_mut(structure).members.get_mut(member) {
+                    member.ty = ty;
+                }
+            }
+        }
+    }
+
+    fn sized_by_use(&mut self, id: GlobalId, member: Option<u32>, element: TypeId) -> TypeId {
+        let largest = self.array_uses.get(&(id, member)).and_then(|used| used.largest);
+        // An array that is never indexed still needs a size to exist; nothing can tell which.
+        let size = largest.map_or(1, |(index, _)| index.saturating_add(1));
+        if let Some((_, span)) = largest
+            && self.shader.global(id).builtin == Some(BuiltinVariable::ClipDistance)
+        {
+            self.check_clip_distances(size, span);
+        }
+        self.types.array(element, ArraySize::Sized(size))
+    }
+
+    /// Brings the types of expressions that name such arrays up to date. Children stand before their parents.
+    fn retype(&mut self) {
+        for index in 0..self.shader.exprs.len() {
+            let Some(expr) = self.shader.exprs.get(index) else { continue };
+            if !matches!(self.types.get(expr.ty), Type::Array(_, ArraySize::Unsized)) {
+                continue;
+            }
+            let ty = match expr.kind {
+                ExprKind::Var(VarRef::Global(id)) => self.shader.global(id).ty,
+                ExprKind::Member(base, member) => match self.types.get(self.ty(base)) {
+                    Type::Struct(id) => {
+                        let members = &self.types.structure(id).members;
+                        members.get(member as usize).map_or(TypeId::ERROR, |member| member.ty)
+                    }
+                    _ => continue,
+                },
+                _ => continue,
+            };
+            if let Some(expr) = self.shader.exprs.get_mut(index) {
+                expr.ty = ty;
+            }
+        }
+    }
+
+    /// A shader writes `gl_FragColor`, or `gl_FragData`, or outputs of its own.
+    fn check_fragment_outputs(&mut self) {
+        if self.stage != Stage::Fragment {
+            return;
+        }
+        let written = |builtin: Option<BuiltinVariable>| {
+            self.shader
+                .globals()
+                .find(|(_, global)| global.storage == Storage::Out && global.written && global.builtin == builtin)
+        };
+        let color = written(Some(BuiltinVariable::FragColor));
+        let data = written(Some(BuiltinVariable::FragData));
+        let own = written(None);
+        let pair = match (color, data, own) {
+            (Some(first), Some(second), _) | (Some(first), _, Some(second)) | (_, Some(first), Some(second)) => {
+                (first, second)
+            }
+            _ => return,
+        };
+        let ((first_id, first), (second_id, second)) = pair;
+        let at = |id| self.first_uses.get(&id).copied().unwrap_or_default();
+        let finding = Diagnostic::new(
+            &qualifiers::OUTPUTS_EXCLUDE,
+            at(second_id),
+            format!("`{}` and `{}` cannot both be written", first.name, second.name),
+        )
+        .here("the second kind of output")
+        .label(at(first_id), "the first kind of output")
+        .help("declare an `out` variable for each color, and write those alone");
+        self.report(finding);
+    }
+}

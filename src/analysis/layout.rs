@@ -1,0 +1,286 @@
+//! Layout qualifiers (§4.3.8): one row an identifier, with the places where it may stand.
+
+use super::context::Analyzer;
+use super::qualifiers::Qualifiers;
+use crate::diagnostic::codes::qualifiers;
+use crate::diagnostic::{Diagnostic, did_you_mean};
+use crate::hir::{BlockLayout, MatrixLayout, PrimitiveIn, PrimitiveOut};
+use crate::source::Span;
+use crate::syntax::ast::{ExprKind as AstExprKind, Extensions, LayoutId, Literal};
+
+/// What a layout qualifier stands before.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum LayoutPlace {
+    /// An input of a vertex shader.
+    VertexInput,
+    /// `gl_FragCoord`.
+    FragCoord,
+    /// An output of a fragment shader.
+    FragmentOutput,
+    /// A sampler.
+    Sampler,
+    /// A uniform block.
+    UniformBlock,
+    /// A member of one.
+    UniformMember,
+    /// `layout(..) uniform;`
+    UniformDefault,
+    /// `layout(..) in;` of a geometry shader.
+    GeometryIn,
+    /// `layout(..) out;` of a geometry shader.
+    GeometryOut,
+    /// Anything else, by the words that name it.
+    Other(&'static str),
+}
+
+impl LayoutPlace {
+    fn name(self) -> &'static str {
+        match self {
+            Self::VertexInput => "a vertex shader's input",
+            Self::FragCoord => "`gl_FragCoord`",
+            Self::FragmentOutput => "a fragment shader's output",
+            Self::Sampler => "a sampler",
+            Self::UniformBlock => "a uniform block",
+            Self::UniformMember => "a member of a uniform block",
+            Self::UniformDefault => "`uniform` alone",
+            Self::GeometryIn => "`in` alone, in a geometry shader",
+            Self::GeometryOut => "`out` alone, in a geometry shader",
+            Self::Other(name) => name,
+        }
+    }
+}
+
+/// What an identifier sets.
+#[derive(Clone, Copy, Debug)]
+enum Effect {
+    Location,
+    Index,
+    Binding,
+    OriginUpperLeft,
+    PixelCenterInteger,
+    Block(BlockLayout),
+    Matrix(MatrixLayout),
+    In(PrimitiveIn),
+    Out(PrimitiveOut),
+    /// `points` is an input and an output.
+    Points,
+    MaxVertices,
+}
+
+struct Row {
+    name: &'static str,
+    effect: Effect,
+    value: bool,
+    places: &'static [LayoutPlace],
+    extension: Extensions,
+    since: u16,
+}
+
+use LayoutPlace::{
+    FragCoord, FragmentOutput, GeometryIn, GeometryOut, Sampler, UniformBlock, UniformDefault, UniformMember,
+    VertexInput,
+};
+
+const fn row(name: &'static str, effect: Effect, places: &'static [LayoutPlace]) -> Row {
+    Row { name, effect, value: false, places, extension: Extensions::empty(), since: 150 }
+}
+
+const fn since(version: u16, extension: Extensions, row: Row) -> Row {
+    Row { extension, since: version, ..row }
+}
+
+const fn valued(row: Row) -> Row {
+    Row { value: true, ..row }
+}
+
+const LOCATION: Extensions = Extensions::EXPLICIT_ATTRIB_LOCATION;
+const BLOCKS: Extensions = Extensions::UNIFORM_BUFFER_OBJECT;
+const PACK: Extensions = Extensions::SHADING_LANGUAGE_420PACK;
+const BLOCK_PLACES: &[LayoutPlace] = &[UniformBlock, UniformDefault];
+const MATRIX_PLACES: &[LayoutPlace] = &[UniformBlock, UniformDefault, UniformMember];
+
+static ROWS: &[Row] = &[
+    valued(since(330, LOCATION, row("location", Effect::Location, &[VertexInput, FragmentOutput]))),
+    valued(since(330, LOCATION, row("index", Effect::Index, &[FragmentOutput]))),
+    valued(since(420, PACK, row("binding", Effect::Binding, &[Sampler, UniformBlock]))),
+    row("origin_upper_left", Effect::OriginUpperLeft, &[FragCoord]),
+    row("pixel_center_integer", Effect::PixelCenterInteger, &[FragCoord]),
+    since(140, BLOCKS, row("shared", Effect::Block(BlockLayout::Shared), BLOCK_PLACES)),
+    since(140, BLOCKS, row("packed", Effect::Block(BlockLayout::Packed), BLOCK_PLACES)),
+    since(140, BLOCKS, row("std140", Effect::Block(BlockLayout::Std140), BLOCK_PLACES)),
+    since(140, BLOCKS, row("row_major", Effect::Matrix(MatrixLayout::RowMajor), MATRIX_PLACES)),
+    since(140, BLOCKS, row("column_major", Effect::Matrix(MatrixLayout::ColumnMajor), MATRIX_PLACES)),
+    row("points", Effect::Points, &[GeometryIn, GeometryOut]),
+    row("lines", Effect::In(PrimitiveIn::Lines), &[GeometryIn]),
+    row("lines_adjacency", Effect::In(PrimitiveIn::LinesAdjacency), &[GeometryIn]),
+    row("triangles", Effect::In(PrimitiveIn::Triangles), &[GeometryIn]),
+    row("triangles_adjacency", Effect::In(PrimitiveIn::TrianglesAdjacency), &[GeometryIn]),
+    row("line_strip", Effect::Out(PrimitiveOut::LineStrip), &[GeometryOut]),
+    row("triangle_strip", Effect::Out(PrimitiveOut::TriangleStrip), &[GeometryOut]),
+    valued(row("max_vertices", Effect::MaxVertices, &[GeometryOut])),
+];
+
+/// Identifiers of later versions, for which the message is another than for a slip of the pen.
+static LATER: &[(&str, &str)] = &[
+    ("stream", "4.00"),
+    ("invocations", "4.00"),
+    ("component", "4.40"),
+    ("offset", "4.20"),
+    ("align", "4.40"),
+    ("std430", "4.30"),
+    ("early_fragment_tests", "4.20"),
+    ("depth_any", "4.20"),
+    ("depth_greater", "4.20"),
+    ("depth_less", "4.20"),
+    ("depth_unchanged", "4.20"),
+    ("set", "4.50 for Vulkan"),
+    ("push_constant", "4.50 for Vulkan"),
+];
+
+/// What a `layout(...)` says.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Layout {
+    pub(super) location: Option<(u32, Span)>,
+    pub(super) index: Option<(u32, Span)>,
+    pub(super) binding: Option<(u32, Span)>,
+    pub(super) origin_upper_left: bool,
+    pub(super) pixel_center_integer: bool,
+    pub(super) block: Option<BlockLayout>,
+    pub(super) matrix: Option<MatrixLayout>,
+    /// Each primitive that is named, in order: `layout(points, lines)`.
+    pub(super) inputs: Vec<(PrimitiveIn, Span)>,
+    pub(super) outputs: Vec<(PrimitiveOut, Span)>,
+    pub(super) max_vertices: Option<(u32, Span)>,
+}
+
+/// `layout(...) uniform;`: what blocks behind it inherit.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct BlockDefaults {
+    pub(super) layout: BlockLayout,
+    pub(super) matrix: MatrixLayout,
+}
+
+impl Analyzer<'_> {
+    /// Reads the layout identifiers of a declaration. Each must be known, on, and allowed at the place; later ones
+    /// override earlier ones.
+    pub(super) fn layout(&mut self, qualifiers: &Qualifiers, place: LayoutPlace) -> Layout {
+        let mut layout = Layout::default();
+        for id in &qualifiers.layout {
+            if let Some(row) = self.layout_row(id, place) {
+                let value = if row.value { self.layout_value(id) } else { Some((0, id.name.span)) };
+                if let Some((value, span)) = value {
+                    layout.apply(row.effect, place, value, span);
+                }
+            }
+        }
+        layout
+    }
+
+    fn layout_row(&mut self, id: &LayoutId, place: LayoutPlace) -> Option<&'static Row> {
+        let spelling = self.name(id.name);
+        // The identifiers are not case sensitive in 1.50.
+        let Some(row) = ROWS.iter().find(|row| row.name.eq_ignore_ascii_case(spelling)) else {
+            self.report(unknown(spelling, id.name.span));
+            return None;
+        };
+        if !self.has(row.extension, row.since) {
+            let name = extension_name(row.extension);
+            self.report(
+                Diagnostic::new(
+                    &qualifiers::NEEDS_EXTENSION,
+                    id.name.span,
+                    format!("`{spelling}` in a layout is not in this version"),
+                )
+                .help(format!("put `#extension {name} : enable` at the top")),
+            );
+            return None;
+        }
+        if !row.places.contains(&place) {
+            let places: Vec<_> = row.places.iter().map(|place| place.name()).collect();
+            self.report(
+                Diagnostic::new(
+                    &qualifiers::LAYOUT_PLACE,
+                    id.name.span,
+                    format!("`{spelling}` may not stand before {}", place.name()),
+                )
+                .here("not allowed here")
+                .help(format!("it belongs before {}", places.join(" or "))),
+            );
+            return None;
+        }
+        if row.value == id.value.is_some() {
+            return Some(row);
+        }
+        let message =
+            if row.value { format!("`{spelling}` needs a value") } else { format!("`{spelling}` takes no value") };
+        let help = row.value.then(|| format!("write `{} = 0`", row.name));
+        self.report(Diagnostic::new(&qualifiers::LAYOUT_VALUE, id.name.span, message).maybe_help(help));
+        None
+    }
+
+    /// The value behind `=`, an integer that is not negative.
+    fn layout_value(&mut self, id: &LayoutId) -> Option<(u32, Span)> {
+        let expr = self.ast.expr(id.value?);
+        let value = match &expr.kind {
+            AstExprKind::Literal(Literal::Int(value)) => u32::try_from(*value).ok(),
+            AstExprKind::Literal(Literal::Uint(value)) => Some(*value),
+            AstExprKind::Error => return None,
+            _ => None,
+        };
+        if value.is_none() {
+            let spelling = self.name(id.name);
+            self.report(
+                Diagnostic::new(
+                    &qualifiers::LAYOUT_VALUE,
+                    expr.span,
+                    format!("the value of `{spelling}` is an integer literal, zero or more"),
+                )
+                .here("not an integer literal"),
+            );
+        }
+        value.map(|value| (value, expr.span))
+    }
+}
+
+impl Layout {
+    fn apply(&mut self, effect: Effect, place: LayoutPlace, value: u32, span: Span) {
+        match effect {
+            Effect::Location => self.location = Some((value, span)),
+            Effect::Index => self.index = Some((value, span)),
+            Effect::Binding => self.binding = Some((value, span)),
+            Effect::OriginUpperLeft => self.origin_upper_left = true,
+            Effect::PixelCenterInteger => self.pixel_center_integer = true,
+            Effect::Block(layout) => self.block = Some(layout),
+            Effect::Matrix(layout) => self.matrix = Some(layout),
+            Effect::In(primitive) => self.inputs.push((primitive, span)),
+            Effect::Out(primitive) => self.outputs.push((primitive, span)),
+            Effect::Points if place == GeometryIn => self.inputs.push((PrimitiveIn::Points, span)),
+            Effect::Points => self.outputs.push((PrimitiveOut::Points, span)),
+            Effect::MaxVertices => self.max_vertices = Some((value, span)),
+        }
+    }
+}
+
+fn unknown(spelling: &str, span: Span) -> Diagnostic {
+    let later = LATER.iter().find(|(name, _)| name.eq_ignore_ascii_case(spelling));
+    let help = match later {
+        Some((_, version)) => Some(format!("`{spelling}` came with GLSL {version}")),
+        None => did_you_mean(spelling, ROWS.iter().map(|row| row.name)).map(|near| format!("did you mean `{near}`?")),
+    };
+    Diagnostic::new(&qualifiers::UNKNOWN_LAYOUT, span, format!("`{spelling}` is no layout identifier"))
+        .here("not known in this version")
+        .maybe_help(help)
+}
+
+/// The name of the one extension in a set, for messages.
+pub(super) fn extension_name(extension: Extensions) -> &'static str {
+    match extension {
+        Extensions::EXPLICIT_ATTRIB_LOCATION => "GL_ARB_explicit_attrib_location",
+        Extensions::SHADING_LANGUAGE_420PACK => "GL_ARB_shading_language_420pack",
+        Extensions::TEXTURE_RECTANGLE => "GL_ARB_texture_rectangle",
+        Extensions::UNIFORM_BUFFER_OBJECT => "GL_ARB_uniform_buffer_object",
+        Extensions::DRAW_INSTANCED => "GL_ARB_draw_instanced",
+        Extensions::SEPARATE_SHADER_OBJECTS => "GL_ARB_separate_shader_objects",
+        _ => "the extension",
+    }
+}

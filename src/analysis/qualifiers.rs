@@ -1,0 +1,264 @@
+//! Qualifiers (§4.3 to §4.7): one list as it is written to a [`Qualifiers`] record, and where each may stand.
+
+use super::context::Analyzer;
+use crate::diagnostic::codes::qualifiers;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::hir::Interpolation;
+use crate::source::Span;
+use crate::syntax::ast::{LayoutId, Qualifier, QualifierKind};
+
+/// The storage and parameter qualifiers, of which a declaration has at most one beside `const`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum StorageWord {
+    Attribute,
+    Varying,
+    In,
+    Out,
+    Inout,
+    Uniform,
+}
+
+impl StorageWord {
+    /// As it is written.
+    pub(super) fn spelling(self) -> &'static str {
+        match self {
+            Self::Attribute => "attribute",
+            Self::Varying => "varying",
+            Self::In => "in",
+            Self::Out => "out",
+            Self::Inout => "inout",
+            Self::Uniform => "uniform",
+        }
+    }
+}
+
+/// The qualifiers of one declaration.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Qualifiers {
+    pub(super) storage: Option<(StorageWord, Span)>,
+    pub(super) constant: Option<Span>,
+    pub(super) interpolation: Option<(Interpolation, Span)>,
+    pub(super) centroid: Option<Span>,
+    pub(super) invariant: Option<Span>,
+    pub(super) precision: Option<Span>,
+    pub(super) precise: Option<Span>,
+    /// All identifiers of all `layout(...)`, in order.
+    pub(super) layout: Vec<LayoutId>,
+    /// The first `layout(...)`.
+    pub(super) layout_span: Option<Span>,
+}
+
+/// Where a list of qualifiers stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Place {
+    /// A variable at global scope.
+    Global,
+    /// A local variable.
+    Local,
+    /// A parameter.
+    Parameter,
+    /// Before a function's return type.
+    Return,
+    /// A member of a struct.
+    StructMember,
+    /// A member of an interface block.
+    BlockMember,
+    /// An interface block.
+    Block,
+    /// Without a type: `invariant gl_Position;`, `layout(..) in;`
+    Alone,
+}
+
+/// The kinds of qualifiers for order and place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Class {
+    Layout,
+    Invariant,
+    Interpolation,
+    Centroid,
+    Const,
+    Storage,
+    Precision,
+    Precise,
+}
+
+struct ClassRow {
+    class: Class,
+    what: &'static str,
+    /// The rank in the order of §4.7; `layout` has none but stands before storage.
+    rank: u8,
+    places: &'static [Place],
+}
+
+use Place::{Alone, Block, BlockMember, Global, Local, Parameter, Return, StructMember};
+
+#[rustfmt::skip]
+static CLASSES: &[ClassRow] = &[
+    ClassRow { class: Class::Layout, what: "a layout qualifier", rank: 0, places: &[Global, Block, BlockMember, Alone] },
+    ClassRow { class: Class::Invariant, what: "`invariant`", rank: 1, places: &[Global, BlockMember, Alone] },
+    ClassRow { class: Class::Interpolation, what: "an interpolation qualifier", rank: 2, places: &[Global, BlockMember] },
+    ClassRow { class: Class::Centroid, what: "`centroid`", rank: 3, places: &[Global, BlockMember] },
+    ClassRow { class: Class::Const, what: "`const`", rank: 4, places: &[Global, Local, Parameter] },
+    ClassRow { class: Class::Storage, what: "a storage qualifier", rank: 5, places: &[Global, Parameter, BlockMember, Block, Alone] },
+    ClassRow { class: Class::Precision, what: "a precision qualifier", rank: 6, places: &[Global, Local, Parameter, Return, StructMember, BlockMember] },
+    ClassRow { class: Class::Precise, what: "`precise`", rank: 0, places: &[] },
+];
+
+fn class_of(kind: &QualifierKind) -> Class {
+    match kind {
+        QualifierKind::Layout(_) => Class::Layout,
+        QualifierKind::Invariant => Class::Invariant,
+        QualifierKind::Smooth | QualifierKind::Flat | QualifierKind::Noperspective => Class::Interpolation,
+        QualifierKind::Centroid => Class::Centroid,
+        QualifierKind::Const => Class::Const,
+        QualifierKind::Attribute
+        | QualifierKind::Varying
+        | QualifierKind::In
+        | QualifierKind::Out
+        | QualifierKind::Inout
+        | QualifierKind::Uniform => Class::Storage,
+        QualifierKind::Highp | QualifierKind::Mediump | QualifierKind::Lowp => Class::Precision,
+        QualifierKind::Precise => Class::Precise,
+    }
+}
+
+fn row_of(class: Class) -> Option<&'static ClassRow> {
+    CLASSES.iter().find(|row| row.class == class)
+}
+
+impl Place {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Global => "a global variable",
+            Self::Local => "a local variable",
+            Self::Parameter => "a parameter",
+            Self::Return => "a return type",
+            Self::StructMember => "a member of a struct",
+            Self::BlockMember => "a member of a block",
+            Self::Block => "a block",
+            Self::Alone => "a declaration without a type",
+        }
+    }
+}
+
+impl Analyzer<'_> {
+    /// Reads a list of qualifiers: none twice, each where it may stand, in the order of §4.7.
+    pub(super) fn qualifiers(&mut self, list: &[Qualifier], place: Place) -> Qualifiers {
+        let mut record = Qualifiers::default();
+        let mut last: Option<(u8, &Qualifier)> = None;
+        for qualifier in list {
+            let Some(row) = row_of(class_of(&qualifier.kind)) else { continue };
+            if !self.check_place(qualifier, row, place) {
+                continue;
+            }
+            self.check_order(qualifier, row, &mut last);
+            self.record(&mut record, qualifier);
+        }
+        record
+    }
+
+    fn check_place(&mut self, qualifier: &Qualifier, row: &ClassRow, place: Place) -> bool {
+        if row.places.contains(&place) {
+            return true;
+        }
+        let (what, place_name) = (row.what, place.name());
+        self.report(
+            Diagnostic::new(
+                &qualifiers::MISPLACED,
+                qualifier.span,
+                format!("{what} may not stand before {place_name}"),
+            )
+            .here("not allowed here")
+            .help("remove it"),
+        );
+        false
+    }
+
+    fn check_order<'q>(&mut self, qualifier: &'q Qualifier, row: &ClassRow, last: &mut Option<(u8, &'q Qualifier)>) {
+        let rank = row.rank;
+        let before_storage = |rank: u8| rank == 0;
+        if let Some((earlier, other)) = *last {
+            let wrong = if before_storage(rank) { earlier >= 4 } else { rank < earlier };
+            if wrong && !self.has_420pack() {
+                let what = row.what;
+                self.report(
+                    Diagnostic::new(&qualifiers::ORDER, qualifier.span, format!("{what} stands too late"))
+                        .here("must come earlier")
+                        .label(other.span, "before this")
+                        .help(
+                            "the order is: layout, invariant, interpolation, centroid, storage, precision \
+                             (or `#extension GL_ARB_shading_language_420pack : enable`)",
+                        ),
+                );
+            }
+        }
+        if rank >= last.map_or(0, |(earlier, _)| earlier) {
+            *last = Some((rank, qualifier));
+        }
+    }
+
+    fn record(&mut self, record: &mut Qualifiers, qualifier: &Qualifier) {
+        let span = qualifier.span;
+        let storage = |word| Some((word, span));
+        match &qualifier.kind {
+            QualifierKind::Const => self.once(&mut record.constant, span, span, "`const`"),
+            QualifierKind::Centroid => self.once(&mut record.centroid, span, span, "`centroid`"),
+            QualifierKind::Invariant => self.once(&mut record.invariant, span, span, "`invariant`"),
+            QualifierKind::Precise => self.once(&mut record.precise, span, span, "`precise`"),
+            QualifierKind::Highp | QualifierKind::Mediump | QualifierKind::Lowp => {
+                self.once(&mut record.precision, span, span, "a precision qualifier");
+            }
+            QualifierKind::Smooth => self.interpolation(record, Interpolation::Smooth, span),
+            QualifierKind::Flat => self.interpolation(record, Interpolation::Flat, span),
+            QualifierKind::Noperspective => self.interpolation(record, Interpolation::Noperspective, span),
+            QualifierKind::Attribute => self.storage(record, storage(StorageWord::Attribute)),
+            QualifierKind::Varying => self.storage(record, storage(StorageWord::Varying)),
+            QualifierKind::In => self.storage(record, storage(StorageWord::In)),
+            QualifierKind::Out => self.storage(record, storage(StorageWord::Out)),
+            QualifierKind::Inout => self.storage(record, storage(StorageWord::Inout)),
+            QualifierKind::Uniform => self.storage(record, storage(StorageWord::Uniform)),
+            QualifierKind::Layout(ids) => {
+                if let Some(first) = record.layout_span.filter(|_| !self.has_420pack()) {
+                    self.repeated(&qualifiers::REPEATED, first, span, "a layout qualifier");
+                }
+                record.layout_span.get_or_insert(span);
+                record.layout.extend(ids.iter().copied());
+            }
+        }
+    }
+
+    fn interpolation(&mut self, record: &mut Qualifiers, word: Interpolation, span: Span) {
+        match record.interpolation {
+            Some((_, first)) => self.repeated(&qualifiers::REPEATED, first, span, "an interpolation qualifier"),
+            None => record.interpolation = Some((word, span)),
+        }
+    }
+
+    fn storage(&mut self, record: &mut Qualifiers, word: Option<(StorageWord, Span)>) {
+        let (Some((_, span)), earlier) = (word, record.storage) else { return };
+        match earlier {
+            Some((_, first)) => self.repeated(&qualifiers::REPEATED, first, span, "a storage qualifier"),
+            None => record.storage = word,
+        }
+    }
+
+    fn once(&mut self, slot: &mut Option<Span>, value: Span, span: Span, what: &str) {
+        match *slot {
+            Some(first) => self.repeated(&qualifiers::REPEATED, first, span, what),
+            None => *slot = Some(value),
+        }
+    }
+
+    fn repeated(&mut self, code: &'static Code, first: Span, second: Span, what: &str) {
+        self.report(
+            Diagnostic::new(code, second, format!("{what} stands twice in one declaration"))
+                .here("one too many")
+                .label(first, "the first one"),
+        );
+    }
+
+    /// Reports a qualifier that cannot stand before this variable for the reason given.
+    pub(super) fn misplaced(&mut self, span: Span, message: impl Into<String>, help: &str) {
+        self.report(Diagnostic::new(&qualifiers::MISPLACED, span, message.into()).here("not allowed here").help(help));
+    }
+}

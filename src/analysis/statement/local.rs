@@ -1,0 +1,112 @@
+//! Local variables (§4.2, §4.3).
+
+use super::super::context::Analyzer;
+use super::super::qualifiers::{Place, Qualifiers};
+use super::super::scope::Entry;
+use crate::diagnostic::Diagnostic;
+use crate::diagnostic::codes::{qualifiers, types};
+use crate::hir::{Condition, ExprId, Local, LocalId, LocalKind, Stmt, StmtKind, TypeId, Value, VarRef};
+use crate::syntax::ast::{Declarator, VariableDecl};
+
+impl Analyzer<'_> {
+    /// `vec3 a = b, c;` inside of a function.
+    pub(super) fn local_variables(&mut self, declaration: &VariableDecl, out: &mut Vec<Stmt>) {
+        let record = self.qualifiers(&declaration.qualifiers, Place::Local);
+        let base = self.type_spec(&declaration.ty);
+        for declarator in &declaration.declarators {
+            let (local, initializer) = self.local_variable(declarator, base, &record, declaration);
+            if let Some(local) = local {
+                out.push(Stmt { kind: StmtKind::Local(local, initializer), span: declarator.name.span });
+            }
+        }
+    }
+
+    fn local_variable(
+        &mut self,
+        declarator: &Declarator,
+        base: TypeId,
+        record: &Qualifiers,
+        declaration: &VariableDecl,
+    ) -> (Option<LocalId>, Option<ExprId>) {
+        let name = declarator.name;
+        let good_name = self.check_name(name);
+        let ty = self.with_array(base, &declarator.array);
+        let ty = self.check_local_type(ty, declaration, declarator);
+        let constant = record.constant.is_some();
+        let (ty, initializer, value) = self.local_initializer(declarator, ty, constant);
+        let kind = if constant { LocalKind::Const } else { LocalKind::Variable };
+        let local = Local { name: self.name(name).to_owned(), ty, kind, value, span: name.span };
+        let id = self.add_local(local);
+        let entry = match id {
+            Some(id) if good_name && !ty.is_error() => Entry::Variable(VarRef::Local(id)),
+            _ => Entry::Poison,
+        };
+        self.enter(name, entry);
+        (id.filter(|_| !ty.is_error()), initializer)
+    }
+
+    fn check_local_type(&mut self, ty: TypeId, declaration: &VariableDecl, declarator: &Declarator) -> TypeId {
+        if ty == TypeId::VOID {
+            let span = declaration.ty.span;
+            self.report(Diagnostic::new(&types::VOID_VALUE, span, "a variable cannot be `void`").here("not a value"));
+            return TypeId::ERROR;
+        }
+        if self.types.contains_sampler(ty) {
+            self.report_sampler(ty, declaration.ty.span, declarator.name.span);
+            return TypeId::ERROR;
+        }
+        ty
+    }
+
+    fn local_initializer(
+        &mut self,
+        declarator: &Declarator,
+        ty: TypeId,
+        constant: bool,
+    ) -> (TypeId, Option<ExprId>, Option<Value>) {
+        let Some(initializer) = declarator.initializer else {
+            if constant && !ty.is_error() {
+                let name = self.name(declarator.name);
+                self.report(
+                    Diagnostic::new(
+                        &qualifiers::CONST_WITHOUT_VALUE,
+                        declarator.name.span,
+                        format!("`{name}` needs a value"),
+                    )
+                    .here("declared `const` and never given one")
+                    .help(format!("write `{name} = ...`")),
+                );
+                return (TypeId::ERROR, None, None);
+            }
+            return (ty, None, None);
+        };
+        let expr = self.initializer(initializer, ty);
+        let (ty, expr) = self.fit_initializer(declarator, ty, expr);
+        if self.ty(expr).is_error() {
+            return (if constant { TypeId::ERROR } else { ty }, None, None);
+        }
+        if !constant {
+            return (ty, Some(expr), None);
+        }
+        let value = self.evaluate(expr);
+        if value.is_none() && !self.has_420pack() {
+            self.report(self.not_constant_value(expr, "the value of a constant"));
+            return (TypeId::ERROR, None, None);
+        }
+        (ty, Some(expr), value)
+    }
+
+    /// `while (bool b = f())`: declared anew in each round.
+    pub(super) fn condition_variable(&mut self, declaration: &VariableDecl) -> Condition {
+        let record = self.qualifiers(&declaration.qualifiers, Place::Local);
+        let base = self.type_spec(&declaration.ty);
+        let Some(declarator) = declaration.declarators.first() else {
+            return Condition { local: None, expr: self.poison(declaration.ty.span) };
+        };
+        let (local, initializer) = self.local_variable(declarator, base, &record, declaration);
+        let span = declarator.name.span;
+        let expr = initializer.unwrap_or_else(|| self.poison(span));
+        self.require_bool(expr, "the condition of a loop");
+        Condition { local, expr }
+    }
+}

@@ -1,0 +1,190 @@
+//! Statements (§6.2 to §6.4).
+//!
+//! A `for` becomes a block that holds its initializer and the loop, so that its variables live as long as it does.
+
+mod jump;
+mod local;
+mod switch;
+
+use super::context::Analyzer;
+use crate::diagnostic::Diagnostic;
+use crate::diagnostic::codes::{qualifiers, statements};
+use crate::hir::{Condition, ExprId, LoopKind, Stmt, StmtKind};
+use crate::source::Span;
+use crate::syntax::ast;
+
+/// How deep statements nest in a shader.
+pub(super) fn nesting(ast: &ast::Ast) -> u32 {
+    let bodies = ast.declarations.iter().filter_map(|declaration| match &declaration.kind {
+        ast::DeclarationKind::Function(_, body) => Some(body),
+        _ => None,
+    });
+    bodies.map(|body| nesting_of(body)).max().unwrap_or(0)
+}
+
+/// Recurses, with small frames, as deep as the parser has already gone.
+fn nesting_of<'s>(body: impl IntoIterator<Item = &'s ast::Stmt>) -> u32 {
+    body.into_iter().map(nesting_of_one).max().unwrap_or(0)
+}
+
+fn nesting_of_one(stmt: &ast::Stmt) -> u32 {
+    use ast::StmtKind as S;
+    let inner = match &stmt.kind {
+        S::Block(body) => nesting_of(body),
+        S::If { arms, otherwise } => nesting_of(arms.iter().map(|(_, body)| body).chain(otherwise.as_deref())),
+        S::Switch { body, .. } => nesting_of(body.iter().filter_map(|item| match item {
+            ast::SwitchItem::Stmt(stmt) => Some(stmt),
+            ast::SwitchItem::Case(..) | ast::SwitchItem::Default(_) => None,
+        })),
+        S::For { body, .. } | S::While { body, .. } | S::DoWhile { body, .. } => nesting_of_one(body),
+        _ => return 0,
+    };
+    inner.saturating_add(1)
+}
+
+impl Analyzer<'_> {
+    /// Statements in a scope that the caller has opened.
+    pub(super) fn statements(&mut self, body: &[ast::Stmt]) -> Vec<Stmt> {
+        let mut out = Vec::with_capacity(body.len());
+        for stmt in body {
+            self.statement(stmt, &mut out);
+        }
+        out
+    }
+
+    /// A statement as a body of its own, in a scope of its own.
+    fn scoped(&mut self, stmt: &ast::Stmt) -> Vec<Stmt> {
+        self.scopes.open();
+        let mut out = Vec::new();
+        match &stmt.kind {
+            // The braces of a body are the body's scope.
+            ast::StmtKind::Block(inner) => out = self.statements(inner),
+            _ => self.statement(stmt, &mut out),
+        }
+        self.scopes.close();
+        out
+    }
+
+    fn statement(&mut self, stmt: &ast::Stmt, out: &mut Vec<Stmt>) {
+        use ast::StmtKind as S;
+        let span = stmt.span;
+        let kind = match &stmt.kind {
+            S::Error | S::Empty => return,
+            S::Expr(expr) => StmtKind::Expr(self.expr(*expr)),
+            S::Variables(declaration) => return self.local_variables(declaration, out),
+            S::Precision { qualifier, ty } => return self.precision(qualifier, ty),
+            S::Requalify { qualifiers, .. } => return self.misplaced_requalify(qualifiers, span),
+            S::Prototype(header) => return self.misplaced_prototype(header),
+            S::Block(body) => {
+                self.scopes.open();
+                let body = self.statements(body);
+                self.scopes.close();
+                StmtKind::Block(body)
+            }
+            S::If { arms, otherwise } => self.selection(arms, otherwise.as_deref()),
+            S::Switch { selector, body } => self.switch(*selector, body),
+            S::For { init, condition, step, body } => self.for_loop(init, condition.as_ref(), *step, body, span),
+            S::While { condition, body } => self.while_loop(condition, body),
+            S::DoWhile { body, condition } => self.do_loop(body, *condition),
+            S::Continue => self.continue_jump(span),
+            S::Break => self.break_jump(span),
+            S::Return(value) => self.return_jump(*value, span),
+            S::Discard => self.discard_jump(span),
+        };
+        out.push(Stmt { kind, span });
+    }
+
+    fn selection(&mut self, arms: &[(ast::ExprId, ast::Stmt)], otherwise: Option<&ast::Stmt>) -> StmtKind {
+        let arms = arms
+            .iter()
+            .map(|(condition, body)| (self.condition(*condition, "the condition of `if`"), self.scoped(body)))
+            .collect();
+        let otherwise = otherwise.map_or_else(Vec::new, |body| self.scoped(body));
+        StmtKind::If { arms, otherwise }
+    }
+
+    fn condition(&mut self, id: ast::ExprId, what: &str) -> ExprId {
+        let expr = self.expr(id);
+        self.require_bool(expr, what);
+        expr
+    }
+
+    fn for_loop(
+        &mut self,
+        init: &ast::Stmt,
+        condition: Option<&ast::Condition>,
+        step: Option<ast::ExprId>,
+        body: &ast::Stmt,
+        span: Span,
+    ) -> StmtKind {
+        self.scopes.open();
+        let mut outer = Vec::new();
+        self.statement(init, &mut outer);
+        let condition = condition.map(|condition| self.loop_condition(condition));
+        let step = step.map(|step| self.expr(step));
+        let body = self.loop_body(body);
+        self.scopes.close();
+        outer.push(Stmt { kind: StmtKind::Loop { kind: LoopKind::For, condition, step, body }, span });
+        StmtKind::Block(outer)
+    }
+
+    fn while_loop(&mut self, condition: &ast::Condition, body: &ast::Stmt) -> StmtKind {
+        self.scopes.open();
+        let condition = Some(self.loop_condition(condition));
+        let body = self.loop_body(body);
+        self.scopes.close();
+        StmtKind::Loop { kind: LoopKind::While, condition, step: None, body }
+    }
+
+    fn do_loop(&mut self, body: &ast::Stmt, condition: ast::ExprId) -> StmtKind {
+        let body = self.loop_body(body);
+        let expr = self.condition(condition, "the condition of a loop");
+        StmtKind::Loop { kind: LoopKind::DoWhile, condition: Some(Condition { local: None, expr }), step: None, body }
+    }
+
+    fn loop_condition(&mut self, condition: &ast::Condition) -> Condition {
+        match condition {
+            ast::Condition::Expr(expr) => {
+                Condition { local: None, expr: self.condition(*expr, "the condition of a loop") }
+            }
+            ast::Condition::Declaration(declaration) => self.condition_variable(declaration),
+        }
+    }
+
+    fn loop_body(&mut self, body: &ast::Stmt) -> Vec<Stmt> {
+        // A `break` in the loop leaves the loop, even inside of a switch.
+        let switches = self.body.as_mut().map_or(0, |state| {
+            state.loops += 1;
+            std::mem::take(&mut state.switches)
+        });
+        let body = self.scoped(body);
+        if let Some(state) = self.body.as_mut() {
+            state.loops -= 1;
+            state.switches = switches;
+        }
+        body
+    }
+
+    fn misplaced_requalify(&mut self, list: &[ast::Qualifier], span: Span) {
+        let what = if list.iter().any(|qualifier| qualifier.kind == ast::QualifierKind::Invariant) {
+            "`invariant`"
+        } else {
+            "a declaration without a type"
+        };
+        self.report(
+            Diagnostic::new(&qualifiers::MISPLACED, span, format!("{what} may only stand at global scope"))
+                .here("inside of a function"),
+        );
+    }
+
+    fn misplaced_prototype(&mut self, header: &ast::FunctionHeader) {
+        self.report(
+            Diagnostic::new(
+                &statements::NESTED_FUNCTION,
+                header.span,
+                "a function may only be declared at global scope",
+            )
+            .here("inside of a function"),
+        );
+    }
+}

@@ -1,0 +1,142 @@
+//! `switch` (§6.2).
+
+use super::super::context::Analyzer;
+use crate::diagnostic::Diagnostic;
+use crate::diagnostic::codes::statements;
+use crate::hir::{Case, CaseLabel, ExprId, ScalarValue, StmtKind, TypeId};
+use crate::source::Span;
+use crate::syntax::ast::{self, SwitchItem};
+
+impl Analyzer<'_> {
+    pub(super) fn switch(&mut self, selector: ast::ExprId, body: &[SwitchItem]) -> StmtKind {
+        let selector = self.expr(selector);
+        self.check_selector(selector);
+        if let Some(state) = self.body.as_mut() {
+            state.switches += 1;
+        }
+        self.scopes.open();
+        let cases = self.cases(self.ty(selector), body);
+        self.scopes.close();
+        if let Some(state) = self.body.as_mut() {
+            state.switches -= 1;
+        }
+        StmtKind::Switch { selector, cases }
+    }
+
+    fn check_selector(&mut self, selector: ExprId) {
+        let ty = self.ty(selector);
+        if ty == TypeId::INT || ty == TypeId::UINT || ty.is_error() {
+            return;
+        }
+        let (name, span) = (self.type_name(ty), self.span(selector));
+        let help = self.conversion_help(ty, TypeId::INT, span);
+        self.report(
+            Diagnostic::new(&statements::SWITCH_TYPE, span, format!("`switch` wants an integer, not a `{name}`"))
+                .here(format!("this is a `{name}`"))
+                .maybe_help(help),
+        );
+    }
+
+    /// Groups labels and statements. A label behind a statement opens a new case.
+    fn cases(&mut self, selector: TypeId, body: &[SwitchItem]) -> Vec<Case> {
+        let mut cases: Vec<Case> = Vec::new();
+        let mut seen: Vec<(CaseLabel, Span)> = Vec::new();
+        let mut last_label = None;
+        let mut reported_first = false;
+        for item in body {
+            let label = match item {
+                SwitchItem::Case(value, span) => {
+                    last_label = Some(*span);
+                    self.case_label(selector, *value).map(|label| (label, *span))
+                }
+                SwitchItem::Default(span) => {
+                    last_label = Some(*span);
+                    Some((CaseLabel::Default, *span))
+                }
+                SwitchItem::Stmt(stmt) => {
+                    last_label = None;
+                    if let Some(case) = cases.last_mut() {
+                        let mut body = std::mem::take(&mut case.body);
+                        self.statement(stmt, &mut body);
+                        if let Some(case) = cases.last_mut() {
+                            case.body = body;
+                        }
+                    } else if !reported_first {
+                        reported_first = true;
+                        self.report(
+                            Diagnostic::new(&statements::BEFORE_CASE, stmt.span, "a statement before the first `case`")
+                                .here("no label leads here"),
+                        );
+                    }
+                    continue;
+                }
+            };
+            if cases.last().is_none_or(|case| !case.body.is_empty()) {
+                cases.push(Case { labels: Vec::new(), body: Vec::new() });
+            }
+            if let (Some((label, span)), Some(case)) = (label, cases.last_mut()) {
+                case.labels.push(label);
+                self.check_repeated(&mut seen, label, span);
+            }
+        }
+        if let Some(span) = last_label {
+            self.report(
+                Diagnostic::new(&statements::EMPTY_CASE, span, "a label at the end of a `switch` without a statement")
+                    .here("nothing follows")
+                    .help("write `break;` behind it"),
+            );
+        }
+        cases
+    }
+
+    fn case_label(&mut self, selector: TypeId, value: ast::ExprId) -> Option<CaseLabel> {
+        let id = self.expr(value);
+        let (ty, span) = (self.ty(id), self.span(id));
+        if ty.is_error() {
+            return None;
+        }
+        if ty != TypeId::INT && ty != TypeId::UINT {
+            let name = self.type_name(ty);
+            self.report(
+                Diagnostic::new(&statements::SWITCH_TYPE, span, format!("a case is an integer, not a `{name}`"))
+                    .here(format!("this is a `{name}`")),
+            );
+            return None;
+        }
+        let Some(value) = self.evaluate(id) else {
+            self.report(self.not_constant(id, "a case"));
+            return None;
+        };
+        if ty != selector && (selector == TypeId::INT || selector == TypeId::UINT) {
+            let (name, wanted) = (self.type_name(ty), self.type_name(selector));
+            self.report(
+                Diagnostic::new(
+                    &statements::SWITCH_TYPE,
+                    span,
+                    format!("a case of type `{name}` in a `switch` over a `{wanted}`"),
+                )
+                .here(format!("this is a `{name}`"))
+                .help(format!("write `{wanted}(...)` around it")),
+            );
+            return None;
+        }
+        match value.scalars.first() {
+            Some(&ScalarValue::Int(value)) => Some(CaseLabel::Value(value as u32)),
+            Some(&ScalarValue::Uint(value)) => Some(CaseLabel::Value(value)),
+            _ => None,
+        }
+    }
+
+    fn check_repeated(&mut self, seen: &mut Vec<(CaseLabel, Span)>, label: CaseLabel, span: Span) {
+        if let Some((_, first)) = seen.iter().find(|(earlier, _)| *earlier == label) {
+            let what = if label == CaseLabel::Default { "`default` stands" } else { "this case stands" };
+            self.report(
+                Diagnostic::new(&statements::REPEATED_CASE, span, format!("{what} twice in one `switch`"))
+                    .here("again here")
+                    .label(*first, "first here"),
+            );
+            return;
+        }
+        seen.push((label, span));
+    }
+}

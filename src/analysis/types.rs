@@ -1,0 +1,183 @@
+//! Types as they are written to types (§4.1), and the sizes of arrays (§4.1.9).
+
+use super::context::Analyzer;
+use super::keywords;
+use super::scope::Entry;
+use crate::diagnostic::codes::{names, types};
+use crate::diagnostic::{Diagnostic, did_you_mean};
+use crate::hir::{ArraySize, ScalarValue, Type, TypeId};
+use crate::source::Span;
+use crate::syntax::ast::{ArrayDim, ExprId as AstExprId, Ident, Qualifier, TypeBase, TypeSpec};
+use crate::syntax::token::Symbol;
+
+/// The largest array that is taken: what is longer cannot be bound by any target and would only cost memory.
+const MAX_ARRAY_SIZE: u32 = 1 << 16;
+
+impl Analyzer<'_> {
+    /// The type that a specifier names, with the arrays behind it. A struct that it declares is entered.
+    pub(super) fn type_spec(&mut self, spec: &TypeSpec) -> TypeId {
+        let base = match &spec.base {
+            TypeBase::Error => TypeId::ERROR,
+            TypeBase::Void => TypeId::VOID,
+            TypeBase::Keyword(symbol) => self.keyword_type(*symbol, spec.span),
+            TypeBase::Named(name) => self.named_type(*name),
+            TypeBase::Struct(declaration) => self.structure(declaration, spec.span),
+        };
+        self.with_array(base, &spec.array)
+    }
+
+    /// An array of `base` for each of the brackets; 1.50 has one-dimensional arrays only.
+    pub(super) fn with_array(&mut self, base: TypeId, dims: &[ArrayDim]) -> TypeId {
+        let mut ty = base;
+        for dim in dims.iter().rev() {
+            let size = self.array_size(dim);
+            if ty == TypeId::VOID {
+                self.report(Diagnostic::new(&types::VOID_VALUE, dim.span, "an array of `void` holds nothing"));
+                return TypeId::ERROR;
+            }
+            if let Type::Array(..) = self.types.get(ty) {
+                let name = self.type_name(ty);
+                self.report(
+                    Diagnostic::new(
+                        &types::ARRAY_OF_ARRAYS,
+                        dim.span,
+                        format!("an array of `{name}` is an array of arrays"),
+                    )
+                    .here("a second dimension")
+                    .help("put the inner array into a struct, or compute one index from two"),
+                );
+                return TypeId::ERROR;
+            }
+            ty = match size {
+                Some(size) if !ty.is_error() => self.types.array(ty, size),
+                _ => TypeId::ERROR,
+            };
+        }
+        ty
+    }
+
+    /// The size between brackets; `None` if it was in error.
+    fn array_size(&mut self, dim: &ArrayDim) -> Option<ArraySize> {
+        match dim.size {
+            Some(size) => self.constant_size(size).map(ArraySize::Sized),
+            None => Some(ArraySize::Unsized),
+        }
+    }
+
+    /// An integral constant expression greater than zero.
+    fn constant_size(&mut self, size: AstExprId) -> Option<u32> {
+        let id = self.expr(size);
+        let (ty, span) = (self.ty(id), self.span(id));
+        if ty.is_error() {
+            return None;
+        }
+        if ty != TypeId::INT && ty != TypeId::UINT {
+            let name = self.type_name(ty);
+            self.report(
+                Diagnostic::new(&types::ARRAY_SIZE, span, format!("an array's size is an integer, not a `{name}`"))
+                    .here(format!("this is a `{name}`")),
+            );
+            return None;
+        }
+        let Some(value) = self.evaluate(id) else {
+            self.report(self.not_constant(id, "an array's size"));
+            return None;
+        };
+        let size = match value.scalars.first() {
+            Some(&ScalarValue::Int(size)) => i64::from(size),
+            Some(&ScalarValue::Uint(size)) => i64::from(size),
+            _ => 0,
+        };
+        if size <= 0 {
+            self.report(
+                Diagnostic::new(&types::ARRAY_SIZE, span, format!("an array of {size} elements is none"))
+                    .here("the size must be greater than zero"),
+            );
+            return None;
+        }
+        if size > i64::from(MAX_ARRAY_SIZE) {
+            self.report(
+                Diagnostic::new(&types::ARRAY_SIZE, span, format!("an array of {size} elements is too large"))
+                    .here(format!("at most {MAX_ARRAY_SIZE} can be bound anywhere")),
+            );
+            return None;
+        }
+        u32::try_from(size).ok()
+    }
+
+    /// `precision highp float;` (§4.5.3): nothing follows from it.
+    pub(super) fn precision(&mut self, qualifier: &Qualifier, spec: &TypeSpec) {
+        let ty = self.type_spec(spec);
+        if ty.is_error() || (ty == TypeId::INT || ty == TypeId::FLOAT) {
+            return;
+        }
+        let name = self.type_name(ty);
+        self.report(
+            Diagnostic::new(&types::PRECISION_TYPE, spec.span, format!("`{name}` has no default precision"))
+                .here("only `int` and `float` have one")
+                .label(qualifier.span, "the precision is set here"),
+        );
+    }
+
+    fn keyword_type(&mut self, symbol: Symbol, span: Span) -> TypeId {
+        let known = match self.keyword_types.get(&symbol) {
+            Some(&known) => known,
+            None => {
+                let name = self.ast.names.spelling(symbol);
+                let ty = keywords::type_of(name, self.ast.version, self.extensions);
+                let known = ty.map(|ty| self.types.intern(ty));
+                // What is unknown here may be known behind an `#extension` line.
+                if known.is_some() {
+                    self.keyword_types.insert(symbol, known);
+                }
+                known
+            }
+        };
+        known.unwrap_or_else(|| {
+            let name = self.ast.names.spelling(symbol);
+            self.report(Diagnostic::new(
+                &names::UNKNOWN_TYPE,
+                span,
+                format!("`{name}` is no type of this language version"),
+            ));
+            TypeId::ERROR
+        })
+    }
+
+    fn named_type(&mut self, name: Ident) -> TypeId {
+        let spelling = self.name(name);
+        let found = self.scopes.find(name.symbol);
+        match found.map(|binding| binding.entry) {
+            Some(Entry::Struct(ty)) => ty,
+            Some(Entry::Poison) => TypeId::ERROR,
+            Some(entry) => {
+                let what = if matches!(entry, Entry::Functions(_)) { "a function" } else { "a variable" };
+                let declared = found.map_or(Span::default(), |binding| binding.span);
+                self.report(
+                    Diagnostic::new(&names::UNKNOWN_TYPE, name.span, format!("`{spelling}` is {what}, not a type"))
+                        .here("a type is wanted here")
+                        .label(declared, format!("declared as {what} here")),
+                );
+                TypeId::ERROR
+            }
+            None => {
+                let help = self.nearest_type(spelling).map(|near| format!("did you mean `{near}`?"));
+                self.report(
+                    Diagnostic::new(&names::UNKNOWN_TYPE, name.span, format!("there is no type `{spelling}`"))
+                        .here("not declared before this place")
+                        .maybe_help(help),
+                );
+                TypeId::ERROR
+            }
+        }
+    }
+
+    fn nearest_type(&self, spelling: &str) -> Option<String> {
+        let structs = self.scopes.names().filter(|(_, binding)| matches!(binding.entry, Entry::Struct(_)));
+        let mut known: Vec<&str> = structs.map(|(symbol, _)| self.ast.names.spelling(symbol)).collect();
+        for name in keywords::names() {
+            known.push(name);
+        }
+        did_you_mean(spelling, known).map(str::to_owned)
+    }
+}

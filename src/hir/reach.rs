@@ -1,0 +1,133 @@
+//! Static use (§3.8): which functions `main` can reach, and which globals those name and write.
+
+use super::{ExprId, ExprKind, FunctionId, GlobalId, ParamMode, Shader, Stmt, StmtKind, VarRef};
+use crate::builtin::BuiltinFunction;
+
+/// What a function or an initializer mentions.
+#[derive(Default)]
+struct Mentions {
+    globals: Vec<GlobalId>,
+    written: Vec<GlobalId>,
+    calls: Vec<FunctionId>,
+}
+
+impl Shader {
+    /// Sets [`Function::reachable`](super::Function::reachable), [`Global::used`](super::Global::used) and
+    /// [`Global::written`](super::Global::written) from the bodies. To be called again when bodies have changed.
+    pub fn mark_static_use(&mut self) {
+        self.functions.iter_mut().for_each(|function| function.reachable = false);
+        for global in &mut self.globals {
+            (global.used, global.written) = (false, false);
+        }
+        let mut functions: Vec<FunctionId> = self.main.into_iter().collect();
+        let mut globals: Vec<GlobalId> = Vec::new();
+        loop {
+            let mentions = if let Some(id) = functions.pop() {
+                match self.functions.get_mut(id.index()) {
+                    Some(function) if !function.reachable => function.reachable = true,
+                    _ => continue,
+                }
+                self.mentions_of_function(id)
+            } else if let Some(id) = globals.pop() {
+                let Some(initializer) = self.global(id).initializer else { continue };
+                let mut mentions = Mentions::default();
+                self.mentions_of_expr(initializer, &mut mentions);
+                mentions
+            } else {
+                return;
+            };
+            self.apply(mentions, &mut functions, &mut globals);
+        }
+    }
+
+    fn apply(&mut self, mentions: Mentions, functions: &mut Vec<FunctionId>, globals: &mut Vec<GlobalId>) {
+        functions.extend(mentions.calls);
+        for id in mentions.written {
+            if let Some(global) = self.globals.get_mut(id.index()) {
+                global.written = true;
+            }
+        }
+        for id in mentions.globals {
+            match self.globals.get_mut(id.index()) {
+                Some(global) if !global.used => global.used = true,
+                _ => continue,
+            }
+            globals.push(id);
+        }
+    }
+
+    fn mentions_of_function(&self, id: FunctionId) -> Mentions {
+        let mut mentions = Mentions::default();
+        for root in self.roots(self.function(id).body.as_deref().unwrap_or(&[])) {
+            self.mentions_of_expr(root, &mut mentions);
+        }
+        mentions
+    }
+
+    fn mentions_of_expr(&self, root: ExprId, mentions: &mut Mentions) {
+        let mut pending = vec![root];
+        while let Some(id) = pending.pop() {
+            let kind = &self.expr(id).kind;
+            match kind {
+                ExprKind::Var(VarRef::Global(global)) => mentions.globals.push(*global),
+                ExprKind::Assign(_, target, _) | ExprKind::IncDec(_, target) => self.mention_write(*target, mentions),
+                ExprKind::Call(function, arguments) => {
+                    mentions.calls.push(*function);
+                    for (index, &argument) in arguments.iter().enumerate() {
+                        if matches!(self.function(*function).param_mode(index), ParamMode::Out | ParamMode::Inout) {
+                            self.mention_write(argument, mentions);
+                        }
+                    }
+                }
+                ExprKind::BuiltinCall(BuiltinFunction::Modf, arguments) => {
+                    if let Some(&whole) = arguments.get(1) {
+                        self.mention_write(whole, mentions);
+                    }
+                }
+                _ => {}
+            }
+            pending.extend(kind.children());
+        }
+    }
+
+    fn mention_write(&self, target: ExprId, mentions: &mut Mentions) {
+        if let Some(VarRef::Global(global)) = self.root_variable(target) {
+            mentions.written.push(global);
+        }
+    }
+
+    /// The expressions that stand directly in statements, in the order of the text.
+    pub fn roots(&self, body: &[Stmt]) -> Vec<ExprId> {
+        let mut roots = Vec::new();
+        collect_roots(body, &mut roots);
+        roots
+    }
+}
+
+/// Recurses into blocks, which nest at most as deep as the parser allows.
+fn collect_roots(body: &[Stmt], roots: &mut Vec<ExprId>) {
+    for stmt in body {
+        match &stmt.kind {
+            StmtKind::Expr(expr) => roots.push(*expr),
+            StmtKind::Local(_, initializer) | StmtKind::Return(initializer) => roots.extend(*initializer),
+            StmtKind::Block(body) => collect_roots(body, roots),
+            StmtKind::If { arms, otherwise } => {
+                for (condition, body) in arms {
+                    roots.push(*condition);
+                    collect_roots(body, roots);
+                }
+                collect_roots(otherwise, roots);
+            }
+            StmtKind::Switch { selector, cases } => {
+                roots.push(*selector);
+                cases.iter().for_each(|case| collect_roots(&case.body, roots));
+            }
+            StmtKind::Loop { condition, step, body, .. } => {
+                roots.extend(condition.as_ref().map(|condition| condition.expr));
+                roots.extend(*step);
+                collect_roots(body, roots);
+            }
+            StmtKind::Break | StmtKind::Continue | StmtKind::Discard => {}
+        }
+    }
+}
