@@ -7,10 +7,12 @@
 //! *Holds:* a phase reports and goes on; nothing here prints.
 
 pub mod codes;
+mod levels;
 mod sink;
 pub mod write;
 
 pub use codes::{Code, Example};
+pub use levels::{Level, Levels};
 pub use sink::Diagnostics;
 
 use crate::source::Span;

@@ -1,0 +1,243 @@
+//! Arguments that several commands share.
+
+use super::exit::Failure;
+use super::stages::StageArg;
+use crate::compiler::Options;
+use crate::diagnostic::{Code, Level, Levels, Severity, codes, did_you_mean};
+use crate::emit::{ClipZ, Conventions, SpirvEnv, WindowOrigin};
+use clap::{Args, ValueEnum};
+use std::path::PathBuf;
+
+/// A format of diagnostics.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(super) enum DiagnosticFormat {
+    /// Excerpts with carets.
+    #[default]
+    Human,
+    /// One JSON array.
+    Json,
+    /// SARIF 2.1.0.
+    Sarif,
+    /// Workflow commands of GitHub Actions.
+    Github,
+}
+
+/// How sources are read.
+#[derive(Args, Clone, Debug)]
+#[command(next_help_heading = "Sources")]
+pub(super) struct SourceArgs {
+    /// Defines a macro before the first line (without a value: 1)
+    #[arg(short = 'D', value_name = "NAME[=VALUE]", value_parser = parse_define)]
+    pub(super) defines: Vec<(String, String)>,
+    /// Looks for included files there
+    #[arg(short = 'I', value_name = "DIR")]
+    pub(super) include_dirs: Vec<PathBuf>,
+    /// The stage of standard input, and of files whose name does not tell it (of a single file in any case)
+    #[arg(long, value_enum)]
+    pub(super) stage: Option<StageArg>,
+    /// Files that make one program together (repeatable)
+    #[arg(long = "program", value_name = "A.vert,B.frag", value_delimiter = ';')]
+    pub(super) programs: Vec<String>,
+    /// Makes errors of what the specification forbids and every driver forgives
+    #[arg(long)]
+    pub(super) strict: bool,
+}
+
+impl SourceArgs {
+    /// The options of the compiler.
+    pub(super) fn options(&self, bindings: &BindingArgs) -> Options {
+        Options {
+            defines: self.defines.clone(),
+            strict: self.strict,
+            attribute_locations: bindings.attributes.clone(),
+            frag_data_locations: bindings.frag_data.clone(),
+        }
+    }
+}
+
+/// What is said of findings.
+#[derive(Args, Clone, Debug)]
+#[command(next_help_heading = "Diagnostics")]
+pub(super) struct LevelArgs {
+    /// Drops warnings of that code
+    #[arg(long, value_name = "CODE", value_delimiter = ',')]
+    allow: Vec<String>,
+    /// Makes warnings of that code
+    #[arg(long, value_name = "CODE", value_delimiter = ',')]
+    warn: Vec<String>,
+    /// Makes errors of that code, or of all `warnings`
+    #[arg(long, value_name = "CODE|warnings", value_delimiter = ',')]
+    deny: Vec<String>,
+    /// The format of diagnostics
+    #[arg(long, value_enum, value_name = "FORMAT", default_value_t)]
+    pub(super) diagnostics: DiagnosticFormat,
+}
+
+impl LevelArgs {
+    /// The levels, if all codes are known and no code has two.
+    pub(super) fn levels(&self) -> Result<Levels, Failure> {
+        let mut levels = Levels::default();
+        let lists = [(Level::Allow, "--allow", &self.allow), (Level::Warn, "--warn", &self.warn), (Level::Deny, "--deny", &self.deny)];
+        for (level, flag, keys) in lists {
+            for key in keys {
+                set_level(&mut levels, level, key).map_err(|(message, help)| {
+                    let failure = Failure::usage(format!("{flag}: {message}"));
+                    if let Some(help) = help { failure.help(help) } else { failure }
+                })?;
+            }
+        }
+        Ok(levels)
+    }
+}
+
+/// Gives one code, or all `warnings`, a level; else says what is wrong and what may have been meant.
+pub(super) fn set_level(levels: &mut Levels, level: Level, key: &str) -> Result<(), (String, Option<String>)> {
+    if key == "warnings" {
+        if level == Level::Deny {
+            levels.deny_warnings();
+            return Ok(());
+        }
+        return Err(("`warnings` as a whole can only be denied".to_owned(), None));
+    }
+    let Some(code) = codes::find(key) else {
+        return Err((format!("there is no code `{key}`"), nearest_code(key).map(|near| format!("did you mean `{near}`?"))));
+    };
+    if code.severity == Severity::Error {
+        return Err((format!("{code} ({}) is an error, which no level changes", code.name), None));
+    }
+    if levels.get(code).is_some_and(|given| given != level) {
+        return Err((format!("{code} ({}) has another level already", code.name), None));
+    }
+    levels.set(code, level);
+    Ok(())
+}
+
+/// The code or name of a code that is nearest to `key`.
+pub(super) fn nearest_code(key: &str) -> Option<&'static str> {
+    let names = || codes::all().flat_map(|code: &'static Code| [code.id, code.name]);
+    let letters = did_you_mean(&key.to_ascii_uppercase(), codes::all().map(|code| code.id));
+    did_you_mean(key, names()).or(letters).or_else(|| {
+        // Part of a name: `undeclared` for `undeclared-identifier`.
+        let lower = key.to_ascii_lowercase();
+        codes::all().map(|code| code.name).find(|name| lower.len() >= 3 && name.contains(lower.as_str()))
+    })
+}
+
+/// Places by name, as `glBindAttribLocation` and `glBindFragDataLocation` give them.
+#[derive(Args, Clone, Debug, Default)]
+#[command(next_help_heading = "Bindings")]
+pub(super) struct BindingArgs {
+    /// Binds a vertex attribute to a location (glBindAttribLocation)
+    #[arg(long = "bind-attrib", value_name = "NAME=LOCATION", value_parser = parse_binding)]
+    attributes: Vec<(String, u32)>,
+    /// Binds a fragment output to a color number (glBindFragDataLocation)
+    #[arg(long = "bind-frag-data", value_name = "NAME=COLOR_NUMBER", value_parser = parse_binding)]
+    frag_data: Vec<(String, u32)>,
+}
+
+/// What the host of the emitted code expects.
+#[derive(Args, Clone, Debug)]
+#[command(next_help_heading = "Conventions")]
+pub(super) struct ConventionArgs {
+    /// The range of clip space z that the target clips to
+    #[arg(long, value_enum, default_value_t)]
+    clip_z: ClipZArg,
+    /// Where row 0 of the framebuffer is (lower-left flips in the vertex stage)
+    #[arg(long, value_enum, default_value_t)]
+    window_origin: WindowOriginArg,
+    /// Whether SPIR-V is written for y up (as wgpu arranges) or for a plain Vulkan viewport
+    #[arg(long, value_enum, default_value_t)]
+    spirv_env: SpirvEnvArg,
+    /// How many clip distances are enabled (default: all that are written)
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=8))]
+    clip_distances: Option<u32>,
+    /// Lets gl_PointSize count; without it points are one pixel wide
+    #[arg(long)]
+    program_point_size: bool,
+}
+
+impl ConventionArgs {
+    /// The conventions.
+    pub(super) fn conventions(&self, debug_lines: bool) -> Conventions {
+        Conventions {
+            clip_z: match self.clip_z {
+                ClipZArg::ZeroToOne => ClipZ::ZeroToOne,
+                ClipZArg::MinusOneToOne => ClipZ::MinusOneToOne,
+            },
+            window_origin: match self.window_origin {
+                WindowOriginArg::UpperLeft => WindowOrigin::UpperLeft,
+                WindowOriginArg::LowerLeft => WindowOrigin::LowerLeft,
+            },
+            spirv_env: match self.spirv_env {
+                SpirvEnvArg::Webgpu => SpirvEnv::Webgpu,
+                SpirvEnvArg::Vulkan => SpirvEnv::Vulkan,
+            },
+            clip_distances: self.clip_distances,
+            program_point_size: self.program_point_size,
+            debug_lines,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+enum ClipZArg {
+    /// [0, w]: WebGPU, Vulkan, Metal, Direct3D
+    #[default]
+    ZeroToOne,
+    /// [-w, w]: OpenGL
+    MinusOneToOne,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+enum WindowOriginArg {
+    /// No flip: upright on the screen
+    #[default]
+    UpperLeft,
+    /// Flipped, so that a texture rendered to holds OpenGL's rows
+    LowerLeft,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+enum SpirvEnvArg {
+    /// y up in normalized device coordinates
+    #[default]
+    Webgpu,
+    /// y down: a positive viewport
+    Vulkan,
+}
+
+fn parse_define(text: &str) -> Result<(String, String), String> {
+    let (name, value) = text.split_once('=').unwrap_or((text, "1"));
+    let starts_well = name.starts_with(|first: char| first.is_ascii_alphabetic() || first == '_');
+    if !starts_well || !name.chars().all(|character| character.is_ascii_alphanumeric() || character == '_') {
+        return Err(format!("`{name}` is no name for a macro"));
+    }
+    if value.contains(['\n', '\r']) {
+        return Err("a macro's value is one line".to_owned());
+    }
+    Ok((name.to_owned(), value.to_owned()))
+}
+
+fn parse_binding(text: &str) -> Result<(String, u32), String> {
+    let (name, number) = text.split_once('=').ok_or("write NAME=NUMBER")?;
+    if name.is_empty() {
+        return Err("the name is missing".to_owned());
+    }
+    let number = number.parse().map_err(|_| format!("`{number}` is no number from 0"))?;
+    Ok((name.to_owned(), number))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{parse_binding, parse_define};
+
+    #[test]
+    fn defines_and_bindings() {
+        assert_eq!(parse_define("A"), Ok(("A".into(), "1".into())));
+        assert_eq!(parse_define("A=b=c"), Ok(("A".into(), "b=c".into())));
+        assert_eq!(parse_define("A="), Ok(("A".into(), String::new())));
+        assert!(parse_define("1A").is_err() && parse_define("").is_err() && parse_define("A=\n#x").is_err());
+        assert_eq!(parse_binding("pv=0"), Ok(("pv".into(), 0)));
+        assert!(parse_binding("pv").is_err() && parse_binding("=1").is_err() && parse_binding("pv=-1").is_err());
+    }
+}

@@ -1,0 +1,99 @@
+//! [`Console`]: the only place where anything is printed.
+//!
+//! *Holds:* results go to standard output, everything else to standard error. A reader that went away ends the program
+//! in silence; any other failure to write is told.
+
+use super::exit::Failure;
+use clap::ValueEnum;
+use std::io::{self, IsTerminal, Write};
+
+/// When to color.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(super) enum ColorChoice {
+    /// If the output is a terminal and `NO_COLOR` is not set.
+    #[default]
+    Auto,
+    /// Always.
+    Always,
+    /// Never.
+    Never,
+}
+
+/// Standard output and standard error with the user's wishes about them.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Console {
+    quiet: bool,
+    color: ColorChoice,
+}
+
+impl Console {
+    /// A console with `--quiet` and `--color` as given.
+    pub(super) fn new(quiet: bool, color: ColorChoice) -> Self {
+        Self { quiet, color }
+    }
+
+    /// Whether progress and summaries are to be left out.
+    pub(super) fn is_quiet(&self) -> bool {
+        self.quiet
+    }
+
+    /// Whether standard error is a terminal that a person looks at.
+    pub(super) fn is_watched(&self) -> bool {
+        !self.quiet && io::stderr().is_terminal() && std::env::var_os("TERM").is_none_or(|term| term != "dumb")
+    }
+
+    /// Whether what goes to standard output is to be colored.
+    pub(super) fn colors_output(&self) -> bool {
+        self.colors(&io::stdout())
+    }
+
+    /// Whether what goes to standard error is to be colored.
+    pub(super) fn colors_messages(&self) -> bool {
+        self.colors(&io::stderr())
+    }
+
+    fn colors(&self, stream: &impl IsTerminal) -> bool {
+        match self.color {
+            ColorChoice::Always => true,
+            ColorChoice::Never => false,
+            ColorChoice::Auto => {
+                let refused = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty())
+                    || std::env::var_os("TERM").is_some_and(|term| term == "dumb");
+                stream.is_terminal() && !refused
+            }
+        }
+    }
+
+    /// Writes a result to standard output.
+    pub(super) fn output(&self, text: &str) -> Result<(), Failure> {
+        let mut stdout = io::stdout().lock();
+        match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
+            Ok(()) => Ok(()),
+            Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Err(Failure::OutputClosed),
+            Err(error) => Err(Failure::usage(format!("cannot write to standard output: {error}"))),
+        }
+    }
+
+    /// Writes to standard error. Where that fails there is nobody left to tell.
+    pub(super) fn message(&self, text: &str) {
+        let mut stderr = io::stderr().lock();
+        let _ = stderr.write_all(text.as_bytes()).and_then(|()| stderr.flush());
+    }
+
+    /// Writes a line to standard error that `--quiet` leaves out.
+    pub(super) fn remark(&self, text: &str) {
+        if !self.quiet {
+            self.message(&format!("{text}\n"));
+        }
+    }
+
+    /// Tells of a failure.
+    pub(super) fn failure(&self, message: &str, help: Option<&str>) {
+        let (red, bold, off) = if self.colors_messages() { ("\x1b[1;31m", "\x1b[1m", "\x1b[0m") } else { ("", "", "") };
+        let mut text = format!("{red}error{off}{bold}: {message}{off}\n");
+        if let Some(help) = help {
+            text.push_str(&format!("  help: {help}\n"));
+        }
+        self.message(&text);
+    }
+}

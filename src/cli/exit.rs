@@ -1,0 +1,79 @@
+//! How a command ends: exit codes, and failures that are no diagnostics of a source.
+
+use crate::diagnostic::Diagnostic;
+use crate::diagnostic::codes::general;
+use std::process::ExitCode;
+
+/// The exit codes, from the best to the worst; the worst that applies wins.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Exit {
+    /// 0: done, nothing wrong found.
+    #[default]
+    Ok,
+    /// 1: the content of an input has errors, or a check did not hold.
+    Content,
+    /// 2: wrong usage; a file is missing, unreadable, a folder, or cannot be written.
+    Usage,
+    /// 3: the machine lacks something.
+    Machine,
+}
+
+/// Codes of errors about files rather than their content.
+static FILE_CODES: &[&str] =
+    &[general::FILE_NOT_FOUND.id, general::FILE_UNREADABLE.id, general::FILE_IS_FOLDER.id];
+
+impl Exit {
+    /// What a list of findings comes to.
+    pub(super) fn of<'a>(diagnostics: impl IntoIterator<Item = &'a Diagnostic>) -> Self {
+        diagnostics.into_iter().filter(|diagnostic| diagnostic.is_error()).map(Self::of_error).max().unwrap_or_default()
+    }
+
+    fn of_error(error: &Diagnostic) -> Self {
+        if FILE_CODES.contains(&error.code.id) { Self::Usage } else { Self::Content }
+    }
+}
+
+impl From<Exit> for ExitCode {
+    fn from(exit: Exit) -> Self {
+        Self::from(exit as u8)
+    }
+}
+
+/// Why a command cannot go on.
+#[derive(Debug, PartialEq, Eq)]
+pub(super) enum Failure {
+    /// Something to tell the user.
+    Told {
+        /// The exit code.
+        exit: Exit,
+        /// What went wrong, without a full stop.
+        message: String,
+        /// What to do.
+        help: Option<String>,
+    },
+    /// Nobody reads standard output any more: end without a word.
+    OutputClosed,
+}
+
+impl Failure {
+    /// Wrong usage, or a file that cannot be read or written.
+    pub(super) fn usage(message: impl Into<String>) -> Self {
+        Self::new(Exit::Usage, message)
+    }
+
+    /// A failure with any exit code.
+    pub(super) fn new(exit: Exit, message: impl Into<String>) -> Self {
+        Self::Told { exit, message: message.into(), help: None }
+    }
+
+    /// Says what to do.
+    pub(super) fn help(self, help: impl Into<String>) -> Self {
+        match self {
+            Self::Told { exit, message, .. } => Self::Told { exit, message, help: Some(help.into()) },
+            Self::OutputClosed => self,
+        }
+    }
+}
+
+/// What a command comes to.
+pub(super) type Outcome = Result<Exit, Failure>;

@@ -1,0 +1,195 @@
+//! Files: read whole with a clear word about each thing that can be wrong, written whole or not at all.
+
+use super::exit::Failure;
+use crate::diagnostic::codes::general;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::source::{SourceMap, Span};
+use std::fs;
+use std::io::{self, Read, Write};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// The largest file that is read at all. Sources have a smaller limit of their own, told by its own code.
+const MAX_BYTES: u64 = 64 << 20;
+
+/// Why a file cannot be had: a code and a sentence that names the file.
+#[derive(Debug)]
+pub(super) struct ReadError {
+    /// The rule.
+    pub(super) code: &'static Code,
+    /// What is wrong.
+    pub(super) message: String,
+    /// What to do.
+    pub(super) help: Option<String>,
+}
+
+impl ReadError {
+    fn new(code: &'static Code, message: String) -> Self {
+        Self { code, message, help: None }
+    }
+
+    /// The error as a diagnostic about the whole file `name`.
+    pub(super) fn diagnostic(self, sources: &mut SourceMap, name: &str) -> Diagnostic {
+        let base = sources.add(name, "").map_or(0, |id| sources.file(id).base());
+        Diagnostic::new(self.code, Span::new(base, base), self.message).maybe_help(self.help)
+    }
+}
+
+/// Reads a source text. Bytes that are not UTF-8 become U+FFFD.
+pub(super) fn read_source(name: &str, path: Option<&Path>) -> Result<Arc<str>, ReadError> {
+    let bytes = match path {
+        Some(path) => read(name, path)?,
+        None => read_all(name, io::stdin().lock())?,
+    };
+    text_of(name, bytes)
+}
+
+/// Reads a file of any kind.
+pub(super) fn read(name: &str, path: &Path) -> Result<Vec<u8>, ReadError> {
+    let metadata = fs::metadata(path).map_err(|error| read_error(name, path, &error))?;
+    if metadata.is_dir() {
+        return Err(ReadError::new(&general::FILE_IS_FOLDER, format!("`{name}` is a folder, not a file")));
+    }
+    if metadata.len() > MAX_BYTES {
+        return Err(too_large(name));
+    }
+    let file = fs::File::open(path).map_err(|error| read_error(name, path, &error))?;
+    read_all(name, file)
+}
+
+fn read_all(name: &str, reader: impl Read) -> Result<Vec<u8>, ReadError> {
+    let mut bytes = Vec::new();
+    reader
+        .take(MAX_BYTES + 1)
+        .read_to_end(&mut bytes)
+        .map_err(|error| ReadError::new(&general::FILE_UNREADABLE, format!("cannot read `{name}`: {error}")))?;
+    if bytes.len() as u64 > MAX_BYTES { Err(too_large(name)) } else { Ok(bytes) }
+}
+
+fn too_large(name: &str) -> ReadError {
+    ReadError::new(&general::TOO_LARGE, format!("`{name}` is larger than {} MiB", MAX_BYTES >> 20))
+}
+
+fn read_error(name: &str, path: &Path, error: &io::Error) -> ReadError {
+    if error.kind() != io::ErrorKind::NotFound {
+        return ReadError::new(&general::FILE_UNREADABLE, format!("cannot read `{name}`: {error}"));
+    }
+    let mut not_found = ReadError::new(&general::FILE_NOT_FOUND, format!("there is no file `{name}`"));
+    not_found.help = nearest_file(path).map(|nearest| format!("there is `{}`", nearest.display()));
+    not_found
+}
+
+/// A file beside the missing one whose name is like its own.
+fn nearest_file(path: &Path) -> Option<PathBuf> {
+    let folder = path.parent()?;
+    let listed = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    let mut names: Vec<String> = fs::read_dir(listed)
+        .ok()?
+        .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
+        .take(10_000)
+        .collect();
+    names.sort();
+    let wanted = path.file_name()?.to_str()?;
+    crate::diagnostic::did_you_mean(wanted, names.iter().map(String::as_str)).map(|name| folder.join(name))
+}
+
+/// The text in `bytes`, if they are text.
+pub(super) fn text_of(name: &str, bytes: Vec<u8>) -> Result<Arc<str>, ReadError> {
+    if bytes.iter().all(u8::is_ascii_whitespace) {
+        let mut empty = ReadError::new(&general::EMPTY_SOURCE, format!("`{name}` is empty"));
+        empty.help = Some("a shader starts with a line `#version 150`".to_owned());
+        return Err(empty);
+    }
+    if let Some(looks_like) = binary(&bytes) {
+        let mut binary = ReadError::new(&general::BINARY_SOURCE, format!("`{name}` is binary, not text"));
+        binary.help = looks_like.map(str::to_owned);
+        return Err(binary);
+    }
+    Ok(match String::from_utf8(bytes) {
+        Ok(text) => text.into(),
+        Err(error) => String::from_utf8_lossy(error.as_bytes()).into(),
+    })
+}
+
+/// `None` for text, else what the bytes look like, if that can be told.
+fn binary(bytes: &[u8]) -> Option<Option<&'static str>> {
+    static MAGIC: &[(&[u8], &str)] = &[
+        (&[0x03, 0x02, 0x23, 0x07], "it looks like SPIR-V; glisten takes the GLSL text"),
+        (&[0x07, 0x23, 0x02, 0x03], "it looks like SPIR-V; glisten takes the GLSL text"),
+        (&[0x89, b'P', b'N', b'G'], "it looks like a PNG picture"),
+        (&[0xff, 0xfe], "it looks like text in UTF-16; save it as UTF-8"),
+        (&[0xfe, 0xff], "it looks like text in UTF-16; save it as UTF-8"),
+    ];
+    let known = MAGIC.iter().find(|(magic, _)| bytes.starts_with(magic)).map(|(_, what)| *what);
+    let has_nul = bytes.contains(&0);
+    let odd = bytes.iter().filter(|byte| !byte.is_ascii_graphic() && !byte.is_ascii_whitespace()).count();
+    // UTF-8 of other scripts in comments is legal, so bytes above 127 count only where they are no UTF-8.
+    let mostly_odd = odd * 10 > bytes.len() * 3 && std::str::from_utf8(bytes).is_err();
+    (has_nul || mostly_odd || known.is_some()).then_some(known)
+}
+
+/// Writes a file whole: to a temporary name beside it, then renamed. What is no regular file (a pipe, `/dev/null`) is
+/// written to as it is.
+pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    let failed = |error: &io::Error| Failure::usage(format!("cannot write `{}`: {error}", path.display()));
+    match fs::metadata(path) {
+        Ok(metadata) if metadata.is_dir() => {
+            return Err(Failure::usage(format!("cannot write `{}`: it is a folder", path.display())));
+        }
+        Ok(metadata) if !metadata.is_file() => {
+            let mut file = fs::OpenOptions::new().write(true).open(path).map_err(|error| failed(&error))?;
+            return file.write_all(bytes).map_err(|error| failed(&error));
+        }
+        _ => {}
+    }
+    // A link is followed, so that it stays a link.
+    let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let mut file = builder().tempfile_in(folder).map_err(|error| failed(&error))?;
+    file.write_all(bytes).map_err(|error| failed(&error))?;
+    file.persist(&target).map(drop).map_err(|error| failed(&error.error))
+}
+
+/// Temporary files get the permissions of any new file rather than those of a secret.
+fn builder() -> tempfile::Builder<'static, 'static> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".glisten-");
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        builder.permissions(fs::Permissions::from_mode(0o666));
+    }
+    builder
+}
+
+/// Makes a folder and those above it.
+pub(super) fn make_folder(path: &Path) -> Result<(), Failure> {
+    if path.exists() && !path.is_dir() {
+        return Err(Failure::usage(format!("`{}` is a file, not a folder", path.display())));
+    }
+    fs::create_dir_all(path)
+        .map_err(|error| Failure::usage(format!("cannot make the folder `{}`: {error}", path.display())))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::text_of;
+
+    #[test]
+    fn text_and_binary_are_told_apart() {
+        assert!(text_of("x", b"#version 150\n".to_vec()).is_ok());
+        assert!(text_of("x", "// こんにちは\n".as_bytes().to_vec()).is_ok());
+        let latin1 = text_of("x", b"// caf\xe9\nvoid main() {}\n".to_vec()).expect("one odd byte is forgiven");
+        assert!(latin1.contains('\u{fffd}'));
+        for (bytes, code) in [
+            (&b""[..], "E0013"),
+            (b" \n\t", "E0013"),
+            (b"void\0main", "E0014"),
+            (b"\x03\x02\x23\x07abc", "E0014"),
+            (b"\xff\xfe#\0v\0", "E0014"),
+            (b"\x80\x81\x82\x83\x84\x85abc", "E0014"),
+        ] {
+            assert_eq!(text_of("x", bytes.to_vec()).expect_err("not text").code.id, code, "{bytes:?}");
+        }
+    }
+}

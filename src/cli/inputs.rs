@@ -1,0 +1,227 @@
+//! Which files a command works on, and which of them are one program.
+//!
+//! *In:* names on the command line. *Out:* [`Group`]s in the order in which they were named: files with the same
+//! folder and stem and different stages, and each `--program`.
+//!
+//! *Holds:* a file that is named twice counts once; a file that stands in a `--program` makes no group of its own.
+
+use super::args::SourceArgs;
+use super::exit::Failure;
+use super::stages;
+use crate::hir::Stage;
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// The name of standard input on the command line.
+const STDIN: &str = "-";
+
+/// A shader to read.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Input {
+    /// The name that diagnostics show.
+    pub(super) name: String,
+    /// The file; `None` for standard input.
+    pub(super) path: Option<PathBuf>,
+    /// The stage.
+    pub(super) stage: Stage,
+}
+
+impl Input {
+    /// The name that outputs take: `phong.vert`; of standard input `stdin.vert`.
+    pub(super) fn file_name(&self) -> String {
+        match &self.path {
+            Some(path) => path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default(),
+            None => match self.stage {
+                Stage::Vertex => "stdin.vert",
+                Stage::Geometry => "stdin.geom",
+                Stage::Fragment => "stdin.frag",
+            }
+            .to_owned(),
+        }
+    }
+
+    /// The name without what tells the stage.
+    pub(super) fn stem(&self) -> String {
+        self.path.as_deref().map_or("stdin".to_owned(), stages::stem)
+    }
+}
+
+/// Files that are one program.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Group {
+    /// The stem of the first file.
+    pub(super) name: String,
+    /// At least one.
+    pub(super) inputs: Vec<Input>,
+}
+
+impl Group {
+    /// Whether a stage is alone that will need a partner.
+    pub(super) fn is_lone(&self) -> bool {
+        self.inputs.iter().all(|input| Some(input.stage) == self.inputs.first().map(|first| first.stage))
+    }
+}
+
+/// What the command line comes to.
+#[derive(Debug, Default)]
+pub(super) struct Inputs {
+    /// The programs.
+    pub(super) groups: Vec<Group>,
+    /// Folders in which no shader was found.
+    pub(super) empty_folders: Vec<String>,
+}
+
+/// Collects the inputs of a command. Folders are searched only if `scans` is set; else they stay in the list, and
+/// reading them tells what they are.
+pub(super) fn collect(files: &[String], args: &SourceArgs, scans: bool) -> Result<Inputs, Failure> {
+    let mut inputs = Inputs::default();
+    let mut named = Vec::new();
+    for file in files {
+        if scans && Path::new(file).is_dir() {
+            let before = named.len();
+            scan(Path::new(file), &mut named)?;
+            if named.len() == before {
+                inputs.empty_folders.push(file.clone());
+            }
+        } else {
+            named.push(file.clone());
+        }
+    }
+    let mut in_programs = BTreeSet::new();
+    let mut groups = Vec::new();
+    for program in &args.programs {
+        let names: Vec<&str> = program.split(',').map(str::trim).filter(|name| !name.is_empty()).collect();
+        if names.is_empty() {
+            return Err(Failure::usage("--program names no file").help("write `--program a.vert,b.frag`"));
+        }
+        in_programs.extend(names.iter().map(|name| identity(name)));
+        let listed: Vec<Input> = names.iter().map(|name| input(name, args, false)).collect::<Result<_, _>>()?;
+        groups.push(Group { name: listed.first().map(Input::stem).unwrap_or_default(), inputs: listed });
+    }
+    let mut seen = BTreeSet::new();
+    let alone = named.len() == 1 && args.programs.is_empty();
+    let listed: Vec<Input> = named
+        .iter()
+        .filter(|name| !in_programs.contains(&identity(name)) && seen.insert(identity(name)))
+        .map(|name| input(name, args, alone))
+        .collect::<Result<_, _>>()?;
+    inputs.groups = group(listed);
+    inputs.groups.extend(groups);
+    Ok(inputs)
+}
+
+/// What makes two names the same file.
+fn identity(name: &str) -> PathBuf {
+    if name == STDIN { PathBuf::from(STDIN) } else { fs::canonicalize(name).unwrap_or_else(|_| PathBuf::from(name)) }
+}
+
+fn input(name: &str, args: &SourceArgs, alone: bool) -> Result<Input, Failure> {
+    let given = args.stage.map(Stage::from);
+    if name == STDIN {
+        let stage = given.ok_or_else(|| {
+            Failure::usage("standard input has no name that tells its stage").help("add `--stage vertex` or another")
+        })?;
+        return Ok(Input { name: "<stdin>".to_owned(), path: None, stage });
+    }
+    let path = PathBuf::from(name);
+    let told = stages::by_name(&path);
+    let stage = if alone { given.or(told) } else { told.or(given) };
+    // What is no readable file is told when it is read; its stage does not matter then.
+    let stage = stage.or_else(|| (!path.is_file()).then_some(Stage::Vertex));
+    match stage {
+        Some(stage) => Ok(Input { name: name.to_owned(), path: Some(path), stage }),
+        None => Err(Failure::usage(format!("the name of `{name}` does not tell its stage")).help(format!(
+            "add `--stage vertex` or another, or name it {}",
+            stages::all_extensions()
+        ))),
+    }
+}
+
+/// Adds all shaders in a folder and those below it, in the order of their names. Hidden folders are left out, and links
+/// to folders are not followed, so that a circle of links is no trouble.
+fn scan(folder: &Path, found: &mut Vec<String>) -> Result<(), Failure> {
+    let mut pending = vec![folder.to_owned()];
+    let mut files = Vec::new();
+    while let Some(folder) = pending.pop() {
+        let failed =
+            |error: std::io::Error| Failure::usage(format!("cannot read the folder `{}`: {error}", folder.display()));
+        for entry in fs::read_dir(&folder).map_err(failed)? {
+            let entry = entry.map_err(failed)?;
+            let hidden = entry.file_name().to_string_lossy().starts_with('.');
+            let kind = entry.file_type().map_err(failed)?;
+            let path = entry.path();
+            if kind.is_dir() && !hidden {
+                pending.push(path);
+            } else if !kind.is_dir() && stages::by_extension(&path).is_some() {
+                files.push(path);
+            }
+        }
+    }
+    files.sort();
+    found.extend(files.into_iter().map(|path| path.to_string_lossy().into_owned()));
+    Ok(())
+}
+
+/// Groups files by folder and stem; each stage stands in a group once.
+fn group(inputs: Vec<Input>) -> Vec<Group> {
+    let mut groups: Vec<((PathBuf, String), Group)> = Vec::new();
+    for input in inputs {
+        let folder = input.path.as_deref().and_then(Path::parent).map(Path::to_owned).unwrap_or_default();
+        let folder = if folder.as_os_str().is_empty() { PathBuf::from(".") } else { folder };
+        let folder = fs::canonicalize(&folder).unwrap_or(folder);
+        let key = (folder, input.stem());
+        let fits = |group: &Group| group.inputs.iter().all(|other| other.stage != input.stage);
+        match groups.iter_mut().find(|(other, group)| *other == key && fits(group)) {
+            Some((_, group)) => group.inputs.push(input),
+            None => groups.push((key, Group { name: input.stem(), inputs: vec![input] })),
+        }
+    }
+    groups.into_iter().map(|(_, group)| group).map(in_pipeline_order).collect()
+}
+
+/// Stages in the order of the pipeline, so that the order of names on the command line changes nothing.
+fn in_pipeline_order(mut group: Group) -> Group {
+    group.inputs.sort_by_key(|input| input.stage);
+    group
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Input, group};
+    use crate::cli::stages;
+    use crate::hir::Stage;
+    use std::path::{Path, PathBuf};
+
+    fn inputs(names: &[&str]) -> Vec<Input> {
+        let input = |name: &&str| Input {
+            name: (*name).to_owned(),
+            path: Some(PathBuf::from(name)),
+            stage: stages::by_name(Path::new(name)).expect("the name tells the stage"),
+        };
+        names.iter().map(input).collect()
+    }
+
+    #[test]
+    fn files_are_grouped_by_folder_and_stem() {
+        let groups = group(inputs(&["b.frag", "a.vert", "x/a.frag", "b.vs", "a.frag", "b.vert"]));
+        let shown: Vec<Vec<&str>> =
+            groups.iter().map(|group| group.inputs.iter().map(|input| input.name.as_str()).collect()).collect();
+        assert_eq!(shown, [vec!["b.vs", "b.frag"], vec!["a.vert", "a.frag"], vec!["x/a.frag"], vec!["b.vert"]]);
+        assert!(groups[2].is_lone() && !groups[0].is_lone());
+    }
+
+    #[test]
+    fn stems_leave_out_what_tells_the_stage() {
+        for (name, stem, stage) in [
+            ("dir/phong.vert", "phong", Some(Stage::Vertex)),
+            ("phong.vert.glsl", "phong", Some(Stage::Vertex)),
+            ("a.b.fs", "a.b", Some(Stage::Fragment)),
+            ("lib.glsl", "lib", None),
+            ("X.GEOM", "X", Some(Stage::Geometry)),
+        ] {
+            assert_eq!(stages::stem(Path::new(name)), stem, "{name}");
+            assert_eq!(stages::by_name(Path::new(name)), stage, "{name}");
+        }
+    }
+}

@@ -1,0 +1,142 @@
+//! [`Levels`]: what the user wants to hear of, and how loudly.
+//!
+//! *In:* levels by code, and comments `// glisten: allow(CODE)` in the sources. *Out:* diagnostics dropped, or with
+//! another severity.
+//!
+//! *Holds:* errors of the language are not up for negotiation: levels touch warnings and notes only. A level for a code
+//! beats `deny warnings`; a comment beats both.
+
+use super::{Code, Diagnostic, Severity, codes};
+use crate::source::SourceMap;
+use std::collections::BTreeMap;
+
+/// What becomes of a warning.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Level {
+    /// It is dropped.
+    Allow,
+    /// It is a warning.
+    Warn,
+    /// It is an error.
+    Deny,
+}
+
+/// Levels by code.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Levels {
+    by_code: BTreeMap<&'static str, Level>,
+    deny_warnings: bool,
+}
+
+impl Levels {
+    /// Sets the level of a code.
+    pub fn set(&mut self, code: &'static Code, level: Level) {
+        self.by_code.insert(code.id, level);
+    }
+
+    /// Makes errors of all warnings that have no level of their own.
+    pub fn deny_warnings(&mut self) {
+        self.deny_warnings = true;
+    }
+
+    /// The level that a code was given.
+    pub fn get(&self, code: &Code) -> Option<Level> {
+        self.by_code.get(code.id).copied()
+    }
+
+    /// These levels, and where they are silent those of `base`.
+    #[must_use]
+    pub fn over(&self, base: &Self) -> Self {
+        let mut by_code = base.by_code.clone();
+        by_code.extend(self.by_code.iter().map(|(id, level)| (*id, *level)));
+        Self { by_code, deny_warnings: self.deny_warnings || base.deny_warnings }
+    }
+
+    /// The severity that a finding has under these levels, or `None` if nobody wants to hear of it.
+    pub fn judge(&self, sources: &SourceMap, diagnostic: &Diagnostic) -> Option<Severity> {
+        if diagnostic.severity == Severity::Error {
+            return Some(Severity::Error);
+        }
+        if is_allowed_by_comment(sources, diagnostic) {
+            return None;
+        }
+        match self.get(diagnostic.code) {
+            Some(Level::Allow) => None,
+            Some(Level::Warn) => Some(Severity::Warning),
+            Some(Level::Deny) => Some(Severity::Error),
+            None if self.deny_warnings && diagnostic.severity == Severity::Warning => Some(Severity::Error),
+            None => Some(diagnostic.severity),
+        }
+    }
+}
+
+/// Whether a comment on the finding's line, or on lines of nothing but comments right above, allows the code.
+fn is_allowed_by_comment(sources: &SourceMap, diagnostic: &Diagnostic) -> bool {
+    let Some(at) = sources.location(sources.call_site(diagnostic.primary.span)) else { return false };
+    let file = sources.file(at.file);
+    let allows = |line: &str| allowed(line).any(|key| codes::find(key) == Some(diagnostic.code));
+    if file.line(at.line).is_some_and(allows) {
+        return true;
+    }
+    (1..at.line)
+        .rev()
+        .map_while(|number| file.line(number).filter(|line| line.trim_start().starts_with("//")))
+        .any(allows)
+}
+
+/// The codes in a line's `// glisten: allow(CODE, CODE)`.
+fn allowed(line: &str) -> impl Iterator<Item = &str> {
+    const MARK: &str = "glisten: allow(";
+    line.find("//")
+        .and_then(|comment| line.get(comment..))
+        .and_then(|comment| comment.find(MARK).and_then(|start| comment.get(start + MARK.len()..)))
+        .and_then(|rest| rest.split_once(')'))
+        .map(|(list, _)| list)
+        .into_iter()
+        .flat_map(|list| list.split(','))
+        .map(str::trim)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Level, Levels};
+    use crate::diagnostic::codes::general::{LONE_STAGE, TOO_DEEP};
+    use crate::diagnostic::{Diagnostic, Severity};
+    use crate::source::{SourceMap, Span};
+
+    fn warning_on_line(text: &str, line: usize) -> (SourceMap, Diagnostic) {
+        let mut sources = SourceMap::default();
+        let id = sources.add("a.vert", text).expect("there is room");
+        let start = text.lines().take(line - 1).map(|line| line.len() + 1).sum::<usize>() as u32;
+        let base = sources.file(id).base() + start;
+        (sources, Diagnostic::new(&LONE_STAGE, Span::new(base, base + 1), "lone"))
+    }
+
+    #[test]
+    fn a_code_beats_deny_warnings_and_errors_stay() {
+        let (sources, warning) = warning_on_line("int x;\n", 1);
+        let mut levels = Levels::default();
+        assert_eq!(levels.judge(&sources, &warning), Some(Severity::Warning));
+        levels.deny_warnings();
+        assert_eq!(levels.judge(&sources, &warning), Some(Severity::Error));
+        levels.set(&LONE_STAGE, Level::Warn);
+        assert_eq!(levels.judge(&sources, &warning), Some(Severity::Warning));
+        levels.set(&TOO_DEEP, Level::Allow);
+        let error = Diagnostic::new(&TOO_DEEP, warning.primary.span, "deep");
+        assert_eq!(levels.judge(&sources, &error), Some(Severity::Error));
+    }
+
+    #[test]
+    fn comments_allow_on_the_line_and_above_it() {
+        for (text, line, dropped) in [
+            ("int x; // glisten: allow(W0001)\n", 1, true),
+            ("// glisten: allow(E0003, lone-stage)\n// why\nint x;\n", 3, true),
+            ("// glisten: allow(W0001)\nint y;\nint x;\n", 3, false),
+            ("int x; // glisten: allow(W0101)\n", 1, false),
+            ("int x; // glisten: allow(W0001\n", 1, false),
+        ] {
+            let (sources, warning) = warning_on_line(text, line);
+            assert_eq!(Levels::default().judge(&sources, &warning).is_none(), dropped, "{text}");
+        }
+    }
+}
