@@ -1,3 +1,7 @@
 //! The `glisten` program: hands over to the command line.
 
-fn main() {}
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    glisten::cli::run(std::env::args_os())
+}

@@ -36,7 +36,7 @@ pub(super) struct SourceArgs {
     #[arg(long, value_enum)]
     pub(super) stage: Option<StageArg>,
     /// Files that make one program together (repeatable)
-    #[arg(long = "program", value_name = "A.vert,B.frag", value_delimiter = ';')]
+    #[arg(long = "program", value_name = "A.vert,B.frag")]
     pub(super) programs: Vec<String>,
     /// Makes errors of what the specification forbids and every driver forgives
     #[arg(long)]

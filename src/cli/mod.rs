@@ -1,1 +1,121 @@
 //! The command line, one file a subcommand. Only here is anything printed, read from the environment, or exited from.
+//!
+//! *In:* arguments and files. *Out:* results on standard output and in files, diagnostics on standard error (`lint`: on
+//! standard output), an exit code: 0 nothing wrong found, 1 an input's content is wrong or a check did not hold, 2 wrong
+//! usage or a file that cannot be read or written, 3 the machine lacks something. The highest that applies wins.
+//!
+//! *Holds:* never a panic, never a half-written file, the same bytes for the same input with any `-j`.
+
+mod args;
+mod compile;
+mod config;
+mod console;
+mod exit;
+mod explain;
+mod files;
+mod guard;
+mod includes;
+mod inputs;
+mod lint;
+mod progress;
+mod session;
+mod stages;
+
+use clap::{Args, Parser, Subcommand};
+use console::{ColorChoice, Console};
+use exit::{Exit, Failure, Outcome};
+use std::ffi::OsString;
+use std::process::ExitCode;
+
+/// Stack of the thread that a command runs on.
+const STACK_BYTES: usize = 16 << 20;
+
+/// Compiles, checks, draws and measures GLSL of OpenGL 3.2 (#version 150)
+#[derive(Debug, Parser)]
+#[command(name = "glisten", version, disable_help_subcommand = true, max_term_width = 100)]
+#[command(after_help = "Exit codes: 0 nothing wrong found; 1 an input is wrong or a check did not hold;\n\
+    2 wrong usage, or a file cannot be read or written; 3 the machine lacks something.")]
+struct Cli {
+    #[command(flatten)]
+    global: GlobalArgs,
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Args, Debug)]
+struct GlobalArgs {
+    /// Leaves out progress and summaries
+    #[arg(short, long, global = true)]
+    quiet: bool,
+    /// When to color
+    #[arg(long, global = true, value_enum, default_value_t, value_name = "WHEN")]
+    color: ColorChoice,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Lint(lint::LintArgs),
+    Compile(compile::CompileArgs),
+    Explain(explain::ExplainArgs),
+}
+
+/// Runs the program with these arguments, the first being its own name.
+pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+    let arguments: Vec<OsString> = arguments.into_iter().collect();
+    let cli = match Cli::try_parse_from(arguments) {
+        Ok(cli) => cli,
+        Err(error) => return usage(&error),
+    };
+    let console = Console::new(cli.global.quiet, cli.global.color);
+    guard::silence_panics();
+    let command = cli.command;
+    let work = move || guard::guarded(|| dispatch(&command, &console));
+    let thread = std::thread::Builder::new().stack_size(STACK_BYTES).spawn(work);
+    let outcome = match thread.map(std::thread::JoinHandle::join) {
+        Ok(Ok(Ok(outcome))) => outcome,
+        Ok(Ok(Err(panic))) => {
+            let message = format!("internal error: {panic}");
+            Err(Failure::new(Exit::Content, message).help("this is a fault of glisten; please report it with the input"))
+        }
+        Ok(Err(_)) => Err(Failure::new(Exit::Content, "internal error")),
+        Err(error) => Err(Failure::new(Exit::Machine, format!("the system gives no thread: {error}"))),
+    };
+    end(outcome, &console)
+}
+
+fn dispatch(command: &Command, console: &Console) -> Outcome {
+    match command {
+        Command::Lint(args) => lint::run(args, console),
+        Command::Compile(args) => compile::run(args, console),
+        Command::Explain(args) => explain::run(args, console),
+    }
+}
+
+/// Tells of wrong arguments, or shows the help or the version that was asked for.
+fn usage(error: &clap::Error) -> ExitCode {
+    // Where it cannot be printed there is nobody to tell.
+    let _ = error.print();
+    if error.use_stderr() { Exit::Usage.into() } else { Exit::Ok.into() }
+}
+
+fn end(outcome: Outcome, console: &Console) -> ExitCode {
+    match outcome {
+        Ok(exit) => exit.into(),
+        Err(Failure::OutputClosed) => Exit::Ok.into(),
+        Err(Failure::Told { exit, message, help }) => {
+            console.failure(&message, help.as_deref());
+            exit.into()
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Cli;
+    use clap::CommandFactory;
+
+    #[test]
+    fn arguments_are_well_formed() {
+        Cli::command().debug_assert();
+    }
+}

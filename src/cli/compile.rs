@@ -1,0 +1,285 @@
+//! `glisten compile`: programs to texts and words for targets, with the reflection beside them.
+//!
+//! *Holds:* of a program with errors nothing is written. All outputs are known by name before any work begins, so that
+//! two programs that would write the same file are refused at once.
+
+use super::args::{BindingArgs, ConventionArgs, LevelArgs, SourceArgs};
+use super::console::Console;
+use super::exit::{Exit, Failure, Outcome};
+use super::files;
+use super::guard;
+use super::inputs::{self, Group};
+use super::session::{Session, Unit};
+use crate::diagnostic::Diagnostic;
+use crate::diagnostic::codes::general::LONE_STAGE;
+use crate::emit::{self, Conventions, Emitted, Target};
+use crate::hir::Stage;
+use crate::link::Program;
+use crate::source::Span;
+use clap::{Args, ValueEnum};
+use rayon::prelude::*;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::PathBuf;
+
+/// Translates programs to WGSL, SPIR-V and others, and writes their reflection
+#[derive(Args, Debug)]
+pub(super) struct CompileArgs {
+    /// Shaders, or `-` for standard input
+    #[arg(required_unless_present = "programs", value_name = "FILE")]
+    files: Vec<String>,
+    /// The folder to write to
+    #[arg(short, long, value_name = "DIR", required_unless_present = "check")]
+    output: Option<PathBuf>,
+    /// What to write (repeatable; default: wgsl and spirv)
+    #[arg(long = "target", value_enum)]
+    targets: Vec<TargetArg>,
+    /// Checks everything and writes nothing
+    #[arg(long)]
+    check: bool,
+    /// Writes a Make rule of all outputs, inputs and includes
+    #[arg(long, value_name = "FILE")]
+    depfile: Option<PathBuf>,
+    /// Puts source lines into SPIR-V
+    #[arg(short = 'g')]
+    debug_lines: bool,
+    /// How many threads (0: one a core)
+    #[arg(short, long, default_value_t = 0, value_name = "N")]
+    jobs: usize,
+    #[command(flatten)]
+    sources: SourceArgs,
+    #[command(flatten)]
+    bindings: BindingArgs,
+    #[command(flatten)]
+    conventions: ConventionArgs,
+    #[command(flatten)]
+    levels: LevelArgs,
+}
+
+/// A target on the command line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, ValueEnum)]
+enum TargetArg {
+    Wgsl,
+    Spirv,
+    Msl,
+    Hlsl,
+    Glsl,
+}
+
+impl TargetArg {
+    fn target(self) -> Target {
+        match self {
+            Self::Wgsl => Target::Wgsl,
+            Self::Spirv => Target::Spirv,
+            Self::Msl => Target::Msl,
+            Self::Hlsl => Target::Hlsl,
+            Self::Glsl => Target::Glsl,
+        }
+    }
+
+    /// What is put behind the file's name.
+    fn extension(self) -> &'static str {
+        match self {
+            Self::Wgsl => "wgsl",
+            Self::Spirv => "spv",
+            Self::Msl => "metal",
+            Self::Hlsl => "hlsl",
+            Self::Glsl => "glsl",
+        }
+    }
+}
+
+/// A file to write.
+type Output = (PathBuf, Vec<u8>);
+
+/// Runs the command.
+pub(super) fn run(args: &CompileArgs, console: &Console) -> Outcome {
+    let inputs = inputs::collect(&args.files, &args.sources, false)?;
+    let plan = Plan::new(args, &inputs.groups)?;
+    let mut session = Session::new(console, &args.sources, &args.bindings, &args.levels, args.jobs)?;
+    let mut units = session.compile(inputs.groups);
+    for unit in &mut units {
+        warn_of_lone_stage(unit);
+        session.judge(&mut unit.batch);
+    }
+    let emitted: Vec<Result<Vec<Output>, Vec<Diagnostic>>> =
+        session.pool().install(|| units.par_iter().map(|unit| plan.emit(unit)).collect());
+    let mut outputs = Vec::new();
+    for (unit, result) in units.iter_mut().zip(emitted) {
+        match result {
+            Ok(files) => outputs.extend(files),
+            Err(diagnostics) => unit.batch.diagnostics.extend(diagnostics),
+        }
+        session.judge(&mut unit.batch);
+    }
+    let exit = session.tell_units(&units, false)?;
+    if !args.check {
+        plan.write(&outputs)?;
+    }
+    if let Some(depfile) = &args.depfile
+        && exit == Exit::Ok
+    {
+        files::write(depfile, plan.make_rule(&units).as_bytes())?;
+    }
+    Ok(exit)
+}
+
+/// What is written where.
+struct Plan {
+    folder: PathBuf,
+    targets: BTreeSet<TargetArg>,
+    conventions: Conventions,
+}
+
+impl Plan {
+    fn new(args: &CompileArgs, groups: &[Group]) -> Result<Self, Failure> {
+        let mut targets: BTreeSet<TargetArg> = args.targets.iter().copied().collect();
+        if targets.is_empty() {
+            targets.extend([TargetArg::Wgsl, TargetArg::Spirv]);
+        }
+        let folder = args.output.clone().unwrap_or_default();
+        let conventions = args.conventions.conventions(args.debug_lines);
+        let plan = Self { folder, targets, conventions };
+        plan.refuse_collisions(groups)?;
+        Ok(plan)
+    }
+
+    /// The names of a program's outputs, the reflection last.
+    fn names(&self, group: &Group) -> Vec<String> {
+        let mut names: Vec<String> = Vec::new();
+        for stage in Stage::ALL {
+            // Several files of one stage give one output, named after the first.
+            if let Some(input) = group.inputs.iter().find(|input| input.stage == stage) {
+                let file = input.file_name();
+                names.extend(self.targets.iter().map(|target| format!("{file}.{}", target.extension())));
+            }
+        }
+        names.push(format!("{}.json", group.name));
+        names
+    }
+
+    fn refuse_collisions(&self, groups: &[Group]) -> Result<(), Failure> {
+        let mut writers: BTreeMap<String, &Group> = BTreeMap::new();
+        let sources: BTreeSet<PathBuf> = groups
+            .iter()
+            .flat_map(|group| &group.inputs)
+            .filter_map(|input| fs::canonicalize(input.path.as_ref()?).ok())
+            .collect();
+        for group in groups {
+            for name in self.names(group) {
+                let path = self.folder.join(&name);
+                if fs::canonicalize(&path).is_ok_and(|path| sources.contains(&path)) {
+                    let message = format!("the output `{}` is one of the inputs", path.display());
+                    return Err(Failure::usage(message).help("choose another folder with `-o`"));
+                }
+                if let Some(other) = writers.insert(name, group) {
+                    let message = format!(
+                        "the programs of {} and of {} would both write `{}`",
+                        files_of(other),
+                        files_of(group),
+                        path.display()
+                    );
+                    return Err(Failure::usage(message).help("compile them into different folders"));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The outputs of one program; none if there are errors already.
+    fn emit(&self, unit: &Unit) -> Result<Vec<Output>, Vec<Diagnostic>> {
+        let Some(program) = unit.sound_program() else { return Ok(Vec::new()) };
+        guard::guarded(|| self.emit_program(&unit.group, program)).unwrap_or_else(|panic| {
+            let span = unit.batch.sources.files().next().map_or(0, |(_, file)| file.base());
+            Err(vec![guard::diagnostic(&panic, Span::new(span, span))])
+        })
+    }
+
+    fn emit_program(&self, group: &Group, program: &Program) -> Result<Vec<Output>, Vec<Diagnostic>> {
+        let mut outputs = Vec::new();
+        let mut diagnostics = Vec::new();
+        for shader in &program.stages {
+            let Some(input) = group.inputs.iter().find(|input| input.stage == shader.stage) else { continue };
+            for target in &self.targets {
+                match emit::emit(program, shader.stage, target.target(), &self.conventions) {
+                    Ok(emitted) => {
+                        let name = format!("{}.{}", input.file_name(), target.extension());
+                        outputs.push((self.folder.join(name), bytes(emitted)));
+                    }
+                    Err(errors) => diagnostics.extend(errors),
+                }
+            }
+        }
+        let reflection = emit::reflect(program, &self.conventions);
+        let mut json = serde_json::to_vec_pretty(&reflection).expect("a reflection is always JSON");
+        json.push(b'\n');
+        outputs.push((self.folder.join(format!("{}.json", group.name)), json));
+        if diagnostics.is_empty() { Ok(outputs) } else { Err(diagnostics) }
+    }
+
+    fn write(&self, outputs: &[Output]) -> Result<(), Failure> {
+        files::make_folder(&self.folder)?;
+        outputs.iter().try_for_each(|(path, bytes)| files::write(path, bytes))
+    }
+
+    /// One rule: all outputs, then all inputs and includes, each once.
+    fn make_rule(&self, units: &[Unit]) -> String {
+        let targets: Vec<String> = units
+            .iter()
+            .flat_map(|unit| self.names(&unit.group))
+            .map(|name| make_word(&self.folder.join(name).to_string_lossy()))
+            .collect();
+        let mut seen = BTreeSet::new();
+        let standard_input = |name: &str| units.iter().any(|unit| unit.group.inputs.iter().any(|input| input.path.is_none() && input.name == name));
+        let sources: Vec<String> = units
+            .iter()
+            .flat_map(|unit| unit.batch.sources.files())
+            .map(|(_, file)| file.name())
+            .filter(|name| !standard_input(name) && seen.insert(name.to_string()))
+            .map(make_word)
+            .collect();
+        format!("{}: {}\n", targets.join(" "), sources.join(" "))
+    }
+}
+
+/// A file name as a word of a Make rule.
+fn make_word(name: &str) -> String {
+    name.replace('$', "$$").replace('#', "\\#").replace(' ', "\\ ")
+}
+
+fn files_of(group: &Group) -> String {
+    group.inputs.iter().map(|input| format!("`{}`", input.name)).collect::<Vec<_>>().join(", ")
+}
+
+/// The bytes of an output; SPIR-V is little-endian on every machine.
+fn bytes(emitted: Emitted) -> Vec<u8> {
+    match emitted {
+        Emitted::Text(text) => text.into_bytes(),
+        Emitted::Words(words) => words.iter().flat_map(|word| word.to_le_bytes()).collect(),
+    }
+}
+
+fn warn_of_lone_stage(unit: &mut Unit) {
+    if !unit.group.is_lone() || unit.program.is_none() {
+        return;
+    }
+    let Some((_, file)) = unit.batch.sources.files().next() else { return };
+    let stage = unit.group.inputs.first().map_or("", |input| input.stage.name());
+    let message = format!("`{}` is compiled without its partner", file.name());
+    let span = Span::new(file.base(), file.base());
+    unit.batch.diagnostics.push(
+        Diagnostic::new(&LONE_STAGE, span, message)
+            .note(format!("locations of varyings and the uniform block are those of the {stage} stage alone"))
+            .help("name all files of a program in one command, or say `--program a.vert,b.frag`"),
+    );
+}
+
+#[cfg(test)]
+mod tests {
+    use super::make_word;
+
+    #[test]
+    fn make_words_are_escaped() {
+        assert_eq!(make_word("a b$c#d"), "a\\ b$$c\\#d");
+    }
+}

@@ -1,0 +1,108 @@
+//! `glisten.toml`: the levels of a project, looked for upwards from each source.
+//!
+//! ```toml
+//! [lint]
+//! allow = ["W0001"]
+//! warn = []
+//! deny = ["warnings"]
+//! ```
+//!
+//! *Holds:* the nearest file counts alone; a level on the command line beats it.
+
+use super::args::set_level;
+use super::files;
+use super::session::Batch;
+use crate::diagnostic::codes::general::BAD_CONFIG;
+use crate::diagnostic::{Diagnostic, Level, Levels};
+use crate::source::{SourceMap, Span};
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use toml::Spanned;
+
+const NAME: &str = "glisten.toml";
+
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Config {
+    #[serde(default)]
+    lint: LintTable,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct LintTable {
+    #[serde(default)]
+    allow: Vec<Spanned<String>>,
+    #[serde(default)]
+    warn: Vec<Spanned<String>>,
+    #[serde(default)]
+    deny: Vec<Spanned<String>>,
+}
+
+/// The configurations of all folders met so far, under the levels of the command line.
+pub(super) struct Configs {
+    given: Levels,
+    by_folder: BTreeMap<PathBuf, Levels>,
+    /// What is wrong with the configurations themselves.
+    pub(super) errors: Vec<Batch>,
+}
+
+impl Configs {
+    /// Configurations under the levels that the command line gives.
+    pub(super) fn new(given: Levels) -> Self {
+        Self { given, by_folder: BTreeMap::new(), errors: Vec::new() }
+    }
+
+    /// The levels for the file called `name`.
+    pub(super) fn levels(&mut self, name: &str) -> &Levels {
+        let folder = Path::new(name).parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        if !self.by_folder.contains_key(folder) {
+            let levels = self.given.over(&self.search(folder));
+            self.by_folder.insert(folder.to_owned(), levels);
+        }
+        &self.by_folder[folder]
+    }
+
+    fn search(&mut self, folder: &Path) -> Levels {
+        let absolute = std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
+        let found = absolute.ancestors().map(|above| above.join(NAME)).find(|path| path.is_file());
+        let Some(path) = found else { return Levels::default() };
+        let name = path.to_string_lossy().into_owned();
+        let mut sources = SourceMap::default();
+        let mut levels = Levels::default();
+        let diagnostics = match files::read(&name, &path) {
+            Ok(bytes) => parse(&String::from_utf8_lossy(&bytes), &name, &mut sources, &mut levels),
+            Err(error) => vec![error.diagnostic(&mut sources, &name)],
+        };
+        let batch = Batch { sources, diagnostics };
+        if !batch.diagnostics.is_empty() && !self.errors.iter().any(|other| other.diagnostics == batch.diagnostics) {
+            self.errors.push(batch);
+        }
+        levels
+    }
+}
+
+/// Reads a configuration into `levels`.
+fn parse(text: &str, name: &str, sources: &mut SourceMap, levels: &mut Levels) -> Vec<Diagnostic> {
+    let base = sources.add(name, text).map_or(0, |id| sources.file(id).base());
+    let at = |range: Range<usize>| Span::new(base + range.start as u32, base + range.end as u32);
+    let config: Config = match toml::from_str(text) {
+        Ok(config) => config,
+        Err(error) => {
+            let span = error.span().unwrap_or(0..0);
+            return vec![Diagnostic::new(&BAD_CONFIG, at(span), error.message().trim().replace('\n', ", "))];
+        }
+    };
+    let lists = [(Level::Allow, config.lint.allow), (Level::Warn, config.lint.warn), (Level::Deny, config.lint.deny)];
+    let mut diagnostics = Vec::new();
+    for (level, keys) in lists {
+        for key in keys {
+            if let Err((message, help)) = set_level(levels, level, key.get_ref()) {
+                diagnostics.push(Diagnostic::new(&BAD_CONFIG, at(key.span()), message).maybe_help(help));
+            }
+        }
+    }
+    diagnostics
+}

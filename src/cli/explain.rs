@@ -1,0 +1,88 @@
+//! `glisten explain`: the page of a diagnostic, from the registry of codes.
+
+use super::args::nearest_code;
+use super::console::Console;
+use super::exit::{Exit, Failure, Outcome};
+use crate::diagnostic::{Code, Example, codes};
+use clap::Args;
+
+/// Shows what a diagnostic means, with a bad and a good example
+#[derive(Args, Debug)]
+pub(super) struct ExplainArgs {
+    /// A code or its name: `E0301`, `undeclared-identifier`
+    #[arg(required_unless_present = "list")]
+    code: Option<String>,
+    /// Names all codes
+    #[arg(long, conflicts_with = "code")]
+    list: bool,
+}
+
+/// Runs the command.
+pub(super) fn run(args: &ExplainArgs, console: &Console) -> Outcome {
+    let text = match &args.code {
+        Some(key) => page(codes::find(key.trim()).ok_or_else(|| unknown(key))?),
+        None => list(),
+    };
+    console.output(&text)?;
+    Ok(Exit::Ok)
+}
+
+fn unknown(key: &str) -> Failure {
+    let failure = Failure::usage(format!("there is no code `{key}`"));
+    match nearest_code(key.trim()) {
+        Some(near) => failure.help(format!("did you mean `{near}`?")),
+        None => failure.help("`glisten explain --list` names all codes"),
+    }
+}
+
+fn list() -> String {
+    codes::all().map(|code| format!("{:6} {:8} {}\n", code.id, code.severity, code.name)).collect()
+}
+
+/// The page as it is printed: head, what it means, section, examples.
+fn page(code: &Code) -> String {
+    let mut text = format!("{} {} ({})\n\n{}\n", code.id, code.name, code.severity, wrap(code.page));
+    if !code.section.is_empty() {
+        text.push_str(&format!("\nSpecification: {}\n", code.section));
+    }
+    text.push_str(&example("Bad", code.bad));
+    text.push_str(&example("Good", code.good));
+    text
+}
+
+fn example(title: &str, example: Example) -> String {
+    let parts: Vec<(&str, &str)> = match example {
+        Example::Vertex(text) => vec![("a vertex shader", text)],
+        Example::Fragment(text) => vec![("a fragment shader", text)],
+        Example::Geometry(text) => vec![("a geometry shader", text)],
+        Example::Program(vertex, fragment) => vec![("a vertex shader", vertex), ("its fragment shader", fragment)],
+        Example::Text(text) => vec![("", text)],
+        Example::None => vec![],
+    };
+    parts
+        .into_iter()
+        .map(|(what, text)| {
+            let head = if what.is_empty() { title.to_owned() } else { format!("{title}, {what}") };
+            let lines: String = text.trim_matches('\n').lines().map(|line| format!("    {line}\n")).collect();
+            format!("\n{head}:\n\n{lines}")
+        })
+        .collect()
+}
+
+/// Fills paragraphs to lines of at most 80 characters.
+fn wrap(text: &str) -> String {
+    const WIDTH: usize = 80;
+    let mut lines = vec![String::new()];
+    for word in text.split_whitespace() {
+        let last = lines.last_mut().expect("there is a line from the start on");
+        if !last.is_empty() && last.chars().count() + 1 + word.chars().count() > WIDTH {
+            lines.push(word.to_owned());
+        } else {
+            if !last.is_empty() {
+                last.push(' ');
+            }
+            last.push_str(word);
+        }
+    }
+    lines.join("\n")
+}

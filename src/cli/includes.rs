@@ -1,0 +1,92 @@
+//! [`DiskIncludes`]: finds on disk what `#include` names.
+//!
+//! *Holds:* `"x"` is looked for beside the including file, then along `-I` in the order given; `<x>` along `-I` only.
+//! An include found is named by the path that led to it, so that diagnostics and depfiles show a path that opens.
+
+use super::files;
+use crate::source::{IncludeForm, IncludeResolver, Included};
+use std::path::{Component, Path, PathBuf};
+
+/// Files beside the including one and along a search path.
+#[derive(Clone, Debug)]
+pub(super) struct DiskIncludes {
+    folders: Vec<PathBuf>,
+}
+
+impl DiskIncludes {
+    /// Looks along `folders` (`-I`).
+    pub(super) fn new(folders: &[PathBuf]) -> Self {
+        Self { folders: folders.to_vec() }
+    }
+
+    fn candidates(&self, path: &str, form: IncludeForm, from: &str) -> Vec<PathBuf> {
+        let beside = Path::new(from).parent().unwrap_or(Path::new(""));
+        let own = (form == IncludeForm::Quoted).then(|| beside.to_owned());
+        own.into_iter().chain(self.folders.iter().cloned()).map(|folder| normal(&folder.join(path))).collect()
+    }
+}
+
+impl IncludeResolver for DiskIncludes {
+    fn resolve(&self, path: &str, form: IncludeForm, from: &str) -> Result<Included, String> {
+        if path.is_empty() {
+            return Err("an include names no file".to_owned());
+        }
+        let candidates = self.candidates(path, form, from);
+        for candidate in &candidates {
+            if !candidate.exists() {
+                continue;
+            }
+            let name = candidate.to_string_lossy().into_owned();
+            // An included file may well be empty; everything else is as with a source.
+            let bytes = files::read(&name, candidate).map_err(|error| error.message)?;
+            let text = if bytes.is_empty() { "".into() } else { files::text_of(&name, bytes).map_err(|error| error.message)? };
+            return Ok(Included { name, text });
+        }
+        let looked: Vec<String> = candidates.iter().map(|candidate| format!("`{}`", candidate.display())).collect();
+        Err(match looked.len() {
+            0 => format!("`<{path}>` is looked for along -I alone, and no folder is given"),
+            _ => format!("there is no {}", looked.join(" and no ")),
+        })
+    }
+}
+
+/// The path without `.` and without `x/..`, as far as that can be told without looking (a leading `..` stays).
+fn normal(path: &Path) -> PathBuf {
+    let mut normal = PathBuf::new();
+    for component in path.components() {
+        match component {
+            Component::CurDir => {}
+            Component::ParentDir if matches!(normal.components().next_back(), Some(Component::Normal(_))) => {
+                normal.pop();
+            }
+            _ => normal.push(component),
+        }
+    }
+    normal
+}
+
+#[cfg(test)]
+mod tests {
+    use super::DiskIncludes;
+    use crate::source::{IncludeForm, IncludeResolver};
+    use std::fs;
+
+    #[test]
+    fn quoted_looks_beside_first_and_angled_never() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let path = |name: &str| folder.path().join(name);
+        fs::create_dir_all(path("lib")).expect("a folder");
+        fs::create_dir_all(path("src/sub")).expect("a folder");
+        fs::write(path("src/a.glsl"), "beside").expect("written");
+        fs::write(path("lib/a.glsl"), "library").expect("written");
+        let includes = DiskIncludes::new(&[path("lib")]);
+        let from = path("src/main.vert").to_string_lossy().into_owned();
+        let text = |form, name| includes.resolve(name, form, &from).map(|included| included.text.to_string());
+        assert_eq!(text(IncludeForm::Quoted, "a.glsl").as_deref(), Ok("beside"));
+        assert_eq!(text(IncludeForm::Quoted, "./sub/../a.glsl").as_deref(), Ok("beside"));
+        assert_eq!(text(IncludeForm::Angled, "a.glsl").as_deref(), Ok("library"));
+        assert!(text(IncludeForm::Quoted, "b.glsl").expect_err("there is none").contains("no `"));
+        assert!(DiskIncludes::new(&[]).resolve("a.glsl", IncludeForm::Angled, &from).is_err());
+        assert!(text(IncludeForm::Quoted, "sub").expect_err("a folder").contains("is a folder"));
+    }
+}

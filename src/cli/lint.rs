@@ -1,0 +1,40 @@
+//! `glisten lint`: validates each file alone, then links the programs, and tells everything that is wrong.
+
+use super::args::{BindingArgs, DiagnosticFormat, LevelArgs, SourceArgs};
+use super::console::Console;
+use super::exit::Outcome;
+use super::inputs;
+use super::session::Session;
+use clap::Args;
+
+/// Checks shaders and the programs that they make
+#[derive(Args, Debug)]
+pub(super) struct LintArgs {
+    /// Shaders, folders to search for shaders, or `-` for standard input
+    #[arg(required_unless_present = "programs", value_name = "FILE|DIR")]
+    files: Vec<String>,
+    #[command(flatten)]
+    sources: SourceArgs,
+    #[command(flatten)]
+    levels: LevelArgs,
+    /// The same as --diagnostics
+    #[arg(long, value_enum, conflicts_with = "diagnostics")]
+    format: Option<DiagnosticFormat>,
+    #[command(flatten)]
+    bindings: BindingArgs,
+    /// How many threads (0: one a core)
+    #[arg(short, long, default_value_t = 0, value_name = "N")]
+    jobs: usize,
+}
+
+/// Runs the command.
+pub(super) fn run(args: &LintArgs, console: &Console) -> Outcome {
+    let inputs = inputs::collect(&args.files, &args.sources, true)?;
+    for folder in &inputs.empty_folders {
+        console.remark(&format!("no shader was found in `{folder}`"));
+    }
+    let mut session = Session::new(console, &args.sources, &args.bindings, &args.levels, args.jobs)?;
+    session.set_format(args.format.unwrap_or(args.levels.diagnostics));
+    let units = session.compile(inputs.groups);
+    session.tell_units(&units, true)
+}

@@ -1,0 +1,265 @@
+//! [`Session`]: what all commands that read shaders do: read, compile in parallel, judge by levels, tell.
+//!
+//! *Holds:* results stand in the order of the groups, whatever `-j` is.
+
+use super::args::{BindingArgs, DiagnosticFormat, LevelArgs, SourceArgs};
+use super::config::Configs;
+use super::console::Console;
+use super::exit::{Exit, Failure};
+use super::files;
+use super::guard;
+use super::includes::DiskIncludes;
+use super::inputs::{Group, Input};
+use super::progress::Progress;
+use crate::compiler::{Compiler, Source};
+use crate::diagnostic::write::{self, Finding};
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::link::Program;
+use crate::source::{SourceMap, Span};
+use rayon::prelude::*;
+use std::collections::BTreeSet;
+
+/// Stack of the threads that compile. The phases bound their recursion themselves; this is what they may count on.
+const STACK_BYTES: usize = 16 << 20;
+
+/// Findings with the texts that they are about.
+#[derive(Debug, Default)]
+pub(super) struct Batch {
+    /// The texts.
+    pub(super) sources: SourceMap,
+    /// The findings.
+    pub(super) diagnostics: Vec<Diagnostic>,
+}
+
+/// What came of a group of files.
+#[derive(Debug)]
+pub(super) struct Unit {
+    /// The files.
+    pub(super) group: Group,
+    /// Files that could not be read, one batch each.
+    pub(super) unread: Vec<Batch>,
+    /// What the compiler found, and what commands add.
+    pub(super) batch: Batch,
+    /// The linked program, if there are no errors.
+    pub(super) program: Option<Program>,
+}
+
+impl Unit {
+    /// What the findings come to.
+    pub(super) fn exit(&self) -> Exit {
+        let unread = self.unread.iter().map(|batch| Exit::of(&batch.diagnostics)).max().unwrap_or_default();
+        unread.max(Exit::of(&self.batch.diagnostics))
+    }
+
+    /// The program, unless anything about it is an error (a denied warning included).
+    pub(super) fn sound_program(&self) -> Option<&Program> {
+        self.program.as_ref().filter(|_| self.exit() == Exit::Ok)
+    }
+}
+
+/// The shared course of a command.
+pub(super) struct Session<'a> {
+    console: &'a Console,
+    compiler: Compiler,
+    format: DiagnosticFormat,
+    configs: Configs,
+    pool: rayon::ThreadPool,
+    dropped: usize,
+}
+
+impl<'a> Session<'a> {
+    /// A session with `jobs` threads (0: one a core).
+    pub(super) fn new(
+        console: &'a Console,
+        sources: &SourceArgs,
+        bindings: &BindingArgs,
+        levels: &LevelArgs,
+        jobs: usize,
+    ) -> Result<Self, Failure> {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(jobs)
+            .stack_size(STACK_BYTES)
+            .build()
+            .map_err(|error| Failure::new(Exit::Machine, format!("the system gives no threads: {error}")))?;
+        Ok(Self {
+            console,
+            compiler: Compiler::new(sources.options(bindings)).with_includes(DiskIncludes::new(&sources.include_dirs)),
+            format: levels.diagnostics,
+            configs: Configs::new(levels.levels()?),
+            pool,
+            dropped: 0,
+        })
+    }
+
+    /// The compiler with the options of the command line.
+    pub(super) fn compiler(&self) -> &Compiler {
+        &self.compiler
+    }
+
+    /// The threads.
+    pub(super) fn pool(&self) -> &rayon::ThreadPool {
+        &self.pool
+    }
+
+    /// Sets the format of diagnostics.
+    pub(super) fn set_format(&mut self, format: DiagnosticFormat) {
+        self.format = format;
+    }
+
+    /// Compiles every group and applies the levels.
+    pub(super) fn compile(&mut self, groups: Vec<Group>) -> Vec<Unit> {
+        let progress = Progress::new(self.console, groups.len());
+        let compiler = &self.compiler;
+        let work = |group: Group| {
+            progress.say(&group.name);
+            let unit = compile_group(compiler, group);
+            progress.step();
+            unit
+        };
+        let mut units: Vec<(Unit, usize)> = self.pool.install(|| groups.into_par_iter().map(work).collect());
+        for (unit, dropped) in &mut units {
+            self.judge(&mut unit.batch);
+            self.dropped += *dropped;
+        }
+        units.into_iter().map(|(unit, _)| unit).collect()
+    }
+
+    /// Applies the levels to a batch and puts its findings into the order of the text.
+    pub(super) fn judge(&mut self, batch: &mut Batch) {
+        let sources = &batch.sources;
+        let configs = &mut self.configs;
+        batch.diagnostics.retain_mut(|diagnostic| {
+            let file = sources.file_of(sources.call_site(diagnostic.primary.span));
+            let name = file.or(sources.files().next().map(|(id, _)| id)).map_or("", |id| sources.file(id).name());
+            match configs.levels(name).judge(sources, diagnostic) {
+                Some(severity) => {
+                    diagnostic.severity = severity;
+                    true
+                }
+                None => false,
+            }
+        });
+        batch.diagnostics.sort_by_key(|diagnostic| sources.call_site(diagnostic.primary.span).start);
+    }
+
+    /// Tells all findings, to standard output if `to_output` (as `lint` does), else to standard error; each finding
+    /// once, though several programs may share a file. Returns what they come to.
+    pub(super) fn tell(&self, batches: &[&Batch], to_output: bool) -> Result<Exit, Failure> {
+        let all: Vec<&Batch> = self.configs.errors.iter().chain(batches.iter().copied()).collect();
+        let color = if to_output { self.console.colors_output() } else { self.console.colors_messages() };
+        let mut told = Told::default();
+        let mut human = String::new();
+        for batch in &all {
+            let fresh = told.add(batch);
+            if self.format == DiagnosticFormat::Human {
+                human.push_str(&write::human(&batch.sources, fresh, color));
+            }
+        }
+        let text = match self.format {
+            DiagnosticFormat::Human => human,
+            DiagnosticFormat::Json => write::json(&told.findings),
+            DiagnosticFormat::Sarif => write::sarif(&told.findings),
+            DiagnosticFormat::Github => write::github(&told.findings),
+        };
+        if to_output {
+            self.console.output(&text)?;
+        } else {
+            self.console.message(&text);
+        }
+        if self.format == DiagnosticFormat::Human {
+            if let Some(summary) = summary(&told.findings, self.dropped) {
+                self.console.remark(&summary);
+            }
+        }
+        Ok(all.iter().map(|batch| Exit::of(&batch.diagnostics)).max().unwrap_or_default())
+    }
+
+    /// Tells what was found about these units, see [`Self::tell`].
+    pub(super) fn tell_units(&self, units: &[Unit], to_output: bool) -> Result<Exit, Failure> {
+        let batches: Vec<&Batch> = units.iter().flat_map(|unit| unit.unread.iter().chain([&unit.batch])).collect();
+        self.tell(&batches, to_output)
+    }
+}
+
+/// Findings told so far.
+#[derive(Default)]
+struct Told {
+    findings: Vec<Finding>,
+    seen: BTreeSet<(write::Place, &'static str, String)>,
+}
+
+impl Told {
+    /// Takes over what is new in a batch and returns it.
+    fn add<'b>(&mut self, batch: &'b Batch) -> Vec<&'b Diagnostic> {
+        let mut fresh = Vec::new();
+        for diagnostic in &batch.diagnostics {
+            let finding = Finding::new(&batch.sources, diagnostic);
+            if self.seen.insert((finding.place.clone(), finding.code.id, finding.message.clone())) {
+                self.findings.push(finding);
+                fresh.push(diagnostic);
+            }
+        }
+        fresh
+    }
+}
+
+fn summary(findings: &[Finding], dropped: usize) -> Option<String> {
+    let count = |severity| findings.iter().filter(|finding| finding.severity == severity).count();
+    let parts = [(count(Severity::Error), "error"), (count(Severity::Warning), "warning"), (count(Severity::Note), "note")];
+    let mut parts: Vec<String> =
+        parts.iter().filter(|(n, _)| *n > 0).map(|(n, what)| format!("{n} {what}{}", if *n == 1 { "" } else { "s" })).collect();
+    if dropped > 0 {
+        parts.push(format!("{dropped} more not shown"));
+    }
+    (!parts.is_empty()).then(|| parts.join(", "))
+}
+
+/// Reads and compiles a group; the second value counts findings past the compiler's limit.
+fn compile_group(compiler: &Compiler, group: Group) -> (Unit, usize) {
+    let mut unread = Vec::new();
+    let mut sources = Vec::new();
+    for input in &group.inputs {
+        match read(input) {
+            Ok(source) => sources.push(source),
+            Err(batch) => unread.push(batch),
+        }
+    }
+    if sources.is_empty() {
+        return (Unit { group, unread, batch: Batch::default(), program: None }, 0);
+    }
+    let compiled = guard::guarded(|| compiler.compile(&sources));
+    let unit = match compiled {
+        Ok(compilation) => {
+            let dropped = compilation.diagnostics.dropped();
+            let diagnostics = compilation.diagnostics.into_iter().collect();
+            let program = compilation.program.map(|program| Program { name: group.name.clone(), ..program });
+            let program = program.filter(|_| unread.is_empty());
+            (Unit { group, unread, batch: Batch { sources: compilation.sources, diagnostics }, program }, dropped)
+        }
+        Err(panic) => (Unit { group, unread, batch: internal(&sources, &panic), program: None }, 0),
+    };
+    unit
+}
+
+/// A batch that tells of a slip in the compilation of these sources.
+fn internal(sources: &[Source], panic: &str) -> Batch {
+    let mut map = SourceMap::default();
+    let mut span = Span::default();
+    for source in sources.iter().rev() {
+        if let Some(id) = map.add(source.name.clone(), source.text.clone()) {
+            span = Span::new(map.file(id).base(), map.file(id).base());
+        }
+    }
+    Batch { sources: map, diagnostics: vec![guard::diagnostic(panic, span)] }
+}
+
+fn read(input: &Input) -> Result<Source, Batch> {
+    match files::read_source(&input.name, input.path.as_deref()) {
+        Ok(text) => Ok(Source { name: input.name.clone(), text, stage: input.stage }),
+        Err(error) => {
+            let mut sources = SourceMap::default();
+            let diagnostics = vec![error.diagnostic(&mut sources, &input.name)];
+            Err(Batch { sources, diagnostics })
+        }
+    }
+}
