@@ -218,6 +218,9 @@ impl Plan {
     }
 
     fn write(&self, outputs: &[Output]) -> Result<(), Failure> {
+        if outputs.is_empty() {
+            return Ok(());
+        }
         files::make_folder(&self.folder)?;
         outputs.iter().try_for_each(|(path, bytes)| files::write(path, bytes))
     }

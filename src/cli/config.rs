@@ -59,7 +59,8 @@ impl Configs {
     pub(super) fn levels(&mut self, name: &str) -> &Levels {
         let folder = Path::new(name).parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
         if !self.by_folder.contains_key(folder) {
-            let levels = self.given.over(&self.search(folder));
+            let found = self.search(folder);
+            let levels = self.given.over(&found);
             self.by_folder.insert(folder.to_owned(), levels);
         }
         &self.by_folder[folder]
