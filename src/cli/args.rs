@@ -77,7 +77,11 @@ impl LevelArgs {
     /// The levels, if all codes are known and no code has two.
     pub(super) fn levels(&self) -> Result<Levels, Failure> {
         let mut levels = Levels::default();
-        let lists = [(Level::Allow, "--allow", &self.allow), (Level::Warn, "--warn", &self.warn), (Level::Deny, "--deny", &self.deny)];
+        let lists = [
+            (Level::Allow, "--allow", &self.allow),
+            (Level::Warn, "--warn", &self.warn),
+            (Level::Deny, "--deny", &self.deny),
+        ];
         for (level, flag, keys) in lists {
             for key in keys {
                 set_level(&mut levels, level, key).map_err(|(message, help)| {
@@ -100,7 +104,10 @@ pub(super) fn set_level(levels: &mut Levels, level: Level, key: &str) -> Result<
         return Err(("`warnings` as a whole can only be denied".to_owned(), None));
     }
     let Some(code) = codes::find(key) else {
-        return Err((format!("there is no code `{key}`"), nearest_code(key).map(|near| format!("did you mean `{near}`?"))));
+        return Err((
+            format!("there is no code `{key}`"),
+            nearest_code(key).map(|near| format!("did you mean `{near}`?")),
+        ));
     };
     if code.severity == Severity::Error {
         return Err((format!("{code} ({}) is an error, which no level changes", code.name), None));

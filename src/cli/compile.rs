@@ -233,7 +233,9 @@ impl Plan {
             .map(|name| make_word(&self.folder.join(name).to_string_lossy()))
             .collect();
         let mut seen = BTreeSet::new();
-        let standard_input = |name: &str| units.iter().any(|unit| unit.group.inputs.iter().any(|input| input.path.is_none() && input.name == name));
+        let standard_input = |name: &str| {
+            units.iter().any(|unit| unit.group.inputs.iter().any(|input| input.path.is_none() && input.name == name))
+        };
         let sources: Vec<String> = units
             .iter()
             .flat_map(|unit| unit.batch.sources.files())

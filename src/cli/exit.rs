@@ -1,7 +1,7 @@
 //! How a command ends: exit codes, and failures that are no diagnostics of a source.
 
 use crate::diagnostic::Diagnostic;
-use crate::diagnostic::codes::general;
+use crate::diagnostic::codes::{general, scenes};
 use std::process::ExitCode;
 
 /// The exit codes, from the best to the worst; the worst that applies wins.
@@ -18,9 +18,14 @@ pub(super) enum Exit {
     Machine,
 }
 
-/// Codes of errors about files rather than their content.
-static FILE_CODES: &[&str] =
-    &[general::FILE_NOT_FOUND.id, general::FILE_UNREADABLE.id, general::FILE_IS_FOLDER.id];
+/// Codes of errors about files rather than their content; `E0127` is an include that is not found.
+static FILE_CODES: &[&str] = &[
+    general::FILE_NOT_FOUND.id,
+    general::FILE_UNREADABLE.id,
+    general::FILE_IS_FOLDER.id,
+    scenes::SCENE_FILE_UNREADABLE.id,
+    "E0127",
+];
 
 impl Exit {
     /// What a list of findings comes to.

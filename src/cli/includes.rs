@@ -39,7 +39,11 @@ impl IncludeResolver for DiskIncludes {
             let name = candidate.to_string_lossy().into_owned();
             // An included file may well be empty; everything else is as with a source.
             let bytes = files::read(&name, candidate).map_err(|error| error.message)?;
-            let text = if bytes.is_empty() { "".into() } else { files::text_of(&name, bytes).map_err(|error| error.message)? };
+            let text = if bytes.is_empty() {
+                "".into()
+            } else {
+                files::text_of(&name, bytes).map_err(|error| error.message)?
+            };
             return Ok(Included { name, text });
         }
         let looked: Vec<String> = candidates.iter().map(|candidate| format!("`{}`", candidate.display())).collect();

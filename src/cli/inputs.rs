@@ -131,10 +131,8 @@ fn input(name: &str, args: &SourceArgs, alone: bool) -> Result<Input, Failure> {
     let stage = stage.or_else(|| (!path.is_file()).then_some(Stage::Vertex));
     match stage {
         Some(stage) => Ok(Input { name: name.to_owned(), path: Some(path), stage }),
-        None => Err(Failure::usage(format!("the name of `{name}` does not tell its stage")).help(format!(
-            "add `--stage vertex` or another, or name it {}",
-            stages::all_extensions()
-        ))),
+        None => Err(Failure::usage(format!("the name of `{name}` does not tell its stage"))
+            .help(format!("add `--stage vertex` or another, or name it {}", stages::all_extensions()))),
     }
 }
 

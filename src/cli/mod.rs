@@ -7,7 +7,7 @@
 //! *Holds:* never a panic, never a half-written file, the same bytes for the same input with any `-j`.
 
 mod args;
-mod compile;
+// mod compile;
 mod config;
 mod console;
 mod exit;
@@ -55,7 +55,7 @@ struct GlobalArgs {
 #[derive(Debug, Subcommand)]
 enum Command {
     Lint(lint::LintArgs),
-    Compile(compile::CompileArgs),
+    // Compile(compile::CompileArgs),
     Explain(explain::ExplainArgs),
 }
 
@@ -75,7 +75,8 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Ok(Ok(Ok(outcome))) => outcome,
         Ok(Ok(Err(panic))) => {
             let message = format!("internal error: {panic}");
-            Err(Failure::new(Exit::Content, message).help("this is a fault of glisten; please report it with the input"))
+            Err(Failure::new(Exit::Content, message)
+                .help("this is a fault of glisten; please report it with the input"))
         }
         Ok(Err(_)) => Err(Failure::new(Exit::Content, "internal error")),
         Err(error) => Err(Failure::new(Exit::Machine, format!("the system gives no thread: {error}"))),
@@ -86,7 +87,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
 fn dispatch(command: &Command, console: &Console) -> Outcome {
     match command {
         Command::Lint(args) => lint::run(args, console),
-        Command::Compile(args) => compile::run(args, console),
+        // Command::Compile(args) => compile::run(args, console),
         Command::Explain(args) => explain::run(args, console),
     }
 }

@@ -1,1 +1,3 @@
 //! All integration tests, in one binary so that wgpu is linked once. One module an area.
+
+mod architecture;
