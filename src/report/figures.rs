@@ -1,0 +1,107 @@
+//! Figures of a report: differences of pictures, spreads of ratios, the Pareto front.
+
+use super::model::{Figures, Spread, Way};
+use crate::compare::Picture;
+
+/// How far `picture` is from `truth`, and the difference at each pixel.
+pub(super) fn compare(picture: &Picture, truth: &Picture) -> (Figures, Vec<Option<f64>>) {
+    let mut figures = Figures::default();
+    let mut squares = 0.0;
+    let mut channels = 0u64;
+    let empty = Vec::new();
+    let colors = picture.attachments.first().unwrap_or(&empty);
+    let wanted = truth.attachments.first().unwrap_or(&empty);
+    let pixels = colors.iter().zip(wanted).zip(picture.covered.iter().zip(&truth.covered));
+    let differences = pixels
+        .map(|((color, wanted), (&covered, &should))| {
+            if covered != should {
+                figures.coverage_mismatch += 1;
+                return None;
+            }
+            if !covered {
+                return Some(0.0);
+            }
+            figures.covered += 1;
+            let mut largest = 0.0f64;
+            let rgb = || color.iter().zip(wanted).take(3).map(|(a, b)| (a - b).abs());
+            if rgb().any(|difference| !difference.is_finite()) {
+                figures.non_finite += 1;
+                return None;
+            }
+            for difference in rgb() {
+                squares += difference * difference;
+                channels += 1;
+                largest = largest.max(difference);
+            }
+            figures.max_abs = figures.max_abs.max(largest);
+            Some(largest)
+        })
+        .collect();
+    figures.rmse = if channels > 0 { (squares / channels as f64).sqrt() } else { 0.0 };
+    figures.psnr = (figures.rmse > 0.0).then(|| -20.0 * figures.rmse.log10());
+    (figures, differences)
+}
+
+/// Median and quartiles; of no values, NaN.
+pub(super) fn spread(values: &[f64]) -> Spread {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let at = |fraction: f64| {
+        let place = fraction * sorted.len().saturating_sub(1) as f64;
+        let [below, above] = [place.floor(), place.ceil()].map(|i| sorted.get(i as usize).copied().unwrap_or(f64::NAN));
+        below + (above - below) * place.fract()
+    };
+    Spread { median: at(0.5), low: at(0.25), high: at(0.75) }
+}
+
+/// Marks the ways of each model that no other one beats in both error and time.
+pub(super) fn mark_pareto(ways: &mut [Way]) {
+    let points: Vec<(String, f64, f64)> =
+        ways.iter().map(|way| (way.model.clone(), way.ratio.median, way.error.rmse)).collect();
+    for (way, (model, time, error)) in ways.iter_mut().zip(&points) {
+        way.pareto = !points.iter().any(|(other, t, e)| {
+            other == model && t <= time && e <= error && (t < time || e < error)
+        });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn picture(reds: &[f64], covered: &[bool]) -> Picture {
+        Picture {
+            width: reds.len() as u32,
+            height: 1,
+            attachments: vec![reds.iter().map(|&red| [red, 0.0, 0.0, 1.0]).collect()],
+            covered: covered.to_vec(),
+            bounds: None,
+            undecided: vec![false; reds.len()],
+            near_edge: vec![false; reds.len()],
+        }
+    }
+
+    #[test]
+    fn coverage_and_nan_are_counted_apart() {
+        let gpu = picture(&[1.0, 0.5, f64::NAN, 9.0], &[true, true, true, false]);
+        let truth = picture(&[0.0, 0.5, 0.0, 0.0], &[true, true, true, true]);
+        let (figures, differences) = compare(&gpu, &truth);
+        assert_eq!((figures.covered, figures.coverage_mismatch, figures.non_finite), (3, 1, 1));
+        assert_eq!(figures.max_abs, 1.0);
+        // One of the six finite channels is off by 1.
+        assert!((figures.rmse - (1.0f64 / 6.0).sqrt()).abs() < 1e-15);
+        assert_eq!(differences, [Some(1.0), Some(0.0), None, None]);
+    }
+
+    #[test]
+    fn equal_pictures_have_no_psnr() {
+        let same = picture(&[0.25], &[true]);
+        assert_eq!(compare(&same, &same).0.psnr, None);
+    }
+
+    #[test]
+    fn quartiles_interpolate() {
+        assert_eq!(spread(&[4.0, 1.0, 3.0, 2.0]), Spread { median: 2.5, low: 1.75, high: 3.25 });
+        assert_eq!(spread(&[7.0]), Spread { median: 7.0, low: 7.0, high: 7.0 });
+    }
+}

@@ -1,0 +1,159 @@
+//! The report as one HTML page that needs no other file.
+
+use super::model::{Figures, Report, Truth, Way};
+use super::{plot, raster};
+use minijinja::{Environment, Value, context};
+
+const TEMPLATE: &str = include_str!("page.html");
+const STYLE: &str = include_str!("page.css");
+
+/// The page.
+///
+/// # Errors
+/// The template engine's, which only a broken template gives.
+pub(super) fn page(report: &Report) -> Result<String, minijinja::Error> {
+    let mut environment = Environment::new();
+    environment.add_template("page.html", TEMPLATE)?;
+    let models: Vec<Value> =
+        report.truths.iter().enumerate().map(|(index, truth)| model(report, index, truth)).collect();
+    let stops: Vec<String> = raster::SCALE.iter().map(|[r, g, b]| format!("rgb({r} {g} {b})")).collect();
+    environment.get_template("page.html")?.render(context! {
+        style => Value::from_safe_string(STYLE.into()),
+        scene => report.scene,
+        width => report.size[0],
+        height => report.size[1],
+        adapter => report.adapter.name,
+        driver => report.adapter.driver,
+        via => report.via,
+        plot => Value::from_safe_string(plot::svg(report)),
+        scale => Value::from_safe_string(stops.join(", ")),
+        models,
+        baseline => report.timing.baseline,
+        baseline_ms => format!("{:.3}", report.timing.baseline_ms),
+        rounds => report.timing.rounds,
+        same_again => ratio(report.timing.same_again.median),
+        same_low => ratio(report.timing.same_again.low),
+        same_high => ratio(report.timing.same_again.high),
+    })
+}
+
+fn model(report: &Report, index: usize, truth: &Truth) -> Value {
+    let members: Vec<&Way> = report.ways.iter().filter(|way| way.model == truth.model).collect();
+    let names = plot::names(&members);
+    let ways: Vec<Value> = members
+        .iter()
+        .map(|way| {
+            let shape = names.iter().position(|name| *name == way.name).unwrap_or(0);
+            row(report, way, shape)
+        })
+        .collect();
+    let front: Vec<Value> = front(&members);
+    context! {
+        index,
+        name => truth.model,
+        truth => truth.way,
+        truth_mesh => mesh(truth.tessellation),
+        truth_picture => raster::color_uri(&truth.picture),
+        ways,
+        front,
+    }
+}
+
+fn row(report: &Report, way: &Way, shape: usize) -> Value {
+    let [width, height] = report.size;
+    let mark = format!("<svg viewBox=\"-9 -9 18 18\" class=\"key\">{}</svg>", plot::marker(shape, 0.0, 0.0));
+    context! {
+        mark => Value::from_safe_string(mark),
+        name => way.name,
+        mesh => mesh(way.tessellation),
+        max_abs => scientific(way.error.max_abs),
+        rmse => scientific(way.error.rmse),
+        psnr => decibels(&way.error),
+        rounding => scientific(way.rounding.max_abs),
+        silhouette => way.error.coverage_mismatch,
+        non_finite => way.error.non_finite,
+        vertices => grouped(way.vertices),
+        fragments => way.fragments.map_or_else(|| "\u{2013}".to_owned(), grouped),
+        milliseconds => format!("{:.3}", way.milliseconds),
+        ratio => ratio(way.ratio.median),
+        low => ratio(way.ratio.low),
+        high => ratio(way.ratio.high),
+        pareto => way.pareto,
+        picture => raster::color_uri(&way.picture),
+        difference => raster::difference_uri(&way.difference, width, height),
+    }
+}
+
+/// The ways of the front from the fastest to the most exact, for the sentence above the pictures.
+fn front(ways: &[&Way]) -> Vec<Value> {
+    let mut best: Vec<&&Way> = ways.iter().filter(|way| way.pareto).collect();
+    best.sort_by(|a, b| a.ratio.median.total_cmp(&b.ratio.median));
+    best.into_iter()
+        .map(|way| {
+            context! {
+                name => way.name,
+                mesh => mesh(way.tessellation),
+                rmse => scientific(way.error.rmse),
+                ratio => ratio(way.ratio.median),
+            }
+        })
+        .collect()
+}
+
+fn mesh(tessellation: Option<[u32; 2]>) -> Option<String> {
+    tessellation.map(|[segments, rings]| format!("{segments} \u{d7} {rings}"))
+}
+
+fn ratio(value: f64) -> String {
+    format!("{value:.2}")
+}
+
+fn decibels(figures: &Figures) -> String {
+    figures.psnr.map_or_else(|| "\u{221e}".into(), |psnr| format!("{psnr:.1}"))
+}
+
+/// `1.2e-3` as `1.2 x 10^-3` in typographic signs; 0 as 0.
+fn scientific(value: f64) -> String {
+    if value == 0.0 {
+        return "0".into();
+    }
+    let text = format!("{value:.1e}");
+    let Some((mantissa, exponent)) = text.split_once('e') else { return text };
+    let raised: String = exponent
+        .chars()
+        .filter_map(|sign| match sign {
+            '-' => Some('\u{207b}'),
+            '1' => Some('\u{b9}'),
+            '2' => Some('\u{b2}'),
+            '3' => Some('\u{b3}'),
+            digit => digit.to_digit(10).and_then(|digit| char::from_u32(0x2070 + digit)),
+        })
+        .collect();
+    format!("{mantissa}\u{202f}\u{d7}\u{202f}10{raised}")
+}
+
+/// Digits in groups of three.
+fn grouped(value: u64) -> String {
+    let digits = value.to_string();
+    let mut text = String::new();
+    for (index, digit) in digits.chars().enumerate() {
+        if index > 0 && (digits.len() - index) % 3 == 0 {
+            text.push('\u{202f}');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_for_people() {
+        assert_eq!(scientific(1.25e-13), "1.2\u{202f}\u{d7}\u{202f}10\u{207b}\u{b9}\u{b3}");
+        assert_eq!(scientific(0.0), "0");
+        assert_eq!(grouped(1_234_567), "1\u{202f}234\u{202f}567");
+        assert_eq!(grouped(12), "12");
+    }
+}

@@ -1,0 +1,105 @@
+//! Pictures of a report as PNG data URIs.
+//!
+//! *Holds:* colors are clamped to [0, 1] and rounded to 8 bits without gamma, as `glisten render` does; what is not
+//! finite is magenta. Differences are drawn on a logarithmic scale from [`FLOOR`] to 1; pixels that only one picture
+//! covers are cyan.
+
+use crate::compare::Picture;
+use image::ImageEncoder;
+use image::codecs::png::PngEncoder;
+
+/// The difference that is drawn black.
+pub(super) const FLOOR: f64 = 1e-7;
+
+/// The colors of the scale of differences, dark to light, at equal steps; between them colors are mixed.
+pub(super) const SCALE: [[u8; 3]; 8] = [
+    [0, 0, 4],
+    [40, 11, 84],
+    [101, 21, 110],
+    [159, 42, 99],
+    [212, 72, 66],
+    [245, 125, 21],
+    [250, 193, 39],
+    [252, 255, 164],
+];
+
+/// The first attachment.
+pub(super) fn color_uri(picture: &Picture) -> String {
+    let pixels = picture.attachments.first().map(Vec::as_slice).unwrap_or_default();
+    let bytes = pixels.iter().flat_map(|[r, g, b, _]| {
+        if [r, g, b].iter().all(|channel| channel.is_finite()) {
+            [r, g, b].map(|channel| (channel.clamp(0.0, 1.0) * 255.0).round() as u8)
+        } else {
+            [255, 0, 255]
+        }
+    });
+    data_uri(&bytes.collect::<Vec<u8>>(), picture.width, picture.height)
+}
+
+/// Differences from the truth.
+pub(super) fn difference_uri(differences: &[Option<f64>], width: u32, height: u32) -> String {
+    let bytes = differences.iter().flat_map(|difference| match difference {
+        Some(difference) => scale_color(*difference),
+        None => [0, 200, 220],
+    });
+    data_uri(&bytes.collect::<Vec<u8>>(), width, height)
+}
+
+/// The color of a difference.
+fn scale_color(difference: f64) -> [u8; 3] {
+    let decades = -FLOOR.log10();
+    let place = ((difference.max(FLOOR).log10() + decades) / decades).clamp(0.0, 1.0) * (SCALE.len() - 1) as f64;
+    let index = (place as usize).min(SCALE.len() - 2);
+    let [low, high] = [SCALE[index], SCALE[index + 1]];
+    let mix = place - index as f64;
+    std::array::from_fn(|i| (f64::from(low[i]) * (1.0 - mix) + f64::from(high[i]) * mix).round() as u8)
+}
+
+fn data_uri(rgb: &[u8], width: u32, height: u32) -> String {
+    let mut png = Vec::new();
+    let encoded = PngEncoder::new(&mut png).write_image(rgb, width, height, image::ExtendedColorType::Rgb8);
+    // Writing to memory fails only if the sizes disagree; an empty picture shows that better than no page at all.
+    if encoded.is_err() {
+        png.clear();
+    }
+    format!("data:image/png;base64,{}", base64(&png))
+}
+
+/// RFC 4648 §4.
+fn base64(bytes: &[u8]) -> String {
+    const ALPHABET: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
+    for chunk in bytes.chunks(3) {
+        let mut group = [0; 4];
+        group[1..=chunk.len()].copy_from_slice(chunk);
+        let word = u32::from_be_bytes(group);
+        for sextet in 0..4 {
+            if sextet <= chunk.len() {
+                text.push(char::from(ALPHABET[(word >> (18 - 6 * sextet) & 63) as usize]));
+            } else {
+                text.push('=');
+            }
+        }
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn base64_of_rfc_4648() {
+        let table = [("", ""), ("f", "Zg=="), ("fo", "Zm8="), ("foo", "Zm9v"), ("foob", "Zm9vYg=="), ("foobar", "Zm9vYmFy")];
+        for (plain, encoded) in table {
+            assert_eq!(base64(plain.as_bytes()), encoded);
+        }
+    }
+
+    #[test]
+    fn the_scale_ends_where_it_says() {
+        assert_eq!(scale_color(0.0), SCALE[0]);
+        assert_eq!(scale_color(1.0), SCALE[7]);
+        assert_eq!(scale_color(100.0), SCALE[7]);
+    }
+}
