@@ -59,9 +59,8 @@ pub(super) fn mark_pareto(ways: &mut [Way]) {
     let points: Vec<(String, f64, f64)> =
         ways.iter().map(|way| (way.model.clone(), way.ratio.median, way.error.rmse)).collect();
     for (way, (model, time, error)) in ways.iter_mut().zip(&points) {
-        way.pareto = !points.iter().any(|(other, t, e)| {
-            other == model && t <= time && e <= error && (t < time || e < error)
-        });
+        way.pareto =
+            !points.iter().any(|(other, t, e)| other == model && t <= time && e <= error && (t < time || e < error));
     }
 }
 

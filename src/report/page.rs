@@ -19,16 +19,16 @@ pub(super) fn page(report: &Report) -> Result<String, minijinja::Error> {
     let stops: Vec<String> = raster::SCALE.iter().map(|[r, g, b]| format!("rgb({r} {g} {b})")).collect();
     environment.get_template("page.html")?.render(context! {
         style => Value::from_safe_string(STYLE.into()),
-        scene => report.scene,
+        scene => &report.scene,
         width => report.size[0],
         height => report.size[1],
-        adapter => report.adapter.name,
-        driver => report.adapter.driver,
+        adapter => &report.adapter.name,
+        driver => &report.adapter.driver,
         via => report.via,
         plot => Value::from_safe_string(plot::svg(report)),
         scale => Value::from_safe_string(stops.join(", ")),
         models,
-        baseline => report.timing.baseline,
+        baseline => &report.timing.baseline,
         baseline_ms => format!("{:.3}", report.timing.baseline_ms),
         rounds => report.timing.rounds,
         same_again => ratio(report.timing.same_again.median),
@@ -48,12 +48,15 @@ fn model(report: &Report, index: usize, truth: &Truth) -> Value {
         })
         .collect();
     let front: Vec<Value> = front(&members);
+    // One row a way, if every way is drawn at as many tessellations.
+    let columns = (ways.len() / names.len().max(1)).clamp(1, 4);
     context! {
         index,
-        name => truth.model,
-        truth => truth.way,
+        columns,
+        name => &truth.model,
+        truth => &truth.way,
         truth_mesh => mesh(truth.tessellation),
-        truth_picture => raster::color_uri(&truth.picture),
+        truth_picture => Value::from_safe_string(raster::color_uri(&truth.picture)),
         ways,
         front,
     }
@@ -64,7 +67,7 @@ fn row(report: &Report, way: &Way, shape: usize) -> Value {
     let mark = format!("<svg viewBox=\"-9 -9 18 18\" class=\"key\">{}</svg>", plot::marker(shape, 0.0, 0.0));
     context! {
         mark => Value::from_safe_string(mark),
-        name => way.name,
+        name => &way.name,
         mesh => mesh(way.tessellation),
         max_abs => scientific(way.error.max_abs),
         rmse => scientific(way.error.rmse),
@@ -79,8 +82,8 @@ fn row(report: &Report, way: &Way, shape: usize) -> Value {
         low => ratio(way.ratio.low),
         high => ratio(way.ratio.high),
         pareto => way.pareto,
-        picture => raster::color_uri(&way.picture),
-        difference => raster::difference_uri(&way.difference, width, height),
+        picture => Value::from_safe_string(raster::color_uri(&way.picture)),
+        difference => Value::from_safe_string(raster::difference_uri(&way.difference, width, height)),
     }
 }
 
@@ -91,7 +94,7 @@ fn front(ways: &[&Way]) -> Vec<Value> {
     best.into_iter()
         .map(|way| {
             context! {
-                name => way.name,
+                name => &way.name,
                 mesh => mesh(way.tessellation),
                 rmse => scientific(way.error.rmse),
                 ratio => ratio(way.ratio.median),
@@ -147,7 +150,99 @@ fn grouped(value: u64) -> String {
 
 #[cfg(test)]
 mod tests {
+    use super::super::figures::{compare, mark_pareto};
+    use super::super::model::{Adapter, Spread, Timing};
     use super::*;
+    use crate::compare::Picture;
+
+    fn picture(level: f64) -> Picture {
+        let side = 64;
+        let inside = |i: usize| ((i % side) as f64 - 32.0).hypot((i / side) as f64 - 32.0) < 26.0;
+        let shade = |i: usize| if inside(i) { [level * (i % side) as f64 / 64.0, level, 0.3, 1.0] } else { [0.0; 4] };
+        Picture {
+            width: 64,
+            height: 64,
+            attachments: vec![(0..side * side).map(shade).collect()],
+            covered: (0..side * side).map(inside).collect(),
+            bounds: None,
+            undecided: vec![false; side * side],
+            near_edge: vec![false; side * side],
+        }
+    }
+
+    fn example() -> Report {
+        let mut ways = Vec::new();
+        for model in ["Phong", "Blinn-Phong"] {
+            for (stage, base_error, base_time) in [("per fragment", 2e-3, 1.4), ("per vertex", 0.2, 1.0)] {
+                for (level, factor) in [(16, 1.0), (32, 4.0), (64, 16.0)] {
+                    let error = base_error / factor;
+                    let median = base_time + factor / 10.0;
+                    let picture = picture(1.0 - error);
+                    let (error, difference) = compare(&picture, &self::picture(1.0));
+                    ways.push(Way {
+                        name: format!("{model} {stage}"),
+                        model: model.into(),
+                        tessellation: Some([level, level / 2]),
+                        vertices: u64::from(level * level * 3),
+                        fragments: Some(2124),
+                        rounding: Figures { max_abs: 3e-6, ..error },
+                        error,
+                        milliseconds: median * 0.7,
+                        ratio: Spread { median, low: median * 0.97, high: median * 1.05 },
+                        pareto: false,
+                        picture,
+                        difference,
+                    });
+                }
+            }
+        }
+        mark_pareto(&mut ways);
+        let truth = |model: &str| Truth {
+            model: model.into(),
+            way: format!("{model} per fragment"),
+            tessellation: Some([256, 128]),
+            precision: "f64",
+            picture: picture(1.0),
+        };
+        Report {
+            scene: "sphere <&>".into(),
+            size: [64, 64],
+            adapter: Adapter { name: "llvmpipe".into(), driver: "Mesa".into() },
+            via: "spirv",
+            truths: vec![truth("Phong"), truth("Blinn-Phong")],
+            timing: Timing {
+                baseline: ways[0].title(),
+                baseline_ms: 1.05,
+                rounds: 15,
+                same_again: Spread { median: 1.01, low: 0.99, high: 1.02 },
+            },
+            ways,
+        }
+    }
+
+    #[test]
+    fn the_page_is_whole_and_alone() {
+        let report = example();
+        let page = page(&report).expect("the template is good");
+        assert!(page.contains("sphere &lt;&amp;&gt;: error against run time"), "the scene's name is escaped");
+        // A truth a model, and a picture with its difference a way.
+        assert_eq!(page.matches("<img src=\"data:image/png;base64,").count(), 2 + 2 * report.ways.len());
+        assert_eq!(page.matches("<tr class=\"model-").count(), report.ways.len());
+        for outside in ["http://", "https://", "src=\"/", "<link", "@import"] {
+            assert!(!page.contains(outside), "{outside}");
+        }
+        let rings = page.matches("class=\"ring\"").count();
+        assert_eq!(rings, report.ways.iter().filter(|way| way.pareto).count());
+    }
+
+    #[test]
+    fn the_table_has_a_line_a_way() {
+        let report = example();
+        let table = super::super::table::table(&report);
+        for way in &report.ways {
+            assert!(table.contains(&way.title()), "{table}");
+        }
+    }
 
     #[test]
     fn numbers_for_people() {

@@ -28,7 +28,8 @@ impl Axis {
     /// Covers all values with a margin on both sides.
     fn over(values: impl Iterator<Item = f64>, margin: f64, from: f64, to: f64) -> Self {
         let logs = values.filter(|value| value.is_finite() && *value > 0.0).map(f64::log10);
-        let (low, high) = logs.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), log| (low.min(log), high.max(log)));
+        let (low, high) =
+            logs.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), log| (low.min(log), high.max(log)));
         if low > high {
             return Self { low: -1.0, high: 1.0, from, to };
         }
@@ -107,7 +108,7 @@ fn axes(svg: &mut String, x: &Axis, y: &Axis) {
             right = WIDTH - RIGHT,
             label = LEFT - 10.0,
             baseline = place + 4.0,
-            tick = format!("{tick:.0e}").replace('-', "\u{2212}"),
+            tick = power(tick),
         );
     }
     let _ = writeln!(
@@ -118,6 +119,15 @@ fn axes(svg: &mut String, x: &Axis, y: &Axis) {
         HEIGHT - 12.0,
         (TOP + HEIGHT - BOTTOM) / 2.0,
     );
+}
+
+/// `10` raised, with a factor in front if it is not 1.
+fn power(tick: f64) -> String {
+    let exponent = tick.log10().floor();
+    let factor = (tick / 10f64.powf(exponent)).round();
+    let exponent = exponent.to_string().replace('-', "\u{2212}");
+    let raised = format!("10<tspan dy=\"-5\" font-size=\"9.5\">{exponent}</tspan>");
+    if factor == 1.0 { raised } else { format!("{factor}\u{b7}{raised}") }
 }
 
 /// The Pareto front from the fastest to the most exact.

@@ -6,7 +6,9 @@ use std::fmt::Write as _;
 /// Lines of at most some 100 columns, then what the figures mean.
 pub(super) fn table(report: &Report) -> String {
     let mut rows = vec![
-        ["way", "max error", "RMSE", "rounding", "fragments", "ms", "time", "quartiles", ""].map(str::to_owned).to_vec(),
+        ["way", "max error", "RMSE", "rounding", "fragments", "ms", "time", "quartiles", ""]
+            .map(str::to_owned)
+            .to_vec(),
     ];
     for way in &report.ways {
         rows.push(vec![
@@ -59,9 +61,11 @@ fn aligned(rows: &[Vec<String>]) -> String {
             .iter()
             .zip(&widths)
             .enumerate()
-            .map(|(column, (cell, &width))| {
-                if column == 0 { format!("{cell:<width$}") } else { format!("{cell:>width$}") }
-            })
+            .map(
+                |(column, (cell, &width))| {
+                    if column == 0 { format!("{cell:<width$}") } else { format!("{cell:>width$}") }
+                },
+            )
             .collect();
         text.push_str(line.join("  ").trim_end());
         text.push('\n');

@@ -96,7 +96,7 @@ impl Loader<'_> {
             self.reader.report(Diagnostic::new(&SCENE_SYNTAX, self.reader.span(0..text.len()), message));
             return None;
         }
-        self.reader.check_keys(table, "a scene", &["framebuffer", "draw", "camera"]);
+        self.reader.check_keys(table, "a scene", &["framebuffer", "draw", "camera", "report"]);
         let framebuffer = self.framebuffer(table)?;
         let camera = self.reader.table_at(table, "camera");
         let mut draws = Vec::new();

@@ -1,0 +1,307 @@
+//! The ways that a scene file asks to be compared, each as a scene of its own.
+//!
+//! *In:* the text of a scene file, with a `[report]` table or without. *Out:* [`Plan`]: for every way and tessellation
+//! the text of a scene that is drawn exactly as `glisten render` would draw it.
+//!
+//! ```toml
+//! [report]
+//! draw = 0                                         # the draw whose keys the ways replace
+//! tessellations = [[16, 8], [32, 16], [64, 32]]    # segments and rings of its mesh
+//! truth_tessellation = [256, 128]                  # of the mesh of the truth
+//! rounds = 15
+//!
+//! [[report.way]]
+//! name = "Phong per fragment"
+//! model = "Phong"                                  # ways of one model have one truth
+//! truth = true                                     # the f64 picture of this way is the truth of its model
+//! set = { vertex = "phong.vert", fragment = "phong.frag" }    # replaces or adds keys of the draw
+//! ```
+//!
+//! Without the table the one way is the scene as it stands, at a quarter, a half and all of its mesh's segments and
+//! rings. *Holds:* `set` goes into tables (`set = { mesh = { radius = 2.0 } }` keeps the other keys of the mesh).
+
+use crate::diagnostic::Diagnostic;
+use crate::diagnostic::codes::scenes::{SCENE_SYNTAX, SCENE_WRONG_VALUE};
+use crate::source::{SourceMap, Span};
+use serde::Deserialize;
+use std::ops::Range;
+use toml::{Table, Value};
+
+/// What is compared.
+#[derive(Clone, Debug)]
+pub(super) struct Plan {
+    /// In the order of the file, coarse to fine.
+    pub(super) ways: Vec<PlannedWay>,
+    /// One a model, in the order in which models are first named.
+    pub(super) truths: Vec<PlannedTruth>,
+    /// How often all ways are timed.
+    pub(super) rounds: u32,
+}
+
+/// A way to draw.
+#[derive(Clone, Debug)]
+pub(super) struct PlannedWay {
+    pub(super) name: String,
+    pub(super) model: String,
+    pub(super) tessellation: Option<[u32; 2]>,
+    /// The scene file.
+    pub(super) text: String,
+}
+
+/// What the ways of a model are judged by.
+#[derive(Clone, Debug)]
+pub(super) struct PlannedTruth {
+    pub(super) model: String,
+    pub(super) way: String,
+    pub(super) tessellation: Option<[u32; 2]>,
+    /// The scene file.
+    pub(super) text: String,
+}
+
+/// The `[report]` table.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ReportTable {
+    #[serde(default)]
+    draw: usize,
+    tessellations: Option<Vec<[u32; 2]>>,
+    truth_tessellation: Option<[u32; 2]>,
+    rounds: Option<u32>,
+    #[serde(default)]
+    way: Vec<WayTable>,
+}
+
+/// A `[[report.way]]` table.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct WayTable {
+    name: String,
+    model: Option<String>,
+    #[serde(default)]
+    truth: bool,
+    #[serde(default)]
+    set: Table,
+}
+
+/// A scene file of which the report reads its own table alone.
+#[derive(Deserialize)]
+struct SceneFile {
+    report: Option<toml::Spanned<ReportTable>>,
+}
+
+const ROUNDS: u32 = 15;
+const MOST_ROUNDS: u32 = 1000;
+/// How much finer the truth's mesh is than the finest way's, unless `truth_tessellation` says.
+const TRUTH_FACTOR: u32 = 4;
+/// What a mesh has if its table does not say (see `docs/scenes.md`).
+const DEFAULT_TESSELLATION: [u32; 2] = [64, 32];
+
+/// Reads the plan of the scene file `name`.
+///
+/// # Errors
+/// One diagnostic whose place is in `text`, which `sources` holds from `base` on.
+pub(super) fn plan(scene_name: &str, text: &str, base: u32) -> Result<Plan, Box<Diagnostic>> {
+    let at = |range: Option<Range<usize>>| {
+        range.map_or_else(Span::default, |range| Span::new(base + range.start as u32, base + range.end as u32))
+    };
+    let syntax = |error: toml::de::Error| {
+        let message = error.message().trim().replace('\n', ", ");
+        Box::new(Diagnostic::new(&SCENE_SYNTAX, at(error.span()), message).here("here"))
+    };
+    let file: SceneFile = toml::from_str(text).map_err(syntax)?;
+    let mut scene: Table = toml::from_str(text).map_err(syntax)?;
+    scene.remove("report");
+    let (span, table) = match file.report {
+        Some(report) => (at(Some(report.span())), report.into_inner()),
+        None => (Span::default(), ReportTable::default()),
+    };
+    let wrong = |message: String| Box::new(Diagnostic::new(&SCENE_WRONG_VALUE, span, message).here("in this table"));
+    build(scene_name, &scene, table).map_err(wrong)
+}
+
+fn build(scene_name: &str, scene: &Table, report: ReportTable) -> Result<Plan, String> {
+    let rounds = report.rounds.unwrap_or(ROUNDS);
+    if !(3..=MOST_ROUNDS).contains(&rounds) {
+        return Err(format!("`rounds` is 3 to {MOST_ROUNDS}"));
+    }
+    let draw = scene.get("draw").and_then(Value::as_array).and_then(|draws| draws.get(report.draw));
+    let Some(draw) = draw.and_then(Value::as_table) else {
+        return Err(format!("the scene has no draw {}; draws count from 0", report.draw));
+    };
+    let tessellations = tessellations(&report, draw)?;
+    let ways = if report.way.is_empty() {
+        vec![WayTable { name: scene_name.into(), model: None, truth: true, set: Table::new() }]
+    } else {
+        report.way.clone()
+    };
+    let text = |way: &WayTable, tessellation| scene_text(scene, report.draw, way, tessellation);
+    let mut planned = Vec::new();
+    for way in &ways {
+        for &tessellation in &tessellations {
+            planned.push(PlannedWay {
+                name: way.name.clone(),
+                model: model(way),
+                tessellation,
+                text: text(way, tessellation)?,
+            });
+        }
+    }
+    let mut truths: Vec<PlannedTruth> = Vec::new();
+    for way in &ways {
+        let model = model(way);
+        if truths.iter().any(|truth| truth.model == model) {
+            continue;
+        }
+        let judge = judge(&ways, &model)?;
+        let tessellation = finest(&tessellations, report.truth_tessellation);
+        truths.push(PlannedTruth { model, way: judge.name.clone(), tessellation, text: text(judge, tessellation)? });
+    }
+    Ok(Plan { ways: planned, truths, rounds })
+}
+
+fn model(way: &WayTable) -> String {
+    way.model.clone().unwrap_or_else(|| way.name.clone())
+}
+
+/// The way of a model that is its truth: the one that says so, or the only one.
+fn judge<'a>(ways: &'a [WayTable], model_name: &str) -> Result<&'a WayTable, String> {
+    let members: Vec<&WayTable> = ways.iter().filter(|way| model(way) == model_name).collect();
+    let marked: Vec<&WayTable> = members.iter().copied().filter(|way| way.truth).collect();
+    match (&members[..], &marked[..]) {
+        (_, [judge]) => Ok(judge),
+        ([only], []) => Ok(only),
+        (_, []) => Err(format!("no way of the model `{model_name}` has `truth = true`")),
+        _ => Err(format!("several ways of the model `{model_name}` have `truth = true`")),
+    }
+}
+
+/// The levels at which every way is drawn; `None` alone if the draw has no mesh that can be tessellated.
+fn tessellations(report: &ReportTable, draw: &Table) -> Result<Vec<Option<[u32; 2]>>, String> {
+    let shape = draw.get("mesh").and_then(Value::as_table).filter(|mesh| mesh.contains_key("shape"));
+    match (&report.tessellations, shape) {
+        (Some(list), Some(_)) if !list.is_empty() => Ok(list.iter().copied().map(Some).collect()),
+        (Some(_), Some(_)) => Err("`tessellations` is a list of at least one pair of segments and rings".into()),
+        (Some(_), None) => Err("`tessellations` wants a draw with a mesh by `shape`".into()),
+        (None, None) => Ok(vec![None]),
+        (None, Some(mesh)) => {
+            let count = |key: &str, default: u32| {
+                mesh.get(key).and_then(Value::as_integer).and_then(|n| u32::try_from(n).ok()).unwrap_or(default)
+            };
+            let [segments, rings] =
+                [count("segments", DEFAULT_TESSELLATION[0]), count("rings", DEFAULT_TESSELLATION[1])];
+            Ok([4, 2, 1].map(|part| Some([(segments / part).max(3), (rings / part).max(2)])).to_vec())
+        }
+    }
+}
+
+/// The mesh of the truth: as asked for, or finer than the finest.
+fn finest(tessellations: &[Option<[u32; 2]>], asked: Option<[u32; 2]>) -> Option<[u32; 2]> {
+    let finest =
+        tessellations.iter().flatten().max_by_key(|[segments, rings]| u64::from(*segments) * u64::from(*rings))?;
+    Some(asked.unwrap_or_else(|| finest.map(|n| n.saturating_mul(TRUTH_FACTOR).min(1024))))
+}
+
+/// The scene with the keys of a way and a tessellation.
+fn scene_text(scene: &Table, draw: usize, way: &WayTable, tessellation: Option<[u32; 2]>) -> Result<String, String> {
+    let mut scene = scene.clone();
+    let table = scene
+        .get_mut("draw")
+        .and_then(Value::as_array_mut)
+        .and_then(|draws| draws.get_mut(draw))
+        .and_then(Value::as_table_mut)
+        .ok_or("the draw is no table")?;
+    merge(table, &way.set);
+    if let Some([segments, rings]) = tessellation
+        && let Some(mesh) = table.get_mut("mesh").and_then(Value::as_table_mut)
+    {
+        mesh.insert("segments".into(), Value::Integer(i64::from(segments)));
+        mesh.insert("rings".into(), Value::Integer(i64::from(rings)));
+    }
+    toml::to_string(&scene).map_err(|error| format!("the scene cannot be written again: {error}"))
+}
+
+/// Replaces and adds keys; tables are merged, all else is replaced.
+fn merge(into: &mut Table, from: &Table) {
+    // TOML's parser bounds the nesting, so the recursion is bounded as well.
+    for (key, value) in from {
+        match (into.get_mut(key), value) {
+            (Some(Value::Table(old)), Value::Table(new)) => merge(old, new),
+            _ => {
+                into.insert(key.clone(), value.clone());
+            }
+        }
+    }
+}
+
+/// Where the scene's text begins among the sources of a loaded scene.
+pub(super) fn base_of(sources: &SourceMap, path: &str) -> u32 {
+    sources.files().find(|(_, file)| file.name() == path).map_or(0, |(_, file)| file.base())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SCENE: &str = r#"
+[[draw]]
+vertex = "a.vert"
+fragment = "a.frag"
+mesh = { shape = "sphere", position = "p", radius = 0.1 }
+"#;
+
+    fn planned(report: &str) -> Result<Plan, Box<Diagnostic>> {
+        plan("ball", &format!("{SCENE}\n{report}"), 0)
+    }
+
+    #[test]
+    fn without_a_table_the_scene_at_three_levels() {
+        let plan = planned("").expect("a plan");
+        let levels: Vec<_> = plan.ways.iter().map(|way| way.tessellation).collect();
+        assert_eq!(levels, [Some([16, 8]), Some([32, 16]), Some([64, 32])]);
+        assert_eq!((plan.truths.len(), plan.truths[0].tessellation), (1, Some([256, 128])));
+        assert!(plan.ways[0].text.contains("radius = 0.1") && !plan.ways[0].text.contains("report"));
+    }
+
+    #[test]
+    fn ways_set_keys_and_keep_the_rest() {
+        let plan = planned(
+            r#"
+[report]
+tessellations = [[8, 4]]
+[[report.way]]
+name = "one"
+model = "m"
+truth = true
+[[report.way]]
+name = "two"
+model = "m"
+set = { fragment = "b.frag", mesh = { radius = 2.0 } }
+"#,
+        )
+        .expect("a plan");
+        let two = &plan.ways[1];
+        assert_eq!((two.name.as_str(), two.tessellation), ("two", Some([8, 4])));
+        for part in ["b.frag", "a.vert", "radius = 2.0", "segments = 8", "shape = \"sphere\""] {
+            assert!(two.text.contains(part), "{part} in {}", two.text);
+        }
+        assert_eq!(plan.truths[0].way, "one");
+    }
+
+    #[test]
+    fn mistakes_say_what_and_where() {
+        let cases = [
+            ("[report]\nround = 3", "unknown field `round`"),
+            ("[report]\nrounds = 1", "`rounds` is 3 to"),
+            ("[report]\ndraw = 4", "no draw 4"),
+            (
+                "[[report.way]]\nname = \"a\"\nmodel = \"m\"\n[[report.way]]\nname = \"b\"\nmodel = \"m\"",
+                "`truth = true`",
+            ),
+            ("[report]\ntessellations = []", "at least one pair"),
+        ];
+        for (report, message) in cases {
+            let error = planned(report).expect_err(report);
+            assert!(error.message.contains(message), "{}", error.message);
+        }
+    }
+}

@@ -1,0 +1,224 @@
+//! Draws and times every way of a plan.
+//!
+//! *Holds:* all ways, and the baseline a second time, are timed in one run in turns; the order within a round is turned
+//! from round to round, so that no way always follows the same other.
+
+use super::figures::{compare, mark_pareto, spread};
+use super::model::{Adapter, Report, Timing, Truth, Way};
+use super::plan::{Plan, PlannedWay, base_of, plan};
+use crate::compare::Picture;
+use crate::compiler::Compiler;
+use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::gpu::{self, Gpu, Prepared, Via};
+use crate::scene::{self, FileError, FileSource, Loaded, Scene};
+use crate::source::SourceMap;
+
+/// Why there is no report.
+#[derive(Debug)]
+pub enum Error {
+    /// The scene, or what it names, is at fault; the findings belong to these sources.
+    Scene {
+        /// The texts.
+        sources: Box<SourceMap>,
+        /// The findings.
+        diagnostics: Diagnostics,
+        /// Whether a file that was named cannot be read.
+        io_error: bool,
+    },
+    /// The reference cannot draw a way.
+    Reference {
+        /// The way.
+        way: String,
+        /// The findings.
+        diagnostics: Vec<Diagnostic>,
+    },
+    /// The GPU cannot draw a way.
+    Gpu {
+        /// The way.
+        way: String,
+        /// Why.
+        error: gpu::Error,
+    },
+}
+
+/// What is told of the work while it goes on: the number of steps, then each step.
+pub trait Watcher {
+    /// So many steps there will be.
+    fn steps(&mut self, count: usize);
+    /// This one begins.
+    fn step(&mut self, what: &str);
+}
+
+/// Watches nothing.
+impl Watcher for () {
+    fn steps(&mut self, _count: usize) {}
+    fn step(&mut self, _what: &str) {}
+}
+
+/// A way on the device.
+struct Candidate {
+    prepared: Prepared,
+    frames: u32,
+    times: Vec<f64>,
+}
+
+/// Compares the ways of the scene at `path`.
+///
+/// # Errors
+/// [`Error`]; the first way that cannot be drawn ends it.
+pub fn run(
+    path: &str,
+    files: &dyn FileSource,
+    compiler: &Compiler,
+    gpu: &Gpu,
+    via: Via,
+    watcher: &mut dyn Watcher,
+) -> Result<Report, Error> {
+    let whole = load(path, files, compiler)?;
+    let plan = read_plan(path, files, &whole)?;
+    watcher.steps(plan.truths.len() + 2 * plan.ways.len() + plan.rounds as usize);
+    let mut truths = Vec::new();
+    for truth in &plan.truths {
+        watcher.step(&format!("the truth of {}", truth.model));
+        let scene = scene_of(path, &truth.text, files, compiler)?;
+        truths.push(Truth {
+            model: truth.model.clone(),
+            way: truth.way.clone(),
+            tessellation: truth.tessellation,
+            precision: "f64",
+            picture: reference(&truth.way, &scene)?,
+        });
+    }
+    let mut ways = Vec::new();
+    let mut candidates = Vec::new();
+    for planned in &plan.ways {
+        let scene = scene_of(path, &planned.text, files, compiler)?;
+        let truth = truths.iter().find(|truth| truth.model == planned.model);
+        let (way, candidate) = draw(planned, &scene, truth, gpu, via, watcher)?;
+        ways.push(way);
+        candidates.push(candidate);
+    }
+    let timing = time(gpu, &plan, &mut ways, &mut candidates, watcher)?;
+    mark_pareto(&mut ways);
+    let adapter = Adapter { name: gpu.adapter().name.clone(), driver: gpu.adapter().driver.clone() };
+    let size = whole.scene.map_or([0, 0], |scene| [scene.framebuffer.width, scene.framebuffer.height]);
+    Ok(Report { scene: stem(path), size, adapter, via: via.name(), truths, timing, ways })
+}
+
+fn stem(path: &str) -> String {
+    std::path::Path::new(path).file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned())
+}
+
+fn load(path: &str, files: &dyn FileSource, compiler: &Compiler) -> Result<Loaded, Error> {
+    let loaded = scene::load(path, files, compiler);
+    if loaded.scene.is_some() {
+        return Ok(loaded);
+    }
+    let Loaded { sources, diagnostics, io_error, .. } = loaded;
+    Err(Error::Scene { sources: Box::new(sources), diagnostics, io_error })
+}
+
+fn read_plan(path: &str, files: &dyn FileSource, whole: &Loaded) -> Result<Plan, Error> {
+    let text = files.read(path).unwrap_or_default();
+    plan(&stem(path), &String::from_utf8_lossy(&text), base_of(&whole.sources, path)).map_err(|diagnostic| {
+        let mut diagnostics = Diagnostics::default();
+        diagnostics.push(*diagnostic);
+        Error::Scene { sources: Box::new(whole.sources.clone()), diagnostics, io_error: false }
+    })
+}
+
+/// The files of another source, with the scene's own text in place of what stands there.
+struct Replaced<'a> {
+    path: &'a str,
+    text: &'a str,
+    files: &'a dyn FileSource,
+}
+
+impl FileSource for Replaced<'_> {
+    fn read(&self, path: &str) -> Result<Vec<u8>, FileError> {
+        if path == self.path { Ok(self.text.as_bytes().to_vec()) } else { self.files.read(path) }
+    }
+}
+
+fn scene_of(path: &str, text: &str, files: &dyn FileSource, compiler: &Compiler) -> Result<Scene, Error> {
+    let loaded = load(path, &Replaced { path, text, files }, compiler)?;
+    // `load` refuses what has no scene.
+    loaded.scene.ok_or(Error::Scene { sources: Box::default(), diagnostics: Diagnostics::default(), io_error: false })
+}
+
+fn reference(way: &str, scene: &Scene) -> Result<Picture, Error> {
+    let _ = scene;
+    Err(Error::Reference { way: way.into(), diagnostics: Vec::new() })
+}
+
+fn draw(
+    planned: &PlannedWay,
+    scene: &Scene,
+    truth: Option<&Truth>,
+    gpu: &Gpu,
+    via: Via,
+    watcher: &mut dyn Watcher,
+) -> Result<(Way, Candidate), Error> {
+    let failed = |error| Error::Gpu { way: planned.name.clone(), error };
+    watcher.step(&format!("{} on the CPU", planned.name));
+    let exact = reference(&planned.name, scene)?;
+    watcher.step(&format!("{} on the GPU", planned.name));
+    let prepared = gpu.prepare(scene, via).map_err(failed)?;
+    let picture = gpu.draw(&prepared).map_err(failed)?.picture;
+    let fragments = gpu.fragments_shaded(&prepared).map_err(failed)?;
+    let frames = gpu.frames_for_a_stretch(&prepared).map_err(failed)?;
+    let (error, difference) = compare(&picture, truth.map_or(&exact, |truth| &truth.picture));
+    let (rounding, _) = compare(&picture, &exact);
+    let vertices = scene.draws.iter().map(|draw| u64::from(draw.vertex_count) * u64::from(draw.instances)).sum();
+    let way = Way {
+        name: planned.name.clone(),
+        model: planned.model.clone(),
+        tessellation: planned.tessellation,
+        vertices,
+        fragments,
+        error,
+        rounding,
+        milliseconds: 0.0,
+        ratio: spread(&[]),
+        pareto: false,
+        picture,
+        difference,
+    };
+    Ok((way, Candidate { prepared, frames, times: Vec::new() }))
+}
+
+/// Times all candidates in turns, the first of them twice in each round.
+fn time(
+    gpu: &Gpu,
+    plan: &Plan,
+    ways: &mut [Way],
+    candidates: &mut [Candidate],
+    watcher: &mut dyn Watcher,
+) -> Result<Timing, Error> {
+    let count = candidates.len();
+    let mut again = Vec::new();
+    for round in 0..plan.rounds as usize {
+        watcher.step(&format!("round {} of {}", round + 1, plan.rounds));
+        for turn in 0..=count {
+            let index = (turn + round) % (count + 1);
+            // The place past the last is the baseline's second copy.
+            let Some(candidate) = candidates.get_mut(if index == count { 0 } else { index }) else { continue };
+            let measured = gpu.measure(&candidate.prepared, candidate.frames);
+            let way = ways.first().map(|way| way.name.clone()).unwrap_or_default();
+            let milliseconds = measured.map_err(|error| Error::Gpu { way, error })?;
+            if index == count { again.push(milliseconds) } else { candidate.times.push(milliseconds) }
+        }
+    }
+    let baseline = candidates.first().map(|candidate| candidate.times.clone()).unwrap_or_default();
+    let ratios = |times: &[f64]| -> Vec<f64> { times.iter().zip(&baseline).map(|(time, base)| time / base).collect() };
+    for (way, candidate) in ways.iter_mut().zip(candidates.iter()) {
+        way.milliseconds = spread(&candidate.times).median;
+        way.ratio = spread(&ratios(&candidate.times));
+    }
+    Ok(Timing {
+        baseline: ways.first().map(Way::title).unwrap_or_default(),
+        baseline_ms: spread(&baseline).median,
+        rounds: plan.rounds,
+        same_again: spread(&ratios(&again)),
+    })
+}
