@@ -29,11 +29,15 @@ pub(super) struct Body {
     pub(super) switches: u32,
 }
 
-/// What is known of a global array's size beside its type (§4.1.9).
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct ArrayUse {
-    /// The largest constant index so far, and where.
-    pub(super) largest: Option<(u32, Span)>,
+/// An array that may lack a size.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum ArrayKey {
+    /// A global.
+    Global(GlobalId),
+    /// A member of a global that is a block or an array of blocks.
+    Member(GlobalId, u32),
+    /// A local of the function being read.
+    Local(LocalId),
 }
 
 /// The state of the walk.
@@ -60,14 +64,16 @@ pub(super) struct Analyzer<'a> {
     pub(super) builtins: FxHashMap<crate::builtin::BuiltinVariable, GlobalId>,
     /// The first use of each global.
     pub(super) first_uses: FxHashMap<GlobalId, Span>,
-    /// Arrays without a size, by their variable and, in a block, their member.
-    pub(super) array_uses: FxHashMap<(GlobalId, Option<u32>), ArrayUse>,
+    /// The largest constant index of each array without a size, and where it stands (§4.1.9).
+    pub(super) array_uses: FxHashMap<ArrayKey, (u32, Span)>,
     /// `layout(...) uniform;`
     pub(super) block_defaults: BlockDefaults,
     /// Where the geometry input layout, or an input array's size, was first fixed.
     pub(super) geometry_size: Option<(u32, Span)>,
     /// Where the parts of the geometry layout were first declared.
     pub(super) geometry_spans: GeometrySpans,
+    /// The output block `gl_PerVertex`, if it is declared again.
+    pub(super) per_vertex_out: Option<super::declare::PerVertex>,
     /// The first redeclaration of `gl_FragCoord`.
     pub(super) frag_coord_span: Option<Span>,
 }
@@ -110,6 +116,7 @@ impl<'a> Analyzer<'a> {
             geometry_size: None,
             geometry_spans: GeometrySpans::default(),
             frag_coord_span: None,
+            per_vertex_out: None,
         }
     }
 

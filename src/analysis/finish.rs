@@ -1,11 +1,11 @@
 //! What needs the whole shader: the sizes of arrays that only their use sizes (§4.1.9), recursion (§6.1), static use
 //! (§3.8), and the outputs that exclude each other (§7.2).
 
-use super::context::Analyzer;
+use super::context::{Analyzer, ArrayKey};
 use crate::builtin::BuiltinVariable;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::qualifiers;
-use crate::hir::{ArraySize, ExprKind, GlobalId, Stage, Storage, Type, TypeId, VarRef};
+use crate::hir::{ArraySize, ExprKind, GlobalId, LocalId, Stage, Storage, Type, TypeId, VarRef};
 
 impl Analyzer<'_> {
     /// Completes the shader.
@@ -22,18 +22,17 @@ impl Analyzer<'_> {
         for index in 0..self.shader.globals.len() {
             let id = GlobalId(index as u32);
             let global = self.shader.global(id);
-            if self.stage == Stage::Geometry && global.storage == Storage::In {
-                continue;
-            }
-            let ty = global.ty;
+            let is_geometry_input = self.stage == Stage::Geometry && global.storage == Storage::In;
+            let (ty, is_block) = (global.ty, global.block.is_some());
             match self.types.get(ty) {
-                Type::Array(element, ArraySize::Unsized) => {
-                    let ty = self.sized_by_use(id, None, element);
+                Type::Array(element, ArraySize::Unsized) if !is_geometry_input => {
+                    let is_clip_distance = global.builtin == Some(BuiltinVariable::ClipDistance);
+                    let ty = self.sized_by_use(ArrayKey::Global(id), element, is_clip_distance);
                     if let Some(global) = self.shader.globals.get_mut(index) {
                         global.ty = ty;
                     }
                 }
-                _ if global.block.is_some() => self.size_members(id, ty),
+                _ if is_block => self.size_members(id, ty),
                 _ => {}
             }
         }
@@ -41,29 +40,56 @@ impl Analyzer<'_> {
 
     fn size_members(&mut self, id: GlobalId, ty: TypeId) {
         let Type::Struct(structure) = self.types.get(self.element_of(ty)) else { return };
-        for member in 0..self.types.structure(structure).members.len() {
-            let Some(declared) = self.types.structure(structure).members.get(member).map(|member| member.ty) else {
-                continue;
-            };
-            if let Type::Array(element, ArraySize::Unsized) = self.types.get(declared) {
-                let ty = self.sized_by_use(id, Some(member as u32), element);
-                if let Some(member) = self.types.structure_mut(structure).members.get_mut(member) {
+        for index in 0..self.types.structure(structure).members.len() {
+            let Some(member) = self.types.structure(structure).members.get(index) else { continue };
+            let is_clip_distance = member.name == BuiltinVariable::ClipDistance.name();
+            if let Type::Array(element, ArraySize::Unsized) = self.types.get(member.ty) {
+                let ty = self.sized_by_use(ArrayKey::Member(id, index as u32), element, is_clip_distance);
+                if let Some(member) = self.types.structure_mut(structure).members.get_mut(index) {
                     member.ty = ty;
                 }
             }
         }
     }
 
-    fn sized_by_use(&mut self, id: GlobalId, member: Option<u32>, element: TypeId) -> TypeId {
-        let largest = self.array_uses.get(&(id, member)).and_then(|used| used.largest);
+    /// The array type that holds all elements that are named.
+    pub(super) fn sized_by_use(&mut self, key: ArrayKey, element: TypeId, is_clip_distance: bool) -> TypeId {
+        let largest = self.array_uses.get(&key).copied();
         // An array that is never indexed still needs a size to exist; nothing can tell which.
         let size = largest.map_or(1, |(index, _)| index.saturating_add(1));
-        if let Some((_, span)) = largest
-            && self.shader.global(id).builtin == Some(BuiltinVariable::ClipDistance)
-        {
+        if let Some((_, span)) = largest.filter(|_| is_clip_distance) {
             self.check_clip_distances(size, span);
         }
         self.types.array(element, ArraySize::Sized(size))
+    }
+
+    /// The same for the locals of the function that has just been read, whose expressions begin at `first`.
+    pub(super) fn size_locals(&mut self, first: usize) {
+        let Some(n_locals) = self.current_function().map(|function| function.locals.len()) else { return };
+        let mut any = false;
+        for index in 0..n_locals {
+            let id = LocalId(index as u32);
+            let Some(ty) = self.local(id).map(|local| local.ty) else { continue };
+            if let Type::Array(element, ArraySize::Unsized) = self.types.get(ty) {
+                let ty = self.sized_by_use(ArrayKey::Local(id), element, false);
+                any = true;
+                if let Some(local) = self.current_function().and_then(|function| function.locals.get_mut(index)) {
+                    local.ty = ty;
+                }
+            }
+        }
+        if any {
+            for index in first..self.shader.exprs.len() {
+                let Some(ExprKind::Var(VarRef::Local(id))) = self.shader.exprs.get(index).map(|expr| &expr.kind) else {
+                    continue;
+                };
+                let ty = self.local(*id).map(|local| local.ty);
+                if let (Some(ty), Some(expr)) = (ty, self.shader.exprs.get_mut(index)) {
+                    expr.ty = ty;
+                }
+            }
+        }
+        self.array_uses.retain(|key, _| !matches!(key, ArrayKey::Local(_)));
     }
 
     /// Brings the types of expressions that name such arrays up to date. Children stand before their parents.

@@ -1,6 +1,6 @@
 //! Built-in variables (§7.1, §7.2): entered when they are named, and declared anew where 1.50 allows it.
 
-use super::super::context::Analyzer;
+use super::super::context::{Analyzer, ArrayKey};
 use super::super::layout::{Layout, LayoutPlace};
 use super::super::qualifiers::{Qualifiers, StorageWord};
 use crate::builtin::variables::{self, Redeclaration, Row};
@@ -63,7 +63,7 @@ impl Analyzer<'_> {
             );
             return true;
         };
-        if ty.is_error() {
+        if ty.is_error() || self.is_in_per_vertex(row, span) {
             return true;
         }
         match row.redeclaration {
@@ -124,7 +124,7 @@ impl Analyzer<'_> {
             if !self.check_clip_distances(size, span) {
                 return;
             }
-            self.check_resize(id, None, size, span);
+            self.check_resize(ArrayKey::Global(id), size, span);
         }
         if let Some(global) = self.shader.globals.get_mut(id.index()) {
             global.ty = ty;

@@ -42,6 +42,7 @@ impl Analyzer<'_> {
     }
 
     fn function_body(&mut self, id: FunctionId, header: &FunctionHeader, body: &[Stmt]) {
+        let first = self.shader.exprs.len();
         self.body = Some(Body { function: id, loops: 0, switches: 0 });
         self.scopes.open();
         for (index, param) in header.params.iter().enumerate() {
@@ -54,6 +55,7 @@ impl Analyzer<'_> {
         let body = self.statements(body);
         self.scopes.close();
         self.scopes.close();
+        self.size_locals(first);
         self.body = None;
         if self.name(header.name) == "main" && header.params.is_empty() {
             self.shader.main = Some(id);

@@ -1,6 +1,6 @@
 //! The layouts of a geometry shader (§4.3.8.1, §4.3.8.2), and the sizes of its inputs.
 
-use super::super::context::Analyzer;
+use super::super::context::{Analyzer, ArrayKey};
 use super::super::layout::Layout;
 use crate::builtin::constants;
 use crate::diagnostic::Diagnostic;
@@ -132,7 +132,7 @@ impl Analyzer<'_> {
             }
             if let Type::Array(element, ArraySize::Unsized) = self.types.get(global.ty) {
                 let ty = self.types.array(element, ArraySize::Sized(size));
-                self.check_resize(id, None, size, span);
+                self.check_resize(ArrayKey::Global(id), size, span);
                 if let Some(global) = self.shader.globals.get_mut(index) {
                     global.ty = ty;
                 }

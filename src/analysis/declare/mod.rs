@@ -15,3 +15,5 @@ mod per_vertex;
 mod requalify;
 mod structure;
 mod variable;
+
+pub(super) use per_vertex::PerVertex;

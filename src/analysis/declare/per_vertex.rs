@@ -1,18 +1,195 @@
-//! `gl_PerVertex` declared anew (ARB_separate_shader_objects).
+//! `gl_PerVertex` declared anew (ARB_separate_shader_objects; 1.50 is silent, and every driver takes it).
+//!
+//! The rules are those of GLSL 4.10 §7.1: once, before any member is used or declared anew on its own, a subset of the
+//! members with their own types, as `gl_in[]` on the way in and without an instance on the way out; and what is left out
+//! can no longer be used.
 
 use super::super::context::Analyzer;
+use super::super::qualifiers::Place;
+use crate::builtin::BuiltinVariable;
+use crate::builtin::variables::{self, Row, VARIABLES};
 use crate::diagnostic::Diagnostic;
-use crate::diagnostic::codes::general;
-use crate::hir::Storage;
-use crate::syntax::ast::BlockDecl;
+use crate::diagnostic::codes::names;
+use crate::hir::{ArraySize, Member, Stage, Storage, StructType, Type, TypeId};
+use crate::source::Span;
+use crate::syntax::ast::{BlockDecl, Declarator};
+
+/// A redeclared `gl_PerVertex`.
+#[derive(Clone, Debug)]
+pub(in crate::analysis) struct PerVertex {
+    span: Span,
+    members: Vec<String>,
+}
 
 impl Analyzer<'_> {
     /// `out gl_PerVertex { vec4 gl_Position; };`
-    pub(super) fn redeclare_per_vertex(&mut self, block: &BlockDecl, _: Storage) {
-        self.report(Diagnostic::new(
-            &general::NOT_SUPPORTED_YET,
-            block.name.span,
-            "`gl_PerVertex` cannot be declared again yet",
-        ));
+    pub(super) fn redeclare_per_vertex(&mut self, block: &BlockDecl, storage: Storage) {
+        let span = block.name.span;
+        if let Some(problem) = self.per_vertex_problem(block, storage) {
+            self.report(problem);
+            return;
+        }
+        let members = self.per_vertex_members(block);
+        let names = members.iter().map(|member| member.name.clone()).collect();
+        if storage == Storage::In {
+            self.redeclare_gl_in(block, members);
+            return;
+        }
+        for member in members {
+            let Some(row) = self.per_vertex_row(&member.name) else { continue };
+            let id = self.builtin_global(row);
+            if let Some(global) = self.shader.globals.get_mut(id.index()) {
+                global.ty = member.ty;
+                global.span = member.span;
+            }
+        }
+        self.per_vertex_out = Some(PerVertex { span, members: names });
     }
+
+    /// Reports a member that the redeclared block left out.
+    pub(in crate::analysis) fn is_left_out(&mut self, row: &Row, span: Span) -> bool {
+        let Some(block) = self.per_vertex_out.clone().filter(|_| row.per_vertex && row.storage == Storage::Out) else {
+            return false;
+        };
+        if block.members.iter().any(|member| member == row.name) {
+            return false;
+        }
+        let name = row.name;
+        self.report(
+            Diagnostic::new(&names::PER_VERTEX, span, format!("`{name}` is not in the redeclared `gl_PerVertex`"))
+                .here("used here")
+                .label(block.span, "declared again here without it")
+                .help(format!("add `{name}` to the block")),
+        );
+        true
+    }
+
+    /// Reports the redeclaration of a member outside of the redeclared block.
+    pub(super) fn is_in_per_vertex(&mut self, row: &Row, span: Span) -> bool {
+        let Some(block) = self.per_vertex_out.clone().filter(|_| row.per_vertex && row.storage == Storage::Out) else {
+            return false;
+        };
+        let name = row.name;
+        self.report(
+            Diagnostic::new(&names::PER_VERTEX, span, format!("`{name}` is declared again beside `gl_PerVertex`"))
+                .here("give it its size in the block")
+                .label(block.span, "the block is declared again here"),
+        );
+        true
+    }
+
+    fn per_vertex_problem(&self, block: &BlockDecl, storage: Storage) -> Option<Diagnostic> {
+        let at = block.name.span;
+        let finding =
+            |message: &str, span: Span, here: &str| Some(Diagnostic::new(&names::PER_VERTEX, span, message).here(here));
+        match (self.stage, storage) {
+            (Stage::Vertex | Stage::Geometry, Storage::Out) | (Stage::Geometry, Storage::In) => {}
+            (stage, _) => {
+                let message = format!("a {} shader has no such `gl_PerVertex`", stage.name());
+                return finding(&message, at, "not built in here");
+            }
+        }
+        if storage == Storage::In {
+            let good =
+                block.instance.as_ref().is_some_and(|(name, dims)| self.name(*name) == "gl_in" && dims.len() == 1);
+            if !good {
+                let message = "the input `gl_PerVertex` is called `gl_in[]`";
+                return finding(message, at, "another instance").map(|finding| finding.help("write `} gl_in[];`"));
+            }
+        } else if let Some((name, _)) = &block.instance {
+            return finding("the output `gl_PerVertex` has no instance name", name.span, "remove the name");
+        }
+        let used = self.builtins.iter().filter(|(variable, _)| {
+            if storage == Storage::In { **variable == BuiltinVariable::In } else { is_per_vertex(**variable) }
+        });
+        // The earliest of them, whatever the order of the table.
+        let earliest = used
+            .filter_map(|(_, id)| {
+                let declared = Some(self.shader.global(*id).span).filter(|span| span.is_known());
+                self.first_uses.get(id).copied().or(declared)
+            })
+            .min_by_key(|span| span.start);
+        let earlier = match &self.per_vertex_out {
+            Some(block) if storage == Storage::Out => Some(block.span),
+            _ => earliest,
+        };
+        let earlier = earlier?;
+        finding("`gl_PerVertex` is declared again too late", at, "must be the first mention")
+            .map(|finding| finding.label(earlier, "mentioned here"))
+    }
+
+    fn per_vertex_members(&mut self, block: &BlockDecl) -> Vec<Member> {
+        let mut members: Vec<Member> = Vec::new();
+        for row in &block.members {
+            self.qualifiers(&row.qualifiers, Place::BlockMember);
+            let base = self.type_spec(&row.ty);
+            for declarator in &row.declarators {
+                self.no_member_initializer(declarator);
+                let ty = self.with_array(base, &declarator.array);
+                if let Some(member) = self.per_vertex_member(declarator, ty) {
+                    members.push(member);
+                }
+            }
+        }
+        members
+    }
+
+    fn per_vertex_member(&mut self, declarator: &Declarator, ty: TypeId) -> Option<Member> {
+        let (name, span) = (self.name(declarator.name), declarator.name.span);
+        let Some(row) = self.per_vertex_row(name) else {
+            self.report(
+                Diagnostic::new(&names::PER_VERTEX, span, format!("`gl_PerVertex` has no member `{name}`"))
+                    .here("only the built-in members")
+                    .help("they are `gl_Position`, `gl_PointSize` and `gl_ClipDistance`"),
+            );
+            return None;
+        };
+        let wanted = row.make_type(self.types);
+        let fits = match (self.types.get(wanted), self.types.get(ty)) {
+            (Type::Array(element, _), Type::Array(given, _)) => element == given,
+            _ => wanted == ty,
+        };
+        if !fits && !ty.is_error() {
+            let wanted = self.type_name(wanted);
+            self.report(
+                Diagnostic::new(&names::PER_VERTEX, span, format!("`{name}` is a `{wanted}`"))
+                    .here("declared as something else"),
+            );
+        }
+        if let Type::Array(_, ArraySize::Sized(size)) = self.types.get(ty) {
+            self.check_clip_distances(size, span);
+        }
+        Some(Member {
+            name: name.to_owned(),
+            ty: if fits { ty } else { wanted },
+            matrix_layout: crate::hir::MatrixLayout::default(),
+            interpolation: None,
+            centroid: false,
+            span,
+        })
+    }
+
+    fn per_vertex_row(&self, name: &str) -> Option<&'static Row> {
+        let row = VARIABLES.iter().find(|row| row.name == name && row.per_vertex)?;
+        row.availability.in_language(self.ast.version, self.extensions).then_some(row)
+    }
+
+    fn redeclare_gl_in(&mut self, block: &BlockDecl, members: Vec<Member>) {
+        let Some((instance, dims)) = &block.instance else { return };
+        let structure = StructType { name: "gl_PerVertex".into(), members, is_block: true, span: block.name.span };
+        let element = self.types.add_struct(structure);
+        let array = self.with_array(element, dims);
+        let ty = self.sized_by_geometry(array, Storage::In, instance.span);
+        let row = variables::named("gl_in", self.ast.version, self.extensions, self.stage);
+        let Some(row) = row else { return };
+        let id = self.builtin_global(row);
+        if let Some(global) = self.shader.globals.get_mut(id.index()) {
+            global.ty = ty;
+            global.span = instance.span;
+        }
+    }
+}
+
+fn is_per_vertex(variable: BuiltinVariable) -> bool {
+    VARIABLES.iter().any(|row| row.variable == variable && row.per_vertex)
 }

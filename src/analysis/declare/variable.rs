@@ -1,6 +1,6 @@
 //! Variables at global scope (§4.3).
 
-use super::super::context::Analyzer;
+use super::super::context::{Analyzer, ArrayKey};
 use super::super::layout::{Layout, LayoutPlace};
 use super::super::qualifiers::{Place, Qualifiers, StorageWord};
 use super::super::scope::Entry;
@@ -78,6 +78,7 @@ impl Analyzer<'_> {
         let name = declarator.name;
         let named_well = self.check_name(name) && self.check_block_name(name);
         let layout = self.layout(record, self.layout_place(storage, ty));
+        self.check_index_location(&layout);
         let ty = self.check_global_type(ty, storage, record, ty_span, name.span);
         let (ty, initial) = self.global_initializer(declarator, ty, storage);
         let ty = self.sized_by_geometry(ty, storage, name.span);
@@ -128,6 +129,16 @@ impl Analyzer<'_> {
     pub(super) fn add_global(&mut self, global: Global) -> GlobalId {
         self.shader.globals.push(global);
         GlobalId(self.shader.globals.len() as u32 - 1)
+    }
+
+    /// ARB_explicit_attrib_location: an index without a location means nothing.
+    fn check_index_location(&mut self, layout: &Layout) {
+        let (Some((index, span)), None) = (layout.index, layout.location) else { return };
+        self.report(
+            Diagnostic::new(&qualifiers::LAYOUT_VALUE, span, "`index` needs a `location` beside it")
+                .here("no location given")
+                .help(format!("write `location = 0, index = {index}`")),
+        );
     }
 
     fn layout_place(&self, storage: Storage, ty: TypeId) -> LayoutPlace {
@@ -239,7 +250,7 @@ impl Analyzer<'_> {
             return false;
         }
         if let ArraySize::Sized(size) = size {
-            self.check_resize(id, None, size, declarator.name.span);
+            self.check_resize(ArrayKey::Global(id), size, declarator.name.span);
         }
         if let Some(global) = self.shader.globals.get_mut(id.index()) {
             global.ty = ty;
@@ -248,8 +259,8 @@ impl Analyzer<'_> {
     }
 
     /// Sees to it that a size holds all elements that were named before it.
-    pub(in crate::analysis) fn check_resize(&mut self, id: GlobalId, member: Option<u32>, size: u32, span: Span) {
-        let Some((largest, at)) = self.array_uses.get(&(id, member)).and_then(|used| used.largest) else { return };
+    pub(in crate::analysis) fn check_resize(&mut self, key: ArrayKey, size: u32, span: Span) {
+        let Some(&(largest, at)) = self.array_uses.get(&key) else { return };
         if largest >= size {
             self.report(
                 Diagnostic::new(&types::INDEX_RANGE, at, format!("the array has no element {largest}"))

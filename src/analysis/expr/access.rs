@@ -1,6 +1,6 @@
 //! Parts of values: `a.b`, `a.xyz`, `a[i]`, `a.length()` (§5.5 to §5.7).
 
-use super::super::context::Analyzer;
+use super::super::context::{Analyzer, ArrayKey};
 use super::swizzle::{self, Fault};
 use crate::diagnostic::codes::{names, types};
 use crate::diagnostic::{Diagnostic, did_you_mean};
@@ -199,16 +199,17 @@ impl Analyzer<'_> {
     /// Notes the largest constant index of an array that has no size yet; it will have that many elements (§4.1.9).
     fn note_array_index(&mut self, base: ExprId, index: u32, at: Span) {
         let key = match self.expr_at(base).kind {
-            ExprKind::Var(VarRef::Global(id)) => (id, None),
+            ExprKind::Var(VarRef::Global(id)) => ArrayKey::Global(id),
+            ExprKind::Var(VarRef::Local(id)) => ArrayKey::Local(id),
             ExprKind::Member(inner, member) => match self.shader.root_variable(inner) {
-                Some(VarRef::Global(id)) => (id, Some(member)),
+                Some(VarRef::Global(id)) => ArrayKey::Member(id, member),
                 _ => return,
             },
             _ => return,
         };
-        let entry = self.array_uses.entry(key).or_default();
-        if entry.largest.is_none_or(|(largest, _)| largest < index) {
-            entry.largest = Some((index, at));
+        let entry = self.array_uses.entry(key).or_insert((index, at));
+        if entry.0 < index {
+            *entry = (index, at);
         }
     }
 

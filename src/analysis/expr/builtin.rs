@@ -24,8 +24,7 @@ impl Analyzer<'_> {
             return self.poison(span);
         }
         let given: Vec<TypeId> = arguments.iter().map(|&argument| self.ty(argument)).collect();
-        let params = candidates.iter().map(|(_, signature)| signature.params().iter().copied());
-        let found = match resolve(self.types, &given, params) {
+        let found = match self.resolve_builtin(&candidates, &given) {
             Resolution::Found(index) => candidates.get(index),
             Resolution::Ambiguous(first, second) => {
                 let spelling = self.name(name);
@@ -49,6 +48,23 @@ impl Analyzer<'_> {
             return self.poison(span);
         }
         self.push(ExprKind::BuiltinCall(row.function, arguments), signature.ret, span)
+    }
+
+    /// Overloads that the table spells twice (`max(genType, genType)` and `max(genType, float)` of one float) count once.
+    fn resolve_builtin(&self, candidates: &[(&'static Row, Signature)], given: &[TypeId]) -> Resolution {
+        let params = candidates.iter().map(|(_, signature)| signature.params().iter().copied());
+        let found = resolve(self.types, given, params);
+        let Resolution::Ambiguous(first, _) = found else { return found };
+        let Some(wanted) = candidates.get(first).map(|(_, signature)| signature.params()) else { return found };
+        let same = |params: &[_]| params == wanted;
+        let rest = candidates.iter().skip(first + 1).map(|(_, signature)| signature.params());
+        let others = rest.map(|params| if same(params) { [].iter() } else { params.iter() }.copied());
+        match resolve(self.types, given, others) {
+            Resolution::Missing => Resolution::Found(first),
+            Resolution::Found(index) | Resolution::Ambiguous(index, _) => {
+                Resolution::Ambiguous(first, first + 1 + index)
+            }
+        }
     }
 
     /// The offsets of the texture functions must be constant expressions (§8.7).

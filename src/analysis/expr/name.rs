@@ -58,6 +58,9 @@ impl Analyzer<'_> {
             return self.literal(ScalarValue::Int(constant.value), name.span);
         }
         if let Some(row) = variables::named(spelling, version, self.extensions, self.stage) {
+            if self.is_left_out(row, name.span) {
+                return self.poison(name.span);
+            }
             let id = self.builtin_global(row);
             return self.variable(VarRef::Global(id), name.span);
         }

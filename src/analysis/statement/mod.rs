@@ -55,13 +55,18 @@ impl Analyzer<'_> {
     /// A statement as a body of its own, in a scope of its own.
     fn scoped(&mut self, stmt: &ast::Stmt) -> Vec<Stmt> {
         self.scopes.open();
+        let out = self.unscoped(stmt);
+        self.scopes.close();
+        out
+    }
+
+    /// A statement as a body in the scope that is open; its braces open none.
+    fn unscoped(&mut self, stmt: &ast::Stmt) -> Vec<Stmt> {
         let mut out = Vec::new();
         match &stmt.kind {
-            // The braces of a body are the body's scope.
             ast::StmtKind::Block(inner) => out = self.statements(inner),
             _ => self.statement(stmt, &mut out),
         }
-        self.scopes.close();
         out
     }
 
@@ -122,7 +127,7 @@ impl Analyzer<'_> {
         self.statement(init, &mut outer);
         let condition = condition.map(|condition| self.loop_condition(condition));
         let step = step.map(|step| self.expr(step));
-        let body = self.loop_body(body);
+        let body = self.loop_body(body, false);
         self.scopes.close();
         outer.push(Stmt { kind: StmtKind::Loop { kind: LoopKind::For, condition, step, body }, span });
         StmtKind::Block(outer)
@@ -131,13 +136,13 @@ impl Analyzer<'_> {
     fn while_loop(&mut self, condition: &ast::Condition, body: &ast::Stmt) -> StmtKind {
         self.scopes.open();
         let condition = Some(self.loop_condition(condition));
-        let body = self.loop_body(body);
+        let body = self.loop_body(body, false);
         self.scopes.close();
         StmtKind::Loop { kind: LoopKind::While, condition, step: None, body }
     }
 
     fn do_loop(&mut self, body: &ast::Stmt, condition: ast::ExprId) -> StmtKind {
-        let body = self.loop_body(body);
+        let body = self.loop_body(body, true);
         let expr = self.condition(condition, "the condition of a loop");
         StmtKind::Loop { kind: LoopKind::DoWhile, condition: Some(Condition { local: None, expr }), step: None, body }
     }
@@ -151,13 +156,14 @@ impl Analyzer<'_> {
         }
     }
 
-    fn loop_body(&mut self, body: &ast::Stmt) -> Vec<Stmt> {
+    /// The body of `for` and `while` shares the scope of the loop's head (§4.2, §9).
+    fn loop_body(&mut self, body: &ast::Stmt, own_scope: bool) -> Vec<Stmt> {
         // A `break` in the loop leaves the loop, even inside of a switch.
         let switches = self.body.as_mut().map_or(0, |state| {
             state.loops += 1;
             std::mem::take(&mut state.switches)
         });
-        let body = self.scoped(body);
+        let body = if own_scope { self.scoped(body) } else { self.unscoped(body) };
         if let Some(state) = self.body.as_mut() {
             state.loops -= 1;
             state.switches = switches;
