@@ -32,15 +32,21 @@ pub(super) struct SourceArgs {
     /// Looks for included files there
     #[arg(short = 'I', value_name = "DIR")]
     pub(super) include_dirs: Vec<PathBuf>,
+    /// Makes errors of what the specification forbids and every driver forgives
+    #[arg(long)]
+    pub(super) strict: bool,
+}
+
+/// Which files are which stage and which program.
+#[derive(Args, Clone, Debug)]
+#[command(next_help_heading = "Programs")]
+pub(super) struct ProgramArgs {
     /// The stage of standard input, and of files whose name does not tell it (of a single file in any case)
     #[arg(long, value_enum)]
     pub(super) stage: Option<StageArg>,
     /// Files that make one program together (repeatable)
     #[arg(long = "program", value_name = "A.vert,B.frag")]
     pub(super) programs: Vec<String>,
-    /// Makes errors of what the specification forbids and every driver forgives
-    #[arg(long)]
-    pub(super) strict: bool,
 }
 
 impl SourceArgs {

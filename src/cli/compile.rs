@@ -3,7 +3,7 @@
 //! *Holds:* of a program with errors nothing is written. All outputs are known by name before any work begins, so that
 //! two programs that would write the same file are refused at once.
 
-use super::args::{BindingArgs, ConventionArgs, LevelArgs, SourceArgs};
+use super::args::{BindingArgs, ConventionArgs, LevelArgs, ProgramArgs, SourceArgs};
 use super::console::Console;
 use super::exit::{Exit, Failure, Outcome};
 use super::files;
@@ -46,6 +46,8 @@ pub(super) struct CompileArgs {
     /// How many threads (0: one a core)
     #[arg(short, long, default_value_t = 0, value_name = "N")]
     jobs: usize,
+    #[command(flatten)]
+    programs: ProgramArgs,
     #[command(flatten)]
     sources: SourceArgs,
     #[command(flatten)]
@@ -94,7 +96,7 @@ type Output = (PathBuf, Vec<u8>);
 
 /// Runs the command.
 pub(super) fn run(args: &CompileArgs, console: &Console) -> Outcome {
-    let inputs = inputs::collect(&args.files, &args.sources, false)?;
+    let inputs = inputs::collect(&args.files, &args.programs, false)?;
     let plan = Plan::new(args, &inputs.groups)?;
     let mut session = Session::new(console, &args.sources, &args.bindings, &args.levels, args.jobs)?;
     let mut units = session.compile(inputs.groups);

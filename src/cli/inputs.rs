@@ -5,7 +5,7 @@
 //!
 //! *Holds:* a file that is named twice counts once; a file that stands in a `--program` makes no group of its own.
 
-use super::args::SourceArgs;
+use super::args::ProgramArgs;
 use super::exit::Failure;
 use super::stages;
 use crate::hir::Stage;
@@ -74,7 +74,7 @@ pub(super) struct Inputs {
 
 /// Collects the inputs of a command. Folders are searched only if `scans` is set; else they stay in the list, and
 /// reading them tells what they are.
-pub(super) fn collect(files: &[String], args: &SourceArgs, scans: bool) -> Result<Inputs, Failure> {
+pub(super) fn collect(files: &[String], args: &ProgramArgs, scans: bool) -> Result<Inputs, Failure> {
     let mut inputs = Inputs::default();
     let mut named = Vec::new();
     for file in files {
@@ -116,7 +116,7 @@ fn identity(name: &str) -> PathBuf {
     if name == STDIN { PathBuf::from(STDIN) } else { fs::canonicalize(name).unwrap_or_else(|_| PathBuf::from(name)) }
 }
 
-fn input(name: &str, args: &SourceArgs, alone: bool) -> Result<Input, Failure> {
+fn input(name: &str, args: &ProgramArgs, alone: bool) -> Result<Input, Failure> {
     let given = args.stage.map(Stage::from);
     if name == STDIN {
         let stage = given.ok_or_else(|| {

@@ -1,6 +1,6 @@
 //! `glisten lint`: validates each file alone, then links the programs, and tells everything that is wrong.
 
-use super::args::{BindingArgs, DiagnosticFormat, LevelArgs, SourceArgs};
+use super::args::{BindingArgs, DiagnosticFormat, LevelArgs, ProgramArgs, SourceArgs};
 use super::console::Console;
 use super::exit::Outcome;
 use super::inputs;
@@ -13,6 +13,8 @@ pub(super) struct LintArgs {
     /// Shaders, folders to search for shaders, or `-` for standard input
     #[arg(required_unless_present = "programs", value_name = "FILE|DIR")]
     files: Vec<String>,
+    #[command(flatten)]
+    programs: ProgramArgs,
     #[command(flatten)]
     sources: SourceArgs,
     #[command(flatten)]
@@ -29,7 +31,7 @@ pub(super) struct LintArgs {
 
 /// Runs the command.
 pub(super) fn run(args: &LintArgs, console: &Console) -> Outcome {
-    let inputs = inputs::collect(&args.files, &args.sources, true)?;
+    let inputs = inputs::collect(&args.files, &args.programs, true)?;
     for folder in &inputs.empty_folders {
         console.remark(&format!("no shader was found in `{folder}`"));
     }

@@ -17,7 +17,10 @@ mod guard;
 mod includes;
 mod inputs;
 mod lint;
+// mod pictures;
 mod progress;
+// mod render;
+// mod scenes;
 mod session;
 mod stages;
 

@@ -1,3 +1,5 @@
+//! Unit tests of exact constant evaluation.
+
 use super::*;
 use crate::builtin::BuiltinFunction;
 use crate::hir::{ArraySize, BinaryOp, ConstructKind, Stage, Swizzle, UnaryOp};

@@ -1,3 +1,5 @@
+//! Unit tests of the tables of built-in functions.
+
 use super::*;
 use crate::hir::Scalar;
 

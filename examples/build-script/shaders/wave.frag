@@ -1,0 +1,7 @@
+#version 150 core
+in vec4 vc;
+out vec4 fc;
+void main(void)
+{
+    fc = vc;
+}

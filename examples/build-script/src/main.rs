@@ -1,0 +1,14 @@
+//! Shows what `build.rs` made: WGSL for the pipeline, and where in the uniform buffer each uniform goes.
+
+/// Byte offsets of the uniforms in their buffer.
+mod offsets {
+    include!(concat!(env!("OUT_DIR"), "/offsets.rs"));
+}
+
+const VERTEX: &str = include_str!(concat!(env!("OUT_DIR"), "/wave.vert.wgsl"));
+const FRAGMENT: &str = include_str!(concat!(env!("OUT_DIR"), "/wave.frag.wgsl"));
+
+fn main() {
+    println!("`mc` at byte {}, `time` at byte {}, `color` at byte {}", offsets::MC, offsets::TIME, offsets::COLOR);
+    println!("{VERTEX}\n{FRAGMENT}");
+}

@@ -1,0 +1,93 @@
+//! `glisten render`: a scene to a picture, by the GPU or by the CPU reference.
+
+use super::console::Console;
+use super::exit::{Exit, Outcome};
+use super::files;
+use super::pictures::Target;
+use super::progress::Progress;
+use super::scenes::{DrawError, SceneArgs, ViaArg};
+use crate::compare::Picture;
+use crate::cpu::{self, LineRule, Precision, RenderOptions};
+use crate::scene::Scene;
+use clap::{Args, ValueEnum};
+use std::path::PathBuf;
+
+/// Draws a scene
+#[derive(Args, Debug)]
+pub(super) struct RenderArgs {
+    #[command(flatten)]
+    scene: SceneArgs,
+    /// The picture: .npy (float32), .png (8 bits) or .exr (float32); `%d` in it counts attachments
+    #[arg(short, long, value_name = "OUT")]
+    output: PathBuf,
+    /// Who draws
+    #[arg(long, value_enum, default_value_t)]
+    backend: Backend,
+    /// The numbers that the CPU reference computes with
+    #[arg(long, value_enum, default_value_t)]
+    precision: PrecisionArg,
+    /// What the GPU runs
+    #[arg(long, value_enum, default_value_t)]
+    via: ViaArg,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+enum Backend {
+    /// Vulkan through wgpu
+    #[default]
+    Gpu,
+    /// The CPU reference
+    Cpu,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+enum PrecisionArg {
+    /// Double precision
+    #[default]
+    F64,
+    /// Single precision, one rounding an operation
+    F32,
+}
+
+/// Runs the command.
+pub(super) fn run(args: &RenderArgs, console: &Console) -> Outcome {
+    let target = Target::parse(&args.output)?;
+    let read = match args.scene.read(console)? {
+        Ok(read) => read,
+        Err(exit) => return Ok(exit),
+    };
+    target.check(read.scene.framebuffer.format)?;
+    let progress = Progress::new(console, 1);
+    progress.say("drawing");
+    let picture = match draw(args, read.scene.clone()) {
+        Ok(picture) => picture,
+        Err(error) => return read.failed(error),
+    };
+    drop(progress);
+    let (files, nans) = target.encode(&picture)?;
+    if nans > 0 {
+        console.remark(&format!("warning: {nans} numbers are NaN and are 0 in the PNG"));
+    }
+    for (path, bytes) in files {
+        files::write(&path, &bytes)?;
+    }
+    Ok(Exit::Ok)
+}
+
+fn draw(args: &RenderArgs, scene: Scene) -> Result<Picture, DrawError> {
+    let via = args.via.into();
+    match args.backend {
+        Backend::Gpu => {
+            let gpu = args.scene.gpu()?;
+            args.scene.within_time(move || Ok(gpu.render(&scene, via)?.picture))
+        }
+        Backend::Cpu => {
+            let precision = match args.precision {
+                PrecisionArg::F64 => Precision::F64,
+                PrecisionArg::F32 => Precision::F32,
+            };
+            let options = RenderOptions { precision, lines: LineRule::OpenGl, ..RenderOptions::default() };
+            args.scene.within_time(move || Ok(cpu::render(&scene, &options)?))
+        }
+    }
+}

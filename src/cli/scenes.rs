@@ -1,0 +1,167 @@
+//! What `render`, `verify` and `report` share: a scene read with its shaders, and work that has a limit of time.
+
+use super::args::{BindingArgs, LevelArgs, SourceArgs};
+use super::console::Console;
+use super::exit::{Exit, Failure};
+use super::guard;
+use super::session::{Batch, Session};
+use crate::diagnostic::Diagnostic;
+use crate::gpu::{Error, Gpu, Via};
+use crate::scene::{self, DiskFiles, Scene};
+use clap::{Args, ValueEnum};
+use std::sync::mpsc::{self, RecvTimeoutError};
+use std::time::Duration;
+
+/// Stack of the thread that draws.
+const STACK_BYTES: usize = 16 << 20;
+
+/// The scene and how its shaders are read.
+#[derive(Args, Clone, Debug)]
+pub(super) struct SceneArgs {
+    /// A scene file
+    #[arg(value_name = "SCENE.toml")]
+    pub(super) scene: String,
+    /// Gives up after that many seconds
+    #[arg(long, value_name = "SECONDS", default_value_t = 60.0, value_parser = parse_seconds)]
+    timeout: f64,
+    /// The GPU to use, by a part of its name (default: the first software adapter)
+    #[arg(long, value_name = "NAME")]
+    adapter: Option<String>,
+    #[command(flatten)]
+    sources: SourceArgs,
+    #[command(flatten)]
+    levels: LevelArgs,
+}
+
+/// Which emitted form the GPU runs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(super) enum ViaArg {
+    /// SPIR-V, passed to the driver as it is
+    #[default]
+    Spirv,
+    /// WGSL, read by wgpu
+    Wgsl,
+}
+
+impl From<ViaArg> for Via {
+    fn from(via: ViaArg) -> Self {
+        match via {
+            ViaArg::Spirv => Self::Spirv,
+            ViaArg::Wgsl => Self::Wgsl,
+        }
+    }
+}
+
+fn parse_seconds(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(seconds) if seconds > 0.0 && seconds <= 1e6 => Ok(seconds),
+        _ => Err(format!("`{text}` is no number of seconds")),
+    }
+}
+
+/// A scene that was read, with the texts that diagnostics about it need.
+pub(super) struct Read<'a> {
+    /// The scene.
+    pub(super) scene: Scene,
+    session: Session<'a>,
+    batch: Batch,
+}
+
+impl Read<'_> {
+    /// Tells of a failure to draw the scene.
+    pub(super) fn failed(mut self, error: DrawError) -> Result<Exit, Failure> {
+        match error {
+            DrawError::Failure(failure) => Err(failure),
+            DrawError::Diagnostics(diagnostics) => {
+                self.batch.diagnostics = diagnostics;
+                self.session.judge(&mut self.batch);
+                Ok(self.session.tell(&[&self.batch], false)?.max(Exit::Content))
+            }
+        }
+    }
+}
+
+/// Why a scene was not drawn.
+pub(super) enum DrawError {
+    /// Something about its shaders.
+    Diagnostics(Vec<Diagnostic>),
+    /// Something else.
+    Failure(Failure),
+}
+
+impl From<Failure> for DrawError {
+    fn from(failure: Failure) -> Self {
+        Self::Failure(failure)
+    }
+}
+
+impl From<Vec<Diagnostic>> for DrawError {
+    fn from(diagnostics: Vec<Diagnostic>) -> Self {
+        Self::Diagnostics(diagnostics)
+    }
+}
+
+impl From<Error> for DrawError {
+    fn from(error: Error) -> Self {
+        if !error.diagnostics().is_empty() {
+            return Self::Diagnostics(error.diagnostics().to_vec());
+        }
+        let exit = if error.is_environment() { Exit::Machine } else { Exit::Content };
+        Self::Failure(Failure::new(exit, error.to_string()))
+    }
+}
+
+impl SceneArgs {
+    /// Reads the scene and tells what was found; without a scene, what that comes to.
+    pub(super) fn read<'a>(&self, console: &'a Console) -> Result<Result<Read<'a>, Exit>, Failure> {
+        let mut session = Session::new(console, &self.sources, &BindingArgs::default(), &self.levels, 0)?;
+        let loaded = guard::guarded(|| scene::load(&self.scene, &DiskFiles, session.compiler()));
+        let loaded = loaded.map_err(|panic| {
+            Failure::new(Exit::Content, format!("internal error: {panic}")).help("please report it with the scene")
+        })?;
+        let mut batch = Batch { sources: loaded.sources, diagnostics: loaded.diagnostics.into_iter().collect() };
+        session.judge(&mut batch);
+        let exit = session.tell(&[&batch], false)?;
+        Ok(match loaded.scene {
+            Some(scene) if exit == Exit::Ok => Ok(Read { scene, session, batch }),
+            _ => {
+                let exit = if loaded.io_error { exit.max(Exit::Usage) } else { exit };
+                Err(exit.max(Exit::Content))
+            }
+        })
+    }
+
+    /// The GPU that the arguments name.
+    pub(super) fn gpu(&self) -> Result<Gpu, DrawError> {
+        let gpu = Gpu::new(self.adapter.as_deref())?;
+        Ok(gpu.with_timeout(Duration::from_secs_f64(self.timeout)))
+    }
+
+    /// Runs work on a thread of its own and gives up on it when its time is over.
+    pub(super) fn within_time<R: Send + 'static>(
+        &self,
+        work: impl FnOnce() -> Result<R, DrawError> + Send + 'static,
+    ) -> Result<R, DrawError> {
+        let (sender, receiver) = mpsc::channel();
+        let job = move || {
+            // Nobody listens any more once the time is over.
+            let _ = sender.send(guard::guarded(work));
+        };
+        std::thread::Builder::new()
+            .stack_size(STACK_BYTES)
+            .spawn(job)
+            .map_err(|error| Failure::new(Exit::Machine, format!("the system gives no thread: {error}")))?;
+        match receiver.recv_timeout(Duration::from_secs_f64(self.timeout)) {
+            Ok(Ok(result)) => result,
+            Ok(Err(panic)) => {
+                let failure = Failure::new(Exit::Content, format!("internal error: {panic}"));
+                Err(failure.help("this is a fault of glisten; please report it with the scene").into())
+            }
+            Err(RecvTimeoutError::Timeout) => {
+                let failure = Failure::new(Exit::Content, format!("gave up after {} s", self.timeout));
+                Err(failure.help("`--timeout` gives more time").into())
+            }
+            Err(RecvTimeoutError::Disconnected) => Err(Failure::new(Exit::Content, "internal error").into()),
+        }
+    }
+}
