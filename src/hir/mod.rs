@@ -15,6 +15,7 @@ mod shader;
 mod stmt;
 mod ty;
 mod value;
+mod visit;
 
 pub use expr::{BinaryOp, ConstructKind, Expr, ExprId, ExprKind, IncDec, LogicalOp, Swizzle, UnaryOp, VarRef};
 pub use shader::{

@@ -203,6 +203,8 @@ pub struct Types {
     types: Vec<Type>,
     ids: FxHashMap<Type, TypeId>,
     structs: Vec<StructType>,
+    /// The flat length of each struct, so that structs of structs do not cost a walk of all that is in them.
+    struct_lens: Vec<Option<u32>>,
 }
 
 impl Default for Types {
@@ -287,7 +289,8 @@ impl TypeId {
 impl Types {
     /// The basic types alone.
     pub fn new() -> Self {
-        let mut types = Self { types: Vec::new(), ids: FxHashMap::default(), structs: Vec::new() };
+        let mut types =
+            Self { types: Vec::new(), ids: FxHashMap::default(), structs: Vec::new(), struct_lens: Vec::new() };
         types.intern(Type::Error);
         types.intern(Type::Void);
         for scalar in Scalar::ALL {
@@ -331,6 +334,8 @@ impl Types {
     /// Adds a struct and gives its type.
     pub fn add_struct(&mut self, declaration: StructType) -> TypeId {
         let id = StructId(self.structs.len() as u32);
+        let lens = declaration.members.iter().map(|member| self.flat_len(member.ty));
+        self.struct_lens.push(Some(lens.fold(0, u32::saturating_add)));
         self.structs.push(declaration);
         self.intern(Type::Struct(id))
     }
@@ -343,6 +348,7 @@ impl Types {
 
     /// The struct behind a handle, to complete it.
     pub fn structure_mut(&mut self, id: StructId) -> &mut StructType {
+        self.struct_lens[id.0 as usize] = None;
         &mut self.structs[id.0 as usize]
     }
 
@@ -368,11 +374,10 @@ impl Types {
             Type::Scalar(_) | Type::Sampler(_) => 1,
             Type::Vector(_, size) => u32::from(size),
             Type::Matrix(columns, rows) => u32::from(columns) * u32::from(rows),
-            Type::Struct(id) => self
-                .structure(id)
-                .members
-                .iter()
-                .fold(0, |sum: u32, member| sum.saturating_add(self.flat_len(member.ty))),
+            Type::Struct(id) => self.struct_lens.get(id.0 as usize).copied().flatten().unwrap_or_else(|| {
+                let lens = self.structure(id).members.iter().map(|member| self.flat_len(member.ty));
+                lens.fold(0, u32::saturating_add)
+            }),
             Type::Array(element, ArraySize::Sized(size)) => self.flat_len(element).saturating_mul(size),
             Type::Array(_, ArraySize::Unsized) => 0,
         }

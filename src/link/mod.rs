@@ -1,14 +1,98 @@
 //! Stages into a program (GLSL 1.50 §4.3.4 to §4.3.9, OpenGL 3.2 §2.11).
 //!
 //! *In:* analysed shaders, bindings by name. *Out:* a [`Program`]: the stages with every interface matched and every
-//! location, offset and binding assigned.
+//! location, offset and binding assigned; or none, if the link has errors.
 //!
 //! *Holds:* the [`Interface`] is all that `lower`, `emit`, `cpu` and `gpu` know of the outside of a shader; none of them
-//! assigns a place of its own.
+//! assigns a place of its own. All errors of a link are reported, each at the declaration nearer to the fragment, with
+//! the other side as a label.
+//!
+//! | file | what it does |
+//! | --- | --- |
+//! | `merge` | several shaders of one stage become one |
+//! | `compatible` | when two declarations in different shaders have the same type |
+//! | `stages` | which stages make a program, `main`, geometry layouts |
+//! | `matching` | outputs of one stage against inputs of the next |
+//! | `varyings` | what the rasterizer interpolates, cut up and placed |
+//! | `attributes`, `outputs` | vertex inputs and fragment outputs, placed |
+//! | `uniforms`, `blocks`, `samplers` | what stays the same over a draw, placed |
+//! | `layout` | std140 |
 
+mod aliasing;
+mod attributes;
+mod compatible;
+mod flatten;
+mod layout;
+mod matching;
+mod merge;
+mod outputs;
 mod program;
+mod samplers;
+mod stages;
+mod uniforms;
+pub(crate) mod usage;
+mod varyings;
 
+pub use layout::MAX_BLOCK_BYTES;
 pub use program::{
     Attribute, Block, BlockIndex, Interface, Output, Program, RootIndex, SamplerSlot, SlotBinding, UniformLeaf,
     UniformRoot, Varying, VaryingEnd,
 };
+
+use crate::compiler::Options;
+use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::hir::{Shader, Stage, Types};
+use crate::source::SourceMap;
+
+/// What all steps of a link share.
+struct Context<'a> {
+    types: &'a Types,
+    options: &'a Options,
+    diagnostics: &'a mut Diagnostics,
+    failed: bool,
+}
+
+impl Context<'_> {
+    fn report(&mut self, diagnostic: Diagnostic) {
+        self.failed |= diagnostic.is_error();
+        self.diagnostics.push(diagnostic);
+    }
+}
+
+/// Links analysed shaders; `None` if that fails. A lone shader links, too: its interface is then that of one stage.
+pub fn link(
+    name: String,
+    types: Types,
+    shaders: Vec<Shader>,
+    options: &Options,
+    _sources: &SourceMap,
+    diagnostics: &mut Diagnostics,
+) -> Option<Program> {
+    let lone = shaders.len() < 2;
+    let mut ctx = Context { types: &types, options, diagnostics, failed: false };
+    let stages = stages::in_order(&mut ctx, shaders);
+    stages::check(&mut ctx, &stages, lone);
+    let interface = interface(&mut ctx, &stages);
+    let failed = ctx.failed;
+    (!failed).then_some(Program { name, types, stages, interface })
+}
+
+fn interface(ctx: &mut Context<'_>, stages: &[Shader]) -> Interface {
+    let of = |stage: Stage| stages.iter().find(|shader| shader.stage == stage);
+    let mut interface = Interface::default();
+    for pair in stages.windows(2) {
+        if let [producer, consumer] = pair {
+            matching::check(ctx, producer, consumer);
+        }
+    }
+    if let Some(vertex) = of(Stage::Vertex) {
+        interface.attributes = attributes::assign(ctx, vertex);
+    }
+    interface.varyings = varyings::assign(ctx, of(Stage::Geometry).or(of(Stage::Vertex)), of(Stage::Fragment));
+    if let Some(fragment) = of(Stage::Fragment) {
+        interface.outputs = outputs::assign(ctx, fragment);
+    }
+    uniforms::assign(ctx, stages, &mut interface);
+    interface.samplers = samplers::assign(ctx, stages);
+    interface
+}

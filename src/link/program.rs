@@ -142,6 +142,8 @@ pub struct Block {
     pub size: u32,
     /// The root that it is.
     pub root: RootIndex,
+    /// `layout(binding = n)`: the buffer binding point, for the host to know; it never moves `slot`.
+    pub unit: Option<u32>,
     /// Whether a stage reads it.
     pub active: bool,
 }

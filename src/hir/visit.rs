@@ -1,0 +1,119 @@
+//! Walks over statements and expressions that need no stack of the caller's: every expression of a body, and the
+//! functions that a function calls.
+
+use super::{Condition, ExprId, ExprKind, FunctionId, Shader, Stmt, StmtKind};
+
+impl ExprKind {
+    /// The operands, left to right.
+    pub fn children(&self) -> smallvec::SmallVec<[ExprId; 4]> {
+        match self {
+            Self::Error | Self::Literal(_) | Self::Var(_) => smallvec::SmallVec::new(),
+            Self::Member(a, _) | Self::Swizzle(a, _) | Self::Convert(a) | Self::Unary(_, a) | Self::IncDec(_, a) => {
+                smallvec::smallvec![*a]
+            }
+            Self::Index(a, b)
+            | Self::Binary(_, a, b)
+            | Self::Logical(_, a, b)
+            | Self::Assign(_, a, b)
+            | Self::Comma(a, b) => smallvec::smallvec![*a, *b],
+            Self::Ternary(a, b, c) => smallvec::smallvec![*a, *b, *c],
+            Self::Construct(_, list) | Self::Call(_, list) | Self::BuiltinCall(_, list) => {
+                list.iter().copied().collect()
+            }
+        }
+    }
+}
+
+impl StmtKind {
+    /// The expressions that stand in the statement itself, in the order in which they are first evaluated.
+    pub fn exprs(&self) -> smallvec::SmallVec<[ExprId; 4]> {
+        match self {
+            Self::Expr(expr) => smallvec::smallvec![*expr],
+            Self::Local(_, expr) | Self::Return(expr) => expr.iter().copied().collect(),
+            Self::If { arms, .. } => arms.iter().map(|(condition, _)| *condition).collect(),
+            Self::Switch { selector, .. } => smallvec::smallvec![*selector],
+            Self::Loop { condition, step, .. } => {
+                condition.iter().map(|Condition { expr, .. }| *expr).chain(step.iter().copied()).collect()
+            }
+            Self::Block(_) | Self::Break | Self::Continue | Self::Discard => smallvec::SmallVec::new(),
+        }
+    }
+
+    /// The bodies inside, in order.
+    pub fn bodies(&self) -> smallvec::SmallVec<[&[Stmt]; 4]> {
+        match self {
+            Self::Block(body) | Self::Loop { body, .. } => smallvec::smallvec![body.as_slice()],
+            Self::If { arms, otherwise } => {
+                arms.iter().map(|(_, body)| body.as_slice()).chain([otherwise.as_slice()]).collect()
+            }
+            Self::Switch { cases, .. } => cases.iter().map(|case| case.body.as_slice()).collect(),
+            Self::Expr(_) | Self::Local(..) | Self::Break | Self::Continue | Self::Return(_) | Self::Discard => {
+                smallvec::SmallVec::new()
+            }
+        }
+    }
+}
+
+impl Shader {
+    /// Calls `f` for an expression and everything inside it, operands after the whole, left before right.
+    pub fn visit_expr(&self, root: ExprId, f: &mut dyn FnMut(ExprId)) {
+        let mut stack = vec![root];
+        while let Some(id) = stack.pop() {
+            f(id);
+            stack.extend(self.expr(id).kind.children().into_iter().rev());
+        }
+    }
+
+    /// Calls `f` for every statement of a body, outer ones first, in the order of the text.
+    pub fn visit_statements<'a>(&'a self, body: &'a [Stmt], f: &mut dyn FnMut(&'a Stmt)) {
+        let mut stack: Vec<&'a Stmt> = body.iter().rev().collect();
+        while let Some(statement) = stack.pop() {
+            f(statement);
+            for inner in statement.kind.bodies().into_iter().rev() {
+                stack.extend(inner.iter().rev());
+            }
+        }
+    }
+
+    /// Calls `f` for every expression of a body.
+    pub fn visit_body(&self, body: &[Stmt], f: &mut dyn FnMut(ExprId)) {
+        self.visit_statements(body, &mut |statement| {
+            for expr in statement.kind.exprs() {
+                self.visit_expr(expr, f);
+            }
+        });
+    }
+
+    /// The functions that a function calls, in the order of the calls.
+    pub fn callees(&self, id: FunctionId) -> Vec<FunctionId> {
+        let mut list = Vec::new();
+        if let Some(body) = self.functions.get(id.index()).and_then(|function| function.body.as_deref()) {
+            self.visit_body(body, &mut |expr| {
+                if let ExprKind::Call(callee, _) = self.expr(expr).kind {
+                    list.push(callee);
+                }
+            });
+        }
+        list
+    }
+
+    /// The functions that `root` reaches, callees before callers, `root` last. Recursion, an error of the source, is cut.
+    pub fn callees_first(&self, root: FunctionId) -> Vec<FunctionId> {
+        let mut order = Vec::new();
+        let mut seen = vec![false; self.functions.len()];
+        let mut stack = vec![(root, false)];
+        while let Some((id, done)) = stack.pop() {
+            if done {
+                order.push(id);
+                continue;
+            }
+            match seen.get_mut(id.index()) {
+                Some(seen) if !*seen => *seen = true,
+                _ => continue,
+            }
+            stack.push((id, true));
+            stack.extend(self.callees(id).into_iter().rev().map(|callee| (callee, false)));
+        }
+        order
+    }
+}

@@ -1,0 +1,75 @@
+//! When two types in different shaders are the same (§4.3.5, §4.3.7, §4.3.9): equal but for where they are declared.
+//!
+//! A struct declared in two shaders gives two handles; it matches if it has the same name and the same members in the
+//! same order.
+
+use crate::hir::{Member, StructId, Type, TypeId, Types};
+
+/// Whether two types match across shaders.
+pub(super) fn same_type(types: &Types, a: TypeId, b: TypeId) -> bool {
+    if a == b {
+        return true;
+    }
+    match (types.get(a), types.get(b)) {
+        (Type::Error, _) | (_, Type::Error) => true,
+        (Type::Array(a, a_size), Type::Array(b, b_size)) => a_size == b_size && same_type(types, a, b),
+        (Type::Struct(a), Type::Struct(b)) => same_struct(types, a, b),
+        _ => false,
+    }
+}
+
+fn same_struct(types: &Types, a: StructId, b: StructId) -> bool {
+    let (a, b) = (types.structure(a), types.structure(b));
+    a.name == b.name
+        && a.members.len() == b.members.len()
+        && a.members.iter().zip(&b.members).all(|(a, b)| a.name == b.name && same_type(types, a.ty, b.ty))
+}
+
+/// The struct behind a block's type, and the size of an array of blocks.
+pub(super) fn block_parts(types: &Types, ty: TypeId) -> Option<(StructId, Option<crate::hir::ArraySize>)> {
+    match types.get(ty) {
+        Type::Struct(id) => Some((id, None)),
+        Type::Array(element, size) => match types.get(element) {
+            Type::Struct(id) => Some((id, Some(size))),
+            _ => None,
+        },
+        _ => None,
+    }
+}
+
+/// The first difference between the members of two declarations of one block.
+pub(super) enum MemberDifference<'a> {
+    /// One has a member more.
+    Count(usize, usize),
+    /// Another name or type at the same place.
+    Declaration(&'a Member, &'a Member),
+    /// Another interpolation, `centroid` or matrix order.
+    Qualifiers(&'a Member, &'a Member),
+}
+
+/// Compares the members of two declarations of one block (§4.3.7).
+pub(super) fn compare_members(types: &Types, a: StructId, b: StructId) -> Option<MemberDifference<'_>> {
+    let (a, b) = (&types.structure(a).members, &types.structure(b).members);
+    for (a, b) in a.iter().zip(b) {
+        if a.name != b.name || !same_type(types, a.ty, b.ty) {
+            return Some(MemberDifference::Declaration(a, b));
+        }
+        let has_matrix = contains_matrix(types, a.ty);
+        if (has_matrix && a.matrix_layout != b.matrix_layout)
+            || a.interpolation != b.interpolation
+            || a.centroid != b.centroid
+        {
+            return Some(MemberDifference::Qualifiers(a, b));
+        }
+    }
+    (a.len() != b.len()).then_some(MemberDifference::Count(a.len(), b.len()))
+}
+
+fn contains_matrix(types: &Types, ty: TypeId) -> bool {
+    match types.get(ty) {
+        Type::Matrix(..) => true,
+        Type::Array(element, _) => contains_matrix(types, element),
+        Type::Struct(id) => types.structure(id).members.iter().any(|member| contains_matrix(types, member.ty)),
+        Type::Error | Type::Void | Type::Scalar(_) | Type::Vector(..) | Type::Sampler(_) => false,
+    }
+}

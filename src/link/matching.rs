@@ -1,0 +1,254 @@
+//! The outputs of one stage against the inputs of the next (GLSL 1.50 §4.3.4, §4.3.6, §4.3.7, §4.3.9).
+//!
+//! Variables are matched by name, blocks by block name. What matches must agree in type and qualifiers; what is declared
+//! in one stage alone is superfluous and legal, unless the later stage reads it. A geometry shader's inputs are arrays of
+//! what the vertex shader writes.
+
+use super::Context;
+use super::compatible::{MemberDifference, block_parts, compare_members, same_type};
+use crate::diagnostic::{Diagnostic, codes, did_you_mean};
+use crate::hir::{ArraySize, Global, GlobalId, Shader, Stage, Storage, Type, TypeId, Types};
+
+/// Whether a global is an ordinary output or input that has a partner in another stage.
+fn is_interface(global: &Global, storage: Storage) -> bool {
+    global.storage == storage && global.builtin.is_none()
+}
+
+/// The name by which a variable or block is matched.
+pub(super) fn match_name(global: &Global) -> &str {
+    global.block.as_ref().map_or(&global.name, |block| &block.name)
+}
+
+/// The output that feeds an input: of the same name and kind, else of the same explicit location.
+pub(super) fn partner<'a>(producer: &'a Shader, input: &Global) -> Option<(GlobalId, &'a Global)> {
+    let outputs = || producer.globals().filter(|(_, output)| is_interface(output, Storage::Out));
+    let same_kind = |output: &Global| output.block.is_some() == input.block.is_some();
+    let by_name = outputs().find(|(_, output)| match_name(output) == match_name(input) && same_kind(output));
+    by_name.or_else(|| {
+        let location = input.location?;
+        outputs().find(|(_, output)| output.location == Some(location) && same_kind(output))
+    })
+}
+
+/// Checks all inputs of `consumer` against the outputs of `producer`.
+pub(super) fn check(ctx: &mut Context<'_>, producer: &Shader, consumer: &Shader) {
+    let inputs = consumer.globals().filter(|(_, input)| is_interface(input, Storage::In));
+    for (_, input) in inputs {
+        match partner(producer, input) {
+            Some((_, output)) => check_pair(ctx, producer, output, consumer, input),
+            None if input.used => no_partner(ctx, producer, consumer, input),
+            None => {}
+        }
+    }
+}
+
+fn no_partner(ctx: &mut Context<'_>, producer: &Shader, consumer: &Shader, input: &Global) {
+    let outputs: Vec<&Global> = producer.globals.iter().filter(|output| is_interface(output, Storage::Out)).collect();
+    let (name, stage) = (match_name(input), producer.stage.name());
+    let kind = if input.block.is_some() { "block" } else { "input" };
+    let message = format!(
+        "the {} stage reads the {kind} `{name}`, and the {stage} stage has no such output",
+        consumer.stage.name()
+    );
+    let mut diagnostic = Diagnostic::new(&codes::link::NO_MATCHING_OUTPUT, input.span, message);
+    let same_name = producer.globals.iter().find(|global| match_name(global) == name && global.builtin.is_none());
+    if let Some(other) = same_name {
+        let what = describe_other(other);
+        diagnostic = diagnostic.label(other.span, format!("the {stage} stage has `{name}` as {what}"));
+    }
+    let near = did_you_mean(name, outputs.iter().map(|output| match_name(output)));
+    let near = near.and_then(|near| outputs.iter().copied().find(|output| match_name(output) == near));
+    if let Some(output) = near.or_else(|| only_unread(ctx.types, &outputs, consumer, input)) {
+        diagnostic = diagnostic
+            .label(output.span, format!("the nearest output of the {stage} stage"))
+            .help(format!("did you mean `{}`?", match_name(output)));
+    } else if same_name.is_none() {
+        diagnostic =
+            diagnostic.help(format!("declare it in the {stage} stage: `{}`", declaration(ctx.types, consumer, input)));
+    }
+    ctx.report(diagnostic);
+}
+
+fn describe_other(global: &Global) -> &'static str {
+    match (global.storage, global.block.is_some()) {
+        (_, true) => "a block",
+        (Storage::Out, false) => "an output outside a block",
+        (Storage::In, false) => "an input",
+        (Storage::Uniform, false) => "a uniform",
+        (Storage::Const | Storage::Private, false) => "a global variable",
+    }
+}
+
+/// The one output of the input's type that no input takes.
+fn only_unread<'a>(types: &Types, outputs: &[&'a Global], consumer: &Shader, input: &Global) -> Option<&'a Global> {
+    let taken = |output: &Global| {
+        consumer.globals.iter().any(|other| is_interface(other, Storage::In) && match_name(other) == match_name(output))
+    };
+    let wanted = per_vertex(types, consumer.stage, input.ty)?;
+    let mut free = outputs.iter().copied().filter(|output| !taken(output) && same_type(types, output.ty, wanted));
+    let first = free.next()?;
+    free.next().is_none().then_some(first)
+}
+
+/// An output that would feed an input, as GLSL.
+fn declaration(types: &Types, consumer: &Shader, input: &Global) -> String {
+    if let Some(block) = &input.block {
+        return format!("out {} {{ .. }};", block.name);
+    }
+    let ty = if consumer.stage == Stage::Geometry { types.element(input.ty).unwrap_or(input.ty) } else { input.ty };
+    let centroid = if input.centroid { "centroid " } else { "" };
+    format!("{}{centroid}out {} {};", interpolation_prefix(input), types.name(ty), input.name)
+}
+
+fn interpolation_prefix(global: &Global) -> String {
+    if global.interpolation_written { format!("{} ", global.interpolation.name()) } else { String::new() }
+}
+
+fn check_pair(ctx: &mut Context<'_>, producer: &Shader, output: &Global, consumer: &Shader, input: &Global) {
+    let pair = Pair { producer: producer.stage, output, consumer: consumer.stage, input };
+    if input.block.is_some() {
+        check_block(ctx, &pair);
+    } else {
+        check_type(ctx, &pair);
+    }
+    check_qualifiers(ctx, &pair);
+}
+
+struct Pair<'a> {
+    producer: Stage,
+    output: &'a Global,
+    consumer: Stage,
+    input: &'a Global,
+}
+
+impl Pair<'_> {
+    fn report(
+        &self,
+        ctx: &mut Context<'_>,
+        code: &'static crate::diagnostic::Code,
+        what: &str,
+        theirs: String,
+        ours: String,
+    ) {
+        let name = match_name(self.input);
+        let message = format!("`{name}` {what}");
+        let diagnostic = Diagnostic::new(code, self.input.span, message)
+            .here(format!("{ours} in the {} stage", self.consumer.name()))
+            .label(self.output.span, format!("{theirs} in the {} stage", self.producer.name()));
+        ctx.report(diagnostic);
+    }
+}
+
+/// The type of an input of one vertex: a geometry shader has an array of it.
+fn per_vertex(types: &Types, consumer: Stage, ty: TypeId) -> Option<TypeId> {
+    if consumer != Stage::Geometry {
+        return Some(ty);
+    }
+    match types.get(ty) {
+        Type::Array(element, _) => Some(element),
+        Type::Error => Some(ty),
+        _ => None,
+    }
+}
+
+fn check_type(ctx: &mut Context<'_>, pair: &Pair<'_>) {
+    let types = ctx.types;
+    let matches =
+        per_vertex(types, pair.consumer, pair.input.ty).is_some_and(|input| same_type(types, input, pair.output.ty));
+    if !matches {
+        let (theirs, ours) = (types.name(pair.output.ty), types.name(pair.input.ty));
+        let same_spelling = theirs == ours;
+        let what =
+            if same_spelling { "is not the same struct in both stages" } else { "changes its type between the stages" };
+        pair.report(ctx, &codes::link::INTERFACE_TYPE_MISMATCH, what, format!("`{theirs}`"), format!("`{ours}`"));
+    }
+}
+
+fn check_block(ctx: &mut Context<'_>, pair: &Pair<'_>) {
+    let types = ctx.types;
+    let (Some((output, output_size)), Some((input, input_size))) =
+        (block_parts(types, pair.output.ty), block_parts(types, pair.input.ty))
+    else {
+        return;
+    };
+    if !block_arrays_match(pair.consumer, output_size, input_size) {
+        let array = |size: Option<ArraySize>| match size {
+            None => "no array".to_owned(),
+            Some(ArraySize::Sized(size)) => format!("an array of {size}"),
+            Some(ArraySize::Unsized) => "an unsized array".to_owned(),
+        };
+        let what = "is another array of blocks in each stage";
+        pair.report(ctx, &codes::link::INTERFACE_BLOCK_MISMATCH, what, array(output_size), array(input_size));
+        return;
+    }
+    if let Some(difference) = compare_members(types, output, input) {
+        let diagnostic = member_difference(types, &codes::link::INTERFACE_BLOCK_MISMATCH, pair, &difference);
+        ctx.report(diagnostic);
+    }
+}
+
+fn block_arrays_match(consumer: Stage, output: Option<ArraySize>, input: Option<ArraySize>) -> bool {
+    match consumer {
+        Stage::Geometry => output.is_none() && input.is_some(),
+        Stage::Vertex | Stage::Fragment => output == input,
+    }
+}
+
+fn member_difference(
+    types: &Types,
+    code: &'static crate::diagnostic::Code,
+    pair: &Pair<'_>,
+    difference: &MemberDifference<'_>,
+) -> Diagnostic {
+    let name = match_name(pair.input);
+    let (producer, consumer) = (pair.producer.name(), pair.consumer.name());
+    match *difference {
+        MemberDifference::Count(theirs, ours) => Diagnostic::new(
+            code,
+            pair.input.span,
+            format!("the block `{name}` has another number of members in each stage"),
+        )
+        .here(format!("{ours} in the {consumer} stage"))
+        .label(pair.output.span, format!("{theirs} in the {producer} stage")),
+        MemberDifference::Declaration(theirs, ours) => {
+            Diagnostic::new(code, ours.span, format!("the members of the block `{name}` differ between the stages"))
+                .here(format!("`{} {}` in the {consumer} stage", types.name(ours.ty), ours.name))
+                .label(theirs.span, format!("`{} {}` in the {producer} stage", types.name(theirs.ty), theirs.name))
+        }
+        MemberDifference::Qualifiers(theirs, ours) => {
+            let message = format!("`{}` of the block `{name}` is qualified differently in each stage", ours.name);
+            Diagnostic::new(code, ours.span, message)
+                .here(format!("{} in the {consumer} stage", member_qualifiers(ours)))
+                .label(theirs.span, format!("{} in the {producer} stage", member_qualifiers(theirs)))
+        }
+    }
+}
+
+fn member_qualifiers(member: &crate::hir::Member) -> String {
+    let interpolation = member.interpolation.map_or("no interpolation qualifier", crate::hir::Interpolation::name);
+    let centroid = if member.centroid { " centroid" } else { "" };
+    format!("{interpolation}{centroid}")
+}
+
+/// "The type and presence of the interpolation qualifiers and storage qualifiers and invariant qualifiers … must match"
+/// (§4.3.9): `smooth` and no qualifier at all differ, too.
+fn check_qualifiers(ctx: &mut Context<'_>, pair: &Pair<'_>) {
+    let Pair { output, input, .. } = pair;
+    let interpolation = |global: &Global| global.interpolation_written.then_some(global.interpolation);
+    if input.block.is_none() && interpolation(output) != interpolation(input) {
+        let word = |global: &Global| {
+            interpolation(global)
+                .map_or("no interpolation qualifier".to_owned(), |written| format!("`{}`", written.name()))
+        };
+        let what = "is interpolated differently in each stage";
+        pair.report(ctx, &codes::link::INTERPOLATION_MISMATCH, what, word(output), word(input));
+    }
+    let flags = [("centroid", output.centroid, input.centroid), ("invariant", output.invariant, input.invariant)];
+    for (qualifier, theirs, ours) in flags {
+        if theirs != ours {
+            let word = |set: bool| if set { format!("`{qualifier}`") } else { format!("not `{qualifier}`") };
+            let what = format!("is `{qualifier}` in one stage alone");
+            pair.report(ctx, &codes::link::QUALIFIER_MISMATCH, &what, word(theirs), word(ours));
+        }
+    }
+}

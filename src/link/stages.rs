@@ -1,0 +1,73 @@
+//! Which stages make a program, and what each must have (OpenGL 3.2 §2.11.2, §2.12; GLSL 1.50 §4.3.8, §6.1).
+
+use super::{Context, merge};
+use crate::diagnostic::{Diagnostic, codes};
+use crate::hir::{Shader, Stage};
+
+/// One shader a stage, in the order of the pipeline: several of one stage are merged.
+pub(super) fn in_order(ctx: &mut Context<'_>, shaders: Vec<Shader>) -> Vec<Shader> {
+    let mut by_stage: [Vec<Shader>; 3] = Default::default();
+    for shader in shaders {
+        let [vertex, geometry, fragment] = &mut by_stage;
+        match shader.stage {
+            Stage::Vertex => vertex.push(shader),
+            Stage::Geometry => geometry.push(shader),
+            Stage::Fragment => fragment.push(shader),
+        }
+    }
+    by_stage.into_iter().filter_map(|shaders| merge::merge(ctx, shaders)).collect()
+}
+
+/// What a lone shader may lack, a program may not: then it is a warning instead of an error.
+pub(super) fn check(ctx: &mut Context<'_>, stages: &[Shader], lone: bool) {
+    for shader in stages {
+        if shader.main.is_none() {
+            missing_main(ctx, shader, lone);
+        }
+        if shader.stage == Stage::Geometry {
+            geometry_layout(ctx, shader, lone);
+        }
+    }
+    let has = |stage| stages.iter().any(|shader| shader.stage == stage);
+    if has(Stage::Geometry) && !has(Stage::Vertex) && !lone {
+        let span = stages.iter().find(|shader| shader.stage == Stage::Geometry).map(anchor).unwrap_or_default();
+        let message = "a geometry shader without a vertex shader before it";
+        ctx.report(
+            Diagnostic::new(&codes::link::MISSING_STAGE, span, message).help("add a vertex shader to the program"),
+        );
+    }
+}
+
+fn missing_main(ctx: &mut Context<'_>, shader: &Shader, lone: bool) {
+    let code = if lone { &codes::link::LONE_WITHOUT_MAIN } else { &codes::link::MISSING_MAIN };
+    let message = format!("the {} stage has no `main`", shader.stage.name());
+    let names = shader.functions.iter().map(|function| function.name.as_str());
+    let help =
+        crate::diagnostic::did_you_mean("main", names).map(|name| format!("did you mean `{name}` to be `main`?"));
+    ctx.report(Diagnostic::new(code, anchor(shader), message).maybe_help(help));
+}
+
+/// The `#version` line, or whatever has a place.
+pub(super) fn anchor(shader: &Shader) -> crate::source::Span {
+    let globals = shader.globals.iter().map(|global| global.span);
+    let functions = shader.functions.iter().map(|function| function.span);
+    [shader.version.span].into_iter().chain(functions).chain(globals).find(|span| span.is_known()).unwrap_or_default()
+}
+
+fn geometry_layout(ctx: &mut Context<'_>, shader: &Shader, lone: bool) {
+    let layout = &shader.geometry;
+    let missing = [
+        (layout.input.is_none(), "the input primitive", "layout(triangles) in;"),
+        (layout.output.is_none(), "the output primitive", "layout(triangle_strip) out;"),
+        (layout.max_vertices.is_none(), "`max_vertices`", "layout(max_vertices = 3) out;"),
+    ];
+    let code = if lone { &codes::link::LONE_WITHOUT_LAYOUT } else { &codes::link::MISSING_GEOMETRY_LAYOUT };
+    let lacking: Vec<_> = missing.into_iter().filter(|(missing, ..)| *missing).collect();
+    if lacking.is_empty() {
+        return;
+    }
+    let what: Vec<_> = lacking.iter().map(|(_, what, _)| *what).collect();
+    let help: Vec<_> = lacking.iter().map(|(.., help)| *help).collect();
+    let message = format!("the geometry stage does not declare {}", what.join(" and "));
+    ctx.report(Diagnostic::new(code, anchor(shader), message).help(format!("declare `{}`", help.join(" "))));
+}

@@ -1,0 +1,386 @@
+//! Uniforms and uniform blocks (GLSL 1.50 §4.3.5, §4.3.7; OpenGL 3.2 §2.11.4): one name space for all stages.
+//!
+//! Loose uniforms stand together in one block at group 0, binding 0, laid out by std140 in the order of their
+//! declarations, those that are read first; uniform blocks follow, elements of an array of blocks at consecutive
+//! bindings. `gl_DepthRange` is a loose uniform with the default (0, 1, 1).
+
+use super::compatible::{MemberDifference, block_parts, compare_members, same_type};
+use super::flatten::{join, parts};
+use super::layout::{self, MAX_BLOCK_BYTES, array_stride, extent, round_up, struct_members};
+use super::{Block, BlockIndex, Context, Interface, RootIndex, SlotBinding, UniformLeaf, UniformRoot};
+use crate::builtin::BuiltinVariable;
+use crate::diagnostic::{Diagnostic, codes};
+use crate::hir::{
+    ArraySize, BlockLayout, Global, GlobalId, MatrixLayout, ScalarValue, Shader, Stage, Storage, Type, TypeId, Types,
+    Value,
+};
+
+const GROUP: u32 = 0;
+
+/// A uniform or block as all stages have it.
+struct Shared<'a> {
+    global: &'a Global,
+    stage: Stage,
+    globals: Vec<(Stage, GlobalId)>,
+    default: Option<(&'a Value, &'a Global)>,
+    active: bool,
+}
+
+impl Shared<'_> {
+    fn is_block(&self) -> bool {
+        self.global.block.is_some()
+    }
+}
+
+/// Places all uniforms but samplers.
+pub(super) fn assign(ctx: &mut Context<'_>, stages: &[Shader], interface: &mut Interface) {
+    let mut all = unite(ctx, stages);
+    all.sort_by_key(|shared| !shared.active);
+    let types = ctx.types;
+    let (blocks, loose): (Vec<_>, Vec<_>) = all.iter().partition(|shared| shared.is_block());
+    let loose: Vec<_> = loose.into_iter().filter(|shared| !only_samplers(types, shared.global.ty)).collect();
+    place_loose(ctx, &loose, reads_frag_coord(stages), interface);
+    place_blocks(ctx, &blocks, interface);
+}
+
+fn only_samplers(types: &Types, ty: TypeId) -> bool {
+    match types.get(ty) {
+        Type::Sampler(_) => true,
+        Type::Array(element, _) => only_samplers(types, element),
+        Type::Struct(id) => {
+            let members = &types.structure(id).members;
+            !members.is_empty() && members.iter().all(|member| only_samplers(types, member.ty))
+        }
+        Type::Error | Type::Void | Type::Scalar(_) | Type::Vector(..) | Type::Matrix(..) => false,
+    }
+}
+
+/// Whether the fragment stage needs the framebuffer's height to turn `gl_FragCoord.y` over.
+fn reads_frag_coord(stages: &[Shader]) -> bool {
+    stages.iter().filter(|shader| shader.stage == Stage::Fragment).any(|shader| {
+        let reads = |global: &Global| global.used && global.builtin == Some(BuiltinVariable::FragCoord);
+        !shader.frag_coord.origin_upper_left && shader.globals.iter().any(reads)
+    })
+}
+
+/// One row a name, in the order of the first declarations.
+fn unite<'a>(ctx: &mut Context<'_>, stages: &'a [Shader]) -> Vec<Shared<'a>> {
+    let mut all: Vec<Shared<'a>> = Vec::new();
+    for shader in stages {
+        for (id, global) in shader.globals().filter(|(_, global)| is_shared(global)) {
+            let name = super::matching::match_name(global);
+            let same = |known: &&mut Shared<'_>| {
+                known.is_block() == global.block.is_some() && super::matching::match_name(known.global) == name
+            };
+            match all.iter_mut().find(same) {
+                Some(known) => {
+                    check_same(ctx, known, shader.stage, global);
+                    known.globals.push((shader.stage, id));
+                    known.active |= global.used;
+                    known.default = known.default.or(global.value.as_ref().map(|value| (value, global)));
+                }
+                None => all.push(Shared {
+                    global,
+                    stage: shader.stage,
+                    globals: vec![(shader.stage, id)],
+                    default: global.value.as_ref().map(|value| (value, global)),
+                    active: global.used,
+                }),
+            }
+        }
+    }
+    all
+}
+
+fn is_shared(global: &Global) -> bool {
+    let builtin = match global.builtin {
+        None => true,
+        Some(BuiltinVariable::DepthRange) => global.used,
+        Some(_) => false,
+    };
+    global.storage == Storage::Uniform && builtin
+}
+
+fn check_same(ctx: &mut Context<'_>, known: &Shared<'_>, stage: Stage, global: &Global) {
+    let types = ctx.types;
+    if known.is_block() {
+        check_same_block(ctx, known, stage, global);
+        return;
+    }
+    if !same_type(types, known.global.ty, global.ty) {
+        let message = format!("the uniform `{}` has another type in each stage", global.name);
+        let diagnostic = Diagnostic::new(&codes::link::UNIFORM_TYPE_MISMATCH, global.span, message)
+            .here(format!("`{}` in the {} stage", types.name(global.ty), stage.name()))
+            .label(known.global.span, format!("`{}` in the {} stage", types.name(known.global.ty), known.stage.name()));
+        ctx.report(diagnostic);
+        return;
+    }
+    if let (Some((value, declared)), Some(other)) = (known.default, global.value.as_ref())
+        && !same_scalars(value, other)
+    {
+        let message = format!("the uniform `{}` has another initializer in each stage", global.name);
+        let diagnostic = Diagnostic::new(&codes::link::UNIFORM_INITIALIZER_MISMATCH, global.span, message)
+            .label(declared.span, "initialized here, too");
+        ctx.report(diagnostic);
+    }
+}
+
+/// Equal bit by bit, so that a NaN equals itself.
+fn same_scalars(a: &Value, b: &Value) -> bool {
+    let bits = |value: &ScalarValue| match *value {
+        ScalarValue::Bool(value) => u32::from(value),
+        ScalarValue::Int(value) => value as u32,
+        ScalarValue::Uint(value) => value,
+        ScalarValue::Float(value) => value.to_bits(),
+    };
+    a.scalars.iter().map(bits).eq(b.scalars.iter().map(bits))
+}
+
+fn check_same_block(ctx: &mut Context<'_>, known: &Shared<'_>, stage: Stage, global: &Global) {
+    let types = ctx.types;
+    let (Some(ours), Some(theirs)) = (&global.block, &known.global.block) else { return };
+    let (Some((our_members, our_size)), Some((their_members, their_size))) =
+        (block_parts(types, global.ty), block_parts(types, known.global.ty))
+    else {
+        return;
+    };
+    let code = &codes::link::UNIFORM_BLOCK_MISMATCH;
+    let name = &ours.name;
+    let (our_stage, their_stage) = (stage.name(), known.stage.name());
+    let whole = |what: &str, here: String, there: String| {
+        Diagnostic::new(code, global.span, format!("the uniform block `{name}` {what}"))
+            .here(format!("{here} in the {our_stage} stage"))
+            .label(known.global.span, format!("{there} in the {their_stage} stage"))
+    };
+    let diagnostic = if our_size != their_size {
+        whole("is another array in each stage", array_word(our_size), array_word(their_size))
+    } else if ours.instance.is_some() != theirs.instance.is_some() {
+        let word = |instance: &Option<String>| {
+            instance.as_ref().map_or("no instance name".to_owned(), |name| format!("instance name `{name}`"))
+        };
+        whole("has an instance name in one stage alone", word(&ours.instance), word(&theirs.instance))
+    } else if ours.layout != theirs.layout {
+        let word = |layout: BlockLayout| format!("`{}`", layout_word(layout));
+        whole("is laid out differently in each stage", word(ours.layout), word(theirs.layout))
+    } else {
+        match compare_members(types, our_members, their_members) {
+            None => return,
+            Some(MemberDifference::Count(ours, theirs)) => {
+                whole("has another number of members in each stage", ours.to_string(), theirs.to_string())
+            }
+            Some(MemberDifference::Declaration(ours, theirs)) => {
+                Diagnostic::new(code, ours.span, format!("the members of the uniform block `{name}` differ"))
+                    .here(format!("`{} {}` in the {our_stage} stage", types.name(ours.ty), ours.name))
+                    .label(
+                        theirs.span,
+                        format!("`{} {}` in the {their_stage} stage", types.name(theirs.ty), theirs.name),
+                    )
+            }
+            Some(MemberDifference::Qualifiers(ours, theirs)) => {
+                let message =
+                    format!("`{}` of the uniform block `{name}` has another matrix order in each stage", ours.name);
+                Diagnostic::new(code, ours.span, message)
+                    .here(format!("`{}` in the {our_stage} stage", order_word(ours.matrix_layout)))
+                    .label(theirs.span, format!("`{}` in the {their_stage} stage", order_word(theirs.matrix_layout)))
+            }
+        }
+    };
+    ctx.report(diagnostic);
+}
+
+fn array_word(size: Option<ArraySize>) -> String {
+    match size {
+        None => "no array".into(),
+        Some(ArraySize::Sized(size)) => format!("{size} elements"),
+        Some(ArraySize::Unsized) => "no size".into(),
+    }
+}
+
+fn layout_word(layout: BlockLayout) -> &'static str {
+    match layout {
+        BlockLayout::Shared => "shared",
+        BlockLayout::Packed => "packed",
+        BlockLayout::Std140 => "std140",
+    }
+}
+
+fn order_word(order: MatrixLayout) -> &'static str {
+    match order {
+        MatrixLayout::ColumnMajor => "column_major",
+        MatrixLayout::RowMajor => "row_major",
+    }
+}
+
+fn place_loose(ctx: &mut Context<'_>, loose: &[&Shared<'_>], frag_coord: bool, interface: &mut Interface) {
+    let types = ctx.types;
+    let slot = SlotBinding { group: GROUP, binding: 0 };
+    let mut end = 0;
+    let order = MatrixLayout::ColumnMajor;
+    for shared in loose {
+        let room = extent(types, shared.global.ty, order);
+        let offset = round_up(end, room.align);
+        let new_end = offset.saturating_add(room.size);
+        if new_end > MAX_BLOCK_BYTES {
+            if shared.active {
+                too_large(ctx, shared, new_end);
+                return;
+            }
+            continue;
+        }
+        end = new_end;
+        let root = RootIndex(interface.roots.len() as u32);
+        interface.roots.push(UniformRoot {
+            name: shared.global.name.clone(),
+            ty: shared.global.ty,
+            globals: shared.globals.clone(),
+            block: None,
+            offset,
+            default: default_value(types, shared),
+            active: shared.active,
+        });
+        let place = Place { root, slot, block_element: 0, flat_offset: 0, active: shared.active };
+        leaves(types, &place, &shared.global.name, shared.global.ty, offset, order, &mut interface.uniforms);
+    }
+    if frag_coord {
+        interface.framebuffer_height = Some(round_up(end, 4));
+        end = round_up(end, 4) + 4;
+    }
+    if end > 0 {
+        interface.loose = Some((slot, round_up(end, 16)));
+    }
+}
+
+fn default_value(types: &Types, shared: &Shared<'_>) -> Option<Value> {
+    if shared.global.builtin == Some(BuiltinVariable::DepthRange) {
+        let scalars = [0.0, 1.0, 1.0].map(ScalarValue::Float).to_vec();
+        return Some(Value { ty: shared.global.ty, scalars });
+    }
+    let (value, _) = shared.default?;
+    debug_assert_eq!(value.scalars.len(), types.flat_len(shared.global.ty) as usize);
+    Some(Value { ty: shared.global.ty, scalars: value.scalars.clone() })
+}
+
+fn too_large(ctx: &mut Context<'_>, shared: &Shared<'_>, bytes: u32) {
+    let what = if shared.is_block() { "the uniform block" } else { "the loose uniforms up to" };
+    let message = format!(
+        "{what} `{}` take{} {bytes} bytes, and a uniform buffer has at most {MAX_BLOCK_BYTES}",
+        super::matching::match_name(shared.global),
+        if shared.is_block() { "s" } else { "" },
+    );
+    ctx.report(Diagnostic::new(&codes::link::TOO_MUCH_UNIFORM_STORAGE, shared.global.span, message));
+}
+
+/// What the leaves of one root have in common.
+struct Place {
+    root: RootIndex,
+    slot: SlotBinding,
+    block_element: u32,
+    flat_offset: u32,
+    active: bool,
+}
+
+/// Adds the rows of a value at a byte offset.
+fn leaves(
+    types: &Types,
+    place: &Place,
+    name: &str,
+    ty: TypeId,
+    offset: u32,
+    order: MatrixLayout,
+    list: &mut Vec<UniformLeaf>,
+) {
+    for part in parts(types, name, ty, order) {
+        let (element, array_size) = match types.get(part.ty) {
+            Type::Array(element, ArraySize::Sized(size)) => (element, Some(size)),
+            _ => (part.ty, None),
+        };
+        if matches!(types.get(element), Type::Sampler(_) | Type::Error | Type::Array(..)) {
+            continue;
+        }
+        let is_matrix = matches!(types.get(element), Type::Matrix(..));
+        list.push(UniformLeaf {
+            name: part.name,
+            ty: element,
+            array_size,
+            root: place.root,
+            block_element: place.block_element,
+            flat_offset: place.flat_offset + part.flat_offset,
+            slot: place.slot,
+            offset: offset + layout::byte_offset(types, ty, part.flat_offset, order),
+            array_stride: array_size.map(|_| array_stride(types, element, order)),
+            matrix_stride: is_matrix.then(layout::matrix_stride),
+            matrix_layout: if is_matrix { part.matrix_layout } else { MatrixLayout::ColumnMajor },
+            active: place.active,
+        });
+    }
+}
+
+fn place_blocks(ctx: &mut Context<'_>, blocks: &[&Shared<'_>], interface: &mut Interface) {
+    let types = ctx.types;
+    let mut binding = u32::from(interface.loose.is_some());
+    for shared in blocks {
+        let (Some(block), Some((id, array))) = (&shared.global.block, block_parts(types, shared.global.ty)) else {
+            continue;
+        };
+        let array_size = match array {
+            Some(ArraySize::Sized(size)) => Some(size),
+            _ => None,
+        };
+        let members = struct_members(types, id, MatrixLayout::ColumnMajor);
+        let size = round_up(members.last().map_or(0, |member| member.end), 16);
+        let elements = array_size.unwrap_or(1);
+        if size > MAX_BLOCK_BYTES {
+            too_large(ctx, shared, size);
+            continue;
+        }
+        if elements > MAX_BLOCKS {
+            let message = format!(
+                "the uniform block `{}` has {elements} elements, and a program at most {MAX_BLOCKS} blocks",
+                block.name
+            );
+            ctx.report(Diagnostic::new(&codes::link::TOO_MANY_BLOCKS, shared.global.span, message));
+            continue;
+        }
+        let root = RootIndex(interface.roots.len() as u32);
+        let slot = SlotBinding { group: GROUP, binding };
+        let element_len = types.structure(id).members.iter().map(|member| types.flat_len(member.ty)).sum::<u32>();
+        for element in 0..elements {
+            let slot = SlotBinding { group: GROUP, binding: binding + element };
+            let prefix = match (&block.instance, array_size) {
+                (None, _) => String::new(),
+                (Some(_), None) => block.name.clone(),
+                (Some(_), Some(_)) => format!("{}[{element}]", block.name),
+            };
+            let mut flat_offset = element * element_len;
+            for (member, placed) in types.structure(id).members.iter().zip(&members) {
+                let place = Place { root, slot, block_element: element, flat_offset, active: shared.active };
+                let name = join(&prefix, &member.name);
+                leaves(types, &place, &name, member.ty, placed.offset, placed.layout, &mut interface.uniforms);
+                flat_offset += types.flat_len(member.ty);
+            }
+        }
+        binding += elements;
+        interface.roots.push(UniformRoot {
+            name: block.name.clone(),
+            ty: shared.global.ty,
+            globals: shared.globals.clone(),
+            block: Some(BlockIndex(interface.blocks.len() as u32)),
+            offset: 0,
+            default: None,
+            active: shared.active,
+        });
+        interface.blocks.push(Block {
+            name: block.name.clone(),
+            instance: block.instance.clone(),
+            array_size,
+            slot,
+            size,
+            root,
+            unit: block.binding,
+            active: shared.active,
+        });
+    }
+}
+
+/// More uniform buffers than any target binds in a stage.
+const MAX_BLOCKS: u32 = 72;

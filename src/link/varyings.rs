@@ -1,0 +1,304 @@
+//! What the rasterizer interpolates: outputs of the stage before it and inputs of the fragment stage, cut into scalars and
+//! vectors (columns of matrices, elements of arrays, members of structs and blocks), each with a location.
+//!
+//! With both stages there, a varying is what both declare; an output that the fragment stage does not declare is no
+//! varying, nor is an input without an output (which nothing reads, or the link failed). Those that are read come first.
+//! Each takes a location of its own while there are enough; else scalars and vectors of equal type and interpolation
+//! share locations. Explicit locations stay.
+
+use super::attributes::plural;
+use super::compatible::same_type;
+use super::flatten::{join, parts};
+use super::matching::{match_name, partner};
+use super::{Context, Varying, VaryingEnd};
+use crate::diagnostic::{Diagnostic, codes};
+use crate::hir::{
+    ArraySize, Global, GlobalId, Interpolation, MatrixLayout, Scalar, Shader, Storage, Type, TypeId, Types,
+};
+use crate::source::Span;
+
+/// Locations for varyings that every WebGPU implementation has.
+const PORTABLE_LOCATIONS: u32 = 16;
+/// The most that a Vulkan implementation offers beside the position.
+const MAX_LOCATIONS: u32 = 31;
+
+/// A whole variable with its ends.
+struct Whole<'a> {
+    from: Option<(GlobalId, &'a Global)>,
+    to: Option<(GlobalId, &'a Global)>,
+}
+
+impl<'a> Whole<'a> {
+    /// The end that decides on interpolation: the fragment side if it is there.
+    fn decisive(&self) -> Option<&'a Global> {
+        self.to.or(self.from).map(|(_, global)| global)
+    }
+
+    fn active(&self) -> bool {
+        match (self.to, self.from) {
+            (Some((_, input)), _) => input.used,
+            (None, Some((_, output))) => output.written,
+            (None, None) => false,
+        }
+    }
+}
+
+/// All varyings of a program, in the order of their locations.
+pub(super) fn assign(ctx: &mut Context<'_>, producer: Option<&Shader>, fragment: Option<&Shader>) -> Vec<Varying> {
+    let mut wholes = wholes(ctx.types, producer, fragment);
+    wholes.sort_by_key(|whole| !whole.active());
+    let mut pieces = Vec::new();
+    for whole in &wholes {
+        if !fits(ctx, whole) {
+            return Vec::new();
+        }
+        cut(ctx.types, whole, &mut pieces);
+    }
+    warn_above_minimum(ctx, &wholes, &pieces);
+    place(ctx, pieces)
+}
+
+fn wholes<'a>(types: &Types, producer: Option<&'a Shader>, fragment: Option<&'a Shader>) -> Vec<Whole<'a>> {
+    let ends = |shader: &'a Shader, storage: Storage| {
+        shader.globals().filter(move |(_, global)| global.storage == storage && global.builtin.is_none())
+    };
+    match (producer, fragment) {
+        (Some(producer), Some(fragment)) => ends(fragment, Storage::In)
+            .filter_map(|to| {
+                let from = partner(producer, to.1).filter(|(_, output)| same_type_or_block(types, output, to.1))?;
+                Some(Whole { from: Some(from), to: Some(to) })
+            })
+            .collect(),
+        (Some(producer), None) => {
+            ends(producer, Storage::Out).map(|from| Whole { from: Some(from), to: None }).collect()
+        }
+        (None, Some(fragment)) => ends(fragment, Storage::In).map(|to| Whole { from: None, to: Some(to) }).collect(),
+        (None, None) => Vec::new(),
+    }
+}
+
+/// Blocks were compared member by member; a mismatch was reported then.
+fn same_type_or_block(types: &Types, output: &Global, input: &Global) -> bool {
+    types.flat_len(output.ty) == types.flat_len(input.ty)
+        && (input.block.is_some() || same_type(types, output.ty, input.ty))
+}
+
+/// Whether a variable alone is not beyond any limit; keeps absurd array sizes from being cut up.
+fn fits(ctx: &mut Context<'_>, whole: &Whole<'_>) -> bool {
+    let Some(global) = whole.decisive() else { return true };
+    let components = ctx.types.flat_len(global.ty);
+    if components <= MAX_LOCATIONS * 4 {
+        return true;
+    }
+    let message = format!(
+        "`{}` has {components} components, and varyings have at most {}",
+        match_name(global),
+        MAX_LOCATIONS * 4
+    );
+    ctx.report(Diagnostic::new(&codes::link::TOO_MANY_VARYINGS, global.span, message));
+    false
+}
+
+/// A scalar or vector before it has a place.
+struct Piece {
+    varying: Varying,
+    /// The location that the text gives it.
+    fixed: Option<u32>,
+    scalar: Scalar,
+    size: u8,
+    span: Span,
+}
+
+fn cut(types: &Types, whole: &Whole<'_>, pieces: &mut Vec<Piece>) {
+    let Some(global) = whole.decisive() else { return };
+    let explicit =
+        whole.to.and_then(|(_, input)| input.location).or(whole.from.and_then(|(_, output)| output.location));
+    let mut fixed = explicit;
+    for member in members(types, global) {
+        for part in parts(types, &member.name, member.ty, MatrixLayout::ColumnMajor) {
+            for (name, ty, offset) in vectors(types, &part.name, part.ty) {
+                let Some(scalar) = types.scalar_of(ty) else { continue };
+                let flat_offset = member.flat_offset + part.flat_offset + offset;
+                let end = |end: Option<(GlobalId, &Global)>| end.map(|(global, _)| VaryingEnd { global, flat_offset });
+                let varying = Varying {
+                    name,
+                    ty,
+                    location: 0,
+                    component: 0,
+                    interpolation: if scalar.is_integer() { Interpolation::Flat } else { member.interpolation },
+                    centroid: member.centroid,
+                    active: whole.active(),
+                    from: end(whole.from),
+                    to: end(whole.to),
+                };
+                let size = types.flat_len(ty) as u8;
+                pieces.push(Piece { varying, fixed, scalar, size, span: global.span });
+                fixed = fixed.map(|location| location.saturating_add(1));
+            }
+        }
+    }
+}
+
+struct QualifiedMember {
+    name: String,
+    ty: TypeId,
+    flat_offset: u32,
+    interpolation: Interpolation,
+    centroid: bool,
+}
+
+/// The variable itself, or the members of a block (of each element of an array of blocks), which are qualified one by one.
+fn members(types: &Types, global: &Global) -> Vec<QualifiedMember> {
+    let Some(block) = &global.block else {
+        let Global { name, ty, interpolation, centroid, .. } = global;
+        return vec![QualifiedMember {
+            name: name.clone(),
+            ty: *ty,
+            flat_offset: 0,
+            interpolation: *interpolation,
+            centroid: *centroid,
+        }];
+    };
+    let (element, count) = match types.get(global.ty) {
+        Type::Array(element, ArraySize::Sized(count)) => (element, Some(count)),
+        _ => (global.ty, None),
+    };
+    let Type::Struct(id) = types.get(element) else { return Vec::new() };
+    let mut list = Vec::new();
+    let mut flat_offset = 0;
+    for index in 0..count.unwrap_or(1) {
+        let prefix = match (block.instance.is_some(), count) {
+            (false, _) => String::new(),
+            (true, None) => block.name.clone(),
+            (true, Some(_)) => format!("{}[{index}]", block.name),
+        };
+        for member in &types.structure(id).members {
+            list.push(QualifiedMember {
+                name: join(&prefix, &member.name),
+                ty: member.ty,
+                flat_offset,
+                interpolation: member.interpolation.unwrap_or(global.interpolation),
+                centroid: member.centroid || global.centroid,
+            });
+            flat_offset += types.flat_len(member.ty);
+        }
+    }
+    list
+}
+
+/// A scalar, vector, matrix or array of those as scalars and vectors, with the offset of each in scalars.
+fn vectors(types: &Types, name: &str, ty: TypeId) -> Vec<(String, TypeId, u32)> {
+    let indexed = |count: u32, element: TypeId| {
+        let stride = types.flat_len(element);
+        (0..count).map(move |index| (format!("{name}[{index}]"), element, index * stride))
+    };
+    match types.get(ty) {
+        Type::Matrix(columns, rows) => indexed(u32::from(columns), TypeId::vector(Scalar::Float, rows)).collect(),
+        Type::Array(element, ArraySize::Sized(count)) => indexed(count, element)
+            .flat_map(|(name, ty, offset)| {
+                let inner = vectors(types, &name, ty).into_iter();
+                inner.map(move |(name, ty, inner)| (name, ty, offset + inner)).collect::<Vec<_>>()
+            })
+            .collect(),
+        Type::Scalar(_) | Type::Vector(..) => vec![(name.to_owned(), ty, 0)],
+        Type::Error | Type::Void | Type::Sampler(_) | Type::Struct(_) | Type::Array(..) => Vec::new(),
+    }
+}
+
+fn warn_above_minimum(ctx: &mut Context<'_>, wholes: &[Whole<'_>], pieces: &[Piece]) {
+    const MINIMUM: u32 = 60;
+    let components: u32 = pieces.iter().filter(|piece| piece.varying.active).map(|piece| u32::from(piece.size)).sum();
+    if components > MINIMUM {
+        let span =
+            wholes.iter().rev().filter(|whole| whole.active()).find_map(Whole::decisive).map(|global| global.span);
+        let message =
+            format!("the varyings have {components} components, and gl_MaxVaryingComponents may be {MINIMUM}");
+        ctx.report(Diagnostic::new(&codes::link::VARYINGS_ABOVE_MINIMUM, span.unwrap_or_default(), message));
+    }
+}
+
+/// Gives every piece its place; inactive ones that find no room are dropped.
+fn place(ctx: &mut Context<'_>, pieces: Vec<Piece>) -> Vec<Varying> {
+    let shared = pieces.len() > PORTABLE_LOCATIONS as usize;
+    let mut slots: Vec<Slot> = Vec::new();
+    let (fixed, mut free): (Vec<Piece>, Vec<Piece>) = pieces.into_iter().partition(|piece| piece.fixed.is_some());
+    let mut placed = Vec::new();
+    for piece in fixed {
+        let location = piece.fixed.unwrap_or(0);
+        if location >= MAX_LOCATIONS {
+            no_room(ctx, &piece);
+            continue;
+        }
+        let slot = slot_at(&mut slots, location);
+        slot.fill(&piece, 4);
+        placed.push(at(piece, location, 0));
+    }
+    if shared {
+        // Large ones first, so that small ones fill what they leave.
+        free.sort_by_key(|piece| (!piece.varying.active, 4 - piece.size));
+    }
+    let mut reported = false;
+    for piece in free {
+        match find_slot(&mut slots, &piece, shared) {
+            Some((location, component)) => placed.push(at(piece, location, component)),
+            None if piece.varying.active && !reported => {
+                reported = true;
+                no_room(ctx, &piece);
+            }
+            None => {}
+        }
+    }
+    placed.sort_by_key(|varying| (varying.location, varying.component));
+    placed
+}
+
+fn at(piece: Piece, location: u32, component: u32) -> Varying {
+    Varying { location, component, ..piece.varying }
+}
+
+fn no_room(ctx: &mut Context<'_>, piece: &Piece) {
+    let message =
+        format!("no room for the varying `{}`: there are {}", piece.varying.name, plural(MAX_LOCATIONS, "location"));
+    ctx.report(Diagnostic::new(&codes::link::TOO_MANY_VARYINGS, piece.span, message));
+}
+
+/// What stands at a location.
+#[derive(Clone, Copy, Default)]
+struct Slot {
+    used: u8,
+    kind: Option<(Scalar, Interpolation, bool)>,
+}
+
+impl Slot {
+    fn fill(&mut self, piece: &Piece, used: u8) {
+        self.used = used;
+        self.kind = Some(kind(piece));
+    }
+}
+
+fn kind(piece: &Piece) -> (Scalar, Interpolation, bool) {
+    (piece.scalar, piece.varying.interpolation, piece.varying.centroid)
+}
+
+fn slot_at(slots: &mut Vec<Slot>, location: u32) -> &mut Slot {
+    let index = location as usize;
+    if slots.len() <= index {
+        slots.resize(index + 1, Slot::default());
+    }
+    &mut slots[index]
+}
+
+fn find_slot(slots: &mut Vec<Slot>, piece: &Piece, shared: bool) -> Option<(u32, u32)> {
+    let fitting = |slot: &Slot| match slot.kind {
+        None => true,
+        Some(kept) => shared && kept == kind(piece) && slot.used + piece.size <= 4,
+    };
+    let location = slots.iter().position(fitting).unwrap_or(slots.len()) as u32;
+    if location >= MAX_LOCATIONS {
+        return None;
+    }
+    let slot = slot_at(slots, location);
+    let component = u32::from(slot.used);
+    slot.fill(piece, slot.used + piece.size);
+    Some((location, component))
+}
