@@ -3,27 +3,6 @@
 
 use super::{Condition, ExprId, ExprKind, FunctionId, Shader, Stmt, StmtKind};
 
-impl ExprKind {
-    /// The operands, left to right.
-    pub fn children(&self) -> smallvec::SmallVec<[ExprId; 4]> {
-        match self {
-            Self::Error | Self::Literal(_) | Self::Var(_) => smallvec::SmallVec::new(),
-            Self::Member(a, _) | Self::Swizzle(a, _) | Self::Convert(a) | Self::Unary(_, a) | Self::IncDec(_, a) => {
-                smallvec::smallvec![*a]
-            }
-            Self::Index(a, b)
-            | Self::Binary(_, a, b)
-            | Self::Logical(_, a, b)
-            | Self::Assign(_, a, b)
-            | Self::Comma(a, b) => smallvec::smallvec![*a, *b],
-            Self::Ternary(a, b, c) => smallvec::smallvec![*a, *b, *c],
-            Self::Construct(_, list) | Self::Call(_, list) | Self::BuiltinCall(_, list) => {
-                list.iter().copied().collect()
-            }
-        }
-    }
-}
-
 impl StmtKind {
     /// The expressions that stand in the statement itself, in the order in which they are first evaluated.
     pub fn exprs(&self) -> smallvec::SmallVec<[ExprId; 4]> {

@@ -28,7 +28,6 @@ fn numbers(types: &Types, ty: TypeId) -> u32 {
 
 /// Places all color outputs of the fragment stage.
 pub(super) fn assign(ctx: &mut Context<'_>, fragment: &Shader) -> Vec<Output> {
-    check_deprecated(ctx, fragment);
     let outputs = fragment.globals().filter(|(_, global)| global.storage == Storage::Out && is_color(global));
     let mut candidates: Vec<Candidate<'_>> = outputs
         .map(|(id, global)| Candidate {
@@ -143,8 +142,9 @@ fn too_many(ctx: &mut Context<'_>, candidate: &Candidate<'_>) {
     ctx.report(Diagnostic::new(&codes::link::TOO_MANY_OUTPUTS, candidate.global.span, message));
 }
 
-/// `gl_FragColor`, `gl_FragData` and declared outputs exclude each other (§7.2).
-fn check_deprecated(ctx: &mut Context<'_>, fragment: &Shader) {
+/// `gl_FragColor`, `gl_FragData` and declared outputs exclude each other (§7.2), also in different shaders of the stage; in
+/// one shader the analysis finds it.
+pub(super) fn check_exclusive(ctx: &mut Context<'_>, fragment: &Shader) {
     let written = |builtin: Option<BuiltinVariable>| {
         fragment
             .globals

@@ -3,17 +3,6 @@
 use crate::hir::{ExprId, ExprKind, GlobalId, ParamMode, Shader, VarRef};
 use crate::source::Span;
 
-/// The variable at the bottom of an l-value.
-pub(crate) fn root_variable(shader: &Shader, mut expr: ExprId) -> Option<VarRef> {
-    loop {
-        match shader.expr(expr).kind {
-            ExprKind::Var(variable) => return Some(variable),
-            ExprKind::Member(base, _) | ExprKind::Index(base, _) | ExprKind::Swizzle(base, _) => expr = base,
-            _ => return None,
-        }
-    }
-}
-
 /// Calls `f` with every l-value that an expression itself writes: the target of an assignment, of `++`, the arguments of
 /// `out` and `inout` parameters.
 pub(crate) fn written_by(shader: &Shader, expr: ExprId, f: &mut dyn FnMut(ExprId)) {
@@ -42,7 +31,7 @@ pub(super) fn first_write(shader: &Shader, global: GlobalId) -> Option<Span> {
     for function in shader.functions.iter().filter(|function| function.reachable) {
         shader.visit_body(function.body.as_deref().unwrap_or(&[]), &mut |expr| {
             written_by(shader, expr, &mut |target| {
-                if root_variable(shader, target) == Some(VarRef::Global(global)) {
+                if shader.root_variable(target) == Some(VarRef::Global(global)) {
                     let span = shader.expr(target).span;
                     first = Some(first.map_or(span, |known| known.min(span)));
                 }

@@ -95,9 +95,8 @@ codes! {
                      layout(location = 2) in vec4 b; void main() { gl_Position = a + b; }");
     OUTPUT_CONFLICT = "E0712" "output-conflict" Error "GLSL 1.50 §7.2"
         "A fragment stage writes `gl_FragColor`, or elements of `gl_FragData`, or outputs of its own, and never two kinds \
-         of these."
-        bad Fragment("out vec4 c; void main() { c = vec4(1.0); gl_FragColor = vec4(0.0); }"),
-        good Fragment("out vec4 c; void main() { c = vec4(1.0); }");
+         of these, in whichever of its shaders."
+        bad None, good Fragment("out vec4 c; void main() { c = vec4(1.0); }");
     OUTPUT_OVERLAP = "E0713" "output-overlap" Error "OpenGL 3.2 §3.9.2"
         "Two outputs have the same color number and index."
         bad Fragment("#extension GL_ARB_explicit_attrib_location : enable\nlayout(location = 0) out vec4 a;\n\
