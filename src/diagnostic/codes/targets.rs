@@ -1,3 +1,21 @@
-//! Codes of the phase `targets`; the table in the parent module says which range.
+//! What a target cannot hold, found while lowering and emitting.
 
-codes! {}
+use super::Example::{Geometry, None, Vertex};
+
+codes! {
+    STAGE_NOT_IN_TARGET = "E0801" "stage-not-in-target" Error ""
+        "WebGPU has no geometry stage, and glisten emits for no other one. A geometry shader is parsed, validated and \
+         linked; it has to be taken apart by hand into a vertex shader that computes each emitted vertex from the \
+         primitive's vertices (pulled by `gl_VertexID`), or run by a host that takes GLSL."
+        bad Geometry("layout(points) in; layout(points, max_vertices = 1) out; void main() { EmitVertex(); }"),
+        good Vertex("void main() { gl_Position = vec4(0.0); }");
+    FEATURE_NOT_IN_TARGET = "E0802" "feature-not-in-target" Error ""
+        "The shader uses a feature that the target language lacks and that cannot be dropped without changing the \
+         picture. The message names the feature, the target, and a way out."
+        bad None, good None;
+    POINT_SIZE_DROPPED = "W0801" "point-size-dropped" Note "GLSL 1.50 §7.1"
+        "`gl_PointSize` counts only where the program enables PROGRAM_POINT_SIZE. Without `--program-point-size` \
+         the write is dropped and points are one pixel wide, as in OpenGL without that enable."
+        bad Vertex("void main() { gl_Position = vec4(0.0); gl_PointSize = 2.0; }"),
+        good Vertex("void main() { gl_Position = vec4(0.0); }");
+}
