@@ -11,6 +11,22 @@ pub enum Target {
     Glsl,
 }
 
+impl Target {
+    /// All targets.
+    pub const ALL: [Self; 5] = [Self::Wgsl, Self::Spirv, Self::Msl, Self::Hlsl, Self::Glsl];
+
+    /// As it is spoken of: `WGSL`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Wgsl => "WGSL",
+            Self::Spirv => "SPIR-V",
+            Self::Msl => "MSL",
+            Self::Hlsl => "HLSL",
+            Self::Glsl => "GLSL",
+        }
+    }
+}
+
 /// The range of clip space z that the target clips to.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum ClipZ {

@@ -2,9 +2,7 @@
 
 use super::Try;
 use super::function::{Ctx, Slot};
-use crate::hir::{
-    Case, CaseLabel, Condition, ExprId, ExprKind, LoopKind, Scalar, ScalarValue, Stmt, StmtKind, TypeId,
-};
+use crate::hir::{Case, CaseLabel, Condition, ExprId, ExprKind, LoopKind, Scalar, ScalarValue, Stmt, StmtKind, TypeId};
 use naga::{BinaryOperator, Block, Statement, SwitchCase, SwitchValue};
 
 impl Ctx<'_, '_> {
@@ -93,21 +91,13 @@ impl Ctx<'_, '_> {
         let selector = self.value(selector)?;
         let in_switch = std::mem::replace(&mut self.in_switch, true);
         let runs_on = cases.split_last().is_some_and(|(_, others)| others.iter().any(|case| !ends(&case.body)));
-        let lowered = if runs_on {
-            self.row(selector, cases, unsigned)
-        } else {
-            self.plain_switch(selector, cases, unsigned)
-        };
+        let lowered =
+            if runs_on { self.row(selector, cases, unsigned) } else { self.plain_switch(selector, cases, unsigned) };
         self.in_switch = in_switch;
         lowered
     }
 
-    fn plain_switch(
-        &mut self,
-        selector: naga::Handle<naga::Expression>,
-        cases: &[Case],
-        unsigned: bool,
-    ) -> Try<()> {
+    fn plain_switch(&mut self, selector: naga::Handle<naga::Expression>, cases: &[Case], unsigned: bool) -> Try<()> {
         let mut lowered = Vec::new();
         for case in cases {
             let body = match case.body.split_last() {

@@ -4,7 +4,7 @@
 //! between them. Literals, variables and arguments are evaluated nowhere and stand outside of every range.
 
 use super::uniforms::HostId;
-use super::{Lower, Try, internal, naga_span, for_each_operand};
+use super::{Lower, Try, for_each_operand, internal, naga_span};
 use crate::hir::{FunctionId, GlobalId, LocalId, LocalKind, ParamMode, ScalarValue, Shader, Stage, TypeId};
 use crate::source::Span;
 use naga::{Arena, Block, Expression, Handle, Literal, LocalVariable, Statement};
@@ -91,9 +91,9 @@ pub(super) struct Ctx<'l, 'a> {
     pub(super) loops: u32,
     /// How many switch bodies share the scope of the current statement.
     pub(super) in_switch: bool,
-    /// How many statements `return` has to write: those of an entry point collect the outputs.
+    /// Whether this is the entry point, whose `return` collects the outputs.
     pub(super) is_entry: bool,
-    pub(super) frag_coord: Option<Handle<Expression>>,
+    pub(super) outputs: Vec<super::outputs::OutputMember>,
 }
 
 impl<'l, 'a> Ctx<'l, 'a> {
@@ -116,7 +116,7 @@ impl<'l, 'a> Ctx<'l, 'a> {
             loops: 0,
             in_switch: false,
             is_entry: shader.main == Some(id),
-            frag_coord: None,
+            outputs: Vec::new(),
             low,
         }
     }
@@ -216,6 +216,11 @@ impl<'l, 'a> Ctx<'l, 'a> {
     /// Whether nothing can follow in the current block.
     pub(super) fn is_over(&self) -> bool {
         self.open == self.out.expressions.len() && self.blocks.last().is_some_and(ends)
+    }
+
+    /// The block that is being filled.
+    pub(super) fn last_block(&self) -> Option<&Block> {
+        self.blocks.last()
     }
 
     /// Opens a block.
@@ -431,10 +436,7 @@ impl<'l, 'a> Ctx<'l, 'a> {
 
 /// Whether the block ends in a statement behind which naga allows none.
 fn ends(block: &Block) -> bool {
-    matches!(
-        block.last(),
-        Some(Statement::Break | Statement::Continue | Statement::Return { .. } | Statement::Kill)
-    )
+    matches!(block.last(), Some(Statement::Break | Statement::Continue | Statement::Return { .. } | Statement::Kill))
 }
 
 impl Lower<'_> {
@@ -453,7 +455,8 @@ impl Lower<'_> {
         ctx.out.result = result;
         ctx.declare_parameters()?;
         ctx.body(body)?;
-        if !ctx.is_over() {
+        let done = ctx.last_block().is_some_and(super::statements::terminates);
+        if !done && function.ret != TypeId::VOID {
             ctx.return_nothing()?;
         }
         let (out, low) = ctx.finish();

@@ -7,17 +7,12 @@ use naga::{BinaryOperator, Expression, Handle, MathFunction};
 
 impl Ctx<'_, '_> {
     /// The columns of a matrix and their type.
-    pub(super) fn columns(
-        &mut self,
-        matrix: Handle<Expression>,
-        ty: TypeId,
-    ) -> Try<(TypeId, Vec<Handle<Expression>>)> {
+    pub(super) fn columns(&mut self, matrix: Handle<Expression>, ty: TypeId) -> Try<(TypeId, Vec<Handle<Expression>>)> {
         let Type::Matrix(columns, _) = self.low.types.get(ty) else {
             return Err(self.slip("a matrix was expected"));
         };
-        let columns = (0..u32::from(columns))
-            .map(|index| self.add(Expression::AccessIndex { base: matrix, index }))
-            .collect();
+        let columns =
+            (0..u32::from(columns)).map(|index| self.add(Expression::AccessIndex { base: matrix, index })).collect();
         Ok((self.low.element_type(ty), columns))
     }
 

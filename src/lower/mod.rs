@@ -13,7 +13,7 @@
 //! | --- | --- |
 //! | `facts` | nothing: what must be known first |
 //! | `types`, `uniforms` | types as values, types as std140 memory |
-//! | `interface` | attributes, varyings, outputs, built-in variables, the entry point |
+//! | `interface`, `outputs` | attributes, varyings, colors, built-in variables, the entry point |
 //! | `function` | the state of one function: naga's arenas, emission, names |
 //! | `statements`, `control` | §6 |
 //! | `expressions`, `operators`, `constructors`, `places`, `calls` | §5 |
@@ -33,6 +33,7 @@ mod interface;
 mod matrices;
 mod operands;
 mod operators;
+mod outputs;
 mod places;
 mod samplers;
 mod statements;
@@ -105,7 +106,7 @@ struct Lower<'a> {
     framebuffer_height: Option<(naga::Handle<naga::GlobalVariable>, u32)>,
     functions: Vec<Option<Lowered>>,
     helpers: aggregates::Helpers,
-    hidden: Option<naga::Handle<naga::GlobalVariable>>,
+    hidden: Vec<(u32, naga::Handle<naga::GlobalVariable>)>,
     diagnostics: Vec<Diagnostic>,
 }
 
@@ -134,7 +135,7 @@ impl<'a> Lower<'a> {
             framebuffer_height: None,
             functions: vec![None; shader.functions.len()],
             helpers: aggregates::Helpers::default(),
-            hidden: None,
+            hidden: Vec::new(),
             diagnostics: Vec::new(),
         }
     }

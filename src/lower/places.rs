@@ -4,7 +4,10 @@ use super::function::{Ctx, GlobalSlot, Slot};
 use super::types::vector_size;
 use super::uniforms::{HostId, HostKind};
 use super::{Try, internal};
-use crate::hir::{ArraySize, ExprId, ExprKind, MatrixLayout, Scalar, ScalarValue, Swizzle, Type, TypeId, VarRef};
+use crate::builtin::BuiltinVariable;
+use crate::hir::{
+    ArraySize, ExprId, ExprKind, LocalKind, MatrixLayout, Scalar, ScalarValue, Storage, Swizzle, Type, TypeId, VarRef,
+};
 use naga::{Expression, Handle, SwizzleComponent};
 
 /// Where a value is.
@@ -78,20 +81,40 @@ impl Ctx<'_, '_> {
         }
     }
 
-    /// A constant has a value and no variable.
+    /// A constant has a value, and a variable only if something indexes it.
     fn constant_place(&mut self, var: VarRef, ty: TypeId) -> Try<Place> {
         let shader = self.shader;
-        let (name, value) = match var {
-            VarRef::Local(local) => {
-                let local = shader.function(self.id).local(local);
-                (&local.name, &local.value)
-            }
-            VarRef::Global(global) => (&shader.global(global).name, &shader.global(global).value),
-        };
-        match value {
-            Some(value) => Ok(Place::Value(self.constant(value)?, ty)),
-            None => Err(internal(self.here(), format!("`{name}` has no place in this stage"))),
+        if let VarRef::Global(id) = var
+            && shader.global(id).builtin == Some(BuiltinVariable::DepthRange)
+        {
+            // §7.5: near, far, and their difference; WebGPU's and Vulkan's viewports have [0, 1] unless a host says
+            // otherwise, and no target tells the shader.
+            let (near, far) = (self.float(0.0), self.float(1.0));
+            let naga_ty = self.low.value_type(ty)?;
+            let value = self.add(Expression::Compose { ty: naga_ty, components: vec![near, far, far] });
+            return Ok(Place::Value(value, ty));
         }
+        let (name, value, indexed) = match var {
+            VarRef::Local(id) => {
+                let local = shader.function(self.id).local(id);
+                let facts = self.low.facts.function(self.id);
+                let indexed = facts.and_then(|facts| facts.needs_variable.get(id.index()).copied());
+                (&local.name, local.value.as_ref().filter(|_| local.kind == LocalKind::Const), indexed)
+            }
+            VarRef::Global(id) => {
+                let global = shader.global(id);
+                let indexed = self.low.facts.indexed.get(id.index()).copied();
+                (&global.name, global.value.as_ref().filter(|_| global.storage == Storage::Const), indexed)
+            }
+        };
+        let Some(value) = value else {
+            return Err(internal(self.here(), format!("`{name}` has no place in this stage")));
+        };
+        let handle = self.named_constant(var, name, value, indexed == Some(true))?;
+        Ok(match self.expressions()[handle] {
+            Expression::GlobalVariable(_) => Place::Pointer(handle, ty),
+            _ => Place::Value(handle, ty),
+        })
     }
 
     pub(super) fn member_place(&mut self, base: Place, base_ty: TypeId, member: u32) -> Try<Place> {
@@ -105,9 +128,7 @@ impl Ctx<'_, '_> {
                     return Ok(Place::Pointer(self.member(base, base_ty, member)?, ty));
                 };
                 match members.get(member as usize).copied().flatten() {
-                    Some((index, host)) => {
-                        Ok(Place::Host(self.add(Expression::AccessIndex { base, index }), host))
-                    }
+                    Some((index, host)) => Ok(Place::Host(self.add(Expression::AccessIndex { base, index }), host)),
                     None => Err(self.slip("this member has no place in memory")),
                 }
             }

@@ -170,9 +170,7 @@ impl Ctx<'_, '_> {
 
     fn sampler_at(&mut self, var: VarRef, flat: u32) -> Option<SamplerValue> {
         match var {
-            VarRef::Local(local) => {
-                self.param_samplers.get(&local)?.iter().find(|value| value.flat == flat).copied()
-            }
+            VarRef::Local(local) => self.param_samplers.get(&local)?.iter().find(|value| value.flat == flat).copied(),
             VarRef::Global(global) => {
                 let variables = *self.low.samplers.get(&global)?.iter().find(|value| value.flat == flat)?;
                 let texture = self.global_variable(variables.texture);

@@ -170,11 +170,7 @@ impl Ctx<'_, '_> {
         Ok(())
     }
 
-    fn arms(
-        &mut self,
-        arms: &[(ExprId, Vec<Stmt>)],
-        otherwise: &mut dyn FnMut(&mut Self) -> Try<()>,
-    ) -> Try<()> {
+    fn arms(&mut self, arms: &[(ExprId, Vec<Stmt>)], otherwise: &mut dyn FnMut(&mut Self) -> Try<()>) -> Try<()> {
         let Some(((condition, body), rest)) = arms.split_first() else { return otherwise(self) };
         let condition = self.value(*condition)?;
         let accept = self.scope(body)?;

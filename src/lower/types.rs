@@ -71,11 +71,8 @@ impl Lower<'_> {
 
     /// `matCxR`
     pub(super) fn matrix_type(&mut self, columns: u8, rows: u8) -> Handle<naga::Type> {
-        let inner = TypeInner::Matrix {
-            columns: vector_size(columns),
-            rows: vector_size(rows),
-            scalar: naga::Scalar::F32,
-        };
+        let inner =
+            TypeInner::Matrix { columns: vector_size(columns), rows: vector_size(rows), scalar: naga::Scalar::F32 };
         self.insert_type(None, inner)
     }
 
@@ -98,7 +95,10 @@ impl Lower<'_> {
         };
         let structure = types.structure(id);
         let mut members = Vec::new();
-        for member in structure.members.iter().filter(|member| self.has_value(member.ty)) {
+        for member in &structure.members {
+            if !self.has_value(member.ty) {
+                continue;
+            }
             members.push((member.name.clone(), self.value_type(member.ty)?, None));
         }
         let name = if structure.name.is_empty() { "Anonymous".to_owned() } else { structure.name.clone() };

@@ -307,12 +307,7 @@ impl Lower<'_> {
         Ok(())
     }
 
-    fn uniform_variable(
-        &mut self,
-        name: &str,
-        slot: SlotBinding,
-        ty: Handle<naga::Type>,
-    ) -> Handle<GlobalVariable> {
+    fn uniform_variable(&mut self, name: &str, slot: SlotBinding, ty: Handle<naga::Type>) -> Handle<GlobalVariable> {
         self.resource(name, AddressSpace::Uniform, slot, ty)
     }
 

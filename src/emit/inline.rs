@@ -1,0 +1,211 @@
+//! Fewer names in text: reads that need no name of their own are written where they are used.
+//!
+//! naga's text writers give every load a name (`let _e7 = color;`), because a statement between the load and its use
+//! might change what is read. Most often none does.
+//!
+//! *In:* a validated module. *Out:* the same module without the `Emit`s of such loads: writers spell out an expression
+//! that was never emitted at the place of its use. The result is for the text writers alone, since naga's validator wants
+//! every expression emitted.
+//!
+//! *Holds:* a load is left out only if all of its uses are evaluated by the same run of `Emit`s or by the statement right
+//! behind that run, and that statement evaluates its operands before it does anything.
+
+use crate::lower::for_each_operand;
+use naga::{Block, Expression, Function, Handle, Range, Statement};
+
+/// Leaves out the emission of loads that need no name.
+pub(super) fn inline_loads(module: &mut naga::Module) {
+    for (_, function) in module.functions.iter_mut() {
+        inline_in(function);
+    }
+    for entry in &mut module.entry_points {
+        inline_in(&mut entry.function);
+    }
+}
+
+fn inline_in(function: &mut Function) {
+    let mut uses = Uses::of(function);
+    let mut body = std::mem::take(&mut function.body);
+    uses.block(function, &mut body);
+    function.body = body;
+}
+
+/// Who uses an expression.
+#[derive(Clone, Copy, Debug, Default)]
+struct Use {
+    count: u32,
+    /// The expression that uses it, if an expression does.
+    user: Option<Handle<Expression>>,
+}
+
+struct Uses {
+    all: Vec<Use>,
+    /// By expression: the number of the run of `Emit`s that it is evaluated in, counted from 1.
+    run: Vec<u32>,
+    runs: u32,
+}
+
+impl Uses {
+    fn of(function: &Function) -> Self {
+        let len = function.expressions.len();
+        let mut uses = Self { all: vec![Use::default(); len], run: vec![0; len], runs: 0 };
+        for (handle, expression) in function.expressions.iter() {
+            for_each_operand(expression, |operand| uses.count(operand, Some(handle)));
+        }
+        uses.statements(&function.body);
+        uses
+    }
+
+    fn count(&mut self, handle: Handle<Expression>, user: Option<Handle<Expression>>) {
+        if let Some(known) = self.all.get_mut(handle.index()) {
+            known.count += 1;
+            known.user = user;
+        }
+    }
+
+    /// Counts what statements use, but for the operands of a statement right behind a run, which `block` finds again.
+    fn statements(&mut self, block: &Block) {
+        for statement in block {
+            operands(statement, |handle| self.count(handle, None));
+            for inner in blocks(statement) {
+                self.statements(inner);
+            }
+        }
+    }
+
+    fn block(&mut self, function: &Function, block: &mut Block) {
+        let statements: Vec<(Statement, naga::Span)> = std::mem::take(block).span_into_iter().collect();
+        let mut at = 0;
+        let mut kept = Block::with_capacity(statements.len());
+        let mut rest = statements.into_iter().peekable();
+        let mut run: Vec<(Range<Expression>, naga::Span)> = Vec::new();
+        while let Some((mut statement, span)) = rest.next() {
+            if let Statement::Emit(range) = statement {
+                run.push((range, span));
+                continue;
+            }
+            self.write_run(function, &mut run, Some(&statement), &mut kept);
+            for inner in blocks_mut(&mut statement) {
+                self.block(function, inner);
+            }
+            kept.push(statement, span);
+            at += 1;
+        }
+        let _ = at;
+        self.write_run(function, &mut run, None, &mut kept);
+        *block = kept;
+    }
+
+    /// Writes the `Emit`s of a run without the loads that need none.
+    fn write_run(
+        &mut self,
+        function: &Function,
+        run: &mut Vec<(Range<Expression>, naga::Span)>,
+        behind: Option<&Statement>,
+        kept: &mut Block,
+    ) {
+        self.runs += 1;
+        for (range, _) in run.iter() {
+            for handle in range.clone() {
+                if let Some(place) = self.run.get_mut(handle.index()) {
+                    *place = self.runs;
+                }
+            }
+        }
+        let mut by_statement = Vec::new();
+        if let Some(statement) = behind {
+            operands(statement, |handle| by_statement.push(handle));
+        }
+        for (range, span) in run.drain(..) {
+            let mut open: Option<(Handle<Expression>, Handle<Expression>)> = None;
+            for handle in range {
+                if self.needs_no_name(function, handle, &by_statement) {
+                    push_range(kept, open.take(), span);
+                } else {
+                    open = Some((open.map_or(handle, |(first, _)| first), handle));
+                }
+            }
+            push_range(kept, open, span);
+        }
+    }
+
+    /// Whether a load may be written at its use.
+    fn needs_no_name(&self, function: &Function, handle: Handle<Expression>, by: &[Handle<Expression>]) -> bool {
+        let is_load = matches!(function.expressions[handle], Expression::Load { .. });
+        is_load && !function.named_expressions.contains_key(&handle) && self.is_used_here(function, handle, by)
+    }
+
+    /// Whether the expression's one use is evaluated in its own run, or by the statement behind it.
+    fn is_used_here(&self, function: &Function, mut handle: Handle<Expression>, by: &[Handle<Expression>]) -> bool {
+        let run = self.run.get(handle.index()).copied();
+        loop {
+            let Some(known) = self.all.get(handle.index()) else { return false };
+            if known.count != 1 {
+                return false;
+            }
+            let Some(user) = known.user else { return by.contains(&handle) };
+            if self.run.get(user.index()).copied() != run {
+                return false;
+            }
+            if self.is_written_at_once(function, user) {
+                return true;
+            }
+            handle = user;
+        }
+    }
+
+    /// Whether the writers give the expression a name where it is emitted.
+    fn is_written_at_once(&self, function: &Function, handle: Handle<Expression>) -> bool {
+        let count = self.all.get(handle.index()).map_or(0, |known| known.count);
+        match function.expressions[handle] {
+            _ if function.named_expressions.contains_key(&handle) => true,
+            Expression::ImageSample { .. } | Expression::ImageLoad { .. } | Expression::ImageQuery { .. } => true,
+            Expression::Derivative { .. } => true,
+            // It may be left out itself.
+            Expression::Load { .. } | Expression::Access { .. } | Expression::AccessIndex { .. } => false,
+            _ => count >= 2,
+        }
+    }
+}
+
+fn push_range(block: &mut Block, open: Option<(Handle<Expression>, Handle<Expression>)>, span: naga::Span) {
+    if let Some((first, last)) = open {
+        block.push(Statement::Emit(Range::new_from_bounds(first, last)), span);
+    }
+}
+
+/// The operands that a statement evaluates before it does anything.
+fn operands(statement: &Statement, mut visit: impl FnMut(Handle<Expression>)) {
+    match statement {
+        Statement::If { condition, .. } => visit(*condition),
+        Statement::Switch { selector, .. } => visit(*selector),
+        Statement::Loop { break_if: Some(condition), .. } => visit(*condition),
+        Statement::Return { value: Some(value) } => visit(*value),
+        Statement::Store { pointer, value } => {
+            visit(*pointer);
+            visit(*value);
+        }
+        Statement::Call { arguments, .. } => arguments.iter().for_each(|argument| visit(*argument)),
+        _ => {}
+    }
+}
+
+fn blocks(statement: &Statement) -> Vec<&Block> {
+    match statement {
+        Statement::Block(block) => vec![block],
+        Statement::If { accept, reject, .. } => vec![accept, reject],
+        Statement::Switch { cases, .. } => cases.iter().map(|case| &case.body).collect(),
+        Statement::Loop { body, continuing, .. } => vec![body, continuing],
+        _ => Vec::new(),
+    }
+}
+
+fn blocks_mut(statement: &mut Statement) -> Vec<&mut Block> {
+    match statement {
+        Statement::Block(block) => vec![block],
+        Statement::If { accept, reject, .. } => vec![accept, reject],
+        Statement::Switch { cases, .. } => cases.iter_mut().map(|case| &mut case.body).collect(),
+        Statement::Loop { body, continuing, .. } => vec![body, continuing],
+        _ => Vec::new(),
+    }
+}

@@ -1,0 +1,254 @@
+//! Constant values (§4.3.3), and keeping what is not finite from the target's own evaluation.
+//!
+//! *Holds:* WGSL has no literal that is not finite, and makes an error of every constant expression that comes out so.
+//! Such a float is its bits in a private variable, which no target evaluates before the shader runs.
+
+use super::function::{Ctx, GlobalSlot, Slot};
+use super::{Lower, Try, internal};
+use crate::hir::{
+    ArraySize, BinaryOp, ExprId, ExprKind, FunctionId, Scalar, ScalarValue, Type, TypeId, UnaryOp, Value, VarRef,
+};
+use naga::{AddressSpace, Expression, GlobalVariable, Handle, Literal};
+
+/// How deep a constant index is looked into.
+const DEPTH: u32 = 16;
+
+impl Ctx<'_, '_> {
+    /// A scalar constant, finite or not.
+    pub(super) fn scalar(&mut self, value: ScalarValue) -> Handle<Expression> {
+        match value {
+            ScalarValue::Float(float) if !float.is_finite() => {
+                let variable = self.low.hidden_bits(float.to_bits());
+                let pointer = self.global_variable(variable);
+                let bits = self.load(pointer);
+                self.add(Expression::As { expr: bits, kind: naga::ScalarKind::Float, convert: None })
+            }
+            _ => self.literal(value),
+        }
+    }
+
+    /// A constant of any type, spelled out.
+    pub(super) fn constant(&mut self, value: &Value) -> Try<Handle<Expression>> {
+        let mut scalars = value.scalars.iter().copied();
+        self.spelled(value.ty, &mut scalars)
+    }
+
+    fn spelled(&mut self, ty: TypeId, scalars: &mut dyn Iterator<Item = ScalarValue>) -> Try<Handle<Expression>> {
+        let parts: Vec<TypeId> = match self.low.types.get(ty) {
+            Type::Scalar(_) => {
+                let value = scalars.next().ok_or_else(|| internal(self.here(), "a constant is too short"))?;
+                return Ok(self.scalar(value));
+            }
+            Type::Struct(id) => self.low.types.structure(id).members.iter().map(|member| member.ty).collect(),
+            Type::Array(element, ArraySize::Sized(len)) => vec![element; len as usize],
+            Type::Vector(scalar, size) => vec![TypeId::vector(scalar, 1); usize::from(size)],
+            Type::Matrix(columns, _) => vec![self.low.element_type(ty); usize::from(columns)],
+            _ => return Err(internal(self.here(), "a constant of no type of values")),
+        };
+        let mut components = Vec::with_capacity(parts.len());
+        for part in parts {
+            components.push(self.spelled(part, scalars)?);
+        }
+        let ty = self.low.value_type(ty)?;
+        Ok(self.add(Expression::Compose { ty, components }))
+    }
+
+    /// A named constant: a constant of the module, or a variable if something indexes it by a variable (the SPIR-V
+    /// writer would copy it at each index).
+    pub(super) fn named_constant(
+        &mut self,
+        var: VarRef,
+        name: &str,
+        value: &Value,
+        indexed: bool,
+    ) -> Try<Handle<Expression>> {
+        let finite = value.scalars.iter().all(|scalar| !matches!(scalar, ScalarValue::Float(f) if !f.is_finite()));
+        if !finite || !self.low.has_value(value.ty) {
+            return self.constant(value);
+        }
+        let ty = self.low.value_type(value.ty)?;
+        let init = self.low.global_constant(value)?;
+        if indexed {
+            let variable = GlobalVariable {
+                name: Some(name.to_owned()),
+                space: AddressSpace::Private,
+                binding: None,
+                ty,
+                init: Some(init),
+                memory_decorations: naga::MemoryDecorations::empty(),
+            };
+            let variable = self.low.module.global_variables.append(variable, naga::Span::UNDEFINED);
+            let pointer = self.global_variable(variable);
+            self.remember(var, GlobalSlot::Private(variable), Slot::Pointer(pointer));
+            return Ok(pointer);
+        }
+        let constant = naga::Constant { name: Some(name.to_owned()), ty, init };
+        let constant = self.low.module.constants.append(constant, naga::Span::UNDEFINED);
+        let handle = self.module_constant(constant);
+        self.remember(var, GlobalSlot::Constant(constant), Slot::Value(handle));
+        Ok(handle)
+    }
+
+    fn remember(&mut self, var: VarRef, global: GlobalSlot, local: Slot) {
+        match var {
+            VarRef::Global(id) => {
+                if let Some(place) = self.low.globals.get_mut(id.index()) {
+                    *place = global;
+                }
+            }
+            VarRef::Local(id) => self.set_slot(id, local),
+        }
+    }
+}
+
+impl Lower<'_> {
+    /// A private variable that holds bits.
+    fn hidden_bits(&mut self, bits: u32) -> Handle<GlobalVariable> {
+        if let Some((_, known)) = self.hidden.iter().find(|(known, _)| *known == bits) {
+            return *known;
+        }
+        let ty = self.vector_type(Scalar::Uint, 1);
+        let literal = Expression::Literal(Literal::U32(bits));
+        let init = self.module.global_expressions.append(literal, naga::Span::UNDEFINED);
+        let name = match f32::from_bits(bits) {
+            value if value.is_nan() => "nan_bits",
+            value if value > 0.0 => "infinity_bits",
+            _ => "negative_infinity_bits",
+        };
+        let variable = GlobalVariable {
+            name: Some(name.to_owned()),
+            space: AddressSpace::Private,
+            binding: None,
+            ty,
+            init: Some(init),
+            memory_decorations: naga::MemoryDecorations::empty(),
+        };
+        let variable = self.module.global_variables.append(variable, naga::Span::UNDEFINED);
+        self.hidden.push((bits, variable));
+        variable
+    }
+
+    /// A finite constant among the module's expressions.
+    pub(super) fn global_constant(&mut self, value: &Value) -> Try<Handle<Expression>> {
+        let mut scalars = value.scalars.iter().copied();
+        self.global_part(value.ty, &mut scalars)
+    }
+
+    fn global_part(&mut self, ty: TypeId, scalars: &mut dyn Iterator<Item = ScalarValue>) -> Try<Handle<Expression>> {
+        let types = self.types;
+        let parts: Vec<TypeId> = match types.get(ty) {
+            Type::Scalar(_) => {
+                let literal = match scalars.next() {
+                    Some(ScalarValue::Bool(value)) => Literal::Bool(value),
+                    Some(ScalarValue::Int(value)) => Literal::I32(value),
+                    Some(ScalarValue::Uint(value)) => Literal::U32(value),
+                    Some(ScalarValue::Float(value)) => Literal::F32(value),
+                    None => return Err(internal(Default::default(), "a constant is too short")),
+                };
+                let literal = Expression::Literal(literal);
+                return Ok(self.module.global_expressions.append(literal, naga::Span::UNDEFINED));
+            }
+            Type::Struct(id) => types.structure(id).members.iter().map(|member| member.ty).collect(),
+            Type::Array(element, ArraySize::Sized(len)) => vec![element; len as usize],
+            Type::Vector(scalar, size) => vec![TypeId::vector(scalar, 1); usize::from(size)],
+            Type::Matrix(columns, _) => vec![self.element_type(ty); usize::from(columns)],
+            _ => return Err(internal(Default::default(), "a constant of no type of values")),
+        };
+        let mut components = Vec::with_capacity(parts.len());
+        for part in parts {
+            components.push(self.global_part(part, scalars)?);
+        }
+        let ty = self.value_type(ty)?;
+        let compose = Expression::Compose { ty, components };
+        Ok(self.module.global_expressions.append(compose, naga::Span::UNDEFINED))
+    }
+
+    /// The value of a scalar expression that is constant: a literal, a constant, or arithmetic on integers, as indices
+    /// are written.
+    pub(super) fn constant_of(&self, function: FunctionId, id: ExprId) -> Option<ScalarValue> {
+        self.constant_within(function, id, DEPTH)
+    }
+
+    fn constant_within(&self, function: FunctionId, id: ExprId, depth: u32) -> Option<ScalarValue> {
+        let depth = depth.checked_sub(1)?;
+        let expr = self.shader.expr(id);
+        match &expr.kind {
+            ExprKind::Literal(value) => Some(*value),
+            ExprKind::Var(VarRef::Global(global)) => {
+                let global = self.shader.global(*global);
+                let constant = global.storage == crate::hir::Storage::Const;
+                single(global.value.as_ref().filter(|_| constant)?)
+            }
+            ExprKind::Var(VarRef::Local(local)) => {
+                let local = self.shader.function(function).local(*local);
+                single(local.value.as_ref().filter(|_| local.kind == crate::hir::LocalKind::Const)?)
+            }
+            ExprKind::Convert(operand) => {
+                converted(self.constant_within(function, *operand, depth)?, self.types.get(expr.ty))
+            }
+            ExprKind::Unary(UnaryOp::Negate, operand) => match self.constant_within(function, *operand, depth)? {
+                ScalarValue::Int(value) => Some(ScalarValue::Int(value.wrapping_neg())),
+                ScalarValue::Uint(value) => Some(ScalarValue::Uint(value.wrapping_neg())),
+                ScalarValue::Bool(_) | ScalarValue::Float(_) => None,
+            },
+            ExprKind::Binary(op, left, right) => {
+                let left = self.constant_within(function, *left, depth)?;
+                integers(*op, left, self.constant_within(function, *right, depth)?)
+            }
+            _ => None,
+        }
+    }
+}
+
+fn single(value: &Value) -> Option<ScalarValue> {
+    match value.scalars.as_slice() {
+        [one] => Some(*one),
+        _ => None,
+    }
+}
+
+fn integers(op: BinaryOp, left: ScalarValue, right: ScalarValue) -> Option<ScalarValue> {
+    match (left, right) {
+        (ScalarValue::Int(left), ScalarValue::Int(right)) => Some(ScalarValue::Int(match op {
+            BinaryOp::Add => left.wrapping_add(right),
+            BinaryOp::Sub => left.wrapping_sub(right),
+            BinaryOp::Mul => left.wrapping_mul(right),
+            BinaryOp::Div => left.checked_div(right)?,
+            BinaryOp::Rem => left.checked_rem(right)?,
+            _ => return None,
+        })),
+        (ScalarValue::Uint(left), ScalarValue::Uint(right)) => Some(ScalarValue::Uint(match op {
+            BinaryOp::Add => left.wrapping_add(right),
+            BinaryOp::Sub => left.wrapping_sub(right),
+            BinaryOp::Mul => left.wrapping_mul(right),
+            BinaryOp::Div => left.checked_div(right)?,
+            BinaryOp::Rem => left.checked_rem(right)?,
+            _ => return None,
+        })),
+        _ => None,
+    }
+}
+
+/// A literal converted to a scalar type (§5.4.1); `None` for types that are no scalars, and where GLSL leaves the result
+/// open.
+pub(super) fn converted(value: ScalarValue, to: Type) -> Option<ScalarValue> {
+    let Type::Scalar(to) = to else { return None };
+    let number = match value {
+        ScalarValue::Bool(value) => f64::from(u8::from(value)),
+        ScalarValue::Int(value) => f64::from(value),
+        ScalarValue::Uint(value) => f64::from(value),
+        ScalarValue::Float(value) => f64::from(value),
+    };
+    let whole = number.trunc();
+    match (value, to) {
+        (_, Scalar::Bool) => Some(ScalarValue::Bool(number != 0.0)),
+        (_, Scalar::Float) => Some(ScalarValue::Float(number as f32)),
+        (ScalarValue::Uint(bits), Scalar::Int) => Some(ScalarValue::Int(bits as i32)),
+        (ScalarValue::Int(bits), Scalar::Uint) => Some(ScalarValue::Uint(bits as u32)),
+        (_, Scalar::Int) if (-2_147_483_648.0..2_147_483_648.0).contains(&whole) => {
+            Some(ScalarValue::Int(whole as i32))
+        }
+        (_, Scalar::Uint) if (0.0..4_294_967_296.0).contains(&whole) => Some(ScalarValue::Uint(whole as u32)),
+        _ => None,
+    }
+}
