@@ -106,6 +106,19 @@ pub struct Location {
 pub struct SourceMap {
     files: Vec<SourceFile>,
     expansions: Vec<Expansion>,
+    /// Sorted by place.
+    renumberings: Vec<Renumbering>,
+}
+
+/// A `#line` directive: the line behind it counts as `number`.
+#[derive(Clone, Copy, Debug)]
+struct Renumbering {
+    /// The global offset of the directive.
+    offset: u32,
+    /// The line that it is on, counted from 1.
+    line: u32,
+    /// The number of the next line.
+    number: u32,
 }
 
 impl SourceMap {
@@ -155,6 +168,27 @@ impl SourceMap {
         }
         let index = self.files.partition_point(|file| file.base <= span.start).checked_sub(1)?;
         (span.start <= self.files.get(index)?.end()).then_some(FileId(index as u32))
+    }
+
+    /// Notes a `#line` directive at `directive`: the line behind it counts as `number`. Locations stay those of the
+    /// text; [`Self::presented_line`] gives the number.
+    pub fn renumber(&mut self, directive: Span, number: u32) {
+        let Some(location) = self.location(directive) else { return };
+        let row = Renumbering { offset: directive.start, line: location.line, number };
+        let index = self.renumberings.partition_point(|other| other.offset < row.offset);
+        match self.renumberings.get_mut(index).filter(|other| other.offset == row.offset) {
+            Some(same) => *same = row,
+            None => self.renumberings.insert(index, row),
+        }
+    }
+
+    /// The number that a `#line` directive before it gave the line of a span, if there is one in its file.
+    pub fn presented_line(&self, span: Span) -> Option<u32> {
+        let index = self.renumberings.partition_point(|row| row.offset < span.start).checked_sub(1)?;
+        let row = self.renumberings.get(index)?;
+        let file = self.file(self.file_of(span)?);
+        let line = (row.offset >= file.base).then(|| file.line_and_column(span.start).0)?;
+        (line > row.line).then(|| row.number.saturating_add(line - row.line - 1))
     }
 
     /// The text that a span covers where it is written.

@@ -1,3 +1,161 @@
-//! Codes of the phase `preprocess`; the table in the parent module says which range.
+//! Codes of the phase `preprocess`: characters, comments, directives and macros (GLSL 1.50 §3.1 to §3.4).
 
-codes! {}
+use super::Example::{Fragment, None, Text, Vertex};
+
+codes! {
+    EMPTY_SOURCE = "E0101" "empty-source" Error "GLSL 1.50 §3.3"
+        "The source holds no declaration at all: it is empty, or comments and inactive groups are all there is. A \
+         shader of version 1.50 begins with its `#version` line and has at least something to compile."
+        bad Text(""), good Fragment("void main() {}");
+    NOT_TEXT = "E0102" "source-is-not-text" Error "GLSL 1.50 §3.1"
+        "The file is no text: zero bytes stand in it, or most of it is no UTF-8. A compiled shader, a picture or a text \
+         in UTF-16 looks like this."
+        bad None, good None;
+    ILLEGAL_CHARACTER = "E0103" "illegal-character" Error "GLSL 1.50 §3.1"
+        "GLSL has a small character set: the letters, digits and signs of ASCII without quotes, `@`, `$`, the backquote \
+         and, outside of directives, `#`. All others may stand in comments alone."
+        bad Fragment("out vec4 c; void main() { c = vec4(1.0) @ 2.0; }"),
+        good Fragment("out vec4 c; void main() { c = vec4(1.0) * 2.0; /* ½ */ }");
+    UNTERMINATED_COMMENT = "E0104" "unterminated-comment" Error "GLSL 1.50 §3.4"
+        "A comment that `/*` opens ends at the next `*/`; comments do not nest. Without an end the rest of the file \
+         is comment."
+        bad Fragment("void main() {} /* and so on"), good Fragment("void main() {} /* and so on */");
+    UNKNOWN_DIRECTIVE = "E0105" "unknown-directive" Error "GLSL 1.50 §3.3"
+        "A line whose first character is `#` is a directive, and the specification lists them all."
+        bad Fragment("#defin A 1\nvoid main() {}"), good Fragment("#define A 1\nvoid main() {}");
+    MALFORMED_DIRECTIVE = "E0106" "malformed-directive" Error "GLSL 1.50 §3.3"
+        "The directive is one that exists, but what follows its name is not what belongs there."
+        bad Fragment("#define 3 x\nvoid main() {}"), good Fragment("#define x 3\nvoid main() {}");
+    STRAY_CONDITIONAL = "E0107" "stray-conditional" Error "GLSL 1.50 §3.3"
+        "`#elif`, `#else` and `#endif` belong to an `#if`, `#ifdef` or `#ifndef` above them in the same file, and nothing \
+         but `#endif` may follow an `#else`."
+        bad Fragment("void main() {}\n#endif"), good Fragment("#ifdef A\n#endif\nvoid main() {}");
+    UNTERMINATED_CONDITIONAL = "E0108" "unterminated-conditional" Error "GLSL 1.50 §3.3"
+        "Each `#if`, `#ifdef` and `#ifndef` ends with an `#endif` in the same file."
+        bad Fragment("#if 1\nvoid main() {}"), good Fragment("#if 1\nvoid main() {}\n#endif");
+    MALFORMED_CONDITION = "E0109" "malformed-condition" Error "GLSL 1.50 §3.3"
+        "Behind `#if` and `#elif` stands an expression of integer literals, `defined`, and C++'s operators except \
+         assignment, `?:` and the comma. Floats, function calls and names that are no macros have no value there."
+        bad Fragment("#if 1.5 > 1\n#endif\nvoid main() {}"), good Fragment("#if 15 > 10\n#endif\nvoid main() {}");
+    DIVISION_BY_ZERO_IN_CONDITION = "E0110" "division-by-zero-in-condition" Error "GLSL 1.50 §3.3"
+        "An `#if` expression divides by zero, which has no value."
+        bad Fragment("#if 1 / 0\n#endif\nvoid main() {}"), good Fragment("#if 1 / 1\n#endif\nvoid main() {}");
+    MACRO_REDEFINED = "E0111" "macro-redefined" Error "GLSL 1.50 §3.3"
+        "A macro may be defined again only with the same parameters and the same tokens, white space counting as \
+         white space. To change it, write `#undef` first."
+        bad Fragment("#define A 1\n#define A 2\nvoid main() {}"),
+        good Fragment("#define A 1\n#undef A\n#define A 2\nvoid main() {}");
+    RESERVED_MACRO = "E0112" "reserved-macro-name" Error "GLSL 1.50 §3.3"
+        "Names that begin with `GL_`, the predefined macros and `defined` may be neither defined nor undefined."
+        bad Fragment("#define GL_MINE 1\nvoid main() {}"), good Fragment("#define MINE 1\nvoid main() {}");
+    MALFORMED_PARAMETERS = "E0113" "malformed-macro-parameters" Error "GLSL 1.50 §3.3"
+        "Between the brackets of a function-like macro stand different names with commas between them. GLSL has no \
+         variadic macros."
+        bad Fragment("#define F(a, a) a\nvoid main() {}"), good Fragment("#define F(a, b) a\nvoid main() {}");
+    MACRO_ARGUMENTS = "E0114" "macro-argument-count" Error "GLSL 1.50 §3.3"
+        "A use of a function-like macro has as many arguments as the macro has parameters. Commas inside round \
+         brackets do not separate arguments."
+        bad Fragment("#define ADD(a, b) (a + b)\nout vec4 c;\nvoid main() { c = vec4(ADD(1.0)); }"),
+        good Fragment("#define ADD(a, b) (a + b)\nout vec4 c;\nvoid main() { c = vec4(ADD(1.0, 2.0)); }");
+    UNTERMINATED_MACRO_CALL = "E0115" "unterminated-macro-call" Error "GLSL 1.50 §3.3"
+        "The arguments of a function-like macro end with `)` in the same file."
+        bad Fragment("#define F(a) a\nout vec4 c;\nvoid main() { c = vec4(F(1.0); }"),
+        good Fragment("#define F(a) a\nout vec4 c;\nvoid main() { c = vec4(F(1.0)); }");
+    INVALID_PASTE = "E0116" "invalid-token-paste" Error "GLSL 1.50 §3.3"
+        "`##` joins the tokens on its two sides, which must be there and must give one valid token."
+        bad Fragment("#define J(a, b) a ## b\nout vec4 c;\nvoid main() { c = vec4(1.0 J(+, *) 1.0); }"),
+        good Fragment("#define J(a, b) a ## b\nout vec4 c;\nvoid main() { c J(+, =) vec4(1.0); }");
+    MISPLACED_HASH = "E0117" "misplaced-hash" Error "GLSL 1.50 §3.3"
+        "`#` begins a directive and stands first on its line. Inside macros GLSL has `##` alone: there is no `#` that \
+         makes strings, since there are no strings."
+        bad Fragment("out vec4 c; void main() { c = vec4(1.0); # }"),
+        good Fragment("out vec4 c; void main() { c = vec4(1.0); }");
+    ERROR_DIRECTIVE = "E0118" "error-directive" Error "GLSL 1.50 §3.3"
+        "The text says `#error` in a group that is active, so the shader counts as ill-formed. The message is the \
+         author's."
+        bad Fragment("#ifndef LIGHTS\n#error LIGHTS is not set\n#endif\nvoid main() {}"),
+        good Fragment("#ifndef LIGHTS\n#define LIGHTS 4\n#endif\nvoid main() {}");
+    MISSING_VERSION = "E0120" "missing-version" Error "GLSL 1.50 §3.3"
+        "A shader without a `#version` line is written in GLSL 1.10 by the specification. glisten compiles GLSL 1.50, \
+         whose shaders must say so."
+        bad None, good Fragment("void main() {}");
+    UNKNOWN_VERSION = "E0121" "unknown-version" Error "GLSL 1.50 §3.3"
+        "The `#version` line names a version that no edition of the language has, or a profile that the version does \
+         not have."
+        bad Vertex("#version 155\nvoid main() {}"), good Vertex("#version 150\nvoid main() {}");
+    UNSUPPORTED_VERSION = "E0122" "unsupported-version" Error "GLSL 1.50 §3.3"
+        "The version or profile exists, and glisten does not compile it yet. What it compiles is 1.50 with the core \
+         profile."
+        bad Vertex("#version 430\nvoid main() {}"), good Vertex("#version 150 core\nvoid main() {}");
+    LATE_VERSION = "E0123" "late-version" Error "GLSL 1.50 §3.3"
+        "`#version` comes before everything but comments and white space, and there is one."
+        bad Vertex("float a;\n#version 150\nvoid main() {}"), good Vertex("// A shader\n#version 150\nvoid main() {}");
+    UNKNOWN_EXTENSION = "E0124" "unknown-extension" Error "GLSL 1.50 §3.3"
+        "The source requires an extension that is in no registry."
+        bad Fragment("#extension GL_ARB_explicit_atrib_location : require\nvoid main() {}"),
+        good Fragment("#extension GL_ARB_explicit_attrib_location : require\nvoid main() {}");
+    UNSUPPORTED_EXTENSION = "E0125" "unsupported-extension" Error "GLSL 1.50 §3.3"
+        "The source requires an extension that exists and that glisten does not implement."
+        bad Fragment("#extension GL_ARB_gpu_shader_fp64 : require\nvoid main() {}"),
+        good Fragment("#ifdef GL_ARB_gpu_shader_fp64\n#extension GL_ARB_gpu_shader_fp64 : require\n#endif\nvoid main() {}");
+    EXTENSION_FOR_ALL = "E0126" "extension-behavior-for-all" Error "GLSL 1.50 §3.3"
+        "`all` stands for every extension and may be disabled or warned of, but neither enabled nor required."
+        bad Fragment("#extension all : enable\nvoid main() {}"), good Fragment("#extension all : disable\nvoid main() {}");
+    INCLUDE_NOT_FOUND = "E0127" "include-not-found" Error "ARB_shading_language_include"
+        "The file that an `#include` names was not found or could not be read."
+        bad Fragment("#extension GL_ARB_shading_language_include : require\n#include \"absent.glsl\"\nvoid main() {}"),
+        good Fragment("#extension GL_ARB_shading_language_include : require\nvoid main() {}");
+    INCLUDE_TOO_DEEP = "E0128" "include-too-deep" Error "ARB_shading_language_include"
+        "Files include each other more than 64 levels deep. Most often a file includes itself; `#ifndef` around its \
+         text or `#pragma once` stops that."
+        bad None, good None;
+    EXPANSION_TOO_LARGE = "E0129" "macro-expansion-too-large" Error "GLSL 1.50 §3.3"
+        "The macros of a source may produce half a million tokens, and four more for each of its bytes. A macro that \
+         uses another twice, which uses another twice and so on, is beyond all bounds after some twenty of them."
+        bad None, good None;
+    EXPANSION_TOO_DEEP = "E0130" "macro-expansion-too-deep" Error "GLSL 1.50 §3.3"
+        "Macros may use macros 4,096 levels deep, and uses may stand in arguments of uses 64 levels deep."
+        bad None, good None;
+
+    LINE_CONTINUATION = "W0101" "line-continuation" Warning "GLSL 1.50 §3.1"
+        "Before 4.20 the language had no line continuation character: a backslash at the end of a line is an illegal \
+         character in 1.50. A `//` comment that ends in one is worse, since compilers differ on whether the next line \
+         is code."
+        bad Fragment("#define A 1.0 + \\\n    2.0\nvoid main() {}"), good Fragment("#define A 1.0 + 2.0\nvoid main() {}");
+    UNDEFINED_IN_CONDITION = "W0102" "undefined-macro-in-condition" Warning "GLSL 1.50 §3.3"
+        "A name that is no macro has no value in `#if`. C counts it as 0; GLSL says it is an error."
+        bad Fragment("#if USE_FOG\n#endif\nvoid main() {}"),
+        good Fragment("#if defined(USE_FOG) && USE_FOG\n#endif\nvoid main() {}");
+    BEFORE_VERSION = "W0103" "directive-before-version" Warning "GLSL 1.50 §3.3"
+        "`#version` comes before everything but comments and white space; other directives follow it."
+        bad Vertex("#define A 1\n#version 150\nvoid main() {}"), good Vertex("#version 150\n#define A 1\nvoid main() {}");
+    LATE_EXTENSION = "W0104" "late-extension" Warning "GLSL 1.50 §3.3"
+        "`#extension` lines come before any token that is not of the preprocessor."
+        bad Fragment("float a;\n#extension GL_ARB_draw_instanced : enable\nvoid main() {}"),
+        good Fragment("#extension GL_ARB_draw_instanced : enable\nfloat a;\nvoid main() {}");
+    EXTRA_TEXT = "W0105" "extra-text-after-directive" Warning "GLSL 1.50 §3.3"
+        "Something stands behind a directive that is already complete."
+        bad Fragment("#ifdef A\n#endif A\nvoid main() {}"), good Fragment("#ifdef A\n#endif // A\nvoid main() {}");
+    EXTENSION_IGNORED = "W0106" "extension-ignored" Warning "GLSL 1.50 §3.3"
+        "The source asks for an extension that glisten does not implement or that is in no registry, and asks so that \
+         it may do without: nothing is turned on."
+        bad Fragment("#extension GL_ARB_gpu_shader5 : enable\nvoid main() {}"),
+        good Fragment("#ifdef GL_ARB_gpu_shader5\n#extension GL_ARB_gpu_shader5 : enable\n#endif\nvoid main() {}");
+    RESERVED_NAME = "W0107" "reserved-name" Warning "GLSL 1.50 §3.6"
+        "Names that hold two underscores in a row are reserved for future keywords and predefined macros."
+        bad Fragment("#define MY__MACRO\nvoid main() {}"), good Fragment("#define MY_MACRO\nvoid main() {}");
+    INCLUDE_WITHOUT_EXTENSION = "W0108" "include-without-extension" Warning "GLSL 1.50 §3.3"
+        "`#include` is no directive of GLSL 1.50. The extensions GL_ARB_shading_language_include and \
+         GL_GOOGLE_include_directive bring it."
+        bad None,
+        good Fragment("#extension GL_GOOGLE_include_directive : enable\nvoid main() {}");
+    UNKNOWN_STDGL_PRAGMA = "W0109" "unknown-stdgl-pragma" Warning "GLSL 1.50 §3.3"
+        "Pragmas whose first word is STDGL are reserved for the language, which has `invariant(all)` alone. Of the \
+         others, `optimize` and `debug` take `(on)` or `(off)`. What is not understood is ignored."
+        bad Fragment("#pragma STDGL inline(all)\nvoid main() {}"),
+        good Fragment("#pragma optimize(off)\nvoid main() {}");
+    UNKNOWN_ALLOW = "W0110" "unknown-code-in-comment" Warning ""
+        "A comment that begins with `glisten:` says `allow(CODE, ...)` with codes or names that exist."
+        bad Fragment("// glisten: allow(W9999)\nvoid main() {}"),
+        good Fragment("// glisten: allow(W0102)\nvoid main() {}");
+}

@@ -1,0 +1,71 @@
+//! What the text of the specification forbids and every driver takes in silence: a warning that cites the section,
+//! and an error when strict. One table; each row has its reason.
+
+use super::token::Session;
+use crate::diagnostic::codes::{preprocess, syntax};
+use crate::diagnostic::{Code, Diagnostic, Severity};
+use crate::source::Span;
+
+/// A row of the table.
+#[derive(Debug)]
+pub(super) struct Kindness {
+    /// Its section is the one that forbids it.
+    code: &'static Code,
+    /// Why it is forgiven.
+    reason: &'static str,
+}
+
+/// `\` at the end of a line.
+pub(super) static LINE_CONTINUATION: Kindness = Kindness {
+    code: &preprocess::LINE_CONTINUATION,
+    reason: "every driver joins the lines, as GLSL 4.20 and GL_ARB_shading_language_420pack have it",
+};
+/// `#if NAME` where nothing of that name is defined.
+pub(super) static UNDEFINED_IN_CONDITION: Kindness =
+    Kindness { code: &preprocess::UNDEFINED_IN_CONDITION, reason: "every driver counts it as 0, as C does" };
+/// Directives before `#version`.
+pub(super) static BEFORE_VERSION: Kindness = Kindness {
+    code: &preprocess::BEFORE_VERSION,
+    reason: "drivers accept directives there, because tools that put texts together write them there",
+};
+/// `#extension` behind the first token.
+pub(super) static LATE_EXTENSION: Kindness = Kindness {
+    code: &preprocess::LATE_EXTENSION,
+    reason: "drivers turn the extension on from there, because included texts bring their own lines",
+};
+/// `#endif NAME`
+pub(super) static EXTRA_TEXT: Kindness = Kindness {
+    code: &preprocess::EXTRA_TEXT,
+    reason: "every driver ignores it, and many sources repeat the name behind `#endif`",
+};
+/// `#include` without its extension.
+pub(super) static INCLUDE_WITHOUT_EXTENSION: Kindness = Kindness {
+    code: &preprocess::INCLUDE_WITHOUT_EXTENSION,
+    reason: "engines resolve it before the driver sees the text",
+};
+/// A macro whose name holds `__`.
+pub(super) static RESERVED_NAME: Kindness = Kindness {
+    code: &preprocess::RESERVED_NAME,
+    reason: "no driver uses such names, and include guards often have them",
+};
+/// `;` at global scope.
+pub(super) static STRAY_SEMICOLON: Kindness =
+    Kindness { code: &syntax::STRAY_SEMICOLON, reason: "every driver skips it, and macros leave it behind" };
+
+impl Kindness {
+    /// The finding at a place; the caller adds labels and help.
+    pub(super) fn diagnostic(&self, strict: bool, span: Span, message: impl Into<String>) -> Diagnostic {
+        let mut diagnostic = Diagnostic::new(self.code, span, message);
+        if strict {
+            diagnostic.severity = Severity::Error;
+            return diagnostic.note("an error because of strict checking");
+        }
+        diagnostic.note(format!("forgiven because {}", self.reason))
+    }
+
+    /// Reports it.
+    pub(super) fn report(&self, session: &mut Session<'_>, strict: bool, span: Span, message: impl Into<String>) {
+        let diagnostic = self.diagnostic(strict, span, message);
+        session.report(diagnostic);
+    }
+}

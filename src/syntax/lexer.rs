@@ -1,0 +1,424 @@
+//! [`Lexer`]: text to preprocessing tokens (GLSL 1.50 §3.1, §3.4, §3.5).
+//!
+//! *In:* one text. *Out:* one token a call: words and numbers as interned spellings (whether a word is a keyword
+//! and a number well formed is asked only of those that reach the parser), operators, and whatever else stands
+//! there as [`TokenKind::Unknown`]. Comments and white space are skipped; what is worth a word among them
+//! is left in [`Trivia`].
+//!
+//! *Holds:* never fails, never recurses, reads each byte a bounded number of times.
+
+use super::token::{Names, Token, TokenFlags, TokenKind};
+use crate::source::Span;
+use std::sync::Arc;
+
+/// What was skipped and matters.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Trivia {
+    /// A comment that begins with `glisten:`.
+    Pragma(Span),
+    /// A backslash and the end of its line, outside comments (the flag is false) or at the end of a `//` comment.
+    Continuation(Span, bool),
+    /// `/*` without an end; the span is that of the `/*`.
+    Unterminated(Span),
+}
+
+/// How to read the end of a line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Mode {
+    /// As white space.
+    Text,
+    /// As a token, which stays where it is: the next call gives it again.
+    Directive,
+}
+
+/// Reads a text from front to back.
+#[derive(Clone, Debug)]
+pub(super) struct Lexer {
+    text: Arc<str>,
+    base: u32,
+    pos: usize,
+    /// Nothing but white space and comments was on this line so far.
+    at_line_start: bool,
+    /// A `//` comment that ends in a backslash takes the next line with it (4.20 and 420pack).
+    pub(super) joins_comments: bool,
+}
+
+const WORD: u8 = 1;
+const DIGIT: u8 = 2;
+
+static CLASS: [u8; 256] = {
+    let mut class = [0; 256];
+    let mut byte = 0;
+    while byte < 256 {
+        let b = byte as u8;
+        if b.is_ascii_alphabetic() || b == b'_' {
+            class[byte] = WORD;
+        } else if b.is_ascii_digit() {
+            class[byte] = DIGIT;
+        }
+        byte += 1;
+    }
+    class
+};
+
+fn class(byte: u8) -> u8 {
+    CLASS[byte as usize]
+}
+
+impl Lexer {
+    /// Reads `text`, whose first byte has the global offset `base`.
+    pub(super) fn new(text: Arc<str>, base: u32) -> Self {
+        Self { text, base, pos: 0, at_line_start: true, joins_comments: false }
+    }
+
+    fn at(&self, offset: usize) -> Option<u8> {
+        self.text.as_bytes().get(self.pos + offset).copied()
+    }
+
+    /// The byte there, or 0 behind the end, where 0 cannot be mistaken.
+    fn peek(&self, offset: usize) -> u8 {
+        self.at(offset).unwrap_or(0)
+    }
+
+    fn span_from(&self, start: usize) -> Span {
+        Span::new(self.base + start as u32, self.base + self.pos as u32)
+    }
+
+    /// The global offset of the next byte.
+    pub(super) fn offset(&self) -> u32 {
+        self.base + self.pos as u32
+    }
+
+    /// The next token.
+    pub(super) fn next(&mut self, mode: Mode, names: &mut Names, trivia: &mut Vec<Trivia>) -> Token {
+        let mut flags = TokenFlags::empty();
+        if let Some(newline) = self.skip_space(mode, &mut flags, trivia) {
+            return newline;
+        }
+        if std::mem::take(&mut self.at_line_start) {
+            flags |= TokenFlags::LINE_START;
+        }
+        let start = self.pos;
+        let Some(byte) = self.at(0) else {
+            // An empty file has no byte to point at; one behind the end shows the last line.
+            return Token { flags, ..Token::new(TokenKind::Eof, self.span_from(start)) };
+        };
+        let kind = match class(byte) {
+            WORD => {
+                self.pos += 1;
+                while class(self.peek(0)) != 0 {
+                    self.pos += 1;
+                }
+                TokenKind::Word
+            }
+            DIGIT => self.number(),
+            _ if byte == b'.' && class(self.peek(1)) == DIGIT => self.number(),
+            _ => self.operator(byte),
+        };
+        let mut token = Token { flags, ..Token::new(kind, self.span_from(start)) };
+        if matches!(kind, TokenKind::Word | TokenKind::Number) {
+            token.payload = self.intern(start, names, trivia).bits();
+            token.span = self.span_from(start);
+        }
+        token
+    }
+
+    /// Interns what was read since `start`; a continued line may split it.
+    fn intern(&mut self, start: usize, names: &mut Names, trivia: &mut Vec<Trivia>) -> super::token::Symbol {
+        if self.peek(0) != b'\\' || !self.is_word_continued() {
+            return names.intern(self.text.get(start..self.pos).unwrap_or(""));
+        }
+        let mut spelling = self.text.get(start..self.pos).unwrap_or("").to_owned();
+        while self.peek(0) == b'\\' && self.is_word_continued() {
+            self.continuation(trivia);
+            let part = self.pos;
+            while class(self.peek(0)) != 0 {
+                self.pos += 1;
+            }
+            spelling.push_str(self.text.get(part..self.pos).unwrap_or(""));
+        }
+        names.intern(&spelling)
+    }
+
+    /// Whether a backslash, the end of the line and a letter or digit follow.
+    fn is_word_continued(&self) -> bool {
+        self.continuation_length().is_some_and(|length| class(self.peek(length)) != 0)
+    }
+
+    /// The length of a backslash and the end of the line, if they stand here.
+    fn continuation_length(&self) -> Option<usize> {
+        match (self.peek(0), self.peek(1), self.peek(2)) {
+            (b'\\', b'\r', b'\n') => Some(3),
+            (b'\\', b'\r' | b'\n', _) => Some(2),
+            _ => None,
+        }
+    }
+
+    fn continuation(&mut self, trivia: &mut Vec<Trivia>) {
+        if let Some(length) = self.continuation_length() {
+            let start = self.pos;
+            self.pos += 1;
+            trivia.push(Trivia::Continuation(self.span_from(start), false));
+            self.pos += length - 1;
+        }
+    }
+
+    /// Skips white space and comments; gives the end of the line in directives.
+    fn skip_space(&mut self, mode: Mode, flags: &mut TokenFlags, trivia: &mut Vec<Trivia>) -> Option<Token> {
+        loop {
+            match self.peek(0) {
+                b' ' | b'\t' | 0x0B | 0x0C => self.pos += 1,
+                b'\n' | b'\r' if mode == Mode::Directive => {
+                    let span = Span::new(self.offset(), self.offset());
+                    return Some(Token::new(TokenKind::Newline, span));
+                }
+                b'\n' | b'\r' => {
+                    self.pos += 1;
+                    self.at_line_start = true;
+                }
+                b'/' if self.peek(1) == b'/' => self.line_comment(trivia),
+                b'/' if self.peek(1) == b'*' => {
+                    let start = self.offset();
+                    if self.block_comment(trivia) {
+                        // New-lines are not eliminated by comments (§3.4): a directive ends in one.
+                        self.at_line_start = true;
+                        if mode == Mode::Directive {
+                            return Some(Token::new(TokenKind::Newline, Span::new(start, start)));
+                        }
+                    }
+                }
+                b'\\' if self.continuation_length().is_some() => self.continuation(trivia),
+                _ => return None,
+            }
+            flags.insert(TokenFlags::SPACE);
+        }
+    }
+
+    fn line_comment(&mut self, trivia: &mut Vec<Trivia>) {
+        let start = self.pos;
+        self.pos += 2;
+        loop {
+            self.skip_to_line_end();
+            let before = self.pos.checked_sub(1).and_then(|last| self.text.as_bytes().get(last)).copied();
+            if before != Some(b'\\') || self.at(0).is_none() {
+                break;
+            }
+            let span = Span::new(self.offset() - 1, self.offset());
+            trivia.push(Trivia::Continuation(span, true));
+            if !self.joins_comments {
+                break;
+            }
+            self.pos += if self.peek(0) == b'\r' && self.peek(1) == b'\n' { 2 } else { 1 };
+        }
+        let text = self.text.get(start + 2..self.pos).unwrap_or("");
+        if text.trim_start().starts_with("glisten:") {
+            trivia.push(Trivia::Pragma(self.span_from(start)));
+        }
+    }
+
+    fn skip_to_line_end(&mut self) {
+        let rest = self.text.as_bytes().get(self.pos..).unwrap_or(&[]);
+        self.pos += rest.iter().position(|&byte| byte == b'\n' || byte == b'\r').unwrap_or(rest.len());
+    }
+
+    /// Whether the comment held the end of a line.
+    fn block_comment(&mut self, trivia: &mut Vec<Trivia>) -> bool {
+        let start = self.pos;
+        self.pos += 2;
+        let opening = self.span_from(start);
+        let mut lines = false;
+        loop {
+            match self.at(0) {
+                None => {
+                    trivia.push(Trivia::Unterminated(opening));
+                    return lines;
+                }
+                Some(b'*') if self.peek(1) == b'/' => {
+                    self.pos += 2;
+                    return lines;
+                }
+                Some(byte) => {
+                    lines |= byte == b'\n' || byte == b'\r';
+                    self.pos += 1;
+                }
+            }
+        }
+    }
+
+    /// Everything that could belong to a number, as C++ has it; the parser's side says whether it is one.
+    fn number(&mut self) -> TokenKind {
+        let hexadecimal = self.peek(0) == b'0' && matches!(self.peek(1), b'x' | b'X');
+        self.pos += 1;
+        loop {
+            let byte = self.peek(0);
+            let exponent = matches!(byte, b'e' | b'E') && !hexadecimal;
+            if exponent && matches!(self.peek(1), b'+' | b'-') {
+                self.pos += 2;
+            } else if class(byte) != 0 || byte == b'.' {
+                self.pos += 1;
+            } else {
+                return TokenKind::Number;
+            }
+        }
+    }
+
+    fn operator(&mut self, byte: u8) -> TokenKind {
+        use TokenKind::*;
+        let (next, third) = (self.peek(1), self.peek(2));
+        let (kind, length) = match (byte, next) {
+            (b'(', _) => (LeftParen, 1),
+            (b')', _) => (RightParen, 1),
+            (b'[', _) => (LeftBracket, 1),
+            (b']', _) => (RightBracket, 1),
+            (b'{', _) => (LeftBrace, 1),
+            (b'}', _) => (RightBrace, 1),
+            (b'.', _) => (Dot, 1),
+            (b',', _) => (Comma, 1),
+            (b':', _) => (Colon, 1),
+            (b';', _) => (Semicolon, 1),
+            (b'?', _) => (Question, 1),
+            (b'~', _) => (Tilde, 1),
+            (b'=', b'=') => (EqualEqual, 2),
+            (b'=', _) => (Equal, 1),
+            (b'*', b'=') => (MulAssign, 2),
+            (b'*', _) => (Star, 1),
+            (b'/', b'=') => (DivAssign, 2),
+            (b'/', _) => (Slash, 1),
+            (b'%', b'=') => (ModAssign, 2),
+            (b'%', _) => (Percent, 1),
+            (b'+', b'+') => (Increment, 2),
+            (b'+', b'=') => (AddAssign, 2),
+            (b'+', _) => (Plus, 1),
+            (b'-', b'-') => (Decrement, 2),
+            (b'-', b'=') => (SubAssign, 2),
+            (b'-', _) => (Dash, 1),
+            (b'<', b'<') if third == b'=' => (LeftAssign, 3),
+            (b'<', b'<') => (LeftOp, 2),
+            (b'<', b'=') => (LessEqual, 2),
+            (b'<', _) => (LeftAngle, 1),
+            (b'>', b'>') if third == b'=' => (RightAssign, 3),
+            (b'>', b'>') => (RightOp, 2),
+            (b'>', b'=') => (GreaterEqual, 2),
+            (b'>', _) => (RightAngle, 1),
+            (b'!', b'=') => (NotEqual, 2),
+            (b'!', _) => (Bang, 1),
+            (b'&', b'&') => (AndAnd, 2),
+            (b'&', b'=') => (AndAssign, 2),
+            (b'&', _) => (Ampersand, 1),
+            (b'|', b'|') => (OrOr, 2),
+            (b'|', b'=') => (OrAssign, 2),
+            (b'|', _) => (VerticalBar, 1),
+            (b'^', b'^') => (XorXor, 2),
+            (b'^', b'=') => (XorAssign, 2),
+            (b'^', _) => (Caret, 1),
+            (b'#', b'#') => (HashHash, 2),
+            (b'#', _) => (Hash, 1),
+            _ => (Unknown, self.text.get(self.pos..).and_then(|rest| rest.chars().next()).map_or(1, char::len_utf8)),
+        };
+        self.pos += length;
+        kind
+    }
+
+    /// Skips to the next `#` that begins a line, past comments; false at the end of the text.
+    pub(super) fn skip_to_directive(&mut self, trivia: &mut Vec<Trivia>) -> bool {
+        let mut flags = TokenFlags::empty();
+        loop {
+            self.skip_space(Mode::Text, &mut flags, trivia);
+            match self.at(0) {
+                None => return false,
+                Some(b'#') if self.at_line_start => return true,
+                Some(_) => {
+                    self.at_line_start = false;
+                    self.skip_plain_text();
+                }
+            }
+        }
+    }
+
+    /// Skips to where white space or a comment may begin to matter.
+    fn skip_plain_text(&mut self) {
+        self.pos += 1;
+        while !matches!(self.peek(0), 0 | b'\n' | b'\r' | b'/' | b'\\') {
+            self.pos += 1;
+        }
+    }
+
+    /// Skips the rest of a directive's line, comments that go on behind it included.
+    pub(super) fn skip_line(&mut self, names: &mut Names, trivia: &mut Vec<Trivia>) {
+        while !matches!(self.next(Mode::Directive, names, trivia).kind, TokenKind::Newline | TokenKind::Eof) {}
+    }
+
+    /// The rest of the line as it is written, without comments' ends being looked for: for `#error`.
+    pub(super) fn rest_of_line(&mut self) -> Span {
+        while matches!(self.peek(0), b' ' | b'\t') {
+            self.pos += 1;
+        }
+        let start = self.pos;
+        self.skip_to_line_end();
+        let text = self.text.get(start..self.pos).unwrap_or("");
+        let length = text.trim_end().len();
+        Span::new(self.base + start as u32, self.base + (start + length) as u32)
+    }
+
+    /// The name in `#include "name"` or `#include <name>` with its quotes.
+    pub(super) fn header_name(&mut self) -> Option<Span> {
+        while matches!(self.peek(0), b' ' | b'\t') {
+            self.pos += 1;
+        }
+        let close = match self.peek(0) {
+            b'"' => b'"',
+            b'<' => b'>',
+            _ => return None,
+        };
+        let start = self.pos;
+        let rest = self.text.as_bytes().get(start + 1..).unwrap_or(&[]);
+        let end = rest.iter().position(|&byte| byte == close || byte == b'\n' || byte == b'\r')?;
+        if rest.get(end) != Some(&close) {
+            return None;
+        }
+        self.pos = start + end + 2;
+        Some(self.span_from(start))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn lex(text: &str) -> (Vec<String>, Vec<Trivia>) {
+        let (mut names, mut trivia) = (Names::default(), Vec::new());
+        let mut lexer = Lexer::new(text.into(), 1);
+        let mut tokens = Vec::new();
+        loop {
+            let token = lexer.next(Mode::Text, &mut names, &mut trivia);
+            match token.kind {
+                TokenKind::Eof => return (tokens, trivia),
+                TokenKind::Word | TokenKind::Number => tokens.push(names.spelling(token.symbol()).to_owned()),
+                _ => tokens.push(text[token.span.start as usize - 1..token.span.end as usize - 1].to_owned()),
+            }
+        }
+    }
+
+    #[test]
+    fn longest_match() {
+        let (tokens, trivia) = lex("a<<=b>>c^^d++-1.5e-3f 0x1E+2 .5.x/**/é\0#");
+        let expected = ["a", "<<=", "b", ">>", "c", "^^", "d", "++", "-", "1.5e-3f", "0x1E", "+", "2", ".5.x", "é"];
+        assert_eq!(tokens[..15], expected);
+        assert_eq!(tokens[15..], ["\0", "#"]);
+        assert!(trivia.is_empty());
+    }
+
+    #[test]
+    fn continued_lines_join_words() {
+        let (tokens, trivia) = lex("ab\\\ncd \\\r\n e // x \\\nf");
+        assert_eq!(tokens, ["abcd", "e", "f"]);
+        assert_eq!(trivia.len(), 3);
+    }
+
+    #[test]
+    fn comments() {
+        let (tokens, trivia) = lex("a // b\n/* c \n*/ d /* e");
+        assert_eq!(tokens, ["a", "d"]);
+        assert!(matches!(trivia[..], [Trivia::Unterminated(span)] if span == Span::new(19, 21)));
+    }
+}

@@ -1,0 +1,290 @@
+//! Declarations at global scope and in functions (GLSL 1.50 §4, §6.1, §9).
+
+use super::types::is_qualifier;
+use super::{Parse, Parser, Reported, Token, TokenKind, TokenSource, codes};
+use crate::diagnostic::Diagnostic;
+use crate::source::Span;
+use crate::syntax::ast::{
+    BlockDecl, Declaration, DeclarationKind, Declarator, FunctionHeader, Ident, ParamDecl, Qualifier, Stmt, TypeSpec,
+    VariableDecl,
+};
+use crate::syntax::kind;
+
+impl<T: TokenSource> Parser<'_, '_, T> {
+    /// external_declaration
+    pub(super) fn external_declaration(&mut self) {
+        let start = self.current;
+        let before = self.consumed;
+        let kind = match self.kind() {
+            TokenKind::Semicolon => {
+                let span = self.bump().span;
+                let message = "a `;` stands alone at global scope";
+                let diagnostic = kind::STRAY_SEMICOLON.diagnostic(self.strict, span, message).help("leave it out");
+                self.session.report(diagnostic);
+                Ok(DeclarationKind::Empty)
+            }
+            TokenKind::RightBrace => {
+                self.stray_brace();
+                return;
+            }
+            _ => self.global(),
+        };
+        let kind = kind.unwrap_or_else(|_: Reported| {
+            self.recover_declaration(before);
+            DeclarationKind::Error
+        });
+        let span = self.since(start.span);
+        self.ast.declarations.push(Declaration { kind, span, extensions: start.extensions() });
+    }
+
+    /// A `}` too many. Where a function's brace was assumed, the one that closes it may come after all.
+    fn stray_brace(&mut self) {
+        let span = self.bump().span;
+        if !std::mem::take(&mut self.assumed_brace) {
+            let diagnostic =
+                Diagnostic::new(&codes::STRAY_DELIMITER, span, "`}` closes nothing").here("no brace is open here");
+            self.session.report(diagnostic);
+        }
+    }
+
+    fn global(&mut self) -> Parse<DeclarationKind> {
+        if self.kind() == TokenKind::Ident && !self.begins_named_declaration() {
+            return Err(self.missing_type());
+        }
+        let kind = self.declaration()?;
+        if let (DeclarationKind::Prototype(_), TokenKind::LeftBrace) = (&kind, self.kind()) {
+            let DeclarationKind::Prototype(header) = kind else { return Err(Reported) };
+            return self.function_definition(header);
+        }
+        if !matches!(kind, DeclarationKind::Function(..)) {
+            self.semicolon("the declaration")?;
+        }
+        Ok(kind)
+    }
+
+    /// Whether a name at the start of a declaration can be a type: a name or a block's brace follows, past brackets.
+    fn begins_named_declaration(&mut self) -> bool {
+        let mut at = 1;
+        while self.ahead(at).kind == TokenKind::LeftBracket {
+            at = self.past_bracket(at, TokenKind::LeftBracket, TokenKind::RightBracket);
+        }
+        let token = self.ahead(at);
+        match token.kind {
+            TokenKind::Ident | TokenKind::Reserved => true,
+            TokenKind::LeftBrace => at == 1,
+            // A missing name behind a type is told later.
+            _ => false,
+        }
+    }
+
+    /// The place behind the bracket that closes the one at `at`, or that of the end of the file.
+    pub(super) fn past_bracket(&mut self, mut at: usize, open: TokenKind, close: TokenKind) -> usize {
+        let mut depth = 0_usize;
+        loop {
+            let kind = self.ahead(at).kind;
+            if kind == TokenKind::Eof {
+                return at;
+            }
+            at += 1;
+            if kind == open {
+                depth += 1;
+            } else if kind == close {
+                depth -= 1;
+                if depth == 0 {
+                    return at;
+                }
+            } else if matches!(kind, TokenKind::Semicolon | TokenKind::LeftBrace | TokenKind::RightBrace) {
+                return at - 1;
+            }
+        }
+    }
+
+    fn missing_type(&mut self) -> Reported {
+        let name = self.session.spelling(self.current).to_owned();
+        let (message, help) = match self.ahead(1).kind {
+            TokenKind::LeftParen => (
+                format!("expected a declaration, found `{name}(`"),
+                format!(
+                    "a function begins with its return type: write `void {name}(..)`; a call stands inside a function"
+                ),
+            ),
+            TokenKind::Semicolon | TokenKind::Comma => {
+                (format!("`{name}` is declared without a type"), format!("write a type before `{name}`"))
+            }
+            _ => (
+                format!("expected a declaration, found `{name}`"),
+                format!("write a type before `{name}` to declare it; statements stand inside functions alone"),
+            ),
+        };
+        let span = self.current.span;
+        self.session.report(Diagnostic::new(&codes::MISSING_TYPE, span, message).help(help));
+        Reported
+    }
+
+    /// function_definition behind its head
+    fn function_definition(&mut self, header: FunctionHeader) -> Parse<DeclarationKind> {
+        self.function_brace = self.current.span;
+        let body: Vec<Stmt> = self.compound_statement();
+        self.leaving_function = false;
+        Ok(DeclarationKind::Function(header, body))
+    }
+
+    /// declaration without its `;`
+    pub(super) fn declaration(&mut self) -> Parse<DeclarationKind> {
+        if self.kind() == TokenKind::Precision {
+            return self.precision();
+        }
+        let start = self.current.span;
+        let qualifiers = self.qualifiers()?;
+        if !qualifiers.is_empty() {
+            match (self.kind(), self.ahead(1).kind) {
+                (TokenKind::Semicolon, _) => return Ok(DeclarationKind::Requalify { qualifiers, names: Vec::new() }),
+                (TokenKind::Ident, TokenKind::Comma | TokenKind::Semicolon) => return self.requalify(qualifiers),
+                (TokenKind::Ident, TokenKind::Equal) => return Err(self.missing_type()),
+                _ => {}
+            }
+        }
+        if self.kind() == TokenKind::Ident && self.ahead(1).kind == TokenKind::LeftBrace {
+            return self.block(qualifiers);
+        }
+        let ty = self.type_specifier()?;
+        if matches!(self.kind(), TokenKind::Semicolon) {
+            return Ok(DeclarationKind::Variables(VariableDecl { qualifiers, ty, declarators: Vec::new() }));
+        }
+        let name = self.ident("a name")?;
+        if self.kind() == TokenKind::LeftParen {
+            return Ok(DeclarationKind::Prototype(self.function_header(start, qualifiers, ty, name)?));
+        }
+        let declarators = self.declarators(name)?;
+        Ok(DeclarationKind::Variables(VariableDecl { qualifiers, ty, declarators }))
+    }
+
+    /// `precision highp float`
+    fn precision(&mut self) -> Parse<DeclarationKind> {
+        self.bump();
+        let mut qualifiers = self.qualifiers()?;
+        let one = if qualifiers.len() == 1 { qualifiers.pop() } else { None };
+        let Some(qualifier) = one else {
+            return Err(self.unexpected("`lowp`, `mediump` or `highp` behind `precision`"));
+        };
+        let ty = self.type_specifier()?;
+        Ok(DeclarationKind::Precision { qualifier, ty })
+    }
+
+    fn requalify(&mut self, qualifiers: Vec<Qualifier>) -> Parse<DeclarationKind> {
+        let mut names = vec![self.ident("the name of a variable")?];
+        while self.eat(TokenKind::Comma).is_some() {
+            names.push(self.ident("the name of a variable")?);
+        }
+        Ok(DeclarationKind::Requalify { qualifiers, names })
+    }
+
+    /// An interface block (§4.3.7).
+    fn block(&mut self, qualifiers: Vec<Qualifier>) -> Parse<DeclarationKind> {
+        let name = self.ident("the name of a block")?;
+        if qualifiers.is_empty() {
+            let message = format!("the block `{}` has no storage qualifier", self.session.names.spelling(name.symbol));
+            let diagnostic = Diagnostic::new(&codes::MISSING_BLOCK_QUALIFIER, name.span, message)
+                .here("neither `uniform`, `in` nor `out` stands before it");
+            self.session.report(diagnostic);
+        }
+        let members = self.member_list("block")?;
+        let mut instance = None;
+        if self.kind() == TokenKind::Ident {
+            let name = self.ident("the name of an instance")?;
+            instance = Some((name, self.array_specifiers()?));
+        }
+        if qualifiers.is_empty() {
+            self.semicolon("the block")?;
+            return Ok(DeclarationKind::Error);
+        }
+        Ok(DeclarationKind::Block(BlockDecl { qualifiers, name, members, instance }))
+    }
+
+    /// init_declarator_list from its first name on
+    fn declarators(&mut self, first: Ident) -> Parse<Vec<Declarator>> {
+        let mut list = vec![self.declarator(first)?];
+        while self.eat(TokenKind::Comma).is_some() {
+            let name = self.ident("the name of a variable")?;
+            list.push(self.declarator(name)?);
+        }
+        Ok(list)
+    }
+
+    fn declarator(&mut self, name: Ident) -> Parse<Declarator> {
+        let array = self.array_specifiers()?;
+        let initializer = if self.eat(TokenKind::Equal).is_some() { Some(self.initializer()?) } else { None };
+        Ok(Declarator { name, array, initializer })
+    }
+
+    /// function_prototype from its brackets on
+    fn function_header(
+        &mut self,
+        start: Span,
+        qualifiers: Vec<Qualifier>,
+        ty: TypeSpec,
+        name: Ident,
+    ) -> Parse<FunctionHeader> {
+        let opening: Token = self.bump();
+        let mut params = Vec::new();
+        if self.kind() == TokenKind::Void && self.ahead(1).kind == TokenKind::RightParen {
+            self.bump();
+        }
+        if self.kind() != TokenKind::RightParen {
+            params.push(self.parameter()?);
+            while self.eat(TokenKind::Comma).is_some() {
+                params.push(self.parameter()?);
+            }
+        }
+        self.close(opening, TokenKind::RightParen, "`,` or `)`")?;
+        Ok(FunctionHeader { qualifiers, ty, name, params, span: self.since(start) })
+    }
+
+    /// parameter_declaration
+    fn parameter(&mut self) -> Parse<ParamDecl> {
+        let start = self.current.span;
+        let qualifiers = self.qualifiers()?;
+        let ty = self.type_specifier()?;
+        let named = !matches!(self.kind(), TokenKind::Comma | TokenKind::RightParen);
+        let name = if named { Some(self.ident("the name of a parameter")?) } else { None };
+        let array = self.array_specifiers()?;
+        if let Some(equal) = self.eat(TokenKind::Equal) {
+            let diagnostic = Diagnostic::new(&codes::UNEXPECTED_TOKEN, equal.span, "a parameter has no default value")
+                .here("expected `,` or `)`")
+                .help("overload the function");
+            self.session.report(diagnostic);
+            self.assignment_expression()?;
+        }
+        Ok(ParamDecl { qualifiers, ty, name, array, span: self.since(start) })
+    }
+
+    /// Whether a declaration begins here, where an expression might as well: two names in a row do, past brackets.
+    pub(super) fn begins_declaration(&mut self) -> bool {
+        match self.kind() {
+            TokenKind::Struct | TokenKind::Precision | TokenKind::Void => true,
+            TokenKind::Type => {
+                let behind = self.behind_brackets();
+                !matches!(behind, TokenKind::LeftParen | TokenKind::Dot)
+            }
+            TokenKind::Ident => matches!(self.behind_brackets(), TokenKind::Ident | TokenKind::Reserved),
+            TokenKind::Reserved => {
+                let next = self.ahead(1).kind;
+                matches!(next, TokenKind::Ident | TokenKind::Type) || is_qualifier(next)
+            }
+            kind => is_qualifier(kind),
+        }
+    }
+
+    /// The kind of the token behind the next one and its `[..]`.
+    fn behind_brackets(&mut self) -> TokenKind {
+        let mut at = 1;
+        while self.ahead(at).kind == TokenKind::LeftBracket {
+            let end = self.past_bracket(at, TokenKind::LeftBracket, TokenKind::RightBracket);
+            if end == at {
+                break;
+            }
+            at = end;
+        }
+        self.ahead(at).kind
+    }
+}

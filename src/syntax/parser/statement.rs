@@ -1,0 +1,341 @@
+//! Statements (GLSL 1.50 §6.2 to §6.4, §9).
+
+use super::{MAX_NESTING, Parse, Parser, Reported, Token, TokenKind, TokenSource, codes};
+use crate::diagnostic::Diagnostic;
+use crate::source::Span;
+use crate::syntax::ast::{Condition, DeclarationKind, ExprId, Stmt, StmtKind, SwitchItem, VariableDecl};
+
+impl<T: TokenSource> Parser<'_, '_, T> {
+    /// compound_statement; a missing brace at the end was reported.
+    pub(super) fn compound_statement(&mut self) -> Vec<Stmt> {
+        let opening = self.bump();
+        let mut statements = Vec::new();
+        loop {
+            match self.kind() {
+                TokenKind::RightBrace => {
+                    self.bump();
+                    return statements;
+                }
+                TokenKind::Eof => {
+                    let _: Reported = self.unclosed_brace(opening.span);
+                    return statements;
+                }
+                _ => statements.push(self.statement()),
+            }
+            if self.leaving_function {
+                return statements;
+            }
+        }
+    }
+
+    /// statement; one that makes no sense was reported and is skipped.
+    pub(super) fn statement(&mut self) -> Stmt {
+        let start = self.current.span;
+        let before = self.consumed;
+        let kind = if self.nesting >= MAX_NESTING {
+            Err(self.too_deep(start))
+        } else {
+            self.nesting += 1;
+            let kind = self.statement_kind();
+            self.nesting -= 1;
+            kind
+        };
+        let kind = kind.unwrap_or_else(|_: Reported| {
+            if !self.leaving_function {
+                self.recover_statement(before);
+            }
+            StmtKind::Error
+        });
+        Stmt { kind, span: self.since(start) }
+    }
+
+    fn statement_kind(&mut self) -> Parse<StmtKind> {
+        match self.kind() {
+            TokenKind::LeftBrace => Ok(StmtKind::Block(self.compound_statement())),
+            TokenKind::Semicolon => {
+                self.bump();
+                Ok(StmtKind::Empty)
+            }
+            TokenKind::If => self.if_statement(),
+            TokenKind::Switch => self.switch_statement(),
+            TokenKind::For => self.for_statement(),
+            TokenKind::While => self.while_statement(),
+            TokenKind::Do => self.do_statement(),
+            TokenKind::Case | TokenKind::Default => Err(self.stray_case()),
+            TokenKind::Continue => self.jump(StmtKind::Continue, "`continue`"),
+            TokenKind::Break => self.jump(StmtKind::Break, "`break`"),
+            TokenKind::Discard => self.jump(StmtKind::Discard, "`discard`"),
+            TokenKind::Return => self.return_statement(),
+            TokenKind::Else => {
+                let span = self.current.span;
+                let diagnostic = Diagnostic::new(&codes::UNEXPECTED_TOKEN, span, "`else` without an `if` before it")
+                    .here("expected a statement");
+                Err(self.report_found(diagnostic))
+            }
+            _ => self.simple_statement(),
+        }
+    }
+
+    fn simple_statement(&mut self) -> Parse<StmtKind> {
+        if !self.begins_declaration() {
+            let expr = self.expression()?;
+            self.semicolon("the expression")?;
+            return Ok(StmtKind::Expr(expr));
+        }
+        if self.begins_function_definition() {
+            return Err(self.nested_function());
+        }
+        let kind = self.local_declaration()?;
+        self.semicolon("the declaration")?;
+        Ok(kind)
+    }
+
+    fn local_declaration(&mut self) -> Parse<StmtKind> {
+        let start = self.current.span;
+        Ok(match self.declaration()? {
+            DeclarationKind::Precision { qualifier, ty } => StmtKind::Precision { qualifier, ty },
+            DeclarationKind::Variables(variables) => StmtKind::Variables(variables),
+            DeclarationKind::Requalify { qualifiers, names } => StmtKind::Requalify { qualifiers, names },
+            DeclarationKind::Prototype(header) => StmtKind::Prototype(header),
+            DeclarationKind::Block(_) => {
+                let span = self.since(start);
+                self.report(&codes::UNEXPECTED_TOKEN, span, "an interface block stands at global scope alone");
+                StmtKind::Error
+            }
+            DeclarationKind::Error | DeclarationKind::Empty | DeclarationKind::Function(..) => StmtKind::Error,
+        })
+    }
+
+    /// Whether `type name ( .. ) {` stands here.
+    fn begins_function_definition(&mut self) -> bool {
+        if !matches!(self.kind(), TokenKind::Void | TokenKind::Type | TokenKind::Ident) {
+            return false;
+        }
+        if self.ahead(1).kind != TokenKind::Ident || self.ahead(2).kind != TokenKind::LeftParen {
+            return false;
+        }
+        let behind = self.past_bracket(2, TokenKind::LeftParen, TokenKind::RightParen);
+        self.ahead(behind).kind == TokenKind::LeftBrace && self.ahead(behind - 1).kind == TokenKind::RightParen
+    }
+
+    /// A function begins inside a function. It is read as if the outer one had ended.
+    fn nested_function(&mut self) -> Reported {
+        let name = self.ahead(1);
+        let message = format!("the function `{}` is defined inside a function", self.session.spelling(name));
+        let diagnostic = Diagnostic::new(&codes::NESTED_FUNCTION, name.span, message)
+            .here("functions stand at global scope alone")
+            .label(self.function_brace, "the function around it begins here")
+            .help("if this is no nested function, a `}` is missing above");
+        self.session.report(diagnostic);
+        self.leaving_function = true;
+        self.assumed_brace = true;
+        Reported
+    }
+
+    fn stray_case(&mut self) -> Reported {
+        let token = self.bump();
+        let name = token.kind.spelling();
+        let message = format!("`{name}` stands outside the braces of a `switch`");
+        self.report(&codes::STRAY_CASE, token.span, message);
+        while !matches!(
+            self.kind(),
+            TokenKind::Colon | TokenKind::Semicolon | TokenKind::LeftBrace | TokenKind::RightBrace | TokenKind::Eof
+        ) {
+            self.bump();
+        }
+        self.eat(TokenKind::Colon);
+        // What follows the label is a statement like others.
+        self.recovered = true;
+        Reported
+    }
+
+    /// `( expression )` behind `if`, `switch` or `while`; a broken one is skipped to its end.
+    fn condition_in_parens(&mut self) -> Parse<ExprId> {
+        self.in_parens(|this| this.expression())?.ok_or(Reported).or_else(|_| Ok(self.error_expr(self.previous.span)))
+    }
+
+    /// Reads `( production )`. `None` if the production failed and the text behind its `)` can go on.
+    fn in_parens<R>(&mut self, production: impl FnOnce(&mut Self) -> Parse<R>) -> Parse<Option<R>> {
+        let opening: Token = self.expect(TokenKind::LeftParen)?;
+        let result = production(self).and_then(|inner| {
+            self.close(opening, TokenKind::RightParen, "`)` or an operator")?;
+            Ok(inner)
+        });
+        match result {
+            Ok(inner) => Ok(Some(inner)),
+            Err(reported) => {
+                if self.recover_header() {
+                    Ok(None)
+                } else {
+                    Err(reported)
+                }
+            }
+        }
+    }
+
+    /// selection_statement; `else if` goes round.
+    fn if_statement(&mut self) -> Parse<StmtKind> {
+        let mut arms = Vec::new();
+        loop {
+            self.bump();
+            let condition = self.condition_in_parens()?;
+            let body = self.statement();
+            arms.push((condition, body));
+            if self.leaving_function || self.eat(TokenKind::Else).is_none() {
+                return Ok(StmtKind::If { arms, otherwise: None });
+            }
+            if self.kind() != TokenKind::If {
+                let otherwise = Some(Box::new(self.statement()));
+                return Ok(StmtKind::If { arms, otherwise });
+            }
+        }
+    }
+
+    /// switch_statement
+    fn switch_statement(&mut self) -> Parse<StmtKind> {
+        self.bump();
+        let selector = self.condition_in_parens()?;
+        if self.kind() != TokenKind::LeftBrace {
+            return Err(self.unexpected("`{` behind the `switch`"));
+        }
+        let opening = self.bump();
+        let mut body = Vec::new();
+        while self.kind() != TokenKind::RightBrace {
+            if self.kind() == TokenKind::Eof {
+                return Err(self.unclosed_brace(opening.span));
+            }
+            let before = self.consumed;
+            match self.switch_item() {
+                Ok(item) => body.push(item),
+                Err(_) => self.recover_statement(before),
+            }
+            if self.leaving_function {
+                return Err(Reported);
+            }
+        }
+        self.bump();
+        Ok(StmtKind::Switch { selector, body })
+    }
+
+    /// case_label or statement
+    fn switch_item(&mut self) -> Parse<SwitchItem> {
+        let start = self.current.span;
+        match self.kind() {
+            TokenKind::Case => {
+                self.bump();
+                let value = self.expression()?;
+                self.expect(TokenKind::Colon)?;
+                Ok(SwitchItem::Case(value, self.since(start)))
+            }
+            TokenKind::Default => {
+                self.bump();
+                self.expect(TokenKind::Colon)?;
+                Ok(SwitchItem::Default(self.since(start)))
+            }
+            _ => Ok(SwitchItem::Stmt(self.statement())),
+        }
+    }
+
+    fn for_statement(&mut self) -> Parse<StmtKind> {
+        self.bump();
+        let header = self.in_parens(|this| {
+            let init = this.for_init()?;
+            let condition = if this.kind() == TokenKind::Semicolon { None } else { Some(this.condition()?) };
+            if this.eat(TokenKind::Semicolon).is_none() {
+                return Err(this.unexpected("`;` behind the condition of the `for`"));
+            }
+            let step = if this.kind() == TokenKind::RightParen { None } else { Some(this.expression()?) };
+            Ok((init, condition, step))
+        })?;
+        let body = Box::new(self.statement());
+        // The body was read for its own errors; what it loops over is not known.
+        let Some((init, condition, step)) = header else { return Ok(StmtKind::Error) };
+        Ok(StmtKind::For { init: Box::new(init), condition, step, body })
+    }
+
+    /// for_init_statement
+    fn for_init(&mut self) -> Parse<Stmt> {
+        let start: Span = self.current.span;
+        let kind = if self.kind() == TokenKind::Semicolon {
+            StmtKind::Empty
+        } else if self.begins_declaration() {
+            self.local_declaration()?
+        } else {
+            StmtKind::Expr(self.expression()?)
+        };
+        if self.eat(TokenKind::Semicolon).is_none() {
+            return Err(self.unexpected("`;` behind the first part of the `for`"));
+        }
+        Ok(Stmt { kind, span: self.since(start) })
+    }
+
+    /// condition
+    fn condition(&mut self) -> Parse<Condition> {
+        if !self.begins_declaration() {
+            return Ok(Condition::Expr(self.expression()?));
+        }
+        let start = self.current.span;
+        match self.declaration()? {
+            DeclarationKind::Variables(variables) if is_one_initialized(&variables) => {
+                Ok(Condition::Declaration(Box::new(variables)))
+            }
+            _ => {
+                let span = self.since(start);
+                let diagnostic =
+                    Diagnostic::new(&codes::UNEXPECTED_TOKEN, span, "a condition declares one variable with a value")
+                        .help("write `bool name = ..`");
+                Err(self.report_found(diagnostic))
+            }
+        }
+    }
+
+    fn while_statement(&mut self) -> Parse<StmtKind> {
+        self.bump();
+        let condition = self.in_parens(|this| this.condition())?;
+        let body = Box::new(self.statement());
+        let Some(condition) = condition else { return Ok(StmtKind::Error) };
+        Ok(StmtKind::While { condition, body })
+    }
+
+    fn do_statement(&mut self) -> Parse<StmtKind> {
+        let opening = self.bump();
+        let body = Box::new(self.statement());
+        if self.leaving_function {
+            return Err(Reported);
+        }
+        if self.eat(TokenKind::While).is_none() {
+            let found = self.describe(self.current);
+            let diagnostic = Diagnostic::new(
+                &codes::UNEXPECTED_TOKEN,
+                self.current.span,
+                format!("expected `while` behind the body of the `do`, found {found}"),
+            )
+            .label(opening.span, "the `do`");
+            return Err(self.report_found(diagnostic));
+        }
+        let condition = self.condition_in_parens()?;
+        self.semicolon("the `do` loop")?;
+        Ok(StmtKind::DoWhile { body, condition })
+    }
+
+    fn jump(&mut self, kind: StmtKind, name: &str) -> Parse<StmtKind> {
+        self.bump();
+        self.semicolon(name)?;
+        Ok(kind)
+    }
+
+    fn return_statement(&mut self) -> Parse<StmtKind> {
+        self.bump();
+        // A `return` whose `;` was forgotten does not return what stands in the next line if that is no expression.
+        let value = match self.kind() {
+            TokenKind::Semicolon | TokenKind::RightBrace => None,
+            _ => Some(self.expression()?),
+        };
+        self.semicolon("`return`")?;
+        Ok(StmtKind::Return(value))
+    }
+}
+
+fn is_one_initialized(variables: &VariableDecl) -> bool {
+    matches!(variables.declarators.as_slice(), [one] if one.initializer.is_some() && one.array.is_empty())
+}

@@ -1,0 +1,254 @@
+//! Qualifiers, types, structs and their members (GLSL 1.50 §4, §9).
+
+use super::{Parse, Parser, TokenKind, TokenSource, codes};
+use crate::diagnostic::Diagnostic;
+use crate::source::Span;
+use crate::syntax::ast::Extensions;
+use crate::syntax::ast::{
+    ArrayDim, Declarator, ExprId, ExprKind, LayoutId, MemberDecl, Qualifier, QualifierKind, StructSpec, TypeBase,
+    TypeSpec,
+};
+
+/// The qualifiers of one word.
+fn qualifier(kind: TokenKind) -> Option<QualifierKind> {
+    Some(match kind {
+        TokenKind::Const => QualifierKind::Const,
+        TokenKind::Attribute => QualifierKind::Attribute,
+        TokenKind::Varying => QualifierKind::Varying,
+        TokenKind::In => QualifierKind::In,
+        TokenKind::Out => QualifierKind::Out,
+        TokenKind::Inout => QualifierKind::Inout,
+        TokenKind::Uniform => QualifierKind::Uniform,
+        TokenKind::Centroid => QualifierKind::Centroid,
+        TokenKind::Smooth => QualifierKind::Smooth,
+        TokenKind::Flat => QualifierKind::Flat,
+        TokenKind::Noperspective => QualifierKind::Noperspective,
+        TokenKind::Invariant => QualifierKind::Invariant,
+        TokenKind::Precise => QualifierKind::Precise,
+        TokenKind::Highp => QualifierKind::Highp,
+        TokenKind::Mediump => QualifierKind::Mediump,
+        TokenKind::Lowp => QualifierKind::Lowp,
+        _ => return None,
+    })
+}
+
+/// Whether a token begins a qualifier.
+pub(super) fn is_qualifier(kind: TokenKind) -> bool {
+    kind == TokenKind::Layout || qualifier(kind).is_some()
+}
+
+impl<T: TokenSource> Parser<'_, '_, T> {
+    /// Qualifiers in any number and order; the analysis knows which go together.
+    pub(super) fn qualifiers(&mut self) -> Parse<Vec<Qualifier>> {
+        let mut list = Vec::new();
+        loop {
+            let start = self.current.span;
+            if let Some(kind) = qualifier(self.kind()) {
+                self.bump();
+                list.push(Qualifier { kind, span: start });
+            } else if self.kind() == TokenKind::Layout {
+                let kind = QualifierKind::Layout(self.layout()?);
+                list.push(Qualifier { kind, span: self.since(start) });
+            } else if self.is_reserved_qualifier() {
+                let token = self.current;
+                let message = format!("the reserved word `{}` is no qualifier", self.session.spelling(token));
+                self.report(&codes::RESERVED_WORD, token.span, message);
+                self.bump();
+            } else {
+                return Ok(list);
+            }
+        }
+    }
+
+    /// A reserved word where only a qualifier makes sense, such as `static` in `static float x`.
+    fn is_reserved_qualifier(&mut self) -> bool {
+        if self.kind() != TokenKind::Reserved {
+            return false;
+        }
+        let next = self.ahead(1).kind;
+        is_qualifier(next) || matches!(next, TokenKind::Type | TokenKind::Void | TokenKind::Struct)
+    }
+
+    /// layout_qualifier
+    fn layout(&mut self) -> Parse<Vec<LayoutId>> {
+        self.bump();
+        let opening = self.expect(TokenKind::LeftParen)?;
+        let mut ids = Vec::new();
+        loop {
+            // `packed` and `row_major` are reserved everywhere else.
+            if !matches!(self.kind(), TokenKind::Ident | TokenKind::Reserved) {
+                return Err(self.unexpected("the name of a layout"));
+            }
+            let token = self.bump();
+            let name = crate::syntax::ast::Ident { symbol: token.symbol(), span: token.span };
+            let value = if self.eat(TokenKind::Equal).is_some() { Some(self.constant_expression()?) } else { None };
+            ids.push(LayoutId { name, value });
+            if self.eat(TokenKind::Comma).is_none() {
+                break;
+            }
+        }
+        self.close(opening, TokenKind::RightParen, "`,` or `)`")?;
+        Ok(ids)
+    }
+
+    /// type_specifier_no_prec
+    pub(super) fn type_specifier(&mut self) -> Parse<TypeSpec> {
+        let token = self.current;
+        let base = match token.kind {
+            TokenKind::Void => {
+                self.bump();
+                TypeBase::Void
+            }
+            TokenKind::Type => {
+                self.bump();
+                TypeBase::Keyword(token.symbol())
+            }
+            TokenKind::Ident => TypeBase::Named(self.ident("a type")?),
+            TokenKind::Reserved => {
+                self.report_reserved_type();
+                TypeBase::Error
+            }
+            TokenKind::Struct => TypeBase::Struct(self.nested(Self::struct_specifier)?),
+            _ => return Err(self.unexpected("a type")),
+        };
+        let array = self.array_specifiers()?;
+        Ok(TypeSpec { base, array, span: self.since(token.span) })
+    }
+
+    /// A reserved word as a type is reported at each of its places, since no declaration makes it right.
+    fn report_reserved_type(&mut self) {
+        let token = self.bump();
+        let name = self.session.spelling(token);
+        let help = match name {
+            "double" | "half" | "fixed" => Some("write `float`"),
+            "long" | "short" => Some("write `int`"),
+            "unsigned" => Some("write `uint`"),
+            _ => None,
+        };
+        let diagnostic = Diagnostic::new(
+            &codes::RESERVED_WORD,
+            token.span,
+            format!("the reserved word `{name}` is no type in this version"),
+        )
+        .here("reserved for later versions")
+        .maybe_help(help.map(str::to_owned));
+        self.session.report(diagnostic);
+    }
+
+    /// `[n]`, `[]`, any number of them
+    pub(super) fn array_specifiers(&mut self) -> Parse<Vec<ArrayDim>> {
+        let mut dims = Vec::new();
+        while self.kind() == TokenKind::LeftBracket {
+            let opening = self.bump();
+            let size = if self.kind() == TokenKind::RightBracket { None } else { Some(self.constant_expression()?) };
+            self.close(opening, TokenKind::RightBracket, "`]` or an operator")?;
+            dims.push(ArrayDim { size, span: self.since(opening.span) });
+            if dims.len() > super::MAX_NESTING as usize {
+                return Err(self.too_deep(opening.span));
+            }
+        }
+        Ok(dims)
+    }
+
+    /// struct_specifier
+    fn struct_specifier(&mut self) -> Parse<StructSpec> {
+        self.bump();
+        let name = if self.kind() == TokenKind::LeftBrace { None } else { Some(self.ident("the name of a struct")?) };
+        let members = self.member_list("struct")?;
+        Ok(StructSpec { name, members })
+    }
+
+    /// struct_declaration_list in its braces
+    pub(super) fn member_list(&mut self, of: &str) -> Parse<Vec<MemberDecl>> {
+        let opening = self.expect(TokenKind::LeftBrace)?;
+        let mut members = Vec::new();
+        let mut failed = false;
+        while self.kind() != TokenKind::RightBrace {
+            if self.kind() == TokenKind::Eof {
+                return Err(self.unclosed_brace(opening.span));
+            }
+            let before = self.consumed;
+            match self.nested(Self::member) {
+                Ok(member) => members.push(member),
+                Err(_) => {
+                    failed = true;
+                    self.recover_statement(before);
+                }
+            }
+        }
+        self.bump();
+        if members.is_empty() && !failed {
+            let span = self.since(opening.span);
+            self.report(&codes::UNEXPECTED_TOKEN, span, format!("a {of} has at least one member"));
+        }
+        Ok(members)
+    }
+
+    /// struct_declaration
+    fn member(&mut self) -> Parse<MemberDecl> {
+        let start = self.current.span;
+        let qualifiers = self.qualifiers()?;
+        let ty = self.type_specifier()?;
+        let mut declarators = Vec::new();
+        loop {
+            declarators.push(self.member_declarator()?);
+            if self.eat(TokenKind::Comma).is_none() {
+                break;
+            }
+        }
+        self.semicolon("the member")?;
+        Ok(MemberDecl { qualifiers, ty, declarators, span: self.since(start) })
+    }
+
+    fn member_declarator(&mut self) -> Parse<Declarator> {
+        let name = self.ident("the name of a member")?;
+        let array = self.array_specifiers()?;
+        if let Some(equal) = self.eat(TokenKind::Equal) {
+            self.initializer()?;
+            let span = self.since(equal.span);
+            let message = format!("the member `{}` has an initializer", self.session.names.spelling(name.symbol));
+            self.report(&codes::MEMBER_INITIALIZER, span, message);
+        }
+        Ok(Declarator { name, array, initializer: None })
+    }
+
+    /// initializer, with 420pack's lists
+    pub(super) fn initializer(&mut self) -> Parse<ExprId> {
+        if self.kind() != TokenKind::LeftBrace {
+            return self.assignment_expression();
+        }
+        let extensions = self.current.extensions();
+        let span = self.current.span;
+        if !extensions.contains(Extensions::SHADING_LANGUAGE_420PACK) {
+            let diagnostic = Diagnostic::new(
+                &codes::LIST_WITHOUT_EXTENSION,
+                span,
+                "initializer lists need GL_ARB_shading_language_420pack",
+            )
+            .here("a list begins here")
+            .help("write a constructor, or `#extension GL_ARB_shading_language_420pack : require`");
+            self.session.report(diagnostic);
+        }
+        self.initializer_list()
+    }
+
+    fn initializer_list(&mut self) -> Parse<ExprId> {
+        self.nested(|this| {
+            let opening = this.bump();
+            let mut items = Vec::new();
+            while this.kind() != TokenKind::RightBrace {
+                let item = match this.kind() {
+                    TokenKind::LeftBrace => this.initializer_list()?,
+                    _ => this.assignment_expression()?,
+                };
+                items.push(item);
+                if this.eat(TokenKind::Comma).is_none() {
+                    break;
+                }
+            }
+            this.close(opening, TokenKind::RightBrace, "`,` or `}`")?;
+            let span: Span = this.since(opening.span);
+            this.push(ExprKind::List(items), span)
+        })
+    }
+}

@@ -1,0 +1,264 @@
+//! The expressions of `#if` and `#elif` (GLSL 1.50 §3.3), with C++'s 64-bit integers.
+
+use super::{Preprocessor, Session, Span, Token, TokenKind, codes, kind};
+use crate::diagnostic::{Diagnostic, did_you_mean};
+
+/// How deep brackets and unary operators may nest in an `#if`.
+const MAX_NESTING: usize = 64;
+
+/// Operators with two operands: how strongly they bind.
+fn precedence(kind: TokenKind) -> Option<u8> {
+    use TokenKind::*;
+    Some(match kind {
+        OrOr => 1,
+        AndAnd => 2,
+        VerticalBar => 3,
+        Caret => 4,
+        Ampersand => 5,
+        EqualEqual | NotEqual => 6,
+        LeftAngle | RightAngle | LessEqual | GreaterEqual => 7,
+        LeftOp | RightOp => 8,
+        Plus | Dash => 9,
+        Star | Slash | Percent => 10,
+        _ => return None,
+    })
+}
+
+/// Already reported.
+struct Malformed;
+
+struct Evaluator<'t> {
+    tokens: &'t [Token],
+    next: usize,
+    /// The end of the line, for what is missing there.
+    end: Span,
+    strict: bool,
+    nesting: usize,
+    /// Inside an operand whose value does not matter: names and divisions are not judged.
+    unevaluated: usize,
+    /// Names that are macros, for "did you mean".
+    known: &'t [String],
+}
+
+impl Preprocessor<'_> {
+    /// Reads and evaluates the rest of an `#if` or `#elif` line; false if it is malformed.
+    pub(super) fn condition(&mut self, session: &mut Session<'_>, directive: Span) -> bool {
+        let mut line = Vec::new();
+        self.rest_of_line(session, &mut line);
+        let end = line.last().map_or(directive, |token| token.span).after();
+        let Some(tokens) = self.expand_condition(session, line) else { return false };
+        if tokens.is_empty() {
+            if !self.stopped {
+                let diagnostic = Diagnostic::new(&codes::MALFORMED_CONDITION, directive, "the condition is empty")
+                    .here("an expression belongs behind this");
+                session.report(diagnostic);
+            }
+            return false;
+        }
+        let has_names = tokens.iter().any(|token| token.kind == TokenKind::Word);
+        let known: Vec<String> = if has_names {
+            self.macros.iter().map(|definition| definition.name.to_string()).collect()
+        } else {
+            Vec::new()
+        };
+        let mut evaluator =
+            Evaluator { tokens: &tokens, next: 0, end, strict: self.strict, nesting: 0, unevaluated: 0, known: &known };
+        match evaluator.whole(session) {
+            Ok(value) => value != 0,
+            Err(Malformed) => false,
+        }
+    }
+
+    /// Expands the macros of the line, and replaces `defined`.
+    fn expand_condition(&mut self, session: &mut Session<'_>, line: Vec<Token>) -> Option<Vec<Token>> {
+        let floor = self.contexts.len();
+        self.contexts.push(super::expand::Context::barrier(line));
+        let mut tokens = Vec::new();
+        let mut result = Some(());
+        while !self.stopped && result.is_some() {
+            let token = self.next_expanded(session);
+            match token.kind {
+                TokenKind::Eof => break,
+                TokenKind::Word if session.spelling(token) == "defined" => {
+                    result = self.defined(session, token).map(|number| tokens.push(number));
+                }
+                _ => tokens.push(token),
+            }
+        }
+        while self.contexts.len() > floor {
+            self.pop_context();
+        }
+        result.map(|()| tokens)
+    }
+
+    /// `defined NAME`, `defined(NAME)` as a number.
+    fn defined(&mut self, session: &mut Session<'_>, operator: Token) -> Option<Token> {
+        let mut token = self.next_unexpanded(session, true);
+        let bracket = token.kind == TokenKind::LeftParen;
+        if bracket {
+            token = self.next_unexpanded(session, true);
+        }
+        let name = token;
+        let closed = !bracket || self.next_unexpanded(session, true).kind == TokenKind::RightParen;
+        if name.kind != TokenKind::Word || !closed {
+            let diagnostic = Diagnostic::new(&codes::MALFORMED_CONDITION, operator.span, "`defined` needs a name")
+                .help("write `defined(NAME)` or `defined NAME`");
+            session.report(diagnostic);
+            return None;
+        }
+        let value = if self.macro_of(name.symbol()).is_some() { "1" } else { "0" };
+        let mut number = Token::new(TokenKind::Number, operator.span);
+        number.payload = session.names.intern(value).bits();
+        Some(number)
+    }
+}
+
+impl Evaluator<'_> {
+    fn peek(&self) -> Option<Token> {
+        self.tokens.get(self.next).copied()
+    }
+
+    fn fail<T>(&self, session: &mut Session<'_>, token: Option<Token>, message: &str) -> Result<T, Malformed> {
+        let span = token.map_or(self.end, |token| token.span);
+        let found = token.map_or("the line ends here".to_owned(), |token| {
+            format!("found `{}`", session.sources.snippet(token.span))
+        });
+        session.report(Diagnostic::new(&codes::MALFORMED_CONDITION, span, message).here(found));
+        Err(Malformed)
+    }
+
+    fn whole(&mut self, session: &mut Session<'_>) -> Result<i64, Malformed> {
+        let value = self.binary(session, 1)?;
+        match self.peek() {
+            None => Ok(value),
+            Some(token) if token.kind == TokenKind::LeftParen => {
+                self.fail(session, Some(token), "a condition cannot call: what stands before the bracket is no macro")
+            }
+            other => self.fail(session, other, "expected an operator in the condition"),
+        }
+    }
+
+    /// Operands joined by operators that bind at least as strongly as `least`.
+    fn binary(&mut self, session: &mut Session<'_>, least: u8) -> Result<i64, Malformed> {
+        let mut left = self.unary(session)?;
+        while let Some(operator) = self.peek() {
+            let Some(strength) = precedence(operator.kind).filter(|&strength| strength >= least) else { break };
+            self.next += 1;
+            let skip = matches!((operator.kind, left), (TokenKind::AndAnd, 0))
+                || (operator.kind == TokenKind::OrOr && left != 0);
+            self.unevaluated += usize::from(skip);
+            let right = self.binary(session, strength + 1);
+            self.unevaluated -= usize::from(skip);
+            left = self.apply(session, operator, left, right?)?;
+        }
+        Ok(left)
+    }
+
+    fn apply(&self, session: &mut Session<'_>, operator: Token, a: i64, b: i64) -> Result<i64, Malformed> {
+        use TokenKind::*;
+        if matches!(operator.kind, Slash | Percent) && b == 0 {
+            if self.unevaluated == 0 {
+                let message = "the condition divides by zero";
+                session.report(Diagnostic::new(&codes::DIVISION_BY_ZERO_IN_CONDITION, operator.span, message));
+                return Err(Malformed);
+            }
+            return Ok(0);
+        }
+        // A shift by more than the width has no value in C++; here it is by the low bits.
+        let shift = (b & 63) as u32;
+        Ok(match operator.kind {
+            OrOr => i64::from(a != 0 || b != 0),
+            AndAnd => i64::from(a != 0 && b != 0),
+            VerticalBar => a | b,
+            Caret => a ^ b,
+            Ampersand => a & b,
+            EqualEqual => i64::from(a == b),
+            NotEqual => i64::from(a != b),
+            LeftAngle => i64::from(a < b),
+            RightAngle => i64::from(a > b),
+            LessEqual => i64::from(a <= b),
+            GreaterEqual => i64::from(a >= b),
+            LeftOp => a.wrapping_shl(shift),
+            RightOp => a.wrapping_shr(shift),
+            Plus => a.wrapping_add(b),
+            Dash => a.wrapping_sub(b),
+            Star => a.wrapping_mul(b),
+            Slash => a.wrapping_div(b),
+            _ => a.wrapping_rem(b),
+        })
+    }
+
+    fn unary(&mut self, session: &mut Session<'_>) -> Result<i64, Malformed> {
+        let Some(token) = self.peek() else {
+            return self.fail(session, None, "expected an operand in the condition");
+        };
+        self.next += 1;
+        match token.kind {
+            TokenKind::Plus => self.nested(session, token, Self::unary),
+            TokenKind::Dash => Ok(self.nested(session, token, Self::unary)?.wrapping_neg()),
+            TokenKind::Tilde => Ok(!self.nested(session, token, Self::unary)?),
+            TokenKind::Bang => Ok(i64::from(self.nested(session, token, Self::unary)? == 0)),
+            TokenKind::LeftParen => {
+                let value = self.nested(session, token, |this, session| this.binary(session, 1))?;
+                match self.peek() {
+                    Some(closing) if closing.kind == TokenKind::RightParen => self.next += 1,
+                    other => return self.fail(session, other, "expected `)` in the condition"),
+                }
+                Ok(value)
+            }
+            TokenKind::Number => self.number(session, token),
+            TokenKind::Word => self.undefined(session, token),
+            _ => self.fail(session, Some(token), "expected an operand in the condition"),
+        }
+    }
+
+    fn nested(
+        &mut self,
+        session: &mut Session<'_>,
+        token: Token,
+        inner: impl FnOnce(&mut Self, &mut Session<'_>) -> Result<i64, Malformed>,
+    ) -> Result<i64, Malformed> {
+        if self.nesting >= MAX_NESTING {
+            let message = format!("the condition nests more than {MAX_NESTING} levels deep");
+            session.report(Diagnostic::new(&crate::diagnostic::codes::general::TOO_DEEP, token.span, message));
+            return Err(Malformed);
+        }
+        self.nesting += 1;
+        let value = inner(self, session);
+        self.nesting -= 1;
+        value
+    }
+
+    fn number(&self, session: &mut Session<'_>, token: Token) -> Result<i64, Malformed> {
+        let text = session.spelling(token);
+        let digits = text.trim_end_matches(['u', 'U', 'l', 'L']);
+        let (radix, digits) = match digits.strip_prefix("0x").or_else(|| digits.strip_prefix("0X")) {
+            Some(digits) => (16, digits),
+            None if digits.len() > 1 && digits.starts_with('0') => (8, digits),
+            None => (10, digits),
+        };
+        match u64::from_str_radix(digits, radix) {
+            Ok(value) => Ok(value as i64),
+            Err(_) => self.fail(session, Some(token), "a condition is made of integers"),
+        }
+    }
+
+    /// A name that is no macro.
+    fn undefined(&self, session: &mut Session<'_>, token: Token) -> Result<i64, Malformed> {
+        let name = session.spelling(token).to_owned();
+        if self.peek().is_some_and(|next| next.kind == TokenKind::LeftParen) {
+            return self.fail(session, Some(token), &format!("`{name}` is no macro with arguments"));
+        }
+        if self.unevaluated == 0 {
+            let near = did_you_mean(&name, self.known.iter().map(String::as_str));
+            let message = format!("`{name}` is not defined and counts as 0");
+            let help = match near {
+                Some(near) => format!("did you mean `{near}`?"),
+                None => format!("write `defined({name}) && {name}`"),
+            };
+            let diagnostic = kind::UNDEFINED_IN_CONDITION.diagnostic(self.strict, token.span, message).help(help);
+            session.report(diagnostic);
+        }
+        Ok(0)
+    }
+}

@@ -1,0 +1,277 @@
+//! Macros: `#define`, `#undef`, and those that are there from the beginning (GLSL 1.50 §3.3).
+
+use super::{Preprocessor, Session, Span, Symbol, Token, TokenFlags, TokenKind, codes, extension, kind, version};
+use crate::diagnostic::Diagnostic;
+use std::sync::Arc;
+
+/// What a macro stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Meaning {
+    /// Its body.
+    Body,
+    /// `__LINE__`
+    Line,
+    /// `__FILE__`
+    File,
+}
+
+/// A macro.
+pub(super) struct Macro {
+    pub(super) name: Arc<str>,
+    /// The name in its `#define`; nowhere for predefined ones.
+    pub(super) span: Span,
+    pub(super) meaning: Meaning,
+    /// The parameters of a function-like macro.
+    pub(super) params: Option<Vec<Symbol>>,
+    /// Uses of parameters are of kind [`TokenKind::Param`].
+    pub(super) body: Arc<[Token]>,
+    /// `##` is in the body.
+    pub(super) pastes: bool,
+    /// Its body is being read.
+    pub(super) disabled: bool,
+}
+
+impl Macro {
+    fn is_predefined(&self) -> bool {
+        !self.span.is_known()
+    }
+
+    /// Whether two definitions are the same by C's rule: tokens and the presence of white space between them.
+    fn same(&self, other: &Self, session: &Session<'_>) -> bool {
+        let spaced = |token: &Token, first: bool| !first && token.flags.contains(TokenFlags::SPACE);
+        let text = |token: &Token| match token.kind {
+            TokenKind::Unknown => session.sources.snippet(token.span).to_owned(),
+            _ => String::new(),
+        };
+        self.params == other.params
+            && self.body.len() == other.body.len()
+            && self.body.iter().zip(other.body.iter()).enumerate().all(|(index, (a, b))| {
+                a.kind == b.kind
+                    && a.payload == b.payload
+                    && spaced(a, index == 0) == spaced(b, index == 0)
+                    && text(a) == text(b)
+            })
+    }
+}
+
+impl Preprocessor<'_> {
+    /// Defines what every shader of the version has.
+    pub(super) fn define_predefined(&mut self, session: &mut Session<'_>) {
+        let number = version::NEWEST_SUPPORTED.to_string();
+        let plain = [("__VERSION__", number.as_str()), ("GL_core_profile", "1")];
+        for (name, value) in plain {
+            self.predefine(session, name, value, Meaning::Body);
+        }
+        self.predefine(session, "__LINE__", "0", Meaning::Line);
+        self.predefine(session, "__FILE__", "0", Meaning::File);
+        for row in extension::implemented() {
+            self.predefine(session, row.name, "1", Meaning::Body);
+        }
+    }
+
+    fn predefine(&mut self, session: &mut Session<'_>, name: &str, value: &str, meaning: Meaning) {
+        let mut token = Token::new(TokenKind::Number, Span::default());
+        token.payload = session.names.intern(value).bits();
+        let symbol = session.names.intern(name);
+        // A predefined name is no slip of the user's.
+        self.word(symbol).checked = true;
+        let definition = Macro {
+            name: name.into(),
+            span: Span::default(),
+            meaning,
+            params: None,
+            body: Arc::new([token]),
+            pastes: false,
+            disabled: false,
+        };
+        self.bind(symbol, definition);
+    }
+
+    fn bind(&mut self, symbol: Symbol, definition: Macro) {
+        self.macros.push(definition);
+        self.word(symbol).definition = self.macros.len() as u32;
+    }
+
+    /// Runs the definitions of the command line as a text of their own, so that errors in them have a place.
+    pub(super) fn define_from_outside(&mut self, session: &mut Session<'_>, defines: &[(String, String)]) {
+        if defines.is_empty() {
+            return;
+        }
+        let one_line = |text: &str| text.replace(['\n', '\r'], " ");
+        let text: String =
+            defines.iter().map(|(name, value)| format!("#define {} {}\n", one_line(name), one_line(value))).collect();
+        let Some(file) = session.sources.add("<command line>", text) else { return };
+        self.enter(session, file, Span::default());
+        let token = self.next_from_file(session, true);
+        if token.kind != TokenKind::Eof {
+            let message = "the definition does not end with its line";
+            session.report(Diagnostic::new(&codes::MALFORMED_DIRECTIVE, token.span, message));
+        }
+        self.frames.pop();
+        self.before_version = None;
+    }
+
+    /// `#define NAME body`, `#define NAME(a, b) body`
+    pub(super) fn define(&mut self, session: &mut Session<'_>) {
+        let Some(name) = self.macro_name(session, "#define") else { return };
+        let first = self.line_token(session);
+        let mut tokens = Vec::new();
+        let mut params = None;
+        if first.kind == TokenKind::LeftParen && !first.flags.contains(TokenFlags::SPACE) {
+            let Some(list) = self.parameters(session, name, first) else { return };
+            params = Some(list);
+        } else if first.kind != TokenKind::Newline && first.kind != TokenKind::Eof {
+            tokens.push(first);
+        }
+        self.rest_of_line(session, &mut tokens);
+        let Some(pastes) = self.check_body(session, params.as_deref(), &mut tokens) else { return };
+        let definition = Macro {
+            name: session.spelling(name).into(),
+            span: name.span,
+            meaning: Meaning::Body,
+            params,
+            body: tokens.into(),
+            pastes,
+            disabled: false,
+        };
+        self.check_redefinition(session, name, &definition);
+        self.bind(name.symbol(), definition);
+    }
+
+    /// `#undef NAME`
+    pub(super) fn undef(&mut self, session: &mut Session<'_>) {
+        let Some(name) = self.macro_name(session, "#undef") else { return };
+        self.word(name.symbol()).definition = 0;
+        self.expect_line_end(session, "#undef");
+    }
+
+    /// The name behind `#define` or `#undef`, if it may be touched.
+    fn macro_name(&mut self, session: &mut Session<'_>, directive: &str) -> Option<Token> {
+        let token = self.line_token(session);
+        if token.kind != TokenKind::Word {
+            self.malformed(session, token, &format!("`{directive}` needs the name of a macro"));
+            return None;
+        }
+        let name = session.spelling(token).to_owned();
+        let predefined = self.macro_of(token.symbol()).and_then(|index| self.macros.get(index));
+        let predefined = predefined.is_some_and(Macro::is_predefined);
+        if predefined || name.starts_with("GL_") || name == "defined" {
+            let (verb, why) = match (directive, predefined) {
+                ("#undef", true) => ("undefined", "it is predefined"),
+                (_, true) => ("defined anew", "it is predefined"),
+                ("#undef", false) => ("undefined", "it is reserved"),
+                (_, false) => ("defined", "it is reserved"),
+            };
+            let why = if name == "defined" { "it is an operator of `#if`" } else { why };
+            let message = format!("the macro name `{name}` cannot be {verb}");
+            session.report(Diagnostic::new(&codes::RESERVED_MACRO, token.span, message).here(why));
+            self.skip_line(session);
+            return None;
+        }
+        if name.contains("__")
+            && directive == "#define"
+            && !std::mem::replace(&mut self.word(token.symbol()).checked, true)
+        {
+            let message = format!("the macro name `{name}` is reserved: it holds two underscores in a row");
+            kind::RESERVED_NAME.report(session, self.strict, token.span, message);
+        }
+        Some(token)
+    }
+
+    /// The parameters up to the `)`; `None` after an error.
+    fn parameters(&mut self, session: &mut Session<'_>, name: Token, opening: Token) -> Option<Vec<Symbol>> {
+        let mut params: Vec<Symbol> = Vec::new();
+        loop {
+            let token = self.line_token(session);
+            match token.kind {
+                TokenKind::RightParen if params.is_empty() => return Some(params),
+                TokenKind::Word if params.contains(&token.symbol()) => {
+                    let message = format!(
+                        "the macro `{}` has two parameters `{}`",
+                        session.spelling(name),
+                        session.spelling(token)
+                    );
+                    session.report(Diagnostic::new(&codes::MALFORMED_PARAMETERS, token.span, message));
+                    self.skip_line(session);
+                    return None;
+                }
+                TokenKind::Word => params.push(token.symbol()),
+                _ => return self.malformed_parameters(session, name, opening, token, "a name"),
+            }
+            let token = self.line_token(session);
+            match token.kind {
+                TokenKind::Comma => {}
+                TokenKind::RightParen => return Some(params),
+                _ => return self.malformed_parameters(session, name, opening, token, "`,` or `)`"),
+            }
+        }
+    }
+
+    fn malformed_parameters(
+        &mut self,
+        session: &mut Session<'_>,
+        name: Token,
+        opening: Token,
+        found: Token,
+        expected: &str,
+    ) -> Option<Vec<Symbol>> {
+        let message = format!("in the parameters of the macro `{}`: expected {expected}", session.spelling(name));
+        let mut diagnostic = Diagnostic::new(&codes::MALFORMED_PARAMETERS, found.span, message);
+        if matches!(found.kind, TokenKind::Newline | TokenKind::Eof) {
+            diagnostic = diagnostic.label(opening.span, "opened here");
+        }
+        if found.kind == TokenKind::Dot {
+            diagnostic = diagnostic.help("GLSL has no variadic macros");
+        }
+        session.report(diagnostic);
+        self.end_line(session, found);
+        None
+    }
+
+    /// Marks the parameters in a body and checks its `##`; whether there are any, or `None` after an error.
+    fn check_body(&mut self, session: &mut Session<'_>, params: Option<&[Symbol]>, body: &mut [Token]) -> Option<bool> {
+        let mut pastes = false;
+        let last = body.len().wrapping_sub(1);
+        for (index, token) in body.iter_mut().enumerate() {
+            match token.kind {
+                TokenKind::Word => {
+                    let place = params.and_then(|params| params.iter().position(|&param| param == token.symbol()));
+                    if let Some(place) = place {
+                        (token.kind, token.payload) = (TokenKind::Param, place as u32);
+                    }
+                }
+                TokenKind::HashHash if index == 0 || index == last => {
+                    let message = "`##` needs a token on both sides";
+                    session.report(Diagnostic::new(&codes::INVALID_PASTE, token.span, message));
+                    return None;
+                }
+                TokenKind::HashHash => pastes = true,
+                TokenKind::Hash => {
+                    let diagnostic =
+                        Diagnostic::new(&codes::MISPLACED_HASH, token.span, "`#` is no operator in a macro of GLSL")
+                            .help("there are no strings; `##` joins two tokens");
+                    session.report(diagnostic);
+                    return None;
+                }
+                _ => {}
+            }
+        }
+        Some(pastes)
+    }
+
+    fn check_redefinition(&mut self, session: &mut Session<'_>, name: Token, new: &Macro) {
+        let Some(old) = self.macro_of(name.symbol()).and_then(|index| self.macros.get(index)) else { return };
+        if old.span == new.span || old.same(new, session) {
+            return;
+        }
+        let diagnostic = Diagnostic::new(
+            &codes::MACRO_REDEFINED,
+            name.span,
+            format!("the macro `{}` is defined again with a different body", new.name),
+        )
+        .here("a different definition")
+        .label(old.span, "defined here before")
+        .help(format!("write `#undef {}` first", new.name));
+        session.report(diagnostic);
+    }
+}

@@ -1,0 +1,375 @@
+//! Directives by name, conditional groups, `#line`, `#error` and `#pragma` (GLSL 1.50 §3.3).
+
+use super::{Extensions, Mode, Preprocessor, Session, Span, Token, TokenKind, codes, kind};
+use crate::diagnostic::{Diagnostic, did_you_mean};
+
+/// A conditional group that is open.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Conditional {
+    /// The directive that opened it.
+    opening: Span,
+    name: &'static str,
+    /// The place of its `#else`.
+    else_at: Option<Span>,
+}
+
+impl Conditional {
+    pub(super) fn report_unterminated(self, session: &mut Session<'_>) {
+        let message = format!("the `{}` has no `#endif`", self.name);
+        let diagnostic = Diagnostic::new(&codes::UNTERMINATED_CONDITIONAL, self.opening, message)
+            .here("opened here and never closed");
+        session.report(diagnostic);
+    }
+}
+
+/// What a directive does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Directive {
+    Define,
+    Undef,
+    If,
+    Ifdef,
+    Ifndef,
+    Elif,
+    Else,
+    Endif,
+    Error,
+    Pragma,
+    Extension,
+    Version,
+    Line,
+    Include,
+}
+
+/// All directives.
+static DIRECTIVES: &[(&str, Directive)] = &[
+    ("define", Directive::Define),
+    ("undef", Directive::Undef),
+    ("if", Directive::If),
+    ("ifdef", Directive::Ifdef),
+    ("ifndef", Directive::Ifndef),
+    ("elif", Directive::Elif),
+    ("else", Directive::Else),
+    ("endif", Directive::Endif),
+    ("error", Directive::Error),
+    ("pragma", Directive::Pragma),
+    ("extension", Directive::Extension),
+    ("version", Directive::Version),
+    ("line", Directive::Line),
+    ("include", Directive::Include),
+];
+
+fn directive_named(name: &str) -> Option<Directive> {
+    DIRECTIVES.iter().find(|row| row.0 == name).map(|row| row.1)
+}
+
+impl Preprocessor<'_> {
+    /// Runs the directive whose `#` was just read.
+    pub(super) fn directive(&mut self, session: &mut Session<'_>, hash: Token) {
+        let token = self.line_token(session);
+        let span = session.sources.join(hash.span, token.span);
+        let directive = match token.kind {
+            TokenKind::Newline | TokenKind::Eof => return,
+            TokenKind::Word => directive_named(session.spelling(token)),
+            _ => None,
+        };
+        let Some(directive) = directive else {
+            self.unknown_directive(session, token, span);
+            return;
+        };
+        if !self.version_seen && directive != Directive::Version {
+            self.before_version.get_or_insert(span);
+        }
+        match directive {
+            Directive::Define => self.define(session),
+            Directive::Undef => self.undef(session),
+            Directive::If => self.if_directive(session, span),
+            Directive::Ifdef => self.ifdef(session, span, "#ifdef", true),
+            Directive::Ifndef => self.ifdef(session, span, "#ifndef", false),
+            // A group that was taken ends here; what follows up to `#endif` is skipped.
+            Directive::Elif => self.end_group(session, span, "#elif"),
+            Directive::Else => self.end_group(session, span, "#else"),
+            Directive::Endif => self.endif(session, span),
+            Directive::Error => self.error_directive(session, span),
+            Directive::Pragma => self.pragma(session),
+            Directive::Extension => self.extension(session, span),
+            Directive::Version => self.version(session, span),
+            Directive::Line => self.line(session, span),
+            Directive::Include => self.include(session, span),
+        }
+    }
+
+    fn unknown_directive(&mut self, session: &mut Session<'_>, token: Token, span: Span) {
+        let name = session.sources.snippet(token.span).to_owned();
+        let near = did_you_mean(&name, DIRECTIVES.iter().map(|row| row.0));
+        let diagnostic = Diagnostic::new(&codes::UNKNOWN_DIRECTIVE, span, format!("there is no directive `#{name}`"))
+            .maybe_help(near.map(|near| format!("did you mean `#{near}`?")));
+        session.report(diagnostic);
+        self.skip_line(session);
+    }
+
+    /// The next token of the directive's line, macros not expanded.
+    pub(super) fn line_token(&mut self, session: &mut Session<'_>) -> Token {
+        let Some(frame) = self.frames.last_mut() else { return Token::new(TokenKind::Eof, Span::default()) };
+        let token = frame.lexer.next(Mode::Directive, &mut session.names, &mut self.trivia);
+        if !self.trivia.is_empty() {
+            self.note_trivia(session);
+        }
+        token
+    }
+
+    /// The rest of the directive's line.
+    pub(super) fn rest_of_line(&mut self, session: &mut Session<'_>, tokens: &mut Vec<Token>) {
+        loop {
+            let token = self.line_token(session);
+            if matches!(token.kind, TokenKind::Newline | TokenKind::Eof) {
+                return;
+            }
+            tokens.push(token);
+        }
+    }
+
+    pub(super) fn skip_line(&mut self, session: &mut Session<'_>) {
+        if let Some(frame) = self.frames.last_mut() {
+            frame.lexer.skip_line(&mut session.names, &mut self.trivia);
+        }
+        self.note_trivia(session);
+    }
+
+    /// Skips the rest of the line behind `token`, which may be its end.
+    pub(super) fn end_line(&mut self, session: &mut Session<'_>, token: Token) {
+        if !matches!(token.kind, TokenKind::Newline | TokenKind::Eof) {
+            self.skip_line(session);
+        }
+    }
+
+    /// Reports a directive that makes no sense at `token`, and skips its line.
+    pub(super) fn malformed(&mut self, session: &mut Session<'_>, token: Token, message: &str) {
+        let here = match token.kind {
+            TokenKind::Newline | TokenKind::Eof => "the line ends here".to_owned(),
+            _ => format!("found `{}`", session.sources.snippet(token.span)),
+        };
+        session.report(Diagnostic::new(&codes::MALFORMED_DIRECTIVE, token.span, message).here(here));
+        self.end_line(session, token);
+    }
+
+    /// Says so if something stands behind a complete directive.
+    pub(super) fn expect_line_end(&mut self, session: &mut Session<'_>, directive: &str) {
+        let token = self.line_token(session);
+        if matches!(token.kind, TokenKind::Newline | TokenKind::Eof) {
+            return;
+        }
+        let message = format!("something stands behind the complete `{directive}`");
+        kind::EXTRA_TEXT.report(session, self.strict, token.span, message);
+        self.skip_line(session);
+    }
+
+    fn open(&mut self, opening: Span, name: &'static str) {
+        if let Some(frame) = self.frames.last_mut() {
+            frame.conditionals.push(Conditional { opening, name, else_at: None });
+        }
+    }
+
+    fn if_directive(&mut self, session: &mut Session<'_>, span: Span) {
+        self.open(span, "#if");
+        if !self.condition(session, span) {
+            self.skip_groups(session);
+        }
+    }
+
+    fn ifdef(&mut self, session: &mut Session<'_>, span: Span, name: &'static str, wanted: bool) {
+        self.open(span, name);
+        let token = self.line_token(session);
+        if token.kind != TokenKind::Word {
+            self.malformed(session, token, &format!("`{name}` needs the name of a macro"));
+            return self.skip_groups(session);
+        }
+        let defined = self.macro_of(token.symbol()).is_some();
+        self.expect_line_end(session, name);
+        if defined != wanted {
+            self.skip_groups(session);
+        }
+    }
+
+    /// `#elif` or `#else` behind a group that was taken.
+    fn end_group(&mut self, session: &mut Session<'_>, span: Span, name: &'static str) {
+        if self.check_order(session, span, name) {
+            if name == "#else" {
+                self.expect_line_end(session, name);
+            } else {
+                self.skip_line(session);
+            }
+            self.skip_to_endif(session);
+        } else {
+            self.skip_line(session);
+        }
+    }
+
+    /// Whether `#elif` or `#else` may stand here; notes an `#else`.
+    fn check_order(&mut self, session: &mut Session<'_>, span: Span, name: &'static str) -> bool {
+        let open = self.frames.last_mut().and_then(|frame| frame.conditionals.last_mut());
+        let Some(open) = open else {
+            self.stray(session, span, name);
+            return false;
+        };
+        if let Some(first) = open.else_at {
+            let diagnostic =
+                Diagnostic::new(&codes::STRAY_CONDITIONAL, span, format!("`{name}` stands behind an `#else`"))
+                    .label(first, "only `#endif` may follow this")
+                    .label(open.opening, "the group begins here");
+            session.report(diagnostic);
+        } else if name == "#else" {
+            open.else_at = Some(span);
+        }
+        true
+    }
+
+    fn stray(&mut self, session: &mut Session<'_>, span: Span, name: &str) {
+        let diagnostic = Diagnostic::new(&codes::STRAY_CONDITIONAL, span, format!("`{name}` has no `#if` before it"))
+            .here("no group is open in this file");
+        session.report(diagnostic);
+    }
+
+    fn endif(&mut self, session: &mut Session<'_>, span: Span) {
+        if self.frames.last_mut().and_then(|frame| frame.conditionals.pop()).is_none() {
+            self.stray(session, span, "#endif");
+        }
+        self.expect_line_end(session, "#endif");
+    }
+
+    /// Skips groups of the innermost conditional until one is to be taken or the conditional ends.
+    fn skip_groups(&mut self, session: &mut Session<'_>) {
+        while let Some((span, directive)) = self.skip_group(session) {
+            match directive {
+                Directive::Endif => return self.endif(session, span),
+                Directive::Else => {
+                    let again = self
+                        .frames
+                        .last()
+                        .and_then(|frame| frame.conditionals.last())
+                        .is_some_and(|open| open.else_at.is_some());
+                    self.check_order(session, span, "#else");
+                    self.expect_line_end(session, "#else");
+                    if !again {
+                        return;
+                    }
+                }
+                _ => {
+                    let behind_else = self
+                        .frames
+                        .last()
+                        .and_then(|frame| frame.conditionals.last())
+                        .is_some_and(|open| open.else_at.is_some());
+                    self.check_order(session, span, "#elif");
+                    if behind_else {
+                        self.skip_line(session);
+                    } else if self.condition(session, span) {
+                        return;
+                    }
+                }
+            }
+        }
+    }
+
+    /// Skips everything up to the `#endif` of the innermost conditional.
+    fn skip_to_endif(&mut self, session: &mut Session<'_>) {
+        while let Some((span, directive)) = self.skip_group(session) {
+            match directive {
+                Directive::Endif => return self.endif(session, span),
+                Directive::Else => {
+                    self.check_order(session, span, "#else");
+                    self.skip_line(session);
+                }
+                _ => {
+                    self.check_order(session, span, "#elif");
+                    self.skip_line(session);
+                }
+            }
+        }
+    }
+
+    /// Skips to the next `#elif`, `#else` or `#endif` of the innermost conditional, and reads its name.
+    fn skip_group(&mut self, session: &mut Session<'_>) -> Option<(Span, Directive)> {
+        let mut depth = 0_usize;
+        loop {
+            // What is skipped needs only to be lines: continuations and comments for glisten in it mean nothing.
+            let frame = self.frames.last_mut()?;
+            let found = frame.lexer.skip_to_directive(&mut self.trivia);
+            self.trivia.retain(|item| matches!(item, super::Trivia::Unterminated(_)));
+            self.note_trivia(session);
+            if !found {
+                return None;
+            }
+            let hash = self.line_token(session);
+            let token = self.line_token(session);
+            let name = if token.kind == TokenKind::Word { session.spelling(token) } else { "" };
+            match directive_named(name) {
+                Some(Directive::If | Directive::Ifdef | Directive::Ifndef) => depth += 1,
+                Some(Directive::Endif) if depth > 0 => depth -= 1,
+                Some(directive @ (Directive::Elif | Directive::Else | Directive::Endif)) if depth == 0 => {
+                    return Some((session.sources.join(hash.span, token.span), directive));
+                }
+                _ => {}
+            }
+        }
+    }
+
+    /// `#error text`
+    fn error_directive(&mut self, session: &mut Session<'_>, span: Span) {
+        let Some(frame) = self.frames.last_mut() else { return };
+        let rest = frame.lexer.rest_of_line();
+        let text = session.sources.snippet(rest).to_owned();
+        let message = if text.is_empty() { "#error".to_owned() } else { format!("#error: {text}") };
+        session.report(Diagnostic::new(&codes::ERROR_DIRECTIVE, session.sources.join(span, rest), message));
+    }
+
+    /// `#pragma`: macros are not expanded in it, and what is not known is ignored.
+    fn pragma(&mut self, session: &mut Session<'_>) {
+        let mut tokens = Vec::new();
+        self.rest_of_line(session, &mut tokens);
+        let text: Vec<&str> = tokens.iter().map(|token| session.sources.snippet(token.span)).collect();
+        let understood = match text.as_slice() {
+            ["STDGL", "invariant", "(", "all", ")"] => {
+                self.outcome.invariant_all = true;
+                true
+            }
+            ["optimize" | "debug", "(", "on" | "off", ")"] => true,
+            ["once"] => {
+                self.once.extend(self.frames.last().map(|frame| frame.file));
+                true
+            }
+            ["STDGL" | "optimize" | "debug", ..] => false,
+            _ => true,
+        };
+        if let (false, Some(first), Some(last)) = (understood, tokens.first(), tokens.last()) {
+            let span = session.sources.join(first.span, last.span);
+            let message = format!("the pragma `{}` is not understood and ignored", session.sources.snippet(span));
+            session.report(Diagnostic::new(&codes::UNKNOWN_STDGL_PRAGMA, span, message));
+        }
+    }
+
+    /// `#line line`, `#line line source-string-number`, macros expanded.
+    fn line(&mut self, session: &mut Session<'_>, span: Span) {
+        let mut tokens = Vec::new();
+        self.rest_of_line(session, &mut tokens);
+        let tokens = self.expand_all(session, tokens);
+        let numbers: Option<Vec<u32>> = tokens
+            .iter()
+            .map(|token| if token.kind == TokenKind::Number { session.spelling(*token).parse().ok() } else { None })
+            .collect();
+        match numbers.as_deref() {
+            // Behind the directive the line is one more than it says (§3.3); 3.30 says otherwise.
+            Some([line] | [line, _]) => {
+                let next = line.saturating_add(u32::from(self.version.number < 330));
+                session.sources.renumber(span, next);
+            }
+            _ if self.extensions.contains(Extensions::INCLUDE) && tokens.len() == 4 => {}
+            _ => {
+                let at = tokens.first().map_or(span, |token| token.span);
+                let diagnostic = Diagnostic::new(&codes::MALFORMED_DIRECTIVE, at, "`#line` needs one or two integers")
+                    .help("write `#line LINE` or `#line LINE SOURCE_STRING_NUMBER`");
+                session.report(diagnostic);
+            }
+        }
+    }
+}

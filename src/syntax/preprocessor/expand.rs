@@ -1,0 +1,398 @@
+//! Macro expansion as C++ has it, on a stack of its own (GLSL 1.50 §3.3).
+
+use super::define::Meaning;
+use super::{Mode, Preprocessor, Session, Span, Token, TokenFlags, TokenKind, codes};
+use crate::diagnostic::Diagnostic;
+use crate::source::{Expansion, ExpansionId};
+use crate::syntax::lexer::Lexer;
+use std::sync::Arc;
+
+/// How many macros may be inside each other.
+const MAX_DEPTH: usize = 4096;
+/// How many uses may stand in the arguments of each other. Each takes a little of the real stack.
+const MAX_ARGUMENT_DEPTH: usize = 64;
+/// How many tokens macros may produce: this many, and [`STEPS_A_BYTE`] for each byte of the text.
+const STEPS: usize = 500_000;
+const STEPS_A_BYTE: usize = 4;
+
+/// Tokens that are read before the files.
+enum Run {
+    /// The body of a macro as it was defined; each token gets the expansion.
+    Body(Arc<[Token]>, ExpansionId),
+    /// Tokens with places of their own.
+    List(Vec<Token>),
+}
+
+/// A run of tokens and how far it was read.
+pub(super) struct Context {
+    run: Run,
+    next: usize,
+    definition: Option<usize>,
+    barrier: bool,
+}
+
+impl Context {
+    /// Tokens behind which nothing else is read until they are taken away.
+    pub(super) fn barrier(tokens: Vec<Token>) -> Self {
+        Self { run: Run::List(tokens), next: 0, definition: None, barrier: true }
+    }
+
+    fn list(tokens: Vec<Token>, definition: Option<usize>) -> Self {
+        Self { run: Run::List(tokens), next: 0, definition, barrier: false }
+    }
+
+    pub(super) fn next(&mut self) -> Option<Token> {
+        let token = match &self.run {
+            Run::Body(body, expansion) => body.get(self.next).map(|token| placed(*token, *expansion)),
+            Run::List(tokens) => tokens.get(self.next).copied(),
+        };
+        self.next += 1;
+        token
+    }
+
+    pub(super) fn is_barrier(&self) -> bool {
+        self.barrier
+    }
+
+    pub(super) fn definition(&self) -> Option<usize> {
+        self.definition
+    }
+}
+
+/// A token of a body where the macro is used.
+fn placed(mut token: Token, expansion: ExpansionId) -> Token {
+    token.span.expansion = expansion;
+    token.flags.remove(TokenFlags::LINE_START);
+    token
+}
+
+impl Preprocessor<'_> {
+    /// The next token with macros expanded.
+    pub(super) fn next_expanded(&mut self, session: &mut Session<'_>) -> Token {
+        loop {
+            let token = self.next_unexpanded(session, false);
+            if token.kind != TokenKind::Word || token.flags.contains(TokenFlags::NO_EXPAND) {
+                return token;
+            }
+            let Some(index) = self.macro_of(token.symbol()) else { return token };
+            if !self.expand(session, token, index) {
+                return token;
+            }
+            if self.stopped {
+                return self.end(token.span);
+            }
+        }
+    }
+
+    /// Begins the expansion of a macro's use; false if it is none (a function-like macro without arguments).
+    fn expand(&mut self, session: &mut Session<'_>, name: Token, index: usize) -> bool {
+        let Some(definition) = self.macros.get(index) else { return false };
+        let function_like = definition.params.is_some();
+        if definition.meaning != Meaning::Body {
+            let number = self.magic_number(session, definition.meaning, name.span);
+            self.contexts.push(Context::list(vec![self.number_token(session, number, name)], None));
+            return true;
+        }
+        if !function_like && !definition.pastes {
+            let (body, span) = (definition.body.clone(), name.span);
+            let id = self.note_expansion(session, index, span);
+            self.spend(session, body.len(), span);
+            self.push(
+                session,
+                Context { run: Run::Body(body, id), next: 0, definition: Some(index), barrier: false },
+                span,
+            );
+            return true;
+        }
+        let mut call = name.span;
+        let mut arguments = Vec::new();
+        if function_like {
+            let Some(opening) = self.take_opening(session) else { return false };
+            let Some((list, closing)) = self.arguments(session, name, opening, index) else { return true };
+            arguments = list;
+            call = session.sources.join(name.span, closing);
+        }
+        let Some(arguments) = self.check_argument_count(session, index, arguments, call) else { return true };
+        let id = self.note_expansion(session, index, call);
+        let tokens = self.substitute(session, index, &arguments, id);
+        self.push(session, Context::list(tokens, Some(index)), call);
+        true
+    }
+
+    fn push(&mut self, session: &mut Session<'_>, context: Context, span: Span) {
+        if let Some(definition) = context.definition.and_then(|index| self.macros.get_mut(index)) {
+            definition.disabled = true;
+        }
+        self.contexts.push(context);
+        if self.contexts.len() > MAX_DEPTH {
+            let message = format!("macros use macros more than {MAX_DEPTH} levels deep");
+            session.report(Diagnostic::new(&codes::EXPANSION_TOO_DEEP, session.sources.call_site(span), message));
+            self.stop();
+        }
+    }
+
+    fn note_expansion(&mut self, session: &mut Session<'_>, index: usize, call: Span) -> ExpansionId {
+        let Some(definition) = self.macros.get(index) else { return ExpansionId::NONE };
+        let expansion = Expansion { name: definition.name.clone(), call, definition: definition.span };
+        session.sources.add_expansion(expansion)
+    }
+
+    /// Counts tokens against the budget.
+    fn spend(&mut self, session: &mut Session<'_>, tokens: usize, span: Span) {
+        self.steps += tokens + 1;
+        if self.steps > STEPS + STEPS_A_BYTE * self.bytes && !self.stopped {
+            let message =
+                format!("the macros of the source produce more than {} tokens", STEPS + STEPS_A_BYTE * self.bytes);
+            let diagnostic = Diagnostic::new(&codes::EXPANSION_TOO_LARGE, session.sources.call_site(span), message)
+                .here("in this use");
+            session.report(diagnostic);
+            self.stop();
+        }
+    }
+
+    fn magic_number(&self, session: &Session<'_>, meaning: Meaning, span: Span) -> u32 {
+        let site = session.sources.call_site(span);
+        match meaning {
+            Meaning::Line => session
+                .sources
+                .presented_line(site)
+                .or_else(|| session.sources.location(site).map(|location| location.line))
+                .unwrap_or(0),
+            Meaning::File | Meaning::Body => self.frames.len() as u32 - 1,
+        }
+    }
+
+    fn number_token(&self, session: &mut Session<'_>, number: u32, at: Token) -> Token {
+        let mut token = Token { kind: TokenKind::Number, ..at };
+        token.payload = session.names.intern(&number.to_string()).bits();
+        token
+    }
+
+    /// Reads `(` if it is next.
+    fn take_opening(&mut self, session: &mut Session<'_>) -> Option<Token> {
+        let token = self.next_unexpanded(session, true);
+        match token.kind {
+            TokenKind::LeftParen => return Some(token),
+            TokenKind::Eof => {}
+            _ => self.contexts.push(Context::list(vec![token], None)),
+        }
+        None
+    }
+
+    /// The arguments behind `(`, and the place of the `)`.
+    fn arguments(
+        &mut self,
+        session: &mut Session<'_>,
+        name: Token,
+        opening: Token,
+        index: usize,
+    ) -> Option<(Vec<Vec<Token>>, Span)> {
+        let mut arguments = vec![Vec::new()];
+        let mut depth = 0_usize;
+        loop {
+            let token = self.next_unexpanded(session, true);
+            match token.kind {
+                TokenKind::Eof => {
+                    if !self.stopped {
+                        let what = self.macros.get(index).map_or("", |definition| &definition.name);
+                        let message = format!("the arguments of the macro `{what}` have no end");
+                        let diagnostic = Diagnostic::new(&codes::UNTERMINATED_MACRO_CALL, name.span, message)
+                            .label(opening.span, "this bracket is never closed");
+                        session.report(diagnostic);
+                        self.stop();
+                    }
+                    return None;
+                }
+                TokenKind::RightParen if depth == 0 => return Some((arguments, token.span)),
+                TokenKind::RightParen => depth -= 1,
+                TokenKind::LeftParen => depth += 1,
+                TokenKind::Comma if depth == 0 => {
+                    arguments.push(Vec::new());
+                    continue;
+                }
+                _ => {}
+            }
+            if let Some(argument) = arguments.last_mut() {
+                argument.push(token);
+            }
+        }
+    }
+
+    fn check_argument_count(
+        &mut self,
+        session: &mut Session<'_>,
+        index: usize,
+        mut arguments: Vec<Vec<Token>>,
+        call: Span,
+    ) -> Option<Vec<Vec<Token>>> {
+        let definition = self.macros.get(index)?;
+        let Some(params) = &definition.params else { return Some(Vec::new()) };
+        if params.is_empty() && arguments.iter().all(Vec::is_empty) && arguments.len() == 1 {
+            arguments.clear();
+        }
+        if params.len() == arguments.len() {
+            return Some(arguments);
+        }
+        let (wanted, given) = (params.len(), arguments.len());
+        let plural = if wanted == 1 { "" } else { "s" };
+        let message = format!("the macro `{}` takes {wanted} argument{plural} and is given {given}", definition.name);
+        let diagnostic = Diagnostic::new(&codes::MACRO_ARGUMENTS, call, message).label(definition.span, "defined here");
+        session.report(diagnostic);
+        // A number stands for the use, so that the parser does not stumble over the hole.
+        let zero = self.number_token(session, 0, Token::new(TokenKind::Number, call));
+        self.contexts.push(Context::list(vec![zero], None));
+        None
+    }
+
+    /// The body with arguments in place of parameters, and pasted.
+    fn substitute(
+        &mut self,
+        session: &mut Session<'_>,
+        index: usize,
+        arguments: &[Vec<Token>],
+        id: ExpansionId,
+    ) -> Vec<Token> {
+        let Some(body) = self.macros.get(index).map(|definition| definition.body.clone()) else { return Vec::new() };
+        self.spend(
+            session,
+            body.len(),
+            session.sources.expansion(id).map_or(Span::default(), |expansion| expansion.call),
+        );
+        let mut expanded: Vec<Option<Vec<Token>>> = vec![None; arguments.len()];
+        let mut tokens: Vec<Token> = Vec::with_capacity(body.len());
+        let mut place = 0;
+        while let Some(&token) = body.get(place) {
+            let pasted_next = body.get(place + 1).is_some_and(|next| next.kind == TokenKind::HashHash);
+            let chain_start = tokens.len();
+            self.operand(session, token, arguments, &mut expanded, pasted_next, id, &mut tokens);
+            place += 1;
+            let mut left_empty = tokens.len() == chain_start;
+            while body.get(place).is_some_and(|next| next.kind == TokenKind::HashHash) {
+                let Some(&right) = body.get(place + 1) else { break };
+                let boundary = tokens.len();
+                self.operand(session, right, arguments, &mut expanded, true, id, &mut tokens);
+                let right_empty = tokens.len() == boundary;
+                if !left_empty && !right_empty {
+                    self.paste(session, &mut tokens, boundary, id);
+                }
+                left_empty &= right_empty;
+                place += 2;
+            }
+            if self.stopped {
+                break;
+            }
+        }
+        tokens
+    }
+
+    /// Appends one token of a body, or the argument that it stands for.
+    #[expect(clippy::too_many_arguments, reason = "the state of one substitution, used nowhere else")]
+    fn operand(
+        &mut self,
+        session: &mut Session<'_>,
+        token: Token,
+        arguments: &[Vec<Token>],
+        expanded: &mut [Option<Vec<Token>>],
+        pasted: bool,
+        id: ExpansionId,
+        tokens: &mut Vec<Token>,
+    ) {
+        if token.kind != TokenKind::Param {
+            tokens.push(placed(token, id));
+            return;
+        }
+        let param = token.payload as usize;
+        let Some(argument) = arguments.get(param) else { return };
+        if pasted {
+            self.spend(session, argument.len(), token.span);
+            tokens.extend_from_slice(argument);
+            return;
+        }
+        let Some(cache) = expanded.get_mut(param) else { return };
+        if cache.is_none() {
+            *cache = Some(self.expand_argument(session, argument));
+        }
+        let from = cache.as_deref().unwrap_or(&[]);
+        self.spend(session, from.len(), token.span);
+        if !self.stopped {
+            tokens.extend_from_slice(from);
+        }
+    }
+
+    /// An argument with its own macros expanded.
+    fn expand_argument(&mut self, session: &mut Session<'_>, argument: &[Token]) -> Vec<Token> {
+        let has_macro =
+            argument.iter().any(|token| token.kind == TokenKind::Word && self.macro_of(token.symbol()).is_some());
+        if !has_macro {
+            return argument.to_vec();
+        }
+        if self.argument_depth >= MAX_ARGUMENT_DEPTH {
+            let span = argument.first().map_or(Span::default(), |token| session.sources.call_site(token.span));
+            let message =
+                format!("macro uses stand in each other's arguments more than {MAX_ARGUMENT_DEPTH} levels deep");
+            session.report(Diagnostic::new(&codes::EXPANSION_TOO_DEEP, span, message));
+            self.stop();
+            return Vec::new();
+        }
+        self.argument_depth += 1;
+        let tokens = self.expand_all(session, argument.to_vec());
+        self.argument_depth -= 1;
+        tokens
+    }
+
+    /// A list of tokens with its macros expanded, by itself.
+    pub(super) fn expand_all(&mut self, session: &mut Session<'_>, list: Vec<Token>) -> Vec<Token> {
+        let floor = self.contexts.len();
+        self.contexts.push(Context::barrier(list));
+        let mut tokens = Vec::new();
+        while !self.stopped {
+            let token = self.next_expanded(session);
+            if token.kind == TokenKind::Eof {
+                break;
+            }
+            tokens.push(token);
+        }
+        while self.contexts.len() > floor {
+            self.pop_context();
+        }
+        tokens
+    }
+
+    /// Joins the token at `boundary` with the one before it.
+    fn paste(&mut self, session: &mut Session<'_>, tokens: &mut Vec<Token>, boundary: usize, id: ExpansionId) {
+        let (Some(&left), Some(&right)) = (boundary.checked_sub(1).and_then(|at| tokens.get(at)), tokens.get(boundary))
+        else {
+            return;
+        };
+        let text = format!("{}{}", written(session, left), written(session, right));
+        let mut trivia = Vec::new();
+        let mut lexer = Lexer::new(text.as_str().into(), 1);
+        let mut joined = lexer.next(Mode::Text, &mut session.names, &mut trivia);
+        let rest = lexer.next(Mode::Text, &mut session.names, &mut trivia);
+        if rest.kind != TokenKind::Eof || !trivia.is_empty() || joined.kind == TokenKind::Unknown {
+            let message = format!(
+                "`##` joins `{}` and `{}` to `{text}`, which is no token",
+                written(session, left),
+                written(session, right)
+            );
+            let span = session.sources.call_site(Span { expansion: id, ..left.span });
+            session.report(Diagnostic::new(&codes::INVALID_PASTE, span, message).label(left.span, "the left side"));
+            return;
+        }
+        joined.span = Span { expansion: id, ..left.span };
+        joined.flags = left.flags & TokenFlags::SPACE;
+        if let Some(place) = tokens.get_mut(boundary - 1) {
+            *place = joined;
+        }
+        tokens.remove(boundary);
+    }
+}
+
+/// A token as text.
+fn written(session: &Session<'_>, token: Token) -> String {
+    match token.kind {
+        TokenKind::Word | TokenKind::Number => session.spelling(token).to_owned(),
+        TokenKind::Unknown => session.sources.snippet(token.span).to_owned(),
+        kind => kind.spelling().to_owned(),
+    }
+}

@@ -1,0 +1,138 @@
+//! `#extension` (GLSL 1.50 §3.3), and the extensions that are known.
+
+use super::{Behavior, Extensions, Preprocessor, Session, Span, Token, TokenKind, codes, kind};
+use crate::diagnostic::{Diagnostic, did_you_mean};
+
+/// An extension that glisten implements.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::syntax) struct Implemented {
+    pub(in crate::syntax) name: &'static str,
+    bit: Extensions,
+}
+
+static IMPLEMENTED: &[Implemented] = &[
+    Implemented { name: "GL_ARB_draw_instanced", bit: Extensions::DRAW_INSTANCED },
+    Implemented { name: "GL_ARB_explicit_attrib_location", bit: Extensions::EXPLICIT_ATTRIB_LOCATION },
+    Implemented { name: "GL_ARB_separate_shader_objects", bit: Extensions::SEPARATE_SHADER_OBJECTS },
+    Implemented { name: "GL_ARB_shading_language_420pack", bit: Extensions::SHADING_LANGUAGE_420PACK },
+    Implemented { name: "GL_ARB_shading_language_include", bit: Extensions::INCLUDE },
+    Implemented { name: "GL_ARB_texture_rectangle", bit: Extensions::TEXTURE_RECTANGLE },
+    Implemented { name: "GL_ARB_uniform_buffer_object", bit: Extensions::UNIFORM_BUFFER_OBJECT },
+    Implemented { name: "GL_GOOGLE_cpp_style_line_directive", bit: Extensions::INCLUDE },
+    Implemented { name: "GL_GOOGLE_include_directive", bit: Extensions::INCLUDE },
+];
+
+/// Every name of the OpenGL and OpenGL ES registries, and those of the Khronos GLSL repository; sorted, one a line.
+static REGISTERED: &str = include_str!("extensions.txt");
+
+/// The extensions that shaders find defined as macros.
+pub(super) fn implemented() -> impl Iterator<Item = &'static Implemented> {
+    IMPLEMENTED.iter()
+}
+
+fn is_registered(name: &str) -> bool {
+    REGISTERED.lines().any(|line| line == name)
+}
+
+/// The behaviors by name.
+static BEHAVIORS: &[(&str, Behavior)] = &[
+    ("require", Behavior::Require),
+    ("enable", Behavior::Enable),
+    ("warn", Behavior::Warn),
+    ("disable", Behavior::Disable),
+];
+
+impl Preprocessor<'_> {
+    /// `#extension name : behavior`, macros not expanded.
+    pub(super) fn extension(&mut self, session: &mut Session<'_>, directive: Span) {
+        let name = self.line_token(session);
+        if name.kind != TokenKind::Word {
+            return self.malformed(session, name, "`#extension` needs the name of an extension or `all`");
+        }
+        let colon = self.line_token(session);
+        if colon.kind != TokenKind::Colon {
+            return self.malformed(session, colon, "`#extension` needs `:` and a behavior behind the name");
+        }
+        let behavior = self.line_token(session);
+        let spelled =
+            if behavior.kind == TokenKind::Word { session.spelling(behavior).to_owned() } else { String::new() };
+        let Some(meant) = BEHAVIORS.iter().find(|row| row.0 == spelled).map(|row| row.1) else {
+            let message = "the behavior is `require`, `enable`, `warn` or `disable`";
+            return self.malformed(session, behavior, message);
+        };
+        self.expect_line_end(session, "#extension");
+        let span = session.sources.join(directive, behavior.span);
+        if let Some(first) = self.first_token {
+            let diagnostic = kind::LATE_EXTENSION
+                .diagnostic(self.strict, span, "`#extension` stands behind the first token")
+                .label(first, "the first token");
+            session.report(diagnostic);
+        }
+        let spelled = session.spelling(name).to_owned();
+        self.set_behavior(session, name, &spelled, meant, span);
+        if let Some(frame) = self.frames.last_mut() {
+            frame.lexer.joins_comments =
+                self.version.number >= 420 || self.extensions.contains(Extensions::SHADING_LANGUAGE_420PACK);
+        }
+    }
+
+    fn set_behavior(&mut self, session: &mut Session<'_>, token: Token, name: &str, behavior: Behavior, span: Span) {
+        if name == "all" {
+            return self.set_all(session, token, behavior);
+        }
+        if let Some(row) = IMPLEMENTED.iter().find(|row| row.name == name) {
+            self.extensions.set(row.bit, behavior != Behavior::Disable);
+            if behavior != Behavior::Disable {
+                self.outcome.extension_lines.push((name.to_owned(), behavior, span));
+            }
+            return;
+        }
+        let registered = is_registered(name);
+        let required = behavior == Behavior::Require;
+        // Off is what it is anyway.
+        if registered && behavior == Behavior::Disable {
+            return;
+        }
+        let code = match (required, registered) {
+            (false, _) => &codes::EXTENSION_IGNORED,
+            (true, true) => &codes::UNSUPPORTED_EXTENSION,
+            (true, false) => &codes::UNKNOWN_EXTENSION,
+        };
+        let (message, help) = if registered {
+            (format!("the extension `{name}` is not supported"), None)
+        } else {
+            let names = REGISTERED.lines().chain(IMPLEMENTED.iter().map(|row| row.name));
+            let near = did_you_mean(name, names).map(|near| format!("did you mean `{near}`?"));
+            (format!("there is no extension `{name}`"), near)
+        };
+        let here = if required { "and the source requires it" } else { "the line is ignored" };
+        session.report(Diagnostic::new(code, token.span, message).here(here).maybe_help(help));
+    }
+
+    fn set_all(&mut self, session: &mut Session<'_>, token: Token, behavior: Behavior) {
+        match behavior {
+            Behavior::Disable => self.extensions = Extensions::empty(),
+            // Nothing is turned on by it, and what is on warns at no use.
+            Behavior::Warn => {}
+            Behavior::Enable | Behavior::Require => {
+                let message = "`all` extensions can be disabled or warned of alone";
+                let diagnostic = Diagnostic::new(&codes::EXTENSION_FOR_ALL, token.span, message)
+                    .help("name each extension that the source uses");
+                session.report(diagnostic);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn all_that_is_implemented_is_registered() {
+        for row in IMPLEMENTED {
+            assert!(is_registered(row.name), "{}", row.name);
+        }
+        assert!(REGISTERED.lines().is_sorted());
+    }
+}

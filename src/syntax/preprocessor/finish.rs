@@ -1,0 +1,118 @@
+//! Preprocessing tokens to tokens: keywords are told from names, numbers get their values, and what is no token is
+//! reported and dropped (GLSL 1.50 §3.1, §3.6, §4.1).
+
+use super::{Preprocessor, Session, Span, Token, TokenKind, codes, kind};
+use crate::diagnostic::Diagnostic;
+use crate::diagnostic::codes::syntax;
+use crate::syntax::number::{self, Doubt, Malformed, Numeral};
+
+impl Preprocessor<'_> {
+    /// The token as the parser gets it; `None` if it is none.
+    pub(super) fn finish_token(&mut self, session: &mut Session<'_>, mut token: Token) -> Option<Token> {
+        match token.kind {
+            TokenKind::Word => {
+                let word = *self.word(token.symbol());
+                if !word.checked {
+                    self.check_word(session, token);
+                }
+                token.kind = word.kind;
+            }
+            TokenKind::Number => number(session, &mut token),
+            TokenKind::Unknown => {
+                illegal_character(session, token.span);
+                return None;
+            }
+            TokenKind::Hash | TokenKind::HashHash => {
+                let message = format!("`{}` stands where no directive can be", token.kind.spelling());
+                let diagnostic = Diagnostic::new(&codes::MISPLACED_HASH, token.span, message)
+                    .here("neither first on its line nor an operator");
+                session.report(diagnostic);
+                return None;
+            }
+            TokenKind::Eof => {
+                self.at_end(session);
+                return Some(self.end(token.span));
+            }
+            _ => {}
+        }
+        self.first_token.get_or_insert(token.span);
+        Some(token.with_extensions(self.extensions))
+    }
+
+    /// Reserved names are warned of once.
+    fn check_word(&mut self, session: &mut Session<'_>, token: Token) {
+        self.word(token.symbol()).checked = true;
+        let name = session.spelling(token);
+        if name.contains("__") {
+            let message = format!("the name `{name}` is reserved: it holds two underscores in a row");
+            kind::RESERVED_NAME.report(session, self.strict, token.span, message);
+        }
+    }
+}
+
+fn number(session: &mut Session<'_>, token: &mut Token) {
+    match number::read(session.spelling(*token)) {
+        Ok(Numeral { kind, bits, doubt }) => {
+            if let Some(doubt) = doubt {
+                let text = session.spelling(*token).to_owned();
+                let message = match doubt {
+                    Doubt::Negative => format!("`{text}` is too large for an `int` and becomes {}", bits as i32),
+                    Doubt::Infinite => format!("`{text}` is too large for a `float` and becomes infinite"),
+                };
+                let help = (doubt == Doubt::Negative).then(|| format!("write `{text}u`"));
+                session.report(Diagnostic::new(&syntax::LITERAL_WRAPS, token.span, message).maybe_help(help));
+            }
+            (token.kind, token.payload) = (kind, bits);
+        }
+        Err(malformed) => {
+            let text = session.spelling(*token).to_owned();
+            session.report(malformed_number(&text, malformed, token.span));
+            // What it was meant to be is told well enough by its point for the rest to be checked.
+            let is_float = text.contains('.');
+            (token.kind, token.payload) = if is_float { (TokenKind::Float, 0) } else { (TokenKind::Int, 0) };
+        }
+    }
+}
+
+fn malformed_number(text: &str, malformed: Malformed, span: Span) -> Diagnostic {
+    let wrong = |message: String| Diagnostic::new(&syntax::MALFORMED_NUMBER, span, message);
+    match malformed {
+        Malformed::TooLarge => {
+            let message = format!("the integer `{text}` has more than 32 bits");
+            Diagnostic::new(&syntax::INTEGER_TOO_LARGE, span, message).here("at most 4294967295")
+        }
+        Malformed::OctalDigit => wrong(format!("`{text}` is octal because of its leading 0 and cannot hold 8 or 9"))
+            .help(format!("write `{}` for the decimal number", text.trim_start_matches('0'))),
+        Malformed::NoDigits => wrong(format!("`{text}` has no digits behind its prefix")),
+        Malformed::NoExponent => wrong(format!("`{text}` has no digits in its exponent")),
+        Malformed::Suffix(at) => {
+            let (number, suffix) = text.split_at_checked(at).unwrap_or((text, ""));
+            let help = match suffix {
+                "f" | "F" => Some(format!("write `{number}.0f` or `{number}.0`")),
+                "lf" | "LF" => Some("doubles belong to GLSL 4.00; leave the suffix out".to_owned()),
+                _ => None,
+            };
+            wrong(format!("`{suffix}` is no suffix of a number")).here(format!("in `{text}`")).maybe_help(help)
+        }
+    }
+}
+
+fn illegal_character(session: &mut Session<'_>, span: Span) {
+    let character = session.sources.snippet(span).chars().next().unwrap_or(char::REPLACEMENT_CHARACTER);
+    let (message, help) = match character {
+        char::REPLACEMENT_CHARACTER => ("the source is not UTF-8 here".to_owned(), None),
+        '"' | '\'' => (format!("`{character}` is no character of GLSL"), Some("there are no strings in GLSL")),
+        '\\' => ("`\\` is no character of GLSL".to_owned(), Some("a backslash may stand at the end of a line alone")),
+        '\u{feff}' => ("a byte order mark stands inside the source".to_owned(), None),
+        _ if character.is_control() => {
+            (format!("the control character {:#04x} is no character of GLSL", character as u32), None)
+        }
+        _ if character.is_ascii() => (format!("`{character}` is no character of GLSL"), None),
+        _ => (
+            format!("`{character}` (U+{:04X}) is no character of GLSL", character as u32),
+            Some("outside of comments the language is ASCII"),
+        ),
+    };
+    let diagnostic = Diagnostic::new(&codes::ILLEGAL_CHARACTER, span, message).maybe_help(help.map(str::to_owned));
+    session.report(diagnostic);
+}

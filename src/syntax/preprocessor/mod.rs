@@ -1,0 +1,348 @@
+//! [`Preprocessor`]: runs directives, expands macros, and hands finished tokens to the parser (GLSL 1.50 §3.3).
+//!
+//! *In:* the main file, macros defined from outside, and a resolver for what `#include` names. *Out:* tokens through
+//! [`TokenSource`], each with the place where it was written and the macro use that brought it, and what is left at
+//! the end: [`Outcome`].
+//!
+//! Tokens come from a stack of files, and before those from a stack of macro bodies that are being read. Both stacks
+//! are on the heap. A macro is disabled while its body is on the stack, and its name found there is marked so that it
+//! is never expanded again, as C has it.
+//!
+//! *Holds:* every budget that is exceeded ends the tokens with one error ([`Preprocessor::stop`]), and the parser is
+//! told that all has been said.
+
+mod condition;
+mod define;
+mod directive;
+mod expand;
+pub(super) mod extension;
+mod finish;
+mod include;
+mod version;
+
+use super::ast::{Allow, Behavior, Extensions, Profile, Version};
+use super::keywords;
+use super::kind;
+use super::lexer::{Lexer, Mode, Trivia};
+use super::token::{Session, Symbol, Token, TokenFlags, TokenKind, TokenSource};
+use crate::diagnostic::codes::preprocess as codes;
+use crate::diagnostic::{Diagnostic, codes::general};
+use crate::source::{FileId, IncludeResolver, Span};
+use define::Macro;
+use expand::Context;
+use rustc_hash::{FxHashMap, FxHashSet};
+
+/// The most bytes that all texts of a shader may have, includes counted as often as they are included: 8 MiB.
+pub(super) const MAX_BYTES: usize = 8 << 20;
+
+/// What is known once the last token was read.
+#[derive(Debug)]
+pub(super) struct Outcome {
+    pub(super) version: Version,
+    /// Whether the language is one that the parser understands.
+    pub(super) supported: bool,
+    pub(super) invariant_all: bool,
+    pub(super) allows: Vec<Allow>,
+    pub(super) extension_lines: Vec<(String, Behavior, Span)>,
+}
+
+/// A file that is being read.
+struct Frame {
+    file: FileId,
+    lexer: Lexer,
+    conditionals: Vec<directive::Conditional>,
+}
+
+/// What is known of a word.
+#[derive(Clone, Copy)]
+struct Word {
+    /// Number of its macro + 1, or 0.
+    definition: u32,
+    kind: TokenKind,
+    /// Its double underscore was looked for.
+    checked: bool,
+}
+
+/// The preprocessor of one shader.
+pub(super) struct Preprocessor<'a> {
+    includes: &'a (dyn IncludeResolver + 'a),
+    strict: bool,
+    frames: Vec<Frame>,
+    contexts: Vec<Context>,
+    macros: Vec<Macro>,
+    words: Vec<Word>,
+    kinds: Vec<TokenKind>,
+    trivia: Vec<Trivia>,
+    version: Version,
+    version_seen: bool,
+    /// The first directive that came before `#version`.
+    before_version: Option<Span>,
+    extensions: Extensions,
+    /// The first token that went to the parser.
+    first_token: Option<Span>,
+    stopped: bool,
+    bytes: usize,
+    steps: usize,
+    argument_depth: usize,
+    once: FxHashSet<FileId>,
+    resolved: FxHashMap<(FileId, Span), FileId>,
+    by_name: FxHashMap<String, FileId>,
+    outcome: Outcome,
+}
+
+impl<'a> Preprocessor<'a> {
+    /// A preprocessor that will read `file`, with `defines` defined before its first line.
+    pub(super) fn new(
+        session: &mut Session<'_>,
+        file: FileId,
+        defines: &[(String, String)],
+        strict: bool,
+        includes: &'a (dyn IncludeResolver + 'a),
+    ) -> Self {
+        let mut this = Self {
+            includes,
+            strict,
+            frames: Vec::new(),
+            contexts: Vec::new(),
+            macros: Vec::new(),
+            words: Vec::new(),
+            kinds: keywords::kinds_in(version::NEWEST_SUPPORTED),
+            trivia: Vec::new(),
+            version: Version { number: version::NEWEST_SUPPORTED, profile: Profile::Core, span: Span::default() },
+            version_seen: false,
+            before_version: None,
+            extensions: Extensions::empty(),
+            first_token: None,
+            stopped: false,
+            bytes: 0,
+            steps: 0,
+            argument_depth: 0,
+            once: FxHashSet::default(),
+            resolved: FxHashMap::default(),
+            by_name: FxHashMap::default(),
+            outcome: Outcome {
+                version: Version { number: version::NEWEST_SUPPORTED, profile: Profile::Core, span: Span::default() },
+                supported: true,
+                invariant_all: false,
+                allows: Vec::new(),
+                extension_lines: Vec::new(),
+            },
+        };
+        this.define_predefined(session);
+        this.define_from_outside(session, defines);
+        this.by_name.insert(session.sources.file(file).name().to_owned(), file);
+        this.enter(session, file, Span::default());
+        this.check_is_text(session, file);
+        this
+    }
+
+    /// What is left when the parser has read the last token.
+    pub(super) fn finish(mut self) -> Outcome {
+        self.outcome.version = self.version;
+        self.outcome
+    }
+
+    /// Ends the tokens: the error was reported, and going on would only repeat it.
+    fn stop(&mut self) {
+        self.stopped = true;
+    }
+
+    /// The token behind the last.
+    fn end(&self, span: Span) -> Token {
+        Token { payload: u32::from(self.stopped), ..Token::new(TokenKind::Eof, span) }
+    }
+
+    /// Begins to read a file, unless that goes past the limit of bytes.
+    fn enter(&mut self, session: &mut Session<'_>, file: FileId, include: Span) {
+        let source = session.sources.file(file);
+        self.bytes += source.text().len();
+        if self.bytes > MAX_BYTES {
+            let span = if include.is_known() { include } else { Span::new(source.base(), source.base() + 1) };
+            let message = format!("the source has more than {} MiB after its includes", MAX_BYTES >> 20);
+            session.report(Diagnostic::new(&general::TOO_LARGE, span, message));
+            self.stop();
+            return;
+        }
+        let mut lexer = Lexer::new(source.text().clone(), source.base());
+        lexer.joins_comments = self.joins_lines();
+        self.frames.push(Frame { file, lexer, conditionals: Vec::new() });
+    }
+
+    /// A file that is no text gets one error instead of one for each of its bytes.
+    fn check_is_text(&mut self, session: &mut Session<'_>, file: FileId) {
+        let source = session.sources.file(file);
+        let (mut odd, mut all) = (0, 0);
+        for character in source.text().chars().take(1024) {
+            all += 1;
+            odd += usize::from(
+                character == char::REPLACEMENT_CHARACTER || (character.is_control() && !character.is_whitespace()),
+            );
+        }
+        if odd * 8 > all {
+            let span = Span::new(source.base(), source.base());
+            let diagnostic = Diagnostic::new(&codes::NOT_TEXT, span, "the source is not text")
+                .here(format!("{odd} of the first {all} characters are no text"));
+            session.report(diagnostic);
+            self.stop();
+        }
+    }
+
+    /// Whether a backslash joins lines by right and not by kindness.
+    fn joins_lines(&self) -> bool {
+        self.version.number >= 420 || self.extensions.contains(Extensions::SHADING_LANGUAGE_420PACK)
+    }
+
+    /// What is known of a word.
+    fn word(&mut self, symbol: Symbol) -> &mut Word {
+        let index = symbol.index();
+        if index >= self.words.len() {
+            let kinds = &self.kinds;
+            let from = self.words.len();
+            self.words.extend((from..=index).map(|index| Word {
+                definition: 0,
+                kind: kinds.get(index).copied().unwrap_or(TokenKind::Ident),
+                checked: false,
+            }));
+        }
+        // The line above made room for it.
+        &mut self.words[index]
+    }
+
+    /// The number of the macro that a word names.
+    fn macro_of(&mut self, symbol: Symbol) -> Option<usize> {
+        (self.word(symbol).definition as usize).checked_sub(1)
+    }
+
+    /// The next token of the topmost file, past directives. With `collecting` the end of an included file is not
+    /// passed: what a macro use reads must stand in one file.
+    fn next_from_file(&mut self, session: &mut Session<'_>, collecting: bool) -> Token {
+        loop {
+            if self.stopped {
+                return self.end(Span::default());
+            }
+            let Some(frame) = self.frames.last_mut() else { return self.end(Span::default()) };
+            let token = frame.lexer.next(Mode::Text, &mut session.names, &mut self.trivia);
+            if !self.trivia.is_empty() {
+                self.note_trivia(session);
+            }
+            match token.kind {
+                TokenKind::Hash if token.starts_line() => self.directive(session, token),
+                TokenKind::Eof if collecting => return token,
+                TokenKind::Eof => {
+                    if !self.leave(session) {
+                        return self.end(token.span);
+                    }
+                }
+                _ => return token,
+            }
+        }
+    }
+
+    /// Leaves a file at its end; false if it is the main one.
+    fn leave(&mut self, session: &mut Session<'_>) -> bool {
+        let Some(frame) = self.frames.last_mut() else { return false };
+        for conditional in frame.conditionals.drain(..) {
+            conditional.report_unterminated(session);
+        }
+        if self.frames.len() == 1 {
+            return false;
+        }
+        self.frames.pop();
+        true
+    }
+
+    /// Reports what the lexer skipped and matters.
+    fn note_trivia(&mut self, session: &mut Session<'_>) {
+        let mut trivia = std::mem::take(&mut self.trivia);
+        for item in trivia.drain(..) {
+            match item {
+                Trivia::Pragma(span) => self.comment_pragma(session, span),
+                Trivia::Continuation(span, in_comment) if !self.joins_lines() => {
+                    let message = if in_comment {
+                        "a comment ends in `\\`; compilers differ on whether it goes on in the next line"
+                    } else {
+                        "the lines are joined by `\\`"
+                    };
+                    let help = "write it on one line, or enable GL_ARB_shading_language_420pack";
+                    let diagnostic = kind::LINE_CONTINUATION.diagnostic(self.strict, span, message);
+                    session.report(diagnostic.help(help));
+                }
+                Trivia::Continuation(..) => {}
+                Trivia::Unterminated(span) => {
+                    let message = "the comment has no end";
+                    let diagnostic = Diagnostic::new(&codes::UNTERMINATED_COMMENT, span, message)
+                        .here("`/*` without a `*/` behind it");
+                    session.report(diagnostic);
+                }
+            }
+        }
+        self.trivia = trivia;
+    }
+
+    /// `// glisten: allow(CODE, ...)`
+    fn comment_pragma(&mut self, session: &mut Session<'_>, span: Span) {
+        let text = session.sources.snippet(span);
+        let words = text.split_once("glisten:").map_or("", |(_, words)| words.trim());
+        let list = words.strip_prefix("allow").map(str::trim_start);
+        let list = list.and_then(|list| list.strip_prefix('(')?.split_once(')')).map(|(list, _)| list);
+        let list: Option<Vec<String>> = list
+            .map(|list| list.split(',').map(|code| code.trim().to_owned()).filter(|code| !code.is_empty()).collect());
+        let Some(wanted) = list else {
+            let diagnostic = Diagnostic::new(&codes::UNKNOWN_ALLOW, span, "the comment for glisten is not understood")
+                .help("write `// glisten: allow(CODE)` with a code or its name");
+            session.report(diagnostic);
+            return;
+        };
+        for code in &wanted {
+            if crate::diagnostic::codes::find(code).is_none() {
+                let all = crate::diagnostic::codes::all().flat_map(|code| [code.id, code.name]);
+                let near = crate::diagnostic::did_you_mean(code, all).map(|near| format!("did you mean `{near}`?"));
+                let message = format!("there is no code `{code}` to allow");
+                session.report(Diagnostic::new(&codes::UNKNOWN_ALLOW, span, message).maybe_help(near));
+            }
+        }
+        self.outcome.allows.push(Allow { span, codes: wanted });
+    }
+
+    /// The next token, macros not expanded.
+    fn next_unexpanded(&mut self, session: &mut Session<'_>, collecting: bool) -> Token {
+        while let Some(context) = self.contexts.last_mut() {
+            if let Some(mut token) = context.next() {
+                if token.kind == TokenKind::Word {
+                    let definition = self.macro_of(token.symbol());
+                    if definition.and_then(|index| self.macros.get(index)).is_some_and(|definition| definition.disabled)
+                    {
+                        token.flags.insert(TokenFlags::NO_EXPAND);
+                    }
+                }
+                return token;
+            }
+            if context.is_barrier() {
+                return Token::new(TokenKind::Eof, Span::default());
+            }
+            self.pop_context();
+        }
+        self.next_from_file(session, collecting)
+    }
+
+    fn pop_context(&mut self) {
+        let ended = self.contexts.pop().and_then(|context| context.definition());
+        if let Some(definition) = ended.and_then(|index| self.macros.get_mut(index)) {
+            definition.disabled = false;
+        }
+    }
+}
+
+impl TokenSource for Preprocessor<'_> {
+    fn next(&mut self, session: &mut Session<'_>) -> Token {
+        loop {
+            if self.stopped {
+                return self.end(Span::default());
+            }
+            let token = self.next_expanded(session);
+            if let Some(token) = self.finish_token(session, token) {
+                return token;
+            }
+        }
+    }
+}
