@@ -1,87 +1,149 @@
 //! [`Machine`]: runs [`Code`] in a domain.
 
-use super::code::Code;
+use super::code::{Code, Inner, PoolSource, Port};
+use super::inst::Class;
+use super::registers::Registers;
 use super::{LANES, Mask};
-use crate::cpu::domain::Domain;
+use crate::cpu::domain::{Domain, Integer, Number};
 use crate::hir::{GlobalId, ScalarValue};
 use crate::scene::Texture;
 use std::sync::Arc;
 
-/// How many times a run may go back to the head of a loop, all loops of all lanes together, before every loop is left
-/// and [`Machine::budget_exceeded`] says so.
-pub const LOOP_BUDGET: u32 = 1 << 20;
+/// How many instructions loops may run in one run of a machine: each time that a loop goes back to its head, the
+/// instructions between count, those of all lanes as one. Past it every loop is left, and [`Machine::budget_exceeded`]
+/// says so. (65,536 rounds of a body of 1,024 instructions.)
+pub const LOOP_BUDGET: u64 = 1 << 26;
 
 /// The registers of one thread for one draw. Reusable: run it tile after tile.
 #[derive(Debug)]
 pub struct Machine<D: Domain> {
-    code: Code,
-    floats: Vec<Box<[D::Float; LANES]>>,
-    ints: Vec<Box<[D::Int; LANES]>>,
-    discarded: Mask,
-    undecided: Mask,
-    budget_exceeded: bool,
+    pub(super) code: Code,
+    pub(super) registers: Registers<D>,
+    pub(super) slots: Vec<u64>,
+    pub(super) textures: Vec<Option<Arc<Texture>>>,
+    pub(super) discarded: u64,
+    pub(super) undecided: u64,
+    /// What is left in this run.
+    pub(super) budget: u64,
+    pub(super) budget_exceeded: bool,
 }
 
 impl<D: Domain> Machine<D> {
     /// A machine for the uniforms (of each root of the interface, flat) and textures (of each sampler slot) of a draw.
     /// What does not depend on the invocation is computed here, once.
     pub fn new(code: &Code, uniforms: &[Vec<ScalarValue>], textures: &[Option<Arc<Texture>>]) -> Self {
-        let _ = (uniforms, textures);
-        Self {
+        let inner = &code.inner;
+        let floats = inner.float_pool.iter().map(|source| float_of::<D>(*source, uniforms)).collect();
+        let ints = inner.int_pool.iter().map(|source| int_of::<D>(*source, uniforms)).collect();
+        let mut machine = Self {
             code: code.clone(),
-            floats: Vec::new(),
-            ints: Vec::new(),
-            discarded: Mask::NONE,
-            undecided: Mask::NONE,
+            registers: Registers::new(inner.preamble_results, floats, ints),
+            slots: vec![0; inner.mask_slots],
+            textures: textures.to_vec(),
+            discarded: 0,
+            undecided: 0,
+            budget: LOOP_BUDGET,
             budget_exceeded: false,
+        };
+        machine.execute(&inner.preamble, inner, 1);
+        machine.registers.finish_preamble(inner.registers);
+        for (class, register, from) in &inner.splats {
+            machine.registers.splat(*class, *register, *from);
         }
+        machine
+    }
+
+    fn port(ports: &[Port], class: Class, global: GlobalId, flat: u32) -> Option<usize> {
+        let port = ports.iter().find(|port| port.global == global && port.flat == flat)?;
+        (port.class == class).then_some(port.register)
     }
 
     /// The lanes of a `float` in an input's flat layout ([`Types::flat_len`](crate::hir::Types::flat_len)), to fill
     /// before a run; they keep their values between runs. `None` if the stage does not read it or it is no float.
     pub fn float_input(&mut self, global: GlobalId, flat: u32) -> Option<&mut [D::Float; LANES]> {
-        let place = self.code.inner.inputs.iter().position(|input| *input == (global, flat))?;
-        self.floats.get_mut(place).map(|lanes| &mut **lanes)
+        let register = Self::port(&self.code.inner.inputs, Class::Float, global, flat)?;
+        self.registers.floats.get_mut(register).map(|lanes| &mut **lanes)
     }
 
     /// Likewise of an `int`, `uint` or `bool`.
     pub fn int_input(&mut self, global: GlobalId, flat: u32) -> Option<&mut [D::Int; LANES]> {
-        let place = self.code.inner.inputs.iter().position(|input| *input == (global, flat))?;
-        self.ints.get_mut(place).map(|lanes| &mut **lanes)
+        let register = Self::port(&self.code.inner.inputs, Class::Int, global, flat)?;
+        self.registers.ints.get_mut(register).map(|lanes| &mut **lanes)
     }
 
     /// Runs `main` on the lanes of both masks. Helper lanes run for the derivatives of their quads; what they do has no
     /// other effect. The other lanes hold anything afterwards.
     pub fn run(&mut self, live: Mask, helpers: Mask) {
-        let _ = (live, helpers);
+        let code = Arc::clone(&self.code.inner);
+        let inner: &Inner = &code;
+        self.discarded = 0;
+        self.undecided = 0;
+        // Once a machine has run away it is likely to do so again: then it shall be soon.
+        self.budget = if self.budget_exceeded { LOOP_BUDGET >> 6 } else { LOOP_BUDGET };
+        self.execute(&inner.main, inner, live.0 | helpers.0);
+        self.discarded &= live.0;
+        self.undecided &= live.0;
     }
 
     /// The lanes of a `float` in an output's flat layout after a run; 0 where the shader wrote nothing. `None` if the
     /// stage never writes it or it is no float.
     pub fn float_output(&self, global: GlobalId, flat: u32) -> Option<&[D::Float; LANES]> {
-        let _ = (global, flat);
-        None
+        let register = Self::port(&self.code.inner.outputs, Class::Float, global, flat)?;
+        self.registers.floats.get(register).map(|lanes| &**lanes)
     }
 
     /// Likewise of an `int`, `uint` or `bool`.
     pub fn int_output(&self, global: GlobalId, flat: u32) -> Option<&[D::Int; LANES]> {
-        let _ = (global, flat);
-        None
+        let register = Self::port(&self.code.inner.outputs, Class::Int, global, flat)?;
+        self.registers.ints.get(register).map(|lanes| &**lanes)
     }
 
     /// The lanes that the last run discarded.
     pub fn discarded(&self) -> Mask {
-        self.discarded
+        Mask(self.discarded)
     }
 
     /// The lanes of the last run in which the domain could not tell which way a branch goes or which element an index
     /// means; they followed the value. Always empty in domains without bounds.
     pub fn undecided(&self) -> Mask {
-        self.undecided
+        Mask(self.undecided)
     }
 
     /// Whether any run since the machine was made went past [`LOOP_BUDGET`].
     pub fn budget_exceeded(&self) -> bool {
         self.budget_exceeded
     }
+}
+
+fn uniform(uniforms: &[Vec<ScalarValue>], root: u32, flat: u32) -> Option<ScalarValue> {
+    uniforms.get(root as usize)?.get(flat as usize).copied()
+}
+
+/// A uniform that is not given is 0.
+fn float_of<D: Domain>(source: PoolSource, uniforms: &[Vec<ScalarValue>]) -> D::Float {
+    let value = match source {
+        PoolSource::Constant(bits) => f32::from_bits(bits),
+        PoolSource::Uniform(root, flat) => match uniform(uniforms, root.0, flat) {
+            Some(ScalarValue::Float(value)) => value,
+            Some(ScalarValue::Int(value)) => value as f32,
+            Some(ScalarValue::Uint(value)) => value as f32,
+            Some(ScalarValue::Bool(value)) => f32::from(u8::from(value)),
+            None => 0.0,
+        },
+    };
+    D::Float::from_f64(f64::from(value))
+}
+
+fn int_of<D: Domain>(source: PoolSource, uniforms: &[Vec<ScalarValue>]) -> D::Int {
+    let bits = match source {
+        PoolSource::Constant(bits) => bits,
+        PoolSource::Uniform(root, flat) => match uniform(uniforms, root.0, flat) {
+            Some(ScalarValue::Float(value)) => value as i32 as u32,
+            Some(ScalarValue::Int(value)) => value as u32,
+            Some(ScalarValue::Uint(value)) => value,
+            Some(ScalarValue::Bool(value)) => u32::from(value),
+            None => 0,
+        },
+    };
+    D::Int::from_bits(bits)
 }

@@ -16,8 +16,14 @@
 
 mod code;
 mod compile;
+mod composite;
+mod compute;
 mod inst;
+mod lookup;
 mod machine;
+mod memory;
+mod registers;
+mod run;
 
 pub use code::Code;
 pub use machine::{LOOP_BUDGET, Machine};
