@@ -5,13 +5,8 @@
 
 use super::function::{Ctx, GlobalSlot, Slot};
 use super::{Lower, Try, internal};
-use crate::hir::{
-    ArraySize, BinaryOp, ExprId, ExprKind, FunctionId, Scalar, ScalarValue, Type, TypeId, UnaryOp, Value, VarRef,
-};
+use crate::hir::{ArraySize, ExprId, FunctionId, LocalKind, Scalar, ScalarValue, Type, TypeId, Value, VarRef};
 use naga::{AddressSpace, Expression, GlobalVariable, Handle, Literal};
-
-/// How deep a constant index is looked into.
-const DEPTH: u32 = 16;
 
 impl Ctx<'_, '_> {
     /// A scalar constant, finite or not.
@@ -163,92 +158,26 @@ impl Lower<'_> {
         Ok(self.module.global_expressions.append(compose, naga::Span::UNDEFINED))
     }
 
-    /// The value of a scalar expression that is constant: a literal, a constant, or arithmetic on integers, as indices
-    /// are written.
-    pub(super) fn constant_of(&self, function: FunctionId, id: ExprId) -> Option<ScalarValue> {
-        self.constant_within(function, id, DEPTH)
+    /// The value of an expression, if it is constant.
+    pub(super) fn evaluated(&self, function: FunctionId, id: ExprId) -> Option<Value> {
+        if !self.facts.nature(id).constant {
+            return None;
+        }
+        let locals = &self.shader.functions.get(function.index())?.locals;
+        crate::analysis::fold::evaluate(self.shader, self.types, id, &|var| match var {
+            VarRef::Local(local) => {
+                let local = locals.get(local.index())?;
+                local.value.as_ref().filter(|_| local.kind == LocalKind::Const)
+            }
+            VarRef::Global(_) => None,
+        })
     }
 
-    fn constant_within(&self, function: FunctionId, id: ExprId, depth: u32) -> Option<ScalarValue> {
-        let depth = depth.checked_sub(1)?;
-        let expr = self.shader.expr(id);
-        match &expr.kind {
-            ExprKind::Literal(value) => Some(*value),
-            ExprKind::Var(VarRef::Global(global)) => {
-                let global = self.shader.global(*global);
-                let constant = global.storage == crate::hir::Storage::Const;
-                single(global.value.as_ref().filter(|_| constant)?)
-            }
-            ExprKind::Var(VarRef::Local(local)) => {
-                let local = self.shader.function(function).local(*local);
-                single(local.value.as_ref().filter(|_| local.kind == crate::hir::LocalKind::Const)?)
-            }
-            ExprKind::Convert(operand) => {
-                converted(self.constant_within(function, *operand, depth)?, self.types.get(expr.ty))
-            }
-            ExprKind::Unary(UnaryOp::Negate, operand) => match self.constant_within(function, *operand, depth)? {
-                ScalarValue::Int(value) => Some(ScalarValue::Int(value.wrapping_neg())),
-                ScalarValue::Uint(value) => Some(ScalarValue::Uint(value.wrapping_neg())),
-                ScalarValue::Bool(_) | ScalarValue::Float(_) => None,
-            },
-            ExprKind::Binary(op, left, right) => {
-                let left = self.constant_within(function, *left, depth)?;
-                integers(*op, left, self.constant_within(function, *right, depth)?)
-            }
+    /// The value of a scalar expression that is constant.
+    pub(super) fn constant_of(&self, function: FunctionId, id: ExprId) -> Option<ScalarValue> {
+        match self.evaluated(function, id)?.scalars.as_slice() {
+            [one] => Some(*one),
             _ => None,
         }
-    }
-}
-
-fn single(value: &Value) -> Option<ScalarValue> {
-    match value.scalars.as_slice() {
-        [one] => Some(*one),
-        _ => None,
-    }
-}
-
-fn integers(op: BinaryOp, left: ScalarValue, right: ScalarValue) -> Option<ScalarValue> {
-    match (left, right) {
-        (ScalarValue::Int(left), ScalarValue::Int(right)) => Some(ScalarValue::Int(match op {
-            BinaryOp::Add => left.wrapping_add(right),
-            BinaryOp::Sub => left.wrapping_sub(right),
-            BinaryOp::Mul => left.wrapping_mul(right),
-            BinaryOp::Div => left.checked_div(right)?,
-            BinaryOp::Rem => left.checked_rem(right)?,
-            _ => return None,
-        })),
-        (ScalarValue::Uint(left), ScalarValue::Uint(right)) => Some(ScalarValue::Uint(match op {
-            BinaryOp::Add => left.wrapping_add(right),
-            BinaryOp::Sub => left.wrapping_sub(right),
-            BinaryOp::Mul => left.wrapping_mul(right),
-            BinaryOp::Div => left.checked_div(right)?,
-            BinaryOp::Rem => left.checked_rem(right)?,
-            _ => return None,
-        })),
-        _ => None,
-    }
-}
-
-/// A literal converted to a scalar type (§5.4.1); `None` for types that are no scalars, and where GLSL leaves the result
-/// open.
-pub(super) fn converted(value: ScalarValue, to: Type) -> Option<ScalarValue> {
-    let Type::Scalar(to) = to else { return None };
-    let number = match value {
-        ScalarValue::Bool(value) => f64::from(u8::from(value)),
-        ScalarValue::Int(value) => f64::from(value),
-        ScalarValue::Uint(value) => f64::from(value),
-        ScalarValue::Float(value) => f64::from(value),
-    };
-    let whole = number.trunc();
-    match (value, to) {
-        (_, Scalar::Bool) => Some(ScalarValue::Bool(number != 0.0)),
-        (_, Scalar::Float) => Some(ScalarValue::Float(number as f32)),
-        (ScalarValue::Uint(bits), Scalar::Int) => Some(ScalarValue::Int(bits as i32)),
-        (ScalarValue::Int(bits), Scalar::Uint) => Some(ScalarValue::Uint(bits as u32)),
-        (_, Scalar::Int) if (-2_147_483_648.0..2_147_483_648.0).contains(&whole) => {
-            Some(ScalarValue::Int(whole as i32))
-        }
-        (_, Scalar::Uint) if (0.0..4_294_967_296.0).contains(&whole) => Some(ScalarValue::Uint(whole as u32)),
-        _ => None,
     }
 }

@@ -21,6 +21,13 @@ impl Ctx<'_, '_> {
 
     fn value_here(&mut self, id: ExprId) -> Try<Handle<Expression>> {
         let expr = self.shader.expr(id);
+        if is_operation(&expr.kind)
+            && let Some(value) = self.low.evaluated(self.id, id)
+        {
+            // What a target would evaluate before the shader runs is evaluated here: targets refuse results that are
+            // not finite, integers that overflow, and divisions by zero.
+            return self.constant(&value);
+        }
         match &expr.kind {
             ExprKind::Error => Err(internal(expr.span, "an expression with errors was handed on")),
             ExprKind::Literal(value) => Ok(self.scalar(*value)),
@@ -230,11 +237,6 @@ impl Ctx<'_, '_> {
 
     /// The component-wise conversion to the scalar type of `to` (§4.1.10, §5.4.1).
     fn convert(&mut self, operand: ExprId, to: TypeId) -> Try<Handle<Expression>> {
-        if let ExprKind::Literal(value) = self.shader.expr(operand).kind
-            && let Some(converted) = super::constants::converted(value, self.low.types.get(to))
-        {
-            return Ok(self.scalar(converted));
-        }
         let from = self.shader.expr(operand).ty;
         let value = self.value(operand)?;
         Ok(self.converted(value, from, to))
@@ -267,4 +269,17 @@ impl Ctx<'_, '_> {
         self.back_to(outer);
         place
     }
+}
+
+/// Whether the expression computes something new from its operands.
+fn is_operation(kind: &ExprKind) -> bool {
+    matches!(
+        kind,
+        ExprKind::Unary(..)
+            | ExprKind::Binary(..)
+            | ExprKind::Logical(..)
+            | ExprKind::Ternary(..)
+            | ExprKind::Convert(_)
+            | ExprKind::BuiltinCall(..)
+    )
 }

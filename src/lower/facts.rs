@@ -16,6 +16,8 @@ pub(super) struct Nature {
     pub(super) effects: bool,
     /// It samples a texture or takes a derivative, which depends on control flow.
     pub(super) control: bool,
+    /// Its value may be known before the shader runs: it is made of literals and constants.
+    pub(super) constant: bool,
     /// How many nodes it has; saturates.
     pub(super) cost: u32,
 }
@@ -147,11 +149,12 @@ pub(super) fn children(kind: &ExprKind, mut visit: impl FnMut(ExprId)) {
 fn natures(shader: &Shader) -> Vec<Nature> {
     let mut all: Vec<Nature> = Vec::with_capacity(shader.exprs.len());
     for expr in &shader.exprs {
-        let mut nature = own_nature(&expr.kind);
+        let mut nature = own_nature(shader, &expr.kind);
         children(&expr.kind, |child| {
             if let Some(known) = all.get(child.index()) {
                 nature.effects |= known.effects;
                 nature.control |= known.control;
+                nature.constant &= known.constant;
                 nature.cost = nature.cost.saturating_add(known.cost);
             }
         });
@@ -160,7 +163,7 @@ fn natures(shader: &Shader) -> Vec<Nature> {
     all
 }
 
-fn own_nature(kind: &ExprKind) -> Nature {
+fn own_nature(shader: &Shader, kind: &ExprKind) -> Nature {
     let effects = matches!(
         kind,
         ExprKind::IncDec(..)
@@ -175,7 +178,13 @@ fn own_nature(kind: &ExprKind) -> Nature {
         ExprKind::BuiltinCall(function, _) => depends_on_control_flow(*function),
         _ => false,
     };
-    Nature { effects, control, cost: 1 }
+    let constant = match kind {
+        ExprKind::Var(VarRef::Global(global)) => shader.global(*global).storage == Storage::Const,
+        // Which local it is, only its function tells; the evaluation looks again.
+        ExprKind::Var(VarRef::Local(_)) => true,
+        _ => !effects && !control,
+    };
+    Nature { effects, control, constant, cost: 1 }
 }
 
 /// Whether the function takes derivatives, said or unsaid (GLSL 1.50 §8.7, §8.8).

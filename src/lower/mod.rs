@@ -17,7 +17,7 @@
 //! | `function` | the state of one function: naga's arenas, emission, names |
 //! | `statements`, `control` | §6 |
 //! | `expressions`, `operators`, `constructors`, `places`, `calls` | §5 |
-//! | `builtins`, `textures`, `matrices`, `aggregates` | §8 |
+//! | `builtins`, `textures`, `texel_loads`, `matrices`, `aggregates` | §8 |
 //! | `constants` | constant values, and keeping what is not finite from the target's evaluation |
 
 mod aggregates;
@@ -37,6 +37,7 @@ mod outputs;
 mod places;
 mod samplers;
 mod statements;
+mod texel_loads;
 mod textures;
 mod types;
 mod uniforms;
