@@ -7,7 +7,9 @@
 
 mod conventions;
 mod inline;
+pub mod reflection;
 mod write;
 
 pub use conventions::{ClipZ, Conventions, SpirvEnv, Target, WindowOrigin};
+pub use reflection::{Reflection, reflect};
 pub use write::{Emitted, emit, emit_with_sources};
