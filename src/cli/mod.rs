@@ -19,6 +19,7 @@ mod inputs;
 mod lint;
 // mod pictures;
 mod progress;
+// mod report;
 // mod render;
 // mod scenes;
 mod session;

@@ -112,9 +112,14 @@ impl From<Error> for DrawError {
 }
 
 impl SceneArgs {
+    /// A session that compiles as the arguments say.
+    pub(super) fn session<'a>(&self, console: &'a Console) -> Result<Session<'a>, Failure> {
+        Session::new(console, &self.sources, &BindingArgs::default(), &self.levels, 0)
+    }
+
     /// Reads the scene and tells what was found; without a scene, what that comes to.
     pub(super) fn read<'a>(&self, console: &'a Console) -> Result<Result<Read<'a>, Exit>, Failure> {
-        let mut session = Session::new(console, &self.sources, &BindingArgs::default(), &self.levels, 0)?;
+        let mut session = self.session(console)?;
         let loaded = guard::guarded(|| scene::load(&self.scene, &DiskFiles, session.compiler()));
         let loaded = loaded.map_err(|panic| {
             Failure::new(Exit::Content, format!("internal error: {panic}")).help("please report it with the scene")

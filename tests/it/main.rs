@@ -1,3 +1,4 @@
 //! All integration tests, in one binary so that wgpu is linked once. One module an area.
 
 mod architecture;
+mod cli;

@@ -1,0 +1,100 @@
+//! `glisten report`: error against run time of the ways to shade a scene, as JSON and as a page.
+
+use super::console::Console;
+use super::exit::{Exit, Failure, Outcome};
+use super::files;
+use super::progress::Progress;
+use super::scenes::{DrawError, SceneArgs, ViaArg};
+use super::session::{Batch, Session};
+use crate::gpu::Via;
+use crate::report::{self, Error, Report, Watcher};
+use crate::scene::DiskFiles;
+use crate::source::SourceMap;
+use clap::Args;
+use std::path::PathBuf;
+
+/// Measures the ways to shade a scene: error against run time
+#[derive(Args, Debug)]
+pub(super) struct ReportArgs {
+    #[command(flatten)]
+    scene: SceneArgs,
+    /// The folder for report.json and report.html
+    #[arg(short, long, value_name = "DIR")]
+    output: PathBuf,
+    /// What the GPU runs
+    #[arg(long, value_enum, default_value_t)]
+    via: ViaArg,
+}
+
+/// Shows the steps of a report as they go on.
+struct Steps<'a> {
+    console: &'a Console,
+    progress: Progress,
+    begun: bool,
+}
+
+impl Watcher for Steps<'_> {
+    fn steps(&mut self, count: usize) {
+        self.progress = Progress::new(self.console, count);
+    }
+
+    fn step(&mut self, what: &str) {
+        if self.begun {
+            self.progress.step();
+        }
+        self.begun = true;
+        self.progress.say(what);
+    }
+}
+
+/// Runs the command.
+pub(super) fn run(args: &ReportArgs, console: &Console) -> Outcome {
+    let session = args.scene.session(console)?;
+    files::make_folder(&args.output)?;
+    let gpu = match args.scene.gpu() {
+        Ok(gpu) => gpu,
+        Err(error) => return told(session, SourceMap::default(), error),
+    };
+    let via: Via = args.via.into();
+    let mut steps = Steps { console, progress: Progress::new(console, 1), begun: false };
+    let result = report::run(&args.scene.scene, &DiskFiles, session.compiler(), &gpu, via, &mut steps);
+    drop(steps);
+    match result {
+        Ok(report) => write(args, console, &report),
+        Err(Error::Scene { sources, diagnostics, io_error }) => {
+            let exit = told(session, *sources, DrawError::Diagnostics(diagnostics.into_iter().collect()))?;
+            Ok(if io_error { exit.max(Exit::Usage) } else { exit })
+        }
+        Err(Error::Reference { way, diagnostics }) => {
+            console.remark(&format!("the reference cannot draw `{way}`"));
+            told(session, SourceMap::default(), DrawError::Diagnostics(diagnostics))
+        }
+        Err(Error::Gpu { way, error }) => {
+            console.remark(&format!("the GPU cannot draw `{way}`"));
+            told(session, SourceMap::default(), error.into())
+        }
+    }
+}
+
+fn told(mut session: Session<'_>, sources: SourceMap, error: DrawError) -> Outcome {
+    match error {
+        DrawError::Failure(failure) => Err(failure),
+        DrawError::Diagnostics(diagnostics) => {
+            let mut batch = Batch { sources, diagnostics };
+            session.judge(&mut batch);
+            Ok(session.tell(&[&batch], false)?.max(Exit::Content))
+        }
+    }
+}
+
+fn write(args: &ReportArgs, console: &Console, report: &Report) -> Outcome {
+    let html = report.html().map_err(|error| Failure::new(Exit::Content, format!("internal error: {error}")))?;
+    files::write(&args.output.join("report.json"), report.json().as_bytes())?;
+    let page = args.output.join("report.html");
+    files::write(&page, html.as_bytes())?;
+    if !console.is_quiet() {
+        console.output(&report.table())?;
+    }
+    console.remark(&format!("wrote {}", page.display()));
+    Ok(Exit::Ok)
+}
