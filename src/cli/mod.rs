@@ -7,7 +7,7 @@
 //! *Holds:* never a panic, never a half-written file, the same bytes for the same input with any `-j`.
 
 mod args;
-// mod compile;
+mod compile;
 mod config;
 mod console;
 mod exit;
@@ -19,6 +19,7 @@ mod inputs;
 mod lint;
 // mod pictures;
 mod progress;
+mod reflect;
 // mod report;
 // mod render;
 // mod scenes;
@@ -59,7 +60,8 @@ struct GlobalArgs {
 #[derive(Debug, Subcommand)]
 enum Command {
     Lint(lint::LintArgs),
-    // Compile(compile::CompileArgs),
+    Compile(compile::CompileArgs),
+    Reflect(reflect::ReflectArgs),
     Explain(explain::ExplainArgs),
 }
 
@@ -91,7 +93,8 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
 fn dispatch(command: &Command, console: &Console) -> Outcome {
     match command {
         Command::Lint(args) => lint::run(args, console),
-        // Command::Compile(args) => compile::run(args, console),
+        Command::Compile(args) => compile::run(args, console),
+        Command::Reflect(args) => reflect::run(args, console),
         Command::Explain(args) => explain::run(args, console),
     }
 }

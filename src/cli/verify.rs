@@ -1,0 +1,189 @@
+//! `glisten verify`: draws a scene on the GPU and by the CPU reference, and judges each pixel.
+
+use super::console::Console;
+use super::exit::{Exit, Outcome};
+use super::progress::Progress;
+use super::scenes::{DrawError, SceneArgs};
+use crate::compare::{Judge, Picture, Verdict, flip};
+use crate::cpu::{self, LineRule, Precision, RenderOptions};
+use crate::gpu::{Gpu, Via};
+use crate::scene::Scene;
+use clap::{Args, ValueEnum};
+use serde::Serialize;
+use std::sync::Arc;
+use std::time::Instant;
+
+/// Draws a scene by GPU and CPU and compares
+#[derive(Args, Debug)]
+pub(super) struct VerifyArgs {
+    #[command(flatten)]
+    scene: SceneArgs,
+    /// What the GPU runs
+    #[arg(long, value_enum, default_value_t)]
+    via: ViaChoice,
+    /// The format of the figures
+    #[arg(long, value_enum, default_value_t)]
+    format: Format,
+    /// Judges by this absolute difference of each channel instead of the derived bound
+    #[arg(long, value_name = "X", value_parser = parse_tolerance)]
+    tolerance: Option<f64>,
+    /// Accepts any number of pixels that the reference cannot decide
+    #[arg(long)]
+    allow_undecided: bool,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+enum ViaChoice {
+    /// SPIR-V, passed to the driver as it is
+    Spirv,
+    /// WGSL, read by wgpu
+    Wgsl,
+    /// One after the other
+    #[default]
+    Both,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// Figures for people
+    #[default]
+    Human,
+    /// One JSON object
+    Json,
+}
+
+fn parse_tolerance(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(tolerance) if tolerance >= 0.0 => Ok(tolerance),
+        _ => Err(format!("`{text}` is no tolerance")),
+    }
+}
+
+/// The comparison of one way to run on the GPU.
+#[derive(Clone, Debug, Serialize)]
+struct Run {
+    /// `spirv`, `wgsl`, or `both` for the worse of the two.
+    via: &'static str,
+    #[serde(flatten)]
+    verdict: Verdict,
+    /// Mean FLIP error, 0 to 1.
+    flip: f64,
+    /// GPU time in ms.
+    gpu_ms: f64,
+    /// Wall time of the reference in ms.
+    cpu_ms: f64,
+}
+
+/// What is printed as JSON: the worse of all runs, and each of them.
+#[derive(Serialize)]
+struct Report<'a> {
+    #[serde(flatten)]
+    worse: &'a Run,
+    runs: &'a [Run],
+    holds: bool,
+}
+
+/// Runs the command.
+pub(super) fn run(args: &VerifyArgs, console: &Console) -> Outcome {
+    let read = match args.scene.read(console)? {
+        Ok(read) => read,
+        Err(exit) => return Ok(exit),
+    };
+    let vias = match args.via {
+        ViaChoice::Spirv => vec![Via::Spirv],
+        ViaChoice::Wgsl => vec![Via::Wgsl],
+        ViaChoice::Both => vec![Via::Spirv, Via::Wgsl],
+    };
+    let progress = Progress::new(console, vias.len() + 1);
+    let runs = match compare(args, Arc::new(read.scene.clone()), &vias, &progress) {
+        Ok(runs) => runs,
+        Err(error) => return read.failed(error),
+    };
+    drop(progress);
+    let Some(worse) = worst_of(&runs) else { return Ok(Exit::Ok) };
+    let holds = runs.iter().all(|run| run.verdict.holds(args.allow_undecided));
+    let text = match args.format {
+        Format::Json => {
+            let report = Report { worse: &worse, runs: &runs, holds };
+            serde_json::to_string_pretty(&report).expect("figures are always JSON") + "\n"
+        }
+        Format::Human => runs.iter().map(|run| human(run, args.allow_undecided)).collect(),
+    };
+    console.output(&text)?;
+    Ok(if holds { Exit::Ok } else { Exit::Content })
+}
+
+fn compare(args: &VerifyArgs, scene: Arc<Scene>, vias: &[Via], progress: &Progress) -> Result<Vec<Run>, DrawError> {
+    let gpu = Arc::new(args.scene.gpu()?);
+    progress.say("the reference");
+    let start = Instant::now();
+    let cpu = args.scene.within_time({
+        let scene = Arc::clone(&scene);
+        move || Ok(reference(&scene)?)
+    })?;
+    let cpu_ms = start.elapsed().as_secs_f64() * 1e3;
+    progress.step();
+    let judge = args.tolerance.map_or(Judge::Bound, Judge::Tolerance);
+    let mut runs = Vec::new();
+    for via in vias {
+        progress.say(via.name());
+        let (picture, gpu_ms) = on_gpu(args, Arc::clone(&gpu), Arc::clone(&scene), *via)?;
+        let verdict = Verdict::new(&picture, &cpu, judge);
+        runs.push(Run { via: via.name(), verdict, flip: flip(&cpu, &picture), gpu_ms, cpu_ms });
+        progress.step();
+    }
+    Ok(runs)
+}
+
+/// The reference with its bounds; lines by the rule of the target.
+fn reference(scene: &Scene) -> Result<Picture, DrawError> {
+    let options = RenderOptions { precision: Precision::Bound, lines: LineRule::Vulkan, ..RenderOptions::default() };
+    Ok(cpu::render(scene, &options)?)
+}
+
+fn on_gpu(args: &VerifyArgs, gpu: Arc<Gpu>, scene: Arc<Scene>, via: Via) -> Result<(Picture, f64), DrawError> {
+    args.scene.within_time(move || {
+        let rendered = gpu.render(&scene, via)?;
+        Ok((rendered.picture, rendered.milliseconds))
+    })
+}
+
+fn worst_of(runs: &[Run]) -> Option<Run> {
+    runs.iter().cloned().reduce(|worse, run| Run {
+        via: "both",
+        verdict: worse.verdict.worse(&run.verdict),
+        flip: worse.flip.max(run.flip),
+        gpu_ms: worse.gpu_ms.max(run.gpu_ms),
+        cpu_ms: worse.cpu_ms,
+    })
+}
+
+fn human(run: &Run, allow_undecided: bool) -> String {
+    let verdict = &run.verdict;
+    let psnr = verdict.psnr.map_or("equal".to_owned(), |psnr| format!("{psnr:.1} dB"));
+    let rows = [
+        ("covered", format!("{} of {} pixels", verdict.covered, verdict.pixels)),
+        ("largest error", format!("{:.3e} ({:.1} ulp)", verdict.max_abs, verdict.max_ulp)),
+        ("rmse, psnr", format!("{:.3e}, {psnr}", verdict.rmse)),
+        ("flip", format!("{:.3e}", run.flip)),
+        ("outside", format!("{} (judged by {})", verdict.outside, verdict.judged_by)),
+        ("undecided", verdict.undecided.to_string()),
+        ("coverage mismatch", format!("{} ({} at edges)", verdict.coverage_mismatch, verdict.edge_pixels)),
+        ("not finite", format!("gpu {}, cpu {}", verdict.non_finite_gpu, verdict.non_finite_cpu)),
+        ("time", format!("gpu {:.3} ms, cpu {:.3} ms", run.gpu_ms, run.cpu_ms)),
+    ];
+    let mark = if verdict.holds(allow_undecided) { "holds" } else { "DOES NOT HOLD" };
+    let mut text = format!("{}: {mark}\n", run.via);
+    for (name, value) in rows {
+        text.push_str(&format!("  {name:18} {value}\n"));
+    }
+    if let Some(worst) = verdict.worst
+        && verdict.max_abs > 0.0
+    {
+        let numbers = |color: [f64; 4]| color.map(|value| format!("{value:.7}")).join(", ");
+        text.push_str(&format!("  worst pixel        ({}, {})\n", worst.x, worst.y));
+        text.push_str(&format!("    gpu   {}\n    cpu   {}\n", numbers(worst.gpu), numbers(worst.cpu)));
+        text.push_str(&format!("    bound {}\n", worst.bound.map(|value| format!("{value:.2e}")).join(", ")));
+    }
+    text
+}
