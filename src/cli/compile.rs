@@ -12,10 +12,10 @@ use super::inputs::{self, Group};
 use super::session::{Session, Unit};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::general::LONE_STAGE;
-use crate::emit::{self, Conventions, Emitted, Target};
+use crate::emit::{self, Conventions, Target};
 use crate::hir::Stage;
 use crate::link::Program;
-use crate::source::Span;
+use crate::source::{SourceMap, Span};
 use clap::{Args, ValueEnum};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
@@ -191,22 +191,28 @@ impl Plan {
     /// The outputs of one program; none if there are errors already.
     fn emit(&self, unit: &Unit) -> Result<Vec<Output>, Vec<Diagnostic>> {
         let Some(program) = unit.sound_program() else { return Ok(Vec::new()) };
-        guard::guarded(|| self.emit_program(&unit.group, program)).unwrap_or_else(|panic| {
+        guard::guarded(|| self.emit_program(&unit.group, program, &unit.batch.sources)).unwrap_or_else(|panic| {
             let span = unit.batch.sources.files().next().map_or(0, |(_, file)| file.base());
             Err(vec![guard::diagnostic(&panic, Span::new(span, span))])
         })
     }
 
-    fn emit_program(&self, group: &Group, program: &Program) -> Result<Vec<Output>, Vec<Diagnostic>> {
+    fn emit_program(
+        &self,
+        group: &Group,
+        program: &Program,
+        sources: &SourceMap,
+    ) -> Result<Vec<Output>, Vec<Diagnostic>> {
         let mut outputs = Vec::new();
         let mut diagnostics = Vec::new();
+        let sources = Some(sources);
         for shader in &program.stages {
             let Some(input) = group.inputs.iter().find(|input| input.stage == shader.stage) else { continue };
             for target in &self.targets {
-                match emit::emit(program, shader.stage, target.target(), &self.conventions) {
+                match emit::emit_with_sources(program, shader.stage, target.target(), &self.conventions, sources) {
                     Ok(emitted) => {
                         let name = format!("{}.{}", input.file_name(), target.extension());
-                        outputs.push((self.folder.join(name), bytes(emitted)));
+                        outputs.push((self.folder.join(name), emitted.into_bytes()));
                     }
                     Err(errors) => diagnostics.extend(errors),
                 }
@@ -256,14 +262,6 @@ fn make_word(name: &str) -> String {
 
 fn files_of(group: &Group) -> String {
     group.inputs.iter().map(|input| format!("`{}`", input.name)).collect::<Vec<_>>().join(", ")
-}
-
-/// The bytes of an output; SPIR-V is little-endian on every machine.
-fn bytes(emitted: Emitted) -> Vec<u8> {
-    match emitted {
-        Emitted::Text(text) => text.into_bytes(),
-        Emitted::Words(words) => words.iter().flat_map(|word| word.to_le_bytes()).collect(),
-    }
 }
 
 fn warn_of_lone_stage(unit: &mut Unit) {

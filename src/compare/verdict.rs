@@ -80,7 +80,8 @@ impl Verdict {
             Judge::Bound => "bound",
             Judge::Tolerance(_) => "tolerance",
         };
-        let mut tally = Tally { gpu, cpu, judge, verdict: Self { judged_by, ..Self::default() }, ..Tally::new(gpu, cpu) };
+        let mut tally =
+            Tally { gpu, cpu, judge, verdict: Self { judged_by, ..Self::default() }, ..Tally::new(gpu, cpu) };
         for pixel in 0..cpu.covered.len() {
             tally.pixel(pixel);
         }
