@@ -33,5 +33,7 @@ pub mod gpu;
 pub mod report;
 #[cfg(feature = "reference")]
 pub mod scene;
+#[cfg(feature = "reference")]
+pub mod shader_test;
 
 pub use compiler::{Compilation, Compiler, Options, Source};

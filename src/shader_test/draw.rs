@@ -1,0 +1,158 @@
+//! Draw commands as draws of a scene.
+
+use super::vertex_data::{Column, VertexData};
+use super::words::Words;
+use super::{Outcome, fail, skip};
+use crate::hir::{Scalar, Type, TypeId, Types};
+use crate::link::{Attribute, Program};
+use crate::scene::{AttributeData, AttributeValues, Primitive};
+
+/// What a draw command draws.
+#[derive(Clone, Debug)]
+pub(super) struct Geometry {
+    pub(super) primitive: Primitive,
+    pub(super) count: u32,
+    pub(super) indices: Option<Vec<u32>>,
+    pub(super) instances: u32,
+    pub(super) attributes: Vec<Option<AttributeData>>,
+}
+
+/// The attribute of a rectangle's corners, and that of its texture coordinates.
+const VERTEX: &str = "piglit_vertex";
+const TEXCOORD: &str = "piglit_texcoord";
+/// The most instances of a draw.
+const MOST_INSTANCES: u32 = 1 << 16;
+
+const MODES: &[(&str, Primitive)] = &[
+    ("GL_POINTS", Primitive::Points),
+    ("GL_LINES", Primitive::Lines),
+    ("GL_LINE_STRIP", Primitive::LineStrip),
+    ("GL_LINE_LOOP", Primitive::LineLoop),
+    ("GL_TRIANGLES", Primitive::Triangles),
+    ("GL_TRIANGLE_STRIP", Primitive::TriangleStrip),
+    ("GL_TRIANGLE_FAN", Primitive::TriangleFan),
+];
+
+/// Reads what follows `draw`.
+pub(super) fn parse(
+    words: &mut Words<'_>,
+    program: &Program,
+    data: &VertexData,
+    size: [u32; 2],
+) -> Result<Geometry, Outcome> {
+    let line = words.line;
+    if words.eat("arrays") {
+        return arrays(words, program, data);
+    }
+    let instanced = words.eat("instanced");
+    if !words.eat("rect") {
+        return skip(line, format_args!("`draw {}` is not supported", words.rest().join(" ")));
+    }
+    let textured = words.eat("tex");
+    let ortho = words.eat("ortho");
+    if words.eat("patch") {
+        return skip(line, "patches are not supported");
+    }
+    let instances = if instanced { words.count()? } else { 1 };
+    let mut corners: [f64; 4] = words.numbers()?;
+    if ortho {
+        // From pixels to normalized device coordinates.
+        let scaled = |value: f64, side: u32| value * 2.0 / f64::from(side);
+        let [x, y, width, height] = corners;
+        corners = [scaled(x, size[0]) - 1.0, scaled(y, size[1]) - 1.0, scaled(width, size[0]), scaled(height, size[1])];
+    }
+    let mut columns = vec![rectangle(VERTEX, corners)];
+    if textured {
+        columns.push(rectangle(TEXCOORD, words.numbers()?));
+    }
+    let data = VertexData { columns, rows: 4 };
+    Ok(Geometry {
+        primitive: Primitive::TriangleStrip,
+        count: 4,
+        indices: None,
+        instances: instances.min(MOST_INSTANCES),
+        attributes: attributes(program, &data),
+    })
+}
+
+/// The four corners for a strip.
+fn rectangle(attribute: &str, [x, y, width, height]: [f64; 4]) -> Column {
+    let values = vec![x, y, x + width, y, x, y + height, x + width, y + height];
+    Column { attribute: attribute.into(), element: 0, column: 0, size: 2, values }
+}
+
+/// `draw arrays GL_TRIANGLES 0 3`, or `draw arrays instanced GL_TRIANGLES 0 3 2`.
+fn arrays(words: &mut Words<'_>, program: &Program, data: &VertexData) -> Result<Geometry, Outcome> {
+    let line = words.line;
+    let instanced = words.eat("instanced");
+    let mode = words.word()?;
+    let (first, count) = (words.count()?, words.count()?);
+    let instances = if instanced { words.count()? } else { 1 };
+    if !data.columns.is_empty() && u64::from(first) + u64::from(count) > u64::from(data.rows) {
+        return fail(line, format_args!("the draw goes beyond the {} rows of vertex data", data.rows));
+    }
+    let (primitive, indices) = match MODES.iter().find(|(name, _)| *name == mode) {
+        Some((_, primitive)) => (*primitive, None),
+        None if mode == "GL_QUADS" => {
+            // The last vertex of a quad provokes both of its halves.
+            let halves = (0..count / 4).flat_map(|quad| [0, 1, 3, 1, 2, 3].map(|corner| quad * 4 + corner));
+            (Primitive::Triangles, Some(halves.collect::<Vec<u32>>()))
+        }
+        None => return skip(line, format_args!("`{mode}` is not supported")),
+    };
+    // gl_VertexID counts from `first`; indices do that, too.
+    let indices = match indices {
+        Some(indices) => Some(indices.into_iter().map(|index| index + first).collect()),
+        None if first > 0 => Some((first..first.saturating_add(count)).collect()),
+        None => None,
+    };
+    Ok(Geometry {
+        primitive,
+        count: indices.as_ref().map_or(count, |indices: &Vec<u32>| indices.len() as u32),
+        indices,
+        instances: instances.min(MOST_INSTANCES),
+        attributes: attributes(program, data),
+    })
+}
+
+/// The data of every attribute of a program, `None` where the table has no column for it.
+fn attributes(program: &Program, data: &VertexData) -> Vec<Option<AttributeData>> {
+    program.interface.attributes.iter().map(|attribute| attribute_data(&program.types, attribute, data)).collect()
+}
+
+fn attribute_data(types: &Types, attribute: &Attribute, data: &VertexData) -> Option<AttributeData> {
+    let columns: Vec<&Column> = data.columns.iter().filter(|column| column.attribute == attribute.name).collect();
+    let (scalar, height, per_element) = shape(types, attribute.ty)?;
+    let first = columns.first()?;
+    // A lone column keeps its own size, so that missing components are filled by the rule; of several each is whole.
+    let size = if attribute.columns == 1 { first.size.min(height) } else { attribute.columns * height };
+    let mut values = Vec::new();
+    for row in 0..data.rows as usize {
+        for location in 0..attribute.columns {
+            let column = columns.iter().find(|column| column.element * per_element + column.column == location);
+            for component in 0..if attribute.columns == 1 { size } else { height } {
+                let value = column
+                    .filter(|column| component < column.size)
+                    .and_then(|column| column.values.get(row * column.size as usize + component as usize));
+                values.push(value.copied().unwrap_or(if component == 3 { 1.0 } else { 0.0 }));
+            }
+        }
+    }
+    let values = match scalar {
+        Scalar::Float => AttributeValues::Float(values.into_iter().map(|value| value as f32).collect()),
+        Scalar::Int => AttributeValues::Int(values.into_iter().map(|value| value as i32).collect()),
+        Scalar::Uint | Scalar::Bool => AttributeValues::Uint(values.into_iter().map(|value| value as u32).collect()),
+    };
+    Some(AttributeData { size, divisor: 0, values })
+}
+
+/// The scalar, the components of a location, and the locations of an array's element.
+fn shape(types: &Types, ty: TypeId) -> Option<(Scalar, u32, u32)> {
+    match types.get(ty) {
+        Type::Scalar(scalar) => Some((scalar, 1, 1)),
+        Type::Vector(scalar, size) => Some((scalar, u32::from(size), 1)),
+        Type::Matrix(columns, rows) => Some((Scalar::Float, u32::from(rows), u32::from(columns))),
+        Type::Array(element, _) => shape(types, element),
+        Type::Error | Type::Void | Type::Sampler(_) | Type::Struct(_) => None,
+    }
+}

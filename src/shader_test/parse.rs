@@ -1,0 +1,131 @@
+//! The sections of a test.
+
+use super::{Outcome, fail, skip};
+use crate::hir::Stage;
+
+/// A line with its number, counted from 1, without comment and surrounding blanks.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Line {
+    pub(super) number: u32,
+    pub(super) text: String,
+}
+
+/// A shader's text.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct ShaderText {
+    pub(super) stage: Stage,
+    /// With so many empty lines in front that its lines have the numbers of the test's.
+    pub(super) text: String,
+    /// Whether it is the ready-made one.
+    pub(super) passthrough: bool,
+}
+
+/// A test cut into its sections.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(super) struct TestFile {
+    pub(super) requirements: Vec<Line>,
+    pub(super) shaders: Vec<ShaderText>,
+    pub(super) vertex_data: Vec<Line>,
+    pub(super) commands: Vec<Line>,
+}
+
+/// What `[vertex shader passthrough]` stands for.
+const PASSTHROUGH: &str = "#version 150\nin vec4 piglit_vertex;\nvoid main() { gl_Position = piglit_vertex; }\n";
+
+/// What a line belongs to.
+enum Section {
+    Nothing,
+    Requirements,
+    Shader,
+    VertexData,
+    Commands,
+    Ignored,
+}
+
+/// Cuts a test into its sections.
+pub(super) fn parse(text: &str) -> Result<TestFile, Outcome> {
+    let mut file = TestFile::default();
+    let mut section = Section::Nothing;
+    for (number, raw) in (1..).zip(text.lines()) {
+        if let Some(name) = header(raw) {
+            section = open(&mut file, name, number)?;
+            continue;
+        }
+        let line = || Line { number, text: raw.split('#').next().unwrap_or("").trim().to_owned() };
+        let list = match section {
+            Section::Requirements => &mut file.requirements,
+            Section::VertexData => &mut file.vertex_data,
+            Section::Commands => &mut file.commands,
+            Section::Shader => {
+                if let Some(shader) = file.shaders.last_mut() {
+                    shader.text.push_str(raw);
+                    shader.text.push('\n');
+                }
+                continue;
+            }
+            Section::Nothing | Section::Ignored => continue,
+        };
+        let line = line();
+        if !line.text.is_empty() {
+            list.push(line);
+        }
+    }
+    if file.commands.is_empty() && file.shaders.is_empty() {
+        return fail(1, "this is no shader test: it has neither a shader nor a [test] section");
+    }
+    Ok(file)
+}
+
+/// The name in a section's header.
+fn header(raw: &str) -> Option<&str> {
+    let name = raw.strip_prefix('[')?.split(']').next()?;
+    let is_name =
+        |name: &str| name.starts_with(char::is_alphabetic) && name.chars().all(|c| c.is_alphabetic() || c == ' ');
+    is_name(name).then_some(name)
+}
+
+fn open(file: &mut TestFile, name: &str, number: u32) -> Result<Section, Outcome> {
+    let shader = |stage, text, passthrough| ShaderText { stage, text, passthrough };
+    Ok(match name {
+        "require" => Section::Requirements,
+        "vertex shader passthrough" => {
+            file.shaders.push(shader(Stage::Vertex, PASSTHROUGH.into(), true));
+            Section::Ignored
+        }
+        "vertex shader" | "fragment shader" => {
+            let stage = if name.starts_with("vertex") { Stage::Vertex } else { Stage::Fragment };
+            if file.shaders.iter().any(|other| other.stage == stage) {
+                return skip(number, format_args!("several shaders of the {} stage", stage.name()));
+            }
+            file.shaders.push(shader(stage, "\n".repeat(number as usize), false));
+            Section::Shader
+        }
+        "vertex data" => Section::VertexData,
+        "test" => Section::Commands,
+        "description" | "comment" => Section::Ignored,
+        _ => return skip(number, format_args!("[{name}] is not supported")),
+    })
+}
+
+#[cfg(test)]
+mod unit {
+    use super::*;
+
+    #[test]
+    fn sections_and_comments() {
+        let file = parse(
+            "# head\n[require]\nGLSL >= 1.50 # comment\n\n[fragment shader]\n#version 150\nint a[2];\n[test]\nclear\n",
+        )
+        .expect("a test");
+        assert_eq!(file.requirements, [Line { number: 3, text: "GLSL >= 1.50".into() }]);
+        assert_eq!(file.shaders[0].text, "\n\n\n\n\n#version 150\nint a[2];\n");
+        assert_eq!(file.commands, [Line { number: 9, text: "clear".into() }]);
+    }
+
+    #[test]
+    fn what_is_unknown_is_skipped_by_name() {
+        let outcome = parse("[compute shader]\n").expect_err("unsupported");
+        assert_eq!(outcome, Outcome::Skip("line 1: [compute shader] is not supported".into()));
+        assert!(matches!(parse("hello"), Err(Outcome::Fail(_))));
+    }
+}

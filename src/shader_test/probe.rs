@@ -1,0 +1,157 @@
+//! Probes: what pixels must be.
+
+use super::words::Words;
+use super::{Outcome, fail, skip};
+use crate::compare::Picture;
+
+/// A rectangle in window coordinates, whose origin is at the lower left.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Area {
+    x: u32,
+    y: u32,
+    width: u32,
+    height: u32,
+}
+
+/// What a probe looks at, before the window's size is known to matter.
+struct Probe {
+    area: Area,
+    /// The wanted channels: 3 or 4.
+    color: Vec<f64>,
+}
+
+/// Whether a line is a probe at all.
+pub(super) fn is_probe(words: &Words<'_>) -> bool {
+    matches!(words.rest(), ["probe", ..] | ["relative", "probe", ..])
+}
+
+/// Reads a probe and holds it against the picture.
+pub(super) fn check(mut words: Words<'_>, picture: &Picture, tolerance: [f64; 4]) -> Result<(), Outcome> {
+    let line = words.line;
+    let probe = parse(&mut words, [picture.width, picture.height])?;
+    let pixels = picture.attachments.first().map(Vec::as_slice).unwrap_or_default();
+    for y in probe.area.y..probe.area.y.saturating_add(probe.area.height) {
+        for x in probe.area.x..probe.area.x.saturating_add(probe.area.width) {
+            let Some(row) = picture.height.checked_sub(y + 1).filter(|_| x < picture.width) else {
+                return fail(line, format_args!("the probe looks at ({x}, {y}), outside of the window"));
+            };
+            let index = row as usize * picture.width as usize + x as usize;
+            let Some(color) = pixels.get(index) else { continue };
+            let far = |((seen, wanted), tolerance): ((&f64, &f64), &f64)| {
+                // Not `>`: a NaN is far from everything.
+                !((seen - wanted).abs() <= *tolerance)
+            };
+            if color.iter().zip(&probe.color).zip(&tolerance).any(far) {
+                return fail(
+                    line,
+                    format_args!(
+                        "pixel ({x}, {y}) is {}, not {}",
+                        tuple(&color[..probe.color.len()]),
+                        tuple(&probe.color)
+                    ),
+                );
+            }
+        }
+    }
+    Ok(())
+}
+
+fn tuple(channels: &[f64]) -> String {
+    let list: Vec<String> = channels.iter().map(|channel| format!("{}", *channel as f32)).collect();
+    format!("({})", list.join(", "))
+}
+
+/// All forms, each in pixels or relative to the window's size.
+fn parse(words: &mut Words<'_>, size: [u32; 2]) -> Result<Probe, Outcome> {
+    let line = words.line;
+    let relative = words.eat("relative");
+    words.eat("probe");
+    words.eat("warn");
+    let everything = words.eat("all");
+    let rectangle = !everything && words.eat("rect");
+    let channels = match words.word()? {
+        "rgba" => 4,
+        "rgb" => 3,
+        other => return skip(line, format_args!("`probe {other}` is not supported")),
+    };
+    if words.eat("int") || words.eat("uint") {
+        // The colors of an integer framebuffer, as numbers.
+    }
+    let area = if everything {
+        Area { x: 0, y: 0, width: size[0], height: size[1] }
+    } else {
+        let [x, y] = words.numbers()?;
+        let [width, height] = if rectangle { words.numbers()? } else { [1.0, 1.0] };
+        if relative {
+            relative_area([x, y], rectangle.then_some([width, height]), size)
+        } else {
+            area([x, y, width, height])
+        }
+    };
+    let mut color = Vec::new();
+    for _ in 0..channels {
+        color.push(words.number()?);
+    }
+    Ok(Probe { area, color })
+}
+
+fn area([x, y, width, height]: [f64; 4]) -> Area {
+    Area { x: x as u32, y: y as u32, width: width as u32, height: height as u32 }
+}
+
+/// Fractions of the window; a point at its far edge is the last pixel.
+fn relative_area(corner: [f64; 2], extent: Option<[f64; 2]>, size: [u32; 2]) -> Area {
+    let scaled = |fraction: [f64; 2]| [fraction[0] * f64::from(size[0]), fraction[1] * f64::from(size[1])];
+    let [x, y] = scaled(corner);
+    match extent.map(scaled) {
+        Some([width, height]) => area([x, y, width, height]),
+        None => area([x.min(f64::from(size[0] - 1)), y.min(f64::from(size[1] - 1)), 1.0, 1.0]),
+    }
+}
+
+#[cfg(test)]
+mod unit {
+    use super::*;
+
+    /// Two by two pixels: red at the lower left, NaN at the upper right.
+    fn picture() -> Picture {
+        let nan = [f64::NAN, 0.0, 0.0, 1.0];
+        Picture {
+            width: 2,
+            height: 2,
+            attachments: vec![vec![[0.0; 4], nan, [1.0, 0.0, 0.0, 1.0], [0.0, 0.5, 0.0, 1.0]]],
+            covered: vec![true; 4],
+            bounds: None,
+            undecided: vec![false; 4],
+            near_edge: vec![false; 4],
+        }
+    }
+
+    fn check(text: &str) -> Result<(), Outcome> {
+        super::check(Words::new(7, text), &picture(), [0.01; 4])
+    }
+
+    #[test]
+    fn every_form() {
+        for good in [
+            "probe rgba 0 0 1 0 0 1",
+            "probe rgb 1 0 0 0.5 0",
+            "relative probe rgba (0.0, 0.0) (1, 0, 0, 1)",
+            "relative probe rgb (0.5, 0.0) (0, 0.505, 0)",
+            "probe rect rgba (0, 0, 1, 1) (1, 0, 0, 1)",
+            "relative probe rect rgb (0.5, 0.0, 0.5, 0.5) (0, 0.5, 0)",
+        ] {
+            assert_eq!(check(good), Ok(()), "{good}");
+        }
+        for bad in [
+            "probe rgba 0 0 1 0 0 0",
+            "probe rgb 1 1 0 0 0",
+            "probe all rgb 1 0 0",
+            "probe rgb 2 0 0 0 0",
+            "relative probe rect rgb (0, 0, 1, 0.5) (1, 0, 0)",
+        ] {
+            assert!(matches!(check(bad), Err(Outcome::Fail(_))), "{bad}");
+        }
+        assert!(matches!(check("probe depth 0 0 1"), Err(Outcome::Skip(_))));
+    }
+}

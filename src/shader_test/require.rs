@@ -1,0 +1,154 @@
+//! `[require]`: what a test needs.
+
+use super::parse::Line;
+use super::words::Words;
+use super::{Outcome, fail, skip};
+
+/// What the requirements ask of the run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Setup {
+    /// Of the window, in pixels.
+    pub(super) size: [u32; 2],
+    /// Whether the compatibility profile is asked for.
+    pub(super) compatibility: bool,
+}
+
+/// The window of shader_runner.
+const WINDOW: [u32; 2] = [250, 250];
+/// The largest window that a test may ask for.
+const LARGEST: u32 = 4096;
+
+/// Extensions that are core in OpenGL 3.2, or that the compiler knows.
+const EXTENSIONS: &[&str] = &[
+    "GL_ARB_draw_instanced",
+    "GL_ARB_explicit_attrib_location",
+    "GL_ARB_fragment_coord_conventions",
+    "GL_ARB_provoking_vertex",
+    "GL_ARB_seamless_cube_map",
+    "GL_ARB_shader_bit_encoding",
+    "GL_ARB_shader_texture_lod",
+    "GL_ARB_shading_language_420pack",
+    "GL_ARB_shading_language_packing",
+    "GL_ARB_texture_float",
+    "GL_ARB_texture_rectangle",
+    "GL_ARB_texture_rg",
+    "GL_ARB_uniform_buffer_object",
+    "GL_EXT_provoking_vertex",
+    "GL_EXT_texture_array",
+    "GL_EXT_texture_integer",
+];
+
+/// What limits are (OpenGL 3.2, tables 6.40 and following: the least maxima).
+const LIMITS: &[(&str, f64)] = &[
+    ("GL_MAX_CLIP_DISTANCES", 8.0),
+    ("GL_MAX_CLIP_PLANES", 8.0),
+    ("GL_MAX_FRAGMENT_UNIFORM_BLOCKS", 12.0),
+    ("GL_MAX_VERTEX_UNIFORM_BLOCKS", 12.0),
+    ("GL_MAX_VERTEX_OUTPUT_COMPONENTS", 64.0),
+    ("GL_MAX_FRAGMENT_INPUT_COMPONENTS", 128.0),
+    ("GL_MAX_VARYING_COMPONENTS", 64.0),
+    ("GL_MAX_VERTEX_ATTRIBS", 16.0),
+    ("GL_MAX_UNIFORM_BLOCK_SIZE", 16384.0),
+];
+
+/// Reads the requirements; the first that is not met is a skip.
+pub(super) fn check(lines: &[Line]) -> Result<Setup, Outcome> {
+    let mut setup = Setup { size: WINDOW, compatibility: false };
+    for line in lines {
+        let mut words = Words::new(line.number, &line.text);
+        match words.word()? {
+            "GLSL" => {
+                if words.eat("ES") {
+                    return skip(line.number, "requires GLSL ES");
+                }
+                versions(line, &mut words, 1.50, "GLSL")?;
+            }
+            "GL" => {
+                setup.compatibility |= words.eat("COMPAT");
+                words.eat("CORE");
+                if words.eat("ES") {
+                    return skip(line.number, "requires OpenGL ES");
+                }
+                versions(line, &mut words, 3.2, "OpenGL")?;
+            }
+            "SIZE" => {
+                setup.size = [words.count()?, words.count()?];
+                if setup.size.iter().any(|side| !(1..=LARGEST).contains(side)) {
+                    return fail(line.number, format_args!("a window is 1 to {LARGEST} pixels wide and high"));
+                }
+            }
+            "depthbuffer" => {}
+            "INT" => limit(line, &mut words)?,
+            name if LIMITS.iter().any(|(limit, _)| *limit == name) => {
+                let mut words = Words::new(line.number, &line.text);
+                limit(line, &mut words)?;
+            }
+            name if name.starts_with("!GL_") => {
+                if EXTENSIONS.contains(&&name[1..]) {
+                    return skip(line.number, format_args!("requires that {} is missing", &name[1..]));
+                }
+            }
+            name if EXTENSIONS.contains(&name) => {}
+            _ => return skip(line.number, format_args!("requires {}", line.text)),
+        }
+    }
+    Ok(setup)
+}
+
+fn versions(line: &Line, words: &mut Words<'_>, ours: f64, what: &str) -> Result<(), Outcome> {
+    let holds = comparison(words, ours)?;
+    if holds { Ok(()) } else { skip(line.number, format_args!("requires {}, this is {what} {ours:.2}", line.text)) }
+}
+
+fn limit(line: &Line, words: &mut Words<'_>) -> Result<(), Outcome> {
+    let name = words.word()?;
+    let Some((_, ours)) = LIMITS.iter().find(|(limit, _)| *limit == name) else {
+        return skip(line.number, format_args!("requires {}", line.text));
+    };
+    if comparison(words, *ours)? {
+        Ok(())
+    } else {
+        skip(line.number, format_args!("requires {}, it is {ours}", line.text))
+    }
+}
+
+/// `>= 1.50` against what is there.
+fn comparison(words: &mut Words<'_>, ours: f64) -> Result<bool, Outcome> {
+    let operator = words.word()?;
+    let wanted = words.number()?;
+    Ok(match operator {
+        ">=" => ours >= wanted,
+        ">" => ours > wanted,
+        "<=" => ours <= wanted,
+        "<" => ours < wanted,
+        "=" | "==" => ours == wanted,
+        "!=" => ours != wanted,
+        _ => return fail(words.line, format_args!("`{operator}` compares nothing")),
+    })
+}
+
+#[cfg(test)]
+mod unit {
+    use super::*;
+
+    fn checked(text: &str) -> Result<Setup, Outcome> {
+        check(&[Line { number: 1, text: text.into() }])
+    }
+
+    #[test]
+    fn what_is_met_and_what_is_not() {
+        for met in ["GLSL >= 1.30", "GL >= 3.2", "GL_ARB_texture_rg", "GL_MAX_CLIP_DISTANCES >= 8", "depthbuffer"] {
+            assert!(checked(met).is_ok(), "{met}");
+        }
+        for unmet in [
+            "GLSL >= 4.00",
+            "GL < 3.0",
+            "GL_ARB_gpu_shader_fp64",
+            "GL_MAX_VERTEX_OUTPUT_COMPONENTS >= 128",
+            "GLSL ES >= 3.00",
+        ] {
+            assert!(matches!(checked(unmet), Err(Outcome::Skip(_))), "{unmet}");
+        }
+        assert_eq!(checked("SIZE 10 20").map(|setup| setup.size), Ok([10, 20]));
+    }
+}

@@ -1,0 +1,274 @@
+//! The commands of a test, one after the other.
+//!
+//! *Holds:* draws are collected and painted when a probe looks; a clear begins anew. Each draw keeps the uniforms and the
+//! state that it was made with.
+
+use super::draw::{self, Geometry};
+use super::parse::{Line, TestFile, parse};
+use super::textures::Units;
+use super::uniforms::Uniforms;
+use super::vertex_data::{self, VertexData};
+use super::words::Words;
+use super::{Outcome, Painter, fail, introspection, probe, program, require, skip};
+use crate::compare::Picture;
+use crate::compiler::Compiler;
+use crate::hir::{Stage, Type};
+use crate::link::Program;
+use crate::scene::{BlendFactor, Compare, Cull, Draw, Format, Framebuffer, Primitive, Scene, State};
+use std::sync::Arc;
+
+/// Runs a test; `Ok` is a pass.
+pub(super) fn run(name: &str, text: &str, compiler: &Compiler, painter: &mut dyn Painter) -> Result<(), Outcome> {
+    let file = parse(text)?;
+    let setup = require::check(&file.requirements)?;
+    let data = vertex_data::parse(&file.vertex_data)?;
+    let Some(program) = program::build(name, &file, setup.compatibility, compiler)? else { return Ok(()) };
+    let mut session = Session::new(program, data, setup.size);
+    commands(&file, &mut session, painter)
+}
+
+fn commands(file: &TestFile, session: &mut Session, painter: &mut dyn Painter) -> Result<(), Outcome> {
+    for line in &file.commands {
+        session.command(line, painter)?;
+    }
+    Ok(())
+}
+
+/// What commands change.
+struct Session {
+    program: Arc<Program>,
+    data: VertexData,
+    uniforms: Uniforms,
+    units: Units,
+    state: State,
+    /// GL_CLIP_DISTANCEi that are enabled, by bit.
+    clip: u32,
+    blending: bool,
+    factors: (BlendFactor, BlendFactor),
+    element: u32,
+    framebuffer: Framebuffer,
+    /// What the next clear clears to.
+    clear_color: [f64; 4],
+    tolerance: [f64; 4],
+    draws: Vec<Draw>,
+    /// Of all draws so far.
+    picture: Option<Picture>,
+}
+
+/// The tolerance of shader_runner.
+const TOLERANCE: f64 = 0.01;
+/// The most draws between two clears; each probe paints all of them.
+const MOST_DRAWS: usize = 1024;
+
+const FACTORS: &[(&str, BlendFactor)] = &[
+    ("GL_ZERO", BlendFactor::Zero),
+    ("GL_ONE", BlendFactor::One),
+    ("GL_SRC_COLOR", BlendFactor::SrcColor),
+    ("GL_ONE_MINUS_SRC_COLOR", BlendFactor::OneMinusSrcColor),
+    ("GL_DST_COLOR", BlendFactor::DstColor),
+    ("GL_ONE_MINUS_DST_COLOR", BlendFactor::OneMinusDstColor),
+    ("GL_SRC_ALPHA", BlendFactor::SrcAlpha),
+    ("GL_ONE_MINUS_SRC_ALPHA", BlendFactor::OneMinusSrcAlpha),
+    ("GL_DST_ALPHA", BlendFactor::DstAlpha),
+    ("GL_ONE_MINUS_DST_ALPHA", BlendFactor::OneMinusDstAlpha),
+    ("GL_SRC_ALPHA_SATURATE", BlendFactor::SrcAlphaSaturate),
+];
+
+const COMPARES: &[(&str, Compare)] = &[
+    ("GL_NEVER", Compare::Never),
+    ("GL_LESS", Compare::Less),
+    ("GL_EQUAL", Compare::Equal),
+    ("GL_LEQUAL", Compare::Lequal),
+    ("GL_GREATER", Compare::Greater),
+    ("GL_NOTEQUAL", Compare::Notequal),
+    ("GL_GEQUAL", Compare::Gequal),
+    ("GL_ALWAYS", Compare::Always),
+];
+
+impl Session {
+    fn new(program: Arc<Program>, data: VertexData, [width, height]: [u32; 2]) -> Self {
+        let state = State {
+            primitive: Primitive::TriangleStrip,
+            cull: Cull::None,
+            front_ccw: true,
+            provoking_last: true,
+            depth_test: false,
+            depth_write: true,
+            depth_func: Compare::Less,
+            blend: None,
+            clip_distances: 0,
+            program_point_size: false,
+        };
+        // A window stores 8 bits a channel.
+        let framebuffer = Framebuffer { width, height, clear: [0.0; 4], format: Format::Rgba8Unorm, attachments: 1 };
+        Self {
+            uniforms: Uniforms::new(&program),
+            program,
+            data,
+            units: Units::default(),
+            state,
+            clip: 0,
+            blending: false,
+            factors: (BlendFactor::One, BlendFactor::Zero),
+            element: 0,
+            framebuffer,
+            clear_color: [0.0; 4],
+            tolerance: [TOLERANCE; 4],
+            draws: Vec::new(),
+            picture: None,
+        }
+    }
+
+    fn command(&mut self, line: &Line, painter: &mut dyn Painter) -> Result<(), Outcome> {
+        let mut words = Words::new(line.number, &line.text);
+        if probe::is_probe(&words) {
+            let tolerance = self.tolerance;
+            return probe::check(words, self.painted(painter)?, tolerance);
+        }
+        match words.word()? {
+            "clear" => self.clear(&mut words),
+            "draw" => self.draw(&mut words),
+            "uniform" => self.uniforms.set(&self.program, &mut words, self.element),
+            "tolerance" => {
+                self.tolerance = words.numbers()?;
+                Ok(())
+            }
+            "enable" => self.capability(&mut words, true),
+            "disable" => self.capability(&mut words, false),
+            "texture" => self.units.create(&mut words),
+            "texparameter" => self.units.parameter(&mut words),
+            "active" if words.eat("uniform") => introspection::check(&self.program, &mut words),
+            "link" if words.eat("success") => Ok(()),
+            "provoking" if words.eat("vertex") => self.provoking(&mut words),
+            "ubo" | "block" if words.eat("array index") => {
+                self.element = words.count()?;
+                Ok(())
+            }
+            "blend" if words.eat("func") => {
+                self.factors = (lookup(&mut words, FACTORS)?, lookup(&mut words, FACTORS)?);
+                Ok(())
+            }
+            "depthfunc" => {
+                self.state.depth_func = lookup(&mut words, COMPARES)?;
+                Ok(())
+            }
+            // Fixed-function matrices and shading: a core program does not see them.
+            "ortho" | "frustum" | "hint" | "shade" => Ok(()),
+            _ => skip(line.number, format_args!("`{}` is not supported", line.text)),
+        }
+    }
+
+    fn clear(&mut self, words: &mut Words<'_>) -> Result<(), Outcome> {
+        match words.rest() {
+            ["color", ..] => {
+                words.word()?;
+                self.clear_color = words.numbers()?;
+                Ok(())
+            }
+            ["depth", depth] if depth.parse() == Ok(1.0) => Ok(()),
+            [] => {
+                self.framebuffer.clear = self.clear_color;
+                self.draws.clear();
+                self.picture = None;
+                Ok(())
+            }
+            _ => skip(words.line, format_args!("`clear {}` is not supported", words.rest().join(" "))),
+        }
+    }
+
+    fn capability(&mut self, words: &mut Words<'_>, on: bool) -> Result<(), Outcome> {
+        let name = words.word()?;
+        let clip = name.strip_prefix("GL_CLIP_PLANE").or_else(|| name.strip_prefix("GL_CLIP_DISTANCE"));
+        if let Some(index) = clip.and_then(|index| index.parse::<u32>().ok()).filter(|index| *index < 8) {
+            self.clip = if on { self.clip | 1 << index } else { self.clip & !(1 << index) };
+            return Ok(());
+        }
+        match name {
+            "GL_DEPTH_TEST" => self.state.depth_test = on,
+            "GL_BLEND" => self.blending = on,
+            "GL_CULL_FACE" => self.state.cull = if on { Cull::Back } else { Cull::None },
+            "GL_PROGRAM_POINT_SIZE" | "GL_VERTEX_PROGRAM_POINT_SIZE" => self.state.program_point_size = on,
+            _ => return skip(words.line, format_args!("`{name}` is not supported")),
+        }
+        Ok(())
+    }
+
+    fn provoking(&mut self, words: &mut Words<'_>) -> Result<(), Outcome> {
+        self.state.provoking_last = match words.word()? {
+            "first" => false,
+            "last" => true,
+            other => return fail(words.line, format_args!("`{other}` is neither `first` nor `last`")),
+        };
+        Ok(())
+    }
+
+    fn draw(&mut self, words: &mut Words<'_>) -> Result<(), Outcome> {
+        let line = words.line;
+        if self.program.stage(Stage::Vertex).is_none() || self.program.stage(Stage::Fragment).is_none() {
+            return skip(line, "a draw with one of the two stages alone");
+        }
+        if self.draws.len() >= MOST_DRAWS {
+            return skip(line, format_args!("more than {MOST_DRAWS} draws without a clear"));
+        }
+        if !(self.clip + 1).is_power_of_two() {
+            return skip(line, "enabled clip distances with gaps");
+        }
+        let size = [self.framebuffer.width, self.framebuffer.height];
+        let geometry = draw::parse(words, &self.program, &self.data, size)?;
+        let draw = self.scene_draw(line, geometry)?;
+        self.draws.push(draw);
+        self.picture = None;
+        Ok(())
+    }
+
+    fn scene_draw(&self, line: u32, geometry: Geometry) -> Result<Draw, Outcome> {
+        let interface = &self.program.interface;
+        let missing =
+            interface.attributes.iter().zip(&geometry.attributes).find(|(a, data)| a.active && data.is_none());
+        if let Some((attribute, _)) = missing {
+            return skip(line, format_args!("no data for the attribute `{}`", attribute.name));
+        }
+        let mut textures = Vec::new();
+        for (slot, &unit) in interface.samplers.iter().zip(&self.uniforms.units) {
+            let Type::Sampler(kind) = self.program.types.get(slot.ty) else { continue };
+            textures.push(self.units.texture(line, unit, kind)?);
+        }
+        let state = State {
+            primitive: geometry.primitive,
+            blend: self.blending.then_some(self.factors),
+            clip_distances: self.clip.count_ones(),
+            ..self.state
+        };
+        Ok(Draw {
+            program: Arc::clone(&self.program),
+            state,
+            vertex_count: geometry.count,
+            indices: geometry.indices,
+            instances: geometry.instances,
+            attributes: geometry.attributes,
+            uniforms: self.uniforms.values.clone(),
+            textures,
+            dynamic: Vec::new(),
+        })
+    }
+
+    /// The picture of all draws since the last clear.
+    fn painted(&mut self, painter: &mut dyn Painter) -> Result<&Picture, Outcome> {
+        let picture = match self.picture.take() {
+            Some(picture) => picture,
+            None => {
+                let name = self.program.name.clone();
+                painter.paint(&Scene { name, framebuffer: self.framebuffer, draws: self.draws.clone() })?
+            }
+        };
+        Ok(self.picture.insert(picture))
+    }
+}
+
+fn lookup<T: Copy>(words: &mut Words<'_>, table: &[(&str, T)]) -> Result<T, Outcome> {
+    let name = words.word()?;
+    match table.iter().find(|(known, _)| *known == name) {
+        Some((_, value)) => Ok(*value),
+        None => skip(words.line, format_args!("`{name}` is not supported")),
+    }
+}

@@ -1,0 +1,149 @@
+//! Textures by unit, in the patterns that tests name.
+
+use super::words::Words;
+use super::{Outcome, fail, skip};
+use crate::hir::{SamplerType, Scalar};
+use crate::scene::{Compare, Filter, Texels, Texture, TextureLevel, Wrap};
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// What is bound to the texture units.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Units {
+    units: BTreeMap<u32, Unit>,
+    /// The unit that `texparameter` means: that of the last `texture` command.
+    active: u32,
+}
+
+/// A texture with its parameters.
+#[derive(Clone, Debug)]
+struct Unit {
+    levels: Vec<TextureLevel>,
+    filter: Filter,
+    wrap: Wrap,
+    compare: Compare,
+}
+
+const RED: [f32; 4] = [1.0, 0.0, 0.0, 1.0];
+const GREEN: [f32; 4] = [0.0, 1.0, 0.0, 1.0];
+const BLUE: [f32; 4] = [0.0, 0.0, 1.0, 1.0];
+const WHITE: [f32; 4] = [1.0; 4];
+/// The largest texture that a test may ask for.
+const LARGEST: u32 = 4096;
+
+const COMPARES: &[(&str, Compare)] = &[
+    ("never", Compare::Never),
+    ("less", Compare::Less),
+    ("equal", Compare::Equal),
+    ("lequal", Compare::Lequal),
+    ("greater", Compare::Greater),
+    ("notequal", Compare::Notequal),
+    ("gequal", Compare::Gequal),
+    ("always", Compare::Always),
+];
+
+impl Units {
+    /// `texture checkerboard 0 0 (8, 8) (..) (..)` and its like.
+    pub(super) fn create(&mut self, words: &mut Words<'_>) -> Result<(), Outcome> {
+        let line = words.line;
+        let form = words.word()?;
+        let number = words.count()?;
+        let unit = self.units.entry(number).or_insert(Unit {
+            levels: Vec::new(),
+            filter: Filter::Nearest,
+            wrap: Wrap::Repeat,
+            compare: Compare::Lequal,
+        });
+        match form {
+            "checkerboard" => {
+                let level = words.count()? as usize;
+                let [width, height] = size(words)?;
+                let colors = [words.numbers::<4>()?, words.numbers::<4>()?].map(|color| color.map(|c| c as f32));
+                let (across, up) = ((width / 2).max(1), (height / 2).max(1));
+                let board = image(width, height, |x, y| colors[((x / across ^ y / up) & 1) as usize]);
+                if level > unit.levels.len() {
+                    return skip(line, "levels of a texture out of order");
+                }
+                unit.levels.truncate(level);
+                unit.levels.push(board);
+            }
+            "rgbw" => {
+                let [width, height] = size(words)?;
+                if words
+                    .rest()
+                    .iter()
+                    .any(|format| *format != "GL_RGBA" && *format != "GL_RGBA8" && *format != "GL_RGB")
+                {
+                    return skip(line, "textures of this format");
+                }
+                unit.levels = vec![image(width, height, |x, y| match (x < width / 2, y < height / 2) {
+                    (true, true) => RED,
+                    (false, true) => GREEN,
+                    (true, false) => BLUE,
+                    (false, false) => WHITE,
+                })];
+            }
+            "miptree" => {
+                let levels = [(8, RED), (4, GREEN), (2, BLUE), (1, WHITE)];
+                unit.levels = levels.map(|(side, color)| image(side, side, |_, _| color)).to_vec();
+                unit.wrap = Wrap::ClampToEdge;
+                unit.filter = Filter::Nearest;
+            }
+            _ => return skip(line, format_args!("`texture {form}` is not supported")),
+        }
+        self.active = number;
+        Ok(())
+    }
+
+    /// `texparameter 2D min nearest` and its like.
+    pub(super) fn parameter(&mut self, words: &mut Words<'_>) -> Result<(), Outcome> {
+        let line = words.line;
+        words.word()?;
+        let (name, value) = (words.word()?, words.word()?);
+        let Some(unit) = self.units.get_mut(&self.active) else { return fail(line, "there is no texture yet") };
+        match (name, value) {
+            ("min" | "mag", "nearest") => unit.filter = Filter::Nearest,
+            ("min" | "mag", "linear") => unit.filter = Filter::Linear,
+            ("min", "linear_mipmap_linear") => unit.filter = Filter::Trilinear,
+            ("wrap_s" | "wrap_t" | "wrap_r", "repeat") => unit.wrap = Wrap::Repeat,
+            ("wrap_s" | "wrap_t" | "wrap_r", "clamp_to_edge") => unit.wrap = Wrap::ClampToEdge,
+            ("wrap_s" | "wrap_t" | "wrap_r", "mirrored_repeat") => unit.wrap = Wrap::MirroredRepeat,
+            ("compare_func", function) => match COMPARES.iter().find(|(name, _)| *name == function) {
+                Some((_, compare)) => unit.compare = *compare,
+                None => return fail(line, format_args!("`{function}` compares nothing")),
+            },
+            _ => return skip(line, format_args!("`texparameter {name} {value}` is not supported")),
+        }
+        Ok(())
+    }
+
+    /// The texture that a sampler of this type sees at a unit; an unbound unit is black.
+    pub(super) fn texture(&self, line: u32, number: u32, kind: SamplerType) -> Result<Option<Arc<Texture>>, Outcome> {
+        let Some(unit) = self.units.get(&number) else { return Ok(None) };
+        let dimensions = crate::hir::SamplerDim::D2 == kind.dim && !kind.arrayed && kind.texel == Scalar::Float;
+        if !dimensions {
+            return skip(line, format_args!("a 2D texture at a `{}`", kind.name()));
+        }
+        Ok(Some(Arc::new(Texture {
+            kind,
+            levels: unit.levels.clone(),
+            filter: unit.filter,
+            wrap: unit.wrap,
+            compare: unit.compare,
+        })))
+    }
+}
+
+fn size(words: &mut Words<'_>) -> Result<[u32; 2], Outcome> {
+    let size = [words.count()?, words.count()?];
+    if size.iter().all(|side| (1..=LARGEST).contains(side)) {
+        Ok(size)
+    } else {
+        fail(words.line, format_args!("a texture is 1 to {LARGEST} texels wide and high"))
+    }
+}
+
+fn image(width: u32, height: u32, texel: impl Fn(u32, u32) -> [f32; 4]) -> TextureLevel {
+    let texels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| texel(x, y)).collect();
+    TextureLevel { width, height, depth: 1, texels: Texels::Float(texels) }
+}

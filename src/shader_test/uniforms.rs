@@ -1,0 +1,145 @@
+//! Uniform values as a test sets them, by name.
+
+use super::words::Words;
+use super::{Outcome, fail, skip};
+use crate::hir::{Scalar, ScalarValue};
+use crate::link::{Program, UniformLeaf};
+
+/// The values of a program's uniforms, flat by root, and the unit of each sampler.
+#[derive(Clone, Debug)]
+pub(super) struct Uniforms {
+    pub(super) values: Vec<Vec<ScalarValue>>,
+    /// By sampler slot.
+    pub(super) units: Vec<u32>,
+}
+
+impl Uniforms {
+    /// Initializers, or 0.
+    pub(super) fn new(program: &Program) -> Self {
+        let zeros = |root: &crate::link::UniformRoot| {
+            let mut flat = vec![ScalarValue::Float(0.0); program.types.flat_len(root.ty) as usize];
+            for leaf in program.interface.uniforms.iter().filter(|leaf| roots_match(program, leaf, root)) {
+                let (len, scalar) = extent(program, leaf);
+                let start = leaf.flat_offset as usize;
+                for value in flat.iter_mut().skip(start).take(len as usize) {
+                    *value = number(scalar, 0.0);
+                }
+            }
+            flat
+        };
+        let values = program
+            .interface
+            .roots
+            .iter()
+            .map(|root| root.default.as_ref().map_or_else(|| zeros(root), |value| value.scalars.clone()))
+            .collect();
+        let units = program.interface.samplers.iter().map(|slot| slot.unit.unwrap_or(0)).collect();
+        Self { values, units }
+    }
+
+    /// `uniform vec4 name 0 1 0 1`; `element` picks one of an array of blocks.
+    pub(super) fn set(&mut self, program: &Program, words: &mut Words<'_>, element: u32) -> Result<(), Outcome> {
+        let line = words.line;
+        let ty = words.word()?;
+        let name = words.word()?;
+        if ty == "double" || ty.starts_with('d') || ty.contains("64") {
+            return skip(line, format_args!("uniforms of type `{ty}`"));
+        }
+        if self.set_unit(program, name, words)? {
+            return Ok(());
+        }
+        let Some((leaf, first)) = find(program, name, element) else {
+            // What a compiler need not call active has no location, and setting nothing is no error.
+            return if is_declared(program, name) {
+                Ok(())
+            } else {
+                fail(line, format_args!("there is no uniform `{name}`"))
+            };
+        };
+        let (_, scalar) = extent(program, leaf);
+        let Some(flat) = self.values.get_mut(leaf.root.0 as usize) else { return Ok(()) };
+        let mut place = (leaf.flat_offset + first) as usize;
+        let end = leaf.flat_offset as usize + extent(program, leaf).0 as usize;
+        while !words.rest().is_empty() {
+            let value = number(scalar, words.number()?);
+            match flat.get_mut(place).filter(|_| place < end) {
+                Some(slot) => *slot = value,
+                None => return fail(line, format_args!("more values than `{name}` holds")),
+            }
+            place += 1;
+        }
+        Ok(())
+    }
+
+    /// `uniform int name 1` of a sampler; an array takes a unit an element.
+    fn set_unit(&mut self, program: &Program, name: &str, words: &mut Words<'_>) -> Result<bool, Outcome> {
+        let slots = &program.interface.samplers;
+        let element = |index: usize| format!("{name}[{index}]");
+        let Some(first) = slots.iter().position(|slot| slot.name == name || slot.name == element(0)) else {
+            return Ok(false);
+        };
+        let mut index = 0;
+        while !words.rest().is_empty() {
+            let unit = words.count()?;
+            if let Some(slot) = self.units.get_mut(first + index) {
+                *slot = unit;
+            }
+            index += 1;
+        }
+        Ok(true)
+    }
+}
+
+fn roots_match(program: &Program, leaf: &UniformLeaf, root: &crate::link::UniformRoot) -> bool {
+    program.interface.roots.get(leaf.root.0 as usize).is_some_and(|other| std::ptr::eq(other, root))
+}
+
+/// How many scalars a leaf holds, and of which type.
+fn extent(program: &Program, leaf: &UniformLeaf) -> (u32, Scalar) {
+    let scalar = program.types.scalar_of(leaf.ty).unwrap_or(Scalar::Float);
+    (program.types.flat_len(leaf.ty) * leaf.array_size.unwrap_or(1), scalar)
+}
+
+fn number(scalar: Scalar, value: f64) -> ScalarValue {
+    match scalar {
+        Scalar::Bool => ScalarValue::Bool(value != 0.0),
+        Scalar::Int => ScalarValue::Int(value as i32),
+        Scalar::Uint => ScalarValue::Uint(value as u32),
+        Scalar::Float => ScalarValue::Float(value as f32),
+    }
+}
+
+/// The leaf of a name and the first scalar in it that an index at the name's end picks.
+pub(super) fn find<'p>(program: &'p Program, name: &str, element: u32) -> Option<(&'p UniformLeaf, u32)> {
+    let leaves = &program.interface.uniforms;
+    let picked = |leaf: &&UniformLeaf| leaf.block_element == element || is_indexed(leaf, name);
+    let exact = |wanted: &str| {
+        leaves.iter().filter(picked).find(|leaf| without_block_index(leaf) == wanted || leaf.name == wanted)
+    };
+    if let Some(leaf) = exact(name) {
+        return Some((leaf, 0));
+    }
+    let (array, index) = name.strip_suffix(']')?.rsplit_once('[')?;
+    let leaf = exact(array)?;
+    let index: u32 = index.parse().ok()?;
+    (index < leaf.array_size?).then(|| (leaf, index * program.types.flat_len(leaf.ty)))
+}
+
+/// Whether the test's own name has the index of the block's element.
+fn is_indexed(leaf: &UniformLeaf, name: &str) -> bool {
+    name.starts_with(leaf.name.split('.').next().unwrap_or_default())
+}
+
+/// `Block.member` of `Block[1].member`.
+fn without_block_index(leaf: &UniformLeaf) -> String {
+    match (leaf.name.split_once('.'), leaf.name.find('[')) {
+        (Some((block, member)), Some(open)) if open < block.len() => format!("{}.{member}", &block[..open]),
+        _ => leaf.name.clone(),
+    }
+}
+
+/// Whether a name begins with something that the program declares.
+fn is_declared(program: &Program, name: &str) -> bool {
+    let head = name.split(['.', '[']).next().unwrap_or_default();
+    program.stages.iter().flat_map(|shader| shader.globals()).any(|(_, global)| global.name == head)
+}

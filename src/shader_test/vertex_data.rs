@@ -1,0 +1,109 @@
+//! `[vertex data]`: a table with an attribute's column a column.
+
+use super::parse::Line;
+use super::words::parse_number;
+use super::{Outcome, fail, skip};
+
+/// A column of the table: components of an attribute, or of one of its matrix columns or array elements.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Column {
+    /// Without index.
+    pub(super) attribute: String,
+    /// Which location of the attribute: the array's element times the columns of an element, plus the column.
+    pub(super) element: u32,
+    /// The matrix column.
+    pub(super) column: u32,
+    /// How many components.
+    pub(super) size: u32,
+    /// All rows, `size` numbers each.
+    pub(super) values: Vec<f64>,
+}
+
+/// The whole table.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct VertexData {
+    pub(super) columns: Vec<Column>,
+    pub(super) rows: u32,
+}
+
+/// Reads the table.
+pub(super) fn parse(lines: &[Line]) -> Result<VertexData, Outcome> {
+    let Some((head, rows)) = lines.split_first() else { return Ok(VertexData::default()) };
+    let mut columns =
+        head.text.split_whitespace().map(|word| header(head.number, word)).collect::<Result<Vec<Column>, _>>()?;
+    for line in rows {
+        let mut words = line.text.split_whitespace();
+        for column in &mut columns {
+            for _ in 0..column.size {
+                let Some(word) = words.next() else { return fail(line.number, "the row is shorter than its header") };
+                match parse_number(word) {
+                    Some(value) => column.values.push(value),
+                    None => return fail(line.number, format_args!("`{word}` is no number")),
+                }
+            }
+        }
+        if words.next().is_some() {
+            return fail(line.number, "the row is longer than its header");
+        }
+    }
+    Ok(VertexData { columns, rows: rows.len() as u32 })
+}
+
+/// `name[1]/float/vec3`, or `name/float/mat3/2`.
+fn header(line: u32, word: &str) -> Result<Column, Outcome> {
+    let mut parts = word.split('/');
+    let (Some(name), Some(data), Some(shape)) = (parts.next(), parts.next(), parts.next()) else {
+        return fail(line, format_args!("`{word}` is not name/type/type"));
+    };
+    if !matches!(data, "float" | "int" | "uint") {
+        return skip(line, format_args!("attributes of `{data}`"));
+    }
+    let column = parts.next().and_then(|column| column.parse().ok()).unwrap_or(0);
+    let (attribute, element) = match name.strip_suffix(']').and_then(|name| name.rsplit_once('[')) {
+        Some((attribute, index)) => (attribute, index.parse().unwrap_or(0)),
+        None => (name, 0),
+    };
+    let Some(size) = components(shape) else { return skip(line, format_args!("attributes of type `{shape}`")) };
+    Ok(Column { attribute: attribute.into(), element, column, size, values: Vec::new() })
+}
+
+/// How many numbers a type has (of a matrix: a column): `vec3`, `mat2x3`, or a bare `3`.
+fn components(shape: &str) -> Option<u32> {
+    if let Ok(count) = shape.parse() {
+        return (1..=4).contains(&count).then_some(count);
+    }
+    if let Some(matrix) = shape.strip_prefix("mat") {
+        return matrix.rsplit('x').next().and_then(|rows| rows.parse().ok()).filter(|rows| (2..=4).contains(rows));
+    }
+    if let Some(size) = ["vec", "ivec", "uvec"].iter().find_map(|prefix| shape.strip_prefix(prefix)) {
+        return size.parse().ok().filter(|size| (2..=4).contains(size));
+    }
+    matches!(shape, "float" | "int" | "uint").then_some(1)
+}
+
+#[cfg(test)]
+mod unit {
+    use super::*;
+
+    fn lines(texts: &[&str]) -> Vec<Line> {
+        (1..).zip(texts).map(|(number, text)| Line { number, text: (*text).into() }).collect()
+    }
+
+    #[test]
+    fn headers_of_both_syntaxes() {
+        let data =
+            parse(&lines(&["piglit_vertex/float/2 m/float/mat2x3/1 a[1]/int/int", "1 2 3 4 5 6", "0 0 0 0 0 0x0"]))
+                .expect("a table");
+        assert_eq!(data.rows, 2);
+        let shapes: Vec<_> = data.columns.iter().map(|c| (c.attribute.as_str(), c.element, c.column, c.size)).collect();
+        assert_eq!(shapes, [("piglit_vertex", 0, 0, 2), ("m", 0, 1, 3), ("a", 1, 0, 1)]);
+        assert_eq!(data.columns[1].values, [3.0, 4.0, 5.0, 0.0, 0.0, 0.0]);
+    }
+
+    #[test]
+    fn ragged_rows_fail() {
+        assert!(matches!(parse(&lines(&["p/float/2", "1"])), Err(Outcome::Fail(_))));
+        assert!(matches!(parse(&lines(&["p/float/2", "1 2 3"])), Err(Outcome::Fail(_))));
+        assert!(matches!(parse(&lines(&["p/double/2", "1 2"])), Err(Outcome::Skip(_))));
+    }
+}

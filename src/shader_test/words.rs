@@ -1,0 +1,95 @@
+//! The words of a command: blanks, commas and parentheses part them.
+
+use super::{Outcome, fail};
+
+/// The words of a line that are still to be read.
+#[derive(Clone, Debug)]
+pub(super) struct Words<'a> {
+    pub(super) line: u32,
+    words: Vec<&'a str>,
+    next: usize,
+}
+
+impl<'a> Words<'a> {
+    pub(super) fn new(line: u32, text: &'a str) -> Self {
+        let words = text.split(|c: char| c.is_whitespace() || "(),".contains(c)).filter(|word| !word.is_empty());
+        Self { line, words: words.collect(), next: 0 }
+    }
+
+    /// Takes these words if they are the next ones.
+    pub(super) fn eat(&mut self, phrase: &str) -> bool {
+        let wanted: Vec<&str> = phrase.split(' ').collect();
+        let is_next = self.rest().starts_with(&wanted);
+        if is_next {
+            self.next += wanted.len();
+        }
+        is_next
+    }
+
+    /// The words not yet read.
+    pub(super) fn rest(&self) -> &[&'a str] {
+        self.words.get(self.next..).unwrap_or_default()
+    }
+
+    /// The next word.
+    pub(super) fn word(&mut self) -> Result<&'a str, Outcome> {
+        let Some(word) = self.words.get(self.next) else { return fail(self.line, "a word is missing at the end") };
+        self.next += 1;
+        Ok(word)
+    }
+
+    /// The next word as a number.
+    pub(super) fn number(&mut self) -> Result<f64, Outcome> {
+        let word = self.word()?;
+        match parse_number(word) {
+            Some(number) => Ok(number),
+            None => fail(self.line, format_args!("`{word}` is no number")),
+        }
+    }
+
+    /// The next words as so many numbers.
+    pub(super) fn numbers<const N: usize>(&mut self) -> Result<[f64; N], Outcome> {
+        let mut numbers = [0.0; N];
+        for number in &mut numbers {
+            *number = self.number()?;
+        }
+        Ok(numbers)
+    }
+
+    /// The next word as a count or index.
+    pub(super) fn count(&mut self) -> Result<u32, Outcome> {
+        let number = self.number()?;
+        if number >= 0.0 && number <= f64::from(u32::MAX) && number.fract() == 0.0 {
+            Ok(number as u32)
+        } else {
+            fail(self.line, format_args!("{number} is no count"))
+        }
+    }
+}
+
+/// A decimal number, `inf` or `nan`, or the bits of a float in hexadecimal.
+pub(super) fn parse_number(word: &str) -> Option<f64> {
+    if let Some(bits) = word.strip_prefix("0x") {
+        return u32::from_str_radix(bits, 16).ok().map(|bits| f64::from(f32::from_bits(bits)));
+    }
+    word.parse().ok()
+}
+
+#[cfg(test)]
+mod unit {
+    use super::*;
+
+    #[test]
+    fn parentheses_and_commas_part_words() {
+        let mut words = Words::new(1, "relative probe rgb (0.5, .25) (1, 0,-1e3)");
+        assert!(!words.eat("relative probe rgba") && words.eat("relative probe rgb"));
+        assert_eq!(words.numbers::<5>(), Ok([0.5, 0.25, 1.0, 0.0, -1000.0]));
+        assert!(words.word().is_err());
+    }
+
+    #[test]
+    fn hexadecimal_is_the_bits_of_a_float() {
+        assert_eq!(parse_number("0x3f800000"), Some(1.0));
+        assert_eq!(parse_number("x"), None);
+    }
+}
