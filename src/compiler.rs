@@ -84,9 +84,32 @@ impl Compiler {
     pub fn compile_into(&self, map: SourceMap, sources: &[Source]) -> Compilation {
         let name = sources.first().map_or_else(String::new, |source| stem(&source.name));
         let mut diagnostics = Diagnostics::default();
-        let message = "compiling is not in place yet: the phases join here";
-        diagnostics.push(Diagnostic::new(&NOT_SUPPORTED_YET, Span::default(), message));
-        Compilation { name, sources: map, program: None, diagnostics }
+        let mut map = map;
+        let mut types = crate::hir::Types::new();
+        let mut shaders = Vec::new();
+        for source in sources {
+            let Some(file) = map.add(source.name.clone(), Arc::clone(&source.text)) else { continue };
+            let options = crate::syntax::Options {
+                stage: source.stage,
+                defines: self.options.defines.clone(),
+                strict: self.options.strict,
+            };
+            let ast = crate::syntax::parse(&mut map, file, &options, &*self.includes, &mut diagnostics);
+            shaders.push(crate::analysis::analyze(
+                &ast,
+                source.stage,
+                self.options.strict,
+                &mut types,
+                &map,
+                &mut diagnostics,
+            ));
+        }
+        let program = if diagnostics.has_errors() {
+            None
+        } else {
+            crate::link::link(name.clone(), types, shaders, &self.options, &map, &mut diagnostics)
+        };
+        Compilation { name, sources: map, program, diagnostics }
     }
 }
 
