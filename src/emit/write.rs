@@ -218,8 +218,8 @@ fn write_spirv(
         // Vulkan 1.1 takes up to 1.3.
         lang_version: (1, 3),
         flags,
-        // A binding that is missing is a slip, which must be seen.
-        fake_missing_bindings: false,
+        // No map of bindings is given: each resource keeps the group and binding that the link gave it.
+        fake_missing_bindings: true,
         bounds_check_policies: policies(),
         zero_initialize_workgroup_memory: spv::ZeroInitializeWorkgroupMemoryMode::None,
         // A pair of counters in every loop, against compilers that take endless loops for impossible. GLSL asks for none.
