@@ -1,0 +1,217 @@
+//! Which fragments a primitive produces (OpenGL 3.2 §3.4 to §3.6).
+//!
+//! *In:* window positions in f32. *Out:* a [`Shape`] in integers: the pixels that it covers can be asked for a
+//! rectangle at a time.
+//!
+//! *Holds:* coverage is a matter of 1/256 pixel, decided in integers without rounding, and so is the same in every number
+//! domain. Rows are those of the picture, the top row first, and the top-left rule is meant in them: a pixel whose
+//! center lies on a top or a left edge is covered, on another edge not, so that pixels along a shared edge are drawn
+//! once. Positions are snapped as Mesa's software drivers do: `(x - 0.5) * 256`, rounded to the nearest, half to even.
+//!
+//! *Not done here:* what the fragments carry ([`interpolate`](super::interpolate)), clipping.
+
+pub(crate) mod line;
+pub(crate) mod point;
+pub(crate) mod triangle;
+
+/// Units of the fixed grid in a pixel.
+pub(crate) const ONE: i64 = 256;
+
+/// Half the band around an edge, in units of the grid, within which `near_edge` is marked: 1/128 pixel.
+const NEAR: f64 = 2.0;
+
+/// A window position in units of the grid; pixel centers lie at multiples of [`ONE`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Fixed {
+    pub(crate) x: i64,
+    pub(crate) y: i64,
+}
+
+impl Fixed {
+    /// Snaps a window position in pixels. Coordinates that are not finite, or further out than 2^30 pixels, give `None`.
+    pub(crate) fn snap(x: f32, y: f32) -> Option<Self> {
+        let snap = |value: f32| {
+            let scaled = (value - 0.5) * ONE as f32;
+            (scaled.abs() < (1_u64 << 38) as f32).then(|| scaled.round_ties_even() as i64)
+        };
+        Some(Self { x: snap(x)?, y: snap(y)? })
+    }
+}
+
+/// A rectangle of pixels, upper bounds exclusive.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Bounds {
+    pub(crate) x0: i64,
+    pub(crate) x1: i64,
+    pub(crate) y0: i64,
+    pub(crate) y1: i64,
+}
+
+impl Bounds {
+    /// What two rectangles share; may be empty.
+    pub(crate) fn intersect(self, other: Self) -> Self {
+        Self {
+            x0: self.x0.max(other.x0),
+            x1: self.x1.min(other.x1),
+            y0: self.y0.max(other.y0),
+            y1: self.y1.min(other.y1),
+        }
+    }
+
+    /// Whether it has no pixels.
+    pub(crate) fn is_empty(self) -> bool {
+        self.x0 >= self.x1 || self.y0 >= self.y1
+    }
+}
+
+/// A half plane of pixels: those where `value(x, y) >= 0`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Edge {
+    /// The value at pixel (0, 0), with the fill rule in it.
+    pub(crate) origin: i64,
+    /// What a pixel to the right adds.
+    pub(crate) step_x: i64,
+    /// What a pixel further down adds.
+    pub(crate) step_y: i64,
+    /// Up to this distance from 0 the pixel's center is near the edge.
+    pub(crate) near: i64,
+}
+
+impl Edge {
+    /// The half plane to the right of the way from `from` to `to`, as seen in the picture.
+    pub(crate) fn new(from: Fixed, to: Fixed) -> Self {
+        let (dx, dy) = (to.x - from.x, to.y - from.y);
+        // The inside lies below a top edge, which runs right, and right of a left edge, which runs up.
+        let is_top_or_left = dy < 0 || (dy == 0 && dx > 0);
+        let exact = dy * from.x - dx * from.y;
+        Self {
+            origin: exact - i64::from(!is_top_or_left),
+            step_x: -dy * ONE,
+            step_y: dx * ONE,
+            near: ((dx as f64).hypot(dy as f64) * NEAR).ceil() as i64,
+        }
+    }
+
+    /// The value at a pixel.
+    #[inline(always)]
+    pub(crate) fn at(&self, x: i64, y: i64) -> i64 {
+        self.origin + self.step_x * x + self.step_y * y
+    }
+
+    /// The largest value in a rectangle of pixels.
+    fn largest(&self, area: Bounds) -> i64 {
+        let x = if self.step_x > 0 { area.x1 - 1 } else { area.x0 };
+        let y = if self.step_y > 0 { area.y1 - 1 } else { area.y0 };
+        self.at(x, y)
+    }
+}
+
+/// The pixels of a primitive.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Shape {
+    /// The pixels inside `bounds` and all of the edges, of which there may be none.
+    Convex {
+        /// As tight as may be.
+        bounds: Bounds,
+        /// At most four.
+        edges: [Edge; 4],
+        /// How many of them.
+        count: usize,
+    },
+    /// These pixels, in order.
+    Pixels(Vec<(i64, i64)>),
+}
+
+impl Shape {
+    /// A rectangle that holds all of its pixels, and those near its edges.
+    pub(crate) fn bounds(&self) -> Bounds {
+        match self {
+            Self::Convex { bounds, .. } => *bounds,
+            Self::Pixels(pixels) => {
+                let empty = Bounds { x0: i64::MAX, x1: i64::MIN, y0: i64::MAX, y1: i64::MIN };
+                pixels.iter().fold(empty, |b, &(x, y)| Bounds {
+                    x0: b.x0.min(x),
+                    x1: b.x1.max(x + 1),
+                    y0: b.y0.min(y),
+                    y1: b.y1.max(y + 1),
+                })
+            }
+        }
+    }
+
+    /// Whether it may cover a pixel of `area`, or mark one as near an edge.
+    pub(crate) fn may_touch(&self, area: Bounds) -> bool {
+        match self {
+            Self::Convex { edges, count, .. } => {
+                edges.iter().take(*count).all(|edge| edge.largest(area) >= -edge.near - 1)
+            }
+            Self::Pixels(pixels) => {
+                pixels.iter().any(|&(x, y)| x >= area.x0 && x < area.x1 && y >= area.y0 && y < area.y1)
+            }
+        }
+    }
+
+    /// Calls `emit` with each quad of 2x2 pixels (whose corner is even) that holds a covered pixel of `area`: its upper left
+    /// pixel and which are covered (bit 0 upper left, 1 upper right, 2 lower left, 3 lower right). Each quad of a convex
+    /// shape comes once.
+    #[inline(always)]
+    pub(crate) fn quads(&self, area: Bounds, mut emit: impl FnMut(i64, i64, u32)) {
+        match self {
+            Self::Convex { bounds, edges, count } => {
+                convex_quads(edges.get(..*count).unwrap_or(&[]), bounds.intersect(area), &mut emit);
+            }
+            Self::Pixels(pixels) => {
+                for &(x, y) in pixels {
+                    if x >= area.x0 && x < area.x1 && y >= area.y0 && y < area.y1 {
+                        emit(x & !1, y & !1, 1 << ((x & 1) + 2 * (y & 1)));
+                    }
+                }
+            }
+        }
+    }
+
+    /// Calls `mark` with each pixel of `area` whose center lies within 1/128 pixel of an edge.
+    pub(crate) fn near_edges(&self, area: Bounds, mut mark: impl FnMut(i64, i64)) {
+        if let Self::Convex { bounds, edges, count } = self {
+            mark_near(edges.get(..*count).unwrap_or(&[]), bounds.intersect(area), &mut mark);
+        }
+    }
+}
+
+fn convex_quads(edges: &[Edge], area: Bounds, emit: &mut impl FnMut(i64, i64, u32)) {
+    if area.is_empty() {
+        return;
+    }
+    let x_start = area.x0 & !1;
+    for y in ((area.y0 & !1)..area.y1).step_by(2) {
+        for x in (x_start..area.x1).step_by(2) {
+            let mut covered = 0;
+            for bit in 0..4 {
+                let (px, py) = (x + (bit & 1), y + (bit >> 1));
+                let inside = px >= area.x0 && px < area.x1 && py >= area.y0 && py < area.y1;
+                let all = edges.iter().fold(0, |sign, edge| sign | edge.at(px, py)) >= 0;
+                covered |= u32::from(inside && all) << bit;
+            }
+            if covered != 0 {
+                emit(x, y, covered);
+            }
+        }
+    }
+}
+
+fn mark_near(edges: &[Edge], area: Bounds, mark: &mut impl FnMut(i64, i64)) {
+    for y in area.y0..area.y1 {
+        for x in area.x0..area.x1 {
+            let mut near = false;
+            let mut beyond = false;
+            for edge in edges {
+                let value = edge.at(x, y);
+                near |= value.abs() <= edge.near;
+                beyond |= value < -edge.near;
+            }
+            if near && !beyond {
+                mark(x, y);
+            }
+        }
+    }
+}
