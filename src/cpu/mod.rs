@@ -1,8 +1,68 @@
 //! The CPU reference: executes the typed program by OpenGL 3.2's rules.
 //!
-//! *In:* a [`Scene`](crate::scene::Scene). *Out:* a [`Picture`](crate::compare::Picture).
+//! *In:* a [`Scene`]. *Out:* a [`Picture`].
 //!
-//! *Holds:* never sees naga IR, so that a mistake in lowering shows as a difference.
+//! *Holds:* never sees naga IR, so that a mistake in lowering shows as a difference. Which pixels a primitive covers is
+//! decided in f32 and integers, alike in every number domain; what they hold is computed in the domain.
 
 pub mod domain;
 pub mod exec;
+mod interpolate;
+mod pipeline;
+mod raster;
+
+use crate::compare::Picture;
+use crate::diagnostic::Diagnostic;
+use crate::scene::Scene;
+use domain::{Bound, F32, F64};
+
+/// What numbers the reference computes with.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Precision {
+    /// IEEE f64: the truth.
+    #[default]
+    F64,
+    /// IEEE f32, one rounding an operation: a strict GPU.
+    F32,
+    /// f64 with a bound on how far a conforming GPU may be off.
+    Bound,
+}
+
+/// Which pixels a line covers.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum LineRule {
+    /// The diamond-exit rule (OpenGL 3.2 §3.5.1).
+    #[default]
+    OpenGl,
+    /// A rectangle one pixel wide, as Vulkan draws strict lines.
+    Vulkan,
+}
+
+/// How to draw.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RenderOptions {
+    /// The number domain.
+    pub precision: Precision,
+    /// The rule for lines.
+    pub lines: LineRule,
+    /// Whether pixels near edges are marked ([`Picture::near_edge`]): wanted for a comparison, and it takes time.
+    pub mark_edges: bool,
+}
+
+impl Default for RenderOptions {
+    fn default() -> Self {
+        Self { precision: Precision::F64, lines: LineRule::OpenGl, mark_edges: true }
+    }
+}
+
+/// Draws a scene.
+///
+/// # Errors
+/// What the reference cannot draw: a geometry stage, a multisample sampler, a loop without end.
+pub fn render(scene: &Scene, options: &RenderOptions) -> Result<Picture, Vec<Diagnostic>> {
+    match options.precision {
+        Precision::F64 => pipeline::render::<F64>(scene, options),
+        Precision::F32 => pipeline::render::<F32>(scene, options),
+        Precision::Bound => pipeline::render::<Bound>(scene, options),
+    }
+}

@@ -48,6 +48,10 @@ codes! {
         "The scene asks for a drawing that cannot be: a program without a vertex stage, more color outputs than \
          attachments, a framebuffer past the limit."
         bad None, good None;
+    SCENE_LOOP_BUDGET = "E0913" "endless-loop" Error ""
+        "While the CPU reference drew the scene, the loops of 64 invocations together went round more than a million times. \
+         The reference leaves them there rather than hang; a picture is not made."
+        bad Text("while (true) {}"), good Text("for (int i = 0; i < 100; ++i) {}");
     SCENE_UNSET_UNIFORM = "W0901" "uniform-without-value" Warning "GLSL 1.50 §4.3.5"
         "The program reads a uniform that has no initializer and that the scene does not list. It is 0, as in OpenGL."
         bad Text("[draw.uniforms]  # and the shader reads `shininess`"), good Text("[draw.uniforms]\nshininess = 32");

@@ -1,0 +1,180 @@
+//! A scene drawn in one number domain.
+//!
+//! ```text
+//!  Draw ──► vertices    64 vertices at a time, positions in the domain and in f32
+//!       ──► assembly    primitives, clipped (clip), their pixels (raster), culled
+//!       ──► bins        32x32 pixels each, the primitives that touch them in order; threads take bins
+//!       ──► fragments   coverage, depth, varyings (source), 64 fragments at a time, blending ──► target
+//! ```
+//!
+//! *In:* a [`Scene`]. *Out:* a [`Picture`].
+//! *Holds:* the picture does not depend on the number of threads: within a bin everything happens in the order of the
+//! primitives.
+
+mod assembly;
+mod clip;
+mod fragments;
+mod plan;
+mod source;
+mod target;
+mod vertices;
+
+use super::RenderOptions;
+use super::domain::Domain;
+use super::exec::{Code, Machine};
+use crate::compare::Picture;
+use crate::diagnostic::codes::scenes::{SCENE_CANNOT_DRAW, SCENE_LOOP_BUDGET};
+use crate::diagnostic::{Code as DiagnosticCode, Diagnostic};
+use crate::hir::Stage;
+use crate::scene::{Draw, Scene};
+use crate::source::Span;
+use assembly::{Prim, primitives};
+use fragments::{Shading, draw_bin, output_plans};
+use plan::Plan;
+use rayon::prelude::*;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, Ordering};
+use target::{BIN, Target};
+use vertices::{Invocation, shade};
+
+/// Vertices that are shaded before their primitives are drawn: instances beyond that are drawn in several goes.
+const MAX_INVOCATIONS: usize = 1 << 20;
+
+/// Draws a scene in a domain.
+pub(super) fn render<D: Domain>(scene: &Scene, options: &RenderOptions) -> Result<Picture, Vec<Diagnostic>> {
+    let mut target = Target::<D>::new(scene.framebuffer);
+    for draw in &scene.draws {
+        draw_all(scene, draw, options, &mut target)?;
+    }
+    Ok(target.picture())
+}
+
+fn draw_all<D: Domain>(
+    scene: &Scene,
+    draw: &Draw,
+    options: &RenderOptions,
+    target: &mut Target<D>,
+) -> Result<(), Vec<Diagnostic>> {
+    if draw.program.stage(Stage::Geometry).is_some() {
+        return Err(vec![refuse(&SCENE_CANNOT_DRAW, "a program with a geometry stage cannot be drawn")]);
+    }
+    let vertex_code = Code::compile(&draw.program, Stage::Vertex)?;
+    let fragment_code = Code::compile(&draw.program, Stage::Fragment)?;
+    let plan = Plan::new(&draw.program);
+    let outputs = output_plans(draw, scene.framebuffer.attachments);
+    let viewport = [scene.framebuffer.width as f32, scene.framebuffer.height as f32];
+    let (order, unique) = unique_vertices(draw);
+    let group = (MAX_INVOCATIONS / unique.len().max(1)).max(1) as u32;
+    let over_budget = AtomicBool::new(false);
+    let mut first = 0;
+    while first < draw.instances && !unique.is_empty() {
+        let instances = first..draw.instances.min(first + group);
+        let invocations: Vec<Invocation> =
+            instances.clone().flat_map(|instance| unique.iter().map(move |&vertex| (vertex, instance))).collect();
+        let mut vertices = shade::<D>(draw, &vertex_code, &plan, &invocations, viewport, &over_budget);
+        for local in 0..instances.len() as u32 {
+            let base = local * unique.len() as u32;
+            let order: Vec<u32> = order.iter().map(|&position| base + position).collect();
+            let prims = primitives(&mut vertices, &order, &draw.state, options.lines);
+            let shading = Shading {
+                draw,
+                plan: &plan,
+                vertices: &vertices,
+                prims: &prims,
+                framebuffer: scene.framebuffer,
+                outputs: &outputs,
+                mark_edges: options.mark_edges,
+            };
+            draw_prims(&shading, &fragment_code, target, &over_budget);
+        }
+        first = instances.end;
+    }
+    if over_budget.load(Ordering::Relaxed) {
+        return Err(vec![refuse(&SCENE_LOOP_BUDGET, "a loop of the program does not come to an end")]);
+    }
+    Ok(())
+}
+
+fn refuse(code: &'static DiagnosticCode, message: &str) -> Diagnostic {
+    Diagnostic::new(code, Span::default(), message)
+}
+
+/// The vertices of a draw without repetition, and for each position of the draw its place among them.
+fn unique_vertices(draw: &Draw) -> (Vec<u32>, Vec<u32>) {
+    let Some(indices) = &draw.indices else {
+        let all: Vec<u32> = (0..draw.vertex_count).collect();
+        return (all.clone(), all);
+    };
+    let used = indices.get(..draw.vertex_count as usize).unwrap_or(indices);
+    let mut unique = used.to_vec();
+    unique.sort_unstable();
+    unique.dedup();
+    let order = used.iter().map(|index| unique.partition_point(|known| known < index) as u32).collect();
+    (order, unique)
+}
+
+/// The primitives that touch each bin, in order: a list of lists in two arrays.
+struct Bins {
+    starts: Vec<u32>,
+    prims: Vec<u32>,
+}
+
+impl Bins {
+    fn new<D: Domain>(prims: &[Prim], target: &Target<D>) -> Self {
+        let mut counts = vec![0_u32; target.bins.len() + 1];
+        let mut pairs = Vec::new();
+        for (index, prim) in prims.iter().enumerate() {
+            let bounds = prim.shape.bounds();
+            let clamp = |value: i64, limit: i64| value.clamp(0, limit);
+            let columns = clamp(bounds.x0.div_euclid(BIN), target.columns)
+                ..clamp((bounds.x1 + BIN - 1).div_euclid(BIN), target.columns);
+            let rows = clamp(bounds.y0.div_euclid(BIN), target.rows)
+                ..clamp((bounds.y1 + BIN - 1).div_euclid(BIN), target.rows);
+            for row in rows {
+                for column in columns.clone() {
+                    let bin = (row * target.columns + column) as usize;
+                    if target.bins.get(bin).is_some_and(|bin| prim.shape.may_touch(bin.area)) {
+                        counts[bin + 1] += 1;
+                        pairs.push((bin as u32, index as u32));
+                    }
+                }
+            }
+        }
+        for bin in 1..counts.len() {
+            counts[bin] += counts[bin - 1];
+        }
+        let mut next = counts.clone();
+        let mut list = vec![0; pairs.len()];
+        for (bin, prim) in pairs {
+            let slot = &mut next[bin as usize];
+            list[*slot as usize] = prim;
+            *slot += 1;
+        }
+        Self { starts: counts, prims: list }
+    }
+
+    fn of(&self, bin: usize) -> &[u32] {
+        let range = self.starts.get(bin).zip(self.starts.get(bin + 1));
+        range.and_then(|(&start, &end)| self.prims.get(start as usize..end as usize)).unwrap_or(&[])
+    }
+}
+
+fn draw_prims<D: Domain>(shading: &Shading<'_, D>, code: &Code, target: &mut Target<D>, over_budget: &AtomicBool) {
+    let bins = Bins::new(shading.prims, target);
+    let idle: Mutex<Vec<Machine<D>>> = Mutex::new(Vec::new());
+    let take = || idle.lock().ok().and_then(|mut idle| idle.pop());
+    target.bins.par_iter_mut().enumerate().for_each(|(index, bin)| {
+        let list = bins.of(index);
+        if list.is_empty() {
+            return;
+        }
+        let mut machine = take().unwrap_or_else(|| Machine::new(code, &shading.draw.uniforms, &shading.draw.textures));
+        draw_bin(shading, bin, list, &mut machine);
+        if machine.budget_exceeded() {
+            over_budget.store(true, Ordering::Relaxed);
+        }
+        if let Ok(mut idle) = idle.lock() {
+            idle.push(machine);
+        }
+    });
+}
