@@ -1,10 +1,12 @@
 //! [`Compiler`]: texts in, a [`Program`] and diagnostics out. The one door to the front-end.
 
-use crate::diagnostic::codes::general::NOT_SUPPORTED_YET;
-use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::hir::Stage;
-use crate::link::Program;
+use crate::analysis::analyze;
+use crate::diagnostic::codes::general::TOO_LARGE;
+use crate::diagnostic::{Diagnostic, Diagnostics, Levels};
+use crate::hir::{Shader, Stage, Types};
+use crate::link::{Program, link};
 use crate::source::{IncludeResolver, NoIncludes, SourceMap, Span};
+use crate::syntax;
 use std::sync::Arc;
 
 /// What a compilation may be told.
@@ -75,6 +77,22 @@ impl Compiler {
     }
 
     /// Compiles the stages of one program.
+    ///
+    /// ```
+    /// use glisten::hir::Stage;
+    /// use glisten::{Compiler, Options, Source};
+    ///
+    /// let source = Source {
+    ///     name: "red.frag".into(),
+    ///     text: "#version 150\nout vec4 color;\nvoid main() { color = vec4(1.0, 0.0, 0.0, 1.0); }\n".into(),
+    ///     stage: Stage::Fragment,
+    /// };
+    /// let compilation = Compiler::new(Options::default()).compile(&[source]);
+    /// assert!(!compilation.diagnostics.has_errors());
+    /// let program = compilation.program.expect("without errors there is a program");
+    /// assert_eq!(program.name, "red");
+    /// assert_eq!(program.interface.outputs[0].name, "color");
+    /// ```
     pub fn compile(&self, sources: &[Source]) -> Compilation {
         self.compile_into(SourceMap::default(), sources)
     }
@@ -83,33 +101,39 @@ impl Compiler {
     /// is shown from one map.
     pub fn compile_into(&self, map: SourceMap, sources: &[Source]) -> Compilation {
         let name = sources.first().map_or_else(String::new, |source| stem(&source.name));
-        let mut diagnostics = Diagnostics::default();
-        let mut map = map;
-        let mut types = crate::hir::Types::new();
-        let mut shaders = Vec::new();
+        let (mut map, mut diagnostics, mut types) = (map, Diagnostics::default(), Types::new());
+        let mut shaders = Vec::with_capacity(sources.len());
         for source in sources {
-            let Some(file) = map.add(source.name.clone(), Arc::clone(&source.text)) else { continue };
-            let options = crate::syntax::Options {
-                stage: source.stage,
-                defines: self.options.defines.clone(),
-                strict: self.options.strict,
-            };
-            let ast = crate::syntax::parse(&mut map, file, &options, &*self.includes, &mut diagnostics);
-            shaders.push(crate::analysis::analyze(
-                &ast,
-                source.stage,
-                self.options.strict,
-                &mut types,
-                &map,
-                &mut diagnostics,
-            ));
+            shaders.extend(self.shader(source, &mut types, &mut map, &mut diagnostics));
         }
+        // What a shader with errors offers to the others is not what its author means; linking it would blame them.
         let program = if diagnostics.has_errors() {
             None
         } else {
-            crate::link::link(name.clone(), types, shaders, &self.options, &map, &mut diagnostics)
+            link(name.clone(), types, shaders, &self.options, &map, &mut diagnostics)
         };
+        let levels = Levels::default();
+        diagnostics.retain(|diagnostic| levels.judge(&map, diagnostic).is_some());
         Compilation { name, sources: map, program, diagnostics }
+    }
+
+    /// Parses and analyses one text.
+    fn shader(
+        &self,
+        source: &Source,
+        types: &mut Types,
+        map: &mut SourceMap,
+        diagnostics: &mut Diagnostics,
+    ) -> Option<Shader> {
+        let Some(file) = map.add(source.name.as_str(), Arc::clone(&source.text)) else {
+            let message = format!("there is no room for `{}`", source.name);
+            diagnostics.push(Diagnostic::new(&TOO_LARGE, Span::default(), message));
+            return None;
+        };
+        let strict = self.options.strict;
+        let options = syntax::Options { stage: source.stage, defines: self.options.defines.clone(), strict };
+        let ast = syntax::parse(map, file, &options, &*self.includes, diagnostics);
+        Some(analyze(&ast, source.stage, strict, types, map, diagnostics))
     }
 }
 

@@ -30,9 +30,13 @@ impl Analyzer<'_> {
                 Diagnostic::new(&qualifiers::BLOCK, block.name.span, "a block must be `in`, `out` or `uniform`")
                     .here("no storage qualifier before it"),
             );
+            self.poison_block(block);
             return;
         };
-        let Some(storage) = self.block_storage(word, word_span) else { return };
+        let Some(storage) = self.block_storage(word, word_span) else {
+            self.poison_block(block);
+            return;
+        };
         let name = self.name(block.name);
         if name == "gl_PerVertex" {
             self.redeclare_per_vertex(block, storage);
@@ -46,7 +50,8 @@ impl Analyzer<'_> {
             self.enter_block_name(block.name, storage);
         }
         let matrix = layout.matrix.unwrap_or(self.block_defaults.matrix);
-        let members = self.block_members(block, &Frame { storage, word, word_span, matrix });
+        let (members, invariant) = self.block_members(block, &Frame { storage, word, word_span, matrix });
+        let record = Qualifiers { invariant, ..record };
         if members.is_empty() {
             self.report(
                 Diagnostic::new(&qualifiers::BLOCK, block.name.span, "a block must have a member").here("empty"),
@@ -55,6 +60,18 @@ impl Analyzer<'_> {
         let ty =
             self.types.add_struct(StructType { name: name.to_owned(), members, is_block: true, span: block.name.span });
         self.add_block(block, ty, storage, &layout, &record);
+    }
+
+    /// Enters the names of a block that is not allowed, so that their uses raise nothing more.
+    fn poison_block(&mut self, block: &BlockDecl) {
+        match &block.instance {
+            Some((instance, _)) => self.enter(*instance, Entry::Poison),
+            None => {
+                for declarator in block.members.iter().flat_map(|row| &row.declarators) {
+                    self.enter(declarator.name, Entry::Poison);
+                }
+            }
+        }
     }
 
     fn block_storage(&mut self, word: StorageWord, span: Span) -> Option<Storage> {
@@ -83,11 +100,13 @@ impl Analyzer<'_> {
         None
     }
 
-    fn block_members(&mut self, block: &BlockDecl, frame: &Frame) -> Vec<Member> {
-        let mut members: Vec<Member> = Vec::new();
+    /// The members, and whether one of them is invariant: the block then is as a whole, which is more than was asked.
+    fn block_members(&mut self, block: &BlockDecl, frame: &Frame) -> (Vec<Member>, Option<Span>) {
+        let (mut members, mut invariant): (Vec<Member>, _) = (Vec::new(), None);
         for row in &block.members {
             let record = self.qualifiers(&row.qualifiers, Place::BlockMember);
             self.check_member_storage(&record, frame);
+            invariant = invariant.or(record.invariant);
             let place = if frame.storage == Storage::Uniform {
                 LayoutPlace::UniformMember
             } else {
@@ -102,7 +121,7 @@ impl Analyzer<'_> {
                 self.add_block_member(&mut members, declarator, ty, &record, layout.matrix.unwrap_or(frame.matrix));
             }
         }
-        members
+        (members, invariant)
     }
 
     fn check_member_storage(&mut self, record: &Qualifiers, frame: &Frame) {

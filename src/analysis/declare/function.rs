@@ -80,8 +80,7 @@ impl Analyzer<'_> {
                 let params = types_of(&function);
                 let same = candidates.into_iter().find(|&id| types_of(self.shader.function(id)) == params);
                 if let Some(id) = same {
-                    self.check_same(id, &function);
-                    return Some(id);
+                    return self.is_same(id, &function).then_some(id);
                 }
                 let id = self.add_function(function);
                 self.scopes.add_overload(set, id);
@@ -237,7 +236,7 @@ impl Analyzer<'_> {
     }
 
     /// A function declared again must be the same in all but its parameters' names.
-    fn check_same(&mut self, id: FunctionId, again: &Function) {
+    fn is_same(&mut self, id: FunctionId, again: &Function) -> bool {
         let first = self.shader.function(id);
         let (name, earlier) = (first.name.clone(), first.span);
         let what = if first.ret != again.ret && !first.ret.is_error() && !again.ret.is_error() {
@@ -245,7 +244,7 @@ impl Analyzer<'_> {
         } else if (0..first.param_count).any(|index| first.param_mode(index) != again.param_mode(index)) {
             "parameters' qualifiers"
         } else {
-            return;
+            return true;
         };
         self.report(
             Diagnostic::new(
@@ -256,6 +255,7 @@ impl Analyzer<'_> {
             .here("declared again here")
             .label(earlier, "first declared here"),
         );
+        false
     }
 }
 

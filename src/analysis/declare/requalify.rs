@@ -31,14 +31,17 @@ impl Analyzer<'_> {
         }
     }
 
-    /// `invariant a;`: `a` is an output, or an input of a fragment shader, not used before.
+    /// `invariant a;`: `a` is an output, or an input of a fragment shader, not used before. Of a member of a block the
+    /// whole block becomes invariant, which is more than was asked.
     fn make_invariant(&mut self, name: Ident) {
         let spelling = self.name(name);
         let Some(id) = self.global_named(name) else { return };
         let global = self.shader.global(id);
-        let (storage, declared, is_block) = (global.storage, global.span, global.block.is_some());
-        let candidate = storage == Storage::Out || (storage == Storage::In && self.stage == Stage::Fragment);
-        if !candidate || is_block {
+        let (storage, declared) = (global.storage, global.span);
+        let crosses = storage == Storage::Out || (storage == Storage::In && self.stage == Stage::Fragment);
+        let is_instance = global.block.as_ref().is_some_and(|block| block.instance.is_some());
+        let candidate = crosses && !is_instance;
+        if !candidate {
             self.report(
                 Diagnostic::new(&qualifiers::INVARIANT, name.span, format!("`{spelling}` cannot be invariant"))
                     .here("not an output of the shader")

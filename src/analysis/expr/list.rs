@@ -1,12 +1,11 @@
 //! Initializer lists `{a, b}` (ARB_shading_language_420pack).
 
 use super::super::context::Analyzer;
-use super::super::layout::extension_name;
 use crate::diagnostic::Diagnostic;
-use crate::diagnostic::codes::{qualifiers, types};
+use crate::diagnostic::codes::types;
 use crate::hir::{ArraySize, ConstructKind, ExprId, ExprKind, Scalar, Type, TypeId};
 use crate::source::Span;
-use crate::syntax::ast::{self, Extensions};
+use crate::syntax::ast;
 
 impl Analyzer<'_> {
     /// The initializer of a variable of type `ty`: an expression, or a list where those are on.
@@ -14,11 +13,7 @@ impl Analyzer<'_> {
         let expr = self.ast.expr(id);
         let ast::ExprKind::List(elements) = &expr.kind else { return self.expr(id) };
         if !self.has_420pack() {
-            let name = extension_name(Extensions::SHADING_LANGUAGE_420PACK);
-            self.report(
-                Diagnostic::new(&qualifiers::NEEDS_EXTENSION, expr.span, "an initializer list is not in this version")
-                    .help(format!("put `#extension {name} : enable` at the top, or use a constructor")),
-            );
+            // The parser has said so.
             return self.poison(expr.span);
         }
         self.list(elements, ty, expr.span)

@@ -1,8 +1,8 @@
 //! Jumps (§6.4).
 
 use super::super::context::Analyzer;
-use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::statements;
+use crate::diagnostic::{Diagnostic, Severity};
 use crate::hir::{ExprId, Stage, StmtKind, TypeId};
 use crate::source::Span;
 use crate::syntax::ast;
@@ -64,6 +64,22 @@ impl Analyzer<'_> {
         }
     }
 
+    /// §6.4 names no conversion; 420pack adds it, and every driver has always done it.
+    fn report_conversion(&mut self, span: Span, from: TypeId, to: TypeId) {
+        let (from, to) = (self.type_name(from), self.type_name(to));
+        let mut finding = Diagnostic::new(
+            &statements::RETURN_CONVERSION,
+            span,
+            format!("the returned `{from}` becomes a `{to}` by itself only since GLSL 4.20"),
+        )
+        .here(format!("this is a `{from}`"))
+        .help(format!("write `{to}(...)` around it"));
+        if self.strict {
+            finding.severity = Severity::Error;
+        }
+        self.report(finding);
+    }
+
     fn returned(&mut self, value: ExprId, ret: TypeId, name: &str, declared: Span) -> ExprId {
         let (ty, span) = (self.ty(value), self.span(value));
         if ret.is_error() || ty.is_error() {
@@ -80,9 +96,13 @@ impl Analyzer<'_> {
         if !self.is_whole_value(value) {
             return self.poison(span);
         }
-        // §6.4 names no conversion; 420pack adds it, and every driver has always done it.
         match self.convert(value, ret) {
-            Some(converted) => converted,
+            Some(converted) => {
+                if converted != value && !self.has_420pack() {
+                    self.report_conversion(span, ty, ret);
+                }
+                converted
+            }
             None => {
                 let (from, to) = (self.type_name(ty), self.type_name(ret));
                 let help = self.conversion_help(ty, ret, span);

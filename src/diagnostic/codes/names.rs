@@ -29,11 +29,6 @@ codes! {
          no others."
         bad Vertex("uniform vec4 gl_Color2; void main() { gl_Position = gl_Color2; }"),
         good Vertex("uniform vec4 color; void main() { gl_Position = color; }");
-    DOUBLE_UNDERSCORE = "W0301" "double-underscore" Warning "GLSL 1.50 §3.7"
-        "Names with two underscores in a row are reserved for the layers below. Every driver takes them; some targets of \
-         glisten do not, and they are renamed there."
-        bad Vertex("uniform vec4 base__color; void main() { gl_Position = base__color; }"),
-        good Vertex("uniform vec4 base_color; void main() { gl_Position = base_color; }");
     NO_MEMBER = "E0306" "no-such-member" Error "GLSL 1.50 §5.7"
         "A struct or block has no member of that name, or the value has no members at all."
         bad Fragment("struct Light { vec3 color; }; uniform Light l; out vec4 c; void main() { c = vec4(l.colour, 1.0); }"),

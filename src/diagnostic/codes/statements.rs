@@ -12,6 +12,10 @@ codes! {
         "What is returned must have the function's return type, and a `void` function returns no value."
         bad Fragment("out vec4 c; float f() { return vec2(1.0); } void main() { c = vec4(f()); }"),
         good Fragment("out vec4 c; float f() { return vec2(1.0).x; } void main() { c = vec4(f()); }");
+    RETURN_CONVERSION = "W0501" "implicit-return-conversion" Warning "GLSL 1.50 §6.4"
+        "Before GLSL 4.20 (or GL_ARB_shading_language_420pack) a returned value is not converted to the return type by          itself. Every driver converts it all the same, so this is a warning; `--strict` makes it an error."
+        bad Fragment("out vec4 c; float f() { return 1; } void main() { c = vec4(f()); }"),
+        good Fragment("out vec4 c; float f() { return 1.0; } void main() { c = vec4(f()); }");
     DISCARD = "E0503" "discard-outside-fragment" Error "GLSL 1.50 §6.4"
         "`discard` gives up a fragment, and only a fragment shader has one."
         bad Vertex("void main() { gl_Position = vec4(0.0); discard; }"),
