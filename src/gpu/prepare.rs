@@ -9,10 +9,11 @@ use super::states::{blend, color_format, depth_stencil, primitive_state};
 use super::textures::{self, Bound};
 use super::vertices::{self, Rows};
 use super::{Error, Gpu, Via, assembly, uniforms};
-use crate::emit::{Conventions, Target};
+use crate::emit::{self, Conventions, Emitted, Target};
 use crate::hir::{Interpolation, SamplerType, Stage, Type};
 use crate::link::{Program, SlotBinding};
-use crate::scene::{Draw, Format, Framebuffer, Scene};
+use crate::scene::{Draw, Format, Framebuffer, Scene, State};
+use std::sync::Arc;
 use wgpu::util::DeviceExt;
 
 /// A scene on the device.
@@ -34,17 +35,20 @@ pub(super) struct PreparedDraw {
     pub(super) instances: u32,
 }
 
-/// What emission gives.
-pub(super) enum Emitted {
-    Text(String),
-    Words(Vec<u32>),
-}
-
 /// Where the code of a draw's stage comes from.
 pub(super) type Modules<'a> = &'a dyn Fn(&Draw, Stage) -> Result<Emitted, Error>;
 
-fn emitted(_draw: &Draw, _stage: Stage, _target: Target) -> Result<Emitted, Error> {
-    Err(Error::Unsupported("emission".into()))
+fn emitted(draw: &Draw, stage: Stage, target: Target) -> Result<Emitted, Error> {
+    emit::emit(&draw.program, stage, target, &conventions(draw)).map_err(Error::Emit)
+}
+
+/// A pipeline, and what it was made for: draws of one program in one state share it.
+struct Made {
+    program: Arc<Program>,
+    state: State,
+    instanced: Vec<bool>,
+    pipeline: wgpu::RenderPipeline,
+    layouts: Vec<wgpu::BindGroupLayout>,
 }
 
 /// Group 0 holds the uniform buffers, group 1 the textures and samplers.
@@ -72,11 +76,11 @@ impl Gpu {
                 "a framebuffer of {width} x {height} pixels; this adapter takes 1 to {limit} each way"
             )));
         }
-        let draws = scene
-            .draws
-            .iter()
-            .map(|draw| self.guarded(|| self.prepare_draw(&scene.framebuffer, draw, modules)))
-            .collect::<Result<_, _>>()?;
+        let mut made = Vec::new();
+        let mut draws = Vec::new();
+        for draw in &scene.draws {
+            draws.push(self.guarded(|| self.prepare_draw(&scene.framebuffer, draw, modules, &mut made))?);
+        }
         Ok(Prepared { framebuffer: scene.framebuffer, draws })
     }
 
@@ -85,20 +89,33 @@ impl Gpu {
         framebuffer: &Framebuffer,
         draw: &Draw,
         modules: Modules<'_>,
+        made: &mut Vec<Made>,
     ) -> Result<PreparedDraw, Error> {
         let program = &draw.program;
-        let vertex = self.module(draw, Stage::Vertex, modules)?;
-        let fragment = self.module(draw, Stage::Fragment, modules)?;
         let bindings = bindings(program)?;
-        let layouts = self.layouts(&bindings);
         let rows = vertices::rows(draw);
-        let pipeline = self.pipeline(framebuffer, draw, [&vertex, &fragment], &layouts, &rows);
-        let groups = self.bind(framebuffer, draw, &bindings, &layouts)?;
+        let instanced: Vec<bool> = rows.iter().map(|rows| rows.step == wgpu::VertexStepMode::Instance).collect();
+        let known = made.iter().position(|made| {
+            Arc::ptr_eq(&made.program, program) && made.state == draw.state && made.instanced == instanced
+        });
+        let index = match known {
+            Some(index) => index,
+            None => {
+                let modules =
+                    [self.module(draw, Stage::Vertex, modules)?, self.module(draw, Stage::Fragment, modules)?];
+                let layouts = self.layouts(&bindings);
+                let pipeline = self.pipeline(framebuffer, draw, &modules, &layouts, &rows);
+                made.push(Made { program: Arc::clone(program), state: draw.state, instanced, pipeline, layouts });
+                made.len() - 1
+            }
+        };
+        let Made { pipeline, layouts, .. } = &made[index];
+        let groups = self.bind(framebuffer, draw, &bindings, layouts)?;
         let turned = draw.state.provoking_last && has_flat_varying(program);
         let list = assembly::list(draw.state.primitive, draw.vertex_count, draw.indices.as_deref(), turned);
         let count = list.as_ref().map_or(draw.vertex_count, |list| list.len() as u32);
         Ok(PreparedDraw {
-            pipeline,
+            pipeline: pipeline.clone(),
             groups,
             vertex_buffers: rows.iter().map(|rows| self.buffer(&rows.bytes, wgpu::BufferUsages::VERTEX)).collect(),
             indices: list.map(|list| self.buffer(bytemuck::cast_slice(&list), wgpu::BufferUsages::INDEX)),
@@ -170,7 +187,7 @@ impl Gpu {
         &self,
         framebuffer: &Framebuffer,
         draw: &Draw,
-        [vertex, fragment]: [&wgpu::ShaderModule; 2],
+        [vertex, fragment]: &[wgpu::ShaderModule; 2],
         layouts: &[wgpu::BindGroupLayout],
         rows: &[Rows],
     ) -> wgpu::RenderPipeline {

@@ -1,7 +1,7 @@
 //! The runner alone, on hand-written WGSL: what it does is seen apart from lowering. Needs a Vulkan software adapter.
 
-use super::prepare::Emitted;
 use super::{Error, Gpu, Rendered};
+use crate::emit::Emitted;
 use crate::hir::{
     GlobalId, Interpolation, MatrixLayout, SamplerDim, SamplerType, Scalar, ScalarValue, Shader, Stage, Type, TypeId,
     Types,
