@@ -17,14 +17,15 @@ mod guard;
 mod includes;
 mod inputs;
 mod lint;
-// mod pictures;
+mod pictures;
 mod progress;
 mod reflect;
-// mod report;
-// mod render;
-// mod scenes;
+mod render;
+mod report;
+mod scenes;
 mod session;
 mod stages;
+mod verify;
 
 use clap::{Args, Parser, Subcommand};
 use console::{ColorChoice, Console};
@@ -63,6 +64,9 @@ enum Command {
     Compile(compile::CompileArgs),
     Reflect(reflect::ReflectArgs),
     Explain(explain::ExplainArgs),
+    Render(render::RenderArgs),
+    Verify(verify::VerifyArgs),
+    Report(report::ReportArgs),
 }
 
 /// Runs the program with these arguments, the first being its own name.
@@ -96,6 +100,9 @@ fn dispatch(command: &Command, console: &Console) -> Outcome {
         Command::Compile(args) => compile::run(args, console),
         Command::Reflect(args) => reflect::run(args, console),
         Command::Explain(args) => explain::run(args, console),
+        Command::Render(args) => render::run(args, console),
+        Command::Verify(args) => verify::run(args, console),
+        Command::Report(args) => report::run(args, console),
     }
 }
 
