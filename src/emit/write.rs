@@ -218,8 +218,9 @@ fn write_spirv(
         // Vulkan 1.1 takes up to 1.3.
         lang_version: (1, 3),
         flags,
-        // No map of bindings is given: each resource keeps the group and binding that the link gave it.
-        fake_missing_bindings: true,
+        // A binding that is missing is a slip, which must be seen.
+        fake_missing_bindings: false,
+        binding_map: own_bindings(module),
         bounds_check_policies: policies(),
         zero_initialize_workgroup_memory: spv::ZeroInitializeWorkgroupMemoryMode::None,
         // A pair of counters in every loop, against compilers that take endless loops for impossible. GLSL asks for none.
@@ -230,6 +231,17 @@ fn write_spirv(
         ..spv::Options::default()
     };
     spv::write_vec(module, info, &options, None).map_err(|error| chain(&error))
+}
+
+/// Every resource at its own binding: link has assigned them.
+fn own_bindings(module: &naga::Module) -> spv::BindingMap {
+    let bindings = module.global_variables.iter().filter_map(|(_, variable)| variable.binding);
+    bindings
+        .map(|own| {
+            let info = spv::BindingInfo { descriptor_set: own.group, binding: own.binding, binding_array_size: None };
+            (own, info)
+        })
+        .collect()
 }
 
 /// The text that naga counts lines in.

@@ -192,7 +192,7 @@ impl Lower<'_> {
         let mut numbers = Vec::new();
         let mut cursor = 0;
         let mut most = 4;
-        let mut fill = |members: &mut Vec<StructMember>, cursor: &mut u32, until: u32, align: u32| {
+        let fill = |members: &mut Vec<StructMember>, cursor: &mut u32, until: u32, align: u32| {
             while round_up(*cursor, align) < until {
                 let Some(ty) = filler else { return false };
                 let name = Some(format!("pad_{cursor}"));
