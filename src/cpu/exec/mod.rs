@@ -24,6 +24,8 @@ mod machine;
 mod memory;
 mod registers;
 mod run;
+#[cfg(test)]
+mod tests;
 
 pub use code::Code;
 pub use machine::{LOOP_BUDGET, Machine};

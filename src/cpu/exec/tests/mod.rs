@@ -1,0 +1,102 @@
+//! Random well-typed programs: every lane gives what it gives alone, and in f64 what a plain tree walk gives.
+
+mod evaluate;
+mod generate;
+
+use super::{Code, LANES, Machine, Mask};
+use crate::cpu::domain::{Bound, Domain, F32, F64, Integer, Number};
+use crate::hir::{GlobalId, Scalar};
+use generate::{Generated, Source};
+use proptest::prelude::*;
+
+/// The inputs of the lane, as exact f32 and small integers.
+fn input(lane: usize, flat: u32) -> (f32, u32) {
+    let float = [0.0, 1.0, -1.0, 0.5, 2.25, -3.75, 7.0, -0.125][(lane * 3 + flat as usize * 5) % 8];
+    (float, ((lane as i32 * 7 + flat as i32 * 3) % 11 - 4) as u32)
+}
+
+fn fill<D: Domain>(machine: &mut Machine<D>, program: &Generated) {
+    for (id, classes) in &program.inputs {
+        for (flat, _) in classes.iter().enumerate() {
+            if let Some(lanes) = machine.float_input(*id, flat as u32) {
+                (0..LANES).for_each(|lane| lanes[lane] = D::Float::from_f64(f64::from(input(lane, flat as u32).0)));
+            }
+            if let Some(lanes) = machine.int_input(*id, flat as u32) {
+                (0..LANES).for_each(|lane| lanes[lane] = D::Int::from_bits(input(lane, flat as u32).1));
+            }
+        }
+    }
+}
+
+/// The bits of every output in every lane, `None` where it was discarded.
+fn outputs<D: Domain>(machine: &Machine<D>, program: &Generated, lane: usize) -> Option<Vec<u64>> {
+    if machine.discarded().contains(lane) {
+        return None;
+    }
+    let one = |id: GlobalId, flat: u32| {
+        let float = machine.float_output(id, flat).map(|lanes| canonical(lanes[lane].value()));
+        float.or_else(|| machine.int_output(id, flat).map(|lanes| u64::from(lanes[lane].bits()))).unwrap_or(0)
+    };
+    let ports = program.outputs.iter().flat_map(|(id, scalars)| (0..scalars.len() as u32).map(|flat| (*id, flat)));
+    Some(ports.map(|(id, flat)| one(id, flat)).collect())
+}
+
+/// All NaNs are one, and so are both zeros: `-0` and `0` are equal in GLSL and may differ by evaluation order.
+fn canonical(value: f64) -> u64 {
+    if value.is_nan() { f64::NAN.to_bits() } else { (value + 0.0).to_bits() }
+}
+
+fn machine_of<D: Domain>(program: &Generated) -> Machine<D> {
+    let code = Code::compile(&program.program, crate::hir::Stage::Fragment).expect("generated programs can be run");
+    Machine::new(&code, &program.uniforms, &[])
+}
+
+fn lanes_agree<D: Domain>(program: &Generated) {
+    let mut together = machine_of::<D>(program);
+    fill(&mut together, program);
+    together.run(Mask::ALL, Mask::NONE);
+    for lane in [0, 1, 17, 63] {
+        let mut alone = machine_of::<D>(program);
+        fill(&mut alone, program);
+        alone.run(Mask(1 << lane), Mask::NONE);
+        let (a, b) = (outputs(&together, program, lane), outputs(&alone, program, lane));
+        assert_eq!(a, b, "lane {lane} in {} of\n{}", D::NAME, generate::text(program));
+    }
+}
+
+fn walk_agrees(program: &Generated) {
+    let mut machine = machine_of::<F64>(program);
+    fill(&mut machine, program);
+    machine.run(Mask::ALL, Mask::NONE);
+    for lane in 0..LANES {
+        let expected = evaluate::run(program, |_, flat, scalar| match scalar {
+            Scalar::Float => evaluate::Cell::Float(f64::from(input(lane, flat).0)),
+            _ => evaluate::Cell::Int(input(lane, flat).1),
+        });
+        let expected = expected.map(|cells| {
+            let bits = |cell: &evaluate::Cell| match cell {
+                evaluate::Cell::Float(value) => canonical(*value),
+                evaluate::Cell::Int(bits) => u64::from(*bits),
+            };
+            cells.iter().map(bits).collect::<Vec<_>>()
+        });
+        assert_eq!(outputs(&machine, program, lane), expected, "lane {lane} of\n{}", generate::text(program));
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn random_programs_agree_with_a_tree_walk(bytes in prop::collection::vec(any::<u8>(), 0..400)) {
+        walk_agrees(&generate::program(&mut Source::new(&bytes)));
+    }
+
+    #[test]
+    fn random_programs_give_each_lane_what_it_gets_alone(bytes in prop::collection::vec(any::<u8>(), 0..400)) {
+        let program = generate::program(&mut Source::new(&bytes));
+        lanes_agree::<F64>(&program);
+        lanes_agree::<F32>(&program);
+        lanes_agree::<Bound>(&program);
+    }
+}
