@@ -61,6 +61,8 @@ struct Frame {
     function: FunctionId,
     locals: Vec<Option<VarId>>,
     result: Option<VarId>,
+    /// Whether lanes may leave before the end.
+    parts: bool,
 }
 
 struct Compiler<'a> {

@@ -48,7 +48,10 @@ impl Compiler<'_> {
             StmtKind::Continue => self.leave(Exit::Continue),
             StmtKind::Return(value) => {
                 self.give(*value);
-                self.leave(Exit::Return);
+                // At the end of a function that is not left earlier no lane parts from the others.
+                if self.frames.last().is_some_and(|frame| frame.parts) {
+                    self.leave(Exit::Return);
+                }
             }
             StmtKind::Discard => {
                 self.emit.push(Inst::Discard);
@@ -290,7 +293,7 @@ impl Compiler<'_> {
             return (Val::new(), Vec::new());
         }
         let parts = Self::parts(callee);
-        self.frames.push(Frame { function, locals: vec![None; callee.locals.len()], result: None });
+        self.frames.push(Frame { function, locals: vec![None; callee.locals.len()], result: None, parts });
         let mut outs: Vec<VarId> = Vec::new();
         for index in 0..callee.param_count {
             let mode = callee.param_mode(index);

@@ -2,6 +2,7 @@
 
 mod evaluate;
 mod generate;
+mod text;
 
 use super::{Code, LANES, Machine, Mask};
 use crate::cpu::domain::{Bound, Domain, F32, F64, Integer, Number};
