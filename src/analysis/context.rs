@@ -2,6 +2,7 @@
 
 use super::layout::BlockDefaults;
 use super::scope::{Entry, Scopes};
+use super::wording::worded;
 use crate::diagnostic::codes::names;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::hir::{
@@ -146,7 +147,7 @@ impl<'a> Analyzer<'a> {
 
     /// Reports a finding.
     pub(super) fn report(&mut self, diagnostic: Diagnostic) {
-        self.diagnostics.push(diagnostic);
+        self.diagnostics.push(worded(diagnostic));
     }
 
     /// The spelling of a name.

@@ -28,6 +28,7 @@ mod recursion;
 mod scope;
 mod statement;
 mod types;
+mod wording;
 
 use crate::diagnostic::Diagnostics;
 use crate::hir::{Shader, Stage, Types, with_stack};

@@ -5,7 +5,7 @@ use super::keywords;
 use super::scope::Entry;
 use crate::diagnostic::codes::{names, types};
 use crate::diagnostic::{Diagnostic, did_you_mean};
-use crate::hir::{ArraySize, ScalarValue, Type, TypeId};
+use crate::hir::{ArraySize, Scalar, ScalarValue, Type, TypeId};
 use crate::source::Span;
 use crate::syntax::ast::{ArrayDim, ExprId as AstExprId, Ident, Qualifier, TypeBase, TypeSpec};
 use crate::syntax::token::Symbol;
@@ -108,7 +108,9 @@ impl Analyzer<'_> {
     /// `precision highp float;` (§4.5.3): nothing follows from it.
     pub(super) fn precision(&mut self, qualifier: &Qualifier, spec: &TypeSpec) {
         let ty = self.type_spec(spec);
-        if ty.is_error() || (ty == TypeId::INT || ty == TypeId::FLOAT) {
+        // Samplers came with GLSL ES and 4.x; every driver takes them here, and nothing follows from them either.
+        let forgiven = !self.strict && self.types.contains_sampler(ty);
+        if ty.is_error() || ty == TypeId::INT || ty == TypeId::FLOAT || forgiven {
             return;
         }
         let name = self.type_name(ty);
@@ -117,6 +119,23 @@ impl Analyzer<'_> {
                 .here("only `int` and `float` have one")
                 .label(qualifier.span, "the precision is set here"),
         );
+    }
+
+    /// A precision before a type that has none (§4.5.2).
+    pub(super) fn check_precision(&mut self, precision: Option<Span>, ty: TypeId) {
+        let Some(span) = precision.filter(|_| !ty.is_error()) else { return };
+        let element = self.element_of(ty);
+        let takes = match self.types.get(element) {
+            Type::Sampler(_) => true,
+            _ => self.types.scalar_of(element).is_some_and(|scalar| scalar != Scalar::Bool),
+        };
+        if !takes {
+            let name = self.type_name(ty);
+            self.report(
+                Diagnostic::new(&types::PRECISION_TYPE, span, format!("a `{name}` has no precision"))
+                    .here("only integers and floats have one"),
+            );
+        }
     }
 
     fn keyword_type(&mut self, symbol: Symbol, span: Span) -> TypeId {

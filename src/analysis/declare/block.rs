@@ -114,6 +114,7 @@ impl Analyzer<'_> {
             };
             let layout = self.layout(&record, place);
             let base = self.block_member_base(row);
+            self.check_precision(record.precision, base);
             for declarator in &row.declarators {
                 self.no_member_initializer(declarator);
                 let ty = self.with_array(base, &declarator.array);

@@ -111,8 +111,9 @@ impl Analyzer<'_> {
     }
 
     fn header(&mut self, header: &FunctionHeader) -> Function {
-        self.qualifiers(&header.qualifiers, Place::Return);
+        let record = self.qualifiers(&header.qualifiers, Place::Return);
         let ret = self.return_type(header);
+        self.check_precision(record.precision, ret);
         let locals: Vec<Local> = header.params.iter().map(|param| self.parameter(param)).collect();
         Function {
             name: self.name(header.name).to_owned(),
@@ -181,6 +182,7 @@ impl Analyzer<'_> {
             }
         };
         let ty = self.parameter_type(param, mode);
+        self.check_precision(record.precision, ty);
         let name = param.name.map_or(String::new(), |name| {
             self.check_name(name);
             self.ast.name(name).to_owned()

@@ -17,8 +17,9 @@ impl Analyzer<'_> {
         let good_name = spec.name.is_none_or(|name| self.check_name(name));
         let mut members: Vec<Member> = Vec::new();
         for row in &spec.members {
-            self.qualifiers(&row.qualifiers, Place::StructMember);
+            let record = self.qualifiers(&row.qualifiers, Place::StructMember);
             let base = self.member_base(row);
+            self.check_precision(record.precision, base);
             for declarator in &row.declarators {
                 let ty = self.member_type(declarator, base, row);
                 self.add_member(&mut members, declarator, ty);

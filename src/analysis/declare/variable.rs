@@ -21,6 +21,7 @@ impl Analyzer<'_> {
     pub(in crate::analysis) fn global_variables(&mut self, declaration: &VariableDecl, _: Span) {
         let record = self.qualifiers(&declaration.qualifiers, Place::Global);
         let base = self.type_spec(&declaration.ty);
+        self.check_precision(record.precision, base);
         let storage = self.global_storage(&record);
         for declarator in &declaration.declarators {
             let ty = self.with_array(base, &declarator.array);

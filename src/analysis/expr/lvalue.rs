@@ -28,10 +28,11 @@ impl Analyzer<'_> {
     /// Whether an expression can be written to; if not, that is reported. Poison passes.
     pub(in crate::analysis) fn require_lvalue(&mut self, id: ExprId, purpose: Purpose) -> bool {
         let Some(refusal) = self.refusal(id) else { return true };
+        let what = self.quote(id);
         let message = match purpose {
-            Purpose::Assign => "this cannot be assigned to",
-            Purpose::Change => "this cannot be changed by `++` or `--`",
-            Purpose::Argument => "an argument for an `out` or `inout` parameter must be writable",
+            Purpose::Assign => format!("{what} cannot be assigned to"),
+            Purpose::Change => format!("{what} cannot be changed by `++` or `--`"),
+            Purpose::Argument => format!("{what} cannot be passed to an `out` or `inout` parameter"),
         };
         let mut finding = Diagnostic::new(&types::NOT_AN_LVALUE, self.span(id), message);
         if refusal.at == self.span(id) {

@@ -13,6 +13,7 @@ impl Analyzer<'_> {
     pub(super) fn local_variables(&mut self, declaration: &VariableDecl, out: &mut Vec<Stmt>) {
         let record = self.qualifiers(&declaration.qualifiers, Place::Local);
         let base = self.type_spec(&declaration.ty);
+        self.check_precision(record.precision, base);
         for declarator in &declaration.declarators {
             let (local, initializer) = self.local_variable(declarator, base, &record, declaration);
             if let Some(local) = local {

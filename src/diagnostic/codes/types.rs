@@ -99,8 +99,9 @@ codes! {
          has components, columns, elements or members."
         bad Fragment("#extension GL_ARB_shading_language_420pack : enable\nout vec4 c; void main() { vec3 a = {1.0, 2.0}; c = vec4(a, 1.0); }"),
         good Fragment("#extension GL_ARB_shading_language_420pack : enable\nout vec4 c; void main() { vec2 a = {1.0, 2.0}; c = vec4(a, a); }");
-    PRECISION_TYPE = "E0421" "bad-precision-type" Error "GLSL 1.50 §4.5.3"
-        "Only `int` and `float` have a default precision."
+    PRECISION_TYPE = "E0421" "bad-precision-type" Error "GLSL 1.50 §4.5.2, §4.5.3"
+        "Integers and floats, and their vectors and matrices, may be declared with a precision; booleans and structs have \
+         none. Only `int` and `float` have a default precision."
         bad Fragment("precision highp vec4; out vec4 c; void main() { c = vec4(0.0); }"),
         good Fragment("precision highp float; out vec4 c; void main() { c = vec4(0.0); }");
 }
