@@ -25,7 +25,8 @@ pub(super) static ROWS: &[Row] = rows! {
     T130 TextureSize: ivec3 textureSize(sampler2DArrayShadow sampler, int lod);
     T140 TextureSize: int textureSize(gsamplerBuffer sampler);
     T150 TextureSize: ivec2 textureSize(gsampler2DMS sampler);
-    T150 TextureSize: ivec2 textureSize(gsampler2DMSArray sampler);
+    // 1.50 prints `ivec2` here, against what it says of arrays before the table; later versions and all drivers have `ivec3`.
+    T150 TextureSize: ivec3 textureSize(gsampler2DMSArray sampler);
 
     T130 Texture: gvec4 texture(gsampler1D sampler, float P, optional bias);
     T130 Texture: gvec4 texture(gsampler2D sampler, vec2 P, optional bias);
