@@ -29,7 +29,7 @@ impl Analyzer<'_> {
                     let is_clip_distance = global.builtin == Some(BuiltinVariable::ClipDistance);
                     let ty = self.sized_by_use(ArrayKey::Global(id), element, is_clip_distance);
                     if let Some(global) = self.shader.globals.get_mut(index) {
-                        global.ty = ty;
+                        (global.ty, global.implicitly_sized) = (ty, true);
                     }
                 }
                 _ if is_block => self.size_members(id, ty),

@@ -148,6 +148,8 @@ pub struct Global {
     pub initializer: Option<ExprId>,
     /// The value of a constant or of a uniform's initializer.
     pub value: Option<Value>,
+    /// Whether the size of its array comes from use alone (§4.1.9).
+    pub implicitly_sized: bool,
     /// Whether it is named in a function that `main` can reach, or in the initializer of such a global ("static use").
     pub used: bool,
     /// Likewise, and assigned to.

@@ -326,6 +326,11 @@ impl Types {
         id
     }
 
+    /// All handles, elements before their arrays.
+    pub fn ids(&self) -> impl Iterator<Item = TypeId> + use<> {
+        (0..self.types.len() as u32).map(TypeId)
+    }
+
     /// The type behind a handle of this table.
     pub fn get(&self, id: TypeId) -> Type {
         self.types.get(id.index()).copied().unwrap_or(Type::Error)

@@ -3,7 +3,7 @@
 //! A struct declared in two shaders gives two handles; it matches if it has the same name and the same members in the
 //! same order.
 
-use crate::hir::{Member, StructId, Type, TypeId, Types};
+use crate::hir::{Member, ScalarValue, StructId, Type, TypeId, Types, Value};
 
 /// Whether two types match across shaders.
 pub(super) fn same_type(types: &Types, a: TypeId, b: TypeId) -> bool {
@@ -23,6 +23,17 @@ fn same_struct(types: &Types, a: StructId, b: StructId) -> bool {
     a.name == b.name
         && a.members.len() == b.members.len()
         && a.members.iter().zip(&b.members).all(|(a, b)| a.name == b.name && same_type(types, a.ty, b.ty))
+}
+
+/// Equal bit by bit, so that a NaN equals itself and 0 differs from -0.
+pub(super) fn same_value(a: &Value, b: &Value) -> bool {
+    let bits = |value: &ScalarValue| match *value {
+        ScalarValue::Bool(value) => u32::from(value),
+        ScalarValue::Int(value) => value as u32,
+        ScalarValue::Uint(value) => value,
+        ScalarValue::Float(value) => value.to_bits(),
+    };
+    a.scalars.iter().map(bits).eq(b.scalars.iter().map(bits))
 }
 
 /// The struct behind a block's type, and the size of an array of blocks.

@@ -1,16 +1,272 @@
-//! Several shaders of one stage become one (OpenGL 3.2 §2.11.2).
+//! Several shaders of one stage become one (OpenGL 3.2 §2.11.2; GLSL 1.50 §4.2.6, §6.1).
+//!
+//! Globals of one name are one variable, if they agree in type and qualifiers; a function that one shader declares is the
+//! one that another defines. All handles of the later shaders are moved behind those of the first. What needs the whole
+//! stage is done anew at the end: static use, the sizes of a geometry shader's inputs.
 
-use super::Context;
+use super::compatible::same_value;
+use super::matching::match_name;
+use super::remap::Remap;
 use crate::diagnostic::{Diagnostic, codes};
-use crate::hir::Shader;
+use crate::hir::{
+    ArraySize, Function, FunctionId, Global, GlobalId, LocalKind, Shader, Stage, Storage, Type, TypeId, Types,
+};
 
 /// The one shader that a stage consists of; `None` if there is none.
-pub(super) fn merge(ctx: &mut Context<'_>, shaders: Vec<Shader>) -> Option<Shader> {
+pub(super) fn merge(types: &mut Types, shaders: Vec<Shader>, found: &mut Vec<Diagnostic>) -> Option<Shader> {
     let mut shaders = shaders.into_iter();
-    let first = shaders.next()?;
-    if let Some(second) = shaders.next() {
-        let message = "several shaders of one stage are not merged yet";
-        ctx.report(Diagnostic::new(&codes::general::NOT_SUPPORTED_YET, super::stages::anchor(&second), message));
+    let mut all = shaders.next()?;
+    let mut merged = false;
+    for next in shaders {
+        merged = true;
+        Merge { types, all: &mut all, found }.absorb(next);
     }
-    Some(first)
+    if merged {
+        if all.stage == Stage::Geometry {
+            super::geometry::size_inputs(types, &mut all, found);
+        }
+        all.mark_static_use();
+    }
+    Some(all)
+}
+
+struct Merge<'a> {
+    types: &'a mut Types,
+    all: &'a mut Shader,
+    found: &'a mut Vec<Diagnostic>,
+}
+
+impl Merge<'_> {
+    fn absorb(&mut self, next: Shader) {
+        let remap = Remap {
+            exprs: self.all.exprs.len() as u32,
+            globals: next.globals.iter().map(|global| self.place_of_global(global)).collect(),
+            functions: next.functions.iter().map(|function| self.place_of_function(function)).collect(),
+        };
+        self.all.exprs.extend(next.exprs.into_iter().map(|expr| remap.expr(expr)));
+        for (index, mut global) in next.globals.into_iter().enumerate() {
+            global.initializer = global.initializer.map(|expr| remap.expr_id(expr));
+            if let Some(place) = remap.globals.get(index) {
+                self.unite_global(*place, global);
+            }
+        }
+        for (index, mut function) in next.functions.into_iter().enumerate() {
+            if let Some(body) = &mut function.body {
+                remap.body(body);
+            }
+            if let Some(place) = remap.functions.get(index) {
+                self.unite_function(*place, function);
+            }
+        }
+        self.all.expr_depth = self.all.expr_depth.max(next.expr_depth);
+        self.all.main = self.all.main.or(next.main.map(|main| remap.function_id(main)));
+        self.unite_layouts(next.geometry, next.frag_coord, &remap);
+        self.retype_variables();
+    }
+
+    /// The global that a later one is; a new place if there is none yet.
+    fn place_of_global(&mut self, global: &Global) -> GlobalId {
+        let same = |known: &Global| match (known.builtin, global.builtin) {
+            (None, None) => known.block.is_some() == global.block.is_some() && match_name(known) == match_name(global),
+            (known_builtin, builtin) => known_builtin == builtin && known.storage == global.storage,
+        };
+        // Blocks of one name are apart if one is `in` and the other `out`: "a block name is allowed to have different
+        // definitions in different interfaces" (§4.3.7).
+        let same_interface =
+            |known: &Global| global.block.is_none() || global.builtin.is_some() || known.storage == global.storage;
+        let known = self.all.globals().find(|(_, known)| same(known) && same_interface(known)).map(|(id, _)| id);
+        known.unwrap_or_else(|| {
+            let id = GlobalId(self.all.globals.len() as u32);
+            // A stand-in without an initializer, which `unite_global` replaces.
+            self.all.globals.push(Global { initializer: None, ..global.clone() });
+            id
+        })
+    }
+
+    fn place_of_function(&mut self, function: &Function) -> FunctionId {
+        let signature =
+            |function: &Function| -> Vec<TypeId> { function.params().iter().map(|param| param.ty).collect() };
+        let wanted = signature(function);
+        let same = |known: &Function| known.name == function.name && signature(known) == wanted;
+        let known = self.all.functions().find(|(_, known)| same(known)).map(|(id, _)| id);
+        known.unwrap_or_else(|| {
+            let id = FunctionId(self.all.functions.len() as u32);
+            self.all.functions.push(Function { body: None, ..function.clone() });
+            id
+        })
+    }
+
+    fn unite_global(&mut self, place: GlobalId, global: Global) {
+        let Some(known) = self.all.globals.get(place.index()) else { return };
+        if let Some(problem) = global_problem(self.types, known, &global) {
+            self.found.push(problem);
+            return;
+        }
+        let (ty, implicitly_sized) = united_type(self.types, known, &global);
+        let Some(known) = self.all.globals.get_mut(place.index()) else { return };
+        (known.ty, known.implicitly_sized) = (ty, implicitly_sized);
+        if known.value.is_none() && known.initializer.is_none() {
+            (known.initializer, known.value) = (global.initializer, global.value);
+        }
+        if !known.span.is_known() {
+            known.span = global.span;
+        }
+        known.location = known.location.or(global.location);
+        known.index = known.index.or(global.index);
+        known.binding = known.binding.or(global.binding);
+    }
+
+    fn unite_function(&mut self, place: FunctionId, function: Function) {
+        let Some(known) = self.all.functions.get_mut(place.index()) else { return };
+        if let Some(problem) = function_problem(known, &function) {
+            self.found.push(problem);
+            return;
+        }
+        if known.body.is_none() && function.body.is_some() {
+            *known = function;
+        }
+    }
+
+    fn unite_layouts(
+        &mut self,
+        geometry: crate::hir::GeometryLayout,
+        frag_coord: crate::hir::FragCoordLayout,
+        remap: &Remap,
+    ) {
+        let anchor = super::stages::anchor(self.all);
+        let known = &mut self.all.geometry;
+        let input = (known.input, geometry.input);
+        let output = (known.output, geometry.output);
+        let vertices = (known.max_vertices, geometry.max_vertices);
+        let differ = [
+            (matches!(input, (Some(a), Some(b)) if a != b), "input primitives"),
+            (matches!(output, (Some(a), Some(b)) if a != b), "output primitives"),
+            (matches!(vertices, (Some(a), Some(b)) if a != b), "values of `max_vertices`"),
+        ];
+        for (_, what) in differ.into_iter().filter(|(differ, _)| *differ) {
+            let message = format!("the geometry shaders of the program declare different {what}");
+            self.found.push(Diagnostic::new(&codes::link::GEOMETRY_LAYOUT_CONFLICT, anchor, message));
+        }
+        known.input = known.input.or(geometry.input);
+        known.output = known.output.or(geometry.output);
+        known.max_vertices = known.max_vertices.or(geometry.max_vertices);
+        self.unite_frag_coord(frag_coord, remap);
+    }
+
+    /// "Every declaration of gl_FragCoord in all fragment shaders in a program must be the same" (§4.3.8.1).
+    fn unite_frag_coord(&mut self, frag_coord: crate::hir::FragCoordLayout, remap: &Remap) {
+        let known = self.all.frag_coord;
+        let is_frag_coord = |global: &Global| global.builtin == Some(crate::builtin::BuiltinVariable::FragCoord);
+        let later_has = remap.globals.iter().any(|&id| is_frag_coord(self.all.global(id)));
+        let Some(global) = self.all.globals.iter().find(|global| is_frag_coord(global)) else { return };
+        let untouched = self.all.frag_coord == crate::hir::FragCoordLayout::default() && !global.used;
+        if later_has && known != frag_coord && !untouched {
+            let span = if global.span.is_known() { global.span } else { super::stages::anchor(self.all) };
+            let message = "the fragment shaders of the program declare `gl_FragCoord` differently";
+            self.found.push(Diagnostic::new(&codes::link::FRAG_COORD_CONFLICT, span, message));
+        }
+        if later_has {
+            self.all.frag_coord = crate::hir::FragCoordLayout {
+                origin_upper_left: known.origin_upper_left || frag_coord.origin_upper_left,
+                pixel_center_integer: known.pixel_center_integer || frag_coord.pixel_center_integer,
+            };
+        }
+    }
+
+    /// Expressions that name a global have its type, which may have got a size.
+    fn retype_variables(&mut self) {
+        super::remap::retype_globals(self.all);
+    }
+}
+
+/// Why two declarations cannot be one variable.
+fn global_problem(types: &Types, known: &Global, other: &Global) -> Option<Diagnostic> {
+    let name = match_name(known);
+    let problem = |what: String| {
+        let message = format!("the shaders of one stage declare `{name}` with different {what}");
+        Some(Diagnostic::new(&codes::link::SHARED_GLOBAL_MISMATCH, other.span, message).label(known.span, "and here"))
+    };
+    if known.storage != other.storage {
+        return problem("storage qualifiers".into());
+    }
+    if !types_agree(types, known, other) {
+        return problem(format!("types, `{}` and `{}`", types.name(known.ty), types.name(other.ty)));
+    }
+    let interpolation = |global: &Global| (global.interpolation_written, global.interpolation, global.centroid);
+    if known.builtin.is_none() && known.storage != Storage::Private && interpolation(known) != interpolation(other) {
+        return problem("interpolation qualifiers".into());
+    }
+    if known.invariant != other.invariant && known.builtin.is_none() {
+        return problem("invariance".into());
+    }
+    let differs = |a: Option<u32>, b: Option<u32>| matches!((a, b), (Some(a), Some(b)) if a != b);
+    if differs(known.location, other.location) || differs(known.index, other.index) {
+        return problem("locations".into());
+    }
+    if let (Some(a), Some(b)) = (&known.block, &other.block)
+        && (a.layout != b.layout || a.instance.is_some() != b.instance.is_some())
+    {
+        return problem("layouts or instance names".into());
+    }
+    match (&known.value, &other.value) {
+        (Some(a), Some(b)) if !same_value(a, b) => problem("initializers".into()),
+        _ => None,
+    }
+}
+
+fn array_parts(types: &Types, global: &Global) -> Option<(TypeId, Option<u32>)> {
+    match types.get(global.ty) {
+        Type::Array(element, ArraySize::Sized(size)) => Some((element, Some(size))),
+        Type::Array(element, ArraySize::Unsized) => Some((element, None)),
+        _ => None,
+    }
+}
+
+/// Equal, or arrays of one element type of which at most one has a size of its own that the use of the other fits.
+fn types_agree(types: &Types, known: &Global, other: &Global) -> bool {
+    if known.ty == other.ty {
+        return true;
+    }
+    let (Some((a, a_size)), Some((b, b_size))) = (array_parts(types, known), array_parts(types, other)) else {
+        return false;
+    };
+    let fits = match (a_size, known.implicitly_sized, b_size, other.implicitly_sized) {
+        (None, ..) | (_, _, None, _) | (_, true, _, true) => true,
+        (Some(a), false, Some(b), true) => b <= a,
+        (Some(a), true, Some(b), false) => a <= b,
+        (Some(a), false, Some(b), false) => a == b,
+    };
+    a == b && fits
+}
+
+fn united_type(types: &mut Types, known: &Global, other: &Global) -> (TypeId, bool) {
+    let (Some((element, a)), Some((_, b))) = (array_parts(types, known), array_parts(types, other)) else {
+        return (known.ty, known.implicitly_sized);
+    };
+    let size = match (a, known.implicitly_sized, b, other.implicitly_sized) {
+        (Some(a), false, _, _) => Some(a),
+        (_, _, Some(b), false) => Some(b),
+        (a, _, b, _) => a.max(b),
+    };
+    let explicit = (a.is_some() && !known.implicitly_sized) || (b.is_some() && !other.implicitly_sized);
+    let size = size.map_or(ArraySize::Unsized, ArraySize::Sized);
+    (types.array(element, size), !explicit)
+}
+
+/// Why two declarations cannot be one function.
+fn function_problem(known: &Function, other: &Function) -> Option<Diagnostic> {
+    let name = &known.name;
+    let modes = |function: &Function| -> Vec<LocalKind> { function.params().iter().map(|param| param.kind).collect() };
+    if known.ret != other.ret || modes(known) != modes(other) {
+        let message =
+            format!("the shaders of one stage declare `{name}` with different results or parameter qualifiers");
+        let finding = Diagnostic::new(&codes::link::FUNCTION_MISMATCH, other.span, message);
+        return Some(finding.label(known.span, "and here"));
+    }
+    if known.body.is_some() && other.body.is_some() {
+        let message = format!("`{name}` is defined in two shaders of one stage");
+        let finding = Diagnostic::new(&codes::link::DUPLICATE_DEFINITION, other.span, message);
+        return Some(finding.label(known.span, "the other definition"));
+    }
+    None
 }

@@ -9,7 +9,8 @@
 //!
 //! | file | what it does |
 //! | --- | --- |
-//! | `merge` | several shaders of one stage become one |
+//! | `canonical` | equal structs of different shaders become one type |
+//! | `merge`, `remap`, `geometry` | several shaders of one stage become one |
 //! | `compatible` | when two declarations in different shaders have the same type |
 //! | `stages` | which stages make a program, `main`, geometry layouts |
 //! | `matching` | outputs of one stage against inputs of the next |
@@ -20,13 +21,16 @@
 
 mod aliasing;
 mod attributes;
+mod canonical;
 mod compatible;
 mod flatten;
+mod geometry;
 mod layout;
 mod matching;
 mod merge;
 mod outputs;
 mod program;
+mod remap;
 mod samplers;
 mod stages;
 mod uniforms;
@@ -59,22 +63,27 @@ impl Context<'_> {
     }
 }
 
-/// Links analysed shaders; `None` if that fails. A lone shader links, too: its interface is then that of one stage.
+/// Links analysed shaders; `None` if that fails. A lone shader links, too: its interface is then that of one stage. One
+/// that other shaders of its stage must complete (no `main`, a function that is only declared) gives warnings and no
+/// program.
 pub fn link(
     name: String,
-    types: Types,
-    shaders: Vec<Shader>,
+    mut types: Types,
+    mut shaders: Vec<Shader>,
     options: &Options,
     _sources: &SourceMap,
     diagnostics: &mut Diagnostics,
 ) -> Option<Program> {
     let lone = shaders.len() < 2;
+    canonical::unify(&mut types, &mut shaders);
+    let mut found = Vec::new();
+    let stages = stages::in_order(&mut types, shaders, &mut found);
     let mut ctx = Context { types: &types, options, diagnostics, failed: false };
-    let stages = stages::in_order(&mut ctx, shaders);
-    stages::check(&mut ctx, &stages, lone);
+    found.into_iter().for_each(|diagnostic| ctx.report(diagnostic));
+    let complete = stages::check(&mut ctx, &stages, lone);
     let interface = interface(&mut ctx, &stages);
     let failed = ctx.failed;
-    (!failed).then_some(Program { name, types, stages, interface })
+    (complete && !failed).then_some(Program { name, types, stages, interface })
 }
 
 fn interface(ctx: &mut Context<'_>, stages: &[Shader]) -> Interface {

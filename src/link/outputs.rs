@@ -9,7 +9,7 @@ use super::{Context, Output};
 use crate::builtin::BuiltinVariable;
 use crate::builtin::constants::MAX_DRAW_BUFFERS;
 use crate::diagnostic::{Diagnostic, codes};
-use crate::hir::{ArraySize, Global, GlobalId, Shader, Storage, Type, TypeId, Types};
+use crate::hir::{ArraySize, Global, GlobalId, Shader, Stage, Storage, Type, TypeId, Types};
 
 struct Candidate<'a> {
     id: GlobalId,
@@ -145,6 +145,9 @@ fn too_many(ctx: &mut Context<'_>, candidate: &Candidate<'_>) {
 /// `gl_FragColor`, `gl_FragData` and declared outputs exclude each other (§7.2), also in different shaders of the stage; in
 /// one shader the analysis finds it.
 pub(super) fn check_exclusive(ctx: &mut Context<'_>, fragment: &Shader) {
+    if fragment.stage != Stage::Fragment {
+        return;
+    }
     let written = |builtin: Option<BuiltinVariable>| {
         fragment
             .globals

@@ -2,10 +2,10 @@
 
 use super::{Context, merge};
 use crate::diagnostic::{Diagnostic, codes};
-use crate::hir::{Shader, Stage};
+use crate::hir::{FunctionId, Shader, Stage, Types};
 
 /// One shader a stage, in the order of the pipeline: several of one stage are merged.
-pub(super) fn in_order(ctx: &mut Context<'_>, shaders: Vec<Shader>) -> Vec<Shader> {
+pub(super) fn in_order(types: &mut Types, shaders: Vec<Shader>, found: &mut Vec<Diagnostic>) -> Vec<Shader> {
     let mut by_stage: [Vec<Shader>; 3] = Default::default();
     for shader in shaders {
         let [vertex, geometry, fragment] = &mut by_stage;
@@ -15,15 +15,20 @@ pub(super) fn in_order(ctx: &mut Context<'_>, shaders: Vec<Shader>) -> Vec<Shade
             Stage::Fragment => fragment.push(shader),
         }
     }
-    by_stage.into_iter().filter_map(|shaders| merge::merge(ctx, shaders)).collect()
+    by_stage.into_iter().filter_map(|shaders| merge::merge(types, shaders, found)).collect()
 }
 
-/// What a lone shader may lack, a program may not: then it is a warning instead of an error.
-pub(super) fn check(ctx: &mut Context<'_>, stages: &[Shader], lone: bool) {
+/// Whether the stages can run. What a lone shader may lack, a program may not: then it is a warning instead of an error.
+pub(super) fn check(ctx: &mut Context<'_>, stages: &[Shader], lone: bool) -> bool {
+    let mut complete = !stages.is_empty();
     for shader in stages {
         if shader.main.is_none() {
+            complete = false;
             missing_main(ctx, shader, lone);
         }
+        complete &= functions_are_defined(ctx, shader, lone);
+        check_recursion(ctx, shader);
+        super::outputs::check_exclusive(ctx, shader);
         if shader.stage == Stage::Geometry {
             geometry_layout(ctx, shader, lone);
         }
@@ -35,6 +40,43 @@ pub(super) fn check(ctx: &mut Context<'_>, stages: &[Shader], lone: bool) {
         ctx.report(
             Diagnostic::new(&codes::link::MISSING_STAGE, span, message).help("add a vertex shader to the program"),
         );
+    }
+    complete
+}
+
+/// A function that is called must be defined in some shader of the stage (§6.1).
+fn functions_are_defined(ctx: &mut Context<'_>, shader: &Shader, lone: bool) -> bool {
+    let code = if lone { &codes::link::LONE_WITHOUT_DEFINITION } else { &codes::link::UNDEFINED_FUNCTION };
+    let undefined = shader.functions.iter().filter(|function| function.reachable && function.body.is_none());
+    let mut complete = true;
+    for function in undefined {
+        complete = false;
+        let message = format!("`{}` is called and only declared", function.name);
+        ctx.report(Diagnostic::new(code, function.span, message).here("the declaration"));
+    }
+    complete
+}
+
+/// Recursion through functions of different shaders (§6.1); that inside one shader the analysis has found.
+fn check_recursion(ctx: &mut Context<'_>, shader: &Shader) {
+    let Some(main) = shader.main else { return };
+    let order = shader.callees_first(main);
+    let mut place = vec![usize::MAX; shader.functions.len()];
+    for (index, id) in order.iter().enumerate() {
+        if let Some(slot) = place.get_mut(id.index()) {
+            *slot = index;
+        }
+    }
+    for (index, &caller) in order.iter().enumerate() {
+        // Callees come first, unless a cycle had to be cut.
+        let later = |callee: &FunctionId| place.get(callee.index()).is_some_and(|&place| place >= index);
+        if let Some(callee) = shader.callees(caller).into_iter().find(later) {
+            let (caller, callee) = (shader.function(caller), shader.function(callee));
+            let message =
+                format!("`{}` and `{}` call each other across shaders of one stage", caller.name, callee.name);
+            let finding = Diagnostic::new(&codes::statements::RECURSION, caller.span, message);
+            ctx.report(finding.label(callee.span, "declared here"));
+        }
     }
 }
 

@@ -4,7 +4,7 @@
 //! declarations, those that are read first; uniform blocks follow, elements of an array of blocks at consecutive
 //! bindings. `gl_DepthRange` is a loose uniform with the default (0, 1, 1).
 
-use super::compatible::{MemberDifference, block_parts, compare_members, same_type};
+use super::compatible::{MemberDifference, block_parts, compare_members, same_type, same_value};
 use super::flatten::{join, parts};
 use super::layout::{self, MAX_BLOCK_BYTES, array_stride, extent, round_up, struct_members};
 use super::{Block, BlockIndex, Context, Interface, RootIndex, SlotBinding, UniformLeaf, UniformRoot};
@@ -116,24 +116,13 @@ fn check_same(ctx: &mut Context<'_>, known: &Shared<'_>, stage: Stage, global: &
         return;
     }
     if let (Some((value, declared)), Some(other)) = (known.default, global.value.as_ref())
-        && !same_scalars(value, other)
+        && !same_value(value, other)
     {
         let message = format!("the uniform `{}` has another initializer in each stage", global.name);
         let diagnostic = Diagnostic::new(&codes::link::UNIFORM_INITIALIZER_MISMATCH, global.span, message)
             .label(declared.span, "initialized here, too");
         ctx.report(diagnostic);
     }
-}
-
-/// Equal bit by bit, so that a NaN equals itself.
-fn same_scalars(a: &Value, b: &Value) -> bool {
-    let bits = |value: &ScalarValue| match *value {
-        ScalarValue::Bool(value) => u32::from(value),
-        ScalarValue::Int(value) => value as u32,
-        ScalarValue::Uint(value) => value,
-        ScalarValue::Float(value) => value.to_bits(),
-    };
-    a.scalars.iter().map(bits).eq(b.scalars.iter().map(bits))
 }
 
 fn check_same_block(ctx: &mut Context<'_>, known: &Shared<'_>, stage: Stage, global: &Global) {

@@ -120,6 +120,7 @@ impl Analyzer<'_> {
             block: None,
             initializer,
             value,
+            implicitly_sized: false,
             used: false,
             written: false,
             span,

@@ -135,6 +135,36 @@ codes! {
         "Some shader of the geometry stage must declare the input primitive, the output primitive and the largest number \
          of vertices."
         bad None, good Text("layout(triangles) in; layout(triangle_strip, max_vertices = 3) out;");
+    SHARED_GLOBAL_MISMATCH = "E0721" "shared-global-mismatch" Error "GLSL 1.50 §4.2.6"
+        "Global variables of one name in shaders of one stage are one variable: they must agree in type, qualifiers and \
+         initializer. An array without a size in one shader takes its size from another."
+        bad None, good None;
+    DUPLICATE_DEFINITION = "E0722" "duplicate-definition" Error "GLSL 1.50 §6.1"
+        "A function may be defined in one shader of a stage alone; the others declare it with a prototype."
+        bad None, good Text("vec3 shade(vec3 normal);   // defined in another fragment shader of the program");
+    FUNCTION_MISMATCH = "E0723" "function-mismatch" Error "GLSL 1.50 §6.1"
+        "A function that several shaders of a stage declare must have the same result and parameter qualifiers in all of \
+         them."
+        bad None, good None;
+    UNDEFINED_FUNCTION = "E0724" "undefined-function" Error "GLSL 1.50 §6.1"
+        "A function is called, and no shader of its stage defines it."
+        bad Program(
+            "float f(); void main() { gl_Position = vec4(f()); }",
+            "out vec4 c; void main() { c = vec4(1.0); }"),
+        good Program(
+            "float f() { return 1.0; } void main() { gl_Position = vec4(f()); }",
+            "out vec4 c; void main() { c = vec4(1.0); }");
+    GEOMETRY_LAYOUT_CONFLICT = "E0725" "geometry-layout-conflict" Error "GLSL 1.50 §4.3.8"
+        "All geometry shaders of a program that declare the input primitive, the output primitive or `max_vertices` must \
+         declare the same."
+        bad None, good None;
+    GEOMETRY_INPUT_SIZE = "E0726" "geometry-input-size" Error "GLSL 1.50 §4.3.8.1"
+        "The inputs of a geometry stage are arrays with an element for each vertex of the input primitive, which some \
+         shader of the stage declares; other sizes and indices contradict it."
+        bad None, good None;
+    FRAG_COORD_CONFLICT = "E0727" "frag-coord-conflict" Error "GLSL 1.50 §4.3.8.1"
+        "All fragment shaders of a program that use `gl_FragCoord` must declare it with the same layout."
+        bad None, good None;
     BINDING_IGNORED = "W0701" "binding-ignored" Warning "ARB_explicit_attrib_location"
         "A location was bound by name, and the declaration in the text gives another, which wins. The host program that \
          binds by name will send its data elsewhere than it thinks."
@@ -147,6 +177,11 @@ codes! {
         "The geometry shader lacks a layout declaration that some shader of its stage must have. Alone it cannot be linked."
         bad Geometry("void main() { }"),
         good Geometry("layout(points) in; layout(points, max_vertices = 1) out; void main() { }");
+    LONE_WITHOUT_DEFINITION = "W0707" "lone-shader-without-definition" Warning "GLSL 1.50 §6.1"
+        "The shader calls a function that it only declares. Another shader of its stage may define it; alone it cannot be \
+         linked."
+        bad Vertex("float f(); void main() { gl_Position = vec4(f()); }"),
+        good Vertex("float f() { return 1.0; } void main() { gl_Position = vec4(f()); }");
     ATTRIBUTE_ALIASING_UNUSED = "W0704" "attribute-aliasing-on-separate-paths" Warning "OpenGL 3.2 §2.11.3"
         "Two attributes stand at the same location. That is legal as long as no run of the shader reads both, which holds \
          here."

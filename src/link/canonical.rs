@@ -1,0 +1,91 @@
+//! One type for each struct of a program (GLSL 1.50 §4.2.6: "Structures must have the same name, sequence of type names,
+//! and type definitions, and field names to be considered the same type").
+//!
+//! *In:* shaders whose structs were declared apart. *Out:* the same shaders, in which structs that are equal but for their
+//! places have one handle, so that everything behind the link compares handles.
+
+use crate::hir::{Interpolation, MatrixLayout, Shader, StructId, Type, TypeId, Types, Value};
+use rustc_hash::FxHashMap;
+
+/// What makes a struct what it is.
+#[derive(PartialEq, Eq, Hash)]
+struct Key {
+    name: String,
+    is_block: bool,
+    members: Vec<(String, TypeId, MatrixLayout, Option<Interpolation>, bool)>,
+}
+
+struct Unifier<'a> {
+    types: &'a mut Types,
+    known: FxHashMap<TypeId, TypeId>,
+    structs: FxHashMap<Key, TypeId>,
+}
+
+/// Gives equal structs one handle in all shaders.
+pub(super) fn unify(types: &mut Types, shaders: &mut [Shader]) {
+    if shaders.len() < 2 {
+        return;
+    }
+    let ids: Vec<TypeId> = types.ids().collect();
+    let mut unifier = Unifier { types, known: FxHashMap::default(), structs: FxHashMap::default() };
+    let changed = ids.into_iter().filter(|&id| unifier.canonical(id) != id).count();
+    if changed > 0 {
+        let known = unifier.known;
+        shaders.iter_mut().for_each(|shader| retype(shader, &known));
+    }
+}
+
+impl Unifier<'_> {
+    fn canonical(&mut self, id: TypeId) -> TypeId {
+        if let Some(&known) = self.known.get(&id) {
+            return known;
+        }
+        let canonical = match self.types.get(id) {
+            Type::Array(element, size) => {
+                let element = self.canonical(element);
+                self.types.array(element, size)
+            }
+            Type::Struct(structure) => {
+                let key = self.key(structure);
+                *self.structs.entry(key).or_insert(id)
+            }
+            Type::Error | Type::Void | Type::Scalar(_) | Type::Vector(..) | Type::Matrix(..) | Type::Sampler(_) => id,
+        };
+        self.known.insert(id, canonical);
+        canonical
+    }
+
+    fn key(&mut self, id: StructId) -> Key {
+        let structure = self.types.structure(id);
+        let (name, is_block) = (structure.name.clone(), structure.is_block);
+        let members = structure.members.clone();
+        let members = members.into_iter().map(|member| {
+            let ty = self.canonical(member.ty);
+            (member.name, ty, member.matrix_layout, member.interpolation, member.centroid)
+        });
+        Key { name, is_block, members: members.collect() }
+    }
+}
+
+fn retype(shader: &mut Shader, known: &FxHashMap<TypeId, TypeId>) {
+    let set = |ty: &mut TypeId| *ty = known.get(ty).copied().unwrap_or(*ty);
+    let set_value = |value: &mut Option<Value>| {
+        if let Some(value) = value {
+            set(&mut value.ty);
+        }
+    };
+    for global in &mut shader.globals {
+        set(&mut global.ty);
+        set_value(&mut global.value);
+    }
+    for function in &mut shader.functions {
+        set(&mut function.ret);
+        for local in &mut function.locals {
+            set(&mut local.ty);
+            set_value(&mut local.value);
+        }
+    }
+    for expr in &mut shader.exprs {
+        set(&mut expr.ty);
+    }
+}

@@ -1,0 +1,98 @@
+//! Moves the handles of one shader behind those of another.
+
+use crate::hir::{Expr, ExprId, ExprKind, FunctionId, GlobalId, Shader, Stmt, StmtKind, VarRef};
+
+/// Where everything of a shader goes.
+pub(super) struct Remap {
+    /// How many expressions stand before.
+    pub(super) exprs: u32,
+    /// The new handle of each global.
+    pub(super) globals: Vec<GlobalId>,
+    /// The new handle of each function.
+    pub(super) functions: Vec<FunctionId>,
+}
+
+impl Remap {
+    pub(super) fn expr_id(&self, id: ExprId) -> ExprId {
+        ExprId(id.0 + self.exprs)
+    }
+
+    pub(super) fn function_id(&self, id: FunctionId) -> FunctionId {
+        self.functions.get(id.index()).copied().unwrap_or(id)
+    }
+
+    fn global_id(&self, id: GlobalId) -> GlobalId {
+        self.globals.get(id.index()).copied().unwrap_or(id)
+    }
+
+    pub(super) fn expr(&self, expr: Expr) -> Expr {
+        Expr { kind: self.kind(expr.kind), ..expr }
+    }
+
+    fn kind(&self, kind: ExprKind) -> ExprKind {
+        let id = |id: ExprId| self.expr_id(id);
+        let list = |list: Vec<ExprId>| list.into_iter().map(id).collect();
+        match kind {
+            ExprKind::Error => ExprKind::Error,
+            ExprKind::Literal(value) => ExprKind::Literal(value),
+            ExprKind::Var(VarRef::Global(global)) => ExprKind::Var(VarRef::Global(self.global_id(global))),
+            ExprKind::Var(VarRef::Local(local)) => ExprKind::Var(VarRef::Local(local)),
+            ExprKind::Member(a, member) => ExprKind::Member(id(a), member),
+            ExprKind::Index(a, b) => ExprKind::Index(id(a), id(b)),
+            ExprKind::Swizzle(a, swizzle) => ExprKind::Swizzle(id(a), swizzle),
+            ExprKind::Convert(a) => ExprKind::Convert(id(a)),
+            ExprKind::Construct(how, arguments) => ExprKind::Construct(how, list(arguments)),
+            ExprKind::Unary(op, a) => ExprKind::Unary(op, id(a)),
+            ExprKind::IncDec(op, a) => ExprKind::IncDec(op, id(a)),
+            ExprKind::Binary(op, a, b) => ExprKind::Binary(op, id(a), id(b)),
+            ExprKind::Logical(op, a, b) => ExprKind::Logical(op, id(a), id(b)),
+            ExprKind::Ternary(a, b, c) => ExprKind::Ternary(id(a), id(b), id(c)),
+            ExprKind::Assign(op, a, b) => ExprKind::Assign(op, id(a), id(b)),
+            ExprKind::Comma(a, b) => ExprKind::Comma(id(a), id(b)),
+            ExprKind::Call(function, arguments) => ExprKind::Call(self.function_id(function), list(arguments)),
+            ExprKind::BuiltinCall(function, arguments) => ExprKind::BuiltinCall(function, list(arguments)),
+        }
+    }
+
+    /// Recurses into blocks, which nest at most as deep as the parser allows.
+    pub(super) fn body(&self, body: &mut [Stmt]) {
+        for statement in body {
+            match &mut statement.kind {
+                StmtKind::Expr(expr) => *expr = self.expr_id(*expr),
+                StmtKind::Local(_, expr) | StmtKind::Return(expr) => *expr = expr.map(|expr| self.expr_id(expr)),
+                StmtKind::Block(body) => self.body(body),
+                StmtKind::If { arms, otherwise } => {
+                    for (condition, body) in arms {
+                        *condition = self.expr_id(*condition);
+                        self.body(body);
+                    }
+                    self.body(otherwise);
+                }
+                StmtKind::Switch { selector, cases } => {
+                    *selector = self.expr_id(*selector);
+                    cases.iter_mut().for_each(|case| self.body(&mut case.body));
+                }
+                StmtKind::Loop { condition, step, body, .. } => {
+                    if let Some(condition) = condition {
+                        condition.expr = self.expr_id(condition.expr);
+                    }
+                    *step = step.map(|step| self.expr_id(step));
+                    self.body(body);
+                }
+                StmtKind::Break | StmtKind::Continue | StmtKind::Discard => {}
+            }
+        }
+    }
+}
+
+/// Gives each expression that names a global the global's type, which may have changed its size.
+pub(super) fn retype_globals(shader: &mut Shader) {
+    let Shader { exprs, globals, .. } = shader;
+    for expr in exprs {
+        if let ExprKind::Var(VarRef::Global(id)) = expr.kind
+            && let Some(global) = globals.get(id.index())
+        {
+            expr.ty = global.ty;
+        }
+    }
+}
