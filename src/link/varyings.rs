@@ -19,8 +19,8 @@ use crate::source::Span;
 
 /// Locations for varyings that every WebGPU implementation has.
 const PORTABLE_LOCATIONS: u32 = 16;
-/// The most that a Vulkan implementation offers beside the position.
-const MAX_LOCATIONS: u32 = 31;
+/// The most that an implementation offers (gl_MaxFragmentInputComponents is 128).
+const MAX_LOCATIONS: u32 = 32;
 
 /// A whole variable with its ends.
 struct Whole<'a> {

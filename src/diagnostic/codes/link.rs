@@ -108,7 +108,7 @@ codes! {
         bad Fragment("out vec4 a[6]; out vec4 b[3]; void main() { a[0] = b[0] = vec4(1.0); }"),
         good Fragment("out vec4 a[6]; out vec4 b[2]; void main() { a[0] = b[0] = vec4(1.0); }");
     TOO_MANY_VARYINGS = "E0715" "too-many-varyings" Error "GLSL 1.50 §7.4"
-        "What goes from the vertices to the fragments takes more than 31 locations of four components, even when scalars \
+        "What goes from the vertices to the fragments takes more than 32 locations of four components, even when scalars \
          and vectors share them. No target carries more."
         bad Program(
             "out vec4 v[40]; void main() { v[0] = vec4(1.0); gl_Position = vec4(0.0); }",
