@@ -150,6 +150,7 @@ impl Generator<'_, '_> {
             block: None,
             initializer: None,
             value: None,
+            implicitly_sized: false,
             used: true,
             written: true,
             span: Span::default(),
