@@ -118,6 +118,10 @@ impl<'a> Session<'a> {
         };
         let mut units: Vec<(Unit, usize)> = self.pool.install(|| groups.into_par_iter().map(work).collect());
         for (unit, dropped) in &mut units {
+            // What is wrong with a configuration is told even where there is nothing to judge by it.
+            for input in &unit.group.inputs {
+                self.configs.levels(&input.name);
+            }
             self.judge(&mut unit.batch);
             self.dropped += *dropped;
         }

@@ -220,3 +220,293 @@ fn a_reader_that_goes_away_ends_the_program_in_silence() {
 fn is_written(path: &Path) -> bool {
     fs::metadata(path).is_ok_and(|metadata| metadata.is_file() && metadata.len() > 0)
 }
+
+#[test]
+fn compile_writes_texts_words_and_the_reflection() {
+    let place = Place::triangle();
+    let output = place.run(&["compile", "tri.vert", "tri.frag", "-o", "out/deep", "--bind-attrib", "cv=3"]);
+    assert_eq!(code(&output), 0, "{}", err(&output));
+    assert!(out(&output).is_empty() && err(&output).is_empty(), "{output:?}");
+    assert_eq!(place.names("out/deep"), ["tri.frag.spv", "tri.frag.wgsl", "tri.json", "tri.vert.spv", "tri.vert.wgsl"]);
+    let words = fs::read(place.path("out/deep/tri.vert.spv")).expect("written");
+    assert_eq!(words.get(..4), Some(&[0x03, 0x02, 0x23, 0x07][..]));
+    let reflection: Value =
+        serde_json::from_slice(&fs::read(place.path("out/deep/tri.json")).expect("written")).expect("JSON");
+    assert_eq!(reflection["attributes"][1]["name"], "cv");
+    assert_eq!(reflection["attributes"][1]["location"], 3);
+    assert_eq!(reflection["conventions"]["clip_z"], "zero-to-one");
+}
+
+#[test]
+fn check_and_failures_write_nothing_and_leave_no_temporary_files() {
+    let place = Place::triangle();
+    assert_eq!(code(&place.run(&["compile", "tri.vert", "tri.frag", "--check"])), 0);
+    fs::write(place.path("tri.frag"), FRAGMENT.replace("fc = vc", "fc = vd")).expect("written");
+    let output = place.run(&["compile", "tri.vert", "tri.frag", "-o", "out"]);
+    assert_eq!(code(&output), 1);
+    assert!(err(&output).contains("tri.frag:6:10"), "{}", err(&output));
+    assert!(place.names("out").is_empty());
+    assert_eq!(place.names("."), ["tri.frag", "tri.vert"]);
+}
+
+#[test]
+fn outputs_replace_files_whole_and_folders_are_refused() {
+    let place = Place::triangle();
+    fs::create_dir_all(place.path("out/tri.json")).expect("a folder in the way");
+    let output = place.run(&["compile", "tri.vert", "tri.frag", "-o", "out"]);
+    assert_eq!(code(&output), 2);
+    assert!(err(&output).contains("tri.json"), "{}", err(&output));
+    assert!(place.names("out").iter().all(|name| !name.starts_with(".glisten")), "{:?}", place.names("out"));
+    let output = place.run(&["compile", "tri.vert", "tri.frag", "-o", "tri.vert"]);
+    assert_eq!(code(&output), 2);
+    assert!(err(&output).contains("not a folder"), "{}", err(&output));
+}
+
+#[test]
+fn two_programs_that_write_the_same_file_are_refused_before_any_work() {
+    let place = Place::new(&[
+        ("a/x.vert", VERTEX.as_bytes()),
+        ("b/x.vert", VERTEX.as_bytes()),
+        ("a/x.frag", FRAGMENT.as_bytes()),
+    ]);
+    let output = place.run(&["compile", "a/x.vert", "a/x.frag", "b/x.vert", "-o", "out"]);
+    assert_eq!(code(&output), 2);
+    assert!(err(&output).contains("x.vert.wgsl"), "{}", err(&output));
+    assert!(place.names("out").is_empty());
+}
+
+#[test]
+fn files_are_grouped_by_stem_and_by_program() {
+    let place = Place::triangle();
+    fs::write(place.path("other.frag"), FRAGMENT).expect("written");
+    let output = place.run(&["compile", "tri.vert", "other.frag", "-o", "out"]);
+    assert_eq!(code(&output), 0, "{}", err(&output));
+    assert_eq!(err(&output).matches("W0001").count(), 2, "each is alone: {}", err(&output));
+    let output = place.run(&["compile", "--program", "tri.vert,other.frag", "-o", "paired"]);
+    assert_eq!(code(&output), 0, "{}", err(&output));
+    assert!(!err(&output).contains("W0001"), "{}", err(&output));
+    assert_eq!(
+        place.names("paired"),
+        ["other.frag.spv", "other.frag.wgsl", "tri.json", "tri.vert.spv", "tri.vert.wgsl"]
+    );
+    let denied = place.run(&["compile", "tri.vert", "-o", "denied", "--deny", "warnings"]);
+    assert_eq!(code(&denied), 1);
+    assert!(place.names("denied").is_empty());
+    let allowed = place.run(&["compile", "tri.vert", "-o", "allowed", "--deny", "warnings", "--allow", "lone-stage"]);
+    assert_eq!(code(&allowed), 0, "{}", err(&allowed));
+}
+
+#[test]
+fn any_number_of_threads_gives_the_same_bytes() {
+    let place = Place::new(&[]);
+    let names: Vec<String> = (0..12).map(|index| format!("p{index}")).collect();
+    for name in &names {
+        fs::write(place.path(&format!("{name}.vert")), VERTEX.replace("vc", &format!("v{name}"))).expect("written");
+        fs::write(place.path(&format!("{name}.frag")), FRAGMENT.replace("vc", &format!("v{name}"))).expect("written");
+    }
+    fs::write(place.path("p5.frag"), FRAGMENT.replace("vc;", "vc")).expect("written");
+    let files: Vec<String> = names.iter().flat_map(|name| [format!("{name}.frag"), format!("{name}.vert")]).collect();
+    let files: Vec<&str> = files.iter().map(String::as_str).collect();
+    let run = |jobs: &str, folder: &str| {
+        let output = place.run(&[&["compile", "-j", jobs, "-o", folder], &files[..]].concat());
+        assert_eq!(code(&output), 1);
+        let read = |name: String| (fs::read(place.path(&format!("{folder}/{name}"))).expect("written"), name);
+        (err(&output), place.names(folder).into_iter().map(read).collect::<Vec<_>>())
+    };
+    let one = run("1", "one");
+    assert_eq!(one.1.len(), 11 * 5);
+    assert!(one == run("4", "four"), "the bytes differ");
+}
+
+#[test]
+fn a_depfile_names_outputs_inputs_and_includes() {
+    let place = Place::triangle();
+    let with_include = VERTEX
+        .replace("core\n", "core\n#extension GL_ARB_shading_language_include : require\n#include \"lib/a b.glsl\"\n");
+    fs::create_dir_all(place.path("lib")).expect("a folder");
+    fs::write(place.path("lib/a b.glsl"), "// nothing\n").expect("written");
+    fs::write(place.path("tri.vert"), with_include).expect("written");
+    let arguments = ["compile", "tri.vert", "tri.frag", "-o", "out", "--target", "wgsl", "--depfile", "out.d"];
+    let output = place.run(&arguments);
+    assert_eq!(code(&output), 0, "{}", err(&output));
+    let rule = fs::read_to_string(place.path("out.d")).expect("written");
+    assert_eq!(rule, "out/tri.vert.wgsl out/tri.frag.wgsl out/tri.json: tri.vert lib/a\\ b.glsl tri.frag\n");
+    assert!(is_written(&place.path("out/tri.vert.wgsl")));
+}
+
+#[test]
+fn standard_input_is_a_shader() {
+    let place = Place::new(&[]);
+    let output = place.run_with_input(&["lint", "-", "--stage", "fragment"], FRAGMENT);
+    assert_eq!((code(&output), out(&output)), (0, String::new()), "{}", err(&output));
+    let output =
+        place.run_with_input(&["compile", "-", "--stage", "fragment", "--target", "wgsl", "-o", "out"], FRAGMENT);
+    assert_eq!(code(&output), 0, "{}", err(&output));
+    assert_eq!(place.names("out"), ["stdin.frag.wgsl", "stdin.json"]);
+}
+
+#[test]
+fn lint_tells_all_errors_of_all_stages_with_their_places() {
+    let place = Place::triangle();
+    fs::write(place.path("tri.vert"), VERTEX.replace("vc = cv;", "vc = cw; float f = true;")).expect("written");
+    fs::write(place.path("tri.frag"), FRAGMENT.replace("fc = vc", "fc = vd")).expect("written");
+    let (findings, exit) = place.lint(&["."]);
+    assert_eq!(exit, 1);
+    let places: Vec<(String, u64, u64)> = findings
+        .iter()
+        .map(|finding| {
+            let number = |key: &str| finding[key].as_u64().unwrap_or(0);
+            (finding["file"].as_str().unwrap_or("").replace("./", ""), number("line"), number("column"))
+        })
+        .collect();
+    let wanted = [("tri.vert", 8, 10), ("tri.vert", 8, 24), ("tri.frag", 6, 10)];
+    assert_eq!(places, wanted.map(|(file, line, column)| (file.to_owned(), line, column)));
+    for finding in &findings {
+        for key in ["end_line", "end_column", "severity", "code", "message", "help", "labels", "section"] {
+            assert!(finding.get(key).is_some(), "{key} is missing in {finding}");
+        }
+    }
+}
+
+#[test]
+fn a_link_error_stands_at_the_fragment_side_with_the_other_as_a_label() {
+    let place = Place::triangle();
+    fs::write(
+        place.path("tri.frag"),
+        FRAGMENT.replace("in vec4 vc;", "in vec3 vc;").replace("= vc", "= vec4(vc, 1.0)"),
+    )
+    .expect("written");
+    let (findings, exit) = place.lint(&["tri.vert", "tri.frag"]);
+    assert_eq!((findings.len(), exit), (1, 1), "{findings:#?}");
+    assert_eq!(findings[0]["file"], "tri.frag");
+    let labels = findings[0]["labels"].as_array().expect("labels");
+    assert!(labels.iter().any(|label| label["file"] == "tri.vert"), "{labels:#?}");
+}
+
+#[test]
+fn an_error_in_an_included_file_is_told_once() {
+    let with_include = |text: &str| {
+        text.replace("core\n", "core\n#extension GL_ARB_shading_language_include : require\n#include \"bad.glsl\"\n")
+    };
+    let place = Place::new(&[
+        ("tri.vert", with_include(VERTEX).as_bytes()),
+        ("tri.frag", with_include(FRAGMENT).as_bytes()),
+        ("two.vert", with_include(VERTEX).as_bytes()),
+        ("bad.glsl", b"float f() { return true; }\n"),
+    ]);
+    let (findings, exit) = place.lint(&["."]);
+    assert_eq!(exit, 1);
+    let in_include =
+        findings.iter().filter(|finding| finding["file"].as_str().is_some_and(|f| f.ends_with("bad.glsl")));
+    assert_eq!(in_include.count(), 1, "{findings:#?}");
+}
+
+#[test]
+fn a_missing_include_is_2() {
+    let text =
+        VERTEX.replace("core\n", "core\n#extension GL_ARB_shading_language_include : require\n#include \"no.glsl\"\n");
+    let place = Place::new(&[("tri.vert", text.as_bytes())]);
+    let (findings, exit) = place.lint(&["tri.vert"]);
+    assert_eq!(exit, 2, "{findings:#?}");
+    assert_eq!(findings[0]["line"], 3);
+}
+
+#[test]
+fn every_format_of_diagnostics_is_written() {
+    let place = Place::triangle();
+    fs::write(place.path("tri.frag"), FRAGMENT.replace("fc = vc", "fc = vd")).expect("written");
+    for (format, word) in [("human", "tri.frag:6:10"), ("sarif", "2.1.0"), ("github", "::error file=tri.frag,line=6")] {
+        let output = place.run(&["lint", "tri.vert", "tri.frag", "--format", format]);
+        assert_eq!(code(&output), 1);
+        assert!(out(&output).contains(word), "{format}: {}", out(&output));
+        let output = place.run(&["compile", "tri.vert", "tri.frag", "--check", "--diagnostics", format]);
+        assert!(err(&output).contains(word), "{format}: {}", err(&output));
+    }
+}
+
+#[test]
+fn reflect_answers_what_a_name_is() {
+    let place = Place::triangle();
+    let find = |name: &str| place.run(&["reflect", "tri.vert", "tri.frag", "--find", name]);
+    let attribute = find("cv");
+    assert_eq!(code(&attribute), 0, "{}", err(&attribute));
+    assert!(out(&attribute).contains("attribute") && out(&attribute).contains("location 1"), "{}", out(&attribute));
+    assert!(out(&find("mc")).contains("uniform"));
+    assert!(out(&find("vc")).contains("varying"));
+    assert!(out(&find("fc")).contains("output"));
+    let unknown = find("mcc");
+    assert_eq!(code(&unknown), 1);
+    assert!(err(&unknown).contains("`mc`"), "{}", err(&unknown));
+}
+
+#[test]
+fn reflect_of_several_programs_is_an_object_by_stem() {
+    let place = Place::triangle();
+    fs::write(place.path("lone.frag"), FRAGMENT).expect("written");
+    let output = place.run(&["reflect", "tri.vert", "tri.frag", "lone.frag", "--format", "json"]);
+    assert_eq!(code(&output), 0, "{}", err(&output));
+    let json: Value = serde_json::from_str(&out(&output)).expect("JSON");
+    assert_eq!(json["tri"]["entry_points"]["vertex"], "main");
+    assert_eq!(json["lone"]["outputs"][0]["name"], "fc");
+    let one = place.run(&["reflect", "tri.vert", "tri.frag", "--format", "json"]);
+    let json: Value = serde_json::from_str(&out(&one)).expect("JSON");
+    assert_eq!(json["uniforms"][0]["name"], "mc");
+}
+
+#[test]
+fn macros_come_from_the_command_line() {
+    let place = Place::new(&[("a.frag", b"#version 150\nout vec4 c;\nvoid main() { c = vec4(VALUE); }\n")]);
+    assert_eq!(code(&place.run(&["lint", "a.frag"])), 1);
+    assert_eq!(code(&place.run(&["lint", "a.frag", "-D", "VALUE=0.5"])), 0);
+    assert_eq!(code(&place.run(&["lint", "a.frag", "-DVALUE"])), 0);
+    assert_eq!(code(&place.run(&["lint", "a.frag", "-D", "1X"])), 2);
+}
+
+/// A scene with the triangle in it.
+const SCENE: &str = "[framebuffer]\nwidth = 16\nheight = 8\n\n[[draw]]\nvertex = \"tri.vert\"\nfragment = \"tri.frag\"\n\
+    primitive = \"triangles\"\n[draw.attributes]\npv = { size = 2, values = [-1, -1, 3, -1, -1, 3] }\n\
+    cv = { size = 4, values = [0.5, 0.25, 2.0, 1, 0.5, 0.25, 2.0, 1, 0.5, 0.25, 2.0, 1] }\n[draw.uniforms]\n\
+    mc = [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]\n";
+
+#[test]
+fn render_writes_float_pictures_by_the_reference() {
+    let place = Place::triangle();
+    fs::write(place.path("s.toml"), SCENE).expect("written");
+    for precision in ["f64", "f32"] {
+        let arguments = ["render", "s.toml", "--backend", "cpu", "--precision", precision, "-o", "s.npy"];
+        let output = place.run(&arguments);
+        assert_eq!(code(&output), 0, "{}", err(&output));
+        let bytes = fs::read(place.path("s.npy")).expect("written");
+        let npy = npyz::NpyFile::new(&bytes[..]).expect("an npy file");
+        assert_eq!(npy.shape(), [8, 16, 4]);
+        let values: Vec<f32> = npy.into_vec().expect("float32");
+        assert!(values.chunks(4).all(|pixel| pixel == [0.5, 0.25, 2.0, 1.0]), "{:?}", values.get(..4));
+    }
+}
+
+#[test]
+fn mistakes_of_a_scene_are_told_at_their_places() {
+    let place = Place::triangle();
+    for (text, line, exit, word) in [
+        (SCENE.replace("cv =", "cw ="), 11, 1, "cv"),
+        (SCENE.replace("width =", "widht ="), 2, 1, "width"),
+        (SCENE.replace("tri.frag", "try.frag"), 7, 2, "try.frag"),
+        ("\0\u{1}".to_owned(), 1, 1, ""),
+        (String::new(), 1, 1, ""),
+    ] {
+        fs::write(place.path("s.toml"), &text).expect("written");
+        let arguments = ["render", "s.toml", "--backend", "cpu", "-o", "s.png", "--diagnostics", "json"];
+        let output = place.run(&arguments);
+        assert_eq!(code(&output), exit, "{text}\n{}", err(&output));
+        let findings: Vec<Value> = serde_json::from_str(&err(&output)).expect("JSON");
+        let there = |finding: &&Value| finding["file"] == "s.toml" && finding["line"] == line;
+        let found = findings.iter().filter(there).any(|finding| finding.to_string().contains(word));
+        assert!(found, "{line}: {findings:#?}");
+        assert!(place.names(".").iter().all(|name| name != "s.png"));
+    }
+    let output = place.run(&["render", "none.toml", "--backend", "cpu", "-o", "s.png"]);
+    assert_eq!(code(&output), 2, "{}", err(&output));
+    let output = place.run(&["render", "s.toml", "--backend", "cpu", "-o", "s.jpeg"]);
+    assert_eq!(code(&output), 2);
+    assert!(err(&output).contains(".npy"), "{}", err(&output));
+}
