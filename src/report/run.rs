@@ -8,6 +8,7 @@ use super::model::{Adapter, Report, Timing, Truth, Way};
 use super::plan::{Plan, PlannedWay, base_of, plan};
 use crate::compare::Picture;
 use crate::compiler::Compiler;
+use crate::cpu::{self, Precision, RenderOptions};
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::gpu::{self, Gpu, Prepared, Via};
 use crate::scene::{self, FileError, FileSource, Loaded, Scene};
@@ -147,8 +148,8 @@ fn scene_of(path: &str, text: &str, files: &dyn FileSource, compiler: &Compiler)
 }
 
 fn reference(way: &str, scene: &Scene) -> Result<Picture, Error> {
-    let _ = scene;
-    Err(Error::Reference { way: way.into(), diagnostics: Vec::new() })
+    let options = RenderOptions { precision: Precision::F64, mark_edges: false, ..RenderOptions::default() };
+    cpu::render(scene, &options).map_err(|diagnostics| Error::Reference { way: way.into(), diagnostics })
 }
 
 fn draw(
