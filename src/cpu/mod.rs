@@ -10,6 +10,7 @@ pub mod exec;
 mod interpolate;
 mod pipeline;
 mod raster;
+mod texture;
 
 use crate::compare::Picture;
 use crate::diagnostic::Diagnostic;

@@ -37,6 +37,9 @@ impl Integer for BoundInt {
     fn from_bits(bits: u32) -> Self {
         Self { bits, sure: true }
     }
+    fn with_doubt(bits: u32, doubt: bool) -> Self {
+        Self { bits, sure: !doubt }
+    }
     #[inline(always)]
     fn bits(self) -> u32 {
         self.bits

@@ -11,6 +11,11 @@ pub trait Integer: Copy + Default + Send + Sync + Debug + 'static {
     fn from_bits(bits: u32) -> Self;
     /// The bits, those of the most likely value where they are not sure.
     fn bits(self) -> u32;
+    /// These bits, perhaps not those of every conforming GPU; domains without bounds forget the doubt.
+    fn with_doubt(bits: u32, doubt: bool) -> Self {
+        let _ = doubt;
+        Self::from_bits(bits)
+    }
     /// Whether every conforming GPU has these bits.
     fn sure(self) -> bool {
         true

@@ -31,7 +31,7 @@ impl<D: Domain> Machine<D> {
                 }
                 Inst::Texture { call } => {
                     if let Some(call) = inner.textures.get(call as usize) {
-                        self.undecided |= mask & self.texture(call, inner.stage);
+                        self.undecided |= self.texture(call, inner.stage, mask);
                     }
                 }
                 Inst::Save { slot } => self.slots[slot as usize] = mask,

@@ -68,7 +68,6 @@ impl Compiler<'_> {
             self.refuse(&codes::general::NOT_SUPPORTED_YET, span, &format!("a `{}`", kind.name()));
             return Val::new();
         }
-        self.refuse(&codes::general::NOT_SUPPORTED_YET, span, &format!("`{}`", function.name()));
         let mut call = TextureCall {
             lookup: Lookup::Size,
             kind,

@@ -86,7 +86,7 @@ fn walk_agrees(program: &Generated) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn random_programs_agree_with_a_tree_walk(bytes in prop::collection::vec(any::<u8>(), 0..400)) {
