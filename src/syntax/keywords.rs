@@ -237,6 +237,6 @@ mod tests {
         assert_eq!(kind("double"), Some(Reserved));
         assert_eq!(kind("row_major"), Some(Reserved));
         assert_eq!(kind("precise"), Some(Ident));
-        assert_eq!(TABLE.iter().filter(|row| row.kind_in(150) == Reserved).count(), 81);
+        assert_eq!(TABLE.iter().filter(|row| row.kind_in(150) == Reserved).count(), 70);
     }
 }

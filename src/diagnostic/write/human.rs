@@ -73,7 +73,8 @@ fn severity(severity: Severity) -> codespan::Severity {
 
 fn notes(sources: &SourceMap, diagnostic: &Diagnostic, located: bool) -> Vec<String> {
     let mut notes: Vec<String> = diagnostic.notes.iter().map(|note| clean(note)).collect();
-    if let Some(line) = diagnostic.presented_line {
+    let presented = sources.presented_line(sources.call_site(diagnostic.primary.span));
+    if let Some(line) = diagnostic.presented_line.or(presented) {
         notes.push(format!("`#line` calls this line {line}"));
     }
     if let Some(help) = &diagnostic.help {

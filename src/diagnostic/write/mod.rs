@@ -82,7 +82,7 @@ impl Finding {
             help: diagnostic.help.clone(),
             labels,
             notes: diagnostic.notes.clone(),
-            presented_line: diagnostic.presented_line,
+            presented_line: diagnostic.presented_line.or_else(|| sources.presented_line(outer)),
         }
     }
 }

@@ -18,6 +18,8 @@ mod expand;
 pub(super) mod extension;
 mod finish;
 mod include;
+#[cfg(test)]
+mod tests;
 mod version;
 
 use super::ast::{Allow, Behavior, Extensions, Profile, Version};

@@ -1,0 +1,179 @@
+//! Sources that mean harm: each ends in an error within a stack of 1 MiB, and long legal ones are accepted.
+
+use glisten::diagnostic::Diagnostics;
+use glisten::hir::Stage;
+use glisten::source::{IncludeForm, IncludeResolver, Included, SourceMap};
+use glisten::syntax::{Options, parse};
+use std::fmt::Write as _;
+
+/// Every include finds a file that includes itself.
+struct Endless;
+
+impl IncludeResolver for Endless {
+    fn resolve(&self, path: &str, _: IncludeForm, _: &str) -> Result<Included, String> {
+        Ok(Included { name: path.to_owned(), text: format!("#include \"{path}\"\n#include \"{path}\"\n").into() })
+    }
+}
+
+/// The codes of all findings, parsed on a small stack.
+fn codes(text: String) -> Vec<&'static str> {
+    let run = move || {
+        let mut sources = SourceMap::default();
+        let mut diagnostics = Diagnostics::default();
+        let file = sources.add("hostile.vert", text).expect("room for the text");
+        let options = Options { stage: Stage::Vertex, defines: Vec::new(), strict: false };
+        parse(&mut sources, file, &options, &Endless, &mut diagnostics);
+        diagnostics.iter().map(|diagnostic| diagnostic.code.id).collect()
+    };
+    let thread = std::thread::Builder::new().stack_size(1 << 20).spawn(run);
+    thread.expect("a thread").join().expect("no panic and no overflow")
+}
+
+fn in_main(body: &str) -> String {
+    format!("#version 150\nvoid main() {{ {body} }}\n")
+}
+
+const MANY: usize = 100_000;
+
+#[test]
+fn nesting_is_bounded() {
+    let deep = [
+        in_main(&format!("float a = {}1.0{};", "(".repeat(MANY), ")".repeat(MANY))),
+        in_main(&format!("float a = {}", "(".repeat(MANY))),
+        in_main(&format!("{}{}", "{".repeat(MANY), "}".repeat(MANY))),
+        in_main(&"{".repeat(MANY)),
+        in_main(&format!("float a = {}1.0;", "-".repeat(MANY))),
+        in_main(&format!("float a = {}1.0;", "- ".repeat(MANY))),
+        in_main(&format!("float a = {}true;", "!".repeat(MANY))),
+        in_main(&format!("a{}0{};", "[a".repeat(MANY), "]".repeat(MANY))),
+        in_main(&format!("float a = {}1.0;", "x = ".repeat(MANY))),
+        in_main(&format!("float a = {}1.0;", "x ? y : ".repeat(MANY))),
+        in_main(&format!("float a = {}1.0{};", "x ? ".repeat(MANY), " : y".repeat(MANY))),
+        in_main(&format!("float a = {}1.0{};", "f(".repeat(MANY), ")".repeat(MANY))),
+        in_main(&format!("float a = {}1.0{};", "x || y ^^ z && a | b ^ c & d == e < f << g + h * (".repeat(MANY / 16), ")".repeat(MANY / 16))),
+        in_main(&format!("float a = x{};", ".x".repeat(MANY))),
+        in_main(&format!("float a = x{};", "[0]".repeat(MANY))),
+        in_main(&format!("float a{};", "[1]".repeat(MANY))),
+        in_main(&format!("{};", "if (a) ".repeat(MANY))),
+        in_main(&format!("{};", "for (;;) ".repeat(MANY))),
+        in_main(&format!("{};", "do ".repeat(MANY))),
+        in_main(&format!("{}", "switch (a) { case 1: ".repeat(MANY))),
+        in_main(&format!("float a[] = {}1.0{};", "{".repeat(MANY), "}".repeat(MANY))),
+        format!("#version 150\n{}", "struct S { ".repeat(MANY)),
+        format!("#version 150\n{}float x;{}", "struct S { ".repeat(MANY), "} s;".repeat(MANY)),
+        format!("#version 150\n{}", "layout(location = (".repeat(MANY)),
+    ];
+    for text in deep {
+        let head: String = text.chars().skip(13).take(40).collect();
+        let codes = codes(text);
+        assert!(codes.contains(&"E0003"), "{head}: {codes:?}");
+        assert!(codes.len() < 5, "{head}: {codes:?}");
+    }
+}
+
+#[test]
+fn brackets_without_operands_are_no_nesting() {
+    assert_eq!(codes(in_main(&format!("a{}0{};", "[".repeat(MANY), "]".repeat(MANY)))), ["E0201"]);
+}
+
+#[test]
+fn long_chains_are_legal() {
+    let sum = (0..10_000).fold("x".to_owned(), |mut sum, n| {
+        let _ = write!(sum, " + a{n} * 2.0");
+        sum
+    });
+    let arms = "if (a) b = 1; else ".repeat(1_000);
+    for text in [
+        in_main(&format!("float a = {sum};")),
+        in_main(&format!("{arms} b = 2;")),
+        in_main(&format!("{arms} b = 2;").repeat(10)),
+        in_main(&format!("{}b += 1;", "a += 1, ".repeat(5_000))),
+        in_main(&format!("float a = {}1.0{};", "(".repeat(120), ")".repeat(120))),
+        in_main(&format!("{}{}", "{".repeat(250), "}".repeat(250))),
+    ] {
+        let head: String = text.chars().take(60).collect();
+        assert_eq!(codes(text), Vec::<&str>::new(), "{head}");
+    }
+}
+
+#[test]
+fn macros_are_bounded() {
+    let mut chain = String::from("#version 150\n#define A0 1\n");
+    for n in 1..=MANY {
+        let _ = writeln!(chain, "#define A{n} A{}", n - 1);
+    }
+    let _ = writeln!(chain, "float a = A{MANY};\nvoid main() {{}}");
+    assert_eq!(codes(chain), ["E0130"]);
+
+    let mut laughs = String::from("#version 150\n#define A0 1 +\n");
+    for n in 1..=30 {
+        let _ = writeln!(laughs, "#define A{n} A{0} A{0}", n - 1);
+    }
+    laughs.push_str("float a = A30 1;\nvoid main() {}\n");
+    assert_eq!(codes(laughs), ["E0129"]);
+
+    let mut calls = String::from("#version 150\n#define F0(x) x + x\n");
+    for n in 1..=30 {
+        let _ = writeln!(calls, "#define F{n}(x) F{0}(x) + F{0}(x + x)", n - 1);
+    }
+    calls.push_str("float a = F30(1);\nvoid main() {}\n");
+    assert_eq!(codes(calls), ["E0129"]);
+
+    let nested = |depth| format!("#version 150\n#define F(x) x x\nfloat a = {}1{};\nvoid main() {{}}", "F(".repeat(depth), ")".repeat(depth));
+    assert_eq!(codes(nested(40)), ["E0129"]);
+    assert_eq!(codes(nested(MANY)), ["E0130"]);
+
+    let wide = format!("#version 150\n#define F(x) {}\nfloat a = F({});", "x ".repeat(50_000), "y ".repeat(50_000));
+    assert_eq!(codes(wide), ["E0129"]);
+
+    let condition = format!("#version 150\n#if {}1\n#endif\nvoid main() {{}}", "(".repeat(MANY));
+    assert_eq!(codes(condition), ["E0003"]);
+    let groups = format!("#version 150\n{}void main() {{}}", "#if 1\n".repeat(1_000));
+    assert!(codes(groups).iter().all(|code| *code == "E0108"));
+}
+
+#[test]
+fn includes_are_bounded() {
+    let text = "#version 150\n#extension GL_GOOGLE_include_directive : require\n#include \"a\"\nvoid main() {}\n";
+    assert_eq!(codes(text.to_owned()), ["E0128"]);
+    let large = format!("#version 150\n{}", "float a;\n".repeat(1 << 20));
+    assert_eq!(codes(large), ["E0004"]);
+}
+
+#[test]
+fn junk_ends_in_errors() {
+    assert_eq!(codes(in_main("\0")), ["E0103"]);
+    assert_eq!(codes(in_main("\u{fffd}")), ["E0103"]);
+    assert_eq!(codes(in_main("/* \u{fffd} */")), Vec::<&str>::new());
+    assert_eq!(codes(format!("#version 150\n{}", "\0".repeat(5_000))), ["E0102"]);
+    assert_eq!(codes(in_main("/* ")), ["E0104", "E0205"]);
+    assert_eq!(codes(in_main("a = \"text;")), ["E0103"]);
+    assert_eq!(codes(in_main("a = \"text;\n")), ["E0103"]);
+
+    // A linear congruential generator, so that the junk is the same everywhere.
+    let mut state = 1_u64;
+    let mut next = || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 33) as usize
+    };
+    let words = [
+        "(", ")", "[", "]", "{", "}", ";", ",", ".", "float", "struct", "uniform", "if", "else", "for", "while", "do",
+        "switch", "case", "a", "b", "1", "1.0", "+", "-", "=", "?", ":", "#", "##", "\n", "\n#if", "\n#else", "\n#endif",
+        "\n#define A", "A", "\n#define F(x) x", "F", "layout", "\\", "\n#undef A", "defined", "__LINE__", "in", "void",
+        "/*", "*/", "//", "\"", "é", "precision", "0x", "1e", "<<=", "struct {", "\n#version 150", "\n#line", "invariant",
+    ];
+    for _ in 0..20 {
+        let mut text = String::from("#version 150\n");
+        while text.len() < 20_000 {
+            text.push_str(words[next() % words.len()]);
+            text.push(' ');
+        }
+        assert!(!codes(text).is_empty());
+    }
+    let mut megabyte = String::from("#version 150\n");
+    while megabyte.len() < 1 << 20 {
+        megabyte.push_str(words[next() % words.len()]);
+        megabyte.push(' ');
+    }
+    assert!(!codes(megabyte).is_empty());
+}
