@@ -37,6 +37,8 @@ pub(super) struct Lexer {
     text: Arc<str>,
     base: u32,
     pos: usize,
+    /// Where the last token ended.
+    last_end: u32,
     /// Nothing but white space and comments was on this line so far.
     at_line_start: bool,
     /// A `//` comment that ends in a backslash takes the next line with it (4.20 and 420pack).
@@ -68,7 +70,7 @@ fn class(byte: u8) -> u8 {
 impl Lexer {
     /// Reads `text`, whose first byte has the global offset `base`.
     pub(super) fn new(text: Arc<str>, base: u32) -> Self {
-        Self { text, base, pos: 0, at_line_start: true, joins_comments: false }
+        Self { text, base, pos: 0, last_end: base, at_line_start: true, joins_comments: false }
     }
 
     fn at(&self, offset: usize) -> Option<u8> {
@@ -120,6 +122,7 @@ impl Lexer {
             token.payload = self.intern(start, names, trivia).bits();
             token.span = self.span_from(start);
         }
+        self.last_end = token.span.end;
         token
     }
 
@@ -169,8 +172,7 @@ impl Lexer {
             match self.peek(0) {
                 b' ' | b'\t' | 0x0B | 0x0C => self.pos += 1,
                 b'\n' | b'\r' if mode == Mode::Directive => {
-                    let span = Span::new(self.offset(), self.offset());
-                    return Some(Token::new(TokenKind::Newline, span));
+                    return Some(Token::new(TokenKind::Newline, Span::new(self.last_end, self.last_end)));
                 }
                 b'\n' | b'\r' => {
                     self.pos += 1;
@@ -178,12 +180,11 @@ impl Lexer {
                 }
                 b'/' if self.peek(1) == b'/' => self.line_comment(trivia),
                 b'/' if self.peek(1) == b'*' => {
-                    let start = self.offset();
                     if self.block_comment(trivia) {
                         // New-lines are not eliminated by comments (§3.4): a directive ends in one.
                         self.at_line_start = true;
                         if mode == Mode::Directive {
-                            return Some(Token::new(TokenKind::Newline, Span::new(start, start)));
+                            return Some(Token::new(TokenKind::Newline, Span::new(self.last_end, self.last_end)));
                         }
                     }
                 }
@@ -346,18 +347,6 @@ impl Lexer {
     /// Skips the rest of a directive's line, comments that go on behind it included.
     pub(super) fn skip_line(&mut self, names: &mut Names, trivia: &mut Vec<Trivia>) {
         while !matches!(self.next(Mode::Directive, names, trivia).kind, TokenKind::Newline | TokenKind::Eof) {}
-    }
-
-    /// The rest of the line as it is written, without comments' ends being looked for: for `#error`.
-    pub(super) fn rest_of_line(&mut self) -> Span {
-        while matches!(self.peek(0), b' ' | b'\t') {
-            self.pos += 1;
-        }
-        let start = self.pos;
-        self.skip_to_line_end();
-        let text = self.text.get(start..self.pos).unwrap_or("");
-        let length = text.trim_end().len();
-        Span::new(self.base + start as u32, self.base + (start + length) as u32)
     }
 
     /// The name in `#include "name"` or `#include <name>` with its quotes.

@@ -2,4 +2,7 @@
 
 mod architecture;
 mod cli;
+mod codes;
+mod diagnostics;
 mod hostile;
+mod support;

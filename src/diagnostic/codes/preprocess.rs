@@ -1,16 +1,8 @@
 //! Codes of the phase `preprocess`: characters, comments, directives and macros (GLSL 1.50 §3.1 to §3.4).
 
-use super::Example::{Fragment, None, Text, Vertex};
+use super::Example::{Fragment, None, Vertex};
 
 codes! {
-    EMPTY_SOURCE = "E0101" "empty-source" Error "GLSL 1.50 §3.3"
-        "The source holds no declaration at all: it is empty, or comments and inactive groups are all there is. A \
-         shader of version 1.50 begins with its `#version` line and has at least something to compile."
-        bad Text(""), good Fragment("void main() {}");
-    NOT_TEXT = "E0102" "source-is-not-text" Error "GLSL 1.50 §3.1"
-        "The file is no text: zero bytes stand in it, or most of it is no UTF-8. A compiled shader, a picture or a text \
-         in UTF-16 looks like this."
-        bad None, good None;
     ILLEGAL_CHARACTER = "E0103" "illegal-character" Error "GLSL 1.50 §3.1"
         "GLSL has a small character set: the letters, digits and signs of ASCII without quotes, `@`, `$`, the backquote \
          and, outside of directives, `#`. All others may stand in comments alone."
@@ -59,7 +51,7 @@ codes! {
         good Fragment("#define ADD(a, b) (a + b)\nout vec4 c;\nvoid main() { c = vec4(ADD(1.0, 2.0)); }");
     UNTERMINATED_MACRO_CALL = "E0115" "unterminated-macro-call" Error "GLSL 1.50 §3.3"
         "The arguments of a function-like macro end with `)` in the same file."
-        bad Fragment("#define F(a) a\nout vec4 c;\nvoid main() { c = vec4(F(1.0); }"),
+        bad Fragment("#define F(a) a\nout vec4 c;\nvoid main() { c = vec4(1.0) + F(1.0; }"),
         good Fragment("#define F(a) a\nout vec4 c;\nvoid main() { c = vec4(F(1.0)); }");
     INVALID_PASTE = "E0116" "invalid-token-paste" Error "GLSL 1.50 §3.3"
         "`##` joins the tokens on its two sides, which must be there and must give one valid token."
@@ -141,8 +133,8 @@ codes! {
          it may do without: nothing is turned on."
         bad Fragment("#extension GL_ARB_gpu_shader5 : enable\nvoid main() {}"),
         good Fragment("#ifdef GL_ARB_gpu_shader5\n#extension GL_ARB_gpu_shader5 : enable\n#endif\nvoid main() {}");
-    RESERVED_NAME = "W0107" "reserved-name" Warning "GLSL 1.50 §3.6"
-        "Names that hold two underscores in a row are reserved for future keywords and predefined macros."
+    RESERVED_NAME = "W0107" "macro-double-underscore" Warning "GLSL 1.50 §3.3"
+        "Macro names that hold two underscores in a row are reserved for macros of the language."
         bad Fragment("#define MY__MACRO\nvoid main() {}"), good Fragment("#define MY_MACRO\nvoid main() {}");
     INCLUDE_WITHOUT_EXTENSION = "W0108" "include-without-extension" Warning "GLSL 1.50 §3.3"
         "`#include` is no directive of GLSL 1.50. The extensions GL_ARB_shading_language_include and \

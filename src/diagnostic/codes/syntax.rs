@@ -35,7 +35,7 @@ codes! {
         "An integer literal has at most 32 bits."
         bad Fragment("out vec4 c; void main() { uint a = 4294967296u; c = vec4(a); }"),
         good Fragment("out vec4 c; void main() { uint a = 4294967295u; c = vec4(a); }");
-    NESTED_FUNCTION = "E0209" "nested-function" Error "GLSL 1.50 §6.1"
+    NESTED_FUNCTION = "E0209" "function-inside-function" Error "GLSL 1.50 §6.1"
         "Functions are defined at global scope alone. Where the text did not mean to nest, a `}` is missing above."
         bad Vertex("void main() { float f() { return 1.0; } }"), good Vertex("float f() { return 1.0; } void main() { f(); }");
     STRAY_CASE = "E0210" "stray-case-label" Error "GLSL 1.50 §6.2"

@@ -195,7 +195,6 @@ impl<T: TokenSource> Parser<'_, '_, T> {
             instance = Some((name, self.array_specifiers()?));
         }
         if qualifiers.is_empty() {
-            self.semicolon("the block")?;
             return Ok(DeclarationKind::Error);
         }
         Ok(DeclarationKind::Block(BlockDecl { qualifiers, name, members, instance }))

@@ -73,8 +73,6 @@ impl Preprocessor<'_> {
         let mut token = Token::new(TokenKind::Number, Span::default());
         token.payload = session.names.intern(value).bits();
         let symbol = session.names.intern(name);
-        // A predefined name is no slip of the user's.
-        self.word(symbol).checked = true;
         let definition = Macro {
             name: name.into(),
             span: Span::default(),
@@ -168,10 +166,7 @@ impl Preprocessor<'_> {
             self.skip_line(session);
             return None;
         }
-        if name.contains("__")
-            && directive == "#define"
-            && !std::mem::replace(&mut self.word(token.symbol()).checked, true)
-        {
+        if name.contains("__") && directive == "#define" {
             let message = format!("the macro name `{name}` is reserved: it holds two underscores in a row");
             kind::RESERVED_NAME.report(session, self.strict, token.span, message);
         }

@@ -316,9 +316,14 @@ impl Preprocessor<'_> {
 
     /// `#error text`
     fn error_directive(&mut self, session: &mut Session<'_>, span: Span) {
-        let Some(frame) = self.frames.last_mut() else { return };
-        let rest = frame.lexer.rest_of_line();
-        let text = session.sources.snippet(rest).to_owned();
+        let mut tokens = Vec::new();
+        self.rest_of_line(session, &mut tokens);
+        let rest = match tokens.as_slice() {
+            [first, .., last] => session.sources.join(first.span, last.span),
+            [only] => only.span,
+            [] => span,
+        };
+        let text = if tokens.is_empty() { "" } else { session.sources.snippet(rest) };
         let message = if text.is_empty() { "#error".to_owned() } else { format!("#error: {text}") };
         session.report(Diagnostic::new(&codes::ERROR_DIRECTIVE, session.sources.join(span, rest), message));
     }

@@ -1,7 +1,7 @@
 //! Preprocessing tokens to tokens: keywords are told from names, numbers get their values, and what is no token is
 //! reported and dropped (GLSL 1.50 §3.1, §3.6, §4.1).
 
-use super::{Preprocessor, Session, Span, Token, TokenKind, codes, kind};
+use super::{Preprocessor, Session, Span, Token, TokenKind, codes};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::syntax;
 use crate::syntax::number::{self, Doubt, Malformed, Numeral};
@@ -11,11 +11,7 @@ impl Preprocessor<'_> {
     pub(super) fn finish_token(&mut self, session: &mut Session<'_>, mut token: Token) -> Option<Token> {
         match token.kind {
             TokenKind::Word => {
-                let word = *self.word(token.symbol());
-                if !word.checked {
-                    self.check_word(session, token);
-                }
-                token.kind = word.kind;
+                token.kind = self.word(token.symbol()).kind;
             }
             TokenKind::Number => number(session, &mut token),
             TokenKind::Unknown => {
@@ -37,16 +33,6 @@ impl Preprocessor<'_> {
         }
         self.first_token.get_or_insert(token.span);
         Some(token.with_extensions(self.extensions))
-    }
-
-    /// Reserved names are warned of once.
-    fn check_word(&mut self, session: &mut Session<'_>, token: Token) {
-        self.word(token.symbol()).checked = true;
-        let name = session.spelling(token);
-        if name.contains("__") {
-            let message = format!("the name `{name}` is reserved: it holds two underscores in a row");
-            kind::RESERVED_NAME.report(session, self.strict, token.span, message);
-        }
     }
 }
 

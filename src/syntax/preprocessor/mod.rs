@@ -61,8 +61,6 @@ struct Word {
     /// Number of its macro + 1, or 0.
     definition: u32,
     kind: TokenKind,
-    /// Its double underscore was looked for.
-    checked: bool,
 }
 
 /// The preprocessor of one shader.
@@ -182,7 +180,7 @@ impl<'a> Preprocessor<'a> {
         }
         if odd * 8 > all {
             let span = Span::new(source.base(), source.base());
-            let diagnostic = Diagnostic::new(&codes::NOT_TEXT, span, "the source is not text")
+            let diagnostic = Diagnostic::new(&general::BINARY_SOURCE, span, "the source is not text")
                 .here(format!("{odd} of the first {all} characters are no text"));
             session.report(diagnostic);
             self.stop();
@@ -200,11 +198,10 @@ impl<'a> Preprocessor<'a> {
         if index >= self.words.len() {
             let kinds = &self.kinds;
             let from = self.words.len();
-            self.words.extend((from..=index).map(|index| Word {
-                definition: 0,
-                kind: kinds.get(index).copied().unwrap_or(TokenKind::Ident),
-                checked: false,
-            }));
+            self.words.extend(
+                (from..=index)
+                    .map(|index| Word { definition: 0, kind: kinds.get(index).copied().unwrap_or(TokenKind::Ident) }),
+            );
         }
         // The line above made room for it.
         &mut self.words[index]

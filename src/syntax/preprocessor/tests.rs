@@ -136,7 +136,8 @@ fn lines() {
 
 #[test]
 fn includes_are_loaded_once() {
-    let files = &[("a", "#ifndef A\n#define A\n#include \"b\"\n#include \"a\"\n#endif\n"), ("b", "in b\n#pragma once\n")];
+    let files =
+        &[("a", "#ifndef A\n#define A\n#include \"b\"\n#include \"a\"\n#endif\n"), ("b", "in b\n#pragma once\n")];
     let text = "#extension GL_GOOGLE_include_directive : enable\n#include \"a\"\n#include <b>\n__FILE__";
     let (words, codes, sources) = run(text, files);
     assert_eq!((words.as_str(), codes), ("in b 0", Vec::new()));

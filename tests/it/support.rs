@@ -1,0 +1,84 @@
+//! What several areas share: compiling texts and files, and includes that lie beside them.
+
+use glisten::diagnostic::Diagnostics;
+use glisten::hir::Stage;
+use glisten::source::{IncludeForm, IncludeResolver, Included, SourceMap};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// A shader to compile: its name, text and stage.
+pub(crate) struct Shader {
+    pub(crate) name: String,
+    pub(crate) text: String,
+    pub(crate) stage: Stage,
+}
+
+/// How to compile.
+#[derive(Default)]
+pub(crate) struct Settings {
+    pub(crate) strict: bool,
+    pub(crate) defines: Vec<(String, String)>,
+}
+
+/// Finds includes beside the file that names them.
+#[derive(Clone, Copy)]
+pub(crate) struct Beside;
+
+impl IncludeResolver for Beside {
+    fn resolve(&self, path: &str, _: IncludeForm, from: &str) -> Result<Included, String> {
+        let file = Path::new(from).parent().unwrap_or(Path::new("")).join(path);
+        let text = fs::read_to_string(root().join(&file)).map_err(|_| "no such file beside this one".to_owned())?;
+        Ok(Included { name: file.to_string_lossy().into_owned(), text: text.into() })
+    }
+}
+
+/// The folder of the package.
+pub(crate) fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// The stage that a file name says.
+pub(crate) fn stage_of(path: &Path) -> Option<Stage> {
+    match path.extension()?.to_str()? {
+        "vert" => Some(Stage::Vertex),
+        "geom" => Some(Stage::Geometry),
+        "frag" => Some(Stage::Fragment),
+        _ => None,
+    }
+}
+
+/// All shaders under a folder of the package, in order, with names relative to the package.
+pub(crate) fn shaders_under(folder: &str) -> Vec<Shader> {
+    let mut pending = vec![root().join(folder)];
+    let mut paths: Vec<PathBuf> = Vec::new();
+    while let Some(folder) = pending.pop() {
+        for entry in fs::read_dir(&folder).into_iter().flatten() {
+            let path = entry.expect("a folder entry").path();
+            if path.is_dir() { pending.push(path) } else { paths.push(path) }
+        }
+    }
+    paths.sort();
+    let shader = |path: &PathBuf| {
+        let stage = stage_of(path)?;
+        let bytes = fs::read(path).expect("a readable fixture");
+        let name = path.strip_prefix(root()).expect("inside the package").to_string_lossy().into_owned();
+        Some(Shader { name, text: String::from_utf8_lossy(&bytes).into_owned(), stage })
+    };
+    paths.iter().filter_map(shader).collect()
+}
+
+/// Everything that is found in the shaders of one program.
+pub(crate) fn compile(shaders: &[Shader], settings: &Settings) -> (SourceMap, Diagnostics) {
+    let mut sources = SourceMap::default();
+    let mut diagnostics = Diagnostics::default();
+    for shader in shaders {
+        let file = sources.add(shader.name.clone(), shader.text.clone()).expect("room for the text");
+        let options = glisten::syntax::Options {
+            stage: shader.stage,
+            defines: settings.defines.clone(),
+            strict: settings.strict,
+        };
+        glisten::syntax::parse(&mut sources, file, &options, &Beside, &mut diagnostics);
+    }
+    (sources, diagnostics)
+}
