@@ -106,24 +106,60 @@ impl Lexer {
             return Token { flags, ..Token::new(TokenKind::Eof, self.span_from(start)) };
         };
         let kind = match class(byte) {
-            WORD => {
-                self.pos += 1;
-                while class(self.peek(0)) != 0 {
-                    self.pos += 1;
-                }
-                TokenKind::Word
-            }
+            WORD => self.word(),
             DIGIT => self.number(),
+            _ if byte >= 0x80 && self.foreign_letter().is_some() => self.word(),
+            _ if byte == b'"' => self.string(),
             _ if byte == b'.' && class(self.peek(1)) == DIGIT => self.number(),
             _ => self.operator(byte),
         };
         let mut token = Token { flags, ..Token::new(kind, self.span_from(start)) };
-        if matches!(kind, TokenKind::Word | TokenKind::Number) {
+        if matches!(kind, TokenKind::Word | TokenKind::Number | TokenKind::Invalid) {
             token.payload = self.intern(start, names, trivia).bits();
             token.span = self.span_from(start);
         }
         self.last_end = token.span.end;
         token
+    }
+
+    /// A word; one with letters that are not ASCII is [`TokenKind::Invalid`].
+    fn word(&mut self) -> TokenKind {
+        let mut kind = TokenKind::Word;
+        loop {
+            if class(self.peek(0)) != 0 {
+                self.pos += 1;
+            } else if let Some(length) = self.foreign_letter() {
+                self.pos += length;
+                kind = TokenKind::Invalid;
+            } else {
+                return kind;
+            }
+        }
+    }
+
+    /// The length of a letter or digit that is not ASCII, if one is next.
+    fn foreign_letter(&self) -> Option<usize> {
+        if self.peek(0) < 0x80 {
+            return None;
+        }
+        let character = self.text.get(self.pos..)?.chars().next()?;
+        character.is_alphanumeric().then(|| character.len_utf8())
+    }
+
+    /// What C takes for a string; one without an end is a single character.
+    fn string(&mut self) -> TokenKind {
+        let rest = self.text.as_bytes().get(self.pos + 1..).unwrap_or(&[]);
+        let end = rest.iter().position(|byte| matches!(byte, b'"' | b'\n' | b'\r'));
+        match end.filter(|&end| rest.get(end) == Some(&b'"')) {
+            Some(length) => {
+                self.pos += length + 2;
+                TokenKind::Invalid
+            }
+            None => {
+                self.pos += 1;
+                TokenKind::Unknown
+            }
+        }
     }
 
     /// Interns what was read since `start`; a continued line may split it.

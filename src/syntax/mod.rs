@@ -43,7 +43,7 @@ pub fn parse(
     sources: &mut SourceMap,
     file: FileId,
     options: &Options,
-    includes: &dyn IncludeResolver,
+    includes: &(dyn IncludeResolver + Sync),
     diagnostics: &mut Diagnostics,
 ) -> Ast {
     let mut session = Session { sources, diagnostics, names: Names::with_keywords() };

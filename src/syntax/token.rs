@@ -162,6 +162,8 @@ token_kinds! {
     Number "number",
     /// A character that has no place in the language; the parser never sees one.
     Unknown "character",
+    /// A word or a string that no GLSL has; the payload is its symbol. It was reported, and stands for a name or a value.
+    Invalid "invalid token",
     /// A parameter in the body of a macro; the payload is its place. The parser never sees one.
     Param "parameter",
     Hash "#",
@@ -339,7 +341,7 @@ impl Session<'_> {
 }
 
 /// Where the parser gets its tokens: the preprocessor, or a test.
-pub trait TokenSource {
+pub trait TokenSource: Send {
     /// The next token; [`TokenKind::Eof`] for ever behind the last.
     fn next(&mut self, session: &mut Session<'_>) -> Token;
 }

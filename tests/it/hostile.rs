@@ -65,7 +65,6 @@ fn nesting_is_bounded() {
         in_main(&format!("float a[] = {}1.0{};", "{".repeat(MANY), "}".repeat(MANY))),
         format!("#version 150\n{}", "struct S { ".repeat(MANY)),
         format!("#version 150\n{}float x;{}", "struct S { ".repeat(MANY), "} s;".repeat(MANY)),
-        format!("#version 150\n{}", "layout(location = (".repeat(MANY)),
     ];
     for text in deep {
         let head: String = text.chars().skip(13).take(40).collect();

@@ -3,6 +3,7 @@
 use glisten::diagnostic::Diagnostics;
 use glisten::hir::Stage;
 use glisten::source::{IncludeForm, IncludeResolver, Included, SourceMap};
+use glisten::{Compiler, Options, Source};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -69,16 +70,10 @@ pub(crate) fn shaders_under(folder: &str) -> Vec<Shader> {
 
 /// Everything that is found in the shaders of one program.
 pub(crate) fn compile(shaders: &[Shader], settings: &Settings) -> (SourceMap, Diagnostics) {
-    let mut sources = SourceMap::default();
-    let mut diagnostics = Diagnostics::default();
-    for shader in shaders {
-        let file = sources.add(shader.name.clone(), shader.text.clone()).expect("room for the text");
-        let options = glisten::syntax::Options {
-            stage: shader.stage,
-            defines: settings.defines.clone(),
-            strict: settings.strict,
-        };
-        glisten::syntax::parse(&mut sources, file, &options, &Beside, &mut diagnostics);
-    }
-    (sources, diagnostics)
+    let options = Options { defines: settings.defines.clone(), strict: settings.strict, ..Options::default() };
+    let source =
+        |shader: &Shader| Source { name: shader.name.clone(), text: shader.text.as_str().into(), stage: shader.stage };
+    let sources: Vec<Source> = shaders.iter().map(source).collect();
+    let compilation = Compiler::new(options).with_includes(Beside).compile(&sources);
+    (compilation.sources, compilation.diagnostics)
 }

@@ -14,7 +14,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
     /// external_declaration
     pub(super) fn external_declaration(&mut self) {
         let start = self.current;
-        let before = self.consumed;
+        let before = self.mark();
         let kind = match self.kind() {
             TokenKind::Semicolon => {
                 let span = self.bump().span;
@@ -188,7 +188,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
                 .here("neither `uniform`, `in` nor `out` stands before it");
             self.session.report(diagnostic);
         }
-        let members = self.member_list("block")?;
+        let members = self.member_list()?;
         let mut instance = None;
         if self.kind() == TokenKind::Ident {
             let name = self.ident("the name of an instance")?;

@@ -326,6 +326,10 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         let token = self.current;
         let literal = match token.kind {
             TokenKind::Ident | TokenKind::Reserved => return self.name(),
+            TokenKind::Invalid => {
+                self.bump();
+                return Ok(self.error_expr(token.span));
+            }
             TokenKind::Type => return self.constructor(),
             TokenKind::LeftParen => return self.parenthesized(),
             TokenKind::Int => Literal::Int(token.payload as i32),

@@ -20,6 +20,7 @@ use super::keywords::{NEVER, TABLE};
 use super::token::{Session, Token, TokenKind, TokenSource};
 use crate::diagnostic::codes::{general, syntax as codes};
 use crate::diagnostic::{Code, Diagnostic};
+use crate::hir::with_stack;
 use crate::source::Span;
 use rustc_hash::FxHashSet;
 use std::collections::VecDeque;
@@ -27,12 +28,22 @@ use std::collections::VecDeque;
 /// How deep expressions, blocks, lists and types may nest.
 pub(super) const MAX_NESTING: u32 = 256;
 
+/// How deep the stack of the caller is used; what nests deeper gets a stack of its own.
+const SHALLOW: u32 = 96;
+
 /// An error that was already reported.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reported;
 
 /// What a production gives.
 type Parse<T> = Result<T, Reported>;
+
+/// Where a statement, member or declaration began, for recovery.
+#[derive(Clone, Copy, Debug)]
+struct Mark {
+    consumed: usize,
+    braces: i32,
+}
 
 /// The state of a parse.
 pub(super) struct Parser<'p, 's, T: TokenSource> {
@@ -44,6 +55,8 @@ pub(super) struct Parser<'p, 's, T: TokenSource> {
     previous: Token,
     /// Tokens read so far, to see that recovery moves.
     consumed: usize,
+    /// Braces that were opened and not closed so far.
+    braces: i32,
     nesting: u32,
     /// For each expression its depth, see the module's words.
     depths: Vec<u16>,
@@ -57,6 +70,8 @@ pub(super) struct Parser<'p, 's, T: TokenSource> {
     leaving_function: bool,
     /// Nothing is left to skip after the error that is on its way up.
     recovered: bool,
+    /// Something nests too deep: what is left of the block around it is skipped.
+    overdeep: bool,
     /// The brace that was assumed so.
     assumed_brace: bool,
     /// The opening brace of the function that is being read.
@@ -76,6 +91,7 @@ impl<'p, 's, T: TokenSource> Parser<'p, 's, T> {
             ahead: VecDeque::new(),
             previous: Token::new(TokenKind::Eof, Span::default()),
             consumed: 0,
+            braces: 0,
             nesting: 0,
             depths: Vec::new(),
             operators: Vec::new(),
@@ -83,6 +99,7 @@ impl<'p, 's, T: TokenSource> Parser<'p, 's, T> {
             end_reported: false,
             leaving_function: false,
             recovered: false,
+            overdeep: false,
             assumed_brace: false,
             function_brace: Span::default(),
             strict,
@@ -133,6 +150,11 @@ impl<'p, 's, T: TokenSource> Parser<'p, 's, T> {
         let token = self.current;
         self.previous = token;
         self.consumed += 1;
+        match token.kind {
+            TokenKind::LeftBrace => self.braces += 1,
+            TokenKind::RightBrace => self.braces -= 1,
+            _ => {}
+        }
         self.current = match self.ahead.pop_front() {
             Some(token) => token,
             None => self.fetch(),
@@ -195,7 +217,7 @@ impl<'p, 's, T: TokenSource> Parser<'p, 's, T> {
     fn ident(&mut self, what: &str) -> Parse<Ident> {
         let token = self.current;
         match token.kind {
-            TokenKind::Ident => {}
+            TokenKind::Ident | TokenKind::Invalid => {}
             TokenKind::Reserved => self.report_reserved(token, what),
             kind if is_word(kind) && !(token.starts_line() && self.consumed > 0) => {
                 let name = self.session.spelling(token).to_owned();
@@ -267,7 +289,7 @@ impl<'p, 's, T: TokenSource> Parser<'p, 's, T> {
             kind if is_word(kind) => {
                 let name = self.session.spelling(token).to_owned();
                 match kind {
-                    TokenKind::Ident => format!("`{name}`"),
+                    TokenKind::Ident | TokenKind::Invalid => format!("`{name}`"),
                     TokenKind::Reserved => format!("the reserved word `{name}`"),
                     _ => format!("the keyword `{name}`"),
                 }
@@ -279,23 +301,30 @@ impl<'p, 's, T: TokenSource> Parser<'p, 's, T> {
         }
     }
 
+    /// The place before the next token.
+    fn mark(&self) -> Mark {
+        Mark { consumed: self.consumed, braces: self.braces }
+    }
+
     /// The span from `first` to the last token read.
     fn since(&self, first: Span) -> Span {
         self.session.sources.join(first, self.previous.span)
     }
 
     /// Runs a production one level deeper.
-    fn nested<R>(&mut self, production: impl FnOnce(&mut Self) -> Parse<R>) -> Parse<R> {
+    fn nested<R: Send>(&mut self, production: impl FnOnce(&mut Self) -> Parse<R> + Send) -> Parse<R> {
         if self.nesting >= MAX_NESTING {
             return Err(self.too_deep(self.current.span));
         }
         self.nesting += 1;
-        let result = production(self);
+        let result =
+            if self.nesting == SHALLOW { with_stack(MAX_NESTING, || production(self)) } else { production(self) };
         self.nesting -= 1;
         result
     }
 
     fn too_deep(&mut self, span: Span) -> Reported {
+        self.overdeep = true;
         self.report(&general::TOO_DEEP, span, format!("the source nests more than {MAX_NESTING} levels deep"));
         Reported
     }
@@ -304,6 +333,6 @@ impl<'p, 's, T: TokenSource> Parser<'p, 's, T> {
 /// Whether a token is a word, so that its payload is its symbol.
 fn is_word(kind: TokenKind) -> bool {
     use TokenKind::*;
-    (matches!(kind, Ident | Reserved | Type | True | False | Void) || kind as u8 >= Attribute as u8)
+    (matches!(kind, Ident | Invalid | Reserved | Type | True | False | Void) || kind as u8 >= Attribute as u8)
         && (kind as u8) < LeftParen as u8
 }

@@ -1,6 +1,6 @@
 //! What is skipped after an error, so that the rest can be read and nothing is reported twice.
 
-use super::{Parser, Reported, TokenKind, TokenSource, codes};
+use super::{Mark, Parser, Reported, TokenKind, TokenSource, codes};
 use crate::diagnostic::Diagnostic;
 use crate::source::Span;
 
@@ -34,41 +34,39 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         }
     }
 
-    /// Skips the rest of a broken statement or member: its `;` or its `{..}`, but no brace around it. `before` is how
-    /// much was read when it began: at least one token is always skipped.
-    pub(super) fn recover_statement(&mut self, before: usize) {
+    /// Skips the rest of a broken statement or member that began at `start`: its `;` or its `{..}`, but no brace around
+    /// it. At least one token is skipped, unless it is such a brace.
+    pub(super) fn recover_statement(&mut self, start: Mark) {
         self.operators.clear();
         if std::mem::take(&mut self.recovered) {
             return;
         }
-        let mut braces = 0_usize;
+        let overdeep = std::mem::take(&mut self.overdeep);
         loop {
+            let outside = self.braces <= start.braces;
             match self.kind() {
                 TokenKind::Eof => {
                     self.end_reported = true;
                     return;
                 }
-                TokenKind::RightBrace if braces == 0 => return,
-                TokenKind::Semicolon if braces == 0 => {
+                TokenKind::RightBrace if outside => return,
+                TokenKind::Semicolon if outside && !overdeep => {
                     self.bump();
                     return;
                 }
-                TokenKind::LeftBrace => braces += 1,
-                TokenKind::RightBrace if braces == 1 => {
-                    self.bump();
-                    return;
-                }
-                TokenKind::RightBrace => braces -= 1,
-                _ if braces == 0 && self.consumed > before && self.begins_anew() => return,
+                _ if outside && !overdeep && self.consumed > start.consumed && self.begins_anew() => return,
                 _ => {}
             }
-            self.bump();
+            let closed = self.bump().kind == TokenKind::RightBrace && self.braces <= start.braces;
+            if closed && !overdeep {
+                return;
+            }
         }
     }
 
     /// Skips the rest of a broken declaration: up to its `;`, or past its `{..}` and a `;` behind that.
-    pub(super) fn recover_declaration(&mut self, before: usize) {
-        self.recover_statement(before);
+    pub(super) fn recover_declaration(&mut self, start: Mark) {
+        self.recover_statement(start);
         match self.kind() {
             // The brace closes what was broken, or nothing: in both cases it has had its error.
             TokenKind::RightBrace => {
@@ -85,6 +83,9 @@ impl<T: TokenSource> Parser<'_, '_, T> {
     /// Skips the rest of a broken `( .. )` behind a keyword; false if it has no end before the body or the `;`s.
     pub(super) fn recover_header(&mut self) -> bool {
         self.operators.clear();
+        if self.overdeep {
+            return false;
+        }
         let mut parens = 0_usize;
         loop {
             match self.kind() {

@@ -1,6 +1,6 @@
 //! Statements (GLSL 1.50 §6.2 to §6.4, §9).
 
-use super::{MAX_NESTING, Parse, Parser, Reported, Token, TokenKind, TokenSource, codes};
+use super::{Parse, Parser, Reported, Token, TokenKind, TokenSource, codes};
 use crate::diagnostic::Diagnostic;
 use crate::source::Span;
 use crate::syntax::ast::{Condition, DeclarationKind, ExprId, Stmt, StmtKind, SwitchItem, VariableDecl};
@@ -31,16 +31,8 @@ impl<T: TokenSource> Parser<'_, '_, T> {
     /// statement; one that makes no sense was reported and is skipped.
     pub(super) fn statement(&mut self) -> Stmt {
         let start = self.current.span;
-        let before = self.consumed;
-        let kind = if self.nesting >= MAX_NESTING {
-            Err(self.too_deep(start))
-        } else {
-            self.nesting += 1;
-            let kind = self.statement_kind();
-            self.nesting -= 1;
-            kind
-        };
-        let kind = kind.unwrap_or_else(|_: Reported| {
+        let before = self.mark();
+        let kind = self.nested(Self::statement_kind).unwrap_or_else(|_: Reported| {
             if !self.leaving_function {
                 self.recover_statement(before);
             }
@@ -204,7 +196,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
             if self.kind() == TokenKind::Eof {
                 return Err(self.unclosed_brace(opening.span));
             }
-            let before = self.consumed;
+            let before = self.mark();
             match self.switch_item() {
                 Ok(item) => body.push(item),
                 Err(_) => self.recover_statement(before),

@@ -154,33 +154,25 @@ impl<T: TokenSource> Parser<'_, '_, T> {
     fn struct_specifier(&mut self) -> Parse<StructSpec> {
         self.bump();
         let name = if self.kind() == TokenKind::LeftBrace { None } else { Some(self.ident("the name of a struct")?) };
-        let members = self.member_list("struct")?;
+        let members = self.member_list()?;
         Ok(StructSpec { name, members })
     }
 
     /// struct_declaration_list in its braces
-    pub(super) fn member_list(&mut self, of: &str) -> Parse<Vec<MemberDecl>> {
+    pub(super) fn member_list(&mut self) -> Parse<Vec<MemberDecl>> {
         let opening = self.expect(TokenKind::LeftBrace)?;
         let mut members = Vec::new();
-        let mut failed = false;
         while self.kind() != TokenKind::RightBrace {
             if self.kind() == TokenKind::Eof {
                 return Err(self.unclosed_brace(opening.span));
             }
-            let before = self.consumed;
+            let before = self.mark();
             match self.nested(Self::member) {
                 Ok(member) => members.push(member),
-                Err(_) => {
-                    failed = true;
-                    self.recover_statement(before);
-                }
+                Err(_) => self.recover_statement(before),
             }
         }
         self.bump();
-        if members.is_empty() && !failed {
-            let span = self.since(opening.span);
-            self.report(&codes::UNEXPECTED_TOKEN, span, format!("a {of} has at least one member"));
-        }
         Ok(members)
     }
 

@@ -391,7 +391,7 @@ impl Preprocessor<'_> {
 /// A token as text.
 fn written(session: &Session<'_>, token: Token) -> String {
     match token.kind {
-        TokenKind::Word | TokenKind::Number => session.spelling(token).to_owned(),
+        TokenKind::Word | TokenKind::Number | TokenKind::Invalid => session.spelling(token).to_owned(),
         TokenKind::Unknown => session.sources.snippet(token.span).to_owned(),
         kind => kind.spelling().to_owned(),
     }

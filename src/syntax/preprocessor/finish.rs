@@ -14,6 +14,7 @@ impl Preprocessor<'_> {
                 token.kind = self.word(token.symbol()).kind;
             }
             TokenKind::Number => number(session, &mut token),
+            TokenKind::Invalid => invalid_token(session, token),
             TokenKind::Unknown => {
                 illegal_character(session, token.span);
                 return None;
@@ -54,8 +55,12 @@ fn number(session: &mut Session<'_>, token: &mut Token) {
             let text = session.spelling(*token).to_owned();
             session.report(malformed_number(&text, malformed, token.span));
             // What it was meant to be is told well enough by its point for the rest to be checked.
-            let is_float = text.contains('.');
-            (token.kind, token.payload) = if is_float { (TokenKind::Float, 0) } else { (TokenKind::Int, 0) };
+            let kind = match text.as_bytes() {
+                text if text.contains(&b'.') => TokenKind::Float,
+                [.., b'u' | b'U'] => TokenKind::Uint,
+                _ => TokenKind::Int,
+            };
+            (token.kind, token.payload) = (kind, 0);
         }
     }
 }
@@ -81,6 +86,20 @@ fn malformed_number(text: &str, malformed: Malformed, span: Span) -> Diagnostic 
             wrong(format!("`{suffix}` is no suffix of a number")).here(format!("in `{text}`")).maybe_help(help)
         }
     }
+}
+
+/// Reports the first character of a token that has no place in GLSL.
+fn invalid_token(session: &mut Session<'_>, token: Token) {
+    let text = session.spelling(token);
+    if text.starts_with('"') {
+        let diagnostic = Diagnostic::new(&codes::ILLEGAL_CHARACTER, token.span, "a string, and GLSL has none");
+        session.report(diagnostic);
+        return;
+    }
+    let at = text.find(|character: char| !character.is_ascii()).unwrap_or(0);
+    let length = text.get(at..).and_then(|rest| rest.chars().next()).map_or(1, char::len_utf8);
+    let start = token.span.start + at as u32;
+    illegal_character(session, Span { start, end: start + length as u32, ..token.span });
 }
 
 fn illegal_character(session: &mut Session<'_>, span: Span) {

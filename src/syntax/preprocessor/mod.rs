@@ -65,7 +65,7 @@ struct Word {
 
 /// The preprocessor of one shader.
 pub(super) struct Preprocessor<'a> {
-    includes: &'a (dyn IncludeResolver + 'a),
+    includes: &'a (dyn IncludeResolver + Sync + 'a),
     strict: bool,
     frames: Vec<Frame>,
     contexts: Vec<Context>,
@@ -97,7 +97,7 @@ impl<'a> Preprocessor<'a> {
         file: FileId,
         defines: &[(String, String)],
         strict: bool,
-        includes: &'a (dyn IncludeResolver + 'a),
+        includes: &'a (dyn IncludeResolver + Sync + 'a),
     ) -> Self {
         let mut this = Self {
             includes,
