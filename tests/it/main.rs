@@ -1,6 +1,7 @@
 //! All integration tests, in one binary so that wgpu is linked once. One module an area.
 
 mod architecture;
+#[cfg(feature = "cli")]
 mod cli;
 mod codes;
 mod diagnostics;
