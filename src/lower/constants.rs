@@ -8,11 +8,25 @@ use super::{Lower, Try, internal};
 use crate::hir::{ArraySize, ExprId, FunctionId, LocalKind, Scalar, ScalarValue, Type, TypeId, Value, VarRef};
 use naga::{AddressSpace, Expression, GlobalVariable, Handle, Literal};
 
+/// Whether a float has a literal. The largest float has none: its shortest decimal spelling is a little above it, which
+/// Tint refuses.
+fn is_spellable(value: f32) -> bool {
+    value.abs() < f32::MAX
+}
+
+/// Whether all of a value can be spelled.
+pub(super) fn is_constant(value: &Value) -> bool {
+    value.scalars.iter().all(|scalar| match scalar {
+        ScalarValue::Float(value) => is_spellable(*value),
+        ScalarValue::Bool(_) | ScalarValue::Int(_) | ScalarValue::Uint(_) => true,
+    })
+}
+
 impl Ctx<'_, '_> {
     /// A scalar constant, finite or not.
     pub(super) fn scalar(&mut self, value: ScalarValue) -> Handle<Expression> {
         match value {
-            ScalarValue::Float(float) if !float.is_finite() => {
+            ScalarValue::Float(float) if !is_spellable(float) => {
                 let variable = self.low.hidden_bits(float.to_bits());
                 let pointer = self.global_variable(variable);
                 let bits = self.load(pointer);
@@ -57,8 +71,7 @@ impl Ctx<'_, '_> {
         value: &Value,
         indexed: bool,
     ) -> Try<Handle<Expression>> {
-        let finite = value.scalars.iter().all(|scalar| !matches!(scalar, ScalarValue::Float(f) if !f.is_finite()));
-        if !finite || !self.low.has_value(value.ty) {
+        if !is_constant(value) || !self.low.has_value(value.ty) {
             return self.constant(value);
         }
         let ty = self.low.value_type(value.ty)?;
@@ -106,6 +119,7 @@ impl Lower<'_> {
         let literal = Expression::Literal(Literal::U32(bits));
         let init = self.module.global_expressions.append(literal, naga::Span::UNDEFINED);
         let name = match f32::from_bits(bits) {
+            value if value.is_finite() => "largest_bits",
             value if value.is_nan() => "nan_bits",
             value if value > 0.0 => "infinity_bits",
             _ => "negative_infinity_bits",

@@ -3,7 +3,9 @@
 use super::function::Ctx;
 use super::places::Place;
 use super::{Try, internal};
-use crate::hir::{BinaryOp, ExprId, ExprKind, IncDec, LogicalOp, Scalar, ScalarValue, Type, TypeId, UnaryOp};
+use crate::hir::{
+    BinaryOp, ConstructKind, ExprId, ExprKind, IncDec, LogicalOp, Scalar, ScalarValue, Type, TypeId, UnaryOp,
+};
 use naga::{BinaryOperator, Expression, Handle, Statement, UnaryOperator};
 
 /// The costliest operand of `?:`, in nodes, that is evaluated though it may not be wanted.
@@ -21,7 +23,7 @@ impl Ctx<'_, '_> {
 
     fn value_here(&mut self, id: ExprId) -> Try<Handle<Expression>> {
         let expr = self.shader.expr(id);
-        if is_operation(&expr.kind)
+        if self.is_operation(&expr.kind)
             && let Some(value) = self.low.evaluated(self.id, id)
         {
             // What a target would evaluate before the shader runs is evaluated here: targets refuse results that are
@@ -271,15 +273,21 @@ impl Ctx<'_, '_> {
     }
 }
 
-/// Whether the expression computes something new from its operands.
-fn is_operation(kind: &ExprKind) -> bool {
-    matches!(
-        kind,
-        ExprKind::Unary(..)
+impl Ctx<'_, '_> {
+    /// Whether the expression computes something new from its operands. A vector put together from vectors counts: naga's
+    /// SPIR-V writer wants constant ones component by component.
+    fn is_operation(&self, kind: &ExprKind) -> bool {
+        match kind {
+            ExprKind::Unary(..)
             | ExprKind::Binary(..)
             | ExprKind::Logical(..)
             | ExprKind::Ternary(..)
             | ExprKind::Convert(_)
-            | ExprKind::BuiltinCall(..)
-    )
+            | ExprKind::BuiltinCall(..) => true,
+            ExprKind::Construct(ConstructKind::Compose | ConstructKind::Resize, arguments) => arguments
+                .iter()
+                .any(|argument| !matches!(self.low.types.get(self.shader.expr(*argument).ty), Type::Scalar(_))),
+            _ => false,
+        }
+    }
 }

@@ -4,11 +4,12 @@
 //! *Holds:* `main` is the entry point itself. A global that only `main` names is an argument or variable of it; one that
 //! other functions name, too, is a private variable of the module.
 
+use super::constants::is_constant;
 use super::function::{Ctx, GlobalSlot, Slot};
 use super::{Lower, Try, internal, lacking, naga_span, unsupported};
 use crate::builtin::BuiltinVariable;
 use crate::emit::{Target, WindowOrigin};
-use crate::hir::{ArraySize, FunctionId, Global, GlobalId, Interpolation, Stage, Storage, Type, TypeId};
+use crate::hir::{ArraySize, FunctionId, Global, GlobalId, Interpolation, Stage, Storage, Type, TypeId, Value};
 use crate::link::Varying;
 use naga::{AddressSpace, BinaryOperator, Binding, BuiltIn, Expression, GlobalVariable, Handle};
 
@@ -43,15 +44,26 @@ impl Lower<'_> {
     }
 
     fn private(&mut self, global: &Global) -> Try<GlobalSlot> {
+        let init = match self.private_constant(global) {
+            Some(value) => Some(self.global_constant(&value)?),
+            None => None,
+        };
         let variable = GlobalVariable {
             name: Some(global.name.clone()),
             space: AddressSpace::Private,
             binding: None,
             ty: self.value_type(global.ty)?,
-            init: None,
+            init,
             memory_decorations: naga::MemoryDecorations::empty(),
         };
         Ok(GlobalSlot::Private(self.module.global_variables.append(variable, naga_span(global.span))))
+    }
+
+    /// The initial value of a private global, if it is constant and can be spelled.
+    fn private_constant(&self, global: &Global) -> Option<Value> {
+        let initializer = global.initializer.filter(|_| global.storage == Storage::Private)?;
+        let value = self.evaluated(self.shader.main?, initializer)?;
+        is_constant(&value).then_some(value)
     }
 
     /// Whether the hidden height of the framebuffer is needed: `gl_FragCoord` counts from below, the target from above.
@@ -417,6 +429,9 @@ impl Ctx<'_, '_> {
             let Some(initializer) = global.initializer.filter(|_| global.storage == Storage::Private) else {
                 continue;
             };
+            if self.low.private_constant(global).is_some() {
+                continue;
+            }
             let value = self.value(initializer)?;
             let pointer = self.global_variable(variable);
             self.store(pointer, value);

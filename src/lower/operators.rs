@@ -6,8 +6,8 @@
 
 use super::Try;
 use super::function::Ctx;
-use crate::hir::{BinaryOp, ExprId, ExprKind, Scalar, ScalarValue, Type, TypeId};
-use naga::{BinaryOperator, Expression, Handle, RelationalFunction};
+use crate::hir::{BinaryOp, ExprId, Scalar, Type, TypeId};
+use naga::{BinaryOperator, Expression, Handle, Literal, RelationalFunction};
 
 /// A value and its GLSL type.
 pub(super) type Typed = (Handle<Expression>, TypeId);
@@ -16,16 +16,6 @@ impl Ctx<'_, '_> {
     /// A binary expression. A chain `a + b + c + ...` of thousands of links recurses along its left operands, which
     /// [`Shader::on_stack`](crate::hir::Shader::on_stack) provides for.
     pub(super) fn binary(&mut self, op: BinaryOp, left: ExprId, right: ExprId) -> Try<Handle<Expression>> {
-        if let (BinaryOp::Shl | BinaryOp::Shr, ExprKind::Literal(count)) = (op, &self.shader.expr(right).kind) {
-            let bits = match count {
-                ScalarValue::Int(count) => *count as u32,
-                ScalarValue::Uint(count) => *count,
-                ScalarValue::Bool(_) | ScalarValue::Float(_) => 0,
-            };
-            let left = (self.value(left)?, self.shader.expr(left).ty);
-            let count = self.uint(bits & 31);
-            return self.shift(op, left, count, 1);
-        }
         let left = (self.value(left)?, self.shader.expr(left).ty);
         let right = (self.value(right)?, self.shader.expr(right).ty);
         self.binary_values(op, left, right)
@@ -41,6 +31,15 @@ impl Ctx<'_, '_> {
             BinaryOp::Rem => self.arithmetic(BinaryOperator::Modulo, left, right),
             BinaryOp::MatMul => Ok(self.op(BinaryOperator::Multiply, left.0, right.0)),
             BinaryOp::Shl | BinaryOp::Shr => {
+                let literal = match self.expressions()[right.0] {
+                    Expression::Literal(Literal::I32(count)) => Some(count as u32),
+                    Expression::Literal(Literal::U32(count)) => Some(count),
+                    _ => None,
+                };
+                if let Some(bits) = literal {
+                    let count = self.uint(bits & 31);
+                    return self.shift(op, left, count, 1);
+                }
                 let size = self.size_of(right.1);
                 let count = self.converted(right.0, right.1, TypeId::UINT);
                 let mask = self.uint(31);

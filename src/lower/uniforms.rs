@@ -173,20 +173,20 @@ impl Lower<'_> {
         let size = round_up(offset, 16);
         let name = if structure.name.is_empty() { "Anonymous" } else { &structure.name };
         let plain = hosts.iter().all(|host| host.is_some_and(|host| self.host(host).kind == HostKind::Value));
-        let (padded, members, end) = self.pad(&placed, size, ty)?;
+        let (padded, members, end) = self.pad(&placed, (!structure.is_block).then_some(size), ty)?;
         if plain && padded.len() == placed.len() && !structure.is_block {
             return Ok(Host { ty, handle: self.value_type(ty)?, kind: HostKind::Value, size, align: 16 });
         }
-        let name = if structure.is_block { name.to_owned() } else { format!("{name}_std140") };
+        let name = if structure.is_block { name.to_owned() } else { format!("{name}_in_block") };
         let handle = self.insert_type(Some(name), TypeInner::Struct { members: padded, span: end });
         let mut numbers = members.into_iter();
         let kind = hosts.into_iter().map(|host| host.and_then(|host| numbers.next().map(|n| (n, host)))).collect();
         Ok(Host { ty, handle, kind: HostKind::Struct(kind), size, align: 16 })
     }
 
-    /// Puts members where they belong, with members of four bytes in the gaps and at the end. Gives the members, the
+    /// Puts members where they belong, with members of four bytes in the gaps and, if a size is given, at the end. Gives the members, the
     /// numbers of those that were asked for, and the struct's own size.
-    fn pad(&self, placed: &[Placed], size: u32, ty: TypeId) -> Try<(Vec<StructMember>, Vec<u32>, u32)> {
+    fn pad(&self, placed: &[Placed], size: Option<u32>, ty: TypeId) -> Try<(Vec<StructMember>, Vec<u32>, u32)> {
         let filler = self.values.get(&TypeId::UINT).copied();
         let mut members: Vec<StructMember> = Vec::new();
         let mut numbers = Vec::new();
@@ -195,7 +195,7 @@ impl Lower<'_> {
         let fill = |members: &mut Vec<StructMember>, cursor: &mut u32, until: u32, align: u32| {
             while round_up(*cursor, align) < until {
                 let Some(ty) = filler else { return false };
-                let name = Some(format!("pad_{cursor}"));
+                let name = Some("padding".to_owned());
                 members.push(StructMember { name, ty, binding: None, offset: *cursor });
                 *cursor += 4;
             }
@@ -219,10 +219,11 @@ impl Lower<'_> {
             }
             cursor = member.offset + self.layouter[member.handle].size;
         }
-        if !fill(&mut members, &mut cursor, size, most) {
+        let end = size.unwrap_or(round_up(cursor, most));
+        if !fill(&mut members, &mut cursor, end, most) {
             return Err(self.layout_slip(ty));
         }
-        Ok((members, numbers, size))
+        Ok((members, numbers, end))
     }
 
     /// Declares the variables that hold the uniforms this stage uses.
@@ -246,7 +247,7 @@ impl Lower<'_> {
 
     fn declare_loose(&mut self) -> Try<()> {
         let interface = self.interface;
-        let Some((slot, size)) = interface.loose else { return Ok(()) };
+        let Some((slot, _)) = interface.loose else { return Ok(()) };
         let mut roots: Vec<&UniformRoot> =
             interface.roots.iter().filter(|root| root.block.is_none() && self.has_value(root.ty)).collect();
         roots.sort_by_key(|root| root.offset);
@@ -268,7 +269,7 @@ impl Lower<'_> {
             placed.insert(at, Placed { name: "framebuffer_height".into(), handle, offset, size: 4 });
             hosts.insert(at, None);
         }
-        let (members, numbers, span) = self.pad(&placed, size, TypeId::ERROR)?;
+        let (members, numbers, span) = self.pad(&placed, None, TypeId::ERROR)?;
         let ty = self.insert_type(Some("Uniforms".into()), TypeInner::Struct { members, span });
         let variable = self.uniform_variable("uniforms", slot, ty);
         for (host, member) in hosts.into_iter().zip(numbers) {
