@@ -2,7 +2,7 @@
 //! its comments say.
 //!
 //! A comment `//~ CODE start:end` expects a finding on its own line, `//~^ CODE start:end` on the line above (one `^`
-//! a line). Columns count from 1, the end is exclusive; a finding of several lines is `start:+lines:end`. A first line
+//! a line, lines that hold nothing but such comments not counted). Columns count from 1, the end is exclusive; a finding of several lines is `start:+lines:end`. A first line
 //! `// fixture: strict, NAME=VALUE, NAME` sets how the file is compiled. Two files of one stem under `fixtures/link`
 //! are one program.
 
@@ -32,12 +32,20 @@ fn settings(text: &str) -> Settings {
 /// What the comments of a text expect.
 fn expected(name: &str, text: &str) -> Vec<Finding> {
     let mut findings = Vec::new();
+    // The numbers of the lines that hold more than expectations.
+    let mut lines = Vec::new();
     for (index, line) in text.split('\n').enumerate() {
+        if !line.trim_start().starts_with("//~") {
+            lines.push(index as u32 + 1);
+        }
+        let own = lines.len();
         for comment in line.split("//~").skip(1) {
             let words = comment.trim_start_matches('^');
             let above = comment.len() - words.len();
+            let first_above = if line.trim_start().starts_with("//~") { own + 1 } else { own };
+            let line = (first_above - above).checked_sub(1).and_then(|place| lines.get(place)).copied().unwrap_or(0);
             let place: Vec<&str> = words.split_whitespace().take(2).collect();
-            findings.push((name.to_owned(), (index + 1 - above) as u32, place.join(" ")));
+            findings.push((name.to_owned(), line, place.join(" ")));
         }
     }
     findings

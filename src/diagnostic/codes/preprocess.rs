@@ -133,8 +133,9 @@ codes! {
          it may do without: nothing is turned on."
         bad Fragment("#extension GL_ARB_gpu_shader5 : enable\nvoid main() {}"),
         good Fragment("#ifdef GL_ARB_gpu_shader5\n#extension GL_ARB_gpu_shader5 : enable\n#endif\nvoid main() {}");
-    RESERVED_NAME = "W0107" "macro-double-underscore" Warning "GLSL 1.50 §3.3"
-        "Macro names that hold two underscores in a row are reserved for macros of the language."
+    RESERVED_NAME = "W0107" "double-underscore" Warning "GLSL 1.50 §3.3, §3.6"
+        "Names that hold two underscores in a row are reserved for future keywords and predefined macros. Drivers take \
+         them; some prefix such names or warn."
         bad Fragment("#define MY__MACRO\nvoid main() {}"), good Fragment("#define MY_MACRO\nvoid main() {}");
     INCLUDE_WITHOUT_EXTENSION = "W0108" "include-without-extension" Warning "GLSL 1.50 §3.3"
         "`#include` is no directive of GLSL 1.50. The extensions GL_ARB_shading_language_include and \

@@ -166,7 +166,10 @@ impl Preprocessor<'_> {
             self.skip_line(session);
             return None;
         }
-        if name.contains("__") && directive == "#define" {
+        if name.contains("__")
+            && directive == "#define"
+            && !std::mem::replace(&mut self.word(token.symbol()).checked, true)
+        {
             let message = format!("the macro name `{name}` is reserved: it holds two underscores in a row");
             kind::RESERVED_NAME.report(session, self.strict, token.span, message);
         }

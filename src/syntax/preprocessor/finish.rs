@@ -1,7 +1,7 @@
 //! Preprocessing tokens to tokens: keywords are told from names, numbers get their values, and what is no token is
 //! reported and dropped (GLSL 1.50 §3.1, §3.6, §4.1).
 
-use super::{Preprocessor, Session, Span, Token, TokenKind, codes};
+use super::{Preprocessor, Session, Span, Token, TokenKind, codes, kind};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::syntax;
 use crate::syntax::number::{self, Doubt, Malformed, Numeral};
@@ -11,7 +11,11 @@ impl Preprocessor<'_> {
     pub(super) fn finish_token(&mut self, session: &mut Session<'_>, mut token: Token) -> Option<Token> {
         match token.kind {
             TokenKind::Word => {
-                token.kind = self.word(token.symbol()).kind;
+                let word = self.word(token.symbol());
+                token.kind = word.kind;
+                if !std::mem::replace(&mut word.checked, true) {
+                    self.check_word(session, token);
+                }
             }
             TokenKind::Number => number(session, &mut token),
             TokenKind::Invalid => invalid_token(session, token),
@@ -34,6 +38,17 @@ impl Preprocessor<'_> {
         }
         self.first_token.get_or_insert(token.span);
         Some(token.with_extensions(self.extensions))
+    }
+}
+
+impl Preprocessor<'_> {
+    /// Reserved names are warned of once.
+    fn check_word(&self, session: &mut Session<'_>, token: Token) {
+        let name = session.spelling(token);
+        if name.contains("__") {
+            let message = format!("the name `{name}` is reserved: it holds two underscores in a row");
+            kind::RESERVED_NAME.report(session, self.strict, token.span, message);
+        }
     }
 }
 

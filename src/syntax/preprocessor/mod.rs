@@ -61,6 +61,8 @@ struct Word {
     /// Number of its macro + 1, or 0.
     definition: u32,
     kind: TokenKind,
+    /// Its double underscore was looked for.
+    checked: bool,
 }
 
 /// The preprocessor of one shader.
@@ -198,10 +200,11 @@ impl<'a> Preprocessor<'a> {
         if index >= self.words.len() {
             let kinds = &self.kinds;
             let from = self.words.len();
-            self.words.extend(
-                (from..=index)
-                    .map(|index| Word { definition: 0, kind: kinds.get(index).copied().unwrap_or(TokenKind::Ident) }),
-            );
+            self.words.extend((from..=index).map(|index| Word {
+                definition: 0,
+                kind: kinds.get(index).copied().unwrap_or(TokenKind::Ident),
+                checked: false,
+            }));
         }
         // The line above made room for it.
         &mut self.words[index]
