@@ -6,13 +6,14 @@ use super::wording::worded;
 use crate::diagnostic::codes::names;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::hir::{
-    Expr, ExprId, ExprKind, Function, FunctionId, GlobalId, Local, LocalId, ScalarValue, Shader, Stage, TypeId, Types,
-    VarRef,
+    Expr, ExprId, ExprKind, Function, FunctionId, GlobalId, Local, LocalId, ScalarValue, Shader, Stage, Storage,
+    StructId, TypeId, Types, VarRef,
 };
 use crate::source::{SourceMap, Span};
 use crate::syntax::ast::{Ast, DeclarationKind, Extensions, Ident};
 use crate::syntax::token::Symbol;
 use rustc_hash::FxHashMap;
+use smallvec::SmallVec;
 
 /// What the analysis knows of an expression beside its type.
 #[derive(Clone, Copy, Debug, Default)]
@@ -41,6 +42,9 @@ pub(super) enum ArrayKey {
     Local(LocalId),
 }
 
+/// The types of a function's parameters.
+pub(super) type Signature = SmallVec<[TypeId; 4]>;
+
 /// The state of the walk.
 pub(super) struct Analyzer<'a> {
     pub(super) ast: &'a Ast,
@@ -59,14 +63,27 @@ pub(super) struct Analyzer<'a> {
     pub(super) body: Option<Body>,
     /// The type of each type keyword met so far.
     pub(super) keyword_types: FxHashMap<Symbol, Option<TypeId>>,
+    /// The functions of the shader by name and parameters.
+    pub(super) signatures: FxHashMap<(Symbol, Signature), FunctionId>,
     /// The names of blocks, which mean nothing else at global scope (§4.3.7).
     pub(super) block_names: FxHashMap<Symbol, Span>,
+    /// The names of blocks with what they are, and where.
+    pub(super) block_interfaces: FxHashMap<(Symbol, Storage), Span>,
+    /// The places of the members of structs that have many.
+    pub(super) member_indices: FxHashMap<StructId, FxHashMap<Symbol, u32>>,
+    /// The scalars of all globals so far, and of all locals of the function being read.
+    pub(super) n_global_scalars: u32,
+    pub(super) n_local_scalars: u32,
+    /// How many times a name like an unknown one was looked for.
+    pub(super) n_suggestions: u32,
     /// The built-in variables that are named or redeclared.
     pub(super) builtins: FxHashMap<crate::builtin::BuiltinVariable, GlobalId>,
     /// The first use of each global.
     pub(super) first_uses: FxHashMap<GlobalId, Span>,
     /// The largest constant index of each array without a size, and where it stands (§4.1.9).
     pub(super) array_uses: FxHashMap<ArrayKey, (u32, Span)>,
+    /// The same for the locals of the function being read.
+    pub(super) local_array_uses: FxHashMap<LocalId, (u32, Span)>,
     /// `layout(...) uniform;`
     pub(super) block_defaults: BlockDefaults,
     /// Where the geometry input layout, or an input array's size, was first fixed.
@@ -109,10 +126,17 @@ impl<'a> Analyzer<'a> {
             extensions: Extensions::empty(),
             body: None,
             keyword_types: FxHashMap::default(),
+            signatures: FxHashMap::default(),
             block_names: FxHashMap::default(),
             builtins: FxHashMap::default(),
             first_uses: FxHashMap::default(),
             array_uses: FxHashMap::default(),
+            local_array_uses: FxHashMap::default(),
+            block_interfaces: FxHashMap::default(),
+            member_indices: FxHashMap::default(),
+            n_global_scalars: 0,
+            n_local_scalars: 0,
+            n_suggestions: 0,
             block_defaults: BlockDefaults::default(),
             geometry_size: None,
             geometry_spans: GeometrySpans::default(),
@@ -248,6 +272,13 @@ impl<'a> Analyzer<'a> {
         self.scopes.enter(name.symbol, entry, name.span);
     }
 
+    /// Whether a name like an unknown one is still looked for: each look compares it with all names in sight.
+    pub(super) fn may_suggest(&mut self) -> Option<()> {
+        const MOST: u32 = 64;
+        self.n_suggestions += 1;
+        (self.n_suggestions <= MOST && self.scopes.len() <= 10_000).then_some(())
+    }
+
     /// Notes that a global is named.
     pub(super) fn note_use(&mut self, global: GlobalId, span: Span) {
         self.first_uses.entry(global).or_insert(span);
@@ -281,6 +312,6 @@ impl<'a> Analyzer<'a> {
 
     fn is_constant_global(&self, id: GlobalId) -> bool {
         let global = self.shader.global(id);
-        global.storage == crate::hir::Storage::Const && global.value.is_some()
+        global.storage == Storage::Const && global.value.is_some()
     }
 }

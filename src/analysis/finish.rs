@@ -54,7 +54,10 @@ impl Analyzer<'_> {
 
     /// The array type that holds all elements that are named.
     pub(super) fn sized_by_use(&mut self, key: ArrayKey, element: TypeId, is_clip_distance: bool) -> TypeId {
-        let largest = self.array_uses.get(&key).copied();
+        let largest = match key {
+            ArrayKey::Local(id) => self.local_array_uses.get(&id).copied(),
+            _ => self.array_uses.get(&key).copied(),
+        };
         // An array that is never indexed still needs a size to exist; nothing can tell which.
         let size = largest.map_or(1, |(index, _)| index.saturating_add(1));
         if let Some((_, span)) = largest.filter(|_| is_clip_distance) {
@@ -89,7 +92,7 @@ impl Analyzer<'_> {
                 }
             }
         }
-        self.array_uses.retain(|key, _| !matches!(key, ArrayKey::Local(_)));
+        self.local_array_uses.clear();
     }
 
     /// Brings the types of expressions that name such arrays up to date. Children stand before their parents.

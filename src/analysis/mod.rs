@@ -23,12 +23,16 @@ mod finish;
 pub mod fold;
 mod keywords;
 mod layout;
+mod limits;
 mod qualifiers;
 mod recursion;
 mod scope;
 mod statement;
 mod types;
 mod wording;
+
+#[cfg(test)]
+mod tests;
 
 use crate::diagnostic::Diagnostics;
 use crate::hir::{Shader, Stage, Types, with_stack};

@@ -100,6 +100,11 @@ impl Scopes {
         }
     }
 
+    /// How many names are declared in all open scopes.
+    pub(super) fn len(&self) -> usize {
+        self.rows.len()
+    }
+
     /// A new set of overloads with one function.
     pub(super) fn overload_set(&mut self, first: FunctionId) -> OverloadSet {
         self.overloads.push(vec![first]);

@@ -191,7 +191,8 @@ impl Analyzer<'_> {
         }
     }
 
-    fn nearest_type(&self, spelling: &str) -> Option<String> {
+    fn nearest_type(&mut self, spelling: &str) -> Option<String> {
+        self.may_suggest()?;
         let structs = self.scopes.names().filter(|(_, binding)| matches!(binding.entry, Entry::Struct(_)));
         let mut known: Vec<&str> = structs.map(|(symbol, _)| self.ast.names.spelling(symbol)).collect();
         for name in keywords::names() {

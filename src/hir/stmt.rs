@@ -48,7 +48,7 @@ pub struct Case {
 }
 
 /// A label.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum CaseLabel {
     /// The bits of an `int` or `uint` constant.
     Value(u32),

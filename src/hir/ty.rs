@@ -203,8 +203,41 @@ pub struct Types {
     types: Vec<Type>,
     ids: FxHashMap<Type, TypeId>,
     structs: Vec<StructType>,
-    /// The flat length of each struct, so that structs of structs do not cost a walk of all that is in them.
-    struct_lens: Vec<Option<u32>>,
+    /// What is in each struct, so that structs of structs do not cost a walk of all that is in them.
+    shapes: Vec<Option<Shape>>,
+}
+
+/// What is in a type.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Shape {
+    /// [`Types::flat_len`]
+    flat_len: u32,
+    /// Whether a sampler is anywhere inside.
+    sampler: bool,
+    /// A bit for each [`Scalar`] that is anywhere inside.
+    scalars: u8,
+    /// How deep structs nest in it.
+    pub(crate) depth: u32,
+}
+
+impl Shape {
+    fn scalar(scalar: Scalar, flat_len: u32) -> Self {
+        Self { flat_len, scalars: 1 << scalar as u8, ..Self::default() }
+    }
+
+    fn and(self, other: Self) -> Self {
+        Self {
+            flat_len: self.flat_len.saturating_add(other.flat_len),
+            sampler: self.sampler | other.sampler,
+            scalars: self.scalars | other.scalars,
+            depth: self.depth.max(other.depth),
+        }
+    }
+
+    /// Whether a scalar of one of these kinds is anywhere inside.
+    pub(crate) fn holds(self, kinds: &[Scalar]) -> bool {
+        kinds.iter().any(|&kind| self.scalars & (1 << kind as u8) != 0)
+    }
 }
 
 impl Default for Types {
@@ -289,8 +322,7 @@ impl TypeId {
 impl Types {
     /// The basic types alone.
     pub fn new() -> Self {
-        let mut types =
-            Self { types: Vec::new(), ids: FxHashMap::default(), structs: Vec::new(), struct_lens: Vec::new() };
+        let mut types = Self { types: Vec::new(), ids: FxHashMap::default(), structs: Vec::new(), shapes: Vec::new() };
         types.intern(Type::Error);
         types.intern(Type::Void);
         for scalar in Scalar::ALL {
@@ -339,8 +371,7 @@ impl Types {
     /// Adds a struct and gives its type.
     pub fn add_struct(&mut self, declaration: StructType) -> TypeId {
         let id = StructId(self.structs.len() as u32);
-        let lens = declaration.members.iter().map(|member| self.flat_len(member.ty));
-        self.struct_lens.push(Some(lens.fold(0, u32::saturating_add)));
+        self.shapes.push(Some(self.shape_of_members(&declaration)));
         self.structs.push(declaration);
         self.intern(Type::Struct(id))
     }
@@ -353,7 +384,7 @@ impl Types {
 
     /// The struct behind a handle, to complete it.
     pub fn structure_mut(&mut self, id: StructId) -> &mut StructType {
-        self.struct_lens[id.0 as usize] = None;
+        self.shapes[id.0 as usize] = None;
         &mut self.structs[id.0 as usize]
     }
 
@@ -374,18 +405,33 @@ impl Types {
     /// How many scalars a value holds when it is laid out flat: members in order, elements in order, matrices by
     /// columns. Samplers count as one. Saturates; unsized arrays count 0.
     pub fn flat_len(&self, id: TypeId) -> u32 {
+        self.shape(id).flat_len
+    }
+
+    /// What is in a type, without a walk of all of it.
+    pub(crate) fn shape(&self, id: TypeId) -> Shape {
         match self.get(id) {
-            Type::Error | Type::Void => 0,
-            Type::Scalar(_) | Type::Sampler(_) => 1,
-            Type::Vector(_, size) => u32::from(size),
-            Type::Matrix(columns, rows) => u32::from(columns) * u32::from(rows),
-            Type::Struct(id) => self.struct_lens.get(id.0 as usize).copied().flatten().unwrap_or_else(|| {
-                let lens = self.structure(id).members.iter().map(|member| self.flat_len(member.ty));
-                lens.fold(0, u32::saturating_add)
-            }),
-            Type::Array(element, ArraySize::Sized(size)) => self.flat_len(element).saturating_mul(size),
-            Type::Array(_, ArraySize::Unsized) => 0,
+            Type::Error | Type::Void => Shape::default(),
+            Type::Scalar(scalar) => Shape::scalar(scalar, 1),
+            Type::Sampler(_) => Shape { flat_len: 1, sampler: true, ..Shape::default() },
+            Type::Vector(scalar, size) => Shape::scalar(scalar, u32::from(size)),
+            Type::Matrix(columns, rows) => Shape::scalar(Scalar::Float, u32::from(columns) * u32::from(rows)),
+            Type::Struct(id) => {
+                let known = self.shapes.get(id.0 as usize).copied().flatten();
+                known.unwrap_or_else(|| self.shape_of_members(self.structure(id)))
+            }
+            Type::Array(element, size) => {
+                let shape = self.shape(element);
+                let size = if let ArraySize::Sized(size) = size { size } else { 0 };
+                Shape { flat_len: shape.flat_len.saturating_mul(size), ..shape }
+            }
         }
+    }
+
+    fn shape_of_members(&self, declaration: &StructType) -> Shape {
+        let shapes = declaration.members.iter().map(|member| self.shape(member.ty));
+        let shape = shapes.fold(Shape::default(), Shape::and);
+        Shape { depth: shape.depth + 1, ..shape }
     }
 
     /// What an index selects: an array's element, a matrix's column, a vector's component.
@@ -400,12 +446,7 @@ impl Types {
 
     /// Whether a sampler is anywhere inside.
     pub fn contains_sampler(&self, id: TypeId) -> bool {
-        match self.get(id) {
-            Type::Sampler(_) => true,
-            Type::Struct(id) => self.structure(id).members.iter().any(|member| self.contains_sampler(member.ty)),
-            Type::Array(element, _) => self.contains_sampler(element),
-            Type::Error | Type::Void | Type::Scalar(_) | Type::Vector(..) | Type::Matrix(..) => false,
-        }
+        self.shape(id).sampler
     }
 
     /// As it is written in GLSL: `vec4`, `mat2x3`, `Light[2]`.

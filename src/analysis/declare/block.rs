@@ -4,11 +4,11 @@ use super::super::context::Analyzer;
 use super::super::layout::{Layout, LayoutPlace};
 use super::super::qualifiers::{Place, Qualifiers, StorageWord};
 use super::super::scope::Entry;
+use super::structure::MemberList;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::{names, qualifiers, types};
 use crate::hir::{
-    ArraySize, BlockInfo, GlobalId, Interpolation, MatrixLayout, Member, Scalar, Stage, Storage, StructType, Type,
-    TypeId, VarRef,
+    ArraySize, BlockInfo, GlobalId, Interpolation, MatrixLayout, Member, Scalar, Stage, Storage, Type, TypeId, VarRef,
 };
 use crate::source::Span;
 use crate::syntax::ast::{ArrayDim, BlockDecl, Declarator, Ident, MemberDecl, TypeBase};
@@ -57,8 +57,7 @@ impl Analyzer<'_> {
                 Diagnostic::new(&qualifiers::BLOCK, block.name.span, "a block must have a member").here("empty"),
             );
         }
-        let ty =
-            self.types.add_struct(StructType { name: name.to_owned(), members, is_block: true, span: block.name.span });
+        let ty = self.add_structure(name, members, true, block.name.span);
         self.add_block(block, ty, storage, &layout, &record);
     }
 
@@ -101,8 +100,8 @@ impl Analyzer<'_> {
     }
 
     /// The members, and whether one of them is invariant: the block then is as a whole, which is more than was asked.
-    fn block_members(&mut self, block: &BlockDecl, frame: &Frame) -> (Vec<Member>, Option<Span>) {
-        let (mut members, mut invariant): (Vec<Member>, _) = (Vec::new(), None);
+    fn block_members(&mut self, block: &BlockDecl, frame: &Frame) -> (MemberList, Option<Span>) {
+        let (mut members, mut invariant) = (MemberList::default(), None);
         for row in &block.members {
             let record = self.qualifiers(&row.qualifiers, Place::BlockMember);
             self.check_member_storage(&record, frame);
@@ -170,7 +169,7 @@ impl Analyzer<'_> {
             Some((&types::VOID_VALUE, "a member cannot be `void`"))
         } else if self.types.contains_sampler(ty) {
             Some((&types::SAMPLER, "a sampler cannot be in a block"))
-        } else if frame.storage != Storage::Uniform && self.holds(ty, |scalar| scalar == Scalar::Bool) {
+        } else if frame.storage != Storage::Uniform && self.types.shape(ty).holds(&[Scalar::Bool]) {
             Some((&qualifiers::INTERFACE_TYPE, "booleans do not cross stages"))
         } else {
             None
@@ -181,7 +180,7 @@ impl Analyzer<'_> {
         }
         let flat = matches!(record.interpolation, Some((Interpolation::Flat, _)));
         let arrives = self.stage == Stage::Fragment && frame.storage == Storage::In;
-        if arrives && !flat && self.holds(ty, Scalar::is_integer) {
+        if arrives && !flat && self.types.shape(ty).holds(&[Scalar::Int, Scalar::Uint]) {
             let type_name = self.type_name(ty);
             self.report(
                 Diagnostic::new(
@@ -199,30 +198,21 @@ impl Analyzer<'_> {
 
     fn add_block_member(
         &mut self,
-        members: &mut Vec<Member>,
+        members: &mut MemberList,
         declarator: &Declarator,
         ty: TypeId,
         record: &Qualifiers,
         matrix_layout: MatrixLayout,
     ) {
-        let name = self.name(declarator.name);
-        self.check_name(declarator.name);
-        if let Some(earlier) = members.iter().find(|member| member.name == name) {
-            self.report(
-                Diagnostic::new(&names::REDEFINED, declarator.name.span, format!("the member `{name}` is there twice"))
-                    .here("declared again here")
-                    .label(earlier.span, "first declared here"),
-            );
-            return;
-        }
-        members.push(Member {
-            name: name.to_owned(),
+        let member = Member {
+            name: self.name(declarator.name).to_owned(),
             ty,
             matrix_layout,
             interpolation: record.interpolation.map(|(word, _)| word),
             centroid: record.centroid.is_some(),
             span: declarator.name.span,
-        });
+        };
+        self.add_member(members, declarator.name, member);
     }
 
     /// Enters the block as a global, and its members or its instance as names.
@@ -235,6 +225,7 @@ impl Analyzer<'_> {
                 ty
             }
         };
+        let ty = if self.check_global_size(ty, storage, block.name.span) { ty } else { TypeId::ERROR };
         let (span, own_name) = match &block.instance {
             Some((instance, _)) => (instance.span, self.name(*instance)),
             None => (block.name.span, name),
@@ -262,12 +253,10 @@ impl Analyzer<'_> {
     fn enter_members(&mut self, block: &BlockDecl, id: GlobalId, ty: TypeId) {
         let Type::Struct(structure) = self.types.get(ty) else { return };
         for declarator in block.members.iter().flat_map(|row| &row.declarators) {
-            let name = self.name(declarator.name);
-            let members = &self.types.structure(structure).members;
-            if let Some(index) = members.iter().position(|member| member.name == name)
+            if let Some(index) = self.member_index(structure, declarator.name)
                 && self.check_block_name(declarator.name)
             {
-                self.enter(declarator.name, Entry::Member(id, index as u32));
+                self.enter(declarator.name, Entry::Member(id, index));
             }
         }
     }
@@ -305,13 +294,12 @@ impl Analyzer<'_> {
     /// Block names are used for nothing else, and once in an interface.
     fn enter_block_name(&mut self, name: Ident, storage: Storage) {
         let spelling = self.name(name);
-        let earlier = self.shader.globals.iter().find(|global| {
-            global.storage == storage && global.block.as_ref().is_some_and(|block| block.name == spelling)
-        });
-        let taken = match earlier {
-            Some(global) => Some(global.span),
+        let key = (name.symbol, storage);
+        let taken = match self.block_interfaces.get(&key) {
+            Some(&earlier) => Some(earlier),
             None => self.scopes.find_here(name.symbol).map(|binding| binding.span),
         };
+        self.block_interfaces.entry(key).or_insert(name.span);
         if let Some(earlier) = taken {
             self.report(
                 Diagnostic::new(&names::REDEFINED, name.span, format!("the block name `{spelling}` is taken"))

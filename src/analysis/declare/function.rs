@@ -1,12 +1,12 @@
 //! Functions (§6.1): prototypes and definitions.
 
-use super::super::context::{Analyzer, Body};
+use super::super::context::{Analyzer, Body, Signature};
 use super::super::qualifiers::{Place, StorageWord};
 use super::super::scope::Entry;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::{names, statements, types};
 use crate::hir::{ArraySize, Function, FunctionId, Local, LocalId, LocalKind, ParamMode, Type, TypeId, VarRef};
-use crate::syntax::ast::{FunctionHeader, ParamDecl, Stmt, TypeBase};
+use crate::syntax::ast::{FunctionHeader, Ident, ParamDecl, Stmt, TypeBase};
 
 impl Analyzer<'_> {
     /// `float f(float x);`
@@ -43,6 +43,7 @@ impl Analyzer<'_> {
 
     fn function_body(&mut self, id: FunctionId, header: &FunctionHeader, body: &[Stmt]) {
         let first = self.shader.exprs.len();
+        self.n_local_scalars = 0;
         self.body = Some(Body { function: id, loops: 0, switches: 0 });
         self.scopes.open();
         for (index, param) in header.params.iter().enumerate() {
@@ -76,13 +77,12 @@ impl Analyzer<'_> {
         let span = name.span;
         match self.scopes.find_here(name.symbol).map(|binding| (binding.entry, binding.span)) {
             Some((Entry::Functions(set), _)) => {
-                let candidates = self.scopes.functions(set).to_vec();
                 let params = types_of(&function);
-                let same = candidates.into_iter().find(|&id| types_of(self.shader.function(id)) == params);
+                let same = self.signatures.get(&(name.symbol, params)).copied();
                 if let Some(id) = same {
                     return self.is_same(id, &function).then_some(id);
                 }
-                let id = self.add_function(function);
+                let id = self.add_function(function, name);
                 self.scopes.add_overload(set, id);
                 Some(id)
             }
@@ -97,7 +97,7 @@ impl Analyzer<'_> {
                 None
             }
             None => {
-                let id = self.add_function(function);
+                let id = self.add_function(function, name);
                 let set = self.scopes.overload_set(id);
                 self.scopes.enter(name.symbol, if good_name { Entry::Functions(set) } else { Entry::Poison }, span);
                 Some(id)
@@ -105,9 +105,11 @@ impl Analyzer<'_> {
         }
     }
 
-    fn add_function(&mut self, function: Function) -> FunctionId {
+    fn add_function(&mut self, function: Function, name: Ident) -> FunctionId {
+        let id = FunctionId(self.shader.functions.len() as u32);
+        self.signatures.insert((name.symbol, types_of(&function)), id);
         self.shader.functions.push(function);
-        FunctionId(self.shader.functions.len() as u32 - 1)
+        id
     }
 
     fn header(&mut self, header: &FunctionHeader) -> Function {
@@ -183,6 +185,7 @@ impl Analyzer<'_> {
         };
         let ty = self.parameter_type(param, mode);
         self.check_precision(record.precision, ty);
+        let ty = if self.check_size(ty, param.span) { ty } else { TypeId::ERROR };
         let name = param.name.map_or(String::new(), |name| {
             self.check_name(name);
             self.ast.name(name).to_owned()
@@ -262,6 +265,6 @@ impl Analyzer<'_> {
 }
 
 /// The types of the parameters, by which overloads are told apart.
-fn types_of(function: &Function) -> Vec<TypeId> {
+fn types_of(function: &Function) -> Signature {
     function.params().iter().map(|param| param.ty).collect()
 }

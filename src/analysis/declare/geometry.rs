@@ -31,12 +31,15 @@ impl Analyzer<'_> {
             self.report(contradiction(span, at, "input primitive"));
             return;
         }
-        if self.shader.geometry.input.is_none() {
+        let is_first = self.shader.geometry.input.is_none();
+        if is_first {
             self.shader.geometry.input = Some(primitive);
             self.geometry_spans.input = span;
         }
         self.fix_geometry_size(primitive.vertices(), span);
-        self.size_geometry_inputs(primitive.vertices(), span);
+        if is_first {
+            self.size_geometry_inputs(primitive.vertices(), span);
+        }
     }
 
     /// `layout(triangle_strip, max_vertices = 3) out;`

@@ -122,7 +122,11 @@ impl Analyzer<'_> {
     /// Integers reach a fragment shader only if they are `flat` (§4.3.4).
     fn check_flat(&mut self, ty: TypeId, storage: Storage, record: &Qualifiers, ty_span: Span, name: Span) {
         let flat = matches!(record.interpolation, Some((Interpolation::Flat, _)));
-        if self.stage == Stage::Fragment && storage == Storage::In && !flat && self.holds(ty, Scalar::is_integer) {
+        if self.stage == Stage::Fragment
+            && storage == Storage::In
+            && !flat
+            && self.types.shape(ty).holds(&[Scalar::Int, Scalar::Uint])
+        {
             let type_name = self.type_name(ty);
             self.report(
                 Diagnostic::new(
@@ -139,7 +143,7 @@ impl Analyzer<'_> {
 
     fn cannot_cross(&self, ty: TypeId, border: &Border) -> Option<&'static str> {
         let inner = self.element_of(ty);
-        if self.holds(ty, |scalar| scalar == Scalar::Bool) {
+        if self.types.shape(ty).holds(&[Scalar::Bool]) {
             return Some("booleans do not cross stages; use an integer");
         }
         match self.types.get(inner) {
@@ -160,17 +164,6 @@ impl Analyzer<'_> {
         match self.types.get(ty) {
             Type::Array(element, _) => element,
             _ => ty,
-        }
-    }
-
-    /// Whether a scalar of some kind is anywhere inside.
-    pub(in crate::analysis) fn holds(&self, ty: TypeId, kind: impl Fn(Scalar) -> bool + Copy) -> bool {
-        match self.types.get(ty) {
-            Type::Scalar(scalar) | Type::Vector(scalar, _) => kind(scalar),
-            Type::Matrix(..) => kind(Scalar::Float),
-            Type::Array(element, _) => self.holds(element, kind),
-            Type::Struct(id) => self.types.structure(id).members.iter().any(|member| self.holds(member.ty, kind)),
-            Type::Error | Type::Void | Type::Sampler(_) => false,
         }
     }
 

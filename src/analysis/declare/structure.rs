@@ -4,10 +4,32 @@ use super::super::context::Analyzer;
 use super::super::qualifiers::Place;
 use super::super::scope::Entry;
 use crate::diagnostic::Diagnostic;
-use crate::diagnostic::codes::{names, types};
+use crate::diagnostic::codes::{general, names, types};
 use crate::hir::{ArraySize, MatrixLayout, Member, StructType, Type, TypeId};
 use crate::source::Span;
-use crate::syntax::ast::{Declarator, MemberDecl, StructSpec, TypeBase};
+use crate::syntax::ast::{Declarator, Ident, MemberDecl, StructSpec, TypeBase};
+use crate::syntax::token::Symbol;
+use rustc_hash::FxHashMap;
+
+/// Members under way, with their places by name.
+#[derive(Default)]
+pub(super) struct MemberList {
+    members: Vec<Member>,
+    indices: FxHashMap<Symbol, u32>,
+}
+
+impl MemberList {
+    /// Whether there are none.
+    pub(super) fn is_empty(&self) -> bool {
+        self.members.is_empty()
+    }
+}
+
+/// Up to so many members are looked through one by one.
+const FEW_MEMBERS: usize = 16;
+
+/// Structs may nest so deep; all walks over types recurse by them.
+const MAX_DEPTH: u32 = 64;
 
 impl Analyzer<'_> {
     /// `struct S { .. }`: the type, entered under its name.
@@ -15,20 +37,28 @@ impl Analyzer<'_> {
         let name = spec.name.map_or("", |name| self.ast.name(name));
         let declared = spec.name.map_or(span, |name| name.span);
         let good_name = spec.name.is_none_or(|name| self.check_name(name));
-        let mut members: Vec<Member> = Vec::new();
+        let mut members = MemberList::default();
         for row in &spec.members {
             let record = self.qualifiers(&row.qualifiers, Place::StructMember);
             let base = self.member_base(row);
             self.check_precision(record.precision, base);
             for declarator in &row.declarators {
                 let ty = self.member_type(declarator, base, row);
-                self.add_member(&mut members, declarator, ty);
+                let member = Member {
+                    name: self.name(declarator.name).to_owned(),
+                    ty,
+                    matrix_layout: MatrixLayout::default(),
+                    interpolation: None,
+                    centroid: false,
+                    span: declarator.name.span,
+                };
+                self.add_member(&mut members, declarator.name, member);
             }
         }
         if members.is_empty() {
             self.report(Diagnostic::new(&types::STRUCT, declared, "a struct must have a member").here("empty"));
         }
-        let ty = self.types.add_struct(StructType { name: name.to_owned(), members, is_block: false, span: declared });
+        let ty = self.add_structure(name, members, false, declared);
         if let Some(name) = spec.name {
             let good_name = good_name && self.check_block_name(name);
             self.enter(name, if good_name { Entry::Struct(ty) } else { Entry::Poison });
@@ -83,24 +113,38 @@ impl Analyzer<'_> {
         }
     }
 
-    fn add_member(&mut self, members: &mut Vec<Member>, declarator: &Declarator, ty: TypeId) {
-        let name = self.name(declarator.name);
-        self.check_name(declarator.name);
-        if let Some(earlier) = members.iter().find(|member| member.name == name) {
+    /// Adds a member, unless its name is taken.
+    pub(super) fn add_member(&mut self, list: &mut MemberList, name: Ident, member: Member) {
+        self.check_name(name);
+        let index = list.members.len() as u32;
+        let taken = *list.indices.entry(name.symbol).or_insert(index);
+        if let Some(earlier) = list.members.get(taken as usize) {
+            let spelling = &member.name;
             self.report(
-                Diagnostic::new(&names::REDEFINED, declarator.name.span, format!("the member `{name}` is there twice"))
+                Diagnostic::new(&names::REDEFINED, name.span, format!("the member `{spelling}` is there twice"))
                     .here("declared again here")
                     .label(earlier.span, "first declared here"),
             );
             return;
         }
-        members.push(Member {
-            name: name.to_owned(),
-            ty,
-            matrix_layout: MatrixLayout::default(),
-            interpolation: None,
-            centroid: false,
-            span: declarator.name.span,
-        });
+        list.members.push(member);
+    }
+
+    /// Adds a struct or the type of a block; poison if it is too deep or too large for anything.
+    pub(super) fn add_structure(&mut self, name: &str, list: MemberList, is_block: bool, span: Span) -> TypeId {
+        let many = list.members.len() > FEW_MEMBERS;
+        let declaration = StructType { name: name.to_owned(), members: list.members, is_block, span };
+        let ty = self.types.add_struct(declaration);
+        if let (true, Type::Struct(id)) = (many, self.types.get(ty)) {
+            self.member_indices.insert(id, list.indices);
+        }
+        if self.types.shape(ty).depth > MAX_DEPTH {
+            self.report(
+                Diagnostic::new(&general::TOO_DEEP, span, format!("structs nest more than {MAX_DEPTH} levels deep"))
+                    .here("one level too many"),
+            );
+            return TypeId::ERROR;
+        }
+        if self.check_size(ty, span) { ty } else { TypeId::ERROR }
     }
 }

@@ -4,7 +4,7 @@ use super::super::context::{Analyzer, ArrayKey};
 use super::swizzle::{self, Fault};
 use crate::diagnostic::codes::{names, types};
 use crate::diagnostic::{Diagnostic, did_you_mean};
-use crate::hir::{ArraySize, ExprId, ExprKind, Scalar, ScalarValue, Stage, Storage, Type, TypeId, VarRef};
+use crate::hir::{ArraySize, ExprId, ExprKind, Scalar, ScalarValue, Stage, Storage, StructId, Type, TypeId, VarRef};
 use crate::source::Span;
 use crate::syntax::ast::{self, Ident};
 
@@ -15,10 +15,10 @@ impl Analyzer<'_> {
         match self.types.get(self.ty(base)) {
             Type::Error => self.poison(span),
             Type::Struct(id) => {
-                let structure = self.types.structure(id);
-                if let Some(index) = structure.members.iter().position(|member| member.name == spelling) {
-                    return self.member(base, index as u32, span);
+                if let Some(index) = self.member_index(id, field) {
+                    return self.member(base, index, span);
                 }
+                let structure = self.types.structure(id);
                 let near = did_you_mean(spelling, structure.members.iter().map(|member| member.name.as_str()));
                 let help = near.map(|near| format!("did you mean `{near}`?"));
                 let name = self.type_name(self.ty(base));
@@ -42,6 +42,16 @@ impl Analyzer<'_> {
                 self.poison(span)
             }
         }
+    }
+
+    /// The place of a member; structs with many have a table.
+    pub(in crate::analysis) fn member_index(&self, id: StructId, field: Ident) -> Option<u32> {
+        if let Some(indices) = self.member_indices.get(&id) {
+            return indices.get(&field.symbol).copied();
+        }
+        let name = self.name(field);
+        let index = self.types.structure(id).members.iter().position(|member| member.name == name)?;
+        u32::try_from(index).ok()
     }
 
     fn swizzle(&mut self, base: ExprId, field: Ident, (scalar, size): (Scalar, u8), span: Span) -> ExprId {
@@ -207,7 +217,10 @@ impl Analyzer<'_> {
             },
             _ => return,
         };
-        let entry = self.array_uses.entry(key).or_insert((index, at));
+        let entry = match key {
+            ArrayKey::Local(id) => self.local_array_uses.entry(id).or_insert((index, at)),
+            _ => self.array_uses.entry(key).or_insert((index, at)),
+        };
         if entry.0 < index {
             *entry = (index, at);
         }

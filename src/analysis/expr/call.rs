@@ -1,7 +1,7 @@
 //! Calls (§5.3, §6.1): of functions of the shader and of constructors of structs. Built-in functions have a file of
 //! their own.
 
-use super::super::context::Analyzer;
+use super::super::context::{Analyzer, Signature};
 use super::super::scope::{Entry, OverloadSet};
 use super::Purpose;
 use super::overload::{Resolution, resolve};
@@ -11,9 +11,10 @@ use crate::diagnostic::{Diagnostic, did_you_mean};
 use crate::hir::{ExprId, ExprKind, FunctionId, ParamMode, TypeId};
 use crate::source::Span;
 use crate::syntax::ast::{self, Ident};
+use smallvec::SmallVec;
 
 /// The parameters of a candidate.
-pub(super) type Params = Vec<(TypeId, ParamMode)>;
+pub(super) type Params = SmallVec<[(TypeId, ParamMode); 4]>;
 
 impl Analyzer<'_> {
     /// `f(a, b)`, `S(a)`
@@ -74,7 +75,8 @@ impl Analyzer<'_> {
         false
     }
 
-    fn nearest_function(&self, spelling: &str) -> Option<String> {
+    fn nearest_function(&mut self, spelling: &str) -> Option<String> {
+        self.may_suggest()?;
         let declared = self
             .scopes
             .names()
@@ -88,13 +90,27 @@ impl Analyzer<'_> {
     }
 
     fn user_call(&mut self, name: Ident, set: OverloadSet, arguments: Vec<ExprId>, span: Span) -> ExprId {
-        let given: Vec<TypeId> = arguments.iter().map(|&argument| self.ty(argument)).collect();
+        let given: Signature = arguments.iter().map(|&argument| self.ty(argument)).collect();
+        let exact = self.signatures.get(&(name.symbol, given.clone())).copied();
+        let found = exact.or_else(|| self.by_conversion(name, set, &given));
+        let Some(function) = found else { return self.poison(span) };
+        let params = self.params_of(function);
+        let Some(arguments) = self.pass(arguments, &params) else { return self.poison(span) };
+        let ret = self.shader.function(function).ret;
+        if ret.is_error() {
+            return self.poison(span);
+        }
+        self.push(ExprKind::Call(function, arguments), ret, span)
+    }
+
+    /// The overload that takes the arguments after conversions, if it is the only one.
+    fn by_conversion(&mut self, name: Ident, set: OverloadSet, given: &[TypeId]) -> Option<FunctionId> {
         let candidates: Vec<FunctionId> = self.scopes.functions(set).to_vec();
-        let resolution = resolve(self.types, &given, candidates.iter().map(|&id| self.params_of(id)));
-        let found = match resolution {
+        let resolution = resolve(self.types, given, candidates.iter().map(|&id| self.params_of(id)));
+        match resolution {
             Resolution::Found(index) => candidates.get(index).copied(),
             Resolution::Ambiguous(first, second) => {
-                let mut finding = self.ambiguous(name, &given);
+                let mut finding = self.ambiguous(name, given);
                 for index in [first, second] {
                     if let Some(&id) = candidates.get(index) {
                         finding = finding.label(self.shader.function(id).span, "matches by conversion");
@@ -104,22 +120,14 @@ impl Analyzer<'_> {
                 None
             }
             Resolution::Missing => {
-                let mut finding = self.no_overload(name, &given);
+                let mut finding = self.no_overload(name, given);
                 for &id in candidates.iter().take(4) {
                     finding = finding.label(self.shader.function(id).span, self.describe(id));
                 }
                 self.report(finding);
                 None
             }
-        };
-        let Some(function) = found else { return self.poison(span) };
-        let params = self.params_of(function);
-        let Some(arguments) = self.pass(arguments, &params) else { return self.poison(span) };
-        let ret = self.shader.function(function).ret;
-        if ret.is_error() {
-            return self.poison(span);
         }
-        self.push(ExprKind::Call(function, arguments), ret, span)
     }
 
     /// Converts the arguments that go in, and sees to it that those that come out can be written.

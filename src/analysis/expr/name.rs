@@ -95,7 +95,8 @@ impl Analyzer<'_> {
         );
     }
 
-    fn nearest_variable(&self, spelling: &str) -> Option<String> {
+    fn nearest_variable(&mut self, spelling: &str) -> Option<String> {
+        self.may_suggest()?;
         let declared = self
             .scopes
             .names()

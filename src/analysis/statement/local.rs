@@ -33,6 +33,7 @@ impl Analyzer<'_> {
         let good_name = self.check_name(name);
         let ty = self.with_array(base, &declarator.array);
         let ty = self.check_local_type(ty, declaration, declarator);
+        let ty = if self.check_local_size(ty, name.span) { ty } else { TypeId::ERROR };
         let constant = record.constant.is_some();
         let (ty, initializer, value) = self.local_initializer(declarator, ty, constant);
         let kind = if constant { LocalKind::Const } else { LocalKind::Variable };

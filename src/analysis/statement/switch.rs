@@ -6,6 +6,7 @@ use crate::diagnostic::codes::statements;
 use crate::hir::{Case, CaseLabel, ExprId, ScalarValue, StmtKind, TypeId};
 use crate::source::Span;
 use crate::syntax::ast::{self, SwitchItem};
+use rustc_hash::FxHashMap;
 
 impl Analyzer<'_> {
     pub(super) fn switch(&mut self, selector: ast::ExprId, body: &[SwitchItem]) -> StmtKind {
@@ -40,7 +41,7 @@ impl Analyzer<'_> {
     /// Groups labels and statements. A label behind a statement opens a new case.
     fn cases(&mut self, selector: TypeId, body: &[SwitchItem]) -> Vec<Case> {
         let mut cases: Vec<Case> = Vec::new();
-        let mut seen: Vec<(CaseLabel, Span)> = Vec::new();
+        let mut seen: FxHashMap<CaseLabel, Span> = FxHashMap::default();
         let mut last_label = None;
         let mut reported_first = false;
         for item in body {
@@ -127,8 +128,8 @@ impl Analyzer<'_> {
         }
     }
 
-    fn check_repeated(&mut self, seen: &mut Vec<(CaseLabel, Span)>, label: CaseLabel, span: Span) {
-        if let Some((_, first)) = seen.iter().find(|(earlier, _)| *earlier == label) {
+    fn check_repeated(&mut self, seen: &mut FxHashMap<CaseLabel, Span>, label: CaseLabel, span: Span) {
+        if let Some(first) = seen.get(&label) {
             let what = if label == CaseLabel::Default { "`default` stands" } else { "this case stands" };
             self.report(
                 Diagnostic::new(&statements::REPEATED_CASE, span, format!("{what} twice in one `switch`"))
@@ -137,6 +138,6 @@ impl Analyzer<'_> {
             );
             return;
         }
-        seen.push((label, span));
+        seen.insert(label, span);
     }
 }

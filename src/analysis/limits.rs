@@ -1,0 +1,47 @@
+//! Limits on the sizes of types and variables, past which no target can bind or hold them.
+//!
+//! The minima of `gl_Max*` are not errors (drivers have more); these are far above what any driver has, and keep a short
+//! text from asking for gigabytes: structs that hold each other twice double with each line.
+
+use super::context::Analyzer;
+use crate::diagnostic::Diagnostic;
+use crate::diagnostic::codes::types;
+use crate::hir::{Storage, TypeId};
+use crate::source::Span;
+
+/// The scalars of one type, of all variables of a function, and of all globals of a shader that are no uniforms.
+const MAX_SCALARS: u32 = 1 << 20;
+
+/// The scalars of all uniforms of a shader: 64 times what drivers have.
+const MAX_UNIFORM_SCALARS: u32 = 1 << 18;
+
+impl Analyzer<'_> {
+    /// Whether a type is small enough to exist.
+    pub(super) fn check_size(&mut self, ty: TypeId, span: Span) -> bool {
+        self.check_scalars(self.types.flat_len(ty), MAX_SCALARS, span)
+    }
+
+    /// Whether a global still fits beside those before it.
+    pub(super) fn check_global_size(&mut self, ty: TypeId, storage: Storage, span: Span) -> bool {
+        let limit = if storage == Storage::Uniform { MAX_UNIFORM_SCALARS } else { MAX_SCALARS };
+        self.n_global_scalars = self.n_global_scalars.saturating_add(self.types.flat_len(ty));
+        self.check_scalars(self.n_global_scalars, limit, span)
+    }
+
+    /// Whether a local still fits beside those before it.
+    pub(super) fn check_local_size(&mut self, ty: TypeId, span: Span) -> bool {
+        self.n_local_scalars = self.n_local_scalars.saturating_add(self.types.flat_len(ty));
+        self.check_scalars(self.n_local_scalars, MAX_SCALARS, span)
+    }
+
+    fn check_scalars(&mut self, scalars: u32, limit: u32, span: Span) -> bool {
+        if scalars <= limit {
+            return true;
+        }
+        self.report(
+            Diagnostic::new(&types::TOO_LARGE, span, "this is too large for any target")
+                .here(format!("makes it more than {limit} numbers")),
+        );
+        false
+    }
+}
