@@ -6,7 +6,7 @@
 
 use super::Try;
 use super::function::Ctx;
-use crate::hir::{BinaryOp, ExprId, Scalar, Type, TypeId};
+use crate::hir::{BinaryOp, ExprId, Type, TypeId};
 use naga::{BinaryOperator, Expression, Handle, Literal, RelationalFunction};
 
 /// A value and its GLSL type.
@@ -161,10 +161,5 @@ impl Ctx<'_, '_> {
             let differ = self.op(BinaryOperator::NotEqual, left, right);
             self.any(differ, size)
         }
-    }
-
-    /// Whether the scalar behind the type is `float`.
-    pub(super) fn is_float(&self, ty: TypeId) -> bool {
-        self.low.types.scalar_of(ty) == Some(Scalar::Float)
     }
 }

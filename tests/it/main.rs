@@ -5,5 +5,6 @@ mod architecture;
 mod cli;
 mod codes;
 mod diagnostics;
+mod emit;
 mod hostile;
 mod support;
