@@ -10,6 +10,7 @@
 //! [`TypeId::ERROR`]; nothing behind `link` ever sees one, because a program with errors is not handed on.
 
 mod expr;
+mod print;
 mod reach;
 mod shader;
 mod stmt;
@@ -18,6 +19,7 @@ mod value;
 mod visit;
 
 pub use expr::{BinaryOp, ConstructKind, Expr, ExprId, ExprKind, IncDec, LogicalOp, Swizzle, UnaryOp, VarRef};
+pub use print::print;
 pub use shader::{
     BlockInfo, BlockLayout, FragCoordLayout, Function, FunctionId, GeometryLayout, Global, GlobalId, Interpolation,
     Local, LocalId, LocalKind, ParamMode, PrimitiveIn, PrimitiveOut, Shader, Stage, Storage,

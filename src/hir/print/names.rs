@@ -1,0 +1,163 @@
+//! Names for the printer: each struct, function and global keeps its own; a name that is taken gets a number.
+//!
+//! Locals are numbered apart within their function, and apart from everything global, so that no scope matters.
+
+use crate::builtin::functions;
+use crate::hir::{FunctionId, GlobalId, LocalId, Shader, StructId, Type, TypeId, Types};
+use rustc_hash::{FxHashMap, FxHashSet};
+
+/// The name of everything that the printer writes.
+pub(super) struct NameTable {
+    structs: FxHashMap<StructId, String>,
+    struct_order: Vec<StructId>,
+    globals: Vec<String>,
+    functions: Vec<String>,
+    locals: Vec<Vec<String>>,
+}
+
+/// Names that are taken.
+#[derive(Default)]
+struct Taken(FxHashSet<String>);
+
+impl Taken {
+    fn claim(&mut self, wanted: &str) -> String {
+        let mut name = wanted.to_owned();
+        let mut number = 1;
+        while !self.0.insert(name.clone()) {
+            number += 1;
+            let gap = if wanted.ends_with('_') { "" } else { "_" };
+            name = format!("{wanted}{gap}{number}");
+        }
+        name
+    }
+}
+
+impl NameTable {
+    pub(super) fn new(types: &Types, shader: &Shader) -> Self {
+        let mut taken = Taken::default();
+        let globals: Vec<String> = shader.globals.iter().map(|global| global_name(types, &mut taken, global)).collect();
+        let functions = function_names(shader, &mut taken);
+        let mut structs = FxHashMap::default();
+        let struct_order = used_structs(types, shader);
+        for &id in &struct_order {
+            let name = match types.structure(id).name.as_str() {
+                "" => "Unnamed",
+                name => name,
+            };
+            structs.insert(id, taken.claim(name));
+        }
+        let mut table = Self { structs, struct_order, globals, functions, locals: Vec::new() };
+        for function in &shader.functions {
+            let mut names = Taken::default();
+            let locals = function.locals.iter().map(|local| table.local_name(&taken, &mut names, &local.name));
+            let locals = locals.collect();
+            table.locals.push(locals);
+        }
+        table
+    }
+
+    fn local_name(&self, global: &Taken, taken: &mut Taken, name: &str) -> String {
+        if name.is_empty() {
+            return String::new();
+        }
+        loop {
+            let claimed = taken.claim(name);
+            if !global.0.contains(&claimed) && functions::named(&claimed).is_empty() {
+                return claimed;
+            }
+        }
+    }
+
+    pub(super) fn structure(&self, id: StructId) -> &str {
+        self.structs.get(&id).map_or("", String::as_str)
+    }
+
+    /// The structs to declare, members before what holds them.
+    pub(super) fn structs(&self) -> &[StructId] {
+        &self.struct_order
+    }
+
+    pub(super) fn global(&self, id: GlobalId) -> &str {
+        self.globals.get(id.index()).map_or("", String::as_str)
+    }
+
+    pub(super) fn function(&self, id: FunctionId) -> &str {
+        self.functions.get(id.index()).map_or("", String::as_str)
+    }
+
+    pub(super) fn local(&self, function: FunctionId, id: LocalId) -> &str {
+        self.locals.get(function.index()).and_then(|locals| locals.get(id.index())).map_or("", String::as_str)
+    }
+}
+
+/// Blocks are known by their instance name; without one their members are global names.
+fn global_name(types: &Types, taken: &mut Taken, global: &crate::hir::Global) -> String {
+    if global.builtin.is_some() {
+        let name = global.builtin.map_or("", crate::builtin::BuiltinVariable::name);
+        taken.0.insert(name.to_owned());
+        return name.to_owned();
+    }
+    match &global.block {
+        None => taken.claim(&global.name),
+        Some(block) => {
+            taken.0.insert(block.name.clone());
+            match &block.instance {
+                Some(instance) => taken.claim(instance),
+                None => {
+                    for member in members(types, global.ty) {
+                        taken.0.insert(member);
+                    }
+                    String::new()
+                }
+            }
+        }
+    }
+}
+
+fn members(types: &Types, ty: TypeId) -> Vec<String> {
+    match types.get(ty) {
+        Type::Struct(id) => types.structure(id).members.iter().map(|member| member.name.clone()).collect(),
+        _ => Vec::new(),
+    }
+}
+
+/// Overloads share a name.
+fn function_names(shader: &Shader, taken: &mut Taken) -> Vec<String> {
+    let mut known: FxHashMap<&str, String> = FxHashMap::default();
+    let mut names = Vec::new();
+    for function in &shader.functions {
+        let name = known.entry(&function.name).or_insert_with(|| taken.claim(&function.name));
+        names.push(name.clone());
+    }
+    names
+}
+
+/// All structs that the shader mentions, blocks and built-in structs left out, members before what holds them.
+fn used_structs(types: &Types, shader: &Shader) -> Vec<StructId> {
+    let mut order = Vec::new();
+    let mut seen = FxHashSet::default();
+    let globals = shader.globals.iter().filter(|global| global.builtin.is_none()).map(|global| global.ty);
+    let functions = shader.functions.iter();
+    let locals = functions.flat_map(|function| {
+        [function.ret].into_iter().chain(function.locals.iter().map(|local| local.ty)).collect::<Vec<_>>()
+    });
+    let exprs = shader.exprs.iter().map(|expr| expr.ty);
+    for ty in globals.chain(locals).chain(exprs) {
+        add_structs(types, ty, &mut seen, &mut order);
+    }
+    order.retain(|&id| !types.structure(id).is_block && !types.structure(id).name.starts_with("gl_"));
+    order
+}
+
+fn add_structs(types: &Types, ty: TypeId, seen: &mut FxHashSet<StructId>, order: &mut Vec<StructId>) {
+    match types.get(ty) {
+        Type::Array(element, _) => add_structs(types, element, seen, order),
+        Type::Struct(id) if seen.insert(id) => {
+            for member in &types.structure(id).members {
+                add_structs(types, member.ty, seen, order);
+            }
+            order.push(id);
+        }
+        _ => {}
+    }
+}
