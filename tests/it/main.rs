@@ -7,4 +7,5 @@ mod codes;
 mod diagnostics;
 mod emit;
 mod hostile;
+mod print;
 mod support;

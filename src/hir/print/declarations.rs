@@ -154,6 +154,7 @@ impl Printer<'_> {
         };
         let mut layout: Vec<String> = Vec::new();
         match block.layout {
+            _ if global.storage != Storage::Uniform => {}
             BlockLayout::Shared => {}
             BlockLayout::Packed => layout.push("packed".into()),
             BlockLayout::Std140 => layout.push("std140".into()),
@@ -206,7 +207,8 @@ impl Printer<'_> {
 }
 
 fn member_qualifiers(member: &Member, storage: &str) -> String {
-    let order = if member.matrix_layout == MatrixLayout::RowMajor { "layout(row_major) " } else { "" };
+    let row_major = storage == "uniform " && member.matrix_layout == MatrixLayout::RowMajor;
+    let order = if row_major { "layout(row_major) " } else { "" };
     let interpolation = member.interpolation.map_or(String::new(), |word| format!("{} ", word.name()));
     // `centroid` stands before a storage qualifier, which in a block can only be the block's own.
     let centroid = if member.centroid { format!("centroid {storage}") } else { String::new() };

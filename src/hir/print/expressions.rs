@@ -3,8 +3,7 @@
 use super::Printer;
 use crate::builtin::{BuiltinFunction, functions};
 use crate::hir::{
-    BinaryOp, ConstructKind, Expr, ExprId, ExprKind, IncDec, LogicalOp, ParamMode, ScalarValue, Swizzle, Type, TypeId,
-    UnaryOp, VarRef,
+    BinaryOp, Expr, ExprId, ExprKind, IncDec, LogicalOp, ParamMode, ScalarValue, Swizzle, Type, TypeId, UnaryOp, VarRef,
 };
 
 /// How tightly an operator binds; a greater number binds tighter.
@@ -150,7 +149,7 @@ impl Printer<'_> {
             }
             ExprKind::Swizzle(base, swizzle) => self.write_swizzle(expr, *base, *swizzle, text),
             ExprKind::Convert(inner) => self.write_call(&self.type_name(expr.ty), &[*inner], text),
-            ExprKind::Construct(kind, arguments) => self.write_construct(expr.ty, *kind, arguments, text),
+            ExprKind::Construct(_, arguments) => self.write_construct(expr.ty, arguments, text),
             ExprKind::Unary(op, operand) => self.write_unary(*op, *operand, text),
             ExprKind::IncDec(op, operand) => self.write_inc_dec(*op, *operand, text),
             ExprKind::Binary(op, left, right) => self.write_binary(binary(*op).0, own, *left, *right, text),
@@ -220,15 +219,16 @@ impl Printer<'_> {
         text.extend(swizzle.as_slice().iter().filter_map(|&component| "xyzw".chars().nth(usize::from(component))));
     }
 
-    fn write_construct(&self, ty: TypeId, kind: ConstructKind, arguments: &[ExprId], text: &mut String) {
-        match kind {
-            ConstructKind::Splat
-            | ConstructKind::Compose
-            | ConstructKind::Diagonal
-            | ConstructKind::Resize
-            | ConstructKind::Array
-            | ConstructKind::Struct => self.write_call(&self.type_name(ty), arguments, text),
+    fn write_construct(&self, ty: TypeId, arguments: &[ExprId], text: &mut String) {
+        // A conversion is written as a constructor already: `vec2(i)`, not `vec2(vec2(i))`.
+        if let [argument] = arguments
+            && let Expr { kind: ExprKind::Convert(inner), ty: converted, .. } = self.shader.expr(*argument)
+            && *converted == ty
+        {
+            self.write_call(&self.type_name(ty), &[*inner], text);
+            return;
         }
+        self.write_call(&self.type_name(ty), arguments, text);
     }
 
     fn write_call(&self, name: &str, arguments: &[ExprId], text: &mut String) {
