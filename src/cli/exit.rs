@@ -1,7 +1,7 @@
 //! How a command ends: exit codes, and failures that are no diagnostics of a source.
 
 use crate::diagnostic::Diagnostic;
-use crate::diagnostic::codes::{general, scenes};
+use crate::diagnostic::codes::{general, preprocess, scenes};
 use std::process::ExitCode;
 
 /// The exit codes, from the best to the worst; the worst that applies wins.
@@ -18,13 +18,13 @@ pub(super) enum Exit {
     Machine,
 }
 
-/// Codes of errors about files rather than their content; `E0127` is an include that is not found.
+/// Codes of errors about files rather than their content.
 static FILE_CODES: &[&str] = &[
     general::FILE_NOT_FOUND.id,
     general::FILE_UNREADABLE.id,
     general::FILE_IS_FOLDER.id,
     scenes::SCENE_FILE_UNREADABLE.id,
-    "E0127",
+    preprocess::INCLUDE_NOT_FOUND.id,
 ];
 
 impl Exit {

@@ -107,7 +107,12 @@ impl From<Error> for DrawError {
             return Self::Diagnostics(error.diagnostics().to_vec());
         }
         let exit = if error.is_environment() { Exit::Machine } else { Exit::Content };
-        Self::Failure(Failure::new(exit, error.to_string()))
+        // The runner's messages carry their help in a second line.
+        let text = error.to_string();
+        Self::Failure(match text.split_once("\nhelp: ") {
+            Some((message, help)) => Failure::new(exit, message).help(help),
+            None => Failure::new(exit, text),
+        })
     }
 }
 

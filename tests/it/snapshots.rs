@@ -1,0 +1,59 @@
+//! What comes of the fixtures, as snapshots under review: WGSL, reflection, rendered diagnostics.
+//!
+//! `cargo insta review` shows what changed.
+
+use glisten::diagnostic::write::human;
+use glisten::emit::{Conventions, Emitted, Target, emit, reflect};
+use glisten::hir::Stage;
+use glisten::{Compilation, Compiler, Options, Source};
+use std::fmt::Write;
+use std::fs;
+use std::path::Path;
+
+/// Compiles the program that a vertex shader and the fragment shader beside it make.
+fn compile(vertex: &Path) -> Compilation {
+    let source = |path: &Path, stage| {
+        let name = path.file_name().expect("a file").to_string_lossy().into_owned();
+        Source { name, text: fs::read_to_string(path).expect("readable").into(), stage }
+    };
+    let sources =
+        [source(vertex, Stage::Vertex), source(&vertex.with_extension("frag"), Stage::Fragment)];
+    Compiler::new(Options::default()).compile(&sources)
+}
+
+fn wgsl(compilation: &Compilation) -> String {
+    let program = compilation.program.as_ref().expect("the fixture has no errors");
+    let mut text = String::new();
+    for shader in &program.stages {
+        match emit(program, shader.stage, Target::Wgsl, &Conventions::default()) {
+            Ok(Emitted::Text(stage)) => writeln!(text, "// {}\n{stage}", shader.stage.name()).expect("strings grow"),
+            Ok(Emitted::Words(_)) => panic!("WGSL is text"),
+            Err(errors) => panic!("{}", human(&compilation.sources, &errors, false)),
+        }
+    }
+    text
+}
+
+#[test]
+fn programs_to_wgsl() {
+    insta::glob!("../../fixtures/programs", "*.vert", |path| {
+        insta::assert_snapshot!("wgsl", wgsl(&compile(path)));
+    });
+}
+
+#[test]
+fn programs_to_reflections() {
+    insta::glob!("../../fixtures/programs", "*.vert", |path| {
+        let compilation = compile(path);
+        let program = compilation.program.as_ref().expect("the fixture has no errors");
+        insta::assert_json_snapshot!("reflection", reflect(program, &Conventions::default()));
+    });
+}
+
+#[test]
+fn mistakes_for_people() {
+    insta::glob!("../../fixtures/readme", "*.vert", |path| {
+        let compilation = compile(path);
+        insta::assert_snapshot!("human", human(&compilation.sources, &compilation.diagnostics, false));
+    });
+}
