@@ -69,7 +69,7 @@ pub(super) fn svg(report: &Report) -> String {
         front(&mut svg, &ways, &point);
         let names = names(&ways);
         for (shape, name) in names.iter().enumerate() {
-            series(&mut svg, &ways, name, shape, (&x, &point));
+            series(&mut svg, &ways, name, [index, shape], (&x, &point));
         }
         svg.push_str("</g>\n");
     }
@@ -145,7 +145,7 @@ fn series(
     svg: &mut String,
     ways: &[&Way],
     name: &str,
-    shape: usize,
+    [model, shape]: [usize; 2],
     (axis, point): (&Axis, &dyn Fn(&Way) -> (f64, f64)),
 ) {
     let members: Vec<&&Way> = ways.iter().filter(|way| way.name == name).collect();
@@ -162,14 +162,15 @@ fn series(
             way.ratio.median,
             way.error.rmse,
             marker(shape, x, y),
-            label(way, x, y),
+            label(way, x, if model % 2 == 0 { y - 9.0 } else { y + 18.0 }),
         );
     }
 }
 
+/// The tessellation beside a point: above it for one model and below it for the next, since models lie close together.
 fn label(way: &Way, x: f64, y: f64) -> String {
     let Some([segments, rings]) = way.tessellation else { return String::new() };
-    format!("<text class=\"label\" x=\"{:.1}\" y=\"{:.1}\">{segments}\u{d7}{rings}</text>", x + 10.0, y - 9.0)
+    format!("<text class=\"label\" x=\"{:.1}\" y=\"{y:.1}\">{segments}\u{d7}{rings}</text>", x + 10.0)
 }
 
 /// A filled shape for each way of a model: circle, square, diamond, triangle, and again.
