@@ -25,6 +25,7 @@ mod report;
 mod scenes;
 mod session;
 mod stages;
+mod test;
 mod verify;
 
 use clap::{Args, Parser, Subcommand};
@@ -67,6 +68,7 @@ enum Command {
     Render(render::RenderArgs),
     Verify(verify::VerifyArgs),
     Report(report::ReportArgs),
+    Test(test::TestArgs),
 }
 
 /// Runs the program with these arguments, the first being its own name.
@@ -103,6 +105,7 @@ fn dispatch(command: &Command, console: &Console) -> Outcome {
         Command::Render(args) => render::run(args, console),
         Command::Verify(args) => verify::run(args, console),
         Command::Report(args) => report::run(args, console),
+        Command::Test(args) => test::run(args, console),
     }
 }
 

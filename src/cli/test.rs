@@ -1,0 +1,199 @@
+//! `glisten test`: runs `.shader_test` files on the GPU and by the CPU reference.
+
+use super::console::Console;
+use super::exit::{Exit, Failure, Outcome};
+use super::files;
+use super::guard;
+use super::progress::Progress;
+use crate::compare::Picture;
+use crate::compiler::{Compiler, Options};
+use crate::cpu::{self, LineRule, RenderOptions};
+use crate::diagnostic::Diagnostic;
+use crate::gpu::{self, Gpu, Via};
+use crate::scene::Scene;
+use crate::shader_test::{self, Outcome as Ending, Painter};
+use clap::{Args, ValueEnum};
+use serde::Serialize;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+/// Runs .shader_test files: shaders, draws, and what pixels must be
+#[derive(Args, Debug)]
+pub(super) struct TestArgs {
+    /// Test files, or folders that are searched for them
+    #[arg(required = true, value_name = "FILE|DIR")]
+    paths: Vec<PathBuf>,
+    /// Who draws
+    #[arg(long, value_enum, default_value_t)]
+    backend: Backend,
+    /// What the GPU runs
+    #[arg(long, value_enum, default_value_t)]
+    via: super::scenes::ViaArg,
+    /// The GPU to use, by a part of its name (default: the first software adapter)
+    #[arg(long, value_name = "NAME")]
+    adapter: Option<String>,
+    /// Gives up on a draw after that many seconds
+    #[arg(long, value_name = "SECONDS", default_value_t = 60)]
+    timeout: u64,
+    /// The format of the results
+    #[arg(long, value_enum, default_value_t)]
+    format: Format,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+enum Backend {
+    /// Vulkan through wgpu
+    Gpu,
+    /// The CPU reference
+    Cpu,
+    /// One after the other
+    #[default]
+    Both,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// A line a test that did not pass, and a summary
+    #[default]
+    Human,
+    /// One JSON array
+    Json,
+}
+
+/// How a test ended on a backend.
+#[derive(Debug, Serialize)]
+struct TestResult {
+    file: String,
+    backend: &'static str,
+    result: &'static str,
+    reason: Option<String>,
+}
+
+/// The extension of test files.
+const EXTENSION: &str = "shader_test";
+/// How deep folders are searched.
+const MOST_FOLDERS: u32 = 64;
+
+/// Runs the command.
+pub(super) fn run(args: &TestArgs, console: &Console) -> Outcome {
+    let mut files = Vec::new();
+    for path in &args.paths {
+        collect(path, &mut files, 0)?;
+    }
+    if files.is_empty() {
+        return Err(Failure::usage(format!("there is no .{EXTENSION} file")));
+    }
+    let mut painters = painters(args)?;
+    let progress = Progress::new(console, files.len());
+    let mut results = Vec::new();
+    for path in &files {
+        let name = path.display().to_string();
+        progress.say(&name);
+        let bytes = files::read(&name, path).map_err(|_| Failure::usage(format!("cannot read `{name}`")))?;
+        let text = String::from_utf8_lossy(&bytes);
+        for (backend, painter) in &mut painters {
+            let ending = one(&name, &text, painter.as_mut());
+            let (result, reason) = (ending.name(), ending.reason().map(str::to_owned));
+            results.push(TestResult { file: name.clone(), backend, result, reason });
+        }
+        progress.step();
+    }
+    drop(progress);
+    let text = match args.format {
+        Format::Json => serde_json::to_string_pretty(&results).expect("results are always JSON") + "\n",
+        Format::Human => human(&results),
+    };
+    console.output(&text)?;
+    let failed = results.iter().any(|result| result.result == "fail");
+    Ok(if failed { Exit::Content } else { Exit::Ok })
+}
+
+/// A test; a panic fails it and leaves the others alone.
+fn one(name: &str, text: &str, painter: &mut dyn Painter) -> Ending {
+    let compiler = Compiler::new(Options::default());
+    guard::guarded(|| shader_test::run(name, text, &compiler, painter))
+        .unwrap_or_else(|panic| Ending::Fail(format!("internal error: {panic}")))
+}
+
+/// The files at a path: itself, or what is in it, in the order of names.
+fn collect(path: &Path, files: &mut Vec<PathBuf>, depth: u32) -> Result<(), Failure> {
+    let unreadable = |error: std::io::Error| Failure::usage(format!("cannot read `{}`: {error}", path.display()));
+    if !std::fs::metadata(path).map_err(unreadable)?.is_dir() {
+        files.push(path.to_owned());
+        return Ok(());
+    }
+    let mut entries = std::fs::read_dir(path)
+        .and_then(|entries| entries.map(|entry| entry.map(|entry| entry.path())).collect::<Result<Vec<_>, _>>())
+        .map_err(unreadable)?;
+    entries.sort();
+    for entry in entries {
+        let is_test = entry.extension().is_some_and(|extension| extension == EXTENSION);
+        // A link to a folder above would lead in circles.
+        let is_folder = entry.is_dir() && !entry.is_symlink() && depth < MOST_FOLDERS;
+        if is_test || is_folder {
+            collect(&entry, files, depth + 1)?;
+        }
+    }
+    Ok(())
+}
+
+/// A painter and the name of its backend.
+type Named = (&'static str, Box<dyn Painter>);
+
+fn painters(args: &TestArgs) -> Result<Vec<Named>, Failure> {
+    let mut painters: Vec<Named> = Vec::new();
+    if args.backend != Backend::Cpu {
+        let gpu = Gpu::new(args.adapter.as_deref()).map_err(|error| {
+            let exit = if error.is_environment() { Exit::Machine } else { Exit::Content };
+            Failure::new(exit, error.to_string())
+        })?;
+        let gpu = gpu.with_timeout(Duration::from_secs(args.timeout));
+        painters.push(("gpu", Box::new(GpuPainter { gpu, via: args.via.into() })));
+    }
+    if args.backend != Backend::Gpu {
+        painters.push(("cpu", Box::new(CpuPainter)));
+    }
+    Ok(painters)
+}
+
+struct GpuPainter {
+    gpu: Gpu,
+    via: Via,
+}
+
+impl Painter for GpuPainter {
+    fn paint(&mut self, scene: &Scene) -> Result<Picture, Ending> {
+        match self.gpu.render(scene, self.via) {
+            Ok(rendered) => Ok(rendered.picture),
+            Err(gpu::Error::Emit(diagnostics)) => Err(Ending::Fail(first(&diagnostics))),
+            Err(error @ gpu::Error::Unsupported(_)) => Err(Ending::Skip(error.to_string())),
+            Err(error) => Err(Ending::Fail(error.to_string())),
+        }
+    }
+}
+
+struct CpuPainter;
+
+impl Painter for CpuPainter {
+    fn paint(&mut self, scene: &Scene) -> Result<Picture, Ending> {
+        let options = RenderOptions { lines: LineRule::OpenGl, mark_edges: false, ..RenderOptions::default() };
+        cpu::render(scene, &options).map_err(|diagnostics| Ending::Fail(first(&diagnostics)))
+    }
+}
+
+fn first(diagnostics: &[Diagnostic]) -> String {
+    diagnostics
+        .first()
+        .map_or_else(|| "it cannot be drawn".to_owned(), |first| format!("{} ({})", first.message, first.code))
+}
+
+/// A line for each test that did not pass, then how many did.
+fn human(results: &[TestResult]) -> String {
+    let mut text = String::new();
+    for result in results.iter().filter(|result| result.result != "pass") {
+        let reason = result.reason.as_deref().unwrap_or_default();
+        text.push_str(&format!("{} {} {}: {reason}\n", result.result, result.backend, result.file));
+    }
+    let count = |name: &str| results.iter().filter(|result| result.result == name).count();
+    text + &format!("{} passed, {} failed, {} skipped\n", count("pass"), count("fail"), count("skip"))
+}
