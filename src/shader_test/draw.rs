@@ -93,7 +93,7 @@ fn arrays(words: &mut Words<'_>, program: &Program, data: &VertexData) -> Result
     }
     let (primitive, indices) = match MODES.iter().find(|(name, _)| *name == mode) {
         Some((_, primitive)) => (*primitive, None),
-        None if mode == "GL_QUADS" => {
+        None if mode == "GL_QUADS" && !counts_primitives(program) => {
             // The last vertex of a quad provokes both of its halves.
             let halves = (0..count / 4).flat_map(|quad| [0, 1, 3, 1, 2, 3].map(|corner| quad * 4 + corner));
             (Primitive::Triangles, Some(halves.collect::<Vec<u32>>()))
@@ -113,6 +113,11 @@ fn arrays(words: &mut Words<'_>, program: &Program, data: &VertexData) -> Result
         instances: instances.min(MOST_INSTANCES),
         attributes: attributes(program, data),
     })
+}
+
+/// Whether the fragment stage would see that a quad is two triangles.
+fn counts_primitives(program: &Program) -> bool {
+    program.stages.iter().flat_map(|shader| shader.globals()).any(|(_, global)| global.name == "gl_PrimitiveID")
 }
 
 /// The data of every attribute of a program, `None` where the table has no column for it.

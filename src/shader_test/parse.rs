@@ -94,9 +94,6 @@ fn open(file: &mut TestFile, name: &str, number: u32) -> Result<Section, Outcome
         }
         "vertex shader" | "fragment shader" => {
             let stage = if name.starts_with("vertex") { Stage::Vertex } else { Stage::Fragment };
-            if file.shaders.iter().any(|other| other.stage == stage) {
-                return skip(number, format_args!("several shaders of the {} stage", stage.name()));
-            }
             file.shaders.push(shader(stage, "\n".repeat(number as usize), false));
             Section::Shader
         }

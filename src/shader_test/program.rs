@@ -1,6 +1,7 @@
 //! The program of a test: its shaders compiled, linked, and whether the link's success is what the test expects.
 
-use super::parse::{ShaderText, TestFile};
+use super::parse::TestFile;
+use super::require::Setup;
 use super::{Outcome, fail};
 use crate::compiler::{Compiler, Source};
 use crate::diagnostic::Diagnostics;
@@ -17,7 +18,7 @@ const OLDER: &[&str] = &["110", "120", "130", "140"];
 pub(super) fn build(
     name: &str,
     file: &TestFile,
-    compatibility: bool,
+    setup: &Setup,
     compiler: &Compiler,
 ) -> Result<Option<Arc<Program>>, Outcome> {
     let mut raised = false;
@@ -25,9 +26,10 @@ pub(super) fn build(
         .shaders
         .iter()
         .map(|shader| {
-            let text = raise(shader);
-            raised |= text.is_some();
-            let text = text.unwrap_or_else(|| shader.text.clone());
+            let text = versioned(&shader.text, setup.version);
+            let newer = raise(&text);
+            raised |= newer.is_some();
+            let text = newer.unwrap_or(text);
             Source { name: name.into(), text: text.into(), stage: shader.stage }
         })
         .collect();
@@ -41,7 +43,7 @@ pub(super) fn build(
         None if expects("link error") => Ok(None),
         None => {
             let reason = first_error(&compilation.diagnostics, &compilation.sources);
-            if raised || compatibility {
+            if raised || setup.compatibility {
                 Err(Outcome::Skip(format!("not valid GLSL 1.50 core: {reason}")))
             } else {
                 Err(Outcome::Fail(reason))
@@ -58,17 +60,28 @@ fn first_error(diagnostics: &Diagnostics, sources: &SourceMap) -> String {
     format!("line {line}: {} ({})", error.message, error.code.id)
 }
 
+/// The text with a `#version` line, in one of the empty lines in front of it if it has none of its own.
+fn versioned(text: &str, version: u32) -> String {
+    if text.contains("#version") {
+        return text.to_owned();
+    }
+    match text.strip_prefix('\n') {
+        Some(rest) => format!("#version {version}\n{rest}"),
+        None => format!("#version {version}\n{text}"),
+    }
+}
+
 /// The text with its version raised, if it is an older one of the desktop.
-fn raise(shader: &ShaderText) -> Option<String> {
-    let start = shader.text.find("#version")?;
-    let (line, _) = shader.text[start..].split_once('\n')?;
+fn raise(text: &str) -> Option<String> {
+    let start = text.find("#version")?;
+    let (line, _) = text[start..].split_once('\n')?;
     let mut words = line.split_whitespace().skip(1);
     let version = words.next().filter(|version| OLDER.contains(version))?;
     if words.next().is_some_and(|profile| profile.chars().all(char::is_alphabetic)) {
         return None;
     }
     let place = start + line.find(version)?;
-    let mut text = shader.text.clone();
+    let mut text = text.to_owned();
     text.replace_range(place..place + version.len(), RAISED);
     Some(text)
 }
@@ -76,13 +89,12 @@ fn raise(shader: &ShaderText) -> Option<String> {
 #[cfg(test)]
 mod unit {
     use super::*;
-    use crate::hir::Stage;
 
     #[test]
     fn older_versions_are_raised() {
-        let text = |text: &str| ShaderText { stage: Stage::Vertex, text: text.into(), passthrough: false };
-        assert_eq!(raise(&text("\n#version 130\nx")), Some("\n#version 150\nx".into()));
-        assert_eq!(raise(&text("#version 150\n")), None);
-        assert_eq!(raise(&text("void main() {}\n")), None);
+        assert_eq!(raise("\n#version 130\nx"), Some("\n#version 150\nx".into()));
+        assert_eq!(raise("#version 150\n"), None);
+        assert_eq!(raise("void main() {}\n"), None);
+        assert_eq!(versioned("\n\nvoid main() {}\n", 130), "#version 130\n\nvoid main() {}\n");
     }
 }

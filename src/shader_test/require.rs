@@ -11,10 +11,14 @@ pub(super) struct Setup {
     pub(super) size: [u32; 2],
     /// Whether the compatibility profile is asked for.
     pub(super) compatibility: bool,
+    /// 100 times the version that shaders without a `#version` line are written in.
+    pub(super) version: u32,
 }
 
 /// The window of shader_runner.
 const WINDOW: [u32; 2] = [250, 250];
+/// The version of shaders without a `#version` line where no requirement names one.
+const DEFAULT_VERSION: u32 = 110;
 /// The largest window that a test may ask for.
 const LARGEST: u32 = 4096;
 
@@ -53,7 +57,7 @@ const LIMITS: &[(&str, f64)] = &[
 
 /// Reads the requirements; the first that is not met is a skip.
 pub(super) fn check(lines: &[Line]) -> Result<Setup, Outcome> {
-    let mut setup = Setup { size: WINDOW, compatibility: false };
+    let mut setup = Setup { size: WINDOW, compatibility: false, version: DEFAULT_VERSION };
     for line in lines {
         let mut words = Words::new(line.number, &line.text);
         match words.word()? {
@@ -61,7 +65,7 @@ pub(super) fn check(lines: &[Line]) -> Result<Setup, Outcome> {
                 if words.eat("ES") {
                     return skip(line.number, "requires GLSL ES");
                 }
-                versions(line, &mut words, 1.50, "GLSL")?;
+                setup.version = (versions(line, &mut words, 1.50, "GLSL")? * 100.0).round() as u32;
             }
             "GL" => {
                 setup.compatibility |= words.eat("COMPAT");
@@ -95,9 +99,11 @@ pub(super) fn check(lines: &[Line]) -> Result<Setup, Outcome> {
     Ok(setup)
 }
 
-fn versions(line: &Line, words: &mut Words<'_>, ours: f64, what: &str) -> Result<(), Outcome> {
+/// The version that is asked for, if it is met.
+fn versions(line: &Line, words: &mut Words<'_>, ours: f64, what: &str) -> Result<f64, Outcome> {
+    let asked = words.rest().get(1).and_then(|word| word.parse().ok()).unwrap_or(0.0);
     let holds = comparison(words, ours)?;
-    if holds { Ok(()) } else { skip(line.number, format_args!("requires {}, this is {what} {ours:.2}", line.text)) }
+    if holds { Ok(asked) } else { skip(line.number, format_args!("requires {}, this is {what} {ours:.2}", line.text)) }
 }
 
 fn limit(line: &Line, words: &mut Words<'_>) -> Result<(), Outcome> {

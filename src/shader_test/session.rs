@@ -22,7 +22,7 @@ pub(super) fn run(name: &str, text: &str, compiler: &Compiler, painter: &mut dyn
     let file = parse(text)?;
     let setup = require::check(&file.requirements)?;
     let data = vertex_data::parse(&file.vertex_data)?;
-    let Some(program) = program::build(name, &file, setup.compatibility, compiler)? else { return Ok(()) };
+    let Some(program) = program::build(name, &file, &setup, compiler)? else { return Ok(()) };
     let mut session = Session::new(program, data, setup.size);
     commands(&file, &mut session, painter)
 }
