@@ -1,7 +1,7 @@
 //! Files: read whole with a clear word about each thing that can be wrong, written whole or not at all.
 
 use super::exit::Failure;
-use crate::diagnostic::codes::{general, preprocess};
+use crate::diagnostic::codes::general;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::{SourceMap, Span};
 use std::fs;
@@ -96,12 +96,12 @@ fn nearest_file(path: &Path) -> Option<PathBuf> {
 /// The text in `bytes`, if they are text.
 pub(super) fn text_of(name: &str, bytes: Vec<u8>) -> Result<Arc<str>, ReadError> {
     if bytes.iter().all(u8::is_ascii_whitespace) {
-        let mut empty = ReadError::new(&preprocess::EMPTY_SOURCE, format!("`{name}` is empty"));
+        let mut empty = ReadError::new(&general::EMPTY_SOURCE, format!("`{name}` is empty"));
         empty.help = Some("a shader starts with a line `#version 150`".to_owned());
         return Err(empty);
     }
     if let Some(looks_like) = binary(&bytes) {
-        let mut binary = ReadError::new(&preprocess::NOT_TEXT, format!("`{name}` is binary, not text"));
+        let mut binary = ReadError::new(&general::BINARY_SOURCE, format!("`{name}` is binary, not text"));
         binary.help = looks_like.map(str::to_owned);
         return Err(binary);
     }
@@ -182,12 +182,12 @@ mod tests {
         let latin1 = text_of("x", b"// caf\xe9\nvoid main() {}\n".to_vec()).expect("one odd byte is forgiven");
         assert!(latin1.contains('\u{fffd}'));
         for (bytes, code) in [
-            (&b""[..], "E0101"),
-            (b" \n\t", "E0101"),
-            (b"void\0main", "E0102"),
-            (b"\x03\x02\x23\x07abc", "E0102"),
-            (b"\xff\xfe#\0v\0", "E0102"),
-            (b"\x80\x81\x82\x83\x84\x85abc", "E0102"),
+            (&b""[..], "E0013"),
+            (b" \n\t", "E0013"),
+            (b"void\0main", "E0014"),
+            (b"\x03\x02\x23\x07abc", "E0014"),
+            (b"\xff\xfe#\0v\0", "E0014"),
+            (b"\x80\x81\x82\x83\x84\x85abc", "E0014"),
         ] {
             assert_eq!(text_of("x", bytes.to_vec()).expect_err("not text").code.id, code, "{bytes:?}");
         }

@@ -110,8 +110,8 @@ fn each_kind_of_bad_file_has_its_own_word_and_code() {
     let place = Place::new(&[("empty.vert", b""), ("binary.vert", b"\x03\x02\x23\x07\0\0\0\0"), ("folder/x", b"")]);
     for (file, id, exit, word) in [
         ("missing.vert", "E0010", 2, "there is no file"),
-        ("empty.vert", "E0101", 1, "is empty"),
-        ("binary.vert", "E0102", 1, "binary"),
+        ("empty.vert", "E0013", 1, "is empty"),
+        ("binary.vert", "E0014", 1, "binary"),
     ] {
         let (findings, exit_code) = place.lint(&[file]);
         assert_eq!((codes(&findings), exit_code), (vec![id], exit), "{file}");
@@ -130,7 +130,7 @@ fn each_kind_of_bad_file_has_its_own_word_and_code() {
 fn the_worst_exit_code_wins_and_all_files_are_told_of() {
     let place = Place::new(&[("empty.vert", b"")]);
     let (findings, exit) = place.lint(&["empty.vert", "missing.frag"]);
-    assert_eq!(codes(&findings), ["E0101", "E0010"]);
+    assert_eq!(codes(&findings), ["E0013", "E0010"]);
     assert_eq!(exit, 2);
 }
 

@@ -8,4 +8,7 @@ mod diagnostics;
 mod emit;
 mod hostile;
 mod print;
+#[cfg(feature = "cli")]
+mod readme;
+mod snapshots;
 mod support;

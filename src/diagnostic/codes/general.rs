@@ -1,6 +1,6 @@
 //! Limits, what is not supported yet, and slips of glisten's own.
 
-use super::Example::{Fragment, None, Text};
+use super::Example::{Fragment, None, Text, Vertex};
 
 codes! {
     NOT_SUPPORTED_YET = "E0001" "not-supported-yet" Error ""
@@ -27,6 +27,14 @@ codes! {
     FILE_IS_FOLDER = "E0012" "file-is-folder" Error ""
         "A folder stands where a file should. Of all commands only `lint` scans folders."
         bad Text("glisten compile shaders/ -o out"), good Text("glisten compile shaders/phong.vert shaders/phong.frag -o out");
+    EMPTY_SOURCE = "E0013" "empty-source" Error "GLSL 1.50 §3.3"
+        "The file holds nothing, or nothing but white space. A shader has at least a `#version` line and a `main`; an \
+         empty file is most often a save or a download that failed."
+        bad None, good Vertex("void main() { gl_Position = vec4(0.0); }");
+    BINARY_SOURCE = "E0014" "binary-source" Error "GLSL 1.50 §3.1"
+        "The file is not text: it holds NUL bytes or mostly bytes that no text has. Compiled SPIR-V, a picture, or text \
+         in UTF-16 looks like that. Single bytes that are not UTF-8 are forgiven, and are legal in comments alone."
+        bad None, good Vertex("void main() { gl_Position = vec4(0.0); }");
     BAD_CONFIG = "E0015" "bad-configuration" Error ""
         "A `glisten.toml` is not TOML, or holds a key or a code that glisten does not know."
         bad Text("[lint]\nalow = [\"L0001\"]"), good Text("[lint]\nallow = [\"L0001\"]");
