@@ -4,6 +4,7 @@ use super::args::nearest_code;
 use super::console::Console;
 use super::exit::{Exit, Failure, Outcome};
 use crate::diagnostic::{Code, Example, codes};
+use crate::hir::Stage;
 use clap::Args;
 
 /// Shows what a diagnostic means, with a bad and a good example
@@ -56,6 +57,14 @@ fn example(title: &str, example: Example) -> String {
         Example::Fragment(text) => vec![("a fragment shader", text)],
         Example::Geometry(text) => vec![("a geometry shader", text)],
         Example::Program(vertex, fragment) => vec![("a vertex shader", vertex), ("its fragment shader", fragment)],
+        Example::Shaders(shaders) => shaders
+            .iter()
+            .map(|&(stage, text)| match stage {
+                Stage::Vertex => ("a vertex shader", text),
+                Stage::Geometry => ("a geometry shader", text),
+                Stage::Fragment => ("a fragment shader", text),
+            })
+            .collect(),
         Example::Text(text) => vec![("", text)],
         Example::None => vec![],
     };

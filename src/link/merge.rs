@@ -7,6 +7,7 @@
 use super::compatible::same_value;
 use super::matching::match_name;
 use super::remap::Remap;
+use crate::builtin::BuiltinVariable;
 use crate::diagnostic::{Diagnostic, codes};
 use crate::hir::{
     ArraySize, Function, FunctionId, Global, GlobalId, LocalKind, Shader, Stage, Storage, Type, TypeId, Types,
@@ -14,6 +15,7 @@ use crate::hir::{
 
 /// The one shader that a stage consists of; `None` if there is none.
 pub(super) fn merge(types: &mut Types, shaders: Vec<Shader>, found: &mut Vec<Diagnostic>) -> Option<Shader> {
+    check_frag_coord(&shaders, found);
     let mut shaders = shaders.into_iter();
     let mut all = shaders.next()?;
     let mut merged = false;
@@ -28,6 +30,23 @@ pub(super) fn merge(types: &mut Types, shaders: Vec<Shader>, found: &mut Vec<Dia
         all.mark_static_use();
     }
     Some(all)
+}
+
+/// If one shader declares `gl_FragCoord` anew, all that use it must, and alike (§4.3.8.1).
+fn check_frag_coord(shaders: &[Shader], found: &mut Vec<Diagnostic>) {
+    let is_frag_coord = |global: &&Global| global.builtin == Some(BuiltinVariable::FragCoord);
+    let users: Vec<(&Shader, &Global)> =
+        shaders.iter().filter_map(|shader| Some((shader, shader.globals.iter().find(is_frag_coord)?))).collect();
+    let Some(&(first, declared)) = users.iter().find(|(_, global)| global.span.is_known()) else { return };
+    for (shader, global) in users {
+        if global.span.is_known() && shader.frag_coord == first.frag_coord {
+            continue;
+        }
+        let span = if global.span.is_known() { global.span } else { super::stages::anchor(shader) };
+        let message = "the fragment shaders of the program do not declare `gl_FragCoord` alike";
+        let finding = Diagnostic::new(&codes::link::FRAG_COORD_CONFLICT, span, message);
+        found.push(finding.label(declared.span, "declared here"));
+    }
 }
 
 struct Merge<'a> {
@@ -60,7 +79,7 @@ impl Merge<'_> {
         }
         self.all.expr_depth = self.all.expr_depth.max(next.expr_depth);
         self.all.main = self.all.main.or(next.main.map(|main| remap.function_id(main)));
-        self.unite_layouts(next.geometry, next.frag_coord, &remap);
+        self.unite_layouts(next.geometry, next.frag_coord);
         self.retype_variables();
     }
 
@@ -127,12 +146,7 @@ impl Merge<'_> {
         }
     }
 
-    fn unite_layouts(
-        &mut self,
-        geometry: crate::hir::GeometryLayout,
-        frag_coord: crate::hir::FragCoordLayout,
-        remap: &Remap,
-    ) {
+    fn unite_layouts(&mut self, geometry: crate::hir::GeometryLayout, frag_coord: crate::hir::FragCoordLayout) {
         let anchor = super::stages::anchor(self.all);
         let known = &mut self.all.geometry;
         let input = (known.input, geometry.input);
@@ -150,27 +164,9 @@ impl Merge<'_> {
         known.input = known.input.or(geometry.input);
         known.output = known.output.or(geometry.output);
         known.max_vertices = known.max_vertices.or(geometry.max_vertices);
-        self.unite_frag_coord(frag_coord, remap);
-    }
-
-    /// "Every declaration of gl_FragCoord in all fragment shaders in a program must be the same" (§4.3.8.1).
-    fn unite_frag_coord(&mut self, frag_coord: crate::hir::FragCoordLayout, remap: &Remap) {
-        let known = self.all.frag_coord;
-        let is_frag_coord = |global: &Global| global.builtin == Some(crate::builtin::BuiltinVariable::FragCoord);
-        let later_has = remap.globals.iter().any(|&id| is_frag_coord(self.all.global(id)));
-        let Some(global) = self.all.globals.iter().find(|global| is_frag_coord(global)) else { return };
-        let untouched = self.all.frag_coord == crate::hir::FragCoordLayout::default() && !global.used;
-        if later_has && known != frag_coord && !untouched {
-            let span = if global.span.is_known() { global.span } else { super::stages::anchor(self.all) };
-            let message = "the fragment shaders of the program declare `gl_FragCoord` differently";
-            self.found.push(Diagnostic::new(&codes::link::FRAG_COORD_CONFLICT, span, message));
-        }
-        if later_has {
-            self.all.frag_coord = crate::hir::FragCoordLayout {
-                origin_upper_left: known.origin_upper_left || frag_coord.origin_upper_left,
-                pixel_center_integer: known.pixel_center_integer || frag_coord.pixel_center_integer,
-            };
-        }
+        let known = &mut self.all.frag_coord;
+        known.origin_upper_left |= frag_coord.origin_upper_left;
+        known.pixel_center_integer |= frag_coord.pixel_center_integer;
     }
 
     /// Expressions that name a global have its type, which may have got a size.

@@ -16,6 +16,7 @@ static WITHOUT_EXAMPLE: &[(&str, &str)] = &[
     ("E0128", "needs a second file; tests/it/hostile.rs has it"),
     ("E0129", "too long for a page; tests/it/hostile.rs has it"),
     ("E0130", "too long for a page; tests/it/hostile.rs has it"),
+    ("W0701", "needs a binding by name; tests/it/link.rs has it"),
     ("W0108", "needs a second file; the fixtures have it"),
 ];
 
@@ -53,6 +54,7 @@ fn shaders(example: Example) -> Vec<Shader> {
         Example::Fragment(text) => vec![shader(text, Stage::Fragment)],
         Example::Geometry(text) => vec![shader(text, Stage::Geometry)],
         Example::Program(vertex, fragment) => vec![shader(vertex, Stage::Vertex), shader(fragment, Stage::Fragment)],
+        Example::Shaders(shaders) => shaders.iter().map(|&(stage, text)| shader(text, stage)).collect(),
         Example::Text(_) | Example::None => Vec::new(),
     }
 }

@@ -1,6 +1,7 @@
 //! Codes of the phase `link`; the table in the parent module says which range.
 
-use super::Example::{Fragment, Geometry, None, Program, Text, Vertex};
+use super::Example::{Fragment, Geometry, None, Program, Shaders, Text, Vertex};
+use crate::hir::Stage;
 
 codes! {
     MISSING_MAIN = "E0701" "missing-main" Error "GLSL 1.50 §6.1"
@@ -96,7 +97,14 @@ codes! {
     OUTPUT_CONFLICT = "E0712" "output-conflict" Error "GLSL 1.50 §7.2"
         "A fragment stage writes `gl_FragColor`, or elements of `gl_FragData`, or outputs of its own, and never two kinds \
          of these, in whichever of its shaders."
-        bad None, good Fragment("out vec4 c; void main() { c = vec4(1.0); }");
+        bad Shaders(&[
+            (Stage::Fragment, "void tint(); void main() { tint(); gl_FragColor = vec4(1.0); }"),
+            (Stage::Fragment, "out vec4 c; void tint() { c = vec4(0.5); }"),
+        ]),
+        good Shaders(&[
+            (Stage::Fragment, "out vec4 c; void tint(); void main() { tint(); }"),
+            (Stage::Fragment, "out vec4 c; void tint() { c = vec4(0.5); }"),
+        ]);
     OUTPUT_OVERLAP = "E0713" "output-overlap" Error "OpenGL 3.2 §3.9.2"
         "Two outputs have the same color number and index."
         bad Fragment("#extension GL_ARB_explicit_attrib_location : enable\nlayout(location = 0) out vec4 a;\n\
@@ -130,22 +138,58 @@ codes! {
         good Fragment("uniform B { vec4 a; } b[3]; out vec4 c; void main() { c = b[0].a; }");
     MISSING_STAGE = "E0719" "missing-stage" Error "OpenGL 3.2 §2.12"
         "A geometry shader works on what a vertex shader writes, so a program that has the one needs the other."
-        bad None, good Fragment("out vec4 c; void main() { c = vec4(1.0); }");
+        bad Shaders(&[
+            (Stage::Geometry, "layout(points) in; layout(points, max_vertices = 1) out; void main() { gl_Position = vec4(0.0); EmitVertex(); }"),
+            (Stage::Fragment, "out vec4 c; void main() { c = vec4(1.0); }"),
+        ]),
+        good Shaders(&[
+            (Stage::Vertex, "void main() { gl_Position = vec4(0.0); }"),
+            (Stage::Geometry, "layout(points) in; layout(points, max_vertices = 1) out; void main() { gl_Position = vec4(0.0); EmitVertex(); }"),
+            (Stage::Fragment, "out vec4 c; void main() { c = vec4(1.0); }"),
+        ]);
     MISSING_GEOMETRY_LAYOUT = "E0720" "missing-geometry-layout" Error "GLSL 1.50 §4.3.8"
         "Some shader of the geometry stage must declare the input primitive, the output primitive and the largest number \
          of vertices."
-        bad None, good Text("layout(triangles) in; layout(triangle_strip, max_vertices = 3) out;");
+        bad Shaders(&[
+            (Stage::Vertex, "void main() { gl_Position = vec4(0.0); }"),
+            (Stage::Geometry, "layout(points) in; void main() { }"),
+        ]),
+        good Shaders(&[
+            (Stage::Vertex, "void main() { gl_Position = vec4(0.0); }"),
+            (Stage::Geometry, "layout(points) in; layout(points, max_vertices = 1) out; void main() { gl_Position = vec4(0.0); EmitVertex(); }"),
+        ]);
     SHARED_GLOBAL_MISMATCH = "E0721" "shared-global-mismatch" Error "GLSL 1.50 §4.2.6"
         "Global variables of one name in shaders of one stage are one variable: they must agree in type, qualifiers and \
          initializer. An array without a size in one shader takes its size from another."
-        bad None, good None;
+        bad Shaders(&[
+            (Stage::Fragment, "float scale; void g(); out vec4 c; void main() { scale = 1.0; g(); c = vec4(scale); }"),
+            (Stage::Fragment, "int scale; void g() { scale += 1; }"),
+        ]),
+        good Shaders(&[
+            (Stage::Fragment, "float scale; void g(); out vec4 c; void main() { scale = 1.0; g(); c = vec4(scale); }"),
+            (Stage::Fragment, "float scale; void g() { scale += 1.0; }"),
+        ]);
     DUPLICATE_DEFINITION = "E0722" "duplicate-definition" Error "GLSL 1.50 §6.1"
         "A function may be defined in one shader of a stage alone; the others declare it with a prototype."
-        bad None, good Text("vec3 shade(vec3 normal);   // defined in another fragment shader of the program");
+        bad Shaders(&[
+            (Stage::Fragment, "float f() { return 1.0; } out vec4 c; void main() { c = vec4(f()); }"),
+            (Stage::Fragment, "float f() { return 2.0; }"),
+        ]),
+        good Shaders(&[
+            (Stage::Fragment, "float f(); out vec4 c; void main() { c = vec4(f()); }"),
+            (Stage::Fragment, "float f() { return 2.0; }"),
+        ]);
     FUNCTION_MISMATCH = "E0723" "function-mismatch" Error "GLSL 1.50 §6.1"
         "A function that several shaders of a stage declare must have the same result and parameter qualifiers in all of \
          them."
-        bad None, good None;
+        bad Shaders(&[
+            (Stage::Fragment, "float f(); out vec4 c; void main() { c = vec4(f()); }"),
+            (Stage::Fragment, "int f() { return 2; }"),
+        ]),
+        good Shaders(&[
+            (Stage::Fragment, "float f(); out vec4 c; void main() { c = vec4(f()); }"),
+            (Stage::Fragment, "float f() { return 2.0; }"),
+        ]);
     UNDEFINED_FUNCTION = "E0724" "undefined-function" Error "GLSL 1.50 §6.1"
         "A function is called, and no shader of its stage defines it."
         bad Program(
@@ -157,14 +201,39 @@ codes! {
     GEOMETRY_LAYOUT_CONFLICT = "E0725" "geometry-layout-conflict" Error "GLSL 1.50 §4.3.8"
         "All geometry shaders of a program that declare the input primitive, the output primitive or `max_vertices` must \
          declare the same."
-        bad None, good None;
-    GEOMETRY_INPUT_SIZE = "E0726" "geometry-input-size" Error "GLSL 1.50 §4.3.8.1"
+        bad Shaders(&[
+            (Stage::Vertex, "void main() { gl_Position = vec4(0.0); }"),
+            (Stage::Geometry, "layout(points) in; layout(points, max_vertices = 1) out; void main() { gl_Position = vec4(0.0); EmitVertex(); }"),
+            (Stage::Geometry, "layout(lines) in;"),
+        ]),
+        good Shaders(&[
+            (Stage::Vertex, "void main() { gl_Position = vec4(0.0); }"),
+            (Stage::Geometry, "layout(points) in; layout(points, max_vertices = 1) out; void main() { gl_Position = vec4(0.0); EmitVertex(); }"),
+            (Stage::Geometry, "layout(points) in;"),
+        ]);
+    GEOMETRY_INPUT_SIZE = "E0726" "geometry-inputs-disagree" Error "GLSL 1.50 §4.3.8.1"
         "The inputs of a geometry stage are arrays with an element for each vertex of the input primitive, which some \
          shader of the stage declares; other sizes and indices contradict it."
-        bad None, good None;
+        bad Shaders(&[
+            (Stage::Vertex, "void main() { gl_Position = vec4(0.0); }"),
+            (Stage::Geometry, "layout(triangles) in; layout(points, max_vertices = 1) out; void emit(); void main() { emit(); }"),
+            (Stage::Geometry, "void emit() { gl_Position = gl_in[3].gl_Position; EmitVertex(); }"),
+        ]),
+        good Shaders(&[
+            (Stage::Vertex, "void main() { gl_Position = vec4(0.0); }"),
+            (Stage::Geometry, "layout(triangles) in; layout(points, max_vertices = 1) out; void emit(); void main() { emit(); }"),
+            (Stage::Geometry, "void emit() { gl_Position = gl_in[2].gl_Position; EmitVertex(); }"),
+        ]);
     FRAG_COORD_CONFLICT = "E0727" "frag-coord-conflict" Error "GLSL 1.50 §4.3.8.1"
         "All fragment shaders of a program that use `gl_FragCoord` must declare it with the same layout."
-        bad None, good None;
+        bad Shaders(&[
+            (Stage::Fragment, "layout(origin_upper_left) in vec4 gl_FragCoord; float f(); out vec4 c; void main() { c = gl_FragCoord + f(); }"),
+            (Stage::Fragment, "float f() { return gl_FragCoord.x; }"),
+        ]),
+        good Shaders(&[
+            (Stage::Fragment, "float f(); out vec4 c; void main() { c = gl_FragCoord + f(); }"),
+            (Stage::Fragment, "float f() { return gl_FragCoord.x; }"),
+        ]);
     BINDING_IGNORED = "W0701" "binding-ignored" Warning "ARB_explicit_attrib_location"
         "A location was bound by name, and the declaration in the text gives another, which wins. The host program that \
          binds by name will send its data elsewhere than it thinks."

@@ -65,6 +65,8 @@ pub enum Example {
     Geometry(&'static str),
     /// A vertex and a fragment shader linked.
     Program(&'static str, &'static str),
+    /// Several shaders linked, also of one stage.
+    Shaders(&'static [(crate::hir::Stage, &'static str)]),
     /// Text that is no shader (a scene, a command line): shown, not run.
     Text(&'static str),
     /// Nothing short would show it.
