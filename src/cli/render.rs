@@ -86,7 +86,7 @@ fn draw(args: &RenderArgs, scene: Scene) -> Result<Picture, DrawError> {
                 PrecisionArg::F64 => Precision::F64,
                 PrecisionArg::F32 => Precision::F32,
             };
-            let options = RenderOptions { precision, lines: LineRule::OpenGl, ..RenderOptions::default() };
+            let options = RenderOptions { precision, lines: LineRule::OpenGl, mark_edges: false };
             args.scene.within_time(move || Ok(cpu::render(&scene, &options)?))
         }
     }

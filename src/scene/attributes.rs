@@ -91,7 +91,7 @@ fn components(types: &Types, ty: TypeId) -> u32 {
 }
 
 /// The scalar behind a type, through arrays.
-fn scalar(types: &Types, mut ty: TypeId) -> Scalar {
+pub(super) fn scalar_of(types: &Types, mut ty: TypeId) -> Scalar {
     while let Type::Array(element, _) = types.get(ty) {
         ty = element;
     }
@@ -105,7 +105,7 @@ fn check_mesh_stream(
     data: &AttributeData,
     span: Span,
 ) -> Option<AttributeData> {
-    let wanted = scalar(types, attribute.ty);
+    let wanted = scalar_of(types, attribute.ty);
     if wanted != Scalar::Float {
         let message = format!("`{}` is {}, and a mesh brings floats", attribute.name, types.name(attribute.ty));
         reader.error(&SCENE_WRONG_KIND, span, message, "of another kind");
@@ -127,7 +127,7 @@ fn load_attribute(reader: &mut Reader, types: &Types, attribute: &Attribute, nod
     let table = reader.table(node, name)?;
     reader.check_keys(table, "an attribute", KEYS);
     let declared = components(types, attribute.ty);
-    let wanted = scalar(types, attribute.ty);
+    let wanted = scalar_of(types, attribute.ty);
     let kind = reader.choice_at(table, "kind", wanted, ATTRIBUTE_KINDS);
     if kind != wanted {
         let span = table.get("kind").map_or_else(Span::default, |node| reader.span(node.span()));
@@ -135,7 +135,10 @@ fn load_attribute(reader: &mut Reader, types: &Types, attribute: &Attribute, nod
         reader.error(&SCENE_WRONG_KIND, span, message, "contradicts the shader");
         return None;
     }
-    let size = reader.count(table, "size", declared, 1..=declared.max(1));
+    let size = match table.get("size") {
+        Some(node) => reader.integer(node, "size", 1..=i64::from(declared.max(1)))? as u32,
+        None => declared.max(1),
+    };
     let divisor = reader.count(table, "divisor", 0, 0..=u32::MAX);
     let Some(values_node) = table.get("values") else {
         let span = reader.span_of(node);

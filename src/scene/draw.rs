@@ -1,10 +1,10 @@
 //! A `[[draw]]` table into a [`Draw`].
 
-use super::attributes::load_attributes;
+use super::attributes::{load_attributes, scalar_of};
 use super::load::{Loader, ProgramKey};
 use super::matrices::View;
 use super::mesh::{Mesh, load_mesh};
-use super::model::{AttributeData, BlendFactor, Compare, Cull, Draw, Framebuffer, Primitive, State};
+use super::model::{AttributeData, BlendFactor, Compare, Cull, Draw, Format, Framebuffer, Primitive, State};
 use super::names::{BLENDS, COMPARES, CULLS, FACTORS, FRONT_FACES, PRIMITIVES, PROVOKING};
 use super::reader::{Node, NumberValue, Reader};
 use super::textures::load_textures;
@@ -13,7 +13,7 @@ use crate::diagnostic::codes::scenes::{
     SCENE_CANNOT_DRAW, SCENE_UNKNOWN_NAME, SCENE_WRONG_SIZE, SCENE_WRONG_TYPE, SCENE_WRONG_VALUE,
 };
 use crate::diagnostic::{Diagnostic, did_you_mean};
-use crate::hir::Stage;
+use crate::hir::{Scalar, Stage};
 use crate::link::Program;
 use crate::source::Span;
 use std::sync::Arc;
@@ -185,6 +185,23 @@ fn check_program(reader: &mut Reader, program: &Program, framebuffer: &Framebuff
                 if framebuffer.attachments == 1 { "" } else { "s" }
             );
             let help = format!("write `attachments = {}` under [framebuffer]", output.location + 1);
+            reader.report(Diagnostic::new(&SCENE_CANNOT_DRAW, place, message).help(help));
+            return None;
+        }
+        let holds = match framebuffer.format {
+            Format::Rgba32Sint => Scalar::Int,
+            Format::Rgba32Uint => Scalar::Uint,
+            Format::Rgba32Float | Format::Rgba16Float | Format::Rgba8Unorm => Scalar::Float,
+        };
+        let written = scalar_of(&program.types, output.ty);
+        if written != holds {
+            let message = format!(
+                "output `{}` is {}, and the framebuffer holds {}",
+                output.name,
+                program.types.name(output.ty),
+                holds.name()
+            );
+            let help = "the `format` under [framebuffer] and the type of the output must agree";
             reader.report(Diagnostic::new(&SCENE_CANNOT_DRAW, place, message).help(help));
             return None;
         }

@@ -8,7 +8,11 @@ mod diagnostics;
 mod emit;
 mod hostile;
 mod print;
+#[cfg(feature = "gpu")]
+mod raster;
 #[cfg(feature = "cli")]
 mod readme;
+#[cfg(feature = "reference")]
+mod scenes;
 mod snapshots;
 mod support;

@@ -251,7 +251,7 @@ fn store<D: Domain>(value: D::Float, format: Format) -> D::Float {
     };
     let stored = convert(value.value());
     let error = value.error();
-    if error == 0.0 {
+    if error == 0.0 && (stored == value.value() || format == Format::Rgba8Unorm) {
         return D::Float::from_f64(stored);
     }
     let reach = |x: f64| (convert(x) - stored).abs();

@@ -178,20 +178,31 @@ impl Shape {
     }
 }
 
+#[inline(always)]
 fn convex_quads(edges: &[Edge], area: Bounds, emit: &mut impl FnMut(i64, i64, u32)) {
     if area.is_empty() {
         return;
     }
-    let x_start = area.x0 & !1;
-    for y in ((area.y0 & !1)..area.y1).step_by(2) {
+    let (x_start, y_start) = (area.x0 & !1, area.y0 & !1);
+    for y in (y_start..area.y1).step_by(2) {
+        let mut values = [0; 4];
+        for (value, edge) in values.iter_mut().zip(edges) {
+            *value = edge.at(x_start, y);
+        }
+        let rows = if y < area.y0 { 0b1100 } else { 0b1111 } & if y + 1 >= area.y1 { 0b0011 } else { 0b1111 };
         for x in (x_start..area.x1).step_by(2) {
-            let mut covered = 0;
-            for bit in 0..4 {
-                let (px, py) = (x + (bit & 1), y + (bit >> 1));
-                let inside = px >= area.x0 && px < area.x1 && py >= area.y0 && py < area.y1;
-                let all = edges.iter().fold(0, |sign, edge| sign | edge.at(px, py)) >= 0;
-                covered |= u32::from(inside && all) << bit;
+            // A sign bit stays for each pixel that an edge leaves out.
+            let mut signs = [0; 4];
+            for (value, edge) in values.iter_mut().zip(edges) {
+                signs[0] |= *value;
+                signs[1] |= *value + edge.step_x;
+                signs[2] |= *value + edge.step_y;
+                signs[3] |= *value + edge.step_x + edge.step_y;
+                *value += 2 * edge.step_x;
             }
+            let inside = signs.iter().enumerate().fold(0, |bits, (bit, sign)| bits | u32::from(*sign >= 0) << bit);
+            let columns = if x < area.x0 { 0b1010 } else { 0b1111 } & if x + 1 >= area.x1 { 0b0101 } else { 0b1111 };
+            let covered = inside & rows & columns;
             if covered != 0 {
                 emit(x, y, covered);
             }

@@ -1,0 +1,65 @@
+//! The CPU reference's time for the Blinn-Phong sphere, as a ratio to lavapipe's for the same scene.
+//!
+//! 512x512 pixels, a mesh of 64x32, both sides in turns, start-up and compilation left out:
+//! `RAYON_NUM_THREADS=2 cargo bench --bench reference`. The goal is 3 for f64 and 2 for f32. Figures are medians; the
+//! A/A row is lavapipe against itself.
+
+use glisten::cpu::{LineRule, Precision, RenderOptions};
+use glisten::gpu::{Gpu, Via};
+use glisten::scene::{MemoryFiles, Scene, load};
+use glisten::{Compiler, Options};
+use std::time::Instant;
+
+const ROUNDS: usize = 25;
+
+fn scene() -> Scene {
+    let root = env!("CARGO_MANIFEST_DIR");
+    let read = |path: &str| std::fs::read_to_string(format!("{root}/fixtures/{path}")).expect("a fixture");
+    let text =
+        read("scenes/blinn_phong.toml").replace("width = 256", "width = 512").replace("height = 256", "height = 512");
+    let (vertex, fragment) = (read("programs/blinn_phong.vert"), read("programs/blinn_phong.frag"));
+    let text = text.replace("../programs/", "");
+    let files = MemoryFiles::new([
+        ("sphere.toml", text.as_str()),
+        ("blinn_phong.vert", vertex.as_str()),
+        ("blinn_phong.frag", fragment.as_str()),
+    ]);
+    load("sphere.toml", &files, &Compiler::new(Options::default())).scene.expect("the scene is right")
+}
+
+fn median(mut times: Vec<f64>) -> f64 {
+    times.sort_by(f64::total_cmp);
+    times[times.len() / 2]
+}
+
+#[expect(clippy::print_stdout, reason = "this is a program that prints figures")]
+fn main() {
+    let scene = scene();
+    let gpu = Gpu::new(None).expect("this needs Mesa's Vulkan driver: apt-get install mesa-vulkan-drivers");
+    let prepared = gpu.prepare(&scene, Via::Spirv).expect("it can be drawn");
+    let mut rows: [(&str, Vec<f64>); 5] =
+        [("lavapipe", vec![]), ("lavapipe (A/A)", vec![]), ("f64", vec![]), ("f32", vec![]), ("bound", vec![])];
+    for round in 0..ROUNDS + 2 {
+        for (index, (_, times)) in rows.iter_mut().enumerate() {
+            let start = Instant::now();
+            let time = if index < 2 {
+                gpu.draw(&prepared).expect("it draws").milliseconds
+            } else {
+                let precision = [Precision::F64, Precision::F32, Precision::Bound][index - 2];
+                let options = RenderOptions { precision, lines: LineRule::OpenGl, mark_edges: false };
+                glisten::cpu::render(&scene, &options).expect("it draws");
+                start.elapsed().as_secs_f64() * 1e3
+            };
+            // The first rounds compile and warm up.
+            if round >= 2 {
+                times.push(time);
+            }
+        }
+    }
+    let base = median(rows[0].1.clone());
+    for (name, times) in rows {
+        let least = times.iter().copied().fold(f64::INFINITY, f64::min);
+        let middle = median(times);
+        println!("{name:16} median {middle:8.2} ms, best {least:8.2} ms, ratio {:6.2}", middle / base);
+    }
+}

@@ -1,0 +1,302 @@
+//! Scene files: what they mean and how their mistakes are told.
+
+use glisten::diagnostic::{Diagnostic, Severity};
+use glisten::hir::ScalarValue;
+use glisten::scene::{AttributeValues, DiskFiles, Format, Loaded, MemoryFiles, Texels, load};
+use glisten::{Compiler, Options};
+
+const VERTEX: &str = "#version 150\n\
+    struct Light { vec4 position; float power; };\n\
+    in vec4 pv;\nin ivec2 cell;\nin mat2 turn;\n\
+    uniform mat4 mc;\nuniform Light lights[2];\nuniform float weights[3];\nuniform bool lit;\nuniform int count = 4;\n\
+    uniform Camera { vec3 eye; mat4 view; } camera;\n\
+    uniform vec2 unused;\nout vec2 tv;\n\
+    void main() {\n\
+    float sum = weights[0] + weights[1] + weights[2] + lights[1].power + float(count + cell.x) + (lit ? 1.0 : 0.0);\n\
+    tv = turn * camera.eye.xy;\n\
+    gl_Position = camera.view * mc * pv + lights[0].position * sum;\n}\n";
+const FRAGMENT: &str = "#version 150\nin vec2 tv;\nuniform sampler2D tex;\nuniform isampler2D ids;\nout vec4 fc;\n\
+    void main() { fc = texture(tex, tv) + vec4(texelFetch(ids, ivec2(0), 0)); }\n";
+
+/// All that the program wants, so that a test changes one line of it.
+const GOOD: &str = r#"
+[framebuffer]
+width = 16
+height = 8
+clear = [0.1, 0.2, 0.3, 1.0]
+format = "rgba16float"
+[[draw]]
+vertex = "a.vert"
+fragment = "a.frag"
+[draw.attributes]
+pv = { size = 3, values = [-1, -1, 0, 1, -1, 0, 0, 1, 0] }
+cell = { size = 1, values = [1, 2, 3] }
+turn = { size = 4, values = [1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1] }
+[draw.uniforms]
+mc = [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]
+"lights[0].position" = [1, 2, 3, 4]
+"lights[1].position" = [1, 2, 3, 4]
+"lights[0].power" = 0.5
+"lights[1].power" = 0.1
+weights = [1, 2, 3]
+lit = true
+"Camera.eye" = [0, 0, 1]
+"Camera.view" = [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]
+[draw.textures]
+tex = { width = 2, height = 1, values = [1, 0, 0, 1, 0, 1, 0, 1], filter = "trilinear", mipmaps = true }
+ids = { width = 1, height = 1, values = [1, 2, -3, 4] }
+"#;
+
+fn load_text(text: &str) -> Loaded {
+    let files = MemoryFiles::new([("s/a.toml", text), ("s/a.vert", VERTEX), ("s/a.frag", FRAGMENT)]);
+    load("s/a.toml", &files, &Compiler::new(Options::default()))
+}
+
+/// The scene with `from` replaced.
+fn changed(from: &str, to: &str) -> Loaded {
+    assert!(GOOD.contains(from), "`{from}` is not in the scene");
+    load_text(&GOOD.replacen(from, to, 1))
+}
+
+fn told(loaded: &Loaded) -> Vec<String> {
+    loaded.diagnostics.iter().map(|diagnostic| format!("{}: {}", diagnostic.code, diagnostic.message)).collect()
+}
+
+/// The one error of a changed scene: its code, the text it stands at, and all that is said.
+#[track_caller]
+fn mistake(from: &str, to: &str) -> (&'static str, String, String) {
+    let loaded = changed(from, to);
+    assert!(loaded.scene.is_none(), "it was accepted");
+    let errors: Vec<&Diagnostic> = loaded.diagnostics.iter().filter(|d| d.severity == Severity::Error).collect();
+    assert_eq!(errors.len(), 1, "{:?}", told(&loaded));
+    let error = errors[0];
+    let place = loaded.sources.snippet(error.primary.span).to_owned();
+    (error.code.id, place, format!("{} {}", error.message, error.help.as_deref().unwrap_or("")))
+}
+
+#[test]
+fn every_value_arrives() {
+    let loaded = load_text(GOOD);
+    let scene = loaded.scene.as_ref().unwrap_or_else(|| panic!("{:?}", told(&loaded)));
+    assert!(loaded.diagnostics.is_empty(), "{:?}", told(&loaded));
+    assert_eq!((scene.name.as_str(), scene.framebuffer.width, scene.framebuffer.height), ("a", 16, 8));
+    assert_eq!(scene.framebuffer.format, Format::Rgba16Float);
+    assert_eq!(scene.framebuffer.clear[0], f64::from(0.1_f32));
+    let draw = &scene.draws[0];
+    assert_eq!((draw.vertex_count, draw.instances, draw.indices.is_none()), (3, 1, true));
+    let interface = &draw.program.interface;
+    let attribute = |name: &str| {
+        let index = interface.attributes.iter().position(|attribute| attribute.name == name).expect("declared");
+        draw.attributes[index].as_ref().expect("it has data")
+    };
+    assert_eq!(attribute("cell").values, AttributeValues::Int(vec![1, 2, 3]));
+    assert_eq!((attribute("pv").size, attribute("turn").size), (3, 4));
+    // w is filled in.
+    assert_eq!(attribute("pv").fetch(1, 0, 0, 4, 3), ScalarValue::Float(1.0));
+    let root = |name: &str| {
+        let index = interface.roots.iter().position(|root| root.name == name).expect("declared");
+        &draw.uniforms[index]
+    };
+    assert_eq!(root("lights")[9], ScalarValue::Float(0.1));
+    assert_eq!(root("weights")[2], ScalarValue::Float(3.0));
+    assert_eq!(root("lit")[0], ScalarValue::Bool(true));
+    assert_eq!(root("count")[0], ScalarValue::Int(4));
+    assert_eq!(root("Camera")[2], ScalarValue::Float(1.0));
+    let texture = |name: &str| {
+        let index = interface.samplers.iter().position(|sampler| sampler.name == name).expect("declared");
+        draw.textures[index].as_ref().expect("it has texels")
+    };
+    assert_eq!(texture("tex").levels[1].texels, Texels::Float(vec![[0.5, 0.5, 0.0, 1.0]]));
+    assert_eq!(texture("ids").levels[0].texels, Texels::Int(vec![[1, 2, -3, 4]]));
+}
+
+#[test]
+fn whole_arrays_go_by_either_name() {
+    for name in ["\"weights[0]\" = [1, 2, 3]", "\"weights[2]\" = 7\n\"weights[0]\" = 7\n\"weights[1]\" = 7"] {
+        let loaded = changed("weights = [1, 2, 3]", name);
+        assert!(loaded.scene.is_some(), "{name}: {:?}", told(&loaded));
+    }
+    assert_eq!(mistake("weights = [1, 2, 3]", "\"weights[1]\" = [1, 2]").0, "E0908");
+    assert_eq!(mistake("weights = [1, 2, 3]", "\"weights[3]\" = 1").0, "E0908");
+}
+
+#[test]
+fn unknown_keys_name_the_nearest() {
+    let (code, place, text) = mistake("width = 16", "widht = 16");
+    assert_eq!((code, place.as_str()), ("E0903", "widht"));
+    assert!(text.contains("did you mean `width`?"), "{text}");
+    assert_eq!(mistake("[framebuffer]", "[framebufer]\n[framebuffer]").0, "E0903");
+    assert_eq!(mistake("size = 3,", "size = 3, divisr = 0,").0, "E0903");
+    assert_eq!(mistake("filter = \"trilinear\"", "filtre = \"trilinear\"").0, "E0903");
+}
+
+#[test]
+fn undeclared_names_name_the_nearest() {
+    let (code, place, text) = mistake("mc = [", "mv = [");
+    assert_eq!((code, place.as_str()), ("E0907", "mv"));
+    assert!(text.contains("did you mean `mc`?"), "{text}");
+    let (code, _, text) = mistake("\"lights[0].power\"", "\"lights[0].powr\"");
+    assert!(code == "E0907" && text.contains("lights[0].power"), "{text}");
+    // An attribute that is not declared: the one that is then lacks its data, too.
+    let loaded = changed("cell = { size = 1", "cel = { size = 1");
+    assert_eq!(told(&loaded).len(), 2, "{:?}", told(&loaded));
+    assert_eq!(mistake("ids = {", "tox = { width = 1, height = 1, values = [1, 1, 1, 1] }\nids = {").0, "E0907");
+    assert_eq!(mistake("vertex = \"a.vert\"", "vertex = \"a.vert\"\ndynamic = [\"mcc\"]").0, "E0907");
+    assert_eq!(mistake("[draw.uniforms]", "[draw.attribute_locations]\npw = 0\n[draw.uniforms]").0, "E0907");
+}
+
+#[test]
+fn attributes_and_samplers_are_no_uniforms() {
+    let (code, _, text) = mistake("lit = true", "lit = true\npv = [1, 2, 3, 4]");
+    assert!(code == "E0910" && text.contains("is an attribute"), "{text}");
+    let (code, _, text) = mistake("lit = true", "lit = true\ntex = 0");
+    assert!(code == "E0910" && text.contains("[draw.textures]"), "{text}");
+}
+
+#[test]
+fn wrong_types_and_values_are_told_where_they_stand() {
+    let (code, place, _) = mistake("width = 16", "width = \"16\"");
+    assert_eq!((code, place.as_str()), ("E0904", "\"16\""));
+    assert_eq!(mistake("width = 16", "width = 1.5").0, "E0904");
+    assert_eq!(mistake("width = 16", "width = 0").0, "E0905");
+    assert_eq!(mistake("width = 16", "width = 100000000").0, "E0905");
+    assert_eq!(mistake("clear = [0.1, 0.2, 0.3, 1.0]", "clear = [1, 1, 1]").0, "E0904");
+    let (code, _, text) = mistake("\"rgba16float\"", "\"rgba16flaot\"");
+    assert!(code == "E0905" && text.contains("did you mean `rgba16float`?"), "{text}");
+    assert_eq!(mistake("lit = true", "lit = \"yes\"").0, "E0904");
+    assert_eq!(mistake("[[draw]]", "[[draw]]\nprimitive = \"quads\"").0, "E0905");
+    assert_eq!(mistake("[[draw]]", "[[draw]]\nblend = [\"one\"]").0, "E0904");
+}
+
+#[test]
+fn kinds_must_agree_with_the_shader() {
+    let (code, place, text) = mistake("cell = { size = 1,", "cell = { size = 1, kind = \"float\",");
+    assert_eq!((code, place.as_str()), ("E0910", "\"float\""));
+    assert!(text.contains("ivec2"), "{text}");
+    assert_eq!(mistake("values = [1, 2, 3] }", "values = [1.5, 2, 3] }").0, "E0910");
+    assert_eq!(mistake("lit = true", "lit = true\ncount = 1.5").0, "E0910");
+    assert_eq!(mistake("tex = {", "tex = { kind = \"cube\",").0, "E0910");
+    assert_eq!(mistake("ids = {", "ids = { filter = \"linear\",").0, "E0905");
+    assert_eq!(mistake("ids = {", "ids = { integer = false,").0, "E0910");
+}
+
+#[test]
+fn sizes_must_fit() {
+    let (code, _, text) = mistake("mc = [1,0,0,0, ", "mc = [");
+    assert!(code == "E0908" && text.contains("16 numbers, not 12"), "{text}");
+    assert_eq!(mistake("pv = { size = 3", "pv = { size = 5").0, "E0905");
+    assert_eq!(mistake("pv = { size = 3", "pv = { size = 2").0, "E0908");
+    assert_eq!(mistake("values = [1, 2, 3] }", "values = [1, 2] }").0, "E0908");
+    assert_eq!(mistake("0, 1, 0, 1]", "0, 1, 0]").0, "E0908");
+    assert_eq!(mistake("[[draw]]", "[[draw]]\nvertex_count = 4").0, "E0908");
+    let (code, place, _) = mistake("[[draw]]", "[[draw]]\nindices = [0, 1, 3]");
+    assert_eq!((code, place.as_str()), ("E0908", "3"));
+}
+
+#[test]
+fn missing_data_is_an_error_and_missing_values_are_a_warning() {
+    let (code, _, text) = mistake("cell = { size = 1, values = [1, 2, 3] }", "");
+    assert!(code == "E0909" && text.contains("`cell`"), "{text}");
+    for (line, warning) in [("lit = true", "W0901"), ("\"lights[1].power\" = 0.1", "W0901")] {
+        let loaded = changed(line, "");
+        assert!(loaded.scene.is_some(), "{:?}", told(&loaded));
+        let codes: Vec<&str> = loaded.diagnostics.iter().map(|diagnostic| diagnostic.code.id).collect();
+        assert_eq!(codes, [warning], "{line}");
+    }
+    let loaded = changed("ids = { width = 1, height = 1, values = [1, 2, -3, 4] }", "");
+    assert!(loaded.scene.is_some() && told(&loaded)[0].starts_with("W0902"), "{:?}", told(&loaded));
+}
+
+#[test]
+fn a_declared_name_that_nothing_uses_is_accepted() {
+    let loaded = changed("lit = true", "lit = true\nunused = [1, 2]");
+    assert!(loaded.scene.is_some() && loaded.diagnostics.is_empty(), "{:?}", told(&loaded));
+}
+
+#[test]
+fn files_that_are_no_scenes() {
+    let (code, _, _) = mistake("width = 16", "width = ");
+    assert_eq!(code, "E0902");
+    for text in ["", "\u{0}\u{1}\u{2}", "just words"] {
+        let loaded = load_text(text);
+        assert!(loaded.scene.is_none() && !loaded.io_error);
+        assert!(told(&loaded).iter().all(|line| line.starts_with("E0902")), "{:?}", told(&loaded));
+    }
+    let mut files = MemoryFiles::default();
+    files.0.insert("a.toml".into(), vec![0xff, 0xfe, 0x00]);
+    let loaded = load("a.toml", &files, &Compiler::new(Options::default()));
+    assert!(told(&loaded)[0].contains("no UTF-8"), "{:?}", told(&loaded));
+}
+
+#[test]
+fn missing_files_and_folders_are_io_errors() {
+    let (code, place, _) = mistake("\"a.frag\"", "\"b.frag\"");
+    assert_eq!((code, place.as_str()), ("E0901", "\"b.frag\""));
+    assert!(changed("\"a.frag\"", "\"b.frag\"").io_error);
+    let compiler = Compiler::new(Options::default());
+    for (path, message) in [("no such scene.toml", "no such file"), (env!("CARGO_MANIFEST_DIR"), "a folder")] {
+        let loaded = load(path, &DiskFiles, &compiler);
+        assert!(loaded.io_error && loaded.scene.is_none());
+        assert!(told(&loaded)[0].contains(message), "{:?}", told(&loaded));
+    }
+}
+
+#[test]
+fn mistakes_of_shaders_are_told_with_those_of_the_scene() {
+    let files = MemoryFiles::new([
+        ("a.toml", GOOD),
+        ("a.vert", "#version 150\nvoid main() { x = 1; }\n"),
+        ("a.frag", FRAGMENT),
+    ]);
+    let loaded = load("a.toml", &files, &Compiler::new(Options::default()));
+    assert!(loaded.scene.is_none() && !loaded.io_error);
+    let first = loaded.diagnostics.iter().next().expect("an error");
+    let place = loaded.sources.location(first.primary.span).expect("it is in a file");
+    assert_eq!((loaded.sources.file(place.file).name(), place.line), ("a.vert", 2));
+}
+
+#[test]
+fn helpers_make_meshes_and_matrices() {
+    let text = GOOD
+        .replace("pv = { size = 3, values = [-1, -1, 0, 1, -1, 0, 0, 1, 0] }\n", "")
+        .replace("cell = { size = 1, values = [1, 2, 3] }\n", "cell = { divisor = 1, values = [1, 2] }\n")
+        .replace("turn = { size = 4, values = [1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1] }\n", "turn = { divisor = 1, values = [1, 0, 0, 1] }\n")
+        .replace("mc = [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]\n", "")
+        .replace(
+            "[draw.attributes]",
+            "[draw.mesh]\nshape = \"sphere\"\nsegments = 8\nrings = 4\nposition = \"pv\"\n[draw.camera]\neye = [0, 0, 5]\n\
+             [draw.transform]\ntranslate = [0, 0, 1]\n[draw.matrices]\nmc = \"model_view\"\n[draw.attributes]",
+        );
+    let loaded = load_text(&text);
+    let scene = loaded.scene.as_ref().unwrap_or_else(|| panic!("{:?}", told(&loaded)));
+    let draw = &scene.draws[0];
+    assert_eq!(draw.indices.as_ref().map(Vec::len), Some(8 * 4 * 6));
+    let mc = draw.program.interface.roots.iter().position(|root| root.name == "mc").expect("declared");
+    assert_eq!(draw.uniforms[mc][14], ScalarValue::Float(-4.0));
+}
+
+#[test]
+fn all_scenes_of_the_repository_load() {
+    let paths = paths();
+    assert!(paths.len() >= 50, "only {} scenes", paths.len());
+    for path in paths {
+        let loaded = load(&path, &DiskFiles, &Compiler::new(Options::default()));
+        assert!(loaded.scene.is_some() && loaded.diagnostics.is_empty(), "{path}: {:?}", told(&loaded));
+    }
+}
+
+/// The scenes under `fixtures/scenes`, sorted.
+pub(crate) fn paths() -> Vec<String> {
+    let root = concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/scenes");
+    let mut paths = Vec::new();
+    for folder in [root.to_owned(), format!("{root}/core")] {
+        for entry in std::fs::read_dir(folder).expect("the folder is there") {
+            let path = entry.expect("an entry").path();
+            if path.extension().is_some_and(|extension| extension == "toml") {
+                paths.push(path.to_string_lossy().into_owned());
+            }
+        }
+    }
+    paths.sort();
+    paths
+}
