@@ -6,6 +6,7 @@ use crate::builtin::BuiltinVariable;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::qualifiers;
 use crate::hir::{ArraySize, ExprKind, GlobalId, LocalId, Stage, Storage, Type, TypeId, VarRef};
+use crate::source::Span;
 
 impl Analyzer<'_> {
     /// Completes the shader.
@@ -15,6 +16,7 @@ impl Analyzer<'_> {
         self.check_recursion();
         self.shader.mark_static_use();
         self.check_fragment_outputs();
+        self.check_pragma();
     }
 
     /// Gives each array without a size as many elements as its use asks for.
@@ -81,7 +83,7 @@ impl Analyzer<'_> {
                 }
             }
         }
-        if any {
+        if any || !self.local_array_uses.is_empty() {
             for index in first..self.shader.exprs.len() {
                 let Some(ExprKind::Var(VarRef::Local(id))) = self.shader.exprs.get(index).map(|expr| &expr.kind) else {
                     continue;
@@ -116,6 +118,20 @@ impl Analyzer<'_> {
             if let Some(expr) = self.shader.exprs.get_mut(index) {
                 expr.ty = ty;
             }
+        }
+    }
+
+    /// §4.6.1: `#pragma STDGL invariant(all)` is for shaders whose outputs others read.
+    fn check_pragma(&mut self) {
+        if self.ast.invariant_all && self.stage == Stage::Fragment {
+            self.report(
+                Diagnostic::new(
+                    &qualifiers::INVARIANT,
+                    Span::default(),
+                    "`#pragma STDGL invariant(all)` cannot stand in a fragment shader",
+                )
+                .help("remove it, or make single inputs `invariant`"),
+            );
         }
     }
 

@@ -197,3 +197,12 @@ fn doubling_structs_end_in_an_error_at_once() {
     let codes: Vec<_> = compilation.diagnostics.iter().map(|diagnostic| diagnostic.code.id).collect();
     assert_eq!(codes, ["E0422"]);
 }
+
+#[test]
+fn the_invariant_pragma_is_not_for_fragments() {
+    let text = "#pragma STDGL invariant(all)\nout vec4 c; void main() { c = vec4(0.0); }";
+    let codes: Vec<_> = compile(Stage::Fragment, text).diagnostics.iter().map(|found| found.code.id).collect();
+    assert_eq!(codes, ["E0616"]);
+    let program = program(Stage::Vertex, text);
+    assert!(global(shader(&program), "c").1.invariant);
+}

@@ -227,6 +227,14 @@ impl Function {
         }
     }
 
+    /// The types of the parameters and how they are passed.
+    pub fn param_types(&self) -> impl Iterator<Item = (TypeId, ParamMode)> {
+        self.params().iter().map(|param| match param.kind {
+            LocalKind::Param(mode) => (param.ty, mode),
+            LocalKind::Variable | LocalKind::Const => (param.ty, ParamMode::In),
+        })
+    }
+
     /// The local behind a handle of this function.
     pub fn local(&self, id: LocalId) -> &Local {
         // A `LocalId` is only ever made for this function.

@@ -8,6 +8,9 @@ use crate::diagnostic::codes::{names, statements, types};
 use crate::hir::{ArraySize, Function, FunctionId, Local, LocalId, LocalKind, ParamMode, Type, TypeId, VarRef};
 use crate::syntax::ast::{FunctionHeader, Ident, ParamDecl, Stmt, TypeBase};
 
+/// The overloads of one name: each call that needs a conversion looks at all of them.
+const MAX_OVERLOADS: usize = 1024;
+
 impl Analyzer<'_> {
     /// `float f(float x);`
     pub(in crate::analysis) fn prototype(&mut self, header: &FunctionHeader) {
@@ -82,6 +85,10 @@ impl Analyzer<'_> {
                 if let Some(id) = same {
                     return self.is_same(id, &function).then_some(id);
                 }
+                if self.scopes.functions(set).len() >= MAX_OVERLOADS {
+                    self.report_too_many(name);
+                    return None;
+                }
                 let id = self.add_function(function, name);
                 self.scopes.add_overload(set, id);
                 Some(id)
@@ -103,6 +110,18 @@ impl Analyzer<'_> {
                 Some(id)
             }
         }
+    }
+
+    fn report_too_many(&mut self, name: Ident) {
+        let spelling = self.name(name);
+        self.report(
+            Diagnostic::new(
+                &statements::TOO_MANY_OVERLOADS,
+                name.span,
+                format!("`{spelling}` has more than {MAX_OVERLOADS} overloads"),
+            )
+            .here("one too many"),
+        );
     }
 
     fn add_function(&mut self, function: Function, name: Ident) -> FunctionId {

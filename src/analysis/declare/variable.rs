@@ -264,7 +264,11 @@ impl Analyzer<'_> {
 
     /// Sees to it that a size holds all elements that were named before it.
     pub(in crate::analysis) fn check_resize(&mut self, key: ArrayKey, size: u32, span: Span) {
-        let Some(&(largest, at)) = self.array_uses.get(&key) else { return };
+        let used = match key {
+            ArrayKey::Local(id) => self.local_array_uses.get(&id),
+            _ => self.array_uses.get(&key),
+        };
+        let Some(&(largest, at)) = used else { return };
         if largest >= size {
             self.report(
                 Diagnostic::new(&types::INDEX_RANGE, at, format!("the array has no element {largest}"))

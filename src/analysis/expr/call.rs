@@ -106,7 +106,8 @@ impl Analyzer<'_> {
     /// The overload that takes the arguments after conversions, if it is the only one.
     fn by_conversion(&mut self, name: Ident, set: OverloadSet, given: &[TypeId]) -> Option<FunctionId> {
         let candidates: Vec<FunctionId> = self.scopes.functions(set).to_vec();
-        let resolution = resolve(self.types, given, candidates.iter().map(|&id| self.params_of(id)));
+        let resolution =
+            resolve(self.types, given, candidates.iter().map(|&id| self.shader.function(id).param_types()));
         match resolution {
             Resolution::Found(index) => candidates.get(index).copied(),
             Resolution::Ambiguous(first, second) => {
@@ -147,8 +148,7 @@ impl Analyzer<'_> {
     }
 
     pub(in crate::analysis) fn params_of(&self, id: FunctionId) -> Params {
-        let function = self.shader.function(id);
-        function.params().iter().enumerate().map(|(index, param)| (param.ty, function.param_mode(index))).collect()
+        self.shader.function(id).param_types().collect()
     }
 
     /// A function as it would be declared, for messages.

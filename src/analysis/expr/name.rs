@@ -9,6 +9,53 @@ use crate::hir::{ExprId, ExprKind, ScalarValue, Stage, Type, TypeId, VarRef};
 use crate::source::Span;
 use crate::syntax::ast::Ident;
 
+/// The variables of §7.1.1, §7.3, §7.5.1 and §7.6 that the core profile lacks, without numbers at their ends. They are not
+/// in the table of built-in variables, for no phase knows what to do with them.
+static COMPATIBILITY: [&str; 42] = [
+    "gl_Vertex",
+    "gl_Normal",
+    "gl_Color",
+    "gl_SecondaryColor",
+    "gl_MultiTexCoord",
+    "gl_FogCoord",
+    "gl_ClipVertex",
+    "gl_FrontColor",
+    "gl_BackColor",
+    "gl_FrontSecondaryColor",
+    "gl_BackSecondaryColor",
+    "gl_TexCoord",
+    "gl_FogFragCoord",
+    "gl_ModelViewMatrix",
+    "gl_ProjectionMatrix",
+    "gl_ModelViewProjectionMatrix",
+    "gl_TextureMatrix",
+    "gl_NormalMatrix",
+    "gl_ModelViewMatrixInverse",
+    "gl_ProjectionMatrixInverse",
+    "gl_ModelViewProjectionMatrixInverse",
+    "gl_TextureMatrixInverse",
+    "gl_ModelViewMatrixTranspose",
+    "gl_ProjectionMatrixTranspose",
+    "gl_ModelViewProjectionMatrixTranspose",
+    "gl_TextureMatrixTranspose",
+    "gl_NormalScale",
+    "gl_ClipPlane",
+    "gl_Point",
+    "gl_FrontMaterial",
+    "gl_BackMaterial",
+    "gl_LightSource",
+    "gl_LightModel",
+    "gl_FrontLightModelProduct",
+    "gl_BackLightModelProduct",
+    "gl_FrontLightProduct",
+    "gl_BackLightProduct",
+    "gl_TextureEnvColor",
+    "gl_EyePlaneS",
+    "gl_ObjectPlaneS",
+    "gl_Fog",
+    "gl_MaxTextureUnits",
+];
+
 impl Analyzer<'_> {
     /// The variable behind a name.
     pub(super) fn name_expr(&mut self, name: Ident) -> ExprId {
@@ -85,6 +132,18 @@ impl Analyzer<'_> {
                     .here(format!("only in {} shaders", stages.join(" and ")))
             };
             self.report(finding);
+            return;
+        }
+        if COMPATIBILITY.contains(&spelling.trim_end_matches(|letter: char| letter.is_ascii_digit())) {
+            self.report(
+                Diagnostic::new(
+                    &names::BUILTIN_UNAVAILABLE,
+                    name.span,
+                    format!("`{spelling}` is not in the core profile of this version"),
+                )
+                .here("only in the compatibility profile")
+                .help("declare an `in`, `out` or `uniform` of your own and let the application set it"),
+            );
             return;
         }
         let help = self.nearest_variable(spelling).map(|near| format!("did you mean `{near}`?"));

@@ -1,11 +1,13 @@
 //! Local variables (§4.2, §4.3).
 
-use super::super::context::Analyzer;
+use super::super::context::{Analyzer, ArrayKey};
 use super::super::qualifiers::{Place, Qualifiers};
 use super::super::scope::Entry;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::{qualifiers, types};
-use crate::hir::{Condition, ExprId, Local, LocalId, LocalKind, Stmt, StmtKind, TypeId, Value, VarRef};
+use crate::hir::{
+    ArraySize, Condition, ExprId, Local, LocalId, LocalKind, Stmt, StmtKind, Type, TypeId, Value, VarRef,
+};
 use crate::syntax::ast::{Declarator, VariableDecl};
 
 impl Analyzer<'_> {
@@ -36,6 +38,9 @@ impl Analyzer<'_> {
         let ty = if self.check_local_size(ty, name.span) { ty } else { TypeId::ERROR };
         let constant = record.constant.is_some();
         let (ty, initializer, value) = self.local_initializer(declarator, ty, constant);
+        if initializer.is_none() && self.resizes_local(declarator, ty) {
+            return (None, None);
+        }
         let kind = if constant { LocalKind::Const } else { LocalKind::Variable };
         let local = Local { name: self.name(name).to_owned(), ty, kind, value, span: name.span };
         let id = self.add_local(local);
@@ -45,6 +50,28 @@ impl Analyzer<'_> {
         };
         self.enter(name, entry);
         (id.filter(|_| !ty.is_error()), initializer)
+    }
+
+    /// An array declared before in this scope without a size may be declared again with one (§4.1.9).
+    fn resizes_local(&mut self, declarator: &Declarator, ty: TypeId) -> bool {
+        let found = self.scopes.find_here(declarator.name.symbol).map(|binding| binding.entry);
+        let Some(Entry::Variable(VarRef::Local(id))) = found else { return false };
+        let Some(earlier) = self.local(id).map(|local| local.ty) else { return false };
+        let (Type::Array(element, ArraySize::Unsized), Type::Array(other, size)) =
+            (self.types.get(earlier), self.types.get(ty))
+        else {
+            return false;
+        };
+        if element != other {
+            return false;
+        }
+        if let ArraySize::Sized(size) = size {
+            self.check_resize(ArrayKey::Local(id), size, declarator.name.span);
+        }
+        if let Some(local) = self.current_function().and_then(|function| function.locals.get_mut(id.index())) {
+            local.ty = ty;
+        }
+        true
     }
 
     fn check_local_type(&mut self, ty: TypeId, declaration: &VariableDecl, declarator: &Declarator) -> TypeId {

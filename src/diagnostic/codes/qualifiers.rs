@@ -54,7 +54,7 @@ codes! {
          fragment shader no output blocks."
         bad Vertex("in B { vec4 a; }; void main() { gl_Position = a; }"),
         good Vertex("uniform B { vec4 a; }; void main() { gl_Position = a; }");
-    GEOMETRY_INPUT = "E0612" "geometry-input-size" Error "GLSL 1.50 §4.3.4, §4.3.8.1"
+    GEOMETRY_INPUT = "E0612" "bad-geometry-input" Error "GLSL 1.50 §4.3.4, §4.3.8.1"
         "A geometry shader sees all vertices of a primitive, so its inputs are arrays. Their sizes, where they are given, \
          and that of the input primitive must be the same."
         bad Geometry("layout(points) in; layout(points, max_vertices = 1) out; in vec4 a; void main() {}"),

@@ -1,6 +1,6 @@
 //! Statements, functions (`E05xx`).
 
-use super::Example::{Fragment, Vertex};
+use super::Example::{Fragment, None, Vertex};
 
 codes! {
     STRAY_JUMP = "E0501" "stray-jump" Error "GLSL 1.50 §6.4"
@@ -59,4 +59,7 @@ codes! {
          function, and then its return type and all qualifiers must be the same."
         bad Fragment("float f(float a) { return a; } int f(float a) { return 1; } out vec4 c; void main() { c = vec4(0.0); }"),
         good Fragment("float f(float a) { return a; } int f(int a) { return 1; } out vec4 c; void main() { c = vec4(0.0); }");
+    TOO_MANY_OVERLOADS = "E0513" "too-many-overloads" Error ""
+        "A name may have 1,024 overloads."
+        bad None, good None;
 }
