@@ -78,7 +78,7 @@ pub(super) fn parse(
 /// The four corners for a strip.
 fn rectangle(attribute: &str, [x, y, width, height]: [f64; 4]) -> Column {
     let values = vec![x, y, x + width, y, x, y + height, x + width, y + height];
-    Column { attribute: attribute.into(), element: 0, column: 0, size: 2, values }
+    Column { attribute: attribute.into(), element: 0, column: 0, size: 2, is_integer: false, values }
 }
 
 /// `draw arrays GL_TRIANGLES 0 3`, or `draw arrays instanced GL_TRIANGLES 0 3 2`.

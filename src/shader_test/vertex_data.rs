@@ -15,6 +15,8 @@ pub(super) struct Column {
     pub(super) column: u32,
     /// How many components.
     pub(super) size: u32,
+    /// Whether the numbers are integers: then hexadecimal ones are not the bits of floats.
+    pub(super) is_integer: bool,
     /// All rows, `size` numbers each.
     pub(super) values: Vec<f64>,
 }
@@ -36,7 +38,7 @@ pub(super) fn parse(lines: &[Line]) -> Result<VertexData, Outcome> {
         for column in &mut columns {
             for _ in 0..column.size {
                 let Some(word) = words.next() else { return fail(line.number, "the row is shorter than its header") };
-                match parse_number(word) {
+                match if column.is_integer { parse_integer(word) } else { parse_number(word) } {
                     Some(value) => column.values.push(value),
                     None => return fail(line.number, format_args!("`{word}` is no number")),
                 }
@@ -64,7 +66,17 @@ fn header(line: u32, word: &str) -> Result<Column, Outcome> {
         None => (name, 0),
     };
     let Some(size) = components(shape) else { return skip(line, format_args!("attributes of type `{shape}`")) };
-    Ok(Column { attribute: attribute.into(), element, column, size, values: Vec::new() })
+    Ok(Column { attribute: attribute.into(), element, column, size, is_integer: data != "float", values: Vec::new() })
+}
+
+/// A decimal or hexadecimal integer, with or without a sign.
+fn parse_integer(word: &str) -> Option<f64> {
+    let (sign, digits) = word.strip_prefix('-').map_or((1.0, word), |digits| (-1.0, digits));
+    let magnitude = match digits.strip_prefix("0x") {
+        Some(hexadecimal) => f64::from(u32::from_str_radix(hexadecimal, 16).ok()?),
+        None => digits.parse().ok()?,
+    };
+    Some(sign * magnitude)
 }
 
 /// How many numbers a type has (of a matrix: a column): `vec3`, `mat2x3`, or a bare `3`.
@@ -98,6 +110,13 @@ mod unit {
         let shapes: Vec<_> = data.columns.iter().map(|c| (c.attribute.as_str(), c.element, c.column, c.size)).collect();
         assert_eq!(shapes, [("piglit_vertex", 0, 0, 2), ("m", 0, 1, 3), ("a", 1, 0, 1)]);
         assert_eq!(data.columns[1].values, [3.0, 4.0, 5.0, 0.0, 0.0, 0.0]);
+    }
+
+    #[test]
+    fn hexadecimal_integers_are_integers() {
+        let data = parse(&lines(&["i/int/2 f/float/1", "-0x10 7 0x3f800000"])).expect("a table");
+        assert_eq!(data.columns[0].values, [-16.0, 7.0]);
+        assert_eq!(data.columns[1].values, [1.0]);
     }
 
     #[test]

@@ -6,6 +6,8 @@ mod cli;
 mod codes;
 mod diagnostics;
 mod emit;
+#[cfg(feature = "gpu")]
+mod gpu;
 mod hostile;
 mod print;
 #[cfg(feature = "gpu")]
@@ -14,5 +16,9 @@ mod raster;
 mod readme;
 #[cfg(feature = "reference")]
 mod scenes;
+#[cfg(feature = "cli")]
+mod report;
+#[cfg(feature = "cli")]
+mod shader_test;
 mod snapshots;
 mod support;

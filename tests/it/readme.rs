@@ -113,7 +113,8 @@ fn outputs_in_the_readme_are_what_the_commands_print() {
         }
     }
     let (help, _) = glisten(&["--help"]);
-    let commands = help.lines().skip_while(|line| !line.starts_with("Commands:")).skip(1).take_while(|line| !line.is_empty());
+    let commands =
+        help.lines().skip_while(|line| !line.starts_with("Commands:")).skip(1).take_while(|line| !line.is_empty());
     let existing: BTreeSet<String> =
         commands.filter_map(|line| line.split_whitespace().next()).map(str::to_owned).collect();
     assert_eq!(seen, existing, "the README's tour and the commands that exist");

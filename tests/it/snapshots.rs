@@ -16,8 +16,7 @@ fn compile(vertex: &Path) -> Compilation {
         let name = path.file_name().expect("a file").to_string_lossy().into_owned();
         Source { name, text: fs::read_to_string(path).expect("readable").into(), stage }
     };
-    let sources =
-        [source(vertex, Stage::Vertex), source(&vertex.with_extension("frag"), Stage::Fragment)];
+    let sources = [source(vertex, Stage::Vertex), source(&vertex.with_extension("frag"), Stage::Fragment)];
     Compiler::new(Options::default()).compile(&sources)
 }
 
