@@ -21,4 +21,5 @@ mod report;
 #[cfg(feature = "cli")]
 mod shader_test;
 mod snapshots;
+mod snapshots;
 mod support;

@@ -49,7 +49,7 @@ fn a_wrong_expectation_fails_and_says_where() {
     for result in results {
         assert_eq!(result["result"], "fail", "{result}");
         let reason = result["reason"].as_str().expect("a reason");
-        assert!(reason.starts_with("line 30: pixel (62, 125) is (0.37"), "{reason}");
+        assert!(reason.starts_with("line 31: pixel (62, 125) is (0.37"), "{reason}");
     }
 }
 
