@@ -14,12 +14,11 @@ mod print;
 mod raster;
 #[cfg(feature = "cli")]
 mod readme;
+#[cfg(feature = "cli")]
+mod report;
 #[cfg(feature = "reference")]
 mod scenes;
 #[cfg(feature = "cli")]
-mod report;
-#[cfg(feature = "cli")]
 mod shader_test;
-mod snapshots;
 mod snapshots;
 mod support;
