@@ -1,8 +1,10 @@
 //! Random well-typed programs: every lane gives what it gives alone, and in f64 what a plain tree walk gives.
 
+mod builtins;
 mod evaluate;
 mod generate;
 mod text;
+mod textures;
 
 use super::{Code, LANES, Machine, Mask};
 use crate::cpu::domain::{Bound, Domain, F32, F64, Integer, Number};

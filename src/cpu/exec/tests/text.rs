@@ -1,12 +1,15 @@
 //! Programs in GLSL with known answers.
 
 use crate::compiler::{Compiler, Options, Source};
-use crate::cpu::domain::{F64, Number};
+use crate::cpu::domain::{Bound, Domain, F64, Integer, Number};
 use crate::cpu::exec::{Code, LANES, Machine, Mask};
 use crate::hir::{ScalarValue, Stage};
+use crate::link::Program;
+use crate::scene::Texture;
+use std::sync::Arc;
 
-/// Runs a fragment stage whose output is `vec4 o`, with the inputs by name and lane; gives the output in each lane.
-pub(super) fn run(body: &str, input: impl Fn(&str, usize) -> f64) -> Vec<[f64; 4]> {
+/// Compiles a fragment stage whose output is `vec4 o`.
+pub(super) fn compiled(body: &str) -> Program {
     let source = Source {
         name: "test.frag".into(),
         text: format!("#version 150\nout vec4 o;\n{body}\n").into(),
@@ -14,33 +17,54 @@ pub(super) fn run(body: &str, input: impl Fn(&str, usize) -> f64) -> Vec<[f64; 4
     };
     let compilation = Compiler::new(Options::default()).compile(&[source]);
     let messages: Vec<String> = compilation.diagnostics.iter().map(|d| d.message.clone()).collect();
-    let program = compilation.program.unwrap_or_else(|| panic!("{messages:?}"));
-    let code = Code::compile(&program, Stage::Fragment).unwrap_or_else(|errors| panic!("{errors:?}"));
+    compilation.program.unwrap_or_else(|| panic!("{messages:?} in {body}"))
+}
+
+/// A machine for it, its inputs filled by name and lane (the components of a vector one apart), after a run.
+pub(super) fn ran<D: Domain>(
+    program: &Program,
+    textures: &[Option<Arc<Texture>>],
+    input: impl Fn(&str, usize) -> f64,
+) -> Machine<D> {
+    let code = Code::compile(program, Stage::Fragment).unwrap_or_else(|errors| panic!("{errors:?}"));
     let uniforms: Vec<Vec<ScalarValue>> = (program.interface.roots.iter())
         .map(|root| root.default.as_ref().map(|value| value.scalars.clone()).unwrap_or_default())
         .collect();
-    let mut machine = Machine::<F64>::new(&code, &uniforms, &[]);
+    let mut machine = Machine::<D>::new(&code, &uniforms, textures);
     let shader = program.stage(Stage::Fragment).expect("it has the stage");
     for (id, global) in shader.globals() {
         for flat in 0..program.types.flat_len(global.ty) {
             if let Some(lanes) = machine.float_input(id, flat) {
-                (0..LANES).for_each(|lane| lanes[lane] = input(&global.name, lane) + f64::from(flat));
+                let value = |lane| D::Float::from_f64(input(&global.name, lane) + f64::from(flat));
+                (0..LANES).for_each(|lane| lanes[lane] = value(lane));
             }
             if let Some(lanes) = machine.int_input(id, flat) {
-                (0..LANES).for_each(|lane| lanes[lane] = input(&global.name, lane) as i32 as u32);
+                (0..LANES).for_each(|lane| lanes[lane] = D::Int::from_bits(input(&global.name, lane) as i32 as u32));
             }
         }
     }
     machine.run(Mask::ALL, Mask::NONE);
+    machine
+}
+
+/// The output in each lane.
+pub(super) fn output<D: Domain>(program: &Program, machine: &Machine<D>) -> Vec<[D::Float; 4]> {
+    let shader = program.stage(Stage::Fragment).expect("it has the stage");
     let (o, _) = shader.globals().find(|(_, global)| global.name == "o").expect("it has the output");
     let component =
-        |lane: usize, flat: u32| machine.float_output(o, flat).map_or(f64::NAN, |lanes| lanes[lane].value());
+        |lane: usize, flat: u32| machine.float_output(o, flat).map_or(D::Float::default(), |lanes| lanes[lane]);
     (0..LANES).map(|lane| std::array::from_fn(|flat| component(lane, flat as u32))).collect()
+}
+
+pub(super) fn run_in<D: Domain>(body: &str, input: impl Fn(&str, usize) -> f64) -> Vec<[f64; 4]> {
+    let program = compiled(body);
+    let machine = ran::<D>(&program, &[], input);
+    output(&program, &machine).into_iter().map(|lane| lane.map(Number::value)).collect()
 }
 
 /// The output where all lanes have the same inputs.
 fn one(body: &str) -> [f64; 4] {
-    run(body, |_, _| 0.0)[0]
+    run_in::<F64>(body, |_, _| 0.0)[0]
 }
 
 #[test]
@@ -55,4 +79,84 @@ fn a_call_lets_the_lanes_go_on_behind_it() {
     let body = "float f(float a, inout vec2 b, out float c) { return a; } vec2 g; void main() { \
                 for (int i = 0; i < 1; i++) { o.x = f(0.0, g, o[0]); for (int j = 0; j < 1; j++) o.y -= 1.0; } }";
     assert_eq!(one(body), [0.0, -1.0, 0.0, 0.0]);
+}
+
+#[test]
+fn structs_and_arrays_are_values() {
+    let body = "struct S { vec2 a; float b[3]; }; S s[2]; void main() { s[1].b[2] = 4.0; S t = s[1]; s[1].b[2] = 5.0; \
+                t.a.y = 7.0; o = vec4(t.b[2], s[1].b[2], t.a.y, s[1] == t); }"
+        .replace("s[1] == t)", "float(s[1] == t))");
+    assert_eq!(one(&body), [4.0, 5.0, 7.0, 0.0]);
+}
+
+#[test]
+fn matrices_multiply_and_construct_by_columns() {
+    let body = "void main() { mat2x3 m = mat2x3(1, 2, 3, 4, 5, 6); vec3 c = m * vec2(1, 10); vec2 r = vec3(1, 10, 100) * m; \
+                mat3 s = mat3(mat2(2.0)); mat2 p = transpose(m) * m; \
+                o = vec4(c.z, r.y, s[2][2] + s[1][1], p[1][0]); }";
+    assert_eq!(one(body), [63.0, 654.0, 3.0, 32.0]);
+}
+
+#[test]
+fn indices_out_of_range_are_limited() {
+    let body = "in float a; void main() { float t[3] = float[3](1.0, 2.0, 3.0); int i = int(a); t[i] = 9.0; \
+                o = vec4(t[i], t[0], t[2], vec3(4, 5, 6)[i + 1]); }";
+    let lanes = run_in::<F64>(body, |_, lane| [-5.0, 0.0, 2.0, 1e9][lane % 4]);
+    assert_eq!(lanes[0], [9.0, 9.0, 3.0, 4.0]);
+    assert_eq!(lanes[1], [9.0, 9.0, 3.0, 5.0]);
+    assert_eq!(lanes[2], [9.0, 1.0, 9.0, 6.0]);
+    assert_eq!(lanes[3], [9.0, 1.0, 9.0, 6.0]);
+}
+
+#[test]
+fn an_endless_loop_ends_and_is_reported() {
+    let program = compiled("void main() { o = vec4(0); while (true) { o.x += 1.0; } }");
+    let machine = ran::<F64>(&program, &[], |_, _| 0.0);
+    assert!(machine.budget_exceeded());
+    let program = compiled("void main() { o = vec4(0); for (int i = 0; i < 70000; i++) o.x += 1.0; }");
+    let machine = ran::<F64>(&program, &[], |_, _| 0.0);
+    assert!(!machine.budget_exceeded());
+    assert_eq!(output(&program, &machine)[5][0], 70000.0);
+}
+
+#[test]
+fn derivatives_are_differences_in_quads_with_y_up() {
+    // a = 10 x + 100 row, x and row counted in the quad, the upper row first.
+    let body = "in float a; void main() { o = vec4(dFdx(a * a), dFdy(a), fwidth(a), dFdx(3.0)); }";
+    let lanes = run_in::<F64>(body, |_, lane| [0.0, 10.0, 100.0, 110.0][lane % 4]);
+    assert_eq!(lanes[0], [100.0, -100.0, 110.0, 0.0]);
+    assert_eq!(lanes[3], [2100.0, -100.0, 110.0, 0.0]);
+}
+
+#[test]
+fn discarded_lanes_are_told() {
+    let program = compiled("in float a; void main() { if (a > 1.0) discard; o = vec4(a); }");
+    let machine = ran::<F64>(&program, &[], |_, lane| lane as f64);
+    assert_eq!(machine.discarded(), Mask(!3));
+}
+
+#[test]
+fn long_chains_fit_on_a_small_stack() {
+    let sum = "a".to_owned() + &" + a".repeat(9_999);
+    let arms: String = (0..1_000).map(|k| format!("else if (b == {k}.0) o.y = {k}.0; ")).collect();
+    let body = format!("in float a, b; void main() {{ o = vec4({sum}); if (b < -1.0) o.y = -1.0; {arms} }}");
+    let small = std::thread::Builder::new().stack_size(1 << 20);
+    let lanes =
+        small.spawn(move || run_in::<F64>(&body, |name, lane| if name == "a" { 1.0 } else { 900.0 + lane as f64 }));
+    let lanes = lanes.expect("a thread").join().expect("no overflow");
+    assert_eq!(lanes[7][..2], [10_000.0, 907.0]);
+}
+
+#[test]
+fn an_open_branch_makes_lanes_undecided_and_an_open_choice_widens() {
+    let body =
+        "in float a; void main() { float third = a / 3.0; if (third * 3.0 < 1.0) o = vec4(2); else o = vec4(3); }";
+    let program = compiled(body);
+    let machine = ran::<Bound>(&program, &[], |_, lane| lane as f64);
+    assert_eq!(machine.undecided(), Mask(2), "only where a / 3 * 3 is about 1");
+    let program = compiled("in float a; void main() { o = vec4(a / 3.0 * 3.0 < 1.0 ? 2.0 : 3.0); }");
+    let machine = ran::<Bound>(&program, &[], |_, lane| lane as f64);
+    assert!(machine.undecided().is_empty());
+    let lanes = output(&program, &machine);
+    assert_eq!((lanes[0][0].error, lanes[1][0].error >= 1.0, lanes[2][0].error), (0.0, true, 0.0));
 }
