@@ -11,8 +11,8 @@ use std::sync::Arc;
 
 /// How many instructions loops may run in one run of a machine: each time that a loop goes back to its head, the
 /// instructions between count, those of all lanes as one. Past it every loop is left, and [`Machine::budget_exceeded`]
-/// says so. (65,536 rounds of a body of 1,024 instructions.)
-pub const LOOP_BUDGET: u64 = 1 << 26;
+/// says so. 65,536 rounds of a body of 256 instructions; [`Machine::limit_loops`] changes it.
+pub const LOOP_BUDGET: u64 = 1 << 24;
 
 /// The registers of one thread for one draw. Reusable: run it tile after tile.
 #[derive(Debug)]
@@ -23,6 +23,8 @@ pub struct Machine<D: Domain> {
     pub(super) textures: Vec<Option<Arc<Texture>>>,
     pub(super) discarded: u64,
     pub(super) undecided: u64,
+    /// For a run.
+    loop_budget: u64,
     /// What is left in this run.
     pub(super) budget: u64,
     pub(super) budget_exceeded: bool,
@@ -42,6 +44,7 @@ impl<D: Domain> Machine<D> {
             textures: textures.to_vec(),
             discarded: 0,
             undecided: 0,
+            loop_budget: LOOP_BUDGET,
             budget: LOOP_BUDGET,
             budget_exceeded: false,
         };
@@ -51,6 +54,11 @@ impl<D: Domain> Machine<D> {
             machine.registers.splat(*class, *register, *from);
         }
         machine
+    }
+
+    /// Replaces [`LOOP_BUDGET`].
+    pub fn limit_loops(&mut self, instructions: u64) {
+        self.loop_budget = instructions;
     }
 
     fn port(ports: &[Port], class: Class, global: GlobalId, flat: u32) -> Option<usize> {
@@ -79,7 +87,7 @@ impl<D: Domain> Machine<D> {
         self.discarded = 0;
         self.undecided = 0;
         // Once a machine has run away it is likely to do so again: then it shall be soon.
-        self.budget = if self.budget_exceeded { LOOP_BUDGET >> 6 } else { LOOP_BUDGET };
+        self.budget = if self.budget_exceeded { self.loop_budget >> 6 } else { self.loop_budget };
         self.execute(&inner.main, inner, live.0 | helpers.0);
         self.discarded &= live.0;
         self.undecided &= live.0;

@@ -43,6 +43,7 @@ pub(super) fn ran<D: Domain>(
             }
         }
     }
+    machine.limit_loops(1 << 20);
     machine.run(Mask::ALL, Mask::NONE);
     machine
 }
