@@ -22,3 +22,4 @@ mod scenes;
 mod shader_test;
 mod snapshots;
 mod support;
+mod witness;

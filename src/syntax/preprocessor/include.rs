@@ -2,7 +2,7 @@
 
 use super::{Extensions, FileId, Preprocessor, Session, Span, codes, kind};
 use crate::diagnostic::{Diagnostic, codes::general};
-use crate::source::IncludeForm;
+use crate::source::{IncludeForm, Included};
 
 /// How many files may be inside each other.
 const MAX_DEPTH: usize = 64;
@@ -55,20 +55,21 @@ impl Preprocessor<'_> {
                 return None;
             }
         };
-        let file = match self.by_name.get(&included.name) {
-            Some(&file) => file,
-            None => {
-                let Some(file) = session.sources.add(included.name.clone(), included.text) else {
-                    let message = "there is no room for the included text";
-                    session.report(Diagnostic::new(&general::TOO_LARGE, header, message));
-                    self.stop();
-                    return None;
-                };
-                self.by_name.insert(included.name, file);
-                file
-            }
+        let Some(file) = load(session, included) else {
+            session.report(Diagnostic::new(&general::TOO_LARGE, header, "there is no room for the included text"));
+            self.stop();
+            return None;
         };
         self.resolved.insert((from, header), file);
         Some(file)
+    }
+}
+
+/// The file in the map, where another include or another stage may have put it: what is wrong in it is reported once.
+fn load(session: &mut Session<'_>, included: Included) -> Option<FileId> {
+    let known = session.sources.files().find(|(_, file)| file.name() == included.name && *file.text() == included.text);
+    match known.map(|(id, _)| id) {
+        Some(id) => Some(id),
+        None => session.sources.add(included.name, included.text),
     }
 }

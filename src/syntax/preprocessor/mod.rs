@@ -88,7 +88,6 @@ pub(super) struct Preprocessor<'a> {
     argument_depth: usize,
     once: FxHashSet<FileId>,
     resolved: FxHashMap<(FileId, Span), FileId>,
-    by_name: FxHashMap<String, FileId>,
     outcome: Outcome,
 }
 
@@ -121,7 +120,6 @@ impl<'a> Preprocessor<'a> {
             argument_depth: 0,
             once: FxHashSet::default(),
             resolved: FxHashMap::default(),
-            by_name: FxHashMap::default(),
             outcome: Outcome {
                 version: Version { number: version::NEWEST_SUPPORTED, profile: Profile::Core, span: Span::default() },
                 supported: true,
@@ -132,7 +130,6 @@ impl<'a> Preprocessor<'a> {
         };
         this.define_predefined(session);
         this.define_from_outside(session, defines);
-        this.by_name.insert(session.sources.file(file).name().to_owned(), file);
         this.enter(session, file, Span::default());
         this.check_is_text(session, file);
         this
