@@ -83,7 +83,7 @@ impl Analyzer<'_> {
         if !self.require_lvalue(target, Purpose::Change) || ty.is_error() {
             return self.poison(span);
         }
-        if !self.types.scalar_of(ty).is_some_and(|scalar| scalar != Scalar::Bool) {
+        if self.types.scalar_of(ty).is_none_or(|scalar| scalar == Scalar::Bool) {
             let (name, at) = (self.type_name(ty), self.span(target));
             self.report(
                 Diagnostic::new(&types::OPERANDS, at, format!("`++` and `--` want numbers, not a `{name}`"))

@@ -55,7 +55,7 @@ impl Analyzer<'_> {
             return self.poison(span);
         }
         let first = self.first_component(argument);
-        let converted = self.to_scalar(first, scalar);
+        let converted = self.with_scalar(first, scalar);
         if converted != argument {
             return converted;
         }
@@ -96,7 +96,7 @@ impl Analyzer<'_> {
             match self.types.get(self.ty(only)) {
                 Type::Scalar(_) => {
                     let kind = if is_matrix { ConstructKind::Diagonal } else { ConstructKind::Splat };
-                    let only = self.to_scalar(only, scalar);
+                    let only = self.with_scalar(only, scalar);
                     return self.push(ExprKind::Construct(kind, vec![only]), ty, span);
                 }
                 Type::Matrix(..) if is_matrix => {
@@ -123,9 +123,9 @@ impl Analyzer<'_> {
                 let ty = TypeId::vector(Scalar::Float, floats);
                 let kind = ExprKind::Construct(ConstructKind::Compose, vec![argument]);
                 let vector = self.push(kind, ty, span);
-                self.to_scalar(vector, scalar)
+                self.with_scalar(vector, scalar)
             }
-            _ => self.to_scalar(argument, scalar),
+            _ => self.with_scalar(argument, scalar),
         }
     }
 

@@ -64,7 +64,7 @@ impl Analyzer<'_> {
     }
 
     /// Converts a value of numbers or booleans component by component, as constructors do (§5.4.1).
-    pub(in crate::analysis) fn to_scalar(&mut self, id: ExprId, scalar: Scalar) -> ExprId {
+    pub(in crate::analysis) fn with_scalar(&mut self, id: ExprId, scalar: Scalar) -> ExprId {
         let ty = match self.types.get(self.ty(id)) {
             Type::Scalar(from) if from != scalar => TypeId::vector(scalar, 1),
             Type::Vector(from, size) if from != scalar => TypeId::vector(scalar, size),

@@ -126,8 +126,8 @@ impl Analyzer<'_> {
         let (left, right) = match kinds {
             (Scalar::Bool, _) | (_, Scalar::Bool) => return None,
             (a, b) if a == b => (left, right),
-            (Scalar::Float, _) => (left, self.to_scalar(right, Scalar::Float)),
-            (_, Scalar::Float) => (self.to_scalar(left, Scalar::Float), right),
+            (Scalar::Float, _) => (left, self.with_scalar(right, Scalar::Float)),
+            (_, Scalar::Float) => (self.with_scalar(left, Scalar::Float), right),
             _ => return None,
         };
         let (a, b) = (self.ty(left), self.ty(right));

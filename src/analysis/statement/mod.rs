@@ -19,7 +19,7 @@ pub(super) fn nesting(ast: &ast::Ast) -> u32 {
         ast::DeclarationKind::Function(_, body) => Some(body),
         _ => None,
     });
-    bodies.map(|body| nesting_of(body)).max().unwrap_or(0)
+    bodies.map(nesting_of).max().unwrap_or(0)
 }
 
 /// Recurses, with small frames, as deep as the parser has already gone.
