@@ -206,3 +206,14 @@ fn the_invariant_pragma_is_not_for_fragments() {
     let program = program(Stage::Vertex, text);
     assert!(global(shader(&program), "c").1.invariant);
 }
+
+#[test]
+fn overloads_are_limited() {
+    let mut text = String::new();
+    for index in 0..1_030 {
+        text.push_str(&format!("struct T{index} {{ float x; }}; void f(T{index} x) {{}}\n"));
+    }
+    let compilation = compile(Stage::Vertex, &format!("{text} void main() {{ gl_Position = vec4(0.0); }}"));
+    assert!(compilation.diagnostics.iter().all(|found| found.code.id == "E0513"));
+    assert_eq!(compilation.diagnostics.len(), 6);
+}
