@@ -37,6 +37,12 @@ pub(super) fn run(args: &LintArgs, console: &Console) -> Outcome {
     }
     let mut session = Session::new(console, &args.sources, &args.bindings, &args.levels, args.jobs)?;
     session.set_format(args.format.unwrap_or(args.levels.diagnostics));
-    let units = session.compile(inputs.groups);
+    let mut units = session.compile(inputs.groups);
+    for unit in &mut units {
+        if let Some(program) = &unit.program {
+            unit.batch.diagnostics.extend(crate::lint::check(program));
+            session.judge(&mut unit.batch);
+        }
+    }
     session.tell_units(&units, true)
 }

@@ -1,0 +1,32 @@
+//! The rules, one file each; a rule is registered by its row here.
+
+mod divergent_derivative;
+mod division_by_zero;
+mod flat_provoking_vertex;
+mod infinite_loop;
+mod non_finite_constant;
+mod position_not_written;
+mod pow_of_negative;
+mod uninitialized_read;
+mod unreachable_code;
+mod unused_varying;
+mod unwritten_out_parameter;
+mod unwritten_output;
+
+use super::Rule;
+use crate::diagnostic::codes::lints;
+
+pub(super) static RULES: &[Rule] = &[
+    Rule { code: &lints::UNUSED_VARYING, check: unused_varying::check },
+    Rule { code: &lints::UNWRITTEN_OUTPUT, check: unwritten_output::check },
+    Rule { code: &lints::POSITION_NOT_WRITTEN, check: position_not_written::check },
+    Rule { code: &lints::FLAT_PROVOKING_VERTEX, check: flat_provoking_vertex::check },
+    Rule { code: &lints::UNINITIALIZED_READ, check: uninitialized_read::check },
+    Rule { code: &lints::UNWRITTEN_OUT_PARAMETER, check: unwritten_out_parameter::check },
+    Rule { code: &lints::NON_FINITE_CONSTANT, check: non_finite_constant::check },
+    Rule { code: &lints::DIVISION_BY_ZERO, check: division_by_zero::check },
+    Rule { code: &lints::POW_OF_NEGATIVE, check: pow_of_negative::check },
+    Rule { code: &lints::DIVERGENT_DERIVATIVE, check: divergent_derivative::check },
+    Rule { code: &lints::INFINITE_LOOP, check: infinite_loop::check },
+    Rule { code: &lints::UNREACHABLE_CODE, check: unreachable_code::check },
+];

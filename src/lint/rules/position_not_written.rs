@@ -1,0 +1,20 @@
+//! `position-not-written`: a vertex stage before a fragment stage that never writes `gl_Position`.
+
+use super::super::Findings;
+use crate::builtin::BuiltinVariable;
+use crate::hir::{Shader, Stage};
+use crate::link::Program;
+
+pub(super) fn check(program: &Program, findings: &mut Findings<'_>) {
+    let [.., producer, fragment] = program.stages.as_slice() else { return };
+    if fragment.stage != Stage::Fragment || writes_position(producer) {
+        return;
+    }
+    let Some(main) = producer.main.map(|main| producer.function(main)) else { return };
+    let message = format!("the {} stage never writes `gl_Position`", producer.stage.name());
+    findings.push(findings.at(main.span, message).here("where the primitives stand is undefined"));
+}
+
+fn writes_position(shader: &Shader) -> bool {
+    shader.globals.iter().any(|global| global.builtin == Some(BuiltinVariable::Position) && global.written)
+}

@@ -1,0 +1,38 @@
+//! `unreachable-code`: statements behind `return`, `break`, `continue` or `discard` in the same body.
+
+use super::super::{Findings, running};
+use crate::hir::{Stmt, StmtKind};
+use crate::link::Program;
+
+pub(super) fn check(program: &Program, findings: &mut Findings<'_>) {
+    for shader in &program.stages {
+        for (_, body) in running(shader) {
+            examine(body, findings);
+            shader.visit_statements(body, &mut |statement| {
+                for inner in statement.kind.bodies() {
+                    examine(inner, findings);
+                }
+            });
+        }
+    }
+}
+
+fn examine(body: &[Stmt], findings: &mut Findings<'_>) {
+    let word = |statement: &Stmt| match statement.kind {
+        StmtKind::Return(_) => Some("return"),
+        StmtKind::Break => Some("break"),
+        StmtKind::Continue => Some("continue"),
+        StmtKind::Discard => Some("discard"),
+        _ => None,
+    };
+    for pair in body.windows(2) {
+        let [statement, next] = pair else { continue };
+        // A `break` behind a `return` is how some people end every case of a switch.
+        if let Some(word) = word(statement).filter(|_| !matches!(next.kind, StmtKind::Break)) {
+            let message = format!("nothing behind this `{word}` is ever reached");
+            let finding = findings.at(next.span, message);
+            findings.push(finding.label(statement.span, "control leaves here"));
+            return;
+        }
+    }
+}

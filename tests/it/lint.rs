@@ -1,0 +1,87 @@
+//! The lint rules: their pages' examples, their fixtures, and silence on ordinary programs.
+
+use crate::support::{Settings, Shader, root, shaders_under};
+use glisten::diagnostic::{Example, Severity};
+use glisten::hir::Stage;
+use glisten::{Compiler, Options, Source, lint};
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// The codes that the rules raise, with the severity of each; what the front-end says is a failure.
+fn lints(shaders: &[Shader]) -> Vec<(&'static str, Severity)> {
+    let settings = Settings::default();
+    let options = Options { defines: settings.defines, strict: settings.strict, ..Options::default() };
+    let sources: Vec<Source> = shaders
+        .iter()
+        .map(|shader| Source { name: shader.name.clone(), text: shader.text.as_str().into(), stage: shader.stage })
+        .collect();
+    let compilation = Compiler::new(options).compile(&sources);
+    let names: Vec<&str> = shaders.iter().map(|shader| shader.name.as_str()).collect();
+    let messages: Vec<&str> = compilation.diagnostics.iter().map(|found| found.message.as_str()).collect();
+    let program = compilation.program.unwrap_or_else(|| panic!("{names:?} give no program: {messages:?}"));
+    lint::check(&program).iter().map(|found| (found.code.id, found.severity)).collect()
+}
+
+fn example(example: Example) -> Vec<Shader> {
+    let shader = |text: &str, stage: Stage| Shader {
+        name: format!("example.{}", stage.name()),
+        text: format!("#version 150\n{text}"),
+        stage,
+    };
+    match example {
+        Example::Vertex(text) => vec![shader(text, Stage::Vertex)],
+        Example::Fragment(text) => vec![shader(text, Stage::Fragment)],
+        Example::Program(vertex, fragment) => vec![shader(vertex, Stage::Vertex), shader(fragment, Stage::Fragment)],
+        other => panic!("a lint's page has examples that run, not {other:?}"),
+    }
+}
+
+#[test]
+fn every_rules_page_shows_what_it_finds() {
+    for rule in lint::rules() {
+        let id = rule.code.id;
+        assert!(
+            lints(&example(rule.code.bad)).iter().any(|(found, _)| *found == id),
+            "{id}: the bad example is silent"
+        );
+        assert_eq!(lints(&example(rule.code.good)), [], "{id}: the good example");
+    }
+}
+
+/// `fixtures/lint/CODE/bad*` raise the code, `good*` raise no warning and not the code.
+#[test]
+fn every_rule_has_fixtures_that_raise_it_and_fixtures_that_do_not() {
+    for rule in lint::rules() {
+        let id = rule.code.id;
+        let mut programs: BTreeMap<String, Vec<Shader>> = BTreeMap::new();
+        for shader in shaders_under(&format!("fixtures/lint/{id}")) {
+            let stem =
+                Path::new(&shader.name).file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into());
+            programs.entry(stem).or_default().push(shader);
+        }
+        let count = |kind: &str| programs.keys().filter(|stem| stem.starts_with(kind)).count();
+        assert!(count("bad") > 0 && count("good") > 0, "{id} lacks fixtures");
+        for (stem, mut shaders) in programs {
+            shaders.sort_by_key(|shader| shader.stage);
+            let found = lints(&shaders);
+            let raised = found.iter().any(|(code, _)| *code == id);
+            assert_eq!(raised, stem.starts_with("bad"), "{id}/{stem}: {found:?}");
+            let warns = found.iter().any(|(_, severity)| *severity > Severity::Note);
+            assert!(stem.starts_with("bad") || !warns, "{id}/{stem}: {found:?}");
+        }
+    }
+}
+
+#[test]
+fn ordinary_programs_raise_no_warning() {
+    let mut programs: BTreeMap<String, Vec<Shader>> = BTreeMap::new();
+    for shader in shaders_under("fixtures/programs") {
+        let stem = Path::new(&shader.name).with_extension("").to_string_lossy().into_owned();
+        programs.entry(stem).or_default().push(shader);
+    }
+    assert!(!programs.is_empty(), "no programs under {}", root().display());
+    for (stem, shaders) in programs {
+        let warnings: Vec<_> = lints(&shaders).into_iter().filter(|(_, severity)| *severity > Severity::Note).collect();
+        assert_eq!(warnings, [], "{stem}");
+    }
+}
