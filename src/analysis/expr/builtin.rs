@@ -16,19 +16,40 @@ impl Analyzer<'_> {
     pub(super) fn builtin_call(&mut self, name: Ident, arguments: Vec<ExprId>, span: Span) -> ExprId {
         let (stage, version, extensions) = (self.stage, self.ast.version, self.extensions);
         let rows = functions::named(self.name(name));
-        let available = rows.iter().copied().filter(|row| row.availability.holds(version, extensions, stage));
-        let candidates: Vec<(&'static Row, Signature)> =
-            available.flat_map(|row| row.signatures(stage).map(move |signature| (row, signature))).collect();
-        if candidates.is_empty() {
+        let given: Vec<TypeId> = arguments.iter().map(|&argument| self.ty(argument)).collect();
+        let available = || rows.iter().copied().filter(|row| row.availability.holds(version, extensions, stage));
+        let signatures = || available().flat_map(|row| row.signatures(stage).map(move |signature| (row, signature)));
+        if available().next().is_none() {
             self.report_unavailable(name, rows);
             return self.poison(span);
         }
-        let given: Vec<TypeId> = arguments.iter().map(|&argument| self.ty(argument)).collect();
-        let found = match self.resolve_builtin(&candidates, &given) {
-            Resolution::Found(index) => candidates.get(index),
+        // Most calls match exactly, and then nothing needs to be gathered.
+        let exact = signatures().find(|(_, signature)| {
+            let params = signature.params();
+            params.len() == given.len() && params.iter().zip(&given).all(|((param, _), given)| param == given)
+        });
+        let found = exact.or_else(|| self.builtin_by_conversion(name, &signatures().collect::<Vec<_>>(), rows, &given));
+        let Some((row, signature)) = found else { return self.poison(span) };
+        let Some(arguments) = self.pass(arguments, signature.params()) else { return self.poison(span) };
+        if !self.check_offset(row, &arguments) {
+            return self.poison(span);
+        }
+        self.push(ExprKind::BuiltinCall(row.function, arguments), signature.ret, span)
+    }
+
+    /// The overload that takes the arguments after conversions, if it is the only one.
+    fn builtin_by_conversion(
+        &mut self,
+        name: Ident,
+        candidates: &[(&'static Row, Signature)],
+        rows: &[&'static Row],
+        given: &[TypeId],
+    ) -> Option<(&'static Row, Signature)> {
+        match self.resolve_builtin(candidates, given) {
+            Resolution::Found(index) => candidates.get(index).copied(),
             Resolution::Ambiguous(first, second) => {
                 let spelling = self.name(name);
-                let mut finding = self.ambiguous(name, &given);
+                let mut finding = self.ambiguous(name, given);
                 for index in [first, second] {
                     if let Some((_, signature)) = candidates.get(index) {
                         finding = finding.note(format!("it fits `{}`", signature.describe(spelling, self.types)));
@@ -38,16 +59,10 @@ impl Analyzer<'_> {
                 None
             }
             Resolution::Missing => {
-                self.report_no_overload(name, rows, &given);
+                self.report_no_overload(name, rows, given);
                 None
             }
-        };
-        let Some(&(row, signature)) = found else { return self.poison(span) };
-        let Some(arguments) = self.pass(arguments, signature.params()) else { return self.poison(span) };
-        if !self.check_offset(row, &arguments) {
-            return self.poison(span);
         }
-        self.push(ExprKind::BuiltinCall(row.function, arguments), signature.ret, span)
     }
 
     /// Overloads that the table spells twice (`max(genType, genType)` and `max(genType, float)` of one float) count once.
