@@ -17,9 +17,9 @@ fn store<T: Copy>(out: &mut [T; LANES], a: Source<'_, T>, mask: u64, all: bool) 
     if all {
         return map1(out, a, |a| a);
     }
-    for lane in 0..LANES {
+    for (lane, out) in out.iter_mut().enumerate() {
         let new = a.at(lane);
-        out[lane] = if mask >> lane & 1 == 1 { new } else { out[lane] };
+        *out = if mask >> lane & 1 == 1 { new } else { *out };
     }
 }
 

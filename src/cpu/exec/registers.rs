@@ -54,8 +54,8 @@ pub(super) fn source<'a, T: Copy>(file: &'a [Lanes<T>], pool: &'a [T], operand: 
 pub(super) fn map1<A: Copy, R>(out: &mut [R; LANES], a: Source<'_, A>, f: impl Fn(A) -> R) {
     match a {
         Source::Lanes(a) => {
-            for lane in 0..LANES {
-                out[lane] = f(a[lane]);
+            for (out, a) in out.iter_mut().zip(a) {
+                *out = f(*a);
             }
         }
         Source::One(a) => {
@@ -79,11 +79,7 @@ pub(super) fn map2<A: Copy, B: Copy, R>(
                 out[lane] = f(a[lane], b[lane]);
             }
         }
-        (Source::Lanes(a), Source::One(b)) => {
-            for lane in 0..LANES {
-                out[lane] = f(a[lane], b);
-            }
-        }
+        (Source::Lanes(a), Source::One(b)) => map1(out, Source::Lanes(a), |a| f(a, b)),
         (Source::One(a), b) => map1(out, b, |b| f(a, b)),
     }
 }

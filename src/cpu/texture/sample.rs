@@ -281,7 +281,7 @@ fn blend(texture: &Texture, level: &TextureLevel, request: &Request, footprint: 
 /// times how far it may be off.
 fn spread(texture: &Texture, level: &TextureLevel, request: &Request, footprint: &Footprint, linear: bool) -> [f64; 4] {
     const MOST: f64 = 4.0;
-    if footprint.axes.iter().take(footprint.count).any(|axis| !(axis.error <= MOST))
+    if footprint.axes.iter().take(footprint.count).any(|axis| axis.error.is_nan() || axis.error > MOST)
         || !footprint.slice_sure && !footprint.cube
     {
         return [f64::INFINITY; 4];

@@ -12,6 +12,7 @@ mod builtin;
 mod effects;
 mod emit;
 mod expr;
+mod fuse;
 mod matrix;
 mod path;
 mod stmt;
@@ -133,6 +134,7 @@ impl<'a> Compiler<'a> {
         if !self.errors.is_empty() {
             return Err(self.errors);
         }
+        fuse::fuse(&mut self.emit);
         let mut ports: Vec<Port> = self.inputs.iter().chain(&outputs).copied().collect();
         let registers = alloc::allocate(&mut self.emit, &mut ports);
         let outputs = ports.split_off(self.inputs.len());
@@ -216,7 +218,7 @@ fn flatten(types: &Types, ty: TypeId, list: &mut Vec<Class>) {
             let start = list.len();
             flatten(types, element, list);
             let one: Vec<Class> = list.get(start..).unwrap_or(&[]).to_vec();
-            let count = if size == 0 { 0 } else { types.flat_len(ty) / size };
+            let count = types.flat_len(ty).checked_div(size).unwrap_or(0);
             list.truncate(start);
             (0..count).for_each(|_| list.extend_from_slice(&one));
         }
