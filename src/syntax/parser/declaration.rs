@@ -229,14 +229,32 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         if self.kind() == TokenKind::Void && self.ahead(1).kind == TokenKind::RightParen {
             self.bump();
         }
-        if self.kind() != TokenKind::RightParen {
+        if !matches!(self.kind(), TokenKind::RightParen | TokenKind::LeftBrace) {
             params.push(self.parameter()?);
-            while self.eat(TokenKind::Comma).is_some() {
+            while self.another_parameter() {
                 params.push(self.parameter()?);
             }
         }
-        self.close(opening, TokenKind::RightParen, "`,` or `)`")?;
+        // In front of a body a forgotten `)` is reported and assumed.
+        let body_follows = self.kind() == TokenKind::LeftBrace;
+        if let Err(reported) = self.close(opening, TokenKind::RightParen, "`,` or `)`") {
+            if !body_follows {
+                return Err(reported);
+            }
+        }
         Ok(FunctionHeader { qualifiers, ty, name, params, span: self.since(start) })
+    }
+
+    /// Reads the comma before another parameter. One that is missing before what begins a parameter is assumed.
+    fn another_parameter(&mut self) -> bool {
+        if self.eat(TokenKind::Comma).is_some() {
+            return true;
+        }
+        let forgotten = matches!(self.kind(), TokenKind::Type | TokenKind::Struct) || is_qualifier(self.kind());
+        if forgotten {
+            let _: Reported = self.unexpected("`,` or `)`");
+        }
+        forgotten
     }
 
     /// parameter_declaration
