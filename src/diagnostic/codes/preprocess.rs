@@ -3,14 +3,6 @@
 use super::Example::{Fragment, None, Vertex};
 
 codes! {
-    EMPTY_SOURCE = "E0101" "empty-source" Error "GLSL 1.50 §3.3"
-        "The source holds nothing, or nothing but white space. A shader has at least a `#version` line and a `main`; an \
-         empty file is most often a save or a download that failed."
-        bad None, good Vertex("void main() { gl_Position = vec4(0.0); }");
-    NOT_TEXT = "E0102" "not-text" Error "GLSL 1.50 §3.1"
-        "The source is not text: it holds NUL bytes or mostly bytes that no text has. Compiled SPIR-V, a picture, or text \
-         in UTF-16 looks like that. Single bytes that are not UTF-8 are forgiven, and are legal in comments alone."
-        bad None, good Vertex("void main() { gl_Position = vec4(0.0); }");
     ILLEGAL_CHARACTER = "E0103" "illegal-character" Error "GLSL 1.50 §3.1"
         "GLSL has a small character set: the letters, digits and signs of ASCII without quotes, `@`, `$`, the backquote \
          and, outside of directives, `#`. All others may stand in comments alone."

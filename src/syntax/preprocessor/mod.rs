@@ -179,7 +179,7 @@ impl<'a> Preprocessor<'a> {
         }
         if odd * 8 > all {
             let span = Span::new(source.base(), source.base());
-            let diagnostic = Diagnostic::new(&codes::NOT_TEXT, span, "the source is not text")
+            let diagnostic = Diagnostic::new(&general::BINARY_SOURCE, span, "the source is not text")
                 .here(format!("{odd} of the first {all} characters are no text"));
             session.report(diagnostic);
             self.stop();

@@ -1,7 +1,7 @@
 //! `#version`, and the end of the main file, where it is known whether there was one (GLSL 1.50 §3.3).
 
 use super::{Preprocessor, Profile, Session, Span, Token, TokenKind, Version, codes, keywords, kind};
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, codes::general};
 
 /// What glisten compiles; texts without a version are read by it too.
 pub(super) const NEWEST_SUPPORTED: u16 = 150;
@@ -193,7 +193,7 @@ impl Preprocessor<'_> {
                 let base = session.sources.file(frame.file).base();
                 Span::new(base, base)
             });
-            let diagnostic = Diagnostic::new(&codes::EMPTY_SOURCE, span, "the source is empty")
+            let diagnostic = Diagnostic::new(&general::EMPTY_SOURCE, span, "the source is empty")
                 .help("a shader begins with `#version 150` and defines `void main()`");
             session.report(diagnostic);
             return self.stop();
