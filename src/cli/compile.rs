@@ -112,6 +112,8 @@ pub(super) fn run(args: &CompileArgs, console: &Console) -> Outcome {
             Ok(files) => outputs.extend(files),
             Err(diagnostics) => unit.batch.diagnostics.extend(diagnostics),
         }
+        let notes = unit.sound_program().map_or_else(Vec::new, |program| emit::notes(program, &plan.conventions));
+        unit.batch.diagnostics.extend(notes);
         session.judge(&mut unit.batch);
     }
     let exit = session.tell_units(&units, false)?;

@@ -7,9 +7,11 @@
 
 mod conventions;
 mod inline;
+mod notes;
 pub mod reflection;
 mod write;
 
 pub use conventions::{ClipZ, Conventions, SpirvEnv, Target, WindowOrigin};
+pub use notes::notes;
 pub use reflection::{Reflection, reflect};
 pub use write::{Emitted, emit, emit_with_sources};

@@ -10,13 +10,42 @@ use super::{Lower, Try, internal, lacking, naga_span, unsupported};
 use crate::builtin::BuiltinVariable;
 use crate::emit::{Target, WindowOrigin};
 use crate::hir::{ArraySize, FunctionId, Global, GlobalId, Interpolation, Stage, Storage, Type, TypeId, Value};
-use crate::link::Varying;
+use crate::link::{Program, Varying, VaryingEnd};
 use naga::{AddressSpace, BinaryOperator, Binding, BuiltIn, Expression, GlobalVariable, Handle};
 
 /// The varyings that stand at one location.
 pub(super) struct Location<'a> {
     pub(super) location: u32,
     pub(super) rows: Vec<&'a Varying>,
+}
+
+/// The varyings of a program, and behind them those that carry `gl_ClipDistance` to a fragment stage that reads it: no
+/// target gives it to that stage by itself (§7.2).
+pub(super) fn hidden_varyings(program: &Program) -> Vec<Varying> {
+    let mut varyings = program.interface.varyings.clone();
+    let clip_distance = |stage| {
+        let mut globals = program.stage(stage)?.globals();
+        let (id, global) = globals.find(|(_, global)| global.builtin == Some(BuiltinVariable::ClipDistance))?;
+        global.used.then_some((id, program.types.flat_len(global.ty)))
+    };
+    let Some((reader, len)) = clip_distance(Stage::Fragment) else { return varyings };
+    let writer = clip_distance(Stage::Vertex);
+    let first = varyings.iter().map(|row| row.location + 1).max().unwrap_or(0);
+    for index in 0..len {
+        let from = writer.filter(|(_, written)| index < *written);
+        varyings.push(Varying {
+            name: format!("gl_ClipDistance[{index}]"),
+            ty: TypeId::FLOAT,
+            location: first + index / 4,
+            component: index % 4,
+            interpolation: Interpolation::Smooth,
+            centroid: false,
+            active: true,
+            from: from.map(|(global, _)| VaryingEnd { global, flat_offset: index }),
+            to: Some(VaryingEnd { global: reader, flat_offset: index }),
+        });
+    }
+    varyings
 }
 
 impl Lower<'_> {
@@ -84,7 +113,7 @@ impl Lower<'_> {
     /// The varyings by location, those alone that `keep` wants, with all that share a location with them.
     pub(super) fn locations(&self, keep: impl Fn(&Varying) -> bool) -> Vec<Location<'_>> {
         let mut locations: Vec<Location<'_>> = Vec::new();
-        for row in &self.interface.varyings {
+        for row in &self.varyings {
             match locations.iter_mut().find(|known| known.location == row.location) {
                 Some(known) => known.rows.push(row),
                 None => locations.push(Location { location: row.location, rows: vec![row] }),
@@ -190,8 +219,8 @@ impl Ctx<'_, '_> {
                 continue;
             }
             let value = match global.builtin {
-                Some(builtin) => self.builtin_input(builtin, global)?,
-                None => {
+                Some(builtin) if builtin != BuiltinVariable::ClipDistance => self.builtin_input(builtin, global)?,
+                _ => {
                     let own: Vec<Arrived> = arrived.iter().filter(|part| part.global == id).copied().collect();
                     self.assemble(global.ty, 0, &own)?
                 }
@@ -330,12 +359,8 @@ impl Ctx<'_, '_> {
                 "compile for SPIR-V, or draw two triangles for each point and pass the coordinate as a varying",
             )),
             B::PointCoord => self.point_coord(),
-            B::ClipDistance => Err(lacking(
-                global.span,
-                "no target gives a fragment shader its `gl_ClipDistance`",
-                "pass the distance in an `out` variable of your own besides",
-            )),
             B::Position
+            | B::ClipDistance
             | B::PointSize
             | B::In
             | B::PrimitiveIdIn

@@ -48,7 +48,7 @@ use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::{general, targets};
 use crate::emit::{Conventions, Target};
 use crate::hir::{FunctionId, GlobalId, Shader, Stage, Types};
-use crate::link::{Interface, Program};
+use crate::link::{Interface, Program, Varying};
 use crate::source::Span;
 use facts::Facts;
 use function::{GlobalSlot, Lowered};
@@ -91,7 +91,6 @@ fn no_geometry(shader: &Shader) -> Diagnostic {
 
 /// The state of lowering one stage.
 struct Lower<'a> {
-    program: &'a Program,
     types: &'a Types,
     shader: &'a Shader,
     interface: &'a Interface,
@@ -100,6 +99,8 @@ struct Lower<'a> {
     facts: Facts,
     module: naga::Module,
     layouter: naga::proc::Layouter,
+    /// Those of the interface, and hidden ones (see [`hidden_varyings`](interface::hidden_varyings)).
+    varyings: Vec<Varying>,
     values: FxHashMap<crate::hir::TypeId, naga::Handle<naga::Type>>,
     hosts: uniforms::Hosts,
     globals: Vec<GlobalSlot>,
@@ -120,7 +121,6 @@ impl<'a> Lower<'a> {
         facts: Facts,
     ) -> Self {
         Self {
-            program,
             types: &program.types,
             shader,
             interface: &program.interface,
@@ -129,6 +129,7 @@ impl<'a> Lower<'a> {
             facts,
             module: naga::Module::default(),
             layouter: naga::proc::Layouter::default(),
+            varyings: interface::hidden_varyings(program),
             values: FxHashMap::default(),
             hosts: uniforms::Hosts::default(),
             globals: vec![GlobalSlot::Unused; shader.globals.len()],
