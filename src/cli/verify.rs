@@ -68,6 +68,8 @@ struct Run {
     verdict: Verdict,
     /// Mean FLIP error, 0 to 1.
     flip: f64,
+    /// Pixels that are not, bit for bit, the reference's rounded to f32.
+    bit_unequal: u64,
     /// GPU time in ms.
     gpu_ms: f64,
     /// Wall time of the reference in ms.
@@ -80,6 +82,8 @@ struct Report<'a> {
     #[serde(flatten)]
     worse: &'a Run,
     runs: &'a [Run],
+    /// Pixels where SPIR-V and WGSL drew other bits; null if only one of them ran.
+    forms_bit_unequal: Option<u64>,
     holds: bool,
 }
 
@@ -95,25 +99,40 @@ pub(super) fn run(args: &VerifyArgs, console: &Console) -> Outcome {
         ViaChoice::Both => vec![Via::Spirv, Via::Wgsl],
     };
     let progress = Progress::new(console, vias.len() + 1);
-    let runs = match compare(args, Arc::new(read.scene.clone()), &vias, &progress) {
-        Ok(runs) => runs,
+    let (runs, pictures) = match compare(args, Arc::new(read.scene.clone()), &vias, &progress) {
+        Ok(compared) => compared,
         Err(error) => return read.failed(error),
     };
     drop(progress);
     let Some(worse) = worst_of(&runs) else { return Ok(Exit::Ok) };
+    let forms_bit_unequal = match &pictures[..] {
+        [spirv, wgsl] => Some(spirv.bit_unequal(wgsl)),
+        _ => None,
+    };
     let holds = runs.iter().all(|run| run.verdict.holds(args.allow_undecided));
     let text = match args.format {
         Format::Json => {
-            let report = Report { worse: &worse, runs: &runs, holds };
+            let report = Report { worse: &worse, runs: &runs, forms_bit_unequal, holds };
             serde_json::to_string_pretty(&report).expect("figures are always JSON") + "\n"
         }
-        Format::Human => runs.iter().map(|run| human(run, args.allow_undecided)).collect(),
+        Format::Human => {
+            let mut text: String = runs.iter().map(|run| human(run, args.allow_undecided)).collect();
+            if let Some(count) = forms_bit_unequal {
+                text.push_str(&format!("spirv and wgsl: {count} pixels are not bit-equal\n"));
+            }
+            text
+        }
     };
     console.output(&text)?;
     Ok(if holds { Exit::Ok } else { Exit::Content })
 }
 
-fn compare(args: &VerifyArgs, scene: Arc<Scene>, vias: &[Via], progress: &Progress) -> Result<Vec<Run>, DrawError> {
+fn compare(
+    args: &VerifyArgs,
+    scene: Arc<Scene>,
+    vias: &[Via],
+    progress: &Progress,
+) -> Result<(Vec<Run>, Vec<Picture>), DrawError> {
     let gpu = Arc::new(args.scene.gpu()?);
     progress.say("the reference");
     let start = Instant::now();
@@ -125,14 +144,17 @@ fn compare(args: &VerifyArgs, scene: Arc<Scene>, vias: &[Via], progress: &Progre
     progress.step();
     let judge = args.tolerance.map_or(Judge::Bound, Judge::Tolerance);
     let mut runs = Vec::new();
+    let mut pictures = Vec::new();
     for via in vias {
         progress.say(via.name());
         let (picture, gpu_ms) = on_gpu(args, Arc::clone(&gpu), Arc::clone(&scene), *via)?;
         let verdict = Verdict::new(&picture, &cpu, judge);
-        runs.push(Run { via: via.name(), verdict, flip: flip(&cpu, &picture), gpu_ms, cpu_ms });
+        let bit_unequal = picture.bit_unequal(&cpu);
+        runs.push(Run { via: via.name(), verdict, flip: flip(&cpu, &picture), bit_unequal, gpu_ms, cpu_ms });
+        pictures.push(picture);
         progress.step();
     }
-    Ok(runs)
+    Ok((runs, pictures))
 }
 
 /// The reference with its bounds; lines by the rule of the target.
@@ -153,6 +175,7 @@ fn worst_of(runs: &[Run]) -> Option<Run> {
         via: "both",
         verdict: worse.verdict.worse(&run.verdict),
         flip: worse.flip.max(run.flip),
+        bit_unequal: worse.bit_unequal.max(run.bit_unequal),
         gpu_ms: worse.gpu_ms.max(run.gpu_ms),
         cpu_ms: worse.cpu_ms,
     })
@@ -167,6 +190,7 @@ fn human(run: &Run, allow_undecided: bool) -> String {
         ("rmse, psnr", format!("{:.3e}, {psnr}", verdict.rmse)),
         ("flip", format!("{:.3e}", run.flip)),
         ("outside", format!("{} (judged by {})", verdict.outside, verdict.judged_by)),
+        ("not bit-equal", format!("{} pixels", run.bit_unequal)),
         ("undecided", verdict.undecided.to_string()),
         ("coverage mismatch", format!("{} ({} at edges)", verdict.coverage_mismatch, verdict.edge_pixels)),
         ("not finite", format!("gpu {}, cpu {}", verdict.non_finite_gpu, verdict.non_finite_cpu)),

@@ -18,3 +18,47 @@ pub struct Picture {
     /// Pixels whose center lies within 1/128 pixel of an edge of a primitive that was drawn.
     pub near_edge: Vec<bool>,
 }
+
+impl Picture {
+    /// How many pixels have a channel, in any attachment, that is another f32, bit for bit, when both pictures are rounded
+    /// to f32. NaNs are all alike.
+    pub fn bit_unequal(&self, other: &Self) -> u64 {
+        let differs = |a: &[f64; 4], b: &[f64; 4]| {
+            a.iter()
+                .zip(b)
+                .map(|(a, b)| (*a as f32, *b as f32))
+                .any(|(a, b)| a.to_bits() != b.to_bits() && !(a.is_nan() && b.is_nan()))
+        };
+        let mut unequal = vec![false; self.covered.len()];
+        for (ours, theirs) in self.attachments.iter().zip(&other.attachments) {
+            for ((unequal, a), b) in unequal.iter_mut().zip(ours).zip(theirs) {
+                *unequal |= differs(a, b);
+            }
+        }
+        unequal.into_iter().filter(|unequal| *unequal).count() as u64
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Picture;
+
+    fn picture(reds: &[f64]) -> Picture {
+        Picture {
+            width: reds.len() as u32,
+            height: 1,
+            attachments: vec![reds.iter().map(|&red| [red, 0.0, 0.0, 1.0]).collect()],
+            covered: vec![true; reds.len()],
+            bounds: None,
+            undecided: vec![false; reds.len()],
+            near_edge: vec![false; reds.len()],
+        }
+    }
+
+    #[test]
+    fn bits_are_those_of_f32() {
+        let ours = picture(&[0.1, 1.0, f64::NAN, 0.0]);
+        let theirs = picture(&[f64::from(0.1f32), 1.0 + 2e-7, f64::NAN, -0.0]);
+        assert_eq!(ours.bit_unequal(&theirs), 2);
+    }
+}
