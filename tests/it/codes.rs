@@ -19,7 +19,7 @@ static WITHOUT_EXAMPLE: &[(&str, &str)] = &[
     ("E0129", "too long for a page; tests/it/hostile.rs has it"),
     ("E0130", "too long for a page; tests/it/hostile.rs has it"),
     ("E0513", "too long for a page; src/analysis/tests.rs has it"),
-    ("W0701", "needs a binding by name; tests/it/link.rs has it"),
+    ("W0701", "needs a binding by name; a fixture has it"),
     ("W0108", "needs a second file; the fixtures have it"),
 ];
 

@@ -3,8 +3,8 @@
 //!
 //! A comment `//~ CODE start:end` expects a finding on its own line, `//~^ CODE start:end` on the line above (one `^`
 //! a line, lines that hold nothing but such comments not counted). Columns count from 1, the end is exclusive; a finding of several lines is `start:+lines:end`. A first line
-//! `// fixture: strict, NAME=VALUE, NAME` sets how the file is compiled. Two files of one stem under `fixtures/link`
-//! are one program.
+//! `// fixture: strict, NAME=VALUE, NAME, attribute NAME=LOCATION` sets how the file is compiled. Files under `fixtures/link`
+//! whose names are equal up to the first point are one program (`a.vert`, `a.2.vert`, `a.frag`).
 
 use crate::support::{Settings, Shader, compile, shaders_under};
 use glisten::diagnostic::Diagnostics;
@@ -20,6 +20,11 @@ fn settings(text: &str) -> Settings {
     let mut settings = Settings::default();
     let words = text.lines().next().and_then(|line| line.strip_prefix("// fixture:")).unwrap_or("");
     for word in words.split(',').map(str::trim).filter(|word| !word.is_empty()) {
+        if let Some((name, location)) = word.strip_prefix("attribute ").and_then(|binding| binding.split_once('=')) {
+            let location = location.parse().expect("the location of an attribute is a number");
+            settings.attribute_locations.push((name.to_owned(), location));
+            continue;
+        }
         match word.split_once('=') {
             Some((name, value)) => settings.defines.push((name.to_owned(), value.to_owned())),
             None if word == "strict" => settings.strict = true,
@@ -124,7 +129,9 @@ fn invalid_shaders_have_the_expected_findings() {
 fn linked_programs_have_the_expected_findings() {
     let mut programs: BTreeMap<String, Vec<Shader>> = BTreeMap::new();
     for shader in shaders_under("fixtures/link") {
-        let stem = Path::new(&shader.name).with_extension("").to_string_lossy().into_owned();
+        let file = Path::new(&shader.name).file_name().unwrap_or_default().to_string_lossy();
+        let stem = file.split('.').next().unwrap_or("").to_owned();
+        let stem = Path::new(&shader.name).with_file_name(stem).to_string_lossy().into_owned();
         programs.entry(stem).or_default().push(shader);
     }
     if !programs.is_empty() {

@@ -19,6 +19,7 @@ pub(crate) struct Shader {
 pub(crate) struct Settings {
     pub(crate) strict: bool,
     pub(crate) defines: Vec<(String, String)>,
+    pub(crate) attribute_locations: Vec<(String, u32)>,
 }
 
 /// Finds includes beside the file that names them.
@@ -70,7 +71,12 @@ pub(crate) fn shaders_under(folder: &str) -> Vec<Shader> {
 
 /// Everything that is found in the shaders of one program.
 pub(crate) fn compile(shaders: &[Shader], settings: &Settings) -> (SourceMap, Diagnostics) {
-    let options = Options { defines: settings.defines.clone(), strict: settings.strict, ..Options::default() };
+    let options = Options {
+        defines: settings.defines.clone(),
+        strict: settings.strict,
+        attribute_locations: settings.attribute_locations.clone(),
+        ..Options::default()
+    };
     let source =
         |shader: &Shader| Source { name: shader.name.clone(), text: shader.text.as_str().into(), stage: shader.stage };
     let sources: Vec<Source> = shaders.iter().map(source).collect();
