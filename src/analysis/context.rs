@@ -74,6 +74,8 @@ pub(super) struct Analyzer<'a> {
     /// The scalars of all globals so far, and of all locals of the function being read.
     pub(super) n_global_scalars: u32,
     pub(super) n_local_scalars: u32,
+    /// The globals that need a place of their own at a border of the stage.
+    pub(super) n_places: u32,
     /// How many times a name like an unknown one was looked for.
     pub(super) n_suggestions: u32,
     /// The built-in variables that are named or redeclared.
@@ -136,6 +138,7 @@ impl<'a> Analyzer<'a> {
             member_indices: FxHashMap::default(),
             n_global_scalars: 0,
             n_local_scalars: 0,
+            n_places: 0,
             n_suggestions: 0,
             block_defaults: BlockDefaults::default(),
             geometry_size: None,

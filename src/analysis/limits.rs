@@ -15,6 +15,10 @@ const MAX_SCALARS: u32 = 1 << 20;
 /// The scalars of all uniforms of a shader: 64 times what drivers have.
 const MAX_UNIFORM_SCALARS: u32 = 1 << 18;
 
+/// The inputs, outputs, blocks and samplers of a shader: each needs a place of its own, and no target has more than a
+/// thousand of any kind.
+const MAX_PLACES: u32 = 4096;
+
 impl Analyzer<'_> {
     /// Whether a type is small enough to exist.
     pub(super) fn check_size(&mut self, ty: TypeId, span: Span) -> bool {
@@ -22,8 +26,17 @@ impl Analyzer<'_> {
     }
 
     /// Whether a global still fits beside those before it.
-    pub(super) fn check_global_size(&mut self, ty: TypeId, storage: Storage, span: Span) -> bool {
+    pub(super) fn check_global_size(&mut self, ty: TypeId, storage: Storage, is_block: bool, span: Span) -> bool {
         let limit = if storage == Storage::Uniform { MAX_UNIFORM_SCALARS } else { MAX_SCALARS };
+        let has_place = matches!(storage, Storage::In | Storage::Out) || is_block || self.types.contains_sampler(ty);
+        self.n_places += u32::from(has_place);
+        if has_place && self.n_places > MAX_PLACES {
+            self.report(
+                Diagnostic::new(&types::TOO_LARGE, span, "this is too much for any target")
+                    .here(format!("more than {MAX_PLACES} inputs, outputs, blocks and samplers")),
+            );
+            return false;
+        }
         self.n_global_scalars = self.n_global_scalars.saturating_add(self.types.flat_len(ty));
         self.check_scalars(self.n_global_scalars, limit, span)
     }

@@ -225,7 +225,7 @@ impl Analyzer<'_> {
                 ty
             }
         };
-        let ty = if self.check_global_size(ty, storage, block.name.span) { ty } else { TypeId::ERROR };
+        let ty = if self.check_global_size(ty, storage, true, block.name.span) { ty } else { TypeId::ERROR };
         let (span, own_name) = match &block.instance {
             Some((instance, _)) => (instance.span, self.name(*instance)),
             None => (block.name.span, name),

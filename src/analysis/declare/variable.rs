@@ -81,7 +81,7 @@ impl Analyzer<'_> {
         let layout = self.layout(record, self.layout_place(storage, ty));
         self.check_index_location(&layout);
         let ty = self.check_global_type(ty, storage, record, ty_span, name.span);
-        let fits = self.check_global_size(ty, storage, name.span);
+        let fits = self.check_global_size(ty, storage, false, name.span);
         let ty = if fits { ty } else { TypeId::ERROR };
         let (ty, initial) = self.global_initializer(declarator, ty, storage);
         let ty = self.sized_by_geometry(ty, storage, name.span);

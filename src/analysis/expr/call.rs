@@ -122,6 +122,10 @@ impl Analyzer<'_> {
             }
             Resolution::Missing => {
                 let mut finding = self.no_overload(name, given);
+                if !functions::named(self.name(name)).is_empty() {
+                    finding =
+                        finding.help("a function of the shader hides all built-in ones of its name; give it another");
+                }
                 for &id in candidates.iter().take(4) {
                     finding = finding.label(self.shader.function(id).span, self.describe(id));
                 }

@@ -101,7 +101,8 @@ codes! {
         good Fragment("#extension GL_ARB_shading_language_420pack : enable\nout vec4 c; void main() { vec2 a = {1.0, 2.0}; c = vec4(a, a); }");
     TOO_LARGE = "E0422" "too-large-to-bind" Error ""
         "A type may hold 1,048,576 numbers, and so may all variables of a function, or of a shader beside its uniforms; \
-         all uniforms of a shader together 262,144. No target can bind more."
+         all uniforms of a shader together 262,144. Its inputs, outputs, blocks and samplers may be 4,096. No target can bind \
+         more."
         bad Vertex("struct A { mat4 m[4096]; }; struct B { A a[16]; }; uniform B b[2]; void main() { gl_Position = b[0].a[0].m[0][0]; }"),
         good Vertex("struct A { mat4 m[16]; }; struct B { A a[16]; }; uniform B b[2]; void main() { gl_Position = b[0].a[0].m[0][0]; }");
     PRECISION_TYPE = "E0421" "bad-precision-type" Error "GLSL 1.50 §4.5.2, §4.5.3"
