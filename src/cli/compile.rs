@@ -13,7 +13,7 @@ use super::session::{Session, Unit};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::general::LONE_STAGE;
 use crate::emit::{self, Conventions, Target};
-use crate::hir::Stage;
+use crate::hir::{self, Stage};
 use crate::link::Program;
 use crate::source::{SourceMap, Span};
 use clap::{Args, ValueEnum};
@@ -29,7 +29,7 @@ pub(super) struct CompileArgs {
     #[arg(required_unless_present = "programs", value_name = "FILE")]
     files: Vec<String>,
     /// The folder to write to
-    #[arg(short, long, value_name = "DIR", required_unless_present = "check")]
+    #[arg(short, long, value_name = "DIR", required_unless_present_any = ["check", "emit"])]
     output: Option<PathBuf>,
     /// What to write (repeatable; default: wgsl and spirv)
     #[arg(long = "target", value_enum)]
@@ -37,6 +37,9 @@ pub(super) struct CompileArgs {
     /// Checks everything and writes nothing
     #[arg(long)]
     check: bool,
+    /// Prints what is between the languages instead of writing files
+    #[arg(long, value_enum, conflicts_with_all = ["output", "depfile", "check"])]
+    emit: Option<EmitArg>,
     /// Writes a Make rule of all outputs, inputs and includes
     #[arg(long, value_name = "FILE")]
     depfile: Option<PathBuf>,
@@ -56,6 +59,13 @@ pub(super) struct CompileArgs {
     conventions: ConventionArgs,
     #[command(flatten)]
     levels: LevelArgs,
+}
+
+/// What `--emit` prints.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum EmitArg {
+    /// The typed program as GLSL: conversions explicit, constants folded
+    Hir,
 }
 
 /// A target on the command line.
@@ -100,6 +110,11 @@ pub(super) fn run(args: &CompileArgs, console: &Console) -> Outcome {
     let plan = Plan::new(args, &inputs.groups)?;
     let mut session = Session::new(console, &args.sources, &args.bindings, &args.levels, args.jobs)?;
     let mut units = session.compile(inputs.groups);
+    if let Some(EmitArg::Hir) = args.emit {
+        let exit = session.tell_units(&units, false)?;
+        console.output(&typed_programs(&units))?;
+        return Ok(exit);
+    }
     for unit in &mut units {
         warn_of_lone_stage(unit);
         session.judge(&mut unit.batch);
@@ -255,6 +270,20 @@ impl Plan {
             .collect();
         format!("{}: {}\n", targets.join(" "), sources.join(" "))
     }
+}
+
+/// All stages of all programs, each headed by its file's name.
+fn typed_programs(units: &[Unit]) -> String {
+    let mut text = String::new();
+    for unit in units {
+        let Some(program) = unit.sound_program() else { continue };
+        for shader in &program.stages {
+            let input = unit.group.inputs.iter().find(|input| input.stage == shader.stage);
+            let name = input.map_or("", |input| &input.name);
+            text.push_str(&format!("// {name}\n{}\n", hir::print(&program.types, shader)));
+        }
+    }
+    text
 }
 
 /// A file name as a word of a Make rule.
