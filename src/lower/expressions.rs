@@ -164,16 +164,33 @@ impl Ctx<'_, '_> {
             self.branch(condition, accept, reject);
             return Err(self.slip("an operand of `?:` has no value"));
         }
+        self.chosen(condition, accept, reject, ty)
+    }
+
+    /// A chain `a ? b : c ? d : ..` as branches that write to one variable.
+    fn chosen(
+        &mut self,
+        condition: Handle<Expression>,
+        accept: ExprId,
+        reject: ExprId,
+        ty: TypeId,
+    ) -> Try<Handle<Expression>> {
         let result = self.variable_of("chosen", ty)?;
-        let mut side = |id| {
-            self.in_block(|ctx| {
-                let value = ctx.value(id)?;
-                ctx.store(result, value);
-                Ok(())
-            })
+        let put = |ctx: &mut Self, id| {
+            let value = ctx.value(id)?;
+            ctx.store(result, value);
+            Ok(())
         };
-        let accept = side(accept)?;
-        let reject = side(reject)?;
+        let mut arms = Vec::new();
+        let mut last = reject;
+        while let ExprKind::Ternary(condition, accept, reject) = self.shader.expr(last).kind {
+            arms.push((condition, accept));
+            last = reject;
+        }
+        let accept = self.in_block(|ctx| put(ctx, accept))?;
+        let reject = self.in_block(|ctx| {
+            ctx.first_of(&arms, &|ctx, arm| ctx.value(arm.0), &|ctx, arm| put(ctx, arm.1), &|ctx| put(ctx, last))
+        })?;
         self.statement(Statement::If { condition, accept, reject });
         Ok(self.load(result))
     }

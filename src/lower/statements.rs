@@ -4,7 +4,7 @@ use super::Try;
 use super::function::{Ctx, Slot};
 use crate::emit::Target;
 use crate::hir::{ExprId, LocalId, LocalKind, Stmt, StmtKind, TypeId};
-use naga::{Block, Expression, Statement};
+use naga::{Block, Expression, Handle, Statement};
 
 /// How many arms of an `else if` chain nest in the text. Past so many, a flag carries the chain on at the outer level:
 /// naga and Tint read no text that nests a thousand levels, and its indentation alone would be megabytes.
@@ -24,14 +24,6 @@ impl Ctx<'_, '_> {
             done?;
         }
         Ok(())
-    }
-
-    /// The statements of a block that has a scope of its own.
-    pub(super) fn scope(&mut self, body: &[Stmt]) -> Try<Block> {
-        let in_switch = std::mem::replace(&mut self.in_switch, false);
-        let block = self.in_block(|ctx| ctx.body(body));
-        self.in_switch = in_switch;
-        block
     }
 
     fn stmt(&mut self, stmt: &Stmt) -> Try<()> {
@@ -144,8 +136,27 @@ impl Ctx<'_, '_> {
 
     /// `if .. else if .. else`, flat if it is long.
     fn chain(&mut self, arms: &[(ExprId, Vec<Stmt>)], otherwise: &[Stmt]) -> Try<()> {
+        let in_switch = std::mem::replace(&mut self.in_switch, false);
+        let lowered = self.first_of(
+            arms,
+            &|ctx, (condition, _)| ctx.value(*condition),
+            &|ctx, (_, body)| ctx.body(body),
+            &|ctx| ctx.body(otherwise),
+        );
+        self.in_switch = in_switch;
+        lowered
+    }
+
+    /// The body of the first arm whose condition holds, or `otherwise`.
+    pub(super) fn first_of<A>(
+        &mut self,
+        arms: &[A],
+        condition: Condition<'_, Self, A>,
+        body: Body<'_, Self, A>,
+        otherwise: &dyn Fn(&mut Self) -> Try<()>,
+    ) -> Try<()> {
         if arms.len() <= NESTED_ARMS {
-            return self.arms(arms, &mut |ctx| ctx.body(otherwise));
+            return self.nested(arms, condition, body, otherwise);
         }
         let ty = self.low.value_type(TypeId::BOOL)?;
         let rest = self.variable("go_on", ty);
@@ -154,33 +165,43 @@ impl Ctx<'_, '_> {
         let mut chunks = arms.chunks(NESTED_ARMS).peekable();
         while let Some(chunk) = chunks.next() {
             let is_last = chunks.peek().is_none();
-            let condition = self.load(rest);
+            let goes_on = self.load(rest);
             let accept = self.in_block(|ctx| {
                 ctx.store(rest, no);
-                ctx.arms(chunk, &mut |ctx| {
+                ctx.nested(chunk, condition, body, &|ctx| {
                     if is_last {
-                        return ctx.body(otherwise);
+                        return otherwise(ctx);
                     }
                     ctx.store(rest, yes);
                     Ok(())
                 })
             })?;
-            self.statement(Statement::If { condition, accept, reject: Block::new() });
+            self.statement(Statement::If { condition: goes_on, accept, reject: Block::new() });
         }
         Ok(())
     }
 
-    fn arms(&mut self, arms: &[(ExprId, Vec<Stmt>)], otherwise: &mut dyn FnMut(&mut Self) -> Try<()>) -> Try<()> {
-        let Some(((condition, body), rest)) = arms.split_first() else { return otherwise(self) };
-        let condition = self.value(*condition)?;
-        let accept = self.scope(body)?;
-        let in_switch = std::mem::replace(&mut self.in_switch, false);
-        let reject = self.in_block(|ctx| ctx.arms(rest, otherwise));
-        self.in_switch = in_switch;
-        self.statement(Statement::If { condition, accept, reject: reject? });
+    fn nested<A>(
+        &mut self,
+        arms: &[A],
+        condition: Condition<'_, Self, A>,
+        body: Body<'_, Self, A>,
+        otherwise: &dyn Fn(&mut Self) -> Try<()>,
+    ) -> Try<()> {
+        let Some((arm, rest)) = arms.split_first() else { return otherwise(self) };
+        let holds = condition(self, arm)?;
+        let accept = self.in_block(|ctx| body(ctx, arm))?;
+        let reject = self.in_block(|ctx| ctx.nested(rest, condition, body, otherwise))?;
+        self.statement(Statement::If { condition: holds, accept, reject });
         Ok(())
     }
 }
+
+/// Evaluates the condition of an arm.
+type Condition<'f, C, A> = &'f dyn Fn(&mut C, &A) -> Try<Handle<Expression>>;
+
+/// Lowers the body of an arm.
+type Body<'f, C, A> = &'f dyn Fn(&mut C, &A) -> Try<()>;
 
 /// Whether nothing behind the block can be reached.
 pub(super) fn terminates(block: &Block) -> bool {
