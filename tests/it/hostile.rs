@@ -4,6 +4,7 @@ use glisten::diagnostic::Diagnostics;
 use glisten::hir::Stage;
 use glisten::source::{IncludeForm, IncludeResolver, Included, SourceMap};
 use glisten::syntax::{Options, parse};
+use glisten::{Compiler, Source};
 use std::fmt::Write as _;
 
 /// Every include finds a file that includes itself.
@@ -15,7 +16,21 @@ impl IncludeResolver for Endless {
     }
 }
 
-/// The codes of all findings, parsed on a small stack.
+/// The stack that each source gets.
+const STACK: usize = 1 << 20;
+
+/// The codes of all findings of a whole compilation on a small stack.
+fn compiled(text: String) -> Vec<&'static str> {
+    let run = move || {
+        let source = Source { name: "hostile.vert".into(), text: text.into(), stage: Stage::Vertex };
+        let compilation = Compiler::new(glisten::Options::default()).with_includes(Endless).compile(&[source]);
+        compilation.diagnostics.iter().map(|diagnostic| diagnostic.code.id).collect()
+    };
+    let thread = std::thread::Builder::new().stack_size(STACK).spawn(run);
+    thread.expect("a thread").join().expect("no panic and no overflow")
+}
+
+/// The codes of all findings of the parse on a small stack.
 fn codes(text: String) -> Vec<&'static str> {
     let run = move || {
         let mut sources = SourceMap::default();
@@ -25,7 +40,7 @@ fn codes(text: String) -> Vec<&'static str> {
         parse(&mut sources, file, &options, &Endless, &mut diagnostics);
         diagnostics.iter().map(|diagnostic| diagnostic.code.id).collect()
     };
-    let thread = std::thread::Builder::new().stack_size(1 << 20).spawn(run);
+    let thread = std::thread::Builder::new().stack_size(STACK).spawn(run);
     thread.expect("a thread").join().expect("no panic and no overflow")
 }
 
@@ -68,6 +83,7 @@ fn nesting_is_bounded() {
     ];
     for text in deep {
         let head: String = text.chars().skip(13).take(40).collect();
+        assert!(compiled(text.clone()).contains(&"E0003"), "{head}");
         let codes = codes(text);
         assert!(codes.contains(&"E0003"), "{head}: {codes:?}");
         assert!(codes.len() < 5, "{head}: {codes:?}");
@@ -81,21 +97,23 @@ fn brackets_without_operands_are_no_nesting() {
 
 #[test]
 fn long_chains_are_legal() {
-    let sum = (0..10_000).fold("x".to_owned(), |mut sum, n| {
-        let _ = write!(sum, " + a{n} * 2.0");
-        sum
-    });
-    let arms = "if (a) b = 1; else ".repeat(1_000);
-    for text in [
-        in_main(&format!("float a = {sum};")),
-        in_main(&format!("{arms} b = 2;")),
-        in_main(&format!("{arms} b = 2;").repeat(10)),
-        in_main(&format!("{}b += 1;", "a += 1, ".repeat(5_000))),
-        in_main(&format!("float a = {}1.0{};", "(".repeat(120), ")".repeat(120))),
-        in_main(&format!("{}{}", "{".repeat(250), "}".repeat(250))),
-    ] {
-        let head: String = text.chars().take(60).collect();
-        assert_eq!(codes(text), Vec::<&str>::new(), "{head}");
+    let sum = format!("x{}", " + x * 2.0".repeat(10_000));
+    let arms = "if (x > 1.0) y = 1.0; else ".repeat(1_000);
+    let bodies = [
+        format!("y = {sum};"),
+        format!("{arms} y = 2.0;"),
+        format!("{arms} y = 2.0;").repeat(10),
+        format!("{}y += 1.0;", "x += 1.0, ".repeat(5_000)),
+        format!("y = {}1.0{};", "(".repeat(120), ")".repeat(120)),
+        format!("y = {}x{};", "-(".repeat(120), ")".repeat(120)),
+        format!("{}y = x;{}", "{".repeat(250), "}".repeat(250)),
+        format!("{}y = x;", "if (x > 1.0) ".repeat(200)),
+        "y = x;".repeat(10_000),
+    ];
+    for body in bodies {
+        let head: String = body.chars().take(40).collect();
+        let text = in_main(&format!("float x = 1.0; float y; {body} gl_Position = vec4(y);"));
+        assert_eq!(compiled(text), Vec::<&str>::new(), "{head}");
     }
 }
 
