@@ -9,6 +9,7 @@ mod emit;
 #[cfg(feature = "gpu")]
 mod gpu;
 mod hostile;
+mod link;
 mod lint;
 mod print;
 #[cfg(feature = "gpu")]
