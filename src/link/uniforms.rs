@@ -14,6 +14,7 @@ use crate::hir::{
     ArraySize, BlockLayout, Global, GlobalId, MatrixLayout, ScalarValue, Shader, Stage, Storage, Type, TypeId, Types,
     Value,
 };
+use rustc_hash::FxHashMap;
 
 const GROUP: u32 = 0;
 
@@ -66,13 +67,12 @@ fn reads_frag_coord(stages: &[Shader]) -> bool {
 /// One row a name, in the order of the first declarations.
 fn unite<'a>(ctx: &mut Context<'_>, stages: &'a [Shader]) -> Vec<Shared<'a>> {
     let mut all: Vec<Shared<'a>> = Vec::new();
+    let mut places: FxHashMap<(bool, &'a str), usize> = FxHashMap::default();
     for shader in stages {
         for (id, global) in shader.globals().filter(|(_, global)| is_shared(global)) {
             let name = super::matching::match_name(global);
-            let same = |known: &&mut Shared<'_>| {
-                known.is_block() == global.block.is_some() && super::matching::match_name(known.global) == name
-            };
-            match all.iter_mut().find(same) {
+            let place = *places.entry((global.block.is_some(), name)).or_insert(all.len());
+            match all.get_mut(place) {
                 Some(known) => {
                     check_same(ctx, known, shader.stage, global);
                     known.globals.push((shader.stage, id));
