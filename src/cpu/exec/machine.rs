@@ -3,6 +3,7 @@
 use super::code::{Code, Inner, PoolSource, Port};
 use super::inst::Class;
 use super::registers::Registers;
+use super::run::bits_where;
 use super::{LANES, Mask};
 use crate::cpu::domain::{Domain, Integer, Number};
 use crate::hir::{GlobalId, ScalarValue};
@@ -89,6 +90,9 @@ impl<D: Domain> Machine<D> {
         // Once a machine has run away it is likely to do so again: then it shall be soon.
         self.budget = if self.budget_exceeded { self.loop_budget >> 6 } else { self.loop_budget };
         self.execute(&inner.main, inner, live.0 | helpers.0);
+        for port in inner.outputs.iter().filter(|port| port.class == Class::Int) {
+            self.undecided |= self.registers.ints.get(port.register).map_or(0, |lanes| bits_where(lanes).1);
+        }
         self.discarded &= live.0;
         self.undecided &= live.0;
     }
@@ -112,7 +116,7 @@ impl<D: Domain> Machine<D> {
     }
 
     /// The lanes of the last run in which the domain could not tell which way a branch goes or which element an index
-    /// means; they followed the value. Always empty in domains without bounds.
+    /// means, or what an integer output holds; they followed the value. Always empty in domains without bounds.
     pub fn undecided(&self) -> Mask {
         Mask(self.undecided)
     }

@@ -347,7 +347,7 @@ impl Compiler<'_> {
                 self.binary(op, &left, ty, &right, value_ty, ty)
             }
         };
-        if value.len() != self.types.flat_len(ty) as usize {
+        if value.len() != self.types.flat_len(ty) as usize && !self.full() {
             let span = self.shader.expr(place).span;
             self.refuse(&codes::general::INTERNAL, span, "an assignment of another size");
         }

@@ -35,7 +35,7 @@ use vars::{Var, VarId};
 /// The most scalars that one value may have.
 const MAX_SCALARS: u32 = 1 << 20;
 /// The most instructions of a stage, all calls inlined.
-const MAX_INSTRUCTIONS: usize = 1 << 21;
+const MAX_INSTRUCTIONS: usize = 1 << 20;
 
 /// The scalars of a value in flat order.
 type Val = SmallVec<[Operand; 4]>;
