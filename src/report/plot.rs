@@ -52,6 +52,9 @@ impl Axis {
     }
 }
 
+/// Where a way stands in the plot.
+type Place<'a> = &'a dyn Fn(&Way) -> (f64, f64);
+
 /// The whole plot.
 pub(super) fn svg(report: &Report) -> String {
     let error = |way: &Way| way.error.rmse.max(LEAST_ERROR);
@@ -131,7 +134,7 @@ fn power(tick: f64) -> String {
 }
 
 /// The Pareto front from the fastest to the most exact.
-fn front(svg: &mut String, ways: &[&Way], point: &dyn Fn(&Way) -> (f64, f64)) {
+fn front(svg: &mut String, ways: &[&Way], point: Place<'_>) {
     let mut best: Vec<(f64, f64)> = ways.iter().filter(|way| way.pareto).map(|way| point(way)).collect();
     best.sort_by(|a, b| a.0.total_cmp(&b.0));
     let path: Vec<String> = best.iter().map(|(x, y)| format!("{x:.1},{y:.1}")).collect();
@@ -141,13 +144,7 @@ fn front(svg: &mut String, ways: &[&Way], point: &dyn Fn(&Way) -> (f64, f64)) {
     }
 }
 
-fn series(
-    svg: &mut String,
-    ways: &[&Way],
-    name: &str,
-    [model, shape]: [usize; 2],
-    (axis, point): (&Axis, &dyn Fn(&Way) -> (f64, f64)),
-) {
+fn series(svg: &mut String, ways: &[&Way], name: &str, [model, shape]: [usize; 2], (axis, point): (&Axis, Place<'_>)) {
     let members: Vec<&&Way> = ways.iter().filter(|way| way.name == name).collect();
     let path: Vec<String> = members.iter().map(|way| point(way)).map(|(x, y)| format!("{x:.1},{y:.1}")).collect();
     let _ = writeln!(svg, "<polyline class=\"way shape-{shape}\" points=\"{}\"/>", path.join(" "));

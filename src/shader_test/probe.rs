@@ -37,11 +37,9 @@ pub(super) fn check(mut words: Words<'_>, picture: &Picture, tolerance: [f64; 4]
             };
             let index = row as usize * picture.width as usize + x as usize;
             let Some(color) = pixels.get(index) else { continue };
-            let far = |((seen, wanted), tolerance): ((&f64, &f64), &f64)| {
-                // Not `>`: a NaN is far from everything.
-                !((seen - wanted).abs() <= *tolerance)
-            };
-            if color.iter().zip(&probe.color).zip(&tolerance).any(far) {
+            // A NaN is near nothing.
+            let near = |((seen, wanted), tolerance): ((&f64, &f64), &f64)| (seen - wanted).abs() <= *tolerance;
+            if !color.iter().zip(&probe.color).zip(&tolerance).all(near) {
                 return fail(
                     line,
                     format_args!(

@@ -60,7 +60,7 @@ impl Units {
                 let [width, height] = size(words)?;
                 let colors = [words.numbers::<4>()?, words.numbers::<4>()?].map(|color| color.map(|c| c as f32));
                 let (across, up) = ((width / 2).max(1), (height / 2).max(1));
-                let board = image(width, height, |x, y| colors[((x / across ^ y / up) & 1) as usize]);
+                let board = image(width, height, |x, y| colors[(((x / across) ^ (y / up)) & 1) as usize]);
                 if level > unit.levels.len() {
                     return skip(line, "levels of a texture out of order");
                 }
