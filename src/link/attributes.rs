@@ -125,8 +125,9 @@ fn place_fixed(ctx: &mut Context<'_>, vertex: &Shader, taken: &mut Taken, candid
         ctx.report(Diagnostic::new(&codes::link::TOO_MANY_ATTRIBUTES, global.span, message));
         return;
     }
-    if let Some(other) = taken.holder(location, columns) {
-        aliased(ctx, vertex, (other, id), location);
+    let shared = (location..location + columns).find_map(|slot| Some((slot, taken.holder(slot, 1)?)));
+    if let Some((slot, other)) = shared {
+        aliased(ctx, vertex, (other, id), slot);
     }
     taken.mark(location, columns, id);
 }

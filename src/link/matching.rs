@@ -156,11 +156,15 @@ fn check_type(ctx: &mut Context<'_>, pair: &Pair<'_>) {
     let matches =
         per_vertex(types, pair.consumer, pair.input.ty).is_some_and(|input| same_type(types, input, pair.output.ty));
     if !matches {
-        let (theirs, ours) = (types.name(pair.output.ty), types.name(pair.input.ty));
+        let theirs = format!("`{}`", types.name(pair.output.ty));
+        let ours = match per_vertex(types, pair.consumer, pair.input.ty) {
+            Some(ty) if pair.consumer == Stage::Geometry => format!("`{}` of each vertex", types.name(ty)),
+            _ => format!("`{}`", types.name(pair.input.ty)),
+        };
         let same_spelling = theirs == ours;
         let what =
             if same_spelling { "is not the same struct in both stages" } else { "changes its type between the stages" };
-        pair.report(ctx, &codes::link::INTERFACE_TYPE_MISMATCH, what, format!("`{theirs}`"), format!("`{ours}`"));
+        pair.report(ctx, &codes::link::INTERFACE_TYPE_MISMATCH, what, theirs, ours);
     }
 }
 
