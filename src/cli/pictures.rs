@@ -57,7 +57,7 @@ impl Target {
     }
 
     /// The files with their contents, and how many numbers were not representable (NaN in a PNG).
-    pub(super) fn encode(&self, picture: &Picture) -> Result<(Vec<(PathBuf, Vec<u8>)>, usize), Failure> {
+    pub(super) fn encode(&self, picture: &Picture) -> Result<(Vec<File>, usize), Failure> {
         let mut files = Vec::new();
         let mut nans = 0;
         let count = if self.name.contains("%d") { picture.attachments.len() } else { 1 };
@@ -79,6 +79,9 @@ impl Target {
         Ok((files, nans))
     }
 }
+
+/// A file to write.
+type File = (PathBuf, Vec<u8>);
 
 /// What an encoder complains of.
 type EncodeError = Box<dyn std::error::Error>;

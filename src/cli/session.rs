@@ -170,10 +170,10 @@ impl<'a> Session<'a> {
         } else {
             self.console.message(&text);
         }
-        if self.format == DiagnosticFormat::Human {
-            if let Some(summary) = summary(&told.findings, self.dropped) {
-                self.console.remark(&summary);
-            }
+        if self.format == DiagnosticFormat::Human
+            && let Some(summary) = summary(&told.findings, self.dropped)
+        {
+            self.console.remark(&summary);
         }
         Ok(all.iter().map(|batch| Exit::of(&batch.diagnostics)).max().unwrap_or_default())
     }
@@ -236,7 +236,7 @@ fn compile_group(compiler: &Compiler, group: Group) -> (Unit, usize) {
         return (Unit { group, unread, batch: Batch::default(), program: None }, 0);
     }
     let compiled = guard::guarded(|| compiler.compile(&sources));
-    let unit = match compiled {
+    match compiled {
         Ok(compilation) => {
             let dropped = compilation.diagnostics.dropped();
             let diagnostics = compilation.diagnostics.into_iter().collect();
@@ -245,8 +245,7 @@ fn compile_group(compiler: &Compiler, group: Group) -> (Unit, usize) {
             (Unit { group, unread, batch: Batch { sources: compilation.sources, diagnostics }, program }, dropped)
         }
         Err(panic) => (Unit { group, unread, batch: internal(&sources, &panic), program: None }, 0),
-    };
-    unit
+    }
 }
 
 /// A batch that tells of a slip in the compilation of these sources.

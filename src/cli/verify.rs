@@ -138,7 +138,7 @@ fn compare(
     let start = Instant::now();
     let cpu = args.scene.within_time({
         let scene = Arc::clone(&scene);
-        move || Ok(reference(&scene)?)
+        move || reference(&scene)
     })?;
     let cpu_ms = start.elapsed().as_secs_f64() * 1e3;
     progress.step();

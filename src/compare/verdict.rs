@@ -230,7 +230,7 @@ impl<'a> Tally<'a> {
                 (true, true) => {
                     let difference = (gpu - cpu).abs();
                     // A bound that is not a number allows nothing.
-                    error.outside |= !(difference <= bound);
+                    error.outside |= difference > bound || bound.is_nan();
                     let share = if difference == 0.0 { 0.0 } else { difference / bound.max(f64::MIN_POSITIVE) };
                     error.share = error.share.max(share);
                 }
