@@ -15,6 +15,7 @@ pub mod compiler;
 pub mod diagnostic;
 pub mod emit;
 pub mod hir;
+pub mod library;
 pub mod link;
 pub mod lint;
 pub mod lower;

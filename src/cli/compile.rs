@@ -14,6 +14,7 @@ use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::general::LONE_STAGE;
 use crate::emit::{self, Conventions, Target};
 use crate::hir::{self, Stage};
+use crate::library;
 use crate::link::Program;
 use crate::source::{SourceMap, Span};
 use clap::{Args, ValueEnum};
@@ -265,7 +266,7 @@ impl Plan {
             .iter()
             .flat_map(|unit| unit.batch.sources.files())
             .map(|(_, file)| file.name())
-            .filter(|name| !standard_input(name) && seen.insert(name.to_string()))
+            .filter(|name| !standard_input(name) && !library::is_embedded(name) && seen.insert(name.to_string()))
             .map(make_word)
             .collect();
         format!("{}: {}\n", targets.join(" "), sources.join(" "))

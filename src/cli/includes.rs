@@ -1,9 +1,11 @@
 //! [`DiskIncludes`]: finds on disk what `#include` names.
 //!
-//! *Holds:* `"x"` is looked for beside the including file, then along `-I` in the order given; `<x>` along `-I` only.
+//! *Holds:* `"x"` is looked for beside the including file, then along `-I` in the order given; `<x>` along `-I`, then among
+//! the embedded modules (`<glisten/phong.glsl>`).
 //! An include found is named by the path that led to it, so that diagnostics and depfiles show a path that opens.
 
 use super::files;
+use crate::library::{self, Embedded};
 use crate::source::{IncludeForm, IncludeResolver, Included};
 use std::path::{Component, Path, PathBuf};
 
@@ -31,6 +33,9 @@ impl IncludeResolver for DiskIncludes {
         if path.is_empty() {
             return Err("an include names no file".to_owned());
         }
+        if let (IncludeForm::Quoted, Some(module)) = (form, Embedded::find(path, form, from)) {
+            return Ok(module);
+        }
         let candidates = self.candidates(path, form, from);
         for candidate in &candidates {
             if !candidate.exists() {
@@ -45,6 +50,12 @@ impl IncludeResolver for DiskIncludes {
                 files::text_of(&name, bytes).map_err(|error| error.message)?
             };
             return Ok(Included { name, text });
+        }
+        if let Some(module) = Embedded::find(path, form, from) {
+            return Ok(module);
+        }
+        if form == IncludeForm::Angled && path.starts_with("glisten/") {
+            return Err(library::missing(path));
         }
         let looked: Vec<String> = candidates.iter().map(|candidate| format!("`{}`", candidate.display())).collect();
         Err(match looked.len() {

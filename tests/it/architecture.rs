@@ -21,6 +21,8 @@ static FORBIDDEN: &[(&str, &[&str])] = &[
     ("analysis/", &["naga::", "wgpu::", "clap::", "crate::cli", "crate::lower", "std::fs", "std::env"]),
     ("link/", &["naga::", "wgpu::", "clap::", "crate::cli", "crate::lower", "std::fs", "std::env"]),
     ("lint/", &["naga::", "wgpu::", "clap::", "crate::cli", "crate::lower", "std::fs", "std::env"]),
+    ("library/", &["naga::", "wgpu::", "clap::", "crate::cli", "std::env"]),
+    ("shader_test/", &["naga::", "wgpu::", "clap::", "crate::cli", "std::env"]),
     ("lower/", &["wgpu::", "clap::", "crate::cli", "crate::cpu", "std::fs", "std::env"]),
     ("emit/", &["wgpu::", "clap::", "crate::cli", "crate::cpu", "std::fs", "std::env"]),
     ("scene/", &["naga::", "wgpu::", "clap::", "crate::cli", "crate::lower", "std::env"]),

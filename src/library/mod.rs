@@ -1,0 +1,136 @@
+//! The lighting models that come with glisten, as modules to include: `#include <glisten/phong.glsl>`.
+//!
+//! *In:* the files under `shader_lib`, embedded. *Out:* [`modules`], and [`Embedded`], which resolves includes of them.
+//!
+//! *Holds:* every function there is total: a finite result for every finite input. A module includes what it needs and
+//! may be included twice.
+
+use crate::source::{IncludeForm, IncludeResolver, Included};
+
+/// The folder of the modules in an include: `<glisten/...>`.
+const FOLDER: &str = "glisten/";
+/// What stands before a module's file name where the name of a file is shown.
+const SHOWN: &str = "<glisten>/";
+
+/// A module of the library.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Module {
+    /// Its name: `phong`.
+    pub name: &'static str,
+    /// Its text, GLSL 1.50 without a `#version` line.
+    pub text: &'static str,
+}
+
+macro_rules! module {
+    ($name:literal) => {
+        Module { name: $name, text: include_str!(concat!("../../shader_lib/", $name, ".glsl")) }
+    };
+}
+
+static MODULES: &[Module] = &[
+    module!("ambient"),
+    module!("attenuation"),
+    module!("blinn_phong"),
+    module!("half_lambert"),
+    module!("hemisphere"),
+    module!("illumination"),
+    module!("lambert"),
+    module!("naive"),
+    module!("normal"),
+    module!("outline"),
+    module!("phong"),
+    module!("quartic"),
+    module!("safe"),
+    module!("schlick"),
+    module!("specular_lut"),
+    module!("spot"),
+    module!("threshold"),
+    module!("toon"),
+];
+
+/// All modules, by name.
+pub fn modules() -> &'static [Module] {
+    MODULES
+}
+
+/// Whether a file's name is that of a module, and no file on disk.
+pub fn is_embedded(name: &str) -> bool {
+    name.starts_with(SHOWN)
+}
+
+/// Resolves `<glisten/phong.glsl>`, and what the modules include of each other; nothing else.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Embedded;
+
+impl Embedded {
+    /// The module that an include means, if it means one.
+    pub fn find(path: &str, form: IncludeForm, from: &str) -> Option<Included> {
+        let file = match form {
+            IncludeForm::Angled => path.strip_prefix(FOLDER)?,
+            IncludeForm::Quoted => path.strip_prefix("./").unwrap_or(path),
+        };
+        if form == IncludeForm::Quoted && !is_embedded(from) {
+            return None;
+        }
+        let name = file.strip_suffix(".glsl")?;
+        let module = MODULES.iter().find(|module| module.name == name)?;
+        Some(Included { name: format!("{SHOWN}{file}"), text: module.text.into() })
+    }
+}
+
+impl IncludeResolver for Embedded {
+    fn resolve(&self, path: &str, form: IncludeForm, from: &str) -> Result<Included, String> {
+        Self::find(path, form, from).ok_or_else(|| missing(path))
+    }
+}
+
+/// Why there is no module for an include, with the nearest one.
+pub fn missing(path: &str) -> String {
+    let name = path.trim_start_matches(FOLDER).trim_end_matches(".glsl");
+    match crate::diagnostic::did_you_mean(name, MODULES.iter().map(|module| module.name)) {
+        Some(near) => format!("the library has no `{path}`; did you mean `{FOLDER}{near}.glsl`?"),
+        None => format!("the library has no `{path}`"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Embedded, modules};
+    use crate::hir::Stage;
+    use crate::source::{IncludeForm, IncludeResolver};
+    use crate::{Compiler, Options, Source};
+    use std::path::Path;
+
+    #[test]
+    fn every_file_of_the_library_is_embedded() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("shader_lib");
+        let mut files: Vec<String> = std::fs::read_dir(folder)
+            .expect("the folder is there")
+            .filter_map(|entry| entry.ok()?.file_name().to_str()?.strip_suffix(".glsl").map(str::to_owned))
+            .collect();
+        files.sort();
+        assert_eq!(files, modules().iter().map(|module| module.name).collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn every_module_compiles_alone() {
+        for module in modules() {
+            let text = format!(
+                "#version 150\n#extension GL_ARB_shading_language_include : require\n#include <glisten/{}.glsl>\n\
+                 out vec4 color;\nvoid main() {{ color = vec4(1.0); }}\n",
+                module.name
+            );
+            let source = Source { name: "main.frag".to_owned(), text: text.into(), stage: Stage::Fragment };
+            let compilation = Compiler::new(Options::default()).with_includes(Embedded).compile(&[source]);
+            let shown = crate::diagnostic::write::human(&compilation.sources, &compilation.diagnostics, false);
+            assert!(compilation.program.is_some() && shown.is_empty(), "{}\n{shown}", module.name);
+        }
+    }
+
+    #[test]
+    fn unknown_modules_name_the_nearest() {
+        let error = Embedded.resolve("glisten/phonk.glsl", IncludeForm::Angled, "a.frag").expect_err("there is none");
+        assert!(error.contains("glisten/phong.glsl"), "{error}");
+        assert!(Embedded.resolve("phong.glsl", IncludeForm::Quoted, "a.frag").is_err());
+    }
+}
