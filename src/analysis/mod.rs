@@ -4,12 +4,12 @@
 //!
 //! One walk over the declarations in their order does almost everything, for every rule of the language looks back and
 //! none looks ahead; what needs the whole shader stands behind it: the sizes of implicitly sized arrays
-//! ([`finish`]), recursion ([`recursion`]), static use (in [`hir`](crate::hir)).
+//! (`finish`), recursion (`recursion`), static use (in [`hir`](crate::hir)).
 //!
-//! * [`context`] holds the state of the walk, [`scope`] the names in sight.
-//! * [`types`], [`qualifiers`] and [`layout`] read what stands before a name.
-//! * [`declare`] enters names: variables, structs, blocks, functions, redeclared built-ins.
-//! * [`statement`] and [`expr`] read function bodies.
+//! * `context` holds the state of the walk, `scope` the names in sight.
+//! * `types`, `qualifiers` and `layout` read what stands before a name.
+//! * `declare` enters names: variables, structs, blocks, functions, redeclared built-ins.
+//! * `statement` and `expr` read function bodies.
 //! * [`fold`] computes constants.
 //!
 //! *Holds:* one mistake raises one message: what is not understood becomes an expression or a type of
