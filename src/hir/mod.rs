@@ -22,7 +22,7 @@ pub use expr::{BinaryOp, ConstructKind, Expr, ExprId, ExprKind, IncDec, LogicalO
 pub use print::print;
 pub use shader::{
     BlockInfo, BlockLayout, FragCoordLayout, Function, FunctionId, GeometryLayout, Global, GlobalId, Interpolation,
-    Local, LocalId, LocalKind, ParamMode, PrimitiveIn, PrimitiveOut, Shader, Stage, Storage,
+    Local, LocalId, LocalKind, ParamMode, PerVertexOut, PrimitiveIn, PrimitiveOut, Shader, Stage, Storage,
 };
 pub use stmt::{Case, CaseLabel, Condition, LoopKind, Stmt, StmtKind};
 pub use ty::{

@@ -295,6 +295,15 @@ pub struct FragCoordLayout {
     pub pixel_center_integer: bool,
 }
 
+/// `out gl_PerVertex { .. };` declared anew.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PerVertexOut {
+    /// The members that are left, in order.
+    pub members: Vec<String>,
+    /// The block's name in the declaration.
+    pub span: Span,
+}
+
 /// One stage.
 #[derive(Clone, Debug)]
 pub struct Shader {
@@ -314,6 +323,8 @@ pub struct Shader {
     pub geometry: GeometryLayout,
     /// Fragment shaders.
     pub frag_coord: FragCoordLayout,
+    /// Vertex and geometry shaders that declare their built-in outputs anew.
+    pub per_vertex_out: Option<PerVertexOut>,
     /// The deepest expression, counted along left operands too: more than a few hundred asks for a big stack
     /// (see [`Shader::on_stack`]).
     pub expr_depth: u32,
@@ -331,6 +342,7 @@ impl Shader {
             main: None,
             geometry: GeometryLayout::default(),
             frag_coord: FragCoordLayout::default(),
+            per_vertex_out: None,
             expr_depth: 0,
         }
     }

@@ -33,6 +33,9 @@ pub(super) fn partner<'a>(producer: &'a Shader, input: &Global) -> Option<(Globa
 /// Checks all inputs of `consumer` against the outputs of `producer`.
 pub(super) fn check(ctx: &mut Context<'_>, producer: &Shader, consumer: &Shader) {
     let inputs = consumer.globals().filter(|(_, input)| is_interface(input, Storage::In));
+    if let Some(problem) = super::per_vertex::check_stages(ctx.types, producer, consumer) {
+        ctx.report(problem);
+    }
     for (_, input) in inputs {
         match partner(producer, input) {
             Some((_, output)) => check_pair(ctx, producer, output, consumer, input),

@@ -16,6 +16,7 @@ use crate::hir::{
 /// The one shader that a stage consists of; `None` if there is none.
 pub(super) fn merge(types: &mut Types, shaders: Vec<Shader>, found: &mut Vec<Diagnostic>) -> Option<Shader> {
     check_frag_coord(&shaders, found);
+    super::per_vertex::check_stage(&shaders, found);
     let mut shaders = shaders.into_iter();
     let mut all = shaders.next()?;
     let mut merged = false;
@@ -77,6 +78,7 @@ impl Merge<'_> {
                 self.unite_function(*place, function);
             }
         }
+        self.all.per_vertex_out = self.all.per_vertex_out.take().or(next.per_vertex_out);
         self.all.expr_depth = self.all.expr_depth.max(next.expr_depth);
         self.all.main = self.all.main.or(next.main.map(|main| remap.function_id(main)));
         self.unite_layouts(next.geometry, next.frag_coord);

@@ -14,6 +14,7 @@
 //! | `compatible` | when two declarations in different shaders have the same type |
 //! | `stages` | which stages make a program, `main`, geometry layouts |
 //! | `matching` | outputs of one stage against inputs of the next |
+//! | `per_vertex` | `gl_PerVertex` declared anew |
 //! | `varyings` | what the rasterizer interpolates, cut up and placed |
 //! | `attributes`, `outputs` | vertex inputs and fragment outputs, placed |
 //! | `uniforms`, `blocks`, `samplers` | what stays the same over a draw, placed |
@@ -29,6 +30,7 @@ mod layout;
 mod matching;
 mod merge;
 mod outputs;
+mod per_vertex;
 mod program;
 mod remap;
 mod samplers;

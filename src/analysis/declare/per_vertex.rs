@@ -30,7 +30,7 @@ impl Analyzer<'_> {
             return;
         }
         let members = self.per_vertex_members(block);
-        let names = members.iter().map(|member| member.name.clone()).collect();
+        let names: Vec<String> = members.iter().map(|member| member.name.clone()).collect();
         if storage == Storage::In {
             self.redeclare_gl_in(block, members);
             return;
@@ -43,6 +43,7 @@ impl Analyzer<'_> {
                 global.span = member.span;
             }
         }
+        self.shader.per_vertex_out = Some(crate::hir::PerVertexOut { members: Clone::clone(&names), span });
         self.per_vertex_out = Some(PerVertex { span, members: names });
     }
 

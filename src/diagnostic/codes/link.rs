@@ -234,6 +234,17 @@ codes! {
             (Stage::Fragment, "float f(); out vec4 c; void main() { c = gl_FragCoord + f(); }"),
             (Stage::Fragment, "float f() { return gl_FragCoord.x; }"),
         ]);
+    PER_VERTEX_MISMATCH = "E0728" "per-vertex-mismatch" Error "GLSL 1.50 §4.3.7"
+        "`gl_PerVertex` is a block: if one shader declares it anew, all shaders that use its members on the same interface \
+         must declare it alike."
+        bad Shaders(&[
+            (Stage::Vertex, "out gl_PerVertex { vec4 gl_Position; }; void f(); void main() { gl_Position = vec4(0.0); f(); }"),
+            (Stage::Vertex, "void f() { gl_PointSize = 1.0; }"),
+        ]),
+        good Shaders(&[
+            (Stage::Vertex, "out gl_PerVertex { vec4 gl_Position; }; void f(); void main() { gl_Position = vec4(0.0); f(); }"),
+            (Stage::Vertex, "void f() { }"),
+        ]);
     BINDING_IGNORED = "W0701" "binding-ignored" Warning "ARB_explicit_attrib_location"
         "A location was bound by name, and the declaration in the text gives another, which wins. The host program that \
          binds by name will send its data elsewhere than it thinks."
