@@ -129,10 +129,15 @@ impl Diagnostic {
 /// The name among `candidates` nearest to `name`, if one is near enough to be a slip of the pen:
 /// at most a third of the letters wrong, capitals counting for less.
 pub fn did_you_mean<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    // A longer name is no slip of the pen, and comparing it would take long.
+    const LONGEST: usize = 64;
+    if name.len() > LONGEST {
+        return None;
+    }
     let allowed = (name.chars().count() / 3).max(1);
     candidates
         .into_iter()
-        .filter(|candidate| *candidate != name)
+        .filter(|candidate| *candidate != name && candidate.len().abs_diff(name.len()) <= allowed)
         .filter_map(|candidate| {
             let same_but_for_case = candidate.eq_ignore_ascii_case(name);
             let distance = if same_but_for_case { 0 } else { strsim::damerau_levenshtein(name, candidate) };

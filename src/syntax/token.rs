@@ -334,6 +334,12 @@ impl Session<'_> {
         self.diagnostics.push(diagnostic);
     }
 
+    /// Whether to look for names that were perhaps meant: not for a source that is wrong all over, where it would take
+    /// longer than all else.
+    pub(super) fn may_suggest(&self) -> bool {
+        self.diagnostics.len() < 50
+    }
+
     /// The spelling of a word or number.
     pub fn spelling(&self, token: Token) -> &str {
         self.names.spelling(token.symbol())

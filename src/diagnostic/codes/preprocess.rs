@@ -102,7 +102,7 @@ codes! {
          text or `#pragma once` stops that."
         bad None, good None;
     EXPANSION_TOO_LARGE = "E0129" "macro-expansion-too-large" Error "GLSL 1.50 §3.3"
-        "The macros of a source may produce half a million tokens, and four more for each of its bytes. A macro that \
+        "The macros of a source may produce half a million tokens, and two more for each of its bytes. A macro that \
          uses another twice, which uses another twice and so on, is beyond all bounds after some twenty of them."
         bad None, good None;
     EXPANSION_TOO_DEEP = "E0130" "macro-expansion-too-deep" Error "GLSL 1.50 §3.3"

@@ -10,6 +10,10 @@ use crate::syntax::ast::{
 };
 use crate::syntax::kind;
 
+/// How many tokens are looked at to tell a declaration from an expression. Without a bound, text that never closes
+/// its brackets would be looked through from each of its statements.
+const MAX_AHEAD: usize = 1024;
+
 impl<T: TokenSource> Parser<'_, '_, T> {
     /// external_declaration
     pub(super) fn external_declaration(&mut self) {
@@ -77,12 +81,13 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         }
     }
 
-    /// The place behind the bracket that closes the one at `at`, or that of the end of the file.
+    /// The place behind the bracket that closes the one at `at`, or of what shows that nothing closes it: the end of a
+    /// statement, or [`MAX_AHEAD`] tokens.
     pub(super) fn past_bracket(&mut self, mut at: usize, open: TokenKind, close: TokenKind) -> usize {
         let mut depth = 0_usize;
         loop {
             let kind = self.ahead(at).kind;
-            if kind == TokenKind::Eof {
+            if kind == TokenKind::Eof || at > MAX_AHEAD {
                 return at;
             }
             at += 1;
@@ -237,10 +242,9 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         }
         // In front of a body a forgotten `)` is reported and assumed.
         let body_follows = self.kind() == TokenKind::LeftBrace;
-        if let Err(reported) = self.close(opening, TokenKind::RightParen, "`,` or `)`") {
-            if !body_follows {
-                return Err(reported);
-            }
+        let closed = self.close(opening, TokenKind::RightParen, "`,` or `)`");
+        if !body_follows {
+            closed?;
         }
         Ok(FunctionHeader { qualifiers, ty, name, params, span: self.since(start) })
     }

@@ -1,5 +1,6 @@
 //! The expressions of `#if` and `#elif` (GLSL 1.50 §3.3), with C++'s 64-bit integers.
 
+use super::define::Macro;
 use super::{Preprocessor, Session, Span, Token, TokenKind, codes, kind};
 use crate::diagnostic::{Diagnostic, did_you_mean};
 
@@ -36,8 +37,8 @@ struct Evaluator<'t> {
     nesting: usize,
     /// Inside an operand whose value does not matter: names and divisions are not judged.
     unevaluated: usize,
-    /// Names that are macros, for "did you mean".
-    known: &'t [String],
+    /// For "did you mean".
+    macros: &'t [Macro],
 }
 
 impl Preprocessor<'_> {
@@ -55,14 +56,15 @@ impl Preprocessor<'_> {
             }
             return false;
         }
-        let has_names = tokens.iter().any(|token| token.kind == TokenKind::Word);
-        let known: Vec<String> = if has_names {
-            self.macros.iter().map(|definition| definition.name.to_string()).collect()
-        } else {
-            Vec::new()
+        let mut evaluator = Evaluator {
+            tokens: &tokens,
+            next: 0,
+            end,
+            strict: self.strict,
+            nesting: 0,
+            unevaluated: 0,
+            macros: &self.macros,
         };
-        let mut evaluator =
-            Evaluator { tokens: &tokens, next: 0, end, strict: self.strict, nesting: 0, unevaluated: 0, known: &known };
         match evaluator.whole(session) {
             Ok(value) => value != 0,
             Err(Malformed) => false,
@@ -250,7 +252,8 @@ impl Evaluator<'_> {
             return self.fail(session, Some(token), &format!("`{name}` is no macro with arguments"));
         }
         if self.unevaluated == 0 {
-            let near = did_you_mean(&name, self.known.iter().map(String::as_str));
+            let names = self.macros.iter().map(|definition| &*definition.name);
+            let near = if session.may_suggest() { did_you_mean(&name, names) } else { None };
             let message = format!("`{name}` is not defined and counts as 0");
             let help = match near {
                 Some(near) => format!("did you mean `{near}`?"),

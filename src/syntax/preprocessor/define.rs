@@ -4,6 +4,9 @@ use super::{Preprocessor, Session, Span, Symbol, Token, TokenFlags, TokenKind, c
 use crate::diagnostic::Diagnostic;
 use std::sync::Arc;
 
+/// How many parameters a macro may have.
+const MAX_PARAMS: usize = 256;
+
 /// What a macro stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Meaning {
@@ -189,6 +192,13 @@ impl Preprocessor<'_> {
                         session.spelling(name),
                         session.spelling(token)
                     );
+                    session.report(Diagnostic::new(&codes::MALFORMED_PARAMETERS, token.span, message));
+                    self.skip_line(session);
+                    return None;
+                }
+                TokenKind::Word if params.len() >= MAX_PARAMS => {
+                    let message =
+                        format!("the macro `{}` has more than {MAX_PARAMS} parameters", session.spelling(name));
                     session.report(Diagnostic::new(&codes::MALFORMED_PARAMETERS, token.span, message));
                     self.skip_line(session);
                     return None;

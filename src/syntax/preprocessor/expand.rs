@@ -13,7 +13,7 @@ const MAX_DEPTH: usize = 4096;
 const MAX_ARGUMENT_DEPTH: usize = 64;
 /// How many tokens macros may produce: this many, and [`STEPS_A_BYTE`] for each byte of the text.
 const STEPS: usize = 500_000;
-const STEPS_A_BYTE: usize = 4;
+const STEPS_A_BYTE: usize = 2;
 
 /// Tokens that are read before the files.
 enum Run {
@@ -153,11 +153,7 @@ impl Preprocessor<'_> {
     fn magic_number(&self, session: &Session<'_>, meaning: Meaning, span: Span) -> u32 {
         let site = session.sources.call_site(span);
         match meaning {
-            Meaning::Line => session
-                .sources
-                .presented_line(site)
-                .or_else(|| session.sources.location(site).map(|location| location.line))
-                .unwrap_or(0),
+            Meaning::Line => session.sources.presented_line(site).or_else(|| session.sources.line(site)).unwrap_or(0),
             Meaning::File | Meaning::Body => self.frames.len() as u32 - 1,
         }
     }

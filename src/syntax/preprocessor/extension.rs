@@ -102,7 +102,8 @@ impl Preprocessor<'_> {
             (format!("the extension `{name}` is not supported"), None)
         } else {
             let names = REGISTERED.lines().chain(IMPLEMENTED.iter().map(|row| row.name));
-            let near = did_you_mean(name, names).map(|near| format!("did you mean `{near}`?"));
+            let near = if session.may_suggest() { did_you_mean(name, names) } else { None };
+            let near = near.map(|near| format!("did you mean `{near}`?"));
             (format!("there is no extension `{name}`"), near)
         };
         let here = if required { "and the source requires it" } else { "the line is ignored" };

@@ -40,12 +40,12 @@ impl Preprocessor<'_> {
     /// The file of an include; each is asked for and loaded once.
     fn find_include(&mut self, session: &mut Session<'_>, header: Span) -> Option<FileId> {
         let from = self.frames.last()?.file;
-        if let Some(&file) = self.resolved.get(&(from, header)) {
-            return Some(file);
-        }
         let quoted = session.sources.snippet(header);
         let form = if quoted.starts_with('"') { IncludeForm::Quoted } else { IncludeForm::Angled };
         let path = quoted.get(1..quoted.len().saturating_sub(1)).unwrap_or("").to_owned();
+        if let Some(&file) = self.resolved.get(&(from, form, path.clone())) {
+            return Some(file);
+        }
         let included = self.includes.resolve(&path, form, session.sources.file(from).name());
         let included = match included {
             Ok(included) => included,
@@ -60,7 +60,7 @@ impl Preprocessor<'_> {
             self.stop();
             return None;
         };
-        self.resolved.insert((from, header), file);
+        self.resolved.insert((from, form, path), file);
         Some(file)
     }
 }

@@ -29,7 +29,7 @@ use super::lexer::{Lexer, Mode, Trivia};
 use super::token::{Session, Symbol, Token, TokenFlags, TokenKind, TokenSource};
 use crate::diagnostic::codes::preprocess as codes;
 use crate::diagnostic::{Diagnostic, codes::general};
-use crate::source::{FileId, IncludeResolver, Span};
+use crate::source::{FileId, IncludeForm, IncludeResolver, Span};
 use define::Macro;
 use expand::Context;
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -87,7 +87,7 @@ pub(super) struct Preprocessor<'a> {
     steps: usize,
     argument_depth: usize,
     once: FxHashSet<FileId>,
-    resolved: FxHashMap<(FileId, Span), FileId>,
+    resolved: FxHashMap<(FileId, IncludeForm, String), FileId>,
     outcome: Outcome,
 }
 
@@ -295,7 +295,8 @@ impl<'a> Preprocessor<'a> {
         for code in &wanted {
             if crate::diagnostic::codes::find(code).is_none() {
                 let all = crate::diagnostic::codes::all().flat_map(|code| [code.id, code.name]);
-                let near = crate::diagnostic::did_you_mean(code, all).map(|near| format!("did you mean `{near}`?"));
+                let near = if session.may_suggest() { crate::diagnostic::did_you_mean(code, all) } else { None };
+                let near = near.map(|near| format!("did you mean `{near}`?"));
                 let message = format!("there is no code `{code}` to allow");
                 session.report(Diagnostic::new(&codes::UNKNOWN_ALLOW, span, message).maybe_help(near));
             }
