@@ -367,6 +367,9 @@ impl Preprocessor<'_> {
             Some([line] | [line, _]) => {
                 let next = line.saturating_add(u32::from(self.version.number < 330));
                 session.sources.renumber(span, next);
+                if let (Some([_, string]), Some(frame)) = (numbers.as_deref(), self.frames.last_mut()) {
+                    frame.number = *string;
+                }
             }
             _ if self.extensions.contains(Extensions::INCLUDE) && tokens.len() == 4 => {}
             _ => {

@@ -154,7 +154,7 @@ impl Preprocessor<'_> {
         let site = session.sources.call_site(span);
         match meaning {
             Meaning::Line => session.sources.presented_line(site).or_else(|| session.sources.line(site)).unwrap_or(0),
-            Meaning::File | Meaning::Body => self.frames.len() as u32 - 1,
+            Meaning::File | Meaning::Body => self.frames.last().map_or(0, |frame| frame.number),
         }
     }
 

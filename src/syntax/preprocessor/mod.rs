@@ -52,6 +52,8 @@ pub(super) struct Outcome {
 struct Frame {
     file: FileId,
     lexer: Lexer,
+    /// What `__FILE__` says here: how deep the file is included, or what `#line` said.
+    number: u32,
     conditionals: Vec<directive::Conditional>,
 }
 
@@ -164,7 +166,8 @@ impl<'a> Preprocessor<'a> {
         }
         let mut lexer = Lexer::new(source.text().clone(), source.base());
         lexer.joins_comments = self.joins_lines();
-        self.frames.push(Frame { file, lexer, conditionals: Vec::new() });
+        let number = self.frames.len() as u32;
+        self.frames.push(Frame { file, lexer, number, conditionals: Vec::new() });
     }
 
     /// A file that is no text gets one error instead of one for each of its bytes.

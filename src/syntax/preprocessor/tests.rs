@@ -123,7 +123,7 @@ fn groups() {
 #[test]
 fn lines() {
     check("__LINE__\n__LINE__ __FILE__", "2 3 0");
-    check("#line 41\n__LINE__\n#line 9 3\n__LINE__", "42 10");
+    check("#line 41\n__LINE__\n#line 9 3\n__LINE__ __FILE__", "42 10 3");
     check("#define L __LINE__\n\nL", "4");
     let (_, _, sources) = run("#line 99\nfloat x;\n", &[]);
     let place = |line: u32| {
