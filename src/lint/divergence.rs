@@ -228,10 +228,10 @@ impl Divergence<'_> {
     fn effects(&mut self, id: ExprId, flow: Flow) {
         let shader = self.shader;
         match &shader.expr(id).kind {
-            ExprKind::Assign(_, target, value) => {
-                if flow.is_divergent() || self.differs(*value) || self.differs(*target) {
-                    shader.root_variable(*target).into_iter().for_each(|variable| self.taint(variable));
-                }
+            ExprKind::Assign(_, target, value)
+                if flow.is_divergent() || self.differs(*value) || self.differs(*target) =>
+            {
+                shader.root_variable(*target).into_iter().for_each(|variable| self.taint(variable));
             }
             ExprKind::Call(function, arguments) => self.call(*function, arguments, flow),
             ExprKind::BuiltinCall(..) => {
@@ -259,10 +259,11 @@ impl Divergence<'_> {
         }
         for (index, &argument) in arguments.iter().enumerate() {
             let mode = shader.function(function).param_mode(index);
-            if mode != ParamMode::Out && self.differs(argument) {
-                if let Some(locals) = self.locals.get_mut(function.index()) {
-                    set(locals, LocalId(index as u32).index(), &mut self.changed);
-                }
+            if mode != ParamMode::Out
+                && self.differs(argument)
+                && let Some(locals) = self.locals.get_mut(function.index())
+            {
+                set(locals, LocalId(index as u32).index(), &mut self.changed);
             }
             let comes_back = matches!(mode, ParamMode::Out | ParamMode::Inout);
             let inside = self.locals.get(function.index()).and_then(|locals| locals.get(index)) == Some(&true);
