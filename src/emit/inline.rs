@@ -75,11 +75,9 @@ impl Uses {
 
     fn block(&mut self, function: &Function, block: &mut Block) {
         let statements: Vec<(Statement, naga::Span)> = std::mem::take(block).span_into_iter().collect();
-        let mut at = 0;
         let mut kept = Block::with_capacity(statements.len());
-        let mut rest = statements.into_iter().peekable();
         let mut run: Vec<(Range<Expression>, naga::Span)> = Vec::new();
-        while let Some((mut statement, span)) = rest.next() {
+        for (mut statement, span) in statements {
             if let Statement::Emit(range) = statement {
                 run.push((range, span));
                 continue;
@@ -89,9 +87,7 @@ impl Uses {
                 self.block(function, inner);
             }
             kept.push(statement, span);
-            at += 1;
         }
-        let _ = at;
         self.write_run(function, &mut run, None, &mut kept);
         *block = kept;
     }

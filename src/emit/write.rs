@@ -65,11 +65,10 @@ pub fn emit_with_sources(
         let info = validate(&module)?;
         write(module, &info, stage, target, conventions, sources)
     };
-    let written = crate::hir::with_stack(if deep { NESTING } else { 0 }, move || {
+    crate::hir::with_stack(if deep { NESTING } else { 0 }, move || {
         catch_unwind(AssertUnwindSafe(write))
             .unwrap_or_else(|_| Err(vec![slip(Span::default(), format!("the writer of {} panicked", target.name()))]))
-    });
-    written
+    })
 }
 
 /// Whether blocks nest deeper than `limit`.

@@ -11,6 +11,7 @@ mod exec;
 #[cfg(feature = "gpu")]
 mod gpu;
 mod hostile;
+mod layouts;
 mod link;
 mod lint;
 mod print;
