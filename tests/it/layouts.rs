@@ -1,10 +1,10 @@
 //! Layouts proven, not believed: for random sets of uniforms, the offsets and strides in the interface (which the
 //! reflection shows) are those that WGSL gives the emitted text by itself and those that the SPIR-V is decorated with.
 
-use crate::support::{Settings, Shader, compile};
 use glisten::emit::{Conventions, Emitted, Target, emit};
 use glisten::hir::Stage;
 use glisten::link::{Program, SlotBinding, UniformLeaf};
+use glisten::{Compiler, Options, Source};
 use naga::{Handle, Module, Type, TypeInner};
 use proptest::prelude::*;
 
@@ -75,12 +75,10 @@ fn source(loose: &[Member], block: &[Member]) -> String {
 }
 
 fn program(text: &str) -> Program {
-    let shader = Shader { name: "layout.frag".to_owned(), text: text.to_owned(), stage: Stage::Fragment };
-    let (program, diagnostics) = compile(&[shader], &Settings::default());
-    program.unwrap_or_else(|| {
-        let found: Vec<_> = diagnostics.iter().map(|found| found.message.clone()).collect();
-        panic!("{found:?}\n{text}")
-    })
+    let source = Source { name: "layout.frag".to_owned(), text: text.into(), stage: Stage::Fragment };
+    let compilation = Compiler::new(Options::default()).compile(&[source]);
+    let found: Vec<_> = compilation.diagnostics.iter().map(|found| &found.message).collect();
+    compilation.program.unwrap_or_else(|| panic!("{found:?}\n{text}"))
 }
 
 fn emitted(program: &Program, target: Target) -> Emitted {
@@ -118,6 +116,11 @@ fn steps(path: &str) -> Vec<Step<'_>> {
 /// Where a path leads in the WGSL module and in the SPIR-V module, walked side by side: SPIR-V has no names.
 fn walk(modules: [&Module; 2], slot: SlotBinding, path: &[Step<'_>]) -> [(u32, Handle<Type>); 2] {
     let mut at = modules.map(|module| (0, variable(module, slot)));
+    // naga's SPIR-V puts every block into a struct of its own, at offset 0.
+    if let TypeInner::Struct { members, .. } = &modules[1].types[at[1].1].inner {
+        assert_eq!((members.len(), members[0].offset), (1, 0), "the struct around the block");
+        at[1].1 = members[0].ty;
+    }
     for step in path {
         let number = match step {
             Step::Element(index) => *index as usize,
