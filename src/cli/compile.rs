@@ -266,6 +266,7 @@ impl Plan {
             .iter()
             .flat_map(|unit| unit.batch.sources.files())
             .map(|(_, file)| file.name())
+            .filter(|name| *name != SourceMap::COMMAND_LINE)
             .filter(|name| !standard_input(name) && !library::is_embedded(name) && seen.insert(name.to_string()))
             .map(make_word)
             .collect();

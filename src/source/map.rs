@@ -131,6 +131,9 @@ impl SourceMap {
     /// preprocessor have far smaller budgets of their own.
     pub const MAX_BYTES: u32 = 1 << 30;
 
+    /// The name of the text that holds the macros defined from outside: no file.
+    pub const COMMAND_LINE: &'static str = "<command line>";
+
     /// Adds a text; `None` if there is no room for it ([`Self::MAX_BYTES`]).
     pub fn add(&mut self, name: impl Into<String>, text: impl Into<Arc<str>>) -> Option<FileId> {
         let text = text.into();

@@ -2,6 +2,7 @@
 
 use super::{Preprocessor, Session, Span, Symbol, Token, TokenFlags, TokenKind, codes, extension, kind, version};
 use crate::diagnostic::Diagnostic;
+use crate::source::SourceMap;
 use std::sync::Arc;
 
 /// How many parameters a macro may have.
@@ -101,7 +102,7 @@ impl Preprocessor<'_> {
         let one_line = |text: &str| text.replace(['\n', '\r'], " ");
         let text: String =
             defines.iter().map(|(name, value)| format!("#define {} {}\n", one_line(name), one_line(value))).collect();
-        let Some(file) = session.sources.add("<command line>", text) else { return };
+        let Some(file) = session.sources.add(SourceMap::COMMAND_LINE, text) else { return };
         self.enter(session, file, Span::default());
         let token = self.next_from_file(session, true);
         if token.kind != TokenKind::Eof {
