@@ -66,10 +66,11 @@ pub(crate) fn weights<F: Number>(u: F, v: F) -> [F; 3] {
     [F::from_f64(1.0).sub(u).sub(v), u, v]
 }
 
-/// Equation (106), in its second form: `C = (1 - u - v) C0 + u C1 + v C2`. Linear in the window: `noperspective`, depth.
+/// Equation (106), in its first form: `C = C0 + u (C1 - C0) + v (C2 - C0)`. Linear in the window: `noperspective`, depth.
+/// What is the same at all vertices comes back exactly, as drivers have it: programs compare such values for equality.
 #[inline(always)]
 pub(crate) fn linear<F: Number>(weights: [F; 3], c: [F; 3]) -> F {
-    weights[0].mul(c[0]).add(weights[1].mul(c[1])).add(weights[2].mul(c[2]))
+    c[0].add(weights[1].mul(c[1].sub(c[0]))).add(weights[2].mul(c[2].sub(c[0])))
 }
 
 /// Equation (107): what stands at `t` of the projection of a segment, from the values `a` and `b` and the depths `za` and
