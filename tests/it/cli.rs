@@ -510,3 +510,111 @@ fn mistakes_of_a_scene_are_told_at_their_places() {
     assert_eq!(code(&output), 2);
     assert!(err(&output).contains(".npy"), "{}", err(&output));
 }
+
+#[test]
+fn verify_prints_the_figures_of_the_contract() {
+    let place = Place::triangle();
+    fs::write(place.path("s.toml"), SCENE.replace("0.5, 0.25, 2.0, 1, 0.5", "0.5, 0.25, 2.0, 1, 0.7"))
+        .expect("written");
+    let output = place.run(&["verify", "s.toml", "--format", "json"]);
+    assert_eq!(code(&output), 0, "{}{}", out(&output), err(&output));
+    assert!(err(&output).is_empty(), "{}", err(&output));
+    let figures: Value = serde_json::from_str(&out(&output)).expect("JSON");
+    for key in [
+        "max_abs",
+        "rmse",
+        "psnr",
+        "max_ulp",
+        "flip",
+        "pixels",
+        "covered",
+        "coverage_mismatch",
+        "edge_pixels",
+        "non_finite_gpu",
+        "non_finite_cpu",
+        "judged_by",
+        "outside",
+        "undecided",
+        "worst",
+        "gpu_ms",
+        "cpu_ms",
+    ] {
+        assert!(figures.get(key).is_some(), "{key} is missing in {figures}");
+    }
+    assert_eq!((figures["pixels"].as_u64(), figures["covered"].as_u64()), (Some(128), Some(128)));
+    assert_eq!((figures["judged_by"].as_str(), figures["outside"].as_u64()), (Some("bound"), Some(0)));
+    assert_eq!(figures["runs"].as_array().map(Vec::len), Some(2), "by SPIR-V and by WGSL");
+    let strict = place.run(&["verify", "s.toml", "--tolerance", "0", "--via", "spirv"]);
+    assert_eq!(code(&strict), 1, "{}", out(&strict));
+    assert!(out(&strict).contains("DOES NOT HOLD") && out(&strict).contains("tolerance"), "{}", out(&strict));
+}
+
+#[test]
+fn without_a_vulkan_driver_the_message_says_what_to_install() {
+    let place = Place::triangle();
+    fs::write(place.path("s.toml"), SCENE).expect("written");
+    for arguments in [&["render", "s.toml", "-o", "s.png"][..], &["verify", "s.toml"], &["report", "s.toml", "-o", "r"]]
+    {
+        let output = place
+            .command(arguments)
+            .env("VK_DRIVER_FILES", "/nonexistent.json")
+            .env("VK_ICD_FILENAMES", "/nonexistent.json")
+            .output()
+            .expect("the program runs");
+        assert_eq!(code(&output), 3, "{arguments:?}: {}", err(&output));
+        assert!(err(&output).contains("mesa-vulkan-drivers"), "{}", err(&output));
+    }
+    let output = place.run(&["render", "s.toml", "-o", "s.png", "--adapter", "no such adapter"]);
+    assert_eq!(code(&output), 3, "{}", err(&output));
+}
+
+#[test]
+fn color_and_quiet_do_as_they_say() {
+    let place = Place::triangle();
+    fs::write(place.path("tri.frag"), FRAGMENT.replace("fc = vc", "fc = vd")).expect("written");
+    let colored = place.run(&["lint", "tri.vert", "tri.frag", "--color", "always"]);
+    assert!(out(&colored).contains('\u{1b}'), "{}", out(&colored));
+    let plain = place.run(&["lint", "tri.vert", "tri.frag"]);
+    assert!(!out(&plain).contains('\u{1b}') && err(&plain).contains("1 error"), "{}", err(&plain));
+    let quiet = place.run(&["lint", "-q", "tri.vert", "tri.frag"]);
+    assert_eq!((out(&quiet), err(&quiet)), (out(&plain), String::new()));
+}
+
+#[test]
+fn several_files_of_a_stage_give_one_output() {
+    let helper = "#version 150 core\nvec4 twice(vec4 v) { return 2.0 * v; }\n";
+    let main =
+        FRAGMENT.replace("out vec4 fc;", "out vec4 fc;\nvec4 twice(vec4 v);").replace("fc = vc", "fc = twice(vc)");
+    let place = Place::new(&[
+        ("tri.vert", VERTEX.as_bytes()),
+        ("main.frag", main.as_bytes()),
+        ("helper.frag", helper.as_bytes()),
+    ]);
+    let program = "tri.vert,main.frag,helper.frag";
+    let output = place.run(&["compile", "--program", program, "-o", "out", "--target", "wgsl"]);
+    assert_eq!(code(&output), 0, "{}", err(&output));
+    assert_eq!(place.names("out"), ["main.frag.wgsl", "tri.json", "tri.vert.wgsl"]);
+    let text = fs::read_to_string(place.path("out/main.frag.wgsl")).expect("written");
+    assert!(text.contains("fn twice"), "{text}");
+}
+
+#[test]
+fn library_modules_can_be_included() {
+    let text = "#version 150\n#extension GL_ARB_shading_language_include : require\n#include <glisten/phong.glsl>\n\
+        out vec4 fc;\nvoid main() { fc = vec4(phongFactor(vec3(0, 0, 1), vec3(0, 0, 1), vec3(0, 0, 1), 8.0)); }\n";
+    let place = Place::new(&[("a.frag", text.as_bytes())]);
+    let arguments = ["compile", "a.frag", "-o", "out", "--target", "wgsl", "--allow", "W0001", "--depfile", "a.d"];
+    let output = place.run(&arguments);
+    assert_eq!(code(&output), 0, "{}", err(&output));
+    let rule = fs::read_to_string(place.path("a.d")).expect("written");
+    assert_eq!(rule, "out/a.frag.wgsl out/a.json: a.frag\n", "embedded modules are no files");
+}
+
+#[test]
+fn the_typed_program_is_printed_and_compiles_again() {
+    let place = Place::triangle();
+    let output = place.run(&["compile", "tri.frag", "--emit", "hir"]);
+    assert_eq!(code(&output), 0, "{}", err(&output));
+    let again = place.run_with_input(&["lint", "-", "--stage", "fragment"], &out(&output));
+    assert_eq!(code(&again), 0, "{}", out(&again));
+}
