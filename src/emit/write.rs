@@ -5,7 +5,7 @@
 use super::inline::inline_loads;
 use super::{Conventions, Target};
 use crate::diagnostic::Diagnostic;
-use crate::diagnostic::codes::general;
+use crate::diagnostic::codes::{general, targets};
 use crate::hir::Stage;
 use crate::link::Program;
 use crate::source::{SourceMap, Span};
@@ -155,7 +155,14 @@ fn write(
     };
     written.map_err(|message| {
         let message = format!("the writer of {} failed: {}", target.name(), without_handles(&message));
-        vec![slip(Span::default(), message)]
+        match target {
+            Target::Wgsl | Target::Spirv => vec![slip(Span::default(), message)],
+            // These three are what naga makes of them, and naga's writers have gaps (`inverse` in MSL and HLSL, say).
+            Target::Msl | Target::Hlsl | Target::Glsl => {
+                let diagnostic = Diagnostic::new(&targets::FEATURE_NOT_IN_TARGET, Span::default(), message);
+                vec![diagnostic.help("compile for WGSL or SPIR-V, and translate that with a tool of the target")]
+            }
+        }
     })
 }
 
@@ -266,7 +273,8 @@ impl SourceLines {
 
 fn write_msl(module: &naga::Module, info: &ModuleInfo) -> Result<String, String> {
     let options = msl::Options {
-        lang_version: (2, 1),
+        // The least that has `primitive_id`.
+        lang_version: (2, 3),
         fake_missing_bindings: true,
         bounds_check_policies: policies(),
         zero_initialize_workgroup_memory: false,

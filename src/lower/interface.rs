@@ -175,16 +175,18 @@ impl Lower<'_> {
 pub(super) fn varying_binding(location: &Location<'_>) -> Binding {
     let first = location.rows.first();
     let interpolation = first.map_or(Interpolation::Smooth, |row| row.interpolation);
+    let centroid = first.is_some_and(|row| row.centroid);
+    let sampling = Some(if centroid { naga::Sampling::Centroid } else { naga::Sampling::Center });
     let (interpolation, sampling) = match interpolation {
-        Interpolation::Smooth => (naga::Interpolation::Perspective, naga::Sampling::Center),
-        Interpolation::Noperspective => (naga::Interpolation::Linear, naga::Sampling::Center),
-        Interpolation::Flat => (naga::Interpolation::Flat, naga::Sampling::First),
+        Interpolation::Smooth => (naga::Interpolation::Perspective, sampling),
+        Interpolation::Noperspective => (naga::Interpolation::Linear, sampling),
+        // Nothing said means the first vertex, which naga's GLSL writer would not take in so many words.
+        Interpolation::Flat => (naga::Interpolation::Flat, None),
     };
-    let centroid = first.is_some_and(|row| row.centroid) && sampling == naga::Sampling::Center;
     Binding::Location {
         location: location.location,
         interpolation: Some(interpolation),
-        sampling: Some(if centroid { naga::Sampling::Centroid } else { sampling }),
+        sampling,
         blend_src: None,
         per_primitive: false,
     }

@@ -136,8 +136,10 @@ impl Ctx<'_, '_> {
         }
         let target = self.low.target;
         if matches!(target, Target::Wgsl | Target::Hlsl) {
+            let declared = self.shader.global(global).span;
+            let span = if declared.is_known() { declared } else { self.shader.function(self.id).span };
             return Err(lacking(
-                self.shader.global(global).span,
+                span,
                 format!("{} has no `gl_PointSize`: its points are one pixel wide", target.name()),
                 "compile for SPIR-V, draw two triangles for each point, or leave `--program-point-size` out",
             ));

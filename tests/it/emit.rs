@@ -3,7 +3,7 @@
 //! WGSL by naga's own front-end and validator and by Tint (through Dawn's null backend, the npm package `webgpu`),
 //! SPIR-V by `spirv-val`. On a machine that lacks one of the outside judges the test says so; where `CI` is set, it fails.
 
-use glisten::emit::{ClipZ, Conventions, Emitted, SpirvEnv, Target, WindowOrigin, emit};
+use glisten::emit::{ClipZ, Conventions, Emitted, SpirvEnv, Target, WindowOrigin, emit, notes};
 use glisten::hir::Stage;
 use glisten::{Compiler, Options, Source};
 use std::collections::BTreeMap;
@@ -208,17 +208,71 @@ fn the_other_conventions_are_accepted_everywhere() {
 }
 
 #[test]
-fn the_fixtures_of_lowering_are_programs() {
+fn the_fixtures_of_lowering_are_programs_and_every_target_takes_or_refuses_them() {
     for folder in ["programs", "lower"] {
         for files in programs(folder).values() {
+            let name = files[0].display();
             let compilation = compile(files);
-            let program = compilation.program.as_ref().unwrap_or_else(|| {
-                let found: Vec<_> = compilation.diagnostics.iter().map(|found| &found.message).collect();
-                panic!("{}: {found:?}", files[0].display())
-            });
-            assert_eq!(program.stages.len(), 2, "{}", files[0].display());
+            let found: Vec<_> = compilation.diagnostics.iter().map(|found| &found.message).collect();
+            let program = compilation.program.as_ref().unwrap_or_else(|| panic!("{name}: {found:?}"));
+            assert_eq!(program.stages.len(), 2, "{name}");
+            for target in Target::ALL {
+                let emitted = emit(program, Stage::Fragment, target, &Conventions::default());
+                for diagnostic in emitted.err().into_iter().flatten() {
+                    assert!(REFUSALS.contains(&diagnostic.code.id), "{name}: {}", diagnostic.message);
+                }
+            }
         }
     }
+}
+
+/// The codes of a lone shader's emission.
+fn codes(stage: Stage, text: &str, target: Target, conventions: &Conventions) -> Vec<&'static str> {
+    let source = Source { name: "shader".into(), text: format!("#version 150\n{text}").into(), stage };
+    let compilation = Compiler::new(Options::default()).compile(&[source]);
+    let program = compilation.program.expect("the shader is valid");
+    let errors = emit(&program, stage, target, conventions).err().into_iter().flatten();
+    errors.chain(notes(&program, conventions)).map(|diagnostic| diagnostic.code.id).collect()
+}
+
+#[test]
+fn what_a_target_lacks_has_a_code() {
+    let plain = Conventions::default();
+    let sized = Conventions { program_point_size: true, ..plain };
+    let geometry = "layout(points) in; layout(points, max_vertices = 1) out; void main() { EmitVertex(); }";
+    let size = "void main() { gl_Position = vec4(0.0); gl_PointSize = 2.0; }";
+    let coordinate = "out vec4 c; void main() { c = gl_PointCoord.xyxy; }";
+    let rows = [
+        (Stage::Geometry, geometry, Target::Wgsl, plain, vec!["E0801"]),
+        (Stage::Vertex, size, Target::Wgsl, plain, vec!["W0801"]),
+        (Stage::Vertex, size, Target::Wgsl, sized, vec!["E0802"]),
+        (Stage::Vertex, size, Target::Spirv, sized, vec![]),
+        (Stage::Fragment, coordinate, Target::Wgsl, plain, vec!["E0802"]),
+        (Stage::Fragment, coordinate, Target::Spirv, plain, vec![]),
+    ];
+    for (stage, text, target, conventions, expected) in rows {
+        assert_eq!(codes(stage, text, target, &conventions), expected, "{} for {}", text, target.name());
+    }
+}
+
+#[test]
+fn long_chains_become_flat_text() {
+    let arms: String = (0..1000).map(|arm| format!("if (n == {arm}) x = {arm}.0; else ")).collect();
+    let sum = vec!["v.x"; 10_000].join(" + ");
+    let choice: String = (0..200).map(|arm| format!("n == {arm} ? v.x * {arm}.0 : ")).collect();
+    let text = format!(
+        "uniform int n; uniform vec4 v; out vec4 c;\n\
+         void main() {{ float x; {arms} x = -1.0; float y = {choice} 1.0; c = vec4(x + y, {sum}, 0.0, 1.0); }}"
+    );
+    let source =
+        Source { name: "chain.frag".into(), text: format!("#version 150\n{text}").into(), stage: Stage::Fragment };
+    let program = Compiler::new(Options::default()).compile(&[source]).program.expect("the shader is valid");
+    let emitted = emit(&program, Stage::Fragment, Target::Wgsl, &Conventions::default());
+    let Ok(Emitted::Text(wgsl)) = emitted else { panic!("WGSL comes out: {emitted:?}") };
+    assert!(wgsl.len() < 20 * text.len(), "{} bytes of GLSL became {} of WGSL", text.len(), wgsl.len());
+    let deepest = wgsl.lines().map(|line| line.len() - line.trim_start().len()).max();
+    assert!(deepest < Some(100), "the text nests {deepest:?} columns deep");
+    reparse(&wgsl).expect("naga reads its own text");
 }
 
 #[test]
