@@ -13,6 +13,8 @@ mod declaration;
 mod expr;
 mod recover;
 mod statement;
+#[cfg(test)]
+mod tests;
 mod types;
 
 use super::ast::{Ast, BinaryOp, ExprId, Ident};
