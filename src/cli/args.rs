@@ -194,10 +194,10 @@ impl ConventionArgs {
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 enum ClipZArg {
-    /// [0, w]: WebGPU, Vulkan, Metal, Direct3D
+    /// \[0, w\]: WebGPU, Vulkan, Metal, Direct3D
     #[default]
     ZeroToOne,
-    /// [-w, w]: OpenGL
+    /// \[-w, w\]: OpenGL
     MinusOneToOne,
 }
 

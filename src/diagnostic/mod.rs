@@ -2,7 +2,7 @@
 //!
 //! *In:* facts that a phase found. *Out:* [`Diagnostic`]s, each with a stable [`Code`] of the one registry,
 //! a primary label, further labels, a help text and the section of the specification it rests on.
-//! The writers (human, JSON, SARIF, GitHub) know nothing of rules; they are under [`write`].
+//! The writers (human, JSON, SARIF, GitHub) know nothing of rules; they are under [`mod@write`].
 //!
 //! *Holds:* a phase reports and goes on; nothing here prints.
 

@@ -1,6 +1,6 @@
 //! Runs emitted code on Vulkan through wgpu.
 //!
-//! *In:* a [`Scene`](crate::scene::Scene). *Out:* a [`Picture`](crate::compare::Picture) and times.
+//! *In:* a [`Scene`](crate::scene::Scene). *Out:* a [`Picture`] and times.
 //!
 //! ```text
 //!  Scene ──► assembly    vertex numbers: strips, fans and loops made lists, the provoking vertex first

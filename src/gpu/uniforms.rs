@@ -1,7 +1,7 @@
 //! Uniform values as bytes (§4.3.7, OpenGL 3.2 §2.11.4).
 //!
 //! *In:* a program's interface and flat values by root. *Out:* the bytes of the buffer at each binding, as the
-//! reflection lays them out. *Holds:* every byte comes from a [`UniformLeaf`](crate::link::UniformLeaf): what a host
+//! reflection lays them out. *Holds:* every byte comes from a [`UniformLeaf`]: what a host
 //! can do with the reflection alone is all that is done here.
 
 use crate::hir::{MatrixLayout, ScalarValue, Type, Types};

@@ -1,6 +1,6 @@
 //! Text to syntax tree.
 //!
-//! *In:* a [`SourceMap`](crate::source::SourceMap) and the file to start with, the include resolver, predefined
+//! *In:* a [`SourceMap`] and the file to start with, the include resolver, predefined
 //! macros. *Out:* an [`ast::Ast`] of what was understood, and diagnostics.
 //!
 //! Three steps, each lazy and each with its budgets: the lexer cuts text into tokens, the preprocessor runs the

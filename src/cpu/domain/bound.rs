@@ -1,7 +1,7 @@
 //! The bound domain: an f64 value and how far, to first order, a conforming f32 GPU may be from it.
 //!
 //! *Holds:* `error` is at least 0 or infinite, never NaN; infinite says "anything". Each operation carries the
-//! operands' errors on by its derivative (by its hull where it bends) and adds its own rule of [`rules`](super::rules).
+//! operands' errors on by its derivative (by its hull where it bends) and adds its own rule of [`rules`].
 //! Comparisons of overlapping operands are not sure; an unsure condition that selects widens the result, one that
 //! branches makes the lane undecided (the executor's part).
 

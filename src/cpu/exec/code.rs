@@ -80,7 +80,7 @@ impl Code {
     ///
     /// # Errors
     /// What the executor cannot run: a program without that stage or without `main`, multisample samplers, geometry
-    /// stages, programs past the limits of [`compile`].
+    /// stages, programs past the limits of the compiler.
     pub fn compile(program: &Program, stage: Stage) -> Result<Self, Vec<Diagnostic>> {
         compile::compile(program, stage).map(|inner| Self { inner: Arc::new(inner) })
     }

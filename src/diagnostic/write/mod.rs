@@ -1,7 +1,7 @@
 //! Writers of diagnostics, one file a format. They know nothing of rules.
 //!
-//! *In:* a [`SourceMap`] and [`Diagnostic`]s. *Out:* text for people ([`human`]), or [`Finding`]s, which
-//! [`json`], [`sarif`] and [`github`] turn into theirs. A [`Finding`] no longer needs its source map, so that the
+//! *In:* a [`SourceMap`] and [`Diagnostic`]s. *Out:* text for people ([`human()`]), or [`Finding`]s, which
+//! [`json()`], [`sarif()`] and [`github()`] turn into theirs. A [`Finding`] no longer needs its source map, so that the
 //! findings of many programs can be joined, sorted and freed of repetitions.
 //!
 //! *Holds:* places are those of the text on disk, whatever `#line` says. What came out of a macro stands at the
