@@ -90,7 +90,11 @@ impl<D: Domain> Vertices<D> {
             let (x, y) = (self.floats[a * self.float_count + i], self.floats[b * self.float_count + i]);
             self.floats.push(match self.interpolations[i] {
                 Interpolation::Smooth => mix(x, y, t),
-                Interpolation::Noperspective => mix(x, y, in_window),
+                Interpolation::Noperspective => {
+                    let value = mix(x, y, in_window);
+                    let lost = self.lost_in_window(a, b) * (y.value() - x.value()).abs();
+                    D::Float::with_error(value.value(), value.error() + lost)
+                }
                 // Taken from the provoking vertex, never from here.
                 Interpolation::Flat => x,
             });
@@ -100,6 +104,15 @@ impl<D: Domain> Vertices<D> {
         }
         self.finish_last();
         id
+    }
+
+    /// How far off a driver may be that, as Mesa 22.3, derives the way along an edge in the window from the difference of
+    /// its ends' x alone: beyond all bounds where that is 0.
+    fn lost_in_window(&self, from: usize, to: usize) -> f64 {
+        const ROUNDINGS: f64 = 8.0 * 5.960_464_477_539_063e-8;
+        let x = |vertex: usize| f64::from(self.clip32[vertex][0]) / f64::from(self.clip32[vertex][3]);
+        let (from, to) = (x(from), x(to));
+        ROUNDINGS * from.abs().max(to.abs()) / (from - to).abs()
     }
 
     /// How far along the edge from `from`, which is outside, to `to` it crosses a plane, in the domain and in f32.

@@ -10,13 +10,14 @@
 use super::assembly::Prim;
 use super::plan::Plan;
 use super::source::{Fragment, Source};
-use super::target::{Bin, is_integer};
-use super::vertices::{Vertices, read_float, read_int};
+use super::target::Bin;
+use super::vertices::Vertices;
 use crate::builtin::BuiltinVariable;
 use crate::cpu::domain::{Domain, Integer, Number};
 use crate::cpu::exec::{LANES, Machine, Mask};
 use crate::hir::{FragCoordLayout, GlobalId, Scalar, Stage, Type};
 use crate::scene::{Draw, Format, Framebuffer};
+use smallvec::SmallVec;
 
 /// What all bins of a draw share.
 pub(super) struct Shading<'a, D: Domain> {
@@ -220,9 +221,7 @@ impl<D: Domain> Shading<'_, D> {
                     bin.mark_undecided_cover(batch.x[lane], batch.y[lane]);
                 }
             }
-            for lane in kept.lanes() {
-                self.write(bin, batch, machine, lane);
-            }
+            self.write_lanes(bin, batch, machine, kept);
         }
         batch.count = 0;
         batch.live = 0;
@@ -275,40 +274,66 @@ impl<D: Domain> Shading<'_, D> {
         }
     }
 
-    /// What follows the fragment stage for one fragment: late depth test, blending, storing.
-    fn write(&self, bin: &mut Bin<D>, batch: &Batch<D>, machine: &Machine<D>, lane: usize) {
-        let place = (batch.x[lane], batch.y[lane]);
-        let (x, y) = place;
-        if !self.plan.early_depth {
-            let written = self.plan.frag_depth.map(|id| read_float(machine, (id, 0), lane));
-            if !bin.depth_test(x, y, written.unwrap_or(batch.coord[2][lane]), &self.draw.state) {
-                return;
+    /// What follows the fragment stage: late depth test, blending, storing.
+    fn write_lanes(&self, bin: &mut Bin<D>, batch: &Batch<D>, machine: &Machine<D>, kept: Mask) {
+        let state = &self.draw.state;
+        let depth = self.plan.frag_depth.and_then(|id| machine.float_output(id, 0));
+        let colors: SmallVec<[(usize, [Channel<'_, D>; 4]); 4]> =
+            self.outputs.iter().map(|output| (output.attachment, self.channels(output, machine))).collect();
+        let undecided = machine.undecided();
+        for lane in kept.lanes() {
+            let place = (batch.x[lane], batch.y[lane]);
+            if !self.plan.early_depth {
+                let z = depth.map_or(batch.coord[2][lane], |lanes| lanes[lane]);
+                if !bin.depth_test(place.0, place.1, z, state) {
+                    continue;
+                }
             }
-        }
-        let undecided = batch.undecided[lane] || machine.undecided().contains(lane);
-        bin.cover(x, y, undecided, self.draw.state.blend.is_some());
-        for output in self.outputs {
-            let color = self.color(output, machine, lane);
-            bin.write_color(place, output.attachment, color, self.draw.state.blend, self.framebuffer.format);
+            bin.cover(place.0, place.1, batch.undecided[lane] || undecided.contains(lane), state.blend.is_some());
+            for (attachment, channels) in &colors {
+                let color = channels.map(|channel| self.value(channel, lane));
+                bin.write_color(place, *attachment, color, state.blend, self.framebuffer.format);
+            }
         }
     }
 
-    /// An output's value; components that it lacks are (0, 0, 0, 1).
-    fn color(&self, output: &OutputPlan, machine: &Machine<D>, lane: usize) -> [D::Float; 4] {
+    /// Where an output's channels come from; components that it lacks are (0, 0, 0, 1).
+    fn channels<'m>(&self, output: &OutputPlan, machine: &'m Machine<D>) -> [Channel<'m, D>; 4] {
         std::array::from_fn(|channel| {
-            let channel = channel as u32;
-            if channel >= output.components {
-                return D::Float::from_f64(if channel == 3 { 1.0 } else { 0.0 });
+            let flat = output.first + channel as u32;
+            let missing = Channel::Constant(if channel == 3 { 1.0 } else { 0.0 });
+            if channel as u32 >= output.components {
+                return missing;
             }
-            let from = (output.global, output.first + channel);
-            if output.scalar == Scalar::Float {
-                return read_float(machine, from, lane);
+            // An output that is never written is undefined; here it is 0.
+            let unwritten = Channel::Constant(0.0);
+            match output.scalar {
+                Scalar::Float => machine.float_output(output.global, flat).map_or(unwritten, Channel::Float),
+                Scalar::Int | Scalar::Uint | Scalar::Bool => {
+                    machine.int_output(output.global, flat).map_or(unwritten, Channel::Int)
+                }
             }
-            let bits = read_int(machine, from, lane).bits();
-            let unsigned = output.scalar != Scalar::Int || self.framebuffer.format == Format::Rgba32Uint;
-            let number =
-                if unsigned && is_integer(self.framebuffer.format) { f64::from(bits) } else { f64::from(bits as i32) };
-            D::Float::from_f64(number)
         })
     }
+
+    #[inline(always)]
+    fn value(&self, channel: Channel<'_, D>, lane: usize) -> D::Float {
+        match channel {
+            Channel::Float(lanes) => lanes[lane],
+            Channel::Int(lanes) => {
+                let bits = lanes[lane].bits();
+                let is_unsigned = self.framebuffer.format == Format::Rgba32Uint;
+                D::Float::from_f64(if is_unsigned { f64::from(bits) } else { f64::from(bits as i32) })
+            }
+            Channel::Constant(value) => D::Float::from_f64(value),
+        }
+    }
+}
+
+/// Where a channel of a color comes from.
+#[derive(Clone, Copy)]
+enum Channel<'m, D: Domain> {
+    Float(&'m [D::Float; LANES]),
+    Int(&'m [D::Int; LANES]),
+    Constant(f64),
 }

@@ -111,12 +111,15 @@ pub(super) fn shade<D: Domain>(
     viewport: [f32; 2],
     over_budget: &AtomicBool,
 ) -> Vertices<D> {
+    let machines = || {
+        let machine = Machine::<D>::new(code, &draw.uniforms, &draw.textures);
+        (machine, Machine::<F32>::new(code, &draw.uniforms, &draw.textures))
+    };
     let chunks: Vec<Chunk<D>> = invocations
         .par_chunks(LANES)
-        .map(|lanes| {
-            let mut machine = Machine::<D>::new(code, &draw.uniforms, &draw.textures);
-            let mut single = Machine::<F32>::new(code, &draw.uniforms, &draw.textures);
-            let chunk = shade_chunk(draw, plan, lanes, &mut machine, &mut single);
+        .with_min_len(4)
+        .map_init(machines, |(machine, single), lanes| {
+            let chunk = shade_chunk(draw, plan, lanes, machine, single);
             if machine.budget_exceeded() || single.budget_exceeded() {
                 over_budget.store(true, Ordering::Relaxed);
             }
