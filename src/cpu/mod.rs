@@ -29,13 +29,13 @@ pub enum Precision {
     Bound,
 }
 
-/// Which pixels a line covers.
+/// Which pixels a line covers, and what becomes of a point whose center lies outside the window.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum LineRule {
-    /// The diamond-exit rule (OpenGL 3.2 §3.5.1).
+    /// The diamond-exit rule (OpenGL 3.2 §3.5.1); such a point is discarded (§2.19).
     #[default]
     OpenGl,
-    /// A rectangle one pixel wide, as Vulkan draws strict lines.
+    /// A rectangle one pixel wide, as Vulkan draws strict lines; of such a point what reaches into the window is drawn.
     Vulkan,
 }
 

@@ -3,6 +3,7 @@
 //! *In:* shaded vertices, the order of a draw. *Out:* [`Prim`]s in order.
 //! *Holds:* culling and facing go by the sign of the snapped area (§3.6.1).
 
+use super::clip::SIDES;
 use super::vertices::Vertices;
 use crate::cpu::LineRule;
 use crate::cpu::domain::Domain;
@@ -80,7 +81,7 @@ pub(super) fn primitives<D: Domain>(
     for (id, assembled) in assemble(state.primitive, order.len() as u32).into_iter().enumerate() {
         let id = id as u32;
         match assembled {
-            Assembled::Point(position) => list.extend(point_prim(vertices, vertex(position), id)),
+            Assembled::Point(position) => list.extend(point_prim(vertices, vertex(position), id, lines)),
             Assembled::Line([from, to]) => {
                 let provoking = if state.provoking_last { to } else { from };
                 let turned = last_first && lines == LineRule::Vulkan;
@@ -105,8 +106,13 @@ fn is_undecided<D: Domain>(vertices: &Vertices<D>, corners: &[u32]) -> bool {
     corners.iter().any(|&vertex| vertices.undecided.get(vertex as usize).copied().unwrap_or(false))
 }
 
-fn point_prim<D: Domain>(vertices: &Vertices<D>, vertex: u32, id: u32) -> Option<Prim> {
-    if vertices.outside(vertex)? != 0 {
+fn point_prim<D: Domain>(vertices: &Vertices<D>, vertex: u32, id: u32, rule: LineRule) -> Option<Prim> {
+    // OpenGL discards a point whose center lies outside (§2.19); Vulkan may draw what of it reaches into the window.
+    let counted = match rule {
+        LineRule::OpenGl => u32::MAX,
+        LineRule::Vulkan => !SIDES,
+    };
+    if vertices.outside(vertex)? & counted != 0 {
         return None;
     }
     let [x, y] = window(vertices, vertex)?;

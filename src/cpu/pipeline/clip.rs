@@ -14,6 +14,8 @@ use crate::hir::Interpolation;
 
 /// The six planes of the view volume.
 const VOLUME: usize = 6;
+/// Those of them that are sides of the window, as a mask.
+pub(super) const SIDES: u32 = 0b1111;
 
 impl<D: Domain> Vertices<D> {
     /// The distance of a vertex from a plane in f32, in the order of operations of a dot product with the plane.
