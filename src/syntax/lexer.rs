@@ -70,7 +70,9 @@ fn class(byte: u8) -> u8 {
 impl Lexer {
     /// Reads `text`, whose first byte has the global offset `base`.
     pub(super) fn new(text: Arc<str>, base: u32) -> Self {
-        Self { text, base, pos: 0, last_end: base, at_line_start: true, joins_comments: false }
+        // A byte order mark at the start says how the file is encoded and is no part of the text.
+        let pos = if text.starts_with('\u{feff}') { '\u{feff}'.len_utf8() } else { 0 };
+        Self { text, base, pos, last_end: base, at_line_start: true, joins_comments: false }
     }
 
     fn at(&self, offset: usize) -> Option<u8> {

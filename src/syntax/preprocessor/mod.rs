@@ -176,9 +176,8 @@ impl<'a> Preprocessor<'a> {
         let (mut odd, mut all) = (0, 0);
         for character in source.text().chars().take(1024) {
             all += 1;
-            odd += usize::from(
-                character == char::REPLACEMENT_CHARACTER || (character.is_control() && !character.is_whitespace()),
-            );
+            // Not U+FFFD: comments in an encoding of their own are legal.
+            odd += usize::from(character.is_control() && !character.is_whitespace());
         }
         if odd * 8 > all {
             let span = Span::new(source.base(), source.base());
