@@ -109,7 +109,8 @@ impl Uses {
             }
         }
         let mut by_statement = Vec::new();
-        if let Some(statement) = behind {
+        // The condition at the end of a loop is evaluated there, not in front of it.
+        if let Some(statement) = behind.filter(|statement| !matches!(statement, Statement::Loop { .. })) {
             operands(statement, |handle| by_statement.push(handle));
         }
         for (range, span) in run.drain(..) {

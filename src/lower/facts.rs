@@ -58,17 +58,19 @@ impl Facts {
     /// Looks at a shader.
     pub(super) fn of(shader: &Shader) -> Self {
         let mut facts = Self {
-            natures: natures(shader),
+            natures: Vec::new(),
             functions: Vec::new(),
             order: Vec::new(),
             shared: vec![false; shader.globals.len()],
             used: vec![false; shader.globals.len()],
             indexed: vec![false; shader.globals.len()],
         };
+        let mut constants = vec![false; shader.exprs.len()];
         for function in &shader.functions {
-            let walked = FunctionWalk::new(shader, function, &mut facts.indexed).run();
+            let walked = FunctionWalk::new(shader, function, &mut facts.indexed, &mut constants).run();
             facts.functions.push(walked);
         }
+        facts.natures = natures(shader, &constants);
         facts.order = order(shader, &facts.functions);
         facts.mark_globals(shader);
         facts
@@ -146,10 +148,11 @@ pub(super) fn children(kind: &ExprKind, mut visit: impl FnMut(ExprId)) {
     }
 }
 
-fn natures(shader: &Shader) -> Vec<Nature> {
+/// `constants` says which expressions name a local constant, which only their function knows.
+fn natures(shader: &Shader, constants: &[bool]) -> Vec<Nature> {
     let mut all: Vec<Nature> = Vec::with_capacity(shader.exprs.len());
-    for expr in &shader.exprs {
-        let mut nature = own_nature(shader, &expr.kind);
+    for (expr, constant) in shader.exprs.iter().zip(constants) {
+        let mut nature = own_nature(shader, &expr.kind, *constant);
         children(&expr.kind, |child| {
             if let Some(known) = all.get(child.index()) {
                 nature.effects |= known.effects;
@@ -163,7 +166,7 @@ fn natures(shader: &Shader) -> Vec<Nature> {
     all
 }
 
-fn own_nature(shader: &Shader, kind: &ExprKind) -> Nature {
+fn own_nature(shader: &Shader, kind: &ExprKind, local_constant: bool) -> Nature {
     let effects = matches!(
         kind,
         ExprKind::IncDec(..)
@@ -180,8 +183,7 @@ fn own_nature(shader: &Shader, kind: &ExprKind) -> Nature {
     };
     let constant = match kind {
         ExprKind::Var(VarRef::Global(global)) => shader.global(*global).storage == Storage::Const,
-        // Which local it is, only its function tells; the evaluation looks again.
-        ExprKind::Var(VarRef::Local(_)) => true,
+        ExprKind::Var(VarRef::Local(_)) => local_constant,
         _ => !effects && !control,
     };
     Nature { effects, control, constant, cost: 1 }
@@ -212,18 +214,19 @@ struct FunctionWalk<'a> {
     function: &'a Function,
     facts: FunctionFacts,
     indexed: &'a mut [bool],
+    constants: &'a mut [bool],
     roots: Vec<ExprId>,
 }
 
 impl<'a> FunctionWalk<'a> {
-    fn new(shader: &'a Shader, function: &'a Function, indexed: &'a mut [bool]) -> Self {
+    fn new(shader: &'a Shader, function: &'a Function, indexed: &'a mut [bool], constants: &'a mut [bool]) -> Self {
         let locals = function.locals.len();
         let facts = FunctionFacts {
             needs_variable: vec![false; locals],
             written: vec![false; locals],
             ..FunctionFacts::default()
         };
-        Self { shader, function, facts, indexed, roots: Vec::new() }
+        Self { shader, function, facts, indexed, constants, roots: Vec::new() }
     }
 
     fn run(mut self) -> FunctionFacts {
@@ -232,6 +235,12 @@ impl<'a> FunctionWalk<'a> {
         }
         while let Some(id) = self.roots.pop() {
             let kind = &self.shader.expr(id).kind;
+            if let ExprKind::Var(VarRef::Local(local)) = kind {
+                let local = self.function.local(*local);
+                if local.kind == LocalKind::Const && local.value.is_some() {
+                    set(self.constants, id.index());
+                }
+            }
             self.expression(kind);
             children(kind, |child| self.roots.push(child));
         }
