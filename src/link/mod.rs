@@ -17,7 +17,7 @@
 //! | `per_vertex` | `gl_PerVertex` declared anew |
 //! | `varyings` | what the rasterizer interpolates, cut up and placed |
 //! | `attributes`, `outputs` | vertex inputs and fragment outputs, placed |
-//! | `uniforms`, `blocks`, `samplers` | what stays the same over a draw, placed |
+//! | `uniforms`, `samplers` | what stays the same over a draw, placed |
 //! | `layout` | std140 |
 
 mod aliasing;

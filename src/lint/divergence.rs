@@ -59,7 +59,8 @@ pub(super) fn divergent_calls(shader: &Shader) -> Vec<Place> {
     };
     for _ in 0..MAX_ROUNDS {
         walk.changed = false;
-        order.iter().rev().for_each(|&id| walk.function(id));
+        // Callers first for what they pass, then callees first for what they return.
+        order.iter().rev().chain(&order).for_each(|&id| walk.function(id));
         if !walk.changed {
             walk.places = Some(Vec::new());
             order.iter().for_each(|&id| walk.function(id));
