@@ -75,8 +75,8 @@ pub(super) fn map2<A: Copy, B: Copy, R>(
 ) {
     match (a, b) {
         (Source::Lanes(a), Source::Lanes(b)) => {
-            for lane in 0..LANES {
-                out[lane] = f(a[lane], b[lane]);
+            for (out, (a, b)) in out.iter_mut().zip(a.iter().zip(b)) {
+                *out = f(*a, *b);
             }
         }
         (Source::Lanes(a), Source::One(b)) => map1(out, Source::Lanes(a), |a| f(a, b)),
@@ -95,15 +95,15 @@ pub(super) fn map3<A: Copy, B: Copy, C: Copy, R>(
 ) {
     match (a, b, c) {
         (Source::Lanes(a), Source::Lanes(b), Source::Lanes(c)) => {
-            for lane in 0..LANES {
-                out[lane] = f(a[lane], b[lane], c[lane]);
+            for (out, ((a, b), c)) in out.iter_mut().zip(a.iter().zip(b).zip(c)) {
+                *out = f(*a, *b, *c);
             }
         }
         (Source::Lanes(a), Source::One(b), Source::One(c)) => map1(out, Source::Lanes(a), |a| f(a, b, c)),
         (Source::One(a), b, c) => map2(out, b, c, |b, c| f(a, b, c)),
         (a, b, c) => {
-            for lane in 0..LANES {
-                out[lane] = f(a.at(lane), b.at(lane), c.at(lane));
+            for (lane, out) in out.iter_mut().enumerate() {
+                *out = f(a.at(lane), b.at(lane), c.at(lane));
             }
         }
     }
