@@ -23,6 +23,9 @@ impl Analyzer<'_> {
         let base = self.type_spec(&declaration.ty);
         self.check_precision(record.precision, base);
         let storage = self.global_storage(&record);
+        if declaration.declarators.is_empty() {
+            self.layout(&record, self.layout_place(storage, base));
+        }
         for declarator in &declaration.declarators {
             let ty = self.with_array(base, &declarator.array);
             if self.name(declarator.name).starts_with("gl_") && self.redeclare_builtin(declarator, ty, &record) {
