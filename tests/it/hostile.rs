@@ -76,7 +76,7 @@ fn nesting_is_bounded() {
         in_main(&format!("{};", "if (a) ".repeat(MANY))),
         in_main(&format!("{};", "for (;;) ".repeat(MANY))),
         in_main(&format!("{};", "do ".repeat(MANY))),
-        in_main(&format!("{}", "switch (a) { case 1: ".repeat(MANY))),
+        in_main(&"switch (a) { case 1: ".repeat(MANY)),
         in_main(&format!("float a[] = {}1.0{};", "{".repeat(MANY), "}".repeat(MANY))),
         format!("#version 150\n{}", "struct S { ".repeat(MANY)),
         format!("#version 150\n{}float x;{}", "struct S { ".repeat(MANY), "} s;".repeat(MANY)),
