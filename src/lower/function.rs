@@ -5,6 +5,7 @@
 
 use super::uniforms::HostId;
 use super::{Lower, Try, for_each_operand, internal, naga_span};
+use crate::emit::Target;
 use crate::hir::{FunctionId, GlobalId, LocalId, LocalKind, ParamMode, ScalarValue, Shader, Stage, TypeId};
 use crate::source::Span;
 use naga::{Arena, Block, Expression, Handle, Literal, LocalVariable, Statement};
@@ -218,9 +219,17 @@ impl<'l, 'a> Ctx<'l, 'a> {
         self.open == self.out.expressions.len() && self.blocks.last().is_some_and(ends)
     }
 
-    /// The block that is being filled.
-    pub(super) fn last_block(&self) -> Option<&Block> {
-        self.blocks.last()
+    /// Whether the block that is being filled is the function's own.
+    pub(super) fn is_outermost(&self) -> bool {
+        self.blocks.len() <= 1
+    }
+
+    /// Whether the end of the function cannot be reached, in the eyes of the target: for SPIR-V alone a `discard` is an
+    /// end.
+    pub(super) fn has_returned(&mut self) -> bool {
+        self.flush();
+        let kill_ends = self.low.target == Target::Spirv || self.out.result.is_none();
+        self.is_over() || self.blocks.last().is_some_and(|block| super::statements::terminates(block, kill_ends))
     }
 
     /// Opens a block.
@@ -455,8 +464,7 @@ impl Lower<'_> {
         ctx.out.result = result;
         ctx.declare_parameters()?;
         ctx.body(body)?;
-        let done = ctx.last_block().is_some_and(super::statements::terminates);
-        if !done && function.ret != TypeId::VOID {
+        if !ctx.has_returned() && function.ret != TypeId::VOID {
             ctx.return_nothing()?;
         }
         let (out, low) = ctx.finish();

@@ -151,7 +151,7 @@ impl Lower<'_> {
         ctx.declare_outputs()?;
         ctx.private_initializers()?;
         ctx.body(body)?;
-        if !ctx.is_over() && !ctx.all_paths_returned() {
+        if !ctx.has_returned() {
             ctx.return_outputs()?;
         }
         let (mut function, low) = ctx.finish();
@@ -464,11 +464,5 @@ impl Ctx<'_, '_> {
             self.store(pointer, value);
         }
         Ok(())
-    }
-
-    /// Whether the body ends in statements that return on every path.
-    fn all_paths_returned(&mut self) -> bool {
-        self.flush();
-        self.last_block().is_some_and(super::statements::terminates)
     }
 }

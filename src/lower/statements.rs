@@ -58,10 +58,11 @@ impl Ctx<'_, '_> {
         }
     }
 
-    /// `discard`. naga's `Kill` ends the invocation in SPIR-V and leaves it running without effects in WGSL, where a
-    /// loop around it would go on for ever: there, the function is left, too.
+    /// `discard`. naga's `Kill` ends the invocation in SPIR-V and leaves it running without effects in WGSL, where a loop
+    /// around it would go on for ever and the end of a function would lack its result: there, the function is left, too.
     fn discard(&mut self) -> Try<()> {
-        if self.loops == 0 || self.low.target == Target::Spirv {
+        let wants_result = self.out.result.is_some() && self.is_outermost();
+        if self.low.target == Target::Spirv || (self.loops == 0 && !wants_result) {
             self.statement(Statement::Kill);
             return Ok(());
         }
@@ -203,12 +204,13 @@ type Condition<'f, C, A> = &'f dyn Fn(&mut C, &A) -> Try<Handle<Expression>>;
 /// Lowers the body of an arm.
 type Body<'f, C, A> = &'f dyn Fn(&mut C, &A) -> Try<()>;
 
-/// Whether nothing behind the block can be reached.
-pub(super) fn terminates(block: &Block) -> bool {
+/// Whether nothing behind the block can be reached; `kill_ends` says whether that holds behind a `discard`.
+pub(super) fn terminates(block: &Block, kill_ends: bool) -> bool {
     match block.last() {
-        Some(Statement::Break | Statement::Continue | Statement::Return { .. } | Statement::Kill) => true,
-        Some(Statement::If { accept, reject, .. }) => terminates(accept) && terminates(reject),
-        Some(Statement::Block(block)) => terminates(block),
+        Some(Statement::Break | Statement::Continue | Statement::Return { .. }) => true,
+        Some(Statement::Kill) => kill_ends,
+        Some(Statement::If { accept, reject, .. }) => terminates(accept, kill_ends) && terminates(reject, kill_ends),
+        Some(Statement::Block(block)) => terminates(block, kill_ends),
         _ => false,
     }
 }

@@ -346,6 +346,14 @@ impl Ctx<'_, '_> {
                 "pass the number of texels in a uniform of your own",
             ));
         }
+        if ty.dim == SamplerDim::Multisample && ty.arrayed {
+            // naga's SPIR-V writer asks for a level, which multisampled images do not have.
+            return Err(lacking(
+                self.here(),
+                format!("the number of layers of a `{}` cannot be asked for", ty.name()),
+                "pass it in a uniform of your own",
+            ));
+        }
         let level = match level {
             _ if ty.dim == SamplerDim::Multisample => None,
             Some(level) => Some(self.value(level)?),
