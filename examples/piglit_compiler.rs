@@ -25,7 +25,7 @@ struct Test {
 }
 
 /// The extensions that glisten implements, as the files name them.
-const IMPLEMENTED: [&str; 7] = [
+const IMPLEMENTED: [&str; 8] = [
     "GL_ARB_explicit_attrib_location",
     "GL_ARB_shading_language_420pack",
     "GL_ARB_texture_rectangle",
@@ -33,6 +33,7 @@ const IMPLEMENTED: [&str; 7] = [
     "GL_ARB_draw_instanced",
     "GL_ARB_separate_shader_objects",
     "GL_ARB_fragment_coord_conventions",
+    "GL_ARB_texture_multisample",
 ];
 
 fn stage_of(path: &Path) -> Option<Stage> {

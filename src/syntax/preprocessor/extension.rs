@@ -13,9 +13,12 @@ pub(in crate::syntax) struct Implemented {
 static IMPLEMENTED: &[Implemented] = &[
     Implemented { name: "GL_ARB_draw_instanced", bit: Extensions::DRAW_INSTANCED },
     Implemented { name: "GL_ARB_explicit_attrib_location", bit: Extensions::EXPLICIT_ATTRIB_LOCATION },
+    // What this one and ARB_texture_multisample bring is in 1.50 itself; sources of the time still turn them on.
+    Implemented { name: "GL_ARB_fragment_coord_conventions", bit: Extensions::empty() },
     Implemented { name: "GL_ARB_separate_shader_objects", bit: Extensions::SEPARATE_SHADER_OBJECTS },
     Implemented { name: "GL_ARB_shading_language_420pack", bit: Extensions::SHADING_LANGUAGE_420PACK },
     Implemented { name: "GL_ARB_shading_language_include", bit: Extensions::INCLUDE },
+    Implemented { name: "GL_ARB_texture_multisample", bit: Extensions::empty() },
     Implemented { name: "GL_ARB_texture_rectangle", bit: Extensions::TEXTURE_RECTANGLE },
     Implemented { name: "GL_ARB_uniform_buffer_object", bit: Extensions::UNIFORM_BUFFER_OBJECT },
     Implemented { name: "GL_GOOGLE_cpp_style_line_directive", bit: Extensions::INCLUDE },
