@@ -206,3 +206,44 @@ fn blocks_mut(statement: &mut Statement) -> Vec<&mut Block> {
         _ => Vec::new(),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::inline_loads;
+    use naga::valid::{Capabilities, ValidationFlags, Validator};
+
+    /// The text of a module with loads left out where that is possible.
+    fn written(text: &str) -> String {
+        let mut module = naga::front::wgsl::parse_str(text).expect("the test's text is WGSL");
+        let info = Validator::new(ValidationFlags::all(), Capabilities::all()).validate(&module).expect("valid");
+        inline_loads(&mut module);
+        naga::back::wgsl::write_string(&module, &info, naga::back::wgsl::WriterFlags::empty()).expect("written")
+    }
+
+    #[test]
+    fn a_load_with_one_use_behind_it_needs_no_name() {
+        let text = written("var<private> a: f32; var<private> b: f32; fn f() { b = a * 2.0; }");
+        assert!(text.contains("b = (a * 2f);"), "{text}");
+    }
+
+    #[test]
+    fn a_load_in_front_of_a_call_keeps_its_name() {
+        let text = written(
+            "var<private> a: f32; fn g() -> f32 { a = 1.0; return a; } fn f() -> f32 { let x = a; return x + g(); }",
+        );
+        let load = text.find("= a;").expect("the load has a name");
+        assert!(load < text.rfind("g()").expect("the call is there"), "{text}");
+    }
+
+    #[test]
+    fn a_load_in_front_of_a_store_keeps_its_name() {
+        let text = written("var<private> a: f32; fn f() -> f32 { let x = a; a = 2.0; return x; }");
+        assert!(text.contains("let x = a;"), "{text}");
+    }
+
+    #[test]
+    fn a_swap_is_still_a_swap() {
+        let text = written("var<private> a: f32; var<private> b: f32; fn f() { let x = a; a = b; b = x; }");
+        assert!(text.contains("let x = a;") && text.contains("a = b;") && text.contains("b = x;"), "{text}");
+    }
+}

@@ -313,3 +313,15 @@ fn write_glsl(module: &naga::Module, info: &ModuleInfo, stage: Stage) -> Result<
     writer.write().map_err(|error| chain(&error))?;
     Ok(text)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::without_handles;
+
+    #[test]
+    fn handles_of_naga_are_not_shown() {
+        assert_eq!(without_handles("Expression [12] is invalid"), "Expression is invalid");
+        assert_eq!(without_handles("[3]: The array [f32; 4] of type [7]"), ": The array [f32; 4] of type");
+        assert_eq!(without_handles("no handle [ here"), "no handle [ here");
+    }
+}
