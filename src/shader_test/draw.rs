@@ -145,8 +145,10 @@ fn attribute_data(types: &Types, attribute: &Attribute, data: &VertexData) -> Op
     }
     let values = match scalar {
         Scalar::Float => AttributeValues::Float(values.into_iter().map(|value| value as f32).collect()),
-        Scalar::Int => AttributeValues::Int(values.into_iter().map(|value| value as i32).collect()),
-        Scalar::Uint | Scalar::Bool => AttributeValues::Uint(values.into_iter().map(|value| value as u32).collect()),
+        Scalar::Int => AttributeValues::Int(values.into_iter().map(|value| value as i64 as i32).collect()),
+        Scalar::Uint | Scalar::Bool => {
+            AttributeValues::Uint(values.into_iter().map(|value| value as i64 as u32).collect())
+        }
     };
     Some(AttributeData { size, divisor: 0, values })
 }

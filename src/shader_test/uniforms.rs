@@ -61,7 +61,7 @@ impl Uniforms {
         let mut place = (leaf.flat_offset + first) as usize;
         let end = leaf.flat_offset as usize + extent(program, leaf).0 as usize;
         while !words.rest().is_empty() {
-            let value = number(scalar, words.number()?);
+            let value = number(scalar, if scalar.is_integer() { words.integer()? } else { words.number()? });
             match flat.get_mut(place).filter(|_| place < end) {
                 Some(slot) => *slot = value,
                 None => return fail(line, format_args!("more values than `{name}` holds")),
@@ -103,8 +103,9 @@ fn extent(program: &Program, leaf: &UniformLeaf) -> (u32, Scalar) {
 fn number(scalar: Scalar, value: f64) -> ScalarValue {
     match scalar {
         Scalar::Bool => ScalarValue::Bool(value != 0.0),
-        Scalar::Int => ScalarValue::Int(value as i32),
-        Scalar::Uint => ScalarValue::Uint(value as u32),
+        // Bits beyond the 32nd are lost, as they are in OpenGL's own call.
+        Scalar::Int => ScalarValue::Int(value as i64 as i32),
+        Scalar::Uint => ScalarValue::Uint(value as i64 as u32),
         Scalar::Float => ScalarValue::Float(value as f32),
     }
 }

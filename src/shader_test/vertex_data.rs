@@ -1,7 +1,7 @@
 //! `[vertex data]`: a table with an attribute's column a column.
 
 use super::parse::Line;
-use super::words::parse_number;
+use super::words::{parse_integer, parse_number};
 use super::{Outcome, fail, skip};
 
 /// A column of the table: components of an attribute, or of one of its matrix columns or array elements.
@@ -67,16 +67,6 @@ fn header(line: u32, word: &str) -> Result<Column, Outcome> {
     };
     let Some(size) = components(shape) else { return skip(line, format_args!("attributes of type `{shape}`")) };
     Ok(Column { attribute: attribute.into(), element, column, size, is_integer: data != "float", values: Vec::new() })
-}
-
-/// A decimal or hexadecimal integer, with or without a sign.
-fn parse_integer(word: &str) -> Option<f64> {
-    let (sign, digits) = word.strip_prefix('-').map_or((1.0, word), |digits| (-1.0, digits));
-    let magnitude = match digits.strip_prefix("0x") {
-        Some(hexadecimal) => f64::from(u32::from_str_radix(hexadecimal, 16).ok()?),
-        None => digits.parse().ok()?,
-    };
-    Some(sign * magnitude)
 }
 
 /// How many numbers a type has (of a matrix: a column): `vec3`, `mat2x3`, or a bare `3`.

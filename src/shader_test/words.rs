@@ -40,8 +40,18 @@ impl<'a> Words<'a> {
 
     /// The next word as a number.
     pub(super) fn number(&mut self) -> Result<f64, Outcome> {
+        self.number_by(parse_number)
+    }
+
+    /// The next word as an integer, whose hexadecimal form is its own value and not the bits of a float.
+    pub(super) fn integer(&mut self) -> Result<f64, Outcome> {
+        self.number_by(parse_integer)
+    }
+
+    fn number_by(&mut self, parse: fn(&str) -> Option<f64>) -> Result<f64, Outcome> {
         let word = self.word()?;
-        match parse_number(word) {
+        // What follows a number is passed over by C's functions, and some tests end their lines as statements.
+        match parse(word.trim_end_matches(';')) {
             Some(number) => Ok(number),
             None => fail(self.line, format_args!("`{word}` is no number")),
         }
@@ -75,6 +85,16 @@ pub(super) fn parse_number(word: &str) -> Option<f64> {
     word.parse().ok()
 }
 
+/// A decimal or hexadecimal integer, with or without a sign.
+pub(super) fn parse_integer(word: &str) -> Option<f64> {
+    let (sign, digits) = word.strip_prefix('-').map_or((1.0, word), |digits| (-1.0, digits));
+    let magnitude = match digits.strip_prefix("0x").or_else(|| digits.strip_prefix("0X")) {
+        Some(hexadecimal) => f64::from(u32::from_str_radix(hexadecimal, 16).ok()?),
+        None => digits.parse().ok()?,
+    };
+    Some(sign * magnitude)
+}
+
 #[cfg(test)]
 mod unit {
     use super::*;
@@ -91,5 +111,7 @@ mod unit {
     fn hexadecimal_is_the_bits_of_a_float() {
         assert_eq!(parse_number("0x3f800000"), Some(1.0));
         assert_eq!(parse_number("x"), None);
+        assert_eq!(parse_integer("-0x10"), Some(-16.0));
+        assert_eq!(Words::new(1, "0.75;").number(), Ok(0.75));
     }
 }
