@@ -48,7 +48,7 @@ const KEYS: &[&str] = &[
 ];
 
 /// The largest number of vertices or indices of a draw, and of instances.
-const MAX_COUNT: u32 = 1 << 24;
+const MAX_COUNT: u32 = 1 << 22;
 
 pub(super) fn load_draw(
     loader: &mut Loader<'_>,

@@ -331,7 +331,12 @@ fn load_image(
         }
     };
     let image = if flip { image.flipv() } else { image }.into_rgba32f();
-    if image.width() > MAX_SIDE || image.height() > MAX_SIDE || (kind.dim == SamplerDim::D1 && image.height() > 1) {
+    let texels = u64::from(image.width()) * u64::from(image.height());
+    if texels > MAX_TEXELS
+        || image.width() > MAX_SIDE
+        || image.height() > MAX_SIDE
+        || (kind.dim == SamplerDim::D1 && image.height() > 1)
+    {
         let message =
             format!("`{path}` has {}x{} texels, too many for a {}", image.width(), image.height(), kind.name());
         loader.reader.error(&SCENE_WRONG_SIZE, span, message, "too large");

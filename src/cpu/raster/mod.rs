@@ -28,11 +28,12 @@ pub(crate) struct Fixed {
 }
 
 impl Fixed {
-    /// Snaps a window position in pixels. Coordinates that are not finite, or further out than 2^30 pixels, give `None`.
+    /// Snaps a window position in pixels. Coordinates that are not finite, or further out than 2^21 pixels, give `None`: products of
+    /// differences fit 64 bits.
     pub(crate) fn snap(x: f32, y: f32) -> Option<Self> {
         let snap = |value: f32| {
             let scaled = (value - 0.5) * ONE as f32;
-            (scaled.abs() < (1_u64 << 38) as f32).then(|| scaled.round_ties_even() as i64)
+            (scaled.abs() < (1_u64 << 29) as f32).then(|| scaled.round_ties_even() as i64)
         };
         Some(Self { x: snap(x)?, y: snap(y)? })
     }
