@@ -1,0 +1,159 @@
+//! The compiler against libglslang in process, over the same shaders in one run.
+//!
+//! `cargo bench --bench peers -- [FOLDER...]`: over all shaders in the folders (default: `fixtures/programs` and
+//! `fixtures/lower`) that both accept. libglslang's side is `peers/glslang.cpp`, built with `c++` when Debian's
+//! `glslang-dev` is installed; without it the bench says so and ends. Rounds of the two alternate, each shader's time is
+//! the least over all rounds, and the figures are means over the shaders.
+
+#![expect(clippy::print_stdout, reason = "a benchmark prints its figures")]
+
+use glisten::emit::{Conventions, Target, emit};
+use glisten::hir::Stage;
+use glisten::{Compiler, Options, Source};
+use std::collections::BTreeMap;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::time::Instant;
+
+const ROUNDS: usize = 5;
+const REPEATS: usize = 5;
+
+/// Microseconds for the front-end alone, and for the whole way to the target's text or words.
+#[derive(Clone, Copy)]
+struct Times {
+    front: f64,
+    whole: f64,
+}
+
+impl Times {
+    fn least(self, other: Self) -> Self {
+        Self { front: self.front.min(other.front), whole: self.whole.min(other.whole) }
+    }
+}
+
+fn main() {
+    let folders: Vec<PathBuf> =
+        std::env::args().skip(1).filter(|argument| !argument.starts_with('-')).map(Into::into).collect();
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let folders =
+        if folders.is_empty() { vec![root.join("fixtures/programs"), root.join("fixtures/lower")] } else { folders };
+    let mut shaders = Vec::new();
+    folders.iter().for_each(|folder| gather(folder, &mut shaders));
+    shaders.sort();
+    let Some(driver) = build_driver(root) else {
+        println!("libglslang cannot be compared with: install `glslang-dev` and `g++` (Debian)");
+        return;
+    };
+    let (mut peer, mut own) = (BTreeMap::new(), BTreeMap::new());
+    for _ in 0..ROUNDS {
+        merge(&mut peer, run_driver(&driver, &shaders));
+        merge(&mut own, shaders.iter().filter_map(|path| Some((path.clone(), own_times(path)?))).collect());
+    }
+    let both: Vec<(Times, Times)> = peer.iter().filter_map(|(path, peer)| Some((*own.get(path)?, *peer))).collect();
+    let mean = |figure: fn(&(Times, Times)) -> f64| both.iter().map(figure).sum::<f64>() / both.len().max(1) as f64;
+    let (front, peer_front) = (mean(|(own, _)| own.front), mean(|(_, peer)| peer.front));
+    let (whole, peer_whole) = (mean(|(own, _)| own.whole), mean(|(_, peer)| peer.whole));
+    println!("{} shaders that both accept, of {}; microseconds a shader at the mean", both.len(), shaders.len());
+    println!(
+        "parse, analysis and link {front:8.1}   libglslang's parse          {peer_front:8.1}   ratio {:.3}",
+        front / peer_front
+    );
+    println!(
+        "GLSL text to WGSL text   {whole:8.1}   libglslang's GLSL to SPIR-V {peer_whole:8.1}   ratio {:.3}",
+        whole / peer_whole
+    );
+}
+
+fn stage_of(path: &Path) -> Option<Stage> {
+    match path.extension()?.to_str()? {
+        "vert" => Some(Stage::Vertex),
+        "frag" => Some(Stage::Fragment),
+        _ => None,
+    }
+}
+
+fn gather(folder: &Path, shaders: &mut Vec<PathBuf>) {
+    let Ok(entries) = std::fs::read_dir(folder) else { return };
+    for path in entries.flatten().map(|entry| entry.path()) {
+        if path.is_dir() {
+            gather(&path, shaders);
+        } else if stage_of(&path).is_some() {
+            shaders.push(path);
+        }
+    }
+}
+
+fn merge(all: &mut BTreeMap<PathBuf, Times>, round: BTreeMap<PathBuf, Times>) {
+    for (path, times) in round {
+        all.entry(path).and_modify(|least| *least = least.least(times)).or_insert(times);
+    }
+}
+
+/// Times one shader; `None` if it is refused or its target cannot hold it.
+fn own_times(path: &Path) -> Option<Times> {
+    let text: std::sync::Arc<str> = std::fs::read_to_string(path).ok()?.into();
+    let stage = stage_of(path)?;
+    let source = Source { name: path.display().to_string(), text, stage };
+    let compiler = Compiler::new(Options::default());
+    let mut least = Times { front: f64::MAX, whole: f64::MAX };
+    for _ in 0..REPEATS {
+        let start = Instant::now();
+        let compilation = compiler.compile(std::slice::from_ref(&source));
+        let front = start.elapsed().as_secs_f64() * 1e6;
+        emit(compilation.program.as_ref()?, stage, Target::Wgsl, &Conventions::default()).ok()?;
+        least = least.least(Times { front, whole: start.elapsed().as_secs_f64() * 1e6 });
+    }
+    Some(least)
+}
+
+/// Builds libglslang's side; `None` where its library or a C++ compiler is missing.
+fn build_driver(root: &Path) -> Option<PathBuf> {
+    let driver = root.join("target/peers-glslang");
+    std::fs::create_dir_all(root.join("target")).ok()?;
+    let libraries = [
+        "glslang",
+        "MachineIndependent",
+        "GenericCodeGen",
+        "OSDependent",
+        "OGLCompiler",
+        "HLSL",
+        "glslang-default-resource-limits",
+        "SPIRV",
+        "SPIRV-Tools-opt",
+        "SPIRV-Tools",
+        "pthread",
+    ];
+    let built = Command::new("c++")
+        .args(["-O2", "-std=c++17"])
+        .arg(root.join("benches/peers/glslang.cpp"))
+        .arg("-o")
+        .arg(&driver)
+        .args(libraries.map(|library| format!("-l{library}")))
+        .stderr(Stdio::null())
+        .status()
+        .is_ok_and(|status| status.success());
+    built.then_some(driver)
+}
+
+fn run_driver(driver: &Path, shaders: &[PathBuf]) -> BTreeMap<PathBuf, Times> {
+    let mut child = Command::new(driver)
+        .arg(REPEATS.to_string())
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .spawn()
+        .expect("the driver was built");
+    let list: String = shaders.iter().map(|path| format!("{}\n", path.display())).collect();
+    let mut input = child.stdin.take().expect("a pipe");
+    let writer = std::thread::spawn(move || input.write_all(list.as_bytes()));
+    let output = child.wait_with_output().expect("the driver runs");
+    writer.join().expect("the writer ends").expect("the driver reads");
+    String::from_utf8_lossy(&output.stdout)
+        .lines()
+        .filter_map(|line| {
+            let mut fields = line.split('\t');
+            let path = PathBuf::from(fields.next()?);
+            Some((path, Times { front: fields.next()?.parse().ok()?, whole: fields.next()?.parse().ok()? }))
+        })
+        .collect()
+}
