@@ -13,6 +13,11 @@ use half::f16;
 /// Pixels along a side of a bin; even, so that quads lie within one.
 pub(super) const BIN: i64 = 32;
 
+/// How far blending may be off in an 8-bit attachment, which may be computed in as many bits as the attachment has
+/// (OpenGL 3.2 §4.1.7): the source, the factors and the products are each rounded to steps of 1/255. Measured on Mesa
+/// 22.3's software drivers: up to two steps.
+const BLEND_SLACK: f64 = 2.0 / 255.0;
+
 /// A bin's part of the framebuffer.
 #[derive(Debug)]
 pub(super) struct Bin<D: Domain> {
@@ -160,7 +165,11 @@ impl<D: Domain> Bin<D> {
         let index = local(self.area, x, y);
         let Some(slot) = self.colors.get_mut(attachment).and_then(|colors| colors.get_mut(index)) else { return };
         let color = match blend {
-            Some(factors) if !is_integer(format) => blended::<D>(factors, clamped::<D>(color, format), *slot),
+            Some(factors) if !is_integer(format) => {
+                let slack = if format == Format::Rgba8Unorm { BLEND_SLACK } else { 0.0 };
+                blended::<D>(factors, clamped::<D>(color, format), *slot)
+                    .map(|channel| D::Float::with_error(channel.value(), channel.error() + slack))
+            }
             _ => color,
         };
         *slot = color.map(|channel| store::<D>(channel, format));
