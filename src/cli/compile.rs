@@ -10,8 +10,9 @@ use super::files;
 use super::guard;
 use super::inputs::{self, Group};
 use super::session::{Session, Unit};
-use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::general::LONE_STAGE;
+use crate::diagnostic::codes::link::{LONE_WITHOUT_DEFINITION, LONE_WITHOUT_MAIN};
+use crate::diagnostic::{Diagnostic, Severity};
 use crate::emit::{self, Conventions, Target};
 use crate::hir::{self, Stage};
 use crate::library;
@@ -118,6 +119,7 @@ pub(super) fn run(args: &CompileArgs, console: &Console) -> Outcome {
     }
     for unit in &mut units {
         warn_of_lone_stage(unit);
+        refuse_what_is_no_program(unit);
         session.judge(&mut unit.batch);
     }
     let emitted: Vec<Result<Vec<Output>, Vec<Diagnostic>>> =
@@ -295,6 +297,21 @@ fn make_word(name: &str) -> String {
 
 fn files_of(group: &Group) -> String {
     group.inputs.iter().map(|input| format!("`{}`", input.name)).collect::<Vec<_>>().join(", ")
+}
+
+/// A lone shader that lacks a function is sound as a part of a program, which `lint` has to grant, but nothing can be
+/// emitted for it: its warnings are errors here.
+fn refuse_what_is_no_program(unit: &mut Unit) {
+    if unit.program.is_some() {
+        return;
+    }
+    for diagnostic in unit.batch.diagnostics.iter_mut() {
+        if [&LONE_WITHOUT_MAIN, &LONE_WITHOUT_DEFINITION].contains(&diagnostic.code) {
+            diagnostic.severity = Severity::Error;
+        }
+    }
+    // Counts the errors anew.
+    unit.batch.diagnostics.retain(|_| true);
 }
 
 fn warn_of_lone_stage(unit: &mut Unit) {

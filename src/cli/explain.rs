@@ -30,8 +30,10 @@ pub(super) fn run(args: &ExplainArgs, console: &Console) -> Outcome {
 
 fn unknown(key: &str) -> Failure {
     let failure = Failure::usage(format!("there is no code `{key}`"));
-    match nearest_code(key.trim()) {
-        Some(near) => failure.help(format!("did you mean `{near}`?")),
+    let key = key.trim().to_ascii_uppercase();
+    let by_letters = || codes::all().map(|code| code.id).min_by_key(|id| strsim::damerau_levenshtein(&key, id));
+    match nearest_code(&key.to_ascii_lowercase()).or_else(by_letters) {
+        Some(near) => failure.help(format!("did you mean `{near}`? `glisten explain --list` names all codes")),
         None => failure.help("`glisten explain --list` names all codes"),
     }
 }

@@ -6,6 +6,7 @@ use super::progress::Progress;
 use super::scenes::{DrawError, SceneArgs};
 use crate::compare::{Judge, Picture, Verdict, flip};
 use crate::cpu::{self, LineRule, Precision, RenderOptions};
+use crate::diagnostic::Diagnostic;
 use crate::gpu::{Gpu, Via};
 use crate::scene::Scene;
 use clap::{Args, ValueEnum};
@@ -76,12 +77,37 @@ struct Run {
     cpu_ms: f64,
 }
 
+/// A way to run that a program cannot take.
+#[derive(Clone, Debug, Serialize)]
+struct Skip {
+    via: &'static str,
+    /// What the target lacks, and the way out.
+    reason: String,
+}
+
+impl Skip {
+    fn new(via: Via, diagnostics: &[Diagnostic]) -> Self {
+        let reasons: Vec<&str> = diagnostics.iter().map(|diagnostic| diagnostic.message.as_str()).collect();
+        Self { via: via.name(), reason: reasons.join("; ") }
+    }
+}
+
+/// All comparisons, and the pictures behind them.
+#[derive(Default)]
+struct Compared {
+    runs: Vec<Run>,
+    pictures: Vec<Picture>,
+    skipped: Vec<Skip>,
+}
+
 /// What is printed as JSON: the worse of all runs, and each of them.
 #[derive(Serialize)]
 struct Report<'a> {
     #[serde(flatten)]
     worse: &'a Run,
     runs: &'a [Run],
+    /// The ways that `both` left out because the target cannot hold the program.
+    skipped: &'a [Skip],
     /// Pixels where SPIR-V and WGSL drew other bits; null if only one of them ran.
     forms_bit_unequal: Option<u64>,
     holds: bool,
@@ -99,7 +125,7 @@ pub(super) fn run(args: &VerifyArgs, console: &Console) -> Outcome {
         ViaChoice::Both => vec![Via::Spirv, Via::Wgsl],
     };
     let progress = Progress::new(console, vias.len() + 1);
-    let (runs, pictures) = match compare(args, Arc::new(read.scene.clone()), &vias, &progress) {
+    let Compared { runs, pictures, skipped } = match compare(args, Arc::new(read.scene.clone()), &vias, &progress) {
         Ok(compared) => compared,
         Err(error) => return read.failed(error),
     };
@@ -112,11 +138,14 @@ pub(super) fn run(args: &VerifyArgs, console: &Console) -> Outcome {
     let holds = runs.iter().all(|run| run.verdict.holds(args.allow_undecided));
     let text = match args.format {
         Format::Json => {
-            let report = Report { worse: &worse, runs: &runs, forms_bit_unequal, holds };
+            let report = Report { worse: &worse, runs: &runs, skipped: &skipped, forms_bit_unequal, holds };
             serde_json::to_string_pretty(&report).expect("figures are always JSON") + "\n"
         }
         Format::Human => {
             let mut text: String = runs.iter().map(|run| human(run, args.allow_undecided)).collect();
+            for skip in &skipped {
+                text.push_str(&format!("{}: not run: {}\n", skip.via, skip.reason));
+            }
             if let Some(count) = forms_bit_unequal {
                 text.push_str(&format!("spirv and wgsl: {count} pixels are not bit-equal\n"));
             }
@@ -127,12 +156,7 @@ pub(super) fn run(args: &VerifyArgs, console: &Console) -> Outcome {
     Ok(if holds { Exit::Ok } else { Exit::Content })
 }
 
-fn compare(
-    args: &VerifyArgs,
-    scene: Arc<Scene>,
-    vias: &[Via],
-    progress: &Progress,
-) -> Result<(Vec<Run>, Vec<Picture>), DrawError> {
+fn compare(args: &VerifyArgs, scene: Arc<Scene>, vias: &[Via], progress: &Progress) -> Result<Compared, DrawError> {
     let gpu = Arc::new(args.scene.gpu()?);
     progress.say("the reference");
     let start = Instant::now();
@@ -143,18 +167,24 @@ fn compare(
     let cpu_ms = start.elapsed().as_secs_f64() * 1e3;
     progress.step();
     let judge = args.tolerance.map_or(Judge::Bound, Judge::Tolerance);
-    let mut runs = Vec::new();
-    let mut pictures = Vec::new();
+    let mut compared = Compared::default();
     for via in vias {
         progress.say(via.name());
-        let (picture, gpu_ms) = on_gpu(args, Arc::clone(&gpu), Arc::clone(&scene), *via)?;
+        let (picture, gpu_ms) = match on_gpu(args, Arc::clone(&gpu), Arc::clone(&scene), *via) {
+            // With `both`, one target's lack (WGSL has no point size, say) does not keep the other from being judged.
+            Err(DrawError::Diagnostics(lack)) if *via == Via::Wgsl && !compared.runs.is_empty() => {
+                compared.skipped.push(Skip::new(*via, &lack));
+                continue;
+            }
+            other => other?,
+        };
         let verdict = Verdict::new(&picture, &cpu, judge);
         let bit_unequal = picture.bit_unequal(&cpu);
-        runs.push(Run { via: via.name(), verdict, flip: flip(&cpu, &picture), bit_unequal, gpu_ms, cpu_ms });
-        pictures.push(picture);
+        compared.runs.push(Run { via: via.name(), verdict, flip: flip(&cpu, &picture), bit_unequal, gpu_ms, cpu_ms });
+        compared.pictures.push(picture);
         progress.step();
     }
-    Ok((runs, pictures))
+    Ok(compared)
 }
 
 /// The reference with its bounds; lines by the rule of the target.
