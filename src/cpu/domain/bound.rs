@@ -77,6 +77,13 @@ impl Integer for BoundInt {
     }
 }
 
+/// Whether a number is 2^n for an n from -126 to 126, or the negative of such.
+#[inline(always)]
+fn is_power_of_two(value: f64) -> bool {
+    const MANTISSA: u64 = (1 << 52) - 1;
+    value.to_bits() & MANTISSA == 0 && (FLUSH..=1.0 / FLUSH).contains(&value.abs())
+}
+
 impl BoundFloat {
     /// A value and a bound; a bound that is no number says "anything".
     #[inline(always)]
@@ -90,6 +97,14 @@ impl BoundFloat {
         let flushed = if value.abs() < FLUSH { value.abs() } else { 0.0 };
         let overflow = if value.abs() > f64::from(f32::MAX) { f64::INFINITY } else { 0.0 };
         Self::new(value, carried + rule + flushed + overflow)
+    }
+
+    /// A correctly rounded operation: where nothing was carried in and the result is a float as it stands, every
+    /// conforming GPU gives that float.
+    #[inline(always)]
+    fn rounded(value: f64, carried: f64, rule: f64) -> Self {
+        let representable = f64::from(value as f32) == value && (value == 0.0 || value.abs() >= FLUSH);
+        if carried == 0.0 && representable { Self::exact(value) } else { Self::ruled(value, carried, rule) }
     }
 
     /// A function that is monotonic between `value - error` and `value + error`.
@@ -175,7 +190,7 @@ impl Number for BoundFloat {
     #[inline(always)]
     fn add(self, other: Self) -> Self {
         let value = self.value + other.value;
-        Self::ruled(value, self.error + other.error, rules::ADD.allowance.at(value, 0.0))
+        Self::rounded(value, self.error + other.error, rules::ADD.allowance.at(value, 0.0))
     }
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
@@ -186,7 +201,7 @@ impl Number for BoundFloat {
         let value = self.value * other.value;
         let carried =
             scaled(other.error, self.value) + scaled(self.error, other.value) + scaled(self.error, other.error);
-        Self::ruled(value, carried, rules::MUL.allowance.at(value, 0.0))
+        Self::rounded(value, carried, rules::MUL.allowance.at(value, 0.0))
     }
     #[inline(always)]
     fn div(self, other: Self) -> Self {
@@ -199,6 +214,10 @@ impl Number for BoundFloat {
         } else {
             f64::INFINITY
         };
+        if carried == 0.0 && is_power_of_two(other.value) {
+            // The reciprocal is a float, so that every way to divide is one correctly rounded multiplication.
+            return Self::rounded(value, 0.0, rules::MUL.allowance.at(value, 0.0));
+        }
         let rule = rules::DIV.allowance.at(value, 0.0);
         // Outside these the specification promises nothing.
         let wild = if other.value.abs() < FLUSH || other.value.abs() > 1.0 / FLUSH { f64::INFINITY } else { 0.0 };
