@@ -50,6 +50,9 @@ impl<W: Number> Few<W> {
 
 type Vector<W, const N: usize> = [Few<W>; N];
 
+/// What a domain's built-in functions are computed in.
+type Wide<D> = <<D as Domain>::Float as Number>::Wide;
+
 #[inline(always)]
 fn dot<W: Number, const N: usize>(a: &Vector<W, N>, b: &Vector<W, N>) -> Few<W> {
     let mut sum = a[0].mul(b[0]);
@@ -133,7 +136,8 @@ fn determinant<W: Number>(m: &[Few<W>], size: usize) -> Few<W> {
 }
 
 /// Cofactors over the determinant.
-fn inverse<W: Number>(m: &[Few<W>], size: usize, out: &mut [Few<W>]) {
+fn inverse<W: Number>(m: &[Few<W>], size: usize) -> [Few<W>; 16] {
+    let mut out = [Few::splat(0.0); 16];
     let all = [0usize, 1, 2, 3];
     let determinant = determinant(m, size);
     for column in 0..size {
@@ -147,6 +151,7 @@ fn inverse<W: Number>(m: &[Few<W>], size: usize, out: &mut [Few<W>]) {
             out[column * size + row] = signed.zip(determinant, W::div);
         }
     }
+    out
 }
 
 /// Consecutive arguments as one vector.
@@ -155,60 +160,80 @@ fn vector<W: Copy, const N: usize>(arguments: &[W], place: usize) -> [W; N] {
     std::array::from_fn(|k| arguments[place * N + k])
 }
 
-/// The functions whose shape is a number of components.
-#[inline(always)]
-fn of_vectors<W: Number, const N: usize>(op: Composite, a: &[Few<W>], out: &mut [Few<W>]) {
-    match op {
-        Composite::Length => out[0] = length::<W, N>(&vector(a, 0)),
-        Composite::Distance => {
-            let (p, q) = (vector::<_, N>(a, 0), vector::<_, N>(a, 1));
-            out[0] = length::<W, N>(&std::array::from_fn(|k| p[k].sub(q[k])));
-        }
-        Composite::Dot => out[0] = dot::<W, N>(&vector(a, 0), &vector(a, 1)),
-        Composite::Normalize => out[..N].copy_from_slice(&normalize::<W, N>(&vector(a, 0))),
-        Composite::Faceforward => {
-            out[..N].copy_from_slice(&faceforward::<W, N>(&vector(a, 0), &vector(a, 1), &vector(a, 2)));
-        }
-        Composite::Reflect => out[..N].copy_from_slice(&reflect::<W, N>(&vector(a, 0), &vector(a, 1))),
-        Composite::Refract => {
-            out[..N].copy_from_slice(&refract::<W, N>(&vector(a, 0), &vector(a, 1), a[2 * N]));
-        }
-        Composite::Cross => out[..3].copy_from_slice(&cross(&vector(a, 0), &vector(a, 1))),
-        Composite::Determinant => out[0] = determinant(a, N),
-        Composite::Inverse => inverse(a, N, out),
-    }
-}
-
-/// The most arguments: `faceforward` of `vec4` has 12, a `mat4` 16.
-const MOST: usize = 16;
-
 impl<D: Domain> Registers<D> {
     pub(super) fn composite(&mut self, op: Composite, size: u8, results: &[Operand], arguments: &[Operand]) {
-        match size {
-            1 => self.composite_of::<1>(op, results, arguments),
-            2 => self.composite_of::<2>(op, results, arguments),
-            3 => self.composite_of::<3>(op, results, arguments),
-            _ => self.composite_of::<4>(op, results, arguments),
+        // Sizes of arrays cannot be computed from `N`: arguments and results a function are counted here.
+        match (op, size) {
+            (Composite::Cross, _) => self.each_few::<6, 3>(results, arguments, |a| cross(&vector(a, 0), &vector(a, 1))),
+            (Composite::Determinant, _) => {
+                let size = usize::from(size.min(4));
+                self.each_few::<16, 1>(results, arguments, |a| [determinant(a, size)]);
+            }
+            (Composite::Inverse, _) => {
+                let size = usize::from(size.min(4));
+                self.each_few::<16, 16>(results, arguments, |a| inverse(a, size));
+            }
+            (_, 1) => self.of_vectors::<1, 2, 3>(op, results, arguments),
+            (_, 2) => self.of_vectors::<2, 4, 6>(op, results, arguments),
+            (_, 3) => self.of_vectors::<3, 6, 9>(op, results, arguments),
+            _ => self.of_vectors::<4, 8, 12>(op, results, arguments),
         }
     }
 
-    fn composite_of<const N: usize>(&mut self, op: Composite, results: &[Operand], arguments: &[Operand]) {
-        let mut outs: Vec<Lanes<D::Float>> = std::mem::take(&mut self.spare_floats);
-        for start in (0..LANES).step_by(STEP) {
-            let mut few = [Few([<D::Float as Number>::Wide::default(); STEP]); MOST];
-            let mut out = [Few([<D::Float as Number>::Wide::default(); STEP]); MOST];
-            for (few, operand) in few.iter_mut().zip(arguments) {
-                few.0 = match self.float(*operand) {
-                    Source::Lanes(lanes) => {
-                        let lanes = &lanes[start..start + STEP];
-                        std::array::from_fn(|lane| lanes[lane].widen())
-                    }
-                    Source::One(value) => [value.widen(); STEP],
-                };
+    /// The functions of `N` components, of one, two (`N2` scalars) or three (`N3`) vectors.
+    fn of_vectors<const N: usize, const N2: usize, const N3: usize>(
+        &mut self,
+        op: Composite,
+        results: &[Operand],
+        arguments: &[Operand],
+    ) {
+        match op {
+            Composite::Length => self.each_few::<N, 1>(results, arguments, |a| [length(a)]),
+            Composite::Normalize => self.each_few::<N, N>(results, arguments, normalize),
+            Composite::Dot => {
+                self.each_few::<N2, 1>(results, arguments, |a| [dot::<_, N>(&vector(a, 0), &vector(a, 1))])
             }
-            of_vectors::<_, N>(op, &few, &mut out);
-            for (lanes, out) in outs.iter_mut().zip(&out).take(results.len()) {
-                for (lane, value) in lanes[start..start + STEP].iter_mut().zip(out.0) {
+            Composite::Distance => self.each_few::<N2, 1>(results, arguments, |a| {
+                let gap: Vector<_, N> = std::array::from_fn(|k| a[k].sub(a[N + k]));
+                [length(&gap)]
+            }),
+            Composite::Reflect => {
+                self.each_few::<N2, N>(results, arguments, |a| reflect(&vector(a, 0), &vector(a, 1)));
+            }
+            Composite::Refract => {
+                // Of the third argument, a float, one scalar is there; the rest is blank.
+                self.each_few::<N3, N>(results, arguments, |a| refract(&vector(a, 0), &vector(a, 1), a[N2]));
+            }
+            Composite::Faceforward => {
+                self.each_few::<N3, N>(results, arguments, |a| faceforward(&vector(a, 0), &vector(a, 1), &vector(a, 2)))
+            }
+            // `composite` has seen to these.
+            Composite::Cross | Composite::Determinant | Composite::Inverse => {}
+        }
+    }
+
+    /// Applies a function of at most `A` scalars with at most `R` results to a few lanes at a time.
+    #[inline(always)]
+    fn each_few<const A: usize, const R: usize>(
+        &mut self,
+        results: &[Operand],
+        arguments: &[Operand],
+        f: impl Fn(&[Few<Wide<D>>; A]) -> [Few<Wide<D>>; R],
+    ) {
+        let mut outs: Vec<Lanes<D::Float>> = std::mem::take(&mut self.spare_floats);
+        let blank = Source::One(D::Float::default());
+        let sources: [Source<'_, D::Float>; A] =
+            std::array::from_fn(|k| arguments.get(k).map_or(blank, |operand| self.float(*operand)));
+        for start in (0..LANES).step_by(STEP) {
+            let few: [Few<Wide<D>>; A] = std::array::from_fn(|k| match &sources[k] {
+                Source::Lanes(lanes) => {
+                    let lanes = &lanes[start..start + STEP];
+                    Few(std::array::from_fn(|lane| lanes[lane].widen()))
+                }
+                Source::One(value) => Few([value.widen(); STEP]),
+            });
+            for (lanes, few) in outs.iter_mut().zip(f(&few)).take(results.len()) {
+                for (lane, value) in lanes[start..start + STEP].iter_mut().zip(few.0) {
                     *lane = D::Float::narrow(value);
                 }
             }
