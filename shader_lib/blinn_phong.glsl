@@ -4,7 +4,7 @@
 // source: textbook, section 10.1.3
 //
 // The cosine is taken from |N - H|^2 / 2 = 1 - N.H, which keeps the digits that N.H loses near 1: the error no longer
-// grows with the exponent (docs/numerics.md). Outside the model: L = -V has no half vector and no highlight; nor has a
+// grows with the exponent. Outside the model: L = -V has no half vector and no highlight; nor has a
 // surface that the light does not reach (N.L <= 0).
 #ifndef GLISTEN_BLINN_PHONG
 #define GLISTEN_BLINN_PHONG

@@ -1,7 +1,7 @@
 // name: safe
 // kind: helper
 // equation: none
-// source: docs/numerics.md
+// source: none
 //
 // Building blocks that are finite for every finite input. Each equals the plain form wherever that is defined and
 // does not overflow on the way.

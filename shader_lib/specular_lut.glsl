@@ -5,7 +5,7 @@
 //
 // The highlight drawn into a texture, so that it may have any profile. Build the texture with texel i = f(i / (n - 1))
 // and let the sampler clamp; the coordinate below then meets texel centers at both ends, which costs the linear filter
-// nothing (the plain coordinate costs it half a texel everywhere; docs/numerics.md).
+// nothing (the plain coordinate costs it half a texel everywhere).
 #ifndef GLISTEN_SPECULAR_LUT
 #define GLISTEN_SPECULAR_LUT
 #include "blinn_phong.glsl"
