@@ -87,6 +87,34 @@ fn walk_agrees(program: &Generated) {
     }
 }
 
+/// The reference and a strict GPU stay within the bounds, where nothing was left open.
+fn bounds_hold(program: &Generated) {
+    let mut bound = machine_of::<Bound>(program);
+    let (mut wide, mut single) = (machine_of::<F64>(program), machine_of::<F32>(program));
+    fill(&mut bound, program);
+    bound.run(Mask::ALL, Mask::NONE);
+    fill(&mut wide, program);
+    wide.run(Mask::ALL, Mask::NONE);
+    fill(&mut single, program);
+    single.run(Mask::ALL, Mask::NONE);
+    let decided = Mask(!bound.undecided().0 & !bound.discarded().0);
+    for (id, scalars) in &program.outputs {
+        for flat in 0..scalars.len() as u32 {
+            let (Some(b), Some(w), Some(s)) =
+                (bound.float_output(*id, flat), wide.float_output(*id, flat), single.float_output(*id, flat))
+            else {
+                continue;
+            };
+            for lane in decided.lanes().filter(|lane| b[*lane].error().is_finite() && b[*lane].value().is_finite()) {
+                assert_eq!(b[lane].value(), w[lane], "lane {lane}: the value is the reference's");
+                let off = (b[lane].value() - f64::from(s[lane])).abs();
+                let told = format!("lane {lane}: off by {off}, bound {}\n{}", b[lane].error(), generate::text(program));
+                assert!(off <= b[lane].error() * (1.0 + 1e-6), "{told}");
+            }
+        }
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
 
@@ -101,5 +129,10 @@ proptest! {
         lanes_agree::<F64>(&program);
         lanes_agree::<F32>(&program);
         lanes_agree::<Bound>(&program);
+    }
+
+    #[test]
+    fn f64_and_f32_lie_within_the_bounds(bytes in prop::collection::vec(any::<u8>(), 0..400)) {
+        bounds_hold(&generate::program(&mut Source::new(&bytes)));
     }
 }
