@@ -20,13 +20,12 @@
 //!
 //! # Where the time goes
 //!
-//! A tile of the Blinn-Phong sphere (two lights, 64 fragments) takes 7.9 us in f64, 6.5 us in f32 and 41 us with bounds:
-//! 124, 102 and 640 ns a fragment on one core (the fastest samples of `cargo bench --bench exec` on two busy cores of an
-//! AMD EPYC). Of the f64 time about a third are `normalize` and the other built-ins of vectors (two lanes a square root
+//! `cargo bench --bench exec` times a tile of the Blinn-Phong sphere and the whole sphere in each domain. In a sampled
+//! profile of the tile in f64, about a third was `normalize` and the other built-ins of vectors (two lanes a square root
 //! and a division without AVX), a quarter the loop over instructions with its additions and products, a fifth `pow`, a
 //! tenth passing light structs by value.
-//! Lessons: built-ins of vectors that kept room for 16 arguments whatever they had cost 40 % of the tile; joining
-//! products with sums and reading uniforms as single numbers keep the working set in the first-level cache.
+//! Lessons: built-ins of vectors must not keep room for 16 arguments whatever they have; joining products with sums and
+//! reading uniforms as single numbers keep the working set in the first-level cache.
 //!
 //! *Holds:* a run never panics and always ends, whatever the program does: indices are clamped into range, integer
 //! division by zero is defined ([`Integer`](super::domain::Integer)), loops stop at [`LOOP_BUDGET`].
