@@ -8,10 +8,12 @@ use super::constants::is_constant;
 use super::function::{Ctx, GlobalSlot, Slot};
 use super::{Lower, Try, internal, lacking, naga_span, unsupported};
 use crate::builtin::BuiltinVariable;
+use crate::diagnostic::Diagnostic;
 use crate::emit::{Target, WindowOrigin};
 use crate::hir::{ArraySize, FunctionId, Global, GlobalId, Interpolation, Stage, Storage, Type, TypeId, Value};
-use crate::link::{Program, Varying, VaryingEnd};
+use crate::link::{Attribute, Program, Varying, VaryingEnd};
 use naga::{AddressSpace, BinaryOperator, Binding, BuiltIn, Expression, GlobalVariable, Handle};
+use std::collections::BTreeMap;
 
 /// The varyings that stand at one location.
 pub(super) struct Location<'a> {
@@ -254,10 +256,12 @@ impl Ctx<'_, '_> {
         Ok(())
     }
 
-    /// One argument a location: matrices by columns, arrays by elements.
+    /// One argument a location: matrices by columns, arrays by elements. Attributes that share a location (OpenGL 3.2
+    /// §2.7, legal where no path reads both) share the argument.
     fn attributes(&mut self) -> Try<Vec<Arrived>> {
         let interface = self.low.interface;
         let mut arrived = Vec::new();
+        let mut arguments: BTreeMap<u32, (TypeId, Handle<Expression>)> = BTreeMap::new();
         for attribute in &interface.attributes {
             if !self.low.facts.used.get(attribute.global.index()).copied().unwrap_or(false) {
                 continue;
@@ -274,11 +278,23 @@ impl Ctx<'_, '_> {
             let count = self.low.types.flat_len(attribute.ty) / size;
             for index in 0..count {
                 let name = if count == 1 { attribute.name.clone() } else { format!("{}_{index}", attribute.name) };
-                let value = self.argument(&name, ty, Some(plain_location(attribute.location + index, None)));
+                let location = attribute.location + index;
+                let value = match arguments.get(&location) {
+                    Some(&(same, value)) if same == leaf => value,
+                    Some(_) => return Err(self.aliased(attribute)),
+                    None => self.argument(&name, ty, Some(plain_location(location, None))),
+                };
+                arguments.insert(location, (leaf, value));
                 arrived.push(Arrived { global: attribute.global, flat: index * size, value });
             }
         }
         Ok(arrived)
+    }
+
+    fn aliased(&self, attribute: &Attribute) -> Box<Diagnostic> {
+        let span = self.shader.global(attribute.global).span;
+        let message = format!("no target reads one location as two types, as `{}` asks for", attribute.name);
+        lacking(span, message, format!("bind `{}` to a location of its own", attribute.name))
     }
 
     fn varyings(&mut self) -> Try<Vec<Arrived>> {
