@@ -69,6 +69,10 @@ enum Kind<D: Domain> {
     Triangle(Frame<D::Float>),
 }
 
+/// How far a driver's `gl_PointCoord` may be off its equation beside the rounding of that: four ULP of 1. No specification
+/// speaks of it; Mesa interpolates the coordinate across the square.
+const POINT_COORD_ERROR: f64 = 4.0 / (1 << 23) as f64;
+
 /// The square of a point, for `gl_PointCoord`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sprite<D: Domain> {
@@ -80,7 +84,10 @@ impl<D: Domain> Sprite<D> {
     /// Equations (3.3) and (3.4) with the origin at the upper left, which is OpenGL's default, in picture rows.
     pub(super) fn coordinates(&self, x: f64, y: f64) -> [D::Float; 2] {
         let half = D::Float::from_f64(0.5);
-        let along = |p: f64, center: D::Float| half.add(D::Float::from_f64(p).sub(center).div(self.size));
+        let along = |p: f64, center: D::Float| {
+            let exact = half.add(D::Float::from_f64(p).sub(center).div(self.size));
+            D::Float::with_error(exact.value(), exact.error() + POINT_COORD_ERROR)
+        };
         [along(x, self.center[0]), along(y, self.center[1])]
     }
 }
