@@ -121,31 +121,8 @@ fn set(flags: &mut [bool], index: usize) {
 }
 
 /// Calls `visit` with each operand, in the order of evaluation.
-pub(super) fn children(kind: &ExprKind, mut visit: impl FnMut(ExprId)) {
-    match kind {
-        ExprKind::Error | ExprKind::Literal(_) | ExprKind::Var(_) => {}
-        ExprKind::Member(a, _)
-        | ExprKind::Swizzle(a, _)
-        | ExprKind::Convert(a)
-        | ExprKind::Unary(_, a)
-        | ExprKind::IncDec(_, a) => visit(*a),
-        ExprKind::Index(a, b)
-        | ExprKind::Binary(_, a, b)
-        | ExprKind::Logical(_, a, b)
-        | ExprKind::Assign(_, a, b)
-        | ExprKind::Comma(a, b) => {
-            visit(*a);
-            visit(*b);
-        }
-        ExprKind::Ternary(a, b, c) => {
-            visit(*a);
-            visit(*b);
-            visit(*c);
-        }
-        ExprKind::Construct(_, all) | ExprKind::Call(_, all) | ExprKind::BuiltinCall(_, all) => {
-            all.iter().for_each(|id| visit(*id));
-        }
-    }
+pub(super) fn children(kind: &ExprKind, visit: impl FnMut(ExprId)) {
+    kind.children().into_iter().for_each(visit);
 }
 
 /// `constants` says which expressions name a local constant, which only their function knows.

@@ -159,28 +159,5 @@ fn root(shader: &Shader, place: ExprId, assigned: &mut Assigned) {
 
 /// Shows the direct children.
 fn each_child(kind: &ExprKind, f: &mut dyn FnMut(ExprId)) {
-    match kind {
-        ExprKind::Error | ExprKind::Literal(_) | ExprKind::Var(_) => {}
-        ExprKind::Member(a, _)
-        | ExprKind::Swizzle(a, _)
-        | ExprKind::Convert(a)
-        | ExprKind::Unary(_, a)
-        | ExprKind::IncDec(_, a) => f(*a),
-        ExprKind::Index(a, b)
-        | ExprKind::Binary(_, a, b)
-        | ExprKind::Logical(_, a, b)
-        | ExprKind::Assign(_, a, b)
-        | ExprKind::Comma(a, b) => {
-            f(*a);
-            f(*b);
-        }
-        ExprKind::Ternary(a, b, c) => {
-            f(*a);
-            f(*b);
-            f(*c);
-        }
-        ExprKind::Construct(_, list) | ExprKind::Call(_, list) | ExprKind::BuiltinCall(_, list) => {
-            list.iter().for_each(|child| f(*child));
-        }
-    }
+    kind.children().into_iter().for_each(f);
 }
