@@ -5,6 +5,7 @@ use super::inst::{Class, Inst, List, Operand, TextureCall};
 use crate::diagnostic::Diagnostic;
 use crate::hir::{GlobalId, Stage};
 use crate::link::{Program, RootIndex};
+use crate::source::Span;
 use std::sync::Arc;
 
 /// The instructions of one stage, for every domain. Cheap to clone.
@@ -26,6 +27,8 @@ pub(super) enum PoolSource {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Section {
     pub(super) insts: Vec<Inst>,
+    /// The expression or statement that each instruction was made for.
+    pub(super) spans: Vec<Span>,
     pub(super) lists: Vec<Operand>,
 }
 
@@ -62,6 +65,12 @@ pub(super) struct Inner {
 }
 
 impl Section {
+    /// Appends an instruction.
+    pub(super) fn push(&mut self, inst: Inst, span: Span) {
+        self.insts.push(inst);
+        self.spans.push(span);
+    }
+
     #[inline(always)]
     pub(super) fn list(&self, list: List) -> &[Operand] {
         self.lists.get(list.start as usize..(list.start + list.len) as usize).unwrap_or(&[])

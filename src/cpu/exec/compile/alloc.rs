@@ -87,7 +87,7 @@ fn measure(emitter: &mut Emitter, files: &mut [File; 2]) {
     let loops = loops(&emitter.main.insts);
     let mut entered = 0;
     let mut inside: Vec<(u32, u32)> = Vec::new();
-    let Section { insts, lists } = &mut emitter.main;
+    let Section { insts, lists, .. } = &mut emitter.main;
     for (place, inst) in insts.iter_mut().enumerate() {
         let place = place as u32;
         while let Some(&next) = loops.get(entered)

@@ -227,9 +227,10 @@ impl Compiler<'_> {
             .collect();
         let arguments = self.emit.list(Class::Float, &flat, hoisted);
         let list = self.emit.list(Class::Float, &results, hoisted);
+        let span = self.emit.span;
         let inst = Inst::Composite { op, size: size as u8, results: list, arguments };
         if hoisted {
-            self.emit.preamble.insts.push(inst)
+            self.emit.preamble.push(inst, span)
         } else {
             self.emit.push(inst)
         }

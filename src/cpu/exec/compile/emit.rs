@@ -4,6 +4,7 @@
 use super::super::code::{PoolSource, Section};
 use super::super::inst::{Class, Inst, List, Operand, Slot, Target, TextureCall};
 use crate::link::RootIndex;
+use crate::source::Span;
 use rustc_hash::FxHashMap;
 
 /// Instructions of one stage in the making.
@@ -11,6 +12,8 @@ use rustc_hash::FxHashMap;
 pub(super) struct Emitter {
     pub(super) main: Section,
     pub(super) preamble: Section,
+    /// What instructions are being made for.
+    pub(super) span: Span,
     pub(super) words: Vec<u32>,
     pub(super) textures: Vec<TextureCall>,
     pub(super) pools: [Vec<PoolSource>; 2],
@@ -88,7 +91,7 @@ impl Emitter {
     }
 
     pub(super) fn push(&mut self, inst: Inst) {
-        self.main.insts.push(inst);
+        self.main.push(inst, self.span);
     }
 
     /// The place of the next instruction.
@@ -149,7 +152,7 @@ impl Emitter {
             return *operand;
         }
         let dst = self.preamble_result(class);
-        self.preamble.insts.push(make(dst));
+        self.preamble.push(make(dst), self.span);
         self.computed.insert(key, dst);
         dst
     }

@@ -4,13 +4,17 @@ use super::super::inst::{Class, Compare, Float1, Float2, FloatToInt, Inst, Int1,
 use super::effects::Assigned;
 use super::{Compiler, Scope, Val};
 use crate::diagnostic::codes;
-use crate::hir::{BinaryOp, ConstructKind, ExprId, ExprKind, IncDec, LogicalOp, Scalar, Type, TypeId, UnaryOp};
+use crate::hir::{BinaryOp, ConstructKind, Expr, ExprId, ExprKind, IncDec, LogicalOp, Scalar, Type, TypeId, UnaryOp};
 
 impl Compiler<'_> {
     /// Evaluates an expression in the active lanes; effects of inactive ones do not happen.
     pub(super) fn expr(&mut self, id: ExprId) -> Val {
         let shader = self.shader;
         let expr = shader.expr(id);
+        self.at(expr.span, |this| this.expr_of(expr, id))
+    }
+
+    fn expr_of(&mut self, expr: &Expr, id: ExprId) -> Val {
         match &expr.kind {
             ExprKind::Error => Val::new(),
             ExprKind::Literal(value) => Val::from_slice(&[self.literal(*value)]),

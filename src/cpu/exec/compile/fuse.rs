@@ -91,11 +91,8 @@ fn remove(emitter: &mut Emitter, gone: &[bool]) {
     }
     moved.push(next);
     let at = |target: Target| moved.get(target as usize).copied().unwrap_or(next);
-    let mut place = 0;
-    emitter.main.insts.retain(|_| {
-        place += 1;
-        !gone.get(place - 1).copied().unwrap_or(false)
-    });
+    retain(&mut emitter.main.insts, gone);
+    retain(&mut emitter.main.spans, gone);
     for inst in &mut emitter.main.insts {
         if let Inst::LoopBack { head, .. } = inst {
             *head = at(*head);
@@ -104,4 +101,12 @@ fn remove(emitter: &mut Emitter, gone: &[bool]) {
             *target = at(*target);
         }
     }
+}
+
+fn retain<T>(list: &mut Vec<T>, gone: &[bool]) {
+    let mut place = 0;
+    list.retain(|_| {
+        place += 1;
+        !gone.get(place - 1).copied().unwrap_or(false)
+    });
 }

@@ -199,6 +199,14 @@ impl<'a> Compiler<'a> {
         result
     }
 
+    /// Runs `body`; what it emits, but for expressions and statements in it, stands for this text.
+    fn at<R>(&mut self, span: Span, body: impl FnOnce(&mut Self) -> R) -> R {
+        let outer = std::mem::replace(&mut self.emit.span, span);
+        let result = body(self);
+        self.emit.span = outer;
+        result
+    }
+
     fn full(&self) -> bool {
         self.emit.main.insts.len() > MAX_INSTRUCTIONS || !self.errors.is_empty()
     }

@@ -27,7 +27,7 @@ impl Compiler<'_> {
             if self.full() {
                 return false;
             }
-            if !self.stmt(stmt) {
+            if !self.at(stmt.span, |this| this.stmt(stmt)) {
                 return false;
             }
         }
@@ -109,7 +109,8 @@ impl Compiler<'_> {
         let mut ends: Vec<Target> = Vec::new();
         for (place, (condition, body)) in arms.iter().enumerate() {
             let c = if place == 0 { first } else { self.later_condition(join, *condition) };
-            let arm = self.emit.jump(Inst::Arm { c, rest, next: 0 });
+            let span = self.shader.expr(*condition).span;
+            let arm = self.at(span, |this| this.emit.jump(Inst::Arm { c, rest, next: 0 }));
             self.nested(Scope::Arms { join }, body);
             self.emit.land(arm);
             if place + 1 < arms.len() || !otherwise.is_empty() {
@@ -209,7 +210,8 @@ impl Compiler<'_> {
             self.bind(local, var);
             self.assign(var, 0, c);
         }
-        Some(self.emit.jump(Inst::LoopTest { c, active, exit: 0 }))
+        let span = self.shader.expr(condition.expr).span;
+        Some(self.at(span, |this| this.emit.jump(Inst::LoopTest { c, active, exit: 0 })))
     }
 
     /// The active lanes leave the constructs around.

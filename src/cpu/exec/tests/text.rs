@@ -2,14 +2,20 @@
 
 use crate::compiler::{Compiler, Options, Source};
 use crate::cpu::domain::{Bound, Domain, F64, Integer, Number};
+use crate::cpu::exec::inst::{Float1, Float2, Inst};
 use crate::cpu::exec::{Code, LANES, Machine, Mask};
 use crate::hir::{ScalarValue, Stage};
 use crate::link::Program;
 use crate::scene::Texture;
+use crate::source::SourceMap;
 use std::sync::Arc;
 
 /// Compiles a fragment stage whose output is `vec4 o`.
 pub(super) fn compiled(body: &str) -> Program {
+    compiled_with_sources(body).0
+}
+
+fn compiled_with_sources(body: &str) -> (Program, SourceMap) {
     let source = Source {
         name: "test.frag".into(),
         text: format!("#version 150\nout vec4 o;\n{body}\n").into(),
@@ -17,7 +23,7 @@ pub(super) fn compiled(body: &str) -> Program {
     };
     let compilation = Compiler::new(Options::default()).compile(&[source]);
     let messages: Vec<String> = compilation.diagnostics.iter().map(|d| d.message.clone()).collect();
-    compilation.program.unwrap_or_else(|| panic!("{messages:?} in {body}"))
+    (compilation.program.unwrap_or_else(|| panic!("{messages:?} in {body}")), compilation.sources)
 }
 
 /// A machine for it, its inputs filled by name and lane (the components of a vector one apart), after a run.
@@ -160,4 +166,25 @@ fn an_open_branch_makes_lanes_undecided_and_an_open_choice_widens() {
     assert!(machine.undecided().is_empty());
     let lanes = output(&program, &machine);
     assert_eq!((lanes[0][0].error, lanes[1][0].error >= 1.0, lanes[2][0].error), (0.0, true, 0.0));
+}
+
+#[test]
+fn each_instruction_knows_the_text_that_it_was_made_for() {
+    let body = "in float a; uniform float u; float f(float x) { return cos(x) / 3.0; } \
+                void main() { float s = 2.0 - f(a) * a + sin(u); if (s > a) o = vec4(s); }";
+    let (program, sources) = compiled_with_sources(body);
+    let code = Code::compile(&program, Stage::Fragment).expect("it can be run");
+    for section in [&code.inner.main, &code.inner.preamble] {
+        assert_eq!(section.insts.len(), section.spans.len());
+    }
+    let texts = |wanted: fn(&Inst) -> bool| -> Vec<&str> {
+        let sections = [&code.inner.preamble, &code.inner.main];
+        let all = sections.into_iter().flat_map(|section| section.insts.iter().zip(&section.spans));
+        all.filter(|(inst, _)| wanted(inst)).map(|(_, span)| sources.snippet(*span)).collect()
+    };
+    assert_eq!(texts(|inst| matches!(inst, Inst::Float1 { op: Float1::Sin, .. })), ["sin(u)"]);
+    assert_eq!(texts(|inst| matches!(inst, Inst::Float1 { op: Float1::Cos, .. })), ["cos(x)"]);
+    assert_eq!(texts(|inst| matches!(inst, Inst::Float2 { op: Float2::Div, .. })), ["cos(x) / 3.0"]);
+    assert_eq!(texts(|inst| matches!(inst, Inst::Float2 { op: Float2::Sub, .. })), ["2.0 - f(a) * a"]);
+    assert_eq!(texts(|inst| matches!(inst, Inst::Compare { .. } | Inst::Arm { .. })), ["s > a", "s > a"]);
 }
