@@ -1,7 +1,8 @@
 // name: half_lambert
 // kind: diffuse
-// equation: u = 0.5 (N.L) + 0.5
+// equation: u = (N.L) / 2 + 0.5
 // source: article, "texture maps revisited"
+// stability: finite for every finite input
 #ifndef GLISTEN_HALF_LAMBERT
 #define GLISTEN_HALF_LAMBERT
 #include "safe.glsl"
@@ -14,10 +15,25 @@ float halfLambertFactor(vec3 N, vec3 L)
     return safeUnit(0.5 * dot(N, L) + 0.5);
 }
 
+// The register that lets one four-component dot product do the same: (l_x / 2, l_y / 2, l_z / 2, 0.5).
+//   L  unit vector towards the light
+vec4 halfLambertRegister(vec3 L)
+{
+    return vec4(0.5 * L, 0.5);
+}
+
+// That dot product, limited to [0, 1].
+//   N  unit normal, whose fourth component is 1    c0  what halfLambertRegister() gives
+float halfLambertDot(vec3 N, vec4 c0)
+{
+    return safeUnit(dot(vec4(N, 1.0), c0));
+}
+
 // Diffuse reflection with that factor, linear RGB.
+//   Kdiff  diffuse reflectance, 0 to 1    Ldiff  intensity of the light, >= 0
 vec3 halfLambert(vec3 N, vec3 L, vec3 Kdiff, vec3 Ldiff)
 {
-    return halfLambertFactor(N, L) * Kdiff * Ldiff;
+    return halfLambertFactor(N, L) * safeLimit(Kdiff * Ldiff);
 }
 
 #endif

@@ -2,9 +2,11 @@
 // kind: ambient
 // equation: color = 0.5 (1 + cos) sky + 0.5 (1 - cos) ground, cos = N.A
 // source: article, programs `hemisphere`, `hemi_amb`, `hemi_spec`
+// stability: finite for every finite input; exact at both poles
 #ifndef GLISTEN_HEMISPHERE
 #define GLISTEN_HEMISPHERE
-#include "safe.glsl"
+#include "lambert.glsl"
+#include "lut.glsl"
 
 // How much of the sky a surface sees: 0 turned away from the axis, 1 turned along it.
 //   N  unit normal    axis  unit vector towards the middle of the sky
@@ -13,19 +15,36 @@ float hemisphereWeight(vec3 N, vec3 axis)
     return safeUnit(0.5 * dot(N, axis) + 0.5);
 }
 
-// Light from two half spheres of uniform color, as the article's last line writes it: ground + weight (sky - ground).
+// Light from two half spheres of uniform color, linear RGB. A weighted mean and not the article's
+// ground + weight (sky - ground), whose difference loses the darker color where the two are far apart.
+//   N  unit normal    axis  unit vector towards the middle of the sky    sky, ground  colors of the two half spheres
 vec3 hemisphere(vec3 N, vec3 axis, vec3 sky, vec3 ground)
 {
     float a = hemisphereWeight(N, axis);
-    return a * sky + (1.0 - a) * ground;
+    return safeLimit(a * sky + (1.0 - a) * ground);
 }
 
-// The same from a table whose ends are ground and sky.
+// The same from a table whose first texel is the ground and whose last is the sky.
+//   table  n by 1 texels, clamped
 vec3 hemisphereLut(sampler2D table, vec3 N, vec3 axis)
 {
-    float n = float(textureSize(table, 0).x);
-    float u = (hemisphereWeight(N, axis) * (n - 1.0) + 0.5) / n;
-    return texture(table, vec2(u, 0.5)).rgb;
+    return lutColor(table, hemisphereWeight(N, axis));
+}
+
+// A directional light with the hemisphere in place of ambient light, linear RGB: max(N.L, 0) L_diff + hemisphere, times the
+// color of the material.
+//   L  unit vector towards the light    Kdiff  color of the material, 0 to 1    Ldiff  intensity of the light, >= 0
+vec3 hemisphereDirectional(vec3 N, vec3 L, vec3 axis, vec3 Kdiff, vec3 Ldiff, vec3 sky, vec3 ground)
+{
+    vec3 light = safeLimit(lambertFactor(N, L) * Ldiff) + hemisphere(N, axis, sky, ground);
+    return safeLimit(Kdiff * safeFinite(light));
+}
+
+// The same with a highlight.
+//   Ispec  specular reflection of any model, linear RGB
+vec3 hemisphereSpecular(vec3 N, vec3 L, vec3 axis, vec3 Kdiff, vec3 Ldiff, vec3 sky, vec3 ground, vec3 Ispec)
+{
+    return safeLimit(hemisphereDirectional(N, L, axis, Kdiff, Ldiff, sky, ground) + Ispec);
 }
 
 #endif

@@ -1,20 +1,31 @@
 // name: outline
 // kind: geometry
-// equation: p' = p + width w n_xy / |n_xy|, z' = z - push w
+// equation: p'.xy = p.xy + width w n / |n|, p'.z = p.z - push w, n = the normal on the screen
 // source: article, program `edge`
+// stability: finite for every finite input; a normal that points at the viewer moves nothing sideways
 //
 // Drawn before the model, with depth write and culling off: the model then covers all but the rim.
 #ifndef GLISTEN_OUTLINE
 #define GLISTEN_OUTLINE
 #include "safe.glsl"
 
-// A clip-space position moved along its normal on the screen and then towards the viewer.
-//   position  clip space    normal  clip-space direction of the normal (its x and y count)
-//   width     in normalized device coordinates (2 is the whole picture)    push  likewise, in depth
-vec4 outlinePosition(vec4 position, vec3 normal, float width, float push)
+// The direction in which a point moves on the screen when it moves along its normal: the derivative of p.xy / p.w, but
+// for its length. z is 0.
+//   position  clip space    normal  the normal through the same matrix, as a direction: matrix * vec4(N, 0)
+vec3 outlineDirection(vec4 position, vec4 normal)
 {
-    vec2 direction = safeNormalize(vec3(normal.xy, 0.0)).xy;
-    return vec4(position.xy + width * position.w * direction, position.z - push * position.w, position.w);
+    vec2 n = normal.xy * position.w - position.xy * normal.w;
+    return safeFinite(vec3(n, 0.0));
+}
+
+// A clip-space position moved along its normal on the screen and then towards the viewer.
+//   position  clip space    direction  on the screen, of any length (its x and y count)
+//   width     in normalized device coordinates (2 is the whole picture)    push  likewise, in depth
+vec4 outlinePosition(vec4 position, vec3 direction, float width, float push)
+{
+    vec2 n = safeNormalize(vec3(direction.xy, 0.0)).xy;
+    // A zero meets no infinity: the width is multiplied by the direction first.
+    return safeLimit(vec4(position.xy + width * n * position.w, position.z - push * position.w, position.w));
 }
 
 #endif

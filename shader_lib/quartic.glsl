@@ -2,8 +2,9 @@
 // kind: specular
 // equation: brightness = max(R.V, 0)^4
 // source: article, program `specular`
+// stability: finite for every finite input
 //
-// The power that a vertex processor without pow() can do: two squarings.
+// The power that a vertex processor without pow() can do: two squarings. Also exact where a GPU's pow() is not.
 #ifndef GLISTEN_QUARTIC
 #define GLISTEN_QUARTIC
 #include "phong.glsl"
@@ -16,7 +17,8 @@ float quartic(float x)
     return x * x;
 }
 
-// Phong's highlight with the exponent 4.
+// Phong's highlight with the exponent 4: 0 to 1; 0 where the light does not reach the surface (N.L <= 0).
+//   N  unit normal    L, V  unit vectors towards the light and the eye
 float quarticFactor(vec3 N, vec3 L, vec3 V)
 {
     return dot(N, L) > 0.0 ? quartic(dot(mirrorDirection(N, L), V)) : 0.0;

@@ -2,25 +2,57 @@
 // kind: helper
 // equation: none
 // source: none
+// stability: finite for every finite input
 //
 // Building blocks that are finite for every finite input. Each equals the plain form wherever that is defined and
-// does not overflow on the way.
+// does not overflow on the way. Numbers below 2^-126 may count as 0: most GPUs flush them.
 //
 // Literals here and in all modules are exact in binary or quotients of such, so that the same text evaluated in f64 is
 // right to f64's last places.
 #ifndef GLISTEN_SAFE
 #define GLISTEN_SAFE
 
-// The largest finite float.
+// The largest finite float, 2^128 - 2^104.
 float safeLargest()
 {
     return 16777215.0 * exp2(104.0);
 }
 
-// max(x, 0) that is 0 for a NaN, too, whatever the driver's max() does.
+// x with infinities brought back to the largest floats. x must not be a NaN.
+float safeLimit(float x)
+{
+    return clamp(x, -safeLargest(), safeLargest());
+}
+
+// The same for each component.
+vec3 safeLimit(vec3 v)
+{
+    return clamp(v, vec3(-safeLargest()), vec3(safeLargest()));
+}
+
+// The same for each component.
+vec4 safeLimit(vec4 v)
+{
+    return clamp(v, vec4(-safeLargest()), vec4(safeLargest()));
+}
+
+// x with infinities brought back to the largest floats and a NaN to 0. Comparisons alone: what min() and max() make of
+// a NaN is the driver's choice.
+float safeFinite(float x)
+{
+    return x > 0.0 ? min(x, safeLargest()) : (x < 0.0 ? max(x, -safeLargest()) : 0.0);
+}
+
+// The same for each component.
+vec3 safeFinite(vec3 v)
+{
+    return vec3(safeFinite(v.x), safeFinite(v.y), safeFinite(v.z));
+}
+
+// max(x, 0), at most the largest float; 0 for a NaN.
 float safePositive(float x)
 {
-    return x > 0.0 ? x : 0.0;
+    return x > 0.0 ? min(x, safeLargest()) : 0.0;
 }
 
 // x limited to [0, 1]; 0 for a NaN.
@@ -29,33 +61,46 @@ float safeUnit(float x)
     return x > 0.0 ? min(x, 1.0) : 0.0;
 }
 
-// |v| for every finite v: scaled by its largest component, so that no square leaves the range of a float.
-// Past the largest float: the largest float.
-float safeLength(vec3 v)
+// The largest of |v.x|, |v.y|, |v.z|.
+float safeExtent(vec3 v)
 {
     vec3 a = abs(v);
-    float m = max(a.x, max(a.y, a.z));
-    if (!(m > 0.0))
-        return 0.0;
-    vec3 u = v / m;
-    return min(m * sqrt(dot(u, u)), safeLargest());
+    return max(a.x, max(a.y, a.z));
 }
 
-// v / |v| for every finite v but zero; the zero vector stays the zero vector (no direction, and no light from it).
+// The power of two 2^-100, 1 or 2^100 by which a vector of this extent is multiplied so that no square of its
+// components leaves the range of a float. A power of two rounds nothing.
+float safeScale(float extent)
+{
+    return extent > exp2(60.0) ? exp2(-100.0) : (extent < exp2(-60.0) ? exp2(100.0) : 1.0);
+}
+
+// |v| for every finite v, where the literal length() overflows from 1.8e19 on and vanishes below 1.1e-19. Past the largest
+// float: the largest float.
+float safeLength(vec3 v)
+{
+    float s = safeScale(safeExtent(v));
+    vec3 u = s * v;
+    return min(sqrt(dot(u, u)) / s, safeLargest());
+}
+
+// v / |v| for every finite v but zero, where the literal form gives 0 or NaN outside of lengths 1.1e-19 to 1.8e19.
+// The zero vector stays the zero vector: no direction, and no light from it.
 vec3 safeNormalize(vec3 v)
 {
-    vec3 a = abs(v);
-    float m = max(a.x, max(a.y, a.z));
+    float m = safeExtent(v);
     if (!(m > 0.0))
         return vec3(0.0);
-    vec3 u = v / m;
+    vec3 u = safeScale(m) * v;
     return u / sqrt(dot(u, u));
 }
 
 // log(1 - d) for d in [0, 1), accurate for small d where 1 - d has lost it: -2 atanh(d / (2 - d)) by its series.
-// Returns the largest negative float for d >= 1.
+// 0 for d <= 0, the largest negative float for d >= 1.
 float safeLogOneMinus(float d)
 {
+    if (!(d > 0.0))
+        return 0.0;
     if (d >= 1.0)
         return -safeLargest();
     if (d > 0.125)
@@ -67,36 +112,53 @@ float safeLogOneMinus(float d)
     return -2.0 * s * sum;
 }
 
-// (1 - d)^k for d >= 0 and k >= 0: the power of a cosine whose distance d from 1 is known better than itself.
-// 1 for k = 0 (also at d >= 1, where the literal power is 0^0), 0 for d >= 1 and k > 0.
+// (1 - d)^k: the power of a number in [0, 1] whose distance d from 1 is known better than itself.
+//   d  limited to [0, 1]    k  limited to k >= 0
+// 1 for k = 0 (also at d = 1, where the literal power is 0^0).
 float safePowOneMinus(float d, float k)
 {
     if (!(k > 0.0))
         return 1.0;
-    if (!(d > 0.0))
-        return 1.0;
-    if (d >= 1.0)
-        return 0.0;
-    return exp(max(k * safeLogOneMinus(d), -safeLargest()));
+    return d < 1.0 ? exp(max(k * safeLogOneMinus(d), -safeLargest())) : 0.0;
 }
 
-// x^k for x in [0, 1] (limited to it) and k >= 0 (limited to it); 0^0 is 1.
+// x^k.
+//   x  limited to [0, 1]    k  limited to k >= 0
+// 1 for k = 0 (also 0^0). Near x = 1 the logarithm is taken by a series: a GPU's log2 loses it there, and k multiplies
+// what it loses.
 float safePow(float x, float k)
 {
     if (!(k > 0.0))
         return 1.0;
     x = safeUnit(x);
-    if (x <= 0.0)
+    if (!(x > 0.0))
         return 0.0;
-    return safePowOneMinus(1.0 - x, k);
+    float l = x < 0.875 ? log(x) : safeLogOneMinus(1.0 - x);
+    return exp(max(k * l, -safeLargest()));
 }
 
-// The distance 1 - cos of two unit vectors from each other: |a - b|^2 / 2. Where a and b are near, this keeps the
-// digits that dot(a, b) rounds away.
+// 1 - cos of the angle between two unit vectors: |a - b|^2 / 2. Where a and b are near, this keeps the digits that
+// dot(a, b) rounds away. At least 0; at most the largest float.
 float safeOneMinusCos(vec3 a, vec3 b)
 {
     vec3 d = a - b;
-    return 0.5 * dot(d, d);
+    return min(0.5 * dot(d, d), safeLargest());
+}
+
+// max(cos, 0)^k of the angle between two unit vectors, 0 to 1: near 1 from |a - b|^2 / 2, so that the error does not
+// grow with the exponent; elsewhere from dot(a, b), which is exact for vectors at right angles.
+//   k  limited to k >= 0
+// 1 for k = 0, whatever the angle (the literal power is 0^0 from a right angle on).
+float safeCosPow(vec3 a, vec3 b, float k)
+{
+    if (!(k > 0.0))
+        return 1.0;
+    float c = dot(a, b);
+    if (!(c > 0.0))
+        return 0.0;
+    float d = safeOneMinusCos(a, b);
+    float l = d < 0.125 ? safeLogOneMinus(d) : log(min(c, 1.0));
+    return exp(max(k * l, -safeLargest()));
 }
 
 #endif

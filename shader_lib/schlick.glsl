@@ -2,46 +2,48 @@
 // kind: specular
 // equation: (90): t / (K_shi - t K_shi + t), t = cos(theta_r) or cos(theta_h)
 // source: textbook, section 10.1.4
+// stability: K - tK does not cancel, so the error does not grow with K as in the literal (90)
 //
-// Schlick's rational stand-in for the power t^K. Written as t / (K d + t) with d = 1 - t taken from the vectors' distance,
-// so that K - tK does not cancel. Outside the model: t is limited to [0, 1] (without that (90) has a pole at
-// t = -K / (1 - K)); t = K = 0, where (90) is 0/0, gives 0.
+// Schlick's rational stand-in for the power t^K, written as t / (K d + t) with d = 1 - t taken from the vectors' distance.
+// Outside of the model: t is limited to [0, 1] (without that (90) has a pole at t = -K / (1 - K)); t = 0 gives 0, also
+// for K = 0, where (90) is 0/0. A surface that the light does not reach (N.L <= 0) has no highlight.
 #ifndef GLISTEN_SCHLICK
 #define GLISTEN_SCHLICK
 #include "blinn_phong.glsl"
 #include "phong.glsl"
 
-// (90) for the cosine 1 - d, d >= 0.
-float schlickFromDistance(float d, float shininess)
-{
-    float t = 1.0 - d;
-    if (!(t > 0.0))
-        return 0.0;
-    return t / (max(shininess, 0.0) * d + t);
-}
-
-// (90) for a cosine t, limited to [0, 1].
+// (90) for a cosine t: 0 to 1.
+//   t  limited to [0, 1]    shininess  K_shi, limited to >= 0
 float schlick(float t, float shininess)
 {
-    return schlickFromDistance(1.0 - safeUnit(t), shininess);
+    t = safeUnit(t);
+    return t > 0.0 ? t / (max(shininess, 0.0) * (1.0 - t) + t) : 0.0;
+}
+
+// (90) for the angle between two unit vectors: 0 to 1.
+//   shininess  K_shi, limited to >= 0
+float schlickBetween(vec3 a, vec3 b, float shininess)
+{
+    float t = dot(a, b);
+    if (!(t > 0.0))
+        return 0.0;
+    float d = safeOneMinusCos(a, b);
+    // As in safeCosPow(): the distance near 1, the cosine elsewhere.
+    t = d < 0.125 ? 1.0 - d : min(t, 1.0);
+    return t / (max(shininess, 0.0) * min(d, 1.0) + t);
 }
 
 // (90) on the angle between half vector and normal, in place of Blinn and Phong's power.
+//   N  unit normal    L, V  unit vectors towards the light and the eye    shininess  K_shi, limited to >= 0
 float schlickBlinnFactor(vec3 N, vec3 L, vec3 V, float shininess)
 {
-    vec3 H = halfVector(L, V);
-    if (!(dot(N, L) > 0.0) || !(dot(N, H) > 0.0))
-        return 0.0;
-    return schlickFromDistance(safeOneMinusCos(N, H), shininess);
+    return dot(N, L) > 0.0 ? schlickBetween(N, halfVector(L, V), shininess) : 0.0;
 }
 
-// (90) on the angle between mirror direction and eye, in place of Phong's power.
+// (90) on the angle between mirror direction and eye, in place of Phong's power. Arguments as above.
 float schlickPhongFactor(vec3 N, vec3 L, vec3 V, float shininess)
 {
-    vec3 R = mirrorDirection(N, L);
-    if (!(dot(N, L) > 0.0) || !(dot(R, V) > 0.0))
-        return 0.0;
-    return schlickFromDistance(safeOneMinusCos(R, V), shininess);
+    return dot(N, L) > 0.0 ? schlickBetween(mirrorDirection(N, L), V, shininess) : 0.0;
 }
 
 #endif

@@ -1,33 +1,29 @@
 // name: specular_lut
 // kind: specular
-// equation: texture(u), u = N.H or N.L
+// equation: table(U), U = N.H or N.L
 // source: article, program `texspec` and the metal variant
+// stability: as good as its table: a linear filter over x^k is off by (k / n)^2 / 8, 8 bits by 1/255
 //
-// The highlight drawn into a texture, so that it may have any profile. Build the texture with texel i = f(i / (n - 1))
-// and let the sampler clamp; the coordinate below then meets texel centers at both ends, which costs the linear filter
-// nothing (the plain coordinate costs it half a texel everywhere).
+// The highlight drawn into a texture, so that it may have any profile: x^k, or the blotches that look like metal. How to
+// fill the table stands in `lut`. A table that is 0 at its first texel gives no light to surfaces that face away.
 #ifndef GLISTEN_SPECULAR_LUT
 #define GLISTEN_SPECULAR_LUT
 #include "blinn_phong.glsl"
+#include "lut.glsl"
 
-// The coordinate at which a table of n texels holds the value for x in [0, 1].
-float lutCoordinate(float x, float n)
-{
-    return (safeUnit(x) * (n - 1.0) + 0.5) / n;
-}
-
-// Table look-up by the angle between half vector and normal.
+// The table's color for the angle between half vector and normal.
+//   table  n by 1 texels, clamped    N  unit normal    L, V  unit vectors towards the light and the eye
 vec3 specularLutHalf(sampler2D table, vec3 N, vec3 L, vec3 V)
 {
-    float u = lutCoordinate(dot(N, halfVector(L, V)), float(textureSize(table, 0).x));
-    return texture(table, vec2(u, 0.5)).rgb;
+    return lutColor(table, dot(N, halfVector(L, V)));
 }
 
-// Table look-up by the angle between light and normal (the article's register c0 holding the light's direction).
+// The table's color for the angle between light and normal, the article's dp3 with a register that holds the light's
+// direction (or any other fixed vector).
+//   table  n by 1 texels, clamped    N  unit normal    L  unit vector
 vec3 specularLutLight(sampler2D table, vec3 N, vec3 L)
 {
-    float u = lutCoordinate(dot(N, L), float(textureSize(table, 0).x));
-    return texture(table, vec2(u, 0.5)).rgb;
+    return lutColor(table, dot(N, L));
 }
 
 #endif

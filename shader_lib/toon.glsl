@@ -1,30 +1,35 @@
 // name: toon
 // kind: diffuse
-// equation: ramp(0.5 (N.L) + 0.5)
+// equation: ramp((N.L) / 2 + 0.5)
 // source: article, program `soft`
+// stability: finite for every finite input; at a hard edge either side may come within rounding
 #ifndef GLISTEN_TOON
 #define GLISTEN_TOON
 #include "half_lambert.glsl"
+#include "lut.glsl"
 
-// Soft toon: the color of a ramp texture (dark side at 0, lit side at 1) for the half-range cosine.
+// Soft toon: the color of a ramp texture for the half-range cosine, the dark side at 0, the lit side at 1.
+//   ramp  n by 1 texels, clamped    N  unit normal    L  unit vector towards the light
 vec3 toonSoft(sampler2D ramp, vec3 N, vec3 L)
 {
-    float n = float(textureSize(ramp, 0).x);
-    float u = (halfLambertFactor(N, L) * (n - 1.0) + 0.5) / n;
-    return texture(ramp, vec2(u, 0.5)).rgb;
+    return lutColor(ramp, halfLambertFactor(N, L));
 }
 
 // Hard toon: two colors, parted where N.L passes the threshold.
+//   threshold  -1 to 1; 0 is the terminator    lit, dark  colors
 vec3 toonHard(vec3 N, vec3 L, float threshold, vec3 lit, vec3 dark)
 {
     return dot(N, L) > threshold ? lit : dark;
 }
 
-// The ramp of the soft toon by formula: from dark to lit over the half-range cosine `edge` +- `width`.
+// The soft ramp by formula: from dark to lit by a smooth step, over the half-range cosine `edge` +- `width`.
+//   edge  0 to 1; 0.5 is the terminator    width  half of the ramp's extent; 0 and less: a hard edge
 vec3 toonRamp(vec3 N, vec3 L, float edge, float width, vec3 lit, vec3 dark)
 {
-    float u = halfLambertFactor(N, L);
-    return mix(dark, lit, width > 0.0 ? smoothstep(edge - width, edge + width, u) : step(edge, u));
+    float x = halfLambertFactor(N, L) - edge;
+    float s = width > 0.0 ? safeUnit(0.5 * (x / width) + 0.5) : (x < 0.0 ? 0.0 : 1.0);
+    s = s * s * (3.0 - 2.0 * s);
+    return safeLimit(s * lit + (1.0 - s) * dark);
 }
 
 #endif

@@ -1,0 +1,96 @@
+// name: lights
+// kind: equation
+// equation: (101): I_tot = K_amb * L_glob + L_emi + sum of c_spot (I_amb + d (I_diff + I_spec)) over the lights
+// source: textbook, sections 10.1.2 and 10.1.5 to 10.1.7
+// stability: finite for every finite input
+//
+// The three kinds of light as one struct, and the whole equation for any number of them with Lambert's diffuse and
+// Blinn and Phong's specular reflection. For other models put the terms together from the same pieces: lightVector(),
+// lightAttenuation(), lightBeam() and illumination(). All positions and directions are in one space.
+//
+// Write `#define GLISTEN_LIGHTS n` before the include for more than 8 lights.
+#ifndef GLISTEN_LIGHTS_MODULE
+#define GLISTEN_LIGHTS_MODULE
+#include "ambient.glsl"
+#include "attenuation.glsl"
+#include "blinn_phong.glsl"
+#include "illumination.glsl"
+#include "lambert.glsl"
+#include "spot.glsl"
+
+#ifndef GLISTEN_LIGHTS
+#define GLISTEN_LIGHTS 8
+#endif
+
+// What Light.kind says.
+const int LIGHT_DIRECTIONAL = 0;
+const int LIGHT_POINT = 1;
+const int LIGHT_SPOT = 2;
+
+struct Light {
+    int kind;
+    // Point and spot lights: where it is.
+    vec3 position;
+    // Directional and spot lights: the way the light goes, of any length but 0.
+    vec3 direction;
+    // Its intensity in the three terms, linear RGB.
+    vec3 ambient;
+    vec3 diffuse;
+    vec3 specular;
+    // Point and spot lights: s_c, s_l and s_q of (96).
+    vec3 attenuation;
+    // Spot lights: L_exp of (98).
+    float exponent;
+};
+
+struct Material {
+    vec3 ambient;
+    vec3 diffuse;
+    vec3 specular;
+    float shininess;
+    // L_emi of (100).
+    vec3 emission;
+};
+
+// The unit vector L from the shaded point P towards the light. Zero where there is none: at a point light, or for a
+// directional light without a direction.
+vec3 lightVector(Light light, vec3 P)
+{
+    return safeNormalize(light.kind == LIGHT_DIRECTIONAL ? -light.direction : safeLimit(light.position - P));
+}
+
+// The attenuation d (96) at P; 1 for directional lights.
+float lightAttenuation(Light light, vec3 P)
+{
+    return light.kind == LIGHT_DIRECTIONAL ? 1.0 : attenuation(lightDistance(light.position, P), light.attenuation);
+}
+
+// The factor c_spot (98) of the beam for the unit vector L towards the light; 1 for lights that are no spots.
+float lightBeam(Light light, vec3 L)
+{
+    return light.kind == LIGHT_SPOT ? spotFactor(L, safeNormalize(light.direction), light.exponent) : 1.0;
+}
+
+// One term of the sum in (101), linear RGB.
+//   P  shaded point    N  unit normal    V  unit vector towards the eye
+vec3 lightTerm(Light light, Material material, vec3 P, vec3 N, vec3 V)
+{
+    vec3 L = lightVector(light, P);
+    vec3 Iamb = ambient(material.ambient, light.ambient);
+    vec3 Idiff = lambert(N, L, material.diffuse, light.diffuse);
+    vec3 Ispec = blinnPhong(N, L, V, material.shininess, material.specular, light.specular);
+    return illumination(Iamb, Idiff, Ispec, lightAttenuation(light, P), lightBeam(light, L));
+}
+
+// The full equation (101), linear RGB.
+//   lights  of which the first `count` shine    Lglob  global ambient light    P, N, V  as above
+vec3 lightsSum(Light lights[GLISTEN_LIGHTS], int count, Material material, vec3 Lglob, vec3 P, vec3 N, vec3 V)
+{
+    vec3 sum = background(material.ambient, Lglob, material.emission);
+    int last = min(count, GLISTEN_LIGHTS);
+    for (int k = 0; k < last; ++k)
+        sum = safeLimit(sum + lightTerm(lights[k], material, P, N, V));
+    return sum;
+}
+
+#endif
