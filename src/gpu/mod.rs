@@ -13,7 +13,7 @@
 //! ```
 //!
 //! *Holds:* whatever a scene contains, the answer is a picture or an [`Error`]: wgpu's complaints are caught in error
-//! scopes, waiting has a limit. The emitted SPIR-V runs as it is; the one `unsafe` of the crate is in `prepare`.
+//! scopes, waiting has a limit. The emitted SPIR-V runs as it is; all `unsafe` of that is in `prepare`.
 //! Pictures are read top row first: code is emitted with [`WindowOrigin::UpperLeft`](crate::emit::WindowOrigin), so
 //! what OpenGL draws at the top of the window is in row 0.
 //!

@@ -67,6 +67,28 @@ impl Gpu {
         self.prepare_with(scene, &|draw, stage| emitted(draw, stage, target))
     }
 
+    /// [`Gpu::prepare`] by SPIR-V, each stage's emitted words changed by `edit`, in the order of the draws, vertex stages
+    /// first: for tests that plant faults. Draws of one program in one state ask once.
+    ///
+    /// # Errors
+    /// Those of [`Gpu::prepare`].
+    ///
+    /// # Safety
+    /// The driver runs the words as they are, and what it does with words that are no valid module is not defined: show
+    /// them to `spirv-val` first.
+    #[expect(unsafe_code, reason = "nothing here can check what `edit` makes")]
+    pub unsafe fn prepare_edited(
+        &self,
+        scene: &Scene,
+        edit: &dyn Fn(Stage, Vec<u32>) -> Vec<u32>,
+    ) -> Result<Prepared, Error> {
+        let edited = |draw: &Draw, stage: Stage| match emitted(draw, stage, Target::Spirv)? {
+            Emitted::Words(words) => Ok(Emitted::Words(edit(stage, words))),
+            text @ Emitted::Text(_) => Ok(text),
+        };
+        self.prepare_with(scene, &edited)
+    }
+
     pub(super) fn prepare_with(&self, scene: &Scene, modules: Modules<'_>) -> Result<Prepared, Error> {
         self.require(wgpu::Features::DEPTH32FLOAT_STENCIL8, "a depth buffer with stencil")?;
         let limit = self.limits.max_texture_dimension_2d;

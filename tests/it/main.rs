@@ -14,6 +14,10 @@ mod hostile;
 mod layouts;
 mod link;
 mod lint;
+#[cfg(feature = "gpu")]
+mod mutation;
+#[cfg(feature = "gpu")]
+mod mutations;
 mod print;
 #[cfg(feature = "gpu")]
 mod raster;

@@ -1,0 +1,112 @@
+//! Faults planted in emitted SPIR-V: how many of them the judge of pictures sees.
+//!
+//! *In:* a device and scenes. *Out:* a [`Study`]: for each kind of fault how many were drawn, changed the picture at all,
+//! were caught by the judge of `verify` and by a tolerance of 1/255, and which were missed and why.
+//!
+//! ```text
+//!  Scene ──► gpu.prepare_edited   the emitted words of every stage
+//!        ──► operations, places   everything that can be changed in one place: Mutations
+//!        ──► trial                each one through spirv-val, drawn, judged: Trials
+//!        ──► study                tables
+//! ```
+//!
+//! *Holds:* the same scenes and [`Choice`] give the same trials. The judge sees the mutant's picture and the reference
+//! only; the picture without the fault serves to tell faults that change nothing from those that are missed.
+
+mod operations;
+mod places;
+mod study;
+mod trial;
+mod words;
+
+pub(crate) use study::Study;
+pub(crate) use trial::Outcome;
+
+use glisten::hir::Stage;
+use words::{Splice, instructions, spliced};
+
+/// Scenes are drawn in little, no side longer than this: the rules are the same, and a study draws thousands.
+pub(crate) const SIDE: u32 = 64;
+
+/// What is changed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Kind {
+    /// Another operation, or its operands in another order.
+    Operation,
+    /// One bit of a constant.
+    Constant,
+    /// One interpolation qualifier.
+    Qualifier,
+    /// One component taken for another.
+    Swizzle,
+    /// The position of all vertices, a little.
+    Vertex,
+}
+
+impl Kind {
+    pub(crate) const ALL: [Self; 5] = [Self::Operation, Self::Constant, Self::Qualifier, Self::Swizzle, Self::Vertex];
+
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Operation => "operation",
+            Self::Constant => "constant",
+            Self::Qualifier => "qualifier",
+            Self::Swizzle => "swizzle",
+            Self::Vertex => "vertex",
+        }
+    }
+}
+
+/// One change of one module.
+#[derive(Clone, Debug)]
+struct Mutation {
+    kind: Kind,
+    /// What becomes what, with the identifier that a disassembler shows.
+    name: String,
+    splices: Vec<Splice>,
+    /// Identifiers that it adds.
+    more_ids: u32,
+}
+
+impl Mutation {
+    fn new(kind: Kind, name: String, splice: Splice) -> Self {
+        Self { kind, name, splices: vec![splice], more_ids: 0 }
+    }
+
+    fn apply(&self, words: &[u32]) -> Vec<u32> {
+        spliced(words, &self.splices, self.more_ids)
+    }
+}
+
+/// Every change that can be made to a module.
+fn mutations(words: &[u32], stage: Stage) -> Vec<Mutation> {
+    let operations = instructions(words).into_iter().filter_map(operations::operation);
+    operations.chain(places::places(words, stage)).collect()
+}
+
+/// How many of the changes are tried.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Choice {
+    /// At most this many of each kind in each scene; all if `None`.
+    pub(crate) each: Option<usize>,
+    /// Which of them.
+    pub(crate) seed: u64,
+}
+
+impl Choice {
+    /// Some of a list, in its order.
+    fn of<T>(self, list: Vec<T>) -> Vec<T> {
+        let Some(each) = self.each.filter(|each| *each < list.len()) else { return list };
+        let mut random = self.seed;
+        let mut keyed: Vec<(u64, usize, T)> = (list.into_iter().enumerate())
+            .map(|(place, item)| {
+                random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+                (random >> 32, place, item)
+            })
+            .collect();
+        keyed.sort_by_key(|(key, ..)| *key);
+        keyed.truncate(each);
+        keyed.sort_by_key(|(_, place, _)| *place);
+        keyed.into_iter().map(|(.., item)| item).collect()
+    }
+}

@@ -1,0 +1,127 @@
+//! [`Study`]: all trials, and the tables that are printed of them.
+
+use super::trial::{Cover, Subject, Trial};
+use super::{Choice, Kind, Outcome};
+use glisten::gpu::Gpu;
+use glisten::scene::Scene;
+use std::fmt;
+
+/// Trials on some scenes.
+#[derive(Debug, Default)]
+pub(crate) struct Study {
+    pub(crate) trials: Vec<Trial>,
+    /// Scenes that could not be tried, and why.
+    pub(crate) left_out: Vec<(String, String)>,
+}
+
+/// How many trials came out how.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Count {
+    pub(crate) invalid: usize,
+    pub(crate) refused: usize,
+    pub(crate) unseen: usize,
+    pub(crate) seen: usize,
+    pub(crate) caught: usize,
+    pub(crate) by_hand: usize,
+}
+
+impl Count {
+    /// Of the faults that change the picture, in percent.
+    fn share(self, part: usize) -> f64 {
+        100.0 * part as f64 / self.seen.max(1) as f64
+    }
+}
+
+impl Study {
+    /// Tries the chosen faults of each scene; `progress` hears the name of each scene and how many faults wait.
+    pub(crate) fn of(
+        gpu: &Gpu,
+        scenes: &[(String, Scene)],
+        choice: Choice,
+        progress: &mut dyn FnMut(&str, usize),
+    ) -> Self {
+        let mut study = Self::default();
+        for (name, scene) in scenes {
+            match Subject::new(gpu, name, scene) {
+                Err(why) => study.left_out.push((name.clone(), why)),
+                Ok(subject) => {
+                    let faults = subject.faults(choice);
+                    progress(name, faults.len());
+                    study.trials.extend(faults.iter().map(|(module, one)| subject.try_out(*module, one)));
+                }
+            }
+        }
+        study
+    }
+
+    /// The trials that a test holds for.
+    pub(crate) fn count(&self, holds: impl Fn(&Trial) -> bool) -> Count {
+        let mut count = Count::default();
+        for trial in self.trials.iter().filter(|trial| holds(trial)) {
+            match &trial.outcome {
+                Outcome::Invalid => count.invalid += 1,
+                Outcome::Refused(_) => count.refused += 1,
+                Outcome::Unseen => count.unseen += 1,
+                Outcome::Seen { caught, by_hand, .. } => {
+                    count.seen += 1;
+                    count.caught += usize::from(*caught);
+                    count.by_hand += usize::from(*by_hand);
+                }
+            }
+        }
+        count
+    }
+
+    /// The faults that change the picture and pass `verify`, where they could hide.
+    pub(crate) fn survivors(&self, wanted: Cover) -> Vec<&Trial> {
+        let survives =
+            |trial: &&Trial| matches!(trial.outcome, Outcome::Seen { caught: false, cover, .. } if cover == wanted);
+        self.trials.iter().filter(survives).collect()
+    }
+}
+
+impl fmt::Display for Study {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "fault       planted  invalid  refused  unseen    seen   verify catches   1/255 catches")?;
+        let line = |f: &mut fmt::Formatter<'_>, name: &str, count: Count| {
+            let Count { invalid, refused, unseen, seen, caught, by_hand } = count;
+            let planted = invalid + refused + unseen + seen;
+            write!(f, "{name:<10} {planted:>8} {invalid:>8} {refused:>8} {unseen:>7} {seen:>7}")?;
+            let (ours, theirs) = (count.share(caught), count.share(by_hand));
+            writeln!(f, " {caught:>8} {ours:>5.1} % {by_hand:>7} {theirs:>5.1} %")
+        };
+        for kind in Kind::ALL {
+            line(f, kind.name(), self.count(|trial| trial.kind == kind))?;
+        }
+        line(f, "all", self.count(|_| true))?;
+        for (scene, why) in &self.left_out {
+            writeln!(f, "left out: {scene}: {why}")?;
+        }
+        for trial in &self.trials {
+            if let Outcome::Refused(why) = &trial.outcome {
+                writeln!(f, "refused: {}, {}: {}: {why}", trial.scene, trial.stage.name(), trial.name)?;
+            }
+        }
+        for cover in Cover::ALL {
+            let survivors = self.survivors(cover);
+            writeln!(f, "\nmissed, {}: {}", cover.name(), survivors.len())?;
+            for trial in survivors {
+                if let Outcome::Seen { change, by_hand, .. } = &trial.outcome {
+                    let also = if *by_hand { "; 1/255 catches it" } else { "" };
+                    writeln!(
+                        f,
+                        "  {}, {}: {}: {} pixels, up to {:.1e} ({:.1} ulp; allowed {:.1e}){also}",
+                        trial.scene,
+                        trial.stage.name(),
+                        trial.name,
+                        change.pixels,
+                        change.absolute,
+                        change.ulps,
+                        change.allowed
+                    )?;
+                }
+            }
+        }
+        Ok(())
+    }
+}

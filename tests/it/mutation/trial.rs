@@ -1,0 +1,220 @@
+//! [`Subject`] and [`Trial`]: a scene with its true picture, and what becomes of one fault planted in it.
+
+use super::{Choice, Kind, Mutation, SIDE, mutations};
+use glisten::compare::{Judge, Picture, Verdict, ulp_f32};
+use glisten::cpu::{self, LineRule, Precision, RenderOptions};
+use glisten::gpu::{Error, Gpu};
+use glisten::hir::Stage;
+use glisten::scene::Scene;
+use std::cell::{Cell, RefCell};
+use std::io::Write;
+use std::process::{Command, Stdio};
+
+/// The tolerance that people pick by hand.
+const BY_HAND: Judge = Judge::Tolerance(1.0 / 255.0);
+
+/// Why a fault that changes the picture passes the judge.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Cover {
+    /// Colors that are judged differ, and a conforming GPU may draw them.
+    Within,
+    /// Pixels alone differ that the reference leaves open.
+    Undecided,
+    /// Pixels alone differ whose center lies on an edge as good as exactly.
+    Edge,
+}
+
+impl Cover {
+    pub(crate) const ALL: [Self; 3] = [Self::Within, Self::Undecided, Self::Edge];
+
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Within => "within the bound",
+            Self::Undecided => "undecided",
+            Self::Edge => "at an edge",
+        }
+    }
+}
+
+/// How a mutant's picture differs from the one without the fault, in the pixels that are judged by their colors.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Change {
+    /// The largest difference of a channel.
+    pub(crate) absolute: f64,
+    /// The same in ULP of the reference.
+    pub(crate) ulps: f64,
+    /// How far a GPU may be off there.
+    pub(crate) allowed: f64,
+    /// How many pixels differ at all.
+    pub(crate) pixels: u64,
+}
+
+/// What became of a mutant.
+#[derive(Clone, Debug)]
+pub(crate) enum Outcome {
+    /// `spirv-val` refuses it.
+    Invalid,
+    /// The driver refuses it, or does not end.
+    Refused(String),
+    /// The picture is the same bit for bit: on this scene there is no fault.
+    Unseen,
+    /// The picture is another.
+    Seen {
+        /// Whether `verify` fails.
+        caught: bool,
+        /// Whether `verify --tolerance` with 1/255 fails.
+        by_hand: bool,
+        /// Where it could hide.
+        cover: Cover,
+        change: Change,
+    },
+}
+
+/// One fault.
+#[derive(Clone, Debug)]
+pub(crate) struct Trial {
+    pub(crate) scene: String,
+    pub(crate) stage: Stage,
+    pub(crate) kind: Kind,
+    pub(crate) name: String,
+    pub(crate) outcome: Outcome,
+}
+
+/// A scene, and what is drawn of it without a fault.
+pub(super) struct Subject<'a> {
+    gpu: &'a Gpu,
+    name: String,
+    scene: Scene,
+    /// The emitted words in the order in which the device asks for them.
+    modules: Vec<(Stage, Vec<u32>)>,
+    plain: Picture,
+    reference: Picture,
+}
+
+impl<'a> Subject<'a> {
+    /// `Err` says why it cannot be tried: a judge fails it as it is, so that a failure would say nothing of a fault.
+    pub(super) fn new(gpu: &'a Gpu, name: &str, scene: &Scene) -> Result<Self, String> {
+        let mut scene = scene.clone();
+        scene.framebuffer.width = scene.framebuffer.width.min(SIDE);
+        scene.framebuffer.height = scene.framebuffer.height.min(SIDE);
+        let modules = RefCell::new(Vec::new());
+        let plain = draw(gpu, &scene, &|stage, words| {
+            modules.borrow_mut().push((stage, words.clone()));
+            words
+        });
+        let plain = plain.map_err(|error| error.to_string())?;
+        let options = RenderOptions { precision: Precision::Bound, lines: LineRule::Vulkan, mark_edges: true };
+        let reference = cpu::render(&scene, &options).map_err(|found| format!("{found:?}"))?;
+        let subject = Self { gpu, name: name.to_owned(), scene, modules: modules.into_inner(), plain, reference };
+        for judge in [Judge::Bound, BY_HAND] {
+            let verdict = Verdict::new(&subject.plain, &subject.reference, judge);
+            if !verdict.holds(false) {
+                return Err(format!("without a fault it fails when judged by {}", verdict.judged_by));
+            }
+        }
+        Ok(subject)
+    }
+
+    /// The faults that are chosen: the number of the module, and the change.
+    pub(super) fn faults(&self, choice: Choice) -> Vec<(usize, Mutation)> {
+        let all: Vec<(usize, Mutation)> = (self.modules.iter().enumerate())
+            .flat_map(|(number, (stage, words))| mutations(words, *stage).into_iter().map(move |one| (number, one)))
+            .collect();
+        let of = |kind: Kind| all.iter().filter(|(_, mutation)| mutation.kind == kind).cloned().collect();
+        Kind::ALL.into_iter().flat_map(|kind| choice.of(of(kind))).collect()
+    }
+
+    pub(super) fn try_out(&self, module: usize, mutation: &Mutation) -> Trial {
+        let (stage, words) = &self.modules[module];
+        let mutant = mutation.apply(words);
+        let outcome = match valid(&mutant) {
+            false => Outcome::Invalid,
+            true => self.drawn(module, &mutant),
+        };
+        Trial { scene: self.name.clone(), stage: *stage, kind: mutation.kind, name: mutation.name.clone(), outcome }
+    }
+
+    fn drawn(&self, module: usize, mutant: &[u32]) -> Outcome {
+        let number = Cell::new(0);
+        let picture = draw(self.gpu, &self.scene, &|_, words| {
+            number.set(number.get() + 1);
+            if number.get() == module + 1 { mutant.to_vec() } else { words }
+        });
+        let picture = match picture {
+            Ok(picture) => picture,
+            Err(error) => return Outcome::Refused(error.to_string()),
+        };
+        if picture.bit_unequal(&self.plain) == 0 && picture.covered == self.plain.covered {
+            return Outcome::Unseen;
+        }
+        let fails = |judge: Judge| !Verdict::new(&picture, &self.reference, judge).holds(false);
+        let (cover, change) = self.difference(&picture);
+        Outcome::Seen { caught: fails(Judge::Bound), by_hand: fails(BY_HAND), cover, change }
+    }
+
+    /// How far a GPU may be off in a channel, those of all attachments one after the other.
+    fn allowed(&self, pixel: usize, channel: usize) -> f64 {
+        let bounds = self.reference.bounds.as_ref().and_then(|bounds| bounds.get(channel / 4)?.get(pixel));
+        bounds.map_or(0.0, |bounds| bounds[channel % 4])
+    }
+
+    /// Where a picture differs from the one without the fault, and by how much.
+    fn difference(&self, picture: &Picture) -> (Cover, Change) {
+        let mut change = Change::default();
+        let (mut judged, mut open) = (false, false);
+        for pixel in 0..picture.covered.len() {
+            let covers = [picture.covered[pixel], self.plain.covered[pixel]];
+            let colors = || {
+                let pairs = picture.attachments.iter().zip(&self.plain.attachments).zip(&self.reference.attachments);
+                pairs.flat_map(|((ours, plain), cpu)| (0..4).map(move |k| [ours, plain, cpu].map(|all| all[pixel][k])))
+            };
+            if covers[0] == covers[1] && colors().all(|[ours, plain, _]| ours == plain) {
+                continue;
+            }
+            change.pixels += 1;
+            if self.reference.undecided[pixel] {
+                open = true;
+            } else if !self.reference.near_edge[pixel] {
+                judged = true;
+                for (channel, [ours, plain, cpu]) in colors().enumerate() {
+                    let difference = (ours - plain).abs();
+                    if difference > change.absolute {
+                        change.absolute = difference;
+                        change.ulps = difference / ulp_f32(cpu);
+                        change.allowed = self.allowed(pixel, channel);
+                    }
+                }
+            }
+        }
+        let cover = match (judged, open) {
+            (true, _) => Cover::Within,
+            (false, true) => Cover::Undecided,
+            (false, false) => Cover::Edge,
+        };
+        (cover, change)
+    }
+}
+
+#[expect(unsafe_code, reason = "the words are glisten's own, or spirv-val has accepted them")]
+fn draw(gpu: &Gpu, scene: &Scene, edit: &dyn Fn(Stage, Vec<u32>) -> Vec<u32>) -> Result<Picture, Error> {
+    // SAFETY: `edit` gives back what it got, or what `valid` has let through.
+    let prepared = unsafe { gpu.prepare_edited(scene, edit)? };
+    Ok(gpu.draw(&prepared)?.picture)
+}
+
+/// Whether `spirv-val` accepts the words.
+fn valid(words: &[u32]) -> bool {
+    let mut child = Command::new("spirv-val")
+        .args(["--target-env", "vulkan1.1", "-"])
+        .stdin(Stdio::piped())
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .expect("spirv-val is needed: Debian has it in the package spirv-tools");
+    let bytes: Vec<u8> = words.iter().flat_map(|word| word.to_le_bytes()).collect();
+    if let Some(mut input) = child.stdin.take() {
+        // A module that it refuses early closes the pipe.
+        let _ = input.write_all(&bytes);
+    }
+    child.wait().is_ok_and(|status| status.success())
+}

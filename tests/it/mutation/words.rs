@@ -1,0 +1,111 @@
+//! SPIR-V as words (SPIR-V 1.3 §2.3): what instructions there are, and changing some.
+//!
+//! *In:* the words of a module that is valid. *Out:* its [`Instruction`]s; words with some replaced. *Holds:* nothing is
+//! checked: what comes out has to be shown to `spirv-val` before a driver sees it.
+
+/// Words before the first instruction.
+const HEADER: usize = 5;
+/// The word of the header that is one more than the largest identifier.
+const BOUND: usize = 3;
+
+/// The instructions that are looked for here by name, by their numbers (§3.32).
+pub(crate) mod op {
+    pub(crate) const EXT_INST: u16 = 12;
+    pub(crate) const TYPE_FLOAT: u16 = 22;
+    pub(crate) const TYPE_VECTOR: u16 = 23;
+    pub(crate) const TYPE_POINTER: u16 = 32;
+    pub(crate) const CONSTANT: u16 = 43;
+    pub(crate) const FUNCTION: u16 = 54;
+    pub(crate) const VARIABLE: u16 = 59;
+    pub(crate) const STORE: u16 = 62;
+    pub(crate) const ACCESS_CHAIN: u16 = 65;
+    pub(crate) const DECORATE: u16 = 71;
+    pub(crate) const VECTOR_SHUFFLE: u16 = 79;
+    pub(crate) const COMPOSITE_EXTRACT: u16 = 81;
+    pub(crate) const COMPOSITE_INSERT: u16 = 82;
+    pub(crate) const COPY_OBJECT: u16 = 83;
+    pub(crate) const F_ADD: u16 = 129;
+    pub(crate) const F_MUL: u16 = 133;
+}
+
+/// One instruction of a module.
+#[derive(Clone, Copy)]
+pub(crate) struct Instruction<'a> {
+    /// Where it begins among the words of the module.
+    pub(crate) at: usize,
+    /// All its words, the number and length first.
+    pub(crate) words: &'a [u32],
+}
+
+impl Instruction<'_> {
+    pub(crate) fn opcode(&self) -> u16 {
+        self.word(0) as u16
+    }
+
+    /// The word at a place; 0 where there is none.
+    pub(crate) fn word(&self, place: usize) -> u32 {
+        self.words.get(place).copied().unwrap_or(0)
+    }
+
+    /// It with other words.
+    pub(crate) fn replaced(&self, words: Vec<u32>) -> Splice {
+        Splice { at: self.at, len: self.words.len(), words }
+    }
+
+    /// Words before it.
+    pub(crate) fn preceded(&self, words: Vec<u32>) -> Splice {
+        Splice { at: self.at, len: 0, words }
+    }
+
+    /// It with another word at a place.
+    pub(crate) fn with(&self, place: usize, word: u32) -> Splice {
+        let mut words = self.words.to_vec();
+        words[place] = word;
+        self.replaced(words)
+    }
+}
+
+/// An instruction's words: its number, then operands.
+pub(crate) fn encoded(opcode: u16, operands: &[u32]) -> Vec<u32> {
+    let first = (operands.len() as u32 + 1) << 16 | u32::from(opcode);
+    std::iter::once(first).chain(operands.iter().copied()).collect()
+}
+
+/// The instructions of a module in order.
+pub(crate) fn instructions(words: &[u32]) -> Vec<Instruction<'_>> {
+    let mut list = Vec::new();
+    let mut at = HEADER;
+    while let Some(first) = words.get(at) {
+        let len = (first >> 16).max(1) as usize;
+        list.push(Instruction { at, words: &words[at..(at + len).min(words.len())] });
+        at += len;
+    }
+    list
+}
+
+/// The first identifier that is not in use.
+pub(crate) fn bound(words: &[u32]) -> u32 {
+    words.get(BOUND).copied().unwrap_or(0)
+}
+
+/// Words in place of others.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Splice {
+    at: usize,
+    len: usize,
+    words: Vec<u32>,
+}
+
+/// The module with splices, in order of their places, and room for more identifiers.
+pub(crate) fn spliced(words: &[u32], splices: &[Splice], more_ids: u32) -> Vec<u32> {
+    let mut out = Vec::with_capacity(words.len() + 64);
+    let mut done = 0;
+    for splice in splices {
+        out.extend_from_slice(&words[done..splice.at]);
+        out.extend_from_slice(&splice.words);
+        done = splice.at + splice.len;
+    }
+    out.extend_from_slice(&words[done..]);
+    out[BOUND] += more_ids;
+    out
+}
