@@ -10,6 +10,7 @@ pub mod exec;
 mod interpolate;
 mod pipeline;
 mod raster;
+pub mod stability;
 mod texture;
 
 use crate::compare::Picture;

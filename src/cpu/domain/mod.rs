@@ -8,6 +8,7 @@
 //! | [`F64`] | an f64 | is f64's: the reference |
 //! | [`F32`] | an f32 | rounds once; a built-in function is computed in f64 and rounded once: a strict GPU |
 //! | [`Bound`] | an f64 and a first-order bound on a GPU's distance from it | adds the ULPs of [`rules`] |
+//! | [`Shadow`] | an f32 and an f64 side by side | is done in both: what f32 adds is seen |
 //!
 //! *Holds:* every operation is total: nothing panics, whatever the bits. What GLSL leaves undefined is defined here,
 //! beside the operation. Comparisons give [`Integer`]s, so that a domain may leave an answer open
@@ -17,12 +18,14 @@ mod bound;
 mod integer;
 mod number;
 pub mod rules;
+mod shadow;
 mod single;
 mod wide;
 
 pub use bound::{BoundFloat, BoundInt};
 pub use integer::Integer;
 pub use number::Number;
+pub use shadow::{ShadowFloat, ShadowInt, Shadowed};
 
 /// A pair of number types.
 pub trait Domain: Copy + Send + Sync + std::fmt::Debug + 'static {
@@ -62,4 +65,14 @@ impl Domain for Bound {
     type Float = BoundFloat;
     type Int = BoundInt;
     const NAME: &'static str = "bound";
+}
+
+/// f32 and f64 side by side.
+#[derive(Clone, Copy, Debug)]
+pub struct Shadow;
+
+impl Domain for Shadow {
+    type Float = ShadowFloat;
+    type Int = ShadowInt;
+    const NAME: &'static str = "shadow";
 }

@@ -91,7 +91,16 @@ impl Code {
     /// What the executor cannot run: a program without that stage or without `main`, multisample samplers, geometry
     /// stages, programs past the limits of the compiler.
     pub fn compile(program: &Program, stage: Stage) -> Result<Self, Vec<Diagnostic>> {
-        compile::compile(program, stage).map(|inner| Self { inner: Arc::new(inner) })
+        compile::compile(program, stage, false).map(|inner| Self { inner: Arc::new(inner) })
+    }
+
+    /// The same with an instruction of its own for each product and sum, so that an observer sees each; the numbers are
+    /// the same.
+    ///
+    /// # Errors
+    /// Those of [`Self::compile`].
+    pub fn compile_apart(program: &Program, stage: Stage) -> Result<Self, Vec<Diagnostic>> {
+        compile::compile(program, stage, true).map(|inner| Self { inner: Arc::new(inner) })
     }
 
     /// How many instructions run for a tile if every branch is taken once, and how many were computed once a draw

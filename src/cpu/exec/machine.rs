@@ -2,6 +2,7 @@
 
 use super::code::{Code, Inner, PoolSource, Port};
 use super::inst::Class;
+use super::observe::Observer;
 use super::registers::Registers;
 use super::run::bits_where;
 use super::{LANES, Mask};
@@ -29,12 +30,34 @@ pub struct Machine<D: Domain> {
     /// What is left in this run.
     pub(super) budget: u64,
     pub(super) budget_exceeded: bool,
+    pub(super) observer: Option<Box<dyn Observer<D>>>,
+    /// The lanes that an observer is shown.
+    pub(super) watched: u64,
 }
 
 impl<D: Domain> Machine<D> {
     /// A machine for the uniforms (of each root of the interface, flat) and textures (of each sampler slot) of a draw.
     /// What does not depend on the invocation is computed here, once.
     pub fn new(code: &Code, uniforms: &[Vec<ScalarValue>], textures: &[Option<Arc<Texture>>]) -> Self {
+        Self::made(code, uniforms, textures, None)
+    }
+
+    /// The same, with an observer that sees what is computed once, too.
+    pub fn watched(
+        code: &Code,
+        uniforms: &[Vec<ScalarValue>],
+        textures: &[Option<Arc<Texture>>],
+        observer: Box<dyn Observer<D>>,
+    ) -> Self {
+        Self::made(code, uniforms, textures, Some(observer))
+    }
+
+    fn made(
+        code: &Code,
+        uniforms: &[Vec<ScalarValue>],
+        textures: &[Option<Arc<Texture>>],
+        observer: Option<Box<dyn Observer<D>>>,
+    ) -> Self {
         let inner = &code.inner;
         let floats = inner.float_pool.iter().map(|source| float_of::<D>(*source, uniforms)).collect();
         let ints = inner.int_pool.iter().map(|source| int_of::<D>(*source, uniforms)).collect();
@@ -48,6 +71,8 @@ impl<D: Domain> Machine<D> {
             loop_budget: LOOP_BUDGET,
             budget: LOOP_BUDGET,
             budget_exceeded: false,
+            observer,
+            watched: 1,
         };
         machine.execute(&inner.preamble, inner, 1);
         machine.registers.finish_preamble(inner.registers);
@@ -89,7 +114,9 @@ impl<D: Domain> Machine<D> {
         self.undecided = 0;
         // Once a machine has run away it is likely to do so again: then it shall be soon.
         self.budget = if self.budget_exceeded { self.loop_budget >> 6 } else { self.loop_budget };
+        self.watched = live.0;
         self.execute(&inner.main, inner, live.0 | helpers.0);
+        self.show_outputs(live.0 & !self.discarded);
         for port in inner.outputs.iter().filter(|port| port.class == Class::Int) {
             self.undecided |= self.registers.ints.get(port.register).map_or(0, |lanes| bits_where(lanes).1);
         }

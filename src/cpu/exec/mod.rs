@@ -38,6 +38,7 @@ mod inst;
 mod lookup;
 mod machine;
 mod memory;
+mod observe;
 mod registers;
 mod run;
 #[cfg(test)]
@@ -45,6 +46,7 @@ mod tests;
 
 pub use code::Code;
 pub use machine::{LOOP_BUDGET, Machine};
+pub use observe::{Event, Kind, Observer, Order, Values, What};
 
 /// How many invocations run at once: a tile of 8x8 pixels (quad by quad), or 64 vertices.
 ///

@@ -24,15 +24,18 @@ pub(super) struct Registers<D: Domain> {
 }
 
 /// What an operand stands for.
-#[derive(Clone, Copy)]
-pub(super) enum Source<'a, T> {
+#[derive(Clone, Copy, Debug)]
+pub enum Source<'a, T> {
+    /// A number in each lane.
     Lanes(&'a [T; LANES]),
+    /// One number for all lanes.
     One(T),
 }
 
 impl<T: Copy> Source<'_, T> {
+    /// The number in a lane; lanes are counted modulo [`LANES`].
     #[inline(always)]
-    pub(super) fn at(&self, lane: usize) -> T {
+    pub fn at(&self, lane: usize) -> T {
         match self {
             Self::Lanes(lanes) => lanes[lane % LANES],
             Self::One(value) => *value,

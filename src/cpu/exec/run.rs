@@ -14,6 +14,9 @@ impl<D: Domain> Machine<D> {
         let mut place = 0;
         while let Some(inst) = section.insts.get(place) {
             place += 1;
+            if self.observer.is_some() {
+                self.show_choice(inst, section, place - 1, mask);
+            }
             match *inst {
                 Inst::StoreFloat { dst, a } => self.registers.store_float(dst, a, mask, mask == start),
                 Inst::StoreInt { dst, a } => self.registers.store_int(dst, a, mask, mask == start),
@@ -93,7 +96,12 @@ impl<D: Domain> Machine<D> {
                         place = next as usize;
                     }
                 }
-                ref pure => self.registers.compute(pure, section),
+                ref pure => {
+                    self.registers.compute(pure, section);
+                    if self.observer.is_some() {
+                        self.show(pure, section, place - 1, mask);
+                    }
+                }
             }
         }
     }

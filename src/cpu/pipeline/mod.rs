@@ -18,6 +18,7 @@ mod plan;
 mod source;
 mod target;
 mod vertices;
+mod watch;
 
 use super::RenderOptions;
 use super::domain::Domain;
@@ -36,15 +37,27 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 use target::{BIN, Target};
 use vertices::{Invocation, shade};
+pub(super) use watch::MakeObserver;
+use watch::{FRAGMENTS, SAME_FOR_FRAGMENTS, SAME_FOR_VERTICES, Watch};
 
 /// Vertices that are shaded before their primitives are drawn: instances beyond that are drawn in several goes.
 const MAX_INVOCATIONS: usize = 1 << 20;
 
 /// Draws a scene in a domain.
 pub(super) fn render<D: Domain>(scene: &Scene, options: &RenderOptions) -> Result<Picture, Vec<Diagnostic>> {
+    render_watched::<D>(scene, options, None)
+}
+
+/// The same; what is computed on the way is shown to observers.
+pub(super) fn render_watched<D: Domain>(
+    scene: &Scene,
+    options: &RenderOptions,
+    observers: Option<&MakeObserver<D>>,
+) -> Result<Picture, Vec<Diagnostic>> {
     let mut target = Target::<D>::new(scene.framebuffer);
-    for draw in &scene.draws {
-        draw_all(scene, draw, options, &mut target)?;
+    for (number, draw) in scene.draws.iter().enumerate() {
+        let watch = Watch { make: observers, draw: number, instance: 0 };
+        draw_all(scene, draw, options, watch, &mut target)?;
     }
     Ok(target.picture())
 }
@@ -53,13 +66,17 @@ fn draw_all<D: Domain>(
     scene: &Scene,
     draw: &Draw,
     options: &RenderOptions,
+    mut watch: Watch<'_, D>,
     target: &mut Target<D>,
 ) -> Result<(), Vec<Diagnostic>> {
     if draw.program.stage(Stage::Geometry).is_some() {
         return Err(vec![refuse(&SCENE_CANNOT_DRAW, "a program with a geometry stage cannot be drawn")]);
     }
-    let vertex_code = Code::compile(&draw.program, Stage::Vertex)?;
-    let fragment_code = Code::compile(&draw.program, Stage::Fragment)?;
+    let compile = if watch.make.is_some() { Code::compile_apart } else { Code::compile };
+    let vertex_code = compile(&draw.program, Stage::Vertex)?;
+    let fragment_code = compile(&draw.program, Stage::Fragment)?;
+    watch.common(&vertex_code, draw, SAME_FOR_VERTICES);
+    watch.common(&fragment_code, draw, SAME_FOR_FRAGMENTS);
     let plan = Plan::new(&draw.program);
     let outputs = output_plans(draw, scene.framebuffer.attachments);
     let viewport = [scene.framebuffer.width as f32, scene.framebuffer.height as f32];
@@ -71,8 +88,10 @@ fn draw_all<D: Domain>(
         let instances = first..draw.instances.min(first + group);
         let invocations: Vec<Invocation> =
             instances.clone().flat_map(|instance| unique.iter().map(move |&vertex| (vertex, instance))).collect();
-        let mut vertices = shade::<D>(draw, &vertex_code, &plan, &invocations, viewport, &over_budget);
+        watch.instance = first;
+        let mut vertices = shade::<D>(draw, &vertex_code, &plan, &invocations, viewport, &over_budget, &watch);
         for local in 0..instances.len() as u32 {
+            watch.instance = first + local;
             let base = local * unique.len() as u32;
             let order: Vec<u32> = order.iter().map(|&position| base + position).collect();
             let prims = primitives(&mut vertices, &order, &draw.state, options.lines);
@@ -85,7 +104,7 @@ fn draw_all<D: Domain>(
                 outputs: &outputs,
                 mark_edges: options.mark_edges,
             };
-            draw_prims(&shading, &fragment_code, target, &over_budget);
+            draw_prims(&shading, &fragment_code, target, &over_budget, &watch);
         }
         first = instances.end;
     }
@@ -159,7 +178,13 @@ impl Bins {
     }
 }
 
-fn draw_prims<D: Domain>(shading: &Shading<'_, D>, code: &Code, target: &mut Target<D>, over_budget: &AtomicBool) {
+fn draw_prims<D: Domain>(
+    shading: &Shading<'_, D>,
+    code: &Code,
+    target: &mut Target<D>,
+    over_budget: &AtomicBool,
+    watch: &Watch<'_, D>,
+) {
     let bins = Bins::new(shading.prims, target);
     let idle: Mutex<Vec<Machine<D>>> = Mutex::new(Vec::new());
     let take = || idle.lock().ok().and_then(|mut idle| idle.pop());
@@ -169,7 +194,9 @@ fn draw_prims<D: Domain>(shading: &Shading<'_, D>, code: &Code, target: &mut Tar
             return;
         }
         let mut machine = take().unwrap_or_else(|| Machine::new(code, &shading.draw.uniforms, &shading.draw.textures));
+        watch.begin(&mut machine);
         draw_bin(shading, bin, list, &mut machine);
+        watch.end(&mut machine, FRAGMENTS, index);
         if machine.budget_exceeded() {
             over_budget.store(true, Ordering::Relaxed);
         }

@@ -5,6 +5,7 @@
 //! *Holds:* a vertex that several indices name is shaded once. The order does not depend on threads.
 
 use super::plan::Plan;
+use super::watch::{VERTICES, Watch};
 use crate::cpu::domain::{Domain, F32, Integer, Number};
 use crate::cpu::exec::{Code, LANES, Machine, Mask};
 use crate::hir::{GlobalId, Interpolation, ScalarValue, Type, TypeId, Types};
@@ -110,6 +111,7 @@ pub(super) fn shade<D: Domain>(
     invocations: &[Invocation],
     viewport: [f32; 2],
     over_budget: &AtomicBool,
+    watch: &Watch<'_, D>,
 ) -> Vertices<D> {
     let machines = || {
         let machine = Machine::<D>::new(code, &draw.uniforms, &draw.textures);
@@ -117,9 +119,12 @@ pub(super) fn shade<D: Domain>(
     };
     let chunks: Vec<Chunk<D>> = invocations
         .par_chunks(LANES)
+        .enumerate()
         .with_min_len(4)
-        .map_init(machines, |(machine, single), lanes| {
+        .map_init(machines, |(machine, single), (part, lanes)| {
+            watch.begin(machine);
             let chunk = shade_chunk(draw, plan, lanes, machine, single);
+            watch.end(machine, VERTICES, part);
             if machine.budget_exceeded() || single.budget_exceeded() {
                 over_budget.store(true, Ordering::Relaxed);
             }

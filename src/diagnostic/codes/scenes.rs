@@ -59,4 +59,9 @@ codes! {
         "The program reads a sampler for which the scene brings no texture. Every texel reads as (0, 0, 0, 1), as of an \
          incomplete texture in OpenGL."
         bad Text("[draw.textures]  # and the shader reads `tex`"), good Text("[draw.textures]\ntex = { width = 1, height = 1, values = [1, 1, 1, 1] }");
+    PRECISION_LOST = "W0903" "precision-loss" Note "GLSL 1.50 §4.1.4"
+        "Drawn in f32 and f64 side by side, the scene shows that this expression loses bits that its operands still had, \
+         is not a finite number, or is answered otherwise in f32: a difference of nearly equal numbers, a power with a \
+         large exponent, a vector too short to normalize. What uses the result inherits the error and is not named."
+        bad Text("float c = 1.0 - cos(x);  // x is small"), good Text("float s = sin(0.5 * x); float c = 2.0 * s * s;");
 }

@@ -12,6 +12,8 @@ use rustc_hash::FxHashMap;
 pub(super) struct Emitter {
     pub(super) main: Section,
     pub(super) preamble: Section,
+    /// Whether products and sums stay instructions of their own.
+    pub(super) apart: bool,
     /// What instructions are being made for.
     pub(super) span: Span,
     pub(super) words: Vec<u32>,
@@ -32,6 +34,10 @@ pub(super) struct Emitter {
 }
 
 impl Emitter {
+    pub(super) fn new(apart: bool) -> Self {
+        Self { apart, ..Self::default() }
+    }
+
     pub(super) fn register_count(&self, class: Class) -> usize {
         self.homes[class as usize].len()
     }

@@ -10,6 +10,11 @@ impl Compiler<'_> {
         if let [a, b] = pairs {
             return self.float2(Float2::Mul, *a, *b);
         }
+        if self.emit.apart {
+            let products: Val = pairs.chunks_exact(2).map(|pair| self.float2(Float2::Mul, pair[0], pair[1])).collect();
+            let sum = products.into_iter().reduce(|sum, product| self.float2(Float2::Add, sum, product));
+            return sum.unwrap_or_else(|| self.emit.float(0.0));
+        }
         let hoisted = pairs.iter().all(|operand| operand.is_scalar());
         let list = self.emit.list(Class::Float, pairs, hoisted);
         let reads: &[Operand] = if hoisted { &[] } else { &[Operand::reg(0)] };

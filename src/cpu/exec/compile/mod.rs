@@ -85,8 +85,8 @@ struct Compiler<'a> {
     errors: Vec<Diagnostic>,
 }
 
-/// Compiles a stage; the diagnostics if the executor cannot run it.
-pub(super) fn compile(program: &Program, stage: Stage) -> Result<Inner, Vec<Diagnostic>> {
+/// Compiles a stage, its operations each `apart` if wanted; the diagnostics if the executor cannot run it.
+pub(super) fn compile(program: &Program, stage: Stage, apart: bool) -> Result<Inner, Vec<Diagnostic>> {
     let missing = |what: &str| {
         let message = format!("`{}` has no {what} for the CPU reference to run", program.name);
         vec![Diagnostic::new(&codes::general::NOT_SUPPORTED_YET, Span::default(), message)]
@@ -96,16 +96,16 @@ pub(super) fn compile(program: &Program, stage: Stage) -> Result<Inner, Vec<Diag
         return Err(missing("vertex and fragment stages alone: geometry stages are not run, and so no pipeline"));
     }
     let Some(main) = shader.main else { return Err(missing("`main`")) };
-    shader.on_stack(|| Compiler::new(program, shader).run(main))
+    shader.on_stack(|| Compiler::new(program, shader, apart).run(main))
 }
 
 impl<'a> Compiler<'a> {
-    fn new(program: &'a Program, shader: &'a Shader) -> Self {
+    fn new(program: &'a Program, shader: &'a Shader, apart: bool) -> Self {
         Self {
             types: &program.types,
             shader,
             program,
-            emit: Emitter::default(),
+            emit: Emitter::new(apart),
             effects: Effects::of(shader),
             vars: Vec::new(),
             globals: vec![None; shader.globals.len()],
@@ -134,7 +134,9 @@ impl<'a> Compiler<'a> {
         if !self.errors.is_empty() {
             return Err(self.errors);
         }
-        fuse::fuse(&mut self.emit);
+        if !self.emit.apart {
+            fuse::fuse(&mut self.emit);
+        }
         let mut ports: Vec<Port> = self.inputs.iter().chain(&outputs).copied().collect();
         let registers = alloc::allocate(&mut self.emit, &mut ports);
         let outputs = ports.split_off(self.inputs.len());
