@@ -12,6 +12,8 @@ pub(crate) struct Study {
     pub(crate) trials: Vec<Trial>,
     /// Scenes that could not be tried, and why.
     pub(crate) left_out: Vec<(String, String)>,
+    /// Scenes that 1/255 fails without a fault.
+    pub(crate) false_alarms: Vec<String>,
 }
 
 /// How many trials came out how.
@@ -22,14 +24,13 @@ pub(crate) struct Count {
     pub(crate) unseen: usize,
     pub(crate) seen: usize,
     pub(crate) caught: usize,
+    /// Of those seen, where 1/255 has something to say.
+    pub(crate) by_hand_of: usize,
     pub(crate) by_hand: usize,
 }
 
-impl Count {
-    /// Of the faults that change the picture, in percent.
-    fn share(self, part: usize) -> f64 {
-        100.0 * part as f64 / self.seen.max(1) as f64
-    }
+fn percent(part: usize, whole: usize) -> f64 {
+    100.0 * part as f64 / whole.max(1) as f64
 }
 
 impl Study {
@@ -47,6 +48,7 @@ impl Study {
                 Ok(subject) => {
                     let faults = subject.faults(choice);
                     progress(name, faults.len());
+                    study.false_alarms.extend(subject.false_alarm.then(|| name.clone()));
                     study.trials.extend(faults.iter().map(|(module, one)| subject.try_out(*module, one)));
                 }
             }
@@ -65,7 +67,8 @@ impl Study {
                 Outcome::Seen { caught, by_hand, .. } => {
                     count.seen += 1;
                     count.caught += usize::from(*caught);
-                    count.by_hand += usize::from(*by_hand);
+                    count.by_hand_of += usize::from(by_hand.is_some());
+                    count.by_hand += usize::from(*by_hand == Some(true));
                 }
             }
         }
@@ -82,18 +85,19 @@ impl Study {
 
 impl fmt::Display for Study {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "fault       planted  invalid  refused  unseen    seen   verify catches   1/255 catches")?;
+        writeln!(f, "fault       planted  invalid  refused  unseen    seen   verify catches      1/255 catches")?;
         let line = |f: &mut fmt::Formatter<'_>, name: &str, count: Count| {
-            let Count { invalid, refused, unseen, seen, caught, by_hand } = count;
+            let Count { invalid, refused, unseen, seen, caught, by_hand_of, by_hand } = count;
             let planted = invalid + refused + unseen + seen;
             write!(f, "{name:<10} {planted:>8} {invalid:>8} {refused:>8} {unseen:>7} {seen:>7}")?;
-            let (ours, theirs) = (count.share(caught), count.share(by_hand));
-            writeln!(f, " {caught:>8} {ours:>5.1} % {by_hand:>7} {theirs:>5.1} %")
+            let (ours, theirs) = (percent(caught, seen), percent(by_hand, by_hand_of));
+            writeln!(f, " {caught:>8} {ours:>5.1} % {by_hand:>6} of {by_hand_of:>4} {theirs:>5.1} %")
         };
         for kind in Kind::ALL {
             line(f, kind.name(), self.count(|trial| trial.kind == kind))?;
         }
         line(f, "all", self.count(|_| true))?;
+        writeln!(f, "1/255 fails without a fault: {}", self.false_alarms.join(", "))?;
         for (scene, why) in &self.left_out {
             writeln!(f, "left out: {scene}: {why}")?;
         }
@@ -104,10 +108,12 @@ impl fmt::Display for Study {
         }
         for cover in Cover::ALL {
             let survivors = self.survivors(cover);
-            writeln!(f, "\nmissed, {}: {}", cover.name(), survivors.len())?;
+            let of = |kind: Kind| survivors.iter().filter(|trial| trial.kind == kind).count();
+            let kinds: Vec<String> = Kind::ALL.iter().map(|kind| format!("{} {}", kind.name(), of(*kind))).collect();
+            writeln!(f, "\nmissed, {}: {} ({})", cover.name(), survivors.len(), kinds.join(", "))?;
             for trial in survivors {
                 if let Outcome::Seen { change, by_hand, .. } = &trial.outcome {
-                    let also = if *by_hand { "; 1/255 catches it" } else { "" };
+                    let also = if *by_hand == Some(true) { "; 1/255 catches it" } else { "" };
                     writeln!(
                         f,
                         "  {}, {}: {}: {} pixels, up to {:.1e} ({:.1} ulp; allowed {:.1e}){also}",

@@ -3,6 +3,7 @@
 mod builtins;
 mod evaluate;
 mod generate;
+mod shadow;
 mod text;
 mod textures;
 
