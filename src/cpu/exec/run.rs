@@ -12,9 +12,10 @@ impl<D: Domain> Machine<D> {
     pub(super) fn execute(&mut self, section: &Section, inner: &Inner, start: u64) {
         let mut mask = start;
         let mut place = 0;
+        let watched = self.observer.is_some();
         while let Some(inst) = section.insts.get(place) {
             place += 1;
-            if self.observer.is_some() {
+            if watched {
                 self.show_choice(inst, section, place - 1, mask);
             }
             match *inst {
@@ -98,7 +99,7 @@ impl<D: Domain> Machine<D> {
                 }
                 ref pure => {
                     self.registers.compute(pure, section);
-                    if self.observer.is_some() {
+                    if watched {
                         self.show(pure, section, place - 1, mask);
                     }
                 }

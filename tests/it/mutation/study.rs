@@ -109,8 +109,11 @@ impl fmt::Display for Study {
         for cover in Cover::ALL {
             let survivors = self.survivors(cover);
             let of = |kind: Kind| survivors.iter().filter(|trial| trial.kind == kind).count();
-            let kinds: Vec<String> = Kind::ALL.iter().map(|kind| format!("{} {}", kind.name(), of(*kind))).collect();
-            writeln!(f, "\nmissed, {}: {} ({})", cover.name(), survivors.len(), kinds.join(", "))?;
+            write!(f, "\nmissed, {}: {}", cover.name(), survivors.len())?;
+            for kind in Kind::ALL.into_iter().filter(|kind| of(*kind) > 0) {
+                write!(f, "; {} {}", kind.name(), of(kind))?;
+            }
+            writeln!(f)?;
             for trial in survivors {
                 if let Outcome::Seen { change, by_hand, .. } = &trial.outcome {
                     let also = if *by_hand == Some(true) { "; 1/255 catches it" } else { "" };
