@@ -9,6 +9,7 @@ mod conventions;
 mod inline;
 mod notes;
 pub mod reflection;
+pub(crate) mod textures;
 mod write;
 
 pub use conventions::{ClipZ, Conventions, SpirvEnv, Target, WindowOrigin};

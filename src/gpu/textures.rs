@@ -7,11 +7,9 @@
 
 use super::states::{address_mode, compare, filter_mode};
 use super::{Error, Gpu, shadow_upload};
+use crate::emit::textures::BUFFER_WIDTH;
 use crate::hir::{SamplerDim, SamplerType, Scalar};
 use crate::scene::{Compare, Filter, Texels, Texture, TextureLevel, Wrap};
-
-/// Texels in a row of the 2D texture that stands for a buffer texture.
-pub(super) const BUFFER_WIDTH: u32 = 4096;
 
 /// What a sampler slot binds.
 pub(super) struct Bound {

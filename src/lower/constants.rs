@@ -4,9 +4,9 @@
 //! Such a float is its bits in a private variable, which no target evaluates before the shader runs.
 
 use super::function::{Ctx, GlobalSlot, Slot};
-use super::{Lower, Try, internal};
+use super::{Lower, Try, for_each_operand, internal};
 use crate::hir::{ArraySize, ExprId, FunctionId, LocalKind, Scalar, ScalarValue, Type, TypeId, Value, VarRef};
-use naga::{AddressSpace, Expression, GlobalVariable, Handle, Literal};
+use naga::{AddressSpace, BinaryOperator, Expression, GlobalVariable, Handle, Literal};
 
 /// Whether a float has a literal. The largest float has none: its shortest decimal spelling is a little above it, which
 /// Tint refuses.
@@ -105,6 +105,82 @@ impl Ctx<'_, '_> {
                 }
             }
             VarRef::Local(id) => self.set_slot(id, local),
+        }
+    }
+}
+
+impl Ctx<'_, '_> {
+    /// Whether a target knows the value of an expression before the shader runs: all of its operands are constant, and
+    /// none has a name.
+    pub(super) fn is_known(&self, expression: &Expression) -> bool {
+        let computes = matches!(
+            expression,
+            Expression::Compose { .. }
+                | Expression::Splat { .. }
+                | Expression::Swizzle { .. }
+                | Expression::Access { .. }
+                | Expression::AccessIndex { .. }
+                | Expression::Unary { .. }
+                | Expression::Binary { .. }
+                | Expression::Select { .. }
+                | Expression::Relational { .. }
+                | Expression::Math { .. }
+                | Expression::As { .. }
+        );
+        let mut known = computes;
+        for_each_operand(expression, |operand| {
+            known = known
+                && self.known.get(operand.index()).copied().unwrap_or(false)
+                && !self.out.named_expressions.contains_key(&operand);
+        });
+        known
+    }
+
+    /// Targets refuse constant expressions whose result does not fit. What is constant in GLSL was evaluated already; an
+    /// operand that became so here (`(n++, 5)`) is read from a variable.
+    pub(super) fn kept_from_evaluation(&mut self, expression: Expression) -> Expression {
+        let operand = match expression {
+            Expression::Math { arg, .. } => arg,
+            Expression::Binary {
+                op: BinaryOperator::Add | BinaryOperator::Subtract | BinaryOperator::Multiply | BinaryOperator::Divide | BinaryOperator::Modulo | BinaryOperator::ShiftLeft | BinaryOperator::ShiftRight,
+                left,
+                ..
+            } => left,
+            _ => return expression,
+        };
+        if !self.is_known(&expression) {
+            return expression;
+        }
+        let Some(ty) = self.type_of_known(operand) else { return expression };
+        let variable = self.variable("operand", ty);
+        self.store(variable, operand);
+        let operand = self.load(variable);
+        match expression {
+            Expression::Binary { op, right, .. } => Expression::Binary { op, left: operand, right },
+            Expression::Math { fun, arg1, arg2, arg3, .. } => Expression::Math { fun, arg: operand, arg1, arg2, arg3 },
+            other => other,
+        }
+    }
+
+    /// The type of a constant, as far as it is plain to see.
+    fn type_of_known(&mut self, handle: Handle<Expression>) -> Option<Handle<naga::Type>> {
+        let scalar = |literal: &Literal| match literal {
+            Literal::F32(_) => Some(Scalar::Float),
+            Literal::I32(_) => Some(Scalar::Int),
+            Literal::U32(_) => Some(Scalar::Uint),
+            _ => None,
+        };
+        match self.out.expressions[handle] {
+            Expression::Literal(literal) => Some(self.low.vector_type(scalar(&literal)?, 1)),
+            Expression::Compose { ty, .. } | Expression::ZeroValue(ty) => Some(ty),
+            Expression::Constant(constant) => Some(self.low.module.constants[constant].ty),
+            Expression::Splat { size, value } => match self.out.expressions[value] {
+                Expression::Literal(literal) => Some(self.low.vector_type(scalar(&literal)?, size as u8)),
+                _ => None,
+            },
+            Expression::Unary { expr, .. } => self.type_of_known(expr),
+            Expression::Binary { op: BinaryOperator::And, left, .. } => self.type_of_known(left),
+            _ => None,
         }
     }
 }

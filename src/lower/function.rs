@@ -86,6 +86,8 @@ pub(super) struct Ctx<'l, 'a> {
     pub(super) entry: FxHashMap<GlobalId, Slot>,
     /// By expression: how deep its text nests.
     depths: Vec<u8>,
+    /// By expression: whether a target knows its value before the shader runs.
+    pub(super) known: Vec<bool>,
     shared: FxHashMap<Shared, Handle<Expression>>,
     span: naga::Span,
     /// How many loops surround the current statement.
@@ -112,6 +114,7 @@ impl<'l, 'a> Ctx<'l, 'a> {
             param_samplers: FxHashMap::default(),
             entry: FxHashMap::default(),
             depths: Vec::new(),
+            known: Vec::new(),
             shared: FxHashMap::default(),
             span: naga_span(function.span),
             loops: 0,
@@ -156,10 +159,13 @@ impl<'l, 'a> Ctx<'l, 'a> {
     pub(super) fn add(&mut self, expression: Expression) -> Handle<Expression> {
         if expression.needs_pre_emit() {
             self.flush();
-            let handle = self.append(expression, 0);
+            let literal = matches!(expression, Expression::Literal(_) | Expression::ZeroValue(_) | Expression::Constant(_));
+            let handle = self.append(expression, 0, literal);
             self.open = self.out.expressions.len();
             return handle;
         }
+        let expression = self.kept_from_evaluation(expression);
+        let known = self.is_known(&expression);
         let mut depth = 0_u8;
         for_each_operand(&expression, |operand| {
             depth = depth.max(self.depths.get(operand.index()).copied().unwrap_or(0));
@@ -167,15 +173,16 @@ impl<'l, 'a> Ctx<'l, 'a> {
         // A place is no value and cannot have a name; loads of it can.
         let nameable = !matches!(expression, Expression::Access { .. } | Expression::AccessIndex { .. });
         let deep = depth >= TEXT_DEPTH && nameable;
-        let handle = self.append(expression, if deep { 0 } else { depth.saturating_add(1) });
+        let handle = self.append(expression, if deep { 0 } else { depth.saturating_add(1) }, known);
         if deep {
             self.name(handle, "part");
         }
         handle
     }
 
-    fn append(&mut self, expression: Expression, depth: u8) -> Handle<Expression> {
+    fn append(&mut self, expression: Expression, depth: u8, known: bool) -> Handle<Expression> {
         self.depths.push(depth);
+        self.known.push(known);
         self.out.expressions.append(expression, self.span)
     }
 
@@ -261,7 +268,7 @@ impl<'l, 'a> Ctx<'l, 'a> {
     ) -> Option<Handle<Expression>> {
         self.flush();
         let result = has_result.then(|| {
-            let handle = self.append(Expression::CallResult(function), 0);
+            let handle = self.append(Expression::CallResult(function), 0, false);
             self.open = self.out.expressions.len();
             handle
         });

@@ -20,9 +20,6 @@ use crate::hir::{
 use crate::source::Span;
 use naga::{AddressSpace, Expression, Handle, ImageClass, ImageDimension, TypeInner};
 
-/// The width of the 2D texture that stands for a buffer texture: texel `i` is at (`i` mod width, `i` / width).
-pub(super) const BUFFER_WIDTH: i32 = 4096;
-
 /// The variables of one sampler.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SamplerVariables {

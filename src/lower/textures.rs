@@ -5,9 +5,9 @@
 //! their lookups are in [`texel_loads`](super::texel_loads).
 
 use super::function::{Ctx, SamplerValue};
-use super::samplers::BUFFER_WIDTH;
 use super::{Try, internal, lacking};
 use crate::builtin::BuiltinFunction;
+use crate::emit::textures::BUFFER_WIDTH;
 use crate::hir::{ExprId, SamplerDim, SamplerType, Scalar, ScalarValue, Swizzle, TypeId};
 use naga::{BinaryOperator, Expression, Handle, MathFunction, SampleLevel};
 
@@ -330,7 +330,7 @@ impl Ctx<'_, '_> {
 
     /// Texel `i` of a buffer: (`i` mod width, `i` / width).
     fn buffer_coordinate(&mut self, index: Handle<Expression>) -> Handle<Expression> {
-        let width = self.int(BUFFER_WIDTH);
+        let width = self.int(BUFFER_WIDTH as i32);
         let x = self.op(BinaryOperator::Modulo, index, width);
         let y = self.op(BinaryOperator::Divide, index, width);
         let ty = self.low.vector_type(Scalar::Int, 2);

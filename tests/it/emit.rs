@@ -56,7 +56,7 @@ fn compile(files: &[PathBuf]) -> glisten::Compilation {
 }
 
 /// Everything that is emitted, on disk for the outside judges.
-struct Collected {
+pub(crate) struct Collected {
     folder: tempfile::TempDir,
     /// Files of WGSL with the names of their sources.
     wgsl: Vec<(PathBuf, String)>,
@@ -66,12 +66,12 @@ struct Collected {
 }
 
 impl Collected {
-    fn new() -> Self {
+    pub(crate) fn new() -> Self {
         let folder = tempfile::tempdir().expect("a temporary folder");
         Self { folder, wgsl: Vec::new(), spirv: Vec::new(), failures: Vec::new() }
     }
 
-    fn add(&mut self, name: &str, emitted: Emitted) {
+    pub(crate) fn add(&mut self, name: &str, emitted: Emitted) {
         let list = match emitted {
             Emitted::Text(_) => &mut self.wgsl,
             Emitted::Words(_) => &mut self.spirv,
@@ -111,7 +111,7 @@ impl Collected {
     }
 
     /// Hands all to the outside judges.
-    fn judge(mut self) {
+    pub(crate) fn judge(mut self) {
         self.tint();
         self.spirv_val();
         assert!(self.failures.is_empty(), "{}", self.failures.join("\n\n"));

@@ -10,6 +10,8 @@ mod emit;
 mod exec;
 #[cfg(feature = "gpu")]
 mod gpu;
+#[cfg(feature = "cli")]
+mod host;
 mod hostile;
 mod layouts;
 mod link;
@@ -19,6 +21,8 @@ mod mutation;
 #[cfg(feature = "gpu")]
 mod mutations;
 mod print;
+#[cfg(feature = "gpu")]
+mod random;
 #[cfg(feature = "gpu")]
 mod raster;
 #[cfg(feature = "cli")]

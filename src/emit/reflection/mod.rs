@@ -194,6 +194,21 @@ pub struct Sampler {
     pub texture: Slot,
     /// Where the sampler stands; the same as `texture` where the kind has none (integer, buffer, multisample).
     pub sampler: Slot,
+    /// The view of the texture, as WebGPU names it: `2d`, `2d-array`, `3d`, `cube`.
+    #[serde(default)]
+    pub view_dimension: String,
+    /// What is read, as WebGPU names it: `float`, `unfilterable-float`, `depth`, `sint`, `uint`.
+    #[serde(default)]
+    pub sample_type: String,
+    /// Whether the texture is multisampled.
+    #[serde(default)]
+    pub multisampled: bool,
+    /// The kind of sampler, as WebGPU names it: `filtering`, `comparison`; none where there is no sampler.
+    #[serde(default)]
+    pub sampler_type: Option<String>,
+    /// How many texels a row has of the 2D texture that stands for a buffer texture; none for other kinds.
+    #[serde(default)]
+    pub row_width: Option<u32>,
     /// `layout(binding = n)` of the text: the texture unit.
     pub unit: Option<u32>,
     /// Whether a stage reads it.
@@ -333,12 +348,21 @@ fn shortest(value: f32) -> serde_json::Value {
 }
 
 fn sampler(types: &Types, row: &SamplerSlot) -> Sampler {
+    let shape = match types.get(row.ty) {
+        Type::Sampler(ty) => super::textures::Shape::of(ty),
+        _ => super::textures::Shape::default(),
+    };
     Sampler {
         name: row.name.clone(),
         ty: types.name(row.ty),
         array_size: row.array_size,
         texture: row.texture.into(),
         sampler: row.sampler.into(),
+        view_dimension: shape.view_dimension.into(),
+        sample_type: shape.sample_type.into(),
+        multisampled: shape.multisampled,
+        sampler_type: shape.sampler_type.map(str::to_owned),
+        row_width: shape.row_width,
         unit: row.unit,
         active: row.active,
     }

@@ -1,0 +1,108 @@
+//! Random programs the whole way: what is emitted is accepted by all judges, and the picture that lavapipe draws of it is
+//! the reference's. The reference never sees the lowering, so that a mistake in it shows.
+//!
+//! Each program draws a point a pixel with inputs of its own. `RANDOM_PROGRAMS=first..end` runs other seeds.
+
+mod text;
+
+use crate::emit::Collected;
+use glisten::compare::{Judge, Verdict};
+use glisten::cpu::{self, LineRule, Precision, RenderOptions};
+use glisten::emit::{Conventions, Target, emit};
+use glisten::gpu::{Gpu, Via};
+use glisten::hir::Stage;
+use glisten::scene::{self, MemoryFiles, Scene};
+use glisten::{Compiler, Options};
+use std::ops::Range;
+
+const VERTEX: &str = "#version 150\nin vec2 place;\nin vec4 av;\nin ivec4 bv;\nflat out vec4 a;\nflat out ivec4 b;\n\
+    void main() { a = av; b = bv; gl_Position = vec4(place, 0.0, 1.0); }\n";
+const SIDE: usize = 8;
+
+fn seeds() -> Range<u64> {
+    let Ok(asked) = std::env::var("RANDOM_PROGRAMS") else { return 0..48 };
+    let (first, end) = asked.split_once("..").expect("RANDOM_PROGRAMS=first..end");
+    first.parse().expect("a number")..end.parse().expect("a number")
+}
+
+/// A scene that draws the fragment shader once a pixel.
+fn scene(fragment: &str) -> Result<Scene, String> {
+    let list = |values: Vec<f64>| format!("{values:?}");
+    let pixels = || 0..SIDE * SIDE;
+    let center = |index: usize| (index as f64 + 0.5) / SIDE as f64 * 2.0 - 1.0;
+    let floats = [0.0, 1.0, -1.0, 0.5, 2.25, -3.75, 7.0, -0.125];
+    let text = format!(
+        "framebuffer = {{ width = {SIDE}, height = {SIDE}, attachments = 2, clear = [0, 0, 0, 0] }}\n[[draw]]\n\
+         vertex = \"r.vert\"\nfragment = \"r.frag\"\nprimitive = \"points\"\n[draw.attributes]\n\
+         place = {{ size = 2, values = {} }}\nav = {{ size = 4, values = {} }}\nbv = {{ size = 4, values = {:?} }}\n\
+         [draw.uniforms]\n\"Block.w\" = [0.5, -2.0, 3.0]\n\"Block.x\" = [1, 0.5, -1, 2, 0.25, 3]\n\"Block.y\" = [4, -9]\n",
+        list(pixels().flat_map(|pixel| [center(pixel % SIDE), center(pixel / SIDE)]).collect()),
+        list(pixels().flat_map(|pixel| (0..4).map(move |k| floats[(pixel * 3 + k * 5) % 8])).collect()),
+        pixels().flat_map(|pixel| (0..4).map(move |k| (pixel * 7 + k * 3) as i32 % 23 - 9)).collect::<Vec<i32>>(),
+    );
+    let files = MemoryFiles::new([("r.toml", text.as_str()), ("r.vert", VERTEX), ("r.frag", fragment)]);
+    let loaded = scene::load("r.toml", &files, &Compiler::new(Options::default()));
+    let messages: Vec<_> = loaded
+        .diagnostics
+        .iter()
+        .filter(|found| found.is_error())
+        .map(|found| format!("{}: {}", found.code, found.message))
+        .collect();
+    loaded.scene.ok_or_else(|| messages.join("; "))
+}
+
+/// What is wrong with the picture of a scene, and how many pixels could not be judged.
+fn compare(gpu: &Gpu, scene: &Scene) -> (Vec<String>, usize) {
+    let options = RenderOptions { precision: Precision::Bound, lines: LineRule::Vulkan, ..RenderOptions::default() };
+    let reference = match cpu::render(scene, &options) {
+        Ok(reference) => reference,
+        Err(found) => {
+            let messages: Vec<_> = found.iter().map(|found| &found.message).collect();
+            return (vec![format!("the reference: {messages:?}")], 0);
+        }
+    };
+    let mut wrong = Vec::new();
+    for via in [Via::Spirv, Via::Wgsl] {
+        match gpu.render(scene, via) {
+            Err(error) => wrong.push(format!("via {}: {error}", via.name())),
+            Ok(rendered) => {
+                let verdict = Verdict::new(&rendered.picture, &reference, Judge::Bound);
+                if !verdict.holds(true) {
+                    wrong.push(format!("via {}: {verdict:?}", via.name()));
+                }
+            }
+        }
+    }
+    (wrong, reference.undecided.iter().filter(|undecided| **undecided).count())
+}
+
+#[test]
+fn random_programs_are_accepted_and_drawn_as_the_reference_draws_them() {
+    let gpu = crate::gpu::gpu();
+    let mut collected = Collected::new();
+    let mut wrong = Vec::new();
+    let (mut undecided, mut drawn) = (0, 0);
+    for seed in seeds() {
+        let fragment = text::fragment(seed);
+        let scene = match scene(&fragment) {
+            Ok(scene) => scene,
+            Err(messages) => {
+                wrong.push(format!("seed {seed} is refused: {messages}\n{fragment}"));
+                continue;
+            }
+        };
+        let program = &scene.draws[0].program;
+        for target in [Target::Wgsl, Target::Spirv] {
+            match emit(program, Stage::Fragment, target, &Conventions::default()) {
+                Ok(emitted) => collected.add(&format!("seed {seed}"), emitted),
+                Err(found) => wrong.push(format!("seed {seed} as {}: {}", target.name(), found[0].message)),
+            }
+        }
+        let (differences, open) = compare(&gpu, &scene);
+        wrong.extend(differences.into_iter().map(|what| format!("seed {seed} {what}\n{fragment}")));
+        (undecided, drawn) = (undecided + open, drawn + SIDE * SIDE);
+    }
+    assert!(wrong.is_empty(), "{} of {:?}:\n{}", wrong.len(), seeds(), wrong.join("\n"));
+    assert!(undecided * 5 < drawn, "{undecided} of {drawn} pixels could not be judged");
+    collected.judge();
+}

@@ -1,0 +1,800 @@
+//! Random fragment shaders as text: well-typed, without anything that GLSL leaves undefined (no index outside of its
+//! bounds, no division by zero, nothing read before it is written), and with all that a lowering has to put in order:
+//! side effects inside expressions, `out` parameters that name one variable twice, cases that run on, names that hide
+//! others, aggregates by value.
+//!
+//! *Holds:* the same seed gives the same text. Numbers stay small dyadic fractions where they can, so that most results
+//! are exact and the bound of the reference is narrow.
+
+use std::fmt::Write;
+
+/// Numbers that are the same every run.
+pub(super) struct Random(u64);
+
+impl Random {
+    pub(super) fn new(seed: u64) -> Self {
+        let mut random = Self(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ 0x1234_5678_9abc_def0);
+        for _ in 0..4 {
+            random.pick(2);
+        }
+        random
+    }
+
+    fn pick(&mut self, count: usize) -> usize {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        ((self.0 >> 33) as usize) % count
+    }
+
+    fn one_of<'a, T: ?Sized>(&mut self, list: &[&'a T]) -> &'a T {
+        list[self.pick(list.len())]
+    }
+}
+
+/// A variable in scope.
+#[derive(Clone)]
+struct Variable {
+    name: String,
+    ty: &'static str,
+    writable: bool,
+}
+
+/// A function that may be called: its name, result and parameters with their modes.
+struct Callable {
+    name: String,
+    ret: &'static str,
+    params: Vec<(&'static str, &'static str)>,
+}
+
+const STRUCT: &str = "struct S { float f; ivec2 i; vec3 v[2]; mat2 m; };\n";
+const SCALARS: [&str; 4] = ["float", "int", "uint", "bool"];
+const VECTORS: [[&str; 3]; 4] = [
+    ["vec2", "vec3", "vec4"],
+    ["ivec2", "ivec3", "ivec4"],
+    ["uvec2", "uvec3", "uvec4"],
+    ["bvec2", "bvec3", "bvec4"],
+];
+const MATRICES: [&str; 4] = ["mat2", "mat3", "mat2x3", "mat3x2"];
+/// What a local may be.
+const TYPES: [&str; 21] = [
+    "float", "float", "int", "int", "uint", "bool", "vec2", "vec3", "vec4", "ivec2", "ivec3", "uvec2", "uvec4",
+    "bvec2", "bvec3", "mat2", "mat3", "mat2x3", "S", "float[4]", "ivec3[2]",
+];
+
+/// The class of a scalar or vector and its size.
+fn shape(ty: &str) -> Option<(usize, usize)> {
+    if let Some(class) = SCALARS.iter().position(|scalar| *scalar == ty) {
+        return Some((class, 1));
+    }
+    let class = VECTORS.iter().position(|row| row.contains(&ty))?;
+    Some((class, VECTORS[class].iter().position(|name| *name == ty)? + 2))
+}
+
+fn vector(class: usize, size: usize) -> &'static str {
+    if size == 1 { SCALARS[class] } else { VECTORS[class][size - 2] }
+}
+
+/// Columns and rows.
+fn matrix(ty: &str) -> Option<(usize, usize)> {
+    Some(match ty {
+        "mat2" => (2, 2),
+        "mat3" => (3, 3),
+        "mat2x3" => (2, 3),
+        "mat3x2" => (3, 2),
+        _ => return None,
+    })
+}
+
+/// Element and length.
+fn array(ty: &str) -> Option<(&'static str, usize)> {
+    Some(match ty {
+        "float[4]" => ("float", 4),
+        "ivec3[2]" => ("ivec3", 2),
+        "vec3[2]" => ("vec3", 2),
+        _ => return None,
+    })
+}
+
+/// A random fragment shader.
+pub(super) fn fragment(seed: u64) -> String {
+    let mut writer = Writer {
+        random: Random::new(seed),
+        text: String::new(),
+        scopes: Vec::new(),
+        functions: Vec::new(),
+        indent: 0,
+        names: 0,
+        loops: 0,
+        breakable: 0,
+        ret: "void",
+        budget: 0,
+    };
+    writer.shader();
+    writer.text
+}
+
+struct Writer {
+    random: Random,
+    text: String,
+    scopes: Vec<Vec<Variable>>,
+    functions: Vec<Callable>,
+    indent: usize,
+    names: usize,
+    loops: usize,
+    breakable: usize,
+    ret: &'static str,
+    /// Statements that may still be written.
+    budget: usize,
+}
+
+impl Writer {
+    fn line(&mut self, line: &str) {
+        let indent = "    ".repeat(self.indent);
+        writeln!(self.text, "{indent}{line}").expect("a String takes text");
+    }
+
+    fn declare(&mut self, name: &str, ty: &'static str, writable: bool) {
+        let variable = Variable { name: name.into(), ty, writable };
+        self.scopes.last_mut().expect("a scope is open").push(variable);
+    }
+
+    /// All variables, those alone that no inner one hides.
+    fn visible(&self) -> Vec<Variable> {
+        let mut seen: Vec<&str> = Vec::new();
+        let mut found = Vec::new();
+        for variable in self.scopes.iter().rev().flat_map(|scope| scope.iter().rev()) {
+            if !seen.contains(&variable.name.as_str()) {
+                seen.push(&variable.name);
+                found.push(variable.clone());
+            }
+        }
+        found
+    }
+
+    fn shader(&mut self) {
+        self.text.push_str("#version 150\n");
+        self.text.push_str(STRUCT);
+        self.text.push_str(
+            "flat in vec4 a;\nflat in ivec4 b;\nout vec4 c0;\nout vec4 c1;\n\
+             uniform float k = 0.75;\nuniform ivec2 n = ivec2(3, -5);\n\
+             uniform float t[4] = float[4](1.0, -2.0, 0.5, 4.0);\n\
+             uniform Block { vec3 w; mat3x2 x; int y[2]; } block;\n",
+        );
+        self.scopes.push(Vec::new());
+        for (name, ty) in [("a", "vec4"), ("b", "ivec4"), ("k", "float"), ("n", "ivec2"), ("t", "float[4]")] {
+            self.declare(name, ty, false);
+        }
+        for (name, ty) in [("block.w", "vec3"), ("block.x", "mat3x2")] {
+            self.declare(name, ty, false);
+        }
+        for (name, ty) in [("g", "float"), ("h", "ivec3"), ("s", "S"), ("gu", "uint")] {
+            let init = self.expr(ty, 2);
+            self.line(&format!("{ty} {name} = {init};"));
+            self.declare(name, ty, true);
+        }
+        for index in 0..self.random.pick(4) {
+            self.function(index);
+        }
+        self.main();
+    }
+
+    fn function(&mut self, index: usize) {
+        let ret = ["float", "int", "vec3", "uint", "S", "bool", "void"][self.random.pick(7)];
+        let count = self.random.pick(4);
+        let mut params = Vec::new();
+        let mut heads = Vec::new();
+        self.scopes.push(Vec::new());
+        for number in 0..count {
+            let ty = TYPES[self.random.pick(TYPES.len())];
+            let mode = ["in", "in", "out", "inout", "const in"][self.random.pick(5)];
+            // A parameter that hides a global now and then.
+            let name = if self.random.pick(6) == 0 && number == 0 { "g".into() } else { format!("p{number}") };
+            heads.push(format!("{mode} {} {name}{}", base(ty), dims(ty)));
+            self.declare(&name, ty, mode != "const in");
+            params.push((mode, ty));
+        }
+        let name = format!("f{index}");
+        self.line(&format!("{ret} {name}({}) {{", heads.join(", ")));
+        self.indent += 1;
+        // What comes out is written before anything reads it.
+        for (number, (mode, ty)) in params.iter().enumerate() {
+            if *mode == "out" {
+                let name = self.scopes.last().expect("open")[number].name.clone();
+                let value = self.literal(ty);
+                self.line(&format!("{name} = {value};"));
+            }
+        }
+        self.ret = ret;
+        self.budget = 6;
+        self.statements(2);
+        if ret != "void" {
+            let value = self.expr(ret, 2);
+            self.line(&format!("return {value};"));
+        }
+        self.indent -= 1;
+        self.line("}");
+        self.scopes.pop();
+        self.functions.push(Callable { name, ret, params });
+    }
+
+    fn main(&mut self) {
+        self.line("void main() {");
+        self.indent += 1;
+        self.ret = "void";
+        self.scopes.push(Vec::new());
+        self.line("c0 = vec4(0.0); c1 = vec4(0.0);");
+        self.declare("c0", "vec4", true);
+        self.budget = 14;
+        self.statements(3);
+        let rows = self.visible();
+        let mut floats = Vec::new();
+        let mut ints = Vec::new();
+        for variable in rows {
+            let name = &variable.name;
+            match (shape(variable.ty), variable.ty) {
+                (Some((0, 1)), _) => floats.push(name.clone()),
+                (Some((0, _)), _) => floats.push(format!("dot({name}, {name})")),
+                (Some((1, 1)), _) => ints.push(name.clone()),
+                (Some((1, _)), _) => ints.push(format!("({name}.x ^ {name}.y * 3)")),
+                (Some((2, 1)), _) => ints.push(format!("int({name})")),
+                (Some((2, _)), _) => ints.push(format!("int({name}.x + {name}.y * 7u)")),
+                (Some((3, 1)), _) => ints.push(format!("int({name})")),
+                (Some(_), _) => ints.push(format!("(any({name}) ? 5 : 9)")),
+                (_, "S") => {
+                    floats.push(format!("({name}.f + {name}.v[1].y + {name}.m[1][0])"));
+                    ints.push(format!("{name}.i.y"));
+                }
+                (_, "float[4]") => floats.push(format!("({name}[0] - {name}[3])")),
+                (_, "ivec3[2]") => ints.push(format!("{name}[1].z")),
+                _ => floats.push(format!("{name}[1][0]")),
+            }
+        }
+        let floats: Vec<_> = floats.iter().map(|term| format!("clamp({term}, -1000.0, 1000.0)")).collect();
+        self.line(&format!("float fs = {};", floats.join(" + ")));
+        self.line("int is = 17;");
+        for term in ints {
+            self.line(&format!("is = is * 31 + {term};"));
+        }
+        self.line("c0 += vec4(fs, g, s.v[0].x, 1.0);");
+        self.line("c1 = vec4(is & 0xffff, (is >> 16) & 0xffff, gu & 0xffffu, 1.0);");
+        self.indent -= 1;
+        self.line("}");
+        self.scopes.pop();
+    }
+
+    fn statements(&mut self, depth: usize) {
+        for _ in 0..1 + self.random.pick(5) {
+            if self.budget == 0 {
+                return;
+            }
+            self.budget -= 1;
+            self.statement(depth);
+        }
+    }
+
+    fn block(&mut self, depth: usize) {
+        self.indent += 1;
+        self.scopes.push(Vec::new());
+        self.statements(depth);
+        self.scopes.pop();
+        self.indent -= 1;
+    }
+
+    fn statement(&mut self, depth: usize) {
+        let inner = depth.saturating_sub(1);
+        match self.random.pick(if depth == 0 { 10 } else { 20 }) {
+            0..=3 => self.declaration(),
+            4..=7 => {
+                let assignment = self.assignment(2);
+                self.line(&format!("{assignment};"));
+            }
+            8 => match self.call_of("void", 2) {
+                Some(call) => self.line(&format!("{call};")),
+                None => self.declaration(),
+            },
+            9 => self.jump(),
+            10..=13 => {
+                let condition = self.expr("bool", 2);
+                self.line(&format!("if ({condition}) {{"));
+                self.block(inner);
+                while self.random.pick(3) == 0 {
+                    let condition = self.expr("bool", 2);
+                    self.line(&format!("}} else if ({condition}) {{"));
+                    self.block(inner);
+                }
+                if self.random.pick(2) == 0 {
+                    self.line("} else {");
+                    self.block(inner);
+                }
+                self.line("}");
+            }
+            14..=16 => self.iteration(inner),
+            17 | 18 => self.switch(inner),
+            _ => {
+                self.line("{");
+                self.block(inner);
+                self.line("}");
+            }
+        }
+    }
+
+    fn declaration(&mut self) {
+        let ty = TYPES[self.random.pick(TYPES.len())];
+        let init = self.expr(ty, 3);
+        // A name that hides an outer one, where the innermost scope has none of it.
+        let outer: Vec<String> = self.scopes[..self.scopes.len() - 1].iter().flatten().map(|v| v.name.clone()).collect();
+        let own: Vec<&String> = self.scopes.last().expect("open").iter().map(|variable| &variable.name).collect();
+        let hidden: Vec<&String> = outer
+            .iter()
+            .filter(|name| !own.contains(name) && !name.contains('.') && !["c0", "g", "s", "gu", "b"].contains(&name.as_str()))
+            // Whether a loop's body may hide the loop's own variable is not for this test to say.
+            .filter(|name| !name.starts_with('i'))
+            .collect();
+        let name = if self.indent > 1 && !hidden.is_empty() && self.random.pick(4) == 0 {
+            hidden[self.random.pick(hidden.len())].clone()
+        } else {
+            self.names += 1;
+            format!("v{}", self.names)
+        };
+        self.line(&format!("{} {name}{} = {init};", base(ty), dims(ty)));
+        self.declare(&name, ty, true);
+    }
+
+    fn jump(&mut self) {
+        let condition = self.expr("bool", 2);
+        let what = match self.random.pick(6) {
+            0 | 1 if self.loops > 0 => "continue;".to_owned(),
+            2 | 3 if self.breakable > 0 => "break;".to_owned(),
+            4 if self.ret != "void" => format!("return {};", self.expr(self.ret, 2)),
+            5 if self.random.pick(3) == 0 => "discard;".to_owned(),
+            _ => format!("{};", self.assignment(1)),
+        };
+        self.line(&format!("if ({condition}) {what}"));
+    }
+
+    /// A loop of a few rounds, by a counter that nothing else writes to.
+    fn iteration(&mut self, depth: usize) {
+        self.names += 1;
+        let counter = format!("i{}", self.names);
+        let rounds = 1 + self.random.pick(4);
+        let form = self.random.pick(3);
+        let extra = if self.random.pick(3) == 0 { format!(" && {}", self.expr("bool", 2)) } else { String::new() };
+        match form {
+            0 => self.line(&format!("for (int {counter} = 0; {counter} < {rounds}{extra}; {counter}++) {{")),
+            1 => {
+                self.line(&format!("int {counter} = 0;"));
+                self.line(&format!("while ({counter}++ < {rounds}{extra}) {{"));
+            }
+            _ => {
+                self.line(&format!("int {counter} = 0;"));
+                self.line("do {");
+            }
+        }
+        if form > 0 {
+            self.declare(&counter, "int", false);
+        }
+        self.scopes.push(Vec::new());
+        if form == 0 {
+            self.declare(&counter, "int", false);
+        }
+        let outer = (self.loops, self.breakable);
+        (self.loops, self.breakable) = (1, 1);
+        self.block(depth);
+        (self.loops, self.breakable) = outer;
+        self.scopes.pop();
+        match form {
+            2 => self.line(&format!("}} while (++{counter} < {rounds}{extra});")),
+            _ => self.line("}"),
+        }
+    }
+
+    fn switch(&mut self, depth: usize) {
+        let selector = if self.random.pick(2) == 0 {
+            format!("({}) & 3", self.expr("int", 2))
+        } else {
+            format!("int(({}) & 3u)", self.expr("uint", 2))
+        };
+        self.line(&format!("switch ({selector}) {{"));
+        let default_at = self.random.pick(5);
+        let outer = self.breakable;
+        self.breakable += 1;
+        for case in 0..3 {
+            if case == default_at {
+                self.line("default:");
+            }
+            self.line(&format!("case {case}: {{"));
+            self.block(depth);
+            let ends = self.random.pick(2) == 0;
+            self.line(if ends { "} break;" } else { "}" });
+        }
+        // The last case must not be empty.
+        self.line(if default_at == 3 { "default: break;" } else { "case 3: break;" });
+        self.breakable = outer;
+        self.line("}");
+    }
+
+    fn literal(&mut self, ty: &str) -> String {
+        if let Some((class, size)) = shape(ty) {
+            let one = |writer: &mut Self| match class {
+                0 => writer.random.one_of(&["0.0", "1.0", "0.5", "-1.25", "2.0", "3.5"]).to_owned(),
+                1 => writer.random.one_of(&["0", "1", "2", "-3", "7", "1000", "0x7fffffff"]).to_owned(),
+                2 => writer.random.one_of(&["0u", "1u", "5u", "255u", "0xffffffffu"]).to_owned(),
+                _ => writer.random.one_of(&["true", "false"]).to_owned(),
+            };
+            if size == 1 {
+                return one(self);
+            }
+            let list: Vec<String> = (0..size).map(|_| one(self)).collect();
+            return format!("{}({})", vector(class, size), list.join(", "));
+        }
+        if let Some((columns, rows)) = matrix(ty) {
+            let list: Vec<String> = (0..columns * rows).map(|_| self.literal("float")).collect();
+            return format!("{ty}({})", list.join(", "));
+        }
+        if let Some((element, len)) = array(ty) {
+            let list: Vec<String> = (0..len).map(|_| self.literal(element)).collect();
+            return format!("{ty}({})", list.join(", "));
+        }
+        let members = ["float", "ivec2", "vec3[2]", "mat2"].map(|member| self.literal(member));
+        format!("S({})", members.join(", "))
+    }
+
+    /// Places of a type among the variables: whole ones, members, elements, components.
+    fn places(&mut self, ty: &str, writable: bool) -> Vec<String> {
+        let index = |writer: &mut Self, len: usize| match writer.random.pick(3) {
+            0 => format!("({}) & {}", writer.small_int(), len.next_power_of_two() / 2 * 2 - 1),
+            _ => writer.random.pick(len).to_string(),
+        };
+        let mut found = Vec::new();
+        for variable in self.visible() {
+            if writable && !variable.writable {
+                continue;
+            }
+            let name = &variable.name;
+            if variable.ty == ty {
+                found.push(name.clone());
+                found.push(name.clone());
+            }
+            match (shape(variable.ty), matrix(variable.ty), array(variable.ty)) {
+                (Some((class, size)), ..) if size > 1 && shape(ty) == Some((class, 1)) => {
+                    let dynamic = index(self, if size == 3 { 2 } else { size });
+                    found.push(format!("{name}[{dynamic}]"));
+                    found.push(format!("{name}.{}", &"xyzw"[..size].chars().nth(self.random.pick(size)).expect("in")));
+                }
+                (_, Some((columns, rows)), _) if ty == vector(0, rows) => {
+                    let column = self.random.pick(columns);
+                    found.push(format!("{name}[{column}]"));
+                }
+                (_, _, Some((element, len))) if element == ty => {
+                    let dynamic = index(self, len);
+                    found.push(format!("{name}[{dynamic}]"));
+                }
+                _ if variable.ty == "S" => match ty {
+                    "float" => found.extend([format!("{name}.f"), format!("{name}.m[1][0]")]),
+                    "ivec2" => found.push(format!("{name}.i")),
+                    "int" => found.push(format!("{name}.i.y")),
+                    "vec3" => {
+                        let dynamic = index(self, 2);
+                        found.push(format!("{name}.v[{dynamic}]"));
+                    }
+                    "mat2" => found.push(format!("{name}.m")),
+                    _ => {}
+                },
+                _ => {}
+            }
+        }
+        found
+    }
+
+    /// An `int` expression without effects.
+    fn small_int(&mut self) -> String {
+        let ints: Vec<String> = self.visible().into_iter().filter(|v| v.ty == "int").map(|v| v.name).collect();
+        match ints.is_empty() {
+            true => format!("b.{}", self.random.one_of(&["x", "y", "z"])),
+            false => ints[self.random.pick(ints.len())].clone(),
+        }
+    }
+
+    fn place(&mut self, ty: &str) -> Option<String> {
+        let places = self.places(ty, true);
+        (!places.is_empty()).then(|| places[self.random.pick(places.len())].clone())
+    }
+
+    /// An assignment as an expression, without parentheses.
+    fn assignment(&mut self, depth: usize) -> String {
+        let ty = TYPES[self.random.pick(TYPES.len())];
+        let Some(place) = self.place(ty) else { return self.literal("float") };
+        if let Some((class, size)) = shape(ty) {
+            // Several components at once, in another order.
+            if size == 3 && place.chars().all(|c| c.is_alphanumeric()) && self.random.pick(3) == 0 {
+                let value = self.expr(vector(class, 2), depth);
+                return format!("{place}.{} = {value}", self.random.one_of(&["zx", "yx", "xz"]));
+            }
+            let operators: &[&str] = match class {
+                0 => &["=", "=", "+=", "-="],
+                1 | 2 => &["=", "=", "+=", "-=", "*=", "&=", "|=", "^="],
+                _ => &["="],
+            };
+            let operator = self.random.one_of(operators);
+            let value = self.expr(ty, depth);
+            return format!("{place} {operator} {value}");
+        }
+        let value = self.expr(ty, depth);
+        format!("{place} = {value}")
+    }
+
+    /// A call of a function with this result, if there is one whose `out` arguments can be filled.
+    fn call_of(&mut self, ret: &str, depth: usize) -> Option<String> {
+        let fitting: Vec<usize> = (0..self.functions.len()).filter(|&index| self.functions[index].ret == ret).collect();
+        if fitting.is_empty() {
+            return None;
+        }
+        let index = fitting[self.random.pick(fitting.len())];
+        let (name, params) = (self.functions[index].name.clone(), self.functions[index].params.clone());
+        let mut arguments = Vec::new();
+        for (mode, ty) in params {
+            arguments.push(match mode {
+                "out" | "inout" => self.place(ty)?,
+                _ => self.expr(ty, depth.saturating_sub(1)),
+            });
+        }
+        Some(format!("{name}({})", arguments.join(", ")))
+    }
+
+    fn expr(&mut self, ty: &str, depth: usize) -> String {
+        if depth == 0 || self.random.pick(6) == 0 {
+            let places = self.places(ty, false);
+            return if places.is_empty() || self.random.pick(3) == 0 {
+                self.literal(ty)
+            } else {
+                places[self.random.pick(places.len())].clone()
+            };
+        }
+        let depth = depth - 1;
+        match self.random.pick(14) {
+            0 => {
+                let (condition, yes, no) = (self.expr("bool", depth), self.expr(ty, depth), self.expr(ty, depth));
+                // Arrays may not stand in `?:`.
+                return if array(ty).is_some() { yes } else { format!("({condition} ? {yes} : {no})") };
+            }
+            1 if array(ty).is_none() => {
+                let (first, second) = (self.assignment(depth), self.expr(ty, depth));
+                return format!("({first}, {second})");
+            }
+            2 | 3 => {
+                if let Some(call) = self.call_of(ty, depth) {
+                    return call;
+                }
+            }
+            4 if array(ty).is_none() => {
+                if let Some(place) = self.place(ty) {
+                    let value = self.expr(ty, depth);
+                    return format!("({place} = {value})");
+                }
+            }
+            _ => {}
+        }
+        if let Some((class, size)) = shape(ty) {
+            return match class {
+                0 => self.floats(size, depth),
+                1 => self.ints(size, depth),
+                2 => self.uints(size, depth),
+                _ => self.bools(size, depth),
+            };
+        }
+        if let Some((columns, rows)) = matrix(ty) {
+            return self.matrices(ty, columns, rows, depth);
+        }
+        if let Some((element, len)) = array(ty) {
+            let list: Vec<String> = (0..len).map(|_| self.expr(element, depth.min(1))).collect();
+            return format!("{ty}({})", list.join(", "));
+        }
+        let members = ["float", "ivec2", "vec3[2]", "mat2"].map(|member| self.expr(member, depth.min(1)));
+        format!("S({})", members.join(", "))
+    }
+
+    fn two(&mut self, ty: &str, depth: usize) -> (String, String) {
+        (self.expr(ty, depth), self.expr(ty, depth))
+    }
+
+    fn floats(&mut self, size: usize, depth: usize) -> String {
+        let ty = vector(0, size);
+        match self.random.pick(if size == 1 { 14 } else { 12 }) {
+            0..=2 => {
+                let operator = self.random.one_of(&["+", "-", "*"]);
+                let (a, b) = self.two(ty, depth);
+                let value = format!("({a} {operator} {b})");
+                if operator == "*" { format!("clamp({value}, -100.0, 100.0)") } else { value }
+            }
+            3 => {
+                let (a, b) = (self.expr(ty, depth), self.expr("float", depth));
+                format!("({a} * clamp({b}, -2.0, 2.0))")
+            }
+            4 => {
+                let function = self.random.one_of(&["abs", "floor", "sign", "ceil", "fract", "trunc"]);
+                format!("{function}({})", self.expr(ty, depth))
+            }
+            5 => {
+                let function = self.random.one_of(&["min", "max", "step"]);
+                let (a, b) = self.two(ty, depth);
+                format!("{function}({a}, {b})")
+            }
+            6 => format!("clamp({}, -4.0, 4.0)", self.expr(ty, depth)),
+            7 => {
+                let (a, b) = self.two(ty, depth);
+                let factor = self.expr(vector(3, size), depth);
+                if size == 1 { format!("mix({a}, {b}, {factor})") } else { format!("mix({a}, {b}, 0.5)") }
+            }
+            8 => match self.random.pick(3) {
+                0 => format!("{ty}({} & 0xff)", self.expr(vector(1, size), depth)),
+                1 => format!("{ty}({} & 0xffu)", self.expr(vector(2, size), depth)),
+                _ => format!("{ty}({})", self.expr(vector(3, size), depth)),
+            },
+            9 => {
+                let from = 2 + self.random.pick(3);
+                let base = self.expr(vector(0, from), depth);
+                let swizzle: String =
+                    (0..size).map(|_| "xyzw".chars().nth(self.random.pick(from)).expect("in range")).collect();
+                format!("({base}).{swizzle}")
+            }
+            10 if size == 2 => format!("({} * {})", self.expr("mat2", depth), self.expr("vec2", depth)),
+            10 if size == 3 => format!("({} * {})", self.expr("mat2x3", depth), self.expr("vec2", depth)),
+            10 | 11 => format!("-{}", parenthesized(&self.expr(ty, depth))),
+            12 => {
+                let vector = vector(0, 2 + self.random.pick(3));
+                let (a, b) = self.two(vector, depth);
+                format!("clamp(dot({a}, {b}), -100.0, 100.0)")
+            }
+            _ => format!("determinant({})", self.expr("mat2", depth)),
+        }
+    }
+
+    fn ints(&mut self, size: usize, depth: usize) -> String {
+        let ty = vector(1, size);
+        match self.random.pick(9) {
+            0..=2 => {
+                let operator = self.random.one_of(&["+", "-", "*", "&", "|", "^"]);
+                let (a, b) = self.two(ty, depth);
+                format!("({a} {operator} {b})")
+            }
+            3 => {
+                let (a, b) = self.two(ty, depth);
+                format!("({a} / (({b} & 7) + 1))")
+            }
+            4 => {
+                let (a, b) = self.two(ty, depth);
+                format!("(({a} & 0xffff) % (({b} & 7) + 1))")
+            }
+            5 => {
+                let operator = self.random.one_of(&["<<", ">>"]);
+                let (a, b) = self.two(ty, depth);
+                format!("({a} {operator} ({b} & 31))")
+            }
+            6 if size == 1 => match self.place("int") {
+                Some(place) => match self.random.pick(4) {
+                    0 => format!("{place}++"),
+                    1 => format!("--{place}"),
+                    2 => format!("++{place}"),
+                    _ => format!("{place}--"),
+                },
+                None => format!("~{}", parenthesized(&self.expr(ty, depth))),
+            },
+            7 => format!("{ty}(clamp({}, -1000.0, 1000.0))", self.expr(vector(0, size), depth)),
+            _ => {
+                let function = self.random.one_of(&["abs", "sign", "-", "~"]);
+                format!("{function}({})", self.expr(ty, depth))
+            }
+        }
+    }
+
+    fn uints(&mut self, size: usize, depth: usize) -> String {
+        let ty = vector(2, size);
+        match self.random.pick(6) {
+            0 | 1 => {
+                let operator = self.random.one_of(&["+", "-", "*", "&", "|", "^"]);
+                let (a, b) = self.two(ty, depth);
+                format!("({a} {operator} {b})")
+            }
+            2 => {
+                let operator = self.random.one_of(&["/", "%"]);
+                let (a, b) = self.two(ty, depth);
+                format!("({a} {operator} (({b} & 15u) + 1u))")
+            }
+            3 => {
+                let operator = self.random.one_of(&["<<", ">>"]);
+                let (a, b) = self.two(ty, depth);
+                format!("({a} {operator} ({b} & 31u))")
+            }
+            4 => format!("{ty}({})", self.expr(vector(1, size), depth)),
+            _ => {
+                let (a, b) = self.two(ty, depth);
+                format!("max({a}, {b})")
+            }
+        }
+    }
+
+    fn bools(&mut self, size: usize, depth: usize) -> String {
+        if size > 1 {
+            let class = self.random.pick(3);
+            let (a, b) = self.two(vector(class, size), depth);
+            let function = self.random.one_of(&["lessThan", "greaterThanEqual", "equal", "notEqual"]);
+            return format!("{function}({a}, {b})");
+        }
+        match self.random.pick(8) {
+            0..=2 => {
+                let ty = ["int", "uint", "float"][self.random.pick(3)];
+                let operator = self.random.one_of(&["<", ">=", "<=", ">"]);
+                let (a, b) = self.two(ty, depth);
+                format!("({a} {operator} {b})")
+            }
+            3 => {
+                let ty = ["ivec2", "S", "ivec3[2]", "mat2", "bool", "uvec2"][self.random.pick(6)];
+                let operator = self.random.one_of(&["==", "!="]);
+                let (a, b) = self.two(ty, depth);
+                format!("({a} {operator} {b})")
+            }
+            4 | 5 => {
+                let operator = self.random.one_of(&["&&", "||", "^^"]);
+                let (a, b) = self.two("bool", depth);
+                format!("({a} {operator} {b})")
+            }
+            6 => format!("!{}", parenthesized(&self.expr("bool", depth))),
+            _ => {
+                let function = self.random.one_of(&["any", "all"]);
+                let size = 2 + self.random.pick(2);
+                format!("{function}({})", self.expr(vector(3, size), depth))
+            }
+        }
+    }
+
+    fn matrices(&mut self, ty: &str, columns: usize, rows: usize, depth: usize) -> String {
+        match self.random.pick(6) {
+            0 => {
+                let (a, b) = self.two(ty, depth);
+                format!("({a} {} {b})", self.random.one_of(&["+", "-"]))
+            }
+            1 => {
+                let (a, b) = self.two(ty, depth);
+                format!("matrixCompMult({a}, {b})")
+            }
+            2 => {
+                let list: Vec<String> = (0..columns).map(|_| self.expr(vector(0, rows), depth.min(1))).collect();
+                format!("{ty}({})", list.join(", "))
+            }
+            3 if columns == rows => format!("transpose({})", self.expr(ty, depth)),
+            3 if ty == "mat2x3" => format!("transpose({})", self.expr("mat3x2", depth)),
+            4 if columns == rows => {
+                let other = MATRICES[self.random.pick(2)];
+                format!("{ty}({})", self.expr(other, depth))
+            }
+            _ => {
+                let (a, b) = (self.expr(vector(0, rows), depth), self.expr(vector(0, columns), depth));
+                format!("outerProduct({a}, {b})")
+            }
+        }
+    }
+}
+
+fn parenthesized(text: &str) -> String {
+    format!("({text})")
+}
+
+/// `float` of `float[4]`.
+fn base(ty: &str) -> &str {
+    ty.split('[').next().unwrap_or(ty)
+}
+
+/// `[4]` of `float[4]`.
+fn dims(ty: &str) -> &str {
+    ty.find('[').map_or("", |at| &ty[at..])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::fragment;
+
+    #[test]
+    fn a_seed_is_a_text() {
+        assert_eq!(fragment(5), fragment(5));
+        assert_ne!(fragment(5), fragment(6));
+    }
+}
