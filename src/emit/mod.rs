@@ -7,6 +7,7 @@
 
 mod conventions;
 mod inline;
+mod nesting;
 mod notes;
 pub mod reflection;
 pub(crate) mod textures;

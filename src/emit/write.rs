@@ -3,6 +3,7 @@
 //! *Holds:* naga's writers are run behind `catch_unwind`, since they panic on some modules that its validator accepts.
 
 use super::inline::inline_loads;
+use super::nesting::{is_nested, too_deep};
 use super::{Conventions, Target};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::{general, targets};
@@ -61,6 +62,11 @@ pub fn emit_with_sources(
     // naga's validator and writers recurse over nested blocks, which the parser bounds at 256.
     const NESTING: u32 = 512;
     let deep = program.stage(stage).is_some_and(|shader| shader.expr_depth > 32) || is_nested(&module, 24);
+    if target == Target::Wgsl
+        && let Some(found) = too_deep(&module)
+    {
+        return Err(vec![found]);
+    }
     let write = || {
         let info = validate(&module)?;
         write(module, &info, stage, target, conventions, sources)
@@ -69,22 +75,6 @@ pub fn emit_with_sources(
         catch_unwind(AssertUnwindSafe(write))
             .unwrap_or_else(|_| Err(vec![slip(Span::default(), format!("the writer of {} panicked", target.name()))]))
     })
-}
-
-/// Whether blocks nest deeper than `limit`.
-fn is_nested(module: &naga::Module, limit: u32) -> bool {
-    fn deeper(block: &naga::Block, limit: u32) -> bool {
-        let Some(limit) = limit.checked_sub(1) else { return true };
-        block.iter().any(|statement| match statement {
-            naga::Statement::Block(block) => deeper(block, limit),
-            naga::Statement::If { accept, reject, .. } => deeper(accept, limit) || deeper(reject, limit),
-            naga::Statement::Loop { body, continuing, .. } => deeper(body, limit) || deeper(continuing, limit),
-            naga::Statement::Switch { cases, .. } => cases.iter().any(|case| deeper(&case.body, limit)),
-            _ => false,
-        })
-    }
-    module.functions.iter().any(|(_, function)| deeper(&function.body, limit))
-        || module.entry_points.iter().any(|entry| deeper(&entry.function.body, limit))
 }
 
 fn slip(span: Span, message: String) -> Diagnostic {

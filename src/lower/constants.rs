@@ -136,29 +136,46 @@ impl Ctx<'_, '_> {
         known
     }
 
-    /// Targets refuse constant expressions whose result does not fit. What is constant in GLSL was evaluated already; an
-    /// operand that became so here (`(n++, 5)`) is read from a variable.
+    /// Targets refuse constant expressions whose result does not fit, and integer division by a constant 0. What is
+    /// constant in GLSL was evaluated already; an operand that became so here (`(n++, 5)`) is read from a variable.
     pub(super) fn kept_from_evaluation(&mut self, expression: Expression) -> Expression {
-        let operand = match expression {
-            Expression::Math { arg, .. } => arg,
+        use BinaryOperator as Op;
+        match expression {
+            Expression::Binary { op: op @ (Op::Divide | Op::Modulo), left, right } if self.may_be_zero(right) => {
+                Expression::Binary { op, left, right: self.hidden_operand(right) }
+            }
             Expression::Binary {
-                op: BinaryOperator::Add | BinaryOperator::Subtract | BinaryOperator::Multiply | BinaryOperator::Divide | BinaryOperator::Modulo | BinaryOperator::ShiftLeft | BinaryOperator::ShiftRight,
+                op:
+                    op @ (Op::Add | Op::Subtract | Op::Multiply | Op::Divide | Op::Modulo | Op::ShiftLeft | Op::ShiftRight),
                 left,
-                ..
-            } => left,
-            _ => return expression,
-        };
-        if !self.is_known(&expression) {
-            return expression;
+                right,
+            } if self.is_known(&expression) => Expression::Binary { op, left: self.hidden_operand(left), right },
+            Expression::Math { fun, arg, arg1, arg2, arg3 } if self.is_known(&expression) => {
+                Expression::Math { fun, arg: self.hidden_operand(arg), arg1, arg2, arg3 }
+            }
+            other => other,
         }
-        let Some(ty) = self.type_of_known(operand) else { return expression };
+    }
+
+    /// The operand, read from a variable if its type is plain to see.
+    fn hidden_operand(&mut self, operand: Handle<Expression>) -> Handle<Expression> {
+        let Some(ty) = self.type_of_known(operand) else { return operand };
         let variable = self.variable("operand", ty);
         self.store(variable, operand);
-        let operand = self.load(variable);
-        match expression {
-            Expression::Binary { op, right, .. } => Expression::Binary { op, left: operand, right },
-            Expression::Math { fun, arg1, arg2, arg3, .. } => Expression::Math { fun, arg: operand, arg1, arg2, arg3 },
-            other => other,
+        self.load(variable)
+    }
+
+    /// Whether an operand is an integer constant with a 0 in it.
+    fn may_be_zero(&self, operand: Handle<Expression>) -> bool {
+        let expressions = self.expressions();
+        let zero = |handle: &Handle<Expression>| {
+            matches!(expressions[*handle], Expression::Literal(Literal::I32(0) | Literal::U32(0)))
+        };
+        match &expressions[operand] {
+            Expression::Compose { components, .. } => components.iter().any(zero),
+            Expression::Splat { value, .. } => zero(value),
+            Expression::ZeroValue(_) => true,
+            _ => zero(&operand),
         }
     }
 

@@ -1,9 +1,13 @@
 //! Loops and switches (§6.2, §6.3).
 
 use super::Try;
+use super::facts::is_counted;
 use super::function::{Ctx, Slot};
 use crate::hir::{Case, CaseLabel, Condition, ExprId, ExprKind, LoopKind, Scalar, ScalarValue, Stmt, StmtKind, TypeId};
 use naga::{BinaryOperator, Block, Statement, SwitchCase, SwitchValue};
+
+/// The flag that a loop looks at before each round, if it has to.
+type Guard = Option<naga::Handle<naga::GlobalVariable>>;
 
 impl Ctx<'_, '_> {
     /// `for`, `while`, `do`.
@@ -16,22 +20,43 @@ impl Ctx<'_, '_> {
     ) -> Try<()> {
         self.loops += 1;
         let in_switch = std::mem::replace(&mut self.in_switch, false);
+        // Where an invocation goes on behind a `discard`, with values that the program never meant to go on with, a loop
+        // that is not plain to end is left.
+        let facts = self.low.facts.function(self.id);
+        let counted =
+            facts.is_some_and(|facts| is_counted(self.shader, facts, condition.map(|found| found.expr), step));
+        let guard = self.low.discarded.filter(|_| !counted);
         let lowered = match kind {
-            LoopKind::For | LoopKind::While => self.loop_in_front(condition, step, body),
-            LoopKind::DoWhile => self.loop_behind(condition, body),
+            LoopKind::For | LoopKind::While => self.loop_in_front(condition, step, body, guard),
+            LoopKind::DoWhile => self.loop_behind(condition, body, guard),
         };
         self.loops -= 1;
         self.in_switch = in_switch;
         lowered
     }
 
-    fn loop_in_front(&mut self, condition: Option<&Condition>, step: Option<ExprId>, body: &[Stmt]) -> Try<()> {
+    fn leave_if_discarded(&mut self, guard: Guard) {
+        if let Some(variable) = guard {
+            let pointer = self.global_variable(variable);
+            let discarded = self.load(pointer);
+            self.leave_if(discarded);
+        }
+    }
+
+    fn loop_in_front(
+        &mut self,
+        condition: Option<&Condition>,
+        step: Option<ExprId>,
+        body: &[Stmt],
+        guard: Guard,
+    ) -> Try<()> {
         let condition = condition.filter(|condition| condition.local.is_some() || !self.is_true(condition.expr));
         let block = self.in_block(|ctx| {
+            ctx.leave_if_discarded(guard);
             match condition {
                 Some(condition) => ctx.leave_unless(condition)?,
                 // Tint refuses a loop that nothing leaves.
-                None if !leaves(body) => {
+                None if guard.is_none() && !leaves(body) => {
                     let never = ctx.boolean(false);
                     ctx.leave_if(never);
                 }
@@ -47,8 +72,11 @@ impl Ctx<'_, '_> {
         Ok(())
     }
 
-    fn loop_behind(&mut self, condition: Option<&Condition>, body: &[Stmt]) -> Try<()> {
-        let block = self.in_block(|ctx| ctx.body(body))?;
+    fn loop_behind(&mut self, condition: Option<&Condition>, body: &[Stmt], guard: Guard) -> Try<()> {
+        let block = self.in_block(|ctx| {
+            ctx.leave_if_discarded(guard);
+            ctx.body(body)
+        })?;
         let mut break_if = None;
         let continuing = self.in_block(|ctx| {
             if let Some(condition) = condition {

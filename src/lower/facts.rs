@@ -5,8 +5,8 @@
 
 use crate::builtin::BuiltinFunction;
 use crate::hir::{
-    ExprId, ExprKind, Function, FunctionId, GlobalId, LocalId, LocalKind, ParamMode, Shader, Stmt, StmtKind, Storage,
-    VarRef,
+    ExprId, ExprKind, Function, FunctionId, GlobalId, LocalId, LocalKind, ParamMode, ScalarValue, Shader, Stmt,
+    StmtKind, Storage, VarRef,
 };
 
 /// What an expression may do besides having a value.
@@ -35,6 +35,12 @@ pub(super) struct FunctionFacts {
     pub(super) calls: Vec<FunctionId>,
     /// The deepest nesting of its statements.
     pub(super) depth: u32,
+    /// By local: how often something in the function writes to it after its declaration; saturates.
+    writes: Vec<u8>,
+    /// Whether a `discard` stands in it.
+    discards: bool,
+    /// Whether a loop stands in it that is not plain to end (see [`is_counted`]).
+    open_loop: bool,
 }
 
 /// What is known of a shader.
@@ -52,6 +58,8 @@ pub(super) struct Facts {
     pub(super) used: Vec<bool>,
     /// By global: indexed by a variable somewhere.
     pub(super) indexed: Vec<bool>,
+    /// Whether a loop that is not plain to end may run in an invocation that was discarded.
+    pub(super) loops_after_discard: bool,
 }
 
 impl Facts {
@@ -64,6 +72,7 @@ impl Facts {
             shared: vec![false; shader.globals.len()],
             used: vec![false; shader.globals.len()],
             indexed: vec![false; shader.globals.len()],
+            loops_after_discard: false,
         };
         let mut constants = vec![false; shader.exprs.len()];
         for function in &shader.functions {
@@ -72,6 +81,10 @@ impl Facts {
         }
         facts.natures = natures(shader, &constants);
         facts.order = order(shader, &facts.functions);
+        let reached = |is: fn(&FunctionFacts) -> bool| {
+            facts.order.iter().any(|id| facts.functions.get(id.index()).is_some_and(is))
+        };
+        facts.loops_after_discard = reached(|function| function.discards) && reached(|function| function.open_loop);
         facts.mark_globals(shader);
         facts
     }
@@ -193,6 +206,8 @@ struct FunctionWalk<'a> {
     indexed: &'a mut [bool],
     constants: &'a mut [bool],
     roots: Vec<ExprId>,
+    /// Conditions and steps of the loops.
+    loops: Vec<(Option<ExprId>, Option<ExprId>)>,
 }
 
 impl<'a> FunctionWalk<'a> {
@@ -201,9 +216,10 @@ impl<'a> FunctionWalk<'a> {
         let facts = FunctionFacts {
             needs_variable: vec![false; locals],
             written: vec![false; locals],
+            writes: vec![0; locals],
             ..FunctionFacts::default()
         };
-        Self { shader, function, facts, indexed, constants, roots: Vec::new() }
+        Self { shader, function, facts, indexed, constants, roots: Vec::new(), loops: Vec::new() }
     }
 
     fn run(mut self) -> FunctionFacts {
@@ -221,6 +237,9 @@ impl<'a> FunctionWalk<'a> {
             self.expression(kind);
             children(kind, |child| self.roots.push(child));
         }
+        let facts = &self.facts;
+        let open = self.loops.iter().any(|(condition, step)| !is_counted(self.shader, facts, *condition, *step));
+        self.facts.open_loop = open;
         self.facts.globals.sort_unstable();
         self.facts.globals.dedup();
         self.facts.calls.sort_unstable();
@@ -253,10 +272,12 @@ impl<'a> FunctionWalk<'a> {
                         self.roots.push(condition.expr);
                     }
                     self.roots.extend(step);
+                    self.loops.push((condition.as_ref().map(|condition| condition.expr), *step));
                     inner(body);
                 }
                 StmtKind::Return(value) => self.roots.extend(value),
-                StmtKind::Break | StmtKind::Continue | StmtKind::Discard => {}
+                StmtKind::Discard => self.facts.discards = true,
+                StmtKind::Break | StmtKind::Continue => {}
             }
         }
     }
@@ -308,8 +329,55 @@ impl<'a> FunctionWalk<'a> {
         set(&mut self.facts.needs_variable, local.index());
         if written {
             set(&mut self.facts.written, local.index());
+            if let Some(count) = self.facts.writes.get_mut(local.index()) {
+                *count = count.saturating_add(1);
+            }
         }
     }
+}
+
+/// Whether a loop is plain to end: its condition compares an `int` with something that stays, and its step alone moves it
+/// there.
+pub(super) fn is_counted(
+    shader: &Shader,
+    facts: &FunctionFacts,
+    condition: Option<ExprId>,
+    step: Option<ExprId>,
+) -> bool {
+    use crate::hir::{BinaryOp, IncDec, TypeId};
+    let (Some(condition), Some(step)) = (condition, step) else { return false };
+    let ExprKind::Binary(op, left, right) = shader.expr(condition).kind else { return false };
+    let upward = match op {
+        BinaryOp::Less | BinaryOp::LessEqual => true,
+        BinaryOp::Greater | BinaryOp::GreaterEqual => false,
+        _ => return false,
+    };
+    let ExprKind::Var(VarRef::Local(counter)) = shader.expr(left).kind else { return false };
+    let moved = match &shader.expr(step).kind {
+        ExprKind::IncDec(kind, target) => {
+            let up = matches!(kind, IncDec::PreIncrement | IncDec::PostIncrement);
+            (up == upward).then_some(*target)
+        }
+        ExprKind::Assign(Some(op), target, amount) => {
+            let along = if upward { BinaryOp::Add } else { BinaryOp::Sub };
+            let positive = matches!(shader.expr(*amount).kind, ExprKind::Literal(ScalarValue::Int(value)) if value > 0);
+            (*op == along && positive).then_some(*target)
+        }
+        _ => None,
+    };
+    let moves_counter = moved.is_some_and(
+        |target| matches!(shader.expr(target).kind, ExprKind::Var(VarRef::Local(local)) if local == counter),
+    );
+    let stays = match shader.expr(right).kind {
+        ExprKind::Literal(_) => true,
+        ExprKind::Var(VarRef::Global(global)) => {
+            matches!(shader.global(global).storage, Storage::Const | Storage::Uniform)
+        }
+        ExprKind::Var(VarRef::Local(local)) => facts.writes.get(local.index()) == Some(&0),
+        _ => false,
+    };
+    let only_step = facts.writes.get(counter.index()) == Some(&1);
+    shader.expr(left).ty == TypeId::INT && moves_counter && stays && only_step
 }
 
 /// Callees first. A call graph has no cycles (§6.1), and a walk with a stack of its own needs no stack of ours.

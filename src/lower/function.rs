@@ -159,7 +159,8 @@ impl<'l, 'a> Ctx<'l, 'a> {
     pub(super) fn add(&mut self, expression: Expression) -> Handle<Expression> {
         if expression.needs_pre_emit() {
             self.flush();
-            let literal = matches!(expression, Expression::Literal(_) | Expression::ZeroValue(_) | Expression::Constant(_));
+            let literal =
+                matches!(expression, Expression::Literal(_) | Expression::ZeroValue(_) | Expression::Constant(_));
             let handle = self.append(expression, 0, literal);
             self.open = self.out.expressions.len();
             return handle;

@@ -55,6 +55,7 @@ impl Lower<'_> {
     pub(super) fn declare_globals(&mut self) -> Try<()> {
         self.declare_uniforms()?;
         self.declare_samplers()?;
+        self.declare_discarded()?;
         let shader = self.shader;
         for (id, global) in shader.globals() {
             let flag = |flags: &[bool]| flags.get(id.index()).copied().unwrap_or(false);
@@ -70,6 +71,27 @@ impl Lower<'_> {
             if let Some(place) = self.globals.get_mut(id.index()) {
                 *place = slot;
             }
+        }
+        Ok(())
+    }
+
+    /// In these targets an invocation goes on behind a `discard`, and a loop that it would have left might never end.
+    fn declare_discarded(&mut self) -> Try<()> {
+        let goes_on = matches!(self.target, Target::Wgsl | Target::Msl | Target::Hlsl);
+        if goes_on && self.facts.loops_after_discard {
+            let init = self
+                .module
+                .global_expressions
+                .append(Expression::Literal(naga::Literal::Bool(false)), naga::Span::UNDEFINED);
+            let variable = GlobalVariable {
+                name: Some("discarded".to_owned()),
+                space: AddressSpace::Private,
+                binding: None,
+                ty: self.value_type(TypeId::BOOL)?,
+                init: Some(init),
+                memory_decorations: naga::MemoryDecorations::empty(),
+            };
+            self.discarded = Some(self.module.global_variables.append(variable, naga::Span::UNDEFINED));
         }
         Ok(())
     }

@@ -109,6 +109,8 @@ struct Lower<'a> {
     functions: Vec<Option<Lowered>>,
     helpers: aggregates::Helpers,
     hidden: Vec<(u32, naga::Handle<naga::GlobalVariable>)>,
+    /// Whether the invocation was discarded, where the target lets it go on and a loop has to know.
+    discarded: Option<naga::Handle<naga::GlobalVariable>>,
     diagnostics: Vec<Diagnostic>,
 }
 
@@ -138,6 +140,7 @@ impl<'a> Lower<'a> {
             functions: vec![None; shader.functions.len()],
             helpers: aggregates::Helpers::default(),
             hidden: Vec::new(),
+            discarded: None,
             diagnostics: Vec::new(),
         }
     }

@@ -60,7 +60,13 @@ impl Ctx<'_, '_> {
 
     /// `discard`. naga's `Kill` ends the invocation in SPIR-V and leaves it running without effects in WGSL, where a loop
     /// around it would go on for ever and the end of a function would lack its result: there, the function is left, too.
+    /// Loops of the functions that call this one, and loops behind, look at a flag (see [`Ctx::repeat`]).
     fn discard(&mut self) -> Try<()> {
+        if let Some(variable) = self.low.discarded {
+            let pointer = self.global_variable(variable);
+            let yes = self.boolean(true);
+            self.store(pointer, yes);
+        }
         let wants_result = self.out.result.is_some() && self.is_outermost();
         if self.low.target == Target::Spirv || (self.loops == 0 && !wants_result) {
             self.statement(Statement::Kill);

@@ -275,6 +275,73 @@ fn long_chains_become_flat_text() {
     reparse(&wgsl).expect("naga reads its own text");
 }
 
+/// The WGSL of a lone fragment shader.
+fn wgsl(text: &str) -> String {
+    let source = Source { name: "shader".into(), text: format!("#version 150\n{text}").into(), stage: Stage::Fragment };
+    let program = Compiler::new(Options::default()).compile(&[source]).program.expect("the shader is valid");
+    match emit(&program, Stage::Fragment, Target::Wgsl, &Conventions::default()) {
+        Ok(Emitted::Text(text)) => text,
+        other => panic!("WGSL comes out: {other:?}"),
+    }
+}
+
+#[test]
+fn a_loop_behind_a_discard_ends_where_the_invocation_goes_on() {
+    let guarded = |text: &str| wgsl(text).matches("if discarded {").count();
+    let body = "if (step <= 0.0) discard; for (float t = 0.0; t < 1.0; t += step) sum += t;";
+    assert_eq!(
+        guarded(&format!("uniform float step; out vec4 c; void main() {{ float sum = 0.0; {body} c = vec4(sum); }}")),
+        1
+    );
+    let called = "in float x; out vec4 c; void f(int i) { if (float(i) > x) discard; }\n\
+        void main() { int i = 0; while (true) f(i++); c = vec4(1.0); }";
+    assert_eq!(guarded(called), 1);
+    let counted = "uniform int n; in float x; out vec4 c; void main() { if (x < 0.0) discard; float sum = 0.0;\n\
+        for (int i = 0; i < n; i++) sum += x; for (int i = 8; i >= 0; i -= 2) sum += x; c = vec4(sum); }";
+    assert_eq!(guarded(counted), 0, "loops that count need no flag");
+    let moved = "in float x; out vec4 c; void main() { if (x < 0.0) discard;\n\
+        for (int i = 0; i < 4; i++) { if (x > 1.0) i--; } c = vec4(x); }";
+    assert_eq!(guarded(moved), 1, "something else moves the counter");
+}
+
+#[test]
+fn text_nests_as_deep_as_tint_reads_and_no_deeper() {
+    let nested = |open: &str, depth: usize| {
+        let (open, close) = (open.repeat(depth), "}".repeat(depth));
+        format!(
+            "uniform int n; in vec4 v; out vec4 c; void main() {{ float x = 0.0; {open} x += v.x; {close} c = vec4(x); }}"
+        )
+    };
+    let plain = Conventions::default();
+    let mut collected = Collected::new();
+    for (open, deepest) in [
+        ("if (v.y > 0.5) {", 62),
+        ("for (int i = 0; i < n; i++) {", 61),
+        ("while (x < 4.0) {", 61),
+        ("switch (n) { case 0:", 41),
+        ("switch (n) { case 0: x += 1.0; case 1: ", 25),
+    ] {
+        collected.add(open, Emitted::Text(wgsl(&nested(open, deepest))));
+        let deeper = nested(open, deepest + 1);
+        assert_eq!(codes(Stage::Fragment, &deeper, Target::Wgsl, &plain), ["E0803"], "{open}");
+        assert!(codes(Stage::Fragment, &deeper, Target::Spirv, &plain).is_empty(), "{open}");
+    }
+    collected.judge();
+}
+
+#[test]
+fn what_becomes_constant_on_the_way_is_kept_from_the_target() {
+    let text = wgsl(
+        "uniform int n; out vec4 c; int g;\n\
+         void main() { uint u = (g++, 0xffffffffu) << (g++, 5u); int z = (g++, 7) / (g++, 0);\n\
+         ivec2 w = ivec2(n) / ivec2(0, 1) + n % 0; c = vec4(u, z, w); }",
+    );
+    reparse(&text).unwrap_or_else(|error| panic!("{error}"));
+    let mut collected = Collected::new();
+    collected.add("constants behind effects", Emitted::Text(text));
+    collected.judge();
+}
+
 #[test]
 fn a_judge_refuses_what_is_wrong() {
     let mut collected = Collected::new();

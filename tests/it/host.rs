@@ -26,8 +26,15 @@ struct App {
 fn app() -> App {
     // Three triangles: one beside, one in front of, and one turned away from the others.
     let place = [
-        [-0.91, -0.87, -0.5], [0.77, -0.93, -0.25], [-0.13, 0.59, 0.25], [-0.71, 0.97, 0.5], [-0.83, -0.41, -0.75],
-        [0.69, 0.37, 0.125], [0.15, 0.91, 0.0], [0.93, 0.17, 0.375], [0.31, -0.79, -0.125],
+        [-0.91, -0.87, -0.5],
+        [0.77, -0.93, -0.25],
+        [-0.13, 0.59, 0.25],
+        [-0.71, 0.97, 0.5],
+        [-0.83, -0.41, -0.75],
+        [0.69, 0.37, 0.125],
+        [0.15, 0.91, 0.0],
+        [0.93, 0.17, 0.375],
+        [0.31, -0.79, -0.125],
     ];
     let numbers = |count: usize, scale: f64| (0..count).map(|k| (k * 37 % 11) as f64 * scale).collect::<Vec<f64>>();
     App {
@@ -413,8 +420,7 @@ impl Host {
     ) -> wgpu::RenderPipeline {
         let names = &reflection.entry_points;
         let (vertex_entry, fragment_entry) = (names.vertex.as_deref(), names.fragment.as_deref());
-        let vertex =
-            self.module(&folder.join(format!("host.vert.{extension}")), vertex_entry.expect("a vertex stage"));
+        let vertex = self.module(&folder.join(format!("host.vert.{extension}")), vertex_entry.expect("a vertex stage"));
         let fragment =
             self.module(&folder.join(format!("host.frag.{extension}")), fragment_entry.expect("a fragment stage"));
         let groups: Vec<_> = layouts.iter().map(Some).collect();

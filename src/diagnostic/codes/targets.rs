@@ -13,6 +13,11 @@ codes! {
         "The shader uses a feature that the target language lacks and that cannot be dropped without changing the \
          picture. The message names the feature, the target, and a way out."
         bad None, good None;
+    NESTING_TOO_DEEP_FOR_TARGET = "E0803" "nesting-too-deep-for-target" Error ""
+        "Statements nest deeper in the emitted text than the target's readers take: Tint reads 127 levels of WGSL, where \
+         an `if` or a loop takes two and a `switch` three. Move the inner statements into a function of their own, or \
+         compile for SPIR-V, which nests as deep as the parser of glisten does (256)."
+        bad None, good None;
     POINT_SIZE_DROPPED = "W0801" "point-size-dropped" Note "GLSL 1.50 §7.1"
         "`gl_PointSize` counts only where the program enables PROGRAM_POINT_SIZE. Without `--program-point-size` \
          the write is dropped and points are one pixel wide, as in OpenGL without that enable."

@@ -47,12 +47,8 @@ struct Callable {
 
 const STRUCT: &str = "struct S { float f; ivec2 i; vec3 v[2]; mat2 m; };\n";
 const SCALARS: [&str; 4] = ["float", "int", "uint", "bool"];
-const VECTORS: [[&str; 3]; 4] = [
-    ["vec2", "vec3", "vec4"],
-    ["ivec2", "ivec3", "ivec4"],
-    ["uvec2", "uvec3", "uvec4"],
-    ["bvec2", "bvec3", "bvec4"],
-];
+const VECTORS: [[&str; 3]; 4] =
+    [["vec2", "vec3", "vec4"], ["ivec2", "ivec3", "ivec4"], ["uvec2", "uvec3", "uvec4"], ["bvec2", "bvec3", "bvec4"]];
 const MATRICES: [&str; 4] = ["mat2", "mat3", "mat2x3", "mat3x2"];
 /// What a local may be.
 const TYPES: [&str; 21] = [
@@ -321,11 +317,14 @@ impl Writer {
         let ty = TYPES[self.random.pick(TYPES.len())];
         let init = self.expr(ty, 3);
         // A name that hides an outer one, where the innermost scope has none of it.
-        let outer: Vec<String> = self.scopes[..self.scopes.len() - 1].iter().flatten().map(|v| v.name.clone()).collect();
+        let outer: Vec<String> =
+            self.scopes[..self.scopes.len() - 1].iter().flatten().map(|v| v.name.clone()).collect();
         let own: Vec<&String> = self.scopes.last().expect("open").iter().map(|variable| &variable.name).collect();
         let hidden: Vec<&String> = outer
             .iter()
-            .filter(|name| !own.contains(name) && !name.contains('.') && !["c0", "g", "s", "gu", "b"].contains(&name.as_str()))
+            .filter(|name| {
+                !own.contains(name) && !name.contains('.') && !["c0", "g", "s", "gu", "b"].contains(&name.as_str())
+            })
             // Whether a loop's body may hide the loop's own variable is not for this test to say.
             .filter(|name| !name.starts_with('i'))
             .collect();
