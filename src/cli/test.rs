@@ -7,7 +7,7 @@ use super::guard;
 use super::progress::Progress;
 use crate::compare::Picture;
 use crate::compiler::{Compiler, Options};
-use crate::cpu::{self, LineRule, RenderOptions};
+use crate::cpu::{self, LineRule, Precision, RenderOptions};
 use crate::diagnostic::Diagnostic;
 use crate::gpu::{self, Gpu, Via};
 use crate::scene::Scene;
@@ -176,7 +176,8 @@ struct CpuPainter;
 
 impl Painter for CpuPainter {
     fn paint(&mut self, scene: &Scene) -> Result<Picture, Ending> {
-        let options = RenderOptions { lines: LineRule::OpenGl, mark_edges: false, ..RenderOptions::default() };
+        // A test says what floats of 32 bits come to: where they underflow, say.
+        let options = RenderOptions { precision: Precision::F32, lines: LineRule::OpenGl, mark_edges: false };
         cpu::render(scene, &options).map_err(|diagnostics| Ending::Fail(first(&diagnostics)))
     }
 }

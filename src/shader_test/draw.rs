@@ -61,7 +61,7 @@ pub(super) fn parse(
         let [x, y, width, height] = corners;
         corners = [scaled(x, size[0]) - 1.0, scaled(y, size[1]) - 1.0, scaled(width, size[0]), scaled(height, size[1])];
     }
-    let mut columns = vec![rectangle(VERTEX, corners)];
+    let mut columns = vec![rectangle(corner_attribute(program), corners)];
     if textured {
         columns.push(rectangle(TEXCOORD, words.numbers()?));
     }
@@ -73,6 +73,14 @@ pub(super) fn parse(
         instances: instances.min(MOST_INSTANCES),
         attributes: attributes(program, &data),
     })
+}
+
+/// The attribute that takes a rectangle's corners: the one by that name, else the one at location 0.
+fn corner_attribute(program: &Program) -> &str {
+    let attributes = &program.interface.attributes;
+    let named = attributes.iter().any(|attribute| attribute.name == VERTEX);
+    let first = attributes.iter().find(|attribute| attribute.location == 0 && attribute.name != TEXCOORD);
+    first.filter(|_| !named).map_or(VERTEX, |attribute| attribute.name.as_str())
 }
 
 /// The four corners for a strip.
@@ -97,6 +105,15 @@ fn arrays(words: &mut Words<'_>, program: &Program, data: &VertexData) -> Result
             // The last vertex of a quad provokes both of its halves.
             let halves = (0..count / 4).flat_map(|quad| [0, 1, 3, 1, 2, 3].map(|corner| quad * 4 + corner));
             (Primitive::Triangles, Some(halves.collect::<Vec<u32>>()))
+        }
+        None if mode == "GL_QUAD_STRIP" && !counts_primitives(program) => {
+            // Corners 2q, 2q + 1, 2q + 3, 2q + 2 go round, and 2q + 3 provokes (OpenGL 3.0 §2.6.1).
+            let quads = (count / 2).saturating_sub(1);
+            let halves = (0..quads).flat_map(|quad| [2, 0, 3, 0, 1, 3].map(|corner| quad * 2 + corner));
+            (Primitive::Triangles, Some(halves.collect::<Vec<u32>>()))
+        }
+        None if mode.starts_with("GL_QUAD") => {
+            return skip(line, format_args!("`{mode}` becomes triangles, whose gl_PrimitiveID is not the quad's"));
         }
         None => return skip(line, format_args!("`{mode}` is not supported")),
     };

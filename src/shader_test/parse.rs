@@ -46,12 +46,15 @@ enum Section {
 pub(super) fn parse(text: &str) -> Result<TestFile, Outcome> {
     let mut file = TestFile::default();
     let mut section = Section::Nothing;
+    let mut commented = false;
     for (number, raw) in (1..).zip(text.lines()) {
         if let Some(name) = header(raw) {
             section = open(&mut file, name, number)?;
             continue;
         }
-        let line = || Line { number, text: raw.split('#').next().unwrap_or("").trim().to_owned() };
+        // Some tests explain themselves in the comments of C.
+        let bare = if matches!(section, Section::Shader) { String::new() } else { uncommented(raw, &mut commented) };
+        let line = || Line { number, text: bare.split('#').next().unwrap_or("").trim().to_owned() };
         let list = match section {
             Section::Requirements => &mut file.requirements,
             Section::VertexData => &mut file.vertex_data,
@@ -74,6 +77,30 @@ pub(super) fn parse(text: &str) -> Result<TestFile, Outcome> {
         return fail(1, "this is no shader test: it has neither a shader nor a [test] section");
     }
     Ok(file)
+}
+
+/// A line without what stands between `/*` and `*/`, which may go on over lines.
+fn uncommented(raw: &str, inside: &mut bool) -> String {
+    let mut text = String::new();
+    let mut rest = raw;
+    loop {
+        let mark = if *inside { "*/" } else { "/*" };
+        match rest.split_once(mark) {
+            Some((before, behind)) => {
+                if !*inside {
+                    text.push_str(before);
+                }
+                *inside = !*inside;
+                rest = behind;
+            }
+            None => {
+                if !*inside {
+                    text.push_str(rest);
+                }
+                return text;
+            }
+        }
+    }
 }
 
 /// The name in a section's header.
@@ -117,6 +144,12 @@ mod unit {
         assert_eq!(file.requirements, [Line { number: 3, text: "GLSL >= 1.50".into() }]);
         assert_eq!(file.shaders[0].text, "\n\n\n\n\n#version 150\nint a[2];\n");
         assert_eq!(file.commands, [Line { number: 9, text: "clear".into() }]);
+    }
+
+    #[test]
+    fn comments_of_c_are_passed_over() {
+        let file = parse("[require]\n/* why\n * so */ GLSL >= 1.50 /* 150 */\n[test]\nclear\n").expect("a test");
+        assert_eq!(file.requirements, [Line { number: 3, text: "GLSL >= 1.50".into() }]);
     }
 
     #[test]

@@ -70,6 +70,7 @@ fn parse(words: &mut Words<'_>, size: [u32; 2]) -> Result<Probe, Outcome> {
     let channels = match words.word()? {
         "rgba" => 4,
         "rgb" => 3,
+        "depth" => return skip(line, "`probe depth`: the depth buffer is not read back"),
         other => return skip(line, format_args!("`probe {other}` is not supported")),
     };
     if words.eat("int") || words.eat("uint") {

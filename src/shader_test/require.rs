@@ -53,14 +53,19 @@ const LIMITS: &[(&str, f64)] = &[
     ("GL_MAX_VARYING_COMPONENTS", 64.0),
     ("GL_MAX_VERTEX_ATTRIBS", 16.0),
     ("GL_MAX_UNIFORM_BLOCK_SIZE", 16384.0),
+    // The loose uniforms' block holds 64 KiB, and an element of an array of `float` takes 16 bytes of it.
+    ("GL_MAX_FRAGMENT_UNIFORM_COMPONENTS", 4096.0),
+    ("GL_MAX_VERTEX_UNIFORM_COMPONENTS", 4096.0),
 ];
 
 /// Reads the requirements; the first that is not met is a skip.
 pub(super) fn check(lines: &[Line]) -> Result<Setup, Outcome> {
     let mut setup = Setup { size: WINDOW, compatibility: false, version: DEFAULT_VERSION };
     for line in lines {
-        let mut words = Words::new(line.number, &line.text);
+        let mut words = Words::new(line.number, line.text.strip_prefix("require ").unwrap_or(&line.text));
         match words.word()? {
+            // A limit for the operating system; ours are in the compiler.
+            "rlimit" => {}
             "GLSL" => {
                 if words.eat("ES") {
                     return skip(line.number, "requires GLSL ES");

@@ -152,6 +152,7 @@ impl Session {
                 self.state.depth_func = lookup(&mut words, COMPARES)?;
                 Ok(())
             }
+            "polygon" => skip(line.number, "`polygon mode`: WebGPU draws polygons filled"),
             // Fixed-function matrices and shading: a core program does not see them.
             "ortho" | "frustum" | "hint" | "shade" => Ok(()),
             _ => skip(line.number, format_args!("`{}` is not supported", line.text)),
@@ -205,7 +206,7 @@ impl Session {
     fn draw(&mut self, words: &mut Words<'_>) -> Result<(), Outcome> {
         let line = words.line;
         if self.program.stage(Stage::Vertex).is_none() || self.program.stage(Stage::Fragment).is_none() {
-            return skip(line, "a draw with one of the two stages alone");
+            return skip(line, "a draw with one of the two stages alone: the other one would be the fixed function");
         }
         if self.draws.len() >= MOST_DRAWS {
             return skip(line, format_args!("more than {MOST_DRAWS} draws without a clear"));
