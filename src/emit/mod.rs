@@ -14,6 +14,7 @@ pub(crate) mod textures;
 mod write;
 
 pub use conventions::{ClipZ, Conventions, SpirvEnv, Target, WindowOrigin};
+pub(crate) use notes::levels_of_comparisons;
 pub use notes::notes;
 pub use reflection::{Reflection, reflect};
 pub use write::{Emitted, emit, emit_with_sources};

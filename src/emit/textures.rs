@@ -26,6 +26,8 @@ impl Shape {
         Self {
             view_dimension: match (ty.dim, ty.arrayed) {
                 (SamplerDim::D3, _) => "3d",
+                // Nothing loads from a cube, and integers are only loaded.
+                (SamplerDim::Cube, false) if ty.texel != Scalar::Float => "2d-array",
                 (SamplerDim::Cube, false) => "cube",
                 (SamplerDim::Cube, true) => "cube-array",
                 (_, false) => "2d",

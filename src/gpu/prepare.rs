@@ -9,6 +9,8 @@ use super::states::{blend, color_format, depth_stencil, primitive_state};
 use super::textures::{self, Bound};
 use super::vertices::{self, Rows};
 use super::{Error, Gpu, Via, assembly, uniforms};
+use crate::diagnostic::Diagnostic;
+use crate::diagnostic::codes::targets::FEATURE_NOT_IN_TARGET;
 use crate::emit::{self, Conventions, Emitted, Target};
 use crate::hir::{Interpolation, SamplerType, Stage, Type};
 use crate::link::{Program, SlotBinding};
@@ -114,6 +116,7 @@ impl Gpu {
         made: &mut Vec<Made>,
     ) -> Result<PreparedDraw, Error> {
         let program = &draw.program;
+        refuse_levels(draw)?;
         let bindings = bindings(program)?;
         let rows = vertices::rows(draw);
         let instanced: Vec<bool> = rows.iter().map(|rows| rows.step == wgpu::VertexStepMode::Instance).collect();
@@ -259,8 +262,9 @@ impl Gpu {
         bindings: &[Binding],
         layouts: &[wgpu::BindGroupLayout],
     ) -> Result<Vec<wgpu::BindGroup>, Error> {
+        let texels: Vec<u32> = draw.textures.iter().map(|texture| textures::texels(texture.as_deref())).collect();
         let buffers: Vec<(SlotBinding, wgpu::Buffer)> =
-            uniforms::pack(&draw.program, &draw.uniforms, framebuffer.height)
+            uniforms::pack(&draw.program, &draw.uniforms, framebuffer.height, &texels)
                 .into_iter()
                 .map(|packed| (packed.slot, self.buffer(&packed.bytes, wgpu::BufferUsages::UNIFORM)))
                 .collect();
@@ -307,6 +311,20 @@ fn conventions(draw: &Draw) -> Conventions {
         clip_distances: Some(draw.state.clip_distances),
         program_point_size: draw.state.program_point_size,
         ..Conventions::default()
+    }
+}
+
+/// Comparisons in levels of detail are compiled for depth textures of one level.
+fn refuse_levels(draw: &Draw) -> Result<(), Error> {
+    let deep = draw.textures.iter().flatten().any(|texture| {
+        texture.kind.shadow && texture.levels.len() > 1 && texture.filter == crate::scene::Filter::Trilinear
+    });
+    match emit::levels_of_comparisons(&draw.program).next().filter(|_| deep) {
+        Some(span) => {
+            let message = "no target compares depth in a level of detail of the shader's choice, and this depth texture has several";
+            Err(Error::Emit(vec![Diagnostic::new(&FEATURE_NOT_IN_TARGET, span, message)]))
+        }
+        None => Ok(()),
     }
 }
 

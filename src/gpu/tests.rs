@@ -174,6 +174,7 @@ fn uniforms_and_textures_reach_the_shader() {
         flat_offset: 0,
         texture: SlotBinding { group: 1, binding },
         sampler: SlotBinding { group: 1, binding: binding + 1 },
+        texel_count: None,
         unit: None,
         active: true,
     };

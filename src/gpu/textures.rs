@@ -45,6 +45,8 @@ pub(super) fn sampler_binding(kind: SamplerType) -> wgpu::BindingType {
 fn view_dimension(kind: SamplerType) -> wgpu::TextureViewDimension {
     match (kind.dim, kind.arrayed) {
         (SamplerDim::D3, _) => wgpu::TextureViewDimension::D3,
+        // Nothing loads from a cube, and integers are only loaded.
+        (SamplerDim::Cube, false) if kind.texel != Scalar::Float => wgpu::TextureViewDimension::D2Array,
         (SamplerDim::Cube, false) => wgpu::TextureViewDimension::Cube,
         (SamplerDim::Cube, true) => wgpu::TextureViewDimension::CubeArray,
         (_, false) => wgpu::TextureViewDimension::D2,
@@ -141,6 +143,12 @@ fn color_view(gpu: &Gpu, kind: SamplerType, texture: &Texture) -> wgpu::TextureV
         dimension: Some(view_dimension(kind)),
         ..wgpu::TextureViewDescriptor::default()
     })
+}
+
+/// How many texels the base level has; 0 without a texture.
+pub(super) fn texels(texture: Option<&Texture>) -> u32 {
+    let level = texture.and_then(|texture| texture.levels.first());
+    level.map_or(0, |level| level.width.saturating_mul(level.height).saturating_mul(level.depth.max(1)))
 }
 
 /// The size on the device of a level.

@@ -16,8 +16,14 @@ pub(super) struct UniformBytes {
     pub(super) bytes: Vec<u8>,
 }
 
-/// All uniform buffers of a program, by binding. `framebuffer_height` is in pixels.
-pub(super) fn pack(program: &Program, values: &[Vec<ScalarValue>], framebuffer_height: u32) -> Vec<UniformBytes> {
+/// All uniform buffers of a program, by binding. `framebuffer_height` is in pixels; `texels` are the numbers of texels of
+/// the textures of the interface's sampler slots, in their order.
+pub(super) fn pack(
+    program: &Program,
+    values: &[Vec<ScalarValue>],
+    framebuffer_height: u32,
+    texels: &[u32],
+) -> Vec<UniformBytes> {
     let interface = &program.interface;
     let mut buffers = buffers(interface);
     for leaf in &interface.uniforms {
@@ -32,6 +38,13 @@ pub(super) fn pack(program: &Program, values: &[Vec<ScalarValue>], framebuffer_h
         && let Some(buffer) = buffers.iter_mut().find(|buffer| buffer.slot == slot)
     {
         put(&mut buffer.bytes, offset as usize, (framebuffer_height as f32).to_ne_bytes());
+    }
+    for (sampler, texels) in interface.samplers.iter().zip(texels) {
+        if let (Some((slot, _)), Some(offset)) = (interface.loose, sampler.texel_count)
+            && let Some(buffer) = buffers.iter_mut().find(|buffer| buffer.slot == slot)
+        {
+            put(&mut buffer.bytes, offset as usize, texels.to_ne_bytes());
+        }
     }
     buffers
 }

@@ -103,7 +103,7 @@ fn interface(ctx: &mut Context<'_>, stages: &[Shader]) -> Interface {
     if let Some(fragment) = of(Stage::Fragment) {
         interface.outputs = outputs::assign(ctx, fragment);
     }
-    uniforms::assign(ctx, stages, &mut interface);
     interface.samplers = samplers::assign(ctx, stages);
+    uniforms::assign(ctx, stages, &mut interface);
     interface
 }

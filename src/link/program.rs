@@ -213,6 +213,9 @@ pub struct SamplerSlot {
     pub texture: SlotBinding,
     /// The sampler; the same as `texture` for kinds that are only fetched from (buffer, integer, multisample).
     pub sampler: SlotBinding,
+    /// The offset in the loose block of a hidden `int`, the number of texels of a buffer texture: there if the program asks
+    /// for the size of one. A texture stands for the buffer, and its own size is another.
+    pub texel_count: Option<u32>,
     /// `layout(binding = n)`: the texture unit.
     pub unit: Option<u32>,
     /// Whether a stage reads it.

@@ -121,6 +121,7 @@ fn slot(
         flat_offset,
         texture: nowhere,
         sampler: nowhere,
+        texel_count: None,
         unit,
         active: variable.active,
     }

@@ -8,11 +8,11 @@ use super::compatible::{MemberDifference, block_parts, compare_members, same_typ
 use super::flatten::{join, parts};
 use super::layout::{self, MAX_BLOCK_BYTES, array_stride, extent, round_up, struct_members};
 use super::{Block, BlockIndex, Context, Interface, RootIndex, SlotBinding, UniformLeaf, UniformRoot};
-use crate::builtin::BuiltinVariable;
+use crate::builtin::{BuiltinFunction, BuiltinVariable};
 use crate::diagnostic::{Diagnostic, codes};
 use crate::hir::{
-    ArraySize, BlockLayout, Global, GlobalId, MatrixLayout, ScalarValue, Shader, Stage, Storage, Type, TypeId, Types,
-    Value,
+    ArraySize, BlockLayout, ExprKind, Global, GlobalId, MatrixLayout, SamplerDim, ScalarValue, Shader, Stage, Storage,
+    Type, TypeId, Types, Value,
 };
 use rustc_hash::FxHashMap;
 
@@ -40,7 +40,7 @@ pub(super) fn assign(ctx: &mut Context<'_>, stages: &[Shader], interface: &mut I
     let types = ctx.types;
     let (blocks, loose): (Vec<_>, Vec<_>) = all.iter().partition(|shared| shared.is_block());
     let loose: Vec<_> = loose.into_iter().filter(|shared| !only_samplers(types, shared.global.ty)).collect();
-    place_loose(ctx, &loose, reads_frag_coord(stages), interface);
+    place_loose(ctx, &loose, stages, interface);
     place_blocks(ctx, &blocks, interface);
 }
 
@@ -61,6 +61,19 @@ fn reads_frag_coord(stages: &[Shader]) -> bool {
     stages.iter().filter(|shader| shader.stage == Stage::Fragment).any(|shader| {
         let reads = |global: &Global| global.used && global.builtin == Some(BuiltinVariable::FragCoord);
         !shader.frag_coord.origin_upper_left && shader.globals.iter().any(reads)
+    })
+}
+
+/// Whether something asks for the size of a buffer texture.
+fn asks_for_texels(types: &Types, stages: &[Shader]) -> bool {
+    let is_buffer = |ty| matches!(types.get(ty), Type::Sampler(ty) if ty.dim == SamplerDim::Buffer);
+    stages.iter().any(|shader| {
+        shader.exprs.iter().any(|expr| match &expr.kind {
+            ExprKind::BuiltinCall(BuiltinFunction::TextureSize, arguments) => {
+                arguments.first().is_some_and(|sampler| is_buffer(shader.expr(*sampler).ty))
+            }
+            _ => false,
+        })
     })
 }
 
@@ -200,7 +213,7 @@ fn order_word(order: MatrixLayout) -> &'static str {
     }
 }
 
-fn place_loose(ctx: &mut Context<'_>, loose: &[&Shared<'_>], frag_coord: bool, interface: &mut Interface) {
+fn place_loose(ctx: &mut Context<'_>, loose: &[&Shared<'_>], stages: &[Shader], interface: &mut Interface) {
     let types = ctx.types;
     let slot = SlotBinding { group: GROUP, binding: 0 };
     let mut end = 0;
@@ -230,9 +243,17 @@ fn place_loose(ctx: &mut Context<'_>, loose: &[&Shared<'_>], frag_coord: bool, i
         let place = Place { root, slot, block_element: 0, flat_offset: 0, active: shared.active };
         leaves(types, &place, &shared.global.name, shared.global.ty, offset, order, &mut interface.uniforms);
     }
-    if frag_coord {
-        interface.framebuffer_height = Some(round_up(end, 4));
-        end = round_up(end, 4) + 4;
+    end = round_up(end, 4);
+    if reads_frag_coord(stages) {
+        interface.framebuffer_height = Some(end);
+        end += 4;
+    }
+    if asks_for_texels(types, stages) {
+        let is_buffer = |ty| matches!(types.get(ty), Type::Sampler(ty) if ty.dim == SamplerDim::Buffer);
+        for slot in interface.samplers.iter_mut().filter(|slot| slot.active && is_buffer(slot.ty)) {
+            slot.texel_count = Some(end);
+            end += 4;
+        }
     }
     if end > 0 {
         interface.loose = Some((slot, round_up(end, 16)));

@@ -32,6 +32,7 @@ impl Ctx<'_, '_> {
                 for sampler in self.samplers_of(*argument)? {
                     values.push(sampler.texture);
                     values.extend(sampler.sampler);
+                    values.extend(sampler.texel_count);
                 }
             }
             if !self.low.has_value(param.ty) {

@@ -47,6 +47,8 @@ pub(super) struct SamplerValue {
     pub(super) texture: Handle<Expression>,
     /// Absent for kinds that are only fetched from.
     pub(super) sampler: Option<Handle<Expression>>,
+    /// The number of texels of a buffer texture, if the program asks for that of any.
+    pub(super) texel_count: Option<Handle<Expression>>,
 }
 
 /// A function of the shader that was lowered.

@@ -279,43 +279,69 @@ impl Ctx<'_, '_> {
     }
 
     /// One argument a location: matrices by columns, arrays by elements. Attributes that share a location (OpenGL 3.2
-    /// §2.7, legal where no path reads both) share the argument.
+    /// §2.7, legal where no path reads both) share the argument, which has as many components as the longest of them.
     fn attributes(&mut self) -> Try<Vec<Arrived>> {
         let interface = self.low.interface;
         let mut arrived = Vec::new();
+        let used = |attribute: &&Attribute| self.low.facts.used.get(attribute.global.index()).copied().unwrap_or(false);
+        let attributes: Vec<&Attribute> = interface.attributes.iter().filter(used).collect();
         let mut arguments: BTreeMap<u32, (TypeId, Handle<Expression>)> = BTreeMap::new();
-        for attribute in &interface.attributes {
-            if !self.low.facts.used.get(attribute.global.index()).copied().unwrap_or(false) {
-                continue;
-            }
-            let mut leaf = attribute.ty;
-            while !matches!(self.low.types.get(leaf), Type::Scalar(_) | Type::Vector(..)) {
-                leaf = self.low.element_type(leaf);
-                if leaf.is_error() {
-                    return Err(self.slip("an attribute of a type that no attribute can have"));
+        let mut widest: BTreeMap<u32, TypeId> = BTreeMap::new();
+        for attribute in &attributes {
+            let leaf = self.attribute_leaf(attribute.ty)?;
+            for location in attribute.location..attribute.location.saturating_add(attribute.columns) {
+                let known = widest.entry(location).or_insert(leaf);
+                if self.low.types.scalar_of(*known) == self.low.types.scalar_of(leaf)
+                    && self.low.types.flat_len(*known) < self.low.types.flat_len(leaf)
+                {
+                    *known = leaf;
                 }
             }
-            let ty = self.low.value_type(leaf)?;
+        }
+        for attribute in attributes {
+            let leaf = self.attribute_leaf(attribute.ty)?;
             let size = self.low.types.flat_len(leaf).max(1);
             let count = self.low.types.flat_len(attribute.ty) / size;
             for index in 0..count {
                 let name = if count == 1 { attribute.name.clone() } else { format!("{}_{index}", attribute.name) };
                 let location = attribute.location + index;
+                let whole = widest.get(&location).copied().unwrap_or(leaf);
+                if self.low.types.scalar_of(whole) != self.low.types.scalar_of(leaf) {
+                    return Err(self.aliased(attribute));
+                }
                 let value = match arguments.get(&location) {
-                    Some(&(same, value)) if same == leaf => value,
-                    Some(_) => return Err(self.aliased(attribute)),
-                    None => self.argument(&name, ty, Some(plain_location(location, None))),
+                    Some(&(_, value)) => value,
+                    None => {
+                        let ty = self.low.value_type(whole)?;
+                        self.argument(&name, ty, Some(plain_location(location, None)))
+                    }
                 };
-                arguments.insert(location, (leaf, value));
+                arguments.insert(location, (whole, value));
+                let value = match self.low.types.flat_len(whole) == size {
+                    true => value,
+                    false => self.first_components(value, size as u8),
+                };
                 arrived.push(Arrived { global: attribute.global, flat: index * size, value });
             }
         }
         Ok(arrived)
     }
 
+    /// The scalar or vector that an attribute is made of.
+    fn attribute_leaf(&self, ty: TypeId) -> Try<TypeId> {
+        let mut leaf = ty;
+        while !matches!(self.low.types.get(leaf), Type::Scalar(_) | Type::Vector(..)) {
+            leaf = self.low.element_type(leaf);
+            if leaf.is_error() {
+                return Err(self.slip("an attribute of a type that no attribute can have"));
+            }
+        }
+        Ok(leaf)
+    }
+
     fn aliased(&self, attribute: &Attribute) -> Box<Diagnostic> {
         let span = self.shader.global(attribute.global).span;
-        let message = format!("no target reads one location as two types, as `{}` asks for", attribute.name);
+        let message = format!("no target reads one location as numbers of two kinds, as `{}` asks for", attribute.name);
         lacking(span, message, format!("bind `{}` to a location of its own", attribute.name))
     }
 

@@ -106,6 +106,8 @@ struct Lower<'a> {
     globals: Vec<GlobalSlot>,
     samplers: FxHashMap<GlobalId, Vec<samplers::SamplerVariables>>,
     framebuffer_height: Option<(naga::Handle<naga::GlobalVariable>, u32)>,
+    /// By the offset of a hidden number of texels: the block and the member of it.
+    texel_counts: FxHashMap<u32, (naga::Handle<naga::GlobalVariable>, u32)>,
     functions: Vec<Option<Lowered>>,
     helpers: aggregates::Helpers,
     hidden: Vec<(u32, naga::Handle<naga::GlobalVariable>)>,
@@ -137,6 +139,7 @@ impl<'a> Lower<'a> {
             globals: vec![GlobalSlot::Unused; shader.globals.len()],
             samplers: FxHashMap::default(),
             framebuffer_height: None,
+            texel_counts: FxHashMap::default(),
             functions: vec![None; shader.functions.len()],
             helpers: aggregates::Helpers::default(),
             hidden: Vec::new(),

@@ -6,7 +6,7 @@
 //! | `sampler2D`, `sampler2DArray`, `sampler3D`, `samplerCube` | the same | filtering |
 //! | `sampler2DRect` | 2D, coordinates divided by its size | filtering |
 //! | `sampler..Shadow` | the depth texture of that shape | comparison |
-//! | `isampler..`, `usampler..` | integer texture | none: texels are loaded |
+//! | `isampler..`, `usampler..` | integer texture; of a cube an array of its faces | none: texels are loaded |
 //! | `samplerBuffer` | 2D of width [`BUFFER_WIDTH`] | none: texels are loaded |
 //! | `sampler2DMS`, `sampler2DMSArray` | multisampled 2D (array) | none: texels are loaded |
 
@@ -26,11 +26,18 @@ pub(super) struct SamplerVariables {
     pub(super) flat: u32,
     pub(super) texture: Handle<naga::GlobalVariable>,
     pub(super) sampler: Option<Handle<naga::GlobalVariable>>,
+    /// The uniform block and the member of it that holds the number of texels of a buffer.
+    pub(super) texel_count: Option<(Handle<naga::GlobalVariable>, u32)>,
 }
 
 /// Whether texels of this kind are only loaded, never filtered.
 pub(super) fn only_fetched(ty: SamplerType) -> bool {
     ty.texel != Scalar::Float || matches!(ty.dim, SamplerDim::Buffer | SamplerDim::Multisample)
+}
+
+/// Whether an array of the faces stands for the cube: nothing loads from a cube, and integers are only loaded.
+pub(super) fn is_integer_cube(ty: SamplerType) -> bool {
+    ty.dim == SamplerDim::Cube && ty.texel != Scalar::Float
 }
 
 /// A sampler inside a type: its place in the flat layout, its path, its type.
@@ -43,12 +50,16 @@ pub(super) struct Leaf {
 impl Lower<'_> {
     /// The texture type that stands for a sampler type.
     pub(super) fn texture_type(&mut self, ty: SamplerType) -> Handle<naga::Type> {
+        let faces = is_integer_cube(ty);
         let dim = match ty.dim {
             SamplerDim::D3 => ImageDimension::D3,
-            SamplerDim::Cube => ImageDimension::Cube,
-            SamplerDim::D1 | SamplerDim::D2 | SamplerDim::Rect | SamplerDim::Buffer | SamplerDim::Multisample => {
-                ImageDimension::D2
-            }
+            SamplerDim::Cube if !faces => ImageDimension::Cube,
+            SamplerDim::Cube
+            | SamplerDim::D1
+            | SamplerDim::D2
+            | SamplerDim::Rect
+            | SamplerDim::Buffer
+            | SamplerDim::Multisample => ImageDimension::D2,
         };
         let multi = ty.dim == SamplerDim::Multisample;
         let class = if ty.shadow {
@@ -56,7 +67,7 @@ impl Lower<'_> {
         } else {
             ImageClass::Sampled { kind: naga_scalar(ty.texel).kind, multi }
         };
-        self.insert_type(None, TypeInner::Image { dim, arrayed: ty.arrayed, class })
+        self.insert_type(None, TypeInner::Image { dim, arrayed: ty.arrayed || faces, class })
     }
 
     fn sampler_type(&mut self, ty: SamplerType) -> Handle<naga::Type> {
@@ -73,6 +84,11 @@ impl Lower<'_> {
             ));
         }
         Ok(())
+    }
+
+    /// Whether the number of texels goes with samplers of this type.
+    pub(super) fn counts_texels(&self, ty: SamplerType) -> bool {
+        ty.dim == SamplerDim::Buffer && self.interface.samplers.iter().any(|slot| slot.texel_count.is_some())
     }
 
     /// Declares the textures and samplers that this stage uses.
@@ -95,7 +111,8 @@ impl Lower<'_> {
                 let sampler_type = self.sampler_type(ty);
                 self.resource(&format!("{name}_sampler"), AddressSpace::Handle, slot.sampler, sampler_type)
             });
-            let variables = SamplerVariables { flat: slot.flat_offset, texture, sampler };
+            let texel_count = slot.texel_count.and_then(|offset| self.texel_counts.get(&offset).copied());
+            let variables = SamplerVariables { flat: slot.flat_offset, texture, sampler, texel_count };
             self.samplers.entry(global).or_default().push(variables);
         }
         Ok(())
@@ -139,7 +156,14 @@ impl Ctx<'_, '_> {
                 let sampler_type = self.low.sampler_type(ty);
                 self.argument(&format!("{}_sampler", leaf.path), sampler_type, None)
             });
-            values.push(SamplerValue { flat: leaf.flat, texture, sampler });
+            let texel_count = match self.low.counts_texels(ty) {
+                true => {
+                    let int = self.low.value_type(TypeId::INT)?;
+                    Some(self.argument(&format!("{}_texels", leaf.path), int, None))
+                }
+                false => None,
+            };
+            values.push(SamplerValue { flat: leaf.flat, texture, sampler, texel_count });
         }
         Ok(values)
     }
@@ -172,7 +196,12 @@ impl Ctx<'_, '_> {
                 let variables = *self.low.samplers.get(&global)?.iter().find(|value| value.flat == flat)?;
                 let texture = self.global_variable(variables.texture);
                 let sampler = variables.sampler.map(|sampler| self.global_variable(sampler));
-                Some(SamplerValue { flat, texture, sampler })
+                let texel_count = variables.texel_count.map(|(variable, index)| {
+                    let base = self.global_variable(variable);
+                    let pointer = self.add(Expression::AccessIndex { base, index });
+                    self.load(pointer)
+                });
+                Some(SamplerValue { flat, texture, sampler, texel_count })
             }
         }
     }

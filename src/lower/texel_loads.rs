@@ -15,14 +15,7 @@ impl Ctx<'_, '_> {
     /// A lookup in an integer texture.
     pub(super) fn integer_lookup(&mut self, lookup: &Lookup) -> Try<Handle<Expression>> {
         if lookup.ty.dim == SamplerDim::Cube {
-            return Err(lacking(
-                self.here(),
-                format!(
-                    "no target reads a `{}`: integer cube textures can be neither sampled nor loaded",
-                    lookup.ty.name()
-                ),
-                "use an array of six layers, or a texture of floats",
-            ));
+            return self.integer_cube_lookup(lookup);
         }
         let level = self.integer_level(lookup);
         let size = self.texture_dimensions(lookup.value.texture, Some(level));
@@ -38,6 +31,66 @@ impl Ctx<'_, '_> {
             image: lookup.value.texture,
             coordinate,
             array_index,
+            sample: None,
+            level: Some(level),
+        }))
+    }
+
+    /// The texel of the face that a direction meets (OpenGL 3.2 §3.8.6, table 3.21): faces are the layers of an array.
+    /// Where axes are equally long, z comes before y before x, as in the reference.
+    fn integer_cube_lookup(&mut self, lookup: &Lookup) -> Try<Handle<Expression>> {
+        if matches!(lookup.level, SampleLevel::Gradient { .. }) {
+            return Err(lacking(
+                self.here(),
+                format!("`textureGrad` of a `{}`: nothing tells the level of an integer cube", lookup.ty.name()),
+                "use `textureLod`, or a texture of floats",
+            ));
+        }
+        let level = self.integer_level(lookup);
+        let size = self.texture_dimensions(lookup.value.texture, Some(level));
+        let size = self.add(Expression::As { expr: size, kind: ScalarKind::Sint, convert: Some(4) });
+        let [x, y, z] = [0, 1, 2].map(|index| self.add(Expression::AccessIndex { base: lookup.coordinate, index }));
+        let [ax, ay, az] = [x, y, z].map(|axis| self.math1(MathFunction::Abs, axis));
+        let [over_x, over_y] = [ax, ay].map(|other| self.op(BinaryOperator::GreaterEqual, az, other));
+        let is_z = self.op(BinaryOperator::LogicalAnd, over_x, over_y);
+        let is_y = self.op(BinaryOperator::GreaterEqual, ay, ax);
+        let zero = self.float(0.0);
+        let [back_x, back_y, back_z] = [x, y, z].map(|axis| self.op(BinaryOperator::Less, axis, zero));
+        let [minus_x, minus_y, minus_z] =
+            [x, y, z].map(|axis| self.add(Expression::Unary { op: naga::UnaryOperator::Negate, expr: axis }));
+        let mut choose = |condition, accept, reject| self.add(Expression::Select { condition, accept, reject });
+        let on_x = choose(back_x, z, minus_z);
+        let on_z = choose(back_z, minus_x, x);
+        let off_z = choose(is_y, x, on_x);
+        let s = choose(is_z, on_z, off_z);
+        let on_y = choose(back_y, minus_z, z);
+        let off_z = choose(is_y, on_y, minus_y);
+        let t = choose(is_z, minus_y, off_z);
+        let off_z = choose(is_y, ay, ax);
+        let longest = choose(is_z, az, off_z);
+        let [f0, f1, f2, f3, f4, f5] = [0, 1, 2, 3, 4, 5].map(|face| self.int(face));
+        let mut choose = |condition, accept, reject| self.add(Expression::Select { condition, accept, reject });
+        let (on_x, on_y, on_z) = (choose(back_x, f1, f0), choose(back_y, f3, f2), choose(back_z, f5, f4));
+        let off_z = choose(is_y, on_y, on_x);
+        let face = choose(is_z, on_z, off_z);
+        self.name(face, "face");
+        // s = (s_c / m_a + 1) / 2, in texels.
+        let place = self.float_vector(vec![s, t]);
+        let longest = self.splat(longest, 2);
+        let place = self.op(BinaryOperator::Divide, place, longest);
+        let (one, half) = (self.float(1.0), self.float(0.5));
+        let (one, half) = (self.splat(one, 2), self.splat(half, 2));
+        let place = self.op(BinaryOperator::Add, place, one);
+        let place = self.op(BinaryOperator::Multiply, place, half);
+        let extent = self.add(Expression::As { expr: size, kind: ScalarKind::Float, convert: Some(4) });
+        let place = self.op(BinaryOperator::Multiply, place, extent);
+        let floor = self.math1(MathFunction::Floor, place);
+        let texel = self.add(Expression::As { expr: floor, kind: ScalarKind::Sint, convert: Some(4) });
+        let coordinate = self.inside(texel, size, 2);
+        Ok(self.add(Expression::ImageLoad {
+            image: lookup.value.texture,
+            coordinate,
+            array_index: Some(face),
             sample: None,
             level: Some(level),
         }))

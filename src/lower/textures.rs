@@ -176,7 +176,7 @@ impl Ctx<'_, '_> {
         let Some(sampler) = lookup.value.sampler else {
             return Err(internal(self.here(), "this texture has no sampler"));
         };
-        let level = self.shadow_level(lookup)?;
+        let level = self.shadow_level(lookup);
         let coordinate = self.target_coordinate(lookup, lookup.coordinate);
         let level = match level {
             SampleLevel::Gradient { x, y } => {
@@ -205,25 +205,13 @@ impl Ctx<'_, '_> {
         }))
     }
 
-    /// Comparisons know the implicit level and level 0 alone.
-    fn shadow_level(&self, lookup: &Lookup) -> Try<SampleLevel> {
-        let zero = |handle: Handle<Expression>| matches!(self.expressions()[handle], Expression::Literal(naga::Literal::F32(value)) if value == 0.0);
+    /// Comparisons know the implicit level and level 0 alone, which are the only ones of a texture with one level; that
+    /// another was asked for is a warning ([`notes`](crate::emit::notes)).
+    fn shadow_level(&self, lookup: &Lookup) -> SampleLevel {
         match lookup.level {
-            SampleLevel::Exact(level) if lookup.reference.is_some() && zero(level) => Ok(SampleLevel::Zero),
-            SampleLevel::Bias(bias) if lookup.reference.is_some() && zero(bias) => Ok(SampleLevel::Auto),
-            SampleLevel::Exact(_) | SampleLevel::Bias(_) | SampleLevel::Gradient { .. }
-                if lookup.reference.is_some() =>
-            {
-                Err(lacking(
-                    self.here(),
-                    format!(
-                        "no target compares depth in a level of `{}` other than the implicit one and 0",
-                        lookup.ty.name()
-                    ),
-                    "use `texture` without a bias, or `textureLod` with level 0.0",
-                ))
-            }
-            level => Ok(level),
+            level if lookup.reference.is_none() => level,
+            SampleLevel::Auto | SampleLevel::Bias(_) => SampleLevel::Auto,
+            SampleLevel::Zero | SampleLevel::Exact(_) | SampleLevel::Gradient { .. } => SampleLevel::Zero,
         }
     }
 
@@ -340,11 +328,7 @@ impl Ctx<'_, '_> {
     /// `textureSize`
     fn texture_size(&mut self, ty: SamplerType, value: SamplerValue, level: Option<ExprId>) -> Try<Handle<Expression>> {
         if ty.dim == SamplerDim::Buffer {
-            return Err(lacking(
-                self.here(),
-                format!("`textureSize` of a `{}` is not known: a texture stands for the buffer", ty.name()),
-                "pass the number of texels in a uniform of your own",
-            ));
+            return value.texel_count.ok_or_else(|| self.slip("the number of texels has no place among the uniforms"));
         }
         if ty.dim == SamplerDim::Multisample && ty.arrayed {
             // naga's SPIR-V writer asks for a level, which multisampled images do not have.

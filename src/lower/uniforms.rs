@@ -62,6 +62,15 @@ struct Placed {
     size: u32,
 }
 
+/// What a member of the loose uniforms' block stands for.
+enum LooseMember<'a> {
+    Root(&'a UniformRoot, HostId),
+    /// The framebuffer's height.
+    Height,
+    /// The number of texels of a buffer texture, by its offset.
+    TexelCount(u32),
+}
+
 impl Lower<'_> {
     /// The type in memory behind a handle.
     pub(super) fn host(&self, id: HostId) -> &Host {
@@ -251,8 +260,9 @@ impl Lower<'_> {
         let mut roots: Vec<&UniformRoot> =
             interface.roots.iter().filter(|root| root.block.is_none() && self.has_value(root.ty)).collect();
         roots.sort_by_key(|root| root.offset);
-        let height = interface.framebuffer_height.filter(|_| self.needs_framebuffer_height());
-        if height.is_none() && !roots.iter().any(|root| self.is_used(root)) {
+        let needs_height = interface.framebuffer_height.is_some() && self.needs_framebuffer_height();
+        let counts: Vec<u32> = interface.samplers.iter().filter_map(|slot| slot.texel_count).collect();
+        if !needs_height && counts.is_empty() && !roots.iter().any(|root| self.is_used(root)) {
             return Ok(());
         }
         let mut placed = Vec::new();
@@ -261,21 +271,31 @@ impl Lower<'_> {
             let host = self.host_of(root.ty, MatrixLayout::ColumnMajor)?;
             let Host { handle, size, .. } = *self.host(host);
             placed.push(Placed { name: root.name.clone(), handle, offset: root.offset, size });
-            hosts.push(Some((root, host)));
+            hosts.push(LooseMember::Root(root, host));
         }
+        // Link has put what is hidden behind all roots.
         if let Some(offset) = interface.framebuffer_height {
             let handle = self.value_type(TypeId::FLOAT)?;
-            let at = placed.partition_point(|member| member.offset < offset);
-            placed.insert(at, Placed { name: "framebuffer_height".into(), handle, offset, size: 4 });
-            hosts.insert(at, None);
+            placed.push(Placed { name: "framebuffer_height".into(), handle, offset, size: 4 });
+            hosts.push(LooseMember::Height);
+        }
+        for offset in counts {
+            let handle = self.value_type(TypeId::INT)?;
+            placed.push(Placed { name: "texel_count".into(), handle, offset, size: 4 });
+            hosts.push(LooseMember::TexelCount(offset));
         }
         let (members, numbers, span) = self.pad(&placed, None, TypeId::ERROR)?;
         let ty = self.insert_type(Some("Uniforms".into()), TypeInner::Struct { members, span });
         let variable = self.uniform_variable("uniforms", slot, ty);
         for (host, member) in hosts.into_iter().zip(numbers) {
             match host {
-                None => self.framebuffer_height = Some((variable, member)),
-                Some((root, host)) => self.set_globals(root, &GlobalSlot::Loose { variable, member, host }),
+                LooseMember::Height => self.framebuffer_height = Some((variable, member)),
+                LooseMember::TexelCount(offset) => {
+                    self.texel_counts.insert(offset, (variable, member));
+                }
+                LooseMember::Root(root, host) => {
+                    self.set_globals(root, &GlobalSlot::Loose { variable, member, host });
+                }
             }
         }
         Ok(())

@@ -242,6 +242,18 @@ fn what_a_target_lacks_has_a_code() {
     let geometry = "layout(points) in; layout(points, max_vertices = 1) out; void main() { EmitVertex(); }";
     let size = "void main() { gl_Position = vec4(0.0); gl_PointSize = 2.0; }";
     let coordinate = "out vec4 c; void main() { c = gl_PointCoord.xyxy; }";
+    let shadow = |lookup: &str| {
+        format!("uniform sampler2DShadow s; in vec4 v; out vec4 c; void main() {{ c = vec4({lookup}); }}")
+    };
+    let (biased, graded) = (&shadow("textureProj(s, v, -0.00005)"), &shadow("textureGrad(s, v.xyz, v.xy, v.zw)"));
+    let unbiased = &shadow("texture(s, v.xyz, 0.0) + textureLod(s, v.xyz, 0.0)");
+    let shared = |one: &str, other: &str| {
+        format!(
+            "#extension GL_ARB_explicit_attrib_location : enable\nlayout(location = 0) in {one} a;\n\
+             layout(location = 0) in {other} b; uniform int n;\n\
+             void main() {{ if (n > 0) gl_Position = vec4(a.x); else gl_Position = vec4(b.y); }}"
+        )
+    };
     let rows = [
         (Stage::Geometry, geometry, Target::Wgsl, plain, vec!["E0801"]),
         (Stage::Vertex, size, Target::Wgsl, plain, vec!["W0801"]),
@@ -249,6 +261,11 @@ fn what_a_target_lacks_has_a_code() {
         (Stage::Vertex, size, Target::Spirv, sized, vec![]),
         (Stage::Fragment, coordinate, Target::Wgsl, plain, vec!["E0802"]),
         (Stage::Fragment, coordinate, Target::Spirv, plain, vec![]),
+        (Stage::Fragment, biased, Target::Wgsl, plain, vec!["W0802"]),
+        (Stage::Fragment, graded, Target::Spirv, plain, vec!["W0802"]),
+        (Stage::Fragment, unbiased, Target::Wgsl, plain, vec![]),
+        (Stage::Vertex, &shared("vec2", "vec4"), Target::Wgsl, plain, vec![]),
+        (Stage::Vertex, &shared("vec2", "ivec4"), Target::Spirv, plain, vec!["E0802"]),
     ];
     for (stage, text, target, conventions, expected) in rows {
         assert_eq!(codes(stage, text, target, &conventions), expected, "{} for {}", text, target.name());

@@ -260,6 +260,13 @@ impl Host {
                 bytes[height.offset as usize..][..4].copy_from_slice(&(SIDE as f32).to_ne_bytes());
             });
         }
+        for sampler in &reflection.samplers {
+            let Some(count) = sampler.texel_count else { continue };
+            let (_, [width, ..], _) = app.textures.iter().find(|(name, ..)| *name == sampler.name).expect("given");
+            place(&mut buffers, Slot { group: count.group, binding: count.binding }, &|bytes| {
+                bytes[count.offset as usize..][..4].copy_from_slice(&(*width as i32).to_ne_bytes());
+            });
+        }
         let usage = wgpu::BufferUsages::UNIFORM;
         let make = |contents: &[u8]| {
             self.device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: None, contents, usage })

@@ -23,4 +23,10 @@ codes! {
          the write is dropped and points are one pixel wide, as in OpenGL without that enable."
         bad Vertex("void main() { gl_Position = vec4(0.0); gl_PointSize = 2.0; }"),
         good Vertex("void main() { gl_Position = vec4(0.0); }");
+    COMPARISON_LEVEL_DROPPED = "W0802" "comparison-level-dropped" Warning "GLSL 1.50 §8.7"
+        "No target compares depth in a level of detail that the shader names or shifts: WGSL and naga's SPIR-V compare in \
+         the implicit level and in the base level alone. A lookup with a bias is compiled without it, one with a level or \
+         gradients reads the base level. The picture is the same where the depth texture has one level, as shadow maps \
+         have; `glisten render` and `glisten verify` refuse a scene in which it has more."
+        bad None, good None;
 }

@@ -209,6 +209,9 @@ pub struct Sampler {
     /// How many texels a row has of the 2D texture that stands for a buffer texture; none for other kinds.
     #[serde(default)]
     pub row_width: Option<u32>,
+    /// Where the host writes the number of texels of a buffer texture, an `int`; none if the program does not ask for it.
+    #[serde(default)]
+    pub texel_count: Option<HiddenSlot>,
     /// `layout(binding = n)` of the text: the texture unit.
     pub unit: Option<u32>,
     /// Whether a stage reads it.
@@ -225,7 +228,7 @@ pub struct ReflectedConventions {
     /// `as-declared`, or `inverted` where the vertex stage flips.
     pub front_face: String,
     /// Where the host writes the framebuffer's height in pixels, a `float`; none if the program need not know it.
-    pub framebuffer_height: Option<HeightSlot>,
+    pub framebuffer_height: Option<HiddenSlot>,
     /// `first`: WGSL and Vulkan take a `flat` varying from the first vertex, OpenGL from the last, so that the host
     /// rotates its indices.
     pub provoking_vertex: String,
@@ -237,9 +240,9 @@ pub struct ReflectedConventions {
     pub point_size: bool,
 }
 
-/// A `float` in the loose uniforms' block.
+/// Four bytes in the loose uniforms' block that no uniform of the program's stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct HeightSlot {
+pub struct HiddenSlot {
     /// The group.
     pub group: u32,
     /// The binding.
@@ -286,7 +289,7 @@ pub fn reflect(program: &Program, conventions: &Conventions) -> Reflection {
         loose_block: interface.loose.map(|(slot, size)| LooseBlock { group: slot.group, binding: slot.binding, size }),
         blocks: interface.blocks.iter().map(block).collect(),
         uniforms: interface.uniforms.iter().map(|leaf| uniform(types, interface, leaf)).collect(),
-        samplers: interface.samplers.iter().map(|slot| sampler(types, slot)).collect(),
+        samplers: interface.samplers.iter().map(|slot| sampler(types, interface, slot)).collect(),
         conventions: reflected_conventions(program, conventions),
     }
 }
@@ -347,7 +350,7 @@ fn shortest(value: f32) -> serde_json::Value {
     value.to_string().parse::<f64>().map_or(serde_json::Value::Null, serde_json::Value::from)
 }
 
-fn sampler(types: &Types, row: &SamplerSlot) -> Sampler {
+fn sampler(types: &Types, interface: &Interface, row: &SamplerSlot) -> Sampler {
     let shape = match types.get(row.ty) {
         Type::Sampler(ty) => super::textures::Shape::of(ty),
         _ => super::textures::Shape::default(),
@@ -363,14 +366,19 @@ fn sampler(types: &Types, row: &SamplerSlot) -> Sampler {
         multisampled: shape.multisampled,
         sampler_type: shape.sampler_type.map(str::to_owned),
         row_width: shape.row_width,
+        texel_count: row.texel_count.and_then(|offset| hidden(interface, offset)),
         unit: row.unit,
         active: row.active,
     }
 }
 
+fn hidden(interface: &Interface, offset: u32) -> Option<HiddenSlot> {
+    interface.loose.map(|(slot, _)| HiddenSlot { group: slot.group, binding: slot.binding, offset })
+}
+
 fn reflected_conventions(program: &Program, conventions: &Conventions) -> ReflectedConventions {
     let upper_left = conventions.window_origin == WindowOrigin::UpperLeft;
-    let height = program.interface.framebuffer_height.zip(program.interface.loose).filter(|_| upper_left);
+    let height = program.interface.framebuffer_height.filter(|_| upper_left);
     ReflectedConventions {
         clip_z: match conventions.clip_z {
             ClipZ::ZeroToOne => "zero-to-one",
@@ -379,11 +387,7 @@ fn reflected_conventions(program: &Program, conventions: &Conventions) -> Reflec
         .into(),
         window_origin: if upper_left { "upper-left" } else { "lower-left" }.into(),
         front_face: if upper_left { "as-declared" } else { "inverted" }.into(),
-        framebuffer_height: height.map(|(offset, (slot, _))| HeightSlot {
-            group: slot.group,
-            binding: slot.binding,
-            offset,
-        }),
+        framebuffer_height: height.and_then(|offset| hidden(&program.interface, offset)),
         provoking_vertex: "first".into(),
         spirv_env: match conventions.spirv_env {
             SpirvEnv::Webgpu => "webgpu",
