@@ -1,12 +1,12 @@
 //! Plants faults in the SPIR-V that glisten emits for scenes, draws each and counts what `verify` catches.
 //!
 //! ```text
-//! cargo run --release --example mutations -- fixtures/scenes [--each N] [--seed N]
+//! cargo run --release --example mutations -- fixtures/scenes [--each N] [--seed N] [--list]
 //! ```
 //!
 //! Takes scene files, and folders of them with the folders in them. Prints for each kind of fault how many change the
 //! picture, and how many of those the derived bound and a tolerance of 1/255 catch; then each fault that passes, with the
-//! reason. `--each` tries at most N faults of each kind a scene. Needs a Vulkan software adapter and `spirv-val`.
+//! reason. `--each` tries at most N faults of each kind a scene, `--list` prints what became of every one. Needs a Vulkan software adapter and `spirv-val`.
 
 #[path = "../tests/it/mutation/mod.rs"]
 mod mutation;
@@ -21,15 +21,17 @@ use std::process::ExitCode;
 struct Arguments {
     paths: Vec<PathBuf>,
     choice: Choice,
+    list: bool,
 }
 
 fn arguments() -> Option<Arguments> {
-    let mut parsed = Arguments { paths: Vec::new(), choice: Choice { each: None, seed: 0 } };
+    let mut parsed = Arguments { paths: Vec::new(), choice: Choice { each: None, seed: 0 }, list: false };
     let mut words = std::env::args().skip(1);
     while let Some(word) = words.next() {
         match word.as_str() {
             "--each" => parsed.choice.each = Some(words.next()?.parse().ok()?),
             "--seed" => parsed.choice.seed = words.next()?.parse().ok()?,
+            "--list" => parsed.list = true,
             _ => parsed.paths.push(word.into()),
         }
     }
@@ -57,8 +59,8 @@ fn scene(path: &Path) -> Result<(String, Scene), String> {
 
 #[expect(clippy::print_stdout, clippy::print_stderr, reason = "a program that prints a report")]
 fn main() -> ExitCode {
-    let Some(Arguments { paths, choice }) = arguments() else {
-        eprintln!("usage: mutations SCENE|FOLDER... [--each N] [--seed N]");
+    let Some(Arguments { paths, choice, list }) = arguments() else {
+        eprintln!("usage: mutations SCENE|FOLDER... [--each N] [--seed N] [--list]");
         return ExitCode::from(2);
     };
     let mut files = Vec::new();
@@ -79,6 +81,9 @@ fn main() -> ExitCode {
         }
     };
     let study = Study::of(&gpu, &scenes, choice, &mut |name, faults| eprintln!("{name}: {faults} faults"));
+    if list {
+        study.trials.iter().for_each(|trial| println!("{trial}"));
+    }
     print!("{study}");
     ExitCode::SUCCESS
 }

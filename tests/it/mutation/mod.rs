@@ -94,13 +94,16 @@ pub(crate) struct Choice {
 }
 
 impl Choice {
-    /// Some of a list, in its order.
-    fn of<T>(self, list: Vec<T>) -> Vec<T> {
+    /// Some of a scene's list, in its order; others in another scene.
+    fn of<T>(self, scene: &str, list: Vec<T>) -> Vec<T> {
         let Some(each) = self.each.filter(|each| *each < list.len()) else { return list };
-        let mut random = self.seed;
+        let stirred = |random: u64, by: u64| {
+            (random ^ by).wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407)
+        };
+        let mut random = scene.bytes().fold(self.seed, |random, byte| stirred(random, byte.into()));
         let mut keyed: Vec<(u64, usize, T)> = (list.into_iter().enumerate())
             .map(|(place, item)| {
-                random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+                random = stirred(random, 0);
                 (random >> 32, place, item)
             })
             .collect();

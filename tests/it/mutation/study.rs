@@ -101,10 +101,8 @@ impl fmt::Display for Study {
         for (scene, why) in &self.left_out {
             writeln!(f, "left out: {scene}: {why}")?;
         }
-        for trial in &self.trials {
-            if let Outcome::Refused(why) = &trial.outcome {
-                writeln!(f, "refused: {}, {}: {}: {why}", trial.scene, trial.stage.name(), trial.name)?;
-            }
+        for trial in self.trials.iter().filter(|trial| matches!(trial.outcome, Outcome::Refused(_))) {
+            writeln!(f, "{trial}")?;
         }
         for cover in Cover::ALL {
             let survivors = self.survivors(cover);
@@ -115,20 +113,7 @@ impl fmt::Display for Study {
             }
             writeln!(f)?;
             for trial in survivors {
-                if let Outcome::Seen { change, by_hand, .. } = &trial.outcome {
-                    let also = if *by_hand == Some(true) { "; 1/255 catches it" } else { "" };
-                    writeln!(
-                        f,
-                        "  {}, {}: {}: {} pixels, up to {:.1e} ({:.1} ulp; allowed {:.1e}){also}",
-                        trial.scene,
-                        trial.stage.name(),
-                        trial.name,
-                        change.pixels,
-                        change.absolute,
-                        change.ulps,
-                        change.allowed
-                    )?;
-                }
+                writeln!(f, "  {trial}")?;
             }
         }
         Ok(())

@@ -7,6 +7,7 @@ use glisten::gpu::{Error, Gpu};
 use glisten::hir::Stage;
 use glisten::scene::Scene;
 use std::cell::{Cell, RefCell};
+use std::fmt;
 use std::io::Write;
 use std::process::{Command, Stdio};
 
@@ -82,6 +83,23 @@ pub(crate) struct Trial {
     pub(crate) outcome: Outcome,
 }
 
+impl fmt::Display for Trial {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}, {}: {}: ", self.scene, self.stage.name(), self.name)?;
+        match &self.outcome {
+            Outcome::Invalid => f.write_str("spirv-val refuses it"),
+            Outcome::Refused(why) => write!(f, "refused: {why}"),
+            Outcome::Unseen => f.write_str("the picture is the same"),
+            Outcome::Seen { caught, by_hand, change, .. } => {
+                let Change { absolute, ulps, allowed, pixels } = change;
+                let verdict = if *caught { "caught" } else { "missed" };
+                write!(f, "{verdict}: {pixels} pixels, up to {absolute:.1e} ({ulps:.1} ulp; allowed {allowed:.1e})")?;
+                f.write_str(if *by_hand == Some(true) { "; 1/255 catches it" } else { "" })
+            }
+        }
+    }
+}
+
 /// A scene, and what is drawn of it without a fault.
 pub(super) struct Subject<'a> {
     gpu: &'a Gpu,
@@ -123,7 +141,7 @@ impl<'a> Subject<'a> {
             .flat_map(|(number, (stage, words))| mutations(words, *stage).into_iter().map(move |one| (number, one)))
             .collect();
         let of = |kind: Kind| all.iter().filter(|(_, mutation)| mutation.kind == kind).cloned().collect();
-        Kind::ALL.into_iter().flat_map(|kind| choice.of(of(kind))).collect()
+        Kind::ALL.into_iter().flat_map(|kind| choice.of(&self.name, of(kind))).collect()
     }
 
     pub(super) fn try_out(&self, module: usize, mutation: &Mutation) -> Trial {
