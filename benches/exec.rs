@@ -4,7 +4,7 @@
 //! `cargo bench --no-default-features --features reference --bench exec`
 
 use divan::Bencher;
-use glisten::cpu::domain::{Bound, Domain, F32, F64, Number};
+use glisten::cpu::domain::{Domain, Envelope, F32, F64, Number};
 use glisten::cpu::exec::{Code, LANES, Machine, Mask};
 use glisten::cpu::{Precision, RenderOptions};
 use glisten::hir::Stage;
@@ -41,7 +41,7 @@ fn sphere() -> Scene {
 }
 
 /// One tile of fragments: 64 invocations of the fragment stage.
-#[divan::bench(types = [F64, F32, Bound])]
+#[divan::bench(types = [F64, F32, Envelope])]
 fn tile<D: Domain>(bencher: Bencher<'_, '_>) {
     let scene = sphere();
     let draw = &scene.draws[0];
@@ -66,7 +66,7 @@ fn draw(bencher: Bencher<'_, '_>, precision: &str) {
     let precision = match precision {
         "f64" => Precision::F64,
         "f32" => Precision::F32,
-        _ => Precision::Bound,
+        _ => Precision::Envelope,
     };
     let options = RenderOptions { precision, mark_edges: false, ..RenderOptions::default() };
     bencher.bench_local(|| glisten::cpu::render(&scene, &options));

@@ -38,15 +38,16 @@ fn main() {
     let gpu = Gpu::new(None).expect("this needs Mesa's Vulkan driver: apt-get install mesa-vulkan-drivers");
     let prepared = gpu.prepare(&scene, Via::Spirv).expect("it can be drawn");
     let mut rows: [(&str, Vec<f64>); 5] =
-        [("lavapipe", vec![]), ("lavapipe (A/A)", vec![]), ("f64", vec![]), ("f32", vec![]), ("bound", vec![])];
+        [("lavapipe", vec![]), ("lavapipe (A/A)", vec![]), ("f64", vec![]), ("f32", vec![]), ("envelope", vec![])];
     for round in 0..ROUNDS + 2 {
         for (index, (_, times)) in rows.iter_mut().enumerate() {
             let start = Instant::now();
             let time = if index < 2 {
                 gpu.draw(&prepared).expect("it draws").milliseconds
             } else {
-                let precision = [Precision::F64, Precision::F32, Precision::Bound][index - 2];
-                let options = RenderOptions { precision, lines: LineRule::OpenGl, mark_edges: false };
+                let precision = [Precision::F64, Precision::F32, Precision::Envelope][index - 2];
+                let options =
+                    RenderOptions { precision, lines: LineRule::OpenGl, mark_edges: false, ..RenderOptions::default() };
                 glisten::cpu::render(&scene, &options).expect("it draws");
                 start.elapsed().as_secs_f64() * 1e3
             };

@@ -136,7 +136,7 @@ mod tests {
             height: 1,
             attachments: vec![pixels.clone(), pixels],
             covered: vec![true; 2],
-            bounds: None,
+            ranges: None,
             undecided: vec![false; 2],
             near_edge: vec![false; 2],
         }

@@ -86,7 +86,8 @@ fn draw(args: &RenderArgs, scene: Scene) -> Result<Picture, DrawError> {
                 PrecisionArg::F64 => Precision::F64,
                 PrecisionArg::F32 => Precision::F32,
             };
-            let options = RenderOptions { precision, lines: LineRule::OpenGl, mark_edges: false };
+            let options =
+                RenderOptions { precision, lines: LineRule::OpenGl, mark_edges: false, ..RenderOptions::default() };
             args.scene.within_time(move || Ok(cpu::render(&scene, &options)?))
         }
     }

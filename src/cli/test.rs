@@ -177,7 +177,12 @@ struct CpuPainter;
 impl Painter for CpuPainter {
     fn paint(&mut self, scene: &Scene) -> Result<Picture, Ending> {
         // A test says what floats of 32 bits come to: where they underflow, say.
-        let options = RenderOptions { precision: Precision::F32, lines: LineRule::OpenGl, mark_edges: false };
+        let options = RenderOptions {
+            precision: Precision::F32,
+            lines: LineRule::OpenGl,
+            mark_edges: false,
+            ..RenderOptions::default()
+        };
         cpu::render(scene, &options).map_err(|diagnostics| Ending::Fail(first(&diagnostics)))
     }
 }

@@ -2,15 +2,19 @@
 
 use super::console::Console;
 use super::exit::{Exit, Outcome};
+use super::files;
+use super::pictures::Target;
 use super::progress::Progress;
 use super::scenes::{DrawError, SceneArgs};
-use crate::compare::{Judge, Picture, Verdict, flip};
+use crate::compare::{self, Judge, Picture, Verdict, flip};
+use crate::cpu::domain::faults::{Faults, KNOWN};
 use crate::cpu::{self, LineRule, Precision, RenderOptions};
 use crate::diagnostic::Diagnostic;
 use crate::gpu::{Gpu, Via};
 use crate::scene::Scene;
 use clap::{Args, ValueEnum};
 use serde::Serialize;
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -25,12 +29,18 @@ pub(super) struct VerifyArgs {
     /// The format of the figures
     #[arg(long, value_enum, default_value_t)]
     format: Format,
-    /// Judges by this absolute difference of each channel instead of the derived bound
+    /// Judges by this absolute difference of each channel instead of the derived envelope
     #[arg(long, value_name = "X", value_parser = parse_tolerance)]
     tolerance: Option<f64>,
     /// Accepts any number of pixels that the reference cannot decide
     #[arg(long)]
     allow_undecided: bool,
+    /// Excuses no pixel by what the driver is known to do wrong
+    #[arg(long)]
+    no_known_faults: bool,
+    /// Writes a picture of |difference| / bound: gray up to the bound, red beyond
+    #[arg(long, value_name = "FILE")]
+    difference: Option<PathBuf>,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
@@ -98,6 +108,8 @@ struct Compared {
     runs: Vec<Run>,
     pictures: Vec<Picture>,
     skipped: Vec<Skip>,
+    /// Of each pixel the largest difference as a share of its bound.
+    shares: Vec<f64>,
 }
 
 /// What is printed as JSON: the worse of all runs, and each of them.
@@ -124,12 +136,20 @@ pub(super) fn run(args: &VerifyArgs, console: &Console) -> Outcome {
         ViaChoice::Wgsl => vec![Via::Wgsl],
         ViaChoice::Both => vec![Via::Spirv, Via::Wgsl],
     };
+    let difference = args.difference.as_deref().map(Target::parse).transpose()?;
     let progress = Progress::new(console, vias.len() + 1);
-    let Compared { runs, pictures, skipped } = match compare(args, Arc::new(read.scene.clone()), &vias, &progress) {
-        Ok(compared) => compared,
-        Err(error) => return read.failed(error),
-    };
+    let Compared { runs, pictures, skipped, shares } =
+        match compare(args, Arc::new(read.scene.clone()), &vias, &progress) {
+            Ok(compared) => compared,
+            Err(error) => return read.failed(error),
+        };
     drop(progress);
+    if let Some(target) = difference {
+        let (files, _) = target.encode(&shown(&read.scene, &shares))?;
+        for (path, bytes) in files {
+            files::write(&path, &bytes)?;
+        }
+    }
     let Some(worse) = worst_of(&runs) else { return Ok(Exit::Ok) };
     let forms_bit_unequal = match &pictures[..] {
         [spirv, wgsl] => Some(spirv.bit_unequal(wgsl)),
@@ -166,7 +186,8 @@ fn compare(args: &VerifyArgs, scene: Arc<Scene>, vias: &[Via], progress: &Progre
     })?;
     let cpu_ms = start.elapsed().as_secs_f64() * 1e3;
     progress.step();
-    let judge = args.tolerance.map_or(Judge::Bound, Judge::Tolerance);
+    let judge = args.tolerance.map_or(Judge::Envelope, Judge::Tolerance);
+    let mut faults: Option<Vec<(&'static str, Picture)>> = None;
     let mut compared = Compared::default();
     for via in vias {
         progress.say(via.name());
@@ -178,7 +199,21 @@ fn compare(args: &VerifyArgs, scene: Arc<Scene>, vias: &[Via], progress: &Progre
             }
             other => other?,
         };
-        let verdict = Verdict::new(&picture, &cpu, judge);
+        let mut verdict = Verdict::new(&picture, &cpu, judge);
+        if judge == Judge::Envelope && verdict.needs_excuse() && !args.no_known_faults {
+            let admitted = match faults.take() {
+                Some(admitted) => admitted,
+                None => args.scene.within_time({
+                    let scene = Arc::clone(&scene);
+                    move || admitting(&scene)
+                })?,
+            };
+            verdict = Verdict::admitting(&picture, &cpu, judge, &admitted);
+            faults = Some(admitted);
+        }
+        let shares = compare::shares(&picture, &cpu, judge);
+        compared.shares.resize(shares.len(), 0.0);
+        compared.shares.iter_mut().zip(shares).for_each(|(most, share)| *most = share.max(*most));
         let bit_unequal = picture.bit_unequal(&cpu);
         compared.runs.push(Run { via: via.name(), verdict, flip: flip(&cpu, &picture), bit_unequal, gpu_ms, cpu_ms });
         compared.pictures.push(picture);
@@ -187,10 +222,37 @@ fn compare(args: &VerifyArgs, scene: Arc<Scene>, vias: &[Via], progress: &Progre
     Ok(compared)
 }
 
-/// The reference with its bounds; lines by the rule of the target.
+/// The reference with its envelope; lines by the rule of the target.
 fn reference(scene: &Scene) -> Result<Picture, DrawError> {
-    let options = RenderOptions { precision: Precision::Bound, lines: LineRule::Vulkan, ..RenderOptions::default() };
+    drawn(scene, Faults::NONE)
+}
+
+fn drawn(scene: &Scene, faults: Faults) -> Result<Picture, DrawError> {
+    let precision = Precision::Envelope;
+    let options = RenderOptions { precision, lines: LineRule::Vulkan, faults, ..RenderOptions::default() };
     Ok(cpu::render(scene, &options)?)
+}
+
+/// The reference with each known fault of the driver admitted, and with all of them.
+fn admitting(scene: &Scene) -> Result<Vec<(&'static str, Picture)>, DrawError> {
+    let one = KNOWN.iter().map(|known| (known.name, Faults::only(known.fault)));
+    let all = one.chain([("several", Faults::all())]);
+    all.map(|(name, faults)| Ok((name, drawn(scene, faults)?))).collect()
+}
+
+/// The picture of shares: gray up to the bound, red beyond.
+fn shown(scene: &Scene, shares: &[f64]) -> Picture {
+    let color = |share: &f64| if *share > 1.0 { [1.0, 0.0, 0.0, 1.0] } else { [*share, *share, *share, 1.0] };
+    let (width, height) = (scene.framebuffer.width, scene.framebuffer.height);
+    Picture {
+        width,
+        height,
+        attachments: vec![shares.iter().map(color).collect()],
+        covered: vec![true; shares.len()],
+        ranges: None,
+        undecided: Vec::new(),
+        near_edge: Vec::new(),
+    }
 }
 
 fn on_gpu(args: &VerifyArgs, gpu: Arc<Gpu>, scene: Arc<Scene>, via: Via) -> Result<(Picture, f64), DrawError> {
@@ -226,12 +288,15 @@ fn human(run: &Run, allow_undecided: bool) -> String {
         ("not finite", format!("gpu {}, cpu {}", verdict.non_finite_gpu, verdict.non_finite_cpu)),
         ("time", format!("gpu {:.3} ms, cpu {:.3} ms", run.gpu_ms, run.cpu_ms)),
     ];
+    let faults: Vec<String> =
+        verdict.known_faults.iter().map(|count| format!("{} ({})", count.pixels, count.fault)).collect();
+    let faults = (!faults.is_empty()).then(|| ("known faults", faults.join(", ")));
     let mark = if verdict.holds(allow_undecided) { "holds" } else { "DOES NOT HOLD" };
     let mut text = format!("{}: {mark}\n", run.via);
-    for (name, value) in rows {
+    for (name, value) in rows.into_iter().chain(faults) {
         text.push_str(&format!("  {name:18} {value}\n"));
     }
-    if let Some(worst) = verdict.worst
+    if let Some(worst) = &verdict.worst
         && verdict.max_abs > 0.0
     {
         let numbers = |color: [f64; 4]| color.map(|value| format!("{value:.7}")).join(", ");

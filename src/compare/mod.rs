@@ -5,9 +5,11 @@
 #[cfg(feature = "cli")]
 mod flip;
 mod picture;
+mod range;
 mod verdict;
 
 #[cfg(feature = "cli")]
 pub use flip::flip;
 pub use picture::Picture;
-pub use verdict::{Judge, Verdict, Worst, ulp_f32};
+pub use range::Range;
+pub use verdict::{FaultCount, Judge, Verdict, Worst, shares, ulp_f32};

@@ -1,5 +1,7 @@
 //! [`Picture`]: what a draw leaves in the framebuffer.
 
+use super::Range;
+
 /// What was drawn, top row first, x fastest.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Picture {
@@ -11,9 +13,9 @@ pub struct Picture {
     pub attachments: Vec<Vec<[f64; 4]>>,
     /// Whether a fragment was written to the pixel, after discard and depth test.
     pub covered: Vec<bool>,
-    /// For a bounded reference: how far a conforming GPU may be off, for each channel of each attachment.
-    pub bounds: Option<Vec<Vec<[f64; 4]>>>,
-    /// For a bounded reference: pixels where a branch, a discard or a depth test may go either way.
+    /// Of a reference with envelopes: what a conforming GPU may have, for each channel of each attachment.
+    pub ranges: Option<Vec<Vec<[Range; 4]>>>,
+    /// Of a reference with envelopes: pixels where a discard, a depth test or too many branches may go either way.
     pub undecided: Vec<bool>,
     /// Pixels whose center lies within 1/128 pixel of an edge of a primitive that was drawn.
     pub near_edge: Vec<bool>,
@@ -49,7 +51,7 @@ mod tests {
             height: 1,
             attachments: vec![reds.iter().map(|&red| [red, 0.0, 0.0, 1.0]).collect()],
             covered: vec![true; reds.len()],
-            bounds: None,
+            ranges: None,
             undecided: vec![false; reds.len()],
             near_edge: vec![false; reds.len()],
         }

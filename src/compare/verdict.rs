@@ -1,20 +1,21 @@
 //! [`Verdict`]: how far a GPU's picture is from the reference's, and whether that is explained.
 //!
-//! *In:* two pictures of one scene, the reference's with its bounds, or a tolerance. *Out:* counts and error figures.
+//! *In:* two pictures of one scene, the reference's with its envelope, or a tolerance. *Out:* counts and error figures.
 //!
 //! *Holds:* each pixel is counted in one way only: one side alone covers it (`coverage_mismatch`, or `edge_pixels` if its
 //! center is so near an edge that rounding decides), or the reference leaves open what it is (`undecided`), or its colors
-//! are compared. Colors never decide what is covered. Numbers that are not finite are counted apart and never enter an
-//! error figure.
+//! are compared. Colors never decide what is covered. An undecided pixel may be uncovered; if it is covered, its color must
+//! lie in the envelope, too. Numbers that are not finite are counted apart and never enter an error figure; where the
+//! envelope holds them they are no mismatch. What only a known fault of the driver explains is counted under its name.
 
-use super::Picture;
+use super::{Picture, Range};
 use serde::Serialize;
 
 /// What decides whether a difference is explained.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Judge {
-    /// The reference's own bound for each channel of each pixel.
-    Bound,
+    /// The reference's own envelope for each channel of each pixel.
+    Envelope,
     /// The same absolute difference for all channels.
     Tolerance(f64),
 }
@@ -26,12 +27,27 @@ pub struct Worst {
     pub x: u32,
     /// Row from the top.
     pub y: u32,
+    /// The color attachment.
+    pub attachment: u32,
     /// The GPU's color.
     pub gpu: [f64; 4],
     /// The reference's color.
     pub cpu: [f64; 4],
-    /// How far each channel may be off.
+    /// How far each channel may be off toward the GPU's side; infinite (null) where nothing bounds it.
     pub bound: [f64; 4],
+    /// The least that each channel may be.
+    pub low: [f64; 4],
+    /// The greatest.
+    pub high: [f64; 4],
+}
+
+/// Pixels that only a known fault of the driver explains.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct FaultCount {
+    /// Its name, or `several` where it takes more than one.
+    pub fault: &'static str,
+    /// How many.
+    pub pixels: u64,
 }
 
 /// Figures and counts of one comparison. Errors are absolute, over all channels of all attachments of the pixels that
@@ -60,12 +76,14 @@ pub struct Verdict {
     pub non_finite_cpu: u64,
     /// Channels that are finite on one side alone.
     pub finiteness_mismatch: u64,
-    /// `bound` or `tolerance`.
+    /// `envelope` or `tolerance`.
     pub judged_by: &'static str,
     /// Pixels that are further off than they may be.
     pub outside: u64,
-    /// Pixels where a branch or a test may go either way within the bound.
+    /// Pixels whose discard, depth test or coverage may go either way, or that can go too many ways.
     pub undecided: u64,
+    /// Pixels that only a known fault of the driver explains; they count under nothing else.
+    pub known_faults: Vec<FaultCount>,
     /// The pixel that is furthest off; `None` (null) if none is compared.
     pub worst: Option<Worst>,
 }
@@ -76,12 +94,25 @@ const MAX_UNDECIDED_SHARE: f64 = 0.01;
 impl Verdict {
     /// Compares two pictures of the same size and number of attachments.
     pub fn new(gpu: &Picture, cpu: &Picture, judge: Judge) -> Self {
+        Self::admitting(gpu, cpu, judge, &[])
+    }
+
+    /// The same, with the reference drawn once more for each known fault of the driver that is admitted.
+    pub fn admitting(gpu: &Picture, cpu: &Picture, judge: Judge, faults: &[(&'static str, Picture)]) -> Self {
         let judged_by = match judge {
-            Judge::Bound => "bound",
+            Judge::Envelope => "envelope",
             Judge::Tolerance(_) => "tolerance",
         };
-        let mut tally =
-            Tally { gpu, cpu, judge, verdict: Self { judged_by, ..Self::default() }, ..Tally::new(gpu, cpu) };
+        let mut tally = Tally {
+            gpu,
+            cpu,
+            judge,
+            faults,
+            verdict: Self { judged_by, ..Self::default() },
+            squares: 0.0,
+            channels: 0,
+            worst_share: -1.0,
+        };
         for pixel in 0..cpu.covered.len() {
             tally.pixel(pixel);
         }
@@ -96,6 +127,11 @@ impl Verdict {
             && self.coverage_mismatch == 0
             && self.finiteness_mismatch == 0
             && (allow_undecided || !undecided)
+    }
+
+    /// Whether it needs an explanation that the specifications do not give.
+    pub fn needs_excuse(&self) -> bool {
+        self.outside > 0 || self.finiteness_mismatch > 0 || self.coverage_mismatch > 0
     }
 
     /// The worse of two verdicts in every figure.
@@ -121,9 +157,45 @@ impl Verdict {
             judged_by: self.judged_by,
             outside: self.outside.max(other.outside),
             undecided: self.undecided.max(other.undecided),
+            known_faults: worse_faults(&self.known_faults, &other.known_faults),
             worst: far.worst.or(near.worst),
         }
     }
+}
+
+/// The larger count of each fault.
+fn worse_faults(a: &[FaultCount], b: &[FaultCount]) -> Vec<FaultCount> {
+    let mut all = a.to_vec();
+    for count in b {
+        match all.iter_mut().find(|known| known.fault == count.fault) {
+            Some(known) => known.pixels = known.pixels.max(count.pixels),
+            None => all.push(count.clone()),
+        }
+    }
+    all
+}
+
+/// Of each pixel the largest difference of its channels as a share of what it may be off; infinite where one side alone
+/// covers a pixel that is decided, or a number is not finite that may not be so.
+pub fn shares(gpu: &Picture, cpu: &Picture, judge: Judge) -> Vec<f64> {
+    let verdict = Verdict::default();
+    let tally = Tally { gpu, cpu, judge, faults: &[], verdict, squares: 0.0, channels: 0, worst_share: -1.0 };
+    let flag = |flags: &[bool], pixel: usize| flags.get(pixel).copied().unwrap_or(false);
+    (0..cpu.covered.len())
+        .map(|pixel| {
+            let covers = [flag(&gpu.covered, pixel), flag(&cpu.covered, pixel)];
+            let open = flag(&cpu.undecided, pixel) || flag(&cpu.near_edge, pixel) || flag(&gpu.near_edge, pixel);
+            match covers {
+                [true, true] => (0..cpu.attachments.len())
+                    .map(|attachment| tally.judge_channels(attachment, pixel))
+                    .map(|error| if error.finiteness_mismatch > 0 { f64::INFINITY } else { error.share })
+                    .fold(0.0, f64::max),
+                [false, false] => 0.0,
+                _ if open => 0.0,
+                _ => f64::INFINITY,
+            }
+        })
+        .collect()
 }
 
 /// A comparison in progress.
@@ -131,6 +203,7 @@ struct Tally<'a> {
     gpu: &'a Picture,
     cpu: &'a Picture,
     judge: Judge,
+    faults: &'a [(&'static str, Picture)],
     verdict: Verdict,
     squares: f64,
     channels: u64,
@@ -147,95 +220,127 @@ struct PixelError {
     share: f64,
 }
 
-impl<'a> Tally<'a> {
-    fn new(gpu: &'a Picture, cpu: &'a Picture) -> Self {
-        let (judge, verdict) = (Judge::Bound, Verdict::default());
-        Self { gpu, cpu, judge, verdict, squares: 0.0, channels: 0, worst_share: -1.0 }
-    }
-
+impl Tally<'_> {
     fn pixel(&mut self, pixel: usize) {
         let flag = |flags: &[bool]| flags.get(pixel).copied().unwrap_or(false);
         let (gpu_covers, cpu_covers) = (flag(&self.gpu.covered), flag(&self.cpu.covered));
         let near_edge = flag(&self.cpu.near_edge) || flag(&self.gpu.near_edge);
         let undecided = flag(&self.cpu.undecided);
-        if gpu_covers != cpu_covers {
+        if gpu_covers != cpu_covers && !(undecided && gpu_covers) {
             match (near_edge, undecided) {
                 (true, _) => self.verdict.edge_pixels += 1,
                 (false, true) => self.verdict.undecided += 1,
+                (false, false) if self.excused(pixel) => {}
                 (false, false) => self.verdict.coverage_mismatch += 1,
             }
             return;
         }
-        if !cpu_covers {
+        if !gpu_covers {
             return;
         }
-        self.verdict.covered += 1;
-        if undecided {
-            self.verdict.undecided += 1;
-            return;
-        }
-        self.colors(pixel, near_edge);
+        self.verdict.covered += u64::from(cpu_covers);
+        self.colors(pixel, near_edge, undecided);
     }
 
-    fn colors(&mut self, pixel: usize, near_edge: bool) {
-        let mut errors = Vec::new();
-        for attachment in 0..self.cpu.attachments.len() {
-            errors.push(self.judge_channels(attachment, pixel));
-        }
-        if near_edge && errors.iter().any(|error| error.outside || error.finiteness_mismatch > 0) {
+    fn colors(&mut self, pixel: usize, near_edge: bool, undecided: bool) {
+        let errors: Vec<PixelError> =
+            (0..self.cpu.attachments.len()).map(|attachment| self.judge_channels(attachment, pixel)).collect();
+        let is_wrong = errors.iter().any(|error| error.outside || error.finiteness_mismatch > 0);
+        if near_edge && is_wrong {
             // Which of two triangles drew it is what rounding decides there.
             self.verdict.edge_pixels += 1;
             return;
         }
+        if is_wrong && self.excused(pixel) {
+            return;
+        }
         let any = |test: fn(&PixelError) -> bool| u64::from(errors.iter().any(test));
-        self.verdict.non_finite_gpu += any(|error| error.non_finite[0]);
-        self.verdict.non_finite_cpu += any(|error| error.non_finite[1]);
         self.verdict.outside += any(|error| error.outside);
         self.verdict.finiteness_mismatch += errors.iter().map(|error| error.finiteness_mismatch).sum::<u64>();
+        if undecided {
+            self.verdict.undecided += 1;
+        } else {
+            self.verdict.non_finite_gpu += any(|error| error.non_finite[0]);
+            self.verdict.non_finite_cpu += any(|error| error.non_finite[1]);
+        }
         for (attachment, error) in errors.iter().enumerate() {
-            self.add_differences(attachment, pixel);
-            if error.share > self.worst_share {
+            if !undecided {
+                self.add_differences(attachment, pixel);
+            }
+            if error.share > self.worst_share && (!undecided || error.outside) {
                 self.worst_share = error.share;
                 self.verdict.worst = Some(self.worst_at(attachment, pixel));
             }
         }
     }
 
+    /// Whether a known fault explains the pixel; then it counts under that.
+    fn excused(&mut self, pixel: usize) -> bool {
+        let covers = self.gpu.covered.get(pixel).copied().unwrap_or(false);
+        let explains = |picture: &Picture| {
+            let open = picture.undecided.get(pixel).copied().unwrap_or(false);
+            let known = picture.covered.get(pixel).copied().unwrap_or(false);
+            let inside = |attachment: usize| {
+                let gpu = Self::color(self.gpu, attachment, pixel);
+                let ranges = Self::ranges(picture, attachment, pixel);
+                gpu.into_iter().zip(ranges).all(|(gpu, range)| range.contains(gpu))
+            };
+            match (covers, known) {
+                (true, _) => (known || open) && (0..picture.attachments.len()).all(inside),
+                (false, true) => open,
+                (false, false) => true,
+            }
+        };
+        let Some(fault) = self.faults.iter().find(|(_, picture)| explains(picture)).map(|(name, _)| *name) else {
+            return false;
+        };
+        match self.verdict.known_faults.iter_mut().find(|count| count.fault == fault) {
+            Some(count) => count.pixels += 1,
+            None => self.verdict.known_faults.push(FaultCount { fault, pixels: 1 }),
+        }
+        true
+    }
+
     fn color(picture: &Picture, attachment: usize, pixel: usize) -> [f64; 4] {
         picture.attachments.get(attachment).and_then(|colors| colors.get(pixel)).copied().unwrap_or([0.0; 4])
     }
 
-    fn bound(&self, attachment: usize, pixel: usize) -> [f64; 4] {
+    fn ranges(picture: &Picture, attachment: usize, pixel: usize) -> [Range; 4] {
+        let found = picture.ranges.as_ref().and_then(|ranges| ranges.get(attachment)?.get(pixel)).copied();
+        found.unwrap_or_else(|| Self::color(picture, attachment, pixel).map(Range::point))
+    }
+
+    /// What each channel may be.
+    fn allowed(&self, attachment: usize, pixel: usize) -> [Range; 4] {
         match self.judge {
-            Judge::Tolerance(tolerance) => [tolerance; 4],
-            Judge::Bound => self
-                .cpu
-                .bounds
-                .as_ref()
-                .and_then(|bounds| bounds.get(attachment)?.get(pixel))
-                .copied()
-                .unwrap_or([0.0; 4]),
+            Judge::Tolerance(tolerance) => {
+                Self::color(self.cpu, attachment, pixel).map(|value| Range::around(value, tolerance))
+            }
+            Judge::Envelope => Self::ranges(self.cpu, attachment, pixel),
         }
     }
 
     fn judge_channels(&self, attachment: usize, pixel: usize) -> PixelError {
         let gpu = Self::color(self.gpu, attachment, pixel);
         let cpu = Self::color(self.cpu, attachment, pixel);
-        let bound = self.bound(attachment, pixel);
+        let allowed = self.allowed(attachment, pixel);
         let mut error = PixelError::default();
-        for ((gpu, cpu), bound) in gpu.into_iter().zip(cpu).zip(bound) {
+        for ((gpu, cpu), range) in gpu.into_iter().zip(cpu).zip(allowed) {
             error.non_finite[0] |= !gpu.is_finite();
             error.non_finite[1] |= !cpu.is_finite();
+            let inside = range.contains(gpu);
             match (gpu.is_finite(), cpu.is_finite()) {
                 (true, true) => {
-                    let difference = (gpu - cpu).abs();
-                    // A bound that is not a number allows nothing.
-                    error.outside |= difference > bound || bound.is_nan();
-                    let share = if difference == 0.0 { 0.0 } else { difference / bound.max(f64::MIN_POSITIVE) };
+                    error.outside |= !inside;
+                    let (difference, room) = ((gpu - cpu).abs(), range.room(cpu, gpu));
+                    let share = match difference == 0.0 {
+                        true => 0.0,
+                        false => difference / room.max(f64::MIN_POSITIVE),
+                    };
                     error.share = error.share.max(share);
                 }
                 (false, false) => {}
-                _ => error.finiteness_mismatch += 1,
+                _ => error.finiteness_mismatch += u64::from(!inside),
             }
         }
         error
@@ -255,12 +360,17 @@ impl<'a> Tally<'a> {
 
     fn worst_at(&self, attachment: usize, pixel: usize) -> Worst {
         let width = (self.cpu.width as usize).max(1);
+        let (gpu, cpu) = (Self::color(self.gpu, attachment, pixel), Self::color(self.cpu, attachment, pixel));
+        let ranges = self.allowed(attachment, pixel);
         Worst {
             x: (pixel % width) as u32,
             y: (pixel / width) as u32,
-            gpu: Self::color(self.gpu, attachment, pixel),
-            cpu: Self::color(self.cpu, attachment, pixel),
-            bound: self.bound(attachment, pixel),
+            attachment: attachment as u32,
+            gpu,
+            cpu,
+            bound: std::array::from_fn(|k| ranges[k].room(cpu[k], gpu[k])),
+            low: ranges.map(|range| range.low),
+            high: ranges.map(|range| range.high),
         }
     }
 
@@ -283,7 +393,7 @@ pub fn ulp_f32(value: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{Judge, Picture, Verdict, ulp_f32};
+    use super::*;
 
     fn picture(values: &[f64]) -> Picture {
         let n = values.len();
@@ -292,7 +402,9 @@ mod tests {
             height: 1,
             attachments: vec![values.iter().map(|&value| [value, 0.0, 0.0, 1.0]).collect()],
             covered: vec![true; n],
-            bounds: Some(vec![vec![[1e-6; 4]; n]]),
+            ranges: Some(vec![
+                values.iter().map(|&value| [value, 0.0, 0.0, 1.0].map(|value| Range::around(value, 1e-6))).collect(),
+            ]),
             undecided: vec![false; n],
             near_edge: vec![false; n],
         }
@@ -300,15 +412,15 @@ mod tests {
 
     #[test]
     fn equal_pictures_hold() {
-        let verdict = Verdict::new(&picture(&[0.5, 1.0]), &picture(&[0.5, 1.0]), Judge::Bound);
+        let verdict = Verdict::new(&picture(&[0.5, 1.0]), &picture(&[0.5, 1.0]), Judge::Envelope);
         assert!(verdict.holds(false));
         assert_eq!((verdict.max_abs, verdict.psnr, verdict.covered), (0.0, None, 2));
     }
 
     #[test]
-    fn a_pixel_outside_its_bound_is_found() {
+    fn a_pixel_outside_its_envelope_is_found() {
         let (gpu, cpu) = (picture(&[0.5, 0.25, 0.5]), picture(&[0.5, 0.5, 0.5 + 5e-7]));
-        let verdict = Verdict::new(&gpu, &cpu, Judge::Bound);
+        let verdict = Verdict::new(&gpu, &cpu, Judge::Envelope);
         assert_eq!((verdict.outside, verdict.max_abs), (1, 0.25));
         assert_eq!(verdict.worst.map(|worst| (worst.x, worst.y)), Some((1, 0)));
         assert!(!verdict.holds(true));
@@ -323,24 +435,59 @@ mod tests {
         gpu.covered = vec![false, false, true, true];
         cpu.near_edge[1] = true;
         cpu.undecided[2] = true;
-        let verdict = Verdict::new(&gpu, &cpu, Judge::Bound);
-        assert_eq!((verdict.coverage_mismatch, verdict.edge_pixels, verdict.undecided, verdict.outside), (1, 1, 1, 0));
+        let verdict = Verdict::new(&gpu, &cpu, Judge::Envelope);
+        // The undecided one is outside of its envelope all the same.
+        assert_eq!((verdict.coverage_mismatch, verdict.edge_pixels, verdict.undecided, verdict.outside), (1, 1, 1, 1));
         assert_eq!((verdict.covered, verdict.max_abs), (2, 0.0));
+    }
+
+    #[test]
+    fn an_undecided_pixel_may_be_uncovered_and_may_be_covered_by_what_its_envelope_holds() {
+        let mut gpu = picture(&[1.0, 1.0]);
+        let mut cpu = picture(&[1.0, 1.0]);
+        gpu.covered = vec![false, true];
+        cpu.covered = vec![true, false];
+        cpu.undecided = vec![true, true];
+        let verdict = Verdict::new(&gpu, &cpu, Judge::Envelope);
+        assert_eq!((verdict.undecided, verdict.coverage_mismatch, verdict.outside), (2, 0, 0));
+    }
+
+    #[test]
+    fn what_a_known_fault_explains_counts_under_its_name() {
+        let (gpu, cpu) = (picture(&[0.5, 0.25, f64::NAN]), picture(&[0.5, 0.5, 0.5]));
+        let mut wide = cpu.clone();
+        for colors in wide.ranges.iter_mut().flatten() {
+            colors.iter_mut().for_each(|color| color[0] = Range { low: 0.2, high: 0.5, may_be_nan: false });
+        }
+        let verdict = Verdict::admitting(&gpu, &cpu, Judge::Envelope, &[("none", cpu.clone()), ("acos", wide)]);
+        assert_eq!((verdict.outside, verdict.finiteness_mismatch), (0, 1), "NaN is in neither");
+        assert_eq!(verdict.known_faults, [FaultCount { fault: "acos", pixels: 1 }]);
+    }
+
+    #[test]
+    fn numbers_that_are_not_finite_hold_where_the_envelope_has_them() {
+        let (gpu, mut cpu) = (picture(&[f64::NAN, f64::INFINITY]), picture(&[0.0, 0.0]));
+        for colors in cpu.ranges.iter_mut().flatten() {
+            colors.iter_mut().for_each(|color| color[0] = Range::ALL);
+        }
+        let verdict = Verdict::new(&gpu, &cpu, Judge::Envelope);
+        assert_eq!((verdict.non_finite_gpu, verdict.finiteness_mismatch), (2, 0));
+        assert!(verdict.holds(false));
     }
 
     #[test]
     fn undecided_pixels_are_accepted_up_to_one_percent() {
         let (gpu, mut cpu) = (picture(&[0.0; 200]), picture(&[0.0; 200]));
         cpu.undecided[..2].fill(true);
-        assert!(Verdict::new(&gpu, &cpu, Judge::Bound).holds(false));
+        assert!(Verdict::new(&gpu, &cpu, Judge::Envelope).holds(false));
         cpu.undecided[..3].fill(true);
-        let verdict = Verdict::new(&gpu, &cpu, Judge::Bound);
+        let verdict = Verdict::new(&gpu, &cpu, Judge::Envelope);
         assert!(!verdict.holds(false) && verdict.holds(true));
     }
 
     #[test]
     fn numbers_that_are_not_finite_are_counted_apart() {
-        let verdict = Verdict::new(&picture(&[f64::NAN, f64::INFINITY]), &picture(&[0.0, f64::NAN]), Judge::Bound);
+        let verdict = Verdict::new(&picture(&[f64::NAN, f64::INFINITY]), &picture(&[0.0, f64::NAN]), Judge::Envelope);
         assert_eq!((verdict.non_finite_gpu, verdict.non_finite_cpu, verdict.finiteness_mismatch), (2, 1, 1));
         assert_eq!(verdict.max_abs, 0.0);
         assert!(!verdict.holds(true));

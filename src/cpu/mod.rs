@@ -16,7 +16,8 @@ mod texture;
 use crate::compare::Picture;
 use crate::diagnostic::Diagnostic;
 use crate::scene::Scene;
-use domain::{Bound, F32, F64};
+use domain::faults::Faults;
+use domain::{Envelope, F32, F64};
 
 /// What numbers the reference computes with.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -26,8 +27,8 @@ pub enum Precision {
     F64,
     /// IEEE f32, one rounding an operation: a strict GPU.
     F32,
-    /// f64 with a bound on how far a conforming GPU may be off.
-    Bound,
+    /// f64 with the interval of what a conforming GPU may have in its place.
+    Envelope,
 }
 
 /// Which pixels a line covers, and what becomes of a point whose center lies outside the window.
@@ -49,11 +50,13 @@ pub struct RenderOptions {
     pub lines: LineRule,
     /// Whether pixels near edges are marked ([`Picture::near_edge`]): wanted for a comparison, and it takes time.
     pub mark_edges: bool,
+    /// Faults of a driver that envelopes admit beside what the specifications do.
+    pub faults: Faults,
 }
 
 impl Default for RenderOptions {
     fn default() -> Self {
-        Self { precision: Precision::F64, lines: LineRule::OpenGl, mark_edges: true }
+        Self { precision: Precision::F64, lines: LineRule::OpenGl, mark_edges: true, faults: Faults::NONE }
     }
 }
 
@@ -65,6 +68,6 @@ pub fn render(scene: &Scene, options: &RenderOptions) -> Result<Picture, Vec<Dia
     match options.precision {
         Precision::F64 => pipeline::render::<F64>(scene, options),
         Precision::F32 => pipeline::render::<F32>(scene, options),
-        Precision::Bound => pipeline::render::<Bound>(scene, options),
+        Precision::Envelope => pipeline::render::<Envelope>(scene, options),
     }
 }

@@ -74,7 +74,7 @@ mod tests {
             height: 1,
             attachments: vec![reds.iter().map(|&red| [red, 0.0, 0.0, 1.0]).collect()],
             covered: covered.to_vec(),
-            bounds: None,
+            ranges: None,
             undecided: vec![false; reds.len()],
             near_edge: vec![false; reds.len()],
         }

@@ -164,7 +164,7 @@ mod tests {
             height: 64,
             attachments: vec![(0..side * side).map(shade).collect()],
             covered: (0..side * side).map(inside).collect(),
-            bounds: None,
+            ranges: None,
             undecided: vec![false; side * side],
             near_edge: vec![false; side * side],
         }

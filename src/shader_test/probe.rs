@@ -120,7 +120,7 @@ mod unit {
             height: 2,
             attachments: vec![vec![[0.0; 4], nan, [1.0, 0.0, 0.0, 1.0], [0.0, 0.5, 0.0, 1.0]]],
             covered: vec![true; 4],
-            bounds: None,
+            ranges: None,
             undecided: vec![false; 4],
             near_edge: vec![false; 4],
         }

@@ -535,6 +535,7 @@ fn verify_prints_the_figures_of_the_contract() {
         "judged_by",
         "outside",
         "undecided",
+        "known_faults",
         "worst",
         "gpu_ms",
         "cpu_ms",
@@ -542,7 +543,7 @@ fn verify_prints_the_figures_of_the_contract() {
         assert!(figures.get(key).is_some(), "{key} is missing in {figures}");
     }
     assert_eq!((figures["pixels"].as_u64(), figures["covered"].as_u64()), (Some(128), Some(128)));
-    assert_eq!((figures["judged_by"].as_str(), figures["outside"].as_u64()), (Some("bound"), Some(0)));
+    assert_eq!((figures["judged_by"].as_str(), figures["outside"].as_u64()), (Some("envelope"), Some(0)));
     assert_eq!(figures["runs"].as_array().map(Vec::len), Some(2), "by SPIR-V and by WGSL");
     let strict = place.run(&["verify", "s.toml", "--tolerance", "0", "--via", "spirv"]);
     assert_eq!(code(&strict), 1, "{}", out(&strict));

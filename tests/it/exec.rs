@@ -2,7 +2,7 @@
 //! every domain without a panic.
 
 use crate::support::{Beside, Shader, shaders_under};
-use glisten::cpu::domain::{Bound, Domain, F32, F64, Integer, Number};
+use glisten::cpu::domain::{Domain, Envelope, F32, F64, Integer, Number};
 use glisten::cpu::exec::{Code, LANES, Machine, Mask};
 use glisten::hir::Stage;
 use glisten::link::Program;
@@ -45,7 +45,7 @@ fn every_valid_fixture_runs() {
             Ok(code) => {
                 run::<F64>(&code, &program, shader.stage);
                 run::<F32>(&code, &program, shader.stage);
-                run::<Bound>(&code, &program, shader.stage);
+                run::<Envelope>(&code, &program, shader.stage);
                 count += 1;
             }
             Err(errors) => {

@@ -36,7 +36,7 @@ fn load(path: &Path) -> Scene {
 }
 
 fn reference(scene: &Scene) -> glisten::compare::Picture {
-    let options = RenderOptions { precision: Precision::Bound, lines: LineRule::Vulkan, ..RenderOptions::default() };
+    let options = RenderOptions { precision: Precision::Envelope, lines: LineRule::Vulkan, ..RenderOptions::default() };
     cpu::render(scene, &options).expect("the reference draws every scene of the fixtures")
 }
 
@@ -50,7 +50,7 @@ fn the_textbook_programs_agree_with_the_reference_at_their_full_size() {
         assert!(reference.covered.contains(&true), "{}: nothing is drawn", path.display());
         for via in [Via::Spirv, Via::Wgsl] {
             let picture = gpu.render(&scene, via).unwrap_or_else(|error| panic!("{}: {error}", path.display())).picture;
-            let verdict = Verdict::new(&picture, &reference, Judge::Bound);
+            let verdict = Verdict::new(&picture, &reference, Judge::Envelope);
             if !verdict.holds(false) {
                 wrong.push(format!("{} via {}: {verdict:#?}", path.display(), via.name()));
             }

@@ -116,7 +116,7 @@ fn reference(app: &App, draw: Draw) -> Picture {
     let loaded = scene::load(&path.to_string_lossy(), &DiskFiles, &compiler);
     let messages: Vec<_> = loaded.diagnostics.iter().map(|found| &found.message).collect();
     let scene = loaded.scene.unwrap_or_else(|| panic!("{messages:?}\n{text}"));
-    let options = RenderOptions { precision: Precision::Bound, lines: LineRule::Vulkan, mark_edges: true };
+    let options = RenderOptions { precision: Precision::Envelope, lines: LineRule::Vulkan, ..RenderOptions::default() };
     cpu::render(&scene, &options).expect("the reference draws")
 }
 
@@ -410,7 +410,7 @@ impl Host {
             width: SIDE,
             height: SIDE,
             covered: pixels.iter().map(|pixel| pixel[3] != 0.0).collect(),
-            bounds: None,
+            ranges: None,
             undecided: vec![false; pixels.len()],
             near_edge: vec![false; pixels.len()],
             attachments: vec![pixels],
@@ -651,7 +651,7 @@ fn a_host_that_knows_the_reflection_alone_draws_the_picture() {
         let reference = reference(&app, draw);
         let covered = reference.covered.iter().filter(|covered| **covered).count();
         assert!(covered > if draw.points { 60 } else { 900 }, "{covered} pixels are covered");
-        let verdict = Verdict::new(&picture, &reference, Judge::Bound);
+        let verdict = Verdict::new(&picture, &reference, Judge::Envelope);
         if !verdict.holds(false) {
             wrong.push(format!("{flags:?} as {extension}: {verdict:#?}"));
         }

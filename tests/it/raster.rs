@@ -66,7 +66,12 @@ struct Count {
 fn count(scene: &Scene) -> Count {
     let gpu = Gpu::new(None).expect("this test needs Mesa's Vulkan driver: apt-get install mesa-vulkan-drivers");
     let drawn = gpu.render(scene, Via::Spirv).expect("the scene draws").picture;
-    let options = RenderOptions { precision: Precision::F32, lines: LineRule::Vulkan, mark_edges: false };
+    let options = RenderOptions {
+        precision: Precision::F32,
+        lines: LineRule::Vulkan,
+        mark_edges: false,
+        ..RenderOptions::default()
+    };
     let reference = glisten::cpu::render(scene, &options).expect("the reference draws");
     let (drawn, reference) = (&drawn.attachments[0], &reference.attachments[0]);
     let differing =
@@ -143,7 +148,12 @@ fn shared_edges_are_drawn_once() {
         }
     }
     let scene = scene("triangles", &vertices, 3, None);
-    let options = RenderOptions { precision: Precision::F64, lines: LineRule::OpenGl, mark_edges: false };
+    let options = RenderOptions {
+        precision: Precision::F64,
+        lines: LineRule::OpenGl,
+        mark_edges: false,
+        ..RenderOptions::default()
+    };
     let picture = glisten::cpu::render(&scene, &options).expect("the reference draws");
     // Clipping puts new corners on the rim of the window; inside it every pixel is drawn exactly once.
     let wrong = (0..SIDE * SIDE).filter(|&pixel| picture.attachments[0][pixel][0] != 1.0).count();
@@ -185,7 +195,12 @@ fn points_whose_centers_lie_outside() {
     assert_few(&count(&outer), 0);
     // OpenGL discards them: what it draws is what the points inside alone draw.
     let inside: Vec<Vertex> = vertices.into_iter().filter(|[x, y, ..]| x.abs() <= 1.0 && y.abs() <= 1.0).collect();
-    let options = RenderOptions { precision: Precision::F32, lines: LineRule::OpenGl, mark_edges: false };
+    let options = RenderOptions {
+        precision: Precision::F32,
+        lines: LineRule::OpenGl,
+        mark_edges: false,
+        ..RenderOptions::default()
+    };
     let fragments = |scene: &Scene| -> f64 {
         let picture = glisten::cpu::render(scene, &options).expect("the reference draws");
         picture.attachments[0].iter().map(|pixel| pixel[0]).sum()
@@ -222,7 +237,12 @@ fn lines_by_the_rule_of_vulkan() {
 #[test]
 fn every_scene_of_the_repository_agrees_with_lavapipe() {
     let gpu = Gpu::new(None).expect("this test needs Mesa's Vulkan driver: apt-get install mesa-vulkan-drivers");
-    let options = RenderOptions { precision: Precision::Bound, lines: LineRule::Vulkan, mark_edges: true };
+    let options = RenderOptions {
+        precision: Precision::Envelope,
+        lines: LineRule::Vulkan,
+        mark_edges: true,
+        ..RenderOptions::default()
+    };
     let mut failures = Vec::new();
     // Mesa 22.3 finds its way along an edge that it clips by the difference of x alone; here x is the same at both ends.
     let faulty = "behind_the_eye_noperspective.toml";
@@ -244,7 +264,7 @@ fn every_scene_of_the_repository_agrees_with_lavapipe() {
         for via in if sized { &[Via::Spirv][..] } else { &[Via::Spirv, Via::Wgsl] } {
             match gpu.render(&scene, *via) {
                 Ok(rendered) => {
-                    let verdict = Verdict::new(&rendered.picture, &reference, Judge::Bound);
+                    let verdict = Verdict::new(&rendered.picture, &reference, Judge::Envelope);
                     if !verdict.holds(false) {
                         failures.push(format!("{path} by {}: {verdict:?}", via.name()));
                     }
@@ -260,7 +280,12 @@ fn every_scene_of_the_repository_agrees_with_lavapipe() {
 fn noperspective_is_linear_in_the_window_behind_the_eye_too() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/scenes/core/behind_the_eye_noperspective.toml");
     let scene = load(path, &DiskFiles, &Compiler::new(Options::default())).scene.expect("another test loads it");
-    let options = RenderOptions { precision: Precision::F64, lines: LineRule::OpenGl, mark_edges: false };
+    let options = RenderOptions {
+        precision: Precision::F64,
+        lines: LineRule::OpenGl,
+        mark_edges: false,
+        ..RenderOptions::default()
+    };
     let picture = glisten::cpu::render(&scene, &options).expect("the reference draws");
     // The corners of the scene after the division by w; the first lies behind the eye. Red is 1 there, green and blue
     // at the others.

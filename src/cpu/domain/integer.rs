@@ -11,10 +11,21 @@ pub trait Integer: Copy + Default + Send + Sync + Debug + 'static {
     fn from_bits(bits: u32) -> Self;
     /// The bits, those of the most likely value where they are not sure.
     fn bits(self) -> u32;
-    /// These bits, perhaps not those of every conforming GPU; domains without bounds forget the doubt.
-    fn with_doubt(bits: u32, doubt: bool) -> Self {
-        let _ = doubt;
+    /// These bits, or those of another `int` between both ends; only domains with envelopes keep the choice.
+    fn with_choices(bits: u32, low: i32, high: i32) -> Self {
+        let _ = (low, high);
         Self::from_bits(bits)
+    }
+    /// The interval of `int`s that a conforming GPU may have.
+    #[inline(always)]
+    fn choices(self) -> (i32, i32) {
+        (self.bits() as i32, self.bits() as i32)
+    }
+    /// The choices of both, with this one's bits.
+    #[inline(always)]
+    fn joined(self, other: Self) -> Self {
+        let _ = other;
+        self
     }
     /// Whether every conforming GPU has these bits.
     fn sure(self) -> bool {
@@ -34,6 +45,21 @@ pub trait Integer: Copy + Default + Send + Sync + Debug + 'static {
     #[inline(always)]
     fn is_true(self) -> bool {
         self.bits() != 0
+    }
+    /// `!a` of a `bool`.
+    #[inline(always)]
+    fn not(self) -> Self {
+        self.lift1(|bits| bits ^ 1)
+    }
+    /// `-a`
+    #[inline(always)]
+    fn neg(self) -> Self {
+        self.lift1(u32::wrapping_neg)
+    }
+    /// `min(max(a, 0), last)` of `int`s: an index limited into range.
+    #[inline(always)]
+    fn clamp_index(self, last: Self) -> Self {
+        self.lift2(last, |a, last| (a as i32).min(last as i32).max(0) as u32)
     }
     /// `a + b`
     #[inline(always)]

@@ -7,14 +7,15 @@
 //! | --- | --- | --- |
 //! | [`F64`] | an f64 | is f64's: the reference |
 //! | [`F32`] | an f32 | rounds once; a built-in function is computed in f64 and rounded once: a strict GPU |
-//! | [`Bound`] | an f64 and a first-order bound on a GPU's distance from it | adds the ULPs of [`rules`] |
+//! | [`Envelope`] | an f64 and the interval of what a GPU may have instead | gives the hull of what [`rules`] allow |
 //! | [`Shadow`] | an f32 and an f64 side by side | is done in both: what f32 adds is seen |
 //!
 //! *Holds:* every operation is total: nothing panics, whatever the bits. What GLSL leaves undefined is defined here,
 //! beside the operation. Comparisons give [`Integer`]s, so that a domain may leave an answer open
 //! ([`Integer::sure`]); the executor asks only where the answer decides what runs.
 
-mod bound;
+mod envelope;
+pub mod faults;
 mod integer;
 mod number;
 pub mod rules;
@@ -22,7 +23,7 @@ mod shadow;
 mod single;
 mod wide;
 
-pub use bound::{BoundFloat, BoundInt};
+pub use envelope::{EnvelopeFloat, EnvelopeInt};
 pub use integer::Integer;
 pub use number::Number;
 pub use shadow::{ShadowFloat, ShadowInt, Shadowed};
@@ -33,8 +34,10 @@ pub trait Domain: Copy + Send + Sync + std::fmt::Debug + 'static {
     type Float: Number<Int = Self::Int>;
     /// The `int`, `uint` (as bits) and `bool` (0 or 1).
     type Int: Integer;
-    /// `f64`, `f32`, `bound`
+    /// `f64`, `f32`, `envelope`
     const NAME: &'static str;
+    /// Whether answers may be open: more than one may be a conforming GPU's.
+    const OPEN: bool = <Self::Float as Number>::OPEN;
 }
 
 /// The reference: IEEE f64.
@@ -45,9 +48,9 @@ pub struct F64;
 #[derive(Clone, Copy, Debug)]
 pub struct F32;
 
-/// f64 with a running bound on what a conforming f32 GPU may differ by.
+/// f64 with the interval of what a conforming f32 GPU may have in its place.
 #[derive(Clone, Copy, Debug)]
-pub struct Bound;
+pub struct Envelope;
 
 impl Domain for F64 {
     type Float = f64;
@@ -61,10 +64,10 @@ impl Domain for F32 {
     const NAME: &'static str = "f32";
 }
 
-impl Domain for Bound {
-    type Float = BoundFloat;
-    type Int = BoundInt;
-    const NAME: &'static str = "bound";
+impl Domain for Envelope {
+    type Float = EnvelopeFloat;
+    type Int = EnvelopeInt;
+    const NAME: &'static str = "envelope";
 }
 
 /// f32 and f64 side by side.

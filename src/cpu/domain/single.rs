@@ -12,16 +12,8 @@ impl Number for f32 {
         value as f32
     }
     #[inline(always)]
-    fn with_error(value: f64, _: f64) -> Self {
-        value as f32
-    }
-    #[inline(always)]
     fn value(self) -> f64 {
         f64::from(self)
-    }
-    #[inline(always)]
-    fn error(self) -> f64 {
-        0.0
     }
     #[inline(always)]
     fn widen(self) -> f64 {

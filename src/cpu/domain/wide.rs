@@ -20,16 +20,8 @@ impl Number for f64 {
         value
     }
     #[inline(always)]
-    fn with_error(value: f64, _: f64) -> Self {
-        value
-    }
-    #[inline(always)]
     fn value(self) -> f64 {
         self
-    }
-    #[inline(always)]
-    fn error(self) -> f64 {
-        0.0
     }
     #[inline(always)]
     fn widen(self) -> Self {

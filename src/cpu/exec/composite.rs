@@ -55,6 +55,9 @@ type Wide<D> = <<D as Domain>::Float as Number>::Wide;
 
 #[inline(always)]
 fn dot<W: Number, const N: usize>(a: &Vector<W, N>, b: &Vector<W, N>) -> Few<W> {
+    if W::OPEN {
+        return Few(std::array::from_fn(|lane| W::sum((0..N).map(|k| a[k].0[lane].mul(b[k].0[lane])))));
+    }
     let mut sum = a[0].mul(b[0]);
     for k in 1..N {
         sum = sum.add(a[k].mul(b[k]));
@@ -62,15 +65,24 @@ fn dot<W: Number, const N: usize>(a: &Vector<W, N>, b: &Vector<W, N>) -> Few<W> 
     sum
 }
 
+/// `dot(a, a)`
+#[inline(always)]
+fn squared<W: Number, const N: usize>(a: &Vector<W, N>) -> Few<W> {
+    if W::OPEN {
+        return Few(std::array::from_fn(|lane| W::sum((0..N).map(|k| a[k].0[lane].square()))));
+    }
+    dot(a, a)
+}
+
 #[inline(always)]
 fn length<W: Number, const N: usize>(a: &Vector<W, N>) -> Few<W> {
-    dot(a, a).map(W::sqrt)
+    squared(a).map(W::sqrt)
 }
 
 #[inline(always)]
 fn normalize<W: Number, const N: usize>(a: &Vector<W, N>) -> Vector<W, N> {
-    let scale = dot(a, a).map(W::inversesqrt);
-    a.map(|component| component.mul(scale))
+    let scale = squared(a).map(W::inversesqrt);
+    a.map(|component| component.mul(scale).map(W::cosine_at_most))
 }
 
 #[inline(always)]
@@ -190,6 +202,9 @@ impl<D: Domain> Registers<D> {
         match op {
             Composite::Length => self.each_few::<N, 1>(results, arguments, |a| [length(a)]),
             Composite::Normalize => self.each_few::<N, N>(results, arguments, normalize),
+            Composite::Dot if D::OPEN && arguments.get(..N) == arguments.get(N..) => {
+                self.each_few::<N, 1>(results, arguments, |a| [squared(a)]);
+            }
             Composite::Dot => {
                 self.each_few::<N2, 1>(results, arguments, |a| [dot::<_, N>(&vector(a, 0), &vector(a, 1))])
             }

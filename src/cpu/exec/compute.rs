@@ -4,36 +4,20 @@ use super::code::Section;
 use super::inst::{Compare, Derivative, Float1, Float2, Float3, FloatToInt, Inst, Int1, Int2, IntToFloat, Operand};
 use super::registers::{Registers, Source, map1, map2, map3};
 use super::{DFDY_SIGN, LANES};
+use crate::cpu::domain::faults::{self, Fault};
 use crate::cpu::domain::{Domain, Integer, Number};
 
 type Float<D> = <D as Domain>::Float;
-
-/// A built-in function: computed wide, rounded once.
-#[inline(always)]
-fn once1<N: Number>(a: N, f: impl Fn(N::Wide) -> N::Wide) -> N {
-    N::narrow(f(a.widen()))
-}
 
 #[inline(always)]
 fn constant<N: Number>(value: f64) -> N {
     N::from_f64(value)
 }
 
-/// `x - y floor(x / y)` (§8.3)
-fn modulo<N: Number>(x: N, y: N) -> N {
-    x.sub(y.mul(x.div(y).floor()))
-}
-
-/// `x (1 - a) + y a` (§8.3)
+/// A product with what is no float, rounded once.
 #[inline(always)]
-fn mix<N: Number>(x: N, y: N, a: N) -> N {
-    x.mul(constant::<N>(1.0).sub(a)).add(y.mul(a))
-}
-
-/// `t t (3 - 2 t)` with `t = clamp((x - edge0) / (edge1 - edge0), 0, 1)` (§8.3)
-fn smoothstep<N: Number>(edge0: N, edge1: N, x: N) -> N {
-    let t = x.sub(edge0).div(edge1.sub(edge0)).max(constant(0.0)).min(constant(1.0));
-    t.mul(t).mul(constant::<N>(3.0).sub(t.mul(constant(2.0))))
+fn scaled<N: Number>(x: N, factor: f64) -> N {
+    N::narrow(x.widen().mul(constant(factor)))
 }
 
 fn float1<N: Number>(op: Float1, out: &mut [N; LANES], a: Source<'_, N>) {
@@ -45,7 +29,7 @@ fn float1<N: Number>(op: Float1, out: &mut [N; LANES], a: Source<'_, N>) {
         Float1::Ceil => map1(out, a, N::ceil),
         Float1::Trunc => map1(out, a, N::trunc),
         Float1::Round => map1(out, a, N::round),
-        Float1::Fract => map1(out, a, |x| once1(x, |x| x.sub(x.floor()))),
+        Float1::Fract => map1(out, a, N::fract),
         Float1::Sqrt => map1(out, a, N::sqrt),
         Float1::Inversesqrt => map1(out, a, N::inversesqrt),
         Float1::Exp => map1(out, a, N::exp),
@@ -64,8 +48,8 @@ fn float1<N: Number>(op: Float1, out: &mut [N; LANES], a: Source<'_, N>) {
         Float1::Asinh => map1(out, a, N::asinh),
         Float1::Acosh => map1(out, a, N::acosh),
         Float1::Atanh => map1(out, a, N::atanh),
-        Float1::Radians => map1(out, a, |x| once1(x, |x| x.mul(constant(std::f64::consts::PI / 180.0)))),
-        Float1::Degrees => map1(out, a, |x| once1(x, |x| x.mul(constant(180.0 / std::f64::consts::PI)))),
+        Float1::Radians => map1(out, a, |x| scaled(x, std::f64::consts::PI / 180.0)),
+        Float1::Degrees => map1(out, a, |x| scaled(x, 180.0 / std::f64::consts::PI)),
     }
 }
 
@@ -78,7 +62,7 @@ fn float2<N: Number>(op: Float2, out: &mut [N; LANES], a: Source<'_, N>, b: Sour
         Float2::Div => map2(out, a, b, N::div),
         Float2::Min => map2(out, a, b, N::min),
         Float2::Max => map2(out, a, b, N::max),
-        Float2::Mod => map2(out, a, b, |x, y| N::narrow(modulo(x.widen(), y.widen()))),
+        Float2::Mod => map2(out, a, b, N::modulo),
         Float2::Pow => map2(out, a, b, N::pow),
         Float2::Atan2 => map2(out, a, b, N::atan2),
         Float2::Step => map2(out, a, b, |edge, x| N::select(x.less(edge), constant(0.0), constant(1.0))),
@@ -87,11 +71,9 @@ fn float2<N: Number>(op: Float2, out: &mut [N; LANES], a: Source<'_, N>, b: Sour
 
 fn float3<N: Number>(op: Float3, out: &mut [N; LANES], a: Source<'_, N>, b: Source<'_, N>, c: Source<'_, N>) {
     match op {
-        Float3::Mix => map3(out, a, b, c, |x, y, a| N::narrow(mix(x.widen(), y.widen(), a.widen()))),
+        Float3::Mix => map3(out, a, b, c, N::mix),
         Float3::Clamp => map3(out, a, b, c, |x, least, most| x.max(least).min(most)),
-        Float3::Smoothstep => {
-            map3(out, a, b, c, |low, high, x| N::narrow(smoothstep(low.widen(), high.widen(), x.widen())));
-        }
+        Float3::Smoothstep => map3(out, a, b, c, N::smoothstep),
     }
 }
 
@@ -101,20 +83,15 @@ fn compare<N: Number>(op: Compare, out: &mut [N::Int; LANES], a: Source<'_, N>, 
         Compare::Less => map2(out, a, b, N::less),
         Compare::LessEqual => map2(out, a, b, N::less_equal),
         Compare::Equal => map2(out, a, b, N::equal),
-        Compare::NotEqual => map2(out, a, b, |a, b| not(a.equal(b))),
+        Compare::NotEqual => map2(out, a, b, |a, b| a.equal(b).not()),
     }
-}
-
-#[inline(always)]
-fn not<I: Integer>(value: I) -> I {
-    value.lift1(|bits| bits ^ 1)
 }
 
 fn int1<I: Integer>(op: Int1, out: &mut [I; LANES], a: Source<'_, I>) {
     match op {
-        Int1::Neg => map1(out, a, |a| a.lift1(u32::wrapping_neg)),
+        Int1::Neg => map1(out, a, I::neg),
         Int1::BitNot => map1(out, a, |a| a.lift1(|a| !a)),
-        Int1::Not => map1(out, a, not),
+        Int1::Not => map1(out, a, I::not),
         Int1::Bool => map1(out, a, |a| a.lift1(|a| u32::from(a != 0))),
         Int1::Abs => map1(out, a, |a| a.lift1(|a| (a as i32).wrapping_abs() as u32)),
         Int1::Sign => map1(out, a, |a| a.lift1(|a| (a as i32).signum() as u32)),
@@ -138,7 +115,7 @@ fn int2<I: Integer>(op: Int2, out: &mut [I; LANES], a: Source<'_, I>, b: Source<
         Int2::Or => map2(out, a, b, I::or),
         Int2::Xor => map2(out, a, b, I::xor),
         Int2::Equal => map2(out, a, b, I::equal),
-        Int2::NotEqual => map2(out, a, b, |a, b| not(a.equal(b))),
+        Int2::NotEqual => map2(out, a, b, |a, b| a.equal(b).not()),
         Int2::LessSigned => map2(out, a, b, I::less_signed),
         Int2::LessUnsigned => map2(out, a, b, I::less_unsigned),
         Int2::LessEqualSigned => map2(out, a, b, I::less_equal_signed),
@@ -147,10 +124,14 @@ fn int2<I: Integer>(op: Int2, out: &mut [I; LANES], a: Source<'_, I>, b: Source<
         Int2::MinUnsigned => map2(out, a, b, |a, b| b.less_unsigned(a).select(b, a)),
         Int2::MaxSigned => map2(out, a, b, |a, b| a.less_signed(b).select(b, a)),
         Int2::MaxUnsigned => map2(out, a, b, |a, b| a.less_unsigned(b).select(b, a)),
-        Int2::ClampIndex => {
-            map2(out, a, b, |a, last| a.lift2(last, |a, last| (a as i32).min(last as i32).max(0) as u32));
-        }
+        Int2::ClampIndex => map2(out, a, b, I::clamp_index),
     }
+}
+
+/// A GPU may take one difference for the whole quad: each may be the other, too.
+#[inline(always)]
+fn either<N: Number>(a: N, b: N) -> (N, N) {
+    (a.joined(b), b.joined(a))
 }
 
 /// Differences in quads: each row and column of a quad by itself.
@@ -158,8 +139,8 @@ fn derivative<N: Number>(op: Derivative, out: &mut [N; LANES], a: &[N; LANES]) {
     let up = |upper: N, lower: N| if DFDY_SIGN < 0.0 { upper.sub(lower) } else { lower.sub(upper) };
     for (out, a) in out.chunks_exact_mut(4).zip(a.chunks_exact(4)) {
         if let ([o0, o1, o2, o3], [a0, a1, a2, a3]) = (out, a) {
-            let (top, bottom) = (a1.sub(*a0), a3.sub(*a2));
-            let (left, right) = (up(*a0, *a2), up(*a1, *a3));
+            let (top, bottom) = either(a1.sub(*a0), a3.sub(*a2));
+            let (left, right) = either(up(*a0, *a2), up(*a1, *a3));
             match op {
                 Derivative::X => (*o0, *o1, *o2, *o3) = (top, top, bottom, bottom),
                 Derivative::Y => (*o0, *o1, *o2, *o3) = (left, right, left, right),
@@ -177,13 +158,28 @@ impl<D: Domain> Registers<D> {
     #[inline(always)]
     pub(super) fn compute(&mut self, inst: &Inst, section: &Section) {
         match *inst {
-            Inst::Float1 { op, dst, a } => self.write_float(dst, |this, out| float1(op, out, this.float(a))),
+            Inst::Float1 { op, dst, a } => self.write_float(dst, |this, out| {
+                float1(op, out, this.float(a));
+                if D::OPEN && matches!(op, Float1::Asin | Float1::Acos) && this.faults.admits(Fault::ArcFunctions) {
+                    out.iter_mut().for_each(|lane| *lane = lane.widened(faults::ARC_FUNCTIONS));
+                }
+            }),
+            // One number twice is a square, which an envelope can make more of.
+            Inst::Float2 { op: Float2::Mul, dst, a, b } if D::OPEN && a == b => {
+                self.write_float(dst, |this, out| map1(out, this.float(a), Number::square));
+            }
+            Inst::MulAdd { dst, a, b, c } if D::OPEN && a == b => self.write_float(dst, |this, out| {
+                map2(out, this.float(a), this.float(c), |a: Float<D>, c| a.square().add(c));
+            }),
             Inst::Float2 { op, dst, a, b } => {
                 self.write_float(dst, |this, out| float2(op, out, this.float(a), this.float(b)));
             }
             Inst::MulAdd { dst, a, b, c } => self.write_float(dst, |this, out| {
                 map3(out, this.float(a), this.float(b), this.float(c), |a: Float<D>, b, c| a.mul(b).add(c));
             }),
+            Inst::SumOfProducts { dst, list } if D::OPEN => {
+                self.write_float(dst, |this, out| sum_in_any_order(this, section.list(list), out));
+            }
             Inst::SumOfProducts { dst, list } => {
                 self.write_float(dst, |this, out| sum_of_products(this, section.list(list), out));
             }
@@ -198,7 +194,7 @@ impl<D: Domain> Registers<D> {
                 match op {
                     FloatToInt::Int => map1(out, a, Float::<D>::to_int),
                     FloatToInt::Uint => map1(out, a, Float::<D>::to_uint),
-                    FloatToInt::Bool => map1(out, a, |a| not(a.equal(constant(0.0)))),
+                    FloatToInt::Bool => map1(out, a, |a| a.equal(constant(0.0)).not()),
                     FloatToInt::IsNan => map1(out, a, Float::<D>::isnan),
                     FloatToInt::IsInf => map1(out, a, Float::<D>::isinf),
                 }
@@ -228,6 +224,18 @@ impl<D: Domain> Registers<D> {
             // The rest is `execute`'s.
             _ => {}
         }
+    }
+}
+
+/// Lane by lane, for a domain that sums in any order.
+fn sum_in_any_order<D: Domain>(this: &Registers<D>, pairs: &[Operand], out: &mut [Float<D>; LANES]) {
+    for (lane, out) in out.iter_mut().enumerate() {
+        let products = pairs.chunks_exact(2).filter_map(|pair| match pair {
+            [a, b] if a == b => Some(this.float(*a).at(lane).square()),
+            [a, b] => Some(this.float(*a).at(lane).mul(this.float(*b).at(lane))),
+            _ => None,
+        });
+        *out = Number::sum(products);
     }
 }
 

@@ -4,13 +4,15 @@ use super::inst::{Lookup, Operand, TextureCall};
 use super::machine::Machine;
 use super::registers::Registers;
 use super::{LANES, Mask};
-use crate::cpu::domain::{Domain, Integer, Number, rules};
-use crate::cpu::texture::{self, Gradients, MISSING, Near, Request, Sampled};
+use crate::compare::Range;
+use crate::cpu::domain::faults::{self, Fault};
+use crate::cpu::domain::{Domain, Integer, Number};
+use crate::cpu::texture::{self, Bits, Gradients, MISSING, Near, Request, Sampled, Steps};
 use crate::hir::{SamplerDim, Scalar, Stage};
 use crate::scene::{Filter, Texture};
 
 impl<D: Domain> Machine<D> {
-    /// Runs a texture instruction in these lanes; gives the lanes whose texel or sampler is not sure.
+    /// Runs a texture instruction in these lanes; gives the lanes whose texture is not sure.
     pub(super) fn texture(&mut self, call: &TextureCall, stage: Stage, mask: u64) -> u64 {
         let mut undecided = 0;
         for lane in Mask(mask).lanes() {
@@ -18,16 +20,18 @@ impl<D: Domain> Machine<D> {
             let bound = self.textures.get(slot.bits() as usize).and_then(Option::as_deref);
             let lookup = At { registers: &self.registers, call, lane };
             let sampled = match (bound, call.lookup) {
-                (None, Lookup::Size) => Sampled::Bits([0; 4], true),
+                (None, Lookup::Size) => Sampled::Bits([Bits::default(); 4]),
                 (None, _) => nothing(call),
                 (Some(texture), Lookup::Size) => lookup.size(texture),
                 (Some(texture), Lookup::Fetch) => lookup.fetch(texture),
                 (Some(texture), _) => lookup.filtered(texture, stage),
             };
-            if !slot.sure() {
+            if slot.sure() {
+                self.put(call, lane, sampled);
+            } else {
                 undecided |= 1 << lane;
+                self.put(call, lane, sampled.unknown());
             }
-            self.put(call, lane, sampled);
         }
         undecided
     }
@@ -36,11 +40,13 @@ impl<D: Domain> Machine<D> {
         for (k, result) in call.results.iter().enumerate() {
             match sampled {
                 Sampled::Floats(values) => {
-                    let Near { value, error } = values[k % 4];
-                    self.registers.floats[result.number()][lane] = D::Float::with_error(value, error);
+                    let Near { value, low, high } = values[k % 4];
+                    let range = Range { low, high, may_be_nan: value.is_nan() };
+                    self.registers.floats[result.number()][lane] = D::Float::with_range(value, range);
                 }
-                Sampled::Bits(bits, sure) => {
-                    self.registers.ints[result.number()][lane] = D::Int::with_doubt(bits[k % 4], !sure);
+                Sampled::Bits(bits) => {
+                    let Bits { bits, low, high } = bits[k % 4];
+                    self.registers.ints[result.number()][lane] = D::Int::with_choices(bits, low, high);
                 }
             }
         }
@@ -51,7 +57,7 @@ fn nothing(call: &TextureCall) -> Sampled {
     if call.kind.texel == Scalar::Float || call.kind.shadow {
         Sampled::Floats(MISSING.map(Near::exact))
     } else {
-        Sampled::Bits([0, 0, 0, 1], true)
+        Sampled::Bits([0, 0, 0, 1].map(Bits::exact))
     }
 }
 
@@ -64,8 +70,13 @@ struct At<'a, D: Domain> {
 
 impl<D: Domain> At<'_, D> {
     fn near(&self, operand: Operand) -> Near {
-        let value = self.registers.float(operand).at(self.lane);
-        Near { value: value.value(), error: value.error() }
+        let number = self.registers.float(operand).at(self.lane);
+        let value = number.value();
+        if !D::OPEN {
+            return Near::exact(value);
+        }
+        let range = number.range();
+        if range.may_be_nan { Near::anything(value) } else { Near { value, low: range.low, high: range.high } }
     }
 
     fn int(&self, operand: Operand) -> D::Int {
@@ -76,33 +87,48 @@ impl<D: Domain> At<'_, D> {
         std::array::from_fn(|k| operands.get(k).map_or(Near::default(), |operand| self.near(*operand)))
     }
 
-    fn ints(&self, operands: &[Operand]) -> ([i32; 3], bool) {
-        let all = operands.iter().map(|operand| self.int(*operand));
-        let sure = all.clone().all(Integer::sure);
-        let mut bits = [0; 3];
-        bits.iter_mut().zip(all).for_each(|(to, value)| *to = value.bits() as i32);
-        (bits, sure)
+    fn ints(&self, operands: &[Operand]) -> [i32; 3] {
+        std::array::from_fn(|k| operands.get(k).map_or(0, |operand| self.int(*operand).bits() as i32))
     }
 
     fn size(&self, texture: &Texture) -> Sampled {
         let level = self.call.level.map(|level| self.int(level));
         let [x, y, z] = texture::size(texture, self.call.kind, level.map_or(0, |level| level.bits() as i32));
-        Sampled::Bits([x, y, z, 0], level.is_none_or(Integer::sure))
+        let sizes = Sampled::Bits([x, y, z, 0].map(Bits::exact));
+        if level.is_none_or(Integer::sure) { sizes } else { sizes.unknown() }
     }
 
+    /// A texel. Where the coordinates are open, the hull of those they may name, if these are few.
     fn fetch(&self, texture: &Texture) -> Sampled {
-        let (at, sure) = self.ints(&self.call.coordinate);
-        let (offset, _) = self.ints(&self.call.offset);
-        let level = self.call.level.map(|level| self.int(level));
-        let sure = sure && level.is_none_or(Integer::sure);
+        const MOST: i64 = 64;
+        let offset = self.ints(&self.call.offset);
         let offset = &offset[..self.call.offset.len().min(3)];
-        match texture::fetch(texture, self.call.kind, &at, level.map_or(0, |level| level.bits() as i32), offset) {
-            Sampled::Bits(bits, _) => Sampled::Bits(bits, sure),
-            Sampled::Floats(values) if sure => Sampled::Floats(values),
-            Sampled::Floats(values) => {
-                Sampled::Floats(values.map(|near| Near { value: near.value, error: f64::INFINITY }))
+        let level = self.call.level.map(|level| self.int(level));
+        let at = self.ints(&self.call.coordinate);
+        let of = |at: &[i32; 3]| {
+            texture::fetch(texture, self.call.kind, at, level.map_or(0, |level| level.bits() as i32), offset)
+        };
+        let likely = of(&at);
+        let mut choices = [(0, 0); 3];
+        for (choice, operand) in choices.iter_mut().zip(&self.call.coordinate) {
+            *choice = self.int(*operand).choices();
+        }
+        let count = choices.iter().map(|(low, high)| i64::from(*high) - i64::from(*low) + 1);
+        let count = count.fold(1i64, i64::saturating_mul);
+        if count > MOST || !level.is_none_or(Integer::sure) {
+            return likely.unknown();
+        }
+        let mut hull = likely;
+        if count > 1 {
+            for z in choices[2].0..=choices[2].1 {
+                for y in choices[1].0..=choices[1].1 {
+                    for x in choices[0].0..=choices[0].1 {
+                        hull = hull.joined(of(&[x, y, z]));
+                    }
+                }
             }
         }
+        hull
     }
 
     fn filtered(&self, texture: &Texture, stage: Stage) -> Sampled {
@@ -110,15 +136,14 @@ impl<D: Domain> At<'_, D> {
         let axes = self.call.coordinate.len().saturating_sub(usize::from(kind.arrayed));
         let (coordinate, layer) = self.call.coordinate.split_at(axes);
         let at = self.nears(coordinate);
-        let bounded = D::Float::with_error(0.0, 1.0).error() > 0.0;
         let request = Request {
             kind,
             at,
             layer: layer.first().map_or(Near::default(), |layer| self.near(*layer)),
             reference: self.call.reference.map_or(Near::default(), |reference| self.near(reference)),
             level: if texture.filter == Filter::Trilinear { self.level(texture, stage, at) } else { Near::default() },
-            offset: self.ints(&self.call.offset).0,
-            bounded,
+            offset: self.ints(&self.call.offset),
+            bounded: D::OPEN,
         };
         texture::sample(texture, &request)
     }
@@ -126,31 +151,61 @@ impl<D: Domain> At<'_, D> {
     /// The level of detail.
     fn level(&self, texture: &Texture, stage: Stage, at: [Near; 3]) -> Near {
         let given = self.call.level.map_or(Near::default(), |level| self.near(level));
-        let gradients = match self.call.lookup {
+        let (gradients, steps) = match self.call.lookup {
             Lookup::Lod => return given,
             Lookup::Grad => {
                 let values = |operands: &[Operand]| self.nears(operands).map(|near| near.value);
-                Gradients { dx: values(&self.call.dx), dy: values(&self.call.dy) }
+                let gradients = Gradients { dx: values(&self.call.dx), dy: values(&self.call.dy) };
+                (gradients, D::OPEN.then(|| self.given_steps()))
             }
             // Outside fragment stages there are no derivatives: the base level (§8.7).
             _ if stage != Stage::Fragment || self.call.kind.dim == SamplerDim::Rect => return given,
-            _ => self.quad_gradients(),
+            _ => (self.quad_gradients(), D::OPEN.then(|| self.quad_steps())),
         };
-        let lambda = texture::level_of_detail(texture, self.call.kind, at.map(|near| near.value), gradients);
-        Near { value: lambda + given.value, error: given.error + rules::LEVEL_OF_DETAIL.allowance.at(lambda, 0.0) }
+        let lambda =
+            texture::level_of_detail(texture, self.call.kind, at.map(|near| near.value), gradients, steps.as_ref());
+        let admitted = self.registers.faults.admits(Fault::LevelOfDetail);
+        let lambda = if admitted { lambda.widened(faults::LEVEL_OF_DETAIL) } else { lambda };
+        Near { value: lambda.value + given.value, low: lambda.low + given.low, high: lambda.high + given.high }
+    }
+
+    /// The derivatives that were given.
+    fn given_steps(&self) -> Steps {
+        let mut steps = Steps::default();
+        for operands in [&self.call.dx, &self.call.dy] {
+            operands.iter().enumerate().for_each(|(axis, operand)| steps.add(axis, self.near(*operand)));
+        }
+        steps
+    }
+
+    /// The difference of a coordinate between two lanes of the quad.
+    fn difference(&self, operand: Operand, from: usize, to: usize) -> Near {
+        let first = self.lane & !3;
+        let at = |lane: usize| At { lane: (first + lane) % LANES, ..*self }.near(operand);
+        let (a, b) = (at(from), at(to));
+        Near { value: b.value - a.value, low: b.low - a.high, high: b.high - a.low }
+    }
+
+    /// The differences of the coordinates in the lane's quad, by either row and column.
+    fn quad_steps(&self) -> Steps {
+        let mut steps = Steps::default();
+        for (axis, operand) in self.call.coordinate.iter().enumerate().take(3) {
+            let either = |a: (usize, usize), b: (usize, usize)| {
+                self.difference(*operand, a.0, a.1).joined(self.difference(*operand, b.0, b.1))
+            };
+            steps.add(axis, either((0, 1), (2, 3)));
+            steps.add(axis, either((0, 2), (1, 3)));
+        }
+        steps
     }
 
     /// Differences of the coordinates in the lane's quad.
     fn quad_gradients(&self) -> Gradients {
-        let first = self.lane & !3;
-        let difference = |operand: Operand, from: usize, to: usize| {
-            let lanes = self.registers.float(operand);
-            lanes.at((first + to) % LANES).value() - lanes.at((first + from) % LANES).value()
-        };
         let row = self.lane & 2;
         let column = self.lane & 1;
         let of = |from: usize, to: usize| -> [f64; 3] {
-            std::array::from_fn(|k| self.call.coordinate.get(k).map_or(0.0, |operand| difference(*operand, from, to)))
+            let value = |operand: &Operand| self.difference(*operand, from, to).value;
+            std::array::from_fn(|k| self.call.coordinate.get(k).map_or(0.0, value))
         };
         // The sign of a step does not matter for its length.
         Gradients { dx: of(row, row + 1), dy: of(column, column + 2) }

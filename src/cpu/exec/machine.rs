@@ -3,9 +3,10 @@
 use super::code::{Code, Inner, PoolSource, Port};
 use super::inst::Class;
 use super::observe::Observer;
+use super::paths::{Paths, couples};
 use super::registers::Registers;
-use super::run::bits_where;
 use super::{LANES, Mask};
+use crate::cpu::domain::faults::Faults;
 use crate::cpu::domain::{Domain, Integer, Number};
 use crate::hir::{GlobalId, ScalarValue};
 use crate::scene::Texture;
@@ -25,8 +26,11 @@ pub struct Machine<D: Domain> {
     pub(super) textures: Vec<Option<Arc<Texture>>>,
     pub(super) discarded: u64,
     pub(super) undecided: u64,
+    /// Lanes that may or may not be discarded.
+    pub(super) perhaps_discarded: u64,
+    pub(super) paths: Paths,
     /// For a run.
-    loop_budget: u64,
+    pub(super) loop_budget: u64,
     /// What is left in this run.
     pub(super) budget: u64,
     pub(super) budget_exceeded: bool,
@@ -39,20 +43,31 @@ impl<D: Domain> Machine<D> {
     /// A machine for the uniforms (of each root of the interface, flat) and textures (of each sampler slot) of a draw.
     /// What does not depend on the invocation is computed here, once.
     pub fn new(code: &Code, uniforms: &[Vec<ScalarValue>], textures: &[Option<Arc<Texture>>]) -> Self {
-        Self::made(code, uniforms, textures, None)
+        Self::made(Faults::NONE, code, uniforms, textures, None)
     }
 
-    /// The same, with an observer that sees what is computed once, too.
+    /// A machine in whose envelopes faults of a driver are admitted.
+    pub fn admitting(
+        faults: Faults,
+        code: &Code,
+        uniforms: &[Vec<ScalarValue>],
+        textures: &[Option<Arc<Texture>>],
+    ) -> Self {
+        Self::made(faults, code, uniforms, textures, None)
+    }
+
+    /// A machine with an observer that sees what is computed once, too.
     pub fn watched(
         code: &Code,
         uniforms: &[Vec<ScalarValue>],
         textures: &[Option<Arc<Texture>>],
         observer: Box<dyn Observer<D>>,
     ) -> Self {
-        Self::made(code, uniforms, textures, Some(observer))
+        Self::made(Faults::NONE, code, uniforms, textures, Some(observer))
     }
 
     fn made(
+        faults: Faults,
         code: &Code,
         uniforms: &[Vec<ScalarValue>],
         textures: &[Option<Arc<Texture>>],
@@ -63,11 +78,13 @@ impl<D: Domain> Machine<D> {
         let ints = inner.int_pool.iter().map(|source| int_of::<D>(*source, uniforms)).collect();
         let mut machine = Self {
             code: code.clone(),
-            registers: Registers::new(inner.preamble_results, floats, ints),
+            registers: Registers::new(inner.preamble_results, floats, ints, faults),
             slots: vec![0; inner.mask_slots],
             textures: textures.to_vec(),
             discarded: 0,
             undecided: 0,
+            perhaps_discarded: 0,
+            paths: Paths::new(couples(&inner.main, inner)),
             loop_budget: LOOP_BUDGET,
             budget: LOOP_BUDGET,
             budget_exceeded: false,
@@ -112,15 +129,18 @@ impl<D: Domain> Machine<D> {
         let inner: &Inner = &code;
         self.discarded = 0;
         self.undecided = 0;
+        self.perhaps_discarded = 0;
+        self.paths.clear();
         // Once a machine has run away it is likely to do so again: then it shall be soon.
         self.budget = if self.budget_exceeded { self.loop_budget >> 6 } else { self.loop_budget };
         self.watched = live.0;
         self.execute(&inner.main, inner, live.0 | helpers.0);
         self.show_outputs(live.0 & !self.discarded);
-        for port in inner.outputs.iter().filter(|port| port.class == Class::Int) {
-            self.undecided |= self.registers.ints.get(port.register).map_or(0, |lanes| bits_where(lanes).1);
+        if D::OPEN {
+            self.explore(live.0 | helpers.0);
         }
         self.discarded &= live.0;
+        self.perhaps_discarded &= live.0;
         self.undecided &= live.0;
     }
 
@@ -142,8 +162,14 @@ impl<D: Domain> Machine<D> {
         Mask(self.discarded)
     }
 
-    /// The lanes of the last run in which the domain could not tell which way a branch goes or which element an index
-    /// means, or what an integer output holds; they followed the value. Always empty in domains without bounds.
+    /// The lanes that the last run may or may not have discarded, by which way open conditions go; what
+    /// [`Self::discarded`] says of them follows the value. Always empty in domains without envelopes.
+    pub fn perhaps_discarded(&self) -> Mask {
+        Mask(self.perhaps_discarded)
+    }
+
+    /// The lanes of the last run that can go more ways than are run, or look up they cannot know which texture. Always
+    /// empty in domains without envelopes.
     pub fn undecided(&self) -> Mask {
         Mask(self.undecided)
     }

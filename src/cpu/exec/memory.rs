@@ -3,8 +3,7 @@
 use super::LANES;
 use super::inst::Operand;
 use super::registers::{Lanes, Registers, Source, map1, source};
-use super::run::bits_where;
-use crate::cpu::domain::{Domain, Integer};
+use crate::cpu::domain::{Domain, Integer, Number};
 
 /// The place in a table of `len` that an index means: limited into range as an `int`.
 #[inline(always)]
@@ -47,18 +46,27 @@ fn load<T: Copy, I: Integer>(
     }
 }
 
-/// Lanes where the index is not sure.
-#[inline(always)]
-fn unsure<I: Integer>(index: Source<'_, I>) -> u64 {
-    match index {
-        Source::One(value) => {
-            if value.sure() {
-                0
-            } else {
-                u64::MAX
-            }
+/// The places that an index may mean, the likely one first.
+fn places<I: Integer>(index: I, len: usize) -> (usize, std::ops::RangeInclusive<usize>) {
+    let (low, high) = index.choices();
+    (limit(index.bits(), len), limit(low as u32, len)..=limit(high as u32, len))
+}
+
+/// The elements that an open index may mean, joined to the one that it most likely means.
+fn join_others<T: Copy, I: Integer>(
+    out: &mut [T; LANES],
+    index: Source<'_, I>,
+    len: usize,
+    element: impl Fn(usize, usize) -> Option<T>,
+    join: impl Fn(T, T) -> T,
+) {
+    for (lane, out) in out.iter_mut().enumerate() {
+        let index = index.at(lane);
+        if !index.sure() {
+            let (likely, all) = places(index, len);
+            let others = all.filter(|place| *place != likely).filter_map(|place| element(place, lane));
+            *out = others.fold(*out, &join);
         }
-        Source::Lanes(lanes) => bits_where(lanes).1,
     }
 }
 
@@ -82,35 +90,57 @@ impl<D: Domain> Registers<D> {
         }
     }
 
-    pub(super) fn load_float(&mut self, dst: Operand, table: &[Operand], index: Operand) -> u64 {
-        self.write_float(dst, |this, out| load(out, &this.floats, &this.float_pool, table, this.int(index)));
-        unsure(self.int(index))
+    pub(super) fn load_float(&mut self, dst: Operand, table: &[Operand], index: Operand) {
+        self.write_float(dst, |this, out| {
+            let index = this.int(index);
+            load(out, &this.floats, &this.float_pool, table, index);
+            if D::OPEN {
+                let element = |place: usize, lane| table.get(place).map(|operand| this.float(*operand).at(lane));
+                join_others(out, index, table.len(), element, Number::joined);
+            }
+        });
     }
 
-    pub(super) fn load_int(&mut self, dst: Operand, table: &[Operand], index: Operand) -> u64 {
-        let doubt = unsure(self.int(index));
-        self.write_int(dst, |this, out| load(out, &this.ints, &this.int_pool, table, this.int(index)));
-        doubt
+    pub(super) fn load_int(&mut self, dst: Operand, table: &[Operand], index: Operand) {
+        self.write_int(dst, |this, out| {
+            let index = this.int(index);
+            load(out, &this.ints, &this.int_pool, table, index);
+            if D::OPEN {
+                let element = |place: usize, lane| table.get(place).map(|operand| this.int(*operand).at(lane));
+                join_others(out, index, table.len(), element, Integer::joined);
+            }
+        });
     }
 
-    pub(super) fn store_indexed_float(&mut self, table: &[Operand], index: Operand, a: Operand, mask: u64) -> u64 {
+    pub(super) fn store_indexed_float(&mut self, table: &[Operand], index: Operand, a: Operand, mask: u64) {
         for lane in super::Mask(mask).lanes() {
             let value = self.float(a).at(lane);
-            if let Some(home) = table.get(limit(self.int(index).at(lane).bits(), table.len())) {
-                self.floats[home.number()][lane] = value;
+            let index = self.int(index).at(lane);
+            let (likely, all) = places(index, table.len());
+            for home in all.filter_map(|place| table.get(place).map(|home| (place, home))) {
+                let old = &mut self.floats[home.1.number()][lane];
+                *old = match (index.sure(), home.0 == likely) {
+                    (true, _) => value,
+                    (false, true) => value.joined(*old),
+                    (false, false) => old.joined(value),
+                };
             }
         }
-        unsure(self.int(index)) & mask
     }
 
-    pub(super) fn store_indexed_int(&mut self, table: &[Operand], index: Operand, a: Operand, mask: u64) -> u64 {
-        let doubt = unsure(self.int(index)) & mask;
+    pub(super) fn store_indexed_int(&mut self, table: &[Operand], index: Operand, a: Operand, mask: u64) {
         for lane in super::Mask(mask).lanes() {
             let value = self.int(a).at(lane);
-            if let Some(home) = table.get(limit(self.int(index).at(lane).bits(), table.len())) {
-                self.ints[home.number()][lane] = value;
+            let index = self.int(index).at(lane);
+            let (likely, all) = places(index, table.len());
+            for home in all.filter_map(|place| table.get(place).map(|home| (place, home))) {
+                let old = &mut self.ints[home.1.number()][lane];
+                *old = match (index.sure(), home.0 == likely) {
+                    (true, _) => value,
+                    (false, true) => value.joined(*old),
+                    (false, false) => old.joined(value),
+                };
             }
         }
-        doubt
     }
 }

@@ -39,6 +39,7 @@ mod lookup;
 mod machine;
 mod memory;
 mod observe;
+mod paths;
 mod registers;
 mod run;
 #[cfg(test)]

@@ -6,6 +6,7 @@
 use super::LANES;
 use super::inst::{Class, Operand};
 use crate::cpu::domain::Domain;
+use crate::cpu::domain::faults::Faults;
 
 /// One scalar in all lanes.
 pub(super) type Lanes<T> = Box<[T; LANES]>;
@@ -21,6 +22,8 @@ pub(super) struct Registers<D: Domain> {
     pub(super) int_pool: Vec<D::Int>,
     pub(super) spare_floats: Vec<Lanes<D::Float>>,
     pub(super) spare_ints: Vec<Lanes<D::Int>>,
+    /// Faults of a driver that are admitted.
+    pub(super) faults: Faults,
 }
 
 /// What an operand stands for.
@@ -113,7 +116,7 @@ pub(super) fn map3<A: Copy, B: Copy, C: Copy, R>(
 }
 
 impl<D: Domain> Registers<D> {
-    pub(super) fn new(count: [usize; 2], float_pool: Vec<D::Float>, int_pool: Vec<D::Int>) -> Self {
+    pub(super) fn new(count: [usize; 2], float_pool: Vec<D::Float>, int_pool: Vec<D::Int>, faults: Faults) -> Self {
         let [floats, ints] = count;
         Self {
             floats: (0..floats).map(|_| blank()).collect(),
@@ -122,6 +125,7 @@ impl<D: Domain> Registers<D> {
             int_pool,
             spare_floats: (0..SPARES).map(|_| blank()).collect(),
             spare_ints: (0..SPARES).map(|_| blank()).collect(),
+            faults,
         }
     }
 

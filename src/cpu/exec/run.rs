@@ -22,16 +22,16 @@ impl<D: Domain> Machine<D> {
                 Inst::StoreFloat { dst, a } => self.registers.store_float(dst, a, mask, mask == start),
                 Inst::StoreInt { dst, a } => self.registers.store_int(dst, a, mask, mask == start),
                 Inst::LoadFloat { dst, table, index } => {
-                    self.undecided |= mask & self.registers.load_float(dst, section.list(table), index);
+                    self.registers.load_float(dst, section.list(table), index);
                 }
                 Inst::LoadInt { dst, table, index } => {
-                    self.undecided |= mask & self.registers.load_int(dst, section.list(table), index);
+                    self.registers.load_int(dst, section.list(table), index);
                 }
                 Inst::StoreIndexedFloat { table, index, a } => {
-                    self.undecided |= self.registers.store_indexed_float(section.list(table), index, a, mask);
+                    self.registers.store_indexed_float(section.list(table), index, a, mask);
                 }
                 Inst::StoreIndexedInt { table, index, a } => {
-                    self.undecided |= self.registers.store_indexed_int(section.list(table), index, a, mask);
+                    self.registers.store_indexed_int(section.list(table), index, a, mask);
                 }
                 Inst::Texture { call } => {
                     if let Some(call) = inner.textures.get(call as usize) {
@@ -107,32 +107,31 @@ impl<D: Domain> Machine<D> {
         }
     }
 
-    /// The lanes of `mask` where the condition holds. An answer that is not sure makes a lane undecided.
+    /// The lanes of `mask` where the condition holds. Where the answer is open it is decided by the lane's path.
     fn truth(&mut self, condition: Operand, mask: u64) -> u64 {
-        match self.registers.int(condition) {
-            Source::One(value) => {
-                if !value.sure() {
-                    self.undecided |= mask;
-                }
-                if value.is_true() { mask } else { 0 }
-            }
-            Source::Lanes(lanes) => {
-                let (truth, unsure) = bits_where(lanes);
-                self.undecided |= unsure & mask;
-                truth & mask
-            }
+        let (truth, open) = match self.registers.int(condition) {
+            Source::One(value) => (if value.is_true() { u64::MAX } else { 0 }, if value.sure() { 0 } else { u64::MAX }),
+            Source::Lanes(lanes) => bits_where(lanes),
+        };
+        if D::OPEN && open & mask != 0 {
+            return self.paths.decide(truth, open & mask) & mask;
         }
+        truth & mask
     }
 
     fn matching(&mut self, selector: Operand, labels: &[u32], mask: u64) -> u64 {
         let selector = self.registers.int(selector);
-        let (mut hit, mut unsure) = (0, 0);
+        let (mut hit, mut open) = (0, 0);
         for lane in 0..LANES {
             let value = selector.at(lane);
             hit |= u64::from(labels.contains(&value.bits())) << lane;
-            unsure |= u64::from(!value.sure()) << lane;
+            let (low, high) = value.choices();
+            let possible = labels.iter().any(|label| (low..=high).contains(&(*label as i32)));
+            open |= u64::from(!value.sure() && possible) << lane;
         }
-        self.undecided |= unsure & mask;
+        if D::OPEN && open & mask != 0 {
+            return self.paths.decide(hit, open & mask) & mask;
+        }
         hit & mask
     }
 }

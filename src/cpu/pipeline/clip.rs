@@ -9,6 +9,7 @@
 //! `t w_in / w`, which is right also where a driver derives it from a difference of coordinates that may be 0.
 
 use super::vertices::Vertices;
+use crate::cpu::domain::faults::Fault;
 use crate::cpu::domain::{Domain, Number};
 use crate::hir::Interpolation;
 
@@ -94,8 +95,11 @@ impl<D: Domain> Vertices<D> {
                 Interpolation::Smooth => mix(x, y, t),
                 Interpolation::Noperspective => {
                     let value = mix(x, y, in_window);
-                    let lost = self.lost_in_window(a, b) * (y.value() - x.value()).abs();
-                    D::Float::with_error(value.value(), value.error() + lost)
+                    if self.faults.admits(Fault::ClippedNoperspective) {
+                        value.widened(self.lost_in_window(a, b) * (y.value() - x.value()).abs())
+                    } else {
+                        value
+                    }
                 }
                 // Taken from the provoking vertex, never from here.
                 Interpolation::Flat => x,

@@ -10,11 +10,13 @@
 use super::assembly::Prim;
 use super::plan::Plan;
 use super::source::{Fragment, Source};
-use super::target::Bin;
+use super::target::{Bin, Test};
 use super::vertices::Vertices;
 use crate::builtin::BuiltinVariable;
+use crate::compare::Range;
+use crate::cpu::domain::faults::Faults;
 use crate::cpu::domain::{Domain, Integer, Number};
-use crate::cpu::exec::{LANES, Machine, Mask};
+use crate::cpu::exec::{Code, LANES, Machine, Mask};
 use crate::hir::{FragCoordLayout, GlobalId, Scalar, Stage, Type};
 use crate::scene::{Draw, Format, Framebuffer};
 use smallvec::SmallVec;
@@ -28,6 +30,7 @@ pub(super) struct Shading<'a, D: Domain> {
     pub(super) framebuffer: Framebuffer,
     pub(super) outputs: &'a [OutputPlan],
     pub(super) mark_edges: bool,
+    pub(super) faults: Faults,
 }
 
 /// Where a color comes from and goes to.
@@ -75,7 +78,10 @@ struct Batch<D: Domain> {
     y: [i64; LANES],
     front: [bool; LANES],
     primitive: [u32; LANES],
-    undecided: [bool; LANES],
+    /// Whether the fragment is there at all may go either way.
+    open: [bool; LANES],
+    /// Whether it is there by the values.
+    there: [bool; LANES],
     floats: Vec<[D::Float; LANES]>,
     ints: Vec<[D::Int; LANES]>,
     coord: [[D::Float; LANES]; 4],
@@ -92,7 +98,8 @@ impl<D: Domain> Batch<D> {
             y: [0; LANES],
             front: [true; LANES],
             primitive: [0; LANES],
-            undecided: [false; LANES],
+            open: [false; LANES],
+            there: [true; LANES],
             floats: vec![[D::Float::default(); LANES]; plan.floats.len()],
             ints: vec![[D::Int::default(); LANES]; plan.ints.len()],
             coord: [[D::Float::default(); LANES]; 4],
@@ -119,6 +126,11 @@ pub(super) fn draw_bin<D: Domain>(shading: &Shading<'_, D>, bin: &mut Bin<D>, li
 }
 
 impl<D: Domain> Shading<'_, D> {
+    /// A machine for the fragment stage.
+    pub(super) fn machine(&self, code: &Code) -> Machine<D> {
+        Machine::admitting(self.faults, code, &self.draw.uniforms, &self.draw.textures)
+    }
+
     /// Adds a quad to the batch, after the depth test where that comes first.
     #[expect(
         clippy::too_many_arguments,
@@ -140,17 +152,19 @@ impl<D: Domain> Shading<'_, D> {
                 source.fragment((x + (bit as i64 & 1)) as f64 + 0.5, (y + (bit as i64 >> 1)) as f64 + 0.5)
             });
             let mut live = 0;
+            let mut passed = [Test::FAILED; 4];
             for (bit, fragment) in fragments.iter().enumerate() {
                 let place = (x + (bit as i64 & 1), y + (bit as i64 >> 1));
-                if covered >> bit & 1 == 1 && self.passes_early(bin, place, fragment) {
-                    live |= 1_u64 << bit;
+                if covered >> bit & 1 == 1 {
+                    passed[bit] = self.passes_early(bin, place, fragment, prim.undecided);
+                    live |= u64::from(passed[bit].possible()) << bit;
                 }
             }
             if live == 0 {
                 return;
             }
             for (bit, fragment) in fragments.iter().enumerate() {
-                self.push(batch, prim, source, (x + (bit as i64 & 1), y + (bit as i64 >> 1)), fragment);
+                self.push(batch, prim, source, (x + (bit as i64 & 1), y + (bit as i64 >> 1)), fragment, passed[bit]);
             }
             batch.live |= live << (batch.count - 4);
             batch.helpers |= (!live & 0xf) << (batch.count - 4);
@@ -161,8 +175,9 @@ impl<D: Domain> Shading<'_, D> {
                 }
                 let place = (x + (bit & 1), y + (bit >> 1));
                 let fragment = source.fragment(place.0 as f64 + 0.5, place.1 as f64 + 0.5);
-                if self.passes_early(bin, place, &fragment) {
-                    self.push(batch, prim, source, place, &fragment);
+                let passed = self.passes_early(bin, place, &fragment, prim.undecided);
+                if passed.possible() {
+                    self.push(batch, prim, source, place, &fragment, passed);
                     batch.live |= 1 << (batch.count - 1);
                 }
             }
@@ -174,8 +189,9 @@ impl<D: Domain> Shading<'_, D> {
     }
 
     #[inline(always)]
-    fn passes_early(&self, bin: &mut Bin<D>, (x, y): (i64, i64), fragment: &Fragment<D::Float>) -> bool {
-        !self.plan.early_depth || bin.depth_test(x, y, fragment.z, &self.draw.state)
+    fn passes_early(&self, bin: &mut Bin<D>, (x, y): (i64, i64), fragment: &Fragment<D::Float>, open: bool) -> Test {
+        let before = Test { passes: true, open };
+        if self.plan.early_depth { bin.depth_test(x, y, fragment.z, &self.draw.state, before) } else { before }
     }
 
     #[inline(always)]
@@ -186,6 +202,7 @@ impl<D: Domain> Shading<'_, D> {
         source: &Source<'_, D>,
         (x, y): (i64, i64),
         fragment: &Fragment<D::Float>,
+        passed: Test,
     ) {
         let lane = batch.count & (LANES - 1);
         batch.count += 1;
@@ -193,7 +210,8 @@ impl<D: Domain> Shading<'_, D> {
         batch.y[lane] = y;
         batch.front[lane] = prim.front;
         batch.primitive[lane] = prim.id;
-        batch.undecided[lane] = prim.undecided;
+        batch.open[lane] = passed.open;
+        batch.there[lane] = passed.passes;
         batch.coord[2][lane] = fragment.z;
         batch.coord[3][lane] = fragment.reciprocal;
         for ((index, varying), lanes) in self.plan.floats.iter().enumerate().zip(&mut batch.floats) {
@@ -215,13 +233,8 @@ impl<D: Domain> Shading<'_, D> {
         if batch.live != 0 {
             self.fill_inputs(batch, machine);
             machine.run(Mask(batch.live), Mask(batch.helpers));
-            let kept = Mask(batch.live & !machine.discarded().0);
-            if !self.plan.early_depth {
-                for lane in Mask(batch.live & machine.undecided().0).lanes() {
-                    bin.mark_undecided_cover(batch.x[lane], batch.y[lane]);
-                }
-            }
-            self.write_lanes(bin, batch, machine, kept);
+            let possible = !machine.discarded().0 | machine.perhaps_discarded().0;
+            self.write_lanes(bin, batch, machine, Mask(batch.live & possible));
         }
         batch.count = 0;
         batch.live = 0;
@@ -275,24 +288,29 @@ impl<D: Domain> Shading<'_, D> {
     }
 
     /// What follows the fragment stage: late depth test, blending, storing.
-    fn write_lanes(&self, bin: &mut Bin<D>, batch: &Batch<D>, machine: &Machine<D>, kept: Mask) {
+    fn write_lanes(&self, bin: &mut Bin<D>, batch: &Batch<D>, machine: &Machine<D>, possible: Mask) {
         let state = &self.draw.state;
         let depth = self.plan.frag_depth.and_then(|id| machine.float_output(id, 0));
         let colors: SmallVec<[(usize, [Channel<'_, D>; 4]); 4]> =
             self.outputs.iter().map(|output| (output.attachment, self.channels(output, machine))).collect();
-        let undecided = machine.undecided();
-        for lane in kept.lanes() {
+        let (discarded, perhaps, undecided) = (machine.discarded(), machine.perhaps_discarded(), machine.undecided());
+        for lane in possible.lanes() {
             let place = (batch.x[lane], batch.y[lane]);
+            let mut test = Test {
+                passes: batch.there[lane] && !discarded.contains(lane),
+                open: batch.open[lane] || perhaps.contains(lane),
+            };
             if !self.plan.early_depth {
                 let z = depth.map_or(batch.coord[2][lane], |lanes| lanes[lane]);
-                if !bin.depth_test(place.0, place.1, z, state) {
+                test = bin.depth_test(place.0, place.1, z, state, test);
+                if !test.possible() {
                     continue;
                 }
             }
-            bin.cover(place.0, place.1, batch.undecided[lane] || undecided.contains(lane), state.blend.is_some());
+            bin.cover(place.0, place.1, test, undecided.contains(lane), state.blend.is_some());
             for (attachment, channels) in &colors {
                 let color = channels.map(|channel| self.value(channel, lane));
-                bin.write_color(place, *attachment, color, state.blend, self.framebuffer.format);
+                bin.write_color(place, *attachment, color, state.blend, self.framebuffer.format, test);
             }
         }
     }
@@ -321,13 +339,26 @@ impl<D: Domain> Shading<'_, D> {
         match channel {
             Channel::Float(lanes) => lanes[lane],
             Channel::Int(lanes) => {
-                let bits = lanes[lane].bits();
                 let is_unsigned = self.framebuffer.format == Format::Rgba32Uint;
-                D::Float::from_f64(if is_unsigned { f64::from(bits) } else { f64::from(bits as i32) })
+                let value = |bits: u32| if is_unsigned { f64::from(bits) } else { f64::from(bits as i32) };
+                whole::<D>(lanes[lane], value)
             }
             Channel::Constant(value) => D::Float::from_f64(value),
         }
     }
+}
+
+/// An integer in an attachment of integers, which keeps all its bits: the floats of some domains have fewer.
+fn whole<D: Domain>(bits: D::Int, value: impl Fn(u32) -> f64) -> D::Float {
+    let likely = value(bits.bits());
+    if !D::OPEN {
+        return D::Float::from_f64(likely);
+    }
+    let (low, high) = bits.choices();
+    let ends = [value(low as u32), value(high as u32)];
+    let may_wrap = low < 0 && high >= 0 && ends[1] < ends[0];
+    let (low, high) = if may_wrap { (0.0, f64::from(u32::MAX)) } else { (ends[0], ends[1]) };
+    D::Float::whole(likely, Range { low, high, may_be_nan: false })
 }
 
 /// Where a channel of a color comes from.

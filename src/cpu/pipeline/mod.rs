@@ -89,7 +89,8 @@ fn draw_all<D: Domain>(
         let invocations: Vec<Invocation> =
             instances.clone().flat_map(|instance| unique.iter().map(move |&vertex| (vertex, instance))).collect();
         watch.instance = first;
-        let mut vertices = shade::<D>(draw, &vertex_code, &plan, &invocations, viewport, &over_budget, &watch);
+        let faults = options.faults;
+        let mut vertices = shade::<D>(draw, &vertex_code, &plan, &invocations, viewport, faults, &over_budget, &watch);
         for local in 0..instances.len() as u32 {
             watch.instance = first + local;
             let base = local * unique.len() as u32;
@@ -103,6 +104,7 @@ fn draw_all<D: Domain>(
                 framebuffer: scene.framebuffer,
                 outputs: &outputs,
                 mark_edges: options.mark_edges,
+                faults: options.faults,
             };
             draw_prims(&shading, &fragment_code, target, &over_budget, &watch);
         }
@@ -193,7 +195,7 @@ fn draw_prims<D: Domain>(
         if list.is_empty() {
             return;
         }
-        let mut machine = take().unwrap_or_else(|| Machine::new(code, &shading.draw.uniforms, &shading.draw.textures));
+        let mut machine = take().unwrap_or_else(|| shading.machine(code));
         watch.begin(&mut machine);
         draw_bin(shading, bin, list, &mut machine);
         watch.end(&mut machine, FRAGMENTS, index);

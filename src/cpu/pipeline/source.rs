@@ -4,8 +4,8 @@
 //! *Holds:* the equations are those of [`interpolate`](crate::cpu::interpolate). A segment has the weights `1 - t`, `t`
 //! and 0, by which (108) and (106) are OpenGL's (3.6) and (3.7); a point has the weights 1, 0, 0.
 //!
-//! In a domain with bounds the value is that of f64, and the bound is of our own making, for no specification has one
-//! ([`Slack`]).
+//! In a domain with envelopes the value is that of f64, and the interval is of our own making, for no specification has
+//! one ([`Slack`]).
 
 use super::assembly::{Corners, Prim};
 use super::vertices::Vertices;
@@ -69,10 +69,6 @@ enum Kind<D: Domain> {
     Triangle(Frame<D::Float>),
 }
 
-/// How far a driver's `gl_PointCoord` may be off its equation beside the rounding of that: four ULP of 1. No specification
-/// speaks of it; Mesa interpolates the coordinate across the square.
-const POINT_COORD_ERROR: f64 = 4.0 / (1 << 23) as f64;
-
 /// The square of a point, for `gl_PointCoord`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sprite<D: Domain> {
@@ -86,7 +82,7 @@ impl<D: Domain> Sprite<D> {
         let half = D::Float::from_f64(0.5);
         let along = |p: f64, center: D::Float| {
             let exact = half.add(D::Float::from_f64(p).sub(center).div(self.size));
-            D::Float::with_error(exact.value(), exact.error() + POINT_COORD_ERROR)
+            exact.widened(rules::POINT_COORD.absolute())
         };
         [along(x, self.center[0]), along(y, self.center[1])]
     }
@@ -109,9 +105,8 @@ impl<'v, D: Domain> Source<'v, D> {
         let is_point = matches!(kind, Kind::Point);
         let size = vertices.size.get(corners[0] as usize).copied().unwrap_or(1.0).max(1.0);
         let size = size.min(crate::cpu::raster::point::MAX_SIZE);
-        let bounded = D::Float::with_error(0.0, 1.0).error() > 0.0;
         Self {
-            slack: bounded.then(|| Slack::new(&kind, places.map(|p| p.map(|c: D::Float| (c.value(), c.error()))))),
+            slack: D::OPEN.then(|| Slack::new(&kind, places.map(|p| p.map(|c: D::Float| (c.value(), c.error()))))),
             kind,
             quotients: corners.map(|vertex| vertices.quotients_of(vertex)),
             flat: vertices.floats_of(prim.provoking),

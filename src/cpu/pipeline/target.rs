@@ -4,14 +4,34 @@
 //! *Holds:* a value is stored as the attachment's format stores it, except that `rgba32float` keeps the domain's own
 //! precision: the reference is not rounded to f32. Depth is stored as f32, as the format has it.
 
-use crate::compare::Picture;
-use crate::cpu::domain::{Domain, Number};
+use crate::compare::{Picture, Range};
+use crate::cpu::domain::{Domain, Number, rules};
 use crate::cpu::raster::Bounds;
 use crate::scene::{BlendFactor, Compare, Format, Framebuffer, State};
 use half::f16;
 
 /// Pixels along a side of a bin; even, so that quads lie within one.
 pub(super) const BIN: i64 = 32;
+
+/// What becomes of a fragment.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Test {
+    /// Whether it is drawn by the values.
+    pub(super) passes: bool,
+    /// Whether a conforming GPU may decide otherwise.
+    pub(super) open: bool,
+}
+
+impl Test {
+    /// It is drawn in no case.
+    pub(super) const FAILED: Self = Self { passes: false, open: false };
+
+    /// Whether some GPU draws it.
+    #[inline(always)]
+    pub(super) fn possible(self) -> bool {
+        self.passes || self.open
+    }
+}
 
 /// How far blending may be off in an 8-bit attachment, which may be computed in as many bits as the attachment has
 /// (OpenGL 3.2 §4.1.7): the source, the factors and the products are each rounded to steps of 1/255. Measured on Mesa
@@ -27,10 +47,8 @@ pub(super) struct Bin<D: Domain> {
     depth: Vec<D::Float>,
     covered: Vec<bool>,
     near_edge: Vec<bool>,
-    /// A branch of the last fragment may go either way.
-    undecided_color: Vec<bool>,
-    /// Whether some fragment is drawn at all may go either way.
-    undecided_cover: Vec<bool>,
+    /// Whether a fragment that shows is drawn at all, or what it holds, is left open.
+    undecided: Vec<bool>,
 }
 
 /// The framebuffer.
@@ -64,8 +82,7 @@ impl<D: Domain> Target<D> {
                     depth: vec![D::Float::from_f64(1.0); pixels],
                     covered: vec![false; pixels],
                     near_edge: vec![false; pixels],
-                    undecided_color: vec![false; pixels],
-                    undecided_cover: vec![false; pixels],
+                    undecided: vec![false; pixels],
                 }
             })
             .collect();
@@ -77,13 +94,12 @@ impl<D: Domain> Target<D> {
         let (width, height) = (self.framebuffer.width, self.framebuffer.height);
         let pixels = width as usize * height as usize;
         let attachments = self.framebuffer.attachments as usize;
-        let has_bounds = D::Float::with_error(0.0, 1.0).error() > 0.0;
         let mut picture = Picture {
             width,
             height,
             attachments: vec![vec![[0.0; 4]; pixels]; attachments],
             covered: vec![false; pixels],
-            bounds: has_bounds.then(|| vec![vec![[0.0; 4]; pixels]; attachments]),
+            ranges: D::OPEN.then(|| vec![vec![[Range::point(0.0); 4]; pixels]; attachments]),
             undecided: vec![false; pixels],
             near_edge: vec![false; pixels],
         };
@@ -101,11 +117,11 @@ impl<D: Domain> Bin<D> {
                 let (from, to) = (local(self.area, x, y), (y * i64::from(picture.width) + x) as usize);
                 picture.covered[to] = self.covered[from];
                 picture.near_edge[to] = self.near_edge[from];
-                picture.undecided[to] = self.undecided_color[from] || self.undecided_cover[from];
+                picture.undecided[to] = self.undecided[from];
                 for (attachment, colors) in self.colors.iter().enumerate() {
                     picture.attachments[attachment][to] = colors[from].map(Number::value);
-                    if let Some(bounds) = &mut picture.bounds {
-                        bounds[attachment][to] = colors[from].map(Number::error);
+                    if let Some(ranges) = &mut picture.ranges {
+                        ranges[attachment][to] = colors[from].map(Number::range);
                     }
                 }
             }
@@ -117,40 +133,42 @@ impl<D: Domain> Bin<D> {
         self.near_edge[index] = true;
     }
 
-    /// The depth test (§4.1.5) and, if it passes, the write.
+    /// The depth test (§4.1.5) of a fragment that came so far, and the write where it passes.
     #[inline(always)]
-    pub(super) fn depth_test(&mut self, x: i64, y: i64, z: D::Float, state: &State) -> bool {
+    pub(super) fn depth_test(&mut self, x: i64, y: i64, z: D::Float, state: &State, before: Test) -> Test {
         if !state.depth_test {
-            return true;
+            return before;
         }
         let index = local(self.area, x, y);
         let stored = self.depth[index];
         let z = store_depth::<D>(z);
-        if z.error() + stored.error() > 0.0
-            && (z.value() - stored.value()).abs() <= z.error() + stored.error()
-            && !matches!(state.depth_func, Compare::Always | Compare::Never)
-        {
-            self.undecided_cover[index] = true;
-        }
         let passes = compare(state.depth_func, z.value(), stored.value());
-        if passes && state.depth_write {
-            self.depth[index] = z;
+        let mut test = Test { passes: before.passes && passes, open: before.open };
+        if D::OPEN {
+            let (always, never) = certain(state.depth_func, z.range(), stored.range());
+            test = Test {
+                passes: before.passes && !never && (passes || always),
+                open: !never && (before.open || !always),
+            };
         }
-        passes
+        if state.depth_write && test.possible() {
+            self.depth[index] = match (test.passes, test.open) {
+                (_, false) => z,
+                (true, true) => z.joined(stored),
+                (false, true) => stored.joined(z),
+            };
+        }
+        test
     }
 
-    /// Marks that a fragment may or may not be drawn here.
-    pub(super) fn mark_undecided_cover(&mut self, x: i64, y: i64) {
+    /// Notes that a fragment is written to the pixel, or may be. One that certainly is, and hides what was there, settles
+    /// what was open.
+    #[inline(always)]
+    pub(super) fn cover(&mut self, x: i64, y: i64, test: Test, undecided: bool, blends: bool) {
         let index = local(self.area, x, y);
-        self.undecided_cover[index] = true;
-    }
-
-    /// Notes that a fragment is written to the pixel.
-    pub(super) fn cover(&mut self, x: i64, y: i64, undecided: bool, blends: bool) {
-        let index = local(self.area, x, y);
-        self.covered[index] = true;
-        let before = blends && self.undecided_color[index];
-        self.undecided_color[index] = undecided || before;
+        self.covered[index] |= test.passes;
+        let before = (blends || test.open) && self.undecided[index];
+        self.undecided[index] = undecided || test.open || before;
     }
 
     /// Blends a color into an attachment and stores it.
@@ -161,18 +179,24 @@ impl<D: Domain> Bin<D> {
         color: [D::Float; 4],
         blend: Option<(BlendFactor, BlendFactor)>,
         format: Format,
+        test: Test,
     ) {
         let index = local(self.area, x, y);
         let Some(slot) = self.colors.get_mut(attachment).and_then(|colors| colors.get_mut(index)) else { return };
         let color = match blend {
             Some(factors) if !is_integer(format) => {
                 let slack = if format == Format::Rgba8Unorm { BLEND_SLACK } else { 0.0 };
-                blended::<D>(factors, clamped::<D>(color, format), *slot)
-                    .map(|channel| D::Float::with_error(channel.value(), channel.error() + slack))
+                let blended = blended::<D>(factors, clamped::<D>(color, format), *slot);
+                if D::OPEN && slack > 0.0 { blended.map(|channel| channel.widened(slack)) } else { blended }
             }
             _ => color,
         };
-        *slot = color.map(|channel| store::<D>(channel, format));
+        let (new, old) = (color.map(|channel| store::<D>(channel, format)), *slot);
+        *slot = match (test.passes, test.open) {
+            (_, false) => new,
+            (true, true) => std::array::from_fn(|i| new[i].joined(old[i])),
+            (false, true) => std::array::from_fn(|i| old[i].joined(new[i])),
+        };
     }
 }
 
@@ -194,10 +218,35 @@ pub(super) fn compare(function: Compare, new: f64, stored: f64) -> bool {
     }
 }
 
+/// Whether a comparison of depth holds, or fails, whatever both are.
+fn certain(function: Compare, new: Range, stored: Range) -> (bool, bool) {
+    let below = new.high < stored.low;
+    let above = new.low > stored.high;
+    let not_above = new.high <= stored.low;
+    let not_below = new.low >= stored.high;
+    let same = new.width() == 0.0 && stored.width() == 0.0 && new.low == stored.low;
+    let apart = below || above;
+    match function {
+        _ if new.may_be_nan => (function == Compare::Always, function == Compare::Never),
+        Compare::Never => (false, true),
+        Compare::Less => (below, not_below),
+        Compare::Equal => (same, apart),
+        Compare::Lequal => (not_above, above),
+        Compare::Greater => (above, not_above),
+        Compare::Notequal => (apart, same),
+        Compare::Gequal => (not_below, below),
+        Compare::Always => (true, false),
+    }
+}
+
 /// Depth as a 32-bit float, clamped to [0, 1] (§2.12.1).
 fn store_depth<D: Domain>(z: D::Float) -> D::Float {
     let stored = f64::from(z.value() as f32).clamp(0.0, 1.0);
-    D::Float::with_error(stored, z.error())
+    if !D::OPEN {
+        return D::Float::from_f64(stored);
+    }
+    let Range { low, high, may_be_nan } = z.range();
+    D::Float::with_range(stored, Range { low: low.clamp(0.0, 1.0), high: high.clamp(0.0, 1.0), may_be_nan })
 }
 
 /// A fixed-point attachment's source is clamped before blending (§4.1.7).
@@ -250,8 +299,8 @@ fn factor<D: Domain>(name: BlendFactor, source: [D::Float; 4], destination: [D::
     }
 }
 
-/// A channel as the format stores it (§2.1.5, §4.1.7): for a bounded value the widest step that a value within the bound
-/// may be stored at.
+/// A channel as the format stores it (§2.1.5, §4.1.7); with an envelope from the least to the greatest step that a number
+/// inside may be stored at.
 fn store<D: Domain>(value: D::Float, format: Format) -> D::Float {
     let convert: fn(f64) -> f64 = match format {
         Format::Rgba32Float | Format::Rgba32Sint | Format::Rgba32Uint => return value,
@@ -259,18 +308,39 @@ fn store<D: Domain>(value: D::Float, format: Format) -> D::Float {
         Format::Rgba8Unorm => unorm8,
     };
     let stored = convert(value.value());
-    let error = value.error();
-    if error == 0.0 && (stored == value.value() || format == Format::Rgba8Unorm) {
+    if !D::OPEN {
         return D::Float::from_f64(stored);
     }
-    let reach = |x: f64| (convert(x) - stored).abs();
-    // A driver's own rounding to 8 bits may be off by a little more than half a step. Halves may be rounded either way
-    // (OpenGL 3.2 §2.1.2), so the next one is as good; Mesa's software drivers cut off.
-    let (slack, step) = match format {
-        Format::Rgba8Unorm => (error + 1e-6, 0.0),
-        _ => (error, f64::from(f16::EPSILON) * stored.abs().max(f64::from(f16::MIN_POSITIVE))),
+    let Range { low, high, may_be_nan } = value.range();
+    if low == high && convert(low) == low {
+        return D::Float::from_f64(stored);
+    }
+    // A step of 8 bits is no f32: its ends are rounded outward once more.
+    let range = match format {
+        Format::Rgba8Unorm => {
+            let slack = rules::STORE_SLACK.absolute();
+            let low = if may_be_nan { 0.0 } else { convert(low - slack) };
+            Range { low, high: convert(high + slack), may_be_nan: false }
+        }
+        _ => Range { low: half_below(low), high: -half_below(-high), may_be_nan },
     };
-    D::Float::with_error(stored, reach(value.value() - slack).max(reach(value.value() + slack)) + step)
+    D::Float::with_range(stored, range)
+}
+
+/// The greatest half float not above a number.
+fn half_below(x: f64) -> f64 {
+    let near = f16::from_f64(x);
+    let value = f64::from(near);
+    if value <= x || value.is_nan() {
+        return value;
+    }
+    let bits = near.to_bits();
+    let below = match (value > 0.0, value == 0.0) {
+        (true, _) => bits - 1,
+        (_, true) => 0x8001,
+        _ => bits + 1,
+    };
+    f64::from(f16::from_bits(below))
 }
 
 /// An 8-bit normalized channel: clamped, `round(255 x) / 255`; NaN is 0.

@@ -6,6 +6,7 @@
 
 use super::plan::Plan;
 use super::watch::{VERTICES, Watch};
+use crate::cpu::domain::faults::Faults;
 use crate::cpu::domain::{Domain, F32, Integer, Number};
 use crate::cpu::exec::{Code, LANES, Machine, Mask};
 use crate::hir::{GlobalId, Interpolation, ScalarValue, Type, TypeId, Types};
@@ -48,6 +49,8 @@ pub(super) struct Vertices<D: Domain> {
     pub(super) interpolations: Vec<Interpolation>,
     /// Width and height of the window in pixels.
     pub(super) viewport: [f32; 2],
+    /// Faults of a driver that are admitted.
+    pub(super) faults: Faults,
 }
 
 impl<D: Domain> Vertices<D> {
@@ -104,17 +107,19 @@ fn window32(clip: [f32; 4], viewport: [f32; 2]) -> [f32; 3] {
 pub(super) type Invocation = (u32, u32);
 
 /// Shades `invocations`.
+#[expect(clippy::too_many_arguments, reason = "called once a draw with what the draw consists of")]
 pub(super) fn shade<D: Domain>(
     draw: &Draw,
     code: &Code,
     plan: &Plan,
     invocations: &[Invocation],
     viewport: [f32; 2],
+    faults: Faults,
     over_budget: &AtomicBool,
     watch: &Watch<'_, D>,
 ) -> Vertices<D> {
     let machines = || {
-        let machine = Machine::<D>::new(code, &draw.uniforms, &draw.textures);
+        let machine = Machine::<D>::admitting(faults, code, &draw.uniforms, &draw.textures);
         (machine, Machine::<F32>::new(code, &draw.uniforms, &draw.textures))
     };
     let chunks: Vec<Chunk<D>> = invocations
@@ -149,6 +154,7 @@ pub(super) fn shade<D: Domain>(
         undecided: Vec::with_capacity(count),
         interpolations: plan.floats.iter().map(|varying| varying.interpolation).collect(),
         viewport,
+        faults,
     };
     for chunk in chunks {
         vertices.append(chunk);
@@ -233,9 +239,16 @@ fn shade_chunk<D: Domain>(
         }
         chunk.floats.extend(plan.floats.iter().map(|varying| float(varying.from, lane)));
         chunk.ints.extend(plan.ints.iter().map(|varying| read_int(machine, varying.from, lane)));
-        chunk.undecided.push(machine.undecided().contains(lane));
+        let clip = chunk.clip.last().copied().unwrap_or_default();
+        chunk.undecided.push(machine.undecided().contains(lane) || may_jump::<D>(clip));
     }
     chunk
+}
+
+/// Whether a position may be anywhere else: a branch on the way may go either way and takes it along.
+fn may_jump<D: Domain>(clip: [D::Float; 4]) -> bool {
+    const FAR: f64 = 1.0 / 256.0;
+    D::OPEN && clip.iter().any(|value| value.error() > FAR * clip[3].value().abs())
 }
 
 pub(super) fn read_float<D: Domain>(machine: &Machine<D>, (global, flat): (GlobalId, u32), lane: usize) -> D::Float {

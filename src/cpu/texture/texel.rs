@@ -1,6 +1,6 @@
 //! Texels by integer coordinates.
 
-use super::{Near, Sampled};
+use super::{Bits, Near, Sampled};
 use crate::hir::{SamplerDim, SamplerType};
 use crate::scene::{Texels, Texture, TextureLevel};
 
@@ -48,7 +48,7 @@ pub(crate) fn fetch(texture: &Texture, kind: SamplerType, at: &[i32], level: i32
     if kind.texel == crate::hir::Scalar::Float {
         Sampled::Floats(floats(level, place).map(Near::exact))
     } else {
-        Sampled::Bits(bits(level, place), true)
+        Sampled::Bits(bits(level, place).map(Bits::exact))
     }
 }
 
@@ -56,7 +56,7 @@ fn nothing(kind: SamplerType) -> Sampled {
     if kind.texel == crate::hir::Scalar::Float {
         Sampled::Floats([Near::default(); 4])
     } else {
-        Sampled::Bits([0; 4], true)
+        Sampled::Bits([Bits::default(); 4])
     }
 }
 

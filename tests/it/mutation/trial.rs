@@ -12,7 +12,7 @@ use std::io::Write;
 use std::process::{Command, Stdio};
 
 /// What `verify` judges by.
-const OURS: Judge = Judge::Bound;
+const OURS: Judge = Judge::Envelope;
 /// The tolerance that people pick by hand.
 const BY_HAND: Judge = Judge::Tolerance(1.0 / 255.0);
 
@@ -125,7 +125,8 @@ impl<'a> Subject<'a> {
             words
         });
         let plain = plain.map_err(|error| error.to_string())?;
-        let options = RenderOptions { precision: Precision::Bound, lines: LineRule::Vulkan, mark_edges: true };
+        let options =
+            RenderOptions { precision: Precision::Envelope, lines: LineRule::Vulkan, ..RenderOptions::default() };
         let reference = cpu::render(&scene, &options).map_err(|found| format!("{found:?}"))?;
         if fails(&plain, &reference, OURS) {
             return Err("verify fails it without a fault".to_owned());
@@ -175,8 +176,9 @@ impl<'a> Subject<'a> {
 
     /// How far a GPU may be off in a channel, those of all attachments one after the other.
     fn allowed(&self, pixel: usize, channel: usize) -> f64 {
-        let bounds = self.reference.bounds.as_ref().and_then(|bounds| bounds.get(channel / 4)?.get(pixel));
-        bounds.map_or(0.0, |bounds| bounds[channel % 4])
+        let color = self.reference.attachments[channel / 4][pixel][channel % 4];
+        let ranges = self.reference.ranges.as_ref().and_then(|ranges| ranges.get(channel / 4)?.get(pixel));
+        ranges.map_or(0.0, |ranges| ranges[channel % 4].reach(color))
     }
 
     /// Where a picture differs from the one without the fault, and by how much.

@@ -53,7 +53,7 @@ fn scene(fragment: &str) -> Result<Scene, String> {
 
 /// What is wrong with the picture of a scene, and how many pixels could not be judged.
 fn compare(gpu: &Gpu, scene: &Scene) -> (Vec<String>, usize) {
-    let options = RenderOptions { precision: Precision::Bound, lines: LineRule::Vulkan, ..RenderOptions::default() };
+    let options = RenderOptions { precision: Precision::Envelope, lines: LineRule::Vulkan, ..RenderOptions::default() };
     let reference = match cpu::render(scene, &options) {
         Ok(reference) => reference,
         Err(found) => {
@@ -66,7 +66,7 @@ fn compare(gpu: &Gpu, scene: &Scene) -> (Vec<String>, usize) {
         match gpu.render(scene, via) {
             Err(error) => wrong.push(format!("via {}: {error}", via.name())),
             Ok(rendered) => {
-                let verdict = Verdict::new(&rendered.picture, &reference, Judge::Bound);
+                let verdict = Verdict::new(&rendered.picture, &reference, Judge::Envelope);
                 if !verdict.holds(true) {
                     wrong.push(format!("via {}: {verdict:?}", via.name()));
                 }

@@ -8,7 +8,7 @@ mod text;
 mod textures;
 
 use super::{Code, LANES, Machine, Mask};
-use crate::cpu::domain::{Bound, Domain, F32, F64, Integer, Number};
+use crate::cpu::domain::{Domain, Envelope, F32, F64, Integer, Number};
 use crate::hir::{GlobalId, Scalar};
 use generate::{Generated, Source};
 use proptest::prelude::*;
@@ -88,29 +88,62 @@ fn walk_agrees(program: &Generated) {
     }
 }
 
-/// The reference and a strict GPU stay within the bounds, where nothing was left open.
-fn bounds_hold(program: &Generated) {
-    let mut bound = machine_of::<Bound>(program);
+/// The reference and a strict GPU lie within the envelope, in every lane that is decided.
+fn envelope_holds(program: &Generated) {
+    let mut envelope = machine_of::<Envelope>(program);
     let (mut wide, mut single) = (machine_of::<F64>(program), machine_of::<F32>(program));
-    fill(&mut bound, program);
-    bound.run(Mask::ALL, Mask::NONE);
+    fill(&mut envelope, program);
+    envelope.run(Mask::ALL, Mask::NONE);
     fill(&mut wide, program);
     wide.run(Mask::ALL, Mask::NONE);
     fill(&mut single, program);
     single.run(Mask::ALL, Mask::NONE);
-    let decided = Mask(!bound.undecided().0 & !bound.discarded().0);
+    let decided = Mask(!envelope.undecided().0);
+    assert_eq!(envelope.discarded(), wide.discarded(), "what is discarded follows the value");
+    for lane in decided.lanes().filter(|lane| !envelope.perhaps_discarded().contains(*lane)) {
+        let same = wide.discarded().contains(lane) == single.discarded().contains(lane);
+        assert!(same, "lane {lane} is discarded by one alone\n{}", generate::text(program));
+    }
     for (id, scalars) in &program.outputs {
         for flat in 0..scalars.len() as u32 {
-            let (Some(b), Some(w), Some(s)) =
-                (bound.float_output(*id, flat), wide.float_output(*id, flat), single.float_output(*id, flat))
-            else {
-                continue;
-            };
-            for lane in decided.lanes().filter(|lane| b[*lane].error().is_finite() && b[*lane].value().is_finite()) {
-                assert_eq!(b[lane].value(), w[lane], "lane {lane}: the value is the reference's");
-                let off = (b[lane].value() - f64::from(s[lane])).abs();
-                let told = format!("lane {lane}: off by {off}, bound {}\n{}", b[lane].error(), generate::text(program));
-                assert!(off <= b[lane].error() * (1.0 + 1e-6), "{told}");
+            if let (Some(e), Some(w), Some(s)) =
+                (envelope.float_output(*id, flat), wide.float_output(*id, flat), single.float_output(*id, flat))
+            {
+                for lane in decided.lanes() {
+                    let range = e[lane].range();
+                    let holds = |value: f64| range.contains(value);
+                    let told = || {
+                        format!("lane {lane}: {range:?} of {} and {}\n{}", w[lane], s[lane], generate::text(program))
+                    };
+                    if !wide.discarded().contains(lane) {
+                        assert_eq!(
+                            e[lane].value().to_bits(),
+                            w[lane].to_bits(),
+                            "the value is the reference's: {}",
+                            told()
+                        );
+                        assert!(holds(w[lane]), "f64 in {}", told());
+                    }
+                    assert!(single.discarded().contains(lane) || holds(f64::from(s[lane])), "f32 in {}", told());
+                }
+            }
+            if let (Some(e), Some(w), Some(s)) =
+                (envelope.int_output(*id, flat), wide.int_output(*id, flat), single.int_output(*id, flat))
+            {
+                for lane in decided.lanes() {
+                    let (low, high) = e[lane].choices();
+                    let told = || {
+                        format!(
+                            "lane {lane}: {low}..={high} of {} and {}\n{}",
+                            w[lane] as i32,
+                            s[lane] as i32,
+                            generate::text(program)
+                        )
+                    };
+                    for (bits, discarded) in [(w[lane], wide.discarded()), (s[lane], single.discarded())] {
+                        assert!(discarded.contains(lane) || (low..=high).contains(&(bits as i32)), "{}", told());
+                    }
+                }
             }
         }
     }
@@ -129,11 +162,11 @@ proptest! {
         let program = generate::program(&mut Source::new(&bytes));
         lanes_agree::<F64>(&program);
         lanes_agree::<F32>(&program);
-        lanes_agree::<Bound>(&program);
+        lanes_agree::<Envelope>(&program);
     }
 
     #[test]
-    fn f64_and_f32_lie_within_the_bounds(bytes in prop::collection::vec(any::<u8>(), 0..400)) {
-        bounds_hold(&generate::program(&mut Source::new(&bytes)));
+    fn f64_and_f32_lie_within_the_envelope(bytes in prop::collection::vec(any::<u8>(), 0..400)) {
+        envelope_holds(&generate::program(&mut Source::new(&bytes)));
     }
 }

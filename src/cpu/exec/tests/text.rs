@@ -1,7 +1,8 @@
 //! Programs in GLSL with known answers.
 
+use crate::compare::Range;
 use crate::compiler::{Compiler, Options, Source};
-use crate::cpu::domain::{Bound, Domain, F64, Integer, Number};
+use crate::cpu::domain::{Domain, Envelope, F64, Integer, Number};
 use crate::cpu::exec::inst::{Float1, Float2, Inst};
 use crate::cpu::exec::{Code, LANES, Machine, Mask};
 use crate::hir::{ScalarValue, Stage};
@@ -154,18 +155,77 @@ fn long_chains_fit_on_a_small_stack() {
     assert_eq!(lanes[7][..2], [10_000.0, 907.0]);
 }
 
+/// The least and the greatest red of each lane.
+fn reds(body: &str, input: impl Fn(&str, usize) -> f64) -> Vec<(f64, f64)> {
+    let program = compiled(body);
+    let machine = ran::<Envelope>(&program, &[], input);
+    assert!(machine.undecided().is_empty());
+    output(&program, &machine).iter().map(|lane| (lane[0].low, lane[0].high)).collect()
+}
+
 #[test]
-fn an_open_branch_makes_lanes_undecided_and_an_open_choice_widens() {
+fn both_ways_of_an_open_branch_are_run() {
     let body =
         "in float a; void main() { float third = a / 3.0; if (third * 3.0 < 1.0) o = vec4(2); else o = vec4(3); }";
+    let lanes = reds(body, |_, lane| lane as f64);
+    assert_eq!(lanes[..3], [(2.0, 2.0), (2.0, 3.0), (3.0, 3.0)], "only where a / 3 * 3 is about 1");
+    let lanes = reds("in float a; void main() { o = vec4(a / 3.0 * 3.0 < 1.0 ? 2.0 : 3.0); }", |_, lane| lane as f64);
+    assert_eq!(lanes[..3], [(2.0, 2.0), (2.0, 3.0), (3.0, 3.0)]);
+}
+
+#[test]
+fn what_a_branch_computes_stays_together_on_its_way() {
+    // Joined at the end of the first branch, b - c would range from -1 to 1.
+    let body = "in float a; void main() { float b = 0.0, c = 0.0; if (a / 3.0 * 3.0 < 1.0) { b = 1.0; c = 1.0; } \
+                if (a / 3.0 * 3.0 < 1.0) o = vec4(b - c); else o = vec4(b - c); }";
+    assert_eq!(reds(body, |_, lane| lane as f64)[1], (0.0, 0.0));
+}
+
+#[test]
+fn a_loop_whose_exit_is_open_runs_on() {
+    let body =
+        "in float a; void main() { o = vec4(0); for (float x = 0.0; x * 3.0 < a * 3.0; x += 1.0 / 3.0) o.x += 1.0; }";
+    let lanes = reds(body, |_, _| 2.0);
+    assert_eq!(lanes[0], (6.0, 7.0), "1 / 3 six times may be less than 2");
+}
+
+#[test]
+fn open_indices_give_the_hull_of_what_they_name() {
+    let body = "in float a; void main() { float t[4] = float[4](1.0, 2.0, 4.0, 8.0); int i = int(a / 3.0 * 3.0); \
+                o = vec4(t[i], 0, 0, 0); t[i] = 9.0; o.x = o.x + t[1] * 16.0; }";
+    let lanes = reds(body, |_, lane| lane as f64);
+    // a = 2: i is 1 or 2, by which t[1] may be 9 now.
+    assert_eq!(lanes[2], (2.0 + 32.0, 4.0 + 144.0));
+}
+
+#[test]
+fn quads_decide_together_where_derivatives_are_taken() {
+    let body = "in float a; void main() { float b = a / 3.0 * 3.0 < 1.0 ? 0.0 : 1.0; \
+                if (a / 3.0 * 3.0 < 1.0) b = 2.0; else b = 3.0; o = vec4(dFdx(b)); }";
+    let lanes = reds(body, |_, lane| lane as f64);
+    // Lane 0 has 2, lane 1 has 2 or 3; lanes 2 and 3 have 3: the difference of their row is 0.
+    assert_eq!(lanes[0], (0.0, 1.0));
+    assert_eq!(lanes[4], (0.0, 0.0));
+}
+
+#[test]
+fn a_discard_that_is_open_is_told() {
+    let program =
+        compiled("in float a; void main() { o = vec4(5); if (a / 3.0 * 3.0 < 1.0) { o = vec4(7); discard; } }");
+    let machine = ran::<Envelope>(&program, &[], |_, lane| lane as f64);
+    assert_eq!((machine.discarded(), machine.perhaps_discarded()), (Mask(1), Mask(2)));
+    let lane = output(&program, &machine)[1][0];
+    assert_eq!((lane.low, lane.high), (5.0, 5.0), "only what is kept shows");
+}
+
+#[test]
+fn past_the_cap_a_lane_is_undecided_and_may_hold_anything() {
+    let body = "in float a; void main() { o = vec4(0); for (int i = 0; i < 9; i++) { if (a / 3.0 * 3.0 < 1.0) \
+                o.x += 1.0; } }";
     let program = compiled(body);
-    let machine = ran::<Bound>(&program, &[], |_, lane| lane as f64);
-    assert_eq!(machine.undecided(), Mask(2), "only where a / 3 * 3 is about 1");
-    let program = compiled("in float a; void main() { o = vec4(a / 3.0 * 3.0 < 1.0 ? 2.0 : 3.0); }");
-    let machine = ran::<Bound>(&program, &[], |_, lane| lane as f64);
-    assert!(machine.undecided().is_empty());
-    let lanes = output(&program, &machine);
-    assert_eq!((lanes[0][0].error, lanes[1][0].error >= 1.0, lanes[2][0].error), (0.0, true, 0.0));
+    let machine = ran::<Envelope>(&program, &[], |_, lane| lane as f64);
+    assert_eq!(machine.undecided(), Mask(2));
+    assert_eq!(output(&program, &machine)[1][0].range(), Range::ALL);
 }
 
 #[test]

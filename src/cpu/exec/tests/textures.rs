@@ -1,7 +1,8 @@
 //! Texture functions on small textures with known answers.
 
 use super::text::{compiled, output, ran};
-use crate::cpu::domain::{Bound, F64, Number};
+use crate::compare::Range;
+use crate::cpu::domain::{Envelope, F64, Number};
 use crate::hir::{SamplerDim, SamplerType, Scalar};
 use crate::scene::{Compare, Filter, Texels, Texture, TextureLevel, Wrap};
 use std::sync::Arc;
@@ -140,15 +141,15 @@ fn bounds_know_edges_between_texels() {
     let program =
         compiled("uniform sampler2D t; in float a; void main() { o = texture(t, vec2(a / 3.0 * 0.75, 0.25)); }");
     let found = |filter| {
-        let machine = ran::<Bound>(&program, &[Some(Arc::new(plane(filter, Wrap::ClampToEdge)))], |_, lane| {
+        let machine = ran::<Envelope>(&program, &[Some(Arc::new(plane(filter, Wrap::ClampToEdge)))], |_, lane| {
             0.5 + lane as f64 * 0.5
         });
         output(&program, &machine)
     };
     // a = 0.5: the middle of the edge between texels 0 and 1 is at s = 0.25, a = 1.
     let nearest = found(Filter::Nearest);
-    assert_eq!(nearest[0][0].error, 0.0);
-    assert_eq!((nearest[1][0].value, nearest[1][0].error), (1.0, 1.0));
+    assert_eq!(nearest[0][0].range().width(), 0.0);
+    assert_eq!(nearest[1][0].range(), Range { low: 0.0, high: 1.0, may_be_nan: false }, "both texels and no more");
     let linear = found(Filter::Linear);
-    assert!(linear[1][0].error > 0.003 && linear[1][0].error < 0.05, "{:?}", linear[1][0]);
+    assert!(linear[1][0].error() > 0.003 && linear[1][0].error() < 0.05, "{:?}", linear[1][0]);
 }
