@@ -15,8 +15,8 @@
 // the rounding of L and V: about 6e-8 / |L + V|.
 vec3 halfVector(vec3 L, vec3 V)
 {
-    // Halves, so that the sum of two large vectors is finite.
-    return safeNormalize(0.5 * L + 0.5 * V);
+    // The sum of two large vectors may overflow. Halves would not help: drivers turn 0.5 L + 0.5 V into 0.5 (L + V).
+    return safeNormalize(safeLimit(L + V));
 }
 
 // max(N.H, 0)^shininess: 0 to 1.

@@ -8,6 +8,7 @@
 #include "safe.glsl"
 
 // One light (93): I_amb + I_diff + I_spec, linear RGB.
+//   Iamb, Idiff, Ispec  its ambient, diffuse and specular reflection, >= 0
 vec3 illumination(vec3 Iamb, vec3 Idiff, vec3 Ispec)
 {
     return safeLimit(Iamb + Idiff + Ispec);
@@ -29,7 +30,7 @@ vec3 illumination(vec3 Iamb, vec3 Idiff, vec3 Ispec, float d, float cspot)
 
 // What no light gives (100): K_amb * L_glob + L_emi, linear RGB. The full equation (101) is this plus the sum of (99)
 // over the lights (module `lights`).
-//   Lglob  global ambient light, >= 0    Lemi  light that the surface sends out itself, >= 0
+//   Kamb  ambient reflectance, 0 to 1    Lglob  global ambient light, >= 0    Lemi  light that the surface sends out itself, >= 0
 vec3 background(vec3 Kamb, vec3 Lglob, vec3 Lemi)
 {
     return safeLimit(Kamb * Lglob + Lemi);

@@ -12,6 +12,7 @@
 
 // The coordinates (u, v) of P in the triangle P0 P1 P2 (105): P = P0 + u (P1 - P0) + v (P2 - P0). Both 0 for a triangle
 // without area.
+//   P, P0, P1, P2  in the window
 vec2 barycentric(vec2 P, vec2 P0, vec2 P1, vec2 P2)
 {
     vec2 u = P1 - P0;
@@ -28,6 +29,7 @@ vec2 barycentric(vec2 P, vec2 P0, vec2 P1, vec2 P2)
 }
 
 // A weighted mean of three vertices, linear in the window (106): (1 - u - v) C0 + u C1 + v C2.
+//   uv  coordinates in the window (105)    C0, C1, C2  attributes of the vertices
 vec4 interpolateLinear(vec2 uv, vec4 C0, vec4 C1, vec4 C2)
 {
     vec4 sum = (1.0 - uv.x - uv.y) * C0 + uv.x * C1 + uv.y * C2;
@@ -67,6 +69,7 @@ vec4 interpolatePerspective(vec2 uv, vec3 w, vec4 C0, vec4 C1, vec4 C2)
 
 // The point (x, z) of the segment from (x_a, z_a) to (x_b, z_b) whose projection parts the projected segment as
 // t : (1 - t) (107).
+//   t  0 to 1    a, b  the ends, (x, z) with z > 0
 vec2 segmentPoint(float t, vec2 a, vec2 b)
 {
     return interpolatePerspective(vec2(t, 0.0), vec3(a.y, b.y, a.y), vec4(a, 0.0, 0.0), vec4(b, 0.0, 0.0), vec4(0.0)).xy;

@@ -4,16 +4,19 @@
 // source: textbook, sections 10.1.2 and 10.1.5 to 10.1.7
 // stability: finite for every finite input
 //
-// The three kinds of light as one struct, and the whole equation for any number of them with Lambert's diffuse and
-// Blinn and Phong's specular reflection. For other models put the terms together from the same pieces: lightVector(),
-// lightAttenuation(), lightBeam() and illumination(). All positions and directions are in one space.
+// The kinds of light as one struct, and a light's whole term with Lambert's diffuse and Blinn and Phong's specular
+// reflection. The equation is background() plus a loop over the lights that adds lightTerm(); the loop stands where the
+// lights do, since an array passed to a function is copied. For other models put the terms together from the same
+// pieces: lightVector(), lightAttenuation(), lightBeam() and illumination(). All positions and directions are in one
+// space.
 //
-// Write `#define GLISTEN_LIGHTS n` before the include for more than 8 lights.
+// GLISTEN_LIGHTS is the size of a scene's array of lights; define it before the include for more than 8.
 #ifndef GLISTEN_LIGHTS_MODULE
 #define GLISTEN_LIGHTS_MODULE
 #include "ambient.glsl"
 #include "attenuation.glsl"
 #include "blinn_phong.glsl"
+#include "hemisphere.glsl"
 #include "illumination.glsl"
 #include "lambert.glsl"
 #include "spot.glsl"
@@ -26,6 +29,9 @@
 const int LIGHT_DIRECTIONAL = 0;
 const int LIGHT_POINT = 1;
 const int LIGHT_SPOT = 2;
+// Two half spheres of light: `direction` points to the middle of the sky, `diffuse` is the sky's color and `ambient` the
+// ground's. What it gives counts as ambient light.
+const int LIGHT_HEMISPHERE = 3;
 
 struct Light {
     int kind;
@@ -52,14 +58,16 @@ struct Material {
     vec3 emission;
 };
 
-// The unit vector L from the shaded point P towards the light. Zero where there is none: at a point light, or for a
-// directional light without a direction.
+// The unit vector L from the shaded point P towards the light. Zero where there is none: at a point light, for a
+// directional light without a direction, for a hemisphere.
 vec3 lightVector(Light light, vec3 P)
 {
+    if (light.kind == LIGHT_HEMISPHERE)
+        return vec3(0.0);
     return safeNormalize(light.kind == LIGHT_DIRECTIONAL ? -light.direction : safeLimit(light.position - P));
 }
 
-// The attenuation d (96) at P; 1 for directional lights.
+// The attenuation d (96) at the point P; 1 for directional lights.
 float lightAttenuation(Light light, vec3 P)
 {
     return light.kind == LIGHT_DIRECTIONAL ? 1.0 : attenuation(lightDistance(light.position, P), light.attenuation);
@@ -71,26 +79,23 @@ float lightBeam(Light light, vec3 L)
     return light.kind == LIGHT_SPOT ? spotFactor(L, safeNormalize(light.direction), light.exponent) : 1.0;
 }
 
+// The light of a hemisphere for the unit normal N, linear RGB.
+vec3 lightDome(Light light, vec3 N)
+{
+    return hemisphere(N, safeNormalize(light.direction), light.diffuse, light.ambient);
+}
+
 // One term of the sum in (101), linear RGB.
-//   P  shaded point    N  unit normal    V  unit vector towards the eye
+//   light, material  their members    P  shaded point    N  unit normal    V  unit vector towards the eye
 vec3 lightTerm(Light light, Material material, vec3 P, vec3 N, vec3 V)
 {
+    if (light.kind == LIGHT_HEMISPHERE)
+        return ambient(material.ambient, lightDome(light, N));
     vec3 L = lightVector(light, P);
     vec3 Iamb = ambient(material.ambient, light.ambient);
     vec3 Idiff = lambert(N, L, material.diffuse, light.diffuse);
     vec3 Ispec = blinnPhong(N, L, V, material.shininess, material.specular, light.specular);
     return illumination(Iamb, Idiff, Ispec, lightAttenuation(light, P), lightBeam(light, L));
-}
-
-// The full equation (101), linear RGB.
-//   lights  of which the first `count` shine    Lglob  global ambient light    P, N, V  as above
-vec3 lightsSum(Light lights[GLISTEN_LIGHTS], int count, Material material, vec3 Lglob, vec3 P, vec3 N, vec3 V)
-{
-    vec3 sum = background(material.ambient, Lglob, material.emission);
-    int last = min(count, GLISTEN_LIGHTS);
-    for (int k = 0; k < last; ++k)
-        sum = safeLimit(sum + lightTerm(lights[k], material, P, N, V));
-    return sum;
 }
 
 #endif

@@ -69,10 +69,10 @@ float safeExtent(vec3 v)
 }
 
 // The power of two 2^-100, 1 or 2^100 by which a vector of this extent is multiplied so that no square of its
-// components leaves the range of a float. A power of two rounds nothing.
+// components overflows, and none that counts is flushed to zero. A power of two rounds nothing.
 float safeScale(float extent)
 {
-    return extent > exp2(60.0) ? exp2(-100.0) : (extent < exp2(-60.0) ? exp2(100.0) : 1.0);
+    return extent > exp2(60.0) ? exp2(-100.0) : (extent < exp2(-40.0) ? exp2(100.0) : 1.0);
 }
 
 // |v| for every finite v, where the literal length() overflows from 1.8e19 on and vanishes below 1.1e-19. Past the largest

@@ -21,7 +21,7 @@ float schlick(float t, float shininess)
 }
 
 // (90) for the angle between two unit vectors: 0 to 1.
-//   shininess  K_shi, limited to >= 0
+//   a, b  unit vectors    shininess  K_shi, limited to >= 0
 float schlickBetween(vec3 a, vec3 b, float shininess)
 {
     float t = dot(a, b);

@@ -28,6 +28,8 @@ pub mod cli;
 pub mod compare;
 #[cfg(feature = "reference")]
 pub mod cpu;
+#[cfg(feature = "reference")]
+pub mod evaluate;
 #[cfg(feature = "gpu")]
 pub mod gpu;
 #[cfg(feature = "cli")]

@@ -16,6 +16,7 @@ mod files;
 mod guard;
 mod includes;
 mod inputs;
+mod library;
 mod lint;
 mod pictures;
 mod progress;
@@ -69,6 +70,7 @@ enum Command {
     Verify(verify::VerifyArgs),
     Report(report::ReportArgs),
     Test(test::TestArgs),
+    Lib(library::LibArgs),
 }
 
 /// Runs the program with these arguments, the first being its own name.
@@ -106,6 +108,7 @@ fn dispatch(command: &Command, console: &Console) -> Outcome {
         Command::Verify(args) => verify::run(args, console),
         Command::Report(args) => report::run(args, console),
         Command::Test(args) => test::run(args, console),
+        Command::Lib(args) => library::run(args, console),
     }
 }
 

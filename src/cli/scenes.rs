@@ -103,16 +103,22 @@ impl From<Vec<Diagnostic>> for DrawError {
 
 impl From<Error> for DrawError {
     fn from(error: Error) -> Self {
-        if !error.diagnostics().is_empty() {
-            return Self::Diagnostics(error.diagnostics().to_vec());
+        if error.diagnostics().is_empty() {
+            Self::Failure(gpu_failure(error))
+        } else {
+            Self::Diagnostics(error.diagnostics().to_vec())
         }
-        let exit = if error.is_environment() { Exit::Machine } else { Exit::Content };
-        // The runner's messages carry their help in a second line.
-        let text = error.to_string();
-        Self::Failure(match text.split_once("\nhelp: ") {
-            Some((message, help)) => Failure::new(exit, message).help(help),
-            None => Failure::new(exit, text),
-        })
+    }
+}
+
+/// What to tell of a GPU that is missing or does not draw.
+pub(super) fn gpu_failure(error: Error) -> Failure {
+    let exit = if error.is_environment() { Exit::Machine } else { Exit::Content };
+    // The runner's messages carry their help in a second line.
+    let text = error.to_string();
+    match text.split_once("\nhelp: ") {
+        Some((message, help)) => Failure::new(exit, message).help(help),
+        None => Failure::new(exit, text),
     }
 }
 

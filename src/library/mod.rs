@@ -1,9 +1,20 @@
 //! The lighting models that come with glisten, as modules to include: `#include <glisten/phong.glsl>`.
 //!
-//! *In:* the files under `shader_lib`, embedded. *Out:* [`modules`], and [`Embedded`], which resolves includes of them.
+//! *In:* the files under `shader_lib`, embedded. *Out:* [`modules`], [`Embedded`], which resolves includes of them, and the
+//! catalogue ([`entries`]): what each module says of itself, its functions and their cost.
 //!
 //! *Holds:* every function there is total: a finite result for every finite input. A module includes what it needs and
 //! may be included twice.
+
+mod catalogue;
+mod cost;
+mod header;
+#[cfg(feature = "reference")]
+pub mod measure;
+
+pub use catalogue::{Entry, FunctionEntry, entries, entry};
+pub use cost::{Cost, cost};
+pub use header::Header;
 
 use crate::source::{IncludeForm, IncludeResolver, Included};
 

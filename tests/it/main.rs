@@ -14,6 +14,8 @@ mod gpu;
 mod host;
 mod hostile;
 mod layouts;
+#[cfg(feature = "gpu")]
+mod library;
 mod link;
 mod lint;
 #[cfg(feature = "gpu")]

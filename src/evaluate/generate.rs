@@ -1,0 +1,189 @@
+//! The program around a function: reads its inputs from a texture, calls it, writes what comes back.
+//!
+//! *In:* a text and a signature. *Out:* the text of a fragment shader, and how many numbers go in and out.
+
+use super::EvaluateError;
+use crate::diagnostic::did_you_mean;
+use crate::hir::{ArraySize, Function, ParamMode, SamplerDim, Scalar, Shader, Stage, Type, TypeId, Types};
+use crate::{Compiler, Source};
+
+/// A triangle over the whole window.
+pub(super) const VERTEX: &str = "#version 150\nvoid main()\n{\n    vec2 p = vec2(gl_VertexID == 1 ? 3.0 : -1.0, \
+    gl_VertexID == 2 ? 3.0 : -1.0);\n    gl_Position = vec4(p, 0.0, 1.0);\n}\n";
+/// What the names of the uniforms for tables start with; a number follows.
+pub(super) const TABLE: &str = "glisten_table";
+
+/// A call in text.
+pub(super) struct Call {
+    pub(super) text: String,
+    pub(super) inputs: usize,
+    pub(super) results: usize,
+    pub(super) tables: usize,
+}
+
+fn head(text: &str) -> String {
+    format!("#version 150\n#extension GL_ARB_shading_language_include : enable\n{text}\n")
+}
+
+/// The signatures of all functions that a text defines, those of its includes too, in order: `lerp(float,float,float)`.
+///
+/// # Errors
+/// The text does not compile.
+pub fn signatures(compiler: &Compiler, text: &str) -> Result<Vec<String>, EvaluateError> {
+    let (types, shader) = compile(compiler, text)?;
+    let defined = shader.functions.iter().filter(|function| function.body.is_some() && function.name != "main");
+    Ok(defined.map(|function| signature_of(&types, function)).collect())
+}
+
+fn signature_of(types: &Types, function: &Function) -> String {
+    let names: Vec<String> = function.params().iter().map(|param| types.name(param.ty)).collect();
+    format!("{}({})", function.name, names.join(","))
+}
+
+fn compile(compiler: &Compiler, text: &str) -> Result<(Types, Shader), EvaluateError> {
+    let text = head(text) + "out vec4 glisten_result;\nvoid main() { glisten_result = vec4(0.0); }\n";
+    let source = Source { name: "evaluate.frag".into(), text: text.into(), stage: Stage::Fragment };
+    let compilation = compiler.compile(&[source]);
+    let program = compilation.program.ok_or_else(|| EvaluateError::told(compilation.diagnostics.iter()))?;
+    let mut stages = program.stages.into_iter();
+    let shader = stages.next().ok_or_else(|| EvaluateError::new("there is no shader"))?;
+    Ok((program.types, shader))
+}
+
+impl Call {
+    pub(super) fn new(
+        compiler: &Compiler,
+        text: &str,
+        signature: &str,
+        wraps: &[(usize, &str)],
+    ) -> Result<Self, EvaluateError> {
+        let (types, shader) = compile(compiler, text)?;
+        let wanted = signature.replace(' ', "");
+        let found = shader.functions.iter().find(|f| f.body.is_some() && signature_of(&types, f) == wanted);
+        let Some(function) = found else { return Err(unknown(&types, &shader, &wanted)) };
+        let mut writer = Writer { types: &types, inputs: 0, tables: 0 };
+        let arguments = writer.arguments(function, wraps)?;
+        let results = results(&types, function)?;
+        Ok(Self {
+            text: writer.text(text, function, &arguments, results),
+            inputs: writer.inputs,
+            results,
+            tables: writer.tables,
+        })
+    }
+}
+
+fn unknown(types: &Types, shader: &Shader, wanted: &str) -> EvaluateError {
+    let all: Vec<String> = shader.functions.iter().map(|function| signature_of(types, function)).collect();
+    let near = did_you_mean(wanted, all.iter().map(String::as_str)).map(|near| format!("; did you mean `{near}`?"));
+    EvaluateError::new(format!("there is no function `{wanted}`{}", near.unwrap_or_default()))
+}
+
+/// How many numbers a result has.
+fn results(types: &Types, function: &Function) -> Result<usize, EvaluateError> {
+    match types.get(function.ret) {
+        Type::Scalar(_) | Type::Vector(..) | Type::Matrix(..) => Ok(types.flat_len(function.ret) as usize),
+        _ => Err(EvaluateError::new(format!("`{}` returns `{}`", function.name, types.name(function.ret)))),
+    }
+}
+
+struct Writer<'a> {
+    types: &'a Types,
+    inputs: usize,
+    tables: usize,
+}
+
+impl Writer<'_> {
+    fn arguments(&mut self, function: &Function, wraps: &[(usize, &str)]) -> Result<Vec<String>, EvaluateError> {
+        let mut arguments = Vec::new();
+        let mut place = 0;
+        for (index, param) in function.params().iter().enumerate() {
+            if !matches!(function.param_mode(index), ParamMode::In | ParamMode::ConstIn) {
+                return Err(EvaluateError::new(format!("parameter `{}` is not passed in alone", param.name)));
+            }
+            if let Type::Sampler(sampler) = self.types.get(param.ty) {
+                if sampler.dim != SamplerDim::D2 || sampler.texel != Scalar::Float || sampler.arrayed || sampler.shadow
+                {
+                    return Err(self.unfit(param.ty));
+                }
+                arguments.push(format!("{TABLE}{}", self.tables));
+                self.tables += 1;
+                continue;
+            }
+            let value = self.value(param.ty)?;
+            let wrap = wraps.iter().find(|(wrapped, _)| *wrapped == place);
+            arguments.push(wrap.map_or(value.clone(), |(_, name)| format!("{name}({value})")));
+            place += 1;
+        }
+        Ok(arguments)
+    }
+
+    fn unfit(&self, ty: TypeId) -> EvaluateError {
+        EvaluateError::new(format!("a parameter of type `{}` cannot be filled from numbers", self.types.name(ty)))
+    }
+
+    /// The next component of the inputs.
+    fn next(&mut self) -> String {
+        let index = self.inputs;
+        self.inputs += 1;
+        format!("x{}[{}]", index / 4, index % 4)
+    }
+
+    /// A constructor of the type from the inputs that follow.
+    fn value(&mut self, ty: TypeId) -> Result<String, EvaluateError> {
+        match self.types.get(ty) {
+            Type::Scalar(scalar) => {
+                let number = self.next();
+                Ok(match scalar {
+                    Scalar::Float => number,
+                    Scalar::Bool => format!("({number} != 0.0)"),
+                    Scalar::Int | Scalar::Uint => format!("{}({number})", scalar.name()),
+                })
+            }
+            Type::Vector(..) | Type::Matrix(..) => {
+                let numbers: Vec<String> = (0..self.types.flat_len(ty)).map(|_| self.next()).collect();
+                Ok(format!("{}({})", self.types.name(ty), numbers.join(", ")))
+            }
+            Type::Struct(id) => {
+                let members: Vec<TypeId> = self.types.structure(id).members.iter().map(|member| member.ty).collect();
+                self.list(ty, &members)
+            }
+            Type::Array(element, ArraySize::Sized(size)) => self.list(ty, &vec![element; size as usize]),
+            _ => Err(self.unfit(ty)),
+        }
+    }
+
+    fn list(&mut self, ty: TypeId, parts: &[TypeId]) -> Result<String, EvaluateError> {
+        let parts: Result<Vec<String>, EvaluateError> = parts.iter().map(|part| self.value(*part)).collect();
+        Ok(format!("{}({})", self.types.name(ty), parts?.join(", ")))
+    }
+
+    fn text(&self, text: &str, function: &Function, arguments: &[String], results: usize) -> String {
+        let mut out = head(text);
+        out += "uniform sampler2D glisten_inputs;\n";
+        (0..self.tables).for_each(|index| out += &format!("uniform sampler2D {TABLE}{index};\n"));
+        out += "out vec4 glisten_result;\nvoid main()\n{\n    ivec2 at = ivec2(gl_FragCoord.xy);\n";
+        let (parts, texels) = (results.div_ceil(4), self.inputs.div_ceil(4));
+        out += &format!("    int row = at.x / {parts};\n");
+        for index in 0..texels {
+            out +=
+                &format!("    vec4 x{index} = texelFetch(glisten_inputs, ivec2(row * {texels} + {index}, at.y), 0);\n");
+        }
+        let ret = self.types.name(function.ret);
+        out += &format!("    {ret} y = {}({});\n", function.name, arguments.join(", "));
+        let component = |index: usize| match self.types.get(function.ret) {
+            _ if index >= results => "0.0".to_owned(),
+            Type::Scalar(_) => "float(y)".to_owned(),
+            Type::Matrix(_, rows) => format!("y[{}][{}]", index / usize::from(rows), index % usize::from(rows)),
+            _ => format!("float(y[{index}])"),
+        };
+        for part in 0..parts {
+            let numbers: Vec<String> = (0..4).map(|index| component(part * 4 + index)).collect();
+            out += &format!(
+                "    if (at.x - row * {parts} == {part})\n        glisten_result = vec4({});\n",
+                numbers.join(", ")
+            );
+        }
+        out + "}\n"
+    }
+}

@@ -1,0 +1,241 @@
+//! One GLSL function called with many inputs at once, on the reference and on a GPU: to test functions by value.
+//!
+//! *In:* a text with the function, its signature, rows of numbers. *Out:* a [`Scene`] of one pixel (or a few) a row, and the
+//! results read back from its picture. *Holds:* the reference's results keep the precision of its domain.
+//!
+//! ```
+//! use glisten::cpu::Precision;
+//! use glisten::evaluate::Evaluator;
+//! use glisten::{Compiler, Options};
+//!
+//! let text = "float lerp(float a, float b, float t) { return a + t * (b - a); }";
+//! let lerp = Evaluator::new(&Compiler::new(Options::default()), text, "lerp(float,float,float)", &[])?;
+//! let results = lerp.reference(&[0.0, 10.0, 0.25, 1.0, 3.0, 0.5], &[], Precision::F64)?;
+//! assert_eq!(results, [[2.5], [2.0]]);
+//! # Ok::<(), glisten::evaluate::EvaluateError>(())
+//! ```
+
+mod generate;
+
+use crate::compare::Picture;
+use crate::cpu::{self, Precision, RenderOptions};
+use crate::diagnostic::Diagnostic;
+use crate::hir::{SamplerDim, SamplerType, Scalar, Stage};
+use crate::link::Program;
+use crate::scene::{
+    Compare, Cull, Draw, Filter, Format, Framebuffer, Primitive, Scene, State, Texels, Texture, TextureLevel, Wrap,
+};
+use crate::{Compiler, Source};
+use std::fmt;
+use std::sync::Arc;
+
+pub use generate::signatures;
+
+/// Rows of inputs in a line of the picture.
+const ROWS_A_LINE: usize = 64;
+/// The most lines: the height that every GPU can draw.
+const MAX_LINES: usize = 8192;
+
+/// Why a function cannot be evaluated.
+#[derive(Clone, Debug)]
+pub struct EvaluateError {
+    /// What is wrong, in a sentence.
+    pub message: String,
+}
+
+impl fmt::Display for EvaluateError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.message)
+    }
+}
+
+impl std::error::Error for EvaluateError {}
+
+impl EvaluateError {
+    fn new(message: impl Into<String>) -> Self {
+        Self { message: message.into() }
+    }
+
+    fn told<'a>(diagnostics: impl IntoIterator<Item = &'a Diagnostic>) -> Self {
+        let lines: Vec<String> = diagnostics.into_iter().map(|d| format!("{}: {}", d.code, d.message)).collect();
+        Self::new(lines.join("; "))
+    }
+}
+
+/// A program that calls one function for each row of inputs.
+#[derive(Clone, Debug)]
+pub struct Evaluator {
+    program: Arc<Program>,
+    /// The text of the fragment stage.
+    text: String,
+    inputs: usize,
+    results: usize,
+    tables: usize,
+}
+
+impl Evaluator {
+    /// Prepares the calls of a function.
+    ///
+    /// - `compiler`: its options and includes hold for the text.
+    /// - `text`: GLSL 1.50 without a `#version` line and without `main`.
+    /// - `signature`: as [`signatures`] writes it: `lerp(float,float,float)`. Parameters are passed in; floats, vectors,
+    ///   matrices, `int`, `uint`, `bool`, and structs and arrays of these may be parameters, `sampler2D` too; floats,
+    ///   vectors, matrices, integers and booleans may come back.
+    /// - `wraps`: a parameter's place among those that are no samplers, and a function that its value is put through
+    ///   before the call: `(0, "normalize")`.
+    ///
+    /// # Errors
+    /// The text has errors, it has no such function, or a type is none of the above.
+    pub fn new(
+        compiler: &Compiler,
+        text: &str,
+        signature: &str,
+        wraps: &[(usize, &str)],
+    ) -> Result<Self, EvaluateError> {
+        let call = generate::Call::new(compiler, text, signature, wraps)?;
+        let sources = [
+            Source { name: "evaluate.vert".into(), text: generate::VERTEX.into(), stage: Stage::Vertex },
+            Source { name: "evaluate.frag".into(), text: call.text.as_str().into(), stage: Stage::Fragment },
+        ];
+        let compilation = compiler.compile(&sources);
+        let Some(program) = compilation.program else {
+            return Err(EvaluateError::told(compilation.diagnostics.iter()));
+        };
+        let program = Arc::new(program);
+        Ok(Self { program, text: call.text, inputs: call.inputs, results: call.results, tables: call.tables })
+    }
+
+    /// How many numbers a row of inputs has: the parameters' components in order, samplers left out.
+    pub fn inputs(&self) -> usize {
+        self.inputs
+    }
+
+    /// How many numbers come back for a row.
+    pub fn results(&self) -> usize {
+        self.results
+    }
+
+    /// The generated fragment shader.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// The program.
+    pub fn program(&self) -> &Program {
+        &self.program
+    }
+
+    fn parts(&self) -> usize {
+        self.results.div_ceil(4)
+    }
+
+    /// The scene that calls the function for each row. `tables` are the textures of its samplers, in order.
+    ///
+    /// # Errors
+    /// The inputs are no whole number of rows, none, or too many (524,288 rows fit), or a table is missing.
+    pub fn scene(&self, inputs: &[f32], tables: &[Arc<Texture>]) -> Result<Scene, EvaluateError> {
+        let rows = inputs.len().checked_div(self.inputs).unwrap_or(1);
+        if rows == 0 || rows * self.inputs != inputs.len() || rows > ROWS_A_LINE * MAX_LINES {
+            let message = format!("{} numbers are no rows of {}", inputs.len(), self.inputs);
+            return Err(EvaluateError::new(message));
+        }
+        if tables.len() != self.tables {
+            return Err(EvaluateError::new(format!("the function has {} tables, not {}", self.tables, tables.len())));
+        }
+        let lines = rows.div_ceil(ROWS_A_LINE);
+        let mut textures: Vec<Option<Arc<Texture>>> = Vec::new();
+        for slot in &self.program.interface.samplers {
+            let table = slot.name.strip_prefix(generate::TABLE).and_then(|index| index.parse::<usize>().ok());
+            textures.push(match table {
+                Some(index) => tables.get(index).cloned(),
+                None => Some(Arc::new(self.packed(inputs, lines))),
+            });
+        }
+        let framebuffer = Framebuffer {
+            width: (ROWS_A_LINE * self.parts()) as u32,
+            height: lines as u32,
+            clear: [0.0; 4],
+            format: Format::Rgba32Float,
+            attachments: 1,
+        };
+        let draw = Draw {
+            program: Arc::clone(&self.program),
+            state: STATE,
+            vertex_count: 3,
+            indices: None,
+            instances: 1,
+            attributes: Vec::new(),
+            uniforms: Vec::new(),
+            textures,
+            dynamic: Vec::new(),
+        };
+        Ok(Scene { name: "evaluate".into(), framebuffer, draws: vec![draw] })
+    }
+
+    /// Inputs as texels: a row's numbers side by side, 64 rows in a line.
+    fn packed(&self, inputs: &[f32], lines: usize) -> Texture {
+        let texels_a_row = self.inputs.div_ceil(4).max(1);
+        let mut texels = vec![[0.0; 4]; lines * ROWS_A_LINE * texels_a_row];
+        for (texels, row) in texels.chunks_mut(texels_a_row).zip(inputs.chunks(self.inputs.max(1))) {
+            for (texel, numbers) in texels.iter_mut().zip(row.chunks(4)) {
+                texel.iter_mut().zip(numbers).for_each(|(to, from)| *to = *from);
+            }
+        }
+        let (width, height) = ((ROWS_A_LINE * texels_a_row) as u32, lines as u32);
+        table_of(TextureLevel { width, height, depth: 1, texels: Texels::Float(texels) }, Filter::Nearest)
+    }
+
+    /// The results in a picture of the scene: for each row of inputs [`results`](Self::results) numbers.
+    pub fn read(&self, picture: &Picture, rows: usize) -> Vec<Vec<f64>> {
+        let Some(pixels) = picture.attachments.first() else { return Vec::new() };
+        let (parts, width, height) = (self.parts(), picture.width as usize, picture.height as usize);
+        let row = |index: usize| {
+            // Lines of the picture go from the top, gl_FragCoord from the bottom.
+            let line = height.saturating_sub(index / ROWS_A_LINE + 1);
+            let start = line * width + index % ROWS_A_LINE * parts;
+            let numbers = pixels.get(start..start + parts).unwrap_or(&[]).iter().flatten().copied();
+            numbers.take(self.results).collect()
+        };
+        (0..rows).map(row).collect()
+    }
+
+    /// Calls the function for each row on the CPU reference.
+    ///
+    /// # Errors
+    /// Those of [`scene`](Self::scene), and what the reference cannot draw.
+    pub fn reference(
+        &self,
+        inputs: &[f32],
+        tables: &[Arc<Texture>],
+        precision: Precision,
+    ) -> Result<Vec<Vec<f64>>, EvaluateError> {
+        let scene = self.scene(inputs, tables)?;
+        let options = RenderOptions { precision, mark_edges: false, ..RenderOptions::default() };
+        let picture = cpu::render(&scene, &options).map_err(|errors| EvaluateError::told(&errors))?;
+        Ok(self.read(&picture, inputs.len().checked_div(self.inputs).unwrap_or(1)))
+    }
+}
+
+const STATE: State = State {
+    primitive: Primitive::Triangles,
+    cull: Cull::None,
+    front_ccw: true,
+    provoking_last: true,
+    depth_test: false,
+    depth_write: false,
+    depth_func: Compare::Always,
+    blend: None,
+    clip_distances: 0,
+    program_point_size: false,
+};
+
+fn table_of(level: TextureLevel, filter: Filter) -> Texture {
+    let kind = SamplerType { texel: Scalar::Float, dim: SamplerDim::D2, arrayed: false, shadow: false };
+    Texture { kind, levels: vec![level], filter, wrap: Wrap::ClampToEdge, compare: Compare::Lequal }
+}
+
+/// A table of one row of texels, clamped: a function of one number for a `sampler2D`.
+pub fn table(texels: Vec<[f32; 4]>, filter: Filter) -> Texture {
+    let width = texels.len() as u32;
+    table_of(TextureLevel { width, height: 1, depth: 1, texels: Texels::Float(texels) }, filter)
+}

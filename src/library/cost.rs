@@ -1,0 +1,259 @@
+//! What a function costs: operations counted in its typed body.
+//!
+//! *In:* a function of a [`Shader`]. *Out:* its [`Cost`], by the dearest way through it.
+//!
+//! *Holds:* operations on a vector count once a component; operations on literals alone, and calls of functions without
+//! parameters, are folded by every compiler and count nothing. The body of a loop counts once. *Not done here:* what a
+//! driver makes of it; times are what `glisten report` measures.
+
+use crate::builtin::BuiltinFunction as F;
+use crate::hir::{BinaryOp, ExprId, ExprKind, FunctionId, Shader, Stmt, StmtKind, Type, TypeId, Types};
+use serde::Serialize;
+
+/// Scalar operations of a call.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Cost {
+    /// Additions, products, comparisons, minima, maxima, conversions, selections.
+    pub arithmetic: u32,
+    /// Divisions, roots, exponentials, logarithms, trigonometry.
+    pub special: u32,
+    /// Texture look-ups.
+    pub texture: u32,
+    /// Branches that are met.
+    pub branches: u32,
+    /// Loops; what is in their bodies is counted once.
+    pub loops: u32,
+}
+
+impl Cost {
+    const fn arithmetic(count: u32) -> Self {
+        Self { arithmetic: count, special: 0, texture: 0, branches: 0, loops: 0 }
+    }
+
+    const fn special(special: u32, arithmetic: u32) -> Self {
+        Self { arithmetic, special, texture: 0, branches: 0, loops: 0 }
+    }
+
+    fn and(self, other: Self) -> Self {
+        Self {
+            arithmetic: self.arithmetic + other.arithmetic,
+            special: self.special + other.special,
+            texture: self.texture + other.texture,
+            branches: self.branches + other.branches,
+            loops: self.loops + other.loops,
+        }
+    }
+
+    /// By which ways are compared: a division or a root takes about as long as four products on a GPU, a look-up longer.
+    pub fn weight(self) -> u32 {
+        self.arithmetic + 4 * self.special + 16 * self.texture + self.branches
+    }
+
+    fn dearest(self, other: Self) -> Self {
+        if other.weight() > self.weight() { other } else { self }
+    }
+}
+
+impl std::fmt::Display for Cost {
+    /// `24 operations, 2 divisions or transcendental functions, 1 branch`
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let plural = |count: u32| if count == 1 { "" } else { "s" };
+        let parts = [
+            (self.arithmetic, format!("{} operation{}", self.arithmetic, plural(self.arithmetic))),
+            (self.special, format!("{} division{s} or transcendental{s}", self.special, s = plural(self.special))),
+            (self.texture, format!("{} texture look-up{}", self.texture, plural(self.texture))),
+            (self.branches, format!("{} branch{}", self.branches, if self.branches == 1 { "" } else { "es" })),
+            (self.loops, format!("{} loop{} (bodies counted once)", self.loops, plural(self.loops))),
+        ];
+        let told: Vec<String> = parts.into_iter().filter(|(count, _)| *count > 0).map(|(_, text)| text).collect();
+        f.write_str(if told.is_empty() { "nothing" } else { "" })?;
+        f.write_str(&told.join(", "))
+    }
+}
+
+/// The cost of a call of the function, its arguments left out.
+pub fn cost(types: &Types, shader: &Shader, function: FunctionId) -> Cost {
+    let mut counter = Counter { types, shader, known: vec![None; shader.functions.len()] };
+    shader.on_stack(|| counter.function(function))
+}
+
+struct Counter<'a> {
+    types: &'a Types,
+    shader: &'a Shader,
+    known: Vec<Option<Cost>>,
+}
+
+impl Counter<'_> {
+    fn function(&mut self, id: FunctionId) -> Cost {
+        if let Some(Some(cost)) = self.known.get(id.index()) {
+            return *cost;
+        }
+        let shader = self.shader;
+        let cost = self.stmts(shader.function(id).body.as_deref().unwrap_or(&[]), Cost::default());
+        if let Some(known) = self.known.get_mut(id.index()) {
+            *known = Some(cost);
+        }
+        cost
+    }
+
+    /// The dearest way through statements that are reached at the cost `so_far`.
+    fn stmts(&mut self, stmts: &[Stmt], so_far: Cost) -> Cost {
+        let (mut cost, mut dearest) = (so_far, so_far);
+        for stmt in stmts {
+            match &stmt.kind {
+                StmtKind::If { arms, otherwise } => {
+                    let mut onward = cost;
+                    for (condition, body) in arms {
+                        cost = cost.and(self.expr(*condition)).and(Cost { branches: 1, ..Cost::default() });
+                        let way = self.stmts(body, cost);
+                        dearest = dearest.dearest(way);
+                        if !leaves(body) {
+                            onward = onward.dearest(way);
+                        }
+                    }
+                    let way = self.stmts(otherwise, cost);
+                    dearest = dearest.dearest(way);
+                    cost = if leaves(otherwise) { onward } else { onward.dearest(way) };
+                }
+                StmtKind::Block(body) => cost = self.stmts(body, cost),
+                StmtKind::Loop { condition, step, body, .. } => {
+                    let head = condition.as_ref().map(|condition| condition.expr).into_iter().chain(*step);
+                    cost = head.fold(cost, |cost, expr| cost.and(self.expr(expr)));
+                    cost = self.stmts(body, cost).and(Cost { loops: 1, ..Cost::default() });
+                }
+                kind => {
+                    cost = kind.exprs().into_iter().fold(cost, |cost, expr| cost.and(self.expr(expr)));
+                    cost = kind.bodies().into_iter().fold(cost, |cost, body| self.stmts(body, cost));
+                }
+            }
+        }
+        dearest.dearest(cost)
+    }
+
+    fn expr(&mut self, id: ExprId) -> Cost {
+        if self.constant(id) {
+            return Cost::default();
+        }
+        let shader = self.shader;
+        let expr = shader.expr(id);
+        let size = self.size(expr.ty);
+        let own = match &expr.kind {
+            ExprKind::Ternary(condition, yes, no) => {
+                let (yes, no) = (self.expr(*yes), self.expr(*no));
+                return self.expr(*condition).and(yes.dearest(no)).and(Cost::arithmetic(size));
+            }
+            ExprKind::Binary(op, left, right) => self.binary(*op, *left, *right, expr.ty),
+            ExprKind::Assign(Some(op), left, right) => self.binary(*op, *left, *right, expr.ty),
+            ExprKind::Unary(..) | ExprKind::Convert(_) | ExprKind::IncDec(..) => Cost::arithmetic(size),
+            ExprKind::Logical(..) => Cost::arithmetic(1),
+            ExprKind::Call(function, _) => self.function(*function),
+            ExprKind::BuiltinCall(function, arguments) => {
+                let first = arguments.first().map_or(size, |first| self.size(shader.expr(*first).ty));
+                builtin(*function, size, first)
+            }
+            _ => Cost::default(),
+        };
+        expr.kind.children().into_iter().fold(own, |cost, child| cost.and(self.expr(child)))
+    }
+
+    fn size(&self, ty: TypeId) -> u32 {
+        self.types.flat_len(ty).max(1)
+    }
+
+    /// Whether it is made of literals, and of functions that take nothing.
+    fn constant(&self, id: ExprId) -> bool {
+        let kind = &self.shader.expr(id).kind;
+        !matches!(kind, ExprKind::Var(_)) && kind.children().into_iter().all(|child| self.constant(child))
+    }
+
+    fn binary(&self, op: BinaryOp, left: ExprId, right: ExprId, ty: TypeId) -> Cost {
+        let size = self.size(ty);
+        let operand = self.shader.expr(left).ty;
+        match op {
+            BinaryOp::Div => Cost::special(size, 0),
+            BinaryOp::MatMul => {
+                let inner = match self.types.get(operand) {
+                    Type::Matrix(columns, _) => u32::from(columns),
+                    _ => self.size(operand),
+                };
+                Cost::arithmetic(size * (2 * inner - 1))
+            }
+            BinaryOp::Equal | BinaryOp::NotEqual => Cost::arithmetic(self.size(self.shader.expr(right).ty)),
+            _ => Cost::arithmetic(size),
+        }
+    }
+}
+
+/// Whether a body always ends the function, the loop or the round.
+fn leaves(body: &[Stmt]) -> bool {
+    let last = body.last().map(|stmt| &stmt.kind);
+    match last {
+        Some(StmtKind::Return(_) | StmtKind::Discard | StmtKind::Break | StmtKind::Continue) => true,
+        Some(StmtKind::Block(body)) => leaves(body),
+        _ => false,
+    }
+}
+
+/// A built-in function that gives `size` components from a first argument of `first`.
+fn builtin(function: F, size: u32, first: u32) -> Cost {
+    let dot = 2 * first - 1;
+    match function {
+        F::Dot => Cost::arithmetic(dot),
+        F::Length => Cost::special(1, dot),
+        F::Distance => Cost::special(1, dot + first),
+        F::Normalize => Cost::special(1, dot + size),
+        F::Cross => Cost::arithmetic(9),
+        F::Reflect => Cost::arithmetic(dot + 1 + 2 * size),
+        F::Clamp => Cost::arithmetic(2 * size),
+        F::Mix => Cost::arithmetic(3 * size),
+        F::Smoothstep => Cost::special(size, 7 * size),
+        F::Pow => Cost::special(2 * size, size),
+        F::Exp | F::Log => Cost::special(size, size),
+        F::Exp2 | F::Log2 | F::Sqrt | F::Inversesqrt => Cost::special(size, 0),
+        F::Sin | F::Cos | F::Tan | F::Asin | F::Acos | F::Atan => Cost::special(size, 0),
+        F::Texture | F::TextureLod | F::TexelFetch => Cost { texture: 1, ..Cost::default() },
+        _ => Cost::arithmetic(size),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Cost, cost};
+    use crate::hir::{FunctionId, Stage};
+    use crate::{Compiler, Options, Source};
+
+    /// The cost of the last function before `main`.
+    fn of(text: &str) -> Cost {
+        let text = format!("#version 150\n{text}\nout vec4 c;\nvoid main() {{ c = vec4(0.0); }}\n");
+        let source = Source { name: "a.frag".into(), text: text.into(), stage: Stage::Fragment };
+        let program = Compiler::new(Options::default()).compile(&[source]).program.expect("it is valid");
+        let shader = &program.stages[0];
+        let last = shader.functions.len() - 2;
+        cost(&program.types, shader, FunctionId(last as u32))
+    }
+
+    #[test]
+    fn operations_count_once_a_component() {
+        assert_eq!(of("float f(vec3 a, vec3 b) { return dot(a, b); }"), Cost::arithmetic(5));
+        assert_eq!(of("vec3 f(vec3 a, vec3 b) { return 2.0 * a + b; }"), Cost::arithmetic(6));
+        assert_eq!(of("vec3 f(vec3 a) { return a / sqrt(dot(a, a)); }"), Cost::special(4, 5));
+        assert_eq!(of("vec3 f(mat3 m, vec3 a) { return m * a; }"), Cost::arithmetic(15));
+    }
+
+    #[test]
+    fn literals_are_folded_and_calls_count_what_they_do() {
+        assert_eq!(
+            of("float g() { return exp2(9.0); } float f(float x) { return x * g() * (1.0 / 3.0); }"),
+            Cost::arithmetic(2)
+        );
+        assert_eq!(of("float g(float x) { return x * x; } float f(float x) { return g(g(x)); }"), Cost::arithmetic(2));
+    }
+
+    #[test]
+    fn the_dearest_way_counts() {
+        let text = "float f(float x) { if (x > 0.0) return sqrt(x); if (x < -1.0) return 0.0; return x + 1.0; }";
+        assert_eq!(of(text), Cost { special: 1, arithmetic: 1, branches: 1, ..Cost::default() });
+        let text = "float f(float x) { if (x > 0.0) x = sqrt(x); return x + 1.0; }";
+        assert_eq!(of(text), Cost { special: 1, arithmetic: 2, branches: 1, ..Cost::default() });
+    }
+}

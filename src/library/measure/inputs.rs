@@ -1,0 +1,258 @@
+//! Inputs for the value tests: random with a fixed seed, with the edges of each kind among them.
+
+use super::vector::{V, add, scale, unit};
+
+/// What a parameter, or a few that belong together, are filled with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// A number of any size that a float holds, 0 among them.
+    Any,
+    /// Three of these.
+    Any3,
+    /// Four.
+    Any4,
+    /// 0 to 1, the ends and their neighbors among them.
+    Unit,
+    /// -1.5 to 1.5.
+    Signed,
+    /// 1e-12 to 1, evenly in its logarithm: a distance from 1.
+    Distance01,
+    /// An exponent: 0, and 0.5 to 1e6, evenly in its logarithm.
+    Exponent,
+    /// A size of a table: 1 to 4096.
+    Size,
+    /// A unit vector, along an axis now and then.
+    Direction,
+    /// Two unit vectors, mostly near each other: 1e-6 to 2 radians.
+    Near,
+    /// Two unit vectors, the first mostly near the other's opposite.
+    Opposed,
+    /// A unit normal and unit vectors towards the light and the eye, mostly near the mirror direction.
+    Lighting,
+    /// A reflectance: three numbers from 0 to 1.
+    Color,
+    /// The intensity of a light: three numbers from 0 to 4.
+    Intensity,
+    /// 0 to 2.
+    Gain,
+    /// 0, and 0.01 to 0.5: half of a ramp's extent.
+    Width,
+    /// A distance: 2^-30 to 2^30, evenly in its logarithm.
+    Distance,
+    /// Weights of (96), now and then but not all 0.
+    Weights,
+    /// A point within 10 of the origin.
+    Point,
+    /// A vector of length 1e-6 to 1e6.
+    Vector,
+    /// The members of the library's `Light`.
+    Light,
+    /// The members of the library's `Material`.
+    Material,
+    /// Nine numbers from -2 to 2.
+    Matrix3,
+    /// Sixteen.
+    Matrix4,
+    /// A point in clip space with w from 0.1 to 10.
+    Clip,
+    /// Four numbers from -2 to 2.
+    Four,
+    /// Two numbers from -2 to 2.
+    Two,
+    /// Coordinates in a triangle: u, v >= 0, u + v <= 1.
+    Barycentric,
+    /// Three positive numbers, 1e-3 to 1e3.
+    Depths,
+    /// A point of a segment's end: x within 2, z from 0.1 to 100.
+    SegmentEnd,
+}
+
+/// Numbers from a fixed seed (splitmix64).
+pub(super) struct Random(u64);
+
+impl Random {
+    pub(super) fn new(seed: u64) -> Self {
+        Self(seed)
+    }
+
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    /// 0 to 1, 1 left out.
+    fn unit(&mut self) -> f64 {
+        (self.next() >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    fn range(&mut self, low: f64, high: f64) -> f64 {
+        low + self.unit() * (high - low)
+    }
+
+    /// Evenly in the logarithm.
+    fn spread(&mut self, low: f64, high: f64) -> f64 {
+        (self.range(low.ln(), high.ln())).exp()
+    }
+
+    pub(super) fn below(&mut self, count: u64) -> u64 {
+        self.next() % count.max(1)
+    }
+
+    fn once_in(&mut self, count: u64) -> bool {
+        self.below(count) == 0
+    }
+
+    pub(super) fn pick<T: Copy + Default>(&mut self, list: &[T]) -> T {
+        list.get(self.below(list.len() as u64) as usize).copied().unwrap_or_default()
+    }
+
+    fn direction(&mut self) -> V {
+        if self.once_in(16) {
+            let mut axis = [0.0; 3];
+            let place = self.below(3) as usize;
+            axis.iter_mut().skip(place).take(1).for_each(|x| *x = if self.once_in(2) { -1.0 } else { 1.0 });
+            return axis;
+        }
+        loop {
+            let v = [self.range(-1.0, 1.0), self.range(-1.0, 1.0), self.range(-1.0, 1.0)];
+            let square = super::vector::dot(v, v);
+            if (0.01..=1.0).contains(&square) {
+                return unit(v);
+            }
+        }
+    }
+
+    /// A direction about `radians` away.
+    fn beside(&mut self, a: V, radians: f64) -> V {
+        unit(add(a, scale(radians, self.direction())))
+    }
+
+    /// In the half space of `n`.
+    fn above(&mut self, n: V) -> V {
+        let a = self.direction();
+        if super::vector::dot(a, n) < 0.0 { scale(-1.0, a) } else { a }
+    }
+
+    fn lighting(&mut self) -> [V; 3] {
+        let n = self.direction();
+        if self.once_in(8) {
+            return [n, self.direction(), self.direction()];
+        }
+        let l = self.above(n);
+        let mirror = super::vector::sub(scale(2.0 * super::vector::dot(n, l), n), l);
+        let radians = self.spread(1e-5, 1.0);
+        [n, l, self.beside(mirror, radians)]
+    }
+
+    fn weights(&mut self) -> V {
+        loop {
+            let weight = |random: &mut Self| if random.once_in(3) { 0.0 } else { random.spread(1e-3, 10.0) };
+            let s = [weight(self), weight(self), weight(self)];
+            if s != [0.0; 3] {
+                return s;
+            }
+        }
+    }
+
+    fn any(&mut self) -> f64 {
+        if self.once_in(16) {
+            return 0.0;
+        }
+        let size = self.spread(2e-38, 3.3e38);
+        if self.once_in(2) { -size } else { size }
+    }
+
+    fn exponent(&mut self) -> f64 {
+        if self.once_in(16) { 0.0 } else { self.spread(0.5, 1e6) }
+    }
+
+    fn light(&mut self, to: &mut Vec<f64>) {
+        to.push(self.below(4) as f64);
+        to.extend(self.range3(10.0));
+        to.extend(scale(self.spread(1e-3, 1e3), self.direction()));
+        (0..3).for_each(|_| to.extend(self.positive3(4.0)));
+        to.extend([self.range(0.1, 1.0), self.range(0.0, 0.5), self.range(0.0, 0.1)]);
+        to.push(self.spread(1.0, 100.0));
+    }
+
+    fn range3(&mut self, size: f64) -> V {
+        [self.range(-size, size), self.range(-size, size), self.range(-size, size)]
+    }
+
+    fn positive3(&mut self, size: f64) -> V {
+        [self.range(0.0, size), self.range(0.0, size), self.range(0.0, size)]
+    }
+
+    /// The numbers of a kind, not yet rounded to f32.
+    pub(super) fn fill(&mut self, kind: Kind, to: &mut Vec<f64>) {
+        const NEAR_ONE: f64 = 1.0 - 1.0 / 16_777_216.0;
+        match kind {
+            Kind::Any => to.push(self.any()),
+            Kind::Any3 => to.extend([self.any(), self.any(), self.any()]),
+            Kind::Any4 => to.extend([self.any(), self.any(), self.any(), self.any()]),
+            Kind::Unit if self.once_in(8) => to.push(self.pick(&[0.0, 1.0, NEAR_ONE, 0.5, 1e-30])),
+            Kind::Unit => to.push(self.unit()),
+            Kind::Signed => to.push(self.range(-1.5, 1.5)),
+            Kind::Distance01 => to.push(self.spread(1e-12, 1.0)),
+            Kind::Exponent => to.push(self.exponent()),
+            Kind::Size => to.push(self.spread(1.0, 4097.0).floor()),
+            Kind::Direction => to.extend(self.direction()),
+            Kind::Near => {
+                let (a, radians) = (self.direction(), self.spread(1e-6, 2.0));
+                to.extend(a);
+                to.extend(self.beside(a, radians));
+            }
+            Kind::Opposed => {
+                let (a, radians) = (self.direction(), self.spread(1e-6, 2.0));
+                to.extend(a);
+                to.extend(self.beside(scale(-1.0, a), radians));
+            }
+            Kind::Lighting => to.extend(self.lighting().into_iter().flatten()),
+            Kind::Color => to.extend(self.positive3(1.0)),
+            Kind::Intensity => to.extend(self.positive3(4.0)),
+            Kind::Gain => to.push(self.range(0.0, 2.0)),
+            Kind::Width if self.once_in(8) => to.push(0.0),
+            Kind::Width => to.push(self.range(0.01, 0.5)),
+            Kind::Distance => to.push(self.range(-30.0, 30.0).exp2()),
+            Kind::Weights => to.extend(self.weights()),
+            Kind::Point => to.extend(self.range3(10.0)),
+            Kind::Vector => to.extend(scale(self.spread(1e-6, 1e6), self.direction())),
+            Kind::Light => self.light(to),
+            Kind::Material => {
+                (0..3).for_each(|_| to.extend(self.positive3(1.0)));
+                to.push(self.spread(1.0, 1000.0));
+                to.extend(self.positive3(1.0));
+            }
+            Kind::Matrix3 => (0..3).for_each(|_| to.extend(self.range3(2.0))),
+            Kind::Matrix4 => (0..16).for_each(|_| to.push(self.range(-2.0, 2.0))),
+            Kind::Clip => {
+                to.extend(self.range3(5.0));
+                to.push(self.range(0.1, 10.0));
+            }
+            Kind::Four => (0..4).for_each(|_| to.push(self.range(-2.0, 2.0))),
+            Kind::Two => (0..2).for_each(|_| to.push(self.range(-2.0, 2.0))),
+            Kind::Barycentric => {
+                let (u, v) = (self.unit(), self.unit());
+                to.extend(if u + v > 1.0 { [1.0 - u, 1.0 - v] } else { [u, v] });
+            }
+            Kind::Depths => (0..3).for_each(|_| to.push(self.spread(1e-3, 1e3))),
+            Kind::SegmentEnd => to.extend([self.range(-2.0, 2.0), self.spread(0.1, 100.0)]),
+        }
+    }
+}
+
+impl Kind {
+    /// How many parameters it fills, and whether they are put through `normalize` before the call, so that the
+    /// reference computes with vectors that are unit to its own precision.
+    pub(super) fn params(self) -> (usize, bool) {
+        match self {
+            Self::Direction => (1, true),
+            Self::Near | Self::Opposed => (2, true),
+            Self::Lighting => (3, true),
+            _ => (1, false),
+        }
+    }
+}

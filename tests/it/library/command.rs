@@ -1,0 +1,116 @@
+//! `glisten lib` end to end.
+
+use serde_json::Value;
+use std::fs;
+use std::process::{Command, Output, Stdio};
+
+fn run(arguments: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_glisten"));
+    command.arg("lib").args(arguments).env("NO_COLOR", "1").stdin(Stdio::null()).output().expect("the program runs")
+}
+
+fn out(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stdout).into_owned()
+}
+
+fn err(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+#[test]
+fn list_names_all_modules() {
+    let output = run(&["list"]);
+    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    let text = out(&output);
+    for module in glisten::library::modules() {
+        assert!(text.lines().any(|line| line.starts_with(&format!("{} ", module.name))), "{}:\n{text}", module.name);
+    }
+    let output = run(&["list", "--format", "json"]);
+    let list: Value = serde_json::from_str(&out(&output)).expect("it is JSON");
+    let list = list.as_array().expect("a list");
+    assert_eq!(list.len(), glisten::library::modules().len());
+    for module in list {
+        for key in ["name", "kind", "equation", "source", "stability"] {
+            assert!(module[key].as_str().is_some_and(|text| !text.is_empty()), "{key} of {module}");
+        }
+        assert!(module["functions"].as_array().is_some_and(|functions| functions.iter().all(Value::is_string)));
+        assert!(module["cost"]["arithmetic"].is_u64(), "{module}");
+    }
+    let phong = list.iter().find(|module| module["name"] == "phong").expect("it is there");
+    assert_eq!(phong["functions"], serde_json::json!(["mirrorDirection", "phongFactor", "phong"]));
+}
+
+#[test]
+fn show_documents_a_module_and_what_it_costs() {
+    let output = run(&["show", "blinn_phong"]);
+    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    let text = out(&output);
+    for part in [
+        "(89)",
+        "section 10.1.3",
+        "<glisten/blinn_phong.glsl>",
+        "float blinnPhongFactor(vec3 N, vec3 L",
+        "Cost: ",
+        "ULP",
+    ] {
+        assert!(text.contains(part), "`{part}` is not in\n{text}");
+    }
+    // By a function's name, as a file's name, as text, as JSON.
+    assert_eq!(out(&run(&["show", "blinnPhongFactor"])), text);
+    assert_eq!(out(&run(&["show", "glisten/blinn_phong.glsl"])), text);
+    let source =
+        glisten::library::modules().iter().find(|module| module.name == "blinn_phong").expect("it is there").text;
+    assert_eq!(out(&run(&["show", "blinn_phong", "--source"])), source);
+    let json: Value = serde_json::from_str(&out(&run(&["show", "blinn_phong", "--format", "json"]))).expect("JSON");
+    assert_eq!(json["function_entries"][1]["signature"], "blinnPhongFactor(vec3,vec3,vec3,float)");
+}
+
+#[test]
+fn an_unknown_module_is_wrong_usage_and_names_the_nearest() {
+    let output = run(&["show", "blin_phong"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(out(&output).is_empty() && err(&output).contains("did you mean `blinn_phong`?"), "{}", err(&output));
+    let output = run(&["show", "phongFaktor"]);
+    assert!(output.status.code() == Some(2) && err(&output).contains("`phongFactor`"), "{}", err(&output));
+    for arguments in [&[][..], &["list", "extra"], &["export"], &["measure", "nothing_like_it"]] {
+        assert_eq!(run(arguments).status.code(), Some(2), "{arguments:?}");
+    }
+}
+
+#[test]
+fn exported_modules_include_each_other_from_disk() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let target = folder.path().join("deep/lib");
+    let output = run(&["export", &target.to_string_lossy()]);
+    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    for module in glisten::library::modules() {
+        let written = fs::read_to_string(target.join(format!("{}.glsl", module.name))).expect("it is written");
+        assert_eq!(written, module.text);
+    }
+    let shader = "#version 150\n#extension GL_ARB_shading_language_include : require\n#include \"lib/lights.glsl\"\n\
+        out vec4 c;\nvoid main() { c = vec4(spotFactor(vec3(0.0), vec3(1.0), 2.0)); }\n";
+    fs::write(folder.path().join("deep/a.frag"), shader).expect("written");
+    let lint = Command::new(env!("CARGO_BIN_EXE_glisten"))
+        .args(["lint", "--deny", "warnings", "a.frag"])
+        .current_dir(folder.path().join("deep"))
+        .output()
+        .expect("the program runs");
+    assert_eq!(lint.status.code(), Some(0), "{}{}", out(&lint), err(&lint));
+    // A file where the folder should be.
+    let file = folder.path().join("file");
+    fs::write(&file, "").expect("written");
+    assert_eq!(run(&["export", &file.to_string_lossy()]).status.code(), Some(2));
+}
+
+#[test]
+fn measure_prints_a_row_a_function() {
+    let output = run(&["measure", "lambert", "spot", "--backend", "cpu", "--rows", "64"]);
+    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    let text = out(&output);
+    assert_eq!(text.lines().count(), 2 + 4, "{text}");
+    assert!(text.lines().all(|line| line.starts_with('|') && line.ends_with('|')), "{text}");
+    let output = run(&["measure", "spot", "--rows", "64", "--format", "json"]);
+    let rows: Value = serde_json::from_str(&out(&output)).unwrap_or_else(|error| panic!("{error}: {}", err(&output)));
+    assert_eq!(rows[0]["function"], "spotFactor(vec3,vec3,float)");
+    assert!(rows[0]["gpu_error"].as_f64().is_some_and(|error| error < 1e-4), "{rows}");
+}

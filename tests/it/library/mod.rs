@@ -1,0 +1,27 @@
+//! The library of lighting models: by value, at its edges, by its laws, against the article's register programs, through
+//! every target, and its command.
+
+#[cfg(feature = "cli")]
+mod command;
+mod laws;
+mod registers;
+mod stiff;
+mod targets;
+mod values;
+
+use glisten::cpu::Precision;
+use glisten::evaluate::Evaluator;
+use glisten::library::Embedded;
+use glisten::{Compiler, Options};
+
+/// A function of a module, ready to be called.
+fn function(module: &str, signature: &str, wraps: &[(usize, &str)]) -> Evaluator {
+    let compiler = Compiler::new(Options::default()).with_includes(Embedded);
+    let text = format!("#include <glisten/{module}.glsl>");
+    Evaluator::new(&compiler, &text, signature, wraps).unwrap_or_else(|error| panic!("{signature}: {error}"))
+}
+
+/// What it gives in f64 for each row.
+fn call(function: &Evaluator, rows: &[f32]) -> Vec<Vec<f64>> {
+    function.reference(rows, &[], Precision::F64).unwrap_or_else(|error| panic!("{error}"))
+}
