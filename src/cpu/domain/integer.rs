@@ -11,6 +11,17 @@ pub trait Integer: Copy + Default + Send + Sync + Debug + 'static {
     fn from_bits(bits: u32) -> Self;
     /// The bits, those of the most likely value where they are not sure.
     fn bits(self) -> u32;
+    /// The bits that are carried beside them, in domains that follow two values.
+    #[inline(always)]
+    fn beside(self) -> u32 {
+        self.bits()
+    }
+    /// Bits and those beside them; domains that carry one forget the second.
+    #[inline(always)]
+    fn paired(bits: u32, beside: u32) -> Self {
+        let _ = beside;
+        Self::from_bits(bits)
+    }
     /// These bits, or those of another `int` between both ends; only domains with envelopes keep the choice.
     fn with_choices(bits: u32, low: i32, high: i32) -> Self {
         let _ = (low, high);

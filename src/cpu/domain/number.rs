@@ -17,6 +17,9 @@ pub trait Number: Copy + Default + Send + Sync + Debug + 'static {
 
     /// Whether a number stands for several that a conforming GPU may have.
     const OPEN: bool = false;
+    /// Whether a second value is carried beside the first: what leaves the domain's arithmetic, a texture's coordinates,
+    /// is followed for both.
+    const PAIRED: bool = false;
 
     /// The nearest.
     fn from_f64(value: f64) -> Self;
@@ -38,6 +41,17 @@ pub trait Number: Copy + Default + Send + Sync + Debug + 'static {
     }
     /// The value.
     fn value(self) -> f64;
+    /// The value that is carried beside it.
+    #[inline(always)]
+    fn beside(self) -> f64 {
+        self.value()
+    }
+    /// The nearest of two values; domains that carry one forget the second.
+    #[inline(always)]
+    fn paired(value: f64, beside: f64) -> Self {
+        let _ = beside;
+        Self::from_f64(value)
+    }
     /// What a conforming GPU may have; the value alone in domains without envelopes.
     #[inline(always)]
     fn range(self) -> Range {

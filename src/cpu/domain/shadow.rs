@@ -43,6 +43,12 @@ impl Integer for ShadowInt {
     fn bits(self) -> u32 {
         self.bits
     }
+    fn beside(self) -> u32 {
+        self.single
+    }
+    fn paired(bits: u32, beside: u32) -> Self {
+        Self { bits, single: beside }
+    }
     fn sure(self) -> bool {
         self.bits == self.single
     }
@@ -113,20 +119,21 @@ macro_rules! answers {
 }
 
 impl<const INSIDE: bool> Number for Shadowed<INSIDE> {
+    const PAIRED: bool = true;
     type Int = ShadowInt;
     type Wide = Shadowed<true>;
 
     fn from_f64(value: f64) -> Self {
         Self { single: value as f32, exact: value, wide: value }
     }
-    fn with_error(value: f64, _: f64) -> Self {
-        Self::from_f64(value)
-    }
     fn value(self) -> f64 {
         self.wide
     }
-    fn error(self) -> f64 {
-        0.0
+    fn beside(self) -> f64 {
+        self.single.into()
+    }
+    fn paired(value: f64, beside: f64) -> Self {
+        Self { single: beside as f32, exact: beside, wide: value }
     }
     fn widen(self) -> Shadowed<true> {
         let Self { single, exact, wide } = self.begun();

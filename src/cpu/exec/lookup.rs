@@ -18,15 +18,12 @@ impl<D: Domain> Machine<D> {
         for lane in Mask(mask).lanes() {
             let slot = self.registers.int(call.sampler).at(lane);
             let bound = self.textures.get(slot.bits() as usize).and_then(Option::as_deref);
-            let lookup = At { registers: &self.registers, call, lane };
-            let sampled = match (bound, call.lookup) {
-                (None, Lookup::Size) => Sampled::Bits([Bits::default(); 4]),
-                (None, _) => nothing(call),
-                (Some(texture), Lookup::Size) => lookup.size(texture),
-                (Some(texture), Lookup::Fetch) => lookup.fetch(texture),
-                (Some(texture), _) => lookup.filtered(texture, stage),
-            };
-            if slot.sure() {
+            let lookup = At { registers: &self.registers, call, lane, beside: false };
+            let sampled = lookup.sampled(bound, stage);
+            if D::Float::PAIRED {
+                let beside = At { beside: true, ..lookup }.sampled(bound, stage);
+                self.put_pair(call, lane, sampled, beside);
+            } else if slot.sure() {
                 self.put(call, lane, sampled);
             } else {
                 undecided |= 1 << lane;
@@ -53,6 +50,24 @@ impl<D: Domain> Machine<D> {
     }
 }
 
+impl<D: Domain> Machine<D> {
+    /// What the coordinates give, and what those beside them give.
+    fn put_pair(&mut self, call: &TextureCall, lane: usize, sampled: Sampled, beside: Sampled) {
+        for (k, result) in call.results.iter().enumerate() {
+            match (sampled, beside) {
+                (Sampled::Floats(a), Sampled::Floats(b)) => {
+                    self.registers.floats[result.number()][lane] = D::Float::paired(a[k % 4].value, b[k % 4].value);
+                }
+                (Sampled::Bits(a), Sampled::Bits(b)) => {
+                    self.registers.ints[result.number()][lane] = D::Int::paired(a[k % 4].bits, b[k % 4].bits);
+                }
+                // One instruction gives one kind.
+                _ => {}
+            }
+        }
+    }
+}
+
 fn nothing(call: &TextureCall) -> Sampled {
     if call.kind.texel == Scalar::Float || call.kind.shadow {
         Sampled::Floats(MISSING.map(Near::exact))
@@ -66,11 +81,26 @@ struct At<'a, D: Domain> {
     registers: &'a Registers<D>,
     call: &'a TextureCall,
     lane: usize,
+    /// Whether the values beside the values are meant.
+    beside: bool,
 }
 
 impl<D: Domain> At<'_, D> {
+    fn sampled(&self, texture: Option<&Texture>, stage: Stage) -> Sampled {
+        match (texture, self.call.lookup) {
+            (None, Lookup::Size) => Sampled::Bits([Bits::default(); 4]),
+            (None, _) => nothing(self.call),
+            (Some(texture), Lookup::Size) => self.size(texture),
+            (Some(texture), Lookup::Fetch) => self.fetch(texture),
+            (Some(texture), _) => self.filtered(texture, stage),
+        }
+    }
+
     fn near(&self, operand: Operand) -> Near {
         let number = self.registers.float(operand).at(self.lane);
+        if D::Float::PAIRED && self.beside {
+            return Near::exact(number.beside());
+        }
         let value = number.value();
         if !D::OPEN {
             return Near::exact(value);
@@ -80,7 +110,8 @@ impl<D: Domain> At<'_, D> {
     }
 
     fn int(&self, operand: Operand) -> D::Int {
-        self.registers.int(operand).at(self.lane)
+        let int = self.registers.int(operand).at(self.lane);
+        if D::Float::PAIRED && self.beside { D::Int::from_bits(int.beside()) } else { int }
     }
 
     fn nears(&self, operands: &[Operand]) -> [Near; 3] {

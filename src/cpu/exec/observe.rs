@@ -1,15 +1,16 @@
 //! [`Observer`]: sees what a machine computes, instruction by instruction.
 //!
 //! *In:* instructions as they run. *Out:* [`Event`]s with the operands and results of the lanes that count.
-//! *Holds:* watching changes nothing. Copies, loads, stores and textures are not shown: they compute nothing. Helper
-//! lanes are never shown.
+//! *Holds:* watching changes nothing. Copies, loads and stores are not shown: they compute nothing. Helper lanes are
+//! never shown.
 
 use super::Mask;
 use super::code::Section;
-use super::inst::{Class, Composite, Float1, Float2, Inst, Use};
+use super::inst::{Class, Composite, Float1, Float2, Inst, Lookup, Operand, TextureCall, Use};
 use super::machine::Machine;
 use super::registers::Source;
 use crate::cpu::domain::Domain;
+use crate::hir::Scalar;
 use crate::source::Span;
 use smallvec::SmallVec;
 use std::fmt::Debug;
@@ -41,6 +42,8 @@ pub enum Kind {
     Jump,
     /// A difference of neighboring lanes.
     Derivative,
+    /// A texture's texels, from coordinates.
+    Texture,
     /// Anything else.
     Other,
 }
@@ -142,6 +145,22 @@ impl<D: Domain> Machine<D> {
             (None, Inst::Compare { .. } | Inst::FloatToInt { .. }, Some(answer)) => What::Answer(answer),
             _ => return,
         };
+        let span = section.spans.get(place).copied().unwrap_or_default();
+        observer.see(&Event { span, lanes: Mask(mask & self.watched), what });
+    }
+
+    /// Shows a lookup of floats by floats.
+    pub(super) fn show_texture(&mut self, call: &TextureCall, section: &Section, place: usize, mask: u64) {
+        let Some(observer) = &mut self.observer else { return };
+        let texels_are_floats = call.kind.texel == Scalar::Float || call.kind.shadow;
+        if !texels_are_floats || matches!(call.lookup, Lookup::Fetch | Lookup::Size) {
+            return;
+        }
+        let registers = &self.registers;
+        let values = |operand: &Operand| registers.float(*operand);
+        let operands: SmallVec<[Source<'_, D::Float>; 8]> = call.coordinate.iter().map(values).collect();
+        let results: SmallVec<[Source<'_, D::Float>; 4]> = call.results.iter().map(values).collect();
+        let what = What::Floats { kind: Kind::Texture, operands: &operands, results: &results };
         let span = section.spans.get(place).copied().unwrap_or_default();
         observer.see(&Event { span, lanes: Mask(mask & self.watched), what });
     }

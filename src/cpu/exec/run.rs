@@ -36,6 +36,9 @@ impl<D: Domain> Machine<D> {
                 Inst::Texture { call } => {
                     if let Some(call) = inner.textures.get(call as usize) {
                         self.undecided |= self.texture(call, inner.stage, mask);
+                        if watched {
+                            self.show_texture(call, section, place - 1, mask);
+                        }
                     }
                 }
                 Inst::Save { slot } => self.slots[slot as usize] = mask,

@@ -10,8 +10,8 @@
 //!
 //! *Holds:* both sides run the path of f64. The figures do not depend on threads. Helper invocations are not counted.
 //!
-//! *Not done here:* errors of texture coordinates end at the lookup (texels are looked up by the f64 coordinates);
-//! denormals are not flushed; a GPU's own formulas for `sin` and its like are not modeled, they round once.
+//! *Not done here:* denormals are not flushed; a GPU's own formulas for `sin` and its like, and its weights of linear
+//! filtering, are not modeled: they round once.
 
 mod record;
 #[cfg(test)]

@@ -95,7 +95,7 @@ fn cancelled(kind: Kind, operands: &[ShadowFloat], result: ShadowFloat) -> f64 {
             let (a, b) = operands.split_at(operands.len() / 2);
             a.iter().zip(b).map(|(a, b)| f64::from(a.single) * f64::from(b.single)).collect()
         }
-        Kind::Jump | Kind::Derivative | Kind::Other => return 0.0,
+        Kind::Jump | Kind::Derivative | Kind::Texture | Kind::Other => return 0.0,
     };
     let largest = terms.iter().map(|term| term.abs()).fold(0.0, f64::max);
     let left = f64::from(result.single).abs();

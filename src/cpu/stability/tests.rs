@@ -11,10 +11,15 @@ const VERTEX: &str =
 
 /// A program that fills a picture of 16x16 pixels, `at` going from -1 to 1 both ways; its fragment stage's body.
 fn traced(body: &str) -> (Trace, SourceMap) {
+    traced_with(body, "")
+}
+
+fn traced_with(body: &str, more: &str) -> (Trace, SourceMap) {
     let scene = "[framebuffer]\nwidth = 16\nheight = 16\n[[draw]]\nvertex = \"a.vert\"\nfragment = \"a.frag\"\n\
         primitive = \"triangle_strip\"\n[draw.attributes]\np = { size = 2, values = [-1, -1, 1, -1, -1, 1, 1, 1] }\n";
+    let scene = format!("{scene}{more}");
     let fragment = format!("#version 150\nin vec2 at;\nout vec4 o;\n{body}\n");
-    let files = MemoryFiles::new([("a.toml", scene), ("a.vert", VERTEX), ("a.frag", fragment.as_str())]);
+    let files = MemoryFiles::new([("a.toml", scene.as_str()), ("a.vert", VERTEX), ("a.frag", fragment.as_str())]);
     let loaded = load("a.toml", &files, &Compiler::new(Options::default()));
     let told: Vec<&str> = loaded.diagnostics.iter().map(|finding| finding.message.as_str()).collect();
     let scene = loaded.scene.unwrap_or_else(|| panic!("{told:?}"));
@@ -117,4 +122,17 @@ fn what_is_the_same_everywhere_counts_once() {
     let (trace, sources) = traced("uniform float u = 2.0; void main() { o = vec4(sqrt(u * 3.0) + at.x); }");
     let found = trace.spans.iter().find(|span| sources.snippet(span.span) == "sqrt(u * 3.0)");
     assert_eq!(found.map(|span| span.evaluations), Some(1));
+}
+
+#[test]
+fn a_texel_that_f32_misses_is_laid_at_the_lookup() {
+    // In f64 left of the middle; in f32 on it, and so in the right texel.
+    let body = "uniform sampler2D tex; void main() { o = texture(tex, vec2(0.5 - 1e-9 * (at.x + 2.0), 0.5)) * 3.0; }";
+    let texture = "[draw.textures]\ntex = { width = 2, height = 1, values = [0.25, 0, 0, 1, 0.75, 0, 0, 1] }\n";
+    let (trace, sources) = traced_with(body, texture);
+    let causes: Vec<&SpanError> = trace.spans.iter().filter(|span| span.is_cause()).collect();
+    let texts: Vec<&str> = causes.iter().map(|span| sources.snippet(span.span)).collect();
+    assert_eq!(texts, ["texture(tex, vec2(0.5 - 1e-9 * (at.x + 2.0), 0.5))"]);
+    assert_eq!((causes[0].error, trace.output_error), (0.5, 1.5));
+    assert_eq!(trace.picture.attachments[0][0][0], 0.75, "the picture is f64's");
 }
