@@ -98,7 +98,7 @@ fn side() -> f64 {
 #[test]
 fn triangles_inside_the_window() {
     let mut random = Random(1);
-    let vertices: Vec<Vertex> = (0..3 * 3000)
+    let vertices: Vec<Vertex> = (0..3 * 4000)
         .map(|index| {
             // From specks to the whole window.
             let reach = [2.0, 8.0, 40.0, 90.0][index / 3 % 4];
@@ -109,11 +109,34 @@ fn triangles_inside_the_window() {
     assert_few(&count(&scene("triangles", &vertices, 3, None)), 0);
 }
 
+/// The share of a triangle's pixels whose centers lie within 1/128 pixel of its edges: those that a comparison leaves out.
+#[test]
+fn few_pixels_are_near_an_edge() {
+    let mut random = Random(9);
+    let (mut near, mut covered) = (0, 0);
+    for _ in 0..60 {
+        let vertices: Vec<Vertex> =
+            (0..3).map(|_| at(random.within(0.0, side()), random.within(0.0, side()), 1.0)).collect();
+        let options = RenderOptions {
+            precision: Precision::F32,
+            lines: LineRule::Vulkan,
+            mark_edges: true,
+            ..RenderOptions::default()
+        };
+        let picture = glisten::cpu::render(&scene("triangles", &vertices, 3, None), &options).expect("it draws");
+        near += picture.near_edge.iter().filter(|near| **near).count();
+        covered += picture.covered.iter().filter(|covered| **covered).count();
+    }
+    let share = near as f64 / covered as f64;
+    // 1/64 pixel on both sides of a circumference of some three hundred pixels, of an area of some three thousand.
+    assert!(covered > 60_000 && share < 2e-3, "{near} of {covered}: {share}");
+}
+
 #[test]
 fn slivers() {
     let mut random = Random(2);
     let mut vertices = Vec::new();
-    for index in 0..2500 {
+    for index in 0..3000 {
         let width = [1.0, 0.25, 0.03, 0.004][index % 4];
         let (a, b) = (
             (random.within(4.0, 188.0), random.within(4.0, 188.0)),
@@ -165,7 +188,7 @@ fn shared_edges_are_drawn_once() {
 fn clipped_triangles() {
     let mut random = Random(4);
     let mut vertices = Vec::new();
-    for _ in 0..2500 {
+    for _ in 0..3000 {
         for _ in 0..3 {
             // Through the sides, the near and the far plane, and behind the eye.
             let w = random.within(-1.0, 3.0);
@@ -174,6 +197,25 @@ fn clipped_triangles() {
     }
     // Four of ten million: where the driver's z of the target's clip space, rounded otherwise, cuts an edge a hair apart.
     assert_few(&count(&scene("triangles", &vertices, 3, None)), 8);
+}
+
+#[test]
+fn a_triangle_far_past_the_window_covers_all_of_it() {
+    // In f32 a cut of such an edge is off by more than the window is wide, and drivers draw a part of it or nothing.
+    for reach in [1e4, 1e6, 1e8, 1e12] {
+        let corners: [Vertex; 3] =
+            [[-1.0, -1.0], [1.0, -0.3], [0.01, 2.0]].map(|[x, y]| [x * reach, y * reach, 0.0, 1.0]);
+        let options = RenderOptions {
+            precision: Precision::F64,
+            lines: LineRule::OpenGl,
+            mark_edges: false,
+            ..RenderOptions::default()
+        };
+        let picture = glisten::cpu::render(&scene("triangles", &corners, 3, None), &options).expect("it draws");
+        assert!(picture.covered.iter().all(|covered| *covered), "{reach:e}");
+        // Two triangles: what the cuts make of it overlaps nowhere.
+        assert!(picture.attachments[0].iter().all(|pixel| pixel[0] == 1.0), "{reach:e}");
+    }
 }
 
 #[test]

@@ -157,11 +157,19 @@ impl Number for f64 {
     }
     #[inline(always)]
     fn acosh(self) -> Self {
-        Self::acosh(self)
+        // The standard library's loses half of the digits near 1.
+        let above = self - 1.0;
+        let root = (above * (self + 1.0)).sqrt();
+        match above {
+            ..0.0 => Self::NAN,
+            _ if root.is_infinite() => self.ln() + std::f64::consts::LN_2,
+            _ => (above + root).ln_1p(),
+        }
     }
     #[inline(always)]
     fn atanh(self) -> Self {
-        Self::atanh(self)
+        // The standard library's loses digits near -1 and not near 1.
+        Self::atanh(self.abs()).copysign(self)
     }
     #[inline(always)]
     fn less(self, other: Self) -> u32 {

@@ -18,6 +18,14 @@ const VOLUME: usize = 6;
 /// Those of them that are sides of the window, as a mask.
 pub(super) const SIDES: u32 = 0b1111;
 
+/// How far along an edge a plane cuts it: in the domain, by the f32 positions in f32, and by them in f64.
+#[derive(Clone, Copy, Debug)]
+struct Cut<F> {
+    t: F,
+    single: f32,
+    double: f64,
+}
+
 impl<D: Domain> Vertices<D> {
     /// The distance of a vertex from a plane in f32, in the order of operations of a dot product with the plane.
     fn distance32(&self, vertex: u32, plane: usize) -> f32 {
@@ -35,6 +43,20 @@ impl<D: Domain> Vertices<D> {
                 let index = vertex as usize * self.distance_count + plane - VOLUME;
                 self.distances32.get(index).copied().unwrap_or(0.0)
             }
+        }
+    }
+
+    /// The same in f64, up to a factor.
+    fn distance64(&self, vertex: u32, plane: usize) -> f64 {
+        let [x, y, z, w] = self.clip32.get(vertex as usize).copied().unwrap_or_default().map(f64::from);
+        match plane {
+            0 => w - x,
+            1 => x + w,
+            2 => w - y,
+            3 => y + w,
+            4 => z + w,
+            5 => w - z,
+            _ => f64::from(self.distance32(vertex, plane)),
         }
     }
 
@@ -72,13 +94,14 @@ impl<D: Domain> Vertices<D> {
     }
 
     /// Adds the vertex at `t` of the way from `from` to `to`: `from + t (to - from)`.
-    fn add_between(&mut self, from: u32, to: u32, t: D::Float, t32: f32) -> u32 {
+    fn add_between(&mut self, from: u32, to: u32, cut: Cut<D::Float>) -> u32 {
+        let Cut { t, single: t32, .. } = cut;
         let id = self.clip.len() as u32;
         let (a, b) = (from as usize, to as usize);
         let mix = |x: D::Float, y: D::Float, t: D::Float| x.add(t.mul(y.sub(x)));
         let mix32 = |x: f32, y: f32| x + t32 * (y - x);
         let clip: [D::Float; 4] = std::array::from_fn(|i| mix(self.clip[a][i], self.clip[b][i], t));
-        let clip32: [f32; 4] = std::array::from_fn(|i| mix32(self.clip32[a][i], self.clip32[b][i]));
+        let clip32: [f32; 4] = self.cut32(a, b, cut);
         let in_window = t.mul(self.clip[b][3]).div(clip[3]);
         self.clip.push(clip);
         self.clip32.push(clip32);
@@ -112,6 +135,20 @@ impl<D: Domain> Vertices<D> {
         id
     }
 
+    /// The f32 position of a cut. Where an end lies so far out that f32 leaves no digits for it, by the number that f64
+    /// gives: there drivers draw anything or nothing.
+    fn cut32(&self, from: usize, to: usize, cut: Cut<D::Float>) -> [f32; 4] {
+        const FAR: f32 = 16384.0;
+        let (a, b) = (self.clip32[from], self.clip32[to]);
+        let near: [f32; 4] = std::array::from_fn(|i| a[i] + cut.single * (b[i] - a[i]));
+        let reach = a.iter().chain(&b).fold(0.0_f32, |most, value| most.max(value.abs()));
+        if reach <= FAR * near[3].abs() {
+            return near;
+        }
+        let (a, b) = (a.map(f64::from), b.map(f64::from));
+        std::array::from_fn(|i| (a[i] + cut.double * (b[i] - a[i])) as f32)
+    }
+
     /// How far off a driver may be that, as Mesa 22.3, derives the way along an edge in the window from the difference of
     /// its ends' x alone: beyond all bounds where that is 0.
     fn lost_in_window(&self, from: usize, to: usize) -> f64 {
@@ -121,14 +158,16 @@ impl<D: Domain> Vertices<D> {
         ROUNDINGS * from.abs().max(to.abs()) / (from - to).abs()
     }
 
-    /// How far along the edge from `from`, which is outside, to `to` it crosses a plane, in the domain and in f32.
-    fn crossing(&self, from: u32, to: u32, plane: usize) -> (D::Float, f32) {
+    /// Where the edge from `from`, which is outside, to `to` crosses a plane.
+    fn crossing(&self, from: u32, to: u32, plane: usize) -> Cut<D::Float> {
         let (outside, inside) = (self.distance32(from, plane), self.distance32(to, plane));
-        let t32 = outside / (outside - inside);
+        let single = outside / (outside - inside);
+        let (outside, inside) = (self.distance64(from, plane), self.distance64(to, plane));
+        let double = outside / (outside - inside);
         let (outside, inside) = (self.distance(from, plane), self.distance(to, plane));
         let t = outside.div(outside.sub(inside));
         let usable = t.value() >= 0.0 && t.value() <= 1.0;
-        (if usable { t } else { D::Float::from_f64(f64::from(t32)) }, t32)
+        Cut { t: if usable { t } else { D::Float::from_f64(f64::from(single)) }, single, double }
     }
 
     /// What is left of a triangle: the corners of a convex polygon, none if nothing is.
@@ -153,8 +192,8 @@ impl<D: Domain> Vertices<D> {
                 if (distance < 0.0) != (next_distance < 0.0) {
                     // The cut is measured from the vertex outside, whichever way the edge runs.
                     let (outside, inside) = if distance < 0.0 { (vertex, next) } else { (next, vertex) };
-                    let (t, t32) = self.crossing(outside, inside, plane);
-                    left.push(self.add_between(outside, inside, t, t32));
+                    let cut = self.crossing(outside, inside, plane);
+                    left.push(self.add_between(outside, inside, cut));
                 }
             }
             polygon = left;
@@ -180,23 +219,23 @@ impl<D: Domain> Vertices<D> {
             return Some([from, to]);
         }
         // From each end, the farthest of the cuts of the planes that this end is outside of.
-        let mut start = (D::Float::default(), 0.0_f32);
+        let mut start = Cut { t: D::Float::default(), single: 0.0, double: 0.0 };
         let mut end = start;
         for plane in (0..VOLUME + self.distance_count).filter(|plane| (a | b) >> plane & 1 == 1) {
             if a >> plane & 1 == 1 {
                 let cut = self.crossing(from, to, plane);
-                start = if cut.1 > start.1 { cut } else { start };
+                start = if cut.single > start.single { cut } else { start };
             }
             if b >> plane & 1 == 1 {
                 let cut = self.crossing(to, from, plane);
-                end = if cut.1 > end.1 { cut } else { end };
+                end = if cut.single > end.single { cut } else { end };
             }
         }
-        if start.1 + end.1 >= 1.0 {
+        if start.single + end.single >= 1.0 {
             return None;
         }
-        let first = if a == 0 { from } else { self.add_between(from, to, start.0, start.1) };
-        let last = if b == 0 { to } else { self.add_between(to, from, end.0, end.1) };
+        let first = if a == 0 { from } else { self.add_between(from, to, start) };
+        let last = if b == 0 { to } else { self.add_between(to, from, end) };
         Some([first, last])
     }
 }

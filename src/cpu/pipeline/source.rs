@@ -69,6 +69,10 @@ enum Kind<D: Domain> {
     Triangle(Frame<D::Float>),
 }
 
+/// How far a driver's size of a point may be from the one that is asked for: half of the granularity that it has for them
+/// (OpenGL 3.2 §3.4.1), here of 1/256 pixel, the one of window positions.
+const POINT_SIZE_ERROR: f64 = 0.5 / 256.0;
+
 /// The square of a point, for `gl_PointCoord`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sprite<D: Domain> {
@@ -82,7 +86,8 @@ impl<D: Domain> Sprite<D> {
         let half = D::Float::from_f64(0.5);
         let along = |p: f64, center: D::Float| {
             let exact = half.add(D::Float::from_f64(p).sub(center).div(self.size));
-            exact.widened(rules::POINT_COORD.absolute())
+            let sized = (exact.value() - 0.5).abs() * POINT_SIZE_ERROR / self.size.value();
+            exact.widened(sized + rules::POINT_COORD.absolute())
         };
         [along(x, self.center[0]), along(y, self.center[1])]
     }

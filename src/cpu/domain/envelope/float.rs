@@ -369,10 +369,10 @@ impl Number for EnvelopeFloat {
         self.by_ends(f64::asinh, Self::asinh_formula)
     }
     fn acosh(self) -> Self {
-        self.by_ends(f64::acosh, Self::acosh_formula)
+        self.by_ends(Number::acosh, Self::acosh_formula)
     }
     fn atanh(self) -> Self {
-        self.by_ends(f64::atanh, Self::atanh_formula)
+        self.by_ends(Number::atanh, Self::atanh_formula)
     }
     #[inline(always)]
     fn less(self, other: Self) -> EnvelopeInt {

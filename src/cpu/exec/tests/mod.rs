@@ -3,6 +3,7 @@
 mod builtins;
 mod evaluate;
 mod generate;
+mod precise;
 mod shadow;
 mod text;
 mod textures;
