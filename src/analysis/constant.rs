@@ -17,13 +17,20 @@ pub(super) fn is_foldable(function: BuiltinFunction) -> bool {
 impl Analyzer<'_> {
     /// The value of a constant expression; `None` for every other.
     pub(super) fn evaluate(&self, id: ExprId) -> Option<Value> {
-        if !self.is_constant(id) {
+        if !self.is_constant(id) || self.fold_fuel.get() == 0 {
             return None;
         }
-        fold::evaluate(&self.shader, self.types, id, &|var| match var {
+        let local = |var| match var {
             VarRef::Global(_) => None,
             VarRef::Local(id) => self.local(id)?.value.as_ref(),
-        })
+        };
+        let value = fold::evaluate_within(&self.shader, self.types, id, &local, &self.fold_fuel)?;
+        // Kept values take memory: the longer ones weigh more than the steps that made them.
+        let weight = 16 * value.scalars.len() as u64;
+        if value.scalars.len() > 16 {
+            self.fold_fuel.set(self.fold_fuel.get().saturating_sub(weight));
+        }
+        Some(value)
     }
 
     /// The value of a constant expression that is one `int` or `uint`.
@@ -37,6 +44,10 @@ impl Analyzer<'_> {
 
     /// The finding that an initializer has no value known now.
     pub(super) fn not_constant_value(&self, id: ExprId, what: &str) -> Diagnostic {
+        if self.fold_fuel.get() == 0 {
+            let message = "the constants of the shader take too long to compute";
+            return Diagnostic::new(&types::TOO_LARGE, self.span(id), message).here("given up here");
+        }
         if self.is_constant(id) {
             return Diagnostic::new(
                 &crate::diagnostic::codes::general::NOT_SUPPORTED_YET,

@@ -12,8 +12,10 @@ use crate::hir::{
 use crate::source::{SourceMap, Span};
 use crate::syntax::ast::{Ast, DeclarationKind, Extensions, Ident};
 use crate::syntax::token::Symbol;
+use crate::syntax::warning_of_use;
 use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
+use std::cell::Cell;
 
 /// What the analysis knows of an expression beside its type.
 #[derive(Clone, Copy, Debug, Default)]
@@ -24,11 +26,16 @@ pub(super) struct Facts {
     pub(super) constant: bool,
 }
 
+/// How many scalars the constants of a shader may read and make: some tenths of a second.
+const MAX_FOLD_STEPS: u64 = 1 << 26;
+
 /// The function whose body is being read.
 pub(super) struct Body {
     pub(super) function: FunctionId,
     pub(super) loops: u32,
     pub(super) switches: u32,
+    /// It holds a `return`, or something that was not understood and may have been one.
+    pub(super) returns: bool,
 }
 
 /// An array that may lack a size.
@@ -76,12 +83,16 @@ pub(super) struct Analyzer<'a> {
     pub(super) n_local_scalars: u32,
     /// The globals that need a place of their own at a border of the stage.
     pub(super) n_places: u32,
+    /// How many steps the constants of the shader may still take.
+    pub(super) fold_fuel: Cell<u64>,
     /// How many times a name like an unknown one was looked for.
     pub(super) n_suggestions: u32,
     /// The built-in variables that are named or redeclared.
     pub(super) builtins: FxHashMap<crate::builtin::BuiltinVariable, GlobalId>,
     /// The first use of each global.
     pub(super) first_uses: FxHashMap<GlobalId, Span>,
+    /// The first use of each member of an input or output block without an instance name.
+    pub(super) first_member_uses: FxHashMap<(GlobalId, u32), Span>,
     /// The largest constant index of each array without a size, and where it stands (§4.1.9).
     pub(super) array_uses: FxHashMap<ArrayKey, (u32, Span)>,
     /// The same for the locals of the function being read.
@@ -132,6 +143,7 @@ impl<'a> Analyzer<'a> {
             block_names: FxHashMap::default(),
             builtins: FxHashMap::default(),
             first_uses: FxHashMap::default(),
+            first_member_uses: FxHashMap::default(),
             array_uses: FxHashMap::default(),
             local_array_uses: FxHashMap::default(),
             block_interfaces: FxHashMap::default(),
@@ -139,6 +151,7 @@ impl<'a> Analyzer<'a> {
             n_global_scalars: 0,
             n_local_scalars: 0,
             n_places: 0,
+            fold_fuel: Cell::new(MAX_FOLD_STEPS),
             n_suggestions: 0,
             block_defaults: BlockDefaults::default(),
             geometry_size: None,
@@ -187,14 +200,21 @@ impl<'a> Analyzer<'a> {
         self.types.name(ty)
     }
 
-    /// Whether an extension is on here, or the language has what it brings since `since`.
-    pub(super) fn has(&self, extension: Extensions, since: u16) -> bool {
-        self.ast.version.number >= since || self.extensions.intersects(extension)
+    /// Whether what stands at `span` may stand there: the language has it from `since` on, or an extension that is on
+    /// brings it. A use is warned of where the source asks for that (§3.3).
+    pub(super) fn allows(&mut self, extension: Extensions, since: u16, span: Span) -> bool {
+        if self.ast.version.number >= since {
+            return true;
+        }
+        if let Some(warning) = warning_of_use(self.extensions, extension, span) {
+            self.report(warning);
+        }
+        self.extensions.intersects(extension)
     }
 
-    /// Whether the rules of ARB_shading_language_420pack hold here.
-    pub(super) fn has_420pack(&self) -> bool {
-        self.has(Extensions::SHADING_LANGUAGE_420PACK, 420)
+    /// Whether what stands at `span` may stand there by the rules of ARB_shading_language_420pack.
+    pub(super) fn allows_420pack(&mut self, span: Span) -> bool {
+        self.allows(Extensions::SHADING_LANGUAGE_420PACK, 420, span)
     }
 
     /// Adds an expression, and what is known of it.

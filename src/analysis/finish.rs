@@ -6,7 +6,6 @@ use crate::builtin::BuiltinVariable;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::qualifiers;
 use crate::hir::{ArraySize, ExprKind, GlobalId, LocalId, Stage, Storage, Type, TypeId, VarRef};
-use crate::source::Span;
 
 impl Analyzer<'_> {
     /// Completes the shader.
@@ -48,7 +47,7 @@ impl Analyzer<'_> {
             if let Type::Array(element, ArraySize::Unsized) = self.types.get(member.ty) {
                 let ty = self.sized_by_use(ArrayKey::Member(id, index as u32), element, is_clip_distance);
                 if let Some(member) = self.types.structure_mut(structure).members.get_mut(index) {
-                    member.ty = ty;
+                    (member.ty, member.implicitly_sized) = (ty, true);
                 }
             }
         }
@@ -123,11 +122,11 @@ impl Analyzer<'_> {
 
     /// §4.6.1: `#pragma STDGL invariant(all)` is for shaders whose outputs others read.
     fn check_pragma(&mut self) {
-        if self.ast.invariant_all && self.stage == Stage::Fragment {
+        if let Some(span) = self.ast.invariant_all.filter(|_| self.stage == Stage::Fragment) {
             self.report(
                 Diagnostic::new(
                     &qualifiers::INVARIANT,
-                    Span::default(),
+                    span,
                     "`#pragma STDGL invariant(all)` cannot stand in a fragment shader",
                 )
                 .help("remove it, or make single inputs `invariant`"),

@@ -183,7 +183,7 @@ impl Analyzer<'_> {
             self.report(unknown(spelling, id.name.span));
             return None;
         };
-        if !self.has(row.extension, row.since) {
+        if !self.allows(row.extension, row.since, id.name.span) {
             let name = extension_name(row.extension);
             self.report(
                 Diagnostic::new(

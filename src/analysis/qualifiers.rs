@@ -179,7 +179,7 @@ impl Analyzer<'_> {
         let before_storage = |rank: u8| rank == 0;
         if let Some((earlier, other)) = *last {
             let wrong = if before_storage(rank) { earlier >= 4 } else { rank < earlier };
-            if wrong && !self.has_420pack() {
+            if wrong && !self.allows_420pack(qualifier.span) {
                 let what = row.what;
                 self.report(
                     Diagnostic::new(&qualifiers::ORDER, qualifier.span, format!("{what} stands too late"))
@@ -218,7 +218,9 @@ impl Analyzer<'_> {
             QualifierKind::Inout => self.storage(record, storage(StorageWord::Inout)),
             QualifierKind::Uniform => self.storage(record, storage(StorageWord::Uniform)),
             QualifierKind::Layout(ids) => {
-                if let Some(first) = record.layout_span.filter(|_| !self.has_420pack()) {
+                if let Some(first) = record.layout_span
+                    && !self.allows_420pack(span)
+                {
                     self.repeated(&qualifiers::REPEATED, first, span, "a layout qualifier");
                 }
                 record.layout_span.get_or_insert(span);

@@ -125,6 +125,8 @@ fn structure(types: &mut Types, name: &str, members: &[(&str, TypeId)], is_block
             matrix_layout: MatrixLayout::default(),
             interpolation: None,
             centroid: false,
+            invariant: false,
+            implicitly_sized: false,
             span: Span::default(),
         })
         .collect();

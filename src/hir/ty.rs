@@ -180,6 +180,10 @@ pub struct Member {
     pub interpolation: Option<super::Interpolation>,
     /// `centroid`
     pub centroid: bool,
+    /// In `in` and `out` blocks: `invariant`.
+    pub invariant: bool,
+    /// An array that its use has given its size (§4.1.9).
+    pub implicitly_sized: bool,
     /// Where it is declared.
     pub span: crate::source::Span,
 }

@@ -73,6 +73,30 @@ bitflags::bitflags! {
         const INCLUDE = 1 << 5;
         /// `GL_ARB_separate_shader_objects`
         const SEPARATE_SHADER_OBJECTS = 1 << 6;
+        /// Those whose uses are warned of, each above its own bit.
+        const WARNED = 0x7f << Self::WARN_SHIFT;
+    }
+}
+
+impl Extensions {
+    const WARN_SHIFT: u32 = 8;
+
+    /// Those that a source may turn on.
+    pub fn implemented() -> Self {
+        Self::all().difference(Self::WARNED)
+    }
+
+    /// Sets whether the uses of `extensions` are warned of (`#extension NAME : warn`, §3.3).
+    pub(super) fn set_warned(&mut self, extensions: Self, warned: bool) {
+        self.set(Self::from_bits_truncate(extensions.bits() << Self::WARN_SHIFT), warned);
+    }
+
+    /// What brings a use that any of `bringing` allows, if the use is to be warned of: it is not where one of those that
+    /// are on is on without a warning.
+    pub fn to_warn_of(self, bringing: Self) -> Option<Self> {
+        let on = self.intersection(bringing).difference(Self::WARNED);
+        let warned = Self::from_bits_truncate(self.bits() >> Self::WARN_SHIFT);
+        (!on.is_empty() && warned.contains(on)).then_some(on)
     }
 }
 
@@ -96,8 +120,8 @@ pub struct Ast {
     pub exprs: Vec<Expr>,
     /// All names.
     pub names: Names,
-    /// `#pragma STDGL invariant(all)` was seen (§4.6.1).
-    pub invariant_all: bool,
+    /// Where `#pragma STDGL invariant(all)` stands, if it does (§4.6.1).
+    pub invariant_all: Option<Span>,
     /// Comments of the form `// glisten: allow(CODE, ...)`: the lines they stand for and the codes.
     pub allows: Vec<Allow>,
     /// The places of all `#extension` lines that turned something on, for messages.

@@ -43,6 +43,17 @@ pub(super) static INCLUDE_WITHOUT_EXTENSION: Kindness = Kindness {
     code: &preprocess::INCLUDE_WITHOUT_EXTENSION,
     reason: "engines resolve it before the driver sees the text",
 };
+/// `#pragma optimize(off)` inside of a function.
+pub(super) static PRAGMA_IN_FUNCTION: Kindness =
+    Kindness { code: &preprocess::PRAGMA_IN_FUNCTION, reason: "no driver looks where such a pragma stands" };
+/// U+FEFF before the text.
+pub(super) static BYTE_ORDER_MARK: Kindness = Kindness {
+    code: &preprocess::BYTE_ORDER_MARK,
+    reason: "editors write it, and programs often take it away before the driver sees the text",
+};
+/// `#ifdef` between the brackets of a macro's use.
+pub(super) static DIRECTIVE_IN_ARGUMENTS: Kindness =
+    Kindness { code: &preprocess::DIRECTIVE_IN_ARGUMENTS, reason: "preprocessors run it, as those of C++ do" };
 /// A macro whose name holds `__`.
 pub(super) static RESERVED_NAME: Kindness = Kindness {
     code: &preprocess::RESERVED_NAME,

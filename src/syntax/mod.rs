@@ -25,6 +25,7 @@ use crate::source::{FileId, IncludeResolver, SourceMap, Span};
 use ast::{Ast, Profile, Version};
 use parser::Parser;
 use preprocessor::Preprocessor;
+pub(crate) use preprocessor::extension::warning_of_use;
 use token::{Names, Session};
 
 /// What a parse may be told.
@@ -67,7 +68,7 @@ fn empty_tree() -> Ast {
         declarations: Vec::new(),
         exprs: Vec::new(),
         names: Names::default(),
-        invariant_all: false,
+        invariant_all: None,
         allows: Vec::new(),
         extension_lines: Vec::new(),
     }

@@ -148,15 +148,39 @@ fn macros_are_bounded() {
         )
     };
     assert_eq!(codes(nested(40)), ["E0129"]);
-    assert_eq!(codes(nested(MANY)), ["E0130"]);
+    assert_eq!(codes(nested(MANY)), ["E0129"]);
+    let deep = format!("#version 150\n#define F(x) x\nfloat a = {}1{};", "F(".repeat(100), ")".repeat(100));
+    assert_eq!(codes(deep), ["E0130"]);
 
     let wide = format!("#version 150\n#define F(x) {}\nfloat a = F({});", "x ".repeat(50_000), "y ".repeat(50_000));
     assert_eq!(codes(wide), ["E0129"]);
+
+    // Each `##` makes a name that is longer than the one before it.
+    let pasted = format!("#version 150\n#define P a{}\nfloat P;", "##a".repeat(200_000));
+    assert_eq!(codes(pasted), ["E0129"]);
+    let twice =
+        format!("#version 150\n#define P(a) a##a\n#define Q(a) P(a)\nfloat {}a{};", "Q(".repeat(40), ")".repeat(40));
+    assert_eq!(codes(twice), ["E0129"]);
 
     let condition = format!("#version 150\n#if {}1\n#endif\nvoid main() {{}}", "(".repeat(MANY));
     assert_eq!(codes(condition), ["E0003"]);
     let groups = format!("#version 150\n{}void main() {{}}", "#if 1\n".repeat(1_000));
     assert!(codes(groups).iter().all(|code| *code == "E0108"));
+}
+
+/// Arrays that initializers size, copied and compared as constants.
+#[test]
+fn constants_are_bounded() {
+    let first = format!("#version 150\nconst float a0[] = float[]({}1.0);\n", "1.0, ".repeat(20_000));
+    let many = |row: &dyn Fn(usize) -> String| format!("{first}{}", (0..20_000).map(row).collect::<String>());
+    let copies = many(&|n| format!("const float a{}[] = a{n};", n + 1));
+    assert!(compiled(copies).contains(&"E0422"));
+    let comparisons = many(&|n| format!("const bool b{n} = a0 == a0;"));
+    assert!(compiled(comparisons).contains(&"E0422"));
+    let locals = many(&|n| format!("void f{n}() {{ const float b[] = a0; }}"));
+    assert!(compiled(locals).contains(&"E0422"));
+    let elements = many(&|n| format!("const float b{n} = a0[{n}];"));
+    assert!(!compiled(format!("{elements}void main() {{ gl_Position = vec4(b7); }}")).contains(&"E0422"));
 }
 
 #[test]

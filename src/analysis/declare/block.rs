@@ -50,8 +50,7 @@ impl Analyzer<'_> {
             self.enter_block_name(block.name, storage);
         }
         let matrix = layout.matrix.unwrap_or(self.block_defaults.matrix);
-        let (members, invariant) = self.block_members(block, &Frame { storage, word, word_span, matrix });
-        let record = Qualifiers { invariant, ..record };
+        let members = self.block_members(block, &Frame { storage, word, word_span, matrix });
         if members.is_empty() {
             self.report(
                 Diagnostic::new(&qualifiers::BLOCK, block.name.span, "a block must have a member").here("empty"),
@@ -99,13 +98,11 @@ impl Analyzer<'_> {
         None
     }
 
-    /// The members, and whether one of them is invariant: the block then is as a whole, which is more than was asked.
-    fn block_members(&mut self, block: &BlockDecl, frame: &Frame) -> (MemberList, Option<Span>) {
-        let (mut members, mut invariant) = (MemberList::default(), None);
+    fn block_members(&mut self, block: &BlockDecl, frame: &Frame) -> MemberList {
+        let mut members = MemberList::default();
         for row in &block.members {
             let record = self.qualifiers(&row.qualifiers, Place::BlockMember);
             self.check_member_storage(&record, frame);
-            invariant = invariant.or(record.invariant);
             let place = if frame.storage == Storage::Uniform {
                 LayoutPlace::UniformMember
             } else {
@@ -118,10 +115,12 @@ impl Analyzer<'_> {
                 self.no_member_initializer(declarator);
                 let ty = self.with_array(base, &declarator.array);
                 let ty = self.check_member_type(ty, row, &record, frame, declarator.name.span);
-                self.add_block_member(&mut members, declarator, ty, &record, layout.matrix.unwrap_or(frame.matrix));
+                let matrix = layout.matrix.unwrap_or(frame.matrix);
+                let member = self.block_member(declarator, ty, &record, matrix, frame.storage);
+                self.add_member(&mut members, declarator.name, member);
             }
         }
-        (members, invariant)
+        members
     }
 
     fn check_member_storage(&mut self, record: &Qualifiers, frame: &Frame) {
@@ -196,23 +195,25 @@ impl Analyzer<'_> {
         ty
     }
 
-    fn add_block_member(
-        &mut self,
-        members: &mut MemberList,
+    fn block_member(
+        &self,
         declarator: &Declarator,
         ty: TypeId,
         record: &Qualifiers,
         matrix_layout: MatrixLayout,
-    ) {
-        let member = Member {
+        storage: Storage,
+    ) -> Member {
+        let invariant_all = self.ast.invariant_all.is_some() && storage == Storage::Out;
+        Member {
             name: self.name(declarator.name).to_owned(),
             ty,
             matrix_layout,
             interpolation: record.interpolation.map(|(word, _)| word),
             centroid: record.centroid.is_some(),
+            invariant: record.invariant.is_some() || invariant_all,
+            implicitly_sized: false,
             span: declarator.name.span,
-        };
-        self.add_member(members, declarator.name, member);
+        }
     }
 
     /// Enters the block as a global, and its members or its instance as names.
@@ -231,7 +232,8 @@ impl Analyzer<'_> {
             None => (block.name.span, name),
         };
         let mut global = self.new_global(span, own_name, ty, storage, record, layout, None);
-        global.binding = None;
+        // A block has its binding in its record, and each member its own invariance.
+        (global.binding, global.invariant) = (None, false);
         global.block = Some(BlockInfo {
             name: name.to_owned(),
             instance: block.instance.as_ref().map(|(instance, _)| self.name(*instance).to_owned()),

@@ -47,7 +47,7 @@ impl Analyzer<'_> {
     fn function_body(&mut self, id: FunctionId, header: &FunctionHeader, body: &[Stmt]) {
         let first = self.shader.exprs.len();
         self.n_local_scalars = 0;
-        self.body = Some(Body { function: id, loops: 0, switches: 0 });
+        self.body = Some(Body { function: id, loops: 0, switches: 0, returns: false });
         self.scopes.open();
         for (index, param) in header.params.iter().enumerate() {
             if let Some(name) = param.name {
@@ -60,6 +60,7 @@ impl Analyzer<'_> {
         self.scopes.close();
         self.scopes.close();
         self.size_locals(first);
+        self.check_returns(id);
         self.body = None;
         if self.name(header.name) == "main" && header.params.is_empty() {
             self.shader.main = Some(id);
@@ -67,6 +68,23 @@ impl Analyzer<'_> {
         if let Some(function) = self.shader.functions.get_mut(id.index()) {
             function.body = Some(body);
         }
+    }
+
+    /// "Functions that do not return a value must be declared as void" (§4.1.1). Whether each way through a body ends in
+    /// a `return` is not asked: the value is then undefined.
+    fn check_returns(&mut self, id: FunctionId) {
+        let function = self.shader.function(id);
+        let (ret, name, span) = (function.ret, function.name.clone(), function.span);
+        let returns = self.body.as_ref().is_none_or(|body| body.returns);
+        if returns || ret == TypeId::VOID || ret.is_error() || name == "main" {
+            return;
+        }
+        let type_name = self.type_name(ret);
+        self.report(
+            Diagnostic::new(&statements::NO_RETURN, span, format!("`{name}` returns no `{type_name}`"))
+                .here("there is no `return` in its body")
+                .help(format!("write `return` and a value, or declare it `void {name}(..)`")),
+        );
     }
 
     /// Enters a function, or finds the one that it declares again. `None` if the name is taken by something else.

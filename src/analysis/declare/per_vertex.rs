@@ -12,7 +12,7 @@ use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::names;
 use crate::hir::{ArraySize, Member, Stage, Storage, StructType, Type, TypeId};
 use crate::source::Span;
-use crate::syntax::ast::{BlockDecl, Declarator};
+use crate::syntax::ast::{BlockDecl, Declarator, Extensions};
 
 /// A redeclared `gl_PerVertex`.
 #[derive(Clone, Debug)]
@@ -29,6 +29,7 @@ impl Analyzer<'_> {
             self.report(problem);
             return;
         }
+        self.allows(Extensions::SEPARATE_SHADER_OBJECTS, 410, span);
         let members = self.per_vertex_members(block);
         let names: Vec<String> = members.iter().map(|member| member.name.clone()).collect();
         if storage == Storage::In {
@@ -41,6 +42,7 @@ impl Analyzer<'_> {
             if let Some(global) = self.shader.globals.get_mut(id.index()) {
                 global.ty = member.ty;
                 global.span = member.span;
+                global.invariant |= member.invariant;
             }
         }
         self.shader.per_vertex_out = Some(crate::hir::PerVertexOut { members: Clone::clone(&names), span });
@@ -122,12 +124,12 @@ impl Analyzer<'_> {
     fn per_vertex_members(&mut self, block: &BlockDecl) -> Vec<Member> {
         let mut members: Vec<Member> = Vec::new();
         for row in &block.members {
-            self.qualifiers(&row.qualifiers, Place::BlockMember);
+            let record = self.qualifiers(&row.qualifiers, Place::BlockMember);
             let base = self.type_spec(&row.ty);
             for declarator in &row.declarators {
                 self.no_member_initializer(declarator);
                 let ty = self.with_array(base, &declarator.array);
-                if let Some(member) = self.per_vertex_member(declarator, ty) {
+                if let Some(member) = self.per_vertex_member(declarator, ty, record.invariant.is_some()) {
                     members.push(member);
                 }
             }
@@ -135,7 +137,7 @@ impl Analyzer<'_> {
         members
     }
 
-    fn per_vertex_member(&mut self, declarator: &Declarator, ty: TypeId) -> Option<Member> {
+    fn per_vertex_member(&mut self, declarator: &Declarator, ty: TypeId, invariant: bool) -> Option<Member> {
         let (name, span) = (self.name(declarator.name), declarator.name.span);
         let Some(row) = self.per_vertex_row(name) else {
             self.report(
@@ -166,6 +168,8 @@ impl Analyzer<'_> {
             matrix_layout: crate::hir::MatrixLayout::default(),
             interpolation: None,
             centroid: false,
+            invariant,
+            implicitly_sized: false,
             span,
         })
     }

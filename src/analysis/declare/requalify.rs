@@ -7,7 +7,7 @@ use super::super::scope::Entry;
 use crate::builtin::variables;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::{names, qualifiers};
-use crate::hir::{GlobalId, Stage, Storage, VarRef};
+use crate::hir::{GlobalId, Stage, Storage, Type, VarRef};
 use crate::source::Span;
 use crate::syntax::ast::{Ident, Qualifier};
 
@@ -20,6 +20,13 @@ impl Analyzer<'_> {
             return;
         }
         if record.invariant.is_none() {
+            // `uniform S;` declares nothing, legally if `S` is a struct (§9).
+            let is_struct = |name: &Ident| {
+                self.scopes.find(name.symbol).is_some_and(|binding| matches!(binding.entry, Entry::Struct(_)))
+            };
+            if matches!(idents, [name] if is_struct(name)) {
+                return;
+            }
             self.report(
                 Diagnostic::new(&qualifiers::MISPLACED, span, "a declaration without a type")
                     .here("only `invariant` may be added to a declared variable"),
@@ -31,11 +38,10 @@ impl Analyzer<'_> {
         }
     }
 
-    /// `invariant a;`: `a` is an output, or an input of a fragment shader, not used before. Of a member of a block the
-    /// whole block becomes invariant, which is more than was asked.
+    /// `invariant a;`: `a` is an output, or an input of a fragment shader, not used before.
     fn make_invariant(&mut self, name: Ident) {
         let spelling = self.name(name);
-        let Some(id) = self.global_named(name) else { return };
+        let Some((id, member)) = self.global_named(name) else { return };
         let global = self.shader.global(id);
         let (storage, declared) = (global.storage, global.span);
         let crosses = storage == Storage::Out || (storage == Storage::In && self.stage == Stage::Fragment);
@@ -49,7 +55,11 @@ impl Analyzer<'_> {
             );
             return;
         }
-        if let Some(&used) = self.first_uses.get(&id) {
+        let used = match member {
+            Some(member) => self.first_member_uses.get(&(id, member)),
+            None => self.first_uses.get(&id),
+        };
+        if let Some(&used) = used {
             self.report(
                 Diagnostic::new(
                     &names::REDECLARED_AFTER_USE,
@@ -60,16 +70,27 @@ impl Analyzer<'_> {
                 .label(used, "used here"),
             );
         }
-        if let Some(global) = self.shader.globals.get_mut(id.index()) {
-            global.invariant = true;
+        let structure = self.types.get(self.shader.global(id).ty);
+        match (member, structure) {
+            (Some(member), Type::Struct(structure)) => {
+                if let Some(member) = self.types.structure_mut(structure).members.get_mut(member as usize) {
+                    member.invariant = true;
+                }
+            }
+            _ => {
+                if let Some(global) = self.shader.globals.get_mut(id.index()) {
+                    global.invariant = true;
+                }
+            }
         }
     }
 
-    /// The global behind a name, declared or built in; else that is reported.
-    fn global_named(&mut self, name: Ident) -> Option<GlobalId> {
+    /// The global behind a name, declared or built in, and its member that is meant; else that is reported.
+    fn global_named(&mut self, name: Ident) -> Option<(GlobalId, Option<u32>)> {
         let spelling = self.name(name);
         match self.scopes.find(name.symbol).map(|binding| binding.entry) {
-            Some(Entry::Variable(VarRef::Global(id)) | Entry::Member(id, _)) => Some(id),
+            Some(Entry::Variable(VarRef::Global(id))) => Some((id, None)),
+            Some(Entry::Member(id, member)) => Some((id, Some(member))),
             Some(Entry::Poison) => None,
             Some(_) => {
                 self.report(
@@ -86,7 +107,7 @@ impl Analyzer<'_> {
                             .here("declare it before this line"),
                     );
                 }
-                row.map(|row| self.builtin_global(row))
+                row.map(|row| (self.builtin_global(row), None))
             }
         }
     }

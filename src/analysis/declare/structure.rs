@@ -50,6 +50,8 @@ impl Analyzer<'_> {
                     matrix_layout: MatrixLayout::default(),
                     interpolation: None,
                     centroid: false,
+                    invariant: false,
+                    implicitly_sized: false,
                     span: declarator.name.span,
                 };
                 self.add_member(&mut members, declarator.name, member);

@@ -5,10 +5,10 @@ use super::super::layout::{Layout, LayoutPlace};
 use super::super::qualifiers::{Place, Qualifiers, StorageWord};
 use super::super::scope::Entry;
 use crate::diagnostic::Diagnostic;
-use crate::diagnostic::codes::{qualifiers, types};
+use crate::diagnostic::codes::{qualifiers, syntax, types};
 use crate::hir::{ArraySize, ExprId, Global, GlobalId, Interpolation, Stage, Storage, Type, TypeId, Value, VarRef};
 use crate::source::Span;
-use crate::syntax::ast::{Declarator, VariableDecl};
+use crate::syntax::ast::{Declarator, TypeBase, TypeSpec, VariableDecl};
 
 /// A value for a variable: the expression, converted, and what it folds to.
 pub(in crate::analysis) struct Initial {
@@ -20,6 +20,9 @@ impl Analyzer<'_> {
     /// `uniform mat4 m, n;`, `struct S {..} s;`
     pub(in crate::analysis) fn global_variables(&mut self, declaration: &VariableDecl, _: Span) {
         let record = self.qualifiers(&declaration.qualifiers, Place::Global);
+        if declaration.declarators.is_empty() && self.lacks_type(&declaration.ty) {
+            return;
+        }
         let base = self.type_spec(&declaration.ty);
         self.check_precision(record.precision, base);
         let storage = self.global_storage(&record);
@@ -33,6 +36,22 @@ impl Analyzer<'_> {
             }
             self.global_variable(declarator, ty, storage, &record, declaration.ty.span);
         }
+    }
+
+    /// `S;` declares nothing, and legally so if `S` is a struct (§9); any other name lacks its type, which is reported.
+    fn lacks_type(&mut self, spec: &TypeSpec) -> bool {
+        let TypeBase::Named(name) = spec.base else { return false };
+        match self.scopes.find(name.symbol).map(|binding| binding.entry) {
+            Some(Entry::Struct(_)) => return false,
+            Some(Entry::Poison) => return true,
+            _ => {}
+        }
+        let spelling = self.name(name);
+        self.report(
+            Diagnostic::new(&syntax::MISSING_TYPE, name.span, format!("`{spelling}` is declared without a type"))
+                .help(format!("write a type before `{spelling}`")),
+        );
+        true
     }
 
     /// What the storage qualifier of a global means in this stage.
@@ -86,7 +105,11 @@ impl Analyzer<'_> {
         let ty = self.check_global_type(ty, storage, record, ty_span, name.span);
         let fits = self.check_global_size(ty, storage, false, name.span);
         let ty = if fits { ty } else { TypeId::ERROR };
+        let declared = ty;
         let (ty, initial) = self.global_initializer(declarator, ty, storage);
+        // An array that its initializer sizes counts with that size.
+        let fits = ty == declared || self.check_global_size(ty, storage, false, name.span);
+        let ty = if fits { ty } else { TypeId::ERROR };
         let ty = self.sized_by_geometry(ty, storage, name.span);
         if self.resizes(declarator, ty, storage) {
             return;
@@ -109,7 +132,8 @@ impl Analyzer<'_> {
         initial: Option<Initial>,
     ) -> Global {
         let (initializer, value) = initial.map_or((None, None), |initial| (Some(initial.expr), initial.value));
-        let invariant_all = self.ast.invariant_all && storage == Storage::Out && self.stage != Stage::Fragment;
+        let invariant_all =
+            self.ast.invariant_all.is_some() && storage == Storage::Out && self.stage != Stage::Fragment;
         Global {
             name: name.to_owned(),
             ty,

@@ -30,7 +30,7 @@ impl Analyzer<'_> {
                 self.poison(span)
             }
             Type::Vector(scalar, size) => self.swizzle(base, field, (scalar, size), span),
-            Type::Scalar(scalar) if self.has_420pack() => self.scalar_swizzle(base, field, scalar, span),
+            Type::Scalar(scalar) if self.allows_420pack(field.span) => self.scalar_swizzle(base, field, scalar, span),
             _ => {
                 let name = self.type_name(self.ty(base));
                 let at = self.span(base);
@@ -244,8 +244,8 @@ impl Analyzer<'_> {
         let length = match self.types.get(ty) {
             Type::Error => return self.poison(span),
             Type::Array(_, ArraySize::Sized(size)) => size,
-            Type::Vector(_, size) if self.has_420pack() => u32::from(size),
-            Type::Matrix(columns, _) if self.has_420pack() => u32::from(columns),
+            Type::Vector(_, size) if self.allows_420pack(name.span) => u32::from(size),
+            Type::Matrix(columns, _) if self.allows_420pack(name.span) => u32::from(columns),
             Type::Array(_, ArraySize::Unsized) => {
                 let at = self.span(base);
                 let help = if self.is_geometry_input(base) {

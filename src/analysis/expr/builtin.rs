@@ -30,6 +30,7 @@ impl Analyzer<'_> {
         });
         let found = exact.or_else(|| self.builtin_by_conversion(name, &signatures().collect::<Vec<_>>(), rows, &given));
         let Some((row, signature)) = found else { return self.poison(span) };
+        self.allows(row.availability.extensions, row.availability.since, name.span);
         let Some(arguments) = self.pass(arguments, signature.params()) else { return self.poison(span) };
         if !self.check_offset(row, &arguments) {
             return self.poison(span);

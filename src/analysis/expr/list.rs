@@ -12,7 +12,7 @@ impl Analyzer<'_> {
     pub(in crate::analysis) fn initializer(&mut self, id: ast::ExprId, ty: TypeId) -> ExprId {
         let expr = self.ast.expr(id);
         let ast::ExprKind::List(elements) = &expr.kind else { return self.expr(id) };
-        if !self.has_420pack() {
+        if !self.allows_420pack(expr.span) {
             // The parser has said so.
             return self.poison(expr.span);
         }

@@ -5,7 +5,7 @@ use super::super::scope::Entry;
 use crate::builtin::{constants, variables};
 use crate::diagnostic::codes::names;
 use crate::diagnostic::{Diagnostic, did_you_mean};
-use crate::hir::{ExprId, ExprKind, ScalarValue, Stage, Type, TypeId, VarRef};
+use crate::hir::{ExprId, ExprKind, ScalarValue, Stage, Storage, Type, TypeId, VarRef};
 use crate::source::Span;
 use crate::syntax::ast::Ident;
 
@@ -64,6 +64,9 @@ impl Analyzer<'_> {
         match binding.entry {
             Entry::Variable(var) => self.variable(var, span),
             Entry::Member(block, member) => {
+                if self.shader.global(block).storage != Storage::Uniform {
+                    self.first_member_uses.entry((block, member)).or_insert(span);
+                }
                 let base = self.variable(VarRef::Global(block), span);
                 self.member(base, member, span)
             }
@@ -108,6 +111,7 @@ impl Analyzer<'_> {
             if self.is_left_out(row, name.span) {
                 return self.poison(name.span);
             }
+            self.allows(row.availability.extensions, row.availability.since, name.span);
             let id = self.builtin_global(row);
             return self.variable(VarRef::Global(id), name.span);
         }

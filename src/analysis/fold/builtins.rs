@@ -1,13 +1,13 @@
 //! Built-in functions (§8.1 to §8.6) of constants: computed in f64, rounded once to f32.
 
 use super::operators::{as_float, componentwise};
-use super::{Operand, Scalars};
+use super::{Held, Operand, Scalars};
 use crate::builtin::BuiltinFunction as F;
 use crate::hir::{ScalarValue, Type, TypeId, Types};
 use ScalarValue::{Bool, Float, Int, Uint};
 
 /// The value of a call with constant arguments; `None` for functions that are never constant.
-pub(super) fn call(types: &Types, function: F, ty: TypeId, operands: &[Operand]) -> Option<Scalars> {
+pub(super) fn call(types: &Types, function: F, ty: TypeId, operands: &[Operand<'_>]) -> Option<Scalars> {
     let arguments = Arguments { types, operands };
     match function {
         F::Radians => arguments.map(f64::to_radians),
@@ -113,11 +113,11 @@ pub(super) fn call(types: &Types, function: F, ty: TypeId, operands: &[Operand])
 
 struct Arguments<'a> {
     types: &'a Types,
-    operands: &'a [Operand],
+    operands: &'a [Operand<'a>],
 }
 
 impl Arguments<'_> {
-    fn operand(&self, index: usize) -> Option<&Operand> {
+    fn operand(&self, index: usize) -> Option<&Operand<'_>> {
         self.operands.get(index)
     }
 
@@ -159,7 +159,7 @@ impl Arguments<'_> {
 
     /// `min(max(x, minVal), maxVal)`
     fn clamp(&self) -> Option<Scalars> {
-        let above = Operand { ty: self.operand(0)?.ty, scalars: self.pick(0, 1, less)? };
+        let above = Operand { ty: self.operand(0)?.ty, scalars: Held::Own(self.pick(0, 1, less)?) };
         componentwise(&above, self.operand(2)?, |x, y| Some(if less(y, x)? { y } else { x }))
     }
 
@@ -169,8 +169,8 @@ impl Arguments<'_> {
             return self.map3(|x, y, a| x * (1.0 - a) + y * a);
         }
         let (x, y, a) = (self.operand(0)?, self.operand(1)?, self.operand(2)?);
-        let pairs = x.scalars.iter().zip(&y.scalars);
-        Some(pairs.zip(&a.scalars).map(|((x, y), a)| if *a == Bool(true) { *y } else { *x }).collect())
+        let pairs = x.scalars.iter().zip(&*y.scalars);
+        Some(pairs.zip(&*a.scalars).map(|((x, y), a)| if *a == Bool(true) { *y } else { *x }).collect())
     }
 
     fn compare(&self, f: impl Fn(ScalarValue, ScalarValue) -> Option<bool>) -> Option<Scalars> {

@@ -3,7 +3,7 @@
 use super::{Operand, Scalars};
 use crate::hir::{ConstructKind, ScalarValue, Type, TypeId, Types};
 
-pub(super) fn construct(types: &Types, kind: ConstructKind, ty: TypeId, operands: &[Operand]) -> Option<Scalars> {
+pub(super) fn construct(types: &Types, kind: ConstructKind, ty: TypeId, operands: &[Operand<'_>]) -> Option<Scalars> {
     let len = types.flat_len(ty) as usize;
     match kind {
         ConstructKind::Splat => Some(Scalars::from_elem(*operands.first()?.scalars.first()?, len)),

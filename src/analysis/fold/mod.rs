@@ -20,15 +20,16 @@ mod operators;
 
 use crate::hir::{Expr, ExprId, ExprKind, ScalarValue, Shader, Storage, Type, TypeId, Types, Value, VarRef};
 use smallvec::SmallVec;
+use std::cell::Cell;
 
 /// The scalars of a value in flat order.
 type Scalars = SmallVec<[ScalarValue; 4]>;
 
 /// What an evaluation knows.
-struct Context<'a, 'v> {
+struct Context<'a> {
     shader: &'a Shader,
     types: &'a Types,
-    variables: &'a dyn Fn(VarRef) -> Option<&'v Value>,
+    variables: &'a dyn Fn(VarRef) -> Option<&'a Value>,
 }
 
 enum Task {
@@ -36,28 +37,58 @@ enum Task {
     Apply(ExprId),
 }
 
+/// The scalars of a value under way.
+enum Held<'a> {
+    Own(Scalars),
+    /// Those of a variable: an array of which one element is taken is not copied for it.
+    Lent(&'a [ScalarValue]),
+}
+
+impl std::ops::Deref for Held<'_> {
+    type Target = [ScalarValue];
+
+    fn deref(&self) -> &[ScalarValue] {
+        match self {
+            Self::Own(scalars) => scalars,
+            Self::Lent(scalars) => scalars,
+        }
+    }
+}
+
 /// A value under way, with its type.
-struct Operand {
+struct Operand<'a> {
     ty: TypeId,
-    scalars: Scalars,
+    scalars: Held<'a>,
 }
 
 /// The value of an expression if it is constant. `variables` gives the values of variables that count as constant beside
 /// global constants, which know their own: local constants, or what a specialization fixes.
-pub fn evaluate<'v>(
-    shader: &Shader,
-    types: &Types,
+pub fn evaluate<'a>(
+    shader: &'a Shader,
+    types: &'a Types,
     expr: ExprId,
-    variables: &dyn Fn(VarRef) -> Option<&'v Value>,
+    variables: &'a dyn Fn(VarRef) -> Option<&'a Value>,
+) -> Option<Value> {
+    evaluate_within(shader, types, expr, variables, &Cell::new(u64::MAX))
+}
+
+/// The same with as many steps as `fuel` has left, about one a scalar read or made; `None` when they are spent.
+pub(super) fn evaluate_within<'a>(
+    shader: &'a Shader,
+    types: &'a Types,
+    expr: ExprId,
+    variables: &'a dyn Fn(VarRef) -> Option<&'a Value>,
+    fuel: &Cell<u64>,
 ) -> Option<Value> {
     let context = Context { shader, types, variables };
     let mut tasks = vec![Task::Visit(expr)];
-    let mut operands: Vec<Operand> = Vec::new();
+    let mut operands: Vec<Operand<'a>> = Vec::new();
     while let Some(task) = tasks.pop() {
         match task {
             Task::Visit(id) => match &shader.expr(id).kind {
                 ExprKind::Literal(value) => {
-                    operands.push(Operand { ty: shader.expr(id).ty, scalars: Scalars::from_slice(&[*value]) });
+                    let scalars = Held::Own(Scalars::from_slice(&[*value]));
+                    operands.push(Operand { ty: shader.expr(id).ty, scalars });
                 }
                 ExprKind::Var(variable) => operands.push(context.variable(*variable)?),
                 kind => {
@@ -70,13 +101,33 @@ pub fn evaluate<'v>(
                 let expr = shader.expr(id);
                 let n_children = children(&expr.kind)?.len();
                 let arguments = operands.split_off(operands.len().checked_sub(n_children)?);
+                burn(fuel, cost(&expr.kind, &arguments))?;
                 let scalars = context.apply(expr, &arguments)?;
-                operands.push(Operand { ty: expr.ty, scalars });
+                operands.push(Operand { ty: expr.ty, scalars: Held::Own(scalars) });
             }
         }
     }
     let Operand { ty, scalars } = operands.pop()?;
-    Some(Value { ty, scalars: scalars.into_vec() })
+    let scalars = match scalars {
+        Held::Own(scalars) => scalars.into_vec(),
+        Held::Lent(scalars) => scalars.to_vec(),
+    };
+    Some(Value { ty, scalars })
+}
+
+fn burn(fuel: &Cell<u64>, steps: u64) -> Option<()> {
+    let left = fuel.get().checked_sub(steps);
+    fuel.set(left.unwrap_or(0));
+    left.map(|_| ())
+}
+
+/// The steps of one operation: an element is taken without looking at the others, a member behind those before it.
+fn cost(kind: &ExprKind, operands: &[Operand<'_>]) -> u64 {
+    match kind {
+        ExprKind::Index(..) | ExprKind::Swizzle(..) => 1,
+        ExprKind::Member(_, member) => u64::from(*member) + 1,
+        _ => operands.iter().map(|operand| operand.scalars.len() as u64).sum::<u64>() + 1,
+    }
 }
 
 /// The operands of an expression that may be constant; `None` for one that never is.
@@ -95,8 +146,8 @@ fn children(kind: &ExprKind) -> Option<SmallVec<[ExprId; 4]>> {
     })
 }
 
-impl Context<'_, '_> {
-    fn variable(&self, variable: VarRef) -> Option<Operand> {
+impl<'a> Context<'a> {
+    fn variable(&self, variable: VarRef) -> Option<Operand<'a>> {
         let own = match variable {
             VarRef::Global(id) => {
                 let global = self.shader.global(id);
@@ -108,11 +159,11 @@ impl Context<'_, '_> {
             Some(value) => value,
             None => (self.variables)(variable)?,
         };
-        Some(Operand { ty: value.ty, scalars: Scalars::from_slice(&value.scalars) })
+        Some(Operand { ty: value.ty, scalars: Held::Lent(&value.scalars) })
     }
 
-    fn apply(&self, expr: &Expr, operands: &[Operand]) -> Option<Scalars> {
-        let scalars = |index: usize| operands.get(index).map(|operand| operand.scalars.as_slice());
+    fn apply(&self, expr: &Expr, operands: &[Operand<'_>]) -> Option<Scalars> {
+        let scalars = |index: usize| operands.get(index).map(|operand| &*operand.scalars);
         match &expr.kind {
             ExprKind::Member(_, member) => self.member(operands.first()?, *member),
             ExprKind::Index(..) => self.element(operands.first()?, operands.get(1)?),
@@ -146,14 +197,14 @@ impl Context<'_, '_> {
         }
     }
 
-    fn member(&self, base: &Operand, member: u32) -> Option<Scalars> {
+    fn member(&self, base: &Operand<'_>, member: u32) -> Option<Scalars> {
         let Type::Struct(id) = self.types.get(base.ty) else { return None };
         let members = &self.types.structure(id).members;
         let before = members.get(..member as usize)?.iter().map(|member| self.types.flat_len(member.ty)).sum();
         self.slice(base, before, members.get(member as usize)?.ty)
     }
 
-    fn element(&self, base: &Operand, index: &Operand) -> Option<Scalars> {
+    fn element(&self, base: &Operand<'_>, index: &Operand<'_>) -> Option<Scalars> {
         let index = match index.scalars.first()? {
             ScalarValue::Int(index) => u32::try_from(*index).ok()?,
             ScalarValue::Uint(index) => *index,
@@ -163,7 +214,7 @@ impl Context<'_, '_> {
         self.slice(base, index.checked_mul(self.types.flat_len(element))?, element)
     }
 
-    fn slice(&self, base: &Operand, start: u32, ty: TypeId) -> Option<Scalars> {
+    fn slice(&self, base: &Operand<'_>, start: u32, ty: TypeId) -> Option<Scalars> {
         let start = start as usize;
         let end = start.checked_add(self.types.flat_len(ty) as usize)?;
         base.scalars.get(start..end).map(Scalars::from_slice)

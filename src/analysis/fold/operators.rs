@@ -47,7 +47,7 @@ pub(super) fn logical(op: LogicalOp, left: bool, right: bool) -> bool {
     }
 }
 
-pub(super) fn binary(types: &Types, op: BinaryOp, left: &Operand, right: &Operand) -> Option<Scalars> {
+pub(super) fn binary(types: &Types, op: BinaryOp, left: &Operand<'_>, right: &Operand<'_>) -> Option<Scalars> {
     match op {
         BinaryOp::MatMul => mat_mul(types, left, right),
         BinaryOp::Equal => Some(Scalars::from_slice(&[Bool(equal(left, right))])),
@@ -58,20 +58,20 @@ pub(super) fn binary(types: &Types, op: BinaryOp, left: &Operand, right: &Operan
 
 /// Applies `f` to pairs of components; a scalar stands beside every component of the other operand.
 pub(super) fn componentwise(
-    left: &Operand,
-    right: &Operand,
+    left: &Operand<'_>,
+    right: &Operand<'_>,
     f: impl Fn(ScalarValue, ScalarValue) -> Option<ScalarValue>,
 ) -> Option<Scalars> {
     let len = left.scalars.len().max(right.scalars.len());
-    let pick = |scalars: &Scalars, index: usize| {
+    let pick = |scalars: &[ScalarValue], index: usize| {
         if scalars.len() == 1 { scalars.first().copied() } else { scalars.get(index).copied() }
     };
     (0..len).map(|index| f(pick(&left.scalars, index)?, pick(&right.scalars, index)?)).collect()
 }
 
 /// As `==` has it: NaN differs from itself, -0 equals 0.
-fn equal(left: &Operand, right: &Operand) -> bool {
-    left.scalars.len() == right.scalars.len() && left.scalars.iter().zip(&right.scalars).all(|(a, b)| a == b)
+fn equal(left: &Operand<'_>, right: &Operand<'_>) -> bool {
+    left.scalars.len() == right.scalars.len() && left.scalars.iter().zip(&*right.scalars).all(|(a, b)| a == b)
 }
 
 fn scalar(op: BinaryOp, left: ScalarValue, right: ScalarValue) -> Option<ScalarValue> {
@@ -143,7 +143,7 @@ fn uint(op: BinaryOp, a: u32, b: u32) -> Option<ScalarValue> {
 
 /// Linear-algebraic multiplication: a vector on the left is a row, on the right a column. Products are added from the
 /// first on, each operation rounded.
-fn mat_mul(types: &Types, left: &Operand, right: &Operand) -> Option<Scalars> {
+fn mat_mul(types: &Types, left: &Operand<'_>, right: &Operand<'_>) -> Option<Scalars> {
     let (inner, rows) = match types.get(left.ty) {
         Type::Matrix(columns, rows) => (columns, rows),
         Type::Vector(_, size) => (size, 1),

@@ -44,6 +44,9 @@ impl Analyzer<'_> {
 
     pub(super) fn return_jump(&mut self, value: Option<ast::ExprId>, span: Span) -> StmtKind {
         let value = value.map(|value| self.expr(value));
+        if let Some(body) = &mut self.body {
+            body.returns = true;
+        }
         let Some((ret, name, declared)) =
             self.current_function().map(|function| (function.ret, function.name.clone(), function.span))
         else {
@@ -98,7 +101,7 @@ impl Analyzer<'_> {
         }
         match self.convert(value, ret) {
             Some(converted) => {
-                if converted != value && !self.has_420pack() {
+                if converted != value && !self.allows_420pack(span) {
                     self.report_conversion(span, ty, ret);
                 }
                 converted

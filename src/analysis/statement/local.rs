@@ -37,7 +37,11 @@ impl Analyzer<'_> {
         let ty = self.check_local_type(ty, declaration, declarator);
         let ty = if self.check_local_size(ty, name.span) { ty } else { TypeId::ERROR };
         let constant = record.constant.is_some();
+        let declared = ty;
         let (ty, initializer, value) = self.local_initializer(declarator, ty, constant);
+        // An array that its initializer sizes counts with that size.
+        let fits = ty == declared || self.check_local_size(ty, name.span);
+        let ty = if fits { ty } else { TypeId::ERROR };
         if initializer.is_none() && self.resizes_local(declarator, ty) {
             return (None, None);
         }
@@ -118,7 +122,8 @@ impl Analyzer<'_> {
             return (ty, Some(expr), None);
         }
         let value = self.evaluate(expr);
-        if value.is_none() && !self.has_420pack() {
+        let span = self.span(expr);
+        if value.is_none() && !self.allows_420pack(span) {
             self.report(self.not_constant_value(expr, "the value of a constant"));
             return (TypeId::ERROR, None, None);
         }

@@ -7,6 +7,7 @@ mod local;
 mod switch;
 
 use super::context::Analyzer;
+use super::scope::Entry;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::{qualifiers, statements};
 use crate::hir::{Condition, ExprId, LoopKind, Stmt, StmtKind};
@@ -74,7 +75,15 @@ impl Analyzer<'_> {
         use ast::StmtKind as S;
         let span = stmt.span;
         let kind = match &stmt.kind {
-            S::Error | S::Empty => return,
+            S::Error => {
+                if let Some(body) = &mut self.body {
+                    body.returns = true;
+                }
+                return;
+            }
+            S::Empty => return,
+            // A declaration of nothing, `S;`, which only the meaning of the name tells from an expression (§9).
+            S::Expr(expr) if self.is_struct_name(*expr) => return,
             S::Expr(expr) => StmtKind::Expr(self.expr(*expr)),
             S::Variables(declaration) => return self.local_variables(declaration, out),
             S::Precision { qualifier, ty } => return self.precision(qualifier, ty),
@@ -97,6 +106,11 @@ impl Analyzer<'_> {
             S::Discard => self.discard_jump(span),
         };
         out.push(Stmt { kind, span });
+    }
+
+    fn is_struct_name(&self, expr: ast::ExprId) -> bool {
+        let ast::ExprKind::Name(name) = self.ast.expr(expr).kind else { return false };
+        self.scopes.find(name.symbol).is_some_and(|binding| matches!(binding.entry, Entry::Struct(_)))
     }
 
     fn selection(&mut self, arms: &[(ast::ExprId, ast::Stmt)], otherwise: Option<&ast::Stmt>) -> StmtKind {

@@ -147,6 +147,24 @@ codes! {
          others, `optimize` and `debug` take `(on)` or `(off)`. What is not understood is ignored."
         bad Fragment("#pragma STDGL inline(all)\nvoid main() {}"),
         good Fragment("#pragma optimize(off)\nvoid main() {}");
+    EXTENSION_USED = "W0111" "extension-used" Warning "GLSL 1.50 §3.3"
+        "`#extension NAME : warn` turns an extension on and asks for a warning at each use of what it brings; so does \
+         `#extension all : warn` for all extensions. A use that the language or another extension allows is none."
+        bad Fragment("#extension GL_ARB_explicit_attrib_location : warn\nlayout(location = 0) out vec4 c; void main() { c = vec4(0.0); }"),
+        good Fragment("#extension GL_ARB_explicit_attrib_location : enable\nlayout(location = 0) out vec4 c; void main() { c = vec4(0.0); }");
+    PRAGMA_IN_FUNCTION = "W0112" "pragma-in-function" Warning "GLSL 1.50 §3.3"
+        "`#pragma optimize` and `#pragma debug` can only be used outside of function definitions."
+        bad Fragment("void main() {\n#pragma optimize(off)\n}"),
+        good Fragment("#pragma optimize(off)\nvoid main() {}");
+    BYTE_ORDER_MARK = "W0113" "byte-order-mark" Warning "GLSL 1.50 §3.1"
+        "The text begins with U+FEFF, which some editors write before UTF-8. It is no character of the language: unless \
+         the program that reads the file takes it away, many drivers refuse the shader at its first line."
+        bad Fragment("\u{feff}#version 150\nvoid main() {}"), good Fragment("#version 150\nvoid main() {}");
+    DIRECTIVE_IN_ARGUMENTS = "W0114" "directive-in-macro-arguments" Warning "GLSL 1.50 §3.3"
+        "Macros are expanded as in C++, where a directive between the brackets of a macro's use has no defined effect. \
+         Some drivers run it, some take it for a part of the argument."
+        bad Fragment("#define F(x) x\nfloat a = F(\n#ifdef B\n2.0\n#else\n1.0\n#endif\n);\nvoid main() {}"),
+        good Fragment("#define F(x) x\n#ifdef B\nfloat a = F(2.0);\n#else\nfloat a = F(1.0);\n#endif\nvoid main() {}");
     UNKNOWN_ALLOW = "W0110" "unknown-code-in-comment" Warning ""
         "A comment that begins with `glisten:` says `allow(CODE, ...)` with codes or names that exist."
         bad Fragment("// glisten: allow(W9999)\nvoid main() {}"),

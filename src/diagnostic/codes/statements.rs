@@ -12,6 +12,11 @@ codes! {
         "What is returned must have the function's return type, and a `void` function returns no value."
         bad Fragment("out vec4 c; float f() { return vec2(1.0); } void main() { c = vec4(f()); }"),
         good Fragment("out vec4 c; float f() { return vec2(1.0).x; } void main() { c = vec4(f()); }");
+    NO_RETURN = "E0514" "missing-return" Error "GLSL 1.50 §4.1.1, §6.4"
+        "A function that is declared to return a value has no `return`. Functions that do not return a value must be \
+         declared `void`."
+        bad Fragment("out vec4 c; float f(float x) { x *= 2.0; } void main() { c = vec4(f(1.0)); }"),
+        good Fragment("out vec4 c; float f(float x) { return x * 2.0; } void main() { c = vec4(f(1.0)); }");
     RETURN_CONVERSION = "W0501" "implicit-return-conversion" Warning "GLSL 1.50 §6.4"
         "Before GLSL 4.20 (or GL_ARB_shading_language_420pack) a returned value is not converted to the return type by          itself. Every driver converts it all the same, so this is a warning; `--strict` makes it an error."
         bad Fragment("out vec4 c; float f() { return 1; } void main() { c = vec4(f()); }"),

@@ -212,7 +212,8 @@ fn member_qualifiers(member: &Member, storage: &str) -> String {
     let interpolation = member.interpolation.map_or(String::new(), |word| format!("{} ", word.name()));
     // `centroid` stands before a storage qualifier, which in a block can only be the block's own.
     let centroid = if member.centroid { format!("centroid {storage}") } else { String::new() };
-    format!("{order}{interpolation}{centroid}")
+    let invariant = if member.invariant { "invariant " } else { "" };
+    format!("{order}{invariant}{interpolation}{centroid}")
 }
 
 fn storage(storage: Storage) -> &'static str {

@@ -75,9 +75,11 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         let token = self.ahead(at);
         match token.kind {
             TokenKind::Ident | TokenKind::Reserved => true,
+            // A type alone, `S;`: the analysis knows whether it is one.
+            TokenKind::Semicolon => true,
             TokenKind::LeftBrace => at == 1,
             // A missing name behind a type is told later.
-            _ => false,
+            _ => self.is_unknown_qualifier(),
         }
     }
 
@@ -113,7 +115,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
                     "a function begins with its return type: write `void {name}(..)`; a call stands inside a function"
                 ),
             ),
-            TokenKind::Semicolon | TokenKind::Comma => {
+            TokenKind::Comma => {
                 (format!("`{name}` is declared without a type"), format!("write a type before `{name}`"))
             }
             _ => (

@@ -18,7 +18,12 @@ impl<T: TokenSource> Parser<'_, '_, T> {
                 }
                 TokenKind::Eof => {
                     let _: Reported = self.unclosed_brace(opening.span);
+                    statements.push(Stmt { kind: StmtKind::Error, span: self.current.span });
                     return statements;
+                }
+                // A megabyte of them need not be kept.
+                TokenKind::Semicolon => {
+                    self.bump();
                 }
                 _ => statements.push(self.statement()),
             }

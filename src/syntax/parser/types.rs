@@ -32,6 +32,18 @@ fn qualifier(kind: TokenKind) -> Option<QualifierKind> {
     })
 }
 
+/// Qualifiers of later versions that are names in this one, and those versions.
+static LATER_QUALIFIERS: &[(&str, u16)] = &[
+    ("patch", 400),
+    ("sample", 400),
+    ("subroutine", 400),
+    ("coherent", 420),
+    ("restrict", 420),
+    ("readonly", 420),
+    ("writeonly", 420),
+    ("buffer", 430),
+];
+
 /// Whether a token begins a qualifier.
 pub(super) fn is_qualifier(kind: TokenKind) -> bool {
     kind == TokenKind::Layout || qualifier(kind).is_some()
@@ -54,10 +66,34 @@ impl<T: TokenSource> Parser<'_, '_, T> {
                 let message = format!("the reserved word `{}` is no qualifier", self.session.spelling(token));
                 self.report(&codes::RESERVED_WORD, token.span, message);
                 self.bump();
+            } else if self.is_unknown_qualifier() {
+                self.unknown_qualifier();
             } else {
                 return Ok(list);
             }
         }
+    }
+
+    /// A name where only a qualifier makes sense, such as `coherent` in `coherent uniform float x`.
+    pub(super) fn is_unknown_qualifier(&mut self) -> bool {
+        if self.kind() != TokenKind::Ident {
+            return false;
+        }
+        let next = self.ahead(1);
+        let declares = is_qualifier(next.kind) || matches!(next.kind, TokenKind::Type | TokenKind::Void);
+        // What begins the next line may be a declaration of its own, and this the rest of another.
+        declares && !next.starts_line()
+    }
+
+    fn unknown_qualifier(&mut self) {
+        let token = self.bump();
+        let name = self.session.spelling(token).to_owned();
+        let diagnostic =
+            Diagnostic::new(&codes::UNEXPECTED_TOKEN, token.span, format!("`{name}` is no qualifier in this version"))
+                .here("expected a qualifier or a type");
+        let since = LATER_QUALIFIERS.iter().find(|row| row.0 == name).map(|row| row.1);
+        let help = since.map(|since| format!("`{name}` came with GLSL {}.{:02}", since / 100, since % 100));
+        self.session.report(diagnostic.maybe_help(help));
     }
 
     /// A reserved word where only a qualifier makes sense, such as `static` in `static float x`.

@@ -2,7 +2,7 @@
 
 use super::define::Macro;
 use super::{Preprocessor, Session, Span, Token, TokenKind, codes, kind};
-use crate::diagnostic::{Diagnostic, did_you_mean};
+use crate::diagnostic::{Code, Diagnostic, did_you_mean};
 
 /// How deep brackets and unary operators may nest in an `#if`.
 const MAX_NESTING: usize = 64;
@@ -28,9 +28,35 @@ fn precedence(kind: TokenKind) -> Option<u8> {
 /// Already reported.
 struct Malformed;
 
+/// What an expression is for.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Purpose {
+    /// `#if`, `#elif`
+    Condition,
+    /// `#line`
+    Line,
+}
+
+impl Purpose {
+    fn code(self) -> &'static Code {
+        match self {
+            Self::Condition => &codes::MALFORMED_CONDITION,
+            Self::Line => &codes::MALFORMED_DIRECTIVE,
+        }
+    }
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Condition => "the condition",
+            Self::Line => "the `#line`",
+        }
+    }
+}
+
 struct Evaluator<'t> {
     tokens: &'t [Token],
     next: usize,
+    purpose: Purpose,
     /// The end of the line, for what is missing there.
     end: Span,
     strict: bool,
@@ -48,6 +74,9 @@ impl Preprocessor<'_> {
         self.rest_of_line(session, &mut line);
         let end = line.last().map_or(directive, |token| token.span).after();
         let Some(tokens) = self.expand_condition(session, line) else { return false };
+        if std::mem::take(&mut self.broken_line) {
+            return false;
+        }
         if tokens.is_empty() {
             if !self.stopped {
                 let diagnostic = Diagnostic::new(&codes::MALFORMED_CONDITION, directive, "the condition is empty")
@@ -56,19 +85,28 @@ impl Preprocessor<'_> {
             }
             return false;
         }
-        let mut evaluator = Evaluator {
-            tokens: &tokens,
-            next: 0,
-            end,
-            strict: self.strict,
-            nesting: 0,
-            unevaluated: 0,
-            macros: &self.macros,
-        };
-        match evaluator.whole(session) {
+        match self.evaluator(&tokens, end, Purpose::Condition).whole(session) {
             Ok(value) => value != 0,
             Err(Malformed) => false,
         }
+    }
+
+    /// The constant expressions of a `#line`, one behind the other; `None` after an error.
+    pub(super) fn line_numbers(&self, session: &mut Session<'_>, tokens: &[Token], end: Span) -> Option<Vec<i64>> {
+        let mut evaluator = self.evaluator(tokens, end, Purpose::Line);
+        let mut numbers = Vec::new();
+        while evaluator.peek().is_some() && numbers.len() < 2 {
+            numbers.push(evaluator.binary(session, 1).ok()?);
+        }
+        match evaluator.peek() {
+            None => Some(numbers),
+            other => evaluator.fail(session, other, "`#line` takes a line and a number of the source").ok(),
+        }
+    }
+
+    fn evaluator<'t>(&'t self, tokens: &'t [Token], end: Span, purpose: Purpose) -> Evaluator<'t> {
+        let strict = self.strict;
+        Evaluator { tokens, next: 0, end, purpose, strict, nesting: 0, unevaluated: 0, macros: &self.macros }
     }
 
     /// Expands the macros of the line, and replaces `defined`.
@@ -125,7 +163,11 @@ impl Evaluator<'_> {
         let found = token.map_or("the line ends here".to_owned(), |token| {
             format!("found `{}`", session.sources.snippet(token.span))
         });
-        session.report(Diagnostic::new(&codes::MALFORMED_CONDITION, span, message).here(found));
+        let mut diagnostic = Diagnostic::new(self.purpose.code(), span, message).here(found);
+        if self.purpose == Purpose::Line {
+            diagnostic = diagnostic.help("write `#line LINE` or `#line LINE SOURCE_STRING_NUMBER`");
+        }
+        session.report(diagnostic);
         Err(Malformed)
     }
 
@@ -160,7 +202,7 @@ impl Evaluator<'_> {
         use TokenKind::*;
         if matches!(operator.kind, Slash | Percent) && b == 0 {
             if self.unevaluated == 0 {
-                let message = "the condition divides by zero";
+                let message = format!("{} divides by zero", self.purpose.name());
                 session.report(Diagnostic::new(&codes::DIVISION_BY_ZERO_IN_CONDITION, operator.span, message));
                 return Err(Malformed);
             }
@@ -192,7 +234,7 @@ impl Evaluator<'_> {
 
     fn unary(&mut self, session: &mut Session<'_>) -> Result<i64, Malformed> {
         let Some(token) = self.peek() else {
-            return self.fail(session, None, "expected an operand in the condition");
+            return self.fail(session, None, &format!("expected an operand in {}", self.purpose.name()));
         };
         self.next += 1;
         match token.kind {
@@ -204,13 +246,13 @@ impl Evaluator<'_> {
                 let value = self.nested(session, token, |this, session| this.binary(session, 1))?;
                 match self.peek() {
                     Some(closing) if closing.kind == TokenKind::RightParen => self.next += 1,
-                    other => return self.fail(session, other, "expected `)` in the condition"),
+                    other => return self.fail(session, other, &format!("expected `)` in {}", self.purpose.name())),
                 }
                 Ok(value)
             }
             TokenKind::Number => self.number(session, token),
             TokenKind::Word => self.undefined(session, token),
-            _ => self.fail(session, Some(token), "expected an operand in the condition"),
+            _ => self.fail(session, Some(token), &format!("expected an operand in {}", self.purpose.name())),
         }
     }
 
@@ -221,7 +263,7 @@ impl Evaluator<'_> {
         inner: impl FnOnce(&mut Self, &mut Session<'_>) -> Result<i64, Malformed>,
     ) -> Result<i64, Malformed> {
         if self.nesting >= MAX_NESTING {
-            let message = format!("the condition nests more than {MAX_NESTING} levels deep");
+            let message = format!("{} nests more than {MAX_NESTING} levels deep", self.purpose.name());
             session.report(Diagnostic::new(&crate::diagnostic::codes::general::TOO_DEEP, token.span, message));
             return Err(Malformed);
         }
@@ -241,13 +283,16 @@ impl Evaluator<'_> {
         };
         match u64::from_str_radix(digits, radix) {
             Ok(value) => Ok(value as i64),
-            Err(_) => self.fail(session, Some(token), "a condition is made of integers"),
+            Err(_) => self.fail(session, Some(token), &format!("{} is made of integers", self.purpose.name())),
         }
     }
 
     /// A name that is no macro.
     fn undefined(&self, session: &mut Session<'_>, token: Token) -> Result<i64, Malformed> {
         let name = session.spelling(token).to_owned();
+        if self.purpose == Purpose::Line {
+            return self.fail(session, Some(token), &format!("`{name}` is no number"));
+        }
         if self.peek().is_some_and(|next| next.kind == TokenKind::LeftParen) {
             return self.fail(session, Some(token), &format!("`{name}` is no macro with arguments"));
         }

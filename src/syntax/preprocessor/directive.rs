@@ -68,6 +68,10 @@ impl Preprocessor<'_> {
     pub(super) fn directive(&mut self, session: &mut Session<'_>, hash: Token) {
         let token = self.line_token(session);
         let span = session.sources.join(hash.span, token.span);
+        if self.in_arguments && token.kind == TokenKind::Word {
+            let message = "a directive stands in the arguments of a macro's use";
+            kind::DIRECTIVE_IN_ARGUMENTS.report(session, self.strict, span, message);
+        }
         let directive = match token.kind {
             TokenKind::Newline | TokenKind::Eof => return,
             TokenKind::Word => directive_named(session.spelling(token)),
@@ -91,7 +95,7 @@ impl Preprocessor<'_> {
             Directive::Else => self.end_group(session, span, "#else"),
             Directive::Endif => self.endif(session, span),
             Directive::Error => self.error_directive(session, span),
-            Directive::Pragma => self.pragma(session),
+            Directive::Pragma => self.pragma(session, span),
             Directive::Extension => self.extension(session, span),
             Directive::Version => self.version(session, span),
             Directive::Line => self.line(session, span),
@@ -329,16 +333,26 @@ impl Preprocessor<'_> {
     }
 
     /// `#pragma`: macros are not expanded in it, and what is not known is ignored.
-    fn pragma(&mut self, session: &mut Session<'_>) {
+    fn pragma(&mut self, session: &mut Session<'_>, directive: Span) {
         let mut tokens = Vec::new();
         self.rest_of_line(session, &mut tokens);
         let text: Vec<&str> = tokens.iter().map(|token| session.sources.snippet(token.span)).collect();
         let understood = match text.as_slice() {
             ["STDGL", "invariant", "(", "all", ")"] => {
-                self.outcome.invariant_all = true;
+                let end = tokens.last().map_or(directive, |token| token.span);
+                self.outcome.invariant_all.get_or_insert(session.sources.join(directive, end));
                 true
             }
-            ["optimize" | "debug", "(", "on" | "off", ")"] => true,
+            [name @ ("optimize" | "debug"), "(", "on" | "off", ")"] => {
+                if self.in_function {
+                    let message = format!("`#pragma {name}` stands inside of a function");
+                    let end = tokens.last().map_or(directive, |token| token.span);
+                    let span = session.sources.join(directive, end);
+                    let diagnostic = kind::PRAGMA_IN_FUNCTION.diagnostic(self.strict, span, message);
+                    session.report(diagnostic.help("move it before the function"));
+                }
+                true
+            }
             ["once"] => {
                 self.once.extend(self.frames.last().map(|frame| frame.file));
                 true
@@ -353,31 +367,32 @@ impl Preprocessor<'_> {
         }
     }
 
-    /// `#line line`, `#line line source-string-number`, macros expanded.
+    /// `#line line`, `#line line source-string-number`, macros expanded; both are constant expressions.
     fn line(&mut self, session: &mut Session<'_>, span: Span) {
         let mut tokens = Vec::new();
         self.rest_of_line(session, &mut tokens);
+        let end = tokens.last().map_or(span, |token| token.span).after();
         let tokens = self.expand_all(session, tokens);
-        let numbers: Option<Vec<u32>> = tokens
-            .iter()
-            .map(|token| if token.kind == TokenKind::Number { session.spelling(*token).parse().ok() } else { None })
-            .collect();
-        match numbers.as_deref() {
-            // Behind the directive the line is one more than it says (§3.3); 3.30 says otherwise.
-            Some([line] | [line, _]) => {
-                let next = line.saturating_add(u32::from(self.version.number < 330));
-                session.sources.renumber(span, next);
-                if let (Some([_, string]), Some(frame)) = (numbers.as_deref(), self.frames.last_mut()) {
-                    frame.number = *string;
-                }
-            }
-            _ if self.extensions.contains(Extensions::INCLUDE) && tokens.len() == 4 => {}
-            _ => {
-                let at = tokens.first().map_or(span, |token| token.span);
-                let diagnostic = Diagnostic::new(&codes::MALFORMED_DIRECTIVE, at, "`#line` needs one or two integers")
-                    .help("write `#line LINE` or `#line LINE SOURCE_STRING_NUMBER`");
-                session.report(diagnostic);
-            }
+        if std::mem::take(&mut self.broken_line) || self.stopped {
+            return;
+        }
+        // `#line 7 "file"` is GL_GOOGLE_cpp_style_line_directive's; the name is not used.
+        let named = self.extensions.contains(Extensions::INCLUDE)
+            && tokens.last().is_some_and(|token| token.kind == TokenKind::Invalid);
+        let numbers = tokens.split_last().filter(|_| named).map_or(tokens.as_slice(), |(_, numbers)| numbers);
+        let Some(numbers) = self.line_numbers(session, numbers, end) else { return };
+        let Some(&line) = numbers.first() else {
+            let diagnostic = Diagnostic::new(&codes::MALFORMED_DIRECTIVE, span, "`#line` needs one or two integers")
+                .help("write `#line LINE` or `#line LINE SOURCE_STRING_NUMBER`");
+            session.report(diagnostic);
+            return;
+        };
+        let small = |number: i64| u32::try_from(number.max(0)).unwrap_or(u32::MAX);
+        // Behind the directive the line is one more than it says (§3.3); 3.30 says otherwise.
+        let next = small(line).saturating_add(u32::from(self.version.number < 330));
+        session.sources.renumber(span, next);
+        if let (Some(&string), Some(frame)) = (numbers.get(1), self.frames.last_mut()) {
+            frame.number = small(string);
         }
     }
 }

@@ -14,6 +14,8 @@ const MAX_ARGUMENT_DEPTH: usize = 64;
 /// How many tokens macros may produce: this many, and [`STEPS_A_BYTE`] for each byte of the text.
 const STEPS: usize = 500_000;
 const STEPS_A_BYTE: usize = 2;
+/// How many characters `##` may join for one of them: a chain of it joins ever longer names.
+const PASTED_A_STEP: usize = 4;
 
 /// Tokens that are read before the files.
 enum Run {
@@ -108,7 +110,10 @@ impl Preprocessor<'_> {
         let mut arguments = Vec::new();
         if function_like {
             let Some(opening) = self.take_opening(session) else { return false };
-            let Some((list, closing)) = self.arguments(session, name, opening, index) else { return true };
+            self.in_arguments = true;
+            let read = self.arguments(session, name, opening, index);
+            self.in_arguments = false;
+            let Some((list, closing)) = read else { return true };
             arguments = list;
             call = session.sources.join(name.span, closing);
         }
@@ -189,14 +194,7 @@ impl Preprocessor<'_> {
             let token = self.next_unexpanded(session, true);
             match token.kind {
                 TokenKind::Eof => {
-                    if !self.stopped {
-                        let what = self.macros.get(index).map_or("", |definition| &definition.name);
-                        let message = format!("the arguments of the macro `{what}` have no end");
-                        let diagnostic = Diagnostic::new(&codes::UNTERMINATED_MACRO_CALL, name.span, message)
-                            .label(opening.span, "this bracket is never closed");
-                        session.report(diagnostic);
-                        self.stop();
-                    }
+                    self.unterminated_call(session, name, opening, index);
                     return None;
                 }
                 TokenKind::RightParen if depth == 0 => return Some((arguments, token.span)),
@@ -208,9 +206,28 @@ impl Preprocessor<'_> {
                 }
                 _ => {}
             }
+            // What stands in the arguments of arguments is kept once for each level.
+            self.spend(session, 0, token.span);
             if let Some(argument) = arguments.last_mut() {
                 argument.push(token);
             }
+        }
+    }
+
+    /// Reports a use whose `)` is missing. In a directive it costs the line, in the text all that is left of the file.
+    fn unterminated_call(&mut self, session: &mut Session<'_>, name: Token, opening: Token, index: usize) {
+        if self.stopped {
+            return;
+        }
+        let what = self.macros.get(index).map_or("", |definition| &definition.name);
+        let message = format!("the arguments of the macro `{what}` have no end");
+        let diagnostic = Diagnostic::new(&codes::UNTERMINATED_MACRO_CALL, name.span, message)
+            .label(opening.span, "this bracket is never closed");
+        session.report(diagnostic);
+        if self.contexts.iter().any(Context::is_barrier) {
+            self.broken_line = true;
+        } else {
+            self.stop();
         }
     }
 
@@ -263,7 +280,7 @@ impl Preprocessor<'_> {
             self.operand(session, token, arguments, &mut expanded, pasted_next, id, &mut tokens);
             place += 1;
             let mut left_empty = tokens.len() == chain_start;
-            while body.get(place).is_some_and(|next| next.kind == TokenKind::HashHash) {
+            while !self.stopped && body.get(place).is_some_and(|next| next.kind == TokenKind::HashHash) {
                 let Some(&right) = body.get(place + 1) else { break };
                 let boundary = tokens.len();
                 self.operand(session, right, arguments, &mut expanded, true, id, &mut tokens);
@@ -299,9 +316,11 @@ impl Preprocessor<'_> {
         }
         let param = token.payload as usize;
         let Some(argument) = arguments.get(param) else { return };
+        let start = tokens.len();
         if pasted {
             self.spend(session, argument.len(), token.span);
             tokens.extend_from_slice(argument);
+            space_as(token, tokens.get_mut(start));
             return;
         }
         let Some(cache) = expanded.get_mut(param) else { return };
@@ -312,6 +331,7 @@ impl Preprocessor<'_> {
         self.spend(session, from.len(), token.span);
         if !self.stopped {
             tokens.extend_from_slice(from);
+            space_as(token, tokens.get_mut(start));
         }
     }
 
@@ -361,6 +381,10 @@ impl Preprocessor<'_> {
             return;
         };
         let text = format!("{}{}", written(session, left), written(session, right));
+        self.spend(session, text.len() / PASTED_A_STEP, left.span);
+        if self.stopped {
+            return;
+        }
         let mut trivia = Vec::new();
         let mut lexer = Lexer::new(text.as_str().into(), 1);
         let mut joined = lexer.next(Mode::Text, &mut session.names, &mut trivia);
@@ -384,8 +408,15 @@ impl Preprocessor<'_> {
     }
 }
 
+/// Before an argument stands white space if it does before its parameter.
+fn space_as(parameter: Token, first: Option<&mut Token>) {
+    if let Some(first) = first {
+        first.flags.set(TokenFlags::SPACE, parameter.flags.contains(TokenFlags::SPACE));
+    }
+}
+
 /// A token as text.
-fn written(session: &Session<'_>, token: Token) -> String {
+pub(super) fn written(session: &Session<'_>, token: Token) -> String {
     match token.kind {
         TokenKind::Word | TokenKind::Number | TokenKind::Invalid => session.spelling(token).to_owned(),
         TokenKind::Unknown => session.sources.snippet(token.span).to_owned(),

@@ -37,6 +37,17 @@ fn is_registered(name: &str) -> bool {
     REGISTERED.lines().any(|line| line == name)
 }
 
+/// The warning for a use of what any of `bringing` brings, where `on` are on: each of those that are on and allow it is on
+/// with `warn` (§3.3).
+pub(crate) fn warning_of_use(on: Extensions, bringing: Extensions, span: Span) -> Option<Diagnostic> {
+    let warned = on.to_warn_of(bringing)?;
+    let row = IMPLEMENTED.iter().find(|row| !row.bit.is_empty() && warned.contains(row.bit));
+    let name = row.map_or("an extension", |row| row.name);
+    let message = format!("this is not in the language without `{name}`");
+    let diagnostic = Diagnostic::new(&codes::EXTENSION_USED, span, message).here("a use of the extension");
+    Some(diagnostic.note("`#extension` asks to be warned of each use"))
+}
+
 /// The behaviors by name.
 static BEHAVIORS: &[(&str, Behavior)] = &[
     ("require", Behavior::Require),
@@ -85,6 +96,7 @@ impl Preprocessor<'_> {
         }
         if let Some(row) = IMPLEMENTED.iter().find(|row| row.name == name) {
             self.extensions.set(row.bit, behavior != Behavior::Disable);
+            self.extensions.set_warned(row.bit, behavior == Behavior::Warn);
             if behavior != Behavior::Disable {
                 self.outcome.extension_lines.push((name.to_owned(), behavior, span));
             }
@@ -116,8 +128,7 @@ impl Preprocessor<'_> {
     fn set_all(&mut self, session: &mut Session<'_>, token: Token, behavior: Behavior) {
         match behavior {
             Behavior::Disable => self.extensions = Extensions::empty(),
-            // Nothing is turned on by it, and what is on warns at no use.
-            Behavior::Warn => {}
+            Behavior::Warn => self.extensions = Extensions::all(),
             Behavior::Enable | Behavior::Require => {
                 let message = "`all` extensions can be disabled or warned of alone";
                 let diagnostic = Diagnostic::new(&codes::EXTENSION_FOR_ALL, token.span, message)

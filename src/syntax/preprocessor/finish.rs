@@ -34,8 +34,18 @@ impl Preprocessor<'_> {
                 self.at_end(session);
                 return Some(self.end(token.span));
             }
+            TokenKind::LeftBrace => {
+                // Of all that begins with a brace at global scope, a function alone has brackets before it.
+                self.in_function |= self.braces == 0 && self.last_kind == TokenKind::RightParen;
+                self.braces += 1;
+            }
+            TokenKind::RightBrace => {
+                self.braces = self.braces.saturating_sub(1);
+                self.in_function &= self.braces > 0;
+            }
             _ => {}
         }
+        self.last_kind = token.kind;
         self.first_token.get_or_insert(token.span);
         Some(token.with_extensions(self.extensions))
     }

@@ -1,29 +1,44 @@
 //! `#include` (ARB_shading_language_include, GL_GOOGLE_include_directive).
 
-use super::{Extensions, FileId, Preprocessor, Session, Span, codes, kind};
+use super::{Extensions, FileId, Preprocessor, Session, Span, TokenFlags, TokenKind, codes, extension, kind};
 use crate::diagnostic::{Diagnostic, codes::general};
 use crate::source::{IncludeForm, Included};
 
 /// How many files may be inside each other.
 const MAX_DEPTH: usize = 64;
 
+/// What an `#include` names.
+struct Header {
+    /// With its quotes or angle brackets.
+    text: String,
+    /// Where it is written.
+    span: Span,
+}
+
 impl Preprocessor<'_> {
-    /// `#include "x"`, `#include <x>`
+    /// `#include "x"`, `#include <x>`, or macros that give one of them.
     pub(super) fn include(&mut self, session: &mut Session<'_>, directive: Span) {
-        let header = self.frames.last_mut().and_then(|frame| frame.lexer.header_name());
-        let Some(header) = header else {
-            let token = self.line_token(session);
-            return self.malformed(session, token, "`#include` needs a name in quotes or angle brackets");
+        let plain = self.frames.last_mut().and_then(|frame| frame.lexer.header_name());
+        let header = match plain {
+            Some(span) => {
+                self.expect_line_end(session, "#include");
+                Header { text: session.sources.snippet(span).to_owned(), span }
+            }
+            None => match self.expanded_header(session, directive) {
+                Some(header) => header,
+                None => return,
+            },
         };
-        self.expect_line_end(session, "#include");
-        let whole = session.sources.join(directive, header);
+        let whole = session.sources.join(directive, header.span);
         if !self.extensions.contains(Extensions::INCLUDE) {
             let diagnostic = kind::INCLUDE_WITHOUT_EXTENSION
                 .diagnostic(self.strict, whole, "`#include` without the extension that brings it")
                 .help("write `#extension GL_ARB_shading_language_include : require` before it");
             session.report(diagnostic);
+        } else if let Some(warning) = extension::warning_of_use(self.extensions, Extensions::INCLUDE, whole) {
+            session.report(warning);
         }
-        let Some(file) = self.find_include(session, header) else { return };
+        let Some(file) = self.find_include(session, &header) else { return };
         if self.once.contains(&file) {
             return;
         }
@@ -37,10 +52,45 @@ impl Preprocessor<'_> {
         self.enter(session, file, whole);
     }
 
+    /// The name that the macros of an `#include` line give; `None` after an error.
+    fn expanded_header(&mut self, session: &mut Session<'_>, directive: Span) -> Option<Header> {
+        let mut line = Vec::new();
+        self.rest_of_line(session, &mut line);
+        let span = match (line.first(), line.last()) {
+            (Some(first), Some(last)) => session.sources.join(first.span, last.span),
+            _ => directive.after(),
+        };
+        let tokens = self.expand_all(session, line);
+        if std::mem::take(&mut self.broken_line) || self.stopped {
+            return None;
+        }
+        let text: String = tokens
+            .iter()
+            .enumerate()
+            .map(|(place, &token)| {
+                let space = if place > 0 && token.flags.contains(TokenFlags::SPACE) { " " } else { "" };
+                format!("{space}{}", super::expand::written(session, token))
+            })
+            .collect();
+        let inside = |open, close| text.strip_prefix(open).and_then(|rest| rest.strip_suffix(close));
+        let header = match tokens.as_slice() {
+            [_] => inside('"', '"'),
+            [first, .., _] if first.kind == TokenKind::LeftAngle => inside('<', '>'),
+            _ => None,
+        };
+        if header.is_none_or(str::is_empty) {
+            let found = if text.is_empty() { "nothing stands here".to_owned() } else { format!("found `{text}`") };
+            let message = "`#include` needs a name in quotes or angle brackets";
+            session.report(Diagnostic::new(&codes::MALFORMED_DIRECTIVE, span, message).here(found));
+            return None;
+        }
+        Some(Header { text, span })
+    }
+
     /// The file of an include; each is asked for and loaded once.
-    fn find_include(&mut self, session: &mut Session<'_>, header: Span) -> Option<FileId> {
+    fn find_include(&mut self, session: &mut Session<'_>, header: &Header) -> Option<FileId> {
         let from = self.frames.last()?.file;
-        let quoted = session.sources.snippet(header);
+        let Header { text: quoted, span: header } = header;
         let form = if quoted.starts_with('"') { IncludeForm::Quoted } else { IncludeForm::Angled };
         let path = quoted.get(1..quoted.len().saturating_sub(1)).unwrap_or("").to_owned();
         if let Some(&file) = self.resolved.get(&(from, form, path.clone())) {
@@ -51,12 +101,12 @@ impl Preprocessor<'_> {
             Ok(included) => included,
             Err(reason) => {
                 let message = format!("the include `{path}` was not found");
-                session.report(Diagnostic::new(&codes::INCLUDE_NOT_FOUND, header, message).here(reason));
+                session.report(Diagnostic::new(&codes::INCLUDE_NOT_FOUND, *header, message).here(reason));
                 return None;
             }
         };
         let Some(file) = load(session, included) else {
-            session.report(Diagnostic::new(&general::TOO_LARGE, header, "there is no room for the included text"));
+            session.report(Diagnostic::new(&general::TOO_LARGE, *header, "there is no room for the included text"));
             self.stop();
             return None;
         };

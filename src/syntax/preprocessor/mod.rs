@@ -43,7 +43,7 @@ pub(super) struct Outcome {
     pub(super) version: Version,
     /// Whether the language is one that the parser understands.
     pub(super) supported: bool,
-    pub(super) invariant_all: bool,
+    pub(super) invariant_all: Option<Span>,
     pub(super) allows: Vec<Allow>,
     pub(super) extension_lines: Vec<(String, Behavior, Span)>,
 }
@@ -88,6 +88,15 @@ pub(super) struct Preprocessor<'a> {
     bytes: usize,
     steps: usize,
     argument_depth: usize,
+    /// Braces that are open behind the last token that went to the parser, and whether a function's body is the outermost.
+    braces: usize,
+    in_function: bool,
+    /// That token's kind.
+    last_kind: TokenKind,
+    /// The arguments of a macro's use are being read.
+    in_arguments: bool,
+    /// A macro use on the line of a directive has no end, which was reported: the line has no meaning.
+    broken_line: bool,
     once: FxHashSet<FileId>,
     resolved: FxHashMap<(FileId, IncludeForm, String), FileId>,
     outcome: Outcome,
@@ -120,12 +129,17 @@ impl<'a> Preprocessor<'a> {
             bytes: 0,
             steps: 0,
             argument_depth: 0,
+            braces: 0,
+            in_function: false,
+            last_kind: TokenKind::Eof,
+            in_arguments: false,
+            broken_line: false,
             once: FxHashSet::default(),
             resolved: FxHashMap::default(),
             outcome: Outcome {
                 version: Version { number: version::NEWEST_SUPPORTED, profile: Profile::Core, span: Span::default() },
                 supported: true,
-                invariant_all: false,
+                invariant_all: None,
                 allows: Vec::new(),
                 extension_lines: Vec::new(),
             },
@@ -164,6 +178,14 @@ impl<'a> Preprocessor<'a> {
             self.stop();
             return;
         }
+        if source.text().starts_with('\u{feff}') {
+            let span = Span::new(source.base(), source.base() + '\u{feff}'.len_utf8() as u32);
+            let diagnostic = kind::BYTE_ORDER_MARK
+                .diagnostic(self.strict, span, "a byte order mark stands before the text")
+                .help("save the file as UTF-8 without a byte order mark");
+            session.report(diagnostic);
+        }
+        let source = session.sources.file(file);
         let mut lexer = Lexer::new(source.text().clone(), source.base());
         lexer.joins_comments = self.joins_lines();
         let number = self.frames.len() as u32;
@@ -268,7 +290,14 @@ impl<'a> Preprocessor<'a> {
                     let diagnostic = kind::LINE_CONTINUATION.diagnostic(self.strict, span, message);
                     session.report(diagnostic.help(help));
                 }
-                Trivia::Continuation(..) => {}
+                Trivia::Continuation(span, _) => {
+                    let bringing = Extensions::SHADING_LANGUAGE_420PACK;
+                    if self.version.number < 420
+                        && let Some(warning) = extension::warning_of_use(self.extensions, bringing, span)
+                    {
+                        session.report(warning);
+                    }
+                }
                 Trivia::Unterminated(span) => {
                     let message = "the comment has no end";
                     let diagnostic = Diagnostic::new(&codes::UNTERMINATED_COMMENT, span, message)
