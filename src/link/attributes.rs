@@ -81,7 +81,12 @@ fn attribute(candidate: Candidate<'_>) -> Option<Attribute> {
 #[derive(Default)]
 struct Taken {
     by: [Option<GlobalId>; MAX_VERTEX_ATTRIBS as usize],
+    /// How many were found to share a location.
+    n_shared: u32,
 }
+
+/// How many attributes that share a location are told apart by a walk over the shader.
+const MAX_ALIASED: u32 = 64;
 
 impl Taken {
     fn holder(&self, location: u32, columns: u32) -> Option<GlobalId> {
@@ -126,7 +131,8 @@ fn place_fixed(ctx: &mut Context<'_>, vertex: &Shader, taken: &mut Taken, candid
         return;
     }
     let shared = (location..location + columns).find_map(|slot| Some((slot, taken.holder(slot, 1)?)));
-    if let Some((slot, other)) = shared {
+    if let Some((slot, other)) = shared.filter(|_| taken.n_shared < MAX_ALIASED) {
+        taken.n_shared += 1;
         aliased(ctx, vertex, (other, id), slot);
     }
     taken.mark(location, columns, id);

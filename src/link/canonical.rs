@@ -12,22 +12,35 @@ use rustc_hash::FxHashMap;
 struct Key {
     name: String,
     is_block: bool,
-    members: Vec<(String, TypeId, MatrixLayout, Option<Interpolation>, bool)>,
+    members: Vec<MemberKey>,
+}
+
+/// Name, type and qualifiers of a member, the last those that it has or lacks.
+type MemberKey = (String, TypeId, MatrixLayout, Option<Interpolation>, [bool; 3]);
+
+/// Whether other shaders of a stage may still give an array another size.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Sizes {
+    /// An array in a block that its use has sized differs from one that its declaration sizes.
+    Open,
+    /// A size is a size.
+    Settled,
 }
 
 struct Unifier<'a> {
     types: &'a mut Types,
+    sizes: Sizes,
     known: FxHashMap<TypeId, TypeId>,
     structs: FxHashMap<Key, TypeId>,
 }
 
 /// Gives equal structs one handle in all shaders.
-pub(super) fn unify(types: &mut Types, shaders: &mut [Shader]) {
+pub(super) fn unify(types: &mut Types, shaders: &mut [Shader], sizes: Sizes) {
     if shaders.len() < 2 {
         return;
     }
     let ids: Vec<TypeId> = types.ids().collect();
-    let mut unifier = Unifier { types, known: FxHashMap::default(), structs: FxHashMap::default() };
+    let mut unifier = Unifier { types, sizes, known: FxHashMap::default(), structs: FxHashMap::default() };
     let changed = ids.into_iter().filter(|&id| unifier.canonical(id) != id).count();
     if changed > 0 {
         let known = unifier.known;
@@ -61,7 +74,9 @@ impl Unifier<'_> {
         let members = structure.members.clone();
         let members = members.into_iter().map(|member| {
             let ty = self.canonical(member.ty);
-            (member.name, ty, member.matrix_layout, member.interpolation, member.centroid)
+            let implicit = member.implicitly_sized && self.sizes == Sizes::Open;
+            let flags = [member.centroid, member.invariant, implicit];
+            (member.name, ty, member.matrix_layout, member.interpolation, flags)
         });
         Key { name, is_block, members: members.collect() }
     }

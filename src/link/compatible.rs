@@ -54,7 +54,7 @@ pub(super) enum MemberDifference<'a> {
     Count(usize, usize),
     /// Another name or type at the same place.
     Declaration(&'a Member, &'a Member),
-    /// Another interpolation, `centroid` or matrix order.
+    /// Another interpolation, `centroid`, invariance or matrix order.
     Qualifiers(&'a Member, &'a Member),
 }
 
@@ -69,6 +69,7 @@ pub(super) fn compare_members(types: &Types, a: StructId, b: StructId) -> Option
         if (has_matrix && a.matrix_layout != b.matrix_layout)
             || a.interpolation != b.interpolation
             || a.centroid != b.centroid
+            || a.invariant != b.invariant
         {
             return Some(MemberDifference::Qualifiers(a, b));
         }

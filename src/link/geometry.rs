@@ -20,7 +20,7 @@ pub(super) fn size_inputs(types: &mut Types, shader: &mut Shader, found: &mut Ve
             _ => {}
         }
     }
-    super::remap::retype_globals(shader);
+    super::remap::retype_globals(types, shader);
     check_indices(types, shader, vertices, found);
 }
 

@@ -126,6 +126,8 @@ mod tests {
             matrix_layout: MatrixLayout::ColumnMajor,
             interpolation: None,
             centroid: false,
+            invariant: false,
+            implicitly_sized: false,
             span: Span::default(),
         }
     }

@@ -8,6 +8,7 @@ use super::Context;
 use super::compatible::{MemberDifference, block_parts, compare_members, same_type};
 use crate::diagnostic::{Diagnostic, codes, did_you_mean};
 use crate::hir::{ArraySize, Global, GlobalId, Shader, Stage, Storage, Type, TypeId, Types};
+use rustc_hash::{FxHashMap, FxHashSet};
 
 /// Whether a global is an ordinary output or input that has a partner in another stage.
 fn is_interface(global: &Global, storage: Storage) -> bool {
@@ -19,16 +20,38 @@ pub(super) fn match_name(global: &Global) -> &str {
     global.block.as_ref().map_or(&global.name, |block| &block.name)
 }
 
-/// The output that feeds an input: of the same name and kind, else of the same explicit location.
-pub(super) fn partner<'a>(producer: &'a Shader, input: &Global) -> Option<(GlobalId, &'a Global)> {
-    let outputs = || producer.globals().filter(|(_, output)| is_interface(output, Storage::Out));
-    let same_kind = |output: &Global| output.block.is_some() == input.block.is_some();
-    let by_name = outputs().find(|(_, output)| match_name(output) == match_name(input) && same_kind(output));
-    by_name.or_else(|| {
-        let location = input.location?;
-        outputs().find(|(_, output)| output.location == Some(location) && same_kind(output))
-    })
+/// The outputs of a stage, by what an input finds them by.
+pub(super) struct Outputs<'a> {
+    producer: &'a Shader,
+    by_name: FxHashMap<(&'a str, bool), GlobalId>,
+    by_location: FxHashMap<(u32, bool), GlobalId>,
 }
+
+impl<'a> Outputs<'a> {
+    /// Those of `producer`; of several with one name or location the first counts.
+    pub(super) fn new(producer: &'a Shader) -> Self {
+        let (mut by_name, mut by_location) = (FxHashMap::default(), FxHashMap::default());
+        for (id, output) in producer.globals().filter(|(_, output)| is_interface(output, Storage::Out)) {
+            let is_block = output.block.is_some();
+            by_name.entry((match_name(output), is_block)).or_insert(id);
+            if let Some(location) = output.location {
+                by_location.entry((location, is_block)).or_insert(id);
+            }
+        }
+        Self { producer, by_name, by_location }
+    }
+
+    /// The output that feeds an input: of the same name and kind, else of the same explicit location.
+    pub(super) fn partner(&self, input: &Global) -> Option<(GlobalId, &'a Global)> {
+        let is_block = input.block.is_some();
+        let by_location = || self.by_location.get(&(input.location?, is_block));
+        let id = *self.by_name.get(&(match_name(input), is_block)).or_else(by_location)?;
+        Some((id, self.producer.global(id)))
+    }
+}
+
+/// How many inputs without a partner get a help that is looked for among all outputs.
+const MAX_SUGGESTIONS: usize = 16;
 
 /// Checks all inputs of `consumer` against the outputs of `producer`.
 pub(super) fn check(ctx: &mut Context<'_>, producer: &Shader, consumer: &Shader) {
@@ -36,16 +59,21 @@ pub(super) fn check(ctx: &mut Context<'_>, producer: &Shader, consumer: &Shader)
     if let Some(problem) = super::per_vertex::check_stages(ctx.types, producer, consumer) {
         ctx.report(problem);
     }
+    let outputs = Outputs::new(producer);
+    let mut n_lonely = 0;
     for (_, input) in inputs {
-        match partner(producer, input) {
+        match outputs.partner(input) {
             Some((_, output)) => check_pair(ctx, producer, output, consumer, input),
-            None if input.used => no_partner(ctx, producer, consumer, input),
+            None if input.used => {
+                n_lonely += 1;
+                no_partner(ctx, producer, consumer, input, n_lonely <= MAX_SUGGESTIONS);
+            }
             None => {}
         }
     }
 }
 
-fn no_partner(ctx: &mut Context<'_>, producer: &Shader, consumer: &Shader, input: &Global) {
+fn no_partner(ctx: &mut Context<'_>, producer: &Shader, consumer: &Shader, input: &Global, suggest: bool) {
     let outputs: Vec<&Global> = producer.globals.iter().filter(|output| is_interface(output, Storage::Out)).collect();
     let (name, stage) = (match_name(input), producer.stage.name());
     let kind = if input.block.is_some() { "block" } else { "input" };
@@ -54,6 +82,10 @@ fn no_partner(ctx: &mut Context<'_>, producer: &Shader, consumer: &Shader, input
         consumer.stage.name()
     );
     let mut diagnostic = Diagnostic::new(&codes::link::NO_MATCHING_OUTPUT, input.span, message);
+    if !suggest {
+        ctx.report(diagnostic);
+        return;
+    }
     let same_name = producer.globals.iter().find(|global| match_name(global) == name && global.builtin.is_none());
     if let Some(other) = same_name {
         let what = describe_other(other);
@@ -84,11 +116,13 @@ fn describe_other(global: &Global) -> &'static str {
 
 /// The one output of the input's type that no input takes.
 fn only_unread<'a>(types: &Types, outputs: &[&'a Global], consumer: &Shader, input: &Global) -> Option<&'a Global> {
-    let taken = |output: &Global| {
-        consumer.globals.iter().any(|other| is_interface(other, Storage::In) && match_name(other) == match_name(output))
-    };
+    let inputs = consumer.globals.iter().filter(|other| is_interface(other, Storage::In));
+    let taken: FxHashSet<&str> = inputs.map(match_name).collect();
     let wanted = per_vertex(types, consumer.stage, input.ty)?;
-    let mut free = outputs.iter().copied().filter(|output| !taken(output) && same_type(types, output.ty, wanted));
+    let mut free = outputs
+        .iter()
+        .copied()
+        .filter(|output| !taken.contains(match_name(output)) && same_type(types, output.ty, wanted));
     let first = free.next()?;
     free.next().is_none().then_some(first)
 }
@@ -234,7 +268,8 @@ fn member_difference(
 fn member_qualifiers(member: &crate::hir::Member) -> String {
     let interpolation = member.interpolation.map_or("no interpolation qualifier", crate::hir::Interpolation::name);
     let centroid = if member.centroid { " centroid" } else { "" };
-    format!("{interpolation}{centroid}")
+    let invariant = if member.invariant { ", `invariant`" } else { "" };
+    format!("{interpolation}{centroid}{invariant}")
 }
 
 /// "The type and presence of the interpolation qualifiers and storage qualifiers and invariant qualifiers … must match"

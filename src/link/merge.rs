@@ -10,8 +10,10 @@ use super::remap::Remap;
 use crate::builtin::BuiltinVariable;
 use crate::diagnostic::{Diagnostic, codes};
 use crate::hir::{
-    ArraySize, Function, FunctionId, Global, GlobalId, LocalKind, Shader, Stage, Storage, Type, TypeId, Types,
+    ArraySize, Function, FunctionId, Global, GlobalId, LocalKind, Member, Shader, Stage, Storage, Type, TypeId, Types,
 };
+use rustc_hash::FxHashMap;
+use std::hash::Hash;
 
 /// The one shader that a stage consists of; `None` if there is none.
 pub(super) fn merge(types: &mut Types, shaders: Vec<Shader>, found: &mut Vec<Diagnostic>) -> Option<Shader> {
@@ -50,6 +52,40 @@ fn check_frag_coord(shaders: &[Shader], found: &mut Vec<Diagnostic>) {
     }
 }
 
+/// What makes two globals one: a built-in variable is one by what it is, all others by their names. Blocks of one name are
+/// apart if one is `in` and the other `out`: "a block name is allowed to have different definitions in different
+/// interfaces" (§4.3.7).
+#[derive(PartialEq, Eq, Hash)]
+enum GlobalKey {
+    Builtin(BuiltinVariable, Storage),
+    Block(String, Storage),
+    Variable(String),
+}
+
+fn global_key(global: &Global) -> GlobalKey {
+    match (global.builtin, &global.block) {
+        (Some(builtin), _) => GlobalKey::Builtin(builtin, global.storage),
+        (None, Some(block)) => GlobalKey::Block(block.name.clone(), global.storage),
+        (None, None) => GlobalKey::Variable(global.name.clone()),
+    }
+}
+
+/// What makes two functions one.
+type FunctionKey = (String, Vec<TypeId>);
+
+fn function_key(function: &Function) -> FunctionKey {
+    (function.name.clone(), function.params().iter().map(|param| param.ty).collect())
+}
+
+/// The first of the handles of each key.
+fn first_places<K: Eq + Hash, Id>(list: impl Iterator<Item = (K, Id)>) -> FxHashMap<K, Id> {
+    let mut places = FxHashMap::default();
+    for (key, id) in list {
+        places.entry(key).or_insert(id);
+    }
+    places
+}
+
 struct Merge<'a> {
     types: &'a mut Types,
     all: &'a mut Shader,
@@ -58,10 +94,12 @@ struct Merge<'a> {
 
 impl Merge<'_> {
     fn absorb(&mut self, next: Shader) {
+        let mut globals = first_places(self.all.globals().map(|(id, global)| (global_key(global), id)));
+        let mut functions = first_places(self.all.functions().map(|(id, function)| (function_key(function), id)));
         let remap = Remap {
             exprs: self.all.exprs.len() as u32,
-            globals: next.globals.iter().map(|global| self.place_of_global(global)).collect(),
-            functions: next.functions.iter().map(|function| self.place_of_function(function)).collect(),
+            globals: next.globals.iter().map(|global| self.place_of_global(&mut globals, global)).collect(),
+            functions: next.functions.iter().map(|function| self.place_of_function(&mut functions, function)).collect(),
         };
         self.all.exprs.extend(next.exprs.into_iter().map(|expr| remap.expr(expr)));
         for (index, mut global) in next.globals.into_iter().enumerate() {
@@ -86,35 +124,23 @@ impl Merge<'_> {
     }
 
     /// The global that a later one is; a new place if there is none yet.
-    fn place_of_global(&mut self, global: &Global) -> GlobalId {
-        let same = |known: &Global| match (known.builtin, global.builtin) {
-            (None, None) => known.block.is_some() == global.block.is_some() && match_name(known) == match_name(global),
-            (known_builtin, builtin) => known_builtin == builtin && known.storage == global.storage,
-        };
-        // Blocks of one name are apart if one is `in` and the other `out`: "a block name is allowed to have different
-        // definitions in different interfaces" (§4.3.7).
-        let same_interface =
-            |known: &Global| global.block.is_none() || global.builtin.is_some() || known.storage == global.storage;
-        let known = self.all.globals().find(|(_, known)| same(known) && same_interface(known)).map(|(id, _)| id);
-        known.unwrap_or_else(|| {
-            let id = GlobalId(self.all.globals.len() as u32);
+    fn place_of_global(&mut self, known: &mut FxHashMap<GlobalKey, GlobalId>, global: &Global) -> GlobalId {
+        let next = GlobalId(self.all.globals.len() as u32);
+        let place = *known.entry(global_key(global)).or_insert(next);
+        if place == next {
             // A stand-in without an initializer, which `unite_global` replaces.
             self.all.globals.push(Global { initializer: None, ..global.clone() });
-            id
-        })
+        }
+        place
     }
 
-    fn place_of_function(&mut self, function: &Function) -> FunctionId {
-        let signature =
-            |function: &Function| -> Vec<TypeId> { function.params().iter().map(|param| param.ty).collect() };
-        let wanted = signature(function);
-        let same = |known: &Function| known.name == function.name && signature(known) == wanted;
-        let known = self.all.functions().find(|(_, known)| same(known)).map(|(id, _)| id);
-        known.unwrap_or_else(|| {
-            let id = FunctionId(self.all.functions.len() as u32);
+    fn place_of_function(&mut self, known: &mut FxHashMap<FunctionKey, FunctionId>, function: &Function) -> FunctionId {
+        let next = FunctionId(self.all.functions.len() as u32);
+        let place = *known.entry(function_key(function)).or_insert(next);
+        if place == next {
             self.all.functions.push(Function { body: None, ..function.clone() });
-            id
-        })
+        }
+        place
     }
 
     fn unite_global(&mut self, place: GlobalId, global: Global) {
@@ -173,7 +199,7 @@ impl Merge<'_> {
 
     /// Expressions that name a global have its type, which may have got a size.
     fn retype_variables(&mut self) {
-        super::remap::retype_globals(self.all);
+        super::remap::retype_globals(self.types, self.all);
     }
 }
 
@@ -186,6 +212,9 @@ fn global_problem(types: &Types, known: &Global, other: &Global) -> Option<Diagn
     };
     if known.storage != other.storage {
         return problem("storage qualifiers".into());
+    }
+    if !types_agree(types, known, other) && known.block.is_some() {
+        return problem("members or array sizes".into());
     }
     if !types_agree(types, known, other) {
         return problem(format!("types, `{}` and `{}`", types.name(known.ty), types.name(other.ty)));
@@ -212,43 +241,109 @@ fn global_problem(types: &Types, known: &Global, other: &Global) -> Option<Diagn
     }
 }
 
-fn array_parts(types: &Types, global: &Global) -> Option<(TypeId, Option<u32>)> {
-    match types.get(global.ty) {
-        Type::Array(element, ArraySize::Sized(size)) => Some((element, Some(size))),
-        Type::Array(element, ArraySize::Unsized) => Some((element, None)),
-        _ => None,
+/// A declaration as an array.
+#[derive(Clone, Copy)]
+struct Extent {
+    element: TypeId,
+    size: Option<u32>,
+    /// Its use has given it the size.
+    implicit: bool,
+}
+
+impl Extent {
+    fn new(types: &Types, ty: TypeId, implicit: bool) -> Option<Self> {
+        match types.get(ty) {
+            Type::Array(element, ArraySize::Sized(size)) => Some(Self { element, size: Some(size), implicit }),
+            Type::Array(element, ArraySize::Unsized) => Some(Self { element, size: None, implicit }),
+            _ => None,
+        }
+    }
+
+    /// Whether at most one has a size of its own, and the use of the other fits it.
+    fn fits(self, other: Self) -> bool {
+        match (self.size, self.implicit, other.size, other.implicit) {
+            (None, ..) | (_, _, None, _) | (_, true, _, true) => true,
+            (Some(a), false, Some(b), true) => b <= a,
+            (Some(a), true, Some(b), false) => a <= b,
+            (Some(a), false, Some(b), false) => a == b,
+        }
+    }
+
+    /// The size of both together, and whether use alone has given it.
+    fn united(self, other: Self) -> (ArraySize, bool) {
+        let size = match (self.size, self.implicit, other.size, other.implicit) {
+            (Some(a), false, _, _) => Some(a),
+            (_, _, Some(b), false) => Some(b),
+            (a, _, b, _) => a.max(b),
+        };
+        let explicit = (self.size.is_some() && !self.implicit) || (other.size.is_some() && !other.implicit);
+        (size.map_or(ArraySize::Unsized, ArraySize::Sized), !explicit)
     }
 }
 
-/// Equal, or arrays of one element type of which at most one has a size of its own that the use of the other fits.
+/// Equal, or equal but for the sizes of arrays, of which at most one is declared and the use of the other fits it. The
+/// arrays are the variables themselves, and the members of blocks.
 fn types_agree(types: &Types, known: &Global, other: &Global) -> bool {
     if known.ty == other.ty {
         return true;
     }
-    let (Some((a, a_size)), Some((b, b_size))) = (array_parts(types, known), array_parts(types, other)) else {
-        return false;
+    let arrays =
+        (Extent::new(types, known.ty, known.implicitly_sized), Extent::new(types, other.ty, other.implicitly_sized));
+    let (a, b) = match arrays {
+        (Some(a), Some(b)) if a.fits(b) => (a.element, b.element),
+        (None, None) => (known.ty, other.ty),
+        _ => return false,
     };
-    let fits = match (a_size, known.implicitly_sized, b_size, other.implicitly_sized) {
-        (None, ..) | (_, _, None, _) | (_, true, _, true) => true,
-        (Some(a), false, Some(b), true) => b <= a,
-        (Some(a), true, Some(b), false) => a <= b,
-        (Some(a), false, Some(b), false) => a == b,
-    };
-    a == b && fits
+    a == b || (known.block.is_some() && blocks_agree(types, a, b))
 }
 
+fn blocks_agree(types: &Types, a: TypeId, b: TypeId) -> bool {
+    let (Type::Struct(a), Type::Struct(b)) = (types.get(a), types.get(b)) else { return false };
+    let (a, b) = (&types.structure(a).members, &types.structure(b).members);
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| members_agree(types, a, b))
+}
+
+fn members_agree(types: &Types, a: &Member, b: &Member) -> bool {
+    let qualifiers = |member: &Member| (member.interpolation, member.centroid, member.invariant, member.matrix_layout);
+    let sizes = (Extent::new(types, a.ty, a.implicitly_sized), Extent::new(types, b.ty, b.implicitly_sized));
+    let same_type = match sizes {
+        (Some(a), Some(b)) => a.element == b.element && a.fits(b),
+        _ => a.ty == b.ty,
+    };
+    a.name == b.name && same_type && qualifiers(a) == qualifiers(b)
+}
+
+/// The type of a variable that two shaders declare, and whether use alone has given its size.
 fn united_type(types: &mut Types, known: &Global, other: &Global) -> (TypeId, bool) {
-    let (Some((element, a)), Some((_, b))) = (array_parts(types, known), array_parts(types, other)) else {
-        return (known.ty, known.implicitly_sized);
+    let known_array = Extent::new(types, known.ty, known.implicitly_sized);
+    let other_array = Extent::new(types, other.ty, other.implicitly_sized);
+    let (Some(a), Some(b)) = (known_array, other_array) else {
+        return (united_block(types, known.ty, other.ty), known.implicitly_sized);
     };
-    let size = match (a, known.implicitly_sized, b, other.implicitly_sized) {
-        (Some(a), false, _, _) => Some(a),
-        (_, _, Some(b), false) => Some(b),
-        (a, _, b, _) => a.max(b),
-    };
-    let explicit = (a.is_some() && !known.implicitly_sized) || (b.is_some() && !other.implicitly_sized);
-    let size = size.map_or(ArraySize::Unsized, ArraySize::Sized);
-    (types.array(element, size), !explicit)
+    let element = united_block(types, a.element, b.element);
+    let (size, implicit) = a.united(b);
+    (types.array(element, size), implicit)
+}
+
+/// The struct of a block whose arrays have the sizes that two shaders ask for; what is no block stays as it is.
+fn united_block(types: &mut Types, known: TypeId, other: TypeId) -> TypeId {
+    let (Type::Struct(a), Type::Struct(b)) = (types.get(known), types.get(other)) else { return known };
+    if a == b {
+        return known;
+    }
+    let mut united = types.structure(a).clone();
+    let others = types.structure(b).members.clone();
+    for (member, other) in united.members.iter_mut().zip(&others) {
+        let arrays = (
+            Extent::new(types, member.ty, member.implicitly_sized),
+            Extent::new(types, other.ty, other.implicitly_sized),
+        );
+        if let (Some(a), Some(b)) = arrays {
+            let (size, implicit) = a.united(b);
+            (member.ty, member.implicitly_sized) = (types.array(a.element, size), implicit);
+        }
+    }
+    types.add_struct(united)
 }
 
 /// Why two declarations cannot be one function.

@@ -49,6 +49,7 @@ use crate::compiler::Options;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::hir::{Shader, Stage, Types};
 use crate::source::SourceMap;
+use canonical::Sizes;
 
 /// What all steps of a link share.
 struct Context<'a> {
@@ -77,9 +78,10 @@ pub fn link(
     diagnostics: &mut Diagnostics,
 ) -> Option<Program> {
     let lone = shaders.len() < 2;
-    canonical::unify(&mut types, &mut shaders);
+    canonical::unify(&mut types, &mut shaders, Sizes::Open);
     let mut found = Vec::new();
-    let stages = stages::in_order(&mut types, shaders, &mut found);
+    let mut stages = stages::in_order(&mut types, shaders, &mut found);
+    canonical::unify(&mut types, &mut stages, Sizes::Settled);
     let mut ctx = Context { types: &types, options, diagnostics, failed: false };
     found.into_iter().for_each(|diagnostic| ctx.report(diagnostic));
     let complete = stages::check(&mut ctx, &stages, lone);

@@ -1,6 +1,6 @@
 //! Moves the handles of one shader behind those of another.
 
-use crate::hir::{Expr, ExprId, ExprKind, FunctionId, GlobalId, Shader, Stmt, StmtKind, VarRef};
+use crate::hir::{Expr, ExprId, ExprKind, FunctionId, GlobalId, Shader, Stmt, StmtKind, Type, Types, VarRef};
 
 /// Where everything of a shader goes.
 pub(super) struct Remap {
@@ -85,14 +85,25 @@ impl Remap {
     }
 }
 
-/// Gives each expression that names a global the global's type, which may have changed its size.
-pub(super) fn retype_globals(shader: &mut Shader) {
-    let Shader { exprs, globals, .. } = shader;
-    for expr in exprs {
-        if let ExprKind::Var(VarRef::Global(id)) = expr.kind
-            && let Some(global) = globals.get(id.index())
-        {
-            expr.ty = global.ty;
+/// Gives each expression that names a global, or a part of one, its type, which may have changed its size. Children
+/// stand before their parents.
+pub(super) fn retype_globals(types: &Types, shader: &mut Shader) {
+    for index in 0..shader.exprs.len() {
+        let Some(expr) = shader.exprs.get(index) else { continue };
+        let ty = match expr.kind {
+            ExprKind::Var(VarRef::Global(id)) => shader.globals.get(id.index()).map(|global| global.ty),
+            ExprKind::Index(base, _) => match types.get(shader.expr(base).ty) {
+                Type::Array(element, _) => Some(element),
+                _ => None,
+            },
+            ExprKind::Member(base, member) => match types.get(shader.expr(base).ty) {
+                Type::Struct(id) => types.structure(id).members.get(member as usize).map(|member| member.ty),
+                _ => None,
+            },
+            _ => None,
+        };
+        if let (Some(ty), Some(expr)) = (ty, shader.exprs.get_mut(index)) {
+            expr.ty = ty;
         }
     }
 }

@@ -9,7 +9,7 @@
 use super::attributes::plural;
 use super::compatible::same_type;
 use super::flatten::{join, parts};
-use super::matching::{match_name, partner};
+use super::matching::{Outputs, match_name};
 use super::{Context, Varying, VaryingEnd};
 use crate::diagnostic::{Diagnostic, codes};
 use crate::hir::{
@@ -63,12 +63,15 @@ fn wholes<'a>(types: &Types, producer: Option<&'a Shader>, fragment: Option<&'a 
         shader.globals().filter(move |(_, global)| global.storage == storage && global.builtin.is_none())
     };
     match (producer, fragment) {
-        (Some(producer), Some(fragment)) => ends(fragment, Storage::In)
-            .filter_map(|to| {
-                let from = partner(producer, to.1).filter(|(_, output)| same_type_or_block(types, output, to.1))?;
-                Some(Whole { from: Some(from), to: Some(to) })
-            })
-            .collect(),
+        (Some(producer), Some(fragment)) => {
+            let outputs = Outputs::new(producer);
+            ends(fragment, Storage::In)
+                .filter_map(|to| {
+                    let from = outputs.partner(to.1).filter(|(_, output)| same_type_or_block(types, output, to.1))?;
+                    Some(Whole { from: Some(from), to: Some(to) })
+                })
+                .collect()
+        }
         (Some(producer), None) => {
             ends(producer, Storage::Out).map(|from| Whole { from: Some(from), to: None }).collect()
         }
