@@ -7,6 +7,7 @@
 
 mod conventions;
 mod inline;
+mod names;
 mod nesting;
 mod notes;
 pub mod reflection;

@@ -158,6 +158,7 @@ fn write(
 
 fn write_wgsl(module: &naga::Module, info: &ModuleInfo, stage: Stage) -> Result<String, String> {
     let text = wgsl::write_string(module, info, wgsl::WriterFlags::empty()).map_err(|error| chain(&error))?;
+    let text = super::names::restored(&text);
     // GLSL lets derivatives stand in any control flow (§8.8 calls them undefined in some); WGSL refuses what it cannot
     // prove uniform, unless it is told not to. naga has the directive in its IR and never writes it.
     if stage == Stage::Fragment && takes_derivatives(module) {
