@@ -155,7 +155,7 @@ impl Collected {
 }
 
 /// Says that a judge is not there; where it has to be, that is a failure.
-fn missing(judge: &str, way: &str) {
+pub(crate) fn missing(judge: &str, way: &str) {
     let message = format!("{judge} is missing, so nothing was shown to it: {way}");
     assert!(std::env::var_os("CI").is_none(), "{message}");
     // Not captured by the test harness: a judge that is left out must be seen.

@@ -9,6 +9,7 @@ use glisten::{Compilation, Compiler, Options, Source};
 use std::fmt::Write;
 use std::fs;
 use std::path::Path;
+use std::process::Command;
 
 /// Compiles the program that a vertex shader and the fragment shader beside it make.
 fn compile(vertex: &Path) -> Compilation {
@@ -37,6 +38,44 @@ fn wgsl(compilation: &Compilation) -> String {
 fn programs_to_wgsl() {
     insta::glob!("../../fixtures/programs", "*.vert", |path| {
         insta::assert_snapshot!("wgsl", wgsl(&compile(path)));
+    });
+}
+
+/// What `spirv-dis` makes of each stage; none where it is missing, which CI takes for a failure.
+fn disassembled(compilation: &Compilation) -> Option<String> {
+    let program = compilation.program.as_ref().expect("the fixture has no errors");
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let mut text = String::new();
+    for shader in &program.stages {
+        let emitted = emit(program, shader.stage, Target::Spirv, &Conventions::default());
+        let words = folder.path().join("words.spv");
+        fs::write(&words, emitted.expect("SPIR-V comes out").into_bytes()).expect("written");
+        // The header names the version of naga and a bound, neither of which is the program's.
+        let Ok(output) = Command::new("spirv-dis").args(["--no-color", "--no-header"]).arg(&words).output() else {
+            crate::emit::missing("spirv-dis", "Debian has it in the package spirv-tools");
+            return None;
+        };
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        let stage = shader.stage.name();
+        writeln!(text, "; {stage}\n{}", String::from_utf8_lossy(&output.stdout)).expect("strings grow");
+    }
+    Some(text)
+}
+
+#[test]
+fn programs_to_spirv() {
+    insta::glob!("../../fixtures/programs", "{flat,phong,triangle}.vert", |path| {
+        if let Some(text) = disassembled(&compile(path)) {
+            insta::assert_snapshot!("spirv", text);
+        }
+    });
+}
+
+/// What a person would read: every construct that the lowering has to rewrite.
+#[test]
+fn rewritten_programs_to_wgsl() {
+    insta::glob!("../../fixtures/lower", "{discard,host,parameters,statements,switches}.vert", |path| {
+        insta::assert_snapshot!("wgsl_lower", wgsl(&compile(path)));
     });
 }
 
