@@ -111,7 +111,7 @@ fn adapted(text: &str, stage: Stage, reflection: &Reflection) -> String {
         (Stage::Fragment, false) => reflection.outputs.iter().find(|row| row.name == name).map(|row| row.location),
         _ => reflection.varyings.iter().find(|row| row.name == name).map(|row| row.location),
     };
-    let last = text.lines().filter(|line| line.starts_with("uniform ")).last().unwrap_or_default();
+    let last = text.lines().rfind(|line| line.starts_with("uniform ")).unwrap_or_default();
     let mut members = String::new();
     let mut adapted = String::new();
     for line in text.lines() {

@@ -15,6 +15,7 @@ pub(crate) mod textures;
 mod write;
 
 pub use conventions::{ClipZ, Conventions, SpirvEnv, Target, WindowOrigin};
+#[cfg(feature = "gpu")]
 pub(crate) use notes::levels_of_comparisons;
 pub use notes::notes;
 pub use reflection::{Reflection, reflect};
