@@ -1,10 +1,12 @@
-//! Compiles `shaders/wave` to WGSL and writes the offsets of its uniforms as Rust constants.
+//! Compiles `shaders/wave`, which includes a lighting model of the library, to WGSL and writes the offsets of its uniforms as
+//! Rust constants.
 //!
 //! A mistake in a shader stops the build with the excerpt that `glisten lint` would show.
 
 use glisten::diagnostic::write::human;
 use glisten::emit::{Conventions, Emitted, Target, emit, reflect};
 use glisten::hir::Stage;
+use glisten::library::Embedded;
 use glisten::{Compiler, Options, Source};
 use std::path::{Path, PathBuf};
 use std::{env, fs};
@@ -12,7 +14,7 @@ use std::{env, fs};
 fn main() {
     let out = PathBuf::from(env::var("OUT_DIR").expect("cargo sets OUT_DIR"));
     let sources = [source("shaders/wave.vert", Stage::Vertex), source("shaders/wave.frag", Stage::Fragment)];
-    let compilation = Compiler::new(Options::default()).compile(&sources);
+    let compilation = Compiler::new(Options::default()).with_includes(Embedded).compile(&sources);
     let Some(program) = &compilation.program else {
         panic!("\n{}", human(&compilation.sources, &compilation.diagnostics, false));
     };

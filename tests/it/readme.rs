@@ -6,7 +6,7 @@ use std::path::Path;
 use std::process::Command;
 
 /// Subcommands whose output is the same on every machine; of the others only the arguments are checked.
-static SAME_EVERYWHERE: &[&str] = &["lint", "explain", "compile", "reflect"];
+static SAME_EVERYWHERE: &[&str] = &["lint", "explain", "compile", "reflect", "lib"];
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))

@@ -114,3 +114,14 @@ fn measure_prints_a_row_a_function() {
     assert_eq!(rows[0]["function"], "spotFactor(vec3,vec3,float)");
     assert!(rows[0]["gpu_error"].as_f64().is_some_and(|error| error < 1e-4), "{rows}");
 }
+
+#[test]
+fn the_docs_have_a_row_for_every_function() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/library.md");
+    let page = fs::read_to_string(path).expect("the page is there");
+    let missing: Vec<&str> = glisten::library::measure::forms()
+        .map(|form| form.signature)
+        .filter(|signature| !page.contains(&format!("| `{signature}` ")))
+        .collect();
+    assert!(missing.is_empty(), "`glisten lib measure` prints the table of docs/library.md anew: {missing:#?}");
+}
