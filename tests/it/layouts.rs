@@ -20,13 +20,13 @@ const STRUCTS: &str = "struct Small { float value; };\n\
     struct Nested { bool first; Small small; Large larges[2]; int last; };\n";
 
 #[derive(Clone, Debug)]
-struct Member {
+pub(crate) struct Member {
     ty: &'static str,
     len: Option<u32>,
     row_major: bool,
 }
 
-fn member() -> impl Strategy<Value = Member> {
+pub(crate) fn member() -> impl Strategy<Value = Member> {
     (0..TYPES.len(), proptest::option::of(1_u32..4), any::<bool>()).prop_map(|(ty, len, row_major)| Member {
         ty: TYPES[ty],
         len,
@@ -57,21 +57,27 @@ fn reading(member: &Member, path: &str) -> String {
     }
 }
 
-fn source(loose: &[Member], block: &[Member]) -> String {
+/// The version, loose uniforms, and a block of others.
+pub(crate) fn declarations(loose: &[Member], block: &[Member]) -> String {
     let mut text = format!("#version 150\n{STRUCTS}");
-    let mut reads = vec!["0.0".to_owned()];
     for (index, member) in loose.iter().enumerate() {
         text.push_str(&format!("uniform {}", declaration(member, &name("loose", index))));
-        reads.push(reading(member, &name("loose", index)));
     }
     text.push_str("layout(std140) uniform Block {\n");
     for (index, member) in block.iter().enumerate() {
         let order = if member.row_major { "layout(row_major) " } else { "" };
         text.push_str(&format!("{order}{}", declaration(member, &name("member", index))));
-        reads.push(reading(member, &format!("block.{}", name("member", index))));
     }
-    text.push_str(&format!("}} block;\nout vec4 color;\nvoid main() {{ color = vec4({}); }}\n", reads.join(" + ")));
-    text
+    text + "} block;\n"
+}
+
+fn source(loose: &[Member], block: &[Member]) -> String {
+    let loose_reads = loose.iter().enumerate().map(|(index, member)| reading(member, &name("loose", index)));
+    let block_reads =
+        block.iter().enumerate().map(|(index, member)| reading(member, &format!("block.{}", name("member", index))));
+    let reads: Vec<String> = std::iter::once("0.0".to_owned()).chain(loose_reads).chain(block_reads).collect();
+    let declarations = declarations(loose, block);
+    format!("{declarations}out vec4 color;\nvoid main() {{ color = vec4({}); }}\n", reads.join(" + "))
 }
 
 fn program(text: &str) -> Program {

@@ -27,6 +27,8 @@ mod print;
 mod random;
 #[cfg(feature = "gpu")]
 mod raster;
+#[cfg(feature = "gpu")]
+mod read_back;
 #[cfg(feature = "cli")]
 mod readme;
 #[cfg(feature = "cli")]
