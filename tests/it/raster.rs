@@ -319,6 +319,26 @@ fn every_scene_of_the_repository_agrees_with_lavapipe() {
 }
 
 #[test]
+fn an_endless_loop_is_told_where_it_stands() {
+    let text = "framebuffer = { width = 512, height = 512 }\n[[draw]]\nvertex = \"a.vert\"\nfragment = \"a.frag\"\n\
+                vertex_count = 3\ninstances = 100000\n";
+    let vertex = "#version 150\nvoid main() {\n@\ngl_Position = vec4(float(gl_VertexID) * 4.0 - 2.0, gl_VertexID == 1 ? \
+                  4.0 : -1.0, 0.0, 1.0);\n}\n";
+    let fragment = "#version 150\nout vec4 o;\nvoid main() {\no = vec4(0);\n@\n}\n";
+    for (in_vertex, in_fragment, file, line) in [("for (;;) {}", "", "a.vert", 3), ("", "for (;;) {}", "a.frag", 5)] {
+        let (vertex, fragment) = (vertex.replace('@', in_vertex), fragment.replace('@', in_fragment));
+        let files = MemoryFiles::new([("a.toml", text), ("a.vert", &vertex), ("a.frag", &fragment)]);
+        let loaded = load("a.toml", &files, &Compiler::new(Options::default()));
+        let options = RenderOptions { mark_edges: false, ..RenderOptions::default() };
+        // Were each instance or each pixel to use up its own budget, this would not end in a day.
+        let errors = glisten::cpu::render(&loaded.scene.expect("it loads"), &options).expect_err("it has no end");
+        let place = loaded.sources.location(errors[0].primary.span).expect("it is in a file");
+        assert_eq!((errors[0].code.id, errors.len()), ("E0913", 1));
+        assert_eq!((loaded.sources.file(place.file).name(), place.line), (file, line));
+    }
+}
+
+#[test]
 fn noperspective_is_linear_in_the_window_behind_the_eye_too() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/scenes/core/behind_the_eye_noperspective.toml");
     let scene = load(path, &DiskFiles, &Compiler::new(Options::default())).scene.expect("another test loads it");

@@ -10,6 +10,7 @@ use crate::cpu::domain::faults::Faults;
 use crate::cpu::domain::{Domain, Integer, Number};
 use crate::hir::{GlobalId, ScalarValue};
 use crate::scene::Texture;
+use crate::source::Span;
 use std::sync::Arc;
 
 /// How many instructions loops may run in one run of a machine: each time that a loop goes back to its head, the
@@ -34,6 +35,8 @@ pub struct Machine<D: Domain> {
     /// What is left in this run.
     pub(super) budget: u64,
     pub(super) budget_exceeded: bool,
+    /// The loop that went past it.
+    pub(super) runaway: Span,
     pub(super) observer: Option<Box<dyn Observer<D>>>,
     /// The lanes that an observer is shown.
     pub(super) watched: u64,
@@ -88,6 +91,7 @@ impl<D: Domain> Machine<D> {
             loop_budget: LOOP_BUDGET,
             budget: LOOP_BUDGET,
             budget_exceeded: false,
+            runaway: Span::default(),
             observer,
             watched: 1,
         };
@@ -172,6 +176,11 @@ impl<D: Domain> Machine<D> {
     /// empty in domains without envelopes.
     pub fn undecided(&self) -> Mask {
         Mask(self.undecided)
+    }
+
+    /// The loop that went past [`LOOP_BUDGET`] in any run since the machine was made.
+    pub fn endless_loop(&self) -> Option<Span> {
+        self.budget_exceeded.then_some(self.runaway)
     }
 
     /// Whether any run since the machine was made went past [`LOOP_BUDGET`].

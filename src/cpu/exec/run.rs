@@ -84,6 +84,7 @@ impl<D: Domain> Machine<D> {
                         None => {
                             self.budget = 0;
                             self.budget_exceeded = true;
+                            self.runaway = section.spans.get(place - 1).copied().unwrap_or_default();
                             place = exit as usize;
                         }
                     }

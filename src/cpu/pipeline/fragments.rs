@@ -230,7 +230,8 @@ impl<D: Domain> Shading<'_, D> {
 
     /// Shades what waits and writes it.
     fn flush(&self, bin: &mut Bin<D>, batch: &mut Batch<D>, machine: &mut Machine<D>) {
-        if batch.live != 0 {
+        // Behind an endless loop nothing more is drawn: the picture will be refused.
+        if batch.live != 0 && !machine.budget_exceeded() {
             self.fill_inputs(batch, machine);
             machine.run(Mask(batch.live), Mask(batch.helpers));
             let possible = !machine.discarded().0 | machine.perhaps_discarded().0;

@@ -22,7 +22,7 @@ mod watch;
 
 use super::RenderOptions;
 use super::domain::Domain;
-use super::exec::{Code, Machine};
+use super::exec::{Code, LOOP_BUDGET, Machine};
 use crate::compare::Picture;
 use crate::diagnostic::codes::scenes::{SCENE_CANNOT_DRAW, SCENE_LOOP_BUDGET};
 use crate::diagnostic::{Code as DiagnosticCode, Diagnostic};
@@ -33,8 +33,7 @@ use assembly::{Prim, primitives};
 use fragments::{Shading, draw_bin, output_plans};
 use plan::Plan;
 use rayon::prelude::*;
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, OnceLock};
 use target::{BIN, Target};
 use vertices::{Invocation, shade};
 pub(super) use watch::MakeObserver;
@@ -82,7 +81,7 @@ fn draw_all<D: Domain>(
     let viewport = [scene.framebuffer.width as f32, scene.framebuffer.height as f32];
     let (order, unique) = unique_vertices(draw);
     let group = (MAX_INVOCATIONS / unique.len().max(1)).max(1) as u32;
-    let over_budget = AtomicBool::new(false);
+    let endless = OnceLock::new();
     let mut first = 0;
     while first < draw.instances && !unique.is_empty() {
         let instances = first..draw.instances.min(first + group);
@@ -90,8 +89,14 @@ fn draw_all<D: Domain>(
             instances.clone().flat_map(|instance| unique.iter().map(move |&vertex| (vertex, instance))).collect();
         watch.instance = first;
         let faults = options.faults;
-        let mut vertices = shade::<D>(draw, &vertex_code, &plan, &invocations, viewport, faults, &over_budget, &watch);
+        let mut vertices = shade::<D>(draw, &vertex_code, &plan, &invocations, viewport, faults, &endless, &watch);
+        if endless.get().is_some() {
+            break;
+        }
         for local in 0..instances.len() as u32 {
+            if endless.get().is_some() {
+                break;
+            }
             watch.instance = first + local;
             let base = local * unique.len() as u32;
             let order: Vec<u32> = order.iter().map(|&position| base + position).collect();
@@ -106,18 +111,24 @@ fn draw_all<D: Domain>(
                 mark_edges: options.mark_edges,
                 faults: options.faults,
             };
-            draw_prims(&shading, &fragment_code, target, &over_budget, &watch);
+            draw_prims(&shading, &fragment_code, target, &endless, &watch);
         }
         first = instances.end;
     }
-    if over_budget.load(Ordering::Relaxed) {
-        return Err(vec![refuse(&SCENE_LOOP_BUDGET, "a loop of the program does not come to an end")]);
+    match endless.get() {
+        Some(&place) => Err(vec![never_ends(place)]),
+        None => Ok(()),
     }
-    Ok(())
 }
 
 fn refuse(code: &'static DiagnosticCode, message: &str) -> Diagnostic {
     Diagnostic::new(code, Span::default(), message)
+}
+
+fn never_ends(place: Span) -> Diagnostic {
+    let told = Diagnostic::new(&SCENE_LOOP_BUDGET, place, "a loop of the program does not come to an end");
+    let budget = format!("left after it ran {LOOP_BUDGET} instructions for 64 invocations together");
+    told.here(budget).help("a loop needs a condition that turns false, a `break` or a `return`")
 }
 
 /// The vertices of a draw without repetition, and for each position of the draw its place among them.
@@ -184,7 +195,7 @@ fn draw_prims<D: Domain>(
     shading: &Shading<'_, D>,
     code: &Code,
     target: &mut Target<D>,
-    over_budget: &AtomicBool,
+    endless: &OnceLock<Span>,
     watch: &Watch<'_, D>,
 ) {
     let bins = Bins::new(shading.prims, target);
@@ -192,15 +203,15 @@ fn draw_prims<D: Domain>(
     let take = || idle.lock().ok().and_then(|mut idle| idle.pop());
     target.bins.par_iter_mut().enumerate().for_each(|(index, bin)| {
         let list = bins.of(index);
-        if list.is_empty() {
+        if list.is_empty() || endless.get().is_some() {
             return;
         }
         let mut machine = take().unwrap_or_else(|| shading.machine(code));
         watch.begin(&mut machine);
         draw_bin(shading, bin, list, &mut machine);
         watch.end(&mut machine, FRAGMENTS, index);
-        if machine.budget_exceeded() {
-            over_budget.store(true, Ordering::Relaxed);
+        if let Some(found) = machine.endless_loop() {
+            endless.get_or_init(|| found);
         }
         if let Ok(mut idle) = idle.lock() {
             idle.push(machine);

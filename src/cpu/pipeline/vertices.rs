@@ -11,8 +11,9 @@ use crate::cpu::domain::{Domain, F32, Integer, Number};
 use crate::cpu::exec::{Code, LANES, Machine, Mask};
 use crate::hir::{GlobalId, Interpolation, ScalarValue, Type, TypeId, Types};
 use crate::scene::Draw;
+use crate::source::Span;
 use rayon::prelude::*;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::OnceLock;
 
 /// Shaded vertices, structure of arrays.
 #[derive(Debug)]
@@ -115,7 +116,7 @@ pub(super) fn shade<D: Domain>(
     invocations: &[Invocation],
     viewport: [f32; 2],
     faults: Faults,
-    over_budget: &AtomicBool,
+    endless: &OnceLock<Span>,
     watch: &Watch<'_, D>,
 ) -> Vertices<D> {
     let machines = || {
@@ -127,11 +128,15 @@ pub(super) fn shade<D: Domain>(
         .enumerate()
         .with_min_len(4)
         .map_init(machines, |(machine, single), (part, lanes)| {
+            if endless.get().is_some() {
+                // Nothing will be drawn.
+                return Chunk::with_capacity(0, plan);
+            }
             watch.begin(machine);
             let chunk = shade_chunk(draw, plan, lanes, machine, single);
             watch.end(machine, VERTICES, part);
-            if machine.budget_exceeded() || single.budget_exceeded() {
-                over_budget.store(true, Ordering::Relaxed);
+            if let Some(found) = machine.endless_loop().or(single.endless_loop()) {
+                endless.get_or_init(|| found);
             }
             chunk
         })
@@ -183,6 +188,21 @@ struct Chunk<D: Domain> {
     undecided: Vec<bool>,
 }
 
+impl<D: Domain> Chunk<D> {
+    fn with_capacity(count: usize, plan: &Plan) -> Self {
+        Self {
+            clip: Vec::with_capacity(count),
+            clip32: Vec::with_capacity(count),
+            size: Vec::with_capacity(count),
+            distances: Vec::new(),
+            distances32: Vec::new(),
+            floats: Vec::with_capacity(count * plan.floats.len()),
+            ints: Vec::with_capacity(count * plan.ints.len()),
+            undecided: Vec::with_capacity(count),
+        }
+    }
+}
+
 impl<D: Domain> Vertices<D> {
     fn append(&mut self, chunk: Chunk<D>) {
         let mut floats = chunk.floats.chunks(self.float_count.max(1));
@@ -216,16 +236,7 @@ fn shade_chunk<D: Domain>(
     let distances = distance_count(draw, plan);
     let float = |place: (GlobalId, u32), lane: usize| read_float(machine, place, lane);
     let float32 = |place: (GlobalId, u32), lane: usize| read_float(single, place, lane);
-    let mut chunk = Chunk {
-        clip: Vec::with_capacity(count),
-        clip32: Vec::with_capacity(count),
-        size: Vec::with_capacity(count),
-        distances: Vec::new(),
-        distances32: Vec::new(),
-        floats: Vec::with_capacity(count * plan.floats.len()),
-        ints: Vec::with_capacity(count * plan.ints.len()),
-        undecided: Vec::with_capacity(count),
-    };
+    let mut chunk = Chunk::with_capacity(count, plan);
     for lane in 0..count {
         chunk.clip.push(std::array::from_fn(|i| {
             plan.position.map_or_else(D::Float::default, |p| float((p, i as u32), lane))

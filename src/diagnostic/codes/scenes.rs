@@ -49,7 +49,7 @@ codes! {
          attachments, a framebuffer past the limit."
         bad None, good None;
     SCENE_LOOP_BUDGET = "E0913" "endless-loop" Error ""
-        "While the CPU reference drew the scene, the loops of 64 invocations together went round more than a million times. \
+        "While the CPU reference drew the scene, loops ran more than 16,777,216 instructions for 64 invocations together. \
          The reference leaves them there rather than hang; a picture is not made."
         bad Text("while (true) {}"), good Text("for (int i = 0; i < 100; ++i) {}");
     SCENE_UNSET_UNIFORM = "W0901" "uniform-without-value" Warning "GLSL 1.50 §4.3.5"
