@@ -1,8 +1,13 @@
 //! How fast the front-end is: parse alone, and parse with analysis and link, over the fixtures and over one text of
 //! growing size. `cargo bench --bench frontend`; figures are bytes a second.
 //!
+//! Before them stand two figures of their own: the time a byte takes from 10 KB to 5 MB of legal text, which must not grow
+//! with the size, and the peak of memory on 1 MB beside glslangValidator's, if that is installed (on Linux).
+//!
 //! Measured in user time on one core of a small virtual machine that others kept busy: parse 26 MB/s, the whole
 //! front-end 15 MB/s, both the same from 10 KB to 5 MB. No function takes more than a ninth of it.
+
+#![expect(clippy::print_stdout, reason = "a benchmark prints its figures")]
 
 use divan::counter::BytesCount;
 use divan::{Bencher, black_box};
@@ -12,9 +17,103 @@ use glisten::source::{NoIncludes, SourceMap};
 use glisten::{Compiler, Options, Source, syntax};
 use std::fs;
 use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
 
 fn main() {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    if let [flag, path] = arguments.as_slice()
+        && flag == "--peak"
+    {
+        compile_once(Path::new(path));
+        println!("{}", high_water(std::process::id()).unwrap_or(0));
+        return;
+    }
+    if arguments.iter().any(|argument| argument == "--bench") {
+        time_a_byte();
+        peak_memory();
+    }
     divan::main();
+}
+
+const SIZES: [usize; 4] = [10_000, 100_000, 1_000_000, 5_000_000];
+
+/// The least time over some runs, in nanoseconds.
+fn least(runs: usize, mut work: impl FnMut()) -> f64 {
+    let time = |_| {
+        let start = Instant::now();
+        work();
+        start.elapsed().as_secs_f64() * 1e9
+    };
+    (0..runs).map(time).fold(f64::MAX, f64::min)
+}
+
+fn time_a_byte() {
+    let compiler = Compiler::new(Options::default());
+    let mut whole = Vec::new();
+    println!("legal text: nanoseconds a byte, megabytes a second");
+    for bytes in SIZES {
+        let text = large(bytes);
+        let length = text.len() as f64;
+        let runs = (20_000_000 / bytes).clamp(3, 200);
+        let parsing = least(runs, || {
+            black_box(parse("large.frag", &text, Stage::Fragment));
+        });
+        let compiling = least(runs, || {
+            let source = Source { name: "large.frag".into(), text: text.as_str().into(), stage: Stage::Fragment };
+            black_box(compiler.compile(&[source]));
+        });
+        whole.push(compiling / length);
+        let line = |what: &str, time: f64| format!("{what} {:6.1} ns {:6.1} MB/s", time / length, length * 1e3 / time);
+        println!("{bytes:>9} bytes: {}, {}", line("parse", parsing), line("parse, analysis and link", compiling));
+    }
+    let (low, high) = whole.iter().fold((f64::MAX, 0.0_f64), |(low, high), &time| (low.min(time), high.max(time)));
+    println!("the dearest byte costs {:.2} times the cheapest", high / low);
+}
+
+fn compile_once(path: &Path) {
+    let text = fs::read_to_string(path).expect("the text was written");
+    let source = Source { name: "large.frag".into(), text: text.into(), stage: Stage::Fragment };
+    black_box(Compiler::new(Options::default()).compile(&[source]));
+}
+
+/// The peak of a process's memory in KiB.
+fn high_water(process: u32) -> Option<u64> {
+    let status = fs::read_to_string(format!("/proc/{process}/status")).ok()?;
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+    line.trim().strip_suffix("kB")?.trim().parse().ok()
+}
+
+fn peak_memory() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("large.frag");
+    fs::write(&path, large(1_000_000)).expect("room for a megabyte");
+    let own = std::env::current_exe().and_then(|program| Command::new(program).arg("--peak").arg(&path).output());
+    let own: Option<u64> = own.ok().and_then(|output| String::from_utf8(output.stdout).ok()?.trim().parse().ok());
+    let peer = watch(Command::new("glslangValidator").arg(&path));
+    match (own, peer) {
+        (Some(own), Some(peer)) if own > 0 => {
+            println!(
+                "peak of memory on 1 MB: {own} KiB, glslangValidator {peer} KiB, ratio {:.2}",
+                own as f64 / peer as f64
+            );
+        }
+        (Some(own), None) if own > 0 => {
+            println!("peak of memory on 1 MB: {own} KiB; no glslangValidator to compare with")
+        }
+        _ => println!("peak of memory: only on Linux"),
+    }
+}
+
+/// Runs a program and looks at its peak of memory until it ends; what it takes in its last millisecond is not seen.
+fn watch(command: &mut Command) -> Option<u64> {
+    let mut child = command.stdout(Stdio::null()).spawn().ok()?;
+    let mut peak = None;
+    while let Ok(None) = child.try_wait() {
+        peak = high_water(child.id()).or(peak);
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    peak
 }
 
 /// All programs of the fixtures: name, text and stage.

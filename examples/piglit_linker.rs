@@ -15,6 +15,13 @@ use glisten::{Compilation, Compiler, Options, Source};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+/// Tests whose verdict is not one of GLSL 1.50 core alone, and why.
+const NOT_JUDGED: [(&str, &str); 3] = [
+    ("versions-mingled", "one shader is of version 1.40, which is not compiled"),
+    ("compatibility", "the compatibility profile is not compiled"),
+    ("vs-gs-max-in-out-components", "it requires GL_ARB_arrays_of_arrays; 1.50 has arrays of one dimension (§4.1.9)"),
+];
+
 /// A shader test, as far as linking goes.
 #[derive(Default)]
 struct Test {
@@ -37,6 +44,12 @@ fn main() -> ExitCode {
             println!("skip     {}", file.display());
             continue;
         };
+        let path = file.display().to_string();
+        if let Some((_, why)) = NOT_JUDGED.iter().find(|row| path.contains(row.0)) {
+            skipped += 1;
+            println!("not judged {path}: {why}");
+            continue;
+        }
         let compilation = compile(&test);
         let linked = !compilation.diagnostics.has_errors();
         if linked == test.must_link {

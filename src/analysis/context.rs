@@ -171,6 +171,7 @@ impl<'a> Analyzer<'a> {
             self.extensions = declaration.extensions;
             match &declaration.kind {
                 DeclarationKind::Error | DeclarationKind::Empty => {}
+                DeclarationKind::Broken(names) => self.enter_broken(names),
                 DeclarationKind::Precision { qualifier, ty } => self.precision(qualifier, ty),
                 DeclarationKind::Variables(variables) => self.global_variables(variables, declaration.span),
                 DeclarationKind::Requalify { qualifiers, names } => {
@@ -293,6 +294,15 @@ impl<'a> Analyzer<'a> {
             return;
         }
         self.scopes.enter(name.symbol, entry, name.span);
+    }
+
+    /// Enters what a declaration that was not understood would have declared: uses of it raise nothing more.
+    pub(super) fn enter_broken(&mut self, names: &[Ident]) {
+        for name in names {
+            if self.scopes.find_here(name.symbol).is_none() {
+                self.scopes.enter(name.symbol, Entry::Poison, name.span);
+            }
+        }
     }
 
     /// Whether a name like an unknown one is still looked for: each look compares it with all names in sight.

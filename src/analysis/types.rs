@@ -180,7 +180,8 @@ impl Analyzer<'_> {
                 TypeId::ERROR
             }
             None => {
-                let help = self.nearest_type(spelling).map(|near| format!("did you mean `{near}`?"));
+                let near = |this: &mut Self| Some(format!("did you mean `{}`?", this.nearest_type(spelling)?));
+                let help = super::expr::foreign::type_name(spelling).or_else(|| near(self));
                 self.report(
                     Diagnostic::new(&names::UNKNOWN_TYPE, name.span, format!("there is no type `{spelling}`"))
                         .here("not declared before this place")

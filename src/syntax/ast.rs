@@ -416,6 +416,8 @@ pub struct Declaration {
 pub enum DeclarationKind {
     /// Already reported.
     Error,
+    /// Already reported; a declaration of these names.
+    Broken(Vec<Ident>),
     /// A lone `;`.
     Empty,
     /// `precision highp float;`
@@ -500,6 +502,8 @@ pub struct Stmt {
 pub enum StmtKind {
     /// Already reported.
     Error,
+    /// Already reported; a declaration of these names.
+    Broken(Vec<Ident>),
     /// `;`
     Empty,
     /// `a;`

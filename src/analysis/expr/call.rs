@@ -66,7 +66,8 @@ impl Analyzer<'_> {
         if !functions::named(spelling).is_empty() {
             return true;
         }
-        let help = self.nearest_function(spelling).map(|near| format!("did you mean `{near}`?"));
+        let near = |this: &mut Self| Some(format!("did you mean `{}`?", this.nearest_function(spelling)?));
+        let help = super::foreign::function(spelling).or_else(|| near(self));
         self.report(
             Diagnostic::new(&names::UNKNOWN_FUNCTION, name.span, format!("there is no function `{spelling}`"))
                 .here("not declared before this place")

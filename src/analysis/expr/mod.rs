@@ -10,6 +10,7 @@ mod builtin;
 mod call;
 mod construct;
 mod convert;
+pub(super) mod foreign;
 mod list;
 mod lvalue;
 mod name;

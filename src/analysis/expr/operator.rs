@@ -265,6 +265,9 @@ impl Analyzer<'_> {
         }
         let (name, span) = (self.type_name(ty), self.span(id));
         let help = match self.types.get(ty) {
+            _ if matches!(self.expr_at(id).kind, ExprKind::Assign(None, ..)) => {
+                Some("`=` assigns; write `==` to compare")
+            }
             Type::Scalar(_) => Some("compare it: `... != 0`"),
             Type::Vector(Scalar::Bool, _) => Some("use `any(...)` or `all(...)`"),
             _ => None,
@@ -298,6 +301,15 @@ impl Analyzer<'_> {
                 Some("compare vectors with `lessThan`, `greaterThan` and their like".into())
             }
             ("%", _) => Some("`%` is for integers; use `mod(a, b)` for floats".into()),
+            ("&" | "|" | "^", [(_, Some(Scalar::Bool)), (_, Some(Scalar::Bool))]) => {
+                Some(format!("write `{spelling}{spelling}` between booleans"))
+            }
+            ("*", [(Type::Matrix(columns, rows), _), (Type::Vector(_, size), _)]) if size != columns => Some(format!(
+                "the matrix has {columns} columns of {rows} rows: it takes a vector of {columns} components"
+            )),
+            ("*", [(Type::Vector(_, size), _), (Type::Matrix(columns, rows), _)]) if size != rows => Some(format!(
+                "the matrix has {columns} columns of {rows} rows: it takes a vector of {rows} components on its left"
+            )),
             ("&&" | "||" | "^^", _) => Some("compare each side first, so that both are a `bool`".into()),
             (_, [(_, Some(Scalar::Int)), (_, Some(Scalar::Uint))]) => {
                 Some("write `uint(...)` around the left side".into())

@@ -81,6 +81,7 @@ impl Analyzer<'_> {
                 }
                 return;
             }
+            S::Broken(names) => return self.enter_broken(names),
             S::Empty => return,
             // A declaration of nothing, `S;`, which only the meaning of the name tells from an expression (§9).
             S::Expr(expr) if self.is_struct_name(*expr) => return,

@@ -5,8 +5,8 @@ use super::{Parse, Parser, Reported, Token, TokenKind, TokenSource, codes};
 use crate::diagnostic::Diagnostic;
 use crate::source::Span;
 use crate::syntax::ast::{
-    BlockDecl, Declaration, DeclarationKind, Declarator, FunctionHeader, Ident, ParamDecl, Qualifier, Stmt, TypeSpec,
-    VariableDecl,
+    BlockDecl, Declaration, DeclarationKind, Declarator, FunctionHeader, Ident, ParamDecl, Qualifier, Stmt, TypeBase,
+    TypeSpec, VariableDecl,
 };
 use crate::syntax::kind;
 
@@ -19,6 +19,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
     pub(super) fn external_declaration(&mut self) {
         let start = self.current;
         let before = self.mark();
+        self.declaring.clear();
         let kind = match self.kind() {
             TokenKind::Semicolon => {
                 let span = self.bump().span;
@@ -34,8 +35,9 @@ impl<T: TokenSource> Parser<'_, '_, T> {
             _ => self.global(),
         };
         let kind = kind.unwrap_or_else(|_: Reported| {
+            let names = std::mem::take(&mut self.declaring);
             self.recover_declaration(before);
-            DeclarationKind::Error
+            DeclarationKind::Broken(names)
         });
         let span = self.since(start.span);
         self.ast.declarations.push(Declaration { kind, span, extensions: start.extensions() });
@@ -155,7 +157,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
             return self.block(qualifiers);
         }
         let ty = self.type_specifier()?;
-        if matches!(self.kind(), TokenKind::Semicolon) {
+        if matches!(self.kind(), TokenKind::Semicolon) || self.forgot_semicolon(&ty) {
             return Ok(DeclarationKind::Variables(VariableDecl { qualifiers, ty, declarators: Vec::new() }));
         }
         let name = self.ident("a name")?;
@@ -164,6 +166,12 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         }
         let declarators = self.declarators(name)?;
         Ok(DeclarationKind::Variables(VariableDecl { qualifiers, ty, declarators }))
+    }
+
+    /// Whether what follows a struct's `}` cannot be a variable, so that the `;` is what is missing.
+    fn forgot_semicolon(&mut self, ty: &TypeSpec) -> bool {
+        let begins = |kind| is_qualifier(kind) || matches!(kind, TokenKind::Type | TokenKind::Void | TokenKind::Struct);
+        matches!(ty.base, TypeBase::Struct(_)) && self.current.starts_line() && begins(self.kind())
     }
 
     /// `precision highp float`
@@ -211,6 +219,14 @@ impl<T: TokenSource> Parser<'_, '_, T> {
     fn declarators(&mut self, first: Ident) -> Parse<Vec<Declarator>> {
         let mut list = vec![self.declarator(first)?];
         while self.eat(TokenKind::Comma).is_some() {
+            if matches!(self.kind(), TokenKind::Int | TokenKind::Uint | TokenKind::Float) {
+                let found = self.describe(self.current);
+                let message = format!("expected the name of a variable, found {found}");
+                let diagnostic = Diagnostic::new(&codes::UNEXPECTED_TOKEN, self.current.span, message)
+                    .here("expected the name of a variable")
+                    .help("several values belong into a constructor, such as `vec2(1.0, 2.0)`");
+                return Err(self.report_found(diagnostic));
+            }
             let name = self.ident("the name of a variable")?;
             list.push(self.declarator(name)?);
         }
@@ -218,6 +234,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
     }
 
     fn declarator(&mut self, name: Ident) -> Parse<Declarator> {
+        self.declaring.push(name);
         let array = self.array_specifiers()?;
         let initializer = if self.eat(TokenKind::Equal).is_some() { Some(self.initializer()?) } else { None };
         Ok(Declarator { name, array, initializer })
@@ -268,6 +285,15 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         let start = self.current.span;
         let qualifiers = self.qualifiers()?;
         let ty = self.type_specifier()?;
+        if matches!(self.kind(), TokenKind::Star | TokenKind::Ampersand) {
+            let spelling = self.kind().spelling();
+            let message = format!("`{spelling}` before a parameter: there are neither pointers nor references");
+            let diagnostic = Diagnostic::new(&codes::UNEXPECTED_TOKEN, self.current.span, message)
+                .here("expected the name of a parameter")
+                .help("write `inout` before the type for a parameter that is changed");
+            self.session.report(diagnostic);
+            self.bump();
+        }
         let named = !matches!(self.kind(), TokenKind::Comma | TokenKind::RightParen);
         let name = if named { Some(self.ident("the name of a parameter")?) } else { None };
         let array = self.array_specifiers()?;

@@ -76,6 +76,8 @@ pub(super) struct Parser<'p, 's, T: TokenSource> {
     overdeep: bool,
     /// The brace that was assumed so.
     assumed_brace: bool,
+    /// The variables that the declaration under way has named so far.
+    declaring: Vec<Ident>,
     /// The opening brace of the function that is being read.
     function_brace: Span,
     strict: bool,
@@ -103,6 +105,7 @@ impl<'p, 's, T: TokenSource> Parser<'p, 's, T> {
             recovered: false,
             overdeep: false,
             assumed_brace: false,
+            declaring: Vec::new(),
             function_brace: Span::default(),
             strict,
         }

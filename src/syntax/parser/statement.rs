@@ -37,11 +37,13 @@ impl<T: TokenSource> Parser<'_, '_, T> {
     pub(super) fn statement(&mut self) -> Stmt {
         let start = self.current.span;
         let before = self.mark();
+        self.declaring.clear();
         let kind = self.nested(Self::statement_kind).unwrap_or_else(|_: Reported| {
+            let names = std::mem::take(&mut self.declaring);
             if !self.leaving_function {
                 self.recover_statement(before);
             }
-            StmtKind::Error
+            if names.is_empty() { StmtKind::Error } else { StmtKind::Broken(names) }
         });
         Stmt { kind, span: self.since(start) }
     }
@@ -69,8 +71,28 @@ impl<T: TokenSource> Parser<'_, '_, T> {
                     .here("expected a statement");
                 Err(self.report_found(diagnostic))
             }
+            TokenKind::Ident if self.is_misspelled_else_if() => {
+                let name = self.session.spelling(self.current).to_owned();
+                let message = format!("`{name}` is no keyword of GLSL");
+                let diagnostic = Diagnostic::new(&codes::UNEXPECTED_TOKEN, self.current.span, message)
+                    .here("expected a statement")
+                    .help("write `else if`");
+                self.session.report(diagnostic);
+                self.if_statement()
+            }
             _ => self.simple_statement(),
         }
+    }
+
+    /// Whether `elseif (..) statement` stands here, and no call of something of that name.
+    fn is_misspelled_else_if(&mut self) -> bool {
+        if self.ahead(1).kind != TokenKind::LeftParen
+            || !matches!(self.session.spelling(self.current), "elseif" | "elif" | "elsif")
+        {
+            return false;
+        }
+        let behind = self.past_bracket(1, TokenKind::LeftParen, TokenKind::RightParen);
+        matches!(self.ahead(behind).kind, TokenKind::LeftBrace | TokenKind::Ident)
     }
 
     fn simple_statement(&mut self) -> Parse<StmtKind> {
@@ -99,7 +121,10 @@ impl<T: TokenSource> Parser<'_, '_, T> {
                 self.report(&codes::UNEXPECTED_TOKEN, span, "an interface block stands at global scope alone");
                 StmtKind::Error
             }
-            DeclarationKind::Error | DeclarationKind::Empty | DeclarationKind::Function(..) => StmtKind::Error,
+            DeclarationKind::Error
+            | DeclarationKind::Broken(_)
+            | DeclarationKind::Empty
+            | DeclarationKind::Function(..) => StmtKind::Error,
         })
     }
 

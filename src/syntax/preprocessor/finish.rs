@@ -20,8 +20,8 @@ impl Preprocessor<'_> {
             TokenKind::Number => number(session, &mut token),
             TokenKind::Invalid => invalid_token(session, token),
             TokenKind::Unknown => {
-                illegal_character(session, token.span);
-                return None;
+                // A sign that looks like one of the language stands for it, so that it is one mistake.
+                token.kind = illegal_character(session, token.span)?;
             }
             TokenKind::Hash | TokenKind::HashHash => {
                 let message = format!("`{}` stands where no directive can be", token.kind.spelling());
@@ -127,7 +127,28 @@ fn invalid_token(session: &mut Session<'_>, token: Token) {
     illegal_character(session, Span { start, end: start + length as u32, ..token.span });
 }
 
-fn illegal_character(session: &mut Session<'_>, span: Span) {
+/// Signs that word processors put in place of those of ASCII, and what they stand for.
+static LOOK_ALIKES: &[(char, TokenKind)] = &[
+    ('\u{2010}', TokenKind::Dash),
+    ('\u{2011}', TokenKind::Dash),
+    ('\u{2012}', TokenKind::Dash),
+    ('\u{2013}', TokenKind::Dash),
+    ('\u{2014}', TokenKind::Dash),
+    ('\u{2212}', TokenKind::Dash),
+    ('\u{00d7}', TokenKind::Star),
+    ('\u{00f7}', TokenKind::Slash),
+    ('\u{2264}', TokenKind::LessEqual),
+    ('\u{2265}', TokenKind::GreaterEqual),
+    ('\u{2260}', TokenKind::NotEqual),
+    ('\u{037e}', TokenKind::Semicolon),
+    ('\u{ff1b}', TokenKind::Semicolon),
+    ('\u{ff0c}', TokenKind::Comma),
+    ('\u{ff08}', TokenKind::LeftParen),
+    ('\u{ff09}', TokenKind::RightParen),
+];
+
+/// Reports a character; gives what it stands for if it looks like a sign of the language.
+fn illegal_character(session: &mut Session<'_>, span: Span) -> Option<TokenKind> {
     let character = session.sources.snippet(span).chars().next().unwrap_or(char::REPLACEMENT_CHARACTER);
     let (message, help) = match character {
         char::REPLACEMENT_CHARACTER => ("the source is not UTF-8 here".to_owned(), None),
@@ -143,6 +164,8 @@ fn illegal_character(session: &mut Session<'_>, span: Span) {
             Some("outside of comments the language is ASCII"),
         ),
     };
-    let diagnostic = Diagnostic::new(&codes::ILLEGAL_CHARACTER, span, message).maybe_help(help.map(str::to_owned));
-    session.report(diagnostic);
+    let meant = LOOK_ALIKES.iter().find(|row| row.0 == character).map(|row| row.1);
+    let help = meant.map(|kind| format!("write `{}`", kind.spelling())).or(help.map(str::to_owned));
+    session.report(Diagnostic::new(&codes::ILLEGAL_CHARACTER, span, message).maybe_help(help));
+    meant
 }

@@ -1,0 +1,62 @@
+//! Names that are no names of GLSL 1.50 and are often tried: of other languages, and of later versions.
+//!
+//! *In:* an unknown name. *Out:* what to write instead. *Not done here:* names that were only misspelled.
+
+/// Functions of HLSL and their like, and what does the same here.
+#[rustfmt::skip]
+static FUNCTIONS: &[(&str, &str)] = &[
+    ("lerp", "write `mix(a, b, t)`"),
+    ("saturate", "write `clamp(x, 0.0, 1.0)`"),
+    ("frac", "write `fract(x)`"),
+    ("mul", "write `a * b`"),
+    ("rsqrt", "write `inversesqrt(x)`"),
+    ("rcp", "write `1.0 / x`"),
+    ("fmod", "write `mod(x, y)`, whose result has the sign of `y`"),
+    ("atan2", "write `atan(y, x)`"),
+    ("ddx", "write `dFdx(x)`"),
+    ("ddy", "write `dFdy(x)`"),
+    ("clip", "write `if (x < 0.0) discard;`"),
+    ("sincos", "write `sin(x)` and `cos(x)`"),
+    ("log10", "write `log(x) / log(10.0)`"),
+    ("tex2D", "write `texture(s, p)`"),
+    ("texCUBE", "write `texture(s, p)`"),
+    ("tex2Dlod", "write `textureLod(s, p.xy, p.w)`"),
+    ("printf", "a shader writes to its outputs alone"),
+];
+
+/// Types of HLSL and C.
+#[rustfmt::skip]
+static TYPES: &[(&str, &str)] = &[
+    ("float2", "vec2"), ("float3", "vec3"), ("float4", "vec4"), ("int2", "ivec2"), ("int3", "ivec3"), ("int4", "ivec4"),
+    ("uint2", "uvec2"), ("uint3", "uvec3"), ("uint4", "uvec4"), ("bool2", "bvec2"), ("bool3", "bvec3"),
+    ("bool4", "bvec4"), ("float2x2", "mat2"), ("float3x3", "mat3"), ("float4x4", "mat4"), ("half3", "vec3"),
+    ("half4", "vec4"), ("char", "int"), ("size_t", "uint"), ("Texture2D", "sampler2D"),
+];
+
+/// Functions that later versions brought.
+#[rustfmt::skip]
+static LATER: &[(&str, u16)] = &[
+    ("floatBitsToInt", 330), ("floatBitsToUint", 330), ("intBitsToFloat", 330), ("uintBitsToFloat", 330),
+    ("fma", 400), ("frexp", 400), ("ldexp", 400), ("textureGather", 400), ("textureGatherOffset", 400),
+    ("textureQueryLod", 400), ("bitfieldExtract", 400), ("bitfieldInsert", 400), ("bitfieldReverse", 400),
+    ("bitCount", 400), ("findLSB", 400), ("findMSB", 400), ("uaddCarry", 400), ("interpolateAtCentroid", 400),
+    ("interpolateAtSample", 400), ("interpolateAtOffset", 400), ("EmitStreamVertex", 400), ("EndStreamPrimitive", 400),
+    ("packUnorm2x16", 410), ("unpackUnorm2x16", 410), ("packUnorm4x8", 400), ("unpackUnorm4x8", 400),
+    ("packHalf2x16", 420), ("unpackHalf2x16", 420), ("packSnorm2x16", 420), ("unpackSnorm2x16", 420),
+    ("imageLoad", 420), ("imageStore", 420), ("atomicAdd", 430), ("textureQueryLevels", 430), ("imageSize", 430),
+    ("barrier", 400), ("memoryBarrier", 420),
+];
+
+/// What to write instead of a function that does not exist.
+pub(super) fn function(name: &str) -> Option<String> {
+    let foreign = FUNCTIONS.iter().find(|row| row.0 == name).map(|row| row.1.to_owned());
+    foreign.or_else(|| {
+        let since = LATER.iter().find(|row| row.0 == name)?.1;
+        Some(format!("`{name}` came with GLSL {}.{:02}", since / 100, since % 100))
+    })
+}
+
+/// What to write instead of a type that does not exist.
+pub(in crate::analysis) fn type_name(name: &str) -> Option<String> {
+    TYPES.iter().find(|row| row.0 == name).map(|row| format!("write `{}`", row.1))
+}
