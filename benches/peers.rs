@@ -4,6 +4,9 @@
 //! `fixtures/lower`) that both accept. libglslang's side is `peers/glslang.cpp`, built with `c++` when Debian's
 //! `glslang-dev` is installed; without it the bench says so and ends. Rounds of the two alternate, each shader's time is
 //! the least over all rounds, and the figures are means over the shaders.
+//!
+//! Then processes: `glisten compile` of one shader against `glslangValidator` followed by `naga` (`cargo install naga-cli`),
+//! where those are on the path; in turns, each figure the median over its rounds.
 
 #![expect(clippy::print_stdout, reason = "a benchmark prints its figures")]
 
@@ -33,6 +36,11 @@ impl Times {
 }
 
 fn main() {
+    in_process();
+    processes();
+}
+
+fn in_process() {
     let folders: Vec<PathBuf> =
         std::env::args().skip(1).filter(|argument| !argument.starts_with('-')).map(Into::into).collect();
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -62,6 +70,41 @@ fn main() {
     println!(
         "GLSL text to WGSL text   {whole:8.1}   libglslang's GLSL to SPIR-V {peer_whole:8.1}   ratio {:.3}",
         whole / peer_whole
+    );
+}
+
+/// How often each process runs.
+const PROCESS_ROUNDS: usize = 31;
+
+fn processes() {
+    let Some(glisten) = option_env!("CARGO_BIN_EXE_glisten") else { return };
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let out = folder.path().display();
+    let shader = concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/programs/blinn_phong.frag");
+    let own = format!("{glisten} compile -q --target wgsl {shader} -o {out}");
+    let first = format!("glslangValidator -V -R --auto-map-locations --auto-map-bindings {shader} -o {out}/a.spv");
+    let second = format!("naga {out}/a.spv {out}/a.wgsl");
+    let time = |line: &str| {
+        let mut words = line.split(' ');
+        let start = Instant::now();
+        let run = Command::new(words.next()?).args(words).stdout(Stdio::null()).stderr(Stdio::null()).status();
+        run.is_ok_and(|status| status.success()).then(|| start.elapsed().as_secs_f64() * 1e3)
+    };
+    let (mut ours, mut theirs) = (Vec::new(), Vec::new());
+    for _ in 0..PROCESS_ROUNDS {
+        let (Some(own), Some(first), Some(second)) = (time(&own), time(&first), time(&second)) else {
+            println!("processes cannot be compared: `glslangValidator` or `naga` is not on the path");
+            return;
+        };
+        ours.push(own);
+        theirs.push(first + second);
+    }
+    ours.sort_by(f64::total_cmp);
+    theirs.sort_by(f64::total_cmp);
+    let (ours, theirs) = (ours[PROCESS_ROUNDS / 2], theirs[PROCESS_ROUNDS / 2]);
+    println!(
+        "glisten compile, ms      {ours:8.1}   glslangValidator and naga   {theirs:8.1}   ratio {:.3}",
+        ours / theirs
     );
 }
 

@@ -7,6 +7,7 @@
 
 mod conventions;
 mod inline;
+mod lines;
 mod names;
 mod nesting;
 mod notes;

@@ -3,6 +3,7 @@
 //! *Holds:* naga's writers are run behind `catch_unwind`, since they panic on some modules that its validator accepts.
 
 use super::inline::inline_loads;
+use super::lines::SourceLines;
 use super::nesting::{is_nested, too_deep};
 use super::{Conventions, Target};
 use crate::diagnostic::Diagnostic;
@@ -208,7 +209,7 @@ fn write_spirv(
     }
     let debug_info = lines.as_ref().map(|lines| spv::DebugInfo {
         source_code: &lines.text,
-        file_name: &lines.name,
+        file_name: lines.name(),
         language: spv::SourceLanguage::GLSL,
     });
     let options = spv::Options {
@@ -230,7 +231,11 @@ fn write_spirv(
         debug_info,
         ..spv::Options::default()
     };
-    spv::write_vec(module, info, &options, None).map_err(|error| chain(&error))
+    let words = spv::write_vec(module, info, &options, None).map_err(|error| chain(&error))?;
+    Ok(match lines {
+        Some(lines) => lines.led_back(&words),
+        None => words,
+    })
 }
 
 /// Every resource at its own binding: link has assigned them.
@@ -242,27 +247,6 @@ fn own_bindings(module: &naga::Module) -> spv::BindingMap {
             (own, info)
         })
         .collect()
-}
-
-/// The text that naga counts lines in.
-struct SourceLines {
-    name: String,
-    text: String,
-}
-
-impl SourceLines {
-    /// The file of the entry point, with blanks where other files stand among the global offsets: naga knows one file,
-    /// and what came out of another counts as its last line.
-    fn of(module: &naga::Module, sources: &SourceMap) -> Option<Self> {
-        let entry = module.entry_points.first()?;
-        let (_, span) = entry.function.body.span_iter().find(|(_, span)| span.is_defined())?;
-        let range = span.to_range()?;
-        let file = sources.file(sources.file_of(Span::new(range.start as u32, range.end as u32))?);
-        let end = sources.files().map(|(_, file)| file.end()).max()?;
-        let before = " ".repeat(file.base() as usize);
-        let behind = " ".repeat((end - file.end()) as usize + 1);
-        Some(Self { name: file.name().to_owned(), text: format!("{before}{}{behind}", file.text()) })
-    }
 }
 
 fn write_msl(module: &naga::Module, info: &ModuleInfo) -> Result<String, String> {

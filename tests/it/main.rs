@@ -16,6 +16,8 @@ mod hostile;
 mod layouts;
 #[cfg(feature = "gpu")]
 mod library;
+#[cfg(feature = "cli")]
+mod lines;
 mod link;
 mod lint;
 #[cfg(feature = "gpu")]
