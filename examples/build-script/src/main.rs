@@ -10,5 +10,6 @@ const FRAGMENT: &str = include_str!(concat!(env!("OUT_DIR"), "/wave.frag.wgsl"))
 
 fn main() {
     println!("`mc` at byte {}, `time` at byte {}, `color` at byte {}", offsets::MC, offsets::TIME, offsets::COLOR);
+    println!("`light` at byte {}", offsets::LIGHT);
     println!("{VERTEX}\n{FRAGMENT}");
 }

@@ -3,6 +3,7 @@
 
 #[cfg(feature = "cli")]
 mod command;
+mod evaluator;
 mod laws;
 mod registers;
 mod stiff;
