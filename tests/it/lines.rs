@@ -13,9 +13,12 @@ fn text(words: &[u32]) -> String {
     String::from_utf8(bytes).expect("names and texts are UTF-8")
 }
 
-/// The files by id with the texts that they carry, and all lines by the name of their file.
-fn lines(words: &[u32]) -> (Vec<(u32, String, String)>, Vec<(String, u32)>) {
-    let (mut files, mut lines) = (Vec::new(), Vec::new());
+/// A file's id, name and text.
+type File = (u32, String, String);
+
+/// The files with the texts that they carry, and all lines by the name of their file.
+fn lines(words: &[u32]) -> (Vec<File>, Vec<(String, u32)>) {
+    let (mut files, mut lines) = (Vec::<File>::new(), Vec::new());
     let mut rest = &words[5..];
     while let Some(first) = rest.first() {
         let (instruction, behind) = rest.split_at((first >> 16) as usize);
