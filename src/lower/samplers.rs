@@ -7,7 +7,7 @@
 //! | `sampler2DRect` | 2D, coordinates divided by its size | filtering |
 //! | `sampler..Shadow` | the depth texture of that shape | comparison |
 //! | `isampler..`, `usampler..` | integer texture; of a cube an array of its faces | none: texels are loaded |
-//! | `samplerBuffer` | 2D of width [`BUFFER_WIDTH`] | none: texels are loaded |
+//! | `samplerBuffer` | 2D of width [`BUFFER_WIDTH`](crate::emit::textures::BUFFER_WIDTH) | none: texels are loaded |
 //! | `sampler2DMS`, `sampler2DMSArray` | multisampled 2D (array) | none: texels are loaded |
 
 use super::function::{Ctx, SamplerValue};

@@ -1,6 +1,6 @@
 //! The library's functions by value: each against its closed form, written here in f64 from the equations.
 //!
-//! *In:* [`forms`], a row a function. *Out:* [`Figures`] of its errors on the reference in f64 and f32, and on whatever drew
+//! *In:* [`forms()`], a row a function. *Out:* [`Figures`] of its errors on the reference in f64 and f32, and on whatever drew
 //! the scene of a [`Trial`].
 //!
 //! *Holds:* the closed forms share no text with the modules, and where an equation has two good forms they take the other
