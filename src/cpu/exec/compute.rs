@@ -134,6 +134,15 @@ fn either<N: Number>(a: N, b: N) -> (N, N) {
     (a.joined(b), b.joined(a))
 }
 
+/// Whatever the number is within its interval, it equals itself, if it is one.
+fn compare_with_itself<N: Number>(op: Compare, out: &mut [N::Int; LANES], a: Source<'_, N>) {
+    match op {
+        Compare::Less => map1(out, a, |_| N::Int::from_bool(false)),
+        Compare::LessEqual | Compare::Equal => map1(out, a, |a| a.isnan().not()),
+        Compare::NotEqual => map1(out, a, N::isnan),
+    }
+}
+
 /// Differences in quads: each row and column of a quad by itself.
 fn derivative<N: Number>(op: Derivative, out: &mut [N; LANES], a: &[N; LANES]) {
     let up = |upper: N, lower: N| if DFDY_SIGN < 0.0 { upper.sub(lower) } else { lower.sub(upper) };
@@ -187,7 +196,10 @@ impl<D: Domain> Registers<D> {
                 self.write_float(dst, |this, out| float3(op, out, this.float(a), this.float(b), this.float(c)));
             }
             Inst::Compare { op, dst, a, b } => {
-                self.write_int(dst, |this, out| compare(op, out, this.float(a), this.float(b)));
+                self.write_int(dst, |this, out| match a == b {
+                    true => compare_with_itself(op, out, this.float(a)),
+                    false => compare(op, out, this.float(a), this.float(b)),
+                });
             }
             Inst::FloatToInt { op, dst, a } => self.write_int(dst, |this, out| {
                 let a = this.float(a);

@@ -248,3 +248,15 @@ fn each_instruction_knows_the_text_that_it_was_made_for() {
     assert_eq!(texts(|inst| matches!(inst, Inst::Float2 { op: Float2::Sub, .. })), ["2.0 - f(a) * a"]);
     assert_eq!(texts(|inst| matches!(inst, Inst::Compare { .. } | Inst::Arm { .. })), ["s > a", "s > a"]);
 }
+
+#[test]
+fn a_number_compared_with_itself_leaves_nothing_open() {
+    let body = "in float a; void main() { float b = a / 3.0; float n = float(b < b) + 2.0 * float(b <= b) \
+                + 4.0 * float(b == b) + 8.0 * float(b != b); o = vec4(n, 0, 0, 0); }";
+    assert_eq!(reds(body, |_, lane| lane as f64)[5], (6.0, 6.0));
+    // Where it may be no number, it may be unequal.
+    let undefined =
+        "in float a; void main() { float b = sqrt(a / 3.0 * 3.0 - 1.0); o = vec4(float(b == b), 0, 0, 0); }";
+    let lanes = reds(undefined, |_, lane| lane as f64);
+    assert_eq!((lanes[1], lanes[9]), ((0.0, 1.0), (1.0, 1.0)));
+}
