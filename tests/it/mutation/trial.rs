@@ -88,7 +88,7 @@ impl fmt::Display for Trial {
         write!(f, "{}, {}: {}: ", self.scene, self.stage.name(), self.name)?;
         match &self.outcome {
             Outcome::Invalid => f.write_str("spirv-val refuses it"),
-            Outcome::Refused(why) => write!(f, "refused: {why}"),
+            Outcome::Refused(why) => write!(f, "refused: {}", why.lines().next().unwrap_or_default()),
             Outcome::Unseen => f.write_str("the picture is the same"),
             Outcome::Seen { caught, by_hand, change, .. } => {
                 let Change { absolute, ulps, allowed, pixels } = change;
