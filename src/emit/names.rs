@@ -107,6 +107,10 @@ fn is_word_of_wgsl(name: &str) -> bool {
 
 /// Names without the underscore that naga writes behind a digit.
 fn names_of_module<'t>(words: &[Word<'t>]) -> FxHashMap<&'t str, &'t str> {
+    let is_marked = |word: &Word<'_>| word.text.ends_with('_');
+    if !words.iter().any(is_marked) {
+        return FxHashMap::default();
+    }
     let all: FxHashSet<&str> = words.iter().map(|word| word.text).collect();
     let plain = |name: &&'t str| {
         let base = name.strip_suffix('_').filter(|base| base.ends_with(|c: char| c.is_ascii_digit()))?;
@@ -138,11 +142,9 @@ fn names_of_function<'t>(
         return FxHashMap::default();
     }
     let given: FxHashSet<&str> = wanted.iter().map(|(name, _)| *name).collect();
-    let mut taken: FxHashSet<String> = words
-        .iter()
-        .filter(|word| !given.contains(word.text))
-        .map(|word| module.get(word.text).copied().unwrap_or(word.text).to_owned())
-        .collect();
+    let kept = words.iter().filter(|word| !given.contains(word.text));
+    let kept: FxHashSet<&str> = kept.map(|word| module.get(word.text).copied().unwrap_or(word.text)).collect();
+    let mut taken: FxHashSet<String> = FxHashSet::default();
     let mut last: FxHashMap<String, u32> = FxHashMap::default();
     let mut names = FxHashMap::default();
     for (name, base) in wanted {
@@ -150,7 +152,7 @@ fn names_of_function<'t>(
         let new = loop {
             let candidate = if *number == 0 { base.clone() } else { format!("{base}_{number}") };
             *number += 1;
-            if !taken.contains(&candidate) && !is_word_of_wgsl(&candidate) {
+            if !kept.contains(candidate.as_str()) && !taken.contains(&candidate) && !is_word_of_wgsl(&candidate) {
                 break candidate;
             }
         };
