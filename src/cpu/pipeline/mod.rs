@@ -23,6 +23,7 @@ mod watch;
 use super::RenderOptions;
 use super::domain::Domain;
 use super::exec::{Code, LOOP_BUDGET, Machine};
+use super::raster::Shape;
 use crate::compare::Picture;
 use crate::diagnostic::codes::scenes::{SCENE_CANNOT_DRAW, SCENE_LOOP_BUDGET};
 use crate::diagnostic::{Code as DiagnosticCode, Diagnostic};
@@ -33,6 +34,7 @@ use assembly::{Prim, primitives};
 use fragments::{Shading, draw_bin, output_plans};
 use plan::Plan;
 use rayon::prelude::*;
+use smallvec::SmallVec;
 use std::sync::{Mutex, OnceLock};
 use target::{BIN, Target};
 use vertices::{Invocation, shade};
@@ -156,21 +158,10 @@ impl Bins {
         let mut counts = vec![0_u32; target.bins.len() + 1];
         let mut pairs = Vec::new();
         for (index, prim) in prims.iter().enumerate() {
-            let bounds = prim.shape.bounds();
-            let clamp = |value: i64, limit: i64| value.clamp(0, limit);
-            let columns = clamp(bounds.x0.div_euclid(BIN), target.columns)
-                ..clamp((bounds.x1 + BIN - 1).div_euclid(BIN), target.columns);
-            let rows = clamp(bounds.y0.div_euclid(BIN), target.rows)
-                ..clamp((bounds.y1 + BIN - 1).div_euclid(BIN), target.rows);
-            for row in rows {
-                for column in columns.clone() {
-                    let bin = (row * target.columns + column) as usize;
-                    if target.bins.get(bin).is_some_and(|bin| prim.shape.may_touch(bin.area)) {
-                        counts[bin + 1] += 1;
-                        pairs.push((bin as u32, index as u32));
-                    }
-                }
-            }
+            touched(&prim.shape, target, |bin| {
+                counts[bin + 1] += 1;
+                pairs.push((bin as u32, index as u32));
+            });
         }
         for bin in 1..counts.len() {
             counts[bin] += counts[bin - 1];
@@ -188,6 +179,37 @@ impl Bins {
     fn of(&self, bin: usize) -> &[u32] {
         let range = self.starts.get(bin).zip(self.starts.get(bin + 1));
         range.and_then(|(&start, &end)| self.prims.get(start as usize..end as usize)).unwrap_or(&[])
+    }
+}
+
+/// Calls `visit` once with each bin that a shape may touch.
+fn touched<D: Domain>(shape: &Shape, target: &Target<D>, mut visit: impl FnMut(usize)) {
+    let bin_at = |column: i64, row: i64| (row * target.columns + column) as usize;
+    if let Shape::Pixels(pixels) = shape {
+        // Along the pixels, not over the rectangle around them: of a diagonal that is many times as much.
+        let mut seen: SmallVec<[usize; 32]> = SmallVec::new();
+        for &(x, y) in pixels {
+            let (column, row) = (x.div_euclid(BIN), y.div_euclid(BIN));
+            let is_inside = (0..target.columns).contains(&column) && (0..target.rows).contains(&row);
+            let bin = bin_at(column, row);
+            if is_inside && seen.last() != Some(&bin) && !seen.contains(&bin) {
+                seen.push(bin);
+                visit(bin);
+            }
+        }
+        return;
+    }
+    let bounds = shape.bounds();
+    let reach = |low: i64, high: i64, limit: i64| {
+        low.div_euclid(BIN).clamp(0, limit)..(high + BIN - 1).div_euclid(BIN).clamp(0, limit)
+    };
+    for row in reach(bounds.y0, bounds.y1, target.rows) {
+        for column in reach(bounds.x0, bounds.x1, target.columns) {
+            let bin = bin_at(column, row);
+            if target.bins.get(bin).is_some_and(|bin| shape.may_touch(bin.area)) {
+                visit(bin);
+            }
+        }
     }
 }
 
