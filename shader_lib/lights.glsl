@@ -79,7 +79,8 @@ float lightBeam(Light light, vec3 L)
     return light.kind == LIGHT_SPOT ? spotFactor(L, safeNormalize(light.direction), light.exponent) : 1.0;
 }
 
-// The light of a hemisphere for the unit normal N, linear RGB.
+// The light of a hemisphere, linear RGB.
+//   light  its members    N  unit normal
 vec3 lightDome(Light light, vec3 N)
 {
     return hemisphere(N, safeNormalize(light.direction), light.diffuse, light.ambient);

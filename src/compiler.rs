@@ -4,7 +4,11 @@ use crate::analysis::analyze;
 use crate::diagnostic::codes::general::TOO_LARGE;
 use crate::diagnostic::{Diagnostic, Diagnostics, Levels};
 use crate::hir::{Shader, Stage, Types};
+#[cfg(feature = "reference")]
+use crate::library::Embedded;
 use crate::link::{Program, link};
+#[cfg(feature = "reference")]
+use crate::source::{IncludeForm, Included};
 use crate::source::{IncludeResolver, NoIncludes, SourceMap, Span};
 use crate::syntax;
 use std::sync::Arc;
@@ -71,6 +75,13 @@ impl Compiler {
         Self { options, includes: Arc::clone(&self.includes) }
     }
 
+    /// The same, with the modules of the library found where the own includes have none of that name.
+    #[cfg(feature = "reference")]
+    pub(crate) fn with_library(self) -> Self {
+        let own = self.includes;
+        Self { includes: Arc::new(WithLibrary(own)), ..self }
+    }
+
     /// The options.
     pub fn options(&self) -> &Options {
         &self.options
@@ -134,6 +145,17 @@ impl Compiler {
         let options = syntax::Options { stage: source.stage, defines: self.options.defines.clone(), strict };
         let ast = syntax::parse(map, file, &options, &*self.includes, diagnostics);
         Some(analyze(&ast, source.stage, strict, types, map, diagnostics))
+    }
+}
+
+/// Includes with the library behind them.
+#[cfg(feature = "reference")]
+struct WithLibrary(Arc<dyn IncludeResolver + Send + Sync>);
+
+#[cfg(feature = "reference")]
+impl IncludeResolver for WithLibrary {
+    fn resolve(&self, path: &str, form: IncludeForm, from: &str) -> Result<Included, String> {
+        self.0.resolve(path, form, from).or_else(|error| Embedded::find(path, form, from).ok_or(error))
     }
 }
 

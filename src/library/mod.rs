@@ -11,10 +11,14 @@ mod cost;
 mod header;
 #[cfg(feature = "reference")]
 pub mod measure;
+mod programs;
+mod scenes;
 
 pub use catalogue::{Entry, FunctionEntry, entries, entry};
 pub use cost::{Cost, cost};
 pub use header::Header;
+pub use programs::{LibraryProgram, programs, shader, shader_files};
+pub use scenes::{LibraryScene, scenes};
 
 use crate::source::{IncludeForm, IncludeResolver, Included};
 
@@ -55,9 +59,11 @@ static MODULES: &[Module] = &[
     module!("phong"),
     module!("quartic"),
     module!("safe"),
+    module!("scene"),
     module!("schlick"),
     module!("specular_lut"),
     module!("spot"),
+    module!("standard"),
     module!("threshold"),
     module!("toon"),
 ];

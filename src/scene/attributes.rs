@@ -44,6 +44,9 @@ pub(super) fn load_attributes(
         }
     };
     for stream in mesh.map_or(&[][..], |mesh| &mesh.streams) {
+        if stream.implied && !names.contains(&stream.attribute.as_str()) {
+            continue;
+        }
         set(reader, &stream.attribute, stream.span, &mut |reader, attribute| {
             check_mesh_stream(reader, &program.types, attribute, &stream.data, stream.span)
         });

@@ -1,27 +1,32 @@
 //! A `[[draw]]` table into a [`Draw`].
 
 use super::attributes::{load_attributes, scalar_of};
-use super::load::{Loader, ProgramKey};
+use super::lights::{LIGHT_SPACES, LightSpace};
+use super::load::{Loader, ProgramKey, Surroundings, library_file};
+use super::material::load_material;
 use super::matrices::View;
 use super::mesh::{Mesh, load_mesh};
 use super::model::{AttributeData, BlendFactor, Compare, Cull, Draw, Format, Framebuffer, Primitive, State};
 use super::names::{BLENDS, COMPARES, CULLS, FACTORS, FRONT_FACES, PRIMITIVES, PROVOKING};
 use super::reader::{Node, NumberValue, Reader};
 use super::textures::load_textures;
-use super::uniforms::load_uniforms;
+use super::uniforms::{Context, load_uniforms};
 use crate::diagnostic::codes::scenes::{
     SCENE_CANNOT_DRAW, SCENE_UNKNOWN_NAME, SCENE_WRONG_SIZE, SCENE_WRONG_TYPE, SCENE_WRONG_VALUE,
 };
 use crate::diagnostic::{Diagnostic, did_you_mean};
 use crate::hir::{Scalar, Stage};
+use crate::library;
 use crate::link::Program;
 use crate::source::Span;
 use std::sync::Arc;
-use toml::de::DeTable;
+use toml::de::{DeTable, DeValue};
 
 const KEYS: &[&str] = &[
+    "program",
     "vertex",
     "fragment",
+    "defines",
     "primitive",
     "cull",
     "depth_test",
@@ -45,34 +50,38 @@ const KEYS: &[&str] = &[
     "camera",
     "transform",
     "matrices",
+    "material",
+    "light_space",
 ];
 
 /// The largest number of vertices or indices of a draw, and of instances.
 const MAX_COUNT: u32 = 1 << 22;
 
-pub(super) fn load_draw(
-    loader: &mut Loader<'_>,
-    node: &Node<'_>,
-    camera: Option<&DeTable<'_>>,
-    framebuffer: &Framebuffer,
-) -> Option<Draw> {
+pub(super) fn load_draw(loader: &mut Loader<'_>, node: &Node<'_>, around: &Surroundings<'_, '_>) -> Option<Draw> {
+    let framebuffer = &around.framebuffer;
     let table = loader.reader.table(node, "draw")?;
     loader.reader.check_keys(table, "a draw", KEYS);
     // The header alone, so that an excerpt does not show the whole table.
     let place = loader.reader.span(node.span());
     let state = load_state(&mut loader.reader, table);
-    let mesh = table.get("mesh").map(|node| load_mesh(loader, node));
-    let program = load_program(loader, table, place)?;
+    let files = load_files(loader, table, place);
+    let conventional = files.iter().any(|(_, name, _)| library_file(name).is_some());
+    let mesh = table.get("mesh").map(|node| load_mesh(loader, node, conventional));
+    let program = load_program(loader, table, files)?;
     check_program(&mut loader.reader, &program, framebuffer, place)?;
     let mesh = match mesh {
         Some(mesh) => Some(mesh?),
         None => None,
     };
-    let view = View::load(&mut loader.reader, table, camera, framebuffer);
+    let view = View::load(&mut loader.reader, table, around.camera, framebuffer);
+    let material = load_material(&mut loader.reader, table, around.material, &program);
     let attributes = load_attributes(&mut loader.reader, table, &program, mesh.as_ref(), place);
     let instances = loader.reader.count(table, "instances", 1, 0..=MAX_COUNT);
-    let uniforms = load_uniforms(&mut loader.reader, table, &program, &view, place);
-    let textures = load_textures(loader, table, &program, place);
+    let space = loader.reader.choice_at(table, "light_space", LightSpace::World, LIGHT_SPACES);
+    let context = Context { program: &program, view: &view, lighting: &around.lighting, space, conventional };
+    let uniforms = load_uniforms(&mut loader.reader, table, &context, material.as_ref(), place);
+    let own_material = material.and_then(|(_, node)| node.get_ref().as_table());
+    let textures = load_textures(loader, table, own_material, &program, conventional, place);
     let dynamic = load_dynamic(&mut loader.reader, table, &program);
     let (vertex_count, indices) = load_counts(loader, table, mesh.as_ref(), &program, &attributes, instances, place)?;
     Some(Draw { program, state, vertex_count, indices, instances, attributes, uniforms, textures, dynamic })
@@ -109,28 +118,92 @@ fn load_blend(reader: &mut Reader, table: &DeTable<'_>) -> Option<(BlendFactor, 
     }
 }
 
-fn load_program(loader: &mut Loader<'_>, table: &DeTable<'_>, place: Span) -> Option<Arc<Program>> {
-    let mut files = Vec::new();
-    let mut places = Vec::new();
-    for (key, stage) in [("vertex", Stage::Vertex), ("fragment", Stage::Fragment)] {
-        let Some(node) = table.get(key) else {
-            let message = format!("a draw names its {key} shader");
-            loader.missing_key(place, &message, &format!("add `{key} = \"...\"`, relative to the scene file"));
-            continue;
-        };
-        if let Some(name) = loader.reader.text(node, key) {
-            files.push((stage, name.to_owned()));
-            places.push(loader.reader.span_of(node));
+/// The shaders of a draw: stage, name, place of the name. Fewer than two if one is missing (reported).
+fn load_files(loader: &mut Loader<'_>, table: &DeTable<'_>, place: Span) -> Vec<(Stage, String, Span)> {
+    let stages = [("vertex", Stage::Vertex), ("fragment", Stage::Fragment)];
+    let Some(node) = table.get("program") else {
+        let mut files = Vec::new();
+        for (key, stage) in stages {
+            let Some(node) = table.get(key) else {
+                let message = format!("a draw names its {key} shader");
+                let help = format!("add `{key} = \"...\"`, relative to the scene file, or `program = \"...\"`");
+                loader.missing_key(place, &message, &help);
+                continue;
+            };
+            if let Some(name) = loader.reader.text(node, key) {
+                files.push((stage, name.to_owned(), loader.reader.span_of(node)));
+            }
         }
+        return files;
+    };
+    if let Some((key, _)) = stages.iter().find_map(|(key, _)| table.get_key_value(*key)) {
+        let span = loader.reader.span_of(key);
+        let message = format!("a draw with a `program` of the library has no `{}`", key.get_ref());
+        loader.reader.error(&SCENE_WRONG_VALUE, span, message, "leave one of the two out");
+        return Vec::new();
     }
+    let Some(name) = loader.reader.text(node, "program") else { return Vec::new() };
+    let span = loader.reader.span_of(node);
+    let Some(program) = library::programs().iter().find(|program| program.name == name) else {
+        let near = did_you_mean(name, library::programs().iter().map(|program| program.name));
+        let help = near.map(|near| format!("did you mean `{near}`?"));
+        let message = format!("the library has no program `{name}`");
+        let diagnostic = Diagnostic::new(&SCENE_WRONG_VALUE, span, message).here("no such program");
+        loader.reader.report(diagnostic.maybe_help(help));
+        return Vec::new();
+    };
+    let file = |name: &str| format!("<glisten/programs/{name}>");
+    vec![(Stage::Vertex, file(program.vertex), span), (Stage::Fragment, file(program.fragment), span)]
+}
+
+/// `[draw.defines]`: macros of the draw's program.
+fn load_defines(reader: &mut Reader, table: &DeTable<'_>) -> Vec<(String, String)> {
+    let Some(defines) = reader.table_at(table, "defines") else { return Vec::new() };
+    let mut list = Vec::new();
+    for (name, node) in defines {
+        let macro_name: &str = name.get_ref();
+        let starts_well = macro_name.starts_with(|first: char| first.is_ascii_alphabetic() || first == '_');
+        if !starts_well || !macro_name.chars().all(|letter| letter.is_ascii_alphanumeric() || letter == '_') {
+            let span = reader.span_of(name);
+            reader.wrong_value(span, format!("`{macro_name}` is no name for a macro"), "not an identifier");
+            continue;
+        }
+        let value = match node.get_ref() {
+            DeValue::String(text) => text.to_string(),
+            DeValue::Integer(number) => number.as_str().replace('_', ""),
+            DeValue::Float(number) => number.as_str().replace('_', ""),
+            DeValue::Boolean(value) => value.to_string(),
+            DeValue::Datetime(_) | DeValue::Array(_) | DeValue::Table(_) => {
+                reader.wrong_type(node, macro_name, "a number or a text");
+                continue;
+            }
+        };
+        if value.contains(['\n', '\r']) {
+            let span = reader.span_of(node);
+            reader.wrong_value(span, "a macro's value is one line".to_owned(), "more than one line");
+            continue;
+        }
+        list.push((macro_name.to_owned(), value));
+    }
+    list
+}
+
+fn load_program(
+    loader: &mut Loader<'_>,
+    table: &DeTable<'_>,
+    files: Vec<(Stage, String, Span)>,
+) -> Option<Arc<Program>> {
     let attribute_locations = load_locations(&mut loader.reader, table, "attribute_locations");
     let frag_data_locations = load_locations(&mut loader.reader, table, "frag_data_locations");
+    let defines = load_defines(&mut loader.reader, table);
     if files.len() < 2 {
         return None;
     }
+    let places: Vec<Span> = files.iter().map(|(_, _, span)| *span).collect();
     let program = loader.program(
         ProgramKey {
-            files,
+            files: files.into_iter().map(|(stage, name, _)| (stage, name)).collect(),
+            defines,
             attribute_locations: attribute_locations.iter().map(|(name, value, _)| (name.clone(), *value)).collect(),
             frag_data_locations: frag_data_locations.iter().map(|(name, value, _)| (name.clone(), *value)).collect(),
         },

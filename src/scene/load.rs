@@ -6,15 +6,18 @@
 
 use super::draw::load_draw;
 use super::files::{FileError, FileSource, beside};
-use super::model::{Format, Framebuffer, Scene};
+use super::lights::Lighting;
+use super::model::{Draw, Format, Framebuffer, Scene};
 use super::names::FORMATS;
 use super::reader::{Node, Reader};
 use crate::compiler::{Compiler, Options, Source};
 use crate::diagnostic::codes::scenes::{
-    SCENE_CANNOT_DRAW, SCENE_FILE_UNREADABLE, SCENE_MISSING_KEY, SCENE_SYNTAX, SCENE_WRONG_TYPE,
+    SCENE_CANNOT_DRAW, SCENE_FILE_UNREADABLE, SCENE_MISSING_KEY, SCENE_SYNTAX, SCENE_UNUSED_LIGHT, SCENE_WRONG_TYPE,
+    SCENE_WRONG_VALUE,
 };
-use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::diagnostic::{Diagnostic, Diagnostics, did_you_mean};
 use crate::hir::Stage;
+use crate::library;
 use crate::link::Program;
 use crate::source::{SourceMap, Span};
 use std::path::Path;
@@ -27,6 +30,8 @@ pub const MAX_SIDE: u32 = 16_384;
 pub const MAX_PIXELS: u64 = 1 << 26;
 /// The largest number of color attachments (`gl_MaxDrawBuffers`).
 pub const MAX_ATTACHMENTS: u32 = 8;
+
+const KEYS: &[&str] = &["framebuffer", "draw", "camera", "light", "material", "global_ambient", "report", "gallery"];
 
 /// What came of loading a scene.
 #[derive(Clone, Debug)]
@@ -64,6 +69,20 @@ pub(super) struct ProgramKey {
     pub(super) files: Vec<(Stage, String)>,
     pub(super) attribute_locations: Vec<(String, u32)>,
     pub(super) frag_data_locations: Vec<(String, u32)>,
+    pub(super) defines: Vec<(String, String)>,
+}
+
+/// What a scene says for all its draws.
+pub(super) struct Surroundings<'t, 'i> {
+    pub(super) camera: Option<&'t DeTable<'i>>,
+    pub(super) material: Option<&'t Node<'i>>,
+    pub(super) lighting: Lighting,
+    pub(super) framebuffer: Framebuffer,
+}
+
+/// The file that a scene means by `<glisten/programs/phong.frag>`.
+pub(super) fn library_file(name: &str) -> Option<&str> {
+    name.strip_prefix("<glisten/programs/")?.strip_suffix('>')
 }
 
 /// The state of loading.
@@ -96,19 +115,42 @@ impl Loader<'_> {
             self.reader.report(Diagnostic::new(&SCENE_SYNTAX, self.reader.span(0..text.len()), message));
             return None;
         }
-        self.reader.check_keys(table, "a scene", &["framebuffer", "draw", "camera", "report"]);
+        self.reader.check_keys(table, "a scene", KEYS);
         let framebuffer = self.framebuffer(table)?;
-        let camera = self.reader.table_at(table, "camera");
+        let around = Surroundings {
+            camera: self.reader.table_at(table, "camera"),
+            material: table.get("material"),
+            lighting: Lighting::load(&mut self.reader, table),
+            framebuffer,
+        };
         let mut draws = Vec::new();
         let mut complete = true;
         for node in self.draw_tables(table) {
-            match load_draw(self, node, camera, &framebuffer) {
+            match load_draw(self, node, &around) {
                 Some(draw) => draws.push(draw),
                 None => complete = false,
             }
         }
+        if complete {
+            self.warn_unlit(table, &draws);
+        }
         let name = Path::new(self.path).file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
         complete.then_some(Scene { name, framebuffer, draws })
+    }
+
+    /// Warns of lights and a material that no program asks for.
+    fn warn_unlit(&mut self, table: &DeTable<'_>, draws: &[Draw]) {
+        for (key, root) in [("light", "light"), ("material", "material"), ("global_ambient", "global_ambient")] {
+            let Some((name, _)) = table.get_key_value(key) else { continue };
+            let asked = |draw: &Draw| draw.program.interface.roots.iter().any(|known| known.name == root);
+            if !draws.iter().any(asked) {
+                let span = self.reader.span_of(name);
+                let message = format!("no program of the scene declares a uniform `{root}`");
+                let diagnostic = Diagnostic::new(&SCENE_UNUSED_LIGHT, span, message).here("changes nothing");
+                self.reader
+                    .report(diagnostic.help("`program = \"standard\"` does, and `#include <glisten/scene.glsl>`"));
+            }
+        }
     }
 
     fn scene_text(&mut self) -> Option<Arc<str>> {
@@ -210,24 +252,44 @@ impl Loader<'_> {
     fn compile(&mut self, key: &ProgramKey, places: &[Span]) -> Option<Arc<Program>> {
         let mut shaders = Vec::new();
         for ((stage, name), &span) in key.files.iter().zip(places) {
-            if let Some((path, bytes)) = self.bytes(name, span) {
-                let text = String::from_utf8_lossy(&bytes).into();
+            if let Some((path, text)) = self.shader_text(name, span) {
                 shaders.push(Source { name: path, text, stage: *stage });
             }
         }
         if shaders.len() < key.files.len() {
             return None;
         }
+        let defines = [&self.compiler.options().defines[..], &key.defines].concat();
         let options = Options {
             attribute_locations: key.attribute_locations.clone(),
             frag_data_locations: key.frag_data_locations.clone(),
+            defines,
             ..self.compiler.options().clone()
         };
         let sources = std::mem::take(&mut self.sources);
-        let compilation = self.compiler.with_options(options).compile_into(sources, &shaders);
+        let compiler = self.compiler.with_options(options);
+        let of_library = key.files.iter().any(|(_, name)| library_file(name).is_some());
+        let compiler = if of_library { compiler.with_library() } else { compiler };
+        let compilation = compiler.compile_into(sources, &shaders);
         self.sources = compilation.sources;
         self.reader.diagnostics.extend(compilation.diagnostics);
         compilation.program.map(Arc::new)
+    }
+
+    /// The text of a shader that the scene names, a file or one of the library's.
+    fn shader_text(&mut self, name: &str, span: Span) -> Option<(String, Arc<str>)> {
+        let Some(file) = library_file(name) else {
+            let (path, bytes) = self.bytes(name, span)?;
+            return Some((path, String::from_utf8_lossy(&bytes).into()));
+        };
+        if let Some(text) = library::shader(file) {
+            return Some((format!("<glisten>/programs/{file}"), text.into()));
+        }
+        let near = did_you_mean(file, library::shader_files());
+        let help = near.map(|near| format!("did you mean `<glisten/programs/{near}>`?"));
+        let message = format!("the library has no shader `{file}`");
+        self.reader.report(Diagnostic::new(&SCENE_WRONG_VALUE, span, message).here("no such shader").maybe_help(help));
+        None
     }
 
     /// Reports a key that must be there.

@@ -89,6 +89,11 @@ impl View {
         };
     }
 
+    /// From world space to eye space.
+    pub(super) fn view_matrix(&self) -> DMat4 {
+        self.view
+    }
+
     /// The type of a role and its numbers.
     pub(super) fn matrix(&self, role: Role) -> (Type, Vec<f32>) {
         let model_view = self.view * self.model;

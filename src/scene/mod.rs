@@ -10,12 +10,15 @@
 mod attributes;
 mod draw;
 mod files;
+mod lights;
 mod load;
+mod material;
 mod matrices;
 mod mesh;
 mod mipmaps;
 pub mod model;
 mod names;
+mod patterns;
 mod reader;
 mod textures;
 mod uniforms;

@@ -2,9 +2,11 @@
 
 use super::draw::report_unknown_name;
 use super::load::Loader;
+use super::material::TEXTURES;
 use super::mipmaps::chain;
 use super::model::{Compare, Filter, Texels, Texture, TextureLevel, Wrap};
 use super::names::{COMPARES, FILTERS, TEXTURE_KINDS, TextureKind, WRAPS, kind_name};
+use super::patterns;
 use super::reader::{Node, Number, NumberValue};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::scenes::{
@@ -18,7 +20,7 @@ use toml::de::DeTable;
 
 const KEYS: &[&str] = &[
     "kind", "integer", "width", "height", "depth", "layers", "values", "filter", "wrap", "mipmaps", "compare", "file",
-    "flip",
+    "flip", "pattern",
 ];
 
 /// The largest width, height, depth or number of layers.
@@ -26,11 +28,14 @@ const MAX_SIDE: u32 = 8192;
 /// The largest number of texels of a texture's first level.
 const MAX_TEXELS: u64 = 1 << 25;
 
-/// The texture of each sampler slot of the program, in its order.
+/// The texture of each sampler slot of the program, in its order: the draw's own, or the material's, or for a sampler of
+/// one of the library's programs (`conventional`) white.
 pub(super) fn load_textures(
     loader: &mut Loader<'_>,
     draw: &DeTable<'_>,
+    material: Option<&DeTable<'_>>,
     program: &Program,
+    conventional: bool,
     place: Span,
 ) -> Vec<Option<Arc<Texture>>> {
     let slots = &program.interface.samplers;
@@ -63,11 +68,18 @@ pub(super) fn load_textures(
             }
         }
     }
+    for ((slot, texture), (given, &kind)) in slots.iter().zip(&mut textures).zip(given.iter_mut().zip(&kinds)) {
+        let Some(node) = material.and_then(|material| material.get(slot.name.as_str())) else { continue };
+        if !*given && TEXTURES.contains(&slot.name.as_str()) {
+            *given = true;
+            *texture = load_texture(loader, node, &slot.name, kind).map(Arc::new);
+        }
+    }
     for (((slot, texture), given), kind) in slots.iter().zip(&mut textures).zip(given).zip(kinds) {
         if given {
             continue;
         }
-        if slot.active {
+        if slot.active && !conventional {
             let message = format!("sampler `{}` gets no texture: it reads (0, 0, 0, 1) everywhere", slot.name);
             let diagnostic = Diagnostic::new(&SCENE_UNSET_TEXTURE, place, message).help(format!(
                 "add `{} = {{ width = .., height = .., values = [..] }}` under [draw.textures]",
@@ -75,18 +87,20 @@ pub(super) fn load_textures(
             ));
             loader.reader.report(diagnostic);
         }
-        *texture = Some(Arc::new(unset_texture(kind)));
+        *texture = Some(Arc::new(unset_texture(kind, if conventional { 1 } else { 0 })));
     }
     textures
 }
 
-/// One texel, or one a face, of (0, 0, 0, 1).
-fn unset_texture(kind: SamplerType) -> Texture {
+/// One texel, or one a face, of (level, level, level, 1).
+fn unset_texture(kind: SamplerType, level: u8) -> Texture {
     let depth = if kind.dim == SamplerDim::Cube { 6 } else { 1 };
     let texels = match kind.texel {
-        Scalar::Int => Texels::Int(vec![[0, 0, 0, 1]; depth as usize]),
-        Scalar::Uint => Texels::Uint(vec![[0, 0, 0, 1]; depth as usize]),
-        Scalar::Float | Scalar::Bool => Texels::Float(vec![[0.0, 0.0, 0.0, 1.0]; depth as usize]),
+        Scalar::Int => Texels::Int(vec![[i32::from(level), i32::from(level), i32::from(level), 1]; depth as usize]),
+        Scalar::Uint => Texels::Uint(vec![[u32::from(level), u32::from(level), u32::from(level), 1]; depth as usize]),
+        Scalar::Float | Scalar::Bool => {
+            Texels::Float(vec![[f32::from(level), f32::from(level), f32::from(level), 1.0]; depth as usize])
+        }
     };
     Texture {
         kind,
@@ -100,7 +114,10 @@ fn unset_texture(kind: SamplerType) -> Texture {
 fn load_texture(loader: &mut Loader<'_>, node: &Node<'_>, name: &str, kind: SamplerType) -> Option<Texture> {
     let table = loader.reader.table(node, name)?;
     let span = loader.reader.span_of(node);
-    loader.reader.check_keys(table, "a texture", KEYS);
+    let pattern = patterns::find(table);
+    let keys = if table.contains_key("pattern") { [KEYS, patterns::KEYS].concat() } else { KEYS.to_vec() };
+    loader.reader.check_keys(table, "a texture", &keys);
+    check_origin(loader, table)?;
     if kind.dim == SamplerDim::Multisample {
         let message = format!("`{name}` is a {}: no scene can bring a multisample texture", kind.name());
         loader.reader.error(&SCENE_WRONG_VALUE, span, message, "of this kind");
@@ -109,17 +126,31 @@ fn load_texture(loader: &mut Loader<'_>, node: &Node<'_>, name: &str, kind: Samp
     check_kind(loader, table, name, kind)?;
     let filter = loader.reader.choice_at(table, "filter", Filter::Nearest, FILTERS);
     let is_rect = kind.dim == SamplerDim::Rect;
-    let default_wrap = if is_rect { Wrap::ClampToEdge } else { Wrap::Repeat };
+    let default_wrap = if is_rect { Wrap::ClampToEdge } else { pattern.map_or(Wrap::Repeat, |pattern| pattern.wrap()) };
     let wrap = loader.reader.choice_at(table, "wrap", default_wrap, WRAPS);
     let compare = loader.reader.choice_at(table, "compare", Compare::Lequal, COMPARES);
     let mipmaps = loader.reader.flag(table, "mipmaps", false);
     check_state(loader, table, name, kind, (filter, wrap, mipmaps))?;
-    let level = match table.get("file") {
-        Some(file) => load_image(loader, table, file, name, kind)?,
-        None => load_level(loader, table, span, name, kind)?,
+    let level = match (table.get("file"), table.get("pattern")) {
+        (Some(file), _) => load_image(loader, table, file, name, kind)?,
+        (None, Some(pattern)) => patterns::load(loader, table, pattern, name, kind)?,
+        (None, None) => load_level(loader, table, span, name, kind)?,
     };
     let levels = if mipmaps { chain(level, kind) } else { vec![level] };
     Some(Texture { kind, levels, filter, wrap, compare })
+}
+
+/// Texels come from one of three places.
+fn check_origin(loader: &mut Loader<'_>, table: &DeTable<'_>) -> Option<()> {
+    let origins = ["values", "file", "pattern"].map(|key| table.get_key_value(key));
+    let mut given = origins.into_iter().flatten();
+    if let (Some((first, _)), Some((second, _))) = (given.next(), given.next()) {
+        let span = loader.reader.span_of(second);
+        let message = format!("a texture with `{}` has no `{}`", first.get_ref(), second.get_ref());
+        loader.reader.error(&SCENE_WRONG_VALUE, span, message, "leave one of the two out");
+        return None;
+    }
+    Some(())
 }
 
 fn check_kind(loader: &mut Loader<'_>, table: &DeTable<'_>, name: &str, sampler: SamplerType) -> Option<()> {
@@ -228,7 +259,7 @@ fn load_level(
         loader.missing_key(
             span,
             &format!("texture `{name}` has no `values`"),
-            "add `values = [r, g, b, a, ...]` or `file`",
+            "add `values = [r, g, b, a, ...]`, `file` or `pattern`",
         );
         return None;
     };

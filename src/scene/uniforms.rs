@@ -3,8 +3,10 @@
 //! *Holds:* a uniform that is not listed keeps its initializer, or is 0 (GLSL 1.50 §4.3.5).
 
 use super::draw::report_unknown_name;
+use super::lights::{LightSpace, Lighting, Member};
+use super::material::Material;
 use super::matrices::{ROLES, View};
-use super::reader::{Number, NumberValue, Reader};
+use super::reader::{Node, Number, NumberValue, Reader};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::scenes::{SCENE_UNSET_UNIFORM, SCENE_WRONG_KIND, SCENE_WRONG_SIZE};
 use crate::hir::{Scalar, ScalarValue, Type, TypeId, Types};
@@ -19,15 +21,37 @@ struct Values<'p> {
     set: Vec<Vec<bool>>,
 }
 
-/// The value of each root of the program, in its order, flat.
+/// What the uniforms of a draw are filled from beside its own table.
+pub(super) struct Context<'a> {
+    pub(super) program: &'a Program,
+    pub(super) view: &'a View,
+    pub(super) lighting: &'a Lighting,
+    pub(super) space: LightSpace,
+    /// Whether matrices go to uniforms of their roles' names: the convention of the library's programs.
+    pub(super) conventional: bool,
+}
+
+/// The value of each root of the program, in its order, flat. What the draw's own tables say counts more than the
+/// scene's lights, the material and the library's conventions.
 pub(super) fn load_uniforms(
     reader: &mut Reader,
     draw: &DeTable<'_>,
-    program: &Program,
-    view: &View,
+    context: &Context<'_>,
+    material: Option<&(Material, &Node<'_>)>,
     place: Span,
 ) -> Vec<Vec<ScalarValue>> {
+    let Context { program, view, .. } = *context;
     let mut values = Values::initial(program);
+    if context.conventional {
+        values.fill_roles(view);
+    }
+    values.fill_lights(reader, context, place);
+    if let Some((material, node)) = material {
+        let span = reader.span_of(node);
+        for (name, value) in material {
+            values.offer(reader, name, *value, span);
+        }
+    }
     if let Some(table) = reader.table_at(draw, "matrices") {
         for (name, node) in table {
             let span = reader.span_of(name);
@@ -121,6 +145,80 @@ impl<'p> Values<'p> {
         let candidates: Vec<&str> = leaves.iter().map(|leaf| leaf.name.as_str()).collect();
         report_unknown_name(reader, span, "uniform", name, &candidates);
         None
+    }
+
+    /// Matrices to the uniforms of their roles' names and types.
+    fn fill_roles(&mut self, view: &View) {
+        for (name, role) in ROLES {
+            let (shape, numbers) = view.matrix(*role);
+            let leaf = self.program.interface.uniforms.iter().find(|leaf| leaf.name == *name);
+            if let Some(leaf) =
+                leaf.filter(|leaf| self.program.types.get(leaf.ty) == shape && leaf.array_size.is_none())
+            {
+                let scalars: Vec<ScalarValue> = numbers.into_iter().map(ScalarValue::Float).collect();
+                self.store(&Target { leaf, element: None }, &scalars);
+            }
+        }
+    }
+
+    /// The scene's lights to the uniforms `light`, `lights` and `global_ambient`, as far as the program declares them.
+    fn fill_lights(&mut self, reader: &mut Reader, context: &Context<'_>, place: Span) {
+        let Lighting { lights, global_ambient } = context.lighting;
+        let program = self.program;
+        if lights.is_empty() && !context.conventional {
+            return;
+        }
+        let Some(root) = program.interface.roots.iter().position(|root| root.name == "light") else { return };
+        let room = match program.interface.roots.get(root).map(|root| program.types.get(root.ty)) {
+            Some(Type::Array(_, crate::hir::ArraySize::Sized(size))) => size as usize,
+            _ => {
+                let message = "a scene's lights go to a uniform array `light`, and here `light` is none".to_owned();
+                reader.error(&SCENE_WRONG_KIND, place, message, "in this draw");
+                return;
+            }
+        };
+        if let Some(light) = lights.get(room) {
+            let message = format!("the scene has {} lights, and the program takes {room}", lights.len());
+            let help = format!("add `defines = {{ GLISTEN_LIGHTS = {} }}` to the draw", lights.len());
+            reader.report(Diagnostic::new(&SCENE_WRONG_SIZE, light.span, message).here("one too many").help(help));
+            return;
+        }
+        // Those that do not shine are zero, which is not worth a word.
+        if let Some(set) = self.set.get_mut(root) {
+            set.fill(true);
+        }
+        for (index, light) in lights.iter().enumerate() {
+            for (member, value) in light.members(context.space, context.view.view_matrix()) {
+                self.offer(reader, &format!("light[{index}].{member}"), value, light.span);
+            }
+        }
+        self.offer(reader, "lights", Member::Int(lights.len() as i32), place);
+        self.offer(reader, "global_ambient", Member::Vector(*global_ambient), place);
+    }
+
+    /// Gives a value to a leaf, if there is one of this name.
+    fn offer(&mut self, reader: &mut Reader, name: &str, value: Member, span: Span) {
+        let Some(leaf) = self.program.interface.uniforms.iter().find(|leaf| leaf.name == name) else { return };
+        let (shape, scalars) = match value {
+            Member::Int(value) => (Type::Scalar(Scalar::Int), vec![ScalarValue::Int(value)]),
+            Member::Float(value) => (Type::Scalar(Scalar::Float), vec![ScalarValue::Float(value as f32)]),
+            Member::Vector(value) => {
+                (Type::Vector(Scalar::Float, 3), value.map(|value| ScalarValue::Float(value as f32)).to_vec())
+            }
+        };
+        if self.program.types.get(leaf.ty) == shape && leaf.array_size.is_none() {
+            self.store(&Target { leaf, element: None }, &scalars);
+            return;
+        }
+        let message = format!("`{name}` is declared {}", self.program.types.name(leaf.ty));
+        let wanted = match value {
+            Member::Int(_) => "an int",
+            Member::Float(_) => "a float",
+            Member::Vector(_) => "a vec3",
+        };
+        let help = "<glisten/scene.glsl> declares what scenes fill";
+        let here = format!("this gives it {wanted}");
+        reader.report(Diagnostic::new(&SCENE_WRONG_KIND, span, message).here(here).help(help));
     }
 
     fn store(&mut self, target: &Target<'_>, scalars: &[ScalarValue]) {

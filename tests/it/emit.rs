@@ -5,6 +5,8 @@
 
 use glisten::emit::{ClipZ, Conventions, Emitted, SpirvEnv, Target, WindowOrigin, emit, notes};
 use glisten::hir::Stage;
+use glisten::library::{Embedded, programs, shader};
+use glisten::link::Program;
 use glisten::{Compiler, Options, Source};
 use std::collections::BTreeMap;
 use std::fs;
@@ -16,7 +18,7 @@ use std::process::Command;
 const REFUSALS: [&str; 2] = ["E0801", "E0802"];
 
 /// All shaders below a folder, grouped into programs by folder and stem.
-fn programs(folder: &str) -> BTreeMap<PathBuf, Vec<PathBuf>> {
+fn fixtures(folder: &str) -> BTreeMap<PathBuf, Vec<PathBuf>> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures").join(folder);
     let mut programs: BTreeMap<PathBuf, Vec<PathBuf>> = BTreeMap::new();
     let mut folders = vec![root];
@@ -90,6 +92,11 @@ impl Collected {
             // Fixtures that are not programs (a lone file with an unmatched input) are the business of other tests.
             return;
         };
+        self.linked(&name, program, target, conventions);
+    }
+
+    /// The same of a program that is linked already.
+    fn linked(&mut self, name: &str, program: &Program, target: Target, conventions: &Conventions) {
         for shader in &program.stages {
             let first = emit(program, shader.stage, target, conventions);
             assert_eq!(first, emit(program, shader.stage, target, conventions), "{name}: emission is deterministic");
@@ -171,7 +178,7 @@ fn reparse(text: &str) -> Result<(), String> {
 
 fn all(folder: &str, conventions: &Conventions) {
     let mut collected = Collected::new();
-    for files in programs(folder).values() {
+    for files in fixtures(folder).values() {
         for target in [Target::Wgsl, Target::Spirv] {
             collected.program(files, target, conventions);
         }
@@ -182,6 +189,28 @@ fn all(folder: &str, conventions: &Conventions) {
 #[test]
 fn the_programs_are_accepted_everywhere() {
     all("programs", &Conventions::default());
+}
+
+#[test]
+fn the_librarys_programs_are_accepted_everywhere() {
+    let mut collected = Collected::new();
+    for program in programs() {
+        let source = |file: &str, stage| Source {
+            name: format!("shader_lib/programs/{file}"),
+            text: shader(file).expect("it is embedded").into(),
+            stage,
+        };
+        let sources = [source(program.vertex, Stage::Vertex), source(program.fragment, Stage::Fragment)];
+        let compilation = Compiler::new(Options::default()).with_includes(Embedded).compile(&sources);
+        let found: Vec<_> = compilation.diagnostics.iter().map(|found| &found.message).collect();
+        assert!(found.is_empty(), "{}: {found:?}", program.name);
+        let linked = compilation.program.expect("without findings there is a program");
+        for target in [Target::Wgsl, Target::Spirv] {
+            let name = format!("{} as {}", program.name, target.name());
+            collected.linked(&name, &linked, target, &Conventions::default());
+        }
+    }
+    collected.judge();
 }
 
 #[test]
@@ -210,7 +239,7 @@ fn the_other_conventions_are_accepted_everywhere() {
 #[test]
 fn the_fixtures_of_lowering_are_programs_and_every_target_takes_or_refuses_them() {
     for folder in ["programs", "lower"] {
-        for files in programs(folder).values() {
+        for files in fixtures(folder).values() {
             let name = files[0].display();
             let compilation = compile(files);
             let found: Vec<_> = compilation.diagnostics.iter().map(|found| &found.message).collect();

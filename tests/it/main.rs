@@ -20,6 +20,8 @@ mod library;
 mod lines;
 mod link;
 mod lint;
+#[cfg(feature = "reference")]
+mod lit_scenes;
 #[cfg(feature = "gpu")]
 mod mutation;
 #[cfg(feature = "gpu")]

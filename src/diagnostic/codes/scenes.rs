@@ -64,4 +64,8 @@ codes! {
          is not a finite number, or is answered otherwise in f32: a difference of nearly equal numbers, a power with a \
          large exponent, a vector too short to normalize. What uses the result inherits the error and is not named."
         bad Text("float c = 1.0 - cos(x);  // x is small"), good Text("float s = sin(0.5 * x); float c = 2.0 * s * s;");
+    SCENE_UNUSED_LIGHT = "W0904" "lights-without-program" Warning ""
+        "The scene has lights, a material or a global ambient light, and none of its programs declares the uniforms that they \
+         fill: `light`, `lights`, `material`, `global_ambient` of `<glisten/scene.glsl>`."
+        bad Text("[[light]]  # and all draws have `program = \"decal\"`"), good Text("[[light]]\nkind = \"directional\"\ntowards = [0, 1, 0]\n[[draw]]\nprogram = \"standard\"");
 }

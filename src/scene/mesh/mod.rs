@@ -29,6 +29,8 @@ pub(super) struct Stream {
     pub(super) attribute: String,
     /// The name in the scene.
     pub(super) span: Span,
+    /// Whether the scene does not name the attribute: it is the convention of the library's programs.
+    pub(super) implied: bool,
     pub(super) data: AttributeData,
 }
 
@@ -53,6 +55,8 @@ const KEYS: &[&str] = &[
     "rings",
     "size",
     "height",
+    "tube",
+    "turns",
 ];
 
 const SHAPES: &[(&str, Shape)] = &[
@@ -63,9 +67,11 @@ const SHAPES: &[(&str, Shape)] = &[
     ("cube", Shape::Cube),
     ("cylinder", Shape::Cylinder),
     ("cone", Shape::Cone),
+    ("torus_knot", Shape::TorusKnot),
 ];
 
-pub(super) fn load_mesh(loader: &mut Loader<'_>, node: &Node<'_>) -> Option<Mesh> {
+/// `conventional`: a role that the scene does not hand to an attribute goes to the one of the role's own name.
+pub(super) fn load_mesh(loader: &mut Loader<'_>, node: &Node<'_>, conventional: bool) -> Option<Mesh> {
     let table = loader.reader.table(node, "mesh")?;
     let span = loader.reader.span_of(node);
     loader.reader.check_keys(table, "a mesh", KEYS);
@@ -86,7 +92,7 @@ pub(super) fn load_mesh(loader: &mut Loader<'_>, node: &Node<'_>) -> Option<Mesh
             return None;
         }
     };
-    Some(Mesh { streams: load_streams(loader, table, &geometry), indices: geometry.indices })
+    Some(Mesh { streams: load_streams(loader, table, &geometry, conventional), indices: geometry.indices })
 }
 
 fn load_file(loader: &mut Loader<'_>, node: &Node<'_>) -> Option<Geometry> {
@@ -103,7 +109,7 @@ fn load_file(loader: &mut Loader<'_>, node: &Node<'_>) -> Option<Geometry> {
     }
 }
 
-fn load_streams(loader: &mut Loader<'_>, table: &DeTable<'_>, geometry: &Geometry) -> Vec<Stream> {
+fn load_streams(loader: &mut Loader<'_>, table: &DeTable<'_>, geometry: &Geometry, conventional: bool) -> Vec<Stream> {
     let three = |rows: &[[f64; 3]]| rows.iter().flatten().map(|&value| value as f32).collect::<Vec<f32>>();
     let texcoords: Vec<f32> = geometry.texcoords.iter().flatten().map(|&value| value as f32).collect();
     let roles = [
@@ -113,16 +119,23 @@ fn load_streams(loader: &mut Loader<'_>, table: &DeTable<'_>, geometry: &Geometr
     ];
     let mut streams = Vec::new();
     for (role, size, values) in roles {
-        let Some(node) = table.get(role) else { continue };
+        let complete = values.len() == geometry.positions.len() * size as usize;
+        let Some(node) = table.get(role) else {
+            if conventional && complete {
+                let data = AttributeData { size, divisor: 0, values: AttributeValues::Float(values) };
+                streams.push(Stream { attribute: role.to_owned(), span: Span::default(), implied: true, data });
+            }
+            continue;
+        };
         let span = loader.reader.span_of(node);
         let Some(attribute) = loader.reader.text(node, role).map(str::to_owned) else { continue };
-        if values.len() != geometry.positions.len() * size as usize {
+        if !complete {
             let message = format!("the mesh has no {role}s");
             loader.reader.error(&SCENE_BAD_ASSET, span, message, "asked for here");
             continue;
         }
         let data = AttributeData { size, divisor: 0, values: AttributeValues::Float(values) };
-        streams.push(Stream { attribute, span, data });
+        streams.push(Stream { attribute, span, implied: false, data });
     }
     streams
 }

@@ -22,6 +22,9 @@ pub(crate) enum Shape {
     Cylinder,
     /// `radius`, `height`, around the y axis, without its base.
     Cone,
+    /// A tube of radius `tube` along a curve on the torus of `radius` and `minor_radius` that goes `turns[0]` times
+    /// around the axis and `turns[1]` times around the torus; `segments` along, `rings` around the tube.
+    TorusKnot,
 }
 
 /// The vertices and triangles of a shape.
@@ -36,7 +39,10 @@ pub(super) fn build(reader: &mut Reader, table: &DeTable<'_>, shape: Shape) -> G
         Shape::Sphere => (64, 32),
         Shape::Torus => (64, 32),
         Shape::Cylinder | Shape::Cone => (64, 1),
+        Shape::TorusKnot => (192, 24),
     };
+    let turns = reader.reals(table, "turns", [2.0, 3.0]);
+    let tube = reader.real(table, "tube", radius / 5.0);
     let least = if is_flat { 1 } else { 3 };
     let segments = reader.count(table, "segments", segments, least..=4096);
     let rings = reader.count(table, "rings", rings, 1..=4096);
@@ -53,6 +59,7 @@ pub(super) fn build(reader: &mut Reader, table: &DeTable<'_>, shape: Shape) -> G
         Shape::Cube => cube(segments, rings, half),
         Shape::Cylinder => grid(segments, rings, |s, t| frustum(radius, radius, height, s, t)),
         Shape::Cone => grid(segments, rings, |s, t| frustum(radius, 0.0, height, s, t)),
+        Shape::TorusKnot => grid(segments, rings, |s, t| torus_knot([radius, minor_radius, tube], turns, s, t)),
     }
 }
 
@@ -110,6 +117,25 @@ fn torus(radius: f64, minor_radius: f64, s: f64, t: f64) -> ([f64; 3], [f64; 3])
     ([from_axis * sin_s, minor_radius * sin_t, from_axis * cos_s], normal)
 }
 
+/// The tube's frame is the torus's normal, at right angles to the curve as every normal of a surface that it lies on, and
+/// what is at right angles to both: it closes where the curve does. The tube's normal is exact for any frame.
+fn torus_knot([radius, minor, tube]: [f64; 3], [around, through]: [f64; 2], s: f64, t: f64) -> ([f64; 3], [f64; 3]) {
+    let (sin_a, cos_a) = circle(around * s);
+    let (sin_b, cos_b) = circle(through * s);
+    let from_axis = radius + minor * cos_b;
+    let center = [from_axis * sin_a, minor * sin_b, from_axis * cos_a];
+    // The curve's derivative along the parallel and along the meridian of the torus, which are at right angles.
+    let (along, across) = (around * from_axis, through * minor);
+    let speed = along.hypot(across);
+    let parallel = [cos_a, 0.0, -sin_a];
+    let meridian = [-sin_b * sin_a, cos_b, -sin_b * cos_a];
+    let outward = [cos_b * sin_a, sin_b, cos_b * cos_a];
+    let sideways: [f64; 3] = std::array::from_fn(|axis| (along * meridian[axis] - across * parallel[axis]) / speed);
+    let (sin_t, cos_t) = circle(t);
+    let normal: [f64; 3] = std::array::from_fn(|axis| cos_t * outward[axis] + sin_t * sideways[axis]);
+    (std::array::from_fn(|axis| center[axis] + tube * normal[axis]), normal)
+}
+
 fn frustum(bottom: f64, top: f64, height: f64, s: f64, t: f64) -> ([f64; 3], [f64; 3]) {
     let (sin_s, cos_s) = circle(s);
     let radius = bottom + (top - bottom) * t;
@@ -155,6 +181,7 @@ mod tests {
             Some("torus") => Shape::Torus,
             Some("cube") => Shape::Cube,
             Some("cone") => Shape::Cone,
+            Some("torus_knot") => Shape::TorusKnot,
             Some("plane") => Shape::Plane,
             _ => Shape::Sphere,
         };
@@ -175,8 +202,8 @@ mod tests {
 
     #[test]
     fn triangles_face_the_way_of_their_normals() {
-        for shape in ["sphere", "torus", "cube", "cone", "plane"] {
-            let mesh = table(&format!("shape = \"{shape}\"\nsegments = 12\nrings = 6"));
+        for shape in ["sphere", "torus", "cube", "cone", "plane", "torus_knot"] {
+            let mesh = table(&format!("shape = \"{shape}\"\nsegments = 48\nrings = 12"));
             for corner in mesh.indices.chunks(3) {
                 let [a, b, c] = [corner[0], corner[1], corner[2]].map(|index| index as usize);
                 let p = &mesh.positions;
@@ -193,6 +220,39 @@ mod tests {
         assert!(mesh.positions.iter().all(|p| (dot(*p, *p).sqrt() - 2.0).abs() < 4e-15));
         for row in mesh.positions.chunks(17) {
             assert_eq!(row[0], row[16]);
+        }
+    }
+
+    #[test]
+    fn the_knot_is_a_closed_tube_with_exact_normals() {
+        let (segments, rings, tube) = (96, 12, 0.15);
+        let mesh = table(&format!(
+            "shape = \"torus_knot\"\nradius = 1.0\nminor_radius = 0.4\ntube = {tube}\nturns = [2, 3]\n\
+             segments = {segments}\nrings = {rings}"
+        ));
+        let stride = segments + 1;
+        let center = |column: usize| -> [f64; 3] {
+            // Two opposite points of the tube.
+            let (a, b) = (mesh.positions[column], mesh.positions[rings / 2 * stride + column]);
+            std::array::from_fn(|axis| (a[axis] + b[axis]) / 2.0)
+        };
+        for row in mesh.positions.chunks(stride) {
+            let gap = sub(row[0], row[segments]);
+            assert!(dot(gap, gap).sqrt() < 1e-14, "{gap:?}");
+        }
+        for column in 1..segments {
+            let middle = center(column);
+            // The curve's direction by a central difference, good to the square of the step.
+            let (before, after) = (center(column - 1), center(column + 1));
+            let along = sub(after, before);
+            for row in 0..=rings {
+                let vertex = row * stride + column;
+                let (position, normal) = (mesh.positions[vertex], mesh.normals[vertex]);
+                assert!((dot(normal, normal) - 1.0).abs() < 1e-14);
+                let spoke = sub(position, middle);
+                assert!((dot(spoke, normal) - tube).abs() < 1e-14 && (dot(spoke, spoke).sqrt() - tube).abs() < 1e-14);
+                assert!((dot(normal, along) / dot(along, along).sqrt()).abs() < 0.01, "at right angles to the curve");
+            }
         }
     }
 }

@@ -34,7 +34,7 @@ fn list_names_all_modules() {
             assert!(module[key].as_str().is_some_and(|text| !text.is_empty()), "{key} of {module}");
         }
         assert!(module["functions"].as_array().is_some_and(|functions| functions.iter().all(Value::is_string)));
-        assert!(module["cost"]["arithmetic"].is_u64(), "{module}");
+        assert!(module["cost"]["arithmetic"].is_u64() || module["kind"] == "interface", "{module}");
     }
     let phong = list.iter().find(|module| module["name"] == "phong").expect("it is there");
     assert_eq!(phong["functions"], serde_json::json!(["mirrorDirection", "phongFactor", "phong"]));

@@ -1,0 +1,18 @@
+#version 150
+#extension GL_ARB_shading_language_include : require
+// The article's `edge`: the mesh moved along its normals on the screen, then towards the viewer, in one color. Draw it
+// before the model, with depth write and culling off; the model then covers all but the rim.
+#include <glisten/outline.glsl>
+
+in vec3 position;                       // v0
+in vec3 normal;                         // v3
+uniform mat4 model_view_projection;     // c0 to c3: world, view and projection
+uniform float width = 0.02;             // of the rim, in normalized device coordinates (the picture is 2 wide)
+uniform float push = 0.0;               // towards the viewer, likewise
+
+void main()
+{
+    vec4 place = model_view_projection * vec4(position, 1.0);
+    vec4 along = model_view_projection * vec4(normal, 0.0);
+    gl_Position = outlinePosition(place, outlineDirection(place, along), width, push);
+}

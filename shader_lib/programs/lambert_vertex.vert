@@ -1,0 +1,34 @@
+#version 150
+#extension GL_ARB_shading_language_include : require
+// The textbook's (83): diffuse reflection, at each vertex.
+#include <glisten/ambient.glsl>
+#include <glisten/lambert.glsl>
+#include <glisten/normal.glsl>
+#include <glisten/scene.glsl>
+
+// How the color is interpolated: smooth, noperspective, or flat for one color a triangle.
+#ifndef INTERPOLATION
+#define INTERPOLATION smooth
+#endif
+
+in vec3 position;
+in vec3 normal;
+uniform mat4 model;
+uniform mat3 model_normal;
+uniform mat4 model_view_projection;
+INTERPOLATION out vec3 shade;
+
+void main()
+{
+    vec3 world = (model * vec4(position, 1.0)).xyz;
+    vec3 N = transformNormal(model_normal, normal);
+    vec3 sum = vec3(0.0);
+    for (int i = 0; i < min(lights, GLISTEN_LIGHTS); ++i) {
+        vec3 L = lightVector(light[i], world);
+        vec3 Iamb = ambient(material.ambient, light[i].ambient);
+        vec3 Idiff = lambert(N, L, material.diffuse, light[i].diffuse);
+        sum += Iamb + Idiff;
+    }
+    shade = sum;
+    gl_Position = model_view_projection * vec4(position, 1.0);
+}

@@ -1,0 +1,170 @@
+//! The programs of the library: pairs of shaders under `shader_lib/programs`, made of its modules.
+//!
+//! *In:* the embedded files. *Out:* [`programs`] by name, [`shader`] by file name.
+//!
+//! *Holds:* inputs of a vertex are called `position`, `normal` and `texcoord`, and matrices as the roles of a scene's
+//! `[draw.matrices]`, so that a scene need not name them; the textbook's own programs keep the textbook's names.
+
+/// A program of the library.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LibraryProgram {
+    /// Its name: `hemi_spec`.
+    pub name: &'static str,
+    /// The file of its vertex shader.
+    pub vertex: &'static str,
+    /// The file of its fragment shader.
+    pub fragment: &'static str,
+    /// What it draws, and which document has it.
+    pub about: &'static str,
+}
+
+macro_rules! shader {
+    ($name:literal) => {
+        ($name, include_str!(concat!("../../shader_lib/programs/", $name)))
+    };
+}
+
+static SHADERS: &[(&str, &str)] = &[
+    shader!("blinn_phong.frag"),
+    shader!("blinn_phong_vertex.vert"),
+    shader!("decal.frag"),
+    shader!("decal.vert"),
+    shader!("diffuse.frag"),
+    shader!("diffuse.vert"),
+    shader!("edge.frag"),
+    shader!("edge.vert"),
+    shader!("hemi_amb.vert"),
+    shader!("hemi_spec.vert"),
+    shader!("hemisphere.vert"),
+    shader!("lambert.frag"),
+    shader!("lambert_vertex.vert"),
+    shader!("phong.frag"),
+    shader!("phong_vertex.vert"),
+    shader!("schlick.frag"),
+    shader!("schlick_vertex.vert"),
+    shader!("shade.frag"),
+    shader!("soft.frag"),
+    shader!("soft.vert"),
+    shader!("specular.frag"),
+    shader!("specular.vert"),
+    shader!("standard.frag"),
+    shader!("standard.vert"),
+    shader!("standard_vertex.frag"),
+    shader!("standard_vertex.vert"),
+    shader!("surface.vert"),
+    shader!("texspec.frag"),
+    shader!("texspec.vert"),
+    shader!("threshold.frag"),
+    shader!("threshold_vertex.vert"),
+    shader!("vertex_color.frag"),
+    shader!("vertex_color.vert"),
+    shader!("vertex_color_flat.frag"),
+    shader!("vertex_color_flat.vert"),
+    shader!("vertex_color_noperspective.frag"),
+    shader!("vertex_color_noperspective.vert"),
+];
+
+const fn program(
+    name: &'static str,
+    vertex: &'static str,
+    fragment: &'static str,
+    about: &'static str,
+) -> LibraryProgram {
+    LibraryProgram { name, vertex, fragment, about }
+}
+
+static PROGRAMS: &[LibraryProgram] = &[
+    program("blinn_phong", "surface.vert", "blinn_phong.frag", "textbook, (83) and (89), at each fragment"),
+    program("blinn_phong_vertex", "blinn_phong_vertex.vert", "shade.frag", "textbook, (83) and (89), at each vertex"),
+    program("decal", "decal.vert", "decal.frag", "article, its ground and sky: a color times a texture, unlit"),
+    program("diffuse", "diffuse.vert", "diffuse.frag", "article: parallel light and constant ambient light"),
+    program("edge", "edge.vert", "edge.frag", "article: the outline, drawn before the model"),
+    program("hemi_amb", "hemi_amb.vert", "diffuse.frag", "article: parallel light over half spheres"),
+    program(
+        "hemi_spec",
+        "hemi_spec.vert",
+        "specular.frag",
+        "article: parallel light over half spheres, and a highlight",
+    ),
+    program("hemisphere", "hemisphere.vert", "diffuse.frag", "article: light from two half spheres"),
+    program("lambert", "surface.vert", "lambert.frag", "textbook, (83), at each fragment"),
+    program("lambert_vertex", "lambert_vertex.vert", "shade.frag", "textbook, (83), at each vertex"),
+    program("metal", "texspec.vert", "texspec.frag", "article: `texspec` with a mottled pattern for its texture"),
+    program("phong", "surface.vert", "phong.frag", "textbook, (83) and (86), at each fragment"),
+    program("phong_vertex", "phong_vertex.vert", "shade.frag", "textbook, (83) and (86), at each vertex"),
+    program("schlick", "surface.vert", "schlick.frag", "textbook, (83) and (90), at each fragment"),
+    program("schlick_vertex", "schlick_vertex.vert", "shade.frag", "textbook, (83) and (90), at each vertex"),
+    program("soft", "soft.vert", "soft.frag", "article: toon shading with a soft edge"),
+    program(
+        "specular",
+        "specular.vert",
+        "specular.frag",
+        "article: a highlight by color, the fourth power of a cosine",
+    ),
+    program("standard", "standard.vert", "standard.frag", "(101) with any lights and any models, at each fragment"),
+    program(
+        "standard_vertex",
+        "standard_vertex.vert",
+        "standard_vertex.frag",
+        "(101) with any lights and any models, at each vertex",
+    ),
+    program("texspec", "texspec.vert", "texspec.frag", "article: a highlight by texture"),
+    program("threshold", "surface.vert", "threshold.frag", "textbook, (83) and (91), at each fragment"),
+    program("threshold_vertex", "threshold_vertex.vert", "shade.frag", "textbook, (83) and (91), at each vertex"),
+    program(
+        "vertex_color",
+        "vertex_color.vert",
+        "vertex_color.frag",
+        "textbook, section 10.2.4: a color at each vertex",
+    ),
+    program("vertex_color_flat", "vertex_color_flat.vert", "vertex_color_flat.frag", "the same, not interpolated"),
+    program(
+        "vertex_color_noperspective",
+        "vertex_color_noperspective.vert",
+        "vertex_color_noperspective.frag",
+        "the same, interpolated linearly on the screen",
+    ),
+];
+
+/// All programs, by name.
+pub fn programs() -> &'static [LibraryProgram] {
+    PROGRAMS
+}
+
+/// The text of a shader by the name of its file: `standard.frag`.
+pub fn shader(file: &str) -> Option<&'static str> {
+    SHADERS.iter().find(|(name, _)| *name == file).map(|(_, text)| *text)
+}
+
+/// The names of all shaders' files, sorted.
+pub fn shader_files() -> impl Iterator<Item = &'static str> {
+    SHADERS.iter().map(|(name, _)| *name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{programs, shader, shader_files};
+    use std::path::Path;
+
+    #[test]
+    fn every_shader_is_embedded_and_used() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("shader_lib/programs");
+        let mut files: Vec<String> = std::fs::read_dir(folder)
+            .expect("the folder is there")
+            .map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned())
+            .collect();
+        files.sort();
+        assert_eq!(files, shader_files().collect::<Vec<_>>());
+        for file in files {
+            assert!(programs().iter().any(|program| program.vertex == file || program.fragment == file), "{file}");
+        }
+    }
+
+    #[test]
+    fn programs_are_sorted_and_their_files_are_there() {
+        assert!(programs().is_sorted_by(|a, b| a.name < b.name));
+        for program in programs() {
+            assert!(shader(program.vertex).is_some() && shader(program.fragment).is_some(), "{}", program.name);
+        }
+    }
+}

@@ -1,0 +1,288 @@
+//! Scene files that use the library: programs by name, lights and materials, textures by formula, and how their mistakes
+//! are told.
+
+use glisten::diagnostic::{Diagnostic, Severity};
+use glisten::hir::ScalarValue;
+use glisten::scene::{Draw, Loaded, MemoryFiles, Texels, Wrap, load};
+use glisten::{Compiler, Options};
+
+const GOOD: &str = r#"
+global_ambient = [0.1, 0.2, 0.3]
+[camera]
+eye = [0, 0, 5]
+[[light]]
+kind = "directional"
+towards = [0, 2, 0]
+color = [1, 0.5, 0.25]
+specular = [0, 0, 1]
+[[light]]
+kind = "spot"
+position = [0, 3, 0]
+target = [0, 1, 4]
+exponent = 8
+attenuation = [1, 0.5, 0.25]
+ambient = [0.1, 0.1, 0.1]
+[[light]]
+kind = "hemisphere"
+sky = [0.5, 0.6, 0.7]
+ground = [0.3, 0.2, 0.1]
+[material]
+diffuse = [0.5, 0.25, 0.125]
+specular = [1, 1, 1]
+shininess = 20
+specular_model = "schlick_blinn"
+[[draw]]
+program = "standard"
+mesh = { shape = "sphere", segments = 8, rings = 4 }
+transform = { translate = [1, 2, 3] }
+"#;
+
+const OWN_VERTEX: &str = "#version 150\nin vec3 place;\nvoid main() { gl_Position = vec4(place, 1.0); }\n";
+const OWN_FRAGMENT: &str = "#version 150\n#extension GL_ARB_shading_language_include : require\n\
+    #include <glisten/scene.glsl>\nout vec4 color;\n\
+    void main() { color = vec4(light[0].position + light[0].diffuse * float(lights), material.shininess); }\n";
+
+fn load_text(text: &str) -> Loaded {
+    let files = MemoryFiles::new([("a.toml", text), ("own.vert", OWN_VERTEX), ("own.frag", OWN_FRAGMENT)]);
+    load("a.toml", &files, &Compiler::new(Options::default()).with_includes(glisten::library::Embedded))
+}
+
+fn told(loaded: &Loaded) -> Vec<String> {
+    loaded.diagnostics.iter().map(|diagnostic| format!("{}: {}", diagnostic.code, diagnostic.message)).collect()
+}
+
+/// The scene with `from` replaced.
+fn changed(from: &str, to: &str) -> Loaded {
+    assert!(GOOD.contains(from), "`{from}` is not in the scene");
+    load_text(&GOOD.replacen(from, to, 1))
+}
+
+#[track_caller]
+fn good(loaded: &Loaded) -> &Draw {
+    assert!(loaded.diagnostics.is_empty(), "{:?}", told(loaded));
+    &loaded.scene.as_ref().expect("without findings there is a scene").draws[0]
+}
+
+/// The one error of a scene: its code, the text it stands at, and all that is said.
+#[track_caller]
+fn mistake(from: &str, to: &str) -> (&'static str, String, String) {
+    let loaded = changed(from, to);
+    assert!(loaded.scene.is_none(), "it was accepted");
+    let errors: Vec<&Diagnostic> = loaded.diagnostics.iter().filter(|d| d.severity == Severity::Error).collect();
+    assert_eq!(errors.len(), 1, "{:?}", told(&loaded));
+    let place = loaded.sources.snippet(errors[0].primary.span).to_owned();
+    (errors[0].code.id, place, format!("{} {}", errors[0].message, errors[0].help.as_deref().unwrap_or("")))
+}
+
+/// The numbers of a uniform.
+#[track_caller]
+fn value(draw: &Draw, name: &str) -> Vec<f32> {
+    let interface = &draw.program.interface;
+    let leaf = interface.uniforms.iter().find(|leaf| leaf.name == name).unwrap_or_else(|| panic!("no `{name}`"));
+    let start = leaf.flat_offset as usize;
+    let length = draw.program.types.flat_len(leaf.ty) as usize;
+    let number = |value: &ScalarValue| match value {
+        ScalarValue::Float(value) => *value,
+        ScalarValue::Int(value) => *value as f32,
+        other => panic!("{other:?}"),
+    };
+    draw.uniforms[leaf.root.0 as usize][start..start + length].iter().map(number).collect()
+}
+
+#[test]
+fn lights_and_material_fill_the_uniforms() {
+    let loaded = load_text(GOOD);
+    let draw = good(&loaded);
+    assert_eq!(value(draw, "lights"), [3.0]);
+    assert_eq!(value(draw, "global_ambient"), [0.1, 0.2, 0.3]);
+    // The struct has the way that the light goes.
+    assert_eq!((value(draw, "light[0].kind"), value(draw, "light[0].direction")), (vec![0.0], vec![0.0, -2.0, 0.0]));
+    assert_eq!(value(draw, "light[0].diffuse"), [1.0, 0.5, 0.25]);
+    assert_eq!(value(draw, "light[0].specular"), [0.0, 0.0, 1.0]);
+    assert_eq!((value(draw, "light[1].kind"), value(draw, "light[1].direction")), (vec![2.0], vec![0.0, -2.0, 4.0]));
+    assert_eq!(
+        (value(draw, "light[1].exponent"), value(draw, "light[1].attenuation")),
+        (vec![8.0], vec![1.0, 0.5, 0.25])
+    );
+    assert_eq!(value(draw, "light[2].kind"), [3.0]);
+    assert_eq!(
+        (value(draw, "light[2].diffuse"), value(draw, "light[2].ambient")),
+        (vec![0.5, 0.6, 0.7], vec![0.3, 0.2, 0.1])
+    );
+    // The ambient reflectance is the diffuse one unless given.
+    assert_eq!(value(draw, "material.ambient"), [0.5, 0.25, 0.125]);
+    assert_eq!((value(draw, "material.shininess"), value(draw, "finish.specular_model")), (vec![20.0], vec![4.0]));
+    assert_eq!(value(draw, "finish.diffuse_model"), [1.0]);
+}
+
+#[test]
+fn programs_of_the_library_need_no_names() {
+    let loaded = load_text(GOOD);
+    let draw = good(&loaded);
+    assert_eq!(value(draw, "model")[12..15], [1.0, 2.0, 3.0]);
+    assert_eq!(value(draw, "eye"), [0.0, 0.0, 5.0]);
+    assert!(draw.attributes.iter().all(Option::is_some));
+    // A sampler that nothing gives a texture is white.
+    for texture in &draw.textures {
+        let texture = texture.as_ref().expect("it has texels");
+        assert_eq!(texture.levels[0].texels, Texels::Float(vec![[1.0; 4]]));
+    }
+    // What the draw says itself counts more.
+    let loaded =
+        changed("[[draw]]", "[[draw]]\nmatrices = { model = \"view\" }\nuniforms = { \"material.shininess\" = 7 }");
+    let draw = good(&loaded);
+    assert_eq!((value(draw, "model")[14], value(draw, "material.shininess")[0]), (-5.0, 7.0));
+    let files = "vertex = \"<glisten/programs/standard.vert>\"\nfragment = \"<glisten/programs/standard.frag>\"";
+    good(&changed("program = \"standard\"", files));
+}
+
+#[test]
+fn lights_go_to_eye_space_on_demand() {
+    let loaded = changed("[[draw]]", "[[draw]]\nlight_space = \"eye\"");
+    let draw = good(&loaded);
+    assert_eq!(
+        (value(draw, "light[1].position"), value(draw, "light[1].direction")),
+        (vec![0.0, 3.0, -5.0], vec![0.0, -2.0, 4.0])
+    );
+}
+
+#[test]
+fn programs_of_ones_own_get_the_scenes_lights() {
+    let own = "vertex = \"own.vert\"\nfragment = \"own.frag\"\nattributes = { place = { size = 3, values = [0,0,0, 1,0,0, 0,1,0] } }";
+    let text = &GOOD[..GOOD.find("[[draw]]").expect("it draws")];
+    let loaded = load_text(&format!("{text}[[draw]]\n{own}\n"));
+    let draw = good(&loaded);
+    assert_eq!((value(draw, "lights"), value(draw, "light[1].position")), (vec![3.0], vec![0.0, 3.0, 0.0]));
+    assert_eq!(value(draw, "material.shininess"), [20.0]);
+}
+
+#[test]
+fn a_draws_own_material_replaces_the_scenes() {
+    let loaded = changed("[[draw]]", "[[draw]]\nmaterial = { emission = [1, 0, 0] }");
+    let draw = good(&loaded);
+    assert_eq!(
+        (value(draw, "material.emission"), value(draw, "material.specular")),
+        (vec![1.0, 0.0, 0.0], vec![0.0; 3])
+    );
+    let (code, place, text) = mistake("program = \"standard\"", "program = \"decal\"\nmaterial = {}");
+    assert_eq!((code, place.as_str()), ("E0907", "material"));
+    assert!(text.contains("glisten/scene.glsl"), "{text}");
+}
+
+#[test]
+fn defines_are_macros_of_the_draws_program() {
+    let more = "[[light]]\nkind = \"hemisphere\"\n".repeat(6);
+    let (code, place, text) = mistake("[material]", &format!("{more}[material]"));
+    assert_eq!(code, "E0908");
+    assert!(place.starts_with("[[light]]"), "{place}");
+    assert!(text.contains("9 lights") && text.contains("defines = { GLISTEN_LIGHTS = 9 }"), "{text}");
+    let text = GOOD.replace("[material]", &format!("{more}[material]"));
+    let loaded = load_text(&text.replace("[[draw]]", "[[draw]]\ndefines = { GLISTEN_LIGHTS = 9 }"));
+    assert_eq!(value(good(&loaded), "lights"), [9.0]);
+    assert_eq!(mistake("[[draw]]", "[[draw]]\ndefines = { \"1A\" = 1 }").0, "E0905");
+    assert_eq!(mistake("[[draw]]", "[[draw]]\ndefines = { A = [1] }").0, "E0904");
+    assert_eq!(mistake("[[draw]]", "[[draw]]\ndefines = { A = \"1\\n#error\" }").0, "E0905");
+}
+
+#[test]
+fn mistakes_of_lights_name_the_nearest() {
+    let (code, place, text) = mistake("kind = \"spot\"", "kind = \"spto\"");
+    assert_eq!((code, place.as_str()), ("E0905", "\"spto\""));
+    assert!(text.contains("did you mean `spot`?"), "{text}");
+    let (code, place, text) = mistake("towards = [0, 2, 0]", "towards = [0, 2, 0]\nposition = [0, 0, 0]");
+    assert_eq!((code, place.as_str()), ("E0903", "position"));
+    assert!(text.contains("a directional light has no key `position`"), "{text}");
+    let (code, _, text) = mistake("towards = [0, 2, 0]\n", "");
+    assert!(code == "E0906" && text.contains("has no `towards`"), "{text}");
+    let (code, _, text) = mistake("target = [0, 1, 4]\n", "");
+    assert!(code == "E0906" && text.contains("has no `direction`"), "{text}");
+    let (code, _, text) = mistake("kind = \"hemisphere\"\n", "");
+    assert!(code == "E0906" && text.contains("names its kind"), "{text}");
+    assert_eq!(mistake("exponent = 8", "exponent = \"8\"").0, "E0904");
+    assert_eq!(mistake("sky = [0.5, 0.6, 0.7]", "sky = [0.5, 0.6]").0, "E0904");
+    assert_eq!(mistake("[[draw]]", "[[draw]]\nlight_space = \"clip\"").0, "E0905");
+}
+
+#[test]
+fn mistakes_of_materials_name_the_nearest() {
+    let (code, place, text) = mistake("shininess = 20", "shinyness = 20");
+    assert_eq!((code, place.as_str()), ("E0903", "shinyness"));
+    assert!(text.contains("did you mean `shininess`?"), "{text}");
+    let (code, _, text) = mistake("\"schlick_blinn\"", "\"blinn_pong\"");
+    assert!(code == "E0905" && text.contains("did you mean `blinn_phong`?"), "{text}");
+    let (code, _, text) = mistake("\"schlick_blinn\"", "\"table_half\"");
+    assert!(code == "E0906" && text.contains("highlight = { pattern = \"specular\" }"), "{text}");
+    good(&changed("\"schlick_blinn\"", "\"table_half\"\nhighlight = { pattern = \"specular\", exponent = 9 }"));
+}
+
+#[test]
+fn mistakes_of_programs_name_the_nearest() {
+    let (code, place, text) = mistake("program = \"standard\"", "program = \"standrad\"");
+    assert_eq!((code, place.as_str()), ("E0905", "\"standrad\""));
+    assert!(text.contains("did you mean `standard`?"), "{text}");
+    let (code, place, _) = mistake("program = \"standard\"", "program = \"standard\"\nvertex = \"a.vert\"");
+    assert_eq!((code, place.as_str()), ("E0905", "vertex"));
+    let files = "vertex = \"<glisten/programs/standrad.vert>\"\nfragment = \"<glisten/programs/standard.frag>\"";
+    let (code, _, text) = mistake("program = \"standard\"", files);
+    assert!(code == "E0905" && text.contains("did you mean `<glisten/programs/standard.vert>`?"), "{text}");
+}
+
+#[test]
+fn lights_that_no_program_asks_for_are_a_warning() {
+    let loaded = changed("program = \"standard\"", "program = \"decal\"");
+    assert!(loaded.scene.is_some());
+    let codes: Vec<&str> = loaded.diagnostics.iter().map(|diagnostic| diagnostic.code.id).collect();
+    assert_eq!(codes, ["W0904"; 3], "{:?}", told(&loaded));
+}
+
+#[test]
+fn textures_by_formula() {
+    let with = |texture: &str| changed("[[draw]]", &format!("[[draw]]\ntextures = {{ highlight = {texture} }}"));
+    let loaded = with("{ pattern = \"specular\", exponent = 2, width = 5 }");
+    let slots = &good(&loaded).program.interface.samplers;
+    let index = slots.iter().position(|slot| slot.name == "highlight").expect("declared");
+    let texture = good(&loaded).textures[index].as_ref().expect("it has texels");
+    let row = [0.0, 0.0625, 0.25, 0.5625, 1.0].map(|level| [level, level, level, 1.0]);
+    assert_eq!((&texture.levels[0].texels, texture.wrap), (&Texels::Float(row.to_vec()), Wrap::ClampToEdge));
+    good(&with("{ pattern = \"checker\", cells = 4, filter = \"trilinear\", mipmaps = true, wrap = \"clamp\" }"));
+    for (texture, id, words) in [
+        ("{ pattern = \"speculr\" }", "E0905", "did you mean `specular`?"),
+        ("{ pattern = \"specular\", cells = 4 }", "E0905", "the pattern `specular` has no `cells`"),
+        ("{ pattern = \"specular\", exponnt = 4 }", "E0903", "did you mean `exponent`?"),
+        ("{ pattern = \"specular\", file = \"a.png\" }", "E0905", "a texture with `file` has no `pattern`"),
+        ("{ pattern = \"specular\", values = [1, 1, 1, 1] }", "E0905", "a texture with `values` has no `pattern`"),
+        ("{ pattern = \"specular\", width = 0 }", "E0905", "`width` must be 1 to"),
+        ("{ exponent = 4, width = 1, height = 1, values = [1, 1, 1, 1] }", "E0903", "has no key `exponent`"),
+    ] {
+        let loaded = with(texture);
+        assert!(loaded.scene.is_none(), "{texture} was accepted");
+        let error = loaded.diagnostics.iter().find(|found| found.severity == Severity::Error).expect("an error");
+        let text = format!("{} {}", error.message, error.help.as_deref().unwrap_or(""));
+        assert!(error.code.id == id && text.contains(words), "{texture}: {} {text}", error.code);
+    }
+}
+
+/// The scenes that the documentation shows whole.
+#[test]
+fn scenes_in_the_docs_load() {
+    let mut seen = 0;
+    for page in ["README.md", "docs/scenes.md"] {
+        let text = std::fs::read_to_string(crate::support::root().join(page)).expect("readable");
+        let blocks = text.split("```toml\n").skip(1).filter_map(|rest| rest.split("```").next());
+        for block in blocks.filter(|block| block.contains("program = \"standard\"")) {
+            let loaded = load_text(block);
+            assert!(loaded.scene.is_some() && loaded.diagnostics.is_empty(), "{page}: {:?}\n{block}", told(&loaded));
+            seen += 1;
+        }
+    }
+    assert_eq!(seen, 2);
+}
+
+#[test]
+fn the_docs_list_every_program() {
+    let text = std::fs::read_to_string(crate::support::root().join("docs/scenes.md")).expect("readable");
+    for program in glisten::library::programs() {
+        let row = format!("| `{}` | {} |", program.name, program.about);
+        assert!(text.contains(&row), "docs/scenes.md lacks {row}");
+    }
+}
