@@ -30,6 +30,8 @@ pub mod compare;
 pub mod cpu;
 #[cfg(feature = "reference")]
 pub mod evaluate;
+#[cfg(feature = "cli")]
+pub mod gallery;
 #[cfg(feature = "gpu")]
 pub mod gpu;
 #[cfg(feature = "cli")]

@@ -13,6 +13,7 @@ mod console;
 mod exit;
 mod explain;
 mod files;
+mod gallery;
 mod guard;
 mod includes;
 mod inputs;
@@ -69,6 +70,7 @@ enum Command {
     Render(render::RenderArgs),
     Verify(verify::VerifyArgs),
     Report(report::ReportArgs),
+    Gallery(gallery::GalleryArgs),
     Test(test::TestArgs),
     Lib(library::LibArgs),
 }
@@ -107,6 +109,7 @@ fn dispatch(command: &Command, console: &Console) -> Outcome {
         Command::Render(args) => render::run(args, console),
         Command::Verify(args) => verify::run(args, console),
         Command::Report(args) => report::run(args, console),
+        Command::Gallery(args) => gallery::run(args, console),
         Command::Test(args) => test::run(args, console),
         Command::Lib(args) => library::run(args, console),
     }

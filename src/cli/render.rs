@@ -31,8 +31,9 @@ pub(super) struct RenderArgs {
     via: ViaArg,
 }
 
+/// What draws a scene.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-enum Backend {
+pub(super) enum Backend {
     /// Vulkan through wgpu
     #[default]
     Gpu,

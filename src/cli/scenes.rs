@@ -21,16 +21,23 @@ pub(super) struct SceneArgs {
     /// A scene file
     #[arg(value_name = "SCENE.toml")]
     pub(super) scene: String,
+    #[command(flatten)]
+    machine: MachineArgs,
+    #[command(flatten)]
+    sources: SourceArgs,
+    #[command(flatten)]
+    levels: LevelArgs,
+}
+
+/// What draws, and how long it may take for a scene.
+#[derive(Args, Clone, Debug)]
+pub(super) struct MachineArgs {
     /// Gives up after that many seconds
     #[arg(long, value_name = "SECONDS", default_value_t = 60.0, value_parser = parse_seconds)]
     timeout: f64,
     /// The GPU to use, by a part of its name (default: the first software adapter)
     #[arg(long, value_name = "NAME")]
     adapter: Option<String>,
-    #[command(flatten)]
-    sources: SourceArgs,
-    #[command(flatten)]
-    levels: LevelArgs,
 }
 
 /// Which emitted form the GPU runs.
@@ -147,6 +154,21 @@ impl SceneArgs {
         })
     }
 
+    /// See [`MachineArgs::gpu`].
+    pub(super) fn gpu(&self) -> Result<Gpu, DrawError> {
+        self.machine.gpu()
+    }
+
+    /// See [`MachineArgs::within_time`].
+    pub(super) fn within_time<R: Send + 'static>(
+        &self,
+        work: impl FnOnce() -> Result<R, DrawError> + Send + 'static,
+    ) -> Result<R, DrawError> {
+        self.machine.within_time(work)
+    }
+}
+
+impl MachineArgs {
     /// The GPU that the arguments name.
     pub(super) fn gpu(&self) -> Result<Gpu, DrawError> {
         let gpu = Gpu::new(self.adapter.as_deref())?;

@@ -8,6 +8,8 @@ mod diagnostics;
 mod emit;
 #[cfg(feature = "reference")]
 mod exec;
+#[cfg(feature = "cli")]
+mod gallery;
 #[cfg(feature = "gpu")]
 mod gpu;
 #[cfg(feature = "cli")]

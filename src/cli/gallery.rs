@@ -1,0 +1,120 @@
+//! `glisten gallery`: every scene of the library drawn onto one page.
+
+use super::console::Console;
+use super::exit::{Exit, Failure, Outcome};
+use super::files;
+use super::progress::Progress;
+use super::render::Backend;
+use super::scenes::{DrawError, MachineArgs, ViaArg};
+use crate::compare::Picture;
+use crate::cpu::{self, LineRule, Precision, RenderOptions};
+use crate::gallery::{self, Entry, Tile};
+use crate::gpu::{Gpu, Via};
+use clap::Args;
+use std::path::PathBuf;
+
+/// Columns of the contact sheet.
+const COLUMNS: u32 = 7;
+/// Width of a picture on the contact sheet, in pixels, and what is between two.
+const SIDE: u32 = 156;
+const GAP: u32 = 4;
+/// The largest pictures, in pixels.
+const MAX_SIZE: i64 = 2048;
+
+/// Draws every scene of the library onto a page
+#[derive(Args, Debug)]
+pub(super) struct GalleryArgs {
+    /// The folder for index.html, a picture of each scene, and gallery.png with all of them
+    #[arg(short, long, value_name = "DIR")]
+    output: PathBuf,
+    /// Who draws
+    #[arg(long, value_enum, default_value_t)]
+    backend: Backend,
+    /// What the GPU runs
+    #[arg(long, value_enum, default_value_t)]
+    via: ViaArg,
+    /// Width of the pictures in pixels
+    #[arg(long, value_name = "PIXELS", default_value_t = 320, value_parser = clap::value_parser!(u32).range(8..=MAX_SIZE))]
+    size: u32,
+    #[command(flatten)]
+    machine: MachineArgs,
+}
+
+/// What draws.
+enum Painter {
+    Gpu(Box<Gpu>, Via),
+    Cpu,
+}
+
+/// Runs the command.
+pub(super) fn run(args: &GalleryArgs, console: &Console) -> Outcome {
+    let entries = gallery::entries().map_err(internal)?;
+    files::make_folder(&args.output)?;
+    let painter = match args.backend {
+        Backend::Gpu => Painter::Gpu(Box::new(args.machine.gpu().map_err(failure)?), args.via.into()),
+        Backend::Cpu => Painter::Cpu,
+    };
+    let progress = Progress::new(console, entries.len());
+    let mut tiles = Vec::with_capacity(entries.len());
+    for entry in &entries {
+        progress.say(entry.name);
+        tiles.push(Tile::new(&painter.draw(args, entry)?));
+        progress.step();
+    }
+    drop(progress);
+    let page = gallery::page(&entries, &tiles, &painter.name()).map_err(internal)?;
+    for (entry, tile) in entries.iter().zip(&tiles) {
+        files::write(&args.output.join(entry.file_name()), &tile.png().map_err(internal)?)?;
+    }
+    let sheet = gallery::contact_sheet(&tiles, COLUMNS, SIDE, GAP).png().map_err(internal)?;
+    files::write(&args.output.join(gallery::SHEET), &sheet)?;
+    // Last, so that a page that is there names pictures that are there.
+    let path = args.output.join(gallery::PAGE);
+    files::write(&path, page.as_bytes())?;
+    console.remark(&format!("wrote {}", path.display()));
+    Ok(Exit::Ok)
+}
+
+impl Painter {
+    fn draw(&self, args: &GalleryArgs, entry: &Entry) -> Result<Picture, Failure> {
+        let scene = entry.supersampled(args.size);
+        let picture = match self {
+            Self::Gpu(gpu, via) => gpu.render(&scene, *via).map(|rendered| rendered.picture).map_err(DrawError::from),
+            Self::Cpu => {
+                let options =
+                    RenderOptions { precision: Precision::F64, lines: LineRule::OpenGl, ..RenderOptions::default() };
+                args.machine.within_time(move || Ok(cpu::render(&scene, &options)?))
+            }
+        };
+        picture.map_err(failure)
+    }
+
+    fn name(&self) -> String {
+        match self {
+            Self::Gpu(gpu, via) => format!(
+                "{} from emitted {}",
+                gpu.adapter().name,
+                match via {
+                    Via::Spirv => "SPIR-V",
+                    Via::Wgsl => "WGSL",
+                }
+            ),
+            Self::Cpu => "glisten's CPU reference in 64-bit floating point".to_owned(),
+        }
+    }
+}
+
+/// The library's own shaders have no findings to show; what there is of them is one sentence.
+fn failure(error: DrawError) -> Failure {
+    match error {
+        DrawError::Failure(failure) => failure,
+        DrawError::Diagnostics(diagnostics) => {
+            internal(diagnostics.into_iter().next().map_or_else(String::new, |first| first.message))
+        }
+    }
+}
+
+fn internal(message: String) -> Failure {
+    let failure = Failure::new(Exit::Content, format!("internal error: {message}"));
+    failure.help("this is a fault of glisten; please report it")
+}

@@ -1,0 +1,91 @@
+//! [`Entry`]: a scene of the library with what the gallery says of it.
+
+use crate::compiler::{Compiler, Options};
+use crate::library::{self, Embedded, LibraryScene};
+use crate::scene::{self, MemoryFiles, Scene};
+use serde::Deserialize;
+
+/// How many times as wide and high a scene is drawn as its picture is in the end.
+const SUPERSAMPLING: u32 = 2;
+
+/// The `[gallery]` table of a scene.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Meta {
+    pub(super) title: String,
+    /// The `id` of a chapter of the page.
+    pub(super) chapter: String,
+    /// Where the document has it.
+    pub(super) place: String,
+    /// In the subset of TeX that `math` reads, a formula each.
+    pub(super) equation: Vec<String>,
+    pub(super) says: String,
+    /// Modules (`phong.glsl`) and shaders (`programs/phong.frag`) of the library.
+    pub(super) sources: Vec<String>,
+}
+
+#[derive(Deserialize)]
+struct File {
+    gallery: Meta,
+}
+
+/// A scene of the gallery.
+#[derive(Clone, Debug)]
+pub struct Entry {
+    /// The scene's name, and its picture's without the ending.
+    pub name: &'static str,
+    /// The scene's text.
+    pub(super) text: &'static str,
+    pub(super) meta: Meta,
+    scene: Scene,
+}
+
+/// All entries, in the order of the page.
+///
+/// # Errors
+/// What is wrong with a scene: a fault of the library, which its tests would tell of.
+pub fn entries() -> Result<Vec<Entry>, String> {
+    library::scenes().iter().map(entry).collect()
+}
+
+fn entry(file: &LibraryScene) -> Result<Entry, String> {
+    let wrong = |what: &str| format!("the scene `{}` of the library: {what}", file.name);
+    let path = format!("<glisten>/scenes/{}.toml", file.name);
+    let files = MemoryFiles::new([(path.as_str(), file.text)]);
+    let compiler = Compiler::new(Options::default()).with_includes(Embedded);
+    let loaded = scene::load(&path, &files, &compiler);
+    let Some(scene) = loaded.scene else {
+        let first = loaded.diagnostics.iter().next().map_or("it does not load", |finding| &finding.message);
+        return Err(wrong(first));
+    };
+    let File { gallery } = toml::from_str(file.text).map_err(|error| wrong(error.message()))?;
+    Ok(Entry { name: file.name, text: file.text, meta: gallery, scene })
+}
+
+impl Entry {
+    /// The scene as it stands in its file.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// The scene as [`Tile::new`](super::Tile::new) wants it for a picture of this width in pixels: several samples a pixel,
+    /// so that edges are smooth. The height follows from the scene's.
+    pub fn supersampled(&self, width: u32) -> Scene {
+        let mut scene = self.scene.clone();
+        let framebuffer = &mut scene.framebuffer;
+        let height = (u64::from(width) * u64::from(framebuffer.height)).div_ceil(u64::from(framebuffer.width));
+        framebuffer.width = width * SUPERSAMPLING;
+        framebuffer.height = height as u32 * SUPERSAMPLING;
+        scene
+    }
+
+    /// The name of the picture's file.
+    pub fn file_name(&self) -> String {
+        format!("{}.png", self.name)
+    }
+}
+
+/// How many samples a pixel has in each direction.
+pub(super) const fn supersampling() -> u32 {
+    SUPERSAMPLING
+}

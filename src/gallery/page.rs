@@ -1,0 +1,201 @@
+//! The gallery as one HTML page.
+//!
+//! *Holds:* the pictures are named by their files beside the page; nothing comes from elsewhere.
+
+use super::entry::Entry;
+use super::highlight::{Language, html};
+use super::math::mathml;
+use super::tile::Tile;
+use crate::library;
+use minijinja::{Environment, Value, context};
+
+const TEMPLATE: &str = include_str!("page.html");
+const STYLE: &str = include_str!("page.css");
+
+/// A part of the page: the scenes that name its `id`.
+struct Chapter {
+    id: &'static str,
+    title: &'static str,
+    /// Of which document, and where in it.
+    of: &'static str,
+    about: &'static str,
+}
+
+const CHAPTERS: &[Chapter] = &[
+    Chapter {
+        id: "light",
+        title: "Light makes shape",
+        of: "Textbook, sections 10.1.1 and 10.1.2",
+        about: "What is seen of a thing is the light that it reflects. Real-time graphics make do with lights that have no \
+                size: rays from one direction, rays from a point, and a point that shines one way.",
+    },
+    Chapter {
+        id: "reflection",
+        title: "Two reflections",
+        of: "Textbook, sections 10.1.3 and 10.1.4",
+        about: "The dichromatic model takes reflection for a sum of two. One is light that has been inside the surface and \
+                comes out of it colored; the other is mirrored where it arrives, spread by the roughness of the surface. How \
+                it spreads is what these models differ in.",
+    },
+    Chapter {
+        id: "sum",
+        title: "The sum",
+        of: "Textbook, sections 10.1.4 and 10.1.7",
+        about: "Light that has been around everywhere is a constant. All reflections of all lights add up, and so does \
+                what a thing sends out itself.",
+    },
+    Chapter {
+        id: "distance",
+        title: "Distance and beam",
+        of: "Textbook, sections 10.1.5 and 10.1.6",
+        about: "A point light thins out with the square of the distance; three weights soften that. A beam is a point \
+                light bounded by a power of a cosine.",
+    },
+    Chapter {
+        id: "surface",
+        title: "From points to surfaces",
+        of: "Textbook, section 10.2",
+        about: "The models give the color of a point. A surface is filled between its vertices, and what is interpolated, \
+                and in which space, is seen.",
+    },
+    Chapter {
+        id: "article",
+        title: "The article's ball",
+        of: "Article on hemisphere lighting",
+        about: "Eight programs for a vertex processor of the year 2002, without powers and without branches, each drawing \
+                the same ball over a tiled floor. The arrow shows the direction of the light.",
+    },
+];
+
+/// The page for pictures that `by` drew, one an entry.
+///
+/// # Errors
+/// What is wrong with an entry's text, or the template engine's message: faults of the library, which its tests would
+/// tell of.
+pub fn page(entries: &[Entry], tiles: &[Tile], by: &str) -> Result<String, String> {
+    let mut chapters = Vec::new();
+    for chapter in CHAPTERS {
+        let mut cards = Vec::new();
+        for (entry, tile) in entries.iter().zip(tiles).filter(|(entry, _)| entry.meta.chapter == chapter.id) {
+            cards.push(card(entry, tile)?);
+        }
+        chapters.push(context! {
+            id => chapter.id, title => chapter.title, of => chapter.of, about => chapter.about, cards,
+        });
+    }
+    if let Some(lost) = entries.iter().find(|entry| CHAPTERS.iter().all(|chapter| chapter.id != entry.meta.chapter)) {
+        return Err(format!("the scene `{}` is of no chapter: `{}`", lost.name, lost.meta.chapter));
+    }
+    let mut environment = Environment::new();
+    let rendered = environment.add_template("page.html", TEMPLATE).and_then(|()| {
+        environment.get_template("page.html")?.render(context! {
+            style => Value::from_safe_string(STYLE.into()),
+            chapters,
+            count => entries.len(),
+            by,
+        })
+    });
+    rendered.map_err(|error| error.to_string())
+}
+
+fn card(entry: &Entry, tile: &Tile) -> Result<Value, String> {
+    let wrong = |what: String| format!("the scene `{}`: {what}", entry.name);
+    let mut formulas = String::new();
+    for tex in &entry.meta.equation {
+        formulas.push_str(&mathml(tex).map_err(wrong)?);
+    }
+    let mut sources = Vec::new();
+    for name in &entry.meta.sources {
+        let text = source(name).ok_or_else(|| wrong(format!("the library has no `{name}`")))?;
+        sources.push(context! { name, text => Value::from_safe_string(html(text, Language::Glsl)) });
+    }
+    let scene = format!("{}.toml", entry.name);
+    sources.push(context! { name => scene, text => Value::from_safe_string(html(entry.text, Language::Toml)) });
+    let (width, height) = tile.size();
+    Ok(context! {
+        name => entry.name,
+        title => &entry.meta.title,
+        place => Value::from_safe_string(inline_code(&entry.meta.place)),
+        says => Value::from_safe_string(inline_code(entry.meta.says.trim())),
+        picture => entry.file_name(),
+        width,
+        height,
+        formulas => Value::from_safe_string(formulas),
+        sources,
+    })
+}
+
+/// The text of a module or of a shader of a program.
+fn source(name: &str) -> Option<&'static str> {
+    match name.strip_prefix("programs/") {
+        Some(file) => library::shader(file),
+        None => {
+            let module = name.strip_suffix(".glsl")?;
+            library::modules().iter().find(|known| known.name == module).map(|module| module.text)
+        }
+    }
+}
+
+/// Escaped, with what stands between backquotes as code.
+fn inline_code(text: &str) -> String {
+    let mut out = String::new();
+    for (index, part) in text.split('`').enumerate() {
+        let escaped = part.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
+        if index % 2 == 1 {
+            out.push_str(&format!("<code>{escaped}</code>"));
+        } else {
+            out.push_str(&escaped);
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compare::Picture;
+    use crate::gallery::entries;
+
+    fn tiles(count: usize) -> Vec<Tile> {
+        let picture = Picture {
+            width: 4,
+            height: 4,
+            attachments: vec![vec![[0.5; 4]; 16]],
+            covered: vec![true; 16],
+            ranges: None,
+            undecided: vec![false; 16],
+            near_edge: vec![false; 16],
+        };
+        vec![Tile::new(&picture); count]
+    }
+
+    #[test]
+    fn the_page_is_whole_and_alone() {
+        let entries = entries().expect("the library's scenes are good");
+        let page = page(&entries, &tiles(entries.len()), "llvmpipe <Mesa>").expect("the library's texts are good");
+        assert_eq!(page.matches("<article ").count(), entries.len());
+        for entry in &entries {
+            assert!(page.contains(&format!("<img src=\"{}.png\"", entry.name)), "{}", entry.name);
+            assert!(page.contains(&format!("id=\"{}\"", entry.name)), "{}", entry.name);
+        }
+        assert!(page.contains("llvmpipe &lt;Mesa&gt;"));
+        let formulas: usize = entries.iter().map(|entry| entry.meta.equation.len()).sum();
+        assert_eq!(page.matches("<math ").count(), formulas);
+        for outside in ["http://", "https://", "src=\"/", "<link", "@import", "<script"] {
+            assert!(!page.contains(outside), "{outside}");
+        }
+    }
+
+    #[test]
+    fn every_chapter_has_scenes() {
+        let entries = entries().expect("the library's scenes are good");
+        for chapter in CHAPTERS {
+            assert!(entries.iter().any(|entry| entry.meta.chapter == chapter.id), "{}", chapter.id);
+        }
+    }
+
+    #[test]
+    fn code_between_backquotes() {
+        assert_eq!(inline_code("`a<b` & c"), "<code>a&lt;b</code> &amp; c");
+    }
+}

@@ -1,0 +1,192 @@
+//! [`Tile`]: a picture of the gallery in 8 bits, and many of them on one sheet.
+//!
+//! *Holds:* colors are clamped to [0, 1], averaged over a pixel's samples, and rounded to 8 bits without gamma, as
+//! `glisten render` rounds; what is not finite is magenta.
+
+use super::entry::supersampling;
+use crate::compare::Picture;
+use image::ImageEncoder;
+use image::codecs::png::{CompressionType, FilterType, PngEncoder};
+
+const MAGENTA: [f64; 3] = [1.0, 0.0, 1.0];
+/// The sheet's ground, between tiles.
+const GROUND: [u8; 3] = [24, 25, 30];
+
+/// An RGB picture of 8 bits a channel.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Tile {
+    width: u32,
+    height: u32,
+    /// Top row first.
+    pixels: Vec<[u8; 3]>,
+}
+
+impl Tile {
+    /// The first attachment of a supersampled picture, averaged.
+    pub fn new(picture: &Picture) -> Self {
+        let samples = picture.attachments.first().map(Vec::as_slice).unwrap_or_default();
+        let color = |x: u32, y: u32| {
+            let sample = samples.get(y as usize * picture.width as usize + x as usize);
+            sample
+                .filter(|rgba| rgba.iter().all(|channel| channel.is_finite()))
+                .map_or(MAGENTA, |[r, g, b, _]| [*r, *g, *b].map(|channel| channel.clamp(0.0, 1.0)))
+        };
+        let n = supersampling();
+        box_filter(picture.width / n, picture.height / n, picture.width, picture.height, color)
+    }
+
+    /// The tile `side` pixels wide and high, each the mean of what it covers.
+    fn resized(&self, side: u32) -> Self {
+        let color = |x: u32, y: u32| {
+            let pixel = self.pixels.get(y as usize * self.width as usize + x as usize);
+            pixel.map_or(MAGENTA, |pixel| pixel.map(|channel| f64::from(channel) / 255.0))
+        };
+        box_filter(side, side, self.width, self.height, color)
+    }
+
+    /// The tile as a PNG file.
+    ///
+    /// # Errors
+    /// The encoder's message.
+    pub fn png(&self) -> Result<Vec<u8>, String> {
+        let mut png = Vec::new();
+        let encoder = PngEncoder::new_with_quality(&mut png, CompressionType::Best, FilterType::Adaptive);
+        encoder
+            .write_image(self.pixels.as_flattened(), self.width, self.height, image::ExtendedColorType::Rgb8)
+            .map_err(|error| error.to_string())?;
+        Ok(png)
+    }
+
+    /// Width and height in pixels.
+    pub fn size(&self) -> (u32, u32) {
+        (self.width, self.height)
+    }
+}
+
+/// Each pixel of a picture the mean, by area, of what it covers of a larger one.
+fn box_filter(
+    width: u32,
+    height: u32,
+    from_width: u32,
+    from_height: u32,
+    color: impl Fn(u32, u32) -> [f64; 3],
+) -> Tile {
+    let columns = spans(width, from_width);
+    let rows = spans(height, from_height);
+    let mut pixels = Vec::with_capacity(width as usize * height as usize);
+    for row in &rows {
+        for column in &columns {
+            let (mut sum, mut area) = ([0.0; 3], 0.0);
+            for (y, high) in row {
+                for (x, wide) in column {
+                    let weight = high * wide;
+                    area += weight;
+                    for (total, channel) in sum.iter_mut().zip(color(*x, *y)) {
+                        *total += weight * channel;
+                    }
+                }
+            }
+            pixels.push(sum.map(|total| (255.0 * total / area).round() as u8));
+        }
+    }
+    Tile { width, height, pixels }
+}
+
+/// For each of `count` equal parts of a line of `from` units the units that it covers, and how much of each.
+fn spans(count: u32, from: u32) -> Vec<Vec<(u32, f64)>> {
+    let step = f64::from(from) / f64::from(count);
+    (0..count)
+        .map(|index| {
+            let (start, end) = (f64::from(index) * step, f64::from(index + 1) * step);
+            let last = (end.ceil() as u32).min(from);
+            (start as u32..last)
+                .map(|unit| (unit, end.min(f64::from(unit + 1)) - start.max(f64::from(unit))))
+                .filter(|(_, length)| *length > 1e-9)
+                .collect()
+        })
+        .collect()
+}
+
+/// All tiles on one sheet of so many columns, each `side` pixels wide, `gap` apart.
+pub fn contact_sheet(tiles: &[Tile], columns: u32, side: u32, gap: u32) -> Tile {
+    let columns = columns.max(1);
+    let rows = (tiles.len() as u32).div_ceil(columns);
+    let (width, height) = (columns * (side + gap) + gap, rows * (side + gap) + gap);
+    let mut pixels = vec![GROUND; width as usize * height as usize];
+    for (index, tile) in tiles.iter().enumerate() {
+        let index = index as u32;
+        let (left, top) = (gap + index % columns * (side + gap), gap + index / columns * (side + gap));
+        let small = tile.resized(side);
+        for (row, line) in (top..).zip(small.pixels.chunks(side as usize)) {
+            let start = row as usize * width as usize + left as usize;
+            if let Some(place) = pixels.get_mut(start..start + line.len()) {
+                place.copy_from_slice(line);
+            }
+        }
+    }
+    Tile { width, height, pixels }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn picture(width: u32, height: u32, pixels: Vec<[f64; 4]>) -> Picture {
+        let count = pixels.len();
+        Picture {
+            width,
+            height,
+            attachments: vec![pixels],
+            covered: vec![true; count],
+            ranges: None,
+            undecided: vec![false; count],
+            near_edge: vec![false; count],
+        }
+    }
+
+    #[test]
+    fn samples_are_clamped_and_averaged() {
+        let row = [[9.0, 0.0, 0.5, 1.0], [0.0, -1.0, 0.5, 1.0]];
+        let tile = Tile::new(&picture(2, 2, [row, row].concat()));
+        assert_eq!((tile.size(), tile.pixels.as_slice()), ((1, 1), &[[128, 0, 128]][..]));
+    }
+
+    #[test]
+    fn what_is_not_finite_is_seen() {
+        let tile = Tile::new(&picture(2, 2, vec![[f64::NAN, 0.0, 0.0, 1.0]; 4]));
+        assert_eq!(tile.pixels, [[255, 0, 255]]);
+    }
+
+    #[test]
+    fn parts_of_a_line_cover_it_once() {
+        for (count, from) in [(3, 7), (96, 320), (5, 5), (2, 640)] {
+            let parts = spans(count, from);
+            let mut covered = vec![0.0; from as usize];
+            for (unit, length) in parts.iter().flatten() {
+                covered[*unit as usize] += length;
+            }
+            assert!(covered.iter().all(|length: &f64| (length - 1.0).abs() < 1e-9), "{count} of {from}");
+        }
+    }
+
+    #[test]
+    fn a_sheet_has_every_tile_in_its_place() {
+        let colors = [[1, 2, 3], [4, 5, 6], [7, 8, 9]];
+        let tiles: Vec<Tile> =
+            colors.iter().map(|color| Tile { width: 4, height: 4, pixels: vec![*color; 16] }).collect();
+        let sheet = contact_sheet(&tiles, 2, 2, 1);
+        assert_eq!(sheet.size(), (7, 7));
+        let at = |x: usize, y: usize| sheet.pixels[y * 7 + x];
+        assert_eq!(
+            [at(1, 1), at(4, 2), at(2, 5), at(5, 5), at(0, 0)],
+            [colors[0], colors[1], colors[2], GROUND, GROUND]
+        );
+    }
+
+    #[test]
+    fn a_tile_is_a_png() {
+        let tile = Tile { width: 2, height: 1, pixels: vec![[1, 2, 3], [250, 0, 9]] };
+        let read = image::load_from_memory(&tile.png().expect("it encodes")).expect("a PNG").to_rgb8();
+        assert_eq!(read.as_raw(), &[1, 2, 3, 250, 0, 9]);
+    }
+}
