@@ -307,9 +307,11 @@ impl<'a> Analyzer<'a> {
 
     /// Whether a name like an unknown one is still looked for: each look compares it with all names in sight.
     pub(super) fn may_suggest(&mut self) -> Option<()> {
-        const MOST: u32 = 64;
+        const MOST: usize = 64;
+        const MOST_COMPARED: usize = 1 << 17;
         self.n_suggestions += 1;
-        (self.n_suggestions <= MOST && self.scopes.len() <= 10_000).then_some(())
+        let looks = self.n_suggestions as usize;
+        (looks <= MOST && looks.saturating_mul(self.scopes.len()) <= MOST_COMPARED).then_some(())
     }
 
     /// Notes that a global is named.

@@ -7,6 +7,9 @@ use crate::diagnostic::{Code, Diagnostic, did_you_mean};
 /// How deep brackets and unary operators may nest in an `#if`.
 const MAX_NESTING: usize = 64;
 
+/// Among how many macros one of a name like an undefined one is looked for.
+const MAX_COMPARED: usize = 4096;
+
 /// Operators with two operands: how strongly they bind.
 fn precedence(kind: TokenKind) -> Option<u8> {
     use TokenKind::*;
@@ -298,7 +301,8 @@ impl Evaluator<'_> {
         }
         if self.unevaluated == 0 {
             let names = self.macros.iter().map(|definition| &*definition.name);
-            let near = if session.may_suggest() { did_you_mean(&name, names) } else { None };
+            let few = self.macros.len() <= MAX_COMPARED;
+            let near = if few && session.may_suggest() { did_you_mean(&name, names) } else { None };
             let message = format!("`{name}` is not defined and counts as 0");
             let help = match near {
                 Some(near) => format!("did you mean `{near}`?"),

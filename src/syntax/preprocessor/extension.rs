@@ -2,6 +2,7 @@
 
 use super::{Behavior, Extensions, Preprocessor, Session, Span, Token, TokenKind, codes, kind};
 use crate::diagnostic::{Diagnostic, did_you_mean};
+use std::sync::LazyLock;
 
 /// An extension that glisten implements.
 #[derive(Clone, Copy, Debug)]
@@ -28,13 +29,16 @@ static IMPLEMENTED: &[Implemented] = &[
 /// Every name of the OpenGL and OpenGL ES registries, and those of the Khronos GLSL repository; sorted, one a line.
 static REGISTERED: &str = include_str!("extensions.txt");
 
+/// The same, to be looked up.
+static NAMES: LazyLock<Vec<&'static str>> = LazyLock::new(|| REGISTERED.lines().collect());
+
 /// The extensions that shaders find defined as macros.
 pub(super) fn implemented() -> impl Iterator<Item = &'static Implemented> {
     IMPLEMENTED.iter()
 }
 
 fn is_registered(name: &str) -> bool {
-    REGISTERED.lines().any(|line| line == name)
+    NAMES.binary_search(&name).is_ok()
 }
 
 /// The warning for a use of what any of `bringing` brings, where `on` are on: each of those that are on and allow it is on
