@@ -8,7 +8,7 @@ use crate::diagnostic::did_you_mean;
 use crate::evaluate::EvaluateError;
 use crate::gpu::{Gpu, Via};
 use crate::library::measure::{Figures, Form, Trial, forms};
-use crate::library::{Cost, Entry, FunctionEntry, Header, entries, entry, modules};
+use crate::library::{Cost, Entry, FunctionEntry, Header, entries, entry, modules, shader, shader_files};
 use clap::{Args, Subcommand, ValueEnum};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
@@ -39,7 +39,7 @@ enum LibCommand {
         #[arg(long, value_enum, default_value_t)]
         format: Format,
     },
-    /// Writes all modules as files that include each other
+    /// Writes all modules, and the programs made of them, as files that include each other
     Export {
         /// The folder
         #[arg(value_name = "DIR")]
@@ -244,8 +244,23 @@ fn export(folder: &Path, console: &Console) -> Outcome {
     for module in modules() {
         files::write(&folder.join(format!("{}.glsl", module.name)), module.text.as_bytes())?;
     }
-    console.remark(&format!("wrote {} modules to {}", modules().len(), folder.display()));
+    let programs = folder.join("programs");
+    files::make_folder(&programs)?;
+    for (file, text) in shader_files().filter_map(|file| Some((file, shader(file)?))) {
+        files::write(&programs.join(file), from_disk(text).as_bytes())?;
+    }
+    let counts = (modules().len(), shader_files().count());
+    console.remark(&format!("wrote {} modules and {} shaders to {}", counts.0, counts.1, folder.display()));
     Ok(Exit::Ok)
+}
+
+/// The text of a program's shader with its includes of modules by their place on disk, a folder up.
+fn from_disk(text: &str) -> String {
+    let line = |line: &str| match line.strip_prefix("#include <glisten/").and_then(|rest| rest.strip_suffix('>')) {
+        Some(file) => format!("#include \"../{file}\"\n"),
+        None => format!("{line}\n"),
+    };
+    text.lines().map(line).collect()
 }
 
 /// A function's figures: in f64, in f32, on the GPU.
