@@ -282,3 +282,21 @@ fn junk_ends_in_errors() {
     }
     assert!(!codes(megabyte).is_empty());
 }
+
+/// Two stages whose thousands of outputs and inputs have names that are alike and never equal.
+#[test]
+fn interfaces_are_matched_in_little_time() {
+    const PLACES: usize = 4_000;
+    let declared = |storage: &str, name: &str| -> String {
+        (0..PLACES).map(|n| format!("{storage} float {name}{n};\n")).collect()
+    };
+    let sum: String = (0..PLACES).map(|n| format!(" + other{n}")).collect();
+    let vertex = format!("#version 150\n{}void main() {{ gl_Position = vec4(0.0); }}", declared("out", "mother"));
+    let fragment =
+        format!("#version 150\n{}out vec4 c; void main() {{ c = vec4(0.0{sum}); }}", declared("in", "other"));
+    let source = |name: &str, text: String, stage| Source { name: name.into(), text: text.into(), stage };
+    let sources = [source("a.vert", vertex, Stage::Vertex), source("a.frag", fragment, Stage::Fragment)];
+    let compilation = Compiler::new(glisten::Options::default()).compile(&sources);
+    assert!(compilation.diagnostics.iter().all(|diagnostic| diagnostic.code.id == "E0702"));
+    assert_eq!(compilation.diagnostics.len(), Diagnostics::LIMIT);
+}
