@@ -158,6 +158,13 @@ pub struct Global {
     pub span: Span,
 }
 
+impl Global {
+    /// The texture unit or buffer binding point that `layout(binding = n)` gives it.
+    pub fn unit(&self) -> Option<u32> {
+        self.block.as_ref().map_or(self.binding, |block| block.binding)
+    }
+}
+
 /// How a parameter is passed (§6.1.1).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[expect(missing_docs, reason = "the names say it")]

@@ -161,6 +161,9 @@ impl Merge<'_> {
         known.location = known.location.or(global.location);
         known.index = known.index.or(global.index);
         known.binding = known.binding.or(global.binding);
+        if let (Some(known), Some(other)) = (&mut known.block, &global.block) {
+            known.binding = known.binding.or(other.binding);
+        }
     }
 
     fn unite_function(&mut self, place: FunctionId, function: Function) {
@@ -229,6 +232,9 @@ fn global_problem(types: &Types, known: &Global, other: &Global) -> Option<Diagn
     let differs = |a: Option<u32>, b: Option<u32>| matches!((a, b), (Some(a), Some(b)) if a != b);
     if differs(known.location, other.location) || differs(known.index, other.index) {
         return problem("locations".into());
+    }
+    if differs(known.unit(), other.unit()) {
+        return problem("bindings".into());
     }
     if let (Some(a), Some(b)) = (&known.block, &other.block)
         && (a.layout != b.layout || a.instance.is_some() != b.instance.is_some())

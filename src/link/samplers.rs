@@ -22,6 +22,7 @@ struct Variable<'a> {
     global: &'a Global,
     globals: Vec<(Stage, GlobalId)>,
     active: bool,
+    unit: Option<u32>,
 }
 
 /// Places all samplers of a program.
@@ -73,8 +74,12 @@ fn merge<'a>(ctx: &Context<'_>, variables: &mut Vec<Variable<'a>>, stage: Stage,
         Some(known) => {
             known.globals.push((stage, id));
             known.active |= global.used;
+            known.unit = known.unit.or(global.unit());
         }
-        None => variables.push(Variable { global, globals: vec![(stage, id)], active: global.used }),
+        None => {
+            let (active, unit) = (global.used, global.unit());
+            variables.push(Variable { global, globals: vec![(stage, id)], active, unit });
+        }
     }
 }
 
@@ -86,7 +91,7 @@ fn cut(ctx: &mut Context<'_>, variable: &Variable<'_>, slots: &mut Vec<SamplerSl
         ctx.report(Diagnostic::new(&codes::link::TOO_MANY_SAMPLERS, *span, message));
         return false;
     }
-    let mut unit = variable.global.binding;
+    let mut unit = variable.unit;
     for part in parts(ctx.types, name, *ty, MatrixLayout::default()) {
         let (sampler, array_size) = match ctx.types.get(part.ty) {
             Type::Array(element, ArraySize::Sized(size)) => (element, Some(size)),

@@ -25,6 +25,7 @@ struct Shared<'a> {
     globals: Vec<(Stage, GlobalId)>,
     default: Option<(&'a Value, &'a Global)>,
     active: bool,
+    unit: Option<u32>,
 }
 
 impl Shared<'_> {
@@ -90,6 +91,7 @@ fn unite<'a>(ctx: &mut Context<'_>, stages: &'a [Shader]) -> Vec<Shared<'a>> {
                     check_same(ctx, known, shader.stage, global);
                     known.globals.push((shader.stage, id));
                     known.active |= global.used;
+                    known.unit = known.unit.or(global.unit());
                     known.default = known.default.or(global.value.as_ref().map(|value| (value, global)));
                 }
                 None => all.push(Shared {
@@ -98,6 +100,7 @@ fn unite<'a>(ctx: &mut Context<'_>, stages: &'a [Shader]) -> Vec<Shared<'a>> {
                     globals: vec![(shader.stage, id)],
                     default: global.value.as_ref().map(|value| (value, global)),
                     active: global.used,
+                    unit: global.unit(),
                 }),
             }
         }
@@ -136,6 +139,19 @@ fn check_same(ctx: &mut Context<'_>, known: &Shared<'_>, stage: Stage, global: &
             .label(declared.span, "initialized here, too");
         ctx.report(diagnostic);
     }
+    if let Some((ours, theirs)) = different_bindings(global, known.global) {
+        let message = format!("the uniform `{}` has another binding in each stage", global.name);
+        let diagnostic = Diagnostic::new(&codes::link::UNIFORM_TYPE_MISMATCH, global.span, message)
+            .here(format!("{ours} in the {} stage", stage.name()))
+            .label(known.global.span, format!("{theirs} in the {} stage", known.stage.name()));
+        ctx.report(diagnostic);
+    }
+}
+
+/// What two `layout(binding = n)` say, if both are there and differ (ARB_shading_language_420pack).
+fn different_bindings(a: &Global, b: &Global) -> Option<(String, String)> {
+    let (ours, theirs) = (a.unit()?, b.unit()?);
+    (ours != theirs).then(|| (format!("binding {ours}"), format!("binding {theirs}")))
 }
 
 fn check_same_block(ctx: &mut Context<'_>, known: &Shared<'_>, stage: Stage, global: &Global) {
@@ -164,6 +180,8 @@ fn check_same_block(ctx: &mut Context<'_>, known: &Shared<'_>, stage: Stage, glo
     } else if ours.layout != theirs.layout {
         let word = |layout: BlockLayout| format!("`{}`", layout_word(layout));
         whole("is laid out differently in each stage", word(ours.layout), word(theirs.layout))
+    } else if let Some((here, there)) = different_bindings(global, known.global) {
+        whole("has another binding in each stage", here, there)
     } else {
         match compare_members(types, our_members, their_members) {
             None => return,
@@ -386,7 +404,7 @@ fn place_blocks(ctx: &mut Context<'_>, blocks: &[&Shared<'_>], interface: &mut I
             slot,
             size,
             root,
-            unit: block.binding,
+            unit: shared.unit,
             active: shared.active,
         });
     }

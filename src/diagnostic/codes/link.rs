@@ -74,8 +74,8 @@ codes! {
             "uniform float u = 1.0; void main() { gl_Position = vec4(u); }",
             "uniform float u; out vec4 c; void main() { c = vec4(u); }");
     UNIFORM_BLOCK_MISMATCH = "E0709" "uniform-block-mismatch" Error "OpenGL 3.2 §2.11.4"
-        "A uniform block that is declared in several shaders must be the same in all of them: layout, members with their \
-         names, types and matrix order, array size, and whether it has an instance name."
+        "A uniform block that is declared in several shaders must be the same in all of them: layout, binding, members with \
+         their names, types and matrix order, array size, and whether it has an instance name."
         bad Program(
             "layout(std140) uniform B { vec4 a; }; void main() { gl_Position = a; }",
             "layout(std140) uniform B { vec3 a; }; out vec4 c; void main() { c = a.xyzz; }"),
