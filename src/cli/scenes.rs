@@ -8,6 +8,7 @@ use super::session::{Batch, Session};
 use crate::diagnostic::Diagnostic;
 use crate::gpu::{Error, Gpu, Via};
 use crate::scene::{self, DiskFiles, Scene};
+use crate::source::SourceMap;
 use clap::{Args, ValueEnum};
 use std::sync::mpsc::{self, RecvTimeoutError};
 use std::time::Duration;
@@ -75,6 +76,11 @@ pub(super) struct Read<'a> {
 }
 
 impl Read<'_> {
+    /// The texts of the scene and its shaders.
+    pub(super) fn sources(&self) -> &SourceMap {
+        &self.batch.sources
+    }
+
     /// Tells of a failure to draw the scene.
     pub(super) fn failed(mut self, error: DrawError) -> Result<Exit, Failure> {
         match error {

@@ -6,12 +6,14 @@ use super::files;
 use super::pictures::Target;
 use super::progress::Progress;
 use super::scenes::{DrawError, SceneArgs};
-use crate::compare::{self, Judge, Picture, Verdict, flip};
+use crate::compare::{self, Contributed, Judge, Picture, Verdict, flip};
 use crate::cpu::domain::faults::{Faults, KNOWN};
-use crate::cpu::{self, LineRule, Precision, RenderOptions};
-use crate::diagnostic::Diagnostic;
+use crate::cpu::{self, Contribution, LineRule, Precision, RenderOptions};
+use crate::diagnostic::codes::scenes::BOUND_EXPLAINED;
+use crate::diagnostic::{Diagnostic, write};
 use crate::gpu::{Gpu, Via};
 use crate::scene::Scene;
+use crate::source::SourceMap;
 use clap::{Args, ValueEnum};
 use serde::Serialize;
 use std::path::PathBuf;
@@ -110,6 +112,8 @@ struct Compared {
     skipped: Vec<Skip>,
     /// Of each pixel the largest difference as a share of its bound.
     shares: Vec<f64>,
+    /// What the bound of the worst pixel comes from.
+    note: Option<Diagnostic>,
 }
 
 /// What is printed as JSON: the worse of all runs, and each of them.
@@ -138,11 +142,13 @@ pub(super) fn run(args: &VerifyArgs, console: &Console) -> Outcome {
     };
     let difference = args.difference.as_deref().map(Target::parse).transpose()?;
     let progress = Progress::new(console, vias.len() + 1);
-    let Compared { runs, pictures, skipped, shares } =
-        match compare(args, Arc::new(read.scene.clone()), &vias, &progress) {
-            Ok(compared) => compared,
-            Err(error) => return read.failed(error),
-        };
+    let scene = Arc::new(read.scene.clone());
+    let compared = compare(args, Arc::clone(&scene), &vias, &progress);
+    let compared = compared.and_then(|compared| explained(args, &scene, read.sources(), compared));
+    let Compared { runs, pictures, skipped, shares, note } = match compared {
+        Ok(compared) => compared,
+        Err(error) => return read.failed(error),
+    };
     drop(progress);
     if let Some(target) = difference {
         let (files, _) = target.encode(&shown(&read.scene, &shares))?;
@@ -168,6 +174,10 @@ pub(super) fn run(args: &VerifyArgs, console: &Console) -> Outcome {
             }
             if let Some(count) = forms_bit_unequal {
                 text.push_str(&format!("spirv and wgsl: {count} pixels are not bit-equal\n"));
+            }
+            if let Some(note) = &note {
+                text.push('\n');
+                text.push_str(&write::human(read.sources(), [note], console.colors_output()));
             }
             text
         }
@@ -222,15 +232,84 @@ fn compare(args: &VerifyArgs, scene: Arc<Scene>, vias: &[Via], progress: &Progre
     Ok(compared)
 }
 
+/// How many contributions to a bound are told.
+const TOLD: usize = 3;
+/// Less than this share of a bound is not worth telling.
+const LEAST_SHARE: f64 = 0.01;
+
+/// Adds to the worst pixel of each run what its bound comes from.
+fn explained(
+    args: &VerifyArgs,
+    scene: &Arc<Scene>,
+    sources: &SourceMap,
+    mut compared: Compared,
+) -> Result<Compared, DrawError> {
+    let mut known: Vec<([u32; 4], Vec<Contribution>)> = Vec::new();
+    let mut largest = -1.0;
+    for run in compared.runs.iter_mut().filter(|run| run.verdict.judged_by == "envelope") {
+        let max_abs = run.verdict.max_abs;
+        let Some(worst) = &mut run.verdict.worst else { continue };
+        let place = [worst.x, worst.y, worst.attachment, worst.channel];
+        let contributions = match known.iter().find(|(known, _)| *known == place) {
+            Some((_, contributions)) => contributions.clone(),
+            None => args.scene.within_time({
+                let scene = Arc::clone(scene);
+                move || {
+                    Ok(cpu::explain(
+                        &scene,
+                        &options(Faults::NONE),
+                        [place[0], place[1]],
+                        place[2] as usize,
+                        place[3] as usize,
+                    )?)
+                }
+            })?,
+        };
+        known.push((place, contributions.clone()));
+        let told: Vec<Contribution> =
+            contributions.into_iter().filter(|one| one.share >= LEAST_SHARE).take(TOLD).collect();
+        worst.contributions = told.iter().filter_map(|one| contributed(sources, one)).collect();
+        if max_abs > largest {
+            largest = max_abs;
+            compared.note = note(&told, place);
+        }
+    }
+    Ok(compared)
+}
+
+fn contributed(sources: &SourceMap, contribution: &Contribution) -> Option<Contributed> {
+    let location = sources.location(sources.call_site(contribution.span))?;
+    Some(Contributed {
+        file: sources.file(location.file).name().to_owned(),
+        line: location.line,
+        column: location.column,
+        end_column: location.end_column,
+        operation: contribution.operation,
+        share: contribution.share,
+    })
+}
+
+/// The contributions as an excerpt.
+fn note(told: &[Contribution], [x, y, _, channel]: [u32; 4]) -> Option<Diagnostic> {
+    let (first, rest) = told.split_first()?;
+    let channel = ["red", "green", "blue", "alpha"].get(channel as usize)?;
+    let message = format!("what the bound of {channel} at pixel ({x}, {y}) comes from");
+    let text = |one: &Contribution| format!("`{}`: {:.0} % of it", one.operation, one.share * 100.0);
+    let note = Diagnostic::new(&BOUND_EXPLAINED, first.span, message).here(text(first));
+    Some(rest.iter().fold(note, |note, one| note.label(one.span, text(one))))
+}
+
 /// The reference with its envelope; lines by the rule of the target.
 fn reference(scene: &Scene) -> Result<Picture, DrawError> {
     drawn(scene, Faults::NONE)
 }
 
+fn options(faults: Faults) -> RenderOptions {
+    RenderOptions { precision: Precision::Envelope, lines: LineRule::Vulkan, faults, ..RenderOptions::default() }
+}
+
 fn drawn(scene: &Scene, faults: Faults) -> Result<Picture, DrawError> {
-    let precision = Precision::Envelope;
-    let options = RenderOptions { precision, lines: LineRule::Vulkan, faults, ..RenderOptions::default() };
-    Ok(cpu::render(scene, &options)?)
+    Ok(cpu::render(scene, &options(faults))?)
 }
 
 /// The reference with each known fault of the driver admitted, and with all of them.

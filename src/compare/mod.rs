@@ -12,4 +12,4 @@ mod verdict;
 pub use flip::flip;
 pub use picture::Picture;
 pub use range::Range;
-pub use verdict::{FaultCount, Judge, Verdict, Worst, shares, ulp_f32};
+pub use verdict::{Contributed, FaultCount, Judge, Verdict, Worst, shares, ulp_f32};

@@ -20,8 +20,25 @@ pub enum Judge {
     Tolerance(f64),
 }
 
+/// A place in a shader that a bound comes from.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Contributed {
+    /// The shader.
+    pub file: String,
+    /// From 1.
+    pub line: u32,
+    /// From 1, in characters.
+    pub column: u32,
+    /// Behind the last character.
+    pub end_column: u32,
+    /// How GLSL writes the operation, or `interpolation`.
+    pub operation: &'static str,
+    /// By how much of its width the envelope would be narrower without the freedom of this operation, 0 to 1.
+    pub share: f64,
+}
+
 /// A pixel that is further off than all others, measured by what it may be off.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Worst {
     /// Column from the left.
     pub x: u32,
@@ -29,6 +46,8 @@ pub struct Worst {
     pub y: u32,
     /// The color attachment.
     pub attachment: u32,
+    /// The channel that is furthest off.
+    pub channel: u32,
     /// The GPU's color.
     pub gpu: [f64; 4],
     /// The reference's color.
@@ -39,6 +58,8 @@ pub struct Worst {
     pub low: [f64; 4],
     /// The greatest.
     pub high: [f64; 4],
+    /// What the bound comes from, the largest share first; empty where nobody asked.
+    pub contributions: Vec<Contributed>,
 }
 
 /// Pixels that only a known fault of the driver explains.
@@ -158,7 +179,7 @@ impl Verdict {
             outside: self.outside.max(other.outside),
             undecided: self.undecided.max(other.undecided),
             known_faults: worse_faults(&self.known_faults, &other.known_faults),
-            worst: far.worst.or(near.worst),
+            worst: far.worst.clone().or_else(|| near.worst.clone()),
         }
     }
 }
@@ -218,6 +239,8 @@ struct PixelError {
     outside: bool,
     /// The largest difference as a share of what is allowed.
     share: f64,
+    /// The channel of that.
+    channel: usize,
 }
 
 impl Tally<'_> {
@@ -269,7 +292,7 @@ impl Tally<'_> {
             }
             if error.share > self.worst_share && (!undecided || error.outside) {
                 self.worst_share = error.share;
-                self.verdict.worst = Some(self.worst_at(attachment, pixel));
+                self.verdict.worst = Some(self.worst_at(attachment, pixel, error.channel));
             }
         }
     }
@@ -325,7 +348,7 @@ impl Tally<'_> {
         let cpu = Self::color(self.cpu, attachment, pixel);
         let allowed = self.allowed(attachment, pixel);
         let mut error = PixelError::default();
-        for ((gpu, cpu), range) in gpu.into_iter().zip(cpu).zip(allowed) {
+        for (channel, ((gpu, cpu), range)) in gpu.into_iter().zip(cpu).zip(allowed).enumerate() {
             error.non_finite[0] |= !gpu.is_finite();
             error.non_finite[1] |= !cpu.is_finite();
             let inside = range.contains(gpu);
@@ -337,7 +360,9 @@ impl Tally<'_> {
                         true => 0.0,
                         false => difference / room.max(f64::MIN_POSITIVE),
                     };
-                    error.share = error.share.max(share);
+                    if share > error.share {
+                        (error.share, error.channel) = (share, channel);
+                    }
                 }
                 (false, false) => {}
                 _ => error.finiteness_mismatch += u64::from(!inside),
@@ -358,7 +383,7 @@ impl Tally<'_> {
         }
     }
 
-    fn worst_at(&self, attachment: usize, pixel: usize) -> Worst {
+    fn worst_at(&self, attachment: usize, pixel: usize, channel: usize) -> Worst {
         let width = (self.cpu.width as usize).max(1);
         let (gpu, cpu) = (Self::color(self.gpu, attachment, pixel), Self::color(self.cpu, attachment, pixel));
         let ranges = self.allowed(attachment, pixel);
@@ -366,11 +391,13 @@ impl Tally<'_> {
             x: (pixel % width) as u32,
             y: (pixel / width) as u32,
             attachment: attachment as u32,
+            channel: channel as u32,
             gpu,
             cpu,
             bound: std::array::from_fn(|k| ranges[k].room(cpu[k], gpu[k])),
             low: ranges.map(|range| range.low),
             high: ranges.map(|range| range.high),
+            contributions: Vec::new(),
         }
     }
 
@@ -422,7 +449,7 @@ mod tests {
         let (gpu, cpu) = (picture(&[0.5, 0.25, 0.5]), picture(&[0.5, 0.5, 0.5 + 5e-7]));
         let verdict = Verdict::new(&gpu, &cpu, Judge::Envelope);
         assert_eq!((verdict.outside, verdict.max_abs), (1, 0.25));
-        assert_eq!(verdict.worst.map(|worst| (worst.x, worst.y)), Some((1, 0)));
+        assert_eq!(verdict.worst.as_ref().map(|worst| (worst.x, worst.y)), Some((1, 0)));
         assert!(!verdict.holds(true));
         assert!(Verdict::new(&gpu, &cpu, Judge::Tolerance(0.3)).holds(false));
         assert_eq!(verdict.max_ulp, 0.25 / 2.0_f64.powi(-24));

@@ -16,6 +16,7 @@ mod texture;
 use crate::compare::Picture;
 use crate::diagnostic::Diagnostic;
 use crate::scene::Scene;
+use crate::source::Span;
 use domain::faults::Faults;
 use domain::{Envelope, F32, F64};
 
@@ -70,4 +71,31 @@ pub fn render(scene: &Scene, options: &RenderOptions) -> Result<Picture, Vec<Dia
         Precision::F32 => pipeline::render::<F32>(scene, options),
         Precision::Envelope => pipeline::render::<Envelope>(scene, options),
     }
+}
+
+/// What an operation adds to the width of a pixel's envelope.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contribution {
+    /// The expression; of a varying its declaration.
+    pub span: Span,
+    /// How GLSL writes the operation, or `interpolation`.
+    pub operation: &'static str,
+    /// By how much of its width the envelope is narrower without the freedom that the rule of this operation gives, 0 to 1.
+    /// What several operations share counts under each of them, so shares need not add up to 1.
+    pub share: f64,
+}
+
+/// What the envelope of a channel (0 to 3) of a pixel (column from the left, row from the top) comes from, the largest
+/// contribution first. Costs as many drawings of the pixel as the fragment stage has operations.
+///
+/// # Errors
+/// As [`render`], and a pixel that there is not.
+pub fn explain(
+    scene: &Scene,
+    options: &RenderOptions,
+    pixel: [u32; 2],
+    attachment: usize,
+    channel: usize,
+) -> Result<Vec<Contribution>, Vec<Diagnostic>> {
+    pipeline::explain(scene, options, pixel, attachment, channel)
 }

@@ -2,6 +2,7 @@
 
 use super::code::{Code, Inner, PoolSource, Port};
 use super::inst::Class;
+use super::mute::Muted;
 use super::observe::Observer;
 use super::paths::{Paths, couples};
 use super::registers::Registers;
@@ -30,6 +31,8 @@ pub struct Machine<D: Domain> {
     /// Lanes that may or may not be discarded.
     pub(super) perhaps_discarded: u64,
     pub(super) paths: Paths,
+    /// What adds nothing to envelopes.
+    pub(super) muted: Option<Muted>,
     /// For a run.
     pub(super) loop_budget: u64,
     /// What is left in this run.
@@ -42,11 +45,25 @@ pub struct Machine<D: Domain> {
     pub(super) watched: u64,
 }
 
+/// What a machine may do beside running.
+#[derive(Debug)]
+struct Extras<D: Domain> {
+    faults: Faults,
+    muted: Option<Muted>,
+    observer: Option<Box<dyn Observer<D>>>,
+}
+
+impl<D: Domain> Default for Extras<D> {
+    fn default() -> Self {
+        Self { faults: Faults::NONE, muted: None, observer: None }
+    }
+}
+
 impl<D: Domain> Machine<D> {
     /// A machine for the uniforms (of each root of the interface, flat) and textures (of each sampler slot) of a draw.
     /// What does not depend on the invocation is computed here, once.
     pub fn new(code: &Code, uniforms: &[Vec<ScalarValue>], textures: &[Option<Arc<Texture>>]) -> Self {
-        Self::made(Faults::NONE, code, uniforms, textures, None)
+        Self::made(code, uniforms, textures, Extras::default())
     }
 
     /// A machine in whose envelopes faults of a driver are admitted.
@@ -56,7 +73,17 @@ impl<D: Domain> Machine<D> {
         uniforms: &[Vec<ScalarValue>],
         textures: &[Option<Arc<Texture>>],
     ) -> Self {
-        Self::made(faults, code, uniforms, textures, None)
+        Self::made(code, uniforms, textures, Extras { faults, ..Extras::default() })
+    }
+
+    /// A machine in whose envelopes the freedom of some operation is left out.
+    pub fn muting(
+        muted: Option<Muted>,
+        code: &Code,
+        uniforms: &[Vec<ScalarValue>],
+        textures: &[Option<Arc<Texture>>],
+    ) -> Self {
+        Self::made(code, uniforms, textures, Extras { muted, ..Extras::default() })
     }
 
     /// A machine with an observer that sees what is computed once, too.
@@ -66,16 +93,11 @@ impl<D: Domain> Machine<D> {
         textures: &[Option<Arc<Texture>>],
         observer: Box<dyn Observer<D>>,
     ) -> Self {
-        Self::made(Faults::NONE, code, uniforms, textures, Some(observer))
+        Self::made(code, uniforms, textures, Extras { observer: Some(observer), ..Extras::default() })
     }
 
-    fn made(
-        faults: Faults,
-        code: &Code,
-        uniforms: &[Vec<ScalarValue>],
-        textures: &[Option<Arc<Texture>>],
-        observer: Option<Box<dyn Observer<D>>>,
-    ) -> Self {
+    fn made(code: &Code, uniforms: &[Vec<ScalarValue>], textures: &[Option<Arc<Texture>>], extras: Extras<D>) -> Self {
+        let Extras { faults, muted, observer } = extras;
         let inner = &code.inner;
         let floats = inner.float_pool.iter().map(|source| float_of::<D>(*source, uniforms)).collect();
         let ints = inner.int_pool.iter().map(|source| int_of::<D>(*source, uniforms)).collect();
@@ -88,6 +110,7 @@ impl<D: Domain> Machine<D> {
             undecided: 0,
             perhaps_discarded: 0,
             paths: Paths::new(couples(&inner.main, inner)),
+            muted,
             loop_budget: LOOP_BUDGET,
             budget: LOOP_BUDGET,
             budget_exceeded: false,
@@ -138,6 +161,7 @@ impl<D: Domain> Machine<D> {
         // Once a machine has run away it is likely to do so again: then it shall be soon.
         self.budget = if self.budget_exceeded { self.loop_budget >> 6 } else { self.loop_budget };
         self.watched = live.0;
+        self.mute_input();
         self.execute(&inner.main, inner, live.0 | helpers.0);
         self.show_outputs(live.0 & !self.discarded);
         if D::OPEN {

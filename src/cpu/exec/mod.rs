@@ -40,6 +40,7 @@ mod inst;
 mod lookup;
 mod machine;
 mod memory;
+mod mute;
 mod observe;
 mod paths;
 mod registers;
@@ -49,6 +50,7 @@ mod tests;
 
 pub use code::Code;
 pub use machine::{LOOP_BUDGET, Machine};
+pub use mute::{Muted, Operation};
 pub use observe::{Event, Kind, Observer, Order, Values, What};
 
 /// How many invocations run at once: a tile of 8x8 pixels (quad by quad), or 64 vertices.

@@ -18,6 +18,10 @@ impl<D: Domain> Machine<D> {
             if watched {
                 self.show_choice(inst, section, place - 1, mask);
             }
+            if D::OPEN && self.muted.is_some() && self.is_muted(section, place - 1) {
+                self.run_muted(inst, section, inner, mask);
+                continue;
+            }
             match *inst {
                 Inst::StoreFloat { dst, a } => self.registers.store_float(dst, a, mask, mask == start),
                 Inst::StoreInt { dst, a } => self.registers.store_int(dst, a, mask, mask == start),

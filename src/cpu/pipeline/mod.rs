@@ -13,6 +13,7 @@
 
 mod assembly;
 mod clip;
+mod explain;
 mod fragments;
 mod plan;
 mod source;
@@ -31,6 +32,7 @@ use crate::hir::Stage;
 use crate::scene::{Draw, Scene};
 use crate::source::Span;
 use assembly::{Prim, primitives};
+pub(super) use explain::explain;
 use fragments::{Shading, draw_bin, output_plans};
 use plan::Plan;
 use rayon::prelude::*;
@@ -57,23 +59,28 @@ pub(super) fn render_watched<D: Domain>(
 ) -> Result<Picture, Vec<Diagnostic>> {
     let mut target = Target::<D>::new(scene.framebuffer);
     for (number, draw) in scene.draws.iter().enumerate() {
-        let watch = Watch { make: observers, draw: number, instance: 0 };
-        draw_all(scene, draw, options, watch, &mut target)?;
+        let watch = Watch { make: observers, draw: number, instance: 0, apart: observers.is_some() };
+        draw_all(scene, draw, options, watch, &mut |shading, code, endless, watch| {
+            draw_prims(shading, code, &mut target, endless, watch);
+        })?;
     }
     Ok(target.picture())
 }
+
+/// What is done with the primitives of an instance.
+type Paint<'p, D> = dyn FnMut(&Shading<'_, D>, &Code, &OnceLock<Span>, &Watch<'_, D>) + 'p;
 
 fn draw_all<D: Domain>(
     scene: &Scene,
     draw: &Draw,
     options: &RenderOptions,
     mut watch: Watch<'_, D>,
-    target: &mut Target<D>,
+    paint: &mut Paint<'_, D>,
 ) -> Result<(), Vec<Diagnostic>> {
     if draw.program.stage(Stage::Geometry).is_some() {
         return Err(vec![refuse(&SCENE_CANNOT_DRAW, "a program with a geometry stage cannot be drawn")]);
     }
-    let compile = if watch.make.is_some() { Code::compile_apart } else { Code::compile };
+    let compile = if watch.apart { Code::compile_apart } else { Code::compile };
     let vertex_code = compile(&draw.program, Stage::Vertex)?;
     let fragment_code = compile(&draw.program, Stage::Fragment)?;
     watch.common(&vertex_code, draw, SAME_FOR_VERTICES);
@@ -113,7 +120,7 @@ fn draw_all<D: Domain>(
                 mark_edges: options.mark_edges,
                 faults: options.faults,
             };
-            draw_prims(&shading, &fragment_code, target, &endless, &watch);
+            paint(&shading, &fragment_code, &endless, &watch);
         }
         first = instances.end;
     }

@@ -39,7 +39,7 @@ impl Test {
 const BLEND_SLACK: f64 = 2.0 / 255.0;
 
 /// A bin's part of the framebuffer.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Bin<D: Domain> {
     /// Its pixels; at the right and lower rim some of them lie outside the picture and are never drawn.
     pub(super) area: Bounds,
@@ -71,19 +71,11 @@ impl<D: Domain> Target<D> {
     pub(super) fn new(framebuffer: Framebuffer) -> Self {
         let (width, height) = (i64::from(framebuffer.width), i64::from(framebuffer.height));
         let (columns, rows) = ((width + BIN - 1) / BIN, (height + BIN - 1) / BIN);
-        let clear = framebuffer.clear.map(|value| store::<D>(D::Float::from_f64(value), framebuffer.format));
-        let pixels = (BIN * BIN) as usize;
         let bins = (0..columns * rows)
             .map(|index| {
                 let (x0, y0) = (index % columns * BIN, index / columns * BIN);
-                Bin {
-                    area: Bounds { x0, x1: (x0 + BIN).min(width), y0, y1: (y0 + BIN).min(height) },
-                    colors: vec![vec![clear; pixels]; framebuffer.attachments as usize],
-                    depth: vec![D::Float::from_f64(1.0); pixels],
-                    covered: vec![false; pixels],
-                    near_edge: vec![false; pixels],
-                    undecided: vec![false; pixels],
-                }
+                let area = Bounds { x0, x1: (x0 + BIN).min(width), y0, y1: (y0 + BIN).min(height) };
+                Bin::new(framebuffer, area)
             })
             .collect();
         Self { framebuffer, columns, rows, bins }
@@ -111,6 +103,26 @@ impl<D: Domain> Target<D> {
 }
 
 impl<D: Domain> Bin<D> {
+    /// A cleared part.
+    pub(super) fn new(framebuffer: Framebuffer, area: Bounds) -> Self {
+        let clear = framebuffer.clear.map(|value| store::<D>(D::Float::from_f64(value), framebuffer.format));
+        let pixels = (BIN * BIN) as usize;
+        Self {
+            area,
+            colors: vec![vec![clear; pixels]; framebuffer.attachments as usize],
+            depth: vec![D::Float::from_f64(1.0); pixels],
+            covered: vec![false; pixels],
+            near_edge: vec![false; pixels],
+            undecided: vec![false; pixels],
+        }
+    }
+
+    /// What a channel of a pixel inside may be.
+    pub(super) fn range(&self, x: i64, y: i64, attachment: usize, channel: usize) -> Range {
+        let color = self.colors.get(attachment).and_then(|colors| colors.get(local(self.area, x, y)));
+        color.and_then(|color| color.get(channel)).map_or(Range::ALL, |number| number.range())
+    }
+
     fn write(&self, picture: &mut Picture) {
         for y in self.area.y0..self.area.y1 {
             for x in self.area.x0..self.area.x1 {

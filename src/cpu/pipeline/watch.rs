@@ -15,6 +15,8 @@ pub(super) struct Watch<'a, D: Domain> {
     pub(super) make: Option<&'a MakeObserver<D>>,
     pub(super) draw: usize,
     pub(super) instance: u32,
+    /// Whether each operation of the text shall have instructions of its own.
+    pub(super) apart: bool,
 }
 
 /// What [`Order::stage`] says.
