@@ -132,7 +132,7 @@ impl Verdict {
             verdict: Self { judged_by, ..Self::default() },
             squares: 0.0,
             channels: 0,
-            worst_share: -1.0,
+            worst_rank: -1.0,
         };
         for pixel in 0..cpu.covered.len() {
             tally.pixel(pixel);
@@ -200,7 +200,7 @@ fn worse_faults(a: &[FaultCount], b: &[FaultCount]) -> Vec<FaultCount> {
 /// covers a pixel that is decided, or a number is not finite that may not be so.
 pub fn shares(gpu: &Picture, cpu: &Picture, judge: Judge) -> Vec<f64> {
     let verdict = Verdict::default();
-    let tally = Tally { gpu, cpu, judge, faults: &[], verdict, squares: 0.0, channels: 0, worst_share: -1.0 };
+    let tally = Tally { gpu, cpu, judge, faults: &[], verdict, squares: 0.0, channels: 0, worst_rank: -1.0 };
     let flag = |flags: &[bool], pixel: usize| flags.get(pixel).copied().unwrap_or(false);
     (0..cpu.covered.len())
         .map(|pixel| {
@@ -228,7 +228,7 @@ struct Tally<'a> {
     verdict: Verdict,
     squares: f64,
     channels: u64,
-    worst_share: f64,
+    worst_rank: f64,
 }
 
 /// What the channels of one pixel of one attachment come to.
@@ -239,6 +239,9 @@ struct PixelError {
     outside: bool,
     /// The largest difference as a share of what is allowed.
     share: f64,
+    /// The same for choosing the worst pixel: what is outside goes before all that is inside, and there half an ULP does
+    /// not count, so that the rounding of a number that is known but for that is not the farthest off.
+    rank: f64,
     /// The channel of that.
     channel: usize,
 }
@@ -290,8 +293,8 @@ impl Tally<'_> {
             if !undecided {
                 self.add_differences(attachment, pixel);
             }
-            if error.share > self.worst_share && (!undecided || error.outside) {
-                self.worst_share = error.share;
+            if error.rank > self.worst_rank && (!undecided || error.outside) {
+                self.worst_rank = error.rank;
                 self.verdict.worst = Some(self.worst_at(attachment, pixel, error.channel));
             }
         }
@@ -360,8 +363,11 @@ impl Tally<'_> {
                         true => 0.0,
                         false => difference / room.max(f64::MIN_POSITIVE),
                     };
-                    if share > error.share {
-                        (error.share, error.channel) = (share, channel);
+                    error.share = error.share.max(share);
+                    let beyond = (difference - 0.5 * ulp_f32(cpu)).max(0.0);
+                    let rank = if inside { beyond / room.max(f64::MIN_POSITIVE) } else { 1.0 + share };
+                    if rank > error.rank {
+                        (error.rank, error.channel) = (rank, channel);
                     }
                 }
                 (false, false) => {}

@@ -551,6 +551,25 @@ fn verify_prints_the_figures_of_the_contract() {
 }
 
 #[test]
+fn verify_names_the_expressions_that_a_bound_comes_from() {
+    let place = Place::triangle();
+    fs::write(place.path("tri.frag"), FRAGMENT.replace("fc = vc", "fc = pow(vc, vec4(99.0))")).expect("written");
+    fs::write(place.path("s.toml"), SCENE.replace("0.5, 0.25, 2.0, 1", "0.5, 0.25, 0.9, 1")).expect("written");
+    let output = place.run(&["verify", "s.toml", "--via", "spirv", "--format", "json", "--difference", "d.png"]);
+    assert_eq!(code(&output), 0, "{}{}", out(&output), err(&output));
+    let figures: Value = serde_json::from_str(&out(&output)).expect("JSON");
+    let contributions = figures["worst"]["contributions"].as_array().expect("a list");
+    let power = contributions.iter().find(|one| one["operation"] == "pow").expect("it contributes");
+    for key in ["file", "line", "column", "end_column", "operation", "share"] {
+        assert!(power.get(key).is_some(), "{key} is missing in {power}");
+    }
+    assert!(power["file"].as_str().is_some_and(|file| file.ends_with("tri.frag")), "{power}");
+    assert!(fs::read(place.path("d.png")).expect("written").starts_with(b"\x89PNG"));
+    let told = out(&place.run(&["verify", "s.toml", "--via", "spirv"]));
+    assert!(told.contains("note[W0905]") && told.contains("`pow`: ") && told.contains("vec4(99.0)"), "{told}");
+}
+
+#[test]
 fn without_a_vulkan_driver_the_message_says_what_to_install() {
     let place = Place::triangle();
     fs::write(place.path("s.toml"), SCENE).expect("written");

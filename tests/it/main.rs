@@ -6,6 +6,8 @@ mod cli;
 mod codes;
 mod diagnostics;
 mod emit;
+#[cfg(feature = "gpu")]
+mod envelope;
 #[cfg(feature = "reference")]
 mod exec;
 #[cfg(feature = "cli")]

@@ -60,6 +60,9 @@ fn join_others<T: Copy, I: Integer>(
     element: impl Fn(usize, usize) -> Option<T>,
     join: impl Fn(T, T) -> T,
 ) {
+    if matches!(index, Source::One(index) if index.sure()) {
+        return;
+    }
     for (lane, out) in out.iter_mut().enumerate() {
         let index = index.at(lane);
         if !index.sure() {

@@ -118,7 +118,7 @@ struct Joined<D: Domain> {
 impl<D: Domain> Machine<D> {
     /// Runs every other way of the groups of these lanes that met an open condition.
     pub(super) fn explore(&mut self, lanes: u64) {
-        if !self.paths.any {
+        if !self.paths.any || self.budget_exceeded {
             return;
         }
         let group = self.paths.group;
@@ -133,7 +133,6 @@ impl<D: Domain> Machine<D> {
                 ways.extend(way.others().map(|other| (number, other)));
             }
         }
-        let budget = self.budget_exceeded;
         while !ways.is_empty() {
             // The latest first: depth first, so that the list stays short.
             let batch = ways.split_off(ways.len().saturating_sub(LANES / group));
@@ -159,7 +158,7 @@ impl<D: Domain> Machine<D> {
             }
             ways.retain(|(number, _)| joined.undecided >> (number * group) & members == 0);
             // A way that does not end is one that the bound of loops leaves open.
-            self.budget_exceeded = budget;
+            self.budget_exceeded = false;
         }
         self.paths.clear();
         self.restore_inputs(&inputs);

@@ -9,15 +9,13 @@
 
 use super::assembly::{Corners, Prim};
 use super::vertices::Vertices;
-use crate::cpu::domain::{Domain, Number, rules};
+use crate::compare::Range;
+use crate::cpu::domain::{Domain, F64, Number, rules};
 use crate::cpu::interpolate::{Frame, Vec2, along, linear, perspective, perspective_w, weights};
 use crate::hir::Interpolation;
 
-/// How many roundings of an f32 GPU's plane equation are counted. Measured on Mesa 22.3's: it adds two products of slope
-/// and distance to the value at the corner of the window, each with two to four roundings.
-const ROUNDINGS: f64 = 8.0;
-/// Half an ULP of f32 at 1.
-const ROUNDING: f64 = 5.960_464_477_539_063e-8;
+/// An ULP of f32 at 1.
+const ULP: f64 = 1.0 / (1 << 23) as f64;
 
 /// The place of a fragment relative to a primitive.
 #[derive(Clone, Copy, Debug)]
@@ -52,6 +50,9 @@ struct Slack {
 #[derive(Debug)]
 pub(super) struct Source<'v, D: Domain> {
     kind: Kind<D>,
+    /// The same by the values alone, in a domain with envelopes: what the vertices' places may be off is counted once, by
+    /// [`Slack`].
+    plain: Option<Kind<F64>>,
     quotients: [&'v [D::Float]; 3],
     /// Of the provoking vertex.
     flat: &'v [D::Float],
@@ -102,15 +103,12 @@ impl<'v, D: Domain> Source<'v, D> {
         };
         let window = corners.map(|vertex| vertices.window.get(vertex as usize).copied().unwrap_or_default());
         let places = window.map(|[x, y, _, _]| [x, y]);
-        let kind = match prim.corners {
-            Corners::Point(_) => Kind::Point,
-            Corners::Line(_) => Kind::Line(places[0], places[1]),
-            Corners::Triangle(_) => Kind::Triangle(Frame::new(places[0], places[1], places[2])),
-        };
+        let kind = Kind::<D>::of(&prim.corners, places);
         let is_point = matches!(kind, Kind::Point);
         let size = vertices.size.get(corners[0] as usize).copied().unwrap_or(1.0).max(1.0);
         let size = size.min(crate::cpu::raster::point::MAX_SIZE);
         Self {
+            plain: D::OPEN.then(|| Kind::<F64>::of(&prim.corners, places.map(|place| place.map(Number::value)))),
             slack: D::OPEN.then(|| Slack::new(&kind, places.map(|p| p.map(|c: D::Float| (c.value(), c.error()))))),
             kind,
             quotients: corners.map(|vertex| vertices.quotients_of(vertex)),
@@ -125,20 +123,11 @@ impl<'v, D: Domain> Source<'v, D> {
     /// The fragment whose center is at (x, y).
     #[inline(always)]
     pub(super) fn fragment(&self, x: f64, y: f64) -> Fragment<D::Float> {
-        let place = [D::Float::from_f64(x), D::Float::from_f64(y)];
         let zero = D::Float::default();
-        let mut weights = match &self.kind {
-            Kind::Point => [D::Float::from_f64(1.0), zero, zero],
-            Kind::Line(from, to) => weights(along(place, *from, *to), zero),
-            Kind::Triangle(frame) => {
-                let (u, v) = frame.coordinates(place);
-                weights(u, v)
-            }
+        let weights = match &self.plain {
+            Some(kind) => kind.weights(x, y).map(|weight| D::Float::whole(weight, Range::point(weight))),
+            None => self.kind.weights(x, y),
         };
-        if self.slack.is_some() {
-            // What the vertices' places may be off is counted once, in the bound.
-            weights = weights.map(|weight| D::Float::from_f64(weight.value()));
-        }
         let mut fragment = Fragment { weights, w: zero, reciprocal: zero, z: zero, place: [x, y] };
         fragment.z = self.in_plane(&fragment, self.z);
         fragment.reciprocal = self.in_plane(&fragment, self.reciprocals);
@@ -179,6 +168,31 @@ impl<'v, D: Domain> Source<'v, D> {
     }
 }
 
+impl<D: Domain> Kind<D> {
+    fn of(corners: &Corners, places: [Vec2<D::Float>; 3]) -> Self {
+        match corners {
+            Corners::Point(_) => Self::Point,
+            Corners::Line(_) => Self::Line(places[0], places[1]),
+            Corners::Triangle(_) => Self::Triangle(Frame::new(places[0], places[1], places[2])),
+        }
+    }
+
+    /// The weights of the vertices at (x, y).
+    #[inline(always)]
+    fn weights(&self, x: f64, y: f64) -> [D::Float; 3] {
+        let place = [D::Float::from_f64(x), D::Float::from_f64(y)];
+        let zero = D::Float::default();
+        match self {
+            Self::Point => [D::Float::from_f64(1.0), zero, zero],
+            Self::Line(from, to) => weights(along(place, *from, *to), zero),
+            Self::Triangle(frame) => {
+                let (u, v) = frame.coordinates(place);
+                weights(u, v)
+            }
+        }
+    }
+}
+
 impl Slack {
     fn new<D: Domain>(kind: &Kind<D>, places: [[(f64, f64); 2]; 3]) -> Self {
         let value = |corner: usize, axis: usize| places[corner][axis].0;
@@ -212,7 +226,7 @@ impl Slack {
         let spread: f64 = weights.iter().map(|weight| weight.abs()).sum();
         let moved = spread * (slope(self.x).abs() * self.off[0] + slope(self.y).abs() * self.off[1]);
         let carried: f64 = weights.iter().zip(&values).map(|(weight, value)| weight.abs() * value.error()).sum();
-        let rounded = ROUNDINGS * ROUNDING * (terms + largest) + rules::ulp(value);
+        let rounded = rules::VARYING.ulps() * ULP * (terms + largest) + rules::ulp(value);
         D::Float::with_error(value, carried + moved + rounded)
     }
 }

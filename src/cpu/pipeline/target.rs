@@ -33,11 +33,6 @@ impl Test {
     }
 }
 
-/// How far blending may be off in an 8-bit attachment, which may be computed in as many bits as the attachment has
-/// (OpenGL 3.2 §4.1.7): the source, the factors and the products are each rounded to steps of 1/255. Measured on Mesa
-/// 22.3's software drivers: up to two steps.
-const BLEND_SLACK: f64 = 2.0 / 255.0;
-
 /// A bin's part of the framebuffer.
 #[derive(Clone, Debug)]
 pub(super) struct Bin<D: Domain> {
@@ -197,9 +192,9 @@ impl<D: Domain> Bin<D> {
         let Some(slot) = self.colors.get_mut(attachment).and_then(|colors| colors.get_mut(index)) else { return };
         let color = match blend {
             Some(factors) if !is_integer(format) => {
-                let slack = if format == Format::Rgba8Unorm { BLEND_SLACK } else { 0.0 };
-                let blended = blended::<D>(factors, clamped::<D>(color, format), *slot);
-                if D::OPEN && slack > 0.0 { blended.map(|channel| channel.widened(slack)) } else { blended }
+                let in_bytes = D::OPEN && format == Format::Rgba8Unorm;
+                let round = if in_bytes { in_steps::<D> } else { |value| value };
+                blended::<D>(factors, clamped::<D>(color, format).map(round), *slot, round)
             }
             _ => color,
         };
@@ -269,20 +264,31 @@ fn clamped<D: Domain>(color: [D::Float; 4], format: Format) -> [D::Float; 4] {
     color.map(|channel| channel.max(D::Float::default()).min(D::Float::from_f64(1.0)))
 }
 
-/// `source * S + destination * D` (§4.1.7, tables 4.1 and 4.2).
+/// A number and the step of 1/255 nearest to it: blending in an 8-bit attachment may be computed in as many bits as that
+/// has (§4.1.7), which rounds the source, the factors and the products, or in floats.
+fn in_steps<D: Domain>(value: D::Float) -> D::Float {
+    let Range { low, high, may_be_nan } = value.range();
+    let slack = rules::STORE_SLACK.absolute();
+    let step = |x: f64| (x * 255.0).round() / 255.0;
+    let (low, high) = (low.min(step(low - slack)), high.max(step(high + slack)));
+    D::Float::with_range(value.value(), Range { low, high, may_be_nan })
+}
+
+/// `source * S + destination * D` (§4.1.7, tables 4.1 and 4.2), with a rounding of factors and products.
 fn blended<D: Domain>(
     (source_factor, destination_factor): (BlendFactor, BlendFactor),
     source: [D::Float; 4],
     destination: [D::Float; 4],
+    round: impl Fn(D::Float) -> D::Float,
 ) -> [D::Float; 4] {
-    let by = |name: BlendFactor| factor::<D>(name, source, destination);
+    let by = |name: BlendFactor| factor::<D>(name, source, destination).map(&round);
     let (s, d) = (by(source_factor), by(destination_factor));
     std::array::from_fn(|i| {
         let part = |weight: D::Float, value: D::Float, name: BlendFactor| match name {
             // Nothing times infinity is nothing, where the factor is not computed.
             BlendFactor::Zero => D::Float::default(),
             BlendFactor::One => value,
-            _ => weight.mul(value),
+            _ => round(weight.mul(value)),
         };
         part(s[i], source[i], source_factor).add(part(d[i], destination[i], destination_factor))
     })

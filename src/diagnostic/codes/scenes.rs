@@ -59,7 +59,7 @@ codes! {
         "The program reads a sampler for which the scene brings no texture. Every texel reads as (0, 0, 0, 1), as of an \
          incomplete texture in OpenGL."
         bad Text("[draw.textures]  # and the shader reads `tex`"), good Text("[draw.textures]\ntex = { width = 1, height = 1, values = [1, 1, 1, 1] }");
-    BOUND_EXPLAINED = "W0904" "bound-explained" Note "Vulkan, Precision of SPIR-V Instructions"
+    BOUND_EXPLAINED = "W0905" "bound-explained" Note "Vulkan, Precision of SPIR-V Instructions"
         "`verify` names what the bound of the worst pixel comes from: the operations without whose freedom of rounding the \
          envelope there would be narrowest. A GPU may be off that much; where the bound is wider than one likes, these \
          are the expressions to write otherwise."

@@ -178,6 +178,14 @@ impl Number for EnvelopeFloat {
     }
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
+        if self.low >= 0.0 && other.low >= 0.0 {
+            // Most products of shaders: of what is not negative.
+            let (low, high) = (self.low * other.low, self.high * other.high);
+            if high.is_finite() {
+                let may_be_nan = self.may_be_nan | other.may_be_nan;
+                return Self { value: self.value * other.value, low: down(low), high: up(high), may_be_nan };
+            }
+        }
         let (ll, lh) = (self.low * other.low, self.low * other.high);
         let (hl, hh) = (self.high * other.low, self.high * other.high);
         // Products of two f32 numbers are exact in f64.

@@ -1,0 +1,218 @@
+//! The envelope against lavapipe: what it excuses, how wide it is, what its own rules rest on, what it is laid at.
+//!
+//! Figures of the docs are printed by `cargo test --test it -- envelope --nocapture`. Needs a Vulkan software adapter.
+
+#![expect(clippy::print_stdout, reason = "figures of the docs are printed here")]
+
+use crate::gpu::gpu;
+use glisten::compare::{Judge, Picture, Verdict, shares};
+use glisten::cpu::domain::faults::{ARC_FUNCTIONS, Faults, KNOWN};
+use glisten::cpu::domain::rules;
+use glisten::cpu::{self, LineRule, Precision, RenderOptions};
+use glisten::gpu::{Gpu, Via};
+use glisten::scene::{DiskFiles, MemoryFiles, Scene, load};
+use glisten::{Compiler, Options};
+
+fn read(path: &str) -> String {
+    std::fs::read_to_string(format!("{}/fixtures/{path}", env!("CARGO_MANIFEST_DIR"))).expect("a fixture")
+}
+
+fn from_disk(name: &str) -> Scene {
+    let path = format!("{}/fixtures/scenes/{name}", env!("CARGO_MANIFEST_DIR"));
+    load(&path, &DiskFiles, &Compiler::new(Options::default())).scene.expect("another test loads it")
+}
+
+fn options(precision: Precision, faults: Faults) -> RenderOptions {
+    RenderOptions { precision, lines: LineRule::Vulkan, faults, ..RenderOptions::default() }
+}
+
+fn reference(scene: &Scene, precision: Precision) -> Picture {
+    cpu::render(scene, &options(precision, Faults::NONE)).expect("the reference draws it")
+}
+
+fn admitting(scene: &Scene) -> Vec<(&'static str, Picture)> {
+    let one = KNOWN.iter().map(|known| (known.name, Faults::only(known.fault)));
+    one.map(|(name, faults)| {
+        (name, cpu::render(scene, &options(Precision::Envelope, faults)).expect("the reference draws it"))
+    })
+    .collect()
+}
+
+/// A square over the window, 64x64, drawn by a fragment shader.
+fn square(fragment: &str, format: &str) -> Scene {
+    let text = format!(
+        "[framebuffer]\nwidth = 64\nheight = 64\nformat = \"{format}\"\n[[draw]]\nvertex = \"nothing.vert\"\n\
+         fragment = \"a.frag\"\nprimitive = \"triangle_strip\"\nvertex_count = 4\n"
+    );
+    let fragment = format!("#version 150\nin vec2 place;\nout vec4 color;\n{fragment}\n");
+    let vertex = read("scenes/core/nothing.vert");
+    let files =
+        MemoryFiles::new([("a.toml", text.as_str()), ("nothing.vert", vertex.as_str()), ("a.frag", fragment.as_str())]);
+    let loaded = load("a.toml", &files, &Compiler::new(Options::default()));
+    let messages: Vec<&String> = loaded.diagnostics.iter().map(|diagnostic| &diagnostic.message).collect();
+    loaded.scene.unwrap_or_else(|| panic!("{messages:?}"))
+}
+
+fn drawn(gpu: &Gpu, scene: &Scene) -> Picture {
+    gpu.render(scene, Via::Spirv).expect("it draws").picture
+}
+
+#[test]
+fn known_faults_explain_what_the_strict_envelope_leaves_outside() {
+    let gpu = gpu();
+    for (name, fault) in [
+        ("core/mipmaps_implicit.toml", "level_of_detail"),
+        ("core/behind_the_eye_noperspective.toml", "clipped_noperspective"),
+    ] {
+        let scene = from_disk(name);
+        let (picture, reference) = (drawn(&gpu, &scene), reference(&scene, Precision::Envelope));
+        assert!(!Verdict::new(&picture, &reference, Judge::Envelope).holds(false), "{name} holds without");
+        let verdict = Verdict::admitting(&picture, &reference, Judge::Envelope, &admitting(&scene));
+        assert!(verdict.holds(false), "{name}: {verdict:?}");
+        let found: Vec<&str> = verdict.known_faults.iter().map(|count| count.fault).collect();
+        assert_eq!(found, [fault], "{name}");
+    }
+}
+
+/// Channels of covered pixels: the width of the envelope and lavapipe's error.
+fn widths_and_errors(picture: &Picture, reference: &Picture) -> Vec<(f64, f64)> {
+    let ranges = &reference.ranges.as_ref().expect("it has envelopes")[0];
+    let mut pairs = Vec::new();
+    for pixel in (0..ranges.len()).filter(|pixel| picture.covered[*pixel] && reference.covered[*pixel]) {
+        let (gpu, cpu) = (picture.attachments[0][pixel], reference.attachments[0][pixel]);
+        let channels = ranges[pixel].iter().zip(gpu).zip(cpu).take(3);
+        pairs.extend(channels.map(|((range, gpu), cpu)| (range.width(), (gpu - cpu).abs())));
+    }
+    pairs
+}
+
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
+}
+
+#[test]
+fn the_envelope_is_not_much_wider_than_what_lavapipe_makes_of_it() {
+    let gpu = gpu();
+    println!("lighting scenes at exponent 32, median width of the envelope and lavapipe's error:");
+    for name in ["blinn_phong", "phong", "blinn_phong_vertex", "phong_vertex"] {
+        let text = read(&format!("scenes/{name}.toml")).replace("../programs/", "").replace("40.0", "32.0");
+        let (vertex, fragment) = (read(&format!("programs/{name}.vert")), read(&format!("programs/{name}.frag")));
+        let (vertex_name, fragment_name) = (format!("{name}.vert"), format!("{name}.frag"));
+        let files = MemoryFiles::new([
+            ("a.toml", text.as_str()),
+            (vertex_name.as_str(), vertex.as_str()),
+            (fragment_name.as_str(), fragment.as_str()),
+        ]);
+        let scene = load("a.toml", &files, &Compiler::new(Options::default())).scene.expect("the scene is right");
+        let (picture, reference) = (drawn(&gpu, &scene), reference(&scene, Precision::Envelope));
+        let verdict = Verdict::new(&picture, &reference, Judge::Envelope);
+        let pairs = widths_and_errors(&picture, &reference);
+        let width = median(pairs.iter().map(|pair| pair.0).collect());
+        let largest = pairs.iter().map(|pair| pair.1).fold(0.0, f64::max);
+        let typical = median(pairs.iter().map(|pair| pair.1).collect());
+        println!(
+            "  {name:20} width {width:.2e}, largest error {largest:.2e} (ratio {:.2}), median error {typical:.2e} (ratio \
+             {:.0}), undecided {} of {}",
+            width / largest,
+            width / typical,
+            verdict.undecided,
+            verdict.covered
+        );
+        assert!(verdict.holds(false), "{name}: {verdict:?}");
+        assert!(width < 20.0 * largest, "{name}");
+        assert!(verdict.undecided * 100 < verdict.covered, "{name}");
+    }
+}
+
+#[test]
+fn a_bound_is_laid_at_the_expression_that_makes_it() {
+    let body = "void main() { float c = 0.5 + 0.5 * place.x; color = vec4(pow(c, 200.0), c, 0, 1); }";
+    let scene = square(body, "rgba32float");
+    let of = |channel: usize| {
+        let options = options(Precision::Envelope, Faults::NONE);
+        cpu::explain(&scene, &options, [54, 20], 0, channel).expect("the pixel is drawn")
+    };
+    let (red, green) = (of(0), of(1));
+    let share = |found: &[cpu::Contribution], name: &str| {
+        found.iter().filter(|one| one.operation == name).map(|one| one.share).fold(0.0, f64::max)
+    };
+    assert!(share(&red, "pow") > 0.2 && share(&red, "interpolation") > 0.2, "{red:?}");
+    assert!(red.windows(2).all(|pair| pair[0].share >= pair[1].share), "{red:?}");
+    assert!(green.iter().all(|one| one.operation != "pow" || one.share == 0.0), "{green:?}");
+    let options = options(Precision::Envelope, Faults::NONE);
+    assert!(cpu::explain(&scene, &options, [64, 10], 0, 1).is_err(), "there is no such pixel");
+    assert_eq!(cpu::explain(&scene, &options, [0, 0], 0, 1), Ok(Vec::new()), "nothing is drawn there");
+}
+
+/// The largest error of a channel against f64.
+fn error(gpu: &Gpu, fragment: &str, channel: usize) -> f64 {
+    let scene = square(fragment, "rgba32float");
+    let (picture, exact) = (drawn(gpu, &scene), reference(&scene, Precision::F64));
+    let pairs = picture.attachments[0].iter().zip(&exact.attachments[0]);
+    pairs.map(|(gpu, cpu)| (gpu[channel] - cpu[channel]).abs()).fold(0.0, f64::max)
+}
+
+#[track_caller]
+fn measured(what: &str, found: f64, allowed: f64, unit: &str) {
+    println!("  {what:44} {found:9.2e} of {allowed:9.2e} {unit}");
+    assert!(found <= allowed, "{what}");
+}
+
+/// Where vertices lie between points of the grid that coverage is decided on, a varying with a steep slope tells whether
+/// it is interpolated between the snapped places: how far off it is, in pixels.
+fn snapping(gpu: &Gpu) -> f64 {
+    let text = "[framebuffer]\nwidth = 64\nheight = 64\n[[draw]]\nvertex = \"a.vert\"\nfragment = \"a.frag\"\n\
+                primitive = \"triangles\"\n[draw.attributes]\n\
+                p = { size = 2, values = [-0.90005, -0.90005, 0.90005, -0.9, -0.9, 0.90005] }\n\
+                v = { size = 1, values = [0, 57.6, 0] }\n";
+    let vertex =
+        "#version 150\nin vec2 p;\nin float v;\nout float f;\nvoid main() { f = v; gl_Position = vec4(p, 0, 1); }\n";
+    let fragment = "#version 150\nin float f;\nout vec4 color;\nvoid main() { color = vec4(f, 0, 0, 1); }\n";
+    let files = MemoryFiles::new([("a.toml", text), ("a.vert", vertex), ("a.frag", fragment)]);
+    let scene = load("a.toml", &files, &Compiler::new(Options::default())).scene.expect("the scene is right");
+    let (picture, exact) = (drawn(gpu, &scene), reference(&scene, Precision::F64));
+    // The slope is one a pixel.
+    let pairs = picture.attachments[0].iter().zip(&exact.attachments[0]).zip(&picture.covered);
+    pairs.filter(|(_, covered)| **covered).map(|((gpu, cpu), _)| (gpu[0] - cpu[0]).abs()).fold(0.0, f64::max)
+}
+
+/// How far from the middle between two steps of 8 bits a number may be that is stored at the farther one.
+fn storing(gpu: &Gpu) -> f64 {
+    let body = "void main() { color = vec4(gl_FragCoord.x / 64.0, gl_FragCoord.y / 64.0, (gl_FragCoord.x + 64.0 * \
+                gl_FragCoord.y) / 4192.0, 1); }";
+    let (bytes, floats) = (drawn(gpu, &square(body, "rgba8unorm")), drawn(gpu, &square(body, "rgba32float")));
+    let pairs = bytes.attachments[0].iter().flatten().zip(floats.attachments[0].iter().flatten());
+    pairs.map(|(byte, float)| ((byte - float).abs() - 0.5 / 255.0).max(0.0)).fold(0.0, f64::max)
+}
+
+#[test]
+fn measured_rules_rest_on_what_the_driver_does() {
+    let gpu = gpu();
+    println!("rules of our own, as measured:");
+    let angle = "float a = (gl_FragCoord.x - 0.5 + 64.0 * (gl_FragCoord.y - 0.5)) * 256.0;";
+    for (what, body) in [("sin up to 1e6", "sin(a)"), ("cos up to 1e6", "cos(a)")] {
+        let found = error(&gpu, &format!("void main() {{ {angle} color = vec4({body}); }}"), 0);
+        measured(what, found, rules::SIN_BEYOND_PI.absolute(), "");
+    }
+    for name in ["quad_smooth.toml", "triangle.toml", "core/depth_less.toml"] {
+        let scene = from_disk(name);
+        let used = shares(&drawn(&gpu, &scene), &reference(&scene, Precision::Envelope), Judge::Envelope);
+        let used = used.into_iter().filter(|share| share.is_finite()).fold(0.0, f64::max);
+        measured(&format!("varyings of {name}"), used, 1.0, "of what is allowed");
+    }
+    // A vertex that is snapped moves by up to 1/512 pixel.
+    measured("varyings follow snapped vertices by", snapping(&gpu), 1e-4, "pixels");
+    measured("storing in 8 bits, from the middle", storing(&gpu), rules::STORE_SLACK.absolute(), "");
+    let scene = from_disk("core/texture_linear.toml");
+    let (picture, exact) = (drawn(&gpu, &scene), reference(&scene, Precision::F64));
+    let pairs = picture.attachments[0].iter().flatten().zip(exact.attachments[0].iter().flatten());
+    let found = pairs.map(|(gpu, cpu)| (gpu - cpu).abs()).fold(0.0, f64::max);
+    measured("linear filtering of floats", found, rules::FILTER_WEIGHT.absolute(), "times the range of the texels");
+    println!("known faults:");
+    let x = "float x = (gl_FragCoord.x + 64.0 * (gl_FragCoord.y - 0.5)) / 2048.0 - 1.0;";
+    for (what, body) in [("acos", "acos(x)"), ("asin", "asin(x)")] {
+        let found = error(&gpu, &format!("void main() {{ {x} color = vec4({body}); }}"), 0);
+        measured(what, found, ARC_FUNCTIONS, "");
+    }
+}
