@@ -1,6 +1,6 @@
 //! The gallery: every scene of the library on one page, beside its equation, its source and what the document says of it.
 //!
-//! *In:* the scenes of [`library::scenes`], each with a `[gallery]` table, and the pictures that a backend drew of them.
+//! *In:* the scenes of [`crate::library::scenes`], each with a `[gallery]` table, and the pictures that a backend drew of them.
 //! *Out:* PNG files, a contact sheet of them, and a page that needs nothing else.
 //!
 //! ```text
