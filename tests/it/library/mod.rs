@@ -7,6 +7,7 @@ mod evaluator;
 mod laws;
 mod registers;
 mod stiff;
+mod sum;
 mod targets;
 mod values;
 
