@@ -1,7 +1,8 @@
 //! Scene files that use the library: programs by name, lights and materials, textures by formula, and how their mistakes
 //! are told.
 
-use glisten::diagnostic::{Diagnostic, Severity};
+use crate::scenes::{the_error, told};
+use glisten::diagnostic::Severity;
 use glisten::hir::ScalarValue;
 use glisten::scene::{Draw, Loaded, MemoryFiles, Texels, Wrap, load};
 use glisten::{Compiler, Options};
@@ -47,10 +48,6 @@ fn load_text(text: &str) -> Loaded {
     load("a.toml", &files, &Compiler::new(Options::default()).with_includes(glisten::library::Embedded))
 }
 
-fn told(loaded: &Loaded) -> Vec<String> {
-    loaded.diagnostics.iter().map(|diagnostic| format!("{}: {}", diagnostic.code, diagnostic.message)).collect()
-}
-
 /// The scene with `from` replaced.
 fn changed(from: &str, to: &str) -> Loaded {
     assert!(GOOD.contains(from), "`{from}` is not in the scene");
@@ -63,15 +60,10 @@ fn good(loaded: &Loaded) -> &Draw {
     &loaded.scene.as_ref().expect("without findings there is a scene").draws[0]
 }
 
-/// The one error of a scene: its code, the text it stands at, and all that is said.
+/// The one error of a changed scene, as [`the_error`] gives it.
 #[track_caller]
 fn mistake(from: &str, to: &str) -> (&'static str, String, String) {
-    let loaded = changed(from, to);
-    assert!(loaded.scene.is_none(), "it was accepted");
-    let errors: Vec<&Diagnostic> = loaded.diagnostics.iter().filter(|d| d.severity == Severity::Error).collect();
-    assert_eq!(errors.len(), 1, "{:?}", told(&loaded));
-    let place = loaded.sources.snippet(errors[0].primary.span).to_owned();
-    (errors[0].code.id, place, format!("{} {}", errors[0].message, errors[0].help.as_deref().unwrap_or("")))
+    the_error(&changed(from, to))
 }
 
 /// The numbers of a uniform.

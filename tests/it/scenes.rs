@@ -58,17 +58,22 @@ fn changed(from: &str, to: &str) -> Loaded {
     load_text(&GOOD.replacen(from, to, 1))
 }
 
-fn told(loaded: &Loaded) -> Vec<String> {
+pub(crate) fn told(loaded: &Loaded) -> Vec<String> {
     loaded.diagnostics.iter().map(|diagnostic| format!("{}: {}", diagnostic.code, diagnostic.message)).collect()
 }
 
-/// The one error of a changed scene: its code, the text it stands at, and all that is said.
+/// The one error of a changed scene, as [`the_error`] gives it.
 #[track_caller]
 fn mistake(from: &str, to: &str) -> (&'static str, String, String) {
-    let loaded = changed(from, to);
+    the_error(&changed(from, to))
+}
+
+/// The one error of a scene: its code, the text it stands at, and all that is said.
+#[track_caller]
+pub(crate) fn the_error(loaded: &Loaded) -> (&'static str, String, String) {
     assert!(loaded.scene.is_none(), "it was accepted");
     let errors: Vec<&Diagnostic> = loaded.diagnostics.iter().filter(|d| d.severity == Severity::Error).collect();
-    assert_eq!(errors.len(), 1, "{:?}", told(&loaded));
+    assert_eq!(errors.len(), 1, "{:?}", told(loaded));
     let error = errors[0];
     let place = loaded.sources.snippet(error.primary.span).to_owned();
     (error.code.id, place, format!("{} {}", error.message, error.help.as_deref().unwrap_or("")))
