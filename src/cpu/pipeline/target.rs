@@ -9,6 +9,7 @@ use crate::cpu::domain::{Domain, Number, rules};
 use crate::cpu::raster::Bounds;
 use crate::scene::{BlendFactor, Compare, Format, Framebuffer, State};
 use half::f16;
+use rayon::prelude::*;
 
 /// Pixels along a side of a bin; even, so that quads lie within one.
 pub(super) const BIN: i64 = 32;
@@ -66,9 +67,10 @@ impl<D: Domain> Target<D> {
     pub(super) fn new(framebuffer: Framebuffer) -> Self {
         let (width, height) = (i64::from(framebuffer.width), i64::from(framebuffer.height));
         let (columns, rows) = ((width + BIN - 1) / BIN, (height + BIN - 1) / BIN);
-        let bins = (0..columns * rows)
+        let bins = (0..(columns * rows) as usize)
+            .into_par_iter()
             .map(|index| {
-                let (x0, y0) = (index % columns * BIN, index / columns * BIN);
+                let (x0, y0) = (index as i64 % columns * BIN, index as i64 / columns * BIN);
                 let area = Bounds { x0, x1: (x0 + BIN).min(width), y0, y1: (y0 + BIN).min(height) };
                 Bin::new(framebuffer, area)
             })
@@ -78,22 +80,43 @@ impl<D: Domain> Target<D> {
 
     /// The picture that was drawn.
     pub(super) fn picture(&self) -> Picture {
-        let (width, height) = (self.framebuffer.width, self.framebuffer.height);
-        let pixels = width as usize * height as usize;
-        let attachments = self.framebuffer.attachments as usize;
-        let mut picture = Picture {
-            width,
-            height,
-            attachments: vec![vec![[0.0; 4]; pixels]; attachments],
-            covered: vec![false; pixels],
-            ranges: D::OPEN.then(|| vec![vec![[Range::point(0.0); 4]; pixels]; attachments]),
-            undecided: vec![false; pixels],
-            near_edge: vec![false; pixels],
+        let attachments = 0..self.framebuffer.attachments as usize;
+        let ranges = |attachment: usize| {
+            self.gathered([Range::point(0.0); 4], |bin, place| bin.colors[attachment][place].map(Number::range))
         };
-        for bin in &self.bins {
-            bin.write(&mut picture);
+        Picture {
+            width: self.framebuffer.width,
+            height: self.framebuffer.height,
+            attachments: attachments
+                .clone()
+                .map(|attachment| {
+                    self.gathered([0.0; 4], |bin, place| bin.colors[attachment][place].map(Number::value))
+                })
+                .collect(),
+            covered: self.gathered(false, |bin, place| bin.covered[place]),
+            ranges: D::OPEN.then(|| attachments.map(ranges).collect()),
+            undecided: self.gathered(false, |bin, place| bin.undecided[place]),
+            near_edge: self.gathered(false, |bin, place| bin.near_edge[place]),
         }
-        picture
+    }
+
+    /// What each pixel has of its bin: rows of bins side by side in threads, since nothing is drawn meanwhile.
+    fn gathered<T: Copy + Send + Sync>(&self, blank: T, of: impl Fn(&Bin<D>, usize) -> T + Sync) -> Vec<T> {
+        let (width, height) = (self.framebuffer.width as usize, self.framebuffer.height as usize);
+        let mut all = vec![blank; width * height];
+        let strips = all.par_chunks_mut((BIN as usize * width).max(1));
+        strips.zip(self.bins.par_chunks((self.columns as usize).max(1))).for_each(|(strip, bins)| {
+            for bin in bins {
+                let columns = bin.area.x0 as usize..bin.area.x1 as usize;
+                for (row, pixels) in strip.chunks_exact_mut(width).enumerate() {
+                    let first = row * BIN as usize;
+                    for (place, pixel) in (first..).zip(&mut pixels[columns.clone()]) {
+                        *pixel = of(bin, place);
+                    }
+                }
+            }
+        });
+        all
     }
 }
 
@@ -116,23 +139,6 @@ impl<D: Domain> Bin<D> {
     pub(super) fn range(&self, x: i64, y: i64, attachment: usize, channel: usize) -> Range {
         let color = self.colors.get(attachment).and_then(|colors| colors.get(local(self.area, x, y)));
         color.and_then(|color| color.get(channel)).map_or(Range::ALL, |number| number.range())
-    }
-
-    fn write(&self, picture: &mut Picture) {
-        for y in self.area.y0..self.area.y1 {
-            for x in self.area.x0..self.area.x1 {
-                let (from, to) = (local(self.area, x, y), (y * i64::from(picture.width) + x) as usize);
-                picture.covered[to] = self.covered[from];
-                picture.near_edge[to] = self.near_edge[from];
-                picture.undecided[to] = self.undecided[from];
-                for (attachment, colors) in self.colors.iter().enumerate() {
-                    picture.attachments[attachment][to] = colors[from].map(Number::value);
-                    if let Some(ranges) = &mut picture.ranges {
-                        ranges[attachment][to] = colors[from].map(Number::range);
-                    }
-                }
-            }
-        }
     }
 
     pub(super) fn mark_near_edge(&mut self, x: i64, y: i64) {
