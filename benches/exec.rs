@@ -60,7 +60,7 @@ fn tile<D: Domain>(bencher: Bencher<'_, '_>) {
 }
 
 /// The whole draw.
-#[divan::bench(args = ["f64", "f32", "bound"], sample_count = 20)]
+#[divan::bench(args = ["f64", "f32", "envelope"], sample_count = 20)]
 fn draw(bencher: Bencher<'_, '_>, precision: &str) {
     let scene = sphere();
     let precision = match precision {
