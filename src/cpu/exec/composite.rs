@@ -5,7 +5,7 @@
 
 use super::LANES;
 use super::inst::{Composite, Operand};
-use super::registers::{Lanes, Registers, Source};
+use super::registers::{Filled, Registers, Source};
 use crate::cpu::domain::{Domain, Number};
 
 /// Lanes that are computed together, enough for every vector unit. Envelopes are too large for that: lane by lane.
@@ -251,11 +251,13 @@ impl<D: Domain> Registers<D> {
         arguments: &[Operand],
         f: impl Fn(&[Few<Wide<D>, S>; A]) -> [Few<Wide<D>, S>; R],
     ) {
-        let mut outs: Vec<Lanes<D::Float>> = std::mem::take(&mut self.spare_floats);
         let blank = Source::One(D::Float::default());
+        let mut outs: [_; R] = std::array::from_fn(|_| self.floats.take());
         let sources: [Source<'_, D::Float>; A] =
             std::array::from_fn(|k| arguments.get(k).map_or(blank, |operand| self.float(*operand)));
-        for start in (0..LANES).step_by(S) {
+        let same = sources.iter().all(|source| matches!(source, Source::One(_)));
+        let (end, filled) = if same { (S, Filled::One) } else { (LANES, Filled::Lanes) };
+        for start in (0..end).step_by(S) {
             let few: [Few<Wide<D>, S>; A] = std::array::from_fn(|k| match &sources[k] {
                 Source::Lanes(lanes) => {
                     let lanes = &lanes[start..start + S];
@@ -263,15 +265,20 @@ impl<D: Domain> Registers<D> {
                 }
                 Source::One(value) => Few([value.widen(); S]),
             });
-            for (lanes, few) in outs.iter_mut().zip(f(&few)).take(results.len()) {
-                for (lane, value) in lanes[start..start + S].iter_mut().zip(few.0) {
-                    *lane = D::Float::narrow(value);
-                }
+            for (out, few) in outs.iter_mut().zip(f(&few)).take(results.len()) {
+                out.fill(|lanes| {
+                    for (lane, value) in lanes[start..start + S].iter_mut().zip(few.0) {
+                        *lane = D::Float::narrow(value);
+                    }
+                    filled
+                });
             }
         }
-        for (operand, lanes) in results.iter().zip(&mut outs) {
-            std::mem::swap(&mut self.floats[operand.number()], lanes);
+        for (place, out) in outs.into_iter().enumerate() {
+            match results.get(place) {
+                Some(operand) => self.floats.put(*operand, out),
+                None => self.floats.give_back(out),
+            }
         }
-        self.spare_floats = outs;
     }
 }

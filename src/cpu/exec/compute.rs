@@ -2,7 +2,7 @@
 
 use super::code::Section;
 use super::inst::{Compare, Derivative, Float1, Float2, Float3, FloatToInt, Inst, Int1, Int2, IntToFloat, Operand};
-use super::registers::{Registers, Source, map1, map2, map3};
+use super::registers::{Filled, Registers, Source, map1, map2, map3};
 use super::{DFDY_SIGN, LANES};
 use crate::cpu::domain::faults::{self, Fault};
 use crate::cpu::domain::{Domain, Integer, Number};
@@ -20,7 +20,7 @@ fn scaled<N: Number>(x: N, factor: f64) -> N {
     N::narrow(x.widen().mul(constant(factor)))
 }
 
-fn float1<N: Number>(op: Float1, out: &mut [N; LANES], a: Source<'_, N>) {
+fn float1<N: Number>(op: Float1, out: &mut [N; LANES], a: Source<'_, N>) -> Filled {
     match op {
         Float1::Neg => map1(out, a, N::neg),
         Float1::Abs => map1(out, a, N::abs),
@@ -54,7 +54,7 @@ fn float1<N: Number>(op: Float1, out: &mut [N; LANES], a: Source<'_, N>) {
 }
 
 #[inline(always)]
-fn float2<N: Number>(op: Float2, out: &mut [N; LANES], a: Source<'_, N>, b: Source<'_, N>) {
+fn float2<N: Number>(op: Float2, out: &mut [N; LANES], a: Source<'_, N>, b: Source<'_, N>) -> Filled {
     match op {
         Float2::Add => map2(out, a, b, N::add),
         Float2::Sub => map2(out, a, b, N::sub),
@@ -69,7 +69,7 @@ fn float2<N: Number>(op: Float2, out: &mut [N; LANES], a: Source<'_, N>, b: Sour
     }
 }
 
-fn float3<N: Number>(op: Float3, out: &mut [N; LANES], a: Source<'_, N>, b: Source<'_, N>, c: Source<'_, N>) {
+fn float3<N: Number>(op: Float3, out: &mut [N; LANES], a: Source<'_, N>, b: Source<'_, N>, c: Source<'_, N>) -> Filled {
     match op {
         Float3::Mix => map3(out, a, b, c, N::mix),
         Float3::Clamp => map3(out, a, b, c, |x, least, most| x.max(least).min(most)),
@@ -78,7 +78,7 @@ fn float3<N: Number>(op: Float3, out: &mut [N; LANES], a: Source<'_, N>, b: Sour
 }
 
 #[inline(always)]
-fn compare<N: Number>(op: Compare, out: &mut [N::Int; LANES], a: Source<'_, N>, b: Source<'_, N>) {
+fn compare<N: Number>(op: Compare, out: &mut [N::Int; LANES], a: Source<'_, N>, b: Source<'_, N>) -> Filled {
     match op {
         Compare::Less => map2(out, a, b, N::less),
         Compare::LessEqual => map2(out, a, b, N::less_equal),
@@ -87,7 +87,7 @@ fn compare<N: Number>(op: Compare, out: &mut [N::Int; LANES], a: Source<'_, N>, 
     }
 }
 
-fn int1<I: Integer>(op: Int1, out: &mut [I; LANES], a: Source<'_, I>) {
+fn int1<I: Integer>(op: Int1, out: &mut [I; LANES], a: Source<'_, I>) -> Filled {
     match op {
         Int1::Neg => map1(out, a, I::neg),
         Int1::BitNot => map1(out, a, |a| a.lift1(|a| !a)),
@@ -99,7 +99,7 @@ fn int1<I: Integer>(op: Int1, out: &mut [I; LANES], a: Source<'_, I>) {
 }
 
 #[inline(always)]
-fn int2<I: Integer>(op: Int2, out: &mut [I; LANES], a: Source<'_, I>, b: Source<'_, I>) {
+fn int2<I: Integer>(op: Int2, out: &mut [I; LANES], a: Source<'_, I>, b: Source<'_, I>) -> Filled {
     match op {
         Int2::Add => map2(out, a, b, I::add),
         Int2::Sub => map2(out, a, b, I::sub),
@@ -135,7 +135,7 @@ fn either<N: Number>(a: N, b: N) -> (N, N) {
 }
 
 /// Whatever the number is within its interval, it equals itself, if it is one.
-fn compare_with_itself<N: Number>(op: Compare, out: &mut [N::Int; LANES], a: Source<'_, N>) {
+fn compare_with_itself<N: Number>(op: Compare, out: &mut [N::Int; LANES], a: Source<'_, N>) -> Filled {
     match op {
         Compare::Less => map1(out, a, |_| N::Int::from_bool(false)),
         Compare::LessEqual | Compare::Equal => map1(out, a, |a| a.isnan().not()),
@@ -168,23 +168,24 @@ impl<D: Domain> Registers<D> {
     pub(super) fn compute(&mut self, inst: &Inst, section: &Section) {
         match *inst {
             Inst::Float1 { op, dst, a } => self.write_float(dst, |this, out| {
-                float1(op, out, this.float(a));
+                let filled = float1(op, out, this.float(a));
                 if D::OPEN && matches!(op, Float1::Asin | Float1::Acos) && this.faults.admits(Fault::ArcFunctions) {
                     out.iter_mut().for_each(|lane| *lane = lane.widened(faults::ARC_FUNCTIONS));
                 }
+                filled
             }),
             // One number twice is a square, which an envelope can make more of.
             Inst::Float2 { op: Float2::Mul, dst, a, b } if D::OPEN && a == b => {
                 self.write_float(dst, |this, out| map1(out, this.float(a), Number::square));
             }
             Inst::MulAdd { dst, a, b, c } if D::OPEN && a == b => self.write_float(dst, |this, out| {
-                map2(out, this.float(a), this.float(c), |a: Float<D>, c| a.square().add(c));
+                map2(out, this.float(a), this.float(c), |a: Float<D>, c| a.square().add(c))
             }),
             Inst::Float2 { op, dst, a, b } => {
                 self.write_float(dst, |this, out| float2(op, out, this.float(a), this.float(b)));
             }
             Inst::MulAdd { dst, a, b, c } => self.write_float(dst, |this, out| {
-                map3(out, this.float(a), this.float(b), this.float(c), |a: Float<D>, b, c| a.mul(b).add(c));
+                map3(out, this.float(a), this.float(b), this.float(c), |a: Float<D>, b, c| a.mul(b).add(c))
             }),
             Inst::SumOfProducts { dst, list } if D::OPEN => {
                 self.write_float(dst, |this, out| sum_in_any_order(this, section.list(list), out));
@@ -217,9 +218,8 @@ impl<D: Domain> Registers<D> {
             }),
             Inst::Int1 { op, dst, a } => self.write_int(dst, |this, out| int1(op, out, this.int(a))),
             Inst::Int2 { op, dst, a, b } => self.write_int(dst, |this, out| int2(op, out, this.int(a), this.int(b))),
-            Inst::SelectFloat { dst, c, a, b } => self.write_float(dst, |this, out| {
-                map3(out, this.int(c), this.float(a), this.float(b), Float::<D>::select);
-            }),
+            Inst::SelectFloat { dst, c, a, b } => self
+                .write_float(dst, |this, out| map3(out, this.int(c), this.float(a), this.float(b), Float::<D>::select)),
             Inst::SelectInt { dst, c, a, b } => {
                 self.write_int(dst, |this, out| map3(out, this.int(c), this.int(a), this.int(b), D::Int::select));
             }
@@ -227,9 +227,12 @@ impl<D: Domain> Registers<D> {
                 self.composite(op, size, section.list(results), section.list(arguments));
             }
             Inst::Derivative { op, dst, a } => self.write_float(dst, |this, out| {
-                if let Source::Lanes(a) = this.float(a) {
-                    derivative(op, out, a);
+                match this.float(a) {
+                    Source::Lanes(a) => derivative(op, out, a),
+                    // Infinity and envelopes have differences other than 0.
+                    Source::One(a) => derivative(op, out, &[a; LANES]),
                 }
+                Filled::Lanes
             }),
             Inst::MoveFloat { dst, a } => self.write_float(dst, |this, out| map1(out, this.float(a), |a| a)),
             Inst::MoveInt { dst, a } => self.write_int(dst, |this, out| map1(out, this.int(a), |a| a)),
@@ -239,9 +242,16 @@ impl<D: Domain> Registers<D> {
     }
 }
 
+/// Whether a number in all lanes comes of these.
+#[inline(always)]
+fn is_same<D: Domain>(this: &Registers<D>, operands: &[Operand]) -> bool {
+    operands.iter().all(|operand| matches!(this.float(*operand), Source::One(_)))
+}
+
 /// Lane by lane, for a domain that sums in any order.
-fn sum_in_any_order<D: Domain>(this: &Registers<D>, pairs: &[Operand], out: &mut [Float<D>; LANES]) {
-    for (lane, out) in out.iter_mut().enumerate() {
+fn sum_in_any_order<D: Domain>(this: &Registers<D>, pairs: &[Operand], out: &mut [Float<D>; LANES]) -> Filled {
+    let same = is_same(this, pairs);
+    for (lane, out) in out.iter_mut().enumerate().take(if same { 1 } else { LANES }) {
         let products = pairs.chunks_exact(2).filter_map(|pair| match pair {
             [a, b] if a == b => Some(this.float(*a).at(lane).square()),
             [a, b] => Some(this.float(*a).at(lane).mul(this.float(*b).at(lane))),
@@ -249,10 +259,11 @@ fn sum_in_any_order<D: Domain>(this: &Registers<D>, pairs: &[Operand], out: &mut
         });
         *out = Number::sum(products);
     }
+    if same { Filled::One } else { Filled::Lanes }
 }
 
 /// Eight lanes at a time, so that the sum stays in vector registers.
-fn sum_of_products<D: Domain>(this: &Registers<D>, pairs: &[Operand], out: &mut [Float<D>; LANES]) {
+fn sum_of_products<D: Domain>(this: &Registers<D>, pairs: &[Operand], out: &mut [Float<D>; LANES]) -> Filled {
     const STEP: usize = 8;
     let chunk = |operand: Operand, start: usize| -> [Float<D>; STEP] {
         match this.float(operand) {
@@ -263,7 +274,8 @@ fn sum_of_products<D: Domain>(this: &Registers<D>, pairs: &[Operand], out: &mut 
             Source::One(value) => [value; STEP],
         }
     };
-    for start in (0..LANES).step_by(STEP) {
+    let same = is_same(this, pairs);
+    for start in (0..if same { STEP } else { LANES }).step_by(STEP) {
         let mut sum = [Float::<D>::default(); STEP];
         for (place, pair) in pairs.chunks_exact(2).enumerate() {
             if let [a, b] = pair {
@@ -277,4 +289,5 @@ fn sum_of_products<D: Domain>(this: &Registers<D>, pairs: &[Operand], out: &mut 
         }
         out[start..start + STEP].copy_from_slice(&sum);
     }
+    if same { Filled::One } else { Filled::Lanes }
 }

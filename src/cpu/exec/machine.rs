@@ -5,7 +5,7 @@ use super::inst::Class;
 use super::mute::Muted;
 use super::observe::Observer;
 use super::paths::{Paths, couples};
-use super::registers::Registers;
+use super::registers::{Register, Registers};
 use super::{LANES, Mask};
 use crate::cpu::domain::faults::Faults;
 use crate::cpu::domain::{Domain, Integer, Number};
@@ -140,13 +140,13 @@ impl<D: Domain> Machine<D> {
     /// before a run; they keep their values between runs. `None` if the stage does not read it or it is no float.
     pub fn float_input(&mut self, global: GlobalId, flat: u32) -> Option<&mut [D::Float; LANES]> {
         let register = Self::port(&self.code.inner.inputs, Class::Float, global, flat)?;
-        self.registers.floats.get_mut(register).map(|lanes| &mut **lanes)
+        self.registers.floats.get_mut(register).map(Register::spread)
     }
 
     /// Likewise of an `int`, `uint` or `bool`.
     pub fn int_input(&mut self, global: GlobalId, flat: u32) -> Option<&mut [D::Int; LANES]> {
         let register = Self::port(&self.code.inner.inputs, Class::Int, global, flat)?;
-        self.registers.ints.get_mut(register).map(|lanes| &mut **lanes)
+        self.registers.ints.get_mut(register).map(Register::spread)
     }
 
     /// Runs `main` on the lanes of both masks. Helper lanes run for the derivatives of their quads; what they do has no
@@ -162,7 +162,7 @@ impl<D: Domain> Machine<D> {
         self.budget = if self.budget_exceeded { self.loop_budget >> 6 } else { self.loop_budget };
         self.watched = live.0;
         self.mute_input();
-        self.execute(&inner.main, inner, live.0 | helpers.0);
+        self.run_main(inner, live.0 | helpers.0);
         self.show_outputs(live.0 & !self.discarded);
         if D::OPEN {
             self.explore(live.0 | helpers.0);
@@ -172,17 +172,25 @@ impl<D: Domain> Machine<D> {
         self.undecided &= live.0;
     }
 
+    /// Runs `main` alone, and gives each lane of the outputs its own number.
+    pub(super) fn run_main(&mut self, inner: &Inner, mask: u64) {
+        self.execute(&inner.main, inner, mask);
+        for port in &inner.outputs {
+            self.registers.spread(port.class, port.register);
+        }
+    }
+
     /// The lanes of a `float` in an output's flat layout after a run; 0 where the shader wrote nothing. `None` if the
     /// stage never writes it or it is no float.
     pub fn float_output(&self, global: GlobalId, flat: u32) -> Option<&[D::Float; LANES]> {
         let register = Self::port(&self.code.inner.outputs, Class::Float, global, flat)?;
-        self.registers.floats.get(register).map(|lanes| &**lanes)
+        self.registers.floats.get(register)?.lanes()
     }
 
     /// Likewise of an `int`, `uint` or `bool`.
     pub fn int_output(&self, global: GlobalId, flat: u32) -> Option<&[D::Int; LANES]> {
         let register = Self::port(&self.code.inner.outputs, Class::Int, global, flat)?;
-        self.registers.ints.get(register).map(|lanes| &**lanes)
+        self.registers.ints.get(register)?.lanes()
     }
 
     /// The lanes that the last run discarded.

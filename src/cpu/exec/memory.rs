@@ -2,7 +2,7 @@
 
 use super::LANES;
 use super::inst::Operand;
-use super::registers::{Lanes, Registers, Source, map1, source};
+use super::registers::{File, Filled, Register, Registers, Source, map1};
 use crate::cpu::domain::{Domain, Integer, Number};
 
 /// The place in a table of `len` that an index means: limited into range as an `int`.
@@ -12,11 +12,11 @@ fn limit(bits: u32, len: usize) -> usize {
 }
 
 #[inline(always)]
-fn store<T: Copy>(out: &mut [T; LANES], a: Source<'_, T>, mask: u64, all: bool) {
+fn store<T: Copy + Default>(register: &mut Register<T>, a: Source<'_, T>, mask: u64, all: bool) {
     if all {
-        return map1(out, a, |a| a);
+        return register.fill(|lanes| map1(lanes, a, |a| a));
     }
-    for (lane, out) in out.iter_mut().enumerate() {
+    for (lane, out) in register.spread().iter_mut().enumerate() {
         let new = a.at(lane);
         *out = if mask >> lane & 1 == 1 { new } else { *out };
     }
@@ -24,26 +24,26 @@ fn store<T: Copy>(out: &mut [T; LANES], a: Source<'_, T>, mask: u64, all: bool) 
 
 /// The element for each lane; fast where all lanes mean the same.
 #[inline(always)]
-fn load<T: Copy, I: Integer>(
+fn load<T: Copy + Default, I: Integer>(
     out: &mut [T; LANES],
-    file: &[Lanes<T>],
-    pool: &[T],
+    file: &File<T>,
     table: &[Operand],
     index: Source<'_, I>,
-) {
-    let Some(first) = table.get(limit(index.at(0).bits(), table.len())) else { return };
+) -> Filled {
+    let Some(first) = table.get(limit(index.at(0).bits(), table.len())) else { return Filled::Lanes };
     let same = match index {
         Source::One(_) => true,
         Source::Lanes(lanes) => lanes.iter().fold(0, |acc, lane| acc | (lane.bits() ^ lanes[0].bits())) == 0,
     };
     if same {
-        return map1(out, source(file, pool, *first), |a| a);
+        return map1(out, file.source(*first), |a| a);
     }
     for (lane, out) in out.iter_mut().enumerate() {
         if let Some(operand) = table.get(limit(index.at(lane).bits(), table.len())) {
-            *out = source(file, pool, *operand).at(lane);
+            *out = file.source(*operand).at(lane);
         }
     }
+    Filled::Lanes
 }
 
 /// The places that an index may mean, the likely one first.
@@ -53,15 +53,19 @@ fn places<I: Integer>(index: I, len: usize) -> (usize, std::ops::RangeInclusive<
 }
 
 /// The elements that an open index may mean, joined to the one that it most likely means.
-fn join_others<T: Copy, I: Integer>(
+fn join_others<T: Copy + Default, I: Integer>(
     out: &mut [T; LANES],
+    filled: Filled,
     index: Source<'_, I>,
     len: usize,
     element: impl Fn(usize, usize) -> Option<T>,
     join: impl Fn(T, T) -> T,
-) {
+) -> Filled {
     if matches!(index, Source::One(index) if index.sure()) {
-        return;
+        return filled;
+    }
+    if filled == Filled::One {
+        *out = [out[0]; LANES];
     }
     for (lane, out) in out.iter_mut().enumerate() {
         let index = index.at(lane);
@@ -71,79 +75,80 @@ fn join_others<T: Copy, I: Integer>(
             *out = others.fold(*out, &join);
         }
     }
+    Filled::Lanes
+}
+
+/// Stores into the elements that each active lane's index may mean.
+fn store_indexed<T: Copy + Default, I: Integer>(
+    file: &mut File<T>,
+    table: &[Operand],
+    index: Source<'_, I>,
+    a: Operand,
+    mask: u64,
+    join: impl Fn(T, T) -> T,
+) {
+    for lane in super::Mask(mask).lanes() {
+        let value = file.source(a).at(lane);
+        let index = index.at(lane);
+        let (likely, all) = places(index, table.len());
+        for (place, home) in all.filter_map(|place| table.get(place).map(|home| (place, *home))) {
+            let old = &mut file.register(home).spread()[lane];
+            *old = match (index.sure(), place == likely) {
+                (true, _) => value,
+                (false, true) => join(value, *old),
+                (false, false) => join(*old, value),
+            };
+        }
+    }
 }
 
 impl<D: Domain> Registers<D> {
     pub(super) fn store_float(&mut self, dst: Operand, a: Operand, mask: u64, all: bool) {
-        if let Some(mut spare) = self.spare_floats.pop() {
-            std::mem::swap(&mut self.floats[dst.number()], &mut spare);
-            // `a` is another register: the compiler drops stores of a variable to itself.
-            store(&mut spare, self.float(a), mask, all);
-            std::mem::swap(&mut self.floats[dst.number()], &mut spare);
-            self.spare_floats.push(spare);
-        }
+        // `a` is another register: the compiler drops stores of a variable to itself.
+        let mut own = self.floats.take();
+        std::mem::swap(self.floats.register(dst), &mut own);
+        store(&mut own, self.float(a), mask, all);
+        self.floats.put(dst, own);
     }
 
     pub(super) fn store_int(&mut self, dst: Operand, a: Operand, mask: u64, all: bool) {
-        if let Some(mut spare) = self.spare_ints.pop() {
-            std::mem::swap(&mut self.ints[dst.number()], &mut spare);
-            store(&mut spare, self.int(a), mask, all);
-            std::mem::swap(&mut self.ints[dst.number()], &mut spare);
-            self.spare_ints.push(spare);
-        }
+        let mut own = self.ints.take();
+        std::mem::swap(self.ints.register(dst), &mut own);
+        store(&mut own, self.int(a), mask, all);
+        self.ints.put(dst, own);
     }
 
     pub(super) fn load_float(&mut self, dst: Operand, table: &[Operand], index: Operand) {
         self.write_float(dst, |this, out| {
             let index = this.int(index);
-            load(out, &this.floats, &this.float_pool, table, index);
-            if D::OPEN {
-                let element = |place: usize, lane| table.get(place).map(|operand| this.float(*operand).at(lane));
-                join_others(out, index, table.len(), element, Number::joined);
+            let filled = load(out, &this.floats, table, index);
+            if !D::OPEN {
+                return filled;
             }
+            let element = |place: usize, lane| table.get(place).map(|operand| this.float(*operand).at(lane));
+            join_others(out, filled, index, table.len(), element, Number::joined)
         });
     }
 
     pub(super) fn load_int(&mut self, dst: Operand, table: &[Operand], index: Operand) {
         self.write_int(dst, |this, out| {
             let index = this.int(index);
-            load(out, &this.ints, &this.int_pool, table, index);
-            if D::OPEN {
-                let element = |place: usize, lane| table.get(place).map(|operand| this.int(*operand).at(lane));
-                join_others(out, index, table.len(), element, Integer::joined);
+            let filled = load(out, &this.ints, table, index);
+            if !D::OPEN {
+                return filled;
             }
+            let element = |place: usize, lane| table.get(place).map(|operand| this.int(*operand).at(lane));
+            join_others(out, filled, index, table.len(), element, Integer::joined)
         });
     }
 
     pub(super) fn store_indexed_float(&mut self, table: &[Operand], index: Operand, a: Operand, mask: u64) {
-        for lane in super::Mask(mask).lanes() {
-            let value = self.float(a).at(lane);
-            let index = self.int(index).at(lane);
-            let (likely, all) = places(index, table.len());
-            for home in all.filter_map(|place| table.get(place).map(|home| (place, home))) {
-                let old = &mut self.floats[home.1.number()][lane];
-                *old = match (index.sure(), home.0 == likely) {
-                    (true, _) => value,
-                    (false, true) => value.joined(*old),
-                    (false, false) => old.joined(value),
-                };
-            }
-        }
+        store_indexed(&mut self.floats, table, self.ints.source(index), a, mask, Number::joined);
     }
 
+    /// Each register of the table may be the index or the value, so both are read before anything is written.
     pub(super) fn store_indexed_int(&mut self, table: &[Operand], index: Operand, a: Operand, mask: u64) {
-        for lane in super::Mask(mask).lanes() {
-            let value = self.int(a).at(lane);
-            let index = self.int(index).at(lane);
-            let (likely, all) = places(index, table.len());
-            for home in all.filter_map(|place| table.get(place).map(|home| (place, home))) {
-                let old = &mut self.ints[home.1.number()][lane];
-                *old = match (index.sure(), home.0 == likely) {
-                    (true, _) => value,
-                    (false, true) => value.joined(*old),
-                    (false, false) => old.joined(value),
-                };
-            }
-        }
+        let indices: [D::Int; LANES] = std::array::from_fn(|lane| self.int(index).at(lane));
+        store_indexed(&mut self.ints, table, Source::Lanes(&indices), a, mask, Integer::joined);
     }
 }

@@ -8,7 +8,7 @@
 use super::code::{Code, Inner, Section};
 use super::inst::{Class, Composite, Float1, Float2, Float3, Inst, Operand, Use};
 use super::machine::Machine;
-use super::registers::Lanes;
+use super::registers::Register;
 use crate::compare::Range;
 use crate::cpu::domain::{Domain, Number};
 use crate::hir::GlobalId;
@@ -133,7 +133,7 @@ impl Code {
 
 /// Registers and numbers for all lanes as they were.
 struct Saved<D: Domain> {
-    registers: Vec<(usize, Lanes<D::Float>)>,
+    registers: Vec<(usize, Register<D::Float>)>,
     pool: Vec<(usize, D::Float)>,
 }
 
@@ -149,8 +149,8 @@ impl<D: Domain> Machine<D> {
     pub(super) fn mute_input(&mut self) {
         let Some(global) = self.muted.as_ref().and_then(|muted| muted.input) else { return };
         for port in self.code.inner.inputs.iter().filter(|port| port.global == global && port.class == Class::Float) {
-            if let Some(lanes) = self.registers.floats.get_mut(port.register) {
-                lanes.iter_mut().for_each(|lane| *lane = exactly(*lane));
+            if let Some(register) = self.registers.floats.get_mut(port.register) {
+                register.spread().iter_mut().for_each(|lane| *lane = exactly(*lane));
             }
         }
     }
@@ -175,13 +175,14 @@ impl<D: Domain> Machine<D> {
         }
         let saved = self.make_exact(&reads);
         self.run_plain(inst, section, inner, mask);
-        let own: Vec<Lanes<D::Float>> =
+        let own: Vec<Register<D::Float>> =
             writes.iter().filter_map(|operand| self.registers.floats.get(operand.number()).cloned()).collect();
         self.put_back(saved);
         self.run_plain(inst, section, inner, mask);
         for (operand, own) in writes.iter().zip(own) {
-            if let Some(lanes) = self.registers.floats.get_mut(operand.number()) {
-                lanes.iter_mut().zip(own.iter()).for_each(|(lane, own)| *lane = without(*lane, *own));
+            if let Some(register) = self.registers.floats.get_mut(operand.number()) {
+                let own = own.source();
+                (0..).zip(register.spread()).for_each(|(at, lane)| *lane = without(*lane, own.at(at)));
             }
         }
     }
@@ -202,11 +203,11 @@ impl<D: Domain> Machine<D> {
         for operand in operands {
             let number = operand.number();
             if operand.is_reg() {
-                if let Some(lanes) = self.registers.floats.get_mut(number) {
-                    saved.registers.push((number, lanes.clone()));
-                    lanes.iter_mut().for_each(|lane| *lane = exactly(*lane));
+                if let Some(register) = self.registers.floats.get_mut(number) {
+                    saved.registers.push((number, register.clone()));
+                    register.spread().iter_mut().for_each(|lane| *lane = exactly(*lane));
                 }
-            } else if let Some(value) = self.registers.float_pool.get_mut(number) {
+            } else if let Some(value) = self.registers.floats.pool.get_mut(number) {
                 saved.pool.push((number, *value));
                 *value = exactly(*value);
             }
@@ -216,13 +217,13 @@ impl<D: Domain> Machine<D> {
 
     fn put_back(&mut self, saved: Saved<D>) {
         // An operand that stands twice was saved twice, the first time as it was.
-        for (number, lanes) in saved.registers.into_iter().rev() {
+        for (number, old) in saved.registers.into_iter().rev() {
             if let Some(register) = self.registers.floats.get_mut(number) {
-                *register = lanes;
+                *register = old;
             }
         }
         for (number, value) in saved.pool.into_iter().rev() {
-            if let Some(slot) = self.registers.float_pool.get_mut(number) {
+            if let Some(slot) = self.registers.floats.pool.get_mut(number) {
                 *slot = value;
             }
         }

@@ -186,7 +186,7 @@ impl<D: Domain> Machine<D> {
         let Some(observer) = &mut self.observer else { return };
         for port in self.code.inner.outputs.iter().filter(|port| port.class == Class::Float) {
             if let Some(values) = self.registers.floats.get(port.register) {
-                let what = What::Output(Source::Lanes(values));
+                let what = What::Output(values.source());
                 observer.see(&Event { span: Span::default(), lanes: Mask(lanes), what });
             }
         }

@@ -9,7 +9,7 @@
 
 use super::inst::{Class, Inst, Lookup};
 use super::machine::Machine;
-use super::registers::Lanes;
+use super::registers::Register;
 use super::{LANES, Mask};
 use crate::compare::Range;
 use crate::cpu::domain::{Domain, Integer, Number};
@@ -100,12 +100,12 @@ pub(super) fn couples(section: &super::code::Section, inner: &super::code::Inner
 }
 
 /// Registers of some ports, floats and ints.
-type Files<D> = (Vec<Lanes<<D as Domain>::Float>>, Vec<Lanes<<D as Domain>::Int>>);
+type Files<D> = (Vec<Register<<D as Domain>::Float>>, Vec<Register<<D as Domain>::Int>>);
 
 /// What the first run left, to be joined with the others.
 struct Joined<D: Domain> {
-    floats: Vec<Lanes<D::Float>>,
-    ints: Vec<Lanes<D::Int>>,
+    floats: Vec<Register<D::Float>>,
+    ints: Vec<Register<D::Int>>,
     /// Lanes that the first run discarded.
     first: u64,
     /// Lanes that some way discards.
@@ -170,7 +170,7 @@ impl<D: Domain> Machine<D> {
         self.discarded = 0;
         self.budget = self.loop_budget >> 4;
         self.budget_exceeded = false;
-        self.execute(&code.main, &code, mask);
+        self.run_main(&code, mask);
     }
 
     fn first_outcome(&self) -> Joined<D> {
@@ -200,13 +200,13 @@ impl<D: Domain> Machine<D> {
         let code = std::sync::Arc::clone(&self.code.inner);
         let of = |class: Class| code.inputs.iter().filter(move |port| port.class == class);
         for (port, saved) in of(Class::Float).zip(&inputs.0) {
-            if let Some(lanes) = self.registers.floats.get_mut(port.register) {
-                lanes[to..to + group].copy_from_slice(&saved[from..from + group]);
+            if let Some(register) = self.registers.floats.get_mut(port.register) {
+                register.copy_lanes(saved, from, to, group);
             }
         }
         for (port, saved) in of(Class::Int).zip(&inputs.1) {
-            if let Some(lanes) = self.registers.ints.get_mut(port.register) {
-                lanes[to..to + group].copy_from_slice(&saved[from..from + group]);
+            if let Some(register) = self.registers.ints.get_mut(port.register) {
+                register.copy_lanes(saved, from, to, group);
             }
         }
     }
@@ -220,21 +220,21 @@ impl<D: Domain> Machine<D> {
         let code = std::sync::Arc::clone(&self.code.inner);
         let of = |class: Class| code.outputs.iter().filter(move |port| port.class == class);
         for lane in Mask(joined.undecided & !self.undecided).lanes() {
-            for lanes in &mut joined.floats {
-                lanes[lane] = D::Float::with_range(lanes[lane].value(), Range::ALL);
+            for number in joined.floats.iter_mut().map(|register| &mut register.spread()[lane]) {
+                *number = D::Float::with_range(number.value(), Range::ALL);
             }
-            for lanes in &mut joined.ints {
-                lanes[lane] = D::Int::with_choices(lanes[lane].bits(), i32::MIN, i32::MAX);
+            for number in joined.ints.iter_mut().map(|register| &mut register.spread()[lane]) {
+                *number = D::Int::with_choices(number.bits(), i32::MIN, i32::MAX);
             }
         }
-        for (port, lanes) in of(Class::Float).zip(joined.floats) {
+        for (port, outcome) in of(Class::Float).zip(joined.floats) {
             if let Some(register) = self.registers.floats.get_mut(port.register) {
-                *register = lanes;
+                *register = outcome;
             }
         }
-        for (port, lanes) in of(Class::Int).zip(joined.ints) {
+        for (port, outcome) in of(Class::Int).zip(joined.ints) {
             if let Some(register) = self.registers.ints.get_mut(port.register) {
-                *register = lanes;
+                *register = outcome;
             }
         }
         self.discarded = joined.first;
@@ -257,13 +257,19 @@ impl<D: Domain> Joined<D> {
             // Where nothing was kept so far there is nothing to join.
             let fresh = self.kept >> from & 1 == 0;
             self.kept |= 1 << from;
-            for (port, lanes) in of(Class::Float).zip(&mut self.floats) {
-                let Some(new) = machine.registers.floats.get(port.register).map(|lanes| lanes[at]) else { continue };
-                lanes[from] = if fresh { new } else { lanes[from].joined(new) };
+            for (port, register) in of(Class::Float).zip(&mut self.floats) {
+                let Some(new) = machine.registers.floats.get(port.register).map(|new| new.source().at(at)) else {
+                    continue;
+                };
+                let old = &mut register.spread()[from];
+                *old = if fresh { new } else { old.joined(new) };
             }
-            for (port, lanes) in of(Class::Int).zip(&mut self.ints) {
-                let Some(new) = machine.registers.ints.get(port.register).map(|lanes| lanes[at]) else { continue };
-                lanes[from] = if fresh { new } else { lanes[from].joined(new) };
+            for (port, register) in of(Class::Int).zip(&mut self.ints) {
+                let Some(new) = machine.registers.ints.get(port.register).map(|new| new.source().at(at)) else {
+                    continue;
+                };
+                let old = &mut register.spread()[from];
+                *old = if fresh { new } else { old.joined(new) };
             }
         }
     }
