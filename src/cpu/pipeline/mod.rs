@@ -12,11 +12,15 @@
 //! primitives.
 
 mod assembly;
+mod batch;
 mod clip;
 mod explain;
 mod fragments;
+mod outputs;
 mod plan;
+mod slack;
 mod source;
+mod store;
 mod target;
 mod vertices;
 mod watch;
@@ -33,7 +37,8 @@ use crate::scene::{Draw, Scene};
 use crate::source::Span;
 use assembly::{Prim, primitives};
 pub(super) use explain::explain;
-use fragments::{Shading, draw_bin, output_plans};
+use fragments::{Shading, draw_bin};
+use outputs::output_plans;
 use plan::Plan;
 use rayon::prelude::*;
 use smallvec::SmallVec;

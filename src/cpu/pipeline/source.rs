@@ -1,6 +1,7 @@
 //! [`Source`]: what a primitive's fragments are interpolated from.
 //!
-//! *In:* a primitive and its vertices. *Out:* for each fragment the weights of the vertices, depth, `1/w` and varyings.
+//! *In:* a primitive and its vertices, and where its fragments are. *Out:* for each of them the weights of the vertices,
+//! depth, `1/w` and varyings, many fragments at a time ([`Fragments`]).
 //! *Holds:* the equations are those of [`interpolate`](crate::cpu::interpolate). A segment has the weights `1 - t`, `t`
 //! and 0, by which (108) and (106) are OpenGL's (3.6) and (3.7); a point has the weights 1, 0, 0.
 //!
@@ -8,59 +9,94 @@
 //! one ([`Slack`]).
 
 use super::assembly::{Corners, Prim};
+use super::slack::{Plane, Slack};
+use super::target::BIN;
 use super::vertices::Vertices;
-use crate::compare::Range;
 use crate::cpu::domain::{Domain, F64, Number, rules};
+use crate::cpu::exec::LANES;
 use crate::cpu::interpolate::{Frame, Vec2, along, linear, perspective, perspective_w, weights};
 use crate::hir::Interpolation;
+use std::ops::Range;
 
-/// An ULP of f32 at 1.
-const ULP: f64 = 1.0 / (1 << 23) as f64;
-
-/// The place of a fragment relative to a primitive.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Fragment<F> {
-    pub(super) weights: [F; 3],
-    /// The reciprocal of `gl_FragCoord.w`.
-    pub(super) w: F,
-    /// `gl_FragCoord.w`
-    pub(super) reciprocal: F,
-    /// Window z.
-    pub(super) z: F,
-    place: [f64; 2],
+/// Where fragments are, lane by lane.
+#[derive(Debug)]
+pub(super) struct Places<D: Domain> {
+    /// Window x and y of their centers, in picture rows.
+    pub(super) x: [f64; LANES],
+    pub(super) y: [f64; LANES],
+    /// The weights of the second and the third vertex.
+    weights: [[D::Float; LANES]; 2],
+    /// The same by the values alone, in a domain with envelopes: what the vertices' places may be off is counted once, by
+    /// [`Slack`].
+    plain: [[f64; LANES]; 2],
 }
 
-/// How an f32 GPU that evaluates plane equations `a + b x + c y` from the corner of the window goes astray: each of its
-/// roundings costs up to half an ULP of the largest term, and a vertex that is off moves the plane by its slope.
-///
-/// The terms are the slopes, as sums of the absolute values of their parts, times the distance from the corner.
-#[derive(Clone, Copy, Debug)]
-struct Slack {
-    /// What differences of values along the first edge and the second give as slope in x.
-    x: [f64; 2],
-    /// Likewise in y.
-    y: [f64; 2],
-    /// How far the vertices may be off in x and y.
-    off: [f64; 2],
-    /// Where the first vertex is.
-    origin: [f64; 2],
+impl<D: Domain> Places<D> {
+    /// The weights in some lanes, in a domain without envelopes.
+    #[inline(always)]
+    fn weights(&self, lanes: Range<usize>) -> impl Iterator<Item = [D::Float; 3]> {
+        let [u, v] = &self.weights;
+        u[lanes.clone()].iter().zip(&v[lanes]).map(|(u, v)| weights(*u, *v))
+    }
+}
+
+/// Fragments, lane by lane: their pixels and what is interpolated for every program.
+#[derive(Debug)]
+pub(super) struct Fragments<D: Domain> {
+    /// The places of their pixels in the bin.
+    pub(super) pixels: [u32; LANES],
+    pub(super) places: Places<D>,
+    /// Window z.
+    pub(super) z: [D::Float; LANES],
+    /// `gl_FragCoord.w`
+    pub(super) reciprocal: [D::Float; LANES],
+    /// Its reciprocal.
+    w: [D::Float; LANES],
+}
+
+impl<D: Domain> Fragments<D> {
+    pub(super) fn new() -> Self {
+        let blank = [D::Float::default(); LANES];
+        let places = Places { x: [0.0; LANES], y: [0.0; LANES], weights: [blank; 2], plain: [[0.0; LANES]; 2] };
+        Self { pixels: [0; LANES], places, z: blank, reciprocal: blank, w: blank }
+    }
+
+    /// Takes what is known of `COUNT` fragments to other lanes.
+    #[inline(always)]
+    pub(super) fn shift<const COUNT: usize>(&mut self, from: usize, to: usize) {
+        let from = from..from + COUNT;
+        self.pixels.copy_within(from.clone(), to);
+        self.z.copy_within(from.clone(), to);
+        let Places { x, y, weights, plain } = &mut self.places;
+        x.copy_within(from.clone(), to);
+        y.copy_within(from.clone(), to);
+        if D::OPEN {
+            plain.iter_mut().for_each(|lanes| lanes.copy_within(from.clone(), to));
+        } else {
+            weights.iter_mut().for_each(|lanes| lanes.copy_within(from.clone(), to));
+        }
+    }
 }
 
 /// A primitive ready to be interpolated.
 #[derive(Debug)]
 pub(super) struct Source<'v, D: Domain> {
     kind: Kind<D>,
-    /// The same by the values alone, in a domain with envelopes: what the vertices' places may be off is counted once, by
-    /// [`Slack`].
-    plain: Option<Kind<F64>>,
+    open: Option<Open>,
     quotients: [&'v [D::Float]; 3],
     /// Of the provoking vertex.
     flat: &'v [D::Float],
     pub(super) ints: &'v [D::Int],
     reciprocals: [D::Float; 3],
     z: [D::Float; 3],
-    slack: Option<Slack>,
     pub(super) point: Option<Sprite<D>>,
+}
+
+/// The primitive by the values alone, and how far a GPU may be off.
+#[derive(Debug)]
+struct Open {
+    kind: Kind<F64>,
+    slack: Slack,
 }
 
 #[derive(Debug)]
@@ -108,9 +144,11 @@ impl<'v, D: Domain> Source<'v, D> {
         let size = vertices.size.get(corners[0] as usize).copied().unwrap_or(1.0).max(1.0);
         let size = size.min(crate::cpu::raster::point::MAX_SIZE);
         Self {
-            plain: D::OPEN.then(|| Kind::<F64>::of(&prim.corners, places.map(|place| place.map(Number::value)))),
-            slack: D::OPEN.then(|| Slack::new(&kind, places.map(|p| p.map(|c: D::Float| (c.value(), c.error()))))),
             kind,
+            open: D::OPEN.then(|| Open {
+                kind: Kind::of(&prim.corners, places.map(|place| place.map(Number::value))),
+                slack: Slack::new(&prim.corners, places.map(|p| p.map(|c: D::Float| (c.value(), c.error())))),
+            }),
             quotients: corners.map(|vertex| vertices.quotients_of(vertex)),
             flat: vertices.floats_of(prim.provoking),
             ints: vertices.ints_of(prim.provoking),
@@ -120,50 +158,86 @@ impl<'v, D: Domain> Source<'v, D> {
         }
     }
 
-    /// The fragment whose center is at (x, y).
+    /// Finds weights and depth of the fragments in some lanes, in a bin with this corner.
     #[inline(always)]
-    pub(super) fn fragment(&self, x: f64, y: f64) -> Fragment<D::Float> {
-        let zero = D::Float::default();
-        let weights = match &self.plain {
-            Some(kind) => kind.weights(x, y).map(|weight| D::Float::whole(weight, Range::point(weight))),
-            None => self.kind.weights(x, y),
-        };
-        let mut fragment = Fragment { weights, w: zero, reciprocal: zero, z: zero, place: [x, y] };
-        fragment.z = self.in_plane(&fragment, self.z);
-        fragment.reciprocal = self.in_plane(&fragment, self.reciprocals);
-        fragment.w = if self.slack.is_some() {
-            D::Float::from_f64(1.0).div(fragment.reciprocal)
+    pub(super) fn locate(&self, fragments: &mut Fragments<D>, [x0, y0]: [i32; 2], lanes: Range<usize>) {
+        let Fragments { pixels, places, z, .. } = fragments;
+        let (x, y) = (&mut places.x[lanes.clone()], &mut places.y[lanes.clone()]);
+        for ((x, y), &pixel) in x.iter_mut().zip(y.iter_mut()).zip(&pixels[lanes.clone()]) {
+            let pixel = pixel as i32;
+            *x = f64::from(x0 + pixel % BIN as i32) + 0.5;
+            *y = f64::from(y0 + pixel / BIN as i32) + 0.5;
+        }
+        match &self.open {
+            Some(open) => open.kind.weights(x, y, places.plain.each_mut().map(|to| &mut to[lanes.clone()])),
+            None => self.kind.weights(x, y, places.weights.each_mut().map(|to| &mut to[lanes.clone()])),
+        }
+        self.in_plane(self.z, places, lanes.clone(), &mut z[lanes]);
+    }
+
+    /// Finds `gl_FragCoord.w` of fragments that are located, and its reciprocal.
+    #[inline(always)]
+    pub(super) fn find_w(&self, fragments: &mut Fragments<D>, lanes: Range<usize>) {
+        let Fragments { places, reciprocal, w, .. } = fragments;
+        let (reciprocal, w) = (&mut reciprocal[lanes.clone()], &mut w[lanes.clone()]);
+        self.in_plane(self.reciprocals, places, lanes.clone(), reciprocal);
+        if self.open.is_some() {
+            for (w, reciprocal) in w.iter_mut().zip(reciprocal) {
+                *w = D::Float::from_f64(1.0).div(*reciprocal);
+            }
         } else {
-            perspective_w(weights, self.reciprocals)
-        };
-        fragment
+            for (w, weights) in w.iter_mut().zip(places.weights(lanes)) {
+                *w = perspective_w(weights, self.reciprocals);
+            }
+        }
     }
 
     /// Equation (106), with the bound of its evaluation in f32.
     #[inline(always)]
-    fn in_plane(&self, fragment: &Fragment<D::Float>, values: [D::Float; 3]) -> D::Float {
-        match &self.slack {
-            None => linear(fragment.weights, values),
-            Some(slack) => slack.linear::<D>(fragment, values),
+    fn in_plane(&self, values: [D::Float; 3], places: &Places<D>, lanes: Range<usize>, to: &mut [D::Float]) {
+        match &self.open {
+            Some(open) => {
+                let plane = Plane::new(&open.slack, values);
+                let [u, v] = places.plain.each_ref().map(|weights| &weights[lanes.clone()]);
+                plane.fill([u, v, &places.x[lanes.clone()], &places.y[lanes]], to);
+            }
+            None => {
+                for (to, weights) in to.iter_mut().zip(places.weights(lanes)) {
+                    *to = linear(weights, values);
+                }
+            }
         }
     }
 
-    /// A varying's scalar at a fragment.
+    /// A varying's scalar at the fragments in some lanes, whose `w` is found.
     #[inline(always)]
     pub(super) fn varying(
         &self,
-        fragment: &Fragment<D::Float>,
-        index: usize,
-        interpolation: Interpolation,
-    ) -> D::Float {
+        fragments: &Fragments<D>,
+        lanes: Range<usize>,
+        (index, interpolation): (usize, Interpolation),
+        to: &mut [D::Float],
+    ) {
         if interpolation == Interpolation::Flat || matches!(self.kind, Kind::Point) {
-            return self.flat.get(index).copied().unwrap_or_default();
+            to.fill(self.flat.get(index).copied().unwrap_or_default());
+            return;
         }
         let values = self.quotients.map(|quotients| quotients.get(index).copied().unwrap_or_default());
-        match (interpolation, &self.slack) {
-            (Interpolation::Smooth, None) => perspective(fragment.weights, fragment.w, values),
-            (Interpolation::Smooth, Some(slack)) => slack.linear::<D>(fragment, values).mul(fragment.w),
-            (Interpolation::Noperspective | Interpolation::Flat, _) => self.in_plane(fragment, values),
+        let Fragments { places, w, .. } = fragments;
+        let w = &w[lanes.clone()];
+        match (interpolation, &self.open) {
+            (Interpolation::Smooth, None) => {
+                for ((to, weights), w) in to.iter_mut().zip(places.weights(lanes)).zip(w) {
+                    *to = perspective(weights, *w, values);
+                }
+            }
+            (Interpolation::Smooth, Some(_)) => {
+                self.in_plane(values, places, lanes, to);
+                for (to, w) in to.iter_mut().zip(w) {
+                    *to = to.mul(*w);
+                }
+            }
+            (Interpolation::Noperspective | Interpolation::Flat, _) => self.in_plane(values, places, lanes, to),
         }
     }
 }
@@ -177,56 +251,20 @@ impl<D: Domain> Kind<D> {
         }
     }
 
-    /// The weights of the vertices at (x, y).
+    /// The weights of the second vertex and the third at places.
     #[inline(always)]
-    fn weights(&self, x: f64, y: f64) -> [D::Float; 3] {
-        let place = [D::Float::from_f64(x), D::Float::from_f64(y)];
+    fn weights(&self, x: &[f64], y: &[f64], [second, third]: [&mut [D::Float]; 2]) {
+        let places = x.iter().zip(y).map(|(x, y)| [D::Float::from_f64(*x), D::Float::from_f64(*y)]);
+        let to = second.iter_mut().zip(third);
         let zero = D::Float::default();
         match self {
-            Self::Point => [D::Float::from_f64(1.0), zero, zero],
-            Self::Line(from, to) => weights(along(place, *from, *to), zero),
+            Self::Point => to.for_each(|(u, v)| (*u, *v) = (zero, zero)),
+            Self::Line(from, end) => {
+                to.zip(places).for_each(|((u, v), place)| (*u, *v) = (along(place, *from, *end), zero));
+            }
             Self::Triangle(frame) => {
-                let (u, v) = frame.coordinates(place);
-                weights(u, v)
+                to.zip(places).for_each(|((u, v), place)| (*u, *v) = frame.coordinates(place));
             }
         }
-    }
-}
-
-impl Slack {
-    fn new<D: Domain>(kind: &Kind<D>, places: [[(f64, f64); 2]; 3]) -> Self {
-        let value = |corner: usize, axis: usize| places[corner][axis].0;
-        let edge = |corner: usize| [0, 1].map(|axis| value(corner, axis) - value(0, axis));
-        let (u, v) = (edge(1), edge(2));
-        let (x, y) = match kind {
-            Kind::Point => ([0.0; 2], [0.0; 2]),
-            Kind::Line(..) => {
-                let squared = u[0] * u[0] + u[1] * u[1];
-                ([u[0] / squared, 0.0], [u[1] / squared, 0.0])
-            }
-            Kind::Triangle(_) => {
-                let determinant = u[0] * v[1] - v[0] * u[1];
-                ([v[1] / determinant, -u[1] / determinant], [-v[0] / determinant, u[0] / determinant])
-            }
-        };
-        let off = [0, 1].map(|axis| (0..3).map(|corner| places[corner][axis].1).fold(0.0, f64::max));
-        Self { x, y, off, origin: [value(0, 0), value(0, 1)] }
-    }
-
-    fn linear<D: Domain>(&self, fragment: &Fragment<D::Float>, values: [D::Float; 3]) -> D::Float {
-        let plain = values.map(Number::value);
-        let weights = fragment.weights.map(Number::value);
-        let value = linear(weights, plain);
-        let rise = [plain[1] - plain[0], plain[2] - plain[0]];
-        let slope = |parts: [f64; 2]| parts[0] * rise[0] + parts[1] * rise[1];
-        let size = |parts: [f64; 2]| (parts[0] * rise[0]).abs() + (parts[1] * rise[1]).abs();
-        let [x, y] = fragment.place;
-        let terms = size(self.x) * (x + self.origin[0].abs()) + size(self.y) * (y + self.origin[1].abs());
-        let largest = plain.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
-        let spread: f64 = weights.iter().map(|weight| weight.abs()).sum();
-        let moved = spread * (slope(self.x).abs() * self.off[0] + slope(self.y).abs() * self.off[1]);
-        let carried: f64 = weights.iter().zip(&values).map(|(weight, value)| weight.abs() * value.error()).sum();
-        let rounded = rules::VARYING.ulps() * ULP * (terms + largest) + rules::ulp(value);
-        D::Float::with_error(value, carried + moved + rounded)
     }
 }

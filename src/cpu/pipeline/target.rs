@@ -4,33 +4,35 @@
 //! *Holds:* a value is stored as the attachment's format stores it, except that `rgba32float` keeps the domain's own
 //! precision: the reference is not rounded to f32. Depth is stored as f32, as the format has it.
 
+use super::store::{Test, depth_test, is_integer, keeps, store, write_color};
 use crate::compare::{Picture, Range};
-use crate::cpu::domain::{Domain, Number, rules};
+use crate::cpu::domain::{Domain, Number};
+use crate::cpu::exec::{LANES, Mask};
 use crate::cpu::raster::Bounds;
-use crate::scene::{BlendFactor, Compare, Format, Framebuffer, State};
-use half::f16;
+use crate::scene::{BlendFactor, Framebuffer, State};
 use rayon::prelude::*;
 
 /// Pixels along a side of a bin; even, so that quads lie within one.
 pub(super) const BIN: i64 = 32;
 
-/// What becomes of a fragment.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Test {
-    /// Whether it is drawn by the values.
-    pub(super) passes: bool,
-    /// Whether a conforming GPU may decide otherwise.
-    pub(super) open: bool,
+/// What becomes of the fragments of a batch, as sets of lanes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Tests {
+    /// Those that are drawn by the values.
+    pub(super) passes: u64,
+    /// Those where a conforming GPU may decide otherwise.
+    pub(super) open: u64,
 }
 
-impl Test {
-    /// It is drawn in no case.
-    pub(super) const FAILED: Self = Self { passes: false, open: false };
+impl Tests {
+    /// Those that some GPU draws.
+    pub(super) fn possible(self) -> u64 {
+        self.passes | self.open
+    }
 
-    /// Whether some GPU draws it.
     #[inline(always)]
-    pub(super) fn possible(self) -> bool {
-        self.passes || self.open
+    fn of(self, lane: usize) -> Test {
+        Test { passes: self.passes >> lane & 1 == 1, open: self.open >> lane & 1 == 1 }
     }
 }
 
@@ -39,7 +41,16 @@ impl Test {
 pub(super) struct Bin<D: Domain> {
     /// Its pixels; at the right and lower rim some of them lie outside the picture and are never drawn.
     pub(super) area: Bounds,
+    framebuffer: Framebuffer,
+    /// None as long as nothing is drawn: then all have the clear color.
+    pixels: Option<Pixels<D>>,
+}
+
+/// What is stored of a bin's pixels, row by row of [`BIN`].
+#[derive(Clone, Debug)]
+struct Pixels<D: Domain> {
     colors: Vec<Vec<[D::Float; 4]>>,
+    /// Empty before the first test.
     depth: Vec<D::Float>,
     covered: Vec<bool>,
     near_edge: Vec<bool>,
@@ -58,8 +69,13 @@ pub(super) struct Target<D: Domain> {
 
 /// The place of a pixel in its bin.
 #[inline(always)]
-fn local(area: Bounds, x: i64, y: i64) -> usize {
-    ((y - area.y0) * BIN + (x - area.x0)) as usize
+pub(super) fn local(area: Bounds, x: i64, y: i64) -> u32 {
+    ((y - area.y0) * BIN + (x - area.x0)) as u32
+}
+
+/// What a pixel has before anything is drawn to it.
+fn cleared<D: Domain>(framebuffer: Framebuffer) -> [D::Float; 4] {
+    framebuffer.clear.map(|value| store::<D>(D::Float::from_f64(value), framebuffer.format))
 }
 
 impl<D: Domain> Target<D> {
@@ -67,10 +83,9 @@ impl<D: Domain> Target<D> {
     pub(super) fn new(framebuffer: Framebuffer) -> Self {
         let (width, height) = (i64::from(framebuffer.width), i64::from(framebuffer.height));
         let (columns, rows) = ((width + BIN - 1) / BIN, (height + BIN - 1) / BIN);
-        let bins = (0..(columns * rows) as usize)
-            .into_par_iter()
+        let bins = (0..columns * rows)
             .map(|index| {
-                let (x0, y0) = (index as i64 % columns * BIN, index as i64 / columns * BIN);
+                let (x0, y0) = (index % columns * BIN, index / columns * BIN);
                 let area = Bounds { x0, x1: (x0 + BIN).min(width), y0, y1: (y0 + BIN).min(height) };
                 Bin::new(framebuffer, area)
             })
@@ -81,293 +96,184 @@ impl<D: Domain> Target<D> {
     /// The picture that was drawn.
     pub(super) fn picture(&self) -> Picture {
         let attachments = 0..self.framebuffer.attachments as usize;
-        let ranges = |attachment: usize| {
-            self.gathered([Range::point(0.0); 4], |bin, place| bin.colors[attachment][place].map(Number::range))
+        let clear = cleared::<D>(self.framebuffer).map(Number::value);
+        let colors = |attachment: usize| {
+            self.gathered(
+                ([0.0; 4], clear),
+                |pixels| &pixels.colors[attachment],
+                |color: [D::Float; 4]| color.map(Number::value),
+            )
         };
+        let flags = |of: fn(&Pixels<D>) -> &[bool]| self.gathered((false, false), of, |flag| flag);
         Picture {
             width: self.framebuffer.width,
             height: self.framebuffer.height,
-            attachments: attachments
-                .clone()
-                .map(|attachment| {
-                    self.gathered([0.0; 4], |bin, place| bin.colors[attachment][place].map(Number::value))
-                })
-                .collect(),
-            covered: self.gathered(false, |bin, place| bin.covered[place]),
-            ranges: D::OPEN.then(|| attachments.map(ranges).collect()),
-            undecided: self.gathered(false, |bin, place| bin.undecided[place]),
-            near_edge: self.gathered(false, |bin, place| bin.near_edge[place]),
+            attachments: attachments.clone().map(colors).collect(),
+            covered: flags(|pixels| &pixels.covered),
+            ranges: D::OPEN.then(|| attachments.map(|attachment| self.ranges(attachment)).collect()),
+            undecided: flags(|pixels| &pixels.undecided),
+            near_edge: flags(|pixels| &pixels.near_edge),
         }
     }
 
-    /// What each pixel has of its bin: rows of bins side by side in threads, since nothing is drawn meanwhile.
-    fn gathered<T: Copy + Send + Sync>(&self, blank: T, of: impl Fn(&Bin<D>, usize) -> T + Sync) -> Vec<T> {
+    /// What each pixel has of its bin, else `clear`: rows of bins side by side in threads, since nothing is drawn
+    /// meanwhile. They find zeros, which the system gives for nothing.
+    fn gathered<S: Copy + Send + Sync, T: Copy + Send + Sync>(
+        &self,
+        (zero, clear): (T, T),
+        of: impl Fn(&Pixels<D>) -> &[S] + Sync,
+        convert: impl Fn(S) -> T + Sync,
+    ) -> Vec<T> {
         let (width, height) = (self.framebuffer.width as usize, self.framebuffer.height as usize);
-        let mut all = vec![blank; width * height];
+        let mut all = vec![zero; width * height];
         let strips = all.par_chunks_mut((BIN as usize * width).max(1));
         strips.zip(self.bins.par_chunks((self.columns as usize).max(1))).for_each(|(strip, bins)| {
             for bin in bins {
                 let columns = bin.area.x0 as usize..bin.area.x1 as usize;
-                for (row, pixels) in strip.chunks_exact_mut(width).enumerate() {
-                    let first = row * BIN as usize;
-                    for (place, pixel) in (first..).zip(&mut pixels[columns.clone()]) {
-                        *pixel = of(bin, place);
+                let rows = strip.chunks_exact_mut(width).map(|row| &mut row[columns.clone()]);
+                match &bin.pixels {
+                    Some(pixels) => {
+                        for (row, from) in rows.zip(of(pixels).chunks_exact(BIN as usize)) {
+                            for (pixel, from) in row.iter_mut().zip(from) {
+                                *pixel = convert(*from);
+                            }
+                        }
                     }
+                    None => rows.for_each(|row| row.fill(clear)),
                 }
             }
         });
         all
+    }
+
+    /// The ranges of an attachment. Each pixel asks for its bin, so that nothing is written twice: they are the largest part
+    /// of a picture.
+    fn ranges(&self, attachment: usize) -> Vec<[Range; 4]> {
+        let clear = cleared::<D>(self.framebuffer).map(Number::range);
+        let width = self.framebuffer.width.max(1);
+        (0..self.framebuffer.width * self.framebuffer.height)
+            .into_par_iter()
+            .map(|index| {
+                let (x, y) = (index % width, index / width);
+                let bin = (y / BIN as u32) as usize * self.columns as usize + (x / BIN as u32) as usize;
+                let color = self.bins.get(bin).and_then(|bin| {
+                    let place = (y % BIN as u32) * BIN as u32 + x % BIN as u32;
+                    bin.color(attachment, place)
+                });
+                color.map_or(clear, |color| color.map(Number::range))
+            })
+            .collect()
+    }
+}
+
+impl<D: Domain> Pixels<D> {
+    fn new(framebuffer: Framebuffer) -> Self {
+        const PIXELS: usize = (BIN * BIN) as usize;
+        let clear = cleared::<D>(framebuffer);
+        Self {
+            colors: vec![vec![clear; PIXELS]; framebuffer.attachments as usize],
+            depth: Vec::new(),
+            covered: vec![false; PIXELS],
+            near_edge: vec![false; PIXELS],
+            undecided: vec![false; PIXELS],
+        }
     }
 }
 
 impl<D: Domain> Bin<D> {
     /// A cleared part.
     pub(super) fn new(framebuffer: Framebuffer, area: Bounds) -> Self {
-        let clear = framebuffer.clear.map(|value| store::<D>(D::Float::from_f64(value), framebuffer.format));
-        let pixels = (BIN * BIN) as usize;
-        Self {
-            area,
-            colors: vec![vec![clear; pixels]; framebuffer.attachments as usize],
-            depth: vec![D::Float::from_f64(1.0); pixels],
-            covered: vec![false; pixels],
-            near_edge: vec![false; pixels],
-            undecided: vec![false; pixels],
-        }
+        Self { area, framebuffer, pixels: None }
+    }
+
+    #[inline(always)]
+    fn pixels(&mut self) -> &mut Pixels<D> {
+        self.pixels.get_or_insert_with(|| Pixels::new(self.framebuffer))
+    }
+
+    fn color(&self, attachment: usize, place: u32) -> Option<[D::Float; 4]> {
+        self.pixels.as_ref()?.colors.get(attachment)?.get(place as usize).copied()
     }
 
     /// What a channel of a pixel inside may be.
     pub(super) fn range(&self, x: i64, y: i64, attachment: usize, channel: usize) -> Range {
-        let color = self.colors.get(attachment).and_then(|colors| colors.get(local(self.area, x, y)));
-        color.and_then(|color| color.get(channel)).map_or(Range::ALL, |number| number.range())
+        let has = (attachment as u64) < u64::from(self.framebuffer.attachments);
+        let clear = has.then(|| cleared::<D>(self.framebuffer));
+        let color = self.color(attachment, local(self.area, x, y)).or(clear);
+        color.and_then(|color| color.get(channel).copied()).map_or(Range::ALL, Number::range)
     }
 
     pub(super) fn mark_near_edge(&mut self, x: i64, y: i64) {
-        let index = local(self.area, x, y);
-        self.near_edge[index] = true;
+        let place = local(self.area, x, y) as usize;
+        self.pixels().near_edge[place] = true;
     }
 
-    /// The depth test (§4.1.5) of a fragment that came so far, and the write where it passes.
-    #[inline(always)]
-    pub(super) fn depth_test(&mut self, x: i64, y: i64, z: D::Float, state: &State, before: Test) -> Test {
+    /// The depth test (§4.1.5) of fragments that came so far, and the write where it passes.
+    pub(super) fn depth_tests(
+        &mut self,
+        places: &[u32; LANES],
+        depths: &[D::Float; LANES],
+        state: &State,
+        before: Tests,
+    ) -> Tests {
         if !state.depth_test {
             return before;
         }
-        let index = local(self.area, x, y);
-        let stored = self.depth[index];
-        let z = store_depth::<D>(z);
-        let passes = compare(state.depth_func, z.value(), stored.value());
-        let mut test = Test { passes: before.passes && passes, open: before.open };
+        let depth = &mut self.pixels().depth;
+        if depth.is_empty() {
+            *depth = vec![D::Float::from_f64(1.0); (BIN * BIN) as usize];
+        }
+        let mut after = Tests::default();
+        for lane in Mask(before.possible()).lanes() {
+            let Some(stored) = depth.get_mut(places[lane] as usize) else { continue };
+            let test = depth_test::<D>(stored, depths[lane], state, before.of(lane));
+            after.passes |= u64::from(test.passes) << lane;
+            after.open |= u64::from(test.open) << lane;
+        }
+        after
+    }
+
+    /// Notes that fragments are written to pixels, or may be. One that certainly is, and hides what was there, settles what
+    /// was open.
+    pub(super) fn cover(&mut self, places: &[u32; LANES], tests: Tests, undecided: u64, blends: bool) {
+        let pixels = self.pixels();
+        for lane in Mask(tests.passes).lanes() {
+            pixels.covered[places[lane] as usize] = true;
+        }
         if D::OPEN {
-            let (always, never) = certain(state.depth_func, z.range(), stored.range());
-            test = Test {
-                passes: before.passes && !never && (passes || always),
-                open: !never && (before.open || !always),
-            };
-        }
-        if state.depth_write && test.possible() {
-            self.depth[index] = match (test.passes, test.open) {
-                (_, false) => z,
-                (true, true) => z.joined(stored),
-                (false, true) => stored.joined(z),
-            };
-        }
-        test
-    }
-
-    /// Notes that a fragment is written to the pixel, or may be. One that certainly is, and hides what was there, settles
-    /// what was open.
-    #[inline(always)]
-    pub(super) fn cover(&mut self, x: i64, y: i64, test: Test, undecided: bool, blends: bool) {
-        let index = local(self.area, x, y);
-        self.covered[index] |= test.passes;
-        let before = (blends || test.open) && self.undecided[index];
-        self.undecided[index] = undecided || test.open || before;
-    }
-
-    /// Blends a color into an attachment and stores it.
-    pub(super) fn write_color(
-        &mut self,
-        (x, y): (i64, i64),
-        attachment: usize,
-        color: [D::Float; 4],
-        blend: Option<(BlendFactor, BlendFactor)>,
-        format: Format,
-        test: Test,
-    ) {
-        let index = local(self.area, x, y);
-        let Some(slot) = self.colors.get_mut(attachment).and_then(|colors| colors.get_mut(index)) else { return };
-        let color = match blend {
-            Some(factors) if !is_integer(format) => {
-                let in_bytes = D::OPEN && format == Format::Rgba8Unorm;
-                let round = if in_bytes { in_steps::<D> } else { |value| value };
-                blended::<D>(factors, clamped::<D>(color, format).map(round), *slot, round)
+            for lane in Mask(tests.possible()).lanes() {
+                let slot = &mut pixels.undecided[places[lane] as usize];
+                let open = tests.of(lane).open;
+                *slot = undecided >> lane & 1 == 1 || open || ((blends || open) && *slot);
             }
-            _ => color,
-        };
-        let (new, old) = (color.map(|channel| store::<D>(channel, format)), *slot);
-        *slot = match (test.passes, test.open) {
-            (_, false) => new,
-            (true, true) => std::array::from_fn(|i| new[i].joined(old[i])),
-            (false, true) => std::array::from_fn(|i| old[i].joined(new[i])),
-        };
-    }
-}
-
-pub(super) fn is_integer(format: Format) -> bool {
-    matches!(format, Format::Rgba32Sint | Format::Rgba32Uint)
-}
-
-/// A comparison of depth.
-pub(super) fn compare(function: Compare, new: f64, stored: f64) -> bool {
-    match function {
-        Compare::Never => false,
-        Compare::Less => new < stored,
-        Compare::Equal => new == stored,
-        Compare::Lequal => new <= stored,
-        Compare::Greater => new > stored,
-        Compare::Notequal => new != stored,
-        Compare::Gequal => new >= stored,
-        Compare::Always => true,
-    }
-}
-
-/// Whether a comparison of depth holds, or fails, whatever both are.
-fn certain(function: Compare, new: Range, stored: Range) -> (bool, bool) {
-    let below = new.high < stored.low;
-    let above = new.low > stored.high;
-    let not_above = new.high <= stored.low;
-    let not_below = new.low >= stored.high;
-    let same = new.width() == 0.0 && stored.width() == 0.0 && new.low == stored.low;
-    let apart = below || above;
-    match function {
-        _ if new.may_be_nan => (function == Compare::Always, function == Compare::Never),
-        Compare::Never => (false, true),
-        Compare::Less => (below, not_below),
-        Compare::Equal => (same, apart),
-        Compare::Lequal => (not_above, above),
-        Compare::Greater => (above, not_above),
-        Compare::Notequal => (apart, same),
-        Compare::Gequal => (not_below, below),
-        Compare::Always => (true, false),
-    }
-}
-
-/// Depth as a 32-bit float, clamped to [0, 1] (§2.12.1).
-fn store_depth<D: Domain>(z: D::Float) -> D::Float {
-    let stored = f64::from(z.value() as f32).clamp(0.0, 1.0);
-    if !D::OPEN {
-        return D::Float::from_f64(stored);
-    }
-    let Range { low, high, may_be_nan } = z.range();
-    D::Float::with_range(stored, Range { low: low.clamp(0.0, 1.0), high: high.clamp(0.0, 1.0), may_be_nan })
-}
-
-/// A fixed-point attachment's source is clamped before blending (§4.1.7).
-fn clamped<D: Domain>(color: [D::Float; 4], format: Format) -> [D::Float; 4] {
-    if format != Format::Rgba8Unorm {
-        return color;
-    }
-    color.map(|channel| channel.max(D::Float::default()).min(D::Float::from_f64(1.0)))
-}
-
-/// A number and the step of 1/255 nearest to it: blending in an 8-bit attachment may be computed in as many bits as that
-/// has (§4.1.7), which rounds the source, the factors and the products, or in floats.
-fn in_steps<D: Domain>(value: D::Float) -> D::Float {
-    let Range { low, high, may_be_nan } = value.range();
-    let slack = rules::STORE_SLACK.absolute();
-    let step = |x: f64| (x * 255.0).round() / 255.0;
-    let (low, high) = (low.min(step(low - slack)), high.max(step(high + slack)));
-    D::Float::with_range(value.value(), Range { low, high, may_be_nan })
-}
-
-/// `source * S + destination * D` (§4.1.7, tables 4.1 and 4.2), with a rounding of factors and products.
-fn blended<D: Domain>(
-    (source_factor, destination_factor): (BlendFactor, BlendFactor),
-    source: [D::Float; 4],
-    destination: [D::Float; 4],
-    round: impl Fn(D::Float) -> D::Float,
-) -> [D::Float; 4] {
-    let by = |name: BlendFactor| factor::<D>(name, source, destination).map(&round);
-    let (s, d) = (by(source_factor), by(destination_factor));
-    std::array::from_fn(|i| {
-        let part = |weight: D::Float, value: D::Float, name: BlendFactor| match name {
-            // Nothing times infinity is nothing, where the factor is not computed.
-            BlendFactor::Zero => D::Float::default(),
-            BlendFactor::One => value,
-            _ => round(weight.mul(value)),
-        };
-        part(s[i], source[i], source_factor).add(part(d[i], destination[i], destination_factor))
-    })
-}
-
-fn factor<D: Domain>(name: BlendFactor, source: [D::Float; 4], destination: [D::Float; 4]) -> [D::Float; 4] {
-    let one = D::Float::from_f64(1.0);
-    let rest = |value: D::Float| one.sub(value);
-    let [_, _, _, source_alpha] = source;
-    let [_, _, _, destination_alpha] = destination;
-    match name {
-        BlendFactor::Zero => [D::Float::default(); 4],
-        BlendFactor::One => [one; 4],
-        BlendFactor::SrcColor => source,
-        BlendFactor::OneMinusSrcColor => source.map(rest),
-        BlendFactor::DstColor => destination,
-        BlendFactor::OneMinusDstColor => destination.map(rest),
-        BlendFactor::SrcAlpha => [source_alpha; 4],
-        BlendFactor::OneMinusSrcAlpha => [rest(source_alpha); 4],
-        BlendFactor::DstAlpha => [destination_alpha; 4],
-        BlendFactor::OneMinusDstAlpha => [rest(destination_alpha); 4],
-        BlendFactor::SrcAlphaSaturate => {
-            let least = source_alpha.min(rest(destination_alpha));
-            [least, least, least, one]
         }
     }
-}
 
-/// A channel as the format stores it (§2.1.5, §4.1.7); with an envelope from the least to the greatest step that a number
-/// inside may be stored at.
-fn store<D: Domain>(value: D::Float, format: Format) -> D::Float {
-    let convert: fn(f64) -> f64 = match format {
-        Format::Rgba32Float | Format::Rgba32Sint | Format::Rgba32Uint => return value,
-        Format::Rgba16Float => |x| f64::from(f16::from_f64(x)),
-        Format::Rgba8Unorm => unorm8,
-    };
-    let stored = convert(value.value());
-    if !D::OPEN {
-        return D::Float::from_f64(stored);
-    }
-    let Range { low, high, may_be_nan } = value.range();
-    if low == high && convert(low) == low {
-        return D::Float::from_f64(stored);
-    }
-    // A step of 8 bits is no f32: its ends are rounded outward once more.
-    let range = match format {
-        Format::Rgba8Unorm => {
-            let slack = rules::STORE_SLACK.absolute();
-            let low = if may_be_nan { 0.0 } else { convert(low - slack) };
-            Range { low, high: convert(high + slack), may_be_nan: false }
+    /// Blends colors into an attachment and stores them.
+    #[inline(always)]
+    pub(super) fn write_colors(
+        &mut self,
+        places: &[u32; LANES],
+        attachment: usize,
+        color: impl Fn(usize) -> [D::Float; 4],
+        blend: Option<(BlendFactor, BlendFactor)>,
+        tests: Tests,
+    ) {
+        let format = self.framebuffer.format;
+        let blend = blend.filter(|_| !is_integer(format));
+        let Some(colors) = self.pixels().colors.get_mut(attachment) else { return };
+        if blend.is_none() && keeps(format) && tests.open == 0 {
+            for lane in Mask(tests.passes).lanes() {
+                if let Some(slot) = colors.get_mut(places[lane] as usize) {
+                    *slot = color(lane);
+                }
+            }
+            return;
         }
-        _ => Range { low: half_below(low), high: -half_below(-high), may_be_nan },
-    };
-    D::Float::with_range(stored, range)
-}
-
-/// The greatest half float not above a number.
-fn half_below(x: f64) -> f64 {
-    let near = f16::from_f64(x);
-    let value = f64::from(near);
-    if value <= x || value.is_nan() {
-        return value;
+        for lane in Mask(tests.possible()).lanes() {
+            if let Some(slot) = colors.get_mut(places[lane] as usize) {
+                write_color::<D>(slot, color(lane), blend, format, tests.of(lane));
+            }
+        }
     }
-    let bits = near.to_bits();
-    let below = match (value > 0.0, value == 0.0) {
-        (true, _) => bits - 1,
-        (_, true) => 0x8001,
-        _ => bits + 1,
-    };
-    f64::from(f16::from_bits(below))
-}
-
-/// An 8-bit normalized channel: clamped, `round(255 x) / 255`; NaN is 0.
-fn unorm8(x: f64) -> f64 {
-    if x.is_nan() { 0.0 } else { (x.clamp(0.0, 1.0) * 255.0).round_ties_even() / 255.0 }
 }

@@ -152,15 +152,39 @@ impl Shape {
         }
     }
 
+    /// Calls `emit` with the covered pixels of `area`, each once, some of a row at a time: the row, a column, and the set of
+    /// pixels there (bit `i` is the `i`th to the right).
+    #[inline(always)]
+    pub(crate) fn rows(&self, area: Bounds, mut emit: impl FnMut(i64, i64, u64)) {
+        match self {
+            Self::Convex { bounds, edges, .. } => {
+                let inside = bounds.intersect(area);
+                for y in inside.y0..inside.y1 {
+                    for x in (inside.x0..inside.x1).step_by(PIECE as usize) {
+                        let pixels = covered(edges, x, y, (inside.x1 - x).min(PIECE));
+                        if pixels != 0 {
+                            emit(y, x, pixels);
+                        }
+                    }
+                }
+            }
+            Self::Pixels(pixels) => {
+                for &(x, y) in pixels {
+                    if x >= area.x0 && x < area.x1 && y >= area.y0 && y < area.y1 {
+                        emit(y, x, 1);
+                    }
+                }
+            }
+        }
+    }
+
     /// Calls `emit` with each quad of 2x2 pixels (whose corner is even) that holds a covered pixel of `area`: its upper left
     /// pixel and which are covered (bit 0 upper left, 1 upper right, 2 lower left, 3 lower right). Each quad of a convex
     /// shape comes once.
     #[inline(always)]
     pub(crate) fn quads(&self, area: Bounds, mut emit: impl FnMut(i64, i64, u32)) {
         match self {
-            Self::Convex { bounds, edges, count } => {
-                convex_quads(edges.get(..*count).unwrap_or(&[]), bounds.intersect(area), &mut emit);
-            }
+            Self::Convex { bounds, edges, .. } => convex_quads(edges, bounds.intersect(area), &mut emit),
             Self::Pixels(pixels) => {
                 for &(x, y) in pixels {
                     if x >= area.x0 && x < area.x1 && y >= area.y0 && y < area.y1 {
@@ -179,33 +203,46 @@ impl Shape {
     }
 }
 
+/// Pixels of a row that are decided together, even.
+const PIECE: i64 = 64;
+
+/// Which of `count` pixels of a row, from (x, y) to the right, no edge leaves out. An edge that there is not leaves out
+/// none.
 #[inline(always)]
-fn convex_quads(edges: &[Edge], area: Bounds, emit: &mut impl FnMut(i64, i64, u32)) {
+fn covered(edges: &[Edge; 4], x: i64, y: i64, count: i64) -> u64 {
+    let mut values = edges.each_ref().map(|edge| edge.at(x, y));
+    let mut pixels = 0;
+    for bit in 0..count {
+        // The sign stays where an edge leaves the pixel out.
+        let sign = values[0] | values[1] | values[2] | values[3];
+        pixels |= (!sign as u64 >> 63) << bit;
+        for (value, edge) in values.iter_mut().zip(edges) {
+            *value += edge.step_x;
+        }
+    }
+    pixels
+}
+
+#[inline(always)]
+fn convex_quads(edges: &[Edge; 4], area: Bounds, emit: &mut impl FnMut(i64, i64, u32)) {
     if area.is_empty() {
         return;
     }
-    let (x_start, y_start) = (area.x0 & !1, area.y0 & !1);
-    for y in (y_start..area.y1).step_by(2) {
-        let mut values = [0; 4];
-        for (value, edge) in values.iter_mut().zip(edges) {
-            *value = edge.at(x_start, y);
+    let row = |x: i64, y: i64| {
+        if y < area.y0 || y >= area.y1 {
+            return 0;
         }
-        let rows = if y < area.y0 { 0b1100 } else { 0b1111 } & if y + 1 >= area.y1 { 0b0011 } else { 0b1111 };
-        for x in (x_start..area.x1).step_by(2) {
-            // A sign bit stays for each pixel that an edge leaves out.
-            let mut signs = [0; 4];
-            for (value, edge) in values.iter_mut().zip(edges) {
-                signs[0] |= *value;
-                signs[1] |= *value + edge.step_x;
-                signs[2] |= *value + edge.step_y;
-                signs[3] |= *value + edge.step_x + edge.step_y;
-                *value += 2 * edge.step_x;
-            }
-            let inside = signs.iter().enumerate().fold(0, |bits, (bit, sign)| bits | u32::from(*sign >= 0) << bit);
-            let columns = if x < area.x0 { 0b1010 } else { 0b1111 } & if x + 1 >= area.x1 { 0b0101 } else { 0b1111 };
-            let covered = inside & rows & columns;
-            if covered != 0 {
-                emit(x, y, covered);
+        let pixels = covered(edges, x, y, (area.x1 - x).min(PIECE));
+        if x < area.x0 { pixels & !1 } else { pixels }
+    };
+    for y in (area.y0 & !1..area.y1).step_by(2) {
+        for x in (area.x0 & !1..area.x1).step_by(PIECE as usize) {
+            let (upper, lower) = (row(x, y), row(x, y + 1));
+            let mut rest = upper | lower;
+            while rest != 0 {
+                let at = rest.trailing_zeros() & !1;
+                emit(x + i64::from(at), y, (upper >> at & 0b11 | (lower >> at & 0b11) << 2) as u32);
+                rest &= !(0b11 << at);
             }
         }
     }
