@@ -12,11 +12,15 @@ use super::vertices::Vertices;
 use crate::cpu::domain::faults::Fault;
 use crate::cpu::domain::{Domain, Number};
 use crate::hir::Interpolation;
+use smallvec::SmallVec;
 
 /// The six planes of the view volume.
 const VOLUME: usize = 6;
 /// Those of them that are sides of the window, as a mask.
 pub(super) const SIDES: u32 = 0b1111;
+
+/// The corners of what is left of a triangle.
+pub(super) type Polygon = SmallVec<[u32; 12]>;
 
 /// How far along an edge a plane cuts it: in the domain, by the f32 positions in f32, and by them in f64.
 #[derive(Clone, Copy, Debug)]
@@ -171,20 +175,20 @@ impl<D: Domain> Vertices<D> {
     }
 
     /// What is left of a triangle: the corners of a convex polygon, none if nothing is.
-    pub(super) fn clip_triangle(&mut self, corners: [u32; 3]) -> Vec<u32> {
-        let Some(masks) = self.masks(&corners) else { return Vec::new() };
-        let mut polygon = corners.to_vec();
-        if masks.iter().fold(u32::MAX, |all, mask| all & mask) != 0 {
-            return Vec::new();
+    pub(super) fn clip_triangle(&mut self, corners: [u32; 3]) -> Polygon {
+        let [Some(a), Some(b), Some(c)] = corners.map(|vertex| self.outside(vertex)) else { return Polygon::new() };
+        let mut polygon = Polygon::from_slice(&corners);
+        if a & b & c != 0 {
+            return Polygon::new();
         }
-        let crossed = masks.iter().fold(0, |any, mask| any | mask);
+        let crossed = a | b | c;
         for plane in (0..VOLUME + self.distance_count).filter(|plane| crossed >> plane & 1 == 1) {
-            let mut left = Vec::with_capacity(polygon.len() + 1);
+            let mut left = Polygon::new();
             for (index, &vertex) in polygon.iter().enumerate() {
                 let next = polygon[(index + 1) % polygon.len()];
                 let (distance, next_distance) = (self.distance32(vertex, plane), self.distance32(next, plane));
                 if !distance.is_finite() || !next_distance.is_finite() {
-                    return Vec::new();
+                    return Polygon::new();
                 }
                 if distance >= 0.0 {
                     left.push(vertex);
@@ -198,20 +202,15 @@ impl<D: Domain> Vertices<D> {
             }
             polygon = left;
             if polygon.len() < 3 {
-                return Vec::new();
+                return Polygon::new();
             }
         }
         polygon
     }
 
-    fn masks(&self, corners: &[u32]) -> Option<Vec<u32>> {
-        corners.iter().map(|&vertex| self.outside(vertex)).collect()
-    }
-
     /// What is left of a line.
     pub(super) fn clip_line(&mut self, [from, to]: [u32; 2]) -> Option<[u32; 2]> {
-        let masks = self.masks(&[from, to])?;
-        let [a, b] = [masks.first().copied()?, masks.last().copied()?];
+        let (a, b) = (self.outside(from)?, self.outside(to)?);
         if a & b != 0 {
             return None;
         }

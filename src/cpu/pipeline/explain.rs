@@ -6,7 +6,7 @@
 //! interpolation bring.
 
 use super::fragments::{Shading, draw_bin};
-use super::target::Bin;
+use super::target::Patch;
 use super::watch::Watch;
 use super::{draw_all, refuse};
 use crate::compare::Range;
@@ -47,12 +47,12 @@ pub(in crate::cpu) fn explain(
     // Whole quads, for derivatives.
     let (x0, y0) = (place.x & !1, place.y & !1);
     let area = Bounds { x0, x1: (x0 + 2).min(width), y0, y1: (y0 + 2).min(height) };
-    let mut bin = Bin::<Envelope>::new(scene.framebuffer, area);
+    let mut patch = Patch::<Envelope>::new(scene.framebuffer, area);
     let mut found = Vec::new();
     for (number, draw) in scene.draws.iter().enumerate() {
         let watch = Watch { make: None, draw: number, instance: 0, apart: true };
         draw_all(scene, draw, options, watch, &mut |shading, code, _, _| {
-            if let Some(contributions) = of_draw(shading, code, &mut bin, place) {
+            if let Some(contributions) = of_draw(shading, code, &mut patch, place) {
                 found = contributions;
             }
         })?;
@@ -65,29 +65,30 @@ pub(in crate::cpu) fn explain(
 fn of_draw(
     shading: &Shading<'_, Envelope>,
     code: &Code,
-    bin: &mut Bin<Envelope>,
+    patch: &mut Patch<Envelope>,
     place: Place,
 ) -> Option<Vec<Contribution>> {
-    let touching = shading.prims.iter().enumerate().filter(|(_, prim)| prim.shape.may_touch(bin.area));
+    let touching = shading.prims.iter().enumerate().filter(|(_, prim)| prim.shape.may_touch(patch.area));
     let list: Vec<u32> = touching.map(|(index, _)| index as u32).collect();
-    let before = bin.clone();
+    let before = patch.clone();
     let drawn = |muted: Option<Muted>| {
-        let mut bin = before.clone();
+        let mut patch = before.clone();
         let draw = shading.draw;
         let mut machine = Machine::muting(muted, code, &draw.uniforms, &draw.textures);
-        draw_bin(shading, &mut bin, &list, &mut machine);
-        bin
+        patch.draw(|bin| draw_bin(shading, bin, &list, &mut machine));
+        patch
     };
-    let range = |bin: &Bin<Envelope>| bin.range(place.x, place.y, place.attachment, place.channel);
+    let range = |patch: &mut Patch<Envelope>| patch.range(place.x, place.y, place.attachment, place.channel);
     if list.is_empty() {
         return None;
     }
-    *bin = drawn(None);
-    if range(bin) == range(&before) {
+    let old = range(patch);
+    *patch = drawn(None);
+    let whole = range(patch);
+    if whole == old {
         return None;
     }
-    let whole = range(bin);
-    let share = |muted: Muted| share(whole, range(&drawn(Some(muted))));
+    let share = |muted: Muted| share(whole, range(&mut drawn(Some(muted))));
     let mut contributions = Vec::new();
     for operation in code.operations() {
         let share = share(operation.muted());

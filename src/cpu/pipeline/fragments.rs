@@ -34,7 +34,12 @@ pub(super) struct Shading<'a, D: Domain> {
 }
 
 /// Draws the primitives `list` names over a bin.
-pub(super) fn draw_bin<D: Domain>(shading: &Shading<'_, D>, bin: &mut Bin<D>, list: &[u32], machine: &mut Machine<D>) {
+pub(super) fn draw_bin<D: Domain>(
+    shading: &Shading<'_, D>,
+    bin: &mut Bin<'_, D>,
+    list: &[u32],
+    machine: &mut Machine<D>,
+) {
     let area = bin.area;
     let mut batch = Batch::new([area.x0 as i32, area.y0 as i32]);
     for prim in list.iter().filter_map(|&index| shading.prims.get(index as usize)) {
@@ -73,7 +78,7 @@ impl<D: Domain> Shading<'_, D> {
 
     /// Keeps of the batch's candidates those that pass the depth test, where that comes first, and shades when the batch is
     /// full.
-    fn settle(&self, bin: &mut Bin<D>, batch: &mut Batch<'_, D>, machine: &mut Machine<D>) {
+    fn settle(&self, bin: &mut Bin<'_, D>, batch: &mut Batch<'_, D>, machine: &mut Machine<D>) {
         let Some(before) = batch.locate() else { return };
         let tests = if self.plan.early_depth {
             bin.depth_tests(&batch.fragments.pixels, &batch.fragments.z, &self.draw.state, before)
@@ -91,7 +96,7 @@ impl<D: Domain> Shading<'_, D> {
     }
 
     /// Shades what waits and writes it.
-    fn flush(&self, bin: &mut Bin<D>, batch: &mut Batch<'_, D>, machine: &mut Machine<D>) {
+    fn flush(&self, bin: &mut Bin<'_, D>, batch: &mut Batch<'_, D>, machine: &mut Machine<D>) {
         // Behind an endless loop nothing more is drawn: the picture will be refused.
         if batch.live != 0 && !machine.budget_exceeded() {
             pulp::Arch::new().dispatch(Interpolate { plan: self.plan, batch, machine });
@@ -138,7 +143,7 @@ impl<D: Domain> Shading<'_, D> {
     }
 
     /// What follows the fragment stage: late depth test, blending, storing.
-    fn write_lanes(&self, bin: &mut Bin<D>, batch: &Batch<'_, D>, machine: &Machine<D>) {
+    fn write_lanes(&self, bin: &mut Bin<'_, D>, batch: &Batch<'_, D>, machine: &Machine<D>) {
         let state = &self.draw.state;
         let pixels = &batch.fragments.pixels;
         let (discarded, perhaps) = (machine.discarded().0, machine.perhaps_discarded().0);

@@ -21,6 +21,7 @@ mod plan;
 mod slack;
 mod source;
 mod store;
+mod surface;
 mod target;
 mod vertices;
 mod watch;
@@ -43,6 +44,7 @@ use plan::Plan;
 use rayon::prelude::*;
 use smallvec::SmallVec;
 use std::sync::{Mutex, OnceLock};
+use surface::Surface;
 use target::{BIN, Target};
 use vertices::{Invocation, shade};
 pub(super) use watch::MakeObserver;
@@ -62,14 +64,16 @@ pub(super) fn render_watched<D: Domain>(
     options: &RenderOptions,
     observers: Option<&MakeObserver<D>>,
 ) -> Result<Picture, Vec<Diagnostic>> {
-    let mut target = Target::<D>::new(scene.framebuffer);
+    let mut surface = Surface::new::<D>(scene.framebuffer);
+    let mut target = Target::<D>::new(&mut surface);
     for (number, draw) in scene.draws.iter().enumerate() {
         let watch = Watch { make: observers, draw: number, instance: 0, apart: observers.is_some() };
         draw_all(scene, draw, options, watch, &mut |shading, code, endless, watch| {
             draw_prims(shading, code, &mut target, endless, watch);
         })?;
     }
-    Ok(target.picture())
+    let marks = target.into_marks();
+    Ok(surface.picture::<D>(marks))
 }
 
 /// What is done with the primitives of an instance.
@@ -152,6 +156,22 @@ fn unique_vertices(draw: &Draw) -> (Vec<u32>, Vec<u32>) {
         return (all.clone(), all);
     };
     let used = indices.get(..draw.vertex_count as usize).unwrap_or(indices);
+    let most = used.iter().copied().max().unwrap_or(0) as usize;
+    if most < 4 * used.len() {
+        // A table of all vertices: the place of each that is used.
+        let mut places = vec![u32::MAX; most + 1];
+        for &index in used {
+            places[index as usize] = 0;
+        }
+        let mut unique = Vec::new();
+        for (vertex, place) in (0..).zip(&mut places) {
+            if *place == 0 {
+                *place = unique.len() as u32;
+                unique.push(vertex);
+            }
+        }
+        return (used.iter().map(|&index| places[index as usize]).collect(), unique);
+    }
     let mut unique = used.to_vec();
     unique.sort_unstable();
     unique.dedup();
@@ -166,7 +186,7 @@ struct Bins {
 }
 
 impl Bins {
-    fn new<D: Domain>(prims: &[Prim], target: &Target<D>) -> Self {
+    fn new<D: Domain>(prims: &[Prim], target: &Target<'_, D>) -> Self {
         let mut counts = vec![0_u32; target.bins.len() + 1];
         let mut pairs = Vec::new();
         for (index, prim) in prims.iter().enumerate() {
@@ -195,7 +215,7 @@ impl Bins {
 }
 
 /// Calls `visit` once with each bin that a shape may touch.
-fn touched<D: Domain>(shape: &Shape, target: &Target<D>, mut visit: impl FnMut(usize)) {
+fn touched<D: Domain>(shape: &Shape, target: &Target<'_, D>, mut visit: impl FnMut(usize)) {
     let bin_at = |column: i64, row: i64| (row * target.columns + column) as usize;
     if let Shape::Pixels(pixels) = shape {
         // Along the pixels, not over the rectangle around them: of a diagonal that is many times as much.
@@ -228,7 +248,7 @@ fn touched<D: Domain>(shape: &Shape, target: &Target<D>, mut visit: impl FnMut(u
 fn draw_prims<D: Domain>(
     shading: &Shading<'_, D>,
     code: &Code,
-    target: &mut Target<D>,
+    target: &mut Target<'_, D>,
     endless: &OnceLock<Span>,
     watch: &Watch<'_, D>,
 ) {

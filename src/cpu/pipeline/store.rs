@@ -39,28 +39,28 @@ pub(super) fn depth_test<D: Domain>(slot: &mut D::Float, z: D::Float, state: &St
     test
 }
 
-/// Blends a color into a pixel and stores it.
-pub(super) fn write_color<D: Domain>(
-    slot: &mut [D::Float; 4],
+/// A color blended into what a pixel holds, as the format stores it.
+pub(super) fn stored<D: Domain>(
     color: [D::Float; 4],
+    old: [D::Float; 4],
     blend: Option<(BlendFactor, BlendFactor)>,
     format: Format,
     test: Test,
-) {
+) -> [D::Float; 4] {
     let color = match blend {
         Some(factors) => {
             let in_bytes = D::OPEN && format == Format::Rgba8Unorm;
             let round = if in_bytes { in_steps::<D> } else { |value| value };
-            blended::<D>(factors, clamped::<D>(color, format).map(round), *slot, round)
+            blended::<D>(factors, clamped::<D>(color, format).map(round), old, round)
         }
         None => color,
     };
-    let (new, old) = (color.map(|channel| store::<D>(channel, format)), *slot);
-    *slot = match (test.passes, test.open) {
+    let new = color.map(|channel| store::<D>(channel, format));
+    match (test.passes, test.open) {
         (_, false) => new,
         (true, true) => std::array::from_fn(|i| new[i].joined(old[i])),
         (false, true) => std::array::from_fn(|i| old[i].joined(new[i])),
-    };
+    }
 }
 
 /// Whether colors are stored as they are.

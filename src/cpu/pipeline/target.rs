@@ -1,16 +1,18 @@
 //! What is drawn to: colors, depth, coverage, cut into square bins that threads own (OpenGL 3.2 §4.1, §4.2).
 //!
-//! *In:* fragments after shading. *Out:* the [`Picture`].
+//! *In:* fragments after shading. *Out:* what their pixels hold.
 //! *Holds:* a value is stored as the attachment's format stores it, except that `rgba32float` keeps the domain's own
-//! precision: the reference is not rounded to f32. Depth is stored as f32, as the format has it.
+//! precision: the reference is not rounded to f32. Depth is stored as f32, as the format has it. Colors are written where
+//! the picture has them ([`Surface`]); the rest is a bin's own and there only once something is drawn.
 
-use super::store::{Test, depth_test, is_integer, keeps, store, write_color};
-use crate::compare::{Picture, Range};
+use super::store::{Test, depth_test, is_integer, keeps, stored};
+use super::surface::{Marks, Piece, Surface};
+use crate::compare::Range;
 use crate::cpu::domain::{Domain, Number};
 use crate::cpu::exec::{LANES, Mask};
 use crate::cpu::raster::Bounds;
-use crate::scene::{BlendFactor, Framebuffer, State};
-use rayon::prelude::*;
+use crate::scene::{BlendFactor, Format, Framebuffer, State};
+use smallvec::SmallVec;
 
 /// Pixels along a side of a bin; even, so that quads lie within one.
 pub(super) const BIN: i64 = 32;
@@ -36,20 +38,29 @@ impl Tests {
     }
 }
 
-/// A bin's part of the framebuffer.
-#[derive(Clone, Debug)]
-pub(super) struct Bin<D: Domain> {
-    /// Its pixels; at the right and lower rim some of them lie outside the picture and are never drawn.
-    pub(super) area: Bounds,
+/// The framebuffer, cut into bins.
+#[derive(Debug)]
+pub(super) struct Target<'s, D: Domain> {
     framebuffer: Framebuffer,
-    /// None as long as nothing is drawn: then all have the clear color.
+    pub(super) columns: i64,
+    pub(super) rows: i64,
+    pub(super) bins: Vec<Bin<'s, D>>,
+}
+
+/// A bin's part of the framebuffer.
+#[derive(Debug)]
+pub(super) struct Bin<'s, D: Domain> {
+    /// Its pixels; at the right and lower rim it has fewer than elsewhere.
+    pub(super) area: Bounds,
+    format: Format,
+    attachments: SmallVec<[Piece<'s>; 1]>,
+    /// None as long as nothing is drawn.
     pixels: Option<Pixels<D>>,
 }
 
-/// What is stored of a bin's pixels, row by row of [`BIN`].
+/// What is known of a bin's pixels beside their colors, row by row of [`BIN`].
 #[derive(Clone, Debug)]
 struct Pixels<D: Domain> {
-    colors: Vec<Vec<[D::Float; 4]>>,
     /// Empty before the first test.
     depth: Vec<D::Float>,
     covered: Vec<bool>,
@@ -58,149 +69,68 @@ struct Pixels<D: Domain> {
     undecided: Vec<bool>,
 }
 
-/// The framebuffer.
-#[derive(Debug)]
-pub(super) struct Target<D: Domain> {
-    framebuffer: Framebuffer,
-    pub(super) columns: i64,
-    pub(super) rows: i64,
-    pub(super) bins: Vec<Bin<D>>,
-}
-
 /// The place of a pixel in its bin.
 #[inline(always)]
 pub(super) fn local(area: Bounds, x: i64, y: i64) -> u32 {
     ((y - area.y0) * BIN + (x - area.x0)) as u32
 }
 
-/// What a pixel has before anything is drawn to it.
-fn cleared<D: Domain>(framebuffer: Framebuffer) -> [D::Float; 4] {
-    framebuffer.clear.map(|value| store::<D>(D::Float::from_f64(value), framebuffer.format))
-}
-
-impl<D: Domain> Target<D> {
-    /// A cleared framebuffer.
-    pub(super) fn new(framebuffer: Framebuffer) -> Self {
+impl<'s, D: Domain> Target<'s, D> {
+    /// A framebuffer over what its attachments hold.
+    pub(super) fn new(surface: &'s mut Surface) -> Self {
+        let framebuffer = surface.framebuffer;
         let (width, height) = (i64::from(framebuffer.width), i64::from(framebuffer.height));
         let (columns, rows) = ((width + BIN - 1) / BIN, (height + BIN - 1) / BIN);
-        let bins = (0..columns * rows)
+        let mut bins: Vec<Bin<'_, D>> = (0..columns * rows)
             .map(|index| {
                 let (x0, y0) = (index % columns * BIN, index / columns * BIN);
                 let area = Bounds { x0, x1: (x0 + BIN).min(width), y0, y1: (y0 + BIN).min(height) };
-                Bin::new(framebuffer, area)
+                Bin { area, format: framebuffer.format, attachments: SmallVec::new(), pixels: None }
             })
             .collect();
+        for attachment in &mut surface.attachments {
+            for (bin, piece) in bins.iter_mut().zip(attachment.pieces(framebuffer.width as usize)) {
+                bin.attachments.push(piece);
+            }
+        }
         Self { framebuffer, columns, rows, bins }
     }
 
-    /// The picture that was drawn.
-    pub(super) fn picture(&self) -> Picture {
-        let attachments = 0..self.framebuffer.attachments as usize;
-        let clear = cleared::<D>(self.framebuffer).map(Number::value);
-        let colors = |attachment: usize| {
-            self.gathered(
-                ([0.0; 4], clear),
-                |pixels| &pixels.colors[attachment],
-                |color: [D::Float; 4]| color.map(Number::value),
-            )
-        };
-        let flags = |of: fn(&Pixels<D>) -> &[bool]| self.gathered((false, false), of, |flag| flag);
-        Picture {
-            width: self.framebuffer.width,
-            height: self.framebuffer.height,
-            attachments: attachments.clone().map(colors).collect(),
-            covered: flags(|pixels| &pixels.covered),
-            ranges: D::OPEN.then(|| attachments.map(|attachment| self.ranges(attachment)).collect()),
-            undecided: flags(|pixels| &pixels.undecided),
-            near_edge: flags(|pixels| &pixels.near_edge),
+    /// What was drawn to.
+    pub(super) fn into_marks(self) -> Marks {
+        Marks {
+            covered: self.gathered(|pixels| &pixels.covered),
+            undecided: self.gathered(|pixels| &pixels.undecided),
+            near_edge: self.gathered(|pixels| &pixels.near_edge),
         }
     }
 
-    /// What each pixel has of its bin, else `clear`: rows of bins side by side in threads, since nothing is drawn
-    /// meanwhile. They find zeros, which the system gives for nothing.
-    fn gathered<S: Copy + Send + Sync, T: Copy + Send + Sync>(
-        &self,
-        (zero, clear): (T, T),
-        of: impl Fn(&Pixels<D>) -> &[S] + Sync,
-        convert: impl Fn(S) -> T + Sync,
-    ) -> Vec<T> {
+    fn gathered(&self, of: impl Fn(&Pixels<D>) -> &[bool]) -> Vec<bool> {
         let (width, height) = (self.framebuffer.width as usize, self.framebuffer.height as usize);
-        let mut all = vec![zero; width * height];
-        let strips = all.par_chunks_mut((BIN as usize * width).max(1));
-        strips.zip(self.bins.par_chunks((self.columns as usize).max(1))).for_each(|(strip, bins)| {
-            for bin in bins {
-                let columns = bin.area.x0 as usize..bin.area.x1 as usize;
-                let rows = strip.chunks_exact_mut(width).map(|row| &mut row[columns.clone()]);
-                match &bin.pixels {
-                    Some(pixels) => {
-                        for (row, from) in rows.zip(of(pixels).chunks_exact(BIN as usize)) {
-                            for (pixel, from) in row.iter_mut().zip(from) {
-                                *pixel = convert(*from);
-                            }
-                        }
-                    }
-                    None => rows.for_each(|row| row.fill(clear)),
-                }
+        let mut all = vec![false; width * height];
+        for bin in &self.bins {
+            let Some(marks) = bin.pixels.as_ref().map(&of) else { continue };
+            let columns = bin.area.x0 as usize..bin.area.x1 as usize;
+            let rows = all.chunks_exact_mut(width).skip(bin.area.y0 as usize);
+            for (row, marks) in rows.zip(marks.chunks_exact(BIN as usize)) {
+                row[columns.clone()].copy_from_slice(&marks[..columns.len()]);
             }
-        });
+        }
         all
-    }
-
-    /// The ranges of an attachment. Each pixel asks for its bin, so that nothing is written twice: they are the largest part
-    /// of a picture.
-    fn ranges(&self, attachment: usize) -> Vec<[Range; 4]> {
-        let clear = cleared::<D>(self.framebuffer).map(Number::range);
-        let width = self.framebuffer.width.max(1);
-        (0..self.framebuffer.width * self.framebuffer.height)
-            .into_par_iter()
-            .map(|index| {
-                let (x, y) = (index % width, index / width);
-                let bin = (y / BIN as u32) as usize * self.columns as usize + (x / BIN as u32) as usize;
-                let color = self.bins.get(bin).and_then(|bin| {
-                    let place = (y % BIN as u32) * BIN as u32 + x % BIN as u32;
-                    bin.color(attachment, place)
-                });
-                color.map_or(clear, |color| color.map(Number::range))
-            })
-            .collect()
     }
 }
 
 impl<D: Domain> Pixels<D> {
-    fn new(framebuffer: Framebuffer) -> Self {
-        const PIXELS: usize = (BIN * BIN) as usize;
-        let clear = cleared::<D>(framebuffer);
-        Self {
-            colors: vec![vec![clear; PIXELS]; framebuffer.attachments as usize],
-            depth: Vec::new(),
-            covered: vec![false; PIXELS],
-            near_edge: vec![false; PIXELS],
-            undecided: vec![false; PIXELS],
-        }
+    fn new() -> Self {
+        let marks = vec![false; (BIN * BIN) as usize];
+        Self { depth: Vec::new(), covered: marks.clone(), near_edge: marks.clone(), undecided: marks }
     }
 }
 
-impl<D: Domain> Bin<D> {
-    /// A cleared part.
-    pub(super) fn new(framebuffer: Framebuffer, area: Bounds) -> Self {
-        Self { area, framebuffer, pixels: None }
-    }
-
+impl<D: Domain> Bin<'_, D> {
     #[inline(always)]
     fn pixels(&mut self) -> &mut Pixels<D> {
-        self.pixels.get_or_insert_with(|| Pixels::new(self.framebuffer))
-    }
-
-    fn color(&self, attachment: usize, place: u32) -> Option<[D::Float; 4]> {
-        self.pixels.as_ref()?.colors.get(attachment)?.get(place as usize).copied()
-    }
-
-    /// What a channel of a pixel inside may be.
-    pub(super) fn range(&self, x: i64, y: i64, attachment: usize, channel: usize) -> Range {
-        let has = (attachment as u64) < u64::from(self.framebuffer.attachments);
-        let clear = has.then(|| cleared::<D>(self.framebuffer));
-        let color = self.color(attachment, local(self.area, x, y)).or(clear);
-        color.and_then(|color| color.get(channel).copied()).map_or(Range::ALL, Number::range)
+        self.pixels.get_or_insert_with(Pixels::new)
     }
 
     pub(super) fn mark_near_edge(&mut self, x: i64, y: i64) {
@@ -259,21 +189,53 @@ impl<D: Domain> Bin<D> {
         blend: Option<(BlendFactor, BlendFactor)>,
         tests: Tests,
     ) {
-        let format = self.framebuffer.format;
+        let format = self.format;
         let blend = blend.filter(|_| !is_integer(format));
-        let Some(colors) = self.pixels().colors.get_mut(attachment) else { return };
-        if blend.is_none() && keeps(format) && tests.open == 0 {
-            for lane in Mask(tests.passes).lanes() {
-                if let Some(slot) = colors.get_mut(places[lane] as usize) {
-                    *slot = color(lane);
-                }
-            }
-            return;
-        }
+        let Some(piece) = self.attachments.get_mut(attachment) else { return };
+        let is_plain = blend.is_none() && keeps(format) && tests.open == 0;
         for lane in Mask(tests.possible()).lanes() {
-            if let Some(slot) = colors.get_mut(places[lane] as usize) {
-                write_color::<D>(slot, color(lane), blend, format, tests.of(lane));
-            }
+            let Some(mut pixel) = piece.pixel(places[lane]) else { continue };
+            let color = color(lane);
+            let stored =
+                if is_plain { color } else { stored::<D>(color, pixel.read::<D>(), blend, format, tests.of(lane)) };
+            pixel.write::<D>(stored);
         }
+    }
+}
+
+/// A part of a picture that is drawn alone, and may be drawn again from where it was.
+#[derive(Clone, Debug)]
+pub(super) struct Patch<D: Domain> {
+    pub(super) area: Bounds,
+    surface: Surface,
+    pixels: Option<Pixels<D>>,
+}
+
+impl<D: Domain> Patch<D> {
+    /// No more than a bin's size, cleared.
+    pub(super) fn new(framebuffer: Framebuffer, area: Bounds) -> Self {
+        let (width, height) = ((area.x1 - area.x0) as u32, (area.y1 - area.y0) as u32);
+        Self { area, surface: Surface::new::<D>(Framebuffer { width, height, ..framebuffer }), pixels: None }
+    }
+
+    /// Draws to it.
+    pub(super) fn draw(&mut self, draw: impl FnOnce(&mut Bin<'_, D>)) {
+        if let Some(bin) = Target::<D>::new(&mut self.surface).bins.first_mut() {
+            bin.area = self.area;
+            bin.pixels = self.pixels.take();
+            draw(bin);
+            self.pixels = bin.pixels.take();
+        }
+    }
+
+    /// What a channel of a pixel inside may be.
+    pub(super) fn range(&mut self, x: i64, y: i64, attachment: usize, channel: usize) -> Range {
+        let mut range = Range::ALL;
+        let place = local(self.area, x, y);
+        self.draw(|bin| {
+            let color = bin.attachments.get_mut(attachment).and_then(|piece| piece.pixel(place)).map(|p| p.read::<D>());
+            range = color.and_then(|color| color.get(channel).copied()).map_or(Range::ALL, Number::range);
+        });
+        range
     }
 }

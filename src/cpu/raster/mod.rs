@@ -210,17 +210,25 @@ const PIECE: i64 = 64;
 /// none.
 #[inline(always)]
 fn covered(edges: &[Edge; 4], x: i64, y: i64, count: i64) -> u64 {
-    let mut values = edges.each_ref().map(|edge| edge.at(x, y));
+    const AT_ONCE: usize = 4;
+    let mut values = edges.each_ref().map(|edge| {
+        let first = edge.at(x, y);
+        [0, 1, 2, 3].map(|pixel| first + pixel * edge.step_x)
+    });
     let mut pixels = 0;
-    for bit in 0..count {
-        // The sign stays where an edge leaves the pixel out.
-        let sign = values[0] | values[1] | values[2] | values[3];
-        pixels |= (!sign as u64 >> 63) << bit;
-        for (value, edge) in values.iter_mut().zip(edges) {
-            *value += edge.step_x;
+    for bit in (0..count).step_by(AT_ONCE) {
+        // A sign bit stays for each pixel that an edge leaves out.
+        let mut signs = [0; AT_ONCE];
+        for (values, edge) in values.iter_mut().zip(edges) {
+            for (sign, value) in signs.iter_mut().zip(values) {
+                *sign |= *value;
+                *value += AT_ONCE as i64 * edge.step_x;
+            }
         }
+        let [a, b, c, d] = signs.map(|sign| !sign as u64 >> 63);
+        pixels |= (a | b << 1 | c << 2 | d << 3) << bit;
     }
-    pixels
+    pixels & u64::MAX >> (PIECE - count)
 }
 
 #[inline(always)]
