@@ -158,7 +158,7 @@ impl<D: Domain> Shading<'_, D> {
         for output in self.outputs {
             let channels = output.channels(machine);
             if let [Channel::Float(r), Channel::Float(g), Channel::Float(b), Channel::Float(a)] = channels {
-                let color = |lane: usize| [r, g, b, a].map(|channel| channel[lane % LANES]);
+                let color = |lane: usize| [r[lane % LANES], g[lane % LANES], b[lane % LANES], a[lane % LANES]];
                 bin.write_colors(pixels, output.attachment, color, state.blend, tests);
             } else {
                 let color = |lane: usize| channels.map(|channel| channel.at(lane));

@@ -131,11 +131,15 @@ impl Pixel<'_> {
 
     #[inline(always)]
     pub(super) fn write<D: Domain>(&mut self, color: [D::Float; 4]) {
-        *self.color = color.map(Number::value);
+        for (to, channel) in self.color.iter_mut().zip(&color) {
+            *to = channel.value();
+        }
         if D::OPEN
             && let Some(range) = self.range.as_deref_mut()
         {
-            *range = color.map(Number::range);
+            for (to, channel) in range.iter_mut().zip(&color) {
+                *to = channel.range();
+            }
         }
     }
 }

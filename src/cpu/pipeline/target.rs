@@ -192,13 +192,19 @@ impl<D: Domain> Bin<'_, D> {
         let format = self.format;
         let blend = blend.filter(|_| !is_integer(format));
         let Some(piece) = self.attachments.get_mut(attachment) else { return };
-        let is_plain = blend.is_none() && keeps(format) && tests.open == 0;
+        if blend.is_none() && keeps(format) && tests.open == 0 {
+            for lane in Mask(tests.passes).lanes() {
+                if let Some(mut pixel) = piece.pixel(places[lane]) {
+                    pixel.write::<D>(color(lane));
+                }
+            }
+            return;
+        }
         for lane in Mask(tests.possible()).lanes() {
-            let Some(mut pixel) = piece.pixel(places[lane]) else { continue };
-            let color = color(lane);
-            let stored =
-                if is_plain { color } else { stored::<D>(color, pixel.read::<D>(), blend, format, tests.of(lane)) };
-            pixel.write::<D>(stored);
+            if let Some(mut pixel) = piece.pixel(places[lane]) {
+                let color = stored::<D>(color(lane), pixel.read::<D>(), blend, format, tests.of(lane));
+                pixel.write::<D>(color);
+            }
         }
     }
 }
