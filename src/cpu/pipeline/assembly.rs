@@ -76,9 +76,10 @@ pub(super) fn primitives<D: Domain>(
     // hang on which vertex comes first, if only by rounding.
     let is_flat = vertices.int_count > 0 || vertices.interpolations.contains(&Interpolation::Flat);
     let last_first = is_flat && state.provoking_last;
-    let mut list = Vec::new();
+    let assembled = assemble(state.primitive, order.len() as u32);
+    let mut list = Vec::with_capacity(assembled.len());
     let vertex = |position: u32| order.get(position as usize).copied().unwrap_or(0);
-    for (id, assembled) in assemble(state.primitive, order.len() as u32).into_iter().enumerate() {
+    for (id, assembled) in assembled.into_iter().enumerate() {
         let id = id as u32;
         match assembled {
             Assembled::Point(position) => list.extend(point_prim(vertices, vertex(position), id, lines)),

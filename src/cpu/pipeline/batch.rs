@@ -151,9 +151,10 @@ impl<'v, D: Domain> Batch<'v, D> {
 
     /// Empties it. The last primitive may go on.
     pub(super) fn clear(&mut self) {
-        let last = self.runs.pop().map(|run| Run { start: 0, ..run });
-        self.runs.clear();
-        self.runs.extend(last);
+        self.runs.drain(..self.runs.len().saturating_sub(1));
+        if let Some(last) = self.runs.first_mut() {
+            last.start = 0;
+        }
         (self.count, self.settled, self.live) = (0, 0, 0);
         self.tests = Tests::default();
     }

@@ -14,6 +14,8 @@ pub(crate) mod line;
 pub(crate) mod point;
 pub(crate) mod triangle;
 
+use pulp::{Simd, WithSimd};
+
 /// Units of the fixed grid in a pixel.
 pub(crate) const ONE: i64 = 256;
 
@@ -157,16 +159,12 @@ impl Shape {
     #[inline(always)]
     pub(crate) fn rows(&self, area: Bounds, mut emit: impl FnMut(i64, i64, u64)) {
         match self {
-            Self::Convex { bounds, edges, .. } => {
-                let inside = bounds.intersect(area);
-                for y in inside.y0..inside.y1 {
-                    for x in (inside.x0..inside.x1).step_by(PIECE as usize) {
-                        let pixels = covered(edges, x, y, (inside.x1 - x).min(PIECE));
-                        if pixels != 0 {
-                            emit(y, x, pixels);
-                        }
+            Self::Convex { bounds, edges, count } => {
+                blocks(edges, *count, bounds.intersect(area), |x, y, rows| {
+                    for (y, &pixels) in (y..).zip(rows).filter(|(_, pixels)| **pixels != 0) {
+                        emit(y, x, pixels);
                     }
-                }
+                });
             }
             Self::Pixels(pixels) => {
                 for &(x, y) in pixels {
@@ -184,7 +182,23 @@ impl Shape {
     #[inline(always)]
     pub(crate) fn quads(&self, area: Bounds, mut emit: impl FnMut(i64, i64, u32)) {
         match self {
-            Self::Convex { bounds, edges, .. } => convex_quads(edges, bounds.intersect(area), &mut emit),
+            Self::Convex { bounds, edges, count } => {
+                let inside = bounds.intersect(area);
+                let whole = Bounds { x0: inside.x0 & !1, y0: inside.y0 & !1, ..inside };
+                blocks(edges, *count, whole, |x, y, rows| {
+                    let first = if x < inside.x0 { !1 } else { !0 };
+                    for (y, pair) in (y..).step_by(2).zip(rows.chunks(2)) {
+                        let upper = if y < inside.y0 { 0 } else { pair[0] & first };
+                        let lower = pair.get(1).map_or(0, |row| row & first);
+                        let mut rest = upper | lower;
+                        while rest != 0 {
+                            let at = rest.trailing_zeros() & !1;
+                            emit(x + i64::from(at), y, (upper >> at & 0b11 | (lower >> at & 0b11) << 2) as u32);
+                            rest &= !(0b11 << at);
+                        }
+                    }
+                });
+            }
             Self::Pixels(pixels) => {
                 for &(x, y) in pixels {
                     if x >= area.x0 && x < area.x1 && y >= area.y0 && y < area.y1 {
@@ -203,54 +217,72 @@ impl Shape {
     }
 }
 
-/// Pixels of a row that are decided together, even.
-const PIECE: i64 = 64;
+/// The width of a block, in pixels; even.
+const WIDTH: usize = 64;
+/// The height of a block; even.
+const HEIGHT: usize = 32;
 
-/// Which of `count` pixels of a row, from (x, y) to the right, no edge leaves out. An edge that there is not leaves out
-/// none.
+/// Calls `emit` with the pixels of `area` that none of the edges leaves out, block by block: the upper left pixel of the
+/// block, and the set of pixels of each of its rows.
 #[inline(always)]
-fn covered(edges: &[Edge; 4], x: i64, y: i64, count: i64) -> u64 {
-    const AT_ONCE: usize = 4;
-    let mut values = edges.each_ref().map(|edge| {
-        let first = edge.at(x, y);
-        [0, 1, 2, 3].map(|pixel| first + pixel * edge.step_x)
-    });
-    let mut pixels = 0;
-    for bit in (0..count).step_by(AT_ONCE) {
-        // A sign bit stays for each pixel that an edge leaves out.
-        let mut signs = [0; AT_ONCE];
-        for (values, edge) in values.iter_mut().zip(edges) {
-            for (sign, value) in signs.iter_mut().zip(values) {
-                *sign |= *value;
-                *value += AT_ONCE as i64 * edge.step_x;
+fn blocks(edges: &[Edge; 4], count: usize, area: Bounds, mut emit: impl FnMut(i64, i64, &[u64])) {
+    let mut rows = [0; HEIGHT];
+    for y in (area.y0..area.y1).step_by(HEIGHT) {
+        for x in (area.x0..area.x1).step_by(WIDTH) {
+            let block = Bounds { x0: x, x1: area.x1.min(x + WIDTH as i64), y0: y, y1: area.y1.min(y + HEIGHT as i64) };
+            let rows = &mut rows[..(block.y1 - y) as usize];
+            match *edges {
+                [a, b, c, _] if count <= 3 => pulp::Arch::new().dispatch(Block { edges: [a, b, c], block, rows }),
+                edges => pulp::Arch::new().dispatch(Block { edges, block, rows }),
             }
+            emit(x, y, rows);
         }
-        let [a, b, c, d] = signs.map(|sign| !sign as u64 >> 63);
-        pixels |= (a | b << 1 | c << 2 | d << 3) << bit;
     }
-    pixels & u64::MAX >> (PIECE - count)
 }
 
-#[inline(always)]
-fn convex_quads(edges: &[Edge; 4], area: Bounds, emit: &mut impl FnMut(i64, i64, u32)) {
-    if area.is_empty() {
-        return;
-    }
-    let row = |x: i64, y: i64| {
-        if y < area.y0 || y >= area.y1 {
-            return 0;
-        }
-        let pixels = covered(edges, x, y, (area.x1 - x).min(PIECE));
-        if x < area.x0 { pixels & !1 } else { pixels }
-    };
-    for y in (area.y0 & !1..area.y1).step_by(2) {
-        for x in (area.x0 & !1..area.x1).step_by(PIECE as usize) {
-            let (upper, lower) = (row(x, y), row(x, y + 1));
-            let mut rest = upper | lower;
-            while rest != 0 {
-                let at = rest.trailing_zeros() & !1;
-                emit(x + i64::from(at), y, (upper >> at & 0b11 | (lower >> at & 0b11) << 2) as u32);
-                rest &= !(0b11 << at);
+/// Finds the covered pixels of a block: to be compiled for wide vectors. Edges that there are not leave out none.
+struct Block<'r, const EDGES: usize> {
+    edges: [Edge; EDGES],
+    block: Bounds,
+    rows: &'r mut [u64],
+}
+
+impl<const EDGES: usize> WithSimd for Block<'_, EDGES> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        /// Pixels that are decided together.
+        const LANES: usize = 4;
+        let Self { edges, block, rows } = self;
+        let width = (block.x1 - block.x0) as usize;
+        let mut starts = edges.map(|edge| {
+            let first = edge.at(block.x0, block.y0);
+            [0, 1, 2, 3].map(|pixel| first + pixel * edge.step_x)
+        });
+        for row in rows {
+            let mut values = starts;
+            let mut covered = [0; LANES];
+            let mut bits = [1_u64, 2, 4, 8];
+            for _ in 0..width.div_ceil(LANES) {
+                // The sign stays where an edge leaves the pixel out.
+                let mut signs = [0_i64; LANES];
+                for (values, edge) in values.iter_mut().zip(&edges) {
+                    for lane in 0..LANES {
+                        signs[lane] |= values[lane];
+                        values[lane] += LANES as i64 * edge.step_x;
+                    }
+                }
+                for lane in 0..LANES {
+                    covered[lane] |= !(signs[lane] >> 63) as u64 & bits[lane];
+                    bits[lane] <<= LANES;
+                }
+            }
+            *row = covered.iter().fold(0, |all, lane| all | lane) & u64::MAX >> (WIDTH - width);
+            for (start, edge) in starts.iter_mut().zip(&edges) {
+                for value in start {
+                    *value += edge.step_y;
+                }
             }
         }
     }

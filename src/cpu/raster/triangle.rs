@@ -122,6 +122,31 @@ mod tests {
     }
 
     #[test]
+    fn rows_and_quads_cover_the_same() {
+        // Wider and higher than a block; and areas that begin at odd pixels.
+        let corners = [(-3.0, 1.25), (139.5, 20.0), (60.75, 70.5)].map(|(x, y)| Fixed::snap(x, y).expect("finite"));
+        let shape = shape(corners).expect("it has area");
+        for (x0, y0) in [(0, 0), (1, 0), (0, 3), (33, 5)] {
+            let area = Bounds { x0, x1: 131, y0, y1: 67 };
+            let (mut by_rows, mut by_quads) = (Vec::new(), Vec::new());
+            shape.rows(area, |y, x, pixels| {
+                by_rows.extend((0..64).filter(|bit| pixels >> bit & 1 == 1).map(|bit| (x + bit, y)));
+            });
+            shape.quads(area, |x, y, covered| {
+                assert!(x % 2 == 0 && y % 2 == 0);
+                let pixels = (0..4).filter(|bit| covered >> bit & 1 == 1);
+                by_quads.extend(pixels.map(|bit| (x + (bit & 1), y + (bit >> 1))));
+            });
+            by_rows.sort_unstable();
+            by_quads.sort_unstable();
+            assert_eq!(by_rows, by_quads);
+            assert!(by_rows.len() > 1000);
+            let inside = |(x, y): &(i64, i64)| (x0..131).contains(x) && (y0..67).contains(y);
+            assert!(by_rows.iter().all(inside) && by_rows.windows(2).all(|pair| pair[0] != pair[1]));
+        }
+    }
+
+    #[test]
     fn pixels_near_an_edge_are_marked() {
         let corners = [(2.495, 0.0), (12.0, 0.0), (2.495, 12.0)].map(|(x, y)| Fixed::snap(x, y).expect("finite"));
         let mut marked = Vec::new();
