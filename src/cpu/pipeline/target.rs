@@ -174,7 +174,7 @@ impl<D: Domain> Bin<'_, D> {
             for lane in Mask(tests.possible()).lanes() {
                 let slot = &mut pixels.undecided[places[lane] as usize];
                 let open = tests.of(lane).open;
-                *slot = undecided >> lane & 1 == 1 || open || ((blends || open) && *slot);
+                *slot = undecided >> lane & 1 == 1 || open || (blends && *slot);
             }
         }
     }

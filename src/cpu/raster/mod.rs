@@ -60,11 +60,6 @@ impl Bounds {
             y1: self.y1.min(other.y1),
         }
     }
-
-    /// Whether it has no pixels.
-    pub(crate) fn is_empty(self) -> bool {
-        self.x0 >= self.x1 || self.y0 >= self.y1
-    }
 }
 
 /// A half plane of pixels: those where `value(x, y) >= 0`.
