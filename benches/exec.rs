@@ -52,7 +52,8 @@ fn tile<D: Domain>(bencher: Bencher<'_, '_>) {
         for flat in 0..3 {
             if let Some(lanes) = machine.float_input(id, flat) {
                 let base = if global.name == "ve" { [0.1, 0.2, -3.0] } else { [0.2, 0.3, 0.9] };
-                (0..LANES).for_each(|lane| lanes[lane] = D::Float::from_f64(base[flat as usize] + lane as f64 * 1e-3));
+                (0..LANES)
+                    .for_each(|lane| lanes.set(lane, D::Float::from_f64(base[flat as usize] + lane as f64 * 1e-3)));
             }
         }
     }

@@ -21,10 +21,11 @@ fn run<D: Domain>(code: &Code, program: &Program, stage: Stage) {
     for (id, global) in program.stage(stage).into_iter().flat_map(|shader| shader.globals()) {
         for flat in 0..program.types.flat_len(global.ty).min(64) {
             if let Some(lanes) = machine.float_input(id, flat) {
-                (0..LANES).for_each(|lane| lanes[lane] = D::Float::from_f64(ODD[(lane + flat as usize) % ODD.len()]));
+                (0..LANES)
+                    .for_each(|lane| lanes.set(lane, D::Float::from_f64(ODD[(lane + flat as usize) % ODD.len()])));
             }
             if let Some(lanes) = machine.int_input(id, flat) {
-                (0..LANES).for_each(|lane| lanes[lane] = D::Int::from_bits((lane as u32).wrapping_sub(5)));
+                (0..LANES).for_each(|lane| lanes.set(lane, D::Int::from_bits((lane as u32).wrapping_sub(5))));
             }
         }
     }

@@ -1,12 +1,12 @@
 //! [`Integer`]: the `int`, `uint` and `bool` of a domain.
 
-use std::fmt::Debug;
+use super::{Element, WIDTH};
 
 /// 32 bits that are an `int` in two's complement, a `uint`, or a `bool` as 0 or 1; arithmetic wraps (GLSL 1.50 §4.1.3).
 ///
 /// Defined here where GLSL is not: division by zero gives all bits set, so does the remainder; the least `int` divided by
 /// -1 wraps; shift counts are taken modulo 32.
-pub trait Integer: Copy + Default + Send + Sync + Debug + 'static {
+pub trait Integer: Element<Few = [Self; WIDTH]> {
     /// Exactly these bits.
     fn from_bits(bits: u32) -> Self;
     /// The bits, those of the most likely value where they are not sure.

@@ -17,14 +17,16 @@
 mod envelope;
 pub mod faults;
 mod integer;
+mod lanes;
 mod number;
 pub mod rules;
 mod shadow;
 mod single;
 mod wide;
 
-pub use envelope::{EnvelopeFloat, EnvelopeInt};
+pub use envelope::{EnvelopeBlock, EnvelopeFloat, EnvelopeInt};
 pub use integer::Integer;
+pub use lanes::{Answers, Block, Element, Few, LANES, Lanes, Source, WIDTH};
 pub use number::Number;
 pub use shadow::{ShadowFloat, ShadowInt, Shadowed};
 

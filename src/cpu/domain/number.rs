@@ -1,15 +1,14 @@
 //! [`Number`]: the `float` of a domain, and what each operation of the language does to it.
 
-use super::Integer;
+use super::{Block, Element, Integer};
 use crate::compare::Range;
-use std::fmt::Debug;
 
 /// A `float`. Methods without a comment are the operation or built-in function of that name (GLSL 1.50 §5.9, §8.1 to §8.3).
 ///
 /// Defined here where GLSL is not: `min` and `max` drop a NaN where one operand is none (IEEE 754-2008 `minNum`, and what
 /// GPUs do); `sign` of NaN is 0; `pow` of a negative base is NaN, `pow(0, 0)` is 1; conversions to integers saturate and
 /// take NaN to 0; `round` goes to the even neighbor at halves.
-pub trait Number: Copy + Default + Send + Sync + Debug + 'static {
+pub trait Number: Element<Few: Block<Self>> {
     /// What comparisons give.
     type Int: Integer;
     /// What built-in functions are computed in before they are rounded to this.

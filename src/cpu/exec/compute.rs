@@ -2,10 +2,10 @@
 
 use super::code::Section;
 use super::inst::{Compare, Derivative, Float1, Float2, Float3, FloatToInt, Inst, Int1, Int2, IntToFloat, Operand};
-use super::registers::{Filled, Registers, Source, map1, map2, map3};
+use super::registers::{Filled, Registers, blocks1, blocks2, blocks3, map1, map2, map3};
 use super::{DFDY_SIGN, LANES};
 use crate::cpu::domain::faults::{self, Fault};
-use crate::cpu::domain::{Domain, Integer, Number};
+use crate::cpu::domain::{Block, Domain, Element, Few, Integer, Lanes, Number, Source};
 
 type Float<D> = <D as Domain>::Float;
 
@@ -20,22 +20,45 @@ fn scaled<N: Number>(x: N, factor: f64) -> N {
     N::narrow(x.widen().mul(constant(factor)))
 }
 
-fn float1<N: Number>(op: Float1, out: &mut [N; LANES], a: Source<'_, N>) -> Filled {
+/// An operation that has a form for blocks.
+macro_rules! each {
+    ($out:expr, $a:expr, $operation:ident) => {
+        blocks1(
+            $out,
+            $a,
+            #[inline(always)]
+            |a| a.$operation(),
+            N::$operation,
+        )
+    };
+    ($out:expr, $a:expr, $b:expr, $operation:ident) => {
+        blocks2(
+            $out,
+            $a,
+            $b,
+            #[inline(always)]
+            |a, b| a.$operation(b),
+            N::$operation,
+        )
+    };
+}
+
+fn float1<N: Number>(op: Float1, out: &mut Lanes<N>, a: Source<'_, N>) -> Filled {
     match op {
-        Float1::Neg => map1(out, a, N::neg),
-        Float1::Abs => map1(out, a, N::abs),
+        Float1::Neg => each!(out, a, neg),
+        Float1::Abs => each!(out, a, abs),
         Float1::Sign => map1(out, a, N::sign),
-        Float1::Floor => map1(out, a, N::floor),
+        Float1::Floor => each!(out, a, floor),
         Float1::Ceil => map1(out, a, N::ceil),
         Float1::Trunc => map1(out, a, N::trunc),
         Float1::Round => map1(out, a, N::round),
-        Float1::Fract => map1(out, a, N::fract),
-        Float1::Sqrt => map1(out, a, N::sqrt),
-        Float1::Inversesqrt => map1(out, a, N::inversesqrt),
-        Float1::Exp => map1(out, a, N::exp),
-        Float1::Log => map1(out, a, N::log),
-        Float1::Exp2 => map1(out, a, N::exp2),
-        Float1::Log2 => map1(out, a, N::log2),
+        Float1::Fract => each!(out, a, fract),
+        Float1::Sqrt => each!(out, a, sqrt),
+        Float1::Inversesqrt => each!(out, a, inversesqrt),
+        Float1::Exp => each!(out, a, exp),
+        Float1::Log => each!(out, a, log),
+        Float1::Exp2 => each!(out, a, exp2),
+        Float1::Log2 => each!(out, a, log2),
         Float1::Sin => map1(out, a, N::sin),
         Float1::Cos => map1(out, a, N::cos),
         Float1::Tan => map1(out, a, N::tan),
@@ -54,40 +77,59 @@ fn float1<N: Number>(op: Float1, out: &mut [N; LANES], a: Source<'_, N>) -> Fill
 }
 
 #[inline(always)]
-fn float2<N: Number>(op: Float2, out: &mut [N; LANES], a: Source<'_, N>, b: Source<'_, N>) -> Filled {
+fn float2<N: Number>(op: Float2, out: &mut Lanes<N>, a: Source<'_, N>, b: Source<'_, N>) -> Filled {
     match op {
-        Float2::Add => map2(out, a, b, N::add),
-        Float2::Sub => map2(out, a, b, N::sub),
-        Float2::Mul => map2(out, a, b, N::mul),
-        Float2::Div => map2(out, a, b, N::div),
-        Float2::Min => map2(out, a, b, N::min),
-        Float2::Max => map2(out, a, b, N::max),
+        Float2::Add => each!(out, a, b, add),
+        Float2::Sub => each!(out, a, b, sub),
+        Float2::Mul => each!(out, a, b, mul),
+        Float2::Div => each!(out, a, b, div),
+        Float2::Min => each!(out, a, b, min),
+        Float2::Max => each!(out, a, b, max),
         Float2::Mod => map2(out, a, b, N::modulo),
-        Float2::Pow => map2(out, a, b, N::pow),
+        Float2::Pow => each!(out, a, b, pow),
         Float2::Atan2 => map2(out, a, b, N::atan2),
-        Float2::Step => map2(out, a, b, |edge, x| N::select(x.less(edge), constant(0.0), constant(1.0))),
+        Float2::Step => blocks2(
+            out,
+            a,
+            b,
+            #[inline(always)]
+            |edge, x| N::Few::select(&x.less(edge), &N::Few::splat(constant(0.0)), &N::Few::splat(constant(1.0))),
+            |edge, x| N::select(x.less(edge), constant(0.0), constant(1.0)),
+        ),
     }
 }
 
-fn float3<N: Number>(op: Float3, out: &mut [N; LANES], a: Source<'_, N>, b: Source<'_, N>, c: Source<'_, N>) -> Filled {
+fn float3<N: Number>(op: Float3, out: &mut Lanes<N>, a: Source<'_, N>, b: Source<'_, N>, c: Source<'_, N>) -> Filled {
     match op {
-        Float3::Mix => map3(out, a, b, c, N::mix),
-        Float3::Clamp => map3(out, a, b, c, |x, least, most| x.max(least).min(most)),
+        Float3::Mix => blocks3(
+            out,
+            [a, b, c],
+            #[inline(always)]
+            |x, y, a| x.mix(y, a),
+            N::mix,
+        ),
+        Float3::Clamp => blocks3(
+            out,
+            [a, b, c],
+            #[inline(always)]
+            |x, least, most| x.max(least).min(most),
+            |x, least, most| x.max(least).min(most),
+        ),
         Float3::Smoothstep => map3(out, a, b, c, N::smoothstep),
     }
 }
 
 #[inline(always)]
-fn compare<N: Number>(op: Compare, out: &mut [N::Int; LANES], a: Source<'_, N>, b: Source<'_, N>) -> Filled {
+fn compare<N: Number>(op: Compare, out: &mut Lanes<N::Int>, a: Source<'_, N>, b: Source<'_, N>) -> Filled {
     match op {
-        Compare::Less => map2(out, a, b, N::less),
-        Compare::LessEqual => map2(out, a, b, N::less_equal),
-        Compare::Equal => map2(out, a, b, N::equal),
+        Compare::Less => each!(out, a, b, less),
+        Compare::LessEqual => each!(out, a, b, less_equal),
+        Compare::Equal => each!(out, a, b, equal),
         Compare::NotEqual => map2(out, a, b, |a, b| a.equal(b).not()),
     }
 }
 
-fn int1<I: Integer>(op: Int1, out: &mut [I; LANES], a: Source<'_, I>) -> Filled {
+fn int1<I: Integer>(op: Int1, out: &mut Lanes<I>, a: Source<'_, I>) -> Filled {
     match op {
         Int1::Neg => map1(out, a, I::neg),
         Int1::BitNot => map1(out, a, |a| a.lift1(|a| !a)),
@@ -99,7 +141,7 @@ fn int1<I: Integer>(op: Int1, out: &mut [I; LANES], a: Source<'_, I>) -> Filled 
 }
 
 #[inline(always)]
-fn int2<I: Integer>(op: Int2, out: &mut [I; LANES], a: Source<'_, I>, b: Source<'_, I>) -> Filled {
+fn int2<I: Integer>(op: Int2, out: &mut Lanes<I>, a: Source<'_, I>, b: Source<'_, I>) -> Filled {
     match op {
         Int2::Add => map2(out, a, b, I::add),
         Int2::Sub => map2(out, a, b, I::sub),
@@ -135,7 +177,7 @@ fn either<N: Number>(a: N, b: N) -> (N, N) {
 }
 
 /// Whatever the number is within its interval, it equals itself, if it is one.
-fn compare_with_itself<N: Number>(op: Compare, out: &mut [N::Int; LANES], a: Source<'_, N>) -> Filled {
+fn compare_with_itself<N: Number>(op: Compare, out: &mut Lanes<N::Int>, a: Source<'_, N>) -> Filled {
     match op {
         Compare::Less => map1(out, a, |_| N::Int::from_bool(false)),
         Compare::LessEqual | Compare::Equal => map1(out, a, |a| a.isnan().not()),
@@ -144,20 +186,22 @@ fn compare_with_itself<N: Number>(op: Compare, out: &mut [N::Int; LANES], a: Sou
 }
 
 /// Differences in quads: each row and column of a quad by itself.
-fn derivative<N: Number>(op: Derivative, out: &mut [N; LANES], a: &[N; LANES]) {
+fn derivative<N: Number>(op: Derivative, out: &mut Lanes<N>, a: Source<'_, N>) {
     let up = |upper: N, lower: N| if DFDY_SIGN < 0.0 { upper.sub(lower) } else { lower.sub(upper) };
-    for (out, a) in out.chunks_exact_mut(4).zip(a.chunks_exact(4)) {
-        if let ([o0, o1, o2, o3], [a0, a1, a2, a3]) = (out, a) {
-            let (top, bottom) = either(a1.sub(*a0), a3.sub(*a2));
-            let (left, right) = either(up(*a0, *a2), up(*a1, *a3));
-            match op {
-                Derivative::X => (*o0, *o1, *o2, *o3) = (top, top, bottom, bottom),
-                Derivative::Y => (*o0, *o1, *o2, *o3) = (left, right, left, right),
-                Derivative::Width => {
-                    let [top, bottom, left, right] = [top, bottom, left, right].map(N::abs);
-                    (*o0, *o1, *o2, *o3) = (top.add(left), top.add(right), bottom.add(left), bottom.add(right));
-                }
+    for quad in (0..LANES).step_by(4) {
+        let [a0, a1, a2, a3] = [0, 1, 2, 3].map(|place| a.at(quad + place));
+        let (top, bottom) = either(a1.sub(a0), a3.sub(a2));
+        let (left, right) = either(up(a0, a2), up(a1, a3));
+        let differences = match op {
+            Derivative::X => [top, top, bottom, bottom],
+            Derivative::Y => [left, right, left, right],
+            Derivative::Width => {
+                let [top, bottom, left, right] = [top, bottom, left, right].map(N::abs);
+                [top.add(left), top.add(right), bottom.add(left), bottom.add(right)]
             }
+        };
+        for (place, difference) in differences.into_iter().enumerate() {
+            out.set(quad + place, difference);
         }
     }
 }
@@ -170,26 +214,44 @@ impl<D: Domain> Registers<D> {
             Inst::Float1 { op, dst, a } => self.write_float(dst, |this, out| {
                 let filled = float1(op, out, this.float(a));
                 if D::OPEN && matches!(op, Float1::Asin | Float1::Acos) && this.faults.admits(Fault::ArcFunctions) {
-                    out.iter_mut().for_each(|lane| *lane = lane.widened(faults::ARC_FUNCTIONS));
+                    out.update(|_, number| number.widened(faults::ARC_FUNCTIONS));
                 }
                 filled
             }),
             // One number twice is a square, which an envelope can make more of.
             Inst::Float2 { op: Float2::Mul, dst, a, b } if D::OPEN && a == b => {
-                self.write_float(dst, |this, out| map1(out, this.float(a), Number::square));
+                self.write_float(dst, |this, out| {
+                    blocks1(
+                        out,
+                        this.float(a),
+                        #[inline(always)]
+                        |a| a.square(),
+                        Number::square,
+                    )
+                });
             }
             Inst::MulAdd { dst, a, b, c } if D::OPEN && a == b => self.write_float(dst, |this, out| {
-                map2(out, this.float(a), this.float(c), |a: Float<D>, c| a.square().add(c))
+                blocks2(
+                    out,
+                    this.float(a),
+                    this.float(c),
+                    #[inline(always)]
+                    |a, c| a.square().add(c),
+                    |a: Float<D>, c| a.square().add(c),
+                )
             }),
             Inst::Float2 { op, dst, a, b } => {
                 self.write_float(dst, |this, out| float2(op, out, this.float(a), this.float(b)));
             }
             Inst::MulAdd { dst, a, b, c } => self.write_float(dst, |this, out| {
-                map3(out, this.float(a), this.float(b), this.float(c), |a: Float<D>, b, c| a.mul(b).add(c))
+                blocks3(
+                    out,
+                    [a, b, c].map(|operand| this.float(operand)),
+                    #[inline(always)]
+                    |a, b, c| a.mul(b).add(c),
+                    |a: Float<D>, b, c| a.mul(b).add(c),
+                )
             }),
-            Inst::SumOfProducts { dst, list } if D::OPEN => {
-                self.write_float(dst, |this, out| sum_in_any_order(this, section.list(list), out));
-            }
             Inst::SumOfProducts { dst, list } => {
                 self.write_float(dst, |this, out| sum_of_products(this, section.list(list), out));
             }
@@ -218,8 +280,9 @@ impl<D: Domain> Registers<D> {
             }),
             Inst::Int1 { op, dst, a } => self.write_int(dst, |this, out| int1(op, out, this.int(a))),
             Inst::Int2 { op, dst, a, b } => self.write_int(dst, |this, out| int2(op, out, this.int(a), this.int(b))),
-            Inst::SelectFloat { dst, c, a, b } => self
-                .write_float(dst, |this, out| map3(out, this.int(c), this.float(a), this.float(b), Float::<D>::select)),
+            Inst::SelectFloat { dst, c, a, b } => {
+                self.write_float(dst, |this, out| select(out, this.int(c), this.float(a), this.float(b)));
+            }
             Inst::SelectInt { dst, c, a, b } => {
                 self.write_int(dst, |this, out| map3(out, this.int(c), this.int(a), this.int(b), D::Int::select));
             }
@@ -227,11 +290,8 @@ impl<D: Domain> Registers<D> {
                 self.composite(op, size, section.list(results), section.list(arguments));
             }
             Inst::Derivative { op, dst, a } => self.write_float(dst, |this, out| {
-                match this.float(a) {
-                    Source::Lanes(a) => derivative(op, out, a),
-                    // Infinity and envelopes have differences other than 0.
-                    Source::One(a) => derivative(op, out, &[a; LANES]),
-                }
+                // Infinity and envelopes have differences other than 0, even where all lanes are alike.
+                derivative(op, out, this.float(a));
                 Filled::Lanes
             }),
             Inst::MoveFloat { dst, a } => self.write_float(dst, |this, out| map1(out, this.float(a), |a| a)),
@@ -248,46 +308,40 @@ fn is_same<D: Domain>(this: &Registers<D>, operands: &[Operand]) -> bool {
     operands.iter().all(|operand| matches!(this.float(*operand), Source::One(_)))
 }
 
-/// Lane by lane, for a domain that sums in any order.
-fn sum_in_any_order<D: Domain>(this: &Registers<D>, pairs: &[Operand], out: &mut [Float<D>; LANES]) -> Filled {
+fn sum_of_products<D: Domain>(this: &Registers<D>, pairs: &[Operand], out: &mut Lanes<Float<D>>) -> Filled {
     let same = is_same(this, pairs);
-    for (lane, out) in out.iter_mut().enumerate().take(if same { 1 } else { LANES }) {
-        let products = pairs.chunks_exact(2).filter_map(|pair| match pair {
-            [a, b] if a == b => Some(this.float(*a).at(lane).square()),
-            [a, b] => Some(this.float(*a).at(lane).mul(this.float(*b).at(lane))),
-            _ => None,
-        });
-        *out = Number::sum(products);
-    }
+    let count = pairs.len() / 2;
+    <Float<D> as Element>::Few::vectorized(
+        #[inline(always)]
+        || {
+            for (place, out) in out.blocks_mut().iter_mut().enumerate().take(if same { 1 } else { usize::MAX }) {
+                *out = Block::sum(
+                    count,
+                    #[inline(always)]
+                    |product| match pairs.get(2 * product..2 * product + 2) {
+                        Some([a, b]) if D::OPEN && a == b => this.float(*a).block(place).square(),
+                        Some([a, b]) => this.float(*a).block(place).mul(&this.float(*b).block(place)),
+                        _ => Few::splat(constant(0.0)),
+                    },
+                );
+            }
+        },
+    );
     if same { Filled::One } else { Filled::Lanes }
 }
 
-/// Eight lanes at a time, so that the sum stays in vector registers.
-fn sum_of_products<D: Domain>(this: &Registers<D>, pairs: &[Operand], out: &mut [Float<D>; LANES]) -> Filled {
-    const STEP: usize = 8;
-    let chunk = |operand: Operand, start: usize| -> [Float<D>; STEP] {
-        match this.float(operand) {
-            Source::Lanes(lanes) => {
-                let lanes = &lanes[start..start + STEP];
-                std::array::from_fn(|lane| lanes[lane])
-            }
-            Source::One(value) => [value; STEP],
-        }
-    };
-    let same = is_same(this, pairs);
-    for start in (0..if same { STEP } else { LANES }).step_by(STEP) {
-        let mut sum = [Float::<D>::default(); STEP];
-        for (place, pair) in pairs.chunks_exact(2).enumerate() {
-            if let [a, b] = pair {
-                let (a, b) = (chunk(*a, start), chunk(*b, start));
-                if place == 0 {
-                    sum = std::array::from_fn(|lane| a[lane].mul(b[lane]));
-                } else {
-                    sum = std::array::from_fn(|lane| sum[lane].add(a[lane].mul(b[lane])));
-                }
-            }
-        }
-        out[start..start + STEP].copy_from_slice(&sum);
+/// `c ? a : b`
+fn select<N: Number>(out: &mut Lanes<N>, c: Source<'_, N::Int>, a: Source<'_, N>, b: Source<'_, N>) -> Filled {
+    if let Source::One(c) = c {
+        return map2(out, a, b, |a, b| N::select(c, a, b));
     }
-    if same { Filled::One } else { Filled::Lanes }
+    N::Few::vectorized(
+        #[inline(always)]
+        || {
+            for (place, out) in out.blocks_mut().iter_mut().enumerate() {
+                *out = N::Few::select(&c.block(place), &a.block(place), &b.block(place));
+            }
+            Filled::Lanes
+        },
+    )
 }

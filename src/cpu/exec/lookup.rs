@@ -39,11 +39,11 @@ impl<D: Domain> Machine<D> {
                 Sampled::Floats(values) => {
                     let Near { value, low, high } = values[k % 4];
                     let range = Range { low, high, may_be_nan: value.is_nan() };
-                    self.registers.floats.register(*result).spread()[lane] = D::Float::with_range(value, range);
+                    self.registers.floats.register(*result).spread().set(lane, D::Float::with_range(value, range));
                 }
                 Sampled::Bits(bits) => {
                     let Bits { bits, low, high } = bits[k % 4];
-                    self.registers.ints.register(*result).spread()[lane] = D::Int::with_choices(bits, low, high);
+                    self.registers.ints.register(*result).spread().set(lane, D::Int::with_choices(bits, low, high));
                 }
             }
         }
@@ -56,11 +56,18 @@ impl<D: Domain> Machine<D> {
         for (k, result) in call.results.iter().enumerate() {
             match (sampled, beside) {
                 (Sampled::Floats(a), Sampled::Floats(b)) => {
-                    self.registers.floats.register(*result).spread()[lane] =
-                        D::Float::paired(a[k % 4].value, b[k % 4].value);
+                    self.registers
+                        .floats
+                        .register(*result)
+                        .spread()
+                        .set(lane, D::Float::paired(a[k % 4].value, b[k % 4].value));
                 }
                 (Sampled::Bits(a), Sampled::Bits(b)) => {
-                    self.registers.ints.register(*result).spread()[lane] = D::Int::paired(a[k % 4].bits, b[k % 4].bits);
+                    self.registers
+                        .ints
+                        .register(*result)
+                        .spread()
+                        .set(lane, D::Int::paired(a[k % 4].bits, b[k % 4].bits));
                 }
                 // One instruction gives one kind.
                 _ => {}

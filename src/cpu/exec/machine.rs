@@ -1,14 +1,14 @@
 //! [`Machine`]: runs [`Code`] in a domain.
 
+use super::Mask;
 use super::code::{Code, Inner, PoolSource, Port};
 use super::inst::Class;
 use super::mute::Muted;
 use super::observe::Observer;
 use super::paths::{Paths, couples};
 use super::registers::{Register, Registers};
-use super::{LANES, Mask};
 use crate::cpu::domain::faults::Faults;
-use crate::cpu::domain::{Domain, Integer, Number};
+use crate::cpu::domain::{Domain, Integer, Lanes, Number};
 use crate::hir::{GlobalId, ScalarValue};
 use crate::scene::Texture;
 use crate::source::Span;
@@ -138,13 +138,13 @@ impl<D: Domain> Machine<D> {
 
     /// The lanes of a `float` in an input's flat layout ([`Types::flat_len`](crate::hir::Types::flat_len)), to fill
     /// before a run; they keep their values between runs. `None` if the stage does not read it or it is no float.
-    pub fn float_input(&mut self, global: GlobalId, flat: u32) -> Option<&mut [D::Float; LANES]> {
+    pub fn float_input(&mut self, global: GlobalId, flat: u32) -> Option<&mut Lanes<D::Float>> {
         let register = Self::port(&self.code.inner.inputs, Class::Float, global, flat)?;
         self.registers.floats.get_mut(register).map(Register::spread)
     }
 
     /// Likewise of an `int`, `uint` or `bool`.
-    pub fn int_input(&mut self, global: GlobalId, flat: u32) -> Option<&mut [D::Int; LANES]> {
+    pub fn int_input(&mut self, global: GlobalId, flat: u32) -> Option<&mut Lanes<D::Int>> {
         let register = Self::port(&self.code.inner.inputs, Class::Int, global, flat)?;
         self.registers.ints.get_mut(register).map(Register::spread)
     }
@@ -182,13 +182,13 @@ impl<D: Domain> Machine<D> {
 
     /// The lanes of a `float` in an output's flat layout after a run; 0 where the shader wrote nothing. `None` if the
     /// stage never writes it or it is no float.
-    pub fn float_output(&self, global: GlobalId, flat: u32) -> Option<&[D::Float; LANES]> {
+    pub fn float_output(&self, global: GlobalId, flat: u32) -> Option<&Lanes<D::Float>> {
         let register = Self::port(&self.code.inner.outputs, Class::Float, global, flat)?;
         self.registers.floats.get(register)?.lanes()
     }
 
     /// Likewise of an `int`, `uint` or `bool`.
-    pub fn int_output(&self, global: GlobalId, flat: u32) -> Option<&[D::Int; LANES]> {
+    pub fn int_output(&self, global: GlobalId, flat: u32) -> Option<&Lanes<D::Int>> {
         let register = Self::port(&self.code.inner.outputs, Class::Int, global, flat)?;
         self.registers.ints.get(register)?.lanes()
     }

@@ -1,9 +1,8 @@
 //! Stores under a mask, and tables of registers that an index picks from.
 
-use super::LANES;
 use super::inst::Operand;
-use super::registers::{File, Filled, Register, Registers, Source, map1};
-use crate::cpu::domain::{Domain, Integer, Number};
+use super::registers::{File, Filled, Register, Registers, map1};
+use crate::cpu::domain::{Domain, Element, Few, Integer, LANES, Lanes, Number, Source, WIDTH};
 
 /// The place in a table of `len` that an index means: limited into range as an `int`.
 #[inline(always)]
@@ -12,35 +11,29 @@ fn limit(bits: u32, len: usize) -> usize {
 }
 
 #[inline(always)]
-fn store<T: Copy + Default>(register: &mut Register<T>, a: Source<'_, T>, mask: u64, all: bool) {
+fn store<T: Element>(register: &mut Register<T>, a: Source<'_, T>, mask: u64, all: bool) {
     if all {
         return register.fill(|lanes| map1(lanes, a, |a| a));
     }
-    for (lane, out) in register.spread().iter_mut().enumerate() {
-        let new = a.at(lane);
-        *out = if mask >> lane & 1 == 1 { new } else { *out };
+    for (place, out) in register.spread().blocks_mut().iter_mut().enumerate() {
+        *out = out.replaced(&a.block(place), (mask >> (place * WIDTH)) as u8);
     }
 }
 
 /// The element for each lane; fast where all lanes mean the same.
 #[inline(always)]
-fn load<T: Copy + Default, I: Integer>(
-    out: &mut [T; LANES],
-    file: &File<T>,
-    table: &[Operand],
-    index: Source<'_, I>,
-) -> Filled {
+fn load<T: Element, I: Integer>(out: &mut Lanes<T>, file: &File<T>, table: &[Operand], index: Source<'_, I>) -> Filled {
     let Some(first) = table.get(limit(index.at(0).bits(), table.len())) else { return Filled::Lanes };
     let same = match index {
         Source::One(_) => true,
-        Source::Lanes(lanes) => lanes.iter().fold(0, |acc, lane| acc | (lane.bits() ^ lanes[0].bits())) == 0,
+        Source::Lanes(lanes) => lanes.iter().fold(0, |acc, lane| acc | (lane.bits() ^ lanes.get(0).bits())) == 0,
     };
     if same {
         return map1(out, file.source(*first), |a| a);
     }
-    for (lane, out) in out.iter_mut().enumerate() {
+    for lane in 0..LANES {
         if let Some(operand) = table.get(limit(index.at(lane).bits(), table.len())) {
-            *out = file.source(*operand).at(lane);
+            out.set(lane, file.source(*operand).at(lane));
         }
     }
     Filled::Lanes
@@ -53,8 +46,8 @@ fn places<I: Integer>(index: I, len: usize) -> (usize, std::ops::RangeInclusive<
 }
 
 /// The elements that an open index may mean, joined to the one that it most likely means.
-fn join_others<T: Copy + Default, I: Integer>(
-    out: &mut [T; LANES],
+fn join_others<T: Element, I: Integer>(
+    out: &mut Lanes<T>,
     filled: Filled,
     index: Source<'_, I>,
     len: usize,
@@ -65,21 +58,21 @@ fn join_others<T: Copy + Default, I: Integer>(
         return filled;
     }
     if filled == Filled::One {
-        *out = [out[0]; LANES];
+        *out = Lanes::splat(out.get(0));
     }
-    for (lane, out) in out.iter_mut().enumerate() {
+    for lane in 0..LANES {
         let index = index.at(lane);
         if !index.sure() {
             let (likely, all) = places(index, len);
             let others = all.filter(|place| *place != likely).filter_map(|place| element(place, lane));
-            *out = others.fold(*out, &join);
+            out.set(lane, others.fold(out.get(lane), &join));
         }
     }
     Filled::Lanes
 }
 
 /// Stores into the elements that each active lane's index may mean.
-fn store_indexed<T: Copy + Default, I: Integer>(
+fn store_indexed<T: Element, I: Integer>(
     file: &mut File<T>,
     table: &[Operand],
     index: Source<'_, I>,
@@ -92,12 +85,14 @@ fn store_indexed<T: Copy + Default, I: Integer>(
         let index = index.at(lane);
         let (likely, all) = places(index, table.len());
         for (place, home) in all.filter_map(|place| table.get(place).map(|home| (place, *home))) {
-            let old = &mut file.register(home).spread()[lane];
-            *old = match (index.sure(), place == likely) {
+            let lanes = file.register(home).spread();
+            let old = lanes.get(lane);
+            let new = match (index.sure(), place == likely) {
                 (true, _) => value,
-                (false, true) => join(value, *old),
-                (false, false) => join(*old, value),
+                (false, true) => join(value, old),
+                (false, false) => join(old, value),
             };
+            lanes.set(lane, new);
         }
     }
 }
@@ -148,7 +143,8 @@ impl<D: Domain> Registers<D> {
 
     /// Each register of the table may be the index or the value, so both are read before anything is written.
     pub(super) fn store_indexed_int(&mut self, table: &[Operand], index: Operand, a: Operand, mask: u64) {
-        let indices: [D::Int; LANES] = std::array::from_fn(|lane| self.int(index).at(lane));
+        let mut indices = Lanes::<D::Int>::default();
+        indices.update(|lane, _| self.int(index).at(lane));
         store_indexed(&mut self.ints, table, Source::Lanes(&indices), a, mask, Integer::joined);
     }
 }

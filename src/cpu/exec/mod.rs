@@ -6,7 +6,7 @@
 //! ```text
 //! let code = Code::compile(&program, Stage::Fragment)?;
 //! let mut machine = Machine::<F64>::new(&code, &uniforms, &textures);
-//! if let Some(lanes) = machine.float_input(varying, 0) { lanes[3] = 0.25; }
+//! if let Some(lanes) = machine.float_input(varying, 0) { lanes.set(3, 0.25); }
 //! machine.run(live, helpers);
 //! let red = machine.float_output(color, 0);
 //! ```
@@ -58,7 +58,7 @@ pub use observe::{Event, Kind, Observer, Order, Values, What};
 /// Lanes `4q` to `4q + 3` are a quad: x0y0, x1y0, x0y1, x1y1, where y0 is the row *above* y1 in the picture (rows of a
 /// picture are stored top row first). OpenGL's y points up, so `dFdy` is the value at y0 minus that at y1:
 /// [`DFDY_SIGN`].
-pub const LANES: usize = 64;
+pub const LANES: usize = super::domain::LANES;
 
 /// What `value(y1) - value(y0)` is multiplied by to give `dFdy`: see [`LANES`].
 pub const DFDY_SIGN: f64 = -1.0;

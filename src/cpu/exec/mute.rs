@@ -150,7 +150,7 @@ impl<D: Domain> Machine<D> {
         let Some(global) = self.muted.as_ref().and_then(|muted| muted.input) else { return };
         for port in self.code.inner.inputs.iter().filter(|port| port.global == global && port.class == Class::Float) {
             if let Some(register) = self.registers.floats.get_mut(port.register) {
-                register.spread().iter_mut().for_each(|lane| *lane = exactly(*lane));
+                register.spread().update(|_, number| exactly(number));
             }
         }
     }
@@ -182,7 +182,7 @@ impl<D: Domain> Machine<D> {
         for (operand, own) in writes.iter().zip(own) {
             if let Some(register) = self.registers.floats.get_mut(operand.number()) {
                 let own = own.source();
-                (0..).zip(register.spread()).for_each(|(at, lane)| *lane = without(*lane, own.at(at)));
+                register.spread().update(|lane, number| without(number, own.at(lane)));
             }
         }
     }
@@ -205,7 +205,7 @@ impl<D: Domain> Machine<D> {
             if operand.is_reg() {
                 if let Some(register) = self.registers.floats.get_mut(number) {
                     saved.registers.push((number, register.clone()));
-                    register.spread().iter_mut().for_each(|lane| *lane = exactly(*lane));
+                    register.spread().update(|_, number| exactly(number));
                 }
             } else if let Some(value) = self.registers.floats.pool.get_mut(number) {
                 saved.pool.push((number, *value));

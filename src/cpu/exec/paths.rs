@@ -220,11 +220,11 @@ impl<D: Domain> Machine<D> {
         let code = std::sync::Arc::clone(&self.code.inner);
         let of = |class: Class| code.outputs.iter().filter(move |port| port.class == class);
         for lane in Mask(joined.undecided & !self.undecided).lanes() {
-            for number in joined.floats.iter_mut().map(|register| &mut register.spread()[lane]) {
-                *number = D::Float::with_range(number.value(), Range::ALL);
+            for lanes in joined.floats.iter_mut().map(Register::spread) {
+                lanes.set(lane, D::Float::with_range(lanes.get(lane).value(), Range::ALL));
             }
-            for number in joined.ints.iter_mut().map(|register| &mut register.spread()[lane]) {
-                *number = D::Int::with_choices(number.bits(), i32::MIN, i32::MAX);
+            for lanes in joined.ints.iter_mut().map(Register::spread) {
+                lanes.set(lane, D::Int::with_choices(lanes.get(lane).bits(), i32::MIN, i32::MAX));
             }
         }
         for (port, outcome) in of(Class::Float).zip(joined.floats) {
@@ -261,15 +261,15 @@ impl<D: Domain> Joined<D> {
                 let Some(new) = machine.registers.floats.get(port.register).map(|new| new.source().at(at)) else {
                     continue;
                 };
-                let old = &mut register.spread()[from];
-                *old = if fresh { new } else { old.joined(new) };
+                let lanes = register.spread();
+                lanes.set(from, if fresh { new } else { lanes.get(from).joined(new) });
             }
             for (port, register) in of(Class::Int).zip(&mut self.ints) {
                 let Some(new) = machine.registers.ints.get(port.register).map(|new| new.source().at(at)) else {
                     continue;
                 };
-                let old = &mut register.spread()[from];
-                *old = if fresh { new } else { old.joined(new) };
+                let lanes = register.spread();
+                lanes.set(from, if fresh { new } else { lanes.get(from).joined(new) });
             }
         }
     }

@@ -4,13 +4,10 @@
 //! overlap and nothing is copied. A register whose lanes are all alike keeps one number: what is computed from such
 //! registers is computed once. The counter of a loop over lights is one, and so is all that it picks from uniforms.
 
-use super::LANES;
 use super::inst::{Class, Operand};
-use crate::cpu::domain::Domain;
 use crate::cpu::domain::faults::Faults;
-
-/// One scalar in all lanes.
-pub(super) type Lanes<T> = Box<[T; LANES]>;
+use crate::cpu::domain::{Block, Domain, Element, Few, Lanes, Number, Source, WIDTH};
+use std::hint::black_box;
 
 /// The most results of one instruction: a `mat4`.
 const SPARES: usize = 16;
@@ -26,14 +23,14 @@ pub(super) enum Filled {
 
 /// One scalar.
 #[derive(Clone, Debug)]
-pub(super) struct Register<T> {
-    lanes: Lanes<T>,
+pub(super) struct Register<T: Element> {
+    lanes: Box<Lanes<T>>,
     filled: Filled,
 }
 
 /// Registers of one type, and the numbers for all lanes of that type.
 #[derive(Debug)]
-pub(super) struct File<T> {
+pub(super) struct File<T: Element> {
     registers: Vec<Register<T>>,
     pub(super) pool: Vec<T>,
     spares: Vec<Register<T>>,
@@ -47,49 +44,29 @@ pub(super) struct Registers<D: Domain> {
     pub(super) faults: Faults,
 }
 
-/// What an operand stands for.
-#[derive(Clone, Copy, Debug)]
-pub enum Source<'a, T> {
-    /// A number in each lane.
-    Lanes(&'a [T; LANES]),
-    /// One number for all lanes.
-    One(T),
-}
-
-impl<T: Copy> Source<'_, T> {
-    /// The number in a lane; lanes are counted modulo [`LANES`].
-    #[inline(always)]
-    pub fn at(&self, lane: usize) -> T {
-        match self {
-            Self::Lanes(lanes) => lanes[lane % LANES],
-            Self::One(value) => *value,
-        }
-    }
-}
-
-impl<T: Copy + Default> Register<T> {
+impl<T: Element> Register<T> {
     fn blank() -> Self {
-        Self { lanes: Box::new([T::default(); LANES]), filled: Filled::Lanes }
+        Self { lanes: Box::default(), filled: Filled::Lanes }
     }
 
     #[inline(always)]
     pub(super) fn source(&self) -> Source<'_, T> {
         match self.filled {
             Filled::Lanes => Source::Lanes(&self.lanes),
-            Filled::One => Source::One(self.lanes[0]),
+            Filled::One => Source::One(self.lanes.get(0)),
         }
     }
 
     /// Its lanes, where each has its own number.
-    pub(super) fn lanes(&self) -> Option<&[T; LANES]> {
+    pub(super) fn lanes(&self) -> Option<&Lanes<T>> {
         (self.filled == Filled::Lanes).then_some(&self.lanes)
     }
 
     /// Its lanes, each with its own number from here on.
     #[inline(always)]
-    pub(super) fn spread(&mut self) -> &mut [T; LANES] {
+    pub(super) fn spread(&mut self) -> &mut Lanes<T> {
         if self.filled == Filled::One {
-            *self.lanes = [self.lanes[0]; LANES];
+            *self.lanes = Lanes::splat(self.lanes.get(0));
             self.filled = Filled::Lanes;
         }
         &mut self.lanes
@@ -98,19 +75,20 @@ impl<T: Copy + Default> Register<T> {
     /// Takes some lanes of another register.
     pub(super) fn copy_lanes(&mut self, other: &Self, from: usize, to: usize, count: usize) {
         let other = other.source();
-        for (place, lane) in self.spread().iter_mut().skip(to).take(count).enumerate() {
-            *lane = other.at(from + place);
+        let lanes = self.spread();
+        for place in 0..count {
+            lanes.set(to + place, other.at(from + place));
         }
     }
 
     /// Lets `fill` write it.
     #[inline(always)]
-    pub(super) fn fill(&mut self, fill: impl FnOnce(&mut [T; LANES]) -> Filled) {
+    pub(super) fn fill(&mut self, fill: impl FnOnce(&mut Lanes<T>) -> Filled) {
         self.filled = fill(&mut self.lanes);
     }
 }
 
-impl<T: Copy + Default> File<T> {
+impl<T: Element> File<T> {
     fn new(count: usize, pool: Vec<T>) -> Self {
         let blank = |count| (0..count).map(|_| Register::blank()).collect();
         Self { registers: blank(count), pool, spares: blank(SPARES) }
@@ -118,7 +96,7 @@ impl<T: Copy + Default> File<T> {
 
     /// Appends the preamble's results to the pool and makes room for the registers of `main`.
     fn finish_preamble(&mut self, count: usize) {
-        self.pool.extend(self.registers.iter().map(|register| register.lanes[0]));
+        self.pool.extend(self.registers.iter().map(|register| register.lanes.get(0)));
         self.registers.resize_with(count, Register::blank);
     }
 
@@ -148,7 +126,7 @@ impl<T: Copy + Default> File<T> {
     fn splat(&mut self, register: usize, from: Operand) {
         let value = self.pool[from.number()];
         self.registers[register].fill(|lanes| {
-            lanes[0] = value;
+            lanes.set(0, value);
             Filled::One
         });
     }
@@ -173,33 +151,44 @@ impl<T: Copy + Default> File<T> {
     }
 }
 
+/// Eight lanes of a function.
 #[inline(always)]
-pub(super) fn map1<A: Copy, R>(out: &mut [R; LANES], a: Source<'_, A>, f: impl Fn(A) -> R) -> Filled {
+fn few<R: Element>(f: impl Fn(usize) -> R) -> R::Few {
+    let mut out = R::Few::default();
+    for lane in 0..WIDTH {
+        out.set(lane, f(lane));
+    }
+    out
+}
+
+/// Applies a function lane by lane.
+#[inline(always)]
+pub(super) fn map1<A: Element, R: Element>(out: &mut Lanes<R>, a: Source<'_, A>, f: impl Fn(A) -> R) -> Filled {
     match a {
         Source::Lanes(a) => {
-            for (out, a) in out.iter_mut().zip(a) {
-                *out = f(*a);
+            for (out, a) in out.blocks_mut().iter_mut().zip(a.blocks()) {
+                *out = few(|lane| f(a.get(lane)));
             }
             Filled::Lanes
         }
         Source::One(a) => {
-            out[0] = f(a);
+            out.set(0, f(a));
             Filled::One
         }
     }
 }
 
 #[inline(always)]
-pub(super) fn map2<A: Copy, B: Copy, R>(
-    out: &mut [R; LANES],
+pub(super) fn map2<A: Element, B: Element, R: Element>(
+    out: &mut Lanes<R>,
     a: Source<'_, A>,
     b: Source<'_, B>,
     f: impl Fn(A, B) -> R,
 ) -> Filled {
     match (a, b) {
         (Source::Lanes(a), Source::Lanes(b)) => {
-            for (out, (a, b)) in out.iter_mut().zip(a.iter().zip(b)) {
-                *out = f(*a, *b);
+            for (out, (a, b)) in out.blocks_mut().iter_mut().zip(a.blocks().iter().zip(b.blocks())) {
+                *out = few(|lane| f(a.get(lane), b.get(lane)));
             }
             Filled::Lanes
         }
@@ -210,29 +199,118 @@ pub(super) fn map2<A: Copy, B: Copy, R>(
 
 /// For functions that cost far more than telling the kinds of operands apart.
 #[inline(always)]
-pub(super) fn map3<A: Copy, B: Copy, C: Copy, R>(
-    out: &mut [R; LANES],
+pub(super) fn map3<A: Element, B: Element, C: Element, R: Element>(
+    out: &mut Lanes<R>,
     a: Source<'_, A>,
     b: Source<'_, B>,
     c: Source<'_, C>,
     f: impl Fn(A, B, C) -> R,
 ) -> Filled {
     match (a, b, c) {
-        (Source::Lanes(a), Source::Lanes(b), Source::Lanes(c)) => {
-            for (out, ((a, b), c)) in out.iter_mut().zip(a.iter().zip(b).zip(c)) {
-                *out = f(*a, *b, *c);
-            }
-            Filled::Lanes
-        }
-        (Source::Lanes(a), Source::One(b), Source::One(c)) => map1(out, Source::Lanes(a), |a| f(a, b, c)),
         (Source::One(a), b, c) => map2(out, b, c, |b, c| f(a, b, c)),
+        (a, Source::One(b), Source::One(c)) => map1(out, a, |a| f(a, b, c)),
         (a, b, c) => {
-            for (lane, out) in out.iter_mut().enumerate() {
-                *out = f(a.at(lane), b.at(lane), c.at(lane));
+            for (place, out) in out.blocks_mut().iter_mut().enumerate() {
+                let (a, b, c) = (a.block(place), b.block(place), c.block(place));
+                *out = few(|lane| f(a.get(lane), b.get(lane), c.get(lane)));
             }
             Filled::Lanes
         }
     }
+}
+
+/// A number for all lanes as a block. What is known to be the same in all lanes the compiler would make branches of where
+/// it makes vectors of what is not, so it is not told.
+#[inline(always)]
+fn spread_out<T: Element>(value: T) -> T::Few {
+    black_box(T::Few::splat(value))
+}
+
+/// Applies a function to blocks of lanes, or its like for one number where all operands are one for all lanes.
+#[inline(always)]
+pub(super) fn blocks1<N: Number>(
+    out: &mut Lanes<N>,
+    a: Source<'_, N>,
+    block: impl Fn(&N::Few) -> N::Few,
+    one: impl Fn(N) -> N,
+) -> Filled {
+    match a {
+        Source::Lanes(a) => N::Few::vectorized(
+            #[inline(always)]
+            || {
+                for (out, a) in out.blocks_mut().iter_mut().zip(a.blocks()) {
+                    *out = block(a);
+                }
+                Filled::Lanes
+            },
+        ),
+        Source::One(a) => {
+            out.set(0, one(a));
+            Filled::One
+        }
+    }
+}
+
+#[inline(always)]
+pub(super) fn blocks2<N: Number, R: Element>(
+    out: &mut Lanes<R>,
+    a: Source<'_, N>,
+    b: Source<'_, N>,
+    block: impl Fn(&N::Few, &N::Few) -> R::Few,
+    one: impl Fn(N, N) -> R,
+) -> Filled {
+    if let (Source::One(a), Source::One(b)) = (a, b) {
+        out.set(0, one(a, b));
+        return Filled::One;
+    }
+    N::Few::vectorized(
+        #[inline(always)]
+        || {
+            match (a, b) {
+                (Source::Lanes(a), Source::Lanes(b)) => {
+                    for (out, (a, b)) in out.blocks_mut().iter_mut().zip(a.blocks().iter().zip(b.blocks())) {
+                        *out = block(a, b);
+                    }
+                }
+                (Source::Lanes(a), Source::One(b)) => {
+                    let b = spread_out(b);
+                    for (out, a) in out.blocks_mut().iter_mut().zip(a.blocks()) {
+                        *out = block(a, &b);
+                    }
+                }
+                (Source::One(a), Source::Lanes(b)) => {
+                    let a = spread_out(a);
+                    for (out, b) in out.blocks_mut().iter_mut().zip(b.blocks()) {
+                        *out = block(&a, b);
+                    }
+                }
+                (Source::One(_), Source::One(_)) => {}
+            }
+            Filled::Lanes
+        },
+    )
+}
+
+#[inline(always)]
+pub(super) fn blocks3<N: Number>(
+    out: &mut Lanes<N>,
+    [a, b, c]: [Source<'_, N>; 3],
+    block: impl Fn(&N::Few, &N::Few, &N::Few) -> N::Few,
+    one: impl Fn(N, N, N) -> N,
+) -> Filled {
+    if let (Source::One(a), Source::One(b), Source::One(c)) = (a, b, c) {
+        out.set(0, one(a, b, c));
+        return Filled::One;
+    }
+    N::Few::vectorized(
+        #[inline(always)]
+        || {
+            for (place, out) in out.blocks_mut().iter_mut().enumerate() {
+                *out = block(&a.block(place), &b.block(place), &c.block(place));
+            }
+            Filled::Lanes
+        },
+    )
 }
 
 impl<D: Domain> Registers<D> {
@@ -275,7 +353,7 @@ impl<D: Domain> Registers<D> {
 
     /// Lets `fill` write a float register, whatever it reads.
     #[inline(always)]
-    pub(super) fn write_float(&mut self, dst: Operand, fill: impl FnOnce(&Self, &mut [D::Float; LANES]) -> Filled) {
+    pub(super) fn write_float(&mut self, dst: Operand, fill: impl FnOnce(&Self, &mut Lanes<D::Float>) -> Filled) {
         let mut spare = self.floats.take();
         spare.fill(|lanes| fill(self, lanes));
         self.floats.put(dst, spare);
@@ -283,7 +361,7 @@ impl<D: Domain> Registers<D> {
 
     /// Likewise of an int register.
     #[inline(always)]
-    pub(super) fn write_int(&mut self, dst: Operand, fill: impl FnOnce(&Self, &mut [D::Int; LANES]) -> Filled) {
+    pub(super) fn write_int(&mut self, dst: Operand, fill: impl FnOnce(&Self, &mut Lanes<D::Int>) -> Filled) {
         let mut spare = self.ints.take();
         spare.fill(|lanes| fill(self, lanes));
         self.ints.put(dst, spare);

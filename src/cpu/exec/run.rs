@@ -4,8 +4,7 @@ use super::LANES;
 use super::code::{Inner, Section};
 use super::inst::{Inst, Operand};
 use super::machine::Machine;
-use super::registers::Source;
-use crate::cpu::domain::{Domain, Integer};
+use crate::cpu::domain::{Domain, Integer, Lanes, Source};
 
 impl<D: Domain> Machine<D> {
     /// Runs a section from its start, with these lanes.
@@ -146,9 +145,9 @@ impl<D: Domain> Machine<D> {
 
 /// The lanes that are true, and those that are not sure.
 #[inline(always)]
-pub(super) fn bits_where<I: Integer>(lanes: &[I; LANES]) -> (u64, u64) {
+pub(super) fn bits_where<I: Integer>(lanes: &Lanes<I>) -> (u64, u64) {
     let (mut truth, mut unsure) = (0u64, 0u64);
-    for (byte, lanes) in lanes.chunks_exact(8).enumerate() {
+    for (byte, lanes) in lanes.blocks().iter().enumerate() {
         let (mut few, mut doubt) = (0u64, 0u64);
         for (bit, lane) in lanes.iter().enumerate() {
             few |= u64::from(lane.is_true()) << bit;

@@ -81,7 +81,7 @@ impl<D: Domain> Shading<'_, D> {
     fn settle(&self, bin: &mut Bin<'_, D>, batch: &mut Batch<'_, D>, machine: &mut Machine<D>) {
         let Some(before) = batch.locate() else { return };
         let tests = if self.plan.early_depth {
-            bin.depth_tests(&batch.fragments.pixels, &batch.fragments.z, &self.draw.state, before)
+            bin.depth_tests(&batch.fragments.pixels, |lane| batch.fragments.z[lane], &self.draw.state, before)
         } else {
             before
         };
@@ -152,13 +152,14 @@ impl<D: Domain> Shading<'_, D> {
             Tests { passes: batch.tests.passes & !discarded & reached, open: (batch.tests.open | perhaps) & reached };
         if !self.plan.early_depth {
             let depth = self.plan.frag_depth.and_then(|id| machine.float_output(id, 0));
-            tests = bin.depth_tests(pixels, depth.unwrap_or(&batch.fragments.z), state, tests);
+            let depth = |lane: usize| depth.map_or(batch.fragments.z[lane], |depth| depth.get(lane));
+            tests = bin.depth_tests(pixels, depth, state, tests);
         }
         bin.cover(pixels, tests, machine.undecided().0, state.blend.is_some());
         for output in self.outputs {
             let channels = output.channels(machine);
             if let [Channel::Float(r), Channel::Float(g), Channel::Float(b), Channel::Float(a)] = channels {
-                let color = |lane: usize| [r[lane % LANES], g[lane % LANES], b[lane % LANES], a[lane % LANES]];
+                let color = |lane: usize| [r, g, b, a].map(|channel| channel.get(lane));
                 bin.write_colors(pixels, output.attachment, color, state.blend, tests);
             } else {
                 let color = |lane: usize| channels.map(|channel| channel.at(lane));
@@ -171,7 +172,7 @@ impl<D: Domain> Shading<'_, D> {
 /// Fills a `float` input, if the stage reads it.
 fn fill_float<D: Domain>(machine: &mut Machine<D>, (id, flat): (GlobalId, u32), value: impl Fn(usize) -> D::Float) {
     if let Some(input) = machine.float_input(id, flat) {
-        *input = std::array::from_fn(value);
+        input.update(|lane, _| value(lane));
     }
 }
 
@@ -184,7 +185,7 @@ fn fill_int<D: Domain>(
 ) {
     if let Some(input) = machine.int_input(id, flat) {
         for (run, lanes) in batch.runs() {
-            input[lanes].fill(value(run));
+            lanes.for_each(|lane| input.set(lane, value(run)));
         }
     }
 }
@@ -203,12 +204,14 @@ impl<D: Domain> WithSimd for Interpolate<'_, '_, D> {
     fn with_simd<S: Simd>(self, _: S) {
         let Self { plan, batch, machine } = self;
         batch.find_w();
+        let mut numbers = [D::Float::default(); LANES];
         for (index, varying) in plan.floats.iter().enumerate() {
             let Some(input) = machine.float_input(varying.to.0, varying.to.1) else { continue };
             for (run, lanes) in batch.runs() {
-                let to = &mut input[lanes.clone()];
+                let to = &mut numbers[lanes.clone()];
                 run.source.varying(&batch.fragments, lanes, (index, varying.interpolation), to);
             }
+            input.load(&numbers);
         }
         for (index, varying) in plan.ints.iter().enumerate() {
             fill_int(machine, varying.to, batch, |run| run.source.ints.get(index).copied().unwrap_or_default());

@@ -4,8 +4,8 @@
 
 use crate::builtin::BuiltinVariable;
 use crate::compare::Range;
-use crate::cpu::domain::{Domain, Integer, Number};
-use crate::cpu::exec::{LANES, Machine};
+use crate::cpu::domain::{Domain, Integer, Lanes, Number};
+use crate::cpu::exec::Machine;
 use crate::hir::{GlobalId, Scalar, Stage, Type};
 use crate::scene::Draw;
 
@@ -68,9 +68,9 @@ impl OutputPlan {
 /// Where a channel of a color comes from.
 #[derive(Clone, Copy)]
 pub(super) enum Channel<'m, D: Domain> {
-    Float(&'m [D::Float; LANES]),
-    Int(&'m [D::Int; LANES]),
-    Uint(&'m [D::Int; LANES]),
+    Float(&'m Lanes<D::Float>),
+    Int(&'m Lanes<D::Int>),
+    Uint(&'m Lanes<D::Int>),
     Constant(f64),
 }
 
@@ -79,9 +79,9 @@ impl<D: Domain> Channel<'_, D> {
     #[inline(always)]
     pub(super) fn at(self, lane: usize) -> D::Float {
         match self {
-            Self::Float(lanes) => lanes[lane % LANES],
-            Self::Int(lanes) => whole::<D>(lanes[lane % LANES], |bits| f64::from(bits as i32)),
-            Self::Uint(lanes) => whole::<D>(lanes[lane % LANES], f64::from),
+            Self::Float(lanes) => lanes.get(lane),
+            Self::Int(lanes) => whole::<D>(lanes.get(lane), |bits| f64::from(bits as i32)),
+            Self::Uint(lanes) => whole::<D>(lanes.get(lane), f64::from),
             Self::Constant(value) => D::Float::from_f64(value),
         }
     }

@@ -142,7 +142,7 @@ impl<D: Domain> Bin<'_, D> {
     pub(super) fn depth_tests(
         &mut self,
         places: &[u32; LANES],
-        depths: &[D::Float; LANES],
+        depth_of: impl Fn(usize) -> D::Float,
         state: &State,
         before: Tests,
     ) -> Tests {
@@ -156,7 +156,7 @@ impl<D: Domain> Bin<'_, D> {
         let mut after = Tests::default();
         for lane in Mask(before.possible()).lanes() {
             let Some(stored) = depth.get_mut(places[lane] as usize) else { continue };
-            let test = depth_test::<D>(stored, depths[lane], state, before.of(lane));
+            let test = depth_test::<D>(stored, depth_of(lane), state, before.of(lane));
             after.passes |= u64::from(test.passes) << lane;
             after.open |= u64::from(test.open) << lane;
         }

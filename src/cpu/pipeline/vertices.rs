@@ -263,11 +263,11 @@ fn may_jump<D: Domain>(clip: [D::Float; 4]) -> bool {
 }
 
 pub(super) fn read_float<D: Domain>(machine: &Machine<D>, (global, flat): (GlobalId, u32), lane: usize) -> D::Float {
-    machine.float_output(global, flat).and_then(|lanes| lanes.get(lane)).copied().unwrap_or_default()
+    machine.float_output(global, flat).map(|lanes| lanes.get(lane)).unwrap_or_default()
 }
 
 pub(super) fn read_int<D: Domain>(machine: &Machine<D>, (global, flat): (GlobalId, u32), lane: usize) -> D::Int {
-    machine.int_output(global, flat).and_then(|lanes| lanes.get(lane)).copied().unwrap_or_default()
+    machine.int_output(global, flat).map(|lanes| lanes.get(lane)).unwrap_or_default()
 }
 
 fn fill_inputs<D: Domain>(draw: &Draw, plan: &Plan, lanes: &[Invocation], machine: &mut Machine<D>) {
@@ -277,28 +277,22 @@ fn fill_inputs<D: Domain>(draw: &Draw, plan: &Plan, lanes: &[Invocation], machin
         for flat in 0..draw.program.types.flat_len(attribute.ty) {
             let fetch = |(vertex, instance): Invocation| data.fetch(vertex, instance, flat / rows, rows, flat % rows);
             if let Some(input) = machine.float_input(attribute.global, flat) {
-                for (slot, &lane) in input.iter_mut().zip(lanes) {
-                    *slot = match fetch(lane) {
-                        ScalarValue::Float(value) => D::Float::from_f64(f64::from(value)),
-                        ScalarValue::Int(_) | ScalarValue::Uint(_) | ScalarValue::Bool(_) => D::Float::default(),
-                    };
-                }
+                input.assign(lanes.iter().map(|lane| match fetch(*lane) {
+                    ScalarValue::Float(value) => D::Float::from_f64(f64::from(value)),
+                    ScalarValue::Int(_) | ScalarValue::Uint(_) | ScalarValue::Bool(_) => D::Float::default(),
+                }));
             } else if let Some(input) = machine.int_input(attribute.global, flat) {
-                for (slot, &lane) in input.iter_mut().zip(lanes) {
-                    *slot = match fetch(lane) {
-                        ScalarValue::Int(value) => D::Int::from_bits(value as u32),
-                        ScalarValue::Uint(value) => D::Int::from_bits(value),
-                        ScalarValue::Float(_) | ScalarValue::Bool(_) => D::Int::default(),
-                    };
-                }
+                input.assign(lanes.iter().map(|lane| match fetch(*lane) {
+                    ScalarValue::Int(value) => D::Int::from_bits(value as u32),
+                    ScalarValue::Uint(value) => D::Int::from_bits(value),
+                    ScalarValue::Float(_) | ScalarValue::Bool(_) => D::Int::default(),
+                }));
             }
         }
     }
     for (id, pick) in [(plan.vertex_id, 0), (plan.instance_id, 1)] {
         if let Some(input) = id.and_then(|id| machine.int_input(id, 0)) {
-            for (slot, lane) in input.iter_mut().zip(lanes) {
-                *slot = D::Int::from_bits(if pick == 0 { lane.0 } else { lane.1 });
-            }
+            input.assign(lanes.iter().map(|lane| D::Int::from_bits(if pick == 0 { lane.0 } else { lane.1 })));
         }
     }
 }

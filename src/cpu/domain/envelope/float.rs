@@ -1,30 +1,35 @@
 //! Operators, comparisons, conversions and selecting functions of the envelope.
 
 use super::round::{down, sum_down, sum_up, ulps_above, ulps_below, up};
-use super::{EnvelopeFloat, EnvelopeInt};
+use super::{EnvelopeFloat, EnvelopeInt, ends};
 use crate::compare::Range;
 use crate::cpu::domain::rules::{self, FLUSH, ulp};
 use crate::cpu::domain::{Integer, Number};
+use std::f64::consts::{LN_2, LOG2_E};
 
 /// `minNum`: a NaN loses.
 #[inline(always)]
-fn least(a: f64, b: f64) -> f64 {
+pub(super) fn least(a: f64, b: f64) -> f64 {
     if b < a { b } else { a }
 }
 
 #[inline(always)]
-fn greatest(a: f64, b: f64) -> f64 {
+pub(super) fn greatest(a: f64, b: f64) -> f64 {
     if b > a { b } else { a }
 }
 
 /// Whether a number is 2^n for an n from -126 to 126, or the negative of such.
 #[inline(always)]
-fn is_power_of_two(value: f64) -> bool {
+pub(super) fn is_power_of_two(value: f64) -> bool {
     const MANTISSA: u64 = (1 << 52) - 1;
     value.to_bits() & MANTISSA == 0 && (FLUSH..=1.0 / FLUSH).contains(&value.abs())
 }
 
 impl EnvelopeFloat {
+    /// The most that a component of a unit vector may be: two ULP of the inverse root, one of the product, and those of
+    /// the sum below the root.
+    pub(super) const COSINE: f64 = 1.0 + 6.0 / (1 << 23) as f64;
+
     /// Whether 0 is inside.
     #[inline(always)]
     fn holds_zero(self) -> bool {
@@ -268,10 +273,8 @@ impl Number for EnvelopeFloat {
     }
     #[inline(always)]
     fn cosine_at_most(self) -> Self {
-        // Two ULP of the inverse root, one of the product, and those of the sum below the root.
-        const MOST: f64 = 1.0 + 6.0 / (1 << 23) as f64;
         if (self.high - self.low).is_finite() {
-            return Self { low: greatest(self.low, -MOST), high: least(self.high, MOST), ..self };
+            return Self { low: greatest(self.low, -Self::COSINE), high: least(self.high, Self::COSINE), ..self };
         }
         // The squared length may be flushed or overflow.
         self
@@ -331,16 +334,16 @@ impl Number for EnvelopeFloat {
         self.power(exponent)
     }
     fn exp(self) -> Self {
-        self.exponential(f64::exp)
+        self.exponential(self.value.exp(), |end| ends::exp2(end * LOG2_E))
     }
     fn log(self) -> Self {
-        self.logarithm(f64::ln)
+        self.logarithm(self.value.ln(), |end| ends::log2(end) * LN_2)
     }
     fn exp2(self) -> Self {
-        self.exponential(f64::exp2)
+        self.exponential(self.value.exp2(), ends::exp2)
     }
     fn log2(self) -> Self {
-        self.logarithm(f64::log2)
+        self.logarithm(self.value.log2(), ends::log2)
     }
     fn sin(self) -> Self {
         self.sine()

@@ -4,8 +4,8 @@
 //! the function rises or falls throughout, and limited to what the function itself can give. Where the exact result is
 //! not defined for some arguments, those may give NaN.
 
-use super::EnvelopeFloat;
-use super::round::{ulps_above, ulps_below};
+use super::round::{OUTWARD, ulps_above, ulps_below};
+use super::{EnvelopeFloat, ends};
 use crate::cpu::domain::Number;
 use crate::cpu::domain::rules::{self, FLUSH, ulp};
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -72,8 +72,8 @@ impl EnvelopeFloat {
         Self::rounded(value, low.max(0.0), high, self.may_be_nan || self.low < 0.0)
     }
 
-    pub(super) fn exponential(self, f: impl Fn(f64) -> f64) -> Self {
-        let value = f(self.value);
+    /// With the value, and what the function gives at an end.
+    pub(super) fn exponential(self, value: f64, f: impl Fn(f64) -> f64) -> Self {
         let n = |x: f64| rules::EXP.ulps_at(x);
         let (low, high) = (f(self.low), f(self.high));
         let below = if low == 0.0 { 0.0 } else { ulps_below(low, high, n(self.low)) };
@@ -82,15 +82,16 @@ impl EnvelopeFloat {
         Self::rounded(value, below.max(0.0), above, self.may_be_nan)
     }
 
-    pub(super) fn logarithm(self, f: impl Fn(f64) -> f64) -> Self {
-        let value = f(self.value);
+    /// Likewise.
+    pub(super) fn logarithm(self, value: f64, f: impl Fn(f64) -> f64) -> Self {
         if self.high < 0.0 {
             return Self::anything(value);
         }
         let near_one = self.high >= 0.5 && self.low <= 2.0;
         let error = |result: f64| {
-            let outside = rules::LOG.ulps() * ulp(result) * (1.0 + 1e-6);
-            if near_one { outside.max(rules::LOG_NEAR_ONE.absolute()) } else { outside }
+            let outside = rules::LOG.ulps() * ulp(result);
+            let error = if near_one { outside.max(rules::LOG_NEAR_ONE.absolute()) } else { outside };
+            error * OUTWARD
         };
         let least = if self.low < FLUSH { f64::NEG_INFINITY } else { f(self.low) };
         let most = if self.high < FLUSH { f(FLUSH) } else { f(self.high) };
@@ -105,15 +106,15 @@ impl EnvelopeFloat {
         if self.high < 0.0 {
             return Self::anything(value);
         }
-        let product = exponent.mul(Number::log2(self));
+        let product = exponent.mul(self.logarithm(0.0, ends::log2));
         if product.low > product.high || (self.high == 0.0 && exponent.low <= 0.0) {
             return Self::anything(value);
         }
-        let power = Number::exp2(product);
+        let power = product.exponential(value, ends::exp2);
         // 0^0 is not defined (§8.2).
         let undefined = self.low <= 0.0 && exponent.low <= 0.0;
         let top = if undefined { power.high.max(1.0) } else { power.high };
-        Self { value, high: top, may_be_nan: power.may_be_nan || undefined, ..power }
+        Self { high: top, may_be_nan: power.may_be_nan || undefined, ..power }
     }
 
     /// The extremes of a cosine between two angles.

@@ -16,8 +16,12 @@
 //! | `float` | operators, comparisons, conversions, selecting functions |
 //! | `functions` | the functions that have a row of their own, or inherit one |
 //! | `vector` | sums of products, in any order |
+//! | `ends` | `exp2` and `log2` without calls, for ends alone |
+//! | `block` | the same operations on eight numbers at once |
 //! | `integer` | intervals of `int`s |
 
+mod block;
+mod ends;
 mod float;
 mod functions;
 mod integer;
@@ -26,6 +30,7 @@ mod round;
 mod tests;
 mod vector;
 
+pub use block::EnvelopeBlock;
 pub use integer::EnvelopeInt;
 
 use crate::compare::Range;

@@ -2,11 +2,11 @@
 
 use crate::cpu::domain::rules::{FLUSH, ulp};
 
-const MAX: f64 = f32::MAX as f64;
+pub(super) const MAX: f64 = f32::MAX as f64;
 /// The bits of an f64 that an f32 lacks.
-const BELOW: u64 = (1 << 29) - 1;
+pub(super) const BELOW: u64 = (1 << 29) - 1;
 /// Makes a number of ULPs cover the roundings of f64 on the way.
-const OUTWARD: f64 = 1.0 + 1.0 / (1u64 << 20) as f64;
+pub(super) const OUTWARD: f64 = 1.0 + 1.0 / (1u64 << 20) as f64;
 
 /// The greatest f32 not above a number. A number below the normal ones may be flushed: 0 then, if that is lower.
 /// Minus infinity past the range below; past it above the greatest f32, which a GPU may return instead of infinity.
@@ -58,7 +58,9 @@ pub(super) fn sum_up(a: f64, b: f64) -> f64 {
 /// it is taken at the greatest number that could reach below the others.
 #[inline(always)]
 pub(super) fn ulps_below(low: f64, high: f64, n: f64) -> f64 {
-    let at = if low > 0.0 { (low + 2.0 * n * ulp(low)).min(high) } else { low };
+    let reached = low + 2.0 * n * ulp(low);
+    let reached = if high < reached { high } else { reached };
+    let at = if low > 0.0 { reached } else { low };
     low - n * OUTWARD * ulp(at)
 }
 

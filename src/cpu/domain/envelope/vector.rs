@@ -1,7 +1,7 @@
 //! Sums, in any order.
 
 use super::EnvelopeFloat;
-use super::round::{down, up};
+use super::float::{greatest, least};
 use crate::cpu::domain::Number;
 use crate::cpu::domain::rules::ulp;
 
@@ -12,26 +12,38 @@ impl EnvelopeFloat {
         let (mut value, mut low, mut high) = (0.0, 0.0, 0.0);
         let (mut deepest, mut highest) = (0.0, 0.0);
         let (mut may_be_nan, mut count, mut plain) = (false, 0.0, true);
-        for product in terms.clone() {
-            value += product.value;
-            low += product.low;
-            high += product.high;
-            deepest += product.low.min(0.0);
-            highest += product.high.max(0.0);
-            may_be_nan |= product.may_be_nan;
-            count += f64::from(u8::from(product.low != 0.0 || product.high != 0.0));
-            plain &= product.low == product.high && (product.low * GRID).fract() == 0.0;
+        for term in terms.clone() {
+            value += term.value;
+            low += term.low;
+            high += term.high;
+            deepest += least(term.low, 0.0);
+            highest += greatest(term.high, 0.0);
+            may_be_nan |= term.may_be_nan;
+            count += f64::from(u8::from(term.low != 0.0 || term.high != 0.0));
+            plain &= Self::is_plain(term.low, term.high);
         }
-        let size = highest.max(-deepest);
+        let size = greatest(highest, -deepest);
         if !size.is_finite() {
             return terms.reduce(Self::add).unwrap_or_default().of_value(value);
         }
-        if count <= 1.0 || (plain && size < PLAIN) {
-            // Every partial sum is an f32, or there is but one summand.
-            return Self { value, low: down(low), high: up(high), may_be_nan };
-        }
-        let roundings = (count - 1.0) * ulp(size) * (1.0 + 1e-6);
+        let roundings = Self::roundings_of_sum(count, plain, size);
         Self::rounded(value, low - roundings, high + roundings, may_be_nan)
+    }
+
+    /// Whether a term is a number of so few digits that it may add up without rounding.
+    #[inline(always)]
+    pub(super) fn is_plain(low: f64, high: f64) -> bool {
+        /// 1.5 * 2^52: what is added to it is rounded to an integer.
+        const ROUND: f64 = 6_755_399_441_055_744.0;
+        let steps = low * GRID;
+        (low == high) & ((steps + ROUND) - ROUND == steps)
+    }
+
+    /// What the additions may be off together: nothing where every partial sum is an f32, or there is but one summand.
+    #[inline(always)]
+    pub(super) fn roundings_of_sum(count: f64, plain: bool, size: f64) -> f64 {
+        let exact = (count <= 1.0) | (plain & (size < PLAIN));
+        if exact { 0.0 } else { (count - 1.0) * ulp(size) * (1.0 + 1e-6) }
     }
 }
 

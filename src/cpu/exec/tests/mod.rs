@@ -29,10 +29,10 @@ fn fill_by<D: Domain>(machine: &mut Machine<D>, program: &Generated, f: impl Fn(
         for (flat, _) in classes.iter().enumerate() {
             if let Some(lanes) = machine.float_input(*id, flat as u32) {
                 let value = |lane| D::Float::from_f64(f64::from(f(input(lane, flat as u32).0)));
-                (0..LANES).for_each(|lane| lanes[lane] = value(lane));
+                (0..LANES).for_each(|lane| lanes.set(lane, value(lane)));
             }
             if let Some(lanes) = machine.int_input(*id, flat as u32) {
-                (0..LANES).for_each(|lane| lanes[lane] = D::Int::from_bits(input(lane, flat as u32).1));
+                (0..LANES).for_each(|lane| lanes.set(lane, D::Int::from_bits(input(lane, flat as u32).1)));
             }
         }
     }
@@ -44,8 +44,8 @@ fn outputs<D: Domain>(machine: &Machine<D>, program: &Generated, lane: usize) ->
         return None;
     }
     let one = |id: GlobalId, flat: u32| {
-        let float = machine.float_output(id, flat).map(|lanes| canonical(lanes[lane].value()));
-        float.or_else(|| machine.int_output(id, flat).map(|lanes| u64::from(lanes[lane].bits()))).unwrap_or(0)
+        let float = machine.float_output(id, flat).map(|lanes| canonical(lanes.get(lane).value()));
+        float.or_else(|| machine.int_output(id, flat).map(|lanes| u64::from(lanes.get(lane).bits()))).unwrap_or(0)
     };
     let ports = program.outputs.iter().flat_map(|(id, scalars)| (0..scalars.len() as u32).map(|flat| (*id, flat)));
     Some(ports.map(|(id, flat)| one(id, flat)).collect())
@@ -122,37 +122,42 @@ fn envelope_holds_for(program: &Generated, f: impl Fn(f32) -> f32) {
                 (envelope.float_output(*id, flat), wide.float_output(*id, flat), single.float_output(*id, flat))
             {
                 for lane in decided.lanes() {
-                    let range = e[lane].range();
+                    let range = e.get(lane).range();
                     let holds = |value: f64| range.contains(value);
                     let told = || {
-                        format!("lane {lane}: {range:?} of {} and {}\n{}", w[lane], s[lane], generate::text(program))
+                        format!(
+                            "lane {lane}: {range:?} of {} and {}\n{}",
+                            w.get(lane),
+                            s.get(lane),
+                            generate::text(program)
+                        )
                     };
                     if !wide.discarded().contains(lane) {
                         assert_eq!(
-                            canonical(e[lane].value()),
-                            canonical(w[lane]),
+                            canonical(e.get(lane).value()),
+                            canonical(w.get(lane)),
                             "the value is the reference's: {}",
                             told()
                         );
-                        assert!(holds(w[lane]), "f64 in {}", told());
+                        assert!(holds(w.get(lane)), "f64 in {}", told());
                     }
-                    assert!(single.discarded().contains(lane) || holds(f64::from(s[lane])), "f32 in {}", told());
+                    assert!(single.discarded().contains(lane) || holds(f64::from(s.get(lane))), "f32 in {}", told());
                 }
             }
             if let (Some(e), Some(w), Some(s)) =
                 (envelope.int_output(*id, flat), wide.int_output(*id, flat), single.int_output(*id, flat))
             {
                 for lane in decided.lanes() {
-                    let (low, high) = e[lane].choices();
+                    let (low, high) = e.get(lane).choices();
                     let told = || {
                         format!(
                             "lane {lane}: {low}..={high} of {} and {}\n{}",
-                            w[lane] as i32,
-                            s[lane] as i32,
+                            w.get(lane) as i32,
+                            s.get(lane) as i32,
                             generate::text(program)
                         )
                     };
-                    for (bits, discarded) in [(w[lane], wide.discarded()), (s[lane], single.discarded())] {
+                    for (bits, discarded) in [(w.get(lane), wide.discarded()), (s.get(lane), single.discarded())] {
                         assert!(discarded.contains(lane) || (low..=high).contains(&(bits as i32)), "{}", told());
                     }
                 }

@@ -43,10 +43,10 @@ pub(super) fn ran<D: Domain>(
         for flat in 0..program.types.flat_len(global.ty) {
             if let Some(lanes) = machine.float_input(id, flat) {
                 let value = |lane| D::Float::from_f64(input(&global.name, lane) + f64::from(flat));
-                (0..LANES).for_each(|lane| lanes[lane] = value(lane));
+                (0..LANES).for_each(|lane| lanes.set(lane, value(lane)));
             }
             if let Some(lanes) = machine.int_input(id, flat) {
-                (0..LANES).for_each(|lane| lanes[lane] = D::Int::from_bits(input(&global.name, lane) as i32 as u32));
+                (0..LANES).for_each(|lane| lanes.set(lane, D::Int::from_bits(input(&global.name, lane) as i32 as u32)));
             }
         }
     }
@@ -60,7 +60,7 @@ pub(super) fn output<D: Domain>(program: &Program, machine: &Machine<D>) -> Vec<
     let shader = program.stage(Stage::Fragment).expect("it has the stage");
     let (o, _) = shader.globals().find(|(_, global)| global.name == "o").expect("it has the output");
     let component =
-        |lane: usize, flat: u32| machine.float_output(o, flat).map_or(D::Float::default(), |lanes| lanes[lane]);
+        |lane: usize, flat: u32| machine.float_output(o, flat).map_or(D::Float::default(), |lanes| lanes.get(lane));
     (0..LANES).map(|lane| std::array::from_fn(|flat| component(lane, flat as u32))).collect()
 }
 

@@ -193,10 +193,10 @@ impl Check {
             for flat in 0..lanes[0][index].floats.len() {
                 for (lane, set) in lanes.iter_mut().enumerate() {
                     if let Some(input) = machine.float_input(id, flat as u32) {
-                        input[lane] = D::Float::from_f64(set[index].floats[flat]);
-                        set[index].floats[flat] = input[lane].value();
+                        input.set(lane, D::Float::from_f64(set[index].floats[flat]));
+                        set[index].floats[flat] = input.get(lane).value();
                     } else if let Some(input) = machine.int_input(id, flat as u32) {
-                        input[lane] = D::Int::from_bits(set[index].bits[flat]);
+                        input.set(lane, D::Int::from_bits(set[index].bits[flat]));
                     }
                 }
             }
@@ -209,14 +209,14 @@ impl Check {
                 let id = global(if place < count { "o" } else { "whole" }).expect("an output");
                 let flat = (place % count) as u32;
                 if let Some(output) = machine.float_output(id, flat) {
-                    let found = output[lane].value();
+                    let found = output.get(lane).value();
                     let given: Vec<&[f64]> = set.iter().map(|argument| argument.floats.as_slice()).collect();
                     let fine = holds(want, found, D::NAME == "f32");
                     assert!(fine, "{} in {}, scalar {place}, of {given:?}: {found:e} for {want:?}", self.told, D::NAME);
                 } else if let Some(output) = machine.int_output(id, flat) {
                     let given: Vec<_> = set.iter().map(|argument| (&argument.bits, &argument.floats)).collect();
                     let Want::Bits(bits) = want else { panic!("{}: {want:?}", self.told) };
-                    assert_eq!(output[lane].bits(), *bits, "{} of {given:?}", self.told);
+                    assert_eq!(output.get(lane).bits(), *bits, "{} of {given:?}", self.told);
                 } else {
                     panic!("{} gives nothing", self.told);
                 }
