@@ -9,7 +9,7 @@ use crate::library::Embedded;
 use crate::link::{Program, link};
 #[cfg(feature = "reference")]
 use crate::source::{IncludeForm, Included};
-use crate::source::{IncludeResolver, NoIncludes, SourceMap, Span};
+use crate::source::{IncludeResolver, NoIncludes, SourceMap, Span, whole_text};
 use crate::syntax;
 use std::sync::Arc;
 
@@ -144,7 +144,9 @@ impl Compiler {
         let strict = self.options.strict;
         let options = syntax::Options { stage: source.stage, defines: self.options.defines.clone(), strict };
         let ast = syntax::parse(map, file, &options, &*self.includes, diagnostics);
-        Some(analyze(&ast, source.stage, strict, types, map, diagnostics))
+        let mut shader = analyze(&ast, source.stage, strict, types, map, diagnostics);
+        shader.texts.push(whole_text(map, file, ast.version.span, &ast.inclusions, &self.options.defines));
+        Some(shader)
     }
 }
 

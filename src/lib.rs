@@ -4,9 +4,11 @@
 //!  GLSL 150 text ──► syntax ──► analysis ──► link ──►┬─► lower ──► naga ──► emit     WGSL, SPIR-V, MSL, HLSL, GLSL
 //!                    tokens,    typed        program │                        └────► gpu     wgpu on Vulkan
 //!                    ast        program      facts   ├─► cpu    reference executor and rasteriser
-//!                               (hir)                └─► lint   rules over hir and link facts
+//!                               (hir)                ├─► gl     the text itself on an OpenGL driver
+//!                                                    └─► lint   rules over hir and link facts
 //!                        gpu picture ─┐
-//!                        cpu picture ─┴─► compare ──► report
+//!                        cpu picture ─┼─► compare ──► report
+//!                         gl picture ─┘
 //! ```
 
 pub mod analysis;
@@ -32,6 +34,8 @@ pub mod cpu;
 pub mod evaluate;
 #[cfg(feature = "cli")]
 pub mod gallery;
+#[cfg(feature = "gl")]
+pub mod gl;
 #[cfg(feature = "gpu")]
 pub mod gpu;
 #[cfg(feature = "cli")]

@@ -3,6 +3,7 @@
 use super::console::Console;
 use super::exit::{Exit, Failure, Outcome};
 use super::files;
+use super::opengl;
 use super::progress::Progress;
 use super::render::Backend;
 use super::scenes::{DrawError, MachineArgs, ViaArg};
@@ -44,15 +45,18 @@ pub(super) struct GalleryArgs {
 enum Painter {
     Gpu(Box<Gpu>, Via),
     Cpu,
+    OpenGl,
 }
 
 /// Runs the command.
 pub(super) fn run(args: &GalleryArgs, console: &Console) -> Outcome {
+    args.backend.require()?;
     let entries = gallery::entries().map_err(internal)?;
     files::make_folder(&args.output)?;
     let painter = match args.backend {
         Backend::Gpu => Painter::Gpu(Box::new(args.machine.gpu().map_err(failure)?), args.via.into()),
         Backend::Cpu => Painter::Cpu,
+        Backend::Gl => Painter::OpenGl,
     };
     let progress = Progress::new(console, entries.len());
     let mut tiles = Vec::with_capacity(entries.len());
@@ -85,6 +89,7 @@ impl Painter {
                     RenderOptions { precision: Precision::F64, lines: LineRule::OpenGl, ..RenderOptions::default() };
                 args.machine.within_time(move || Ok(cpu::render(&scene, &options)?))
             }
+            Self::OpenGl => opengl::draw(&args.machine, scene),
         };
         picture.map_err(failure)
     }
@@ -100,6 +105,7 @@ impl Painter {
                 }
             ),
             Self::Cpu => "glisten's CPU reference in 64-bit floating point".to_owned(),
+            Self::OpenGl => "OpenGL from the sources themselves".to_owned(),
         }
     }
 }

@@ -19,6 +19,7 @@ mod includes;
 mod inputs;
 mod library;
 mod lint;
+mod opengl;
 mod pictures;
 mod progress;
 mod reflect;

@@ -1,8 +1,9 @@
-//! `glisten render`: a scene to a picture, by the GPU or by the CPU reference.
+//! `glisten render`: a scene to a picture, by the GPU, by the CPU reference or by OpenGL.
 
 use super::console::Console;
-use super::exit::{Exit, Outcome};
+use super::exit::{Exit, Failure, Outcome};
 use super::files;
+use super::opengl;
 use super::pictures::Target;
 use super::progress::Progress;
 use super::scenes::{DrawError, SceneArgs, ViaArg};
@@ -39,6 +40,18 @@ pub(super) enum Backend {
     Gpu,
     /// The CPU reference
     Cpu,
+    /// OpenGL through EGL, by the sources themselves; only where built with `--features gl`
+    Gl,
+}
+
+impl Backend {
+    /// Refuses what is not built.
+    pub(super) fn require(self) -> Result<(), Failure> {
+        match self {
+            Self::Gpu | Self::Cpu => Ok(()),
+            Self::Gl => opengl::require(),
+        }
+    }
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
@@ -52,6 +65,7 @@ enum PrecisionArg {
 
 /// Runs the command.
 pub(super) fn run(args: &RenderArgs, console: &Console) -> Outcome {
+    args.backend.require()?;
     let target = Target::parse(&args.output)?;
     let read = match args.scene.read(console)? {
         Ok(read) => read,
@@ -91,5 +105,6 @@ fn draw(args: &RenderArgs, scene: Scene) -> Result<Picture, DrawError> {
                 RenderOptions { precision, lines: LineRule::OpenGl, mark_edges: false, ..RenderOptions::default() };
             args.scene.within_time(move || Ok(cpu::render(&scene, &options)?))
         }
+        Backend::Gl => opengl::draw(&args.scene.machine, scene),
     }
 }

@@ -23,7 +23,7 @@ pub(super) struct SceneArgs {
     #[arg(value_name = "SCENE.toml")]
     pub(super) scene: String,
     #[command(flatten)]
-    machine: MachineArgs,
+    pub(super) machine: MachineArgs,
     #[command(flatten)]
     sources: SourceArgs,
     #[command(flatten)]
@@ -127,8 +127,11 @@ impl From<Error> for DrawError {
 /// What to tell of a GPU that is missing or does not draw.
 pub(super) fn gpu_failure(error: Error) -> Failure {
     let exit = if error.is_environment() { Exit::Machine } else { Exit::Content };
-    // The runner's messages carry their help in a second line.
-    let text = error.to_string();
+    told(exit, &error.to_string())
+}
+
+/// A failure by the message of a runner, which carries its help in a second line.
+pub(super) fn told(exit: Exit, text: &str) -> Failure {
     match text.split_once("\nhelp: ") {
         Some((message, help)) => Failure::new(exit, message).help(help),
         None => Failure::new(exit, text),

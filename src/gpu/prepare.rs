@@ -334,17 +334,10 @@ fn has_flat_varying(program: &Program) -> bool {
 
 /// The color targets: what no output is bound to keeps its clear color.
 fn targets(framebuffer: &Framebuffer, draw: &Draw) -> Vec<Option<wgpu::ColorTargetState>> {
-    let interface = &draw.program.interface;
     let floats = matches!(framebuffer.format, Format::Rgba32Float | Format::Rgba16Float | Format::Rgba8Unorm);
     (0..framebuffer.attachments)
         .map(|location| {
-            let written = interface.outputs.iter().any(|output| {
-                let elements = match draw.program.types.get(output.ty) {
-                    Type::Array(_, crate::hir::ArraySize::Sized(size)) => size,
-                    _ => 1,
-                };
-                (output.location..output.location.saturating_add(elements)).contains(&location)
-            });
+            let written = draw.program.writes_color(location);
             Some(wgpu::ColorTargetState {
                 format: color_format(framebuffer.format),
                 blend: draw.state.blend.filter(|_| floats).map(blend),

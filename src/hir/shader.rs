@@ -4,6 +4,7 @@ use super::{Expr, ExprId, ExprKind, Stmt, TypeId, Value, VarRef};
 use crate::builtin::BuiltinVariable;
 use crate::source::Span;
 use crate::syntax::ast::Version;
+use std::sync::Arc;
 
 /// A stage of the pipeline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -335,6 +336,9 @@ pub struct Shader {
     /// The deepest expression, counted along left operands too: more than a few hundred asks for a big stack
     /// (see [`Shader::on_stack`]).
     pub expr_depth: u32,
+    /// What an OpenGL driver takes for it, a text for each source ([`whole_text`](crate::source::whole_text)); empty for a
+    /// shader that was not compiled.
+    pub texts: Vec<Arc<str>>,
 }
 
 impl Shader {
@@ -351,6 +355,7 @@ impl Shader {
             frag_coord: FragCoordLayout::default(),
             per_vertex_out: None,
             expr_depth: 0,
+            texts: Vec::new(),
         }
     }
 

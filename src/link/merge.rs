@@ -117,6 +117,7 @@ impl Merge<'_> {
             }
         }
         self.all.per_vertex_out = self.all.per_vertex_out.take().or(next.per_vertex_out);
+        self.all.texts.extend(next.texts);
         self.all.expr_depth = self.all.expr_depth.max(next.expr_depth);
         self.all.main = self.all.main.or(next.main.map(|main| remap.function_id(main)));
         self.unite_layouts(next.geometry, next.frag_coord);

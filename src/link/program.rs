@@ -1,6 +1,6 @@
 //! [`Program`] and its [`Interface`]: what was linked, and where each thing stands.
 
-use crate::hir::{GlobalId, Interpolation, MatrixLayout, Shader, Stage, TypeId, Types, Value};
+use crate::hir::{ArraySize, GlobalId, Interpolation, MatrixLayout, Shader, Stage, Type, TypeId, Types, Value};
 
 /// A linked program.
 #[derive(Clone, Debug)]
@@ -19,6 +19,17 @@ impl Program {
     /// The shader of a stage.
     pub fn stage(&self, stage: Stage) -> Option<&Shader> {
         self.stages.iter().find(|shader| shader.stage == stage)
+    }
+
+    /// Whether an output is bound to a color number.
+    pub fn writes_color(&self, number: u32) -> bool {
+        self.interface.outputs.iter().any(|output| {
+            let elements = match self.types.get(output.ty) {
+                Type::Array(_, ArraySize::Sized(size)) => size,
+                _ => 1,
+            };
+            (output.location..output.location.saturating_add(elements)).contains(&number)
+        })
     }
 }
 

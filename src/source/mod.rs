@@ -9,6 +9,8 @@
 
 mod map;
 mod span;
+mod whole;
 
 pub use map::{Expansion, FileId, IncludeForm, IncludeResolver, Included, Location, NoIncludes, SourceFile, SourceMap};
 pub use span::{ExpansionId, Span};
+pub use whole::{Inclusion, whole_text};

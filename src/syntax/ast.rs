@@ -6,7 +6,7 @@
 #![expect(missing_docs, reason = "fields of variants are named for the grammar")]
 
 use super::token::{Names, Symbol};
-use crate::source::Span;
+use crate::source::{Inclusion, Span};
 
 /// An expression in an [`Ast`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -126,6 +126,8 @@ pub struct Ast {
     pub allows: Vec<Allow>,
     /// The places of all `#extension` lines that turned something on, for messages.
     pub extension_lines: Vec<(String, Behavior, Span)>,
+    /// What `#include` lines brought in, in the order in which they were read.
+    pub inclusions: Vec<Inclusion>,
 }
 
 /// A comment `// glisten: allow(CODE)`: silences warnings of that code on its own line, or on the next line

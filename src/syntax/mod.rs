@@ -58,6 +58,7 @@ pub fn parse(
     ast.invariant_all = outcome.invariant_all;
     ast.allows = outcome.allows;
     ast.extension_lines = outcome.extension_lines;
+    ast.inclusions = outcome.inclusions;
     ast.names = session.names;
     ast
 }
@@ -71,5 +72,6 @@ fn empty_tree() -> Ast {
         invariant_all: None,
         allows: Vec::new(),
         extension_lines: Vec::new(),
+        inclusions: Vec::new(),
     }
 }

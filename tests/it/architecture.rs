@@ -35,13 +35,29 @@ static FORBIDDEN: &[(&str, &[&str])] = &[
             "crate::cli",
             "crate::lower",
             "crate::emit",
+            "crate::gl",
             "crate::gpu",
             "std::fs",
             "std::env",
         ],
     ),
     ("compare/", &["naga::", "wgpu::", "clap::", "crate::cli", "crate::cpu", "crate::gpu", "std::fs", "std::env"]),
-    ("gpu/", &["clap::", "crate::cli", "crate::cpu"]),
+    ("gpu/", &["clap::", "crate::cli", "crate::cpu", "crate::gl"]),
+    (
+        "gl/",
+        &[
+            "naga::",
+            "wgpu::",
+            "clap::",
+            "crate::cli",
+            "crate::cpu",
+            "crate::lower",
+            "crate::emit",
+            "crate::gpu",
+            "std::fs",
+            "std::env",
+        ],
+    ),
 ];
 
 /// What only the command line does.

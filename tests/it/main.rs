@@ -30,6 +30,8 @@ mod lit_scenes;
 mod mutation;
 #[cfg(feature = "gpu")]
 mod mutations;
+#[cfg(feature = "gl")]
+mod opengl;
 mod print;
 #[cfg(feature = "gpu")]
 mod random;

@@ -2,7 +2,7 @@
 
 use super::{Extensions, FileId, Preprocessor, Session, Span, TokenFlags, TokenKind, codes, extension, kind};
 use crate::diagnostic::{Diagnostic, codes::general};
-use crate::source::{IncludeForm, Included};
+use crate::source::{IncludeForm, Included, Inclusion};
 
 /// How many files may be inside each other.
 const MAX_DEPTH: usize = 64;
@@ -39,7 +39,9 @@ impl Preprocessor<'_> {
             session.report(warning);
         }
         let Some(file) = self.find_include(session, &header) else { return };
-        if self.once.contains(&file) {
+        let entered = !self.once.contains(&file);
+        self.outcome.inclusions.push(Inclusion { directive, file: entered.then_some(file) });
+        if !entered {
             return;
         }
         if self.frames.len() >= MAX_DEPTH {

@@ -29,7 +29,7 @@ use super::lexer::{Lexer, Mode, Trivia};
 use super::token::{Session, Symbol, Token, TokenFlags, TokenKind, TokenSource};
 use crate::diagnostic::codes::preprocess as codes;
 use crate::diagnostic::{Diagnostic, codes::general};
-use crate::source::{FileId, IncludeForm, IncludeResolver, Span};
+use crate::source::{FileId, IncludeForm, IncludeResolver, Inclusion, Span};
 use define::Macro;
 use expand::Context;
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -46,6 +46,7 @@ pub(super) struct Outcome {
     pub(super) invariant_all: Option<Span>,
     pub(super) allows: Vec<Allow>,
     pub(super) extension_lines: Vec<(String, Behavior, Span)>,
+    pub(super) inclusions: Vec<Inclusion>,
 }
 
 /// A file that is being read.
@@ -142,6 +143,7 @@ impl<'a> Preprocessor<'a> {
                 invariant_all: None,
                 allows: Vec::new(),
                 extension_lines: Vec::new(),
+                inclusions: Vec::new(),
             },
         };
         this.define_predefined(session);

@@ -19,7 +19,7 @@ const VERTEX: &str = "#version 150\nin vec2 place;\nin vec4 av;\nin ivec4 bv;\nf
     void main() { a = av; b = bv; gl_Position = vec4(place, 0.0, 1.0); }\n";
 const SIDE: usize = 8;
 
-fn seeds() -> Range<u64> {
+pub(crate) fn seeds() -> Range<u64> {
     let Ok(asked) = std::env::var("RANDOM_PROGRAMS") else { return 0..48 };
     let (first, end) = asked.split_once("..").expect("RANDOM_PROGRAMS=first..end");
     first.parse().expect("a number")..end.parse().expect("a number")
@@ -49,6 +49,14 @@ fn scene(fragment: &str) -> Result<Scene, String> {
         .map(|found| format!("{}: {}", found.code, found.message))
         .collect();
     loaded.scene.ok_or_else(|| messages.join("; "))
+}
+
+/// The fragment shader of a seed, and a scene that draws it.
+#[cfg(feature = "gl")]
+pub(crate) fn program(seed: u64) -> (String, Scene) {
+    let fragment = text::fragment(seed);
+    let scene = scene(&fragment).unwrap_or_else(|messages| panic!("seed {seed} is refused: {messages}\n{fragment}"));
+    (fragment, scene)
 }
 
 /// What is wrong with the picture of a scene, and how many pixels could not be judged.

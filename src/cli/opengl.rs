@@ -1,0 +1,42 @@
+//! Scenes drawn by OpenGL, where that is built.
+
+use super::exit::Failure;
+use super::scenes::{DrawError, MachineArgs};
+use crate::compare::Picture;
+use crate::scene::Scene;
+
+#[cfg(feature = "gl")]
+use super::exit::Exit;
+#[cfg(feature = "gl")]
+use crate::gl::{Error, Gl};
+
+/// Refuses the backend where it is not built.
+pub(super) fn require() -> Result<(), Failure> {
+    if cfg!(feature = "gl") { Ok(()) } else { Err(not_built()) }
+}
+
+fn not_built() -> Failure {
+    let failure = Failure::usage("this glisten was built without OpenGL");
+    failure.help("`cargo install --path . --features gl` builds it in; `--backend cpu` draws what OpenGL should")
+}
+
+/// Draws a scene.
+#[cfg(not(feature = "gl"))]
+pub(super) fn draw(_: &MachineArgs, _: Scene) -> Result<Picture, DrawError> {
+    Err(not_built().into())
+}
+
+/// Draws a scene.
+#[cfg(feature = "gl")]
+pub(super) fn draw(machine: &MachineArgs, scene: Scene) -> Result<Picture, DrawError> {
+    // Contexts belong to their thread.
+    machine.within_time(move || Ok(Gl::new()?.render(&scene)?))
+}
+
+#[cfg(feature = "gl")]
+impl From<Error> for DrawError {
+    fn from(error: Error) -> Self {
+        let exit = if error.is_environment() { Exit::Machine } else { Exit::Content };
+        Self::Failure(super::scenes::told(exit, &error.to_string()))
+    }
+}

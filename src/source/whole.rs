@@ -1,0 +1,153 @@
+//! [`whole_text`]: a shader as a driver takes it that knows neither `#include` nor macros from outside.
+//!
+//! *In:* a file, what its `#include` lines brought while it was read, macros. *Out:* one text.
+//! *Holds:* a text without either is handed on untouched. Else each line stays as it is written, but for the `#include`
+//! lines, in whose places the files stand, and the `#extension` lines that allow them.
+//! *Not done here:* macros are not expanded and conditions not decided; that is left to the driver's preprocessor.
+
+use super::{FileId, SourceMap, Span};
+use std::sync::Arc;
+
+/// A file that an `#include` brought in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Inclusion {
+    /// The `#` of the line.
+    pub directive: Span,
+    /// What stands in its place: nothing for a file that was read before and is to be read once.
+    pub file: Option<FileId>,
+}
+
+/// Files inside each other: as many as the preprocessor lets be.
+const MAX_DEPTH: usize = 64;
+
+/// The text of `file` with its includes in their places and `defines` behind the line of its `#version`, which is at
+/// `version`. The `inclusions` stand in the order in which the preprocessor went into them.
+pub fn whole_text(
+    sources: &SourceMap,
+    file: FileId,
+    version: Span,
+    inclusions: &[Inclusion],
+    defines: &[(String, String)],
+) -> Arc<str> {
+    if inclusions.is_empty() && defines.is_empty() {
+        return Arc::clone(sources.file(file).text());
+    }
+    let version = if sources.file_of(version) == Some(file) { sources.line(version) } else { None };
+    let mut writer = Writer { sources, inclusions, text: String::new() };
+    if version.is_none() {
+        writer.define(defines);
+    }
+    let lines = sources.file(file).line_count();
+    for line in 1..=lines {
+        writer.line(file, line, 0);
+        if Some(line) == version {
+            writer.define(defines);
+        }
+    }
+    writer.text.into()
+}
+
+struct Writer<'a> {
+    sources: &'a SourceMap,
+    /// Those that are not written yet.
+    inclusions: &'a [Inclusion],
+    text: String,
+}
+
+impl Writer<'_> {
+    fn define(&mut self, defines: &[(String, String)]) {
+        self.end_line();
+        for (name, value) in defines {
+            self.text.push_str(&format!("#define {name} {value}\n"));
+        }
+    }
+
+    fn end_line(&mut self) {
+        if !self.text.is_empty() && !self.text.ends_with('\n') {
+            self.text.push('\n');
+        }
+    }
+
+    fn line(&mut self, id: FileId, line: u32, depth: usize) {
+        let file = self.sources.file(id);
+        let Some(range) = file.line_range(line) else { return };
+        let place = |offset: usize| file.base() + offset as u32;
+        if let Some((next, rest)) = self.inclusions.split_first()
+            && (place(range.start)..place(range.end)).contains(&next.directive.start)
+        {
+            self.inclusions = rest;
+            match next.file.filter(|_| depth < MAX_DEPTH) {
+                Some(inner) => {
+                    (1..=self.sources.file(inner).line_count()).for_each(|line| self.line(inner, line, depth + 1));
+                    self.end_line();
+                }
+                None => self.text.push('\n'),
+            }
+            return;
+        }
+        let text = file.text().get(range).unwrap_or("");
+        if allows_includes(text) {
+            self.text.push('\n');
+        } else {
+            self.text.push_str(text);
+        }
+    }
+}
+
+/// Whether a line is the `#extension` line of includes.
+fn allows_includes(line: &str) -> bool {
+    let words = line.trim_start().strip_prefix('#').and_then(|line| line.trim_start().strip_prefix("extension"));
+    words.is_some_and(|words| {
+        let name = words.trim_start().split([' ', '\t', ':']).next();
+        matches!(name, Some("GL_ARB_shading_language_include" | "GL_GOOGLE_include_directive"))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::hir::Stage;
+    use crate::source::{IncludeForm, IncludeResolver, Included};
+    use crate::{Compiler, Options, Source};
+
+    struct Two;
+
+    impl IncludeResolver for Two {
+        fn resolve(&self, path: &str, _: IncludeForm, _: &str) -> Result<Included, String> {
+            let text = match path {
+                "outer.glsl" => "#ifndef OUTER\n#define OUTER\n#include \"once.glsl\"\n#endif\n",
+                _ => "#pragma once\nconst float K = SCALE;",
+            };
+            Ok(Included { name: path.into(), text: text.into() })
+        }
+    }
+
+    fn text(source: &str, defines: &[(String, String)]) -> String {
+        let options = Options { defines: defines.to_vec(), ..Options::default() };
+        let source = Source { name: "a.frag".into(), text: source.into(), stage: Stage::Fragment };
+        let compilation = Compiler::new(options).with_includes(Two).compile(&[source]);
+        let found: Vec<_> = compilation.diagnostics.iter().map(|found| found.message.clone()).collect();
+        let program = compilation.program.unwrap_or_else(|| panic!("{found:?}"));
+        program.stages[0].texts.iter().map(|text| text.to_string()).collect()
+    }
+
+    #[test]
+    fn a_text_without_includes_is_untouched() {
+        let source = "// first\n#version 150\r\nout vec4 c; void main() { c = vec4(1.0); } // \u{e9}";
+        assert_eq!(text(source, &[]), source);
+    }
+
+    #[test]
+    fn what_was_included_stands_in_its_place_as_often_as_it_was_read() {
+        let source = "#version 150\n#extension GL_ARB_shading_language_include : require\n#if 0\n#include \"no.glsl\"\n\
+                      #endif\n#include \"outer.glsl\"\n#include \"outer.glsl\"\n#include \"once.glsl\"\n\
+                      out vec4 c;\nvoid main() { c = vec4(K); }\n";
+        let once = "#pragma once\nconst float K = SCALE;\n";
+        let whole = format!(
+            "#version 150\n#define SCALE 2.0\n\n#if 0\n#include \"no.glsl\"\n#endif\n#ifndef OUTER\n#define OUTER\n\
+             {once}#endif\n#ifndef OUTER\n#define OUTER\n#include \"once.glsl\"\n#endif\n\nout vec4 c;\nvoid main() \
+             {{ c = vec4(K); }}\n"
+        );
+        let found = text(source, &[("SCALE".into(), "2.0".into())]);
+        assert_eq!(found, whole);
+    }
+}
