@@ -82,6 +82,11 @@ impl<D: Domain> Vertices<D> {
 
     /// The planes that a vertex is outside of; `None` if a coordinate is not finite.
     pub(super) fn outside(&self, vertex: u32) -> Option<u32> {
+        self.outside.get(vertex as usize).copied().flatten()
+    }
+
+    /// The same, computed.
+    pub(super) fn find_outside(&self, vertex: u32) -> Option<u32> {
         let clip = self.clip32.get(vertex as usize)?;
         if !clip.iter().all(|value| value.is_finite()) {
             return None;

@@ -35,7 +35,7 @@ pub(super) struct Marks {
 }
 
 /// A bin's part of the rows of an attachment.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct Piece<'s> {
     colors: Vec<&'s mut [[f64; 4]]>,
     ranges: Vec<&'s mut [[Range; 4]]>,
@@ -86,7 +86,10 @@ impl Attachment {
         let columns = width.div_ceil(BIN as usize);
         let rows = self.colors.len() / width.max(1);
         let mut pieces = Vec::new();
-        pieces.resize_with(columns * rows.div_ceil(BIN as usize), Piece::default);
+        pieces.resize_with(columns * rows.div_ceil(BIN as usize), || Piece {
+            colors: Vec::with_capacity(BIN as usize),
+            ranges: Vec::with_capacity(if self.ranges.is_empty() { 0 } else { BIN as usize }),
+        });
         deal(&mut self.colors, width, &mut pieces, |piece| &mut piece.colors);
         deal(&mut self.ranges, width, &mut pieces, |piece| &mut piece.ranges);
         pieces.into_iter()

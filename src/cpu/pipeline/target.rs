@@ -64,8 +64,9 @@ struct Pixels<D: Domain> {
     /// Empty before the first test.
     depth: Vec<D::Float>,
     covered: Vec<bool>,
+    /// Empty if none is.
     near_edge: Vec<bool>,
-    /// Whether a fragment that shows is drawn at all, or what it holds, is left open.
+    /// Whether a fragment that shows is drawn at all, or what it holds, is left open. Empty in domains without envelopes.
     undecided: Vec<bool>,
 }
 
@@ -122,8 +123,9 @@ impl<'s, D: Domain> Target<'s, D> {
 
 impl<D: Domain> Pixels<D> {
     fn new() -> Self {
-        let marks = vec![false; (BIN * BIN) as usize];
-        Self { depth: Vec::new(), covered: marks.clone(), near_edge: marks.clone(), undecided: marks }
+        let count = (BIN * BIN) as usize;
+        let undecided = vec![false; if D::OPEN { count } else { 0 }];
+        Self { depth: Vec::new(), covered: vec![false; count], near_edge: Vec::new(), undecided }
     }
 }
 
@@ -135,7 +137,9 @@ impl<D: Domain> Bin<'_, D> {
 
     pub(super) fn mark_near_edge(&mut self, x: i64, y: i64) {
         let place = local(self.area, x, y) as usize;
-        self.pixels().near_edge[place] = true;
+        let near_edge = &mut self.pixels().near_edge;
+        near_edge.resize((BIN * BIN) as usize, false);
+        near_edge[place] = true;
     }
 
     /// The depth test (§4.1.5) of fragments that came so far, and the write where it passes.

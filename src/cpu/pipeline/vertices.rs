@@ -26,6 +26,8 @@ pub(super) struct Vertices<D: Domain> {
     pub(super) window: Vec<[D::Float; 4]>,
     /// Window x, y and z of `clip32`, in the order of operations of Mesa's software drivers.
     pub(super) window32: Vec<[f32; 3]>,
+    /// The planes of the view volume, and beyond them the clip distances, that the vertex is outside of; see `clip`.
+    pub(super) outside: Vec<Option<u32>>,
     /// `gl_PointSize`
     pub(super) size: Vec<f32>,
     /// Enabled clip distances, so many a vertex.
@@ -85,6 +87,7 @@ impl<D: Domain> Vertices<D> {
         let z = clip[2].mul(reciprocal).add(one).mul(D::Float::from_f64(0.5));
         self.window.push([x, y, z, reciprocal]);
         self.window32.push(window32(clip32, self.viewport));
+        self.outside.push(self.find_outside(self.clip.len() as u32 - 1));
         let start = self.quotients.len();
         for (scalar, interpolation) in self.floats.iter().skip(start).zip(&self.interpolations) {
             let is_smooth = *interpolation == Interpolation::Smooth;
@@ -147,6 +150,7 @@ pub(super) fn shade<D: Domain>(
         clip32: Vec::with_capacity(count),
         window: Vec::with_capacity(count),
         window32: Vec::with_capacity(count),
+        outside: Vec::with_capacity(count),
         size: Vec::with_capacity(count),
         distances: Vec::new(),
         distances32: Vec::new(),
