@@ -176,3 +176,43 @@ impl<D: Domain> WithSimd for Locate<'_, '_, D> {
         self.source.locate(self.fragments, self.corner, self.lanes);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cpu::domain::F64;
+
+    #[test]
+    fn what_fails_leaves_no_gap() {
+        let mut batch = Batch::<F64>::new([0, 0]);
+        assert_eq!(batch.add_row(40, 0b1011), 0);
+        batch.keep::<1>(Tests { passes: 0b001, open: 0b100 });
+        assert_eq!(batch.fragments.pixels[..2], [40, 43]);
+        assert_eq!((batch.live, batch.tests), (0b11, Tests { passes: 0b01, open: 0b10 }));
+        // Behind what stayed, of which nothing more is asked.
+        assert_eq!(batch.add_row(64, 0b11), 0);
+        batch.keep::<1>(Tests { passes: 0b1000, open: 0 });
+        assert_eq!(batch.fragments.pixels[..3], [40, 43, 65]);
+        assert_eq!((batch.live, batch.tests), (0b111, Tests { passes: 0b101, open: 0b010 }));
+        assert!(batch.helpers().is_empty());
+    }
+
+    #[test]
+    fn a_quad_stays_whole_or_goes() {
+        let mut batch = Batch::<F64>::new([0, 0]);
+        batch.add_quad(0, 32, 0b0001);
+        batch.add_quad(2, 32, 0b0110);
+        batch.keep::<4>(Tests { passes: 0b0010 << 4, open: 0 });
+        assert_eq!(batch.fragments.pixels[..4], [2, 3, 34, 35]);
+        assert_eq!((batch.live, batch.helpers()), (0b0010, Mask(0b1101)));
+    }
+
+    #[test]
+    fn a_full_batch_gives_the_rest_back() {
+        let mut batch = Batch::<F64>::new([0, 0]);
+        assert_eq!(batch.add_row(0, (1 << 40) - 1), 0);
+        assert_eq!(batch.add_row(64, (1 << 32) - 1), 0xff << 24);
+        assert!(batch.is_full());
+        assert_eq!((batch.live, batch.fragments.pixels[63]), (u64::MAX, 64 + 23));
+    }
+}
