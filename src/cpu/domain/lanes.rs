@@ -258,7 +258,7 @@ pub trait Block<N: Number<Few = Self>>: Few<N> {
 impl<N: Number<Few = [N; WIDTH]>> Block<N> for [N; WIDTH] {}
 
 /// An element in each of [`LANES`] lanes, which are counted modulo that.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct Lanes<T: Element>([T::Few; LANES / WIDTH]);
 
 impl<T: Element> Lanes<T> {

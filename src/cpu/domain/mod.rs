@@ -10,6 +10,8 @@
 //! | [`Envelope`] | an f64 and the interval of what a GPU may have instead | gives the hull of what [`rules`] allow |
 //! | [`Shadow`] | an f32 and an f64 side by side | is done in both: what f32 adds is seen |
 //!
+//! Registers keep numbers in [`Lanes`], blocks of eight; a domain may bring operations on [`Block`]s of its own.
+//!
 //! *Holds:* every operation is total: nothing panics, whatever the bits. What GLSL leaves undefined is defined here,
 //! beside the operation. Comparisons give [`Integer`]s, so that a domain may leave an answer open
 //! ([`Integer::sure`]); the executor asks only where the answer decides what runs.

@@ -303,11 +303,12 @@ impl<D: Domain> Registers<D> {
                         #[inline(always)]
                         |k| sources[k].block(place).widen(),
                     );
-                    for (out, few) in outs.iter_mut().zip(f(&few)).take(results.len()) {
+                    let found = f(&few);
+                    for (out, found) in outs.iter_mut().zip(&found).take(results.len()) {
                         out.fill(
                             #[inline(always)]
                             |lanes| {
-                                lanes.blocks_mut()[place] = Block::narrow(&few);
+                                lanes.blocks_mut()[place] = Block::narrow(found);
                                 filled
                             },
                         );

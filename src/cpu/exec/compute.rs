@@ -2,7 +2,7 @@
 
 use super::code::Section;
 use super::inst::{Compare, Derivative, Float1, Float2, Float3, FloatToInt, Inst, Int1, Int2, IntToFloat, Operand};
-use super::registers::{Filled, Registers, blocks1, blocks2, blocks3, map1, map2, map3};
+use super::registers::{Filled, Registers, blocks1, blocks2, blocks3, copy, map1, map2, map3};
 use super::{DFDY_SIGN, LANES};
 use crate::cpu::domain::faults::{self, Fault};
 use crate::cpu::domain::{Block, Domain, Element, Few, Integer, Lanes, Number, Source};
@@ -294,8 +294,8 @@ impl<D: Domain> Registers<D> {
                 derivative(op, out, this.float(a));
                 Filled::Lanes
             }),
-            Inst::MoveFloat { dst, a } => self.write_float(dst, |this, out| map1(out, this.float(a), |a| a)),
-            Inst::MoveInt { dst, a } => self.write_int(dst, |this, out| map1(out, this.int(a), |a| a)),
+            Inst::MoveFloat { dst, a } => self.write_float(dst, |this, out| copy(out, this.float(a))),
+            Inst::MoveInt { dst, a } => self.write_int(dst, |this, out| copy(out, this.int(a))),
             // The rest is `execute`'s.
             _ => {}
         }

@@ -1,7 +1,7 @@
 //! Stores under a mask, and tables of registers that an index picks from.
 
 use super::inst::Operand;
-use super::registers::{File, Filled, Register, Registers, map1};
+use super::registers::{File, Filled, Register, Registers, copy};
 use crate::cpu::domain::{Domain, Element, Few, Integer, LANES, Lanes, Number, Source, WIDTH};
 
 /// The place in a table of `len` that an index means: limited into range as an `int`.
@@ -13,7 +13,7 @@ fn limit(bits: u32, len: usize) -> usize {
 #[inline(always)]
 fn store<T: Element>(register: &mut Register<T>, a: Source<'_, T>, mask: u64, all: bool) {
     if all {
-        return register.fill(|lanes| map1(lanes, a, |a| a));
+        return register.fill(|lanes| copy(lanes, a));
     }
     for (place, out) in register.spread().blocks_mut().iter_mut().enumerate() {
         *out = out.replaced(&a.block(place), (mask >> (place * WIDTH)) as u8);
@@ -29,7 +29,7 @@ fn load<T: Element, I: Integer>(out: &mut Lanes<T>, file: &File<T>, table: &[Ope
         Source::Lanes(lanes) => lanes.iter().fold(0, |acc, lane| acc | (lane.bits() ^ lanes.get(0).bits())) == 0,
     };
     if same {
-        return map1(out, file.source(*first), |a| a);
+        return copy(out, file.source(*first));
     }
     for lane in 0..LANES {
         if let Some(operand) = table.get(limit(index.at(lane).bits(), table.len())) {

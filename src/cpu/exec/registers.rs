@@ -161,6 +161,21 @@ fn few<R: Element>(f: impl Fn(usize) -> R) -> R::Few {
     out
 }
 
+/// Copies all lanes.
+#[inline(always)]
+pub(super) fn copy<T: Element>(out: &mut Lanes<T>, a: Source<'_, T>) -> Filled {
+    match a {
+        Source::Lanes(a) => {
+            *out = *a;
+            Filled::Lanes
+        }
+        Source::One(a) => {
+            out.set(0, a);
+            Filled::One
+        }
+    }
+}
+
 /// Applies a function lane by lane.
 #[inline(always)]
 pub(super) fn map1<A: Element, R: Element>(out: &mut Lanes<R>, a: Source<'_, A>, f: impl Fn(A) -> R) -> Filled {
