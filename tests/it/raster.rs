@@ -14,10 +14,10 @@ use glisten::{Compiler, Options};
 const VERTEX: &str = "#version 150\nin vec4 p;\nin float id;\nin float size;\nflat out float v;\n\
     void main() { v = id; gl_Position = p; gl_PointSize = size; }\n";
 const FRAGMENT: &str = "#version 150\nflat in float v;\nout vec4 fc;\nvoid main() { fc = vec4(1.0, v, 0.0, 0.0); }\n";
-const SIDE: usize = 192;
+pub(crate) const SIDE: usize = 192;
 
 /// Numbers that are the same every run.
-struct Random(u64);
+pub(crate) struct Random(pub(crate) u64);
 
 impl Random {
     fn unit(&mut self) -> f64 {
@@ -25,20 +25,20 @@ impl Random {
         (self.0 >> 40) as f64 / (1_u64 << 24) as f64
     }
 
-    fn within(&mut self, low: f64, high: f64) -> f64 {
+    pub(crate) fn within(&mut self, low: f64, high: f64) -> f64 {
         low + self.unit() * (high - low)
     }
 }
 
-type Vertex = [f64; 4];
+pub(crate) type Vertex = [f64; 4];
 
 /// Clip coordinates of a window position in pixels from the lower left, with depth 0.
-fn at(x: f64, y: f64, w: f64) -> Vertex {
+pub(crate) fn at(x: f64, y: f64, w: f64) -> Vertex {
     let ndc = |pixels: f64| pixels / SIDE as f64 * 2.0 - 1.0;
     [ndc(x) * w, ndc(y) * w, 0.0, w]
 }
 
-fn scene(primitive: &str, vertices: &[Vertex], each: usize, sizes: Option<&[f64]>) -> Scene {
+pub(crate) fn scene(primitive: &str, vertices: &[Vertex], each: usize, sizes: Option<&[f64]>) -> Scene {
     let positions: Vec<String> = vertices.iter().flatten().map(|value| format!("{:e}", *value as f32)).collect();
     let ids: Vec<String> = (0..vertices.len()).map(|index| format!("{}.0", index / each % 97)).collect();
     let sizes: Vec<String> =

@@ -8,6 +8,8 @@
 #![expect(clippy::print_stdout, reason = "what was judged, and what was excused, is told")]
 
 #[cfg(feature = "gpu")]
+mod coverage;
+#[cfg(feature = "gpu")]
 mod order;
 
 use crate::emit::missing;
