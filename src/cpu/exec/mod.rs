@@ -21,19 +21,20 @@
 //! # Where the time goes
 //!
 //! `cargo bench --bench exec` times a tile of the Blinn-Phong sphere and the whole sphere in each domain. In a sampled
-//! profile of the tile in f64, about a third was `normalize` and the other built-ins of vectors (two lanes a square root
-//! and a division without AVX), a quarter the loop over instructions with its additions and products, a fifth `pow`, a
-//! tenth passing light structs by value.
+//! profile of the sphere in f64 a quarter is `pow`, a call for each lane; a quarter the loop over instructions with its
+//! additions and products; a sixth `normalize` and the other built-ins of vectors; a quarter the pipeline around.
 //! In the envelope a quarter is `normalize` (three roots and three quotients a lane, two of each for the ends), the rest
 //! spread over products and sums: an operation is some forty vector instructions on blocks of eight lanes
 //! ([`Block`](super::domain::Block)), compiled for AVX2 where that is there.
-//! Lessons: built-ins of vectors must not keep room for 16 arguments whatever they have; joining products with sums and
-//! reading uniforms as single numbers keep the working set in the first-level cache.
-//! What runs inside such a loop must be inlined to be compiled for AVX2: closures are marked for it, the library's
-//! `array::from_fn` is not, and a function's name in a closure's place is not. A block whose address anybody has taken is
-//! not made a vector of: what is done once more takes copies.
-//! Refuted: the loop over instructions compiled for AVX2 as well makes a tile 3 to 12 % faster, less than its `unsafe` is
-//! worth (`pow` is a call for each lane, and the rest waits for the cache).
+//! Lessons: what is the same in all lanes is computed once (the counter of a loop over lights, and what it picks from
+//! uniforms); built-ins of vectors must not keep room for 16 arguments whatever they have; joining products with sums and
+//! reading uniforms as single numbers keep the working set in the first-level cache; the closures of the loops over lanes
+//! must be inlined, so glisten is compiled as one unit in release (a quarter of the time).
+//! What is to be compiled for AVX2 must be inlined, too: closures may be, the library's `array::from_fn` is not, and a
+//! function's name in a closure's place is not. A block whose address anybody has taken is not made a vector of: what is
+//! done once more takes copies.
+//! Refuted: the whole loop over instructions compiled for AVX2. Not all of it is inlined, and it takes a third longer; in
+//! f64 `pow` is a call anyway, and the rest waits for the cache.
 //!
 //! *Holds:* a run never panics and always ends, whatever the program does: indices are clamped into range, integer
 //! division by zero is defined ([`Integer`](super::domain::Integer)), loops stop at [`LOOP_BUDGET`].
