@@ -66,6 +66,8 @@ pub type Answers<N> = <<N as Number>::Int as Element>::Few;
 
 /// Eight numbers. Methods without a comment are [`Number`]'s of that name, in each lane.
 pub trait Block<N: Number<Few = Self>>: Few<N> {
+    /// Whether the operations are the block's own, not [`Number`]'s lane by lane.
+    const OWN: bool = false;
     /// Runs a loop over blocks, compiled for the vector unit that the machine has where that pays.
     #[inline(always)]
     fn vectorized<R>(work: impl FnOnce() -> R) -> R {

@@ -241,7 +241,8 @@ fn spread_out<T: Element>(value: T) -> T::Few {
     black_box(T::Few::splat(value))
 }
 
-/// Applies a function to blocks of lanes, or its like for one number where all operands are one for all lanes.
+/// Applies a function to blocks of lanes, or its like for one number: where all operands are one for all lanes, and in each
+/// lane of a domain that has no operations on blocks of its own.
 #[inline(always)]
 pub(super) fn blocks1<N: Number>(
     out: &mut Lanes<N>,
@@ -249,6 +250,9 @@ pub(super) fn blocks1<N: Number>(
     block: impl Fn(&N::Few) -> N::Few,
     one: impl Fn(N) -> N,
 ) -> Filled {
+    if !N::Few::OWN {
+        return map1(out, a, one);
+    }
     match a {
         Source::Lanes(a) => N::Few::vectorized(
             #[inline(always)]
@@ -274,6 +278,9 @@ pub(super) fn blocks2<N: Number, R: Element>(
     block: impl Fn(&N::Few, &N::Few) -> R::Few,
     one: impl Fn(N, N) -> R,
 ) -> Filled {
+    if !N::Few::OWN {
+        return map2(out, a, b, one);
+    }
     if let (Source::One(a), Source::One(b)) = (a, b) {
         out.set(0, one(a, b));
         return Filled::One;
@@ -313,6 +320,9 @@ pub(super) fn blocks3<N: Number>(
     block: impl Fn(&N::Few, &N::Few, &N::Few) -> N::Few,
     one: impl Fn(N, N, N) -> N,
 ) -> Filled {
+    if !N::Few::OWN {
+        return map3(out, a, b, c, one);
+    }
     if let (Source::One(a), Source::One(b), Source::One(c)) = (a, b, c) {
         out.set(0, one(a, b, c));
         return Filled::One;

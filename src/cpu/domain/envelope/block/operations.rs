@@ -67,6 +67,7 @@ impl EnvelopeBlock {
 }
 
 impl Block<EnvelopeFloat> for EnvelopeBlock {
+    const OWN: bool = true;
     #[inline(always)]
     fn vectorized<R>(work: impl FnOnce() -> R) -> R {
         UNIT.dispatch(work)
