@@ -2,8 +2,8 @@
 //! llvmpipe, judged as `verify` judges the GPU's picture, but for lines, which go by OpenGL's own rule.
 //!
 //! On a machine without OpenGL the tests say so; where `CI` is set, they fail. Figures are printed by `cargo test
-//! --all-features --test it -- opengl --nocapture`; `OPENGL_SCENES=DIR` judges the scenes of a folder of yours instead of
-//! the fixtures.
+//! --all-features --test it -- opengl --nocapture`; `OPENGL_SCENES=DIR` judges the scenes and `.shader_test`s of a folder of
+//! yours instead of the fixtures.
 
 #![expect(clippy::print_stdout, reason = "what was judged, and what was excused, is told")]
 
@@ -20,6 +20,7 @@ use glisten::cpu::{self, LineRule, Precision, RenderOptions};
 use glisten::gl::{Error, Gl};
 use glisten::hir::{ArraySize, Stage, Type};
 use glisten::scene::{DiskFiles, Loaded, MemoryFiles, Scene, load};
+use glisten::shader_test::{self, Outcome, Painter};
 use glisten::{Compiler, Options};
 use std::path::{Path, PathBuf};
 
@@ -85,8 +86,15 @@ fn gl() -> Option<Gl> {
     }
 }
 
-/// All scenes under a folder, with names relative to it.
-fn scene_files(folder: &Path) -> Vec<(String, PathBuf)> {
+/// The variable that names a folder of yours.
+const ASKED: &str = "OPENGL_SCENES";
+
+fn asked_or(fixtures: &str) -> PathBuf {
+    std::env::var_os(ASKED).map_or_else(|| root().join(fixtures), PathBuf::from)
+}
+
+/// All files with an extension under a folder, with names relative to it.
+fn files_under(folder: &Path, wanted: &str) -> Vec<(String, PathBuf)> {
     let mut pending = vec![folder.to_owned()];
     let mut files = Vec::new();
     while let Some(next) = pending.pop() {
@@ -94,7 +102,7 @@ fn scene_files(folder: &Path) -> Vec<(String, PathBuf)> {
             let path = entry.expect("an entry").path();
             if path.is_dir() {
                 pending.push(path);
-            } else if path.extension().is_some_and(|extension| extension == "toml") {
+            } else if path.extension().is_some_and(|extension| extension == wanted) {
                 let name = path.strip_prefix(folder).expect("inside the folder").with_extension("");
                 files.push((name.to_string_lossy().replace('\\', "/"), path));
             }
@@ -201,9 +209,9 @@ fn the_reference_draws_what_opengl_draws() {
     let Some(gl) = gl() else { return };
     println!("OpenGL by {}", gl.renderer());
     let (mut wrong, mut excused) = (Vec::new(), 0);
-    let asked = std::env::var_os("OPENGL_SCENES");
-    let folder = asked.as_ref().map_or_else(|| root().join("fixtures/scenes"), PathBuf::from);
-    let files = scene_files(&folder);
+    let asked = std::env::var_os(ASKED);
+    let folder = asked_or("fixtures/scenes");
+    let files = files_under(&folder, "toml");
     for (name, path) in &files {
         let loaded = load(&path.to_string_lossy(), &DiskFiles, &Compiler::new(Options::default()));
         wrong.extend(complaint(&gl, name, &scene(name, loaded), &mut excused));
@@ -217,6 +225,44 @@ fn the_reference_draws_what_opengl_draws() {
         println!("  {name}: {reason}");
         assert!(asked.is_some() || files.iter().any(|(known, _)| known == name), "there is no scene {name}");
     }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// Draws the pictures of `.shader_test`s, and has each judged.
+struct Judged<'a> {
+    gl: &'a Gl,
+    pictures: usize,
+    wrong: Vec<String>,
+}
+
+impl Painter for Judged<'_> {
+    fn paint(&mut self, scene: &Scene) -> Result<Picture, Outcome> {
+        let picture = self.gl.render(scene).map_err(|error| Outcome::Fail(error.to_string()))?;
+        let verdict = judged(scene, picture.clone(), None);
+        self.pictures += 1;
+        if !verdict.holds(true) {
+            self.wrong.push(format!("{verdict:#?}"));
+        }
+        Ok(picture)
+    }
+}
+
+#[test]
+fn shader_tests_are_drawn_as_opengl_draws_them() {
+    let Some(gl) = gl() else { return };
+    let (mut painter, mut wrong) = (Judged { gl: &gl, pictures: 0, wrong: Vec::new() }, Vec::new());
+    let files = files_under(&asked_or("fixtures/shader_tests"), "shader_test");
+    let mut skipped = 0;
+    for (name, path) in &files {
+        let text = std::fs::read_to_string(path).expect("a readable test");
+        match shader_test::run(name, &text, &Compiler::new(Options::default()), &mut painter) {
+            Outcome::Pass => {}
+            Outcome::Fail(reason) => wrong.push(format!("{name}: {reason}")),
+            Outcome::Skip(_) => skipped += 1,
+        }
+        wrong.extend(painter.wrong.drain(..).map(|what| format!("{name}: {what}")));
+    }
+    println!("{} tests, {skipped} of them skipped, {} pictures judged", files.len(), painter.pictures);
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
