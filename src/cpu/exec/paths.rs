@@ -130,7 +130,11 @@ impl<D: Domain> Machine<D> {
         for (number, way) in self.paths.ways.iter().enumerate().take(LANES / group) {
             if way.met > 0 && lanes >> (number * group) & members != 0 {
                 counts[number] = 1;
-                ways.extend(way.others().map(|other| (number, other)));
+                if way.met > MAX_DECISIONS {
+                    joined.undecided |= members << (number * group);
+                } else {
+                    ways.extend(way.others().map(|other| (number, other)));
+                }
             }
         }
         while !ways.is_empty() {

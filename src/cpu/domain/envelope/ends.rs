@@ -1,6 +1,6 @@
 //! Powers of two and logarithms for the ends of envelopes: without calls, so that they run on vector units.
 //!
-//! *Holds:* both miss the exact result by less than [`MISSED`] of it. That is less than what [`OUTWARD`] adds to the
+//! *Holds:* both miss the exact result by less than 1e-13 of it. That is less than what [`OUTWARD`] adds to the
 //! three ULP or more of their rules, so that ends made of them are sound; no digit of a `value` comes from here.
 //!
 //! [`OUTWARD`]: super::round::OUTWARD

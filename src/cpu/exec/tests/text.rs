@@ -229,6 +229,23 @@ fn past_the_cap_a_lane_is_undecided_and_may_hold_anything() {
 }
 
 #[test]
+fn more_decisions_than_are_noted_leave_a_lane_undecided_though_each_other_way_ends_soon() {
+    let body = |rounds: u32| {
+        format!(
+            "in float a; void main() {{ o = vec4(-1); for (int i = 0; i < {rounds}; i++) {{ \
+             if (a / 3.0 * 3.0 < 1.0) {{ o = vec4(i); return; }} }} }}"
+        )
+    };
+    let run = |rounds: u32| {
+        let program = compiled(&body(rounds));
+        let machine = ran::<Envelope>(&program, &[], |_, lane| lane as f64);
+        (machine.undecided(), output(&program, &machine)[1][0].range())
+    };
+    assert_eq!(run(50), (Mask::NONE, Range { low: -1.0, high: 49.0, may_be_nan: false }));
+    assert_eq!(run(70), (Mask(2), Range::ALL));
+}
+
+#[test]
 fn each_instruction_knows_the_text_that_it_was_made_for() {
     let body = "in float a; uniform float u; float f(float x) { return cos(x) / 3.0; } \
                 void main() { float s = 2.0 - f(a) * a + sin(u); if (s > a) o = vec4(s); }";
