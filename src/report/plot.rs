@@ -41,12 +41,28 @@ impl Axis {
         self.from + (value.log10() - self.low) / (self.high - self.low) * (self.to - self.from)
     }
 
-    /// Round numbers within the axis: 1, 2 and 5 of each decade, or the decades alone if there are many.
+    /// Round numbers within the axis: the decades alone if there are many, else as few in each decade as make three.
     fn ticks(&self) -> Vec<f64> {
-        let steps: &[f64] = if self.high - self.low > 2.5 { &[1.0] } else { &[1.0, 2.0, 5.0] };
+        let decades: &[f64] = &[1.0];
+        let finer: [&[f64]; 3] =
+            [&[1.0, 2.0, 5.0], &[1.0, 1.5, 2.0, 3.0, 5.0, 7.0], &[1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0]];
+        if self.high - self.low > 2.5 {
+            return self.multiples(decades);
+        }
+        let all = finer.map(|steps| self.multiples(steps));
+        let enough = all.iter().position(|ticks| ticks.len() >= 3).unwrap_or(all.len() - 1);
+        all.into_iter().nth(enough).unwrap_or_default()
+    }
+
+    /// These steps in every decade, as far as they lie within the axis.
+    fn multiples(&self, steps: &[f64]) -> Vec<f64> {
+        // Divided where they are fractions, so that they print as they are meant.
+        let at = |step: f64, decade: i32| {
+            if decade < 0 { step / 10f64.powi(-decade) } else { step * 10f64.powi(decade) }
+        };
         let decades = self.low.floor() as i32..=self.high.ceil() as i32;
         decades
-            .flat_map(|decade| steps.iter().map(move |step| step * 10f64.powi(decade)))
+            .flat_map(|decade| steps.iter().map(move |step| at(*step, decade)))
             .filter(|tick| (self.low..=self.high).contains(&tick.log10()))
             .collect()
     }
@@ -127,7 +143,7 @@ fn axes(svg: &mut String, x: &Axis, y: &Axis) {
 /// `10` raised, with a factor in front if it is not 1.
 fn power(tick: f64) -> String {
     let exponent = tick.log10().floor();
-    let factor = (tick / 10f64.powf(exponent)).round();
+    let factor = (tick / 10f64.powf(exponent) * 10.0).round() / 10.0;
     let exponent = exponent.to_string().replace('-', "\u{2212}");
     let raised = format!("10<tspan dy=\"-5\" font-size=\"9.5\">{exponent}</tspan>");
     if factor == 1.0 { raised } else { format!("{factor}\u{b7}{raised}") }
@@ -199,6 +215,10 @@ mod tests {
         assert_eq!(narrow.ticks(), [1.0, 2.0, 5.0]);
         let wide = Axis::over([1e-5, 1e-1].into_iter(), 0.0, 0.0, 1.0);
         assert_eq!(wide.ticks().len(), 5);
+        let close = Axis::over([0.75, 1.6].into_iter(), 0.0, 0.0, 1.0);
+        assert_eq!(close.ticks(), [0.8, 1.0, 1.2, 1.5]);
+        assert_eq!(Axis::over([0.55, 0.95].into_iter(), 0.0, 0.0, 1.0).ticks(), [0.6, 0.8]);
+        assert_eq!(power(0.0015), power(0.001).replace("10<", "1.5\u{b7}10<"));
     }
 
     #[test]
