@@ -85,3 +85,33 @@ fn ordinary_programs_raise_no_warning() {
         assert_eq!(warnings, [], "{stem}");
     }
 }
+
+#[test]
+fn every_way_through_a_function_is_followed_to_its_return() {
+    let cases = [
+        ("if (x > 0.0) return 1.0; else return 2.0;", true),
+        ("if (x > 0.0) return 1.0; else if (x < 0.0) return 2.0;", false),
+        ("if (x > 0.0) return 1.0; else if (x < 0.0) return 2.0; else discard;", true),
+        ("if (true) return 1.0;", true),
+        ("if (false) return 1.0;", false),
+        ("{ { return 1.0; } }", true),
+        ("for (int i = 0; i < n; i++) { if (i == 3) return 1.0; }", false),
+        ("for (int i = 0; ; i++) { if (i == n) return 1.0; }", true),
+        ("while (true) { if (x > 0.0) return 1.0; break; }", false),
+        ("while (true) { switch (n) { case 0: return 1.0; default: break; } }", true),
+        ("do { return 1.0; } while (x > 0.0);", true),
+        ("do { if (x > 0.0) continue; return 1.0; } while (x > 1.0);", false),
+        ("switch (n) { case 0: return 1.0; default: return 2.0; }", true),
+        ("switch (n) { case 0: return 1.0; case 1: return 2.0; }", false),
+        ("switch (n) { case 0: x; default: return 2.0; }", true),
+        ("switch (n) { default: return 2.0; case 0: x; }", false),
+        ("switch (n) { case 0: if (x > 0.0) break; return 1.0; default: return 2.0; }", false),
+    ];
+    for (body, is_whole) in cases {
+        let text = format!(
+            "#version 150\nuniform int n; in float x; out vec4 c; float f() {{ {body} }} void main() {{ c = vec4(f()); }}"
+        );
+        let found = lints(&[Shader { name: "a.frag".to_owned(), text, stage: Stage::Fragment }]);
+        assert_eq!(!found.iter().any(|(code, _)| *code == "L0013"), is_whole, "{body}: {found:?}");
+    }
+}

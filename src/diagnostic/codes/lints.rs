@@ -74,4 +74,10 @@ codes! {
         "Statements stand behind one that always leaves the body."
         bad Fragment("out vec4 c; void main() { c = vec4(0.0); return; c = vec4(1.0); }"),
         good Fragment("out vec4 c; void main() { c = vec4(0.0); }");
+    MISSING_RETURN = "L0013" "return-on-some-ways" Warning "GLSL 1.50 §6.1"
+        "Some way through a function ends without a `return`, though the function promises a value. The value is undefined \
+         then: the emitted code returns zero, an OpenGL driver anything."
+        bad Fragment("in float x; out vec4 c; float f() { if (x > 0.5) return 1.0; } void main() { c = vec4(f()); }"),
+        good Fragment("in float x; out vec4 c; float f() { if (x > 0.5) return 1.0; return 0.0; }\n\
+                       void main() { c = vec4(f()); }");
 }

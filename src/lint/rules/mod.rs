@@ -4,6 +4,7 @@ mod divergent_derivative;
 mod division_by_zero;
 mod flat_provoking_vertex;
 mod infinite_loop;
+mod missing_return;
 mod non_finite_constant;
 mod position_not_written;
 mod pow_of_negative;
@@ -29,4 +30,5 @@ pub(super) static RULES: &[Rule] = &[
     Rule { code: &lints::DIVERGENT_DERIVATIVE, check: divergent_derivative::check },
     Rule { code: &lints::INFINITE_LOOP, check: infinite_loop::check },
     Rule { code: &lints::UNREACHABLE_CODE, check: unreachable_code::check },
+    Rule { code: &lints::MISSING_RETURN, check: missing_return::check },
 ];
