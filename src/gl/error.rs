@@ -52,9 +52,9 @@ impl fmt::Display for Error {
             ),
             Self::Unsupported(what) => write!(f, "the OpenGL driver lacks {what}"),
             Self::Compile { program, stage, log } => {
-                write!(f, "the OpenGL driver refuses the {} stage of `{program}`: {}", stage.name(), log.trim())
+                write!(f, "the OpenGL driver refuses the {} stage of `{program}`:\n{}", stage.name(), log.trim())
             }
-            Self::Link { program, log } => write!(f, "the OpenGL driver does not link `{program}`: {}", log.trim()),
+            Self::Link { program, log } => write!(f, "the OpenGL driver does not link `{program}`:\n{}", log.trim()),
             Self::Refused(what) => write!(f, "OpenGL refuses the draw: {what}"),
         }
     }

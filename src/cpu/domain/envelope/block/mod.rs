@@ -157,11 +157,12 @@ impl EnvelopeBlock {
         out
     }
 
-    /// Applies a function of two, which drops no NaN.
+    /// Applies a function of two; `apart` names the lanes that may drop a NaN.
     #[inline(always)]
     fn by_both(
         &self,
         other: &Self,
+        apart: u8,
         value: impl Fn(f64, f64) -> f64,
         ends: impl Fn(Ends, Ends) -> Ends,
         exact: impl Fn(EnvelopeFloat, EnvelopeFloat) -> EnvelopeFloat,
@@ -173,7 +174,7 @@ impl EnvelopeBlock {
         out.fill(
             #[inline(always)]
             move |lane| ends(self.ends(lane), other.ends(lane)),
-            0,
+            apart,
             #[inline(always)]
             move |lane| exact(self.get(lane), other.get(lane)),
         );

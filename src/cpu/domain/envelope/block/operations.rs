@@ -16,30 +16,6 @@ pub(super) type Answers = [EnvelopeInt; WIDTH];
 static UNIT: LazyLock<Arch> = LazyLock::new(Arch::new);
 
 impl EnvelopeBlock {
-    /// `min` or `max`, which may drop a NaN.
-    #[inline(always)]
-    fn extremum(
-        &self,
-        other: &Self,
-        value: impl Fn(f64, f64) -> f64,
-        ends: impl Fn(Ends, Ends) -> Ends,
-        exact: impl Fn(EnvelopeFloat, EnvelopeFloat) -> EnvelopeFloat,
-    ) -> Self {
-        let nan = self.nan | other.nan;
-        let mut out = Self { nan, ..Self::default() };
-        for lane in 0..WIDTH {
-            out.value[lane] = value(self.value[lane], other.value[lane]);
-        }
-        out.fill(
-            #[inline(always)]
-            move |lane| ends(self.ends(lane), other.ends(lane)),
-            nan,
-            #[inline(always)]
-            move |lane| exact(self.get(lane), other.get(lane)),
-        );
-        out
-    }
-
     /// A comparison by when it is true of all pairs, and when of none.
     #[inline(always)]
     fn answered(
@@ -106,6 +82,7 @@ impl Block<EnvelopeFloat> for EnvelopeBlock {
     fn add(&self, other: &Self) -> Self {
         self.by_both(
             other,
+            0,
             Number::add,
             #[inline(always)]
             |a, b| a.add(b),
@@ -116,6 +93,7 @@ impl Block<EnvelopeFloat> for EnvelopeBlock {
     fn sub(&self, other: &Self) -> Self {
         self.by_both(
             other,
+            0,
             Number::sub,
             #[inline(always)]
             |a, b| a.sub(b),
@@ -126,6 +104,7 @@ impl Block<EnvelopeFloat> for EnvelopeBlock {
     fn mul(&self, other: &Self) -> Self {
         self.by_both(
             other,
+            0,
             Number::mul,
             #[inline(always)]
             |a, b| a.mul(b),
@@ -145,6 +124,7 @@ impl Block<EnvelopeFloat> for EnvelopeBlock {
     fn div(&self, other: &Self) -> Self {
         self.by_both(
             other,
+            0,
             Number::div,
             #[inline(always)]
             |a, b| a.div(b),
@@ -237,6 +217,7 @@ impl Block<EnvelopeFloat> for EnvelopeBlock {
     fn pow(&self, exponent: &Self) -> Self {
         self.by_both(
             exponent,
+            0,
             Number::pow,
             #[inline(always)]
             |a, b| a.power(b),
@@ -256,8 +237,9 @@ impl Block<EnvelopeFloat> for EnvelopeBlock {
     }
     #[inline(always)]
     fn min(&self, other: &Self) -> Self {
-        self.extremum(
+        self.by_both(
             other,
+            self.nan | other.nan,
             Number::min,
             #[inline(always)]
             |a, b| a.min(b),
@@ -266,8 +248,9 @@ impl Block<EnvelopeFloat> for EnvelopeBlock {
     }
     #[inline(always)]
     fn max(&self, other: &Self) -> Self {
-        self.extremum(
+        self.by_both(
             other,
+            self.nan | other.nan,
             Number::max,
             #[inline(always)]
             |a, b| a.max(b),
