@@ -9,8 +9,8 @@
 //! diagnostic of every shader that is refused, rightly or wrongly; `--raise` puts `#version 150` in place of older
 //! versions, for what did not change since. Exits 1 if a verdict differs.
 
-use glisten::hir::Stage;
-use glisten::{Compiler, Options, Source};
+use glisten_front::hir::Stage;
+use glisten_front::{Compiler, Options, Source};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 

@@ -1,9 +1,9 @@
 //! Slips of glisten's own: a panic in a job becomes a sentence to report, never a raw message and never the end of the
 //! other jobs.
 
-use crate::diagnostic::Diagnostic;
-use crate::diagnostic::codes::general::INTERNAL;
-use crate::source::Span;
+use glisten_front::diagnostic::Diagnostic;
+use glisten_front::diagnostic::codes::general::INTERNAL;
+use glisten_front::source::Span;
 use std::any::Any;
 use std::panic::{self, AssertUnwindSafe};
 use std::sync::Mutex;

@@ -1,7 +1,7 @@
 //! The stage of a shader by its file's name.
 
-use crate::hir::Stage;
 use clap::ValueEnum;
+use glisten_front::hir::Stage;
 use std::path::Path;
 
 /// Extensions by stage.

@@ -1,8 +1,8 @@
 //! [`Entry`]: a scene of the library with what the gallery says of it.
 
-use crate::compiler::{Compiler, Options};
 use crate::library::{self, Embedded, LibraryScene};
 use crate::scene::{self, MemoryFiles, Scene};
+use glisten_front::compiler::{Compiler, Options};
 use serde::Deserialize;
 
 /// How many times as wide and high a scene is drawn as its picture is in the end.

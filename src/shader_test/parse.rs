@@ -1,7 +1,7 @@
 //! The sections of a test.
 
 use super::{Outcome, fail, skip};
-use crate::hir::Stage;
+use glisten_front::hir::Stage;
 
 /// A line with its number, counted from 1, without comment and surrounding blanks.
 #[derive(Clone, Debug, PartialEq, Eq)]

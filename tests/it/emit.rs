@@ -3,11 +3,11 @@
 //! WGSL by naga's own front-end and validator and by Tint (through Dawn's null backend, the npm package `webgpu`),
 //! SPIR-V by `spirv-val`. On a machine that lacks one of the outside judges the test says so; where `CI` is set, it fails.
 
-use glisten::emit::{ClipZ, Conventions, Emitted, SpirvEnv, Target, WindowOrigin, emit, notes};
-use glisten::hir::Stage;
 use glisten::library::{Embedded, programs, shader};
-use glisten::link::Program;
-use glisten::{Compiler, Options, Source};
+use glisten_emit::{ClipZ, Conventions, Emitted, SpirvEnv, Target, WindowOrigin, emit, notes};
+use glisten_front::hir::Stage;
+use glisten_front::link::Program;
+use glisten_front::{Compiler, Options, Source};
 use std::collections::BTreeMap;
 use std::fs;
 use std::io::Write;

@@ -1,10 +1,10 @@
 //! Layouts proven, not believed: for random sets of uniforms, the offsets and strides in the interface (which the
 //! reflection shows) are those that WGSL gives the emitted text by itself and those that the SPIR-V is decorated with.
 
-use glisten::emit::{Conventions, Emitted, Target, emit};
-use glisten::hir::Stage;
-use glisten::link::{Program, SlotBinding, UniformLeaf};
-use glisten::{Compiler, Options, Source};
+use glisten_emit::{Conventions, Emitted, Target, emit};
+use glisten_front::hir::Stage;
+use glisten_front::link::{Program, SlotBinding, UniformLeaf};
+use glisten_front::{Compiler, Options, Source};
 use naga::{Handle, Module, Type, TypeInner};
 use proptest::prelude::*;
 

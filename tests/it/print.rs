@@ -1,7 +1,7 @@
 //! The printer of the typed program: its text is valid GLSL, means the same, and is printed alike.
 
-use glisten::hir::{Stage, print};
-use glisten::{Compilation, Compiler, Options, Source};
+use glisten_front::hir::{Stage, print};
+use glisten_front::{Compilation, Compiler, Options, Source};
 use std::path::{Path, PathBuf};
 
 fn stage_of(path: &Path) -> Option<Stage> {

@@ -1,9 +1,9 @@
 //! [`Evaluator`]: what a function may take and give, and what it is told when it cannot be called.
 
 use super::call;
-use glisten::cpu::Precision;
 use glisten::evaluate::{Evaluator, signatures};
-use glisten::{Compiler, Options};
+use glisten_front::{Compiler, Options};
+use glisten_reference::Precision;
 
 fn compiler() -> Compiler {
     Compiler::new(Options::default())

@@ -1,9 +1,9 @@
 //! The two programs that the article prints, run by an interpreter of their eight instructions, against the library.
 
 use super::{call, function};
-use glisten::cpu::Precision;
 use glisten::evaluate::table;
 use glisten::scene::Filter;
+use glisten_reference::Precision;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 

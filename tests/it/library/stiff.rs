@@ -1,9 +1,9 @@
 //! `fixtures/library/stiff.toml`: each case by the letter and by the library, on the reference in f64 and f32 and on the GPU.
 
 use super::function;
-use glisten::cpu::Precision;
 use glisten::evaluate::Evaluator;
-use glisten::gpu::{Gpu, Via};
+use glisten_gpu::{Gpu, Via};
+use glisten_reference::Precision;
 use std::fs;
 use toml::{Table, Value};
 

@@ -1,9 +1,9 @@
 //! Every function against its closed form, on the reference and on the GPU, and finite whatever comes in.
 
-use glisten::cpu::Precision;
-use glisten::gpu::Via;
-use glisten::library::measure::{Form, Trial, forms};
 use glisten::library::{Entry, entries, modules};
+use glisten::measure::{Form, Trial, forms};
+use glisten_gpu::Via;
+use glisten_reference::Precision;
 use std::collections::BTreeSet;
 
 const ROWS: usize = 1024;

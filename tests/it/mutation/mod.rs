@@ -22,7 +22,7 @@ mod words;
 pub(crate) use study::Study;
 pub(crate) use trial::Outcome;
 
-use glisten::hir::Stage;
+use glisten_front::hir::Stage;
 use words::{Splice, instructions, spliced};
 
 /// Scenes are drawn in little, no side longer than this: the rules are the same, and a study draws thousands.

@@ -3,8 +3,8 @@
 //! GLSL 1.50 gives the order of `,`, `&&`, `||` and `?:` (section 5.9) and no other. The reference goes from left to right;
 //! a driver may do otherwise.
 
-use glisten::builtin::BuiltinFunction;
-use glisten::hir::{ExprId, ExprKind, ParamMode, Shader, VarRef};
+use glisten_front::builtin::BuiltinFunction;
+use glisten_front::hir::{ExprId, ExprKind, ParamMode, Shader, VarRef};
 
 /// What the evaluation of an expression touches.
 #[derive(Clone, Default)]
