@@ -3,7 +3,7 @@
 //! ```text
 //!  GLSL 150 text ──► syntax ──► analysis ──► link ──►┬─► lower ──► naga ──► emit     WGSL, SPIR-V, MSL, HLSL, GLSL
 //!                    tokens,    typed        program │                        └────► gpu     wgpu on Vulkan
-//!                    ast        program      facts   ├─► cpu    reference executor and rasteriser
+//!                    ast        program      facts   ├─► cpu    reference executor and rasterizer
 //!                               (hir)                ├─► gl     the text itself on an OpenGL driver
 //!                                                    └─► lint   rules over hir and link facts
 //!                        gpu picture ─┐
