@@ -9,28 +9,16 @@
 //! evaluated left to right, each where GLSL evaluates it. What a target cannot represent is a diagnostic and never a
 //! wrong result.
 //!
-//!
-//! file
-//! contents
-//!
+//! | file | contents |
 //! | --- | --- |
-//!
-//! `facts`
-//! facts that must be known first
-//!
-//!
-//! `types`, `uniforms`
-//! types of values, types in std140 memory
-//!
+//! | `facts` | facts that must be known first |
+//! | `types`, `uniforms` | types of values, types in std140 memory |
 //! | `interface`, `outputs` | attributes, varyings, colors, built-in variables, the entry point |
 //! | `function` | the state of one function: naga's arenas, emission, names |
 //! | `statements`, `control` | §6 |
 //! | `expressions`, `operators`, `constructors`, `places`, `calls` | §5 |
 //! | `builtins`, `textures`, `texel_loads`, `matrices`, `aggregates` | §8 |
-//!
-//! `constants`
-//! constant values, and how to keep the target from evaluating what is not finite
-//!
+//! | `constants` | constant values, and how to keep the target from evaluating what is not finite |
 
 mod aggregates;
 mod builtins;

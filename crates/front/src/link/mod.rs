@@ -7,41 +7,17 @@
 //! none of them assigns locations of its own. A link reports all its errors, each at the declaration in the later
 //! stage, with the earlier stage's declaration as a secondary label.
 //!
-//!
-//! file
-//! contents
-//!
+//! | file | contents |
 //! | --- | --- |
-//!
-//! `canonical`
-//! gives equal structs of different shaders one type
-//!
-//!
-//! `merge`, `remap`, `geometry`
-//! merge several shaders of one stage into one
-//!
+//! | `canonical` | gives equal structs of different shaders one type |
+//! | `merge`, `remap`, `geometry` | merge several shaders of one stage into one |
 //! | `compatible` | when two declarations in different shaders have the same type |
-//!
-//! `stages`
-//! which stages form a program; `main`; geometry layouts
-//!
+//! | `stages` | which stages form a program; `main`; geometry layouts |
 //! | `matching` | outputs of one stage against inputs of the next |
-//!
-//! `per_vertex`
-//! redeclared `gl_PerVertex`
-//!
-//!
-//! `varyings`
-//! splits varyings and assigns their locations
-//!
-//!
-//! `attributes`, `outputs`
-//! assign locations to vertex inputs and fragment outputs
-//!
-//!
-//! `uniforms`, `samplers`
-//! assign offsets and bindings
-//!
+//! | `per_vertex` | redeclared `gl_PerVertex` |
+//! | `varyings` | splits varyings and assigns their locations |
+//! | `attributes`, `outputs` | assign locations to vertex inputs and fragment outputs |
+//! | `uniforms`, `samplers` | assign offsets and bindings |
 //! | `layout` | std140 |
 
 mod aliasing;
