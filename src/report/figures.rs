@@ -1,7 +1,7 @@
 //! Figures of a report: differences of pictures, spreads of ratios, the Pareto front.
 
 use super::model::{Figures, Spread, Way};
-use glisten_scene::compare::Picture;
+use glisten_scene::picture::Picture;
 
 /// How far `picture` is from `truth`, and the difference at each pixel.
 pub(super) fn compare(picture: &Picture, truth: &Picture) -> (Figures, Vec<Option<f64>>) {

@@ -4,7 +4,7 @@
 //! the first attachment and the pixels that both pictures cover; times are milliseconds of GPU time a frame; ratios are
 //! to the baseline of the same run and have none.
 
-use glisten_scene::compare::Picture;
+use glisten_scene::picture::Picture;
 use serde::Serialize;
 
 /// Error against run time of the ways to shade a scene.

@@ -40,7 +40,7 @@ mod words;
 
 use crate::scene::Scene;
 use glisten_front::compiler::Compiler;
-use glisten_scene::compare::Picture;
+use glisten_scene::picture::Picture;
 
 /// How a test ended.
 #[derive(Clone, Debug, PartialEq, Eq)]

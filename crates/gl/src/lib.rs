@@ -1,6 +1,6 @@
 //! Draws scenes on OpenGL through EGL, without a window: the sources themselves, as the driver's own compiler takes them.
 //!
-//! *In:* a [`Scene`](glisten_scene::scene::Scene). *Out:* a [`Picture`](glisten_scene::compare::Picture) as `gpu` and `cpu` give it.
+//! *In:* a [`Scene`](glisten_scene::Scene). *Out:* a [`Picture`](glisten_scene::picture::Picture) as `gpu` and `cpu` give it.
 //!
 //! ```text
 //!  libEGL ──► egl         a software device, and on it a core context of 3.2 or later for each scene

@@ -5,7 +5,7 @@
 //! and loop is unrolled, and where OpenGL's last vertex provokes each primitive is turned until that one comes first.
 //! Winding and the numbers of the primitives stay. Vertex numbers stay as well, so that `gl_VertexID` does.
 
-use glisten_scene::scene::Primitive;
+use glisten_scene::Primitive;
 
 /// The vertex numbers of a list, or `None` if drawing `count` vertices in their own order is the same.
 ///

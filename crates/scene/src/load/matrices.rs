@@ -5,8 +5,8 @@
 //! *Holds:* right-handed eye space that looks down -z, clip space z in `[-w, w]`, as `gluLookAt` and `gluPerspective`
 //! make them.
 
-use super::model::Framebuffer;
 use super::reader::Reader;
+use crate::model::Framebuffer;
 use glam::{DMat3, DMat4, DQuat, DVec3};
 use glisten_front::hir::{Scalar, Type};
 use toml::de::DeTable;

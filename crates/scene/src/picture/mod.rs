@@ -1,6 +1,8 @@
 //! [`Picture`]: what a draw leaves in the framebuffer.
 
-use super::Range;
+mod interval;
+
+pub use interval::Interval;
 
 /// What was drawn, top row first, x fastest.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,7 +16,7 @@ pub struct Picture {
     /// Whether a fragment was written to the pixel, after discard and depth test.
     pub covered: Vec<bool>,
     /// Of a reference with envelopes: what a conforming GPU may have, for each channel of each attachment.
-    pub ranges: Option<Vec<Vec<[Range; 4]>>>,
+    pub ranges: Option<Vec<Vec<[Interval; 4]>>>,
     /// Of a reference with envelopes: pixels where a discard, a depth test or too many branches may go either way.
     pub undecided: Vec<bool>,
     /// Pixels whose center lies within 1/128 pixel of an edge of a primitive that was drawn.

@@ -4,7 +4,7 @@
 //! that it covers, weighted by how much of each it covers; for even sizes, the mean of 2, 4 or 8. Sums are in f64 and
 //! rounded once a level, as a texture in `rgba32f` stores them. Faces and layers are filtered apart.
 
-use super::model::{Texels, TextureLevel};
+use crate::model::{Texels, TextureLevel};
 use glisten_front::hir::{SamplerDim, SamplerType};
 
 /// The whole chain that starts with `base`. Integers are not averaged: such textures keep one level.
