@@ -12,7 +12,7 @@ use super::registers::Register;
 use crate::domain::{Domain, Number};
 use glisten_front::hir::GlobalId;
 use glisten_front::source::Span;
-use glisten_scene::compare::Range;
+use glisten_scene::picture::Interval;
 
 /// An operation of the text, and the instructions that it was made into.
 #[derive(Clone, Debug)]
@@ -231,7 +231,7 @@ impl<D: Domain> Machine<D> {
 }
 
 fn exactly<N: Number>(number: N) -> N {
-    N::whole(number.value(), Range::point(number.value()))
+    N::whole(number.value(), Interval::point(number.value()))
 }
 
 /// A number without as much freedom as another has about its value.
@@ -245,6 +245,6 @@ fn without<N: Number>(number: N, own: N) -> N {
     let or_value = |end: f64| if end.is_nan() { value } else { end };
     N::whole(
         value,
-        Range { low: or_value(low), high: or_value(high), may_be_nan: range.may_be_nan && !own_range.may_be_nan },
+        Interval { low: or_value(low), high: or_value(high), may_be_nan: range.may_be_nan && !own_range.may_be_nan },
     )
 }
