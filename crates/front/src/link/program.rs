@@ -15,6 +15,13 @@ pub struct Program {
     pub interface: Interface,
 }
 
+impl Interface {
+    /// Everything that is interpolated, `gl_ClipDistance` last.
+    pub fn interpolated(&self) -> impl Iterator<Item = &Varying> {
+        self.varyings.iter().chain(&self.clip_distances)
+    }
+}
+
 impl Program {
     /// The shader of a stage.
     pub fn stage(&self, stage: Stage) -> Option<&Shader> {
@@ -48,6 +55,8 @@ pub struct Interface {
     pub attributes: Vec<Attribute>,
     /// What the rasteriser interpolates, cut into scalars and vectors, in the order of their locations.
     pub varyings: Vec<Varying>,
+    /// The elements of `gl_ClipDistance` that the fragment stage reads: varyings that no host names.
+    pub clip_distances: Vec<Varying>,
     /// Fragment outputs, `gl_FragColor` and `gl_FragData` included.
     pub outputs: Vec<Output>,
     /// Uniform blocks with their places; the loose uniforms' block is not among them.
