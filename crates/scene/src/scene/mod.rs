@@ -27,6 +27,7 @@ mod uniforms;
 pub use files::{DiskFiles, FileError, FileSource, MemoryFiles};
 pub use library::{Library, NoLibrary};
 pub use load::{Loaded, MAX_ATTACHMENTS, MAX_PIXELS, MAX_SIDE, load};
+pub use mesh::default_tessellation;
 pub use model::{
     AttributeData, AttributeValues, BlendFactor, Compare, Cull, Draw, Filter, Format, Framebuffer, Primitive, Scene,
     State, Texels, Texture, TextureLevel, Wrap,
