@@ -1,4 +1,4 @@
-//! Vertex attributes and their locations (OpenGL 3.2 §2.11.3).
+//! Assigns locations to vertex attributes (OpenGL 3.2 §2.11.3).
 //!
 //! *In:* the vertex stage. *Out:* its inputs, placed as [`declared`](super::declared) says. A matrix takes a location a
 //! column, an array one an element. Inputs may share locations if no path reads both.
@@ -9,7 +9,7 @@ use crate::builtin::constants::MAX_VERTEX_ATTRIBS;
 use crate::diagnostic::{Diagnostic, codes};
 use crate::hir::{ArraySize, Shader, Storage, Type, TypeId, Types};
 
-/// How many locations an input of this type takes.
+/// The number of locations that an input of this type takes.
 fn columns(types: &Types, ty: TypeId) -> u32 {
     match types.get(ty) {
         Type::Matrix(columns, _) => u32::from(columns),

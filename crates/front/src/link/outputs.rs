@@ -1,4 +1,4 @@
-//! Fragment outputs and their color numbers (OpenGL 3.2 §3.9.2, GLSL 1.50 §7.2).
+//! Assigns color numbers to fragment outputs (OpenGL 3.2 §3.9.2, GLSL 1.50 §7.2).
 //!
 //! *In:* the fragment stage. *Out:* its color outputs, placed as [`declared`](super::declared) says. An array takes a
 //! number an element. `gl_FragColor` and `gl_FragData` stand at number 0.
@@ -20,7 +20,7 @@ fn numbers(types: &Types, ty: TypeId) -> u32 {
     }
 }
 
-/// Places all color outputs of the fragment stage.
+/// Assigns numbers to all color outputs of the fragment stage.
 pub(super) fn assign(ctx: &mut Context<'_>, fragment: &Shader) -> Vec<Output> {
     let rules = Rules {
         limit: MAX_DRAW_BUFFERS,
@@ -57,7 +57,7 @@ fn output(variable: Variable<'_>) -> Option<Output> {
     })
 }
 
-/// Whether an output is a color: all but `gl_FragDepth`, and of the deprecated ones those that are written.
+/// Whether an output is a color: all are except `gl_FragDepth`, and the deprecated ones if they are not written.
 fn is_color(global: &Global) -> bool {
     match global.builtin {
         None => true,
@@ -78,8 +78,8 @@ fn overlap(ctx: &mut Context<'_>, fragment: &Shader, clash: &Clash) {
     ctx.report(diagnostic.label(other.span, "the other one").help(help));
 }
 
-/// `gl_FragColor`, `gl_FragData` and declared outputs exclude each other (§7.2), also in different shaders of the stage; in
-/// one shader the analysis finds it.
+/// Checks that `gl_FragColor`, `gl_FragData` and declared outputs exclude each other (§7.2) across the shaders of the
+/// stage. The analysis checks each shader.
 pub(super) fn check_exclusive(ctx: &mut Context<'_>, fragment: &Shader) {
     if fragment.stage != Stage::Fragment {
         return;
@@ -107,7 +107,7 @@ pub(super) fn check_exclusive(ctx: &mut Context<'_>, fragment: &Shader) {
     }
 }
 
-/// Where a global is first assigned to.
+/// The position of the first assignment to a global.
 fn first_write(shader: &Shader, global: &Global) -> Option<crate::source::Span> {
     let (id, _) = shader.globals().find(|(_, other)| std::ptr::eq(*other, global))?;
     super::usage::first_write(shader, id)

@@ -1,5 +1,5 @@
-//! What the rasterizer interpolates: outputs of the stage before it and inputs of the fragment stage, cut into scalars and
-//! vectors (columns of matrices, elements of arrays, members of structs and blocks), each with a location.
+//! Assigns locations to varyings: outputs of the stage before the rasterizer and inputs of the fragment stage, split
+//! into scalars and vectors (columns of matrices, elements of arrays, members of structs and blocks).
 //!
 //! With both stages there, a varying is what both declare; an output that the fragment stage does not declare is no
 //! varying, nor is an input without an output (which nothing reads, or the link failed). Those that are read come first.
@@ -20,19 +20,19 @@ use crate::hir::{
 };
 use crate::source::Span;
 
-/// Locations for varyings that every WebGPU implementation has.
+/// The number of varying locations that every WebGPU implementation has.
 const PORTABLE_LOCATIONS: u32 = 16;
-/// The most that an implementation offers (gl_MaxFragmentInputComponents is 128).
+/// The largest number that an implementation offers (gl_MaxFragmentInputComponents is 128).
 const MAX_LOCATIONS: u32 = 32;
 
-/// A whole variable with its ends.
+/// A whole variable with both its ends.
 struct Whole<'a> {
     from: Option<(GlobalId, &'a Global)>,
     to: Option<(GlobalId, &'a Global)>,
 }
 
 impl<'a> Whole<'a> {
-    /// The end that decides on interpolation: the fragment side if it is there.
+    /// The end that determines the interpolation: the fragment stage's, if it is there.
     fn decisive(&self) -> Option<&'a Global> {
         self.to.or(self.from).map(|(_, global)| global)
     }
@@ -88,13 +88,14 @@ fn wholes<'a>(types: &Types, producer: Option<&'a Shader>, fragment: Option<&'a 
     }
 }
 
-/// Blocks were compared member by member; a mismatch was reported then.
+/// Whether the types are the same or both are blocks. Blocks were compared member by member, with any mismatch
+/// reported.
 fn same_type_or_block(types: &Types, output: &Global, input: &Global) -> bool {
     types.flat_len(output.ty) == types.flat_len(input.ty)
         && (input.block.is_some() || same_type(types, output.ty, input.ty))
 }
 
-/// Whether a variable alone is not beyond any limit; keeps absurd array sizes from being cut up.
+/// Whether a variable alone is within the limits, so that an absurdly large array is not split.
 fn fits(ctx: &mut Context<'_>, whole: &Whole<'_>) -> bool {
     let Some(global) = whole.decisive() else { return true };
     let components = ctx.types.flat_len(global.ty);
@@ -110,10 +111,10 @@ fn fits(ctx: &mut Context<'_>, whole: &Whole<'_>) -> bool {
     false
 }
 
-/// A scalar or vector before it has a place.
+/// A scalar or vector without a location.
 struct Piece {
     varying: Varying,
-    /// The location that the text gives it.
+    /// The explicit location, if there is one.
     fixed: Option<u32>,
     scalar: Scalar,
     size: u8,
@@ -158,7 +159,8 @@ struct QualifiedMember {
     centroid: bool,
 }
 
-/// The variable itself, or the members of a block (of each element of an array of blocks), which are qualified one by one.
+/// The variable itself, or the members of a block (of each element of an array of blocks), each with its own
+/// qualifiers.
 fn members(types: &Types, global: &Global) -> Vec<QualifiedMember> {
     let Some(block) = &global.block else {
         let Global { name, ty, interpolation, centroid, .. } = global;
@@ -197,7 +199,7 @@ fn members(types: &Types, global: &Global) -> Vec<QualifiedMember> {
     list
 }
 
-/// A scalar, vector, matrix or array of those as scalars and vectors, with the offset of each in scalars.
+/// The scalars and vectors of a scalar, vector, matrix or array of those, with the offset of each in scalars.
 fn vectors(types: &Types, name: &str, ty: TypeId) -> Vec<(String, TypeId, u32)> {
     let indexed = |count: u32, element: TypeId| {
         let stride = types.flat_len(element);
