@@ -8,11 +8,11 @@
 
 #![expect(clippy::print_stdout, reason = "a benchmark prints its figures")]
 
-use glisten::emit::{Conventions, Reflection, reflect};
-use glisten::gpu::{Gpu, Prepared, Via};
-use glisten::hir::Stage;
 use glisten::scene::{DiskFiles, Scene, load};
-use glisten::{Compiler, Options};
+use glisten_emit::{Conventions, Reflection, reflect};
+use glisten_front::hir::Stage;
+use glisten_front::{Compiler, Options};
+use glisten_gpu::{Gpu, Prepared, Via};
 use std::path::Path;
 use std::process::Command;
 

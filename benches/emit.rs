@@ -5,10 +5,10 @@
 //! the front end's benchmarks name: at most 0.6 of that, and 0.35 if possible.
 
 use divan::{Bencher, black_box};
-use glisten::emit::{Conventions, Target, emit};
-use glisten::hir::Stage;
-use glisten::link::Program;
-use glisten::{Compiler, Options, Source, lower};
+use glisten::{Compiler, Options, Source};
+use glisten_emit::{Conventions, Target, emit};
+use glisten_front::hir::Stage;
+use glisten_front::link::Program;
 use std::fs;
 use std::path::Path;
 
@@ -56,7 +56,7 @@ fn lowering_alone(bencher: Bencher<'_, '_>) {
     let conventions = Conventions::default();
     bencher.bench(|| {
         all_stages(&programs, |program, stage| {
-            black_box(lower::lower(program, stage, Target::Wgsl, &conventions).is_ok());
+            black_box(glisten_emit::lower_alone(program, stage, Target::Wgsl, &conventions).is_ok());
         });
     });
 }

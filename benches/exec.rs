@@ -4,12 +4,12 @@
 //! `cargo bench --no-default-features --features reference --bench exec`
 
 use divan::Bencher;
-use glisten::cpu::domain::{Domain, Envelope, F32, F64, Number};
-use glisten::cpu::exec::{Code, LANES, Machine, Mask};
-use glisten::cpu::{Precision, RenderOptions};
-use glisten::hir::Stage;
 use glisten::scene::{DiskFiles, FileError, FileSource, Scene};
-use glisten::{Compiler, Options};
+use glisten_front::hir::Stage;
+use glisten_front::{Compiler, Options};
+use glisten_reference::domain::{Domain, Envelope, F32, F64, Number};
+use glisten_reference::exec::{Code, LANES, Machine, Mask};
+use glisten_reference::{Precision, RenderOptions};
 
 fn main() {
     divan::main();
@@ -70,5 +70,5 @@ fn draw(bencher: Bencher<'_, '_>, precision: &str) {
         _ => Precision::Envelope,
     };
     let options = RenderOptions { precision, mark_edges: false, ..RenderOptions::default() };
-    bencher.bench_local(|| glisten::cpu::render(&scene, &options));
+    bencher.bench_local(|| glisten_reference::render(&scene, &options));
 }

@@ -11,10 +11,10 @@
 
 use divan::counter::BytesCount;
 use divan::{Bencher, black_box};
-use glisten::diagnostic::Diagnostics;
-use glisten::hir::Stage;
-use glisten::source::{NoIncludes, SourceMap};
-use glisten::{Compiler, Options, Source, syntax};
+use glisten_front::diagnostic::Diagnostics;
+use glisten_front::hir::Stage;
+use glisten_front::source::{NoIncludes, SourceMap};
+use glisten_front::{Compiler, Options, Source, syntax};
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Stdio};

@@ -10,9 +10,9 @@
 
 #![expect(clippy::print_stdout, reason = "a benchmark prints its figures")]
 
-use glisten::emit::{Conventions, Target, emit};
-use glisten::hir::Stage;
-use glisten::{Compiler, Options, Source};
+use glisten_emit::{Conventions, Target, emit};
+use glisten_front::hir::Stage;
+use glisten_front::{Compiler, Options, Source};
 use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::{Path, PathBuf};

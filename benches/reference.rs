@@ -4,10 +4,10 @@
 //! `RAYON_NUM_THREADS=2 cargo bench --bench reference`. The goal is 3 for f64 and 2 for f32, and 8 times f64 for the
 //! envelope. Ratios are of medians; the A/A row compares lavapipe with itself.
 
-use glisten::cpu::{LineRule, Precision, RenderOptions};
-use glisten::gpu::{Gpu, Via};
 use glisten::scene::{MemoryFiles, Scene, load};
-use glisten::{Compiler, Options};
+use glisten_front::{Compiler, Options};
+use glisten_gpu::{Gpu, Via};
+use glisten_reference::{LineRule, Precision, RenderOptions};
 use std::time::Instant;
 
 const ROUNDS: usize = 25;
@@ -48,7 +48,7 @@ fn main() {
                 let precision = [Precision::F64, Precision::F32, Precision::Envelope][index - 2];
                 let options =
                     RenderOptions { precision, lines: LineRule::OpenGl, mark_edges: false, ..RenderOptions::default() };
-                glisten::cpu::render(&scene, &options).expect("it draws");
+                glisten_reference::render(&scene, &options).expect("it draws");
                 start.elapsed().as_secs_f64() * 1e3
             };
             // The first rounds compile and warm up.

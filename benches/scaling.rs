@@ -5,9 +5,9 @@
 //! Figures are the best of the rounds of one second, at least three. The row without lighting shows the cost of
 //! everything but the shader: mesh, rasterization, interpolation, picture.
 
-use glisten::cpu::{Precision, RenderOptions};
 use glisten::scene::{MemoryFiles, Scene, load};
-use glisten::{Compiler, Options};
+use glisten_front::{Compiler, Options};
+use glisten_reference::{Precision, RenderOptions};
 use std::time::{Duration, Instant};
 
 const PATIENCE: Duration = Duration::from_secs(1);
@@ -43,7 +43,7 @@ fn best(scene: &Scene, precision: Precision) -> f64 {
             break;
         }
         let start = Instant::now();
-        glisten::cpu::render(scene, &options).expect("it draws");
+        glisten_reference::render(scene, &options).expect("it draws");
         best = best.min(start.elapsed().as_secs_f64() * 1e3);
     }
     best

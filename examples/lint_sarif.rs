@@ -8,9 +8,9 @@
 
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "an example prints")]
 
-use glisten::diagnostic::write::{findings, sarif};
-use glisten::hir::Stage;
-use glisten::{Compiler, Options, Source};
+use glisten_front::diagnostic::write::{findings, sarif};
+use glisten_front::hir::Stage;
+use glisten_front::{Compiler, Options, Source};
 use std::process::ExitCode;
 
 fn stage_of(name: &str) -> Option<Stage> {

@@ -12,9 +12,9 @@
 #[path = "../tests/it/mutation/mod.rs"]
 mod mutation;
 
-use glisten::gpu::Gpu;
 use glisten::scene::{DiskFiles, Scene, load};
-use glisten::{Compiler, Options};
+use glisten_front::{Compiler, Options};
+use glisten_gpu::Gpu;
 use mutation::{Choice, Study};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;

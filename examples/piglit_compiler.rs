@@ -9,8 +9,8 @@
 //! diagnostic of every shader that is rejected, rightly or wrongly. `--raise` replaces older versions by `#version
 //! 150`, for rules that have not changed since. It exits with 1 if a verdict differs.
 
-use glisten::hir::Stage;
-use glisten::{Compiler, Options, Source};
+use glisten_front::hir::Stage;
+use glisten_front::{Compiler, Options, Source};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 

@@ -10,8 +10,8 @@
 
 #![expect(clippy::print_stdout, reason = "a command-line program")]
 
-use glisten::hir::Stage;
-use glisten::{Compilation, Compiler, Options, Source};
+use glisten_front::hir::Stage;
+use glisten_front::{Compilation, Compiler, Options, Source};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 

@@ -6,9 +6,9 @@
 
 #![expect(clippy::print_stdout, reason = "an example prints")]
 
-use glisten::emit::{Conventions, reflect};
-use glisten::hir::Stage;
-use glisten::{Compiler, Options, Source};
+use glisten_emit::{Conventions, reflect};
+use glisten_front::hir::Stage;
+use glisten_front::{Compiler, Options, Source};
 
 const VERTEX: &str = "#version 150 core
 in vec4 pv;

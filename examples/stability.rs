@@ -8,11 +8,11 @@
 
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "an example prints")]
 
-use glisten::cpu::RenderOptions;
-use glisten::cpu::stability::{SpanError, trace};
-use glisten::diagnostic::write::human;
 use glisten::scene::{DiskFiles, load};
-use glisten::{Compiler, Options};
+use glisten_front::diagnostic::write::human;
+use glisten_front::{Compiler, Options};
+use glisten_reference::RenderOptions;
+use glisten_reference::stability::{SpanError, trace};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {

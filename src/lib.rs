@@ -11,33 +11,23 @@
 //!                         gl picture ─┘
 //! ```
 
-pub mod analysis;
-pub mod builtin;
-pub mod compiler;
-pub mod diagnostic;
-pub mod emit;
-pub mod hir;
+/// Code for targets and the reflection: what [`glisten_emit`] makes of a program.
+pub mod emit {
+    pub use glisten_emit::{
+        ClipZ, Conventions, Emitted, Reflection, SpirvEnv, Target, WindowOrigin, emit, emit_with_sources, reflect,
+        reflection,
+    };
+}
 pub mod library;
-pub mod link;
-pub mod lint;
-pub mod lower;
-pub mod source;
-pub mod syntax;
 
 #[cfg(feature = "cli")]
 pub mod cli;
 #[cfg(feature = "reference")]
-pub mod compare;
-#[cfg(feature = "reference")]
-pub mod cpu;
-#[cfg(feature = "reference")]
 pub mod evaluate;
 #[cfg(feature = "cli")]
 pub mod gallery;
-#[cfg(feature = "gl")]
-pub mod gl;
-#[cfg(feature = "gpu")]
-pub mod gpu;
+#[cfg(feature = "reference")]
+pub mod measure;
 #[cfg(feature = "cli")]
 pub mod report;
 #[cfg(feature = "reference")]
@@ -45,4 +35,13 @@ pub mod scene;
 #[cfg(feature = "reference")]
 pub mod shader_test;
 
-pub use compiler::{Compilation, Compiler, Options, Source};
+pub use glisten_front::{Compilation, Compiler, Diagnostic, Diagnostics, Options, Program, Source, Stage};
+pub use glisten_front::{diagnostic, lint, source};
+#[cfg(feature = "gl")]
+pub use glisten_gl::Gl;
+#[cfg(feature = "gpu")]
+pub use glisten_gpu::Gpu;
+#[cfg(feature = "reference")]
+pub use glisten_reference::{Precision, RenderOptions, render};
+#[cfg(feature = "reference")]
+pub use glisten_scene::compare::Picture;

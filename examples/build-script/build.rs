@@ -5,9 +5,8 @@
 
 use glisten::diagnostic::write::human;
 use glisten::emit::{Conventions, Emitted, Target, emit, reflect};
-use glisten::hir::Stage;
 use glisten::library::Embedded;
-use glisten::{Compiler, Options, Source};
+use glisten::{Compiler, Options, Source, Stage};
 use std::path::{Path, PathBuf};
 use std::{env, fs};
 

@@ -2,10 +2,10 @@
 
 use super::exit::Failure;
 use super::stages::StageArg;
-use crate::compiler::Options;
-use crate::diagnostic::{Code, Level, Levels, Severity, codes, did_you_mean};
-use crate::emit::{ClipZ, Conventions, SpirvEnv, WindowOrigin};
 use clap::{Args, ValueEnum};
+use glisten_emit::{ClipZ, Conventions, SpirvEnv, WindowOrigin};
+use glisten_front::compiler::Options;
+use glisten_front::diagnostic::{Code, Level, Levels, Severity, codes, did_you_mean};
 use std::path::PathBuf;
 
 /// A format of diagnostics.

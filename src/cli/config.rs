@@ -12,9 +12,9 @@
 use super::args::set_level;
 use super::files;
 use super::session::Batch;
-use crate::diagnostic::codes::general::BAD_CONFIG;
-use crate::diagnostic::{Diagnostic, Level, Levels};
-use crate::source::{SourceMap, Span};
+use glisten_front::diagnostic::codes::general::BAD_CONFIG;
+use glisten_front::diagnostic::{Diagnostic, Level, Levels};
+use glisten_front::source::{SourceMap, Span};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::ops::Range;

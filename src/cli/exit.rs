@@ -1,7 +1,7 @@
 //! How a command ends: exit codes, and failures that are not diagnostics of a source.
 
-use crate::diagnostic::Diagnostic;
-use crate::diagnostic::codes::{general, preprocess, scenes};
+use glisten_front::diagnostic::Diagnostic;
+use glisten_front::diagnostic::codes::{general, preprocess, scenes};
 use std::process::ExitCode;
 
 /// The exit codes, from the best to the worst. The worst one that applies is returned.

@@ -3,9 +3,9 @@
 use super::args::nearest_code;
 use super::console::Console;
 use super::exit::{Exit, Failure, Outcome};
-use crate::diagnostic::{Code, Example, codes};
-use crate::hir::Stage;
 use clap::Args;
+use glisten_front::diagnostic::{Code, Example, codes};
+use glisten_front::hir::Stage;
 
 /// Show what a diagnostic means, with a bad and a good example
 #[derive(Args, Debug)]

@@ -1,9 +1,9 @@
 //! Reads files completely, with a clear message for each possible failure, and writes them completely or not at all.
 
 use super::exit::Failure;
-use crate::diagnostic::codes::general;
-use crate::diagnostic::{Code, Diagnostic};
-use crate::source::{SourceMap, Span};
+use glisten_front::diagnostic::codes::general;
+use glisten_front::diagnostic::{Code, Diagnostic};
+use glisten_front::source::{SourceMap, Span};
 use std::fs;
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
@@ -90,7 +90,7 @@ fn nearest_file(path: &Path) -> Option<PathBuf> {
         .collect();
     names.sort();
     let wanted = path.file_name()?.to_str()?;
-    crate::diagnostic::did_you_mean(wanted, names.iter().map(String::as_str)).map(|name| folder.join(name))
+    glisten_front::diagnostic::did_you_mean(wanted, names.iter().map(String::as_str)).map(|name| folder.join(name))
 }
 
 /// The text of `bytes`, if they are text.

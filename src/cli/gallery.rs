@@ -7,11 +7,11 @@ use super::opengl;
 use super::progress::Progress;
 use super::render::Backend;
 use super::scenes::{DrawError, MachineArgs, ViaArg};
-use crate::compare::Picture;
-use crate::cpu::{self, LineRule, Precision, RenderOptions};
 use crate::gallery::{self, Entry, Tile};
-use crate::gpu::{Gpu, Via};
 use clap::Args;
+use glisten_gpu::{Gpu, Via};
+use glisten_reference::{LineRule, Precision, RenderOptions};
+use glisten_scene::compare::Picture;
 use std::path::PathBuf;
 
 /// The number of columns of the contact sheet.
@@ -87,7 +87,7 @@ impl Painter {
             Self::Cpu => {
                 let options =
                     RenderOptions { precision: Precision::F64, lines: LineRule::OpenGl, ..RenderOptions::default() };
-                args.machine.within_time(move || Ok(cpu::render(&scene, &options)?))
+                args.machine.within_time(move || Ok(glisten_reference::render(&scene, &options)?))
             }
             Self::OpenGl => opengl::draw(&args.machine, scene),
         };

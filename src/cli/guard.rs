@@ -1,9 +1,9 @@
 //! Handles internal errors: a panic in a job becomes a sentence to report, never a raw message, and never ends the
 //! other jobs.
 
-use crate::diagnostic::Diagnostic;
-use crate::diagnostic::codes::general::INTERNAL;
-use crate::source::Span;
+use glisten_front::diagnostic::Diagnostic;
+use glisten_front::diagnostic::codes::general::INTERNAL;
+use glisten_front::source::Span;
 use std::any::Any;
 use std::panic::{self, AssertUnwindSafe};
 use std::sync::Mutex;

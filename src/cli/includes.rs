@@ -6,7 +6,7 @@
 
 use super::files;
 use crate::library::{self, Embedded};
-use crate::source::{IncludeForm, IncludeResolver, Included};
+use glisten_front::source::{IncludeForm, IncludeResolver, Included};
 use std::path::{Component, Path, PathBuf};
 
 /// Finds files next to the including one and along a search path.
@@ -84,7 +84,7 @@ fn normal(path: &Path) -> PathBuf {
 #[cfg(test)]
 mod tests {
     use super::DiskIncludes;
-    use crate::source::{IncludeForm, IncludeResolver};
+    use glisten_front::source::{IncludeForm, IncludeResolver};
     use std::fs;
 
     #[test]

@@ -8,7 +8,7 @@
 use super::args::ProgramArgs;
 use super::exit::Failure;
 use super::stages;
-use crate::hir::Stage;
+use glisten_front::hir::Stage;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -188,7 +188,7 @@ fn in_pipeline_order(mut group: Group) -> Group {
 mod tests {
     use super::{Input, group};
     use crate::cli::stages;
-    use crate::hir::Stage;
+    use glisten_front::hir::Stage;
     use std::path::{Path, PathBuf};
 
     fn inputs(names: &[&str]) -> Vec<Input> {

@@ -4,13 +4,13 @@
 use super::console::Console;
 use super::exit::{Exit, Failure, Outcome};
 use super::files;
-use crate::cpu::Precision;
-use crate::diagnostic::did_you_mean;
 use crate::evaluate::EvaluateError;
-use crate::gpu::{Gpu, Via};
-use crate::library::measure::{Figures, Form, Trial, forms};
 use crate::library::{Cost, Entry, FunctionEntry, Header, entries, entry, modules, shader, shader_files};
+use crate::measure::{Figures, Form, Trial, forms};
 use clap::{Args, Subcommand, ValueEnum};
+use glisten_front::diagnostic::did_you_mean;
+use glisten_gpu::{Gpu, Via};
+use glisten_reference::Precision;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 

@@ -40,7 +40,7 @@ pub(super) fn run(args: &LintArgs, console: &Console) -> Outcome {
     let mut units = session.compile(inputs.groups);
     for unit in &mut units {
         if let Some(program) = &unit.program {
-            unit.batch.diagnostics.extend(crate::lint::check(program));
+            unit.batch.diagnostics.extend(glisten_front::lint::check(program));
             session.judge(&mut unit.batch);
         }
     }

@@ -2,13 +2,13 @@
 
 use super::exit::Failure;
 use super::scenes::{DrawError, MachineArgs};
-use crate::compare::Picture;
 use crate::scene::Scene;
+use glisten_scene::compare::Picture;
 
 #[cfg(feature = "gl")]
 use super::exit::Exit;
 #[cfg(feature = "gl")]
-use crate::gl::{Error, Gl};
+use glisten_gl::{Error, Gl};
 
 /// Reports an error if the backend is not built in.
 pub(super) fn require() -> Result<(), Failure> {

@@ -5,8 +5,8 @@
 //! straight alpha, clamped to [0, 1] and rounded, without gamma.
 
 use super::exit::Failure;
-use crate::compare::Picture;
 use crate::scene::Format;
+use glisten_scene::compare::Picture;
 use image::ImageEncoder;
 use image::codecs::openexr::OpenExrEncoder;
 use image::codecs::png::PngEncoder;
@@ -125,8 +125,8 @@ fn byte(value: f64) -> u8 {
 #[cfg(test)]
 mod tests {
     use super::{Target, byte};
-    use crate::compare::Picture;
     use crate::scene::Format;
+    use glisten_scene::compare::Picture;
     use std::path::Path;
 
     fn picture() -> Picture {

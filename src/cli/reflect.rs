@@ -5,10 +5,10 @@ use super::console::Console;
 use super::exit::{Exit, Outcome};
 use super::inputs;
 use super::session::{Session, Unit};
-use crate::emit::reflection::{Found, find, table};
-use crate::emit::{Conventions, Reflection, reflect};
-use crate::link::Program;
 use clap::{Args, ValueEnum};
+use glisten_emit::reflection::{Found, find, table};
+use glisten_emit::{Conventions, Reflection, reflect};
+use glisten_front::link::Program;
 use indexmap::IndexMap;
 
 /// Show what a host needs to know: attributes, varyings, outputs, blocks, uniforms, samplers

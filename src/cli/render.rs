@@ -7,10 +7,10 @@ use super::opengl;
 use super::pictures::Target;
 use super::progress::Progress;
 use super::scenes::{DrawError, SceneArgs, ViaArg};
-use crate::compare::Picture;
-use crate::cpu::{self, LineRule, Precision, RenderOptions};
 use crate::scene::Scene;
 use clap::{Args, ValueEnum};
+use glisten_reference::{LineRule, Precision, RenderOptions};
+use glisten_scene::compare::Picture;
 use std::path::PathBuf;
 
 /// Draw a scene
@@ -103,7 +103,7 @@ fn draw(args: &RenderArgs, scene: Scene) -> Result<Picture, DrawError> {
             };
             let options =
                 RenderOptions { precision, lines: LineRule::OpenGl, mark_edges: false, ..RenderOptions::default() };
-            args.scene.within_time(move || Ok(cpu::render(&scene, &options)?))
+            args.scene.within_time(move || Ok(glisten_reference::render(&scene, &options)?))
         }
         Backend::Gl => opengl::draw(&args.scene.machine, scene),
     }

@@ -6,11 +6,11 @@ use super::files;
 use super::progress::Progress;
 use super::scenes::{DrawError, SceneArgs, ViaArg};
 use super::session::{Batch, Session};
-use crate::gpu::Via;
 use crate::report::{self, Error, Report, Watcher};
 use crate::scene::DiskFiles;
-use crate::source::SourceMap;
 use clap::Args;
+use glisten_front::source::SourceMap;
+use glisten_gpu::Via;
 use std::path::PathBuf;
 
 /// Measure the ways to shade a scene: error against run time

@@ -5,11 +5,11 @@ use super::console::Console;
 use super::exit::{Exit, Failure};
 use super::guard;
 use super::session::{Batch, Session};
-use crate::diagnostic::Diagnostic;
-use crate::gpu::{Error, Gpu, Via};
 use crate::scene::{self, DiskFiles, Scene};
-use crate::source::SourceMap;
 use clap::{Args, ValueEnum};
+use glisten_front::diagnostic::Diagnostic;
+use glisten_front::source::SourceMap;
+use glisten_gpu::{Error, Gpu, Via};
 use std::sync::mpsc::{self, RecvTimeoutError};
 use std::time::Duration;
 

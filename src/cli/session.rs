@@ -11,11 +11,11 @@ use super::guard;
 use super::includes::DiskIncludes;
 use super::inputs::{Group, Input};
 use super::progress::Progress;
-use crate::compiler::{Compiler, Source};
-use crate::diagnostic::write::{self, Finding};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::link::Program;
-use crate::source::{SourceMap, Span};
+use glisten_front::compiler::{Compiler, Source};
+use glisten_front::diagnostic::write::{self, Finding};
+use glisten_front::diagnostic::{Diagnostic, Severity};
+use glisten_front::link::Program;
+use glisten_front::source::{SourceMap, Span};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 

@@ -1,7 +1,7 @@
 //! The stage of a shader, by the name of its file.
 
-use crate::hir::Stage;
 use clap::ValueEnum;
+use glisten_front::hir::Stage;
 use std::path::Path;
 
 /// File extensions, with their stages.

@@ -5,14 +5,14 @@ use super::exit::{Exit, Failure, Outcome};
 use super::files;
 use super::guard;
 use super::progress::Progress;
-use crate::compare::Picture;
-use crate::compiler::{Compiler, Options};
-use crate::cpu::{self, LineRule, Precision, RenderOptions};
-use crate::diagnostic::Diagnostic;
-use crate::gpu::{self, Gpu, Via};
 use crate::scene::Scene;
 use crate::shader_test::{self, Outcome as Ending, Painter};
 use clap::{Args, ValueEnum};
+use glisten_front::compiler::{Compiler, Options};
+use glisten_front::diagnostic::Diagnostic;
+use glisten_gpu::{Gpu, Via};
+use glisten_reference::{LineRule, Precision, RenderOptions};
+use glisten_scene::compare::Picture;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -165,8 +165,8 @@ impl Painter for GpuPainter {
     fn paint(&mut self, scene: &Scene) -> Result<Picture, Ending> {
         match self.gpu.render(scene, self.via) {
             Ok(rendered) => Ok(rendered.picture),
-            Err(gpu::Error::Emit(diagnostics)) => Err(Ending::Fail(first(&diagnostics))),
-            Err(error @ gpu::Error::Unsupported(_)) => Err(Ending::Skip(error.to_string())),
+            Err(glisten_gpu::Error::Emit(diagnostics)) => Err(Ending::Fail(first(&diagnostics))),
+            Err(error @ glisten_gpu::Error::Unsupported(_)) => Err(Ending::Skip(error.to_string())),
             Err(error) => Err(Ending::Fail(error.to_string())),
         }
     }
@@ -183,7 +183,7 @@ impl Painter for CpuPainter {
             mark_edges: false,
             ..RenderOptions::default()
         };
-        cpu::render(scene, &options).map_err(|diagnostics| Ending::Fail(first(&diagnostics)))
+        glisten_reference::render(scene, &options).map_err(|diagnostics| Ending::Fail(first(&diagnostics)))
     }
 }
 

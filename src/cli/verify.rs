@@ -6,15 +6,15 @@ use super::files;
 use super::pictures::Target;
 use super::progress::Progress;
 use super::scenes::{DrawError, SceneArgs};
-use crate::compare::{self, Contributed, Judge, Picture, Verdict, flip};
-use crate::cpu::domain::faults::{Faults, KNOWN};
-use crate::cpu::{self, Contribution, LineRule, Precision, RenderOptions};
-use crate::diagnostic::codes::scenes::BOUND_EXPLAINED;
-use crate::diagnostic::{Diagnostic, write};
-use crate::gpu::{Gpu, Via};
 use crate::scene::Scene;
-use crate::source::SourceMap;
 use clap::{Args, ValueEnum};
+use glisten_front::diagnostic::codes::scenes::BOUND_EXPLAINED;
+use glisten_front::diagnostic::{Diagnostic, write};
+use glisten_front::source::SourceMap;
+use glisten_gpu::{Gpu, Via};
+use glisten_reference::domain::faults::{Faults, KNOWN};
+use glisten_reference::{Contribution, LineRule, Precision, RenderOptions};
+use glisten_scene::compare::{self, Contributed, Judge, Picture, Verdict, flip};
 use serde::Serialize;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -256,7 +256,7 @@ fn explained(
             None => args.scene.within_time({
                 let scene = Arc::clone(scene);
                 move || {
-                    Ok(cpu::explain(
+                    Ok(glisten_reference::explain(
                         &scene,
                         &options(Faults::NONE),
                         [place[0], place[1]],
@@ -310,7 +310,7 @@ fn options(faults: Faults) -> RenderOptions {
 }
 
 fn drawn(scene: &Scene, faults: Faults) -> Result<Picture, DrawError> {
-    Ok(cpu::render(scene, &options(faults))?)
+    Ok(glisten_reference::render(scene, &options(faults))?)
 }
 
 /// The reference pictures with each known fault of the driver excused, and with all of them.

@@ -4,9 +4,9 @@
 //! *In:* a text and a signature. *Out:* the text of a fragment shader, and the number of inputs and results.
 
 use super::EvaluateError;
-use crate::diagnostic::did_you_mean;
-use crate::hir::{ArraySize, Function, ParamMode, SamplerDim, Scalar, Shader, Stage, Type, TypeId, Types};
-use crate::{Compiler, Source};
+use glisten_front::diagnostic::did_you_mean;
+use glisten_front::hir::{ArraySize, Function, ParamMode, SamplerDim, Scalar, Shader, Stage, Type, TypeId, Types};
+use glisten_front::{Compiler, Source};
 
 /// A triangle that covers the whole window.
 pub(super) const VERTEX: &str = "#version 150\nvoid main()\n{\n    vec2 p = vec2(gl_VertexID == 1 ? 3.0 : -1.0, \

@@ -5,9 +5,8 @@
 //! domain.
 //!
 //! ```
-//! use glisten::cpu::Precision;
 //! use glisten::evaluate::Evaluator;
-//! use glisten::{Compiler, Options};
+//! use glisten::{Compiler, Options, Precision};
 //!
 //! let text = "float lerp(float a, float b, float t) { return a + t * (b - a); }";
 //! let lerp = Evaluator::new(&Compiler::new(Options::default()), text, "lerp(float,float,float)", &[])?;
@@ -18,15 +17,15 @@
 
 mod generate;
 
-use crate::compare::Picture;
-use crate::cpu::{self, Precision, RenderOptions};
-use crate::diagnostic::Diagnostic;
-use crate::hir::{SamplerDim, SamplerType, Scalar, Stage};
-use crate::link::Program;
 use crate::scene::{
     Compare, Cull, Draw, Filter, Format, Framebuffer, Primitive, Scene, State, Texels, Texture, TextureLevel, Wrap,
 };
-use crate::{Compiler, Source};
+use glisten_front::diagnostic::Diagnostic;
+use glisten_front::hir::{SamplerDim, SamplerType, Scalar, Stage};
+use glisten_front::link::Program;
+use glisten_front::{Compiler, Source};
+use glisten_reference::{Precision, RenderOptions};
+use glisten_scene::compare::Picture;
 use std::fmt;
 use std::sync::Arc;
 
@@ -212,7 +211,7 @@ impl Evaluator {
     ) -> Result<Vec<Vec<f64>>, EvaluateError> {
         let scene = self.scene(inputs, tables)?;
         let options = RenderOptions { precision, mark_edges: false, ..RenderOptions::default() };
-        let picture = cpu::render(&scene, &options).map_err(|errors| EvaluateError::told(&errors))?;
+        let picture = glisten_reference::render(&scene, &options).map_err(|errors| EvaluateError::told(&errors))?;
         Ok(self.read(&picture, inputs.len().checked_div(self.inputs).unwrap_or(1)))
     }
 }

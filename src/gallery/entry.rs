@@ -1,8 +1,8 @@
 //! [`Entry`]: a scene of the library, with its texts for the gallery.
 
-use crate::compiler::{Compiler, Options};
 use crate::library::{self, Embedded, LibraryScene};
 use crate::scene::{self, MemoryFiles, Scene};
+use glisten_front::compiler::{Compiler, Options};
 use serde::Deserialize;
 
 /// How many samples a picture has per pixel in each direction.

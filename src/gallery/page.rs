@@ -155,8 +155,8 @@ fn inline_code(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::compare::Picture;
     use crate::gallery::entries;
+    use glisten_scene::compare::Picture;
 
     fn tiles(count: usize) -> Vec<Tile> {
         let picture = Picture {

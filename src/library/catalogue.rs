@@ -6,8 +6,8 @@
 use super::cost::{Cost, cost};
 use super::header::{Header, notes, paragraphs};
 use super::{Embedded, Module, SHOWN, modules};
-use crate::hir::{Function, Stage, Types};
-use crate::{Compiler, Options, Source};
+use glisten_front::hir::{Function, Stage, Types};
+use glisten_front::{Compiler, Options, Source};
 use serde::Serialize;
 
 /// A function of a module.

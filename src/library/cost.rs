@@ -6,8 +6,8 @@
 //! without parameters, are folded by every compiler and count nothing. The body of a loop counts once. *Not done
 //! here:* what a driver makes of the code; `glisten report` measures times.
 
-use crate::builtin::BuiltinFunction as F;
-use crate::hir::{BinaryOp, ExprId, ExprKind, FunctionId, Shader, Stmt, StmtKind, Type, TypeId, Types};
+use glisten_front::builtin::BuiltinFunction as F;
+use glisten_front::hir::{BinaryOp, ExprId, ExprKind, FunctionId, Shader, Stmt, StmtKind, Type, TypeId, Types};
 use serde::Serialize;
 
 /// The scalar operations of a call.
@@ -220,8 +220,8 @@ fn builtin(function: F, size: u32, first: u32) -> Cost {
 #[cfg(test)]
 mod tests {
     use super::{Cost, cost};
-    use crate::hir::{FunctionId, Stage};
-    use crate::{Compiler, Options, Source};
+    use glisten_front::hir::{FunctionId, Stage};
+    use glisten_front::{Compiler, Options, Source};
 
     /// The cost of the last function before `main`.
     fn of(text: &str) -> Cost {
@@ -230,7 +230,7 @@ mod tests {
         let program = Compiler::new(Options::default()).compile(&[source]).program.expect("it is valid");
         let shader = &program.stages[0];
         let last = shader.functions.len() - 2;
-        cost(&program.types, shader, FunctionId(last as u32))
+        cost(&program.types, shader, FunctionId::new(last))
     }
 
     #[test]

@@ -9,8 +9,6 @@
 mod catalogue;
 mod cost;
 mod header;
-#[cfg(feature = "reference")]
-pub mod measure;
 mod programs;
 mod scenes;
 
@@ -20,7 +18,7 @@ pub use header::Header;
 pub use programs::{LibraryProgram, programs, shader, shader_files};
 pub use scenes::{LibraryScene, scenes};
 
-use crate::source::{IncludeForm, IncludeResolver, Included};
+use glisten_front::source::{IncludeForm, IncludeResolver, Included};
 
 /// The folder of the modules in an include: `<glisten/...>`.
 const FOLDER: &str = "glisten/";
@@ -104,10 +102,33 @@ impl IncludeResolver for Embedded {
     }
 }
 
+#[cfg(feature = "reference")]
+impl glisten_scene::scene::Library for Embedded {
+    fn program(&self, name: &str) -> Option<(&'static str, &'static str)> {
+        programs().iter().find(|program| program.name == name).map(|program| (program.vertex, program.fragment))
+    }
+
+    fn program_names(&self) -> Vec<&'static str> {
+        programs().iter().map(|program| program.name).collect()
+    }
+
+    fn shader(&self, file: &str) -> Option<&'static str> {
+        shader(file)
+    }
+
+    fn shader_names(&self) -> Vec<&'static str> {
+        shader_files().collect()
+    }
+
+    fn includes(&self) -> std::sync::Arc<dyn IncludeResolver + Send + Sync> {
+        std::sync::Arc::new(Self)
+    }
+}
+
 /// A message that no module has this name, with the most similar one.
 pub fn missing(path: &str) -> String {
     let name = path.trim_start_matches(FOLDER).trim_end_matches(".glsl");
-    match crate::diagnostic::did_you_mean(name, MODULES.iter().map(|module| module.name)) {
+    match glisten_front::diagnostic::did_you_mean(name, MODULES.iter().map(|module| module.name)) {
         Some(near) => format!("the library has no `{path}`; did you mean `{FOLDER}{near}.glsl`?"),
         None => format!("the library has no `{path}`"),
     }
@@ -116,9 +137,9 @@ pub fn missing(path: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::{Embedded, modules};
-    use crate::hir::Stage;
-    use crate::source::{IncludeForm, IncludeResolver};
-    use crate::{Compiler, Options, Source};
+    use glisten_front::hir::Stage;
+    use glisten_front::source::{IncludeForm, IncludeResolver};
+    use glisten_front::{Compiler, Options, Source};
     use std::path::Path;
 
     #[test]
@@ -142,7 +163,7 @@ mod tests {
             );
             let source = Source { name: "main.frag".to_owned(), text: text.into(), stage: Stage::Fragment };
             let compilation = Compiler::new(Options::default()).with_includes(Embedded).compile(&[source]);
-            let shown = crate::diagnostic::write::human(&compilation.sources, &compilation.diagnostics, false);
+            let shown = glisten_front::diagnostic::write::human(&compilation.sources, &compilation.diagnostics, false);
             assert!(compilation.program.is_some() && shown.is_empty(), "{}\n{shown}", module.name);
         }
     }

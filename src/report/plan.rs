@@ -20,9 +20,9 @@
 //! Without the table there is one way: the scene as it is, with a quarter, a half and all of its mesh's segments and
 //! rings. *Holds:* `set` merges tables (`set = { mesh = { radius = 2.0 } }` keeps the other keys of the mesh).
 
-use crate::diagnostic::Diagnostic;
-use crate::diagnostic::codes::scenes::{SCENE_SYNTAX, SCENE_WRONG_VALUE};
-use crate::source::{SourceMap, Span};
+use glisten_front::diagnostic::Diagnostic;
+use glisten_front::diagnostic::codes::scenes::{SCENE_SYNTAX, SCENE_WRONG_VALUE};
+use glisten_front::source::{SourceMap, Span};
 use serde::Deserialize;
 use std::ops::Range;
 use toml::{Table, Value};

@@ -6,13 +6,13 @@
 use super::figures::{compare, mark_pareto, spread};
 use super::model::{Adapter, Report, Timing, Truth, Way};
 use super::plan::{Plan, PlannedWay, base_of, plan};
-use crate::compare::Picture;
-use crate::compiler::Compiler;
-use crate::cpu::{self, Precision, RenderOptions};
-use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::gpu::{self, Gpu, Prepared, Via};
 use crate::scene::{self, FileError, FileSource, Loaded, Scene};
-use crate::source::SourceMap;
+use glisten_front::compiler::Compiler;
+use glisten_front::diagnostic::{Diagnostic, Diagnostics};
+use glisten_front::source::SourceMap;
+use glisten_gpu::{Gpu, Prepared, Via};
+use glisten_reference::{Precision, RenderOptions};
+use glisten_scene::compare::Picture;
 
 /// Why a report could not be made.
 #[derive(Debug)]
@@ -38,7 +38,7 @@ pub enum Error {
         /// The way.
         way: String,
         /// The reason.
-        error: gpu::Error,
+        error: glisten_gpu::Error,
     },
 }
 
@@ -149,7 +149,7 @@ fn scene_of(path: &str, text: &str, files: &dyn FileSource, compiler: &Compiler)
 
 fn reference(way: &str, scene: &Scene) -> Result<Picture, Error> {
     let options = RenderOptions { precision: Precision::F64, mark_edges: false, ..RenderOptions::default() };
-    cpu::render(scene, &options).map_err(|diagnostics| Error::Reference { way: way.into(), diagnostics })
+    glisten_reference::render(scene, &options).map_err(|diagnostics| Error::Reference { way: way.into(), diagnostics })
 }
 
 fn draw(

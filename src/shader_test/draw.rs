@@ -3,9 +3,9 @@
 use super::vertex_data::{Column, VertexData};
 use super::words::Words;
 use super::{Outcome, fail, skip};
-use crate::hir::{Scalar, Type, TypeId, Types};
-use crate::link::{Attribute, Program};
 use crate::scene::{AttributeData, AttributeValues, Primitive};
+use glisten_front::hir::{Scalar, Type, TypeId, Types};
+use glisten_front::link::{Attribute, Program};
 
 /// The vertices of a draw command.
 #[derive(Clone, Debug)]

@@ -2,8 +2,8 @@
 
 use super::words::Words;
 use super::{Outcome, fail, skip, uniforms};
-use crate::hir::{MatrixLayout, Scalar, Type, Types};
-use crate::link::{Program, UniformLeaf};
+use glisten_front::hir::{MatrixLayout, Scalar, Type, Types};
+use glisten_front::link::{Program, UniformLeaf};
 
 /// Compares the linked program with the expectation of the test.
 pub(super) fn check(program: &Program, words: &mut Words<'_>) -> Result<(), Outcome> {

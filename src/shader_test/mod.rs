@@ -39,9 +39,9 @@ mod uniforms;
 mod vertex_data;
 mod words;
 
-use crate::compare::Picture;
-use crate::compiler::Compiler;
 use crate::scene::Scene;
+use glisten_front::compiler::Compiler;
+use glisten_scene::compare::Picture;
 
 /// The result of a test.
 #[derive(Clone, Debug, PartialEq, Eq)]

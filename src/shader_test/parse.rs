@@ -1,7 +1,7 @@
 //! Splits a test into its sections.
 
 use super::{Outcome, fail, skip};
-use crate::hir::Stage;
+use glisten_front::hir::Stage;
 
 /// A line and its number, counted from 1, without its comment and surrounding white space.
 #[derive(Clone, Debug, PartialEq, Eq)]

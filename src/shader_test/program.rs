@@ -3,10 +3,10 @@
 use super::parse::TestFile;
 use super::require::Setup;
 use super::{Outcome, fail};
-use crate::compiler::{Compiler, Source};
-use crate::diagnostic::Diagnostics;
-use crate::link::Program;
-use crate::source::SourceMap;
+use glisten_front::compiler::{Compiler, Source};
+use glisten_front::diagnostic::Diagnostics;
+use glisten_front::link::Program;
+use glisten_front::source::SourceMap;
 use std::sync::Arc;
 
 /// The version that replaces older versions.

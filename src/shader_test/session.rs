@@ -10,11 +10,11 @@ use super::uniforms::Uniforms;
 use super::vertex_data::{self, VertexData};
 use super::words::Words;
 use super::{Outcome, Painter, fail, introspection, probe, program, require, skip};
-use crate::compare::Picture;
-use crate::compiler::Compiler;
-use crate::hir::{Stage, Type};
-use crate::link::Program;
 use crate::scene::{BlendFactor, Compare, Cull, Draw, Format, Framebuffer, Primitive, Scene, State};
+use glisten_front::compiler::Compiler;
+use glisten_front::hir::{Stage, Type};
+use glisten_front::link::Program;
+use glisten_scene::compare::Picture;
 use std::sync::Arc;
 
 /// Runs a test; `Ok` means that it passes.

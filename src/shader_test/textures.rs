@@ -2,8 +2,8 @@
 
 use super::words::Words;
 use super::{Outcome, fail, skip};
-use crate::hir::{SamplerType, Scalar};
 use crate::scene::{Compare, Filter, Texels, Texture, TextureLevel, Wrap};
+use glisten_front::hir::{SamplerType, Scalar};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -120,7 +120,7 @@ impl Units {
     /// The texture for a sampler of this type at a unit; an unbound unit is black.
     pub(super) fn texture(&self, line: u32, number: u32, kind: SamplerType) -> Result<Option<Arc<Texture>>, Outcome> {
         let Some(unit) = self.units.get(&number) else { return Ok(None) };
-        let dimensions = crate::hir::SamplerDim::D2 == kind.dim && !kind.arrayed && kind.texel == Scalar::Float;
+        let dimensions = glisten_front::hir::SamplerDim::D2 == kind.dim && !kind.arrayed && kind.texel == Scalar::Float;
         if !dimensions {
             return skip(line, format_args!("a 2D texture at a `{}`", kind.name()));
         }

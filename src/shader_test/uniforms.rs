@@ -2,8 +2,8 @@
 
 use super::words::Words;
 use super::{Outcome, fail, skip};
-use crate::hir::{Scalar, ScalarValue};
-use crate::link::{Program, UniformLeaf};
+use glisten_front::hir::{Scalar, ScalarValue};
+use glisten_front::link::{Program, UniformLeaf};
 
 /// The values of a program's uniforms, flat by root, and the unit of each sampler.
 #[derive(Clone, Debug)]
@@ -16,7 +16,7 @@ pub(super) struct Uniforms {
 impl Uniforms {
     /// The values of the initializers, or 0.
     pub(super) fn new(program: &Program) -> Self {
-        let zeros = |root: &crate::link::UniformRoot| {
+        let zeros = |root: &glisten_front::link::UniformRoot| {
             let mut flat = vec![ScalarValue::Float(0.0); program.types.flat_len(root.ty) as usize];
             for leaf in program.interface.uniforms.iter().filter(|leaf| roots_match(program, leaf, root)) {
                 let (len, scalar) = extent(program, leaf);
@@ -90,7 +90,7 @@ impl Uniforms {
     }
 }
 
-fn roots_match(program: &Program, leaf: &UniformLeaf, root: &crate::link::UniformRoot) -> bool {
+fn roots_match(program: &Program, leaf: &UniformLeaf, root: &glisten_front::link::UniformRoot) -> bool {
     program.interface.roots.get(leaf.root.0 as usize).is_some_and(|other| std::ptr::eq(other, root))
 }
 

@@ -173,7 +173,7 @@ fn explain_shows_pages_and_the_nearest_of_unknown_codes() {
     assert_eq!(code(&unknown), 2);
     assert!(err(&unknown).contains("`E0003`"), "{}", err(&unknown));
     let list = place.run(&["explain", "--list"]);
-    assert_eq!(out(&list).lines().count(), glisten::diagnostic::codes::all().count());
+    assert_eq!(out(&list).lines().count(), glisten_front::diagnostic::codes::all().count());
 }
 
 #[test]

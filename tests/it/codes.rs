@@ -2,8 +2,8 @@
 //! whole sentences.
 
 use crate::support::{Settings, Shader, compile, shaders_under};
-use glisten::diagnostic::{Code, Example, codes};
-use glisten::hir::Stage;
+use glisten_front::diagnostic::{Code, Example, codes};
+use glisten_front::hir::Stage;
 use std::collections::BTreeSet;
 
 /// Codes without a `bad` example that runs, and the reason.
@@ -18,7 +18,7 @@ static WITHOUT_EXAMPLE: &[(&str, &str)] = &[
     ("E0128", "needs a second file; tests/it/hostile.rs has it"),
     ("E0129", "too long for a page; tests/it/hostile.rs has it"),
     ("E0130", "too long for a page; tests/it/hostile.rs has it"),
-    ("E0513", "too long for a page; src/analysis/tests.rs has it"),
+    ("E0513", "too long for a page; crates/front/src/analysis/tests.rs has it"),
     ("W0701", "needs a binding by name; a fixture has it"),
     ("W0108", "needs a second file; the fixtures have it"),
 ];
@@ -32,7 +32,7 @@ static WITHOUT_FIXTURE: &[(&str, &str)] = &[
     ("E0128", "tests/it/hostile.rs makes them"),
     ("E0129", "tests/it/hostile.rs makes them"),
     ("E0130", "tests/it/hostile.rs makes them"),
-    ("E0513", "src/analysis/tests.rs makes them"),
+    ("E0513", "crates/front/src/analysis/tests.rs makes them"),
 ];
 
 /// Phases whose codes each have a fixture.

@@ -8,8 +8,8 @@
 //! equal up to the first dot are one program (`a.vert`, `a.2.vert`, `a.frag`).
 
 use crate::support::{Settings, Shader, compile, shaders_under};
-use glisten::diagnostic::Diagnostics;
-use glisten::source::{SourceMap, Span};
+use glisten_front::diagnostic::Diagnostics;
+use glisten_front::source::{SourceMap, Span};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::Path;

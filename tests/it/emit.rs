@@ -3,11 +3,11 @@
 //! The judges are naga's own front end and validator and Tint (through Dawn's null backend, the npm package `webgpu`)
 //! for WGSL, and `spirv-val` for SPIR-V. If an external judge is missing, the test says so; if `CI` is set, it fails.
 
-use glisten::emit::{ClipZ, Conventions, Emitted, SpirvEnv, Target, WindowOrigin, emit, notes};
-use glisten::hir::Stage;
 use glisten::library::{Embedded, programs, shader};
-use glisten::link::Program;
-use glisten::{Compiler, Options, Source};
+use glisten_emit::{ClipZ, Conventions, Emitted, SpirvEnv, Target, WindowOrigin, emit, notes};
+use glisten_front::hir::Stage;
+use glisten_front::link::Program;
+use glisten_front::{Compiler, Options, Source};
 use std::collections::BTreeMap;
 use std::fs;
 use std::io::Write;

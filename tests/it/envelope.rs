@@ -6,13 +6,13 @@
 #![expect(clippy::print_stdout, reason = "figures of the docs are printed here")]
 
 use crate::gpu::gpu;
-use glisten::compare::{Judge, Picture, Verdict, shares};
-use glisten::cpu::domain::faults::{ARC_FUNCTIONS, Faults, KNOWN};
-use glisten::cpu::domain::rules;
-use glisten::cpu::{self, LineRule, Precision, RenderOptions};
-use glisten::gpu::{Gpu, Via};
 use glisten::scene::{DiskFiles, MemoryFiles, Scene, load};
-use glisten::{Compiler, Options};
+use glisten_front::{Compiler, Options};
+use glisten_gpu::{Gpu, Via};
+use glisten_reference::domain::faults::{ARC_FUNCTIONS, Faults, KNOWN};
+use glisten_reference::domain::rules;
+use glisten_reference::{LineRule, Precision, RenderOptions};
+use glisten_scene::compare::{Judge, Picture, Verdict, shares};
 
 fn read(path: &str) -> String {
     std::fs::read_to_string(format!("{}/fixtures/{path}", env!("CARGO_MANIFEST_DIR"))).expect("a fixture")
@@ -28,13 +28,13 @@ fn options(precision: Precision, faults: Faults) -> RenderOptions {
 }
 
 fn reference(scene: &Scene, precision: Precision) -> Picture {
-    cpu::render(scene, &options(precision, Faults::NONE)).expect("the reference draws it")
+    glisten_reference::render(scene, &options(precision, Faults::NONE)).expect("the reference draws it")
 }
 
 fn admitting(scene: &Scene) -> Vec<(&'static str, Picture)> {
     let one = KNOWN.iter().map(|known| (known.name, Faults::only(known.fault)));
     one.map(|(name, faults)| {
-        (name, cpu::render(scene, &options(Precision::Envelope, faults)).expect("the reference draws it"))
+        (name, glisten_reference::render(scene, &options(Precision::Envelope, faults)).expect("the reference draws it"))
     })
     .collect()
 }
@@ -132,18 +132,18 @@ fn a_bound_is_laid_at_the_expression_that_makes_it() {
     let scene = square(body, "rgba32float");
     let of = |channel: usize| {
         let options = options(Precision::Envelope, Faults::NONE);
-        cpu::explain(&scene, &options, [54, 20], 0, channel).expect("the pixel is drawn")
+        glisten_reference::explain(&scene, &options, [54, 20], 0, channel).expect("the pixel is drawn")
     };
     let (red, green) = (of(0), of(1));
-    let share = |found: &[cpu::Contribution], name: &str| {
+    let share = |found: &[glisten_reference::Contribution], name: &str| {
         found.iter().filter(|one| one.operation == name).map(|one| one.share).fold(0.0, f64::max)
     };
     assert!(share(&red, "pow") > 0.2 && share(&red, "interpolation") > 0.2, "{red:?}");
     assert!(red.windows(2).all(|pair| pair[0].share >= pair[1].share), "{red:?}");
     assert!(green.iter().all(|one| one.operation != "pow" || one.share == 0.0), "{green:?}");
     let options = options(Precision::Envelope, Faults::NONE);
-    assert!(cpu::explain(&scene, &options, [64, 10], 0, 1).is_err(), "there is no such pixel");
-    assert_eq!(cpu::explain(&scene, &options, [0, 0], 0, 1), Ok(Vec::new()), "nothing is drawn there");
+    assert!(glisten_reference::explain(&scene, &options, [64, 10], 0, 1).is_err(), "there is no such pixel");
+    assert_eq!(glisten_reference::explain(&scene, &options, [0, 0], 0, 1), Ok(Vec::new()), "nothing is drawn there");
 }
 
 /// The largest error of a channel against f64.

@@ -2,11 +2,11 @@
 //! inputs runs in every domain without a panic.
 
 use crate::support::{Beside, Shader, shaders_under};
-use glisten::cpu::domain::{Domain, Envelope, F32, F64, Integer, Number};
-use glisten::cpu::exec::{Code, LANES, Machine, Mask};
-use glisten::hir::Stage;
-use glisten::link::Program;
-use glisten::{Compiler, Options, Source};
+use glisten_front::hir::Stage;
+use glisten_front::link::Program;
+use glisten_front::{Compiler, Options, Source};
+use glisten_reference::domain::{Domain, Envelope, F32, F64, Integer, Number};
+use glisten_reference::exec::{Code, LANES, Machine, Mask};
 
 fn program(shader: &Shader) -> Option<Program> {
     let source = Source { name: shader.name.clone(), text: shader.text.as_str().into(), stage: shader.stage };

@@ -1,12 +1,12 @@
 //! The library's programs and scenes, and `glisten gallery` end to end.
 
-use glisten::compare::{Judge, Verdict};
-use glisten::cpu::{self, LineRule, Precision, RenderOptions};
 use glisten::gallery::{Entry, entries};
-use glisten::gpu::{Gpu, Via};
 use glisten::library::{programs, scenes};
 use glisten::scene::{DiskFiles, MemoryFiles, Scene, load};
-use glisten::{Compiler, Options};
+use glisten_front::{Compiler, Options};
+use glisten_gpu::{Gpu, Via};
+use glisten_reference::{LineRule, Precision, RenderOptions};
+use glisten_scene::compare::{Judge, Verdict};
 use std::collections::BTreeSet;
 use std::path::Path;
 use std::process::{Command, Output};
@@ -64,7 +64,7 @@ fn compare(gpu: &Gpu, name: &str, scene: &Scene) -> Vec<String> {
     let mut scene = scene.clone();
     (scene.framebuffer.width, scene.framebuffer.height) = (64, 64);
     let options = RenderOptions { precision: Precision::Envelope, lines: LineRule::Vulkan, ..RenderOptions::default() };
-    let reference = cpu::render(&scene, &options).expect("the reference draws the library's scenes");
+    let reference = glisten_reference::render(&scene, &options).expect("the reference draws the library's scenes");
     assert!(reference.covered.contains(&true), "{name}: nothing is drawn");
     let mut wrong = Vec::new();
     for via in [Via::Spirv, Via::Wgsl] {

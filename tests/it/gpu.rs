@@ -1,11 +1,11 @@
 //! The GPU compared with the CPU reference on scenes, and the message on a machine without a driver.
 //! These tests need a Vulkan software adapter and fail loudly without one.
 
-use glisten::compare::{Judge, Verdict};
-use glisten::cpu::{self, LineRule, Precision, RenderOptions};
-use glisten::gpu::{Gpu, Via};
 use glisten::scene::{self, DiskFiles, MemoryFiles, Scene};
-use glisten::{Compiler, Options};
+use glisten_front::{Compiler, Options};
+use glisten_gpu::{Gpu, Via};
+use glisten_reference::{LineRule, Precision, RenderOptions};
+use glisten_scene::compare::{Judge, Verdict};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -35,9 +35,9 @@ fn load(path: &Path) -> Scene {
     loaded.scene.unwrap_or_else(|| panic!("{}: {findings:?}", path.display()))
 }
 
-fn reference(scene: &Scene) -> glisten::compare::Picture {
+fn reference(scene: &Scene) -> glisten_scene::compare::Picture {
     let options = RenderOptions { precision: Precision::Envelope, lines: LineRule::Vulkan, ..RenderOptions::default() };
-    cpu::render(scene, &options).expect("the reference draws every scene of the fixtures")
+    glisten_reference::render(scene, &options).expect("the reference draws every scene of the fixtures")
 }
 
 #[test]

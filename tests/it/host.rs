@@ -3,12 +3,12 @@
 //!
 //! Needs a Vulkan software adapter.
 
-use glisten::compare::{Judge, Picture, Verdict};
-use glisten::cpu::{self, LineRule, Precision, RenderOptions};
-use glisten::emit::Reflection;
-use glisten::emit::reflection::{Attribute, Sampler, Slot, Uniform};
 use glisten::scene::{self, DiskFiles};
-use glisten::{Compiler, Options};
+use glisten_emit::Reflection;
+use glisten_emit::reflection::{Attribute, Sampler, Slot, Uniform};
+use glisten_front::{Compiler, Options};
+use glisten_reference::{LineRule, Precision, RenderOptions};
+use glisten_scene::compare::{Judge, Picture, Verdict};
 use std::path::Path;
 use std::process::Command;
 use wgpu::util::DeviceExt;
@@ -117,7 +117,7 @@ fn reference(app: &App, draw: Draw) -> Picture {
     let messages: Vec<_> = loaded.diagnostics.iter().map(|found| &found.message).collect();
     let scene = loaded.scene.unwrap_or_else(|| panic!("{messages:?}\n{text}"));
     let options = RenderOptions { precision: Precision::Envelope, lines: LineRule::Vulkan, ..RenderOptions::default() };
-    cpu::render(&scene, &options).expect("the reference draws")
+    glisten_reference::render(&scene, &options).expect("the reference draws")
 }
 
 /// Runs `glisten compile`; returns the exit code and, if it is 0, the reflection.

@@ -1,10 +1,10 @@
 //! Hostile sources: each ends in an error within a stack of 1 MiB, and long legal ones are accepted.
 
-use glisten::diagnostic::Diagnostics;
-use glisten::hir::Stage;
-use glisten::source::{IncludeForm, IncludeResolver, Included, SourceMap};
-use glisten::syntax::{Options, parse};
-use glisten::{Compiler, Source};
+use glisten_front::diagnostic::Diagnostics;
+use glisten_front::hir::Stage;
+use glisten_front::source::{IncludeForm, IncludeResolver, Included, SourceMap};
+use glisten_front::syntax::{Options, parse};
+use glisten_front::{Compiler, Source};
 use std::fmt::Write as _;
 
 /// A resolver in which every include finds a file that includes itself.

@@ -1,10 +1,10 @@
 //! Layouts checked against the emitted code: for random sets of uniforms, the offsets and strides in the interface
 //! (which the reflection shows) are the natural ones of the emitted WGSL, and those of the SPIR-V's decorations.
 
-use glisten::emit::{Conventions, Emitted, Target, emit};
-use glisten::hir::Stage;
-use glisten::link::{Program, SlotBinding, UniformLeaf};
-use glisten::{Compiler, Options, Source};
+use glisten_emit::{Conventions, Emitted, Target, emit};
+use glisten_front::hir::Stage;
+use glisten_front::link::{Program, SlotBinding, UniformLeaf};
+use glisten_front::{Compiler, Options, Source};
 use naga::{Handle, Module, Type, TypeInner};
 use proptest::prelude::*;
 

@@ -68,6 +68,6 @@ fn lines_of_included_files_are_their_own() {
     assert!(of("main.frag").contains(&8) && of("main.frag").contains(&9), "{lines:?}");
     assert!(of("main.frag").iter().all(|line| *line <= 10), "{lines:?}");
     let mut collected = crate::emit::Collected::new();
-    collected.add("lines of two files", glisten::emit::Emitted::Words(words));
+    collected.add("lines of two files", glisten_emit::Emitted::Words(words));
     collected.judge();
 }

@@ -1,10 +1,10 @@
 //! Linking and reflection: locations, layouts, names, the JSON schema.
 
 use crate::support::{root, shaders_under};
-use glisten::emit::reflection::{Found, find, table};
-use glisten::emit::{Conventions, Reflection, WindowOrigin, reflect};
-use glisten::hir::Stage;
-use glisten::{Compilation, Compiler, Options, Source};
+use glisten_emit::reflection::{Found, find, table};
+use glisten_emit::{Conventions, Reflection, WindowOrigin, reflect};
+use glisten_front::hir::Stage;
+use glisten_front::{Compilation, Compiler, Options, Source};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -270,7 +270,7 @@ fn a_stage_may_consist_of_several_shaders() {
     let compilation = Compiler::new(Options::default()).compile(&sources);
     let messages: Vec<_> = compilation.diagnostics.iter().map(|found| found.message.clone()).collect();
     let program = compilation.program.unwrap_or_else(|| panic!("{messages:?}"));
-    let text = glisten::hir::print(&program.types, &program.stages[1]);
+    let text = glisten_front::hir::print(&program.types, &program.stages[1]);
     assert_eq!(text.matches("struct S").count(), 1, "{text}");
     assert_eq!(text.matches("uniform S s;").count(), 1, "{text}");
     let again = Compiler::new(Options::default()).compile(&[Source {

@@ -1,9 +1,9 @@
 //! Tests of the lint rules: their pages' examples, their fixtures, and no warnings on ordinary programs.
 
 use crate::support::{Settings, Shader, root, shaders_under};
-use glisten::diagnostic::{Example, Severity};
-use glisten::hir::Stage;
 use glisten::{Compiler, Options, Source, lint};
+use glisten_front::diagnostic::{Example, Severity};
+use glisten_front::hir::Stage;
 use std::collections::BTreeMap;
 use std::path::Path;
 

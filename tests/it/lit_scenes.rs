@@ -2,10 +2,10 @@
 //! for errors in them.
 
 use crate::scenes::{the_error, told};
-use glisten::diagnostic::Severity;
-use glisten::hir::ScalarValue;
 use glisten::scene::{Draw, Loaded, MemoryFiles, Texels, Wrap, load};
-use glisten::{Compiler, Options};
+use glisten_front::diagnostic::Severity;
+use glisten_front::hir::ScalarValue;
+use glisten_front::{Compiler, Options};
 
 const GOOD: &str = r#"
 global_ambient = [0.1, 0.2, 0.3]

@@ -1,9 +1,9 @@
 //! Faults planted in emitted SPIR-V are caught. The test needs a Vulkan software adapter and spirv-val.
 
 use crate::mutation::{Choice, Kind, Outcome, Study};
-use crate::{gpu, scenes};
+use crate::scenes;
 use glisten::scene::{DiskFiles, load};
-use glisten::{Compiler, Options};
+use glisten_front::{Compiler, Options};
 
 /// Scenes that use every feature of the pipeline once, and the textbook's lighting models.
 const SCENES: [&str; 8] = [
@@ -25,7 +25,7 @@ fn planted_faults_are_caught() {
         let loaded = load(path, &DiskFiles, &Compiler::new(Options::default()));
         (name.to_owned(), loaded.scene.expect("another test loads it"))
     });
-    let study = Study::of(&gpu::gpu(), &chosen, Choice { each: Some(3), seed: 7 }, &mut |_, _| {});
+    let study = Study::of(&crate::gpu::gpu(), &chosen, Choice { each: Some(3), seed: 7 }, &mut |_, _| {});
     assert!(study.left_out.is_empty() && study.false_alarms.is_empty(), "{study}");
     let all = study.count(|_| true);
     assert!(all.seen >= 60 && all.refused == 0, "{study}");

@@ -1,7 +1,7 @@
 //! The printer of the typed program: its text is valid GLSL, has the same meaning, and prints the same again.
 
-use glisten::hir::{Stage, print};
-use glisten::{Compilation, Compiler, Options, Source};
+use glisten_front::hir::{Stage, print};
+use glisten_front::{Compilation, Compiler, Options, Source};
 use std::path::{Path, PathBuf};
 
 fn stage_of(path: &Path) -> Option<Stage> {

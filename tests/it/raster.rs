@@ -4,12 +4,12 @@
 //! visible, wherever it is and whatever else is drawn there. The tests need a Vulkan software adapter.
 
 use crate::scenes;
-use glisten::compare::{Judge, Picture, Verdict};
-use glisten::cpu::domain::faults::{Faults, KNOWN};
-use glisten::cpu::{LineRule, Precision, RenderOptions};
-use glisten::gpu::{Gpu, Via};
 use glisten::scene::{DiskFiles, MemoryFiles, Scene, load};
-use glisten::{Compiler, Options};
+use glisten_front::{Compiler, Options};
+use glisten_gpu::{Gpu, Via};
+use glisten_reference::domain::faults::{Faults, KNOWN};
+use glisten_reference::{LineRule, Precision, RenderOptions};
+use glisten_scene::compare::{Judge, Picture, Verdict};
 
 const VERTEX: &str = "#version 150\nin vec4 p;\nin float id;\nin float size;\nflat out float v;\n\
     void main() { v = id; gl_Position = p; gl_PointSize = size; }\n";
@@ -73,7 +73,7 @@ fn count(scene: &Scene) -> Count {
         mark_edges: false,
         ..RenderOptions::default()
     };
-    let reference = glisten::cpu::render(scene, &options).expect("the reference draws");
+    let reference = glisten_reference::render(scene, &options).expect("the reference draws");
     let (drawn, reference) = (&drawn.attachments[0], &reference.attachments[0]);
     let differing =
         (0..SIDE * SIDE).filter(|&pixel| drawn[pixel] != reference[pixel]).map(|pixel| (pixel % SIDE, pixel / SIDE));
@@ -124,7 +124,7 @@ fn few_pixels_are_near_an_edge() {
             mark_edges: true,
             ..RenderOptions::default()
         };
-        let picture = glisten::cpu::render(&scene("triangles", &vertices, 3, None), &options).expect("it draws");
+        let picture = glisten_reference::render(&scene("triangles", &vertices, 3, None), &options).expect("it draws");
         near += picture.near_edge.iter().filter(|near| **near).count();
         covered += picture.covered.iter().filter(|covered| **covered).count();
     }
@@ -178,7 +178,7 @@ fn shared_edges_are_drawn_once() {
         mark_edges: false,
         ..RenderOptions::default()
     };
-    let picture = glisten::cpu::render(&scene, &options).expect("the reference draws");
+    let picture = glisten_reference::render(&scene, &options).expect("the reference draws");
     // Clipping adds corners on the border of the window; inside it, every pixel is drawn exactly once.
     let wrong = (0..SIDE * SIDE).filter(|&pixel| picture.attachments[0][pixel][0] != 1.0).count();
     assert_eq!(wrong, 0);
@@ -213,7 +213,7 @@ fn a_triangle_far_past_the_window_covers_all_of_it() {
             mark_edges: false,
             ..RenderOptions::default()
         };
-        let picture = glisten::cpu::render(&scene("triangles", &corners, 3, None), &options).expect("it draws");
+        let picture = glisten_reference::render(&scene("triangles", &corners, 3, None), &options).expect("it draws");
         assert!(picture.covered.iter().all(|covered| *covered), "{reach:e}");
         // The result consists of two triangles, and nothing overlaps after clipping.
         assert!(picture.attachments[0].iter().all(|pixel| pixel[0] == 1.0), "{reach:e}");
@@ -246,7 +246,7 @@ fn points_whose_centers_lie_outside() {
         ..RenderOptions::default()
     };
     let fragments = |scene: &Scene| -> f64 {
-        let picture = glisten::cpu::render(scene, &options).expect("the reference draws");
+        let picture = glisten_reference::render(scene, &options).expect("the reference draws");
         picture.attachments[0].iter().map(|pixel| pixel[0]).sum()
     };
     let inner = scene("points", &inside, 1, Some(&sizes));
@@ -295,7 +295,7 @@ fn every_scene_of_the_repository_agrees_with_lavapipe() {
         // Large scenes are scaled down: the rules are the same.
         scene.framebuffer.width = scene.framebuffer.width.min(64);
         scene.framebuffer.height = scene.framebuffer.height.min(64);
-        let reference = match glisten::cpu::render(&scene, &options) {
+        let reference = match glisten_reference::render(&scene, &options) {
             Ok(picture) => picture,
             Err(found) => {
                 failures.push(format!("{path}: {found:?}"));
@@ -335,7 +335,7 @@ fn faulty(scene: &Scene) -> Vec<(&'static str, Picture)> {
     let draw = |faults: Faults| {
         let precision = Precision::Envelope;
         let options = RenderOptions { precision, lines: LineRule::Vulkan, faults, ..RenderOptions::default() };
-        glisten::cpu::render(scene, &options).expect("the reference draws")
+        glisten_reference::render(scene, &options).expect("the reference draws")
     };
     KNOWN.iter().map(|known| (known.name, draw(Faults::only(known.fault)))).collect()
 }
@@ -353,7 +353,7 @@ fn an_endless_loop_is_told_where_it_stands() {
         let loaded = load("a.toml", &files, &Compiler::new(Options::default()));
         let options = RenderOptions { mark_edges: false, ..RenderOptions::default() };
         // If each instance or each pixel had a budget of its own, this would take more than a day.
-        let errors = glisten::cpu::render(&loaded.scene.expect("it loads"), &options).expect_err("it has no end");
+        let errors = glisten_reference::render(&loaded.scene.expect("it loads"), &options).expect_err("it has no end");
         let place = loaded.sources.location(errors[0].primary.span).expect("it is in a file");
         assert_eq!((errors[0].code.id, errors.len()), ("E0913", 1));
         assert_eq!((loaded.sources.file(place.file).name(), place.line), (file, line));
@@ -370,7 +370,7 @@ fn noperspective_is_linear_in_the_window_behind_the_eye_too() {
         mark_edges: false,
         ..RenderOptions::default()
     };
-    let picture = glisten::cpu::render(&scene, &options).expect("the reference draws");
+    let picture = glisten_reference::render(&scene, &options).expect("the reference draws");
     // The corners of the scene after the division by w; the first is behind the eye. Red is 1 there, green and blue
     // at the other corners.
     let corners = [(1.8, 1.2), (2.5 / 1.7, -1.1 / 1.7), (-0.3 / 2.1, 1.9 / 2.1)];

@@ -4,11 +4,11 @@
 //! The test needs a Vulkan software adapter.
 
 use crate::layouts::{declarations, member};
-use glisten::gpu::Via;
-use glisten::hir::{Type, Types};
-use glisten::link::UniformLeaf;
 use glisten::scene::{self, MemoryFiles, Scene};
-use glisten::{Compiler, Options, Source};
+use glisten_front::hir::{Type, Types};
+use glisten_front::link::UniformLeaf;
+use glisten_front::{Compiler, Options, Source};
+use glisten_gpu::Via;
 use proptest::strategy::{Strategy, ValueTree};
 
 const WIDTH: usize = 64;
@@ -34,7 +34,7 @@ fn shape(types: &Types, leaf: &UniformLeaf) -> (u32, u32) {
 fn scalars(types: &Types, leaf: &UniformLeaf, first: usize) -> Vec<Scalar> {
     let (columns, rows) = shape(types, leaf);
     let name = leaf.name.replacen("Block.", "block.", 1);
-    let is_bool = types.scalar_of(leaf.ty) == Some(glisten::hir::Scalar::Bool);
+    let is_bool = types.scalar_of(leaf.ty) == Some(glisten_front::hir::Scalar::Bool);
     let mut scalars = Vec::new();
     for element in 0..leaf.array_size.unwrap_or(1) {
         for column in 0..columns {
@@ -67,7 +67,7 @@ fn reader(declarations: &str, scalars: &[Scalar]) -> String {
 /// The scene, and every scalar in the order of the pixels.
 fn scene(declarations: &str) -> (Scene, Vec<Scalar>) {
     let compile = |text: String| {
-        let source = Source { name: "r.frag".into(), text: text.into(), stage: glisten::hir::Stage::Fragment };
+        let source = Source { name: "r.frag".into(), text: text.into(), stage: glisten_front::hir::Stage::Fragment };
         Compiler::new(Options::default()).compile(&[source]).program.expect("the declarations are valid")
     };
     let program = compile(reader(declarations, &[]));
@@ -75,7 +75,7 @@ fn scene(declarations: &str) -> (Scene, Vec<Scalar>) {
     let mut uniforms = String::new();
     for leaf in &program.interface.uniforms {
         let own = scalars(&program.types, leaf, all.len());
-        let is_float = program.types.scalar_of(leaf.ty) == Some(glisten::hir::Scalar::Float);
+        let is_float = program.types.scalar_of(leaf.ty) == Some(glisten_front::hir::Scalar::Float);
         let numbers: Vec<String> =
             own.iter().map(|one| if is_float { format!("{:?}", one.value) } else { one.value.to_string() }).collect();
         uniforms += &match numbers.as_slice() {

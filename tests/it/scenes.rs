@@ -1,9 +1,9 @@
 //! Scene files: what they mean, and the diagnostics for their errors.
 
-use glisten::diagnostic::{Diagnostic, Severity};
-use glisten::hir::ScalarValue;
 use glisten::scene::{AttributeValues, DiskFiles, Format, Loaded, MemoryFiles, Texels, load};
-use glisten::{Compiler, Options};
+use glisten_front::diagnostic::{Diagnostic, Severity};
+use glisten_front::hir::ScalarValue;
+use glisten_front::{Compiler, Options};
 
 const VERTEX: &str = "#version 150\n\
     struct Light { vec4 position; float power; };\n\

@@ -2,10 +2,10 @@
 //!
 //! `cargo insta review` shows what changed.
 
-use glisten::diagnostic::write::human;
-use glisten::emit::{Conventions, Emitted, Target, emit, reflect};
-use glisten::hir::Stage;
-use glisten::{Compilation, Compiler, Options, Source};
+use glisten_emit::{Conventions, Emitted, Target, emit, reflect};
+use glisten_front::diagnostic::write::human;
+use glisten_front::hir::Stage;
+use glisten_front::{Compilation, Compiler, Options, Source};
 use std::fmt::Write;
 use std::fs;
 use std::path::Path;

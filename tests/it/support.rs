@@ -1,9 +1,9 @@
 //! What several test areas share: compiling texts and files, and resolving includes next to them.
 
-use glisten::diagnostic::Diagnostics;
-use glisten::hir::Stage;
-use glisten::source::{IncludeForm, IncludeResolver, Included, SourceMap};
-use glisten::{Compiler, Options, Source};
+use glisten_front::diagnostic::Diagnostics;
+use glisten_front::hir::Stage;
+use glisten_front::source::{IncludeForm, IncludeResolver, Included, SourceMap};
+use glisten_front::{Compiler, Options, Source};
 use std::fs;
 use std::path::{Path, PathBuf};
 

@@ -125,7 +125,7 @@ fn measure_prints_a_row_a_function() {
 fn the_docs_have_a_row_for_every_function() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/library.md");
     let page = fs::read_to_string(path).expect("the page is there");
-    let missing: Vec<&str> = glisten::library::measure::forms()
+    let missing: Vec<&str> = glisten::measure::forms()
         .map(|form| form.signature)
         .filter(|signature| !page.contains(&format!("| `{signature}` ")))
         .collect();

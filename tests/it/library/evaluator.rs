@@ -1,9 +1,9 @@
 //! [`Evaluator`]: the types that a function may take and return, and the errors for others.
 
 use super::call;
-use glisten::cpu::Precision;
 use glisten::evaluate::{Evaluator, signatures};
-use glisten::{Compiler, Options};
+use glisten_front::{Compiler, Options};
+use glisten_reference::Precision;
 
 fn compiler() -> Compiler {
     Compiler::new(Options::default())

@@ -1,9 +1,9 @@
 //! Properties of the models beyond their values: symmetry, limits, poles, peaks, rates.
 
 use super::{call, function};
-use glisten::cpu::Precision;
 use glisten::evaluate::{Evaluator, table};
 use glisten::scene::Filter;
+use glisten_reference::Precision;
 use std::sync::Arc;
 
 type V = [f32; 3];

@@ -11,10 +11,10 @@ mod sum;
 mod targets;
 mod values;
 
-use glisten::cpu::Precision;
 use glisten::evaluate::Evaluator;
 use glisten::library::Embedded;
-use glisten::{Compiler, Options};
+use glisten_front::{Compiler, Options};
+use glisten_reference::Precision;
 
 /// A function of a module, ready to be called.
 fn function(module: &str, signature: &str, wraps: &[(usize, &str)]) -> Evaluator {

@@ -2,9 +2,9 @@
 //! library.
 
 use super::{call, function};
-use glisten::cpu::Precision;
 use glisten::evaluate::table;
 use glisten::scene::Filter;
+use glisten_reference::Precision;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 

@@ -2,9 +2,9 @@
 //! and f32 and on the GPU.
 
 use super::function;
-use glisten::cpu::Precision;
 use glisten::evaluate::Evaluator;
-use glisten::gpu::{Gpu, Via};
+use glisten_gpu::{Gpu, Via};
+use glisten_reference::Precision;
 use std::fs;
 use toml::{Table, Value};
 

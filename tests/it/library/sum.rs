@@ -1,9 +1,9 @@
 //! Compares the sum over the lights (101), as the standard program computes it, with its closed form.
 
 use glam::DVec3;
-use glisten::cpu::{RenderOptions, render};
 use glisten::scene::{MemoryFiles, load};
-use glisten::{Compiler, Options};
+use glisten_front::{Compiler, Options};
+use glisten_reference::{RenderOptions, render};
 
 const SIDE: usize = 16;
 

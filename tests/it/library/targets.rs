@@ -1,12 +1,12 @@
 //! Compiles every function alone for every target, called from a fragment shader and from a vertex shader.
 
 use crate::emit::Collected;
-use glisten::emit::{Conventions, Target, emit};
-use glisten::hir::Stage;
 use glisten::library::Embedded;
-use glisten::library::measure::{Trial, forms};
-use glisten::link::Program;
-use glisten::{Compiler, Options, Source};
+use glisten::measure::{Trial, forms};
+use glisten_emit::{Conventions, Target, emit};
+use glisten_front::hir::Stage;
+use glisten_front::link::Program;
+use glisten_front::{Compiler, Options, Source};
 
 const FRAGMENT: &str =
     "#version 150\nflat in vec4 glisten_result;\nout vec4 color;\nvoid main() { color = glisten_result; }\n";

@@ -1,10 +1,10 @@
 //! Compares every function with its closed form, on the reference and on the GPU, and checks that its results are
 //! finite for all inputs.
 
-use glisten::cpu::Precision;
-use glisten::gpu::Via;
-use glisten::library::measure::{Form, Trial, forms};
 use glisten::library::{Entry, entries, modules};
+use glisten::measure::{Form, Trial, forms};
+use glisten_gpu::Via;
+use glisten_reference::Precision;
 use std::collections::BTreeSet;
 
 const ROWS: usize = 1024;

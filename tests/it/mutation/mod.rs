@@ -23,7 +23,7 @@ mod words;
 pub(crate) use study::Study;
 pub(crate) use trial::Outcome;
 
-use glisten::hir::Stage;
+use glisten_front::hir::Stage;
 use words::{Splice, instructions, spliced};
 
 /// The largest side of a picture. Scenes are drawn small: the rules are the same, and a study draws thousands of

@@ -2,7 +2,7 @@
 
 use super::words::{Instruction, bound, encoded, instructions, op};
 use super::{Kind, Mutation};
-use glisten::hir::Stage;
+use glisten_front::hir::Stage;
 use std::collections::BTreeMap;
 
 /// The bits of a constant's fraction that are flipped, counted from the lowest. The lowest eight are not flipped, as

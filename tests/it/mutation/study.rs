@@ -2,8 +2,8 @@
 
 use super::trial::{Cover, Subject, Trial};
 use super::{Choice, Kind, Outcome};
-use glisten::gpu::Gpu;
 use glisten::scene::Scene;
+use glisten_gpu::Gpu;
 use std::fmt;
 
 /// Trials on some scenes.

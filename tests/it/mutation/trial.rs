@@ -1,11 +1,11 @@
 //! [`Subject`] and [`Trial`]: a scene with its correct picture, and the outcome of one fault planted in it.
 
 use super::{Choice, Kind, Mutation, SIDE, mutations};
-use glisten::compare::{Judge, Picture, Verdict, ulp_f32};
-use glisten::cpu::{self, LineRule, Precision, RenderOptions};
-use glisten::gpu::{Error, Gpu};
-use glisten::hir::Stage;
 use glisten::scene::Scene;
+use glisten_front::hir::Stage;
+use glisten_gpu::{Error, Gpu};
+use glisten_reference::{LineRule, Precision, RenderOptions};
+use glisten_scene::compare::{Judge, Picture, Verdict, ulp_f32};
 use std::cell::{Cell, RefCell};
 use std::fmt;
 use std::io::Write;
@@ -127,7 +127,7 @@ impl<'a> Subject<'a> {
         let plain = plain.map_err(|error| error.to_string())?;
         let options =
             RenderOptions { precision: Precision::Envelope, lines: LineRule::Vulkan, ..RenderOptions::default() };
-        let reference = cpu::render(&scene, &options).map_err(|found| format!("{found:?}"))?;
+        let reference = glisten_reference::render(&scene, &options).map_err(|found| format!("{found:?}"))?;
         if fails(&plain, &reference, OURS) {
             return Err("verify fails it without a fault".to_owned());
         }

@@ -2,9 +2,9 @@
 //! of `raster`, except that lines follow OpenGL's own rule.
 
 use crate::raster::{Random, SIDE, Vertex, at, scene};
-use glisten::compare::Picture;
-use glisten::cpu::{self, LineRule, Precision, RenderOptions};
 use glisten::scene::Scene;
+use glisten_reference::{LineRule, Precision, RenderOptions};
+use glisten_scene::compare::Picture;
 
 /// The driver's picture and the reference's; `None` without a driver.
 fn both(scene: &Scene) -> Option<[Picture; 2]> {
@@ -15,7 +15,7 @@ fn both(scene: &Scene) -> Option<[Picture; 2]> {
         mark_edges: false,
         ..RenderOptions::default()
     };
-    let reference = cpu::render(scene, &options).expect("the reference draws");
+    let reference = glisten_reference::render(scene, &options).expect("the reference draws");
     Some([gl.render(scene).unwrap_or_else(|error| panic!("{error}")), reference])
 }
 

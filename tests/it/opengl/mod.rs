@@ -15,14 +15,14 @@ mod order;
 
 use crate::emit::missing;
 use crate::support::root;
-use glisten::compare::{Judge, Picture, Verdict};
-use glisten::cpu::domain::faults::{Faults, KNOWN};
-use glisten::cpu::{self, LineRule, Precision, RenderOptions};
-use glisten::gl::{Error, Gl};
-use glisten::hir::{ArraySize, Stage, Type};
 use glisten::scene::{DiskFiles, Loaded, MemoryFiles, Scene, load};
 use glisten::shader_test::{self, Outcome, Painter};
-use glisten::{Compiler, Options};
+use glisten_front::hir::{ArraySize, Stage, Type};
+use glisten_front::{Compiler, Options};
+use glisten_gl::{Error, Gl};
+use glisten_reference::domain::faults::{Faults, KNOWN};
+use glisten_reference::{LineRule, Precision, RenderOptions};
+use glisten_scene::compare::{Judge, Picture, Verdict};
 use std::path::{Path, PathBuf};
 
 /// Larger scenes are scaled down.
@@ -134,7 +134,7 @@ fn written(vertex: &str, fragment: &str, rest: &str) -> Scene {
 fn reference(scene: &Scene, faults: Faults) -> Picture {
     let options =
         RenderOptions { precision: Precision::Envelope, lines: LineRule::OpenGl, faults, ..RenderOptions::default() };
-    cpu::render(scene, &options).expect("the reference draws every scene of the fixtures")
+    glisten_reference::render(scene, &options).expect("the reference draws every scene of the fixtures")
 }
 
 /// Judges like `verify`: by the strict envelope and, if that fails, with each known fault of the driver excused.

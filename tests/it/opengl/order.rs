@@ -3,8 +3,8 @@
 //! GLSL 1.50 defines the order for `,`, `&&`, `||` and `?:` (section 5.9) and for nothing else. The reference goes
 //! from left to right; a driver need not.
 
-use glisten::builtin::BuiltinFunction;
-use glisten::hir::{ExprId, ExprKind, ParamMode, Shader, VarRef};
+use glisten_front::builtin::BuiltinFunction;
+use glisten_front::hir::{ExprId, ExprKind, ParamMode, Shader, VarRef};
 
 /// The variables that evaluating an expression reads and writes.
 #[derive(Clone, Default)]

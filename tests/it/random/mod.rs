@@ -6,13 +6,13 @@
 mod text;
 
 use crate::emit::Collected;
-use glisten::compare::{Judge, Verdict};
-use glisten::cpu::{self, LineRule, Precision, RenderOptions};
-use glisten::emit::{Conventions, Target, emit};
-use glisten::gpu::{Gpu, Via};
-use glisten::hir::Stage;
 use glisten::scene::{self, MemoryFiles, Scene};
-use glisten::{Compiler, Options};
+use glisten_emit::{Conventions, Target, emit};
+use glisten_front::hir::Stage;
+use glisten_front::{Compiler, Options};
+use glisten_gpu::{Gpu, Via};
+use glisten_reference::{LineRule, Precision, RenderOptions};
+use glisten_scene::compare::{Judge, Verdict};
 use std::ops::Range;
 
 const VERTEX: &str = "#version 150\nin vec2 place;\nin vec4 av;\nin ivec4 bv;\nflat out vec4 a;\nflat out ivec4 b;\n\
@@ -62,7 +62,7 @@ pub(crate) fn program(seed: u64) -> (String, Scene) {
 /// What is wrong with the picture of a scene, and how many pixels could not be judged.
 fn compare(gpu: &Gpu, scene: &Scene) -> (Vec<String>, usize) {
     let options = RenderOptions { precision: Precision::Envelope, lines: LineRule::Vulkan, ..RenderOptions::default() };
-    let reference = match cpu::render(scene, &options) {
+    let reference = match glisten_reference::render(scene, &options) {
         Ok(reference) => reference,
         Err(found) => {
             let messages: Vec<_> = found.iter().map(|found| &found.message).collect();

@@ -1,0 +1,19 @@
+//! Emits code for targets, and the reflection.
+//!
+//! *In:* a [`Program`](glisten_front::link::Program) and [`Conventions`]. *Out:* WGSL or SPIR-V (also MSL, HLSL, GLSL), and
+//! the reflection.
+//!
+//! *Holds:* every module is checked by naga's validator. An error of naga's validator or writers becomes an internal
+//! error at the position in the GLSL text, without naga's handles. The same input gives the same bytes.
+
+mod inline;
+mod lines;
+mod names;
+mod nesting;
+mod notes;
+pub mod reflection;
+mod write;
+
+pub use notes::{levels_of_comparisons, notes};
+pub use reflection::{Reflection, reflect};
+pub use write::{Emitted, emit, emit_with_sources};

@@ -1,0 +1,133 @@
+//! Finds out what a name of a program is (`glisten reflect --find`).
+//!
+//! OpenGL hosts look up attributes, uniforms and outputs with different functions. The wrong function silently
+//! returns -1, so the answer says which kind a name is.
+
+use super::{Reflection, Slot};
+use glisten_front::diagnostic::did_you_mean;
+use glisten_front::hir::Storage;
+use glisten_front::link::Program;
+
+/// The answer.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Found {
+    /// One line for each thing of that name.
+    Known(Vec<String>),
+    /// There is no such name.
+    Unknown {
+        /// The most similar name.
+        nearest: Option<String>,
+    },
+}
+
+/// Looks up a name among attributes, varyings, outputs, uniforms, blocks and samplers, then among all other globals.
+/// `a[0]` finds the array `a`; a struct or a block finds its members.
+pub fn find(program: &Program, reflection: &Reflection, name: &str) -> Found {
+    let mut lines = exact(reflection, name);
+    if lines.is_empty()
+        && let Some(base) = name.strip_suffix("[0]")
+    {
+        lines = exact(reflection, base);
+    }
+    if lines.is_empty() {
+        lines = members(reflection, name);
+    }
+    if lines.is_empty() {
+        lines = globals(program, name);
+    }
+    if lines.is_empty() { Found::Unknown { nearest: nearest(program, reflection, name) } } else { Found::Known(lines) }
+}
+
+fn state(active: bool) -> &'static str {
+    if active { "" } else { ", not in use" }
+}
+
+fn at(group: u32, binding: u32) -> String {
+    format!("group {group}, binding {binding}")
+}
+
+fn exact(reflection: &Reflection, name: &str) -> Vec<String> {
+    let mut lines = Vec::new();
+    for row in reflection.attributes.iter().filter(|row| row.name == name) {
+        lines.push(format!("`{name}` is an attribute: {} at location {}{}", row.ty, row.location, state(row.active)));
+    }
+    for row in reflection.varyings.iter().filter(|row| row.name == name) {
+        lines.push(format!(
+            "`{name}` is a varying: {} {} at location {}, component {}{}",
+            row.interpolation,
+            row.ty,
+            row.location,
+            row.component,
+            state(row.active)
+        ));
+    }
+    for row in reflection.outputs.iter().filter(|row| row.name == name) {
+        lines.push(format!("`{name}` is a fragment output: {}, color number {}", row.ty, row.location));
+    }
+    for row in reflection.blocks.iter().filter(|row| row.name == name) {
+        let place = at(row.group, row.binding);
+        lines.push(format!("`{name}` is a uniform block of {} bytes at {place}{}", row.size, state(row.active)));
+    }
+    for row in reflection.uniforms.iter().filter(|row| row.name == name) {
+        let array = row.array_size.map_or(String::new(), |size| format!("[{size}]"));
+        let place = at(row.group, row.binding);
+        let active = state(row.active);
+        lines.push(format!("`{name}` is a uniform: {}{array} at {place}, offset {}{active}", row.ty, row.offset));
+    }
+    for row in reflection.samplers.iter().filter(|row| row.name == name) {
+        let Slot { group, binding } = row.texture;
+        let sampler = if row.sampler == row.texture {
+            String::new()
+        } else {
+            format!(", sampler at {}", at(row.sampler.group, row.sampler.binding))
+        };
+        let active = state(row.active);
+        lines.push(format!("`{name}` is a uniform: {}, texture at {}{sampler}{active}", row.ty, at(group, binding)));
+    }
+    lines
+}
+
+/// The members or columns of a struct, matrix or block.
+fn members(reflection: &Reflection, name: &str) -> Vec<String> {
+    let inside = |path: &str| path.strip_prefix(name).is_some_and(|rest| rest.starts_with(['.', '[']));
+    let paths = reflection.uniforms.iter().map(|row| (&row.name, "uniform"));
+    let paths = paths.chain(reflection.samplers.iter().map(|row| (&row.name, "uniform")));
+    let paths = paths.chain(reflection.varyings.iter().map(|row| (&row.name, "varying")));
+    let parts: Vec<_> = paths.filter(|(path, _)| inside(path)).collect();
+    let Some((_, kind)) = parts.first() else { return Vec::new() };
+    let mut lines = vec![format!("`{name}` is a {kind} of {} parts:", parts.len())];
+    lines.extend(parts.iter().flat_map(|(path, _)| exact(reflection, path)).map(|line| format!("  {line}")));
+    lines
+}
+
+/// Names that the host cannot access: outputs that nothing reads, built-in and global variables.
+fn globals(program: &Program, name: &str) -> Vec<String> {
+    let mut lines = Vec::new();
+    for shader in &program.stages {
+        for global in shader.globals.iter().filter(|global| global.name == name) {
+            let what = match (global.builtin.is_some(), global.storage) {
+                (true, _) => "a built-in variable",
+                (false, Storage::Const) => "a constant",
+                (false, Storage::Private) => "a global variable",
+                (false, Storage::Uniform) => "a uniform",
+                (false, Storage::In) => "an input",
+                (false, Storage::Out) => "an output",
+            };
+            let stage = shader.stage.name();
+            let ty = program.types.name(global.ty);
+            lines.push(format!("`{name}` is {what} of the {stage} stage ({ty}), without a place outside of it"));
+        }
+    }
+    lines
+}
+
+fn nearest(program: &Program, reflection: &Reflection, name: &str) -> Option<String> {
+    let mut names: Vec<&str> = reflection.attributes.iter().map(|row| row.name.as_str()).collect();
+    names.extend(reflection.varyings.iter().map(|row| row.name.as_str()));
+    names.extend(reflection.outputs.iter().map(|row| row.name.as_str()));
+    names.extend(reflection.blocks.iter().map(|row| row.name.as_str()));
+    names.extend(reflection.uniforms.iter().map(|row| row.name.as_str()));
+    names.extend(reflection.samplers.iter().map(|row| row.name.as_str()));
+    names.extend(program.stages.iter().flat_map(|shader| &shader.globals).map(|global| global.name.as_str()));
+    did_you_mean(name, names).map(str::to_owned)
+}

@@ -1,0 +1,30 @@
+//! The back of glisten: a linked program to WGSL, SPIR-V, MSL, HLSL and GLSL, with the reflection for its host.
+//!
+//! ```text
+//!  program ──► lower ──► naga ──► emit ──► text or binary
+//!     └──────────────► reflection
+//! ```
+//!
+//! *In:* a [`Program`](glisten_front::Program), a [`Target`], the [`Conventions`] of its host. *Out:* [`Emitted`] by
+//! [`emit()`], [`Reflection`] by [`reflect`]. *Holds:* naga's types stay inside.
+
+mod emit;
+mod lower;
+mod target;
+
+pub use emit::{Emitted, Reflection, emit, emit_with_sources, levels_of_comparisons, notes, reflect, reflection};
+pub use target::{BUFFER_WIDTH, ClipZ, Conventions, SpirvEnv, Target, WindowOrigin};
+
+/// Lowers without writing, for a bench of the two parts: how many functions the lowered module has.
+///
+/// # Errors
+/// What the target cannot hold.
+#[doc(hidden)]
+pub fn lower_alone(
+    program: &glisten_front::Program,
+    stage: glisten_front::Stage,
+    target: Target,
+    conventions: &Conventions,
+) -> Result<usize, Vec<glisten_front::Diagnostic>> {
+    lower::lower(program, stage, target, conventions).map(|module| module.functions.len())
+}

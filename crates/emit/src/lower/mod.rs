@@ -1,0 +1,194 @@
+//! Lowers the typed program to naga IR, from OpenGL's semantics to WebGPU's and Vulkan's.
+//!
+//! *In:* a [`Program`] without errors and the conventions. *Out:* a `naga::Module` for one stage, whose spans are
+//! the global offsets of the [`SourceMap`](glisten_front::source::SourceMap).
+//!
+//! *Holds:* locations, offsets and bindings are those of [`Program::interface`]. The natural layout of every type in
+//! uniform space is its std140 layout, because naga's WGSL writer writes neither sizes nor strides. The only pointers
+//! passed to functions point to whole local variables, because naga's SPIR-V writer has no others. Expressions are
+//! evaluated left to right, each where GLSL evaluates it. What a target cannot represent is a diagnostic and never a
+//! wrong result.
+//!
+//! | file | contents |
+//! | --- | --- |
+//! | `facts` | facts that must be known first |
+//! | `types`, `uniforms` | types of values, types in std140 memory |
+//! | `interface`, `outputs` | attributes, varyings, colors, built-in variables, the entry point |
+//! | `function` | the state of one function: naga's arenas, emission, names |
+//! | `statements`, `control` | §6 |
+//! | `expressions`, `operators`, `constructors`, `places`, `calls` | §5 |
+//! | `builtins`, `textures`, `texel_loads`, `matrices`, `aggregates` | §8 |
+//! | `constants` | constant values, and how to keep the target from evaluating what is not finite |
+
+mod aggregates;
+mod builtins;
+mod calls;
+mod constants;
+mod constructors;
+mod control;
+mod expressions;
+mod facts;
+mod function;
+mod interface;
+mod matrices;
+mod operands;
+mod operators;
+mod outputs;
+mod places;
+mod samplers;
+mod statements;
+mod texel_loads;
+mod textures;
+mod types;
+mod uniforms;
+
+pub(crate) use operands::for_each_operand;
+
+use crate::target::{Conventions, Target};
+use facts::Facts;
+use function::{GlobalSlot, Lowered};
+use glisten_front::diagnostic::Diagnostic;
+use glisten_front::diagnostic::codes::{general, targets};
+use glisten_front::hir::{FunctionId, GlobalId, Shader, Stage, Types};
+use glisten_front::link::{Interface, Program, Varying};
+use glisten_front::source::Span;
+use rustc_hash::FxHashMap;
+
+/// A result of the lowering, or the one diagnostic that says why there is none.
+type Try<T> = Result<T, Box<Diagnostic>>;
+
+/// Lowers one stage of a program.
+///
+/// # Errors
+/// Diagnostics, all of them errors: what the target cannot represent, what is not supported yet, and internal errors.
+pub(crate) fn lower(
+    program: &Program,
+    stage: Stage,
+    target: Target,
+    conventions: &Conventions,
+) -> Result<naga::Module, Vec<Diagnostic>> {
+    let Some(shader) = program.stage(stage) else {
+        let message = format!("the program `{}` has no {} stage", program.name, stage.name());
+        return Err(vec![Diagnostic::new(&general::INTERNAL, Span::default(), message)]);
+    };
+    if stage == Stage::Geometry {
+        return Err(vec![no_geometry(shader)]);
+    }
+    let facts = Facts::of(shader);
+    let nesting = facts.functions.iter().map(|function| function.depth).max().unwrap_or(0);
+    // A statement and its contents take several stack frames; an expression takes one or two.
+    glisten_front::stack::with_stack(shader.expr_depth.saturating_add(nesting.saturating_mul(4)), || {
+        Lower::new(program, shader, target, conventions, facts).run()
+    })
+}
+
+fn no_geometry(shader: &Shader) -> Diagnostic {
+    let span = shader.main.map_or(Span::default(), |main| shader.function(main).span);
+    Diagnostic::new(&targets::STAGE_NOT_IN_TARGET, span, "no target of glisten has a geometry stage")
+        .here("the entry point of a geometry shader")
+        .help("compute the emitted vertices in a vertex shader that is drawn once for each of them")
+}
+
+/// The state of lowering one stage.
+struct Lower<'a> {
+    types: &'a Types,
+    shader: &'a Shader,
+    interface: &'a Interface,
+    target: Target,
+    conventions: &'a Conventions,
+    facts: Facts,
+    module: naga::Module,
+    layouter: naga::proc::Layouter,
+    /// The varyings of the interface, and hidden ones (see [`hidden_varyings`](interface::hidden_varyings)).
+    varyings: Vec<Varying>,
+    values: FxHashMap<glisten_front::hir::TypeId, naga::Handle<naga::Type>>,
+    hosts: uniforms::Hosts,
+    globals: Vec<GlobalSlot>,
+    samplers: FxHashMap<GlobalId, Vec<samplers::SamplerVariables>>,
+    framebuffer_height: Option<(naga::Handle<naga::GlobalVariable>, u32)>,
+    /// For each offset of a hidden number of texels: its block and the member in it.
+    texel_counts: FxHashMap<u32, (naga::Handle<naga::GlobalVariable>, u32)>,
+    functions: Vec<Option<Lowered>>,
+    helpers: aggregates::Helpers,
+    hidden: Vec<(u32, naga::Handle<naga::GlobalVariable>)>,
+    /// Whether the invocation has been discarded, in targets where it continues and a loop has to know.
+    discarded: Option<naga::Handle<naga::GlobalVariable>>,
+    diagnostics: Vec<Diagnostic>,
+}
+
+impl<'a> Lower<'a> {
+    fn new(
+        program: &'a Program,
+        shader: &'a Shader,
+        target: Target,
+        conventions: &'a Conventions,
+        facts: Facts,
+    ) -> Self {
+        Self {
+            types: &program.types,
+            shader,
+            interface: &program.interface,
+            target,
+            conventions,
+            facts,
+            module: naga::Module::default(),
+            layouter: naga::proc::Layouter::default(),
+            varyings: interface::hidden_varyings(program),
+            values: FxHashMap::default(),
+            hosts: uniforms::Hosts::default(),
+            globals: vec![GlobalSlot::Unused; shader.globals.len()],
+            samplers: FxHashMap::default(),
+            framebuffer_height: None,
+            texel_counts: FxHashMap::default(),
+            functions: vec![None; shader.functions.len()],
+            helpers: aggregates::Helpers::default(),
+            hidden: Vec::new(),
+            discarded: None,
+            diagnostics: Vec::new(),
+        }
+    }
+
+    fn run(mut self) -> Result<naga::Module, Vec<Diagnostic>> {
+        if let Err(diagnostic) = self.declare_globals() {
+            self.diagnostics.push(*diagnostic);
+            return Err(self.diagnostics);
+        }
+        for id in self.facts.order.clone() {
+            let lowered = if Some(id) == self.shader.main { self.entry_point(id) } else { self.function(id) };
+            if let Err(diagnostic) = lowered {
+                self.diagnostics.push(*diagnostic);
+                // Every caller of a function that could not be lowered would only report the same.
+                return Err(self.diagnostics);
+            }
+        }
+        if self.diagnostics.is_empty() { Ok(self.module) } else { Err(self.diagnostics) }
+    }
+
+    fn global_slot(&self, id: GlobalId) -> &GlobalSlot {
+        self.globals.get(id.index()).unwrap_or(&GlobalSlot::Unused)
+    }
+
+    fn lowered(&self, id: FunctionId) -> Option<&Lowered> {
+        self.functions.get(id.index())?.as_ref()
+    }
+}
+
+/// An internal error of glisten.
+fn internal(span: Span, message: impl Into<String>) -> Box<Diagnostic> {
+    Box::new(Diagnostic::new(&general::INTERNAL, span, message))
+}
+
+/// The diagnostic for something that glisten knows but does not support.
+fn unsupported(span: Span, message: impl Into<String>) -> Box<Diagnostic> {
+    Box::new(Diagnostic::new(&general::NOT_SUPPORTED_YET, span, message))
+}
+
+/// The diagnostic for something that the target lacks, with a way out.
+fn lacking(span: Span, message: impl Into<String>, help: impl Into<String>) -> Box<Diagnostic> {
+    Box::new(Diagnostic::new(&targets::FEATURE_NOT_IN_TARGET, span, message).help(help))
+}
+
+/// The span as naga's type.
+fn naga_span(span: Span) -> naga::Span {
+    naga::Span::new(span.start, span.end)
+}

@@ -1,0 +1,361 @@
+//! Lowers texture functions (§8.7) to separate textures and samplers.
+//!
+//! *Holds:* the arguments of a call are first decomposed into a [`Lookup`] by the tables of §8.7, and then recombined
+//! for the texture that represents the sampler (see [`samplers`](super::samplers)). Integer textures have no sampler
+//! in any target: their lookups are in [`texel_loads`](super::texel_loads).
+
+use super::function::{Ctx, SamplerValue};
+use super::{Try, internal, lacking};
+use crate::target::BUFFER_WIDTH;
+use glisten_front::builtin::BuiltinFunction;
+use glisten_front::hir::{ExprId, SamplerDim, SamplerType, Scalar, ScalarValue, Swizzle, TypeId};
+use naga::{BinaryOperator, Expression, Handle, MathFunction, SampleLevel};
+
+/// The variant of a function that its name selects.
+#[derive(Clone, Copy, Debug)]
+struct Form {
+    projective: bool,
+    offset: bool,
+    level: Level,
+}
+
+/// How the level of detail is selected.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Level {
+    Implicit,
+    Lod,
+    Gradient,
+}
+
+/// A decomposed lookup.
+pub(super) struct Lookup {
+    pub(super) ty: SamplerType,
+    pub(super) value: SamplerValue,
+    /// The coordinate, with as many components as the GLSL type: 1 for 1D.
+    pub(super) coordinate: Handle<Expression>,
+    /// The layer before rounding.
+    pub(super) layer: Option<Handle<Expression>>,
+    pub(super) reference: Option<Handle<Expression>>,
+    pub(super) level: SampleLevel,
+    /// The offset, with as many components as the coordinate.
+    pub(super) offset: Option<Vec<i32>>,
+}
+
+/// The number of coordinates of a dimensionality in GLSL.
+pub(super) fn dimensions(dim: SamplerDim) -> u8 {
+    match dim {
+        SamplerDim::D1 | SamplerDim::Buffer => 1,
+        SamplerDim::D2 | SamplerDim::Rect | SamplerDim::Multisample => 2,
+        SamplerDim::D3 | SamplerDim::Cube => 3,
+    }
+}
+
+fn form(function: BuiltinFunction) -> Option<Form> {
+    use BuiltinFunction as F;
+    let (projective, offset, level) = match function {
+        F::Texture => (false, false, Level::Implicit),
+        F::TextureProj => (true, false, Level::Implicit),
+        F::TextureLod => (false, false, Level::Lod),
+        F::TextureOffset => (false, true, Level::Implicit),
+        F::TextureProjOffset => (true, true, Level::Implicit),
+        F::TextureLodOffset => (false, true, Level::Lod),
+        F::TextureProjLod => (true, false, Level::Lod),
+        F::TextureProjLodOffset => (true, true, Level::Lod),
+        F::TextureGrad => (false, false, Level::Gradient),
+        F::TextureGradOffset => (false, true, Level::Gradient),
+        F::TextureProjGrad => (true, false, Level::Gradient),
+        F::TextureProjGradOffset => (true, true, Level::Gradient),
+        _ => return None,
+    };
+    Some(Form { projective, offset, level })
+}
+
+impl Ctx<'_, '_> {
+    /// A call of a texture function.
+    pub(super) fn texture_call(&mut self, function: BuiltinFunction, arguments: &[ExprId]) -> Try<Handle<Expression>> {
+        let Some((sampler, rest)) = arguments.split_first() else {
+            return Err(self.slip("a texture function without a sampler"));
+        };
+        let (ty, value) = self.sampler(*sampler)?;
+        match function {
+            BuiltinFunction::TextureSize => self.texture_size(ty, value, rest.first().copied()),
+            BuiltinFunction::TexelFetch => self.texel_fetch(ty, value, rest, false),
+            BuiltinFunction::TexelFetchOffset => self.texel_fetch(ty, value, rest, true),
+            _ => match form(function) {
+                Some(form) => {
+                    let lookup = self.lookup(ty, value, form, rest)?;
+                    if ty.texel == Scalar::Float { self.sample(&lookup) } else { self.integer_lookup(&lookup) }
+                }
+                None => Err(internal(self.here(), format!("`{}` is no texture function", function.name()))),
+            },
+        }
+    }
+
+    /// Decomposes the arguments after the sampler, in order: P, level, offset, bias.
+    fn lookup(&mut self, ty: SamplerType, value: SamplerValue, form: Form, arguments: &[ExprId]) -> Try<Lookup> {
+        let mut arguments = arguments.iter().copied();
+        let mut next = || arguments.next();
+        let missing = || internal(Default::default(), "a texture function lacks an argument");
+        let p = next().ok_or_else(missing)?;
+        let p_size = self.size_of(self.shader.expr(p).ty);
+        let p = self.value(p)?;
+        let mut level = match form.level {
+            Level::Implicit => SampleLevel::Auto,
+            Level::Lod => SampleLevel::Exact(self.value(next().ok_or_else(missing)?)?),
+            Level::Gradient => {
+                let x = self.value(next().ok_or_else(missing)?)?;
+                let y = self.value(next().ok_or_else(missing)?)?;
+                SampleLevel::Gradient { x, y }
+            }
+        };
+        let offset = match form.offset {
+            true => Some(self.constant_offset(next().ok_or_else(missing)?)?),
+            false => None,
+        };
+        if let Some(bias) = next() {
+            level = SampleLevel::Bias(self.value(bias)?);
+        }
+        if self.is_vertex() && matches!(level, SampleLevel::Auto | SampleLevel::Bias(_)) {
+            // Outside the fragment stage, the base level is read (§8.7).
+            level = SampleLevel::Zero;
+        }
+        let (coordinate, layer, reference) = self.coordinates(ty, form.projective, p, p_size);
+        Ok(Lookup { ty, value, coordinate, layer, reference, level, offset })
+    }
+
+    /// The coordinate, layer and reference value in P (the tables of §8.7).
+    fn coordinates(
+        &mut self,
+        ty: SamplerType,
+        projective: bool,
+        p: Handle<Expression>,
+        p_size: u8,
+    ) -> (Handle<Expression>, Option<Handle<Expression>>, Option<Handle<Expression>>) {
+        let n = dimensions(ty.dim);
+        let mut component = |index: u8| {
+            let index = u32::from(index.min(p_size.saturating_sub(1)));
+            self.add(Expression::AccessIndex { base: p, index })
+        };
+        // The reference value of a 1D shadow is in z, after an unused component; that of a cube is in w.
+        let reference =
+            ty.shadow.then(|| component(if ty.arrayed || n == 3 { n.max(1) + u8::from(ty.arrayed) } else { 2 }));
+        let layer = ty.arrayed.then(|| component(n));
+        let divisor = projective.then(|| component(p_size.saturating_sub(1)));
+        let coordinate = if p_size == n { p } else { self.first_components(p, n) };
+        match divisor {
+            None => (coordinate, layer, reference),
+            Some(divisor) => {
+                let spread = self.splat(divisor, n);
+                let coordinate = self.op(BinaryOperator::Divide, coordinate, spread);
+                let reference = reference.map(|value| self.op(BinaryOperator::Divide, value, divisor));
+                (coordinate, layer, reference)
+            }
+        }
+    }
+
+    /// The value of an offset, which must be a constant expression (§8.7).
+    fn constant_offset(&mut self, id: ExprId) -> Try<Vec<i32>> {
+        let expr = self.shader.expr(id);
+        let value = self.low.evaluated(self.id, id).ok_or_else(|| {
+            lacking(
+                expr.span,
+                "the offset of a texture lookup is not constant",
+                "choose among constant offsets with `if`, or add the offset to the coordinate",
+            )
+        })?;
+        let whole = |scalar: &ScalarValue| match scalar {
+            ScalarValue::Int(value) => *value,
+            ScalarValue::Uint(value) => *value as i32,
+            ScalarValue::Bool(_) | ScalarValue::Float(_) => 0,
+        };
+        Ok(value.scalars.iter().map(whole).collect())
+    }
+
+    /// A lookup through a sampler.
+    fn sample(&mut self, lookup: &Lookup) -> Try<Handle<Expression>> {
+        let Some(sampler) = lookup.value.sampler else {
+            return Err(internal(self.here(), "this texture has no sampler"));
+        };
+        let level = self.shadow_level(lookup);
+        let coordinate = self.target_coordinate(lookup, lookup.coordinate);
+        let level = match level {
+            SampleLevel::Gradient { x, y } => {
+                SampleLevel::Gradient { x: self.target_gradient(lookup, x), y: self.target_gradient(lookup, y) }
+            }
+            level => level,
+        };
+        let array_index = lookup.layer.map(|layer| self.layer_index(layer));
+        let offset = lookup.offset.as_ref().map(|offset| {
+            let mut offset = offset.clone();
+            if lookup.ty.dim == SamplerDim::D1 {
+                offset.push(0);
+            }
+            self.int_vector(&offset)
+        });
+        Ok(self.add(Expression::ImageSample {
+            image: lookup.value.texture,
+            sampler,
+            gather: None,
+            coordinate,
+            array_index,
+            offset,
+            level,
+            depth_ref: lookup.reference,
+            clamp_to_edge: false,
+        }))
+    }
+
+    /// The level of a comparison: the implicit one or level 0, which are the only ones of a texture with one level.
+    /// If another was requested, there is a warning ([`notes`](crate::emit::notes)).
+    fn shadow_level(&self, lookup: &Lookup) -> SampleLevel {
+        match lookup.level {
+            level if lookup.reference.is_none() => level,
+            SampleLevel::Auto | SampleLevel::Bias(_) => SampleLevel::Auto,
+            SampleLevel::Zero | SampleLevel::Exact(_) | SampleLevel::Gradient { .. } => SampleLevel::Zero,
+        }
+    }
+
+    /// The coordinate for the texture that represents the sampler. For 1D, it is in the middle of the row; for a
+    /// rectangle, it is divided by the size in texels.
+    fn target_coordinate(&mut self, lookup: &Lookup, coordinate: Handle<Expression>) -> Handle<Expression> {
+        match lookup.ty.dim {
+            SamplerDim::D1 => {
+                let middle = self.float(0.5);
+                self.float_vector(vec![coordinate, middle])
+            }
+            SamplerDim::Rect => self.by_size(lookup, coordinate),
+            _ => coordinate,
+        }
+    }
+
+    fn target_gradient(&mut self, lookup: &Lookup, gradient: Handle<Expression>) -> Handle<Expression> {
+        match lookup.ty.dim {
+            SamplerDim::D1 => {
+                let zero = self.float(0.0);
+                self.float_vector(vec![gradient, zero])
+            }
+            SamplerDim::Rect => self.by_size(lookup, gradient),
+            _ => gradient,
+        }
+    }
+
+    fn by_size(&mut self, lookup: &Lookup, texels: Handle<Expression>) -> Handle<Expression> {
+        let zero = self.int(0);
+        let size = self.texture_dimensions(lookup.value.texture, Some(zero));
+        let size = self.add(Expression::As { expr: size, kind: naga::ScalarKind::Float, convert: Some(4) });
+        self.op(BinaryOperator::Divide, texels, size)
+    }
+
+    /// The layer of a coordinate: floor(c + 0.5) (OpenGL 3.2 §3.8.9); targets clamp it.
+    pub(super) fn layer_index(&mut self, layer: Handle<Expression>) -> Handle<Expression> {
+        let half = self.float(0.5);
+        let sum = self.op(BinaryOperator::Add, layer, half);
+        let floor = self.math1(MathFunction::Floor, sum);
+        self.add(Expression::As { expr: floor, kind: naga::ScalarKind::Sint, convert: Some(4) })
+    }
+
+    pub(super) fn float_vector(&mut self, components: Vec<Handle<Expression>>) -> Handle<Expression> {
+        let ty = self.low.vector_type(Scalar::Float, components.len() as u8);
+        self.add(Expression::Compose { ty, components })
+    }
+
+    /// A vector of `int` literals, or the literal itself.
+    pub(super) fn int_vector(&mut self, values: &[i32]) -> Handle<Expression> {
+        let components: Vec<_> = values.iter().map(|value| self.int(*value)).collect();
+        match components.as_slice() {
+            [one] => *one,
+            _ => {
+                let ty = self.low.vector_type(Scalar::Int, components.len() as u8);
+                self.add(Expression::Compose { ty, components })
+            }
+        }
+    }
+
+    /// `texelFetch`, `texelFetchOffset`
+    fn texel_fetch(
+        &mut self,
+        ty: SamplerType,
+        value: SamplerValue,
+        arguments: &[ExprId],
+        with_offset: bool,
+    ) -> Try<Handle<Expression>> {
+        let mut arguments = arguments.iter().copied();
+        let missing = || internal(Default::default(), "a texel fetch lacks an argument");
+        let p = arguments.next().ok_or_else(missing)?;
+        let p_size = self.size_of(self.shader.expr(p).ty);
+        let p = self.value(p)?;
+        let has_levels = !matches!(ty.dim, SamplerDim::Rect | SamplerDim::Buffer | SamplerDim::Multisample);
+        let multisampled = ty.dim == SamplerDim::Multisample;
+        let index = match has_levels || multisampled {
+            true => self.value(arguments.next().ok_or_else(missing)?)?,
+            false => self.int(0),
+        };
+        let n = dimensions(ty.dim);
+        let mut coordinate = if p_size == n { p } else { self.first_components(p, n) };
+        if with_offset {
+            let offset = self.constant_offset(arguments.next().ok_or_else(missing)?)?;
+            let offset = self.int_vector(&offset);
+            coordinate = self.op(BinaryOperator::Add, coordinate, offset);
+        }
+        let array_index = ty.arrayed.then(|| self.swizzled(p, Swizzle { len: 1, components: [n, 0, 0, 0] }));
+        let coordinate = match ty.dim {
+            SamplerDim::D1 => {
+                let zero = self.int(0);
+                let ty = self.low.vector_type(Scalar::Int, 2);
+                self.add(Expression::Compose { ty, components: vec![coordinate, zero] })
+            }
+            SamplerDim::Buffer => self.buffer_coordinate(coordinate),
+            _ => coordinate,
+        };
+        Ok(self.add(Expression::ImageLoad {
+            image: value.texture,
+            coordinate,
+            array_index,
+            sample: multisampled.then_some(index),
+            level: (!multisampled).then_some(index),
+        }))
+    }
+
+    /// Texel `i` of a buffer: (`i` mod width, `i` / width).
+    fn buffer_coordinate(&mut self, index: Handle<Expression>) -> Handle<Expression> {
+        let width = self.int(BUFFER_WIDTH as i32);
+        let x = self.op(BinaryOperator::Modulo, index, width);
+        let y = self.op(BinaryOperator::Divide, index, width);
+        let ty = self.low.vector_type(Scalar::Int, 2);
+        self.add(Expression::Compose { ty, components: vec![x, y] })
+    }
+
+    /// `textureSize`
+    fn texture_size(&mut self, ty: SamplerType, value: SamplerValue, level: Option<ExprId>) -> Try<Handle<Expression>> {
+        if ty.dim == SamplerDim::Buffer {
+            return value.texel_count.ok_or_else(|| self.slip("the number of texels has no place among the uniforms"));
+        }
+        if ty.dim == SamplerDim::Multisample && ty.arrayed {
+            // naga's SPIR-V writer queries a level, which multisampled images do not have.
+            return Err(lacking(
+                self.here(),
+                format!("the number of layers of a `{}` cannot be asked for", ty.name()),
+                "pass it in a uniform of your own",
+            ));
+        }
+        let level = match level {
+            _ if ty.dim == SamplerDim::Multisample => None,
+            Some(level) => Some(self.value(level)?),
+            None => Some(self.int(0)),
+        };
+        let size = self.texture_dimensions(value.texture, level);
+        let mut size = self.add(Expression::As { expr: size, kind: naga::ScalarKind::Sint, convert: Some(4) });
+        if ty.dim == SamplerDim::D1 {
+            size = self.add(Expression::AccessIndex { base: size, index: 0 });
+        }
+        if !ty.arrayed {
+            return Ok(size);
+        }
+        let query = naga::ImageQuery::NumLayers;
+        let layers = self.add(Expression::ImageQuery { image: value.texture, query });
+        let layers = self.converted(layers, TypeId::UINT, TypeId::INT);
+        let n = if ty.dim == SamplerDim::D1 { 2 } else { 3 };
+        let ty = self.low.vector_type(Scalar::Int, n);
+        Ok(self.add(Expression::Compose { ty, components: vec![size, layers] }))
+    }
+}

@@ -1,0 +1,10 @@
+//! What a target is: [`Target`], the [`Conventions`] of its host, and the texture and sampler that stand for a sampler type.
+//!
+//! *In:* nothing. *Out:* words in which lowering, emission and reflection agree. *Holds:* neither of them is known here.
+
+mod conventions;
+mod textures;
+
+pub use conventions::{ClipZ, Conventions, SpirvEnv, Target, WindowOrigin};
+pub use textures::BUFFER_WIDTH;
+pub(crate) use textures::Shape;

@@ -1,0 +1,358 @@
+//! [`Analyzer`]: the state of the traversal of one shader.
+//!
+//! *In:* the syntax tree, the options, the types that all stages share. *Out:* a typed shader and diagnostics.
+//!
+//! *Holds:* expressions are appended in evaluation order, children before parents; `facts` runs parallel to them.
+//! Every name that cannot be resolved becomes poison after its one message.
+
+use super::layout::BlockDefaults;
+use super::scope::{Entry, Scopes};
+use super::wording::worded;
+use crate::diagnostic::codes::names;
+use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::hir::{
+    Expr, ExprId, ExprKind, Function, FunctionId, GlobalId, Local, LocalId, ScalarValue, Shader, Stage, Storage,
+    StructId, TypeId, Types, VarRef,
+};
+use crate::source::{SourceMap, Span};
+use crate::syntax::ast::{Ast, DeclarationKind, Extensions, Ident};
+use crate::syntax::token::Symbol;
+use crate::syntax::warning_of_use;
+use rustc_hash::FxHashMap;
+use smallvec::SmallVec;
+use std::cell::Cell;
+
+/// What the analysis knows about an expression besides its type.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Facts {
+    /// The depth of the tree, counted along left operands too.
+    pub(super) depth: u32,
+    /// Whether it is a constant expression (§4.3.3).
+    pub(super) constant: bool,
+}
+
+/// How many scalars the constants of a shader may read and make; it takes some tenths of a second.
+const MAX_FOLD_STEPS: u64 = 1 << 26;
+
+/// The function whose body is being analyzed.
+pub(super) struct Body {
+    pub(super) function: FunctionId,
+    pub(super) loops: u32,
+    pub(super) switches: u32,
+    /// Whether it contains a `return`, or something broken that may have been one.
+    pub(super) returns: bool,
+}
+
+/// An array that may still lack a size.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum ArrayKey {
+    /// A global.
+    Global(GlobalId),
+    /// A member of a global that is a block or an array of blocks.
+    Member(GlobalId, u32),
+    /// A local of the current function.
+    Local(LocalId),
+}
+
+/// The types of a function's parameters.
+pub(super) type Signature = SmallVec<[TypeId; 4]>;
+
+/// The state of the traversal.
+pub(super) struct Analyzer<'a> {
+    pub(super) ast: &'a Ast,
+    pub(super) stage: Stage,
+    pub(super) strict: bool,
+    pub(super) types: &'a mut Types,
+    pub(super) sources: &'a SourceMap,
+    pub(super) diagnostics: &'a mut Diagnostics,
+    pub(super) shader: Shader,
+    /// Parallel to the shader's expressions.
+    pub(super) facts: Vec<Facts>,
+    pub(super) scopes: Scopes,
+    /// The extensions that are enabled at the current declaration.
+    pub(super) extensions: Extensions,
+    /// The current function.
+    pub(super) body: Option<Body>,
+    /// The type of each type keyword met so far.
+    pub(super) keyword_types: FxHashMap<Symbol, Option<TypeId>>,
+    /// The functions of the shader by name and parameters.
+    pub(super) signatures: FxHashMap<(Symbol, Signature), FunctionId>,
+    /// The names of blocks, which have no other meaning at global scope (§4.3.7).
+    pub(super) block_names: FxHashMap<Symbol, Span>,
+    /// The names of blocks with their storage, and their positions.
+    pub(super) block_interfaces: FxHashMap<(Symbol, Storage), Span>,
+    /// The indices of the members, for structs with many members.
+    pub(super) member_indices: FxHashMap<StructId, FxHashMap<Symbol, u32>>,
+    /// The number of scalars of all globals so far, and of all locals of the current function.
+    pub(super) n_global_scalars: u32,
+    pub(super) n_local_scalars: u32,
+    /// The number of globals that need a location or binding.
+    pub(super) n_places: u32,
+    /// How many steps constant evaluation may still take in this shader.
+    pub(super) fold_fuel: Cell<u64>,
+    /// How many times the analysis searched for a name similar to an unknown one.
+    pub(super) n_suggestions: u32,
+    /// The built-in variables that are used or redeclared.
+    pub(super) builtins: FxHashMap<crate::builtin::BuiltinVariable, GlobalId>,
+    /// The first use of each global.
+    pub(super) first_uses: FxHashMap<GlobalId, Span>,
+    /// The first use of each member of an input or output block without an instance name.
+    pub(super) first_member_uses: FxHashMap<(GlobalId, u32), Span>,
+    /// For each array without a size, the largest constant index, and its position (§4.1.9).
+    pub(super) array_uses: FxHashMap<ArrayKey, (u32, Span)>,
+    /// The same map for the locals of the current function.
+    pub(super) local_array_uses: FxHashMap<LocalId, (u32, Span)>,
+    /// `layout(...) uniform;`
+    pub(super) block_defaults: BlockDefaults,
+    /// Where the geometry input layout, or an input array's size, was first fixed.
+    pub(super) geometry_size: Option<(u32, Span)>,
+    /// Where the parts of the geometry layout were first declared.
+    pub(super) geometry_spans: GeometrySpans,
+    /// The output block `gl_PerVertex`, if it is redeclared.
+    pub(super) per_vertex_out: Option<super::declare::PerVertex>,
+    /// The first redeclaration of `gl_FragCoord`.
+    pub(super) frag_coord_span: Option<Span>,
+}
+
+/// The positions of the first declaration of each of a geometry shader's layouts.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct GeometrySpans {
+    pub(super) input: Span,
+    pub(super) output: Span,
+    pub(super) max_vertices: Span,
+}
+
+impl<'a> Analyzer<'a> {
+    pub(super) fn new(
+        ast: &'a Ast,
+        stage: Stage,
+        strict: bool,
+        types: &'a mut Types,
+        sources: &'a SourceMap,
+        diagnostics: &'a mut Diagnostics,
+    ) -> Self {
+        Self {
+            ast,
+            stage,
+            strict,
+            types,
+            sources,
+            diagnostics,
+            shader: Shader::new(stage, ast.version),
+            facts: Vec::with_capacity(ast.exprs.len()),
+            scopes: Scopes::default(),
+            extensions: Extensions::empty(),
+            body: None,
+            keyword_types: FxHashMap::default(),
+            signatures: FxHashMap::default(),
+            block_names: FxHashMap::default(),
+            builtins: FxHashMap::default(),
+            first_uses: FxHashMap::default(),
+            first_member_uses: FxHashMap::default(),
+            array_uses: FxHashMap::default(),
+            local_array_uses: FxHashMap::default(),
+            block_interfaces: FxHashMap::default(),
+            member_indices: FxHashMap::default(),
+            n_global_scalars: 0,
+            n_local_scalars: 0,
+            n_places: 0,
+            fold_fuel: Cell::new(MAX_FOLD_STEPS),
+            n_suggestions: 0,
+            block_defaults: BlockDefaults::default(),
+            geometry_size: None,
+            geometry_spans: GeometrySpans::default(),
+            frag_coord_span: None,
+            per_vertex_out: None,
+        }
+    }
+
+    /// Analyzes all declarations, then runs the checks that need the whole shader.
+    pub(super) fn run(mut self) -> Shader {
+        let ast = self.ast;
+        for declaration in &ast.declarations {
+            if self.diagnostics.is_full() {
+                break;
+            }
+            self.extensions = declaration.extensions;
+            match &declaration.kind {
+                DeclarationKind::Error | DeclarationKind::Empty => {}
+                DeclarationKind::Broken(names) => self.enter_broken(names),
+                DeclarationKind::Precision { qualifier, ty } => self.precision(qualifier, ty),
+                DeclarationKind::Variables(variables) => self.global_variables(variables, declaration.span),
+                DeclarationKind::Requalify { qualifiers, names } => {
+                    self.requalify(qualifiers, names, declaration.span);
+                }
+                DeclarationKind::Block(block) => self.block(block),
+                DeclarationKind::Prototype(header) => self.prototype(header),
+                DeclarationKind::Function(header, body) => self.function(header, body),
+            }
+        }
+        self.finish();
+        self.shader
+    }
+
+    /// Reports a diagnostic.
+    pub(super) fn report(&mut self, diagnostic: Diagnostic) {
+        self.diagnostics.push(worded(diagnostic));
+    }
+
+    /// The spelling of a name.
+    pub(super) fn name(&self, ident: Ident) -> &'a str {
+        self.ast.name(ident)
+    }
+
+    /// The name of a type, as written in GLSL.
+    pub(super) fn type_name(&self, ty: TypeId) -> String {
+        self.types.name(ty)
+    }
+
+    /// Whether the feature at `span` is available: either the language has had it since version `since`, or an
+    /// enabled extension provides it. Warns about the use if the source asks for that (§3.3).
+    pub(super) fn allows(&mut self, extension: Extensions, since: u16, span: Span) -> bool {
+        if self.ast.version.number >= since {
+            return true;
+        }
+        if let Some(warning) = warning_of_use(self.extensions, extension, span) {
+            self.report(warning);
+        }
+        self.extensions.intersects(extension)
+    }
+
+    /// Whether ARB_shading_language_420pack makes the construct at `span` available.
+    pub(super) fn allows_420pack(&mut self, span: Span) -> bool {
+        self.allows(Extensions::SHADING_LANGUAGE_420PACK, 420, span)
+    }
+
+    /// Adds an expression and its facts.
+    pub(super) fn push(&mut self, kind: ExprKind, ty: TypeId, span: Span) -> ExprId {
+        let facts = self.facts_of(&kind);
+        self.shader.expr_depth = self.shader.expr_depth.max(facts.depth);
+        self.facts.push(facts);
+        self.shader.push(kind, ty, span)
+    }
+
+    /// An expression in error, whose cause has been reported.
+    pub(super) fn poison(&mut self, span: Span) -> ExprId {
+        self.push(ExprKind::Error, TypeId::ERROR, span)
+    }
+
+    /// A literal.
+    pub(super) fn literal(&mut self, value: ScalarValue, span: Span) -> ExprId {
+        self.push(ExprKind::Literal(value), TypeId::vector(value.scalar(), 1), span)
+    }
+
+    /// The expression of a handle.
+    pub(super) fn expr_at(&self, id: ExprId) -> &Expr {
+        self.shader.expr(id)
+    }
+
+    /// The type of an expression.
+    pub(super) fn ty(&self, id: ExprId) -> TypeId {
+        self.shader.expr(id).ty
+    }
+
+    /// The span of an expression.
+    pub(super) fn span(&self, id: ExprId) -> Span {
+        self.shader.expr(id).span
+    }
+
+    /// Whether an expression is a constant expression (§4.3.3).
+    pub(super) fn is_constant(&self, id: ExprId) -> bool {
+        self.facts.get(id.index()).is_some_and(|facts| facts.constant)
+    }
+
+    /// A local of the current function.
+    pub(super) fn local(&self, id: LocalId) -> Option<&Local> {
+        let body = self.body.as_ref()?;
+        self.shader.functions.get(body.function.index())?.locals.get(id.index())
+    }
+
+    /// Adds a local to the current function.
+    pub(super) fn add_local(&mut self, local: Local) -> Option<LocalId> {
+        let function = self.current_function()?;
+        function.locals.push(local);
+        Some(LocalId::new(function.locals.len() - 1))
+    }
+
+    /// The current function.
+    pub(super) fn current_function(&mut self) -> Option<&mut Function> {
+        let id = self.body.as_ref()?.function;
+        self.shader.functions.get_mut(id.index())
+    }
+
+    /// Enters a name, unless its scope already has it: that is reported, and the name is then poison.
+    pub(super) fn enter(&mut self, name: Ident, entry: Entry) {
+        if let Some(earlier) = self.scopes.find_here(name.symbol) {
+            if earlier.entry != Entry::Poison {
+                let spelling = self.name(name);
+                self.report(
+                    Diagnostic::new(
+                        &names::REDEFINED,
+                        name.span,
+                        format!("`{spelling}` is declared twice in one scope"),
+                    )
+                    .here("declared again here")
+                    .label(earlier.span, "first declared here"),
+                );
+            }
+            self.scopes.replace(name.symbol, Entry::Poison);
+            return;
+        }
+        self.scopes.enter(name.symbol, entry, name.span);
+    }
+
+    /// Enters the names of a broken declaration as poison, so that their uses raise no more messages.
+    pub(super) fn enter_broken(&mut self, names: &[Ident]) {
+        for name in names {
+            if self.scopes.find_here(name.symbol).is_none() {
+                self.scopes.enter(name.symbol, Entry::Poison, name.span);
+            }
+        }
+    }
+
+    /// Whether to keep searching for names similar to unknown ones: each search compares a name with all names in
+    /// scope.
+    pub(super) fn may_suggest(&mut self) -> Option<()> {
+        const MOST: usize = 64;
+        const MOST_COMPARED: usize = 1 << 17;
+        self.n_suggestions += 1;
+        let looks = self.n_suggestions as usize;
+        (looks <= MOST && looks.saturating_mul(self.scopes.len()) <= MOST_COMPARED).then_some(())
+    }
+
+    /// Records a use of a global.
+    pub(super) fn note_use(&mut self, global: GlobalId, span: Span) {
+        self.first_uses.entry(global).or_insert(span);
+    }
+
+    fn facts_of(&self, kind: &ExprKind) -> Facts {
+        let child = |id: &ExprId| self.facts.get(id.index()).copied().unwrap_or_default();
+        let join = |a: Facts, b: Facts| Facts { depth: a.depth.max(b.depth), constant: a.constant && b.constant };
+        let leaf = |constant| Facts { depth: 0, constant };
+        let mut facts = match kind {
+            ExprKind::Error | ExprKind::Literal(_) => leaf(true),
+            ExprKind::Var(VarRef::Global(id)) => leaf(self.is_constant_global(*id)),
+            ExprKind::Var(VarRef::Local(id)) => leaf(self.local(*id).is_some_and(|local| local.value.is_some())),
+            ExprKind::Member(a, _) | ExprKind::Swizzle(a, _) | ExprKind::Convert(a) | ExprKind::Unary(_, a) => child(a),
+            ExprKind::IncDec(_, a) => Facts { constant: false, ..child(a) },
+            ExprKind::Index(a, b) | ExprKind::Binary(_, a, b) | ExprKind::Logical(_, a, b) | ExprKind::Comma(a, b) => {
+                join(child(a), child(b))
+            }
+            ExprKind::Assign(_, a, b) => Facts { constant: false, ..join(child(a), child(b)) },
+            ExprKind::Ternary(a, b, c) => join(child(a), join(child(b), child(c))),
+            ExprKind::Construct(_, list) => list.iter().map(child).fold(leaf(true), join),
+            ExprKind::Call(_, list) => Facts { constant: false, ..list.iter().map(child).fold(leaf(true), join) },
+            ExprKind::BuiltinCall(function, list) => {
+                let facts = list.iter().map(child).fold(leaf(true), join);
+                Facts { constant: facts.constant && super::constant::is_foldable(*function), ..facts }
+            }
+        };
+        facts.depth += 1;
+        facts
+    }
+
+    fn is_constant_global(&self, id: GlobalId) -> bool {
+        let global = self.shader.global(id);
+        global.storage == Storage::Const && global.value.is_some()
+    }
+}

@@ -1,0 +1,308 @@
+//! Declares variables at global scope (§4.3).
+
+use super::super::context::{Analyzer, ArrayKey};
+use super::super::layout::{Layout, LayoutPlace};
+use super::super::qualifiers::{Place, Qualifiers, StorageWord};
+use super::super::scope::Entry;
+use crate::diagnostic::Diagnostic;
+use crate::diagnostic::codes::{qualifiers, syntax, types};
+use crate::hir::{ArraySize, ExprId, Global, GlobalId, Interpolation, Stage, Storage, Type, TypeId, Value, VarRef};
+use crate::source::Span;
+use crate::syntax::ast::{Declarator, TypeBase, TypeSpec, VariableDecl};
+
+/// The initial value of a variable: the expression after conversion, and its constant value, if it has one.
+pub(in crate::analysis) struct Initial {
+    pub(in crate::analysis) expr: ExprId,
+    pub(in crate::analysis) value: Option<Value>,
+}
+
+impl Analyzer<'_> {
+    /// `uniform mat4 m, n;`, `struct S {..} s;`
+    pub(in crate::analysis) fn global_variables(&mut self, declaration: &VariableDecl, _: Span) {
+        let record = self.qualifiers(&declaration.qualifiers, Place::Global);
+        if declaration.declarators.is_empty() && self.lacks_type(&declaration.ty) {
+            return;
+        }
+        let base = self.type_spec(&declaration.ty);
+        self.check_precision(record.precision, base);
+        let storage = self.global_storage(&record);
+        if declaration.declarators.is_empty() {
+            self.layout(&record, self.layout_place(storage, base));
+        }
+        for declarator in &declaration.declarators {
+            let ty = self.with_array(base, &declarator.array);
+            if self.name(declarator.name).starts_with("gl_") && self.redeclare_builtin(declarator, ty, &record) {
+                continue;
+            }
+            self.global_variable(declarator, ty, storage, &record, declaration.ty.span);
+        }
+    }
+
+    /// `S;` declares nothing, which is legal if `S` is a struct (§9). Any other name lacks its type, which is
+    /// reported.
+    fn lacks_type(&mut self, spec: &TypeSpec) -> bool {
+        let TypeBase::Named(name) = spec.base else { return false };
+        match self.scopes.find(name.symbol).map(|binding| binding.entry) {
+            Some(Entry::Struct(_)) => return false,
+            Some(Entry::Poison) => return true,
+            _ => {}
+        }
+        let spelling = self.name(name);
+        self.report(
+            Diagnostic::new(&syntax::MISSING_TYPE, name.span, format!("`{spelling}` is declared without a type"))
+                .help(format!("write a type before `{spelling}`")),
+        );
+        true
+    }
+
+    /// The storage that a global's qualifiers mean in this stage.
+    fn global_storage(&mut self, record: &Qualifiers) -> Storage {
+        if let (Some(constant), Some((word, span))) = (record.constant, record.storage) {
+            self.report(
+                Diagnostic::new(
+                    &qualifiers::REPEATED,
+                    span,
+                    format!("a variable is `const` or `{}`, not both", word.spelling()),
+                )
+                .here("one too many")
+                .label(constant, "already `const`"),
+            );
+            return Storage::Const;
+        }
+        let Some((word, span)) = record.storage else {
+            return if record.constant.is_some() { Storage::Const } else { Storage::Private };
+        };
+        match (word, self.stage) {
+            (StorageWord::Uniform, _) => Storage::Uniform,
+            (StorageWord::In, _) => Storage::In,
+            (StorageWord::Out, _) => Storage::Out,
+            (StorageWord::Attribute, Stage::Vertex) => Storage::In,
+            (StorageWord::Attribute, stage) => {
+                let message = format!("there are no attributes in a {} shader", stage.name());
+                self.misplaced(span, message, "use `in`");
+                Storage::In
+            }
+            (StorageWord::Varying, Stage::Fragment) => Storage::In,
+            (StorageWord::Varying, _) => Storage::Out,
+            (StorageWord::Inout, _) => {
+                self.misplaced(span, "`inout` is for parameters", "declare an `in` and an `out` under two names");
+                Storage::Private
+            }
+        }
+    }
+
+    fn global_variable(
+        &mut self,
+        declarator: &Declarator,
+        ty: TypeId,
+        storage: Storage,
+        record: &Qualifiers,
+        ty_span: Span,
+    ) {
+        let name = declarator.name;
+        let named_well = self.check_name(name) && self.check_block_name(name);
+        let layout = self.layout(record, self.layout_place(storage, ty));
+        self.check_index_location(&layout);
+        let ty = self.check_global_type(ty, storage, record, ty_span, name.span);
+        let fits = self.check_global_size(ty, storage, false, name.span);
+        let ty = if fits { ty } else { TypeId::ERROR };
+        let declared = ty;
+        let (ty, initial) = self.global_initializer(declarator, ty, storage);
+        // An array that its initializer sizes counts with that size.
+        let fits = ty == declared || self.check_global_size(ty, storage, false, name.span);
+        let ty = if fits { ty } else { TypeId::ERROR };
+        let ty = self.sized_by_geometry(ty, storage, name.span);
+        if self.resizes(declarator, ty, storage) {
+            return;
+        }
+        let global = self.new_global(name.span, self.name(name), ty, storage, record, &layout, initial);
+        let id = self.add_global(global);
+        let entry = if named_well { Entry::Variable(VarRef::Global(id)) } else { Entry::Poison };
+        self.enter(name, entry);
+    }
+
+    #[expect(clippy::too_many_arguments, reason = "each is one column of the record that it fills")]
+    pub(super) fn new_global(
+        &self,
+        span: Span,
+        name: &str,
+        ty: TypeId,
+        storage: Storage,
+        record: &Qualifiers,
+        layout: &Layout,
+        initial: Option<Initial>,
+    ) -> Global {
+        let (initializer, value) = initial.map_or((None, None), |initial| (Some(initial.expr), initial.value));
+        let invariant_all =
+            self.ast.invariant_all.is_some() && storage == Storage::Out && self.stage != Stage::Fragment;
+        Global {
+            name: name.to_owned(),
+            ty,
+            storage,
+            builtin: None,
+            interpolation: record.interpolation.map_or(Interpolation::default(), |(word, _)| word),
+            interpolation_written: record.interpolation.is_some(),
+            centroid: record.centroid.is_some(),
+            invariant: record.invariant.is_some() || invariant_all,
+            location: layout.location.map(|(value, _)| value),
+            index: layout.index.map(|(value, _)| value),
+            binding: layout.binding.map(|(value, _)| value),
+            block: None,
+            initializer,
+            value,
+            implicitly_sized: false,
+            used: false,
+            written: false,
+            span,
+        }
+    }
+
+    /// Adds a global to the shader.
+    pub(super) fn add_global(&mut self, global: Global) -> GlobalId {
+        self.shader.globals.push(global);
+        GlobalId::new(self.shader.globals.len() - 1)
+    }
+
+    /// Reports an index without a location, which means nothing (ARB_explicit_attrib_location).
+    fn check_index_location(&mut self, layout: &Layout) {
+        let (Some((index, span)), None) = (layout.index, layout.location) else { return };
+        self.report(
+            Diagnostic::new(&qualifiers::LAYOUT_VALUE, span, "`index` needs a `location` beside it")
+                .here("no location given")
+                .help(format!("write `location = 0, index = {index}`")),
+        );
+    }
+
+    fn layout_place(&self, storage: Storage, ty: TypeId) -> LayoutPlace {
+        match (storage, self.stage) {
+            (Storage::In, Stage::Vertex) => LayoutPlace::VertexInput,
+            (Storage::In, _) => LayoutPlace::Other("an input variable"),
+            (Storage::Out, Stage::Fragment) => LayoutPlace::FragmentOutput,
+            (Storage::Out, _) => LayoutPlace::Other("an output variable"),
+            (Storage::Uniform, _) if self.types.contains_sampler(ty) => LayoutPlace::Sampler,
+            (Storage::Uniform, _) => LayoutPlace::Other("a uniform outside of a block"),
+            (Storage::Const, _) => LayoutPlace::Other("a constant"),
+            (Storage::Private, _) => LayoutPlace::Other("a variable without a storage qualifier"),
+        }
+    }
+
+    /// Analyzes the initializer of a global, which may determine the size of an array.
+    fn global_initializer(
+        &mut self,
+        declarator: &Declarator,
+        ty: TypeId,
+        storage: Storage,
+    ) -> (TypeId, Option<Initial>) {
+        let Some(initializer) = declarator.initializer else {
+            if storage == Storage::Const && !ty.is_error() {
+                self.report_no_value(declarator);
+                return (TypeId::ERROR, None);
+            }
+            return (ty, None);
+        };
+        let expr = self.initializer(initializer, ty);
+        if matches!(storage, Storage::In | Storage::Out) {
+            let (span, what) = (self.span(expr), if storage == Storage::In { "an input" } else { "an output" });
+            self.report(
+                Diagnostic::new(&qualifiers::NO_INITIALIZER, span, format!("{what} cannot have an initializer"))
+                    .here("remove it")
+                    .label(declarator.name.span, format!("declared as {what}")),
+            );
+            return (ty, None);
+        }
+        let (ty, expr) = self.fit_initializer(declarator, ty, expr);
+        if self.ty(expr).is_error() {
+            return (if storage == Storage::Const { TypeId::ERROR } else { ty }, None);
+        }
+        if storage == Storage::Private {
+            return (ty, Some(Initial { expr, value: None }));
+        }
+        if self.types.contains_sampler(ty) {
+            let span = self.span(expr);
+            self.report(
+                Diagnostic::new(&qualifiers::NO_INITIALIZER, span, "a sampler cannot have an initializer")
+                    .here("the application sets it"),
+            );
+            return (ty, None);
+        }
+        let value = self.evaluate(expr);
+        if value.is_none() {
+            let what = if storage == Storage::Const { "the value of a constant" } else { "a uniform's initializer" };
+            self.report(self.not_constant_value(expr, what));
+            return (TypeId::ERROR, None);
+        }
+        (ty, Some(Initial { expr, value }))
+    }
+
+    fn report_no_value(&mut self, declarator: &Declarator) {
+        let name = self.name(declarator.name);
+        self.report(
+            Diagnostic::new(&qualifiers::CONST_WITHOUT_VALUE, declarator.name.span, format!("`{name}` needs a value"))
+                .here("declared `const` and never given one")
+                .help(format!("write `{name} = ...`")),
+        );
+    }
+
+    /// Converts an initializer to the variable's type. An array type without a size takes that of its initializer.
+    pub(in crate::analysis) fn fit_initializer(
+        &mut self,
+        declarator: &Declarator,
+        ty: TypeId,
+        expr: ExprId,
+    ) -> (TypeId, ExprId) {
+        let from = self.ty(expr);
+        if ty.is_error() || from.is_error() || !self.is_whole_value(expr) {
+            let span = self.span(expr);
+            return (ty, self.poison(span));
+        }
+        if let (Type::Array(element, ArraySize::Unsized), Type::Array(given, ArraySize::Sized(_))) =
+            (self.types.get(ty), self.types.get(from))
+            && element == given
+        {
+            return (from, expr);
+        }
+        let what = format!("`{}`", self.name(declarator.name));
+        (ty, self.convert_or_report(expr, ty, &what))
+    }
+
+    /// Whether this redeclares, with a size, an array that was declared without one (§4.1.9).
+    fn resizes(&mut self, declarator: &Declarator, ty: TypeId, storage: Storage) -> bool {
+        let Some(binding) = self.scopes.find_here(declarator.name.symbol) else { return false };
+        if let Entry::Member(..) = binding.entry {
+            return false;
+        }
+        let Entry::Variable(VarRef::Global(id)) = binding.entry else { return false };
+        let earlier = self.shader.global(id);
+        let (Type::Array(element, ArraySize::Unsized), Type::Array(other, size)) =
+            (self.types.get(earlier.ty), self.types.get(ty))
+        else {
+            return false;
+        };
+        if element != other || earlier.storage != storage || earlier.builtin.is_some() {
+            return false;
+        }
+        if let ArraySize::Sized(size) = size {
+            self.check_resize(ArrayKey::Global(id), size, declarator.name.span);
+        }
+        if let Some(global) = self.shader.globals.get_mut(id.index()) {
+            global.ty = ty;
+        }
+        true
+    }
+
+    /// Checks that a size covers all elements that were used before.
+    pub(in crate::analysis) fn check_resize(&mut self, key: ArrayKey, size: u32, span: Span) {
+        let used = match key {
+            ArrayKey::Local(id) => self.local_array_uses.get(&id),
+            _ => self.array_uses.get(&key),
+        };
+        let Some(&(largest, at)) = used else { return };
+        if largest >= size {
+            self.report(
+                Diagnostic::new(&types::INDEX_RANGE, at, format!("the array has no element {largest}"))
+                    .here("named before the array had a size")
+                    .label(span, format!("declared with {size} elements here")),
+            );
+        }
+    }
+}

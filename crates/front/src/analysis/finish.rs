@@ -1,0 +1,168 @@
+//! The checks that need the whole shader: sizes of arrays that follow from their uses (§4.1.9), recursion (§6.1),
+//! static use (§3.8), and outputs that exclude each other (§7.2).
+
+use super::context::{Analyzer, ArrayKey};
+use crate::builtin::BuiltinVariable;
+use crate::diagnostic::Diagnostic;
+use crate::diagnostic::codes::qualifiers;
+use crate::hir::{ArraySize, ExprKind, GlobalId, LocalId, Stage, Storage, Type, TypeId, VarRef};
+
+impl Analyzer<'_> {
+    /// Completes the shader.
+    pub(super) fn finish(&mut self) {
+        self.size_arrays();
+        self.retype();
+        self.check_recursion();
+        self.shader.mark_static_use();
+        self.check_fragment_outputs();
+        self.check_pragma();
+    }
+
+    /// Gives each array without a size the size that its uses require.
+    fn size_arrays(&mut self) {
+        for index in 0..self.shader.globals.len() {
+            let id = GlobalId::new(index);
+            let global = self.shader.global(id);
+            let is_geometry_input = self.stage == Stage::Geometry && global.storage == Storage::In;
+            let (ty, is_block) = (global.ty, global.block.is_some());
+            match self.types.get(ty) {
+                Type::Array(element, ArraySize::Unsized) if !is_geometry_input => {
+                    let is_clip_distance = global.builtin == Some(BuiltinVariable::ClipDistance);
+                    let ty = self.sized_by_use(ArrayKey::Global(id), element, is_clip_distance);
+                    if let Some(global) = self.shader.globals.get_mut(index) {
+                        (global.ty, global.implicitly_sized) = (ty, true);
+                    }
+                }
+                _ if is_block => self.size_members(id, ty),
+                _ => {}
+            }
+        }
+    }
+
+    fn size_members(&mut self, id: GlobalId, ty: TypeId) {
+        let Type::Struct(structure) = self.types.get(self.element_of(ty)) else { return };
+        for index in 0..self.types.structure(structure).members.len() {
+            let Some(member) = self.types.structure(structure).members.get(index) else { continue };
+            let is_clip_distance = member.name == BuiltinVariable::ClipDistance.name();
+            if let Type::Array(element, ArraySize::Unsized) = self.types.get(member.ty) {
+                let ty = self.sized_by_use(ArrayKey::Member(id, index as u32), element, is_clip_distance);
+                if let Some(member) = self.types.structure_mut(structure).members.get_mut(index) {
+                    (member.ty, member.implicitly_sized) = (ty, true);
+                }
+            }
+        }
+    }
+
+    /// The array type that covers all elements that are used.
+    pub(super) fn sized_by_use(&mut self, key: ArrayKey, element: TypeId, is_clip_distance: bool) -> TypeId {
+        let largest = match key {
+            ArrayKey::Local(id) => self.local_array_uses.get(&id).copied(),
+            _ => self.array_uses.get(&key).copied(),
+        };
+        // An array that is never indexed needs some size to exist; nothing determines which.
+        let size = largest.map_or(1, |(index, _)| index.saturating_add(1));
+        if let Some((_, span)) = largest.filter(|_| is_clip_distance) {
+            self.check_clip_distances(size, span);
+        }
+        self.types.array(element, ArraySize::Sized(size))
+    }
+
+    /// Does the same for the locals of the function that was just analyzed, whose expressions begin at `first`.
+    pub(super) fn size_locals(&mut self, first: usize) {
+        let Some(n_locals) = self.current_function().map(|function| function.locals.len()) else { return };
+        let mut any = false;
+        for index in 0..n_locals {
+            let id = LocalId::new(index);
+            let Some(ty) = self.local(id).map(|local| local.ty) else { continue };
+            if let Type::Array(element, ArraySize::Unsized) = self.types.get(ty) {
+                let ty = self.sized_by_use(ArrayKey::Local(id), element, false);
+                any = true;
+                if let Some(local) = self.current_function().and_then(|function| function.locals.get_mut(index)) {
+                    local.ty = ty;
+                }
+            }
+        }
+        if any || !self.local_array_uses.is_empty() {
+            for index in first..self.shader.exprs.len() {
+                let Some(ExprKind::Var(VarRef::Local(id))) = self.shader.exprs.get(index).map(|expr| &expr.kind) else {
+                    continue;
+                };
+                let ty = self.local(*id).map(|local| local.ty);
+                if let (Some(ty), Some(expr)) = (ty, self.shader.exprs.get_mut(index)) {
+                    expr.ty = ty;
+                }
+            }
+        }
+        self.local_array_uses.clear();
+    }
+
+    /// Updates the types of expressions that name such arrays. Children come before their parents.
+    fn retype(&mut self) {
+        for index in 0..self.shader.exprs.len() {
+            let Some(expr) = self.shader.exprs.get(index) else { continue };
+            if !matches!(self.types.get(expr.ty), Type::Array(_, ArraySize::Unsized)) {
+                continue;
+            }
+            let ty = match expr.kind {
+                ExprKind::Var(VarRef::Global(id)) => self.shader.global(id).ty,
+                ExprKind::Member(base, member) => match self.types.get(self.ty(base)) {
+                    Type::Struct(id) => {
+                        let members = &self.types.structure(id).members;
+                        members.get(member as usize).map_or(TypeId::ERROR, |member| member.ty)
+                    }
+                    _ => continue,
+                },
+                _ => continue,
+            };
+            if let Some(expr) = self.shader.exprs.get_mut(index) {
+                expr.ty = ty;
+            }
+        }
+    }
+
+    /// Checks that `#pragma STDGL invariant(all)` is in a shader whose outputs another stage reads (§4.6.1).
+    fn check_pragma(&mut self) {
+        if let Some(span) = self.ast.invariant_all.filter(|_| self.stage == Stage::Fragment) {
+            self.report(
+                Diagnostic::new(
+                    &qualifiers::INVARIANT,
+                    span,
+                    "`#pragma STDGL invariant(all)` cannot stand in a fragment shader",
+                )
+                .help("remove it, or make single inputs `invariant`"),
+            );
+        }
+    }
+
+    /// Checks that a shader writes only one of `gl_FragColor`, `gl_FragData` and its own outputs.
+    fn check_fragment_outputs(&mut self) {
+        if self.stage != Stage::Fragment {
+            return;
+        }
+        let written = |builtin: Option<BuiltinVariable>| {
+            self.shader
+                .globals()
+                .find(|(_, global)| global.storage == Storage::Out && global.written && global.builtin == builtin)
+        };
+        let color = written(Some(BuiltinVariable::FragColor));
+        let data = written(Some(BuiltinVariable::FragData));
+        let own = written(None);
+        let pair = match (color, data, own) {
+            (Some(first), Some(second), _) | (Some(first), _, Some(second)) | (_, Some(first), Some(second)) => {
+                (first, second)
+            }
+            _ => return,
+        };
+        let ((first_id, first), (second_id, second)) = pair;
+        let at = |id| self.first_uses.get(&id).copied().unwrap_or_default();
+        let finding = Diagnostic::new(
+            &qualifiers::OUTPUTS_EXCLUDE,
+            at(second_id),
+            format!("`{}` and `{}` cannot both be written", first.name, second.name),
+        )
+        .here("the second kind of output")
+        .label(at(first_id), "the first kind of output")
+        .help("declare an `out` variable for each color, and write those alone");
+        self.report(finding);
+    }
+}

@@ -1,0 +1,69 @@
+//! From syntax tree to typed program: scopes, types, overloads, conversions, constants, qualifiers (GLSL 1.50 §4 to
+//! §7).
+//!
+//! *In:* an [`Ast`]. *Out:* a [`Shader`], complete even if the source has errors, and diagnostics.
+//!
+//! One traversal of the declarations in source order does almost everything, because every rule of the language looks
+//! back and none looks ahead. What needs the whole shader comes after it: the sizes of implicitly sized arrays
+//! (`finish`), recursion (`recursion`), and static use (in [`hir`](crate::hir)).
+//!
+//! * `context` holds the state of the traversal, `scope` the names in scope.
+//! * `types`, `qualifiers` and `layout` analyze what precedes a name.
+//! * `declare` enters names: variables, structs, blocks, functions, redeclared built-in variables.
+//! * `statement` and `expr` analyze function bodies.
+//! * [`fold`] computes constants.
+//!
+//! *Holds:* one mistake raises one message. Whatever is in error gets the type
+//! [`TypeId::ERROR`](crate::hir::TypeId::ERROR), which is compatible with everything. No traversal recurses along
+//! left operands.
+
+mod constant;
+mod context;
+mod declare;
+mod expr;
+mod finish;
+mod keywords;
+mod layout;
+mod limits;
+mod qualifiers;
+mod recursion;
+mod scope;
+mod statement;
+mod types;
+mod wording;
+
+#[cfg(test)]
+mod tests;
+
+use crate::diagnostic::Diagnostics;
+use crate::hir::{Shader, Stage, Types};
+use crate::source::SourceMap;
+use crate::stack::with_stack;
+use crate::syntax::ast::Ast;
+use context::Analyzer;
+
+/// Analyzes a syntax tree. `strict` turns what every driver accepts into errors; all stages of a compilation share
+/// `types`.
+pub fn analyze(
+    ast: &Ast,
+    stage: Stage,
+    strict: bool,
+    types: &mut Types,
+    sources: &SourceMap,
+    diagnostics: &mut Diagnostics,
+) -> Shader {
+    with_stack(nesting(ast), || Analyzer::new(ast, stage, strict, types, sources, diagnostics).run())
+}
+
+/// How deep the traversal may recurse. It recurses into right operands, arguments and indices; a loop handles left
+/// operands. Statements nest at most as deep as the parser allows, and each level of either kind counts.
+fn nesting(ast: &Ast) -> u32 {
+    let mut depths: Vec<u32> = Vec::with_capacity(ast.exprs.len());
+    let mut deepest = 0;
+    for expr in &ast.exprs {
+        let depth = expr::recursion_depth(&expr.kind, &depths);
+        deepest = deepest.max(depth);
+        depths.push(depth);
+    }
+    deepest.saturating_add(statement::nesting(ast))
+}

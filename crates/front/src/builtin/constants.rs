@@ -1,0 +1,111 @@
+//! The built-in constants (GLSL 1.50 §7.4), each with the least value that an implementation may have.
+
+use super::Availability;
+use crate::language::{Extensions, Version};
+
+/// A `const int`.
+#[derive(Clone, Copy, Debug)]
+pub struct Constant {
+    /// `gl_MaxVertexAttribs`
+    pub name: &'static str,
+    /// The least value that §7.4 allows; glisten's own, too.
+    pub value: i32,
+    /// Where it exists.
+    pub availability: Availability,
+    /// Where the value is stated.
+    pub section: &'static str,
+}
+
+const fn row(name: &'static str, value: i32, version: u16) -> Constant {
+    Constant { name, value, availability: Availability::since(version), section: "§7.4" }
+}
+
+const fn pack420(name: &'static str, value: i32) -> Constant {
+    let availability = Availability::since(420).or(Extensions::SHADING_LANGUAGE_420PACK);
+    Constant { name, value, availability, section: "ARB_shading_language_420pack" }
+}
+
+const fn compatibility(constant: Constant) -> Constant {
+    let availability = Availability { compatibility_only: true, ..constant.availability };
+    Constant { availability, section: "§7.4.1", ..constant }
+}
+
+/// Vertex attribute locations.
+pub const MAX_VERTEX_ATTRIBS: u32 = 16;
+/// Components that the vertex stage may write.
+pub const MAX_VERTEX_OUTPUT_COMPONENTS: u32 = 64;
+/// Components that the geometry stage may read of each vertex.
+pub const MAX_GEOMETRY_INPUT_COMPONENTS: u32 = 64;
+/// Components that the geometry stage may write for each vertex.
+pub const MAX_GEOMETRY_OUTPUT_COMPONENTS: u32 = 128;
+/// Components that the fragment stage may read.
+pub const MAX_FRAGMENT_INPUT_COMPONENTS: u32 = 128;
+/// Components of loose uniforms in a stage.
+pub const MAX_UNIFORM_COMPONENTS: u32 = 1024;
+/// Samplers in a stage.
+pub const MAX_TEXTURE_IMAGE_UNITS: u32 = 16;
+/// Samplers in all stages together.
+pub const MAX_COMBINED_TEXTURE_IMAGE_UNITS: u32 = 48;
+/// Color outputs.
+pub const MAX_DRAW_BUFFERS: u32 = 8;
+/// Elements of `gl_ClipDistance`.
+pub const MAX_CLIP_DISTANCES: u32 = 8;
+/// `max_vertices` of a geometry shader.
+pub const MAX_GEOMETRY_OUTPUT_VERTICES: u32 = 256;
+
+/// All of them.
+pub static CONSTANTS: &[Constant] = &[
+    row("gl_MaxVertexAttribs", MAX_VERTEX_ATTRIBS as i32, 110),
+    row("gl_MaxVertexUniformComponents", MAX_UNIFORM_COMPONENTS as i32, 110),
+    row("gl_MaxVaryingFloats", 60, 110),
+    row("gl_MaxVaryingComponents", 60, 130),
+    row("gl_MaxVertexOutputComponents", MAX_VERTEX_OUTPUT_COMPONENTS as i32, 150),
+    row("gl_MaxGeometryInputComponents", MAX_GEOMETRY_INPUT_COMPONENTS as i32, 150),
+    row("gl_MaxGeometryOutputComponents", MAX_GEOMETRY_OUTPUT_COMPONENTS as i32, 150),
+    row("gl_MaxFragmentInputComponents", MAX_FRAGMENT_INPUT_COMPONENTS as i32, 150),
+    row("gl_MaxVertexTextureImageUnits", MAX_TEXTURE_IMAGE_UNITS as i32, 110),
+    row("gl_MaxCombinedTextureImageUnits", MAX_COMBINED_TEXTURE_IMAGE_UNITS as i32, 110),
+    row("gl_MaxTextureImageUnits", MAX_TEXTURE_IMAGE_UNITS as i32, 110),
+    row("gl_MaxFragmentUniformComponents", MAX_UNIFORM_COMPONENTS as i32, 110),
+    row("gl_MaxDrawBuffers", MAX_DRAW_BUFFERS as i32, 110),
+    row("gl_MaxClipDistances", MAX_CLIP_DISTANCES as i32, 130),
+    row("gl_MaxGeometryTextureImageUnits", MAX_TEXTURE_IMAGE_UNITS as i32, 150),
+    row("gl_MaxGeometryOutputVertices", MAX_GEOMETRY_OUTPUT_VERTICES as i32, 150),
+    row("gl_MaxGeometryTotalOutputComponents", 1024, 150),
+    row("gl_MaxGeometryUniformComponents", MAX_UNIFORM_COMPONENTS as i32, 150),
+    row("gl_MaxGeometryVaryingComponents", 64, 150),
+    compatibility(row("gl_MaxTextureUnits", 2, 110)),
+    compatibility(row("gl_MaxTextureCoords", 8, 110)),
+    compatibility(row("gl_MaxClipPlanes", 8, 110)),
+    pack420("gl_MinProgramTexelOffset", -8),
+    pack420("gl_MaxProgramTexelOffset", 7),
+];
+
+/// The constant of a name in a language.
+pub fn named(name: &str, version: Version, extensions: Extensions) -> Option<&'static Constant> {
+    CONSTANTS.iter().find(|row| row.name == name && row.availability.in_language(version, extensions))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::language::Profile;
+    use crate::source::Span;
+
+    #[test]
+    fn version_profile_and_extension_decide() {
+        let core = Version { number: 150, profile: Profile::Core, span: Span::default() };
+        let compatibility = Version { profile: Profile::Compatibility, ..core };
+        let value = |name, version, extensions| named(name, version, extensions).map(|row: &Constant| row.value);
+        assert_eq!(value("gl_MaxDrawBuffers", core, Extensions::empty()), Some(8));
+        assert_eq!(value("gl_MaxClipPlanes", core, Extensions::empty()), None);
+        assert_eq!(value("gl_MaxClipPlanes", compatibility, Extensions::empty()), Some(8));
+        assert_eq!(value("gl_MinProgramTexelOffset", core, Extensions::empty()), None);
+        assert_eq!(value("gl_MinProgramTexelOffset", core, Extensions::SHADING_LANGUAGE_420PACK), Some(-8));
+    }
+
+    #[test]
+    fn the_core_list_is_complete() {
+        assert_eq!(CONSTANTS.iter().filter(|row| row.section == "§7.4").count(), 19);
+    }
+}

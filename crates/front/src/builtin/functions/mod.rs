@@ -1,0 +1,228 @@
+//! The built-in functions (GLSL 1.50 §8) as a table: one [`Row`] an overload as the specification prints it.
+//!
+//! *In:* a name. *Out:* its rows, and of each row the concrete [`Signature`]s that its placeholders (`genType`, `mat`,
+//! `gsampler2D`) stand for. *Holds:* all placeholders of a row vary together, so a row has one list of signatures.
+//! *Not done here:* overload resolution (`analysis`), evaluation (`analysis::fold`, `cpu`), lowering (`lower`); those
+//! match the [`BuiltinFunction`] of the row without a wildcard.
+
+mod common;
+mod geometric;
+mod matcher;
+mod texture;
+mod texture_old;
+
+pub use matcher::Matcher;
+
+use super::{Availability, BuiltinFunction};
+use crate::language::{ParamMode, Stage, TypeId, Types};
+use std::sync::OnceLock;
+
+/// What a call does besides giving a value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Effect {
+    /// Nothing.
+    None,
+    /// It writes an argument (`modf`).
+    WritesArgument,
+    /// It looks at the neighboring fragments (§8.8).
+    Derivative,
+    /// It reads a texture, whose level of detail may hang on the neighboring fragments (§8.7).
+    Texture,
+    /// It emits a vertex or ends a primitive (§8.10).
+    Emits,
+}
+
+/// A parameter of a [`Row`].
+#[derive(Clone, Copy, Debug)]
+pub struct Parameter {
+    /// The name that the specification gives it.
+    pub name: &'static str,
+    /// The types that it takes.
+    pub matcher: Matcher,
+}
+
+/// One overload as the specification prints it.
+#[derive(Clone, Copy, Debug)]
+pub struct Row {
+    /// What it computes.
+    pub function: BuiltinFunction,
+    /// The name in GLSL; older names of a computation have rows of their own.
+    pub name: &'static str,
+    /// The result.
+    pub ret: Matcher,
+    /// The parameters.
+    pub params: &'static [Parameter],
+    /// Where it exists.
+    pub availability: Availability,
+    /// The section of GLSL 1.50.
+    pub section: &'static str,
+    /// Whether it may stand in a constant expression (§4.3.3).
+    pub constant: bool,
+    /// What it does besides.
+    pub effect: Effect,
+    /// Whether the specification calls it deprecated.
+    pub deprecated: bool,
+}
+
+/// The most parameters that a built-in function has.
+pub const MAX_PARAMS: usize = 5;
+
+/// A concrete overload.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Signature {
+    params: [(TypeId, ParamMode); MAX_PARAMS],
+    n_params: u8,
+    /// The result's type.
+    pub ret: TypeId,
+}
+
+impl Signature {
+    /// The parameters' types and modes.
+    pub fn params(&self) -> &[(TypeId, ParamMode)] {
+        self.params.get(..usize::from(self.n_params)).unwrap_or(&[])
+    }
+}
+
+impl Row {
+    /// What a row is like unless it says otherwise.
+    const fn base(section: &'static str, version: u16) -> Self {
+        Self {
+            function: BuiltinFunction::Radians,
+            name: "",
+            ret: matcher::void,
+            params: &[],
+            availability: Availability::since(version),
+            section,
+            constant: true,
+            effect: Effect::None,
+            deprecated: false,
+        }
+    }
+
+    const fn with(self, effect: Effect, constant: bool) -> Self {
+        Self { effect, constant, ..self }
+    }
+
+    const fn available(self, availability: Availability) -> Self {
+        Self { availability, ..self }
+    }
+
+    /// The concrete overloads in a stage, cheap to iterate: nothing is allocated. The optional `bias` gives each of them
+    /// a second time, in fragment shaders alone.
+    pub fn signatures(&'static self, stage: Stage) -> impl Iterator<Item = Signature> {
+        let optional = self.params.last().is_some_and(|param| param.matcher == Matcher::OptionalBias);
+        let n_required = self.params.len() - usize::from(optional);
+        let n_all = if optional && stage == Stage::Fragment { n_required + 1 } else { n_required };
+        (n_required..=n_all)
+            .flat_map(move |n_params| (0..self.choices()).map(move |choice| self.signature(choice, n_params)))
+    }
+
+    /// How many types the placeholders stand for.
+    fn choices(&self) -> u8 {
+        let params = self.params.iter().map(|param| param.matcher);
+        params.chain([self.ret]).map(Matcher::choices).max().unwrap_or(1)
+    }
+
+    fn signature(&self, choice: u8, n_params: usize) -> Signature {
+        let mut params = [(TypeId::VOID, ParamMode::In); MAX_PARAMS];
+        for (slot, param) in params.iter_mut().zip(self.params).take(n_params) {
+            *slot = (param.matcher.choose(choice), param.matcher.mode());
+        }
+        Signature { params, n_params: n_params as u8, ret: self.ret.choose(choice) }
+    }
+
+    /// As the specification prints it: `gvec4 texture(gsampler2D sampler, vec2 P [, float bias])`.
+    pub fn prototype(&self) -> String {
+        let mut text = format!("{} {}(", self.ret.spelling(), self.name);
+        for (index, param) in self.params.iter().enumerate() {
+            let (open, close) = if param.matcher == Matcher::OptionalBias { (" [", "]") } else { ("", "") };
+            let comma = if index > 0 { ", " } else { "" };
+            let comma = if open.is_empty() { comma } else { comma.trim_end() };
+            let gap = if open.is_empty() { "" } else { " " };
+            text.push_str(&format!("{open}{comma}{gap}{} {}{close}", param.matcher.spelling(), param.name));
+        }
+        text.push(')');
+        text
+    }
+}
+
+impl Signature {
+    /// As it would be declared: `vec4 texture(sampler2D, vec2)`.
+    pub fn describe(&self, name: &str, types: &Types) -> String {
+        let params: Vec<String> = self
+            .params()
+            .iter()
+            .map(|&(ty, mode)| {
+                let out = if mode == ParamMode::Out { "out " } else { "" };
+                format!("{out}{}", types.name(ty))
+            })
+            .collect();
+        format!("{} {name}({})", types.name(self.ret), params.join(", "))
+    }
+}
+
+/// Turns lines in the manner of the specification into [`Row`]s: `BASE Identity: genType sin(genType angle);`, where the
+/// base is a constant row that gives all columns but the signature.
+macro_rules! rows {
+    ($($base:ident $function:ident: $ret:ident $name:ident($($ty:ident $param:ident),*);)*) => {
+        &[$(Row {
+            function: BuiltinFunction::$function,
+            name: stringify!($name),
+            ret: matcher::$ret,
+            params: &[$(Parameter { name: stringify!($param), matcher: matcher::$ty }),*],
+            ..$base
+        }),*]
+    };
+}
+use rows;
+
+static TABLES: &[&[Row]] = &[common::ROWS, geometric::ROWS, texture::ROWS, texture_old::ROWS];
+
+/// All rows, in the order of the specification's sections.
+pub fn all() -> impl Iterator<Item = &'static Row> {
+    TABLES.iter().flat_map(|table| table.iter())
+}
+
+/// All rows sorted by name; rows of one name keep the specification's order.
+fn by_name() -> &'static [&'static Row] {
+    static SORTED: OnceLock<Vec<&'static Row>> = OnceLock::new();
+    SORTED.get_or_init(|| {
+        let mut rows: Vec<&'static Row> = all().collect();
+        rows.sort_by_key(|row| row.name);
+        rows
+    })
+}
+
+/// The rows of a name, whatever the version and stage; none for a name that no version has.
+pub fn named(name: &str) -> &'static [&'static Row] {
+    let rows = by_name();
+    let start = rows.partition_point(|row| row.name < name);
+    let rest = rows.get(start..).unwrap_or(&[]);
+    let len = rest.iter().take_while(|row| row.name == name).count();
+    rest.get(..len).unwrap_or(&[])
+}
+
+/// Every name once, sorted.
+pub fn names() -> impl Iterator<Item = &'static str> {
+    by_name().chunk_by(|a, b| a.name == b.name).filter_map(|rows| rows.first().map(|row| row.name))
+}
+
+impl BuiltinFunction {
+    /// Whether a call may look at the neighboring fragments: derivatives, and texture lookups whose level of detail is
+    /// implicit. (Rectangle, buffer and multisample textures have one level; the sampler's type tells.)
+    pub fn implicit_derivatives(self) -> bool {
+        matches!(
+            self,
+            Self::DFdx
+                | Self::DFdy
+                | Self::Fwidth
+                | Self::Texture
+                | Self::TextureProj
+                | Self::TextureOffset
+                | Self::TextureProjOffset
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,240 @@
+//! The built-in variables (GLSL 1.50 §7.1, §7.2, §7.5) as a table: one [`Row`] a variable and direction.
+//!
+//! *In:* a name, a language and a stage. *Out:* the variable's identity, storage and type. *Not done here:* the sizes of
+//! `gl_ClipDistance` and `gl_in`, which redeclaration, use or the input primitive give.
+
+use super::{Availability, BuiltinVariable, Stages, constants};
+use crate::language::{
+    ArraySize, Extensions, MatrixLayout, Member, Scalar, Stage, Storage, StructType, TypeId, Types, Version,
+};
+use crate::source::Span;
+
+/// The type of a built-in variable.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum VariableType {
+    /// A scalar or vector.
+    Plain(TypeId),
+    /// `float[]`, unsized until the shader sizes it (`gl_ClipDistance`).
+    UnsizedFloats,
+    /// `vec4[n]` (`gl_FragData`).
+    Vec4s(u32),
+    /// The struct behind `in gl_PerVertex { .. } gl_in[]`, in an unsized array.
+    PerVertexArray,
+    /// `struct gl_DepthRangeParameters { float near, far, diff; }`
+    DepthRange,
+}
+
+/// What a shader may declare anew.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Redeclaration {
+    /// Nothing; `invariant` apart, where the variable is an output or a fragment input.
+    No,
+    /// With a size.
+    Size,
+    /// With layout qualifiers.
+    Layout,
+}
+
+/// A built-in variable in one direction.
+#[derive(Clone, Copy, Debug)]
+pub struct Row {
+    /// Which.
+    pub variable: BuiltinVariable,
+    /// Its name in GLSL.
+    pub name: &'static str,
+    /// `In`, `Out` or `Uniform`.
+    pub storage: Storage,
+    /// Its type.
+    pub ty: VariableType,
+    /// Where it exists.
+    pub availability: Availability,
+    /// What a shader may declare anew.
+    pub redeclaration: Redeclaration,
+    /// Whether it is a member of `gl_PerVertex`, which ARB_separate_shader_objects and 1.50 let a shader redeclare.
+    pub per_vertex: bool,
+    /// Whether the specification calls it deprecated.
+    pub deprecated: bool,
+    /// The section of GLSL 1.50.
+    pub section: &'static str,
+}
+
+impl Row {
+    const fn new(variable: BuiltinVariable, name: &'static str, storage: Storage, ty: VariableType) -> Self {
+        Self {
+            variable,
+            name,
+            storage,
+            ty,
+            availability: Availability::since(110),
+            redeclaration: Redeclaration::No,
+            per_vertex: false,
+            deprecated: false,
+            section: "§7.1",
+        }
+    }
+
+    const fn at(self, since: u16, stages: Stages) -> Self {
+        Self { availability: Availability::since(since).stages(stages), ..self }
+    }
+
+    const fn per_vertex(self) -> Self {
+        Self { per_vertex: true, ..self }
+    }
+
+    const fn redeclared(self, redeclaration: Redeclaration) -> Self {
+        Self { redeclaration, ..self }
+    }
+
+    const fn fragment(self, since: u16) -> Self {
+        Self { section: "§7.2", ..self }.at(since, Stages::FRAGMENT)
+    }
+
+    const fn deprecated(self) -> Self {
+        Self { deprecated: true, ..self }
+    }
+
+    /// The type, built anew for the two that are structs.
+    pub fn make_type(&self, types: &mut Types) -> TypeId {
+        match self.ty {
+            VariableType::Plain(ty) => ty,
+            VariableType::UnsizedFloats => types.array(TypeId::FLOAT, ArraySize::Unsized),
+            VariableType::Vec4s(size) => types.array(TypeId::VEC4, ArraySize::Sized(size)),
+            VariableType::PerVertexArray => {
+                let clip_distance = types.array(TypeId::FLOAT, ArraySize::Unsized);
+                let members = [
+                    ("gl_Position", TypeId::VEC4),
+                    ("gl_PointSize", TypeId::FLOAT),
+                    ("gl_ClipDistance", clip_distance),
+                ];
+                let block = structure(types, "gl_PerVertex", &members, true);
+                types.array(block, ArraySize::Unsized)
+            }
+            VariableType::DepthRange => {
+                let members = ["near", "far", "diff"].map(|name| (name, TypeId::FLOAT));
+                structure(types, "gl_DepthRangeParameters", &members, false)
+            }
+        }
+    }
+}
+
+fn structure(types: &mut Types, name: &str, members: &[(&str, TypeId)], is_block: bool) -> TypeId {
+    let members = members
+        .iter()
+        .map(|&(name, ty)| Member {
+            name: name.into(),
+            ty,
+            matrix_layout: MatrixLayout::default(),
+            interpolation: None,
+            centroid: false,
+            invariant: false,
+            implicitly_sized: false,
+            span: Span::default(),
+        })
+        .collect();
+    types.add_struct(StructType { name: name.into(), members, is_block, span: Span::default() })
+}
+
+const INT: VariableType = VariableType::Plain(TypeId::INT);
+const FLOAT: VariableType = VariableType::Plain(TypeId::FLOAT);
+const VEC2: VariableType = VariableType::Plain(TypeId::VEC2);
+const VEC4: VariableType = VariableType::Plain(TypeId::VEC4);
+const BOOL: VariableType = VariableType::Plain(TypeId::vector(Scalar::Bool, 1));
+const WRITERS: Stages = Stages::VERTEX.union(Stages::GEOMETRY);
+const INSTANCING: Availability = Availability::extension(Extensions::DRAW_INSTANCED).stages(Stages::VERTEX);
+
+use BuiltinVariable as V;
+use Storage::{In, Out, Uniform};
+
+/// All of them.
+pub static VARIABLES: &[Row] = &[
+    Row::new(V::Position, "gl_Position", Out, VEC4).at(110, WRITERS).per_vertex(),
+    Row::new(V::PointSize, "gl_PointSize", Out, FLOAT).at(110, WRITERS).per_vertex(),
+    Row::new(V::ClipDistance, "gl_ClipDistance", Out, VariableType::UnsizedFloats)
+        .at(130, WRITERS)
+        .per_vertex()
+        .redeclared(Redeclaration::Size),
+    Row::new(V::VertexId, "gl_VertexID", In, INT).at(130, Stages::VERTEX),
+    Row::new(V::InstanceId, "gl_InstanceID", In, INT).at(140, Stages::VERTEX),
+    Row {
+        availability: INSTANCING,
+        section: "ARB_draw_instanced",
+        ..Row::new(V::InstanceId, "gl_InstanceIDARB", In, INT)
+    },
+    Row::new(V::In, "gl_in", In, VariableType::PerVertexArray)
+        .at(150, Stages::GEOMETRY)
+        .redeclared(Redeclaration::Size),
+    Row::new(V::PrimitiveIdIn, "gl_PrimitiveIDIn", In, INT).at(150, Stages::GEOMETRY),
+    Row::new(V::PrimitiveId, "gl_PrimitiveID", Out, INT).at(150, Stages::GEOMETRY),
+    Row::new(V::Layer, "gl_Layer", Out, INT).at(150, Stages::GEOMETRY),
+    Row::new(V::FragCoord, "gl_FragCoord", In, VEC4).fragment(110).redeclared(Redeclaration::Layout),
+    Row::new(V::FrontFacing, "gl_FrontFacing", In, BOOL).fragment(110),
+    Row::new(V::ClipDistance, "gl_ClipDistance", In, VariableType::UnsizedFloats)
+        .fragment(130)
+        .redeclared(Redeclaration::Size),
+    Row::new(V::FragColor, "gl_FragColor", Out, VEC4).fragment(110).deprecated(),
+    Row::new(V::FragData, "gl_FragData", Out, VariableType::Vec4s(constants::MAX_DRAW_BUFFERS))
+        .fragment(110)
+        .deprecated(),
+    Row::new(V::FragDepth, "gl_FragDepth", Out, FLOAT).fragment(110),
+    Row::new(V::PointCoord, "gl_PointCoord", In, VEC2).fragment(120),
+    Row::new(V::PrimitiveId, "gl_PrimitiveID", In, INT).fragment(150),
+    Row { section: "§7.5", ..Row::new(V::DepthRange, "gl_DepthRange", Uniform, VariableType::DepthRange) },
+];
+
+/// The variable of a name in a language and stage.
+pub fn named(name: &str, version: Version, extensions: Extensions, stage: Stage) -> Option<&'static Row> {
+    in_stage(version, extensions, stage).find(|row| row.name == name)
+}
+
+/// All variables of a language and stage, for lists of candidates.
+pub fn in_stage(version: Version, extensions: Extensions, stage: Stage) -> impl Iterator<Item = &'static Row> {
+    VARIABLES.iter().filter(move |row| row.availability.holds(version, extensions, stage))
+}
+
+/// The stages that have a variable of this name, for the message about one that lacks it.
+pub fn stages_with(name: &str) -> impl Iterator<Item = Stage> {
+    Stage::ALL
+        .into_iter()
+        .filter(move |&stage| VARIABLES.iter().any(|row| row.name == name && row.availability.stages.has(stage)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::language::Profile;
+
+    const CORE: Version = Version {
+        number: 150,
+        profile: Profile::Core,
+        span: Span { start: 0, end: 0, expansion: crate::source::ExpansionId::NONE },
+    };
+
+    #[test]
+    fn every_variable_has_a_row_under_its_own_name() {
+        for &variable in BuiltinVariable::ALL {
+            assert!(VARIABLES.iter().any(|row| row.variable == variable && row.name == variable.name()));
+        }
+    }
+
+    #[test]
+    fn a_name_means_one_thing_in_a_stage() {
+        for stage in Stage::ALL {
+            let names: Vec<_> = in_stage(CORE, Extensions::all(), stage).map(|row| row.name).collect();
+            let mut unique = names.clone();
+            unique.sort_unstable();
+            unique.dedup();
+            assert_eq!(unique.len(), names.len(), "{stage:?}");
+        }
+    }
+
+    #[test]
+    fn stage_and_extension_decide() {
+        let find = |name, extensions, stage| named(name, CORE, extensions, stage).map(|row| row.storage);
+        assert_eq!(find("gl_PrimitiveID", Extensions::empty(), Stage::Geometry), Some(Out));
+        assert_eq!(find("gl_PrimitiveID", Extensions::empty(), Stage::Fragment), Some(In));
+        assert_eq!(find("gl_PrimitiveID", Extensions::empty(), Stage::Vertex), None);
+        assert_eq!(find("gl_InstanceIDARB", Extensions::empty(), Stage::Vertex), None);
+        assert_eq!(find("gl_InstanceIDARB", Extensions::DRAW_INSTANCED, Stage::Vertex), Some(In));
+        assert_eq!(stages_with("gl_Layer").collect::<Vec<_>>(), [Stage::Geometry]);
+    }
+}

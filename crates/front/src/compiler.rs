@@ -1,0 +1,159 @@
+//! [`Compiler`] turns texts into a [`Program`] and diagnostics. It is the only entry to the front end.
+
+use crate::analysis::analyze;
+use crate::diagnostic::codes::general::TOO_LARGE;
+use crate::diagnostic::{Diagnostic, Diagnostics, Levels};
+use crate::hir::{Shader, Stage, Types};
+use crate::link::{Bindings, Program, link};
+use crate::source::{IncludeResolver, NoIncludes, SourceMap, Span, whole_text};
+use crate::syntax;
+use std::sync::Arc;
+
+/// The options of a compilation.
+#[derive(Clone, Debug, Default)]
+pub struct Options {
+    /// Macros defined before the first line: name and replacement text (`-D NAME=VALUE`).
+    pub defines: Vec<(String, String)>,
+    /// Reports an error instead of a warning for what the specification forbids and every driver accepts.
+    pub strict: bool,
+    /// `glBindAttribLocation`: name and location.
+    pub attribute_locations: Vec<(String, u32)>,
+    /// `glBindFragDataLocation`: name and color number.
+    pub frag_data_locations: Vec<(String, u32)>,
+}
+
+impl Options {
+    /// What the linker reads of them.
+    fn bindings(&self) -> Bindings<'_> {
+        let (attribute_locations, frag_data_locations) = (&self.attribute_locations, &self.frag_data_locations);
+        Bindings { attribute_locations, frag_data_locations }
+    }
+}
+
+/// The text of a shader.
+#[derive(Clone, Debug)]
+pub struct Source {
+    /// The name for diagnostics and for resolving includes: the path as the user wrote it.
+    pub name: String,
+    /// The text. Bytes that are not UTF-8 are replaced by U+FFFD, which is legal only in comments.
+    pub text: Arc<str>,
+    /// The stage.
+    pub stage: Stage,
+}
+
+/// The result of a compilation.
+#[derive(Clone, Debug)]
+pub struct Compilation {
+    /// The name of the program: the stem of the first source's name.
+    pub name: String,
+    /// All texts, including the included files.
+    pub sources: SourceMap,
+    /// The linked program, if there are no errors.
+    pub program: Option<Program>,
+    /// All diagnostics.
+    pub diagnostics: Diagnostics,
+}
+
+/// Compiles programs. It holds options but no state: one compiler can be used any number of times and from many
+/// threads.
+#[derive(Clone)]
+pub struct Compiler {
+    options: Options,
+    includes: Arc<dyn IncludeResolver + Send + Sync>,
+}
+
+impl Compiler {
+    /// A compiler that resolves no includes.
+    pub fn new(options: Options) -> Self {
+        Self { options, includes: Arc::new(NoIncludes) }
+    }
+
+    /// The same compiler with a resolver for `#include`.
+    #[must_use]
+    pub fn with_includes(self, includes: impl IncludeResolver + Send + Sync + 'static) -> Self {
+        Self { includes: Arc::new(includes), ..self }
+    }
+
+    /// The same compiler with other options.
+    #[must_use]
+    pub fn with_options(&self, options: Options) -> Self {
+        Self { options, includes: Arc::clone(&self.includes) }
+    }
+
+    /// The way to find what `#include` names.
+    pub fn includes(&self) -> Arc<dyn IncludeResolver + Send + Sync> {
+        Arc::clone(&self.includes)
+    }
+
+    /// The options.
+    pub fn options(&self) -> &Options {
+        &self.options
+    }
+
+    /// Compiles the stages of one program.
+    ///
+    /// ```
+    /// use glisten_front::{Compiler, Options, Source, Stage};
+    ///
+    /// let source = Source {
+    ///     name: "red.frag".into(),
+    ///     text: "#version 150\nout vec4 color;\nvoid main() { color = vec4(1.0, 0.0, 0.0, 1.0); }\n".into(),
+    ///     stage: Stage::Fragment,
+    /// };
+    /// let compilation = Compiler::new(Options::default()).compile(&[source]);
+    /// assert!(!compilation.diagnostics.has_errors());
+    /// let program = compilation.program.expect("without errors there is a program");
+    /// assert_eq!(program.name, "red");
+    /// assert_eq!(program.interface.outputs[0].name, "color");
+    /// ```
+    pub fn compile(&self, sources: &[Source]) -> Compilation {
+        self.compile_into(SourceMap::default(), sources)
+    }
+
+    /// Compiles like [`Self::compile`], but adds the texts to `map`. A file that names shaders can then share one map
+    /// with them, so that diagnostics of both are shown from it.
+    pub fn compile_into(&self, map: SourceMap, sources: &[Source]) -> Compilation {
+        let name = sources.first().map_or_else(String::new, |source| stem(&source.name));
+        let (mut map, mut diagnostics, mut types) = (map, Diagnostics::default(), Types::new());
+        let mut shaders = Vec::with_capacity(sources.len());
+        for source in sources {
+            shaders.extend(self.shader(source, &mut types, &mut map, &mut diagnostics));
+        }
+        // What a shader with errors offers to the others is not what its author means; linking it would blame them.
+        let program = if diagnostics.has_errors() {
+            None
+        } else {
+            link(name.clone(), types, shaders, self.options.bindings(), &mut diagnostics)
+        };
+        let levels = Levels::default();
+        diagnostics.retain(|diagnostic| levels.judge(&map, diagnostic).is_some());
+        Compilation { name, sources: map, program, diagnostics }
+    }
+
+    /// Parses and analyzes one text.
+    fn shader(
+        &self,
+        source: &Source,
+        types: &mut Types,
+        map: &mut SourceMap,
+        diagnostics: &mut Diagnostics,
+    ) -> Option<Shader> {
+        let Some(file) = map.add(source.name.as_str(), Arc::clone(&source.text)) else {
+            let message = format!("there is no room for `{}`", source.name);
+            diagnostics.push(Diagnostic::new(&TOO_LARGE, Span::default(), message));
+            return None;
+        };
+        let strict = self.options.strict;
+        let options = syntax::Options { stage: source.stage, defines: self.options.defines.clone(), strict };
+        let ast = syntax::parse(map, file, &options, &*self.includes, diagnostics);
+        let mut shader = analyze(&ast, source.stage, strict, types, map, diagnostics);
+        shader.texts.push(whole_text(map, file, ast.version.span, &ast.inclusions, &self.options.defines));
+        Some(shader)
+    }
+}
+
+/// The file name of a path, without its folder and its last extension.
+fn stem(name: &str) -> String {
+    let file = name.rsplit(['/', '\\']).next().unwrap_or(name);
+    file.rsplit_once('.').map_or(file, |(stem, _)| stem).to_owned()
+}

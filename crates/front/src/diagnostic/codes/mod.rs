@@ -1,0 +1,124 @@
+//! The registry of diagnostic codes: one row for each code, one file for each phase.
+//!
+//! A row contains everything that `glisten explain`, the reference page and SARIF's rule metadata need. Each `bad`
+//! example raises its code, and each `good` one is clean; a test runs them all.
+//!
+//! | range | phase |
+//! | --- | --- |
+//! | `E01xx` | reading, preprocessor, version and extensions |
+//! | `E02xx` | syntax |
+//! | `E03xx` | names, scopes, declarations |
+//! | `E04xx` | types, expressions, constants |
+//! | `E05xx` | statements, functions |
+//! | `E06xx` | qualifiers, layouts, blocks, built-in variables |
+//! | `E07xx` | link |
+//! | `E08xx` | lowering, emission, targets |
+//! | `E09xx` | scenes and running |
+//! | `E0001` to `E0099` | limits, unsupported features, internal errors |
+//! | `W01xx` to `W07xx` | forgiven, or legal but harmful; the hundreds are those of the errors |
+//! | `L0xxx` | lint rules |
+
+use super::Severity;
+use std::fmt;
+
+/// A row of the registry.
+#[derive(Debug)]
+pub struct Code {
+    /// `E0301`: stable forever.
+    pub id: &'static str,
+    /// A name that can follow "allow": `undeclared-identifier`.
+    pub name: &'static str,
+    /// The severity, unless levels change it.
+    pub severity: Severity,
+    /// The section of the specification: `GLSL 1.50 §4.2.2`, or empty.
+    pub section: &'static str,
+    /// The page: what the code means and why, in whole sentences.
+    pub page: &'static str,
+    /// An example that raises the code.
+    pub bad: Example,
+    /// The same example, corrected.
+    pub good: Example,
+}
+
+impl PartialEq for Code {
+    fn eq(&self, other: &Self) -> bool {
+        self.id == other.id
+    }
+}
+
+impl Eq for Code {}
+
+impl fmt::Display for Code {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.id)
+    }
+}
+
+/// An example on a page.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Example {
+    /// A single vertex shader. Without a `#version` line of its own, it gets `#version 150`.
+    Vertex(&'static str),
+    /// A single fragment shader, with the same default version.
+    Fragment(&'static str),
+    /// A single geometry shader, with the same default version.
+    Geometry(&'static str),
+    /// A vertex and a fragment shader, linked.
+    Program(&'static str, &'static str),
+    /// Several shaders, linked; some may be of the same stage.
+    Shaders(&'static [(crate::language::Stage, &'static str)]),
+    /// Text that is not a shader (a scene, a command line). It is shown, not run.
+    Text(&'static str),
+    /// No short example exists.
+    None,
+}
+
+/// Declares the rows of a phase: `NAME = "E0301" "slug" Error "section" { page } bad { .. } good { .. };`
+macro_rules! codes {
+    ($($(#[$doc:meta])* $ident:ident = $id:literal $name:literal $severity:ident $section:literal
+        $page:literal bad $bad:expr, good $good:expr;)*) => {
+        $(#[doc = concat!("`", $id, "` ", $name)]
+        pub static $ident: $crate::diagnostic::Code = $crate::diagnostic::Code {
+            id: $id, name: $name, severity: $crate::diagnostic::Severity::$severity, section: $section,
+            page: $page, bad: $bad, good: $good,
+        };)*
+        /// All rows of this phase.
+        pub(super) static ALL: &[&$crate::diagnostic::Code] = &[$(&$ident),*];
+    };
+}
+
+pub mod general;
+pub mod link;
+pub mod lints;
+pub mod names;
+pub mod preprocess;
+pub mod qualifiers;
+pub mod scenes;
+pub mod statements;
+pub mod syntax;
+pub mod targets;
+pub mod types;
+
+static PHASES: &[&[&Code]] = &[
+    general::ALL,
+    preprocess::ALL,
+    syntax::ALL,
+    names::ALL,
+    types::ALL,
+    statements::ALL,
+    qualifiers::ALL,
+    link::ALL,
+    targets::ALL,
+    scenes::ALL,
+    lints::ALL,
+];
+
+/// All codes, in the order of the phases.
+pub fn all() -> impl Iterator<Item = &'static Code> {
+    PHASES.iter().flat_map(|phase| phase.iter().copied())
+}
+
+/// The code with this identifier or name (`E0301`, `e0301` or `undeclared-identifier`).
+pub fn find(key: &str) -> Option<&'static Code> {
+    all().find(|code| code.id.eq_ignore_ascii_case(key) || code.name.eq_ignore_ascii_case(key))
+}

@@ -1,0 +1,31 @@
+//! The typed program: the meaning of a shader, with every name resolved and every expression typed.
+//!
+//! *In:* [`analysis`](crate::analysis) builds it from the syntax tree. *Out:* `link`, `lint`, `lower` and `cpu` read
+//! it. A [`Shader`] is one stage. All stages of a compilation share one [`Types`], so that equal types have equal
+//! handles.
+//!
+//! *Holds:* there are no naga types here. Implicit conversions (§4.1.10) are explicit [`ExprKind::Convert`]s,
+//! constructors are in normal form, `.length()` is a literal. Child expressions precede their parents in the arena. A
+//! shader with errors still has a HIR, in which anything in error is [`ExprKind::Error`] of [`TypeId::ERROR`]. No
+//! phase after `link` ever sees one, because a program with errors is not passed on.
+
+mod expr;
+mod print;
+mod reach;
+mod shader;
+mod stmt;
+mod value;
+mod visit;
+
+pub use crate::language::{
+    ArraySize, Interpolation, MatrixLayout, Member, ParamMode, SamplerDim, SamplerType, Scalar, Stage, Storage,
+    StructId, StructType, Type, TypeId, Types,
+};
+pub use expr::{BinaryOp, ConstructKind, Expr, ExprId, ExprKind, IncDec, LogicalOp, Swizzle, UnaryOp, VarRef};
+pub use print::print;
+pub use shader::{
+    BlockInfo, BlockLayout, FragCoordLayout, Function, FunctionId, GeometryLayout, Global, GlobalId, Local, LocalId,
+    LocalKind, PerVertexOut, PrimitiveIn, PrimitiveOut, Shader,
+};
+pub use stmt::{Case, CaseLabel, Condition, LoopKind, Stmt, StmtKind};
+pub use value::{ScalarValue, Value};

@@ -1,0 +1,245 @@
+//! Prints what precedes the functions: version, extensions, layouts, structs, globals.
+
+use super::Printer;
+use crate::builtin::BuiltinVariable;
+use crate::hir::{
+    BlockLayout, ExprKind, Global, GlobalId, MatrixLayout, Member, PrimitiveIn, PrimitiveOut, ScalarValue, Storage,
+    Type, TypeId, Value,
+};
+use crate::language::Profile;
+
+impl Printer<'_> {
+    pub(super) fn header(&mut self) {
+        let version = self.shader.version;
+        let profile = match version.profile {
+            Profile::Core => "",
+            Profile::Compatibility => " compatibility",
+            Profile::Es => " es",
+        };
+        self.line(&format!("#version {}{profile}", version.number));
+        let globals = &self.shader.globals;
+        let located = globals.iter().any(|global| global.location.is_some() || global.index.is_some());
+        let bound = globals.iter().any(|global| {
+            global.binding.is_some() || global.block.as_ref().is_some_and(|block| block.binding.is_some())
+        });
+        if located {
+            self.line("#extension GL_ARB_explicit_attrib_location : enable");
+        }
+        if bound {
+            self.line("#extension GL_ARB_shading_language_420pack : enable");
+        }
+        self.geometry_layout();
+    }
+
+    fn geometry_layout(&mut self) {
+        let layout = self.shader.geometry;
+        if let Some(input) = layout.input {
+            self.blank();
+            self.line(&format!("layout({}) in;", primitive_in(input)));
+        }
+        let output = layout.output.map(primitive_out).map(str::to_owned);
+        let vertices = layout.max_vertices.map(|vertices| format!("max_vertices = {vertices}"));
+        let parts: Vec<String> = output.into_iter().chain(vertices).collect();
+        if !parts.is_empty() {
+            self.line(&format!("layout({}) out;", parts.join(", ")));
+        }
+    }
+
+    pub(super) fn structs(&mut self) {
+        for id in self.names.structs().to_vec() {
+            self.blank();
+            let types = self.types;
+            self.line(&format!("struct {} {{", self.names.structure(id)));
+            self.indent += 1;
+            for member in &types.structure(id).members {
+                self.line(&format!("{} {};", self.type_name(member.ty), member.name));
+            }
+            self.indent -= 1;
+            self.line("};");
+        }
+    }
+
+    /// Prints prototypes of functions that initializers of globals call, since the functions come after the globals.
+    pub(super) fn early_prototypes(&mut self) {
+        let shader = self.shader;
+        let mut called = Vec::new();
+        for initializer in shader.globals.iter().filter_map(|global| global.initializer) {
+            shader.visit_expr(initializer, &mut |expr| {
+                if let ExprKind::Call(function, _) = shader.expr(expr).kind
+                    && !called.contains(&function)
+                {
+                    called.push(function);
+                }
+            });
+        }
+        for id in called {
+            self.blank();
+            let head = self.function_head(id, shader.function(id));
+            self.line(&format!("{head};"));
+        }
+    }
+
+    pub(super) fn globals(&mut self) {
+        let shader = self.shader;
+        self.blank();
+        for (id, global) in shader.globals() {
+            if global.builtin.is_some() {
+                self.builtin(global);
+            } else if global.block.is_some() {
+                self.block(id, global);
+            } else {
+                self.variable(id, global);
+            }
+        }
+    }
+
+    /// A redeclaration of a built-in variable: its size, its layout, or `invariant`.
+    fn builtin(&mut self, global: &Global) {
+        let direction = storage(global.storage);
+        match global.builtin {
+            Some(BuiltinVariable::ClipDistance) if matches!(self.types.get(global.ty), Type::Array(..)) => {
+                let ty = self.type_name(global.ty);
+                self.line(&format!("{direction}{ty} gl_ClipDistance;"));
+            }
+            Some(BuiltinVariable::FragCoord) => {
+                let layout = self.shader.frag_coord;
+                let parts = [
+                    (layout.origin_upper_left, "origin_upper_left"),
+                    (layout.pixel_center_integer, "pixel_center_integer"),
+                ];
+                let parts: Vec<&str> = parts.into_iter().filter(|(set, _)| *set).map(|(_, word)| word).collect();
+                if !parts.is_empty() {
+                    self.line(&format!("layout({}) in vec4 gl_FragCoord;", parts.join(", ")));
+                }
+            }
+            Some(BuiltinVariable::In) if global.span.is_known() => {
+                let Type::Array(element, _) = self.types.get(global.ty) else { return };
+                self.line("in gl_PerVertex {");
+                self.members(element, "");
+                self.line("} gl_in[];");
+            }
+            _ => {}
+        }
+        if global.invariant {
+            self.line(&format!("invariant {};", global.name));
+        }
+    }
+
+    fn variable(&mut self, id: GlobalId, global: &Global) {
+        let layout = [("location", global.location), ("index", global.index), ("binding", global.binding)];
+        let layout: Vec<String> =
+            layout.into_iter().filter_map(|(word, value)| Some(format!("{word} = {}", value?))).collect();
+        let layout = if layout.is_empty() { String::new() } else { format!("layout({}) ", layout.join(", ")) };
+        let invariant = if global.invariant { "invariant " } else { "" };
+        let interpolation = if global.interpolation_written { global.interpolation.name() } else { "" };
+        let gap = if interpolation.is_empty() { "" } else { " " };
+        let centroid = if global.centroid { "centroid " } else { "" };
+        let storage = storage(global.storage);
+        let (ty, name) = (self.type_name(global.ty), self.names.global(id));
+        let head = format!("{layout}{invariant}{interpolation}{gap}{centroid}{storage}{ty} {name}");
+        let initializer = match (global.initializer, &global.value) {
+            (Some(expr), _) => Some(self.argument(expr)),
+            (None, Some(value)) if global.storage != Storage::In => Some(self.value(value)),
+            _ => None,
+        };
+        self.line(&initializer.map_or(format!("{head};"), |initializer| format!("{head} = {initializer};")));
+    }
+
+    fn block(&mut self, id: GlobalId, global: &Global) {
+        let Some(block) = &global.block else { return };
+        let (element, dim) = match self.types.get(global.ty) {
+            Type::Array(element, crate::hir::ArraySize::Sized(size)) => (element, format!("[{size}]")),
+            Type::Array(element, crate::hir::ArraySize::Unsized) => (element, "[]".into()),
+            _ => (global.ty, String::new()),
+        };
+        let mut layout: Vec<String> = Vec::new();
+        match block.layout {
+            _ if global.storage != Storage::Uniform => {}
+            BlockLayout::Shared => {}
+            BlockLayout::Packed => layout.push("packed".into()),
+            BlockLayout::Std140 => layout.push("std140".into()),
+        }
+        layout.extend(block.binding.map(|binding| format!("binding = {binding}")));
+        let layout = if layout.is_empty() { String::new() } else { format!("layout({}) ", layout.join(", ")) };
+        let storage = storage(global.storage);
+        self.line(&format!("{layout}{storage}{} {{", block.name));
+        self.members(element, storage);
+        let instance =
+            if block.instance.is_some() { format!(" {}{dim}", self.names.global(id)) } else { String::new() };
+        self.line(&format!("}}{instance};"));
+    }
+
+    fn members(&mut self, ty: TypeId, storage: &str) {
+        let Type::Struct(id) = self.types.get(ty) else { return };
+        let types = self.types;
+        self.indent += 1;
+        for member in &types.structure(id).members {
+            let line = format!("{}{} {};", member_qualifiers(member, storage), self.type_name(member.ty), member.name);
+            self.line(&line);
+        }
+        self.indent -= 1;
+    }
+
+    /// A constant as a constructor or literal.
+    pub(super) fn value(&self, value: &Value) -> String {
+        let mut scalars = value.scalars.iter().copied();
+        self.value_of(value.ty, &mut scalars)
+    }
+
+    fn value_of(&self, ty: TypeId, scalars: &mut dyn Iterator<Item = ScalarValue>) -> String {
+        let parts: Vec<String> = match self.types.get(ty) {
+            Type::Scalar(_) => return scalars.next().map_or(String::new(), super::expressions::literal),
+            Type::Vector(..) | Type::Matrix(..) => {
+                let len = self.types.flat_len(ty) as usize;
+                scalars.take(len).map(super::expressions::literal).collect()
+            }
+            Type::Struct(id) => {
+                let members = &self.types.structure(id).members;
+                members.iter().map(|member| self.value_of(member.ty, scalars)).collect()
+            }
+            Type::Array(element, crate::hir::ArraySize::Sized(size)) => {
+                (0..size).map(|_| self.value_of(element, scalars)).collect()
+            }
+            Type::Array(_, crate::hir::ArraySize::Unsized) | Type::Error | Type::Void | Type::Sampler(_) => Vec::new(),
+        };
+        format!("{}({})", self.type_name(ty), parts.join(", "))
+    }
+}
+
+fn member_qualifiers(member: &Member, storage: &str) -> String {
+    let row_major = storage == "uniform " && member.matrix_layout == MatrixLayout::RowMajor;
+    let order = if row_major { "layout(row_major) " } else { "" };
+    let interpolation = member.interpolation.map_or(String::new(), |word| format!("{} ", word.name()));
+    // `centroid` precedes a storage qualifier, which in a block can only be that of the block.
+    let centroid = if member.centroid { format!("centroid {storage}") } else { String::new() };
+    let invariant = if member.invariant { "invariant " } else { "" };
+    format!("{order}{invariant}{interpolation}{centroid}")
+}
+
+fn storage(storage: Storage) -> &'static str {
+    match storage {
+        Storage::Const => "const ",
+        Storage::Private => "",
+        Storage::Uniform => "uniform ",
+        Storage::In => "in ",
+        Storage::Out => "out ",
+    }
+}
+
+fn primitive_in(primitive: PrimitiveIn) -> &'static str {
+    match primitive {
+        PrimitiveIn::Points => "points",
+        PrimitiveIn::Lines => "lines",
+        PrimitiveIn::LinesAdjacency => "lines_adjacency",
+        PrimitiveIn::Triangles => "triangles",
+        PrimitiveIn::TrianglesAdjacency => "triangles_adjacency",
+    }
+}
+
+fn primitive_out(primitive: PrimitiveOut) -> &'static str {
+    match primitive {
+        PrimitiveOut::Points => "points",
+        PrimitiveOut::LineStrip => "line_strip",
+        PrimitiveOut::TriangleStrip => "triangle_strip",
+    }
+}

@@ -1,0 +1,131 @@
+//! Prints the typed program as readable GLSL 1.50.
+//!
+//! *In:* a [`Shader`] without errors, and its [`Types`]. *Out:* one text with the same meaning. It writes out every
+//! implicit conversion, gives every array its size, and uses every name for one thing within a function. Structs come
+//! first, then globals in their order, then functions, callees before callers, so that prototypes are not needed.
+//!
+//! *Holds:* parsing the text and printing it again gives the same text.
+
+mod declarations;
+mod expressions;
+mod names;
+mod statements;
+
+use super::{Function, FunctionId, Shader, Type, TypeId, Types};
+use names::NameTable;
+
+/// Prints a shader.
+pub fn print(types: &Types, shader: &Shader) -> String {
+    shader.on_stack(|| {
+        let names = NameTable::new(types, shader);
+        let mut printer = Printer { types, shader, names, function: None, text: String::new(), indent: 0 };
+        printer.shader();
+        printer.text
+    })
+}
+
+/// The state of the printer.
+struct Printer<'a> {
+    types: &'a Types,
+    shader: &'a Shader,
+    names: NameTable,
+    /// The current function.
+    function: Option<FunctionId>,
+    text: String,
+    indent: usize,
+}
+
+impl Printer<'_> {
+    fn shader(&mut self) {
+        self.header();
+        self.structs();
+        self.early_prototypes();
+        self.globals();
+        for id in self.function_order() {
+            self.function(id);
+        }
+    }
+
+    fn line(&mut self, line: &str) {
+        for _ in 0..self.indent {
+            self.text.push_str("    ");
+        }
+        self.text.push_str(line);
+        self.text.push('\n');
+    }
+
+    fn blank(&mut self) {
+        if !self.text.ends_with("\n\n") {
+            self.text.push('\n');
+        }
+    }
+
+    /// The type as written before a name: `float[3]`.
+    fn type_name(&self, ty: TypeId) -> String {
+        match self.types.get(ty) {
+            Type::Struct(id) => self.names.structure(id).to_owned(),
+            Type::Array(element, size) => {
+                let dim = match size {
+                    super::ArraySize::Sized(size) => format!("[{size}]"),
+                    super::ArraySize::Unsized => "[]".into(),
+                };
+                format!("{}{dim}", self.type_name(element))
+            }
+            _ => self.types.name(ty),
+        }
+    }
+
+    /// The functions in print order, callees before callers: first those that `main` needs, then the others.
+    fn function_order(&self) -> Vec<FunctionId> {
+        let roots = self.shader.main.into_iter().chain(self.shader.functions().map(|(id, _)| id));
+        let mut order: Vec<FunctionId> = Vec::new();
+        let mut printed = vec![false; self.shader.functions.len()];
+        for root in roots {
+            for id in self.shader.callees_first(root) {
+                if let Some(done) = printed.get_mut(id.index()).filter(|done| !**done) {
+                    *done = true;
+                    order.push(id);
+                }
+            }
+        }
+        order
+    }
+
+    fn function(&mut self, id: FunctionId) {
+        let shader = self.shader;
+        let function = shader.function(id);
+        self.function = Some(id);
+        self.blank();
+        let head = self.function_head(id, function);
+        match &function.body {
+            None => self.line(&format!("{head};")),
+            Some(body) => {
+                self.line(&format!("{head} {{"));
+                self.body(body);
+                self.line("}");
+            }
+        }
+        self.function = None;
+    }
+
+    fn function_head(&self, id: FunctionId, function: &Function) -> String {
+        use super::{LocalKind, ParamMode};
+        let params: Vec<String> = function
+            .params()
+            .iter()
+            .enumerate()
+            .map(|(index, param)| {
+                let mode = match param.kind {
+                    LocalKind::Param(ParamMode::Out) => "out ",
+                    LocalKind::Param(ParamMode::Inout) => "inout ",
+                    LocalKind::Param(ParamMode::ConstIn) => "const ",
+                    LocalKind::Param(ParamMode::In) | LocalKind::Variable | LocalKind::Const => "",
+                };
+                let name = self.names.local(id, super::LocalId::new(index));
+                format!("{mode}{} {name}", self.type_name(param.ty)).trim_end().to_owned()
+            })
+            .collect();
+        let name = self.names.function(id);
+        format!("{} {name}({})", self.type_name(function.ret), params.join(", "))
+    }
+}

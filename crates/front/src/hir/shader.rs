@@ -1,0 +1,351 @@
+//! [`Shader`]: one stage and everything at global scope.
+
+use super::{Expr, ExprId, ExprKind, Stmt, TypeId, Value, VarRef};
+use crate::builtin::BuiltinVariable;
+use crate::language::{Interpolation, ParamMode, Stage, Storage, Version};
+use crate::source::Span;
+use std::sync::Arc;
+
+macro_rules! handle {
+    ($(#[$doc:meta])* $name:ident) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+        pub struct $name(u32);
+
+        impl $name {
+            /// The handle of the place `index` in its arena.
+            pub fn new(index: usize) -> Self {
+                Self(index as u32)
+            }
+
+            /// The index in its arena.
+            pub fn index(self) -> usize {
+                self.0 as usize
+            }
+        }
+    };
+}
+
+handle!(
+    /// The handle of a global in a [`Shader`].
+    GlobalId
+);
+handle!(
+    /// The handle of a function in a [`Shader`].
+    FunctionId
+);
+handle!(
+    /// The handle of a local in a [`Function`].
+    LocalId
+);
+
+/// The layout of a uniform block (§4.3.8.3).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum BlockLayout {
+    #[default]
+    Shared,
+    Packed,
+    Std140,
+}
+
+/// The properties of a global that is an interface block. Its type is a struct or an array of structs.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct BlockInfo {
+    /// The name after `uniform`, `in` or `out`, by which blocks are matched.
+    pub name: String,
+    /// The instance name. Without one, the members are global names.
+    pub instance: Option<String>,
+    /// The layout, for uniform blocks.
+    pub layout: BlockLayout,
+    /// `layout(binding = n)` (ARB_shading_language_420pack).
+    pub binding: Option<u32>,
+}
+
+/// A variable at global scope, declared or built in.
+#[derive(Clone, Debug)]
+pub struct Global {
+    /// The name; for a block without an instance name, the block's name.
+    pub name: String,
+    /// The type.
+    pub ty: TypeId,
+    /// The storage.
+    pub storage: Storage,
+    /// The built-in variable, if it is one.
+    pub builtin: Option<BuiltinVariable>,
+    /// The interpolation, for `in` and `out` between stages.
+    pub interpolation: Interpolation,
+    /// Whether the interpolation qualifier is explicit.
+    pub interpolation_written: bool,
+    /// `centroid`
+    pub centroid: bool,
+    /// `invariant`
+    pub invariant: bool,
+    /// `layout(location = n)` (ARB_explicit_attrib_location).
+    pub location: Option<u32>,
+    /// `layout(index = n)` (ARB_explicit_attrib_location).
+    pub index: Option<u32>,
+    /// `layout(binding = n)` of a sampler (ARB_shading_language_420pack).
+    pub binding: Option<u32>,
+    /// The block, if it is one.
+    pub block: Option<BlockInfo>,
+    /// The initializer of a constant, uniform or private variable, converted to the global's type.
+    pub initializer: Option<ExprId>,
+    /// The value of a constant or of a uniform's initializer.
+    pub value: Option<Value>,
+    /// Whether the size of its array follows only from its uses (§4.1.9).
+    pub implicitly_sized: bool,
+    /// Whether a function that `main` can reach uses it, or the initializer of such a global does ("static use").
+    pub used: bool,
+    /// Whether such a function assigns to it.
+    pub written: bool,
+    /// The name in the declaration; unknown for a built-in variable that is not redeclared.
+    pub span: Span,
+}
+
+impl Global {
+    /// The texture unit or buffer binding point that `layout(binding = n)` selects.
+    pub fn unit(&self) -> Option<u32> {
+        self.block.as_ref().map_or(self.binding, |block| block.binding)
+    }
+}
+
+/// The kind of a local.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum LocalKind {
+    /// A parameter.
+    Param(ParamMode),
+    /// A variable.
+    Variable,
+    /// `const`
+    Const,
+}
+
+/// A variable of a function.
+#[derive(Clone, Debug)]
+pub struct Local {
+    /// The name; empty for an unnamed parameter.
+    pub name: String,
+    /// The type.
+    pub ty: TypeId,
+    /// The kind.
+    pub kind: LocalKind,
+    /// The value of a constant.
+    pub value: Option<Value>,
+    /// The name in the declaration.
+    pub span: Span,
+}
+
+/// A function (§6.1).
+#[derive(Clone, Debug)]
+pub struct Function {
+    /// The name, which overloads share.
+    pub name: String,
+    /// The return type.
+    pub ret: TypeId,
+    /// The number of parameters, which come first among the locals.
+    pub param_count: usize,
+    /// The locals: parameters first, then variables in order of declaration.
+    pub locals: Vec<Local>,
+    /// The body; `None` if there is only a prototype.
+    pub body: Option<Vec<Stmt>>,
+    /// Whether `main` can reach it.
+    pub reachable: bool,
+    /// The name in the definition (or the prototype).
+    pub span: Span,
+}
+
+impl Function {
+    /// The parameters.
+    pub fn params(&self) -> &[Local] {
+        self.locals.get(..self.param_count).unwrap_or(&[])
+    }
+
+    /// How a parameter is passed; `In` for an index past the last.
+    pub fn param_mode(&self, index: usize) -> ParamMode {
+        match self.params().get(index).map(|local| local.kind) {
+            Some(LocalKind::Param(mode)) => mode,
+            _ => ParamMode::In,
+        }
+    }
+
+    /// The types of the parameters, and how they are passed.
+    pub fn param_types(&self) -> impl Iterator<Item = (TypeId, ParamMode)> {
+        self.params().iter().map(|param| match param.kind {
+            LocalKind::Param(mode) => (param.ty, mode),
+            LocalKind::Variable | LocalKind::Const => (param.ty, ParamMode::In),
+        })
+    }
+
+    /// The local of a handle of this function.
+    pub fn local(&self, id: LocalId) -> &Local {
+        // A `LocalId` is only made for this function.
+        &self.locals[id.index()]
+    }
+}
+
+/// The input primitive of a geometry shader: `layout(points) in;` and so on (§4.3.8.1).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum PrimitiveIn {
+    Points,
+    Lines,
+    LinesAdjacency,
+    Triangles,
+    TrianglesAdjacency,
+}
+
+impl PrimitiveIn {
+    /// The number of vertices of one primitive, which is the size of the input arrays.
+    pub fn vertices(self) -> u32 {
+        match self {
+            Self::Points => 1,
+            Self::Lines => 2,
+            Self::LinesAdjacency => 4,
+            Self::Triangles => 3,
+            Self::TrianglesAdjacency => 6,
+        }
+    }
+}
+
+/// The output primitive of a geometry shader: `layout(line_strip) out;` and so on (§4.3.8.2).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum PrimitiveOut {
+    Points,
+    LineStrip,
+    TriangleStrip,
+}
+
+/// The layouts that a geometry shader declares.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct GeometryLayout {
+    /// The input primitive.
+    pub input: Option<PrimitiveIn>,
+    /// The output primitive.
+    pub output: Option<PrimitiveOut>,
+    /// The largest number of vertices that it emits.
+    pub max_vertices: Option<u32>,
+}
+
+/// The redeclaration of `gl_FragCoord` in a fragment shader (§4.3.8.1).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct FragCoordLayout {
+    /// `layout(origin_upper_left)`
+    pub origin_upper_left: bool,
+    /// `layout(pixel_center_integer)`
+    pub pixel_center_integer: bool,
+}
+
+/// The redeclaration `out gl_PerVertex { .. };`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PerVertexOut {
+    /// The members of the redeclared block, in order.
+    pub members: Vec<String>,
+    /// The block's name in the declaration.
+    pub span: Span,
+}
+
+/// One stage.
+#[derive(Clone, Debug)]
+pub struct Shader {
+    /// Which stage.
+    pub stage: Stage,
+    /// The version that it is written in.
+    pub version: Version,
+    /// All expressions of all functions and initializers.
+    pub exprs: Vec<Expr>,
+    /// All declared globals, and the built-in variables in use.
+    pub globals: Vec<Global>,
+    /// All functions that are declared or defined. A prototype and its definition are one function.
+    pub functions: Vec<Function>,
+    /// `main`, if it is defined.
+    pub main: Option<FunctionId>,
+    /// The layouts of a geometry shader.
+    pub geometry: GeometryLayout,
+    /// The layout of `gl_FragCoord` in a fragment shader.
+    pub frag_coord: FragCoordLayout,
+    /// The redeclared built-in outputs of a vertex or geometry shader.
+    pub per_vertex_out: Option<PerVertexOut>,
+    /// The depth of the deepest expression, counted along left operands too. More than a few hundred levels need a
+    /// large stack (see [`Shader::on_stack`]).
+    pub expr_depth: u32,
+    /// The text for an OpenGL driver, one for each source ([`whole_text`](crate::source::whole_text)); empty for a
+    /// shader that was not compiled from text.
+    pub texts: Vec<Arc<str>>,
+}
+
+impl Shader {
+    /// An empty shader.
+    pub fn new(stage: Stage, version: Version) -> Self {
+        Self {
+            stage,
+            version,
+            exprs: Vec::new(),
+            globals: Vec::new(),
+            functions: Vec::new(),
+            main: None,
+            geometry: GeometryLayout::default(),
+            frag_coord: FragCoordLayout::default(),
+            per_vertex_out: None,
+            expr_depth: 0,
+            texts: Vec::new(),
+        }
+    }
+
+    /// Adds an expression.
+    pub fn push(&mut self, kind: ExprKind, ty: TypeId, span: Span) -> ExprId {
+        let id = ExprId(self.exprs.len() as u32);
+        self.exprs.push(Expr { kind, ty, span });
+        id
+    }
+
+    /// The expression of a handle of this shader.
+    pub fn expr(&self, id: ExprId) -> &Expr {
+        // Only `push` of this shader makes an `ExprId`.
+        &self.exprs[id.index()]
+    }
+
+    /// The operands of an expression.
+    pub fn children(&self, id: ExprId) -> smallvec::SmallVec<[ExprId; 4]> {
+        self.expr(id).kind.children()
+    }
+
+    /// The variable that an l-value or a part of a variable belongs to; `None` for other values.
+    pub fn root_variable(&self, id: ExprId) -> Option<VarRef> {
+        let mut at = id;
+        loop {
+            match &self.expr(at).kind {
+                ExprKind::Var(var) => return Some(*var),
+                ExprKind::Member(inner, _) | ExprKind::Index(inner, _) | ExprKind::Swizzle(inner, _) => at = *inner,
+                _ => return None,
+            }
+        }
+    }
+
+    /// The global of a handle of this shader.
+    pub fn global(&self, id: GlobalId) -> &Global {
+        &self.globals[id.index()]
+    }
+
+    /// The function of a handle of this shader.
+    pub fn function(&self, id: FunctionId) -> &Function {
+        &self.functions[id.index()]
+    }
+
+    /// All globals with their handles.
+    pub fn globals(&self) -> impl Iterator<Item = (GlobalId, &Global)> {
+        self.globals.iter().enumerate().map(|(index, global)| (GlobalId::new(index), global))
+    }
+
+    /// All functions with their handles.
+    pub fn functions(&self) -> impl Iterator<Item = (FunctionId, &Function)> {
+        self.functions.iter().enumerate().map(|(index, function)| (FunctionId::new(index), function))
+    }
+
+    /// Runs a recursive traversal of this shader's expressions with enough stack for the deepest of them: on this
+    /// thread if they are shallow, else on a thread of its own. Valid chains have up to 16,384 operators.
+    pub fn on_stack<R: Send>(&self, walk: impl FnOnce() -> R + Send) -> R {
+        crate::stack::with_stack(self.expr_depth, walk)
+    }
+}

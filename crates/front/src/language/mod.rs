@@ -1,0 +1,16 @@
+//! The vocabulary of the language: what every phase names.
+//!
+//! *In:* nothing but [`source`](crate::source). *Out:* stages, versions, types and operators. *Holds:* no phase is known
+//! here, so that tables of built-ins, the syntax tree and the typed program can all be written in these terms.
+
+mod operators;
+mod stage;
+mod types;
+mod version;
+
+pub use operators::IncDec;
+pub use stage::{Interpolation, ParamMode, Stage, Storage};
+pub use types::{
+    ArraySize, MatrixLayout, Member, SamplerDim, SamplerType, Scalar, StructId, StructType, Type, TypeId, Types,
+};
+pub use version::{Behavior, Extensions, Profile, Version};

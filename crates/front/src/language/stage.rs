@@ -1,0 +1,72 @@
+//! [`Stage`], and where a variable lives and how a parameter is passed in any of them.
+
+/// A stage of the pipeline.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum Stage {
+    Vertex,
+    Geometry,
+    Fragment,
+}
+
+impl Stage {
+    /// All stages in the order of the pipeline.
+    pub const ALL: [Self; 3] = [Self::Vertex, Self::Geometry, Self::Fragment];
+
+    /// `vertex`, `geometry`, `fragment`
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Vertex => "vertex",
+            Self::Geometry => "geometry",
+            Self::Fragment => "fragment",
+        }
+    }
+}
+
+/// How a varying is interpolated (§4.3.9).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Interpolation {
+    /// Perspective-correct.
+    #[default]
+    Smooth,
+    /// Linear in the window.
+    Noperspective,
+    /// The provoking vertex's value.
+    Flat,
+}
+
+impl Interpolation {
+    /// `smooth`, `noperspective`, `flat`
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Smooth => "smooth",
+            Self::Noperspective => "noperspective",
+            Self::Flat => "flat",
+        }
+    }
+}
+
+/// Where a global lives (§4.3).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Storage {
+    /// `const`
+    Const,
+    /// No qualifier: a variable of each invocation.
+    Private,
+    /// `uniform`, samplers included.
+    Uniform,
+    /// `in`, `attribute`, fragment-side `varying`.
+    In,
+    /// `out`, vertex-side `varying`.
+    Out,
+}
+
+/// How a parameter is passed (§6.1.1).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum ParamMode {
+    In,
+    ConstIn,
+    Out,
+    Inout,
+}

@@ -1,0 +1,117 @@
+//! Links stages into a program (GLSL 1.50 §4.3.4 to §4.3.9, OpenGL 3.2 §2.11).
+//!
+//! *In:* analyzed shaders, and bindings by name. *Out:* a [`Program`]: the stages, with every interface matched and
+//! every location, offset and binding assigned; or none, if the link has errors.
+//!
+//! *Holds:* the [`Interface`] is everything that `lower`, `emit`, `cpu` and `gpu` know about a shader's interfaces;
+//! none of them assigns locations of its own. A link reports all its errors, each at the declaration in the later
+//! stage, with the earlier stage's declaration as a secondary label.
+//!
+//! | file | contents |
+//! | --- | --- |
+//! | `canonical` | gives equal structs of different shaders one type |
+//! | `merge`, `remap`, `geometry` | merge several shaders of one stage into one |
+//! | `compatible` | when two declarations in different shaders have the same type |
+//! | `stages` | which stages form a program; `main`; geometry layouts |
+//! | `matching` | outputs of one stage against inputs of the next |
+//! | `per_vertex` | redeclared `gl_PerVertex` |
+//! | `varyings` | splits varyings and assigns their locations |
+//! | `attributes`, `outputs` | assign locations to vertex inputs and fragment outputs |
+//! | `uniforms`, `samplers` | assign offsets and bindings |
+//! | `layout` | std140 |
+
+mod aliasing;
+mod attributes;
+mod canonical;
+mod compatible;
+mod flatten;
+mod geometry;
+mod layout;
+mod matching;
+mod merge;
+mod outputs;
+mod per_vertex;
+mod program;
+mod remap;
+mod samplers;
+mod stages;
+mod uniforms;
+pub mod usage;
+mod varyings;
+
+pub use layout::MAX_BLOCK_BYTES;
+pub use program::{
+    Attribute, Block, BlockIndex, Interface, Output, Program, RootIndex, SamplerSlot, SlotBinding, UniformLeaf,
+    UniformRoot, Varying, VaryingEnd,
+};
+
+use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::hir::{Shader, Stage, Types};
+use canonical::Sizes;
+
+/// The state that all steps of a link share.
+struct Context<'a> {
+    types: &'a Types,
+    bindings: Bindings<'a>,
+    diagnostics: &'a mut Diagnostics,
+    failed: bool,
+}
+
+impl Context<'_> {
+    fn report(&mut self, diagnostic: Diagnostic) {
+        self.failed |= diagnostic.is_error();
+        self.diagnostics.push(diagnostic);
+    }
+}
+
+/// What a host binds by name before it links.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Bindings<'a> {
+    /// `glBindAttribLocation`: name and location. The last of a name counts.
+    pub attribute_locations: &'a [(String, u32)],
+    /// `glBindFragDataLocation`: name and color number. The last of a name counts.
+    pub frag_data_locations: &'a [(String, u32)],
+}
+
+/// Links analyzed shaders; `None` if that fails. A lone shader links, too: its interface is then that of one stage. One
+/// that other shaders of its stage must complete (no `main`, a function that is only declared) gives warnings and no
+/// program.
+pub fn link(
+    name: String,
+    mut types: Types,
+    mut shaders: Vec<Shader>,
+    bindings: Bindings<'_>,
+    diagnostics: &mut Diagnostics,
+) -> Option<Program> {
+    let lone = shaders.len() < 2;
+    canonical::unify(&mut types, &mut shaders, Sizes::Open);
+    let mut found = Vec::new();
+    let mut stages = stages::in_order(&mut types, shaders, &mut found);
+    canonical::unify(&mut types, &mut stages, Sizes::Settled);
+    let mut ctx = Context { types: &types, bindings, diagnostics, failed: false };
+    found.into_iter().for_each(|diagnostic| ctx.report(diagnostic));
+    let complete = stages::check(&mut ctx, &stages, lone);
+    let interface = interface(&mut ctx, &stages);
+    let failed = ctx.failed;
+    (complete && !failed).then_some(Program { name, types, stages, interface })
+}
+
+fn interface(ctx: &mut Context<'_>, stages: &[Shader]) -> Interface {
+    let of = |stage: Stage| stages.iter().find(|shader| shader.stage == stage);
+    let mut interface = Interface::default();
+    for pair in stages.windows(2) {
+        if let [producer, consumer] = pair {
+            matching::check(ctx, producer, consumer);
+        }
+    }
+    if let Some(vertex) = of(Stage::Vertex) {
+        interface.attributes = attributes::assign(ctx, vertex);
+    }
+    interface.varyings = varyings::assign(ctx, of(Stage::Geometry).or(of(Stage::Vertex)), of(Stage::Fragment));
+    if let Some(fragment) = of(Stage::Fragment) {
+        interface.outputs = outputs::assign(ctx, fragment);
+    }
+    interface.samplers = samplers::assign(ctx, stages);
+    uniforms::assign(ctx, stages, &mut interface);
+    interface
+}

@@ -1,0 +1,42 @@
+//! Static use: which globals a body reads, and which it may write (GLSL 1.50 §4.3.4, "actually read").
+
+use crate::hir::{ExprId, ExprKind, GlobalId, ParamMode, Shader, VarRef};
+use crate::source::Span;
+
+/// Calls `f` with every l-value that an expression itself writes: the target of an assignment, of `++` or `--`, and
+/// the arguments for `out` and `inout` parameters.
+pub fn written_by(shader: &Shader, expr: ExprId, f: &mut dyn FnMut(ExprId)) {
+    match &shader.expr(expr).kind {
+        ExprKind::Assign(_, target, _) | ExprKind::IncDec(_, target) => f(*target),
+        ExprKind::Call(callee, arguments) => {
+            let callee = shader.function(*callee);
+            for (index, &argument) in arguments.iter().enumerate() {
+                if matches!(callee.param_mode(index), ParamMode::Out | ParamMode::Inout) {
+                    f(argument);
+                }
+            }
+        }
+        ExprKind::BuiltinCall(crate::builtin::BuiltinFunction::Modf, arguments) => {
+            if let Some(&argument) = arguments.get(1) {
+                f(argument);
+            }
+        }
+        _ => {}
+    }
+}
+
+/// The position of the first assignment to a global in the functions that `main` reaches.
+pub(super) fn first_write(shader: &Shader, global: GlobalId) -> Option<Span> {
+    let mut first: Option<Span> = None;
+    for function in shader.functions.iter().filter(|function| function.reachable) {
+        shader.visit_body(function.body.as_deref().unwrap_or(&[]), &mut |expr| {
+            written_by(shader, expr, &mut |target| {
+                if shader.root_variable(target) == Some(VarRef::Global(global)) {
+                    let span = shader.expr(target).span;
+                    first = Some(first.map_or(span, |known| known.min(span)));
+                }
+            });
+        });
+    }
+    first
+}

@@ -1,0 +1,283 @@
+//! Finds divergent control flow: where neighboring fragments may take different paths.
+//!
+//! A value is divergent if it depends on a fragment input, through data or through the conditions around its
+//! assignments. A variable counts as a whole, regardless of the order of its assignments; a function by what any of
+//! its calls passes. A divergent condition makes what it guards divergent. If it guards a `return`, the rest of the
+//! function is divergent; if it may leave a loop, the whole loop is.
+
+use crate::hir::{ExprId, ExprKind, FunctionId, ParamMode, Shader, Stmt, StmtKind, Storage, VarRef};
+use crate::link::usage::written_by;
+
+/// A call of a built-in function in divergent control flow.
+pub(super) struct Place {
+    pub(super) expr: ExprId,
+    /// The divergent condition, if it is in the same function.
+    pub(super) condition: Option<ExprId>,
+}
+
+/// The number of iterations after which the analysis gives up; real shaders need two or three.
+const MAX_ROUNDS: usize = 32;
+
+struct Divergence<'a> {
+    shader: &'a Shader,
+    globals: Vec<bool>,
+    locals: Vec<Vec<bool>>,
+    returns: Vec<bool>,
+    /// Whether a function is called in divergent control flow.
+    called: Vec<bool>,
+    changed: bool,
+    places: Option<Vec<Place>>,
+    function: FunctionId,
+}
+
+/// Whether control flow is divergent, and why.
+#[derive(Clone, Copy)]
+enum Flow {
+    Uniform,
+    Divergent(Option<ExprId>),
+}
+
+impl Flow {
+    fn is_divergent(self) -> bool {
+        matches!(self, Self::Divergent(_))
+    }
+}
+
+/// All calls of built-in functions in divergent control flow.
+pub(super) fn divergent_calls(shader: &Shader) -> Vec<Place> {
+    let Some(main) = shader.main else { return Vec::new() };
+    let order = shader.callees_first(main);
+    let mut walk = Divergence {
+        shader,
+        globals: shader.globals.iter().map(|global| global.storage == Storage::In).collect(),
+        locals: shader.functions.iter().map(|function| vec![false; function.locals.len()]).collect(),
+        returns: vec![false; shader.functions.len()],
+        called: vec![false; shader.functions.len()],
+        changed: true,
+        places: None,
+        function: main,
+    };
+    for _ in 0..MAX_ROUNDS {
+        walk.changed = false;
+        // Callers first, for what they pass; then callees first, for what they return.
+        order.iter().rev().chain(&order).for_each(|&id| walk.function(id));
+        if !walk.changed {
+            walk.places = Some(Vec::new());
+            order.iter().for_each(|&id| walk.function(id));
+            return walk.places.unwrap_or_default();
+        }
+    }
+    Vec::new()
+}
+
+impl Divergence<'_> {
+    fn function(&mut self, id: FunctionId) {
+        self.function = id;
+        let flow = if self.called.get(id.index()) == Some(&true) { Flow::Divergent(None) } else { Flow::Uniform };
+        let shader = self.shader;
+        if let Some(body) = &shader.function(id).body {
+            self.body(body, flow);
+        }
+    }
+
+    /// Traverses a body. What follows a divergent `return` (or, in a loop, `break` and `continue`) is divergent, too.
+    fn body(&mut self, body: &[Stmt], mut flow: Flow) {
+        for statement in body {
+            self.statement(statement, flow);
+            if !flow.is_divergent()
+                && let Some(condition) = self.divergent_exit(statement)
+            {
+                flow = Flow::Divergent(Some(condition));
+            }
+        }
+    }
+
+    /// The divergent condition under which a statement leaves the function or the loop around it.
+    fn divergent_exit(&self, statement: &Stmt) -> Option<ExprId> {
+        let StmtKind::If { arms, otherwise } = &statement.kind else { return None };
+        let condition = arms.iter().map(|(condition, _)| *condition).find(|&condition| self.differs(condition))?;
+        let leaves = |body: &[Stmt]| {
+            let mut found = false;
+            self.shader.visit_statements(body, &mut |statement| {
+                found |= matches!(statement.kind, StmtKind::Return(_) | StmtKind::Break | StmtKind::Continue);
+            });
+            found
+        };
+        let any = arms.iter().any(|(_, body)| leaves(body)) || leaves(otherwise);
+        any.then_some(condition)
+    }
+
+    fn statement(&mut self, statement: &Stmt, flow: Flow) {
+        match &statement.kind {
+            StmtKind::Local(id, Some(initializer)) => {
+                self.expr(*initializer, flow);
+                if self.differs(*initializer) || flow.is_divergent() {
+                    self.taint(VarRef::Local(*id));
+                }
+            }
+            StmtKind::Block(body) => self.body(body, flow),
+            StmtKind::If { arms, otherwise } => {
+                let mut flow = flow;
+                for (condition, body) in arms {
+                    self.expr(*condition, flow);
+                    flow = self.under(*condition, flow);
+                    self.body(body, flow);
+                }
+                self.body(otherwise, flow);
+            }
+            StmtKind::Switch { selector, cases } => {
+                self.expr(*selector, flow);
+                let flow = self.under(*selector, flow);
+                cases.iter().for_each(|case| self.body(&case.body, flow));
+            }
+            StmtKind::Loop { condition, step, body, .. } => {
+                let mut flow = flow;
+                if let Some(condition) = condition {
+                    flow = self.under(condition.expr, flow);
+                    self.expr(condition.expr, flow);
+                    if let Some(id) = condition.local.filter(|_| self.differs(condition.expr)) {
+                        self.taint(VarRef::Local(id));
+                    }
+                }
+                if !flow.is_divergent()
+                    && let Some(condition) = body.iter().find_map(|statement| self.divergent_exit(statement))
+                {
+                    flow = Flow::Divergent(Some(condition));
+                }
+                self.body(body, flow);
+                step.iter().for_each(|step| self.expr(*step, flow));
+            }
+            StmtKind::Return(Some(value)) => {
+                self.expr(*value, flow);
+                if self.differs(*value) || flow.is_divergent() {
+                    let function = self.function.index();
+                    set(&mut self.returns, function, &mut self.changed);
+                }
+            }
+            StmtKind::Expr(expr) => self.expr(*expr, flow),
+            StmtKind::Local(_, None)
+            | StmtKind::Return(None)
+            | StmtKind::Break
+            | StmtKind::Continue
+            | StmtKind::Discard => {}
+        }
+    }
+
+    fn under(&self, condition: ExprId, flow: Flow) -> Flow {
+        if !flow.is_divergent() && self.differs(condition) { Flow::Divergent(Some(condition)) } else { flow }
+    }
+
+    /// Whether the value may be divergent.
+    fn differs(&self, root: ExprId) -> bool {
+        let mut pending = vec![root];
+        while let Some(id) = pending.pop() {
+            let kind = &self.shader.expr(id).kind;
+            let own = match kind {
+                ExprKind::Var(VarRef::Global(id)) => self.globals.get(id.index()) == Some(&true),
+                ExprKind::Var(VarRef::Local(id)) => {
+                    self.locals.get(self.function.index()).and_then(|locals| locals.get(id.index())) == Some(&true)
+                }
+                ExprKind::Call(function, _) => self.returns.get(function.index()) == Some(&true),
+                ExprKind::BuiltinCall(function, _) => matches!(
+                    function,
+                    crate::builtin::BuiltinFunction::DFdx
+                        | crate::builtin::BuiltinFunction::DFdy
+                        | crate::builtin::BuiltinFunction::Fwidth
+                ),
+                _ => false,
+            };
+            if own {
+                return true;
+            }
+            pending.extend(kind.children());
+        }
+        false
+    }
+
+    fn taint(&mut self, variable: VarRef) {
+        match variable {
+            VarRef::Global(id) => set(&mut self.globals, id.index(), &mut self.changed),
+            VarRef::Local(id) => {
+                if let Some(locals) = self.locals.get_mut(self.function.index()) {
+                    set(locals, id.index(), &mut self.changed);
+                }
+            }
+        }
+    }
+
+    /// Traverses an expression: writes, calls, and operands that are evaluated conditionally.
+    fn expr(&mut self, root: ExprId, flow: Flow) {
+        let shader = self.shader;
+        let mut pending = vec![(root, flow)];
+        while let Some((id, flow)) = pending.pop() {
+            let kind = &shader.expr(id).kind;
+            self.effects(id, flow);
+            match kind {
+                ExprKind::Logical(_, left, right) => {
+                    pending.push((*right, self.under(*left, flow)));
+                    pending.push((*left, flow));
+                }
+                ExprKind::Ternary(condition, yes, no) => {
+                    let inner = self.under(*condition, flow);
+                    pending.extend([(*no, inner), (*yes, inner), (*condition, flow)]);
+                }
+                _ => pending.extend(kind.children().into_iter().rev().map(|child| (child, flow))),
+            }
+        }
+    }
+
+    fn effects(&mut self, id: ExprId, flow: Flow) {
+        let shader = self.shader;
+        match &shader.expr(id).kind {
+            ExprKind::Assign(_, target, value)
+                if flow.is_divergent() || self.differs(*value) || self.differs(*target) =>
+            {
+                shader.root_variable(*target).into_iter().for_each(|variable| self.taint(variable));
+            }
+            ExprKind::Call(function, arguments) => self.call(*function, arguments, flow),
+            ExprKind::BuiltinCall(..) => {
+                let differs = flow.is_divergent() || self.differs(id);
+                written_by(shader, id, &mut |target| {
+                    if let Some(variable) = shader.root_variable(target).filter(|_| differs) {
+                        self.taint(variable);
+                    }
+                });
+                if let (Flow::Divergent(condition), Some(places)) = (flow, &mut self.places) {
+                    places.push(Place { expr: id, condition });
+                }
+            }
+            ExprKind::IncDec(_, target) if flow.is_divergent() => {
+                shader.root_variable(*target).into_iter().for_each(|variable| self.taint(variable));
+            }
+            _ => {}
+        }
+    }
+
+    fn call(&mut self, function: FunctionId, arguments: &[ExprId], flow: Flow) {
+        let shader = self.shader;
+        if flow.is_divergent() {
+            set(&mut self.called, function.index(), &mut self.changed);
+        }
+        for (index, &argument) in arguments.iter().enumerate() {
+            let mode = shader.function(function).param_mode(index);
+            if mode != ParamMode::Out
+                && self.differs(argument)
+                && let Some(locals) = self.locals.get_mut(function.index())
+            {
+                set(locals, index, &mut self.changed);
+            }
+            let comes_back = matches!(mode, ParamMode::Out | ParamMode::Inout);
+            let inside = self.locals.get(function.index()).and_then(|locals| locals.get(index)) == Some(&true);
+            if comes_back && (inside || flow.is_divergent()) {
+                shader.root_variable(argument).into_iter().for_each(|variable| self.taint(variable));
+            }
+        }
+    }
+}
+
+fn set(flags: &mut [bool], index: usize, changed: &mut bool) {
+    if let Some(flag) = flags.get_mut(index).filter(|flag| !**flag) {
+        *flag = true;
+        *changed = true;
+    }
+}

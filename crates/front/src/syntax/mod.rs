@@ -1,0 +1,77 @@
+//! From text to syntax tree.
+//!
+//! *In:* a [`SourceMap`] and the file to start with, the include resolver, and predefined macros. *Out:* an
+//! [`ast::Ast`] of what was understood, and diagnostics.
+//!
+//! There are three steps, each lazy and each with its budgets. The lexer cuts text into tokens. The preprocessor runs
+//! directives and expands macros (GLSL 1.50 §3.3), behind the [`TokenSource`](token::TokenSource) interface. The
+//! parser follows the grammar (§9) and recovers at declarations and statements.
+//!
+//! *Holds:* types and scopes are unknown here; `S(x)` is a call of something named `S`. If the language is
+//! unsupported, which is reported, the tree has no declarations.
+
+pub mod ast;
+pub mod keywords;
+mod kind;
+mod lexer;
+mod number;
+mod parser;
+mod preprocessor;
+pub mod token;
+
+use crate::diagnostic::Diagnostics;
+use crate::language::Stage;
+use crate::source::{FileId, IncludeResolver, SourceMap, Span};
+use ast::{Ast, Profile, Version};
+use parser::Parser;
+use preprocessor::Preprocessor;
+pub(crate) use preprocessor::extension::warning_of_use;
+use token::{Names, Session};
+
+/// Options of a parse.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// The stage.
+    pub stage: Stage,
+    /// Macros defined before the first line: name (with parameters, if it has any) and replacement text.
+    pub defines: Vec<(String, String)>,
+    /// Reports an error instead of a warning for what the specification forbids and every driver accepts.
+    pub strict: bool,
+}
+
+/// Parses the shader in `file`.
+pub fn parse(
+    sources: &mut SourceMap,
+    file: FileId,
+    options: &Options,
+    includes: &(dyn IncludeResolver + Sync),
+    diagnostics: &mut Diagnostics,
+) -> Ast {
+    let mut session = Session { sources, diagnostics, names: Names::with_keywords() };
+    let mut preprocessor = Preprocessor::new(&mut session, file, &options.defines, options.strict, includes);
+    let mut ast = Parser::new(&mut preprocessor, &mut session, empty_tree(), options.strict).translation_unit();
+    let outcome = preprocessor.finish();
+    if !outcome.supported {
+        ast.declarations.clear();
+    }
+    ast.version = outcome.version;
+    ast.invariant_all = outcome.invariant_all;
+    ast.allows = outcome.allows;
+    ast.extension_lines = outcome.extension_lines;
+    ast.inclusions = outcome.inclusions;
+    ast.names = session.names;
+    ast
+}
+
+fn empty_tree() -> Ast {
+    Ast {
+        version: Version { number: 110, profile: Profile::Core, span: Span::default() },
+        declarations: Vec::new(),
+        exprs: Vec::new(),
+        names: Names::default(),
+        invariant_all: None,
+        allows: Vec::new(),
+        extension_lines: Vec::new(),
+        inclusions: Vec::new(),
+    }
+}

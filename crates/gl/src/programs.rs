@@ -1,0 +1,48 @@
+//! Compiles and links programs with the driver.
+//!
+//! *In:* a program's texts and the locations of its attributes and outputs. *Out:* a program object of the driver.
+
+use super::Error;
+use super::api::Api;
+use glisten_front::hir::{Shader, Stage};
+use glisten_front::link::Program;
+
+/// Compiles and links the texts of a program.
+pub(super) fn link(api: &Api, program: &Program) -> Result<glow::Program, Error> {
+    let linked = api.create_program().map_err(Error::Refused)?;
+    for shader in &program.stages {
+        for text in &shader.texts {
+            api.attach_shader(linked, compile(api, &program.name, shader, text)?);
+        }
+    }
+    for attribute in &program.interface.attributes {
+        api.bind_attrib_location(linked, attribute.location, &attribute.name);
+    }
+    // `gl_FragColor` and the other built-in outputs have fixed color numbers.
+    for output in program.interface.outputs.iter().filter(|output| !output.name.starts_with("gl_")) {
+        api.bind_frag_data_location(linked, output.location, &output.name);
+    }
+    api.link_program(linked);
+    if !api.get_program_link_status(linked) {
+        return Err(Error::Link { program: program.name.clone(), log: api.get_program_info_log(linked) });
+    }
+    api.check("linking")?;
+    Ok(linked)
+}
+
+fn compile(api: &Api, program: &str, shader: &Shader, text: &str) -> Result<glow::Shader, Error> {
+    let kind = match shader.stage {
+        Stage::Vertex => glow::VERTEX_SHADER,
+        Stage::Geometry => glow::GEOMETRY_SHADER,
+        Stage::Fragment => glow::FRAGMENT_SHADER,
+    };
+    let compiled = api.create_shader(kind).map_err(Error::Refused)?;
+    api.shader_source(compiled, text);
+    api.compile_shader(compiled);
+    if api.get_shader_compile_status(compiled) {
+        Ok(compiled)
+    } else {
+        let log = api.get_shader_info_log(compiled);
+        Err(Error::Compile { program: program.to_owned(), stage: shader.stage, log })
+    }
+}

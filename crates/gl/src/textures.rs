@@ -1,0 +1,156 @@
+//! Uploads textures with their parameters (OpenGL 3.2 §3.8).
+//!
+//! *In:* a draw's textures by sampler slot. *Out:* each texture bound to the unit with its slot's number, and the
+//! sampler uniform set to it. *Holds:* texels have 32 bits per channel, as in the scene. Integer textures are never
+//! filtered, since OpenGL would then call them incomplete.
+
+use super::Error;
+use super::api::{Api, Dimensions, Layout, Size};
+use super::states::{compare, wrap};
+use glisten_front::hir::{SamplerDim, SamplerType, Scalar, Type};
+use glisten_scene::scene::{Draw, Filter, Texels, Texture, TextureLevel};
+
+/// Binds all textures. The program must be current.
+pub(super) fn bind(api: &Api, linked: glow::Program, draw: &Draw) -> Result<(), Error> {
+    let units = api.max_units();
+    let mut unit = 0;
+    for (slot, texture) in draw.program.interface.samplers.iter().zip(&draw.textures) {
+        let Type::Sampler(kind) = draw.program.types.get(slot.ty) else { continue };
+        let (Some(location), Some(texture)) = (api.get_uniform_location(linked, &slot.name), texture) else { continue };
+        if unit >= units {
+            return Err(Error::Unsupported(format!("more than {units} texture units")));
+        }
+        api.active_texture(glow::TEXTURE0 + unit);
+        if kind.dim == SamplerDim::Buffer {
+            buffer(api, kind, texture)?;
+        } else {
+            image(api, kind, texture)?;
+        }
+        api.uniform_1_i32(Some(&location), unit as i32);
+        api.check(&format!("making the texture of `{}`", slot.name))?;
+        unit += 1;
+    }
+    Ok(())
+}
+
+/// How the texels of a sampler type are stored.
+fn layout(kind: SamplerType) -> Layout {
+    match kind.texel {
+        _ if kind.shadow => {
+            Layout { internal: glow::DEPTH_COMPONENT32F, format: glow::DEPTH_COMPONENT, kind: glow::FLOAT, bytes: 4 }
+        }
+        Scalar::Int => Layout { internal: glow::RGBA32I, format: glow::RGBA_INTEGER, kind: glow::INT, bytes: 16 },
+        Scalar::Uint => {
+            Layout { internal: glow::RGBA32UI, format: glow::RGBA_INTEGER, kind: glow::UNSIGNED_INT, bytes: 16 }
+        }
+        Scalar::Bool | Scalar::Float => {
+            Layout { internal: glow::RGBA32F, format: glow::RGBA, kind: glow::FLOAT, bytes: 16 }
+        }
+    }
+}
+
+/// The texture target of a sampler type, and the number of dimensions of its images.
+fn target(kind: SamplerType) -> Result<(u32, Dimensions), Error> {
+    Ok(match (kind.dim, kind.arrayed) {
+        (SamplerDim::D1, false) => (glow::TEXTURE_1D, Dimensions::One),
+        (SamplerDim::D1, true) => (glow::TEXTURE_1D_ARRAY, Dimensions::Two),
+        (SamplerDim::D2, false) => (glow::TEXTURE_2D, Dimensions::Two),
+        (SamplerDim::D2, true) => (glow::TEXTURE_2D_ARRAY, Dimensions::Three),
+        (SamplerDim::D3, _) => (glow::TEXTURE_3D, Dimensions::Three),
+        (SamplerDim::Cube, false) => (glow::TEXTURE_CUBE_MAP, Dimensions::Two),
+        (SamplerDim::Rect, _) => (glow::TEXTURE_RECTANGLE, Dimensions::Two),
+        (SamplerDim::Cube | SamplerDim::Buffer | SamplerDim::Multisample, _) => {
+            return Err(Error::Refused("a scene has no textures of this sampler's kind".to_owned()));
+        }
+    })
+}
+
+fn image(api: &Api, kind: SamplerType, texture: &Texture) -> Result<(), Error> {
+    let (target, dimensions) = target(kind)?;
+    let made = api.create_texture().map_err(Error::Refused)?;
+    api.bind_texture(target, Some(made));
+    parameters(api, target, kind, texture);
+    for (number, level) in (0..).zip(&texture.levels) {
+        let bytes = texel_bytes(&level.texels, kind);
+        let filled = if kind.dim == SamplerDim::Cube {
+            faces(api, number, kind, level, &bytes)
+        } else {
+            let size = size(kind, level);
+            api.tex_image(target, dimensions, number, size, layout(kind), &bytes)
+        };
+        if !filled {
+            return Err(Error::Refused("a level of a texture has fewer texels than its size says".to_owned()));
+        }
+    }
+    Ok(())
+}
+
+/// The size as OpenGL counts it: the layers of a one-dimensional array are its rows.
+fn size(kind: SamplerType, level: &TextureLevel) -> Size {
+    let (width, height, depth) = (level.width, level.height, level.depth);
+    match (kind.dim, kind.arrayed) {
+        (SamplerDim::D1, true) => Size { width, height: depth, depth: 1 },
+        _ => Size { width, height, depth },
+    }
+}
+
+fn faces(api: &Api, number: i32, kind: SamplerType, level: &TextureLevel, bytes: &[u8]) -> bool {
+    let size = Size { width: level.width, height: level.height, depth: 1 };
+    let layout = layout(kind);
+    let face = size.width as usize * size.height as usize * layout.bytes;
+    let mut targets = glow::TEXTURE_CUBE_MAP_POSITIVE_X..=glow::TEXTURE_CUBE_MAP_NEGATIVE_Z;
+    face > 0
+        && bytes.len() >= 6 * face
+        && bytes
+            .chunks_exact(face)
+            .zip(&mut targets)
+            .all(|(bytes, target)| api.tex_image(target, Dimensions::Two, number, size, layout, bytes))
+}
+
+fn parameters(api: &Api, target: u32, kind: SamplerType, texture: &Texture) {
+    let filtered = kind.texel == Scalar::Float;
+    let mipmapped = texture.filter == Filter::Trilinear && kind.dim != SamplerDim::Rect;
+    let linear = filtered && texture.filter != Filter::Nearest;
+    let within = if linear { glow::LINEAR } else { glow::NEAREST };
+    let minification = match (mipmapped, linear) {
+        (true, true) => glow::LINEAR_MIPMAP_LINEAR,
+        (true, false) => glow::NEAREST_MIPMAP_NEAREST,
+        (false, _) => within,
+    };
+    let set = |what: u32, value: u32| api.tex_parameter_i32(target, what, value as i32);
+    set(glow::TEXTURE_MIN_FILTER, minification);
+    set(glow::TEXTURE_MAG_FILTER, within);
+    for direction in [glow::TEXTURE_WRAP_S, glow::TEXTURE_WRAP_T, glow::TEXTURE_WRAP_R] {
+        set(direction, wrap(texture.wrap));
+    }
+    if kind.dim != SamplerDim::Rect {
+        set(glow::TEXTURE_MAX_LEVEL, (texture.levels.len().max(1) - 1) as u32);
+    }
+    if kind.shadow {
+        set(glow::TEXTURE_COMPARE_MODE, glow::COMPARE_REF_TO_TEXTURE);
+        set(glow::TEXTURE_COMPARE_FUNC, compare(texture.compare));
+    }
+}
+
+fn buffer(api: &Api, kind: SamplerType, texture: &Texture) -> Result<(), Error> {
+    let bytes = texture.levels.first().map(|level| texel_bytes(&level.texels, kind)).unwrap_or_default();
+    let buffer = api.create_buffer().map_err(Error::Refused)?;
+    api.bind_buffer(glow::TEXTURE_BUFFER, Some(buffer));
+    api.buffer_data_u8_slice(glow::TEXTURE_BUFFER, &bytes, glow::STATIC_DRAW);
+    let made = api.create_texture().map_err(Error::Refused)?;
+    api.bind_texture(glow::TEXTURE_BUFFER, Some(made));
+    api.tex_buffer(glow::TEXTURE_BUFFER, layout(kind).internal, Some(buffer));
+    Ok(())
+}
+
+/// The bytes of the texels; for depth, only the first channel.
+fn texel_bytes(texels: &Texels, kind: SamplerType) -> Vec<u8> {
+    let channels = if kind.shadow { 1 } else { 4 };
+    match texels {
+        Texels::Float(texels) => {
+            texels.iter().flat_map(|texel| texel.iter().take(channels)).copied().flat_map(f32::to_ne_bytes).collect()
+        }
+        Texels::Int(texels) => texels.iter().flatten().copied().flat_map(i32::to_ne_bytes).collect(),
+        Texels::Uint(texels) => texels.iter().flatten().copied().flat_map(u32::to_ne_bytes).collect(),
+    }
+}

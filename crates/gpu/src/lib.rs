@@ -1,0 +1,70 @@
+//! Runs emitted code on Vulkan through wgpu.
+//!
+//! *In:* a [`Scene`](glisten_scene::scene::Scene). *Out:* a [`Picture`], and times.
+//!
+//! ```text
+//!  Scene ──► assembly    vertex numbers: strips, fans and loops made lists, the provoking vertex first
+//!        ──► vertices    attribute bytes, expanded to the declared types
+//!        ──► uniforms    the bytes of the loose block and of every uniform block
+//!        ──► textures    texels and samplers (1D as 2D, buffers 4096 wide, depth by drawing)
+//!        ──► prepare     emitted modules, layouts, bind groups, pipelines
+//!        ──► frame       attachments, passes, read-back ──► Picture
+//!        ──► timing      repeated draws under timestamp queries
+//! ```
+//!
+//! *Holds:* whatever a scene contains, the result is a picture or an [`Error`]: error scopes catch wgpu's errors, and
+//! waiting has a limit. The emitted SPIR-V runs unchanged; the `unsafe` code for that is all in `prepare`. Pictures
+//! are read top row first: code is emitted with [`WindowOrigin::UpperLeft`](glisten_emit::WindowOrigin), so what
+//! OpenGL draws at the top of the window is in row 0.
+//!
+//! *Not done here:* judging the picture ([`compare`](glisten_scene::compare)), multisampling, geometry shaders.
+
+mod assembly;
+mod device;
+mod error;
+mod frame;
+mod prepare;
+mod shadow_upload;
+mod states;
+mod textures;
+mod timing;
+mod uniforms;
+mod vertices;
+
+#[cfg(test)]
+mod tests;
+
+pub use device::{AdapterFacts, Gpu};
+pub use error::Error;
+pub use prepare::Prepared;
+
+use glisten_scene::compare::Picture;
+
+/// The form of the emitted code that runs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Via {
+    /// SPIR-V, passed to the driver unchanged.
+    Spirv,
+    /// WGSL, which wgpu parses with its own naga.
+    Wgsl,
+}
+
+impl Via {
+    /// `spirv`, `wgsl`
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Spirv => "spirv",
+            Self::Wgsl => "wgsl",
+        }
+    }
+}
+
+/// The result of drawing a scene.
+#[derive(Clone, Debug)]
+pub struct Rendered {
+    /// The picture.
+    pub picture: Picture,
+    /// The GPU time in milliseconds for drawing the whole scene once, including the first use of its pipelines. Wall
+    /// time if the adapter has no timestamp queries.
+    pub milliseconds: f64,
+}

@@ -1,0 +1,411 @@
+//! [`Prepared`]: a scene with its modules, layouts, buffers and pipelines on the device, ready to be drawn any number
+//! of times.
+//!
+//! *Holds:* each bind group layout lists exactly what the interface reflects, including inactive resources, and its
+//! bindings count from 0 without gaps. wgpu renumbers the bindings of a pass-through module's layout, so a gap would
+//! silently bind the wrong resource; it is rejected here.
+
+use super::states::{blend, color_format, depth_stencil, primitive_state};
+use super::textures::{self, Bound};
+use super::vertices::{self, Rows};
+use super::{Error, Gpu, Via, assembly, uniforms};
+use glisten_emit::{self as emit, Conventions, Emitted, Target};
+use glisten_front::diagnostic::Diagnostic;
+use glisten_front::diagnostic::codes::targets::FEATURE_NOT_IN_TARGET;
+use glisten_front::hir::{Interpolation, SamplerType, Stage, Type};
+use glisten_front::link::{Program, SlotBinding};
+use glisten_scene::scene::{Draw, Format, Framebuffer, Scene, State};
+use std::sync::Arc;
+use wgpu::util::DeviceExt;
+
+/// A scene on the device.
+pub struct Prepared {
+    pub(super) framebuffer: Framebuffer,
+    pub(super) draws: Vec<PreparedDraw>,
+}
+
+/// A draw on the device.
+pub(super) struct PreparedDraw {
+    pub(super) pipeline: wgpu::RenderPipeline,
+    /// The bind groups, by group number.
+    pub(super) groups: Vec<wgpu::BindGroup>,
+    pub(super) vertex_buffers: Vec<wgpu::Buffer>,
+    /// The index buffer, if there is one.
+    pub(super) indices: Option<wgpu::Buffer>,
+    /// The number of vertices, or of indices.
+    pub(super) count: u32,
+    pub(super) instances: u32,
+}
+
+/// Returns the code of a stage of a draw.
+pub(super) type Modules<'a> = &'a dyn Fn(&Draw, Stage) -> Result<Emitted, Error>;
+
+fn emitted(draw: &Draw, stage: Stage, target: Target) -> Result<Emitted, Error> {
+    emit::emit(&draw.program, stage, target, &conventions(draw)).map_err(Error::Emit)
+}
+
+/// A pipeline and what it was created for: draws of one program in one state share it.
+struct Made {
+    program: Arc<Program>,
+    state: State,
+    instanced: Vec<bool>,
+    pipeline: wgpu::RenderPipeline,
+    layouts: Vec<wgpu::BindGroupLayout>,
+}
+
+/// Group 0 holds the uniform buffers, group 1 the textures and samplers.
+const GROUPS: usize = 2;
+
+impl Gpu {
+    /// Emits every program of a scene and puts everything on the device.
+    ///
+    /// # Errors
+    /// [`Error::Emit`] if the target cannot represent a program, [`Error::Refused`] if wgpu or the driver rejects it.
+    pub fn prepare(&self, scene: &Scene, via: Via) -> Result<Prepared, Error> {
+        let target = match via {
+            Via::Spirv => Target::Spirv,
+            Via::Wgsl => Target::Wgsl,
+        };
+        self.prepare_with(scene, &|draw, stage| emitted(draw, stage, target))
+    }
+
+    /// Prepares a scene with SPIR-V after `edit` has changed the emitted words of each stage, in the order of the
+    /// draws, vertex stages first. It is for tests that plant faults. Draws of one program in one state share one
+    /// call.
+    ///
+    /// # Errors
+    /// Those of [`Gpu::prepare`].
+    ///
+    /// # Safety
+    /// The driver runs the words as they are, and its behavior is undefined if they are not a valid module: check
+    /// them with `spirv-val` first.
+    #[expect(unsafe_code, reason = "nothing here can check what `edit` makes")]
+    pub unsafe fn prepare_edited(
+        &self,
+        scene: &Scene,
+        edit: &dyn Fn(Stage, Vec<u32>) -> Vec<u32>,
+    ) -> Result<Prepared, Error> {
+        let edited = |draw: &Draw, stage: Stage| match emitted(draw, stage, Target::Spirv)? {
+            Emitted::Words(words) => Ok(Emitted::Words(edit(stage, words))),
+            text @ Emitted::Text(_) => Ok(text),
+        };
+        self.prepare_with(scene, &edited)
+    }
+
+    pub(super) fn prepare_with(&self, scene: &Scene, modules: Modules<'_>) -> Result<Prepared, Error> {
+        self.require(wgpu::Features::DEPTH32FLOAT_STENCIL8, "a depth buffer with stencil")?;
+        let limit = self.limits.max_texture_dimension_2d;
+        let Framebuffer { width, height, .. } = scene.framebuffer;
+        if width == 0 || height == 0 || width > limit || height > limit {
+            return Err(Error::Refused(format!(
+                "a framebuffer of {width} x {height} pixels; this adapter takes 1 to {limit} each way"
+            )));
+        }
+        let mut made = Vec::new();
+        let mut draws = Vec::new();
+        for draw in &scene.draws {
+            draws.push(self.guarded(|| self.prepare_draw(&scene.framebuffer, draw, modules, &mut made))?);
+        }
+        Ok(Prepared { framebuffer: scene.framebuffer, draws })
+    }
+
+    fn prepare_draw(
+        &self,
+        framebuffer: &Framebuffer,
+        draw: &Draw,
+        modules: Modules<'_>,
+        made: &mut Vec<Made>,
+    ) -> Result<PreparedDraw, Error> {
+        let program = &draw.program;
+        refuse_levels(draw)?;
+        let bindings = bindings(program)?;
+        let rows = vertices::rows(draw);
+        let instanced: Vec<bool> = rows.iter().map(|rows| rows.step == wgpu::VertexStepMode::Instance).collect();
+        let known = made.iter().position(|made| {
+            Arc::ptr_eq(&made.program, program) && made.state == draw.state && made.instanced == instanced
+        });
+        let index = match known {
+            Some(index) => index,
+            None => {
+                let modules =
+                    [self.module(draw, Stage::Vertex, modules)?, self.module(draw, Stage::Fragment, modules)?];
+                let layouts = self.layouts(&bindings);
+                let pipeline = self.pipeline(framebuffer, draw, &modules, &layouts, &rows);
+                made.push(Made { program: Arc::clone(program), state: draw.state, instanced, pipeline, layouts });
+                made.len() - 1
+            }
+        };
+        let Made { pipeline, layouts, .. } = &made[index];
+        let groups = self.bind(framebuffer, draw, &bindings, layouts)?;
+        let turned = draw.state.provoking_last && has_flat_varying(program);
+        let list = assembly::list(draw.state.primitive, draw.vertex_count, draw.indices.as_deref(), turned);
+        let count = list.as_ref().map_or(draw.vertex_count, |list| list.len() as u32);
+        Ok(PreparedDraw {
+            pipeline: pipeline.clone(),
+            groups,
+            vertex_buffers: rows.iter().map(|rows| self.buffer(&rows.bytes, wgpu::BufferUsages::VERTEX)).collect(),
+            indices: list.map(|list| self.buffer(bytemuck::cast_slice(&list), wgpu::BufferUsages::INDEX)),
+            count,
+            instances: draw.instances,
+        })
+    }
+
+    fn buffer(&self, bytes: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffer {
+        let some = if bytes.is_empty() { &[0; 16] } else { bytes };
+        self.device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: None, contents: some, usage })
+    }
+
+    /// Creates the module of a stage's code.
+    fn module(&self, draw: &Draw, stage: Stage, modules: Modules<'_>) -> Result<wgpu::ShaderModule, Error> {
+        let program = &draw.program;
+        if program.stage(stage).is_none() {
+            return Err(Error::Refused(format!("program `{}` has no {} stage", program.name, stage.name())));
+        }
+        match modules(draw, stage)? {
+            Emitted::Text(text) => Ok(self.device.create_shader_module(wgpu::ShaderModuleDescriptor {
+                label: Some(&program.name),
+                source: wgpu::ShaderSource::Wgsl(text.into()),
+            })),
+            Emitted::Words(words) => {
+                self.require(wgpu::Features::PASSTHROUGH_SHADERS, "modules that pass through to the driver")?;
+                Ok(self.passthrough(&program.name, &words))
+            }
+        }
+    }
+
+    #[expect(
+        unsafe_code,
+        reason = "the emitted words are to run as they are, not as wgpu's naga would write them anew"
+    )]
+    fn passthrough(&self, name: &str, words: &[u32]) -> wgpu::ShaderModule {
+        let descriptor = wgpu::ShaderModuleDescriptorPassthrough {
+            label: Some(name),
+            entry_points: vec![wgpu::PassthroughShaderEntryPoint { name: "main".into(), workgroup_size: (0, 0, 0) }]
+                .into(),
+            spirv: Some(words.into()),
+            ..wgpu::ShaderModuleDescriptorPassthrough::default()
+        };
+        // SAFETY: naga's writer wrote the words, from a module that its validator accepted. The pipeline's layout is
+        // explicit and lists exactly the bindings that the module declares (see `bindings`).
+        unsafe { self.device.create_shader_module_passthrough(descriptor) }
+    }
+
+    fn layouts(&self, bindings: &[Binding]) -> Vec<wgpu::BindGroupLayout> {
+        (0..GROUPS as u32)
+            .map(|group| {
+                let entries: Vec<_> = bindings
+                    .iter()
+                    .filter(|binding| binding.slot.group == group)
+                    .map(|binding| wgpu::BindGroupLayoutEntry {
+                        binding: binding.slot.binding,
+                        visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
+                        ty: binding.what.layout(),
+                        count: None,
+                    })
+                    .collect();
+                self.device
+                    .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: None, entries: &entries })
+            })
+            .collect()
+    }
+
+    fn pipeline(
+        &self,
+        framebuffer: &Framebuffer,
+        draw: &Draw,
+        [vertex, fragment]: &[wgpu::ShaderModule; 2],
+        layouts: &[wgpu::BindGroupLayout],
+        rows: &[Rows],
+    ) -> wgpu::RenderPipeline {
+        let layouts: Vec<Option<&wgpu::BindGroupLayout>> = layouts.iter().map(Some).collect();
+        let layout = self.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: None,
+            bind_group_layouts: &layouts,
+            immediate_size: 0,
+        });
+        let buffers: Vec<_> = rows
+            .iter()
+            .map(|rows| {
+                Some(wgpu::VertexBufferLayout {
+                    array_stride: rows.stride,
+                    step_mode: rows.step,
+                    attributes: &rows.columns,
+                })
+            })
+            .collect();
+        self.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some(&draw.program.name),
+            layout: Some(&layout),
+            vertex: wgpu::VertexState {
+                module: vertex,
+                entry_point: None,
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                buffers: &buffers,
+            },
+            primitive: primitive_state(&draw.state),
+            depth_stencil: Some(depth_stencil(&draw.state)),
+            multisample: wgpu::MultisampleState::default(),
+            fragment: Some(wgpu::FragmentState {
+                module: fragment,
+                entry_point: None,
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                targets: &targets(framebuffer, draw),
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
+    }
+
+    fn bind(
+        &self,
+        framebuffer: &Framebuffer,
+        draw: &Draw,
+        bindings: &[Binding],
+        layouts: &[wgpu::BindGroupLayout],
+    ) -> Result<Vec<wgpu::BindGroup>, Error> {
+        let texels: Vec<u32> = draw.textures.iter().map(|texture| textures::texels(texture.as_deref())).collect();
+        let buffers: Vec<(SlotBinding, wgpu::Buffer)> =
+            uniforms::pack(&draw.program, &draw.uniforms, framebuffer.height, &texels)
+                .into_iter()
+                .map(|packed| (packed.slot, self.buffer(&packed.bytes, wgpu::BufferUsages::UNIFORM)))
+                .collect();
+        let mut bound: Vec<(SlotBinding, SlotBinding, Bound)> = Vec::new();
+        for (index, slot) in draw.program.interface.samplers.iter().enumerate() {
+            let Type::Sampler(kind) = draw.program.types.get(slot.ty) else { continue };
+            let texture = draw.textures.get(index).and_then(Option::as_deref);
+            bound.push((slot.texture, slot.sampler, textures::bind(self, kind, texture)?));
+        }
+        let resource = |binding: &Binding| match binding.what {
+            What::Uniforms => {
+                buffers.iter().find(|(slot, _)| *slot == binding.slot).map(|(_, buffer)| buffer.as_entire_binding())
+            }
+            What::Texture(_) => bound
+                .iter()
+                .find(|(texture, ..)| *texture == binding.slot)
+                .map(|(_, _, bound)| wgpu::BindingResource::TextureView(&bound.view)),
+            What::Sampler(_) => bound
+                .iter()
+                .find(|(_, sampler, _)| *sampler == binding.slot)
+                .map(|(_, _, bound)| wgpu::BindingResource::Sampler(&bound.sampler)),
+        };
+        Ok(layouts
+            .iter()
+            .enumerate()
+            .map(|(group, layout)| {
+                let entries: Vec<_> = bindings
+                    .iter()
+                    .filter(|binding| binding.slot.group as usize == group)
+                    .filter_map(|binding| {
+                        let resource = resource(binding)?;
+                        Some(wgpu::BindGroupEntry { binding: binding.slot.binding, resource })
+                    })
+                    .collect();
+                self.device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout, entries: &entries })
+            })
+            .collect())
+    }
+}
+
+/// The conventions for emission.
+fn conventions(draw: &Draw) -> Conventions {
+    Conventions {
+        clip_distances: Some(draw.state.clip_distances),
+        program_point_size: draw.state.program_point_size,
+        ..Conventions::default()
+    }
+}
+
+/// Rejects comparisons at explicit levels of detail, which are compiled only for depth textures of one level.
+fn refuse_levels(draw: &Draw) -> Result<(), Error> {
+    let deep = draw.textures.iter().flatten().any(|texture| {
+        texture.kind.shadow && texture.levels.len() > 1 && texture.filter == glisten_scene::scene::Filter::Trilinear
+    });
+    match emit::levels_of_comparisons(&draw.program).next().filter(|_| deep) {
+        Some(span) => {
+            let message = "no target compares depth in a level of detail of the shader's choice, and this depth texture has several";
+            Err(Error::Emit(vec![Diagnostic::new(&FEATURE_NOT_IN_TARGET, span, message)]))
+        }
+        None => Ok(()),
+    }
+}
+
+fn has_flat_varying(program: &Program) -> bool {
+    program.interface.varyings.iter().any(|varying| varying.interpolation == Interpolation::Flat)
+}
+
+/// The color targets. An attachment without an output keeps its clear color.
+fn targets(framebuffer: &Framebuffer, draw: &Draw) -> Vec<Option<wgpu::ColorTargetState>> {
+    let floats = matches!(framebuffer.format, Format::Rgba32Float | Format::Rgba16Float | Format::Rgba8Unorm);
+    (0..framebuffer.attachments)
+        .map(|location| {
+            let written = draw.program.writes_color(location);
+            Some(wgpu::ColorTargetState {
+                format: color_format(framebuffer.format),
+                blend: draw.state.blend.filter(|_| floats).map(blend),
+                write_mask: if written { wgpu::ColorWrites::ALL } else { wgpu::ColorWrites::empty() },
+            })
+        })
+        .collect()
+}
+
+/// A binding of the layout.
+struct Binding {
+    slot: SlotBinding,
+    what: What,
+}
+
+/// What is bound.
+#[derive(Clone, Copy)]
+enum What {
+    Uniforms,
+    Texture(SamplerType),
+    Sampler(SamplerType),
+}
+
+impl What {
+    fn layout(self) -> wgpu::BindingType {
+        match self {
+            Self::Uniforms => wgpu::BindingType::Buffer {
+                ty: wgpu::BufferBindingType::Uniform,
+                has_dynamic_offset: false,
+                min_binding_size: None,
+            },
+            Self::Texture(kind) => textures::texture_binding(kind),
+            Self::Sampler(kind) => textures::sampler_binding(kind),
+        }
+    }
+}
+
+/// Everything that the interface reflects, by binding. Bindings must count from 0 without gaps in each group.
+fn bindings(program: &Program) -> Result<Vec<Binding>, Error> {
+    let interface = &program.interface;
+    let mut all: Vec<Binding> = Vec::new();
+    all.extend(interface.loose.iter().map(|&(slot, _)| Binding { slot, what: What::Uniforms }));
+    for block in &interface.blocks {
+        for element in 0..block.array_size.unwrap_or(1) {
+            let slot = SlotBinding { binding: block.slot.binding + element, ..block.slot };
+            all.push(Binding { slot, what: What::Uniforms });
+        }
+    }
+    for sampler in &interface.samplers {
+        let Type::Sampler(kind) = program.types.get(sampler.ty) else { continue };
+        all.push(Binding { slot: sampler.texture, what: What::Texture(kind) });
+        if sampler.sampler != sampler.texture {
+            all.push(Binding { slot: sampler.sampler, what: What::Sampler(kind) });
+        }
+    }
+    all.sort_by_key(|binding| binding.slot);
+    let mut next = [0; GROUPS];
+    for binding in &all {
+        match next.get_mut(binding.slot.group as usize) {
+            Some(next) if *next == binding.slot.binding => *next += 1,
+            _ => {
+                return Err(Error::Refused(format!(
+                    "the bindings of program `{}` are not dense at group {}, binding {}",
+                    program.name, binding.slot.group, binding.slot.binding
+                )));
+            }
+        }
+    }
+    Ok(all)
+}

@@ -1,0 +1,256 @@
+//! What an operation does to the ends of one lane, without branches: compiled to vectors where it stands in a loop.
+//!
+//! *In:* ends of operands. *Out:* the ends that the operation of [`EnvelopeFloat`] gives, or that
+//! the lane is odd: then that operation has to be asked.
+//!
+//! *Holds:* what is not odd is the same, but for the sign of a zero.
+
+use crate::domain::envelope::float::{greatest, is_power_of_two, least};
+use crate::domain::envelope::round::{BELOW, MAX, OUTWARD, ulps_above, ulps_below};
+use crate::domain::envelope::{EnvelopeFloat, ends};
+use crate::domain::rules::{self, FLUSH, ulp};
+
+/// The ends of a lane.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Ends {
+    pub(super) low: f64,
+    pub(super) high: f64,
+    /// Whether they mean nothing.
+    pub(super) odd: bool,
+}
+
+/// [`down`](super::super::round::down) of a number up to [`MAX`], moved down first if that number is `lost` on the way.
+#[inline(always)]
+fn down(x: f64, lost: bool) -> f64 {
+    let step = u64::from(lost);
+    let moved = if x < 0.0 { BELOW + step } else { step.wrapping_neg() };
+    let on_grid = f64::from_bits(x.to_bits().wrapping_add(moved) & !BELOW);
+    let flushed = if x < 0.0 { -FLUSH } else { 0.0 };
+    if x.abs() < FLUSH { flushed } else { on_grid }
+}
+
+#[inline(always)]
+fn up(x: f64, lost: bool) -> f64 {
+    -down(-x, lost)
+}
+
+impl Ends {
+    #[inline(always)]
+    pub(super) fn of(low: f64, high: f64) -> Self {
+        Self { low, high, odd: false }
+    }
+
+    /// Rounded outward.
+    #[inline(always)]
+    pub(super) fn rounded(low: f64, high: f64) -> Self {
+        // A NaN is odd, too.
+        let fine = (low.abs() <= MAX) & (high.abs() <= MAX);
+        Self { low: down(low, false), high: up(high, false), odd: !fine }
+    }
+
+    #[inline(always)]
+    pub(super) fn or_odd(self, odd: bool) -> Self {
+        Self { odd: self.odd | odd, ..self }
+    }
+
+    #[inline(always)]
+    fn holds_zero(self) -> bool {
+        (self.low <= 0.0) & (self.high >= 0.0)
+    }
+
+    #[inline(always)]
+    fn is_point(self) -> bool {
+        self.low == self.high
+    }
+
+    #[inline(always)]
+    pub(super) fn neg(self) -> Self {
+        Self::of(-self.high, -self.low)
+    }
+
+    #[inline(always)]
+    pub(super) fn add(self, other: Self) -> Self {
+        let (low, high) = (self.low + other.low, self.high + other.high);
+        let low_lost = ((low == self.low) & (other.low < 0.0)) | ((low == other.low) & (self.low < 0.0));
+        let high_lost = ((high == self.high) & (other.high > 0.0)) | ((high == other.high) & (self.high > 0.0));
+        // What is lost may leave the greatest f32, too.
+        let fine = (low.abs() < MAX) & (high.abs() < MAX);
+        Self { low: down(low, low_lost), high: up(high, high_lost), odd: !fine }
+    }
+
+    #[inline(always)]
+    pub(super) fn sub(self, other: Self) -> Self {
+        self.add(other.neg())
+    }
+
+    #[inline(always)]
+    pub(super) fn mul(self, other: Self) -> Self {
+        let (ll, lh) = (self.low * other.low, self.low * other.high);
+        let (hl, hh) = (self.high * other.low, self.high * other.high);
+        let fine = (ll + lh + hl + hh).is_finite();
+        Self::rounded(least(least(ll, lh), least(hl, hh)), greatest(greatest(ll, lh), greatest(hl, hh))).or_odd(!fine)
+    }
+
+    #[inline(always)]
+    pub(super) fn square(self) -> Self {
+        let (a, b) = (self.low * self.low, self.high * self.high);
+        let low = if self.holds_zero() { 0.0 } else { least(a, b) };
+        Self::rounded(low, greatest(a, b))
+    }
+
+    #[inline(always)]
+    pub(super) fn div(self, other: Self) -> Self {
+        let (ll, lh) = (self.low / other.low, self.low / other.high);
+        let (hl, hh) = (self.high / other.low, self.high / other.high);
+        let (low, high) = (least(least(ll, lh), least(hl, hh)), greatest(greatest(ll, lh), greatest(hl, hh)));
+        let (a, b) = (other.low.abs(), other.high.abs());
+        let inside = (least(a, b) >= FLUSH) & (greatest(a, b) <= 1.0 / FLUSH) & (ll + lh + hl + hh).is_finite();
+        let exact = other.is_point() & is_power_of_two(other.low);
+        let n = rules::DIV.ulps();
+        let below = if low == 0.0 { 0.0 } else { ulps_below(low, high, n) };
+        let above = if high == 0.0 { 0.0 } else { ulps_above(low, high, n) };
+        Self::rounded(below, above).or_odd(other.holds_zero() | exact | !inside)
+    }
+
+    #[inline(always)]
+    pub(super) fn abs(self) -> Self {
+        let (a, b) = (self.low.abs(), self.high.abs());
+        Self::of(if self.holds_zero() { 0.0 } else { least(a, b) }, greatest(a, b))
+    }
+
+    #[inline(always)]
+    pub(super) fn min(self, other: Self) -> Self {
+        Self::of(least(self.low, other.low), least(self.high, other.high))
+    }
+
+    #[inline(always)]
+    pub(super) fn max(self, other: Self) -> Self {
+        Self::of(greatest(self.low, other.low), greatest(self.high, other.high))
+    }
+
+    /// A function without rounding that never falls.
+    #[inline(always)]
+    pub(super) fn rising(self, f: impl Fn(f64) -> f64) -> Self {
+        Self::of(f(self.low), f(self.high))
+    }
+
+    #[inline(always)]
+    pub(super) fn fract(self) -> Self {
+        let whole = self.low.floor();
+        let same = (whole == self.high.floor()) & self.low.is_finite();
+        Self::rounded(self.low - whole, self.high - whole).or_odd(!same)
+    }
+
+    #[inline(always)]
+    pub(super) fn inverse_square_root(self) -> Self {
+        let n = rules::INVERSESQRT.ulps();
+        let (low, high) = (1.0 / self.high.sqrt(), 1.0 / self.low.sqrt());
+        let fine = (self.low >= FLUSH) & (self.high <= MAX);
+        Self::rounded(ulps_below(low, high, n), ulps_above(low, high, n)).or_odd(!fine)
+    }
+
+    #[inline(always)]
+    pub(super) fn square_root(self) -> Self {
+        let (first, second) = (rules::INVERSESQRT.ulps(), rules::DIV.ulps());
+        let end = |x: f64, sign: f64| {
+            let inner = 1.0 / x.sqrt();
+            let root = 1.0 / (inner - sign * first * ulp(inner) * (1.0 + 1e-6));
+            let end = root + sign * second * ulp(root) * (1.0 + 1e-6);
+            if x <= 0.0 { 0.0 } else { end }
+        };
+        let flushed = if self.low < FLUSH { 0.0 } else { self.low };
+        let low = greatest(end(flushed, -1.0), 0.0);
+        let fine = (self.low >= 0.0) & (self.high <= MAX);
+        Self::rounded(low, end(self.high, 1.0)).or_odd(!fine)
+    }
+
+    #[inline(always)]
+    pub(super) fn cosine_at_most(self) -> Self {
+        let finite = (self.high - self.low).is_finite();
+        Self::of(greatest(self.low, -EnvelopeFloat::COSINE), least(self.high, EnvelopeFloat::COSINE)).or_odd(!finite)
+    }
+
+    /// With what the function gives at an end.
+    #[inline(always)]
+    pub(super) fn exponential(self, f: impl Fn(f64) -> f64) -> Self {
+        let n = |x: f64| rules::EXP.ulps_at(x);
+        let (low, high) = (f(self.low), f(self.high));
+        let below = if low == 0.0 { 0.0 } else { ulps_below(low, high, n(self.low)) };
+        Self::rounded(greatest(below, 0.0), ulps_above(low, high, n(self.high)))
+    }
+
+    /// The ends of a logarithm before they are rounded; the least may be infinite.
+    #[inline(always)]
+    fn logarithm_ends(self, f: impl Fn(f64) -> f64) -> (f64, f64) {
+        let near_one = (self.high >= 0.5) & (self.low <= 2.0);
+        let beside = if near_one { rules::LOG_NEAR_ONE.absolute() } else { 0.0 };
+        let error = |result: f64| greatest(rules::LOG.ulps() * ulp(result), beside) * OUTWARD;
+        let positive = |x: f64| if x < FLUSH { FLUSH } else { x };
+        let (least, most) = (f(positive(self.low)), f(positive(self.high)));
+        let low = if self.low < FLUSH { f64::NEG_INFINITY } else { least - error(least) };
+        (low, most + error(most))
+    }
+
+    #[inline(always)]
+    pub(super) fn logarithm(self, f: impl Fn(f64) -> f64) -> Self {
+        let (low, high) = self.logarithm_ends(f);
+        Self::rounded(low, high).or_odd(!((self.low >= FLUSH) & (self.high <= MAX)))
+    }
+
+    #[inline(always)]
+    pub(super) fn power(self, exponent: Self) -> Self {
+        let (low, high) = self.logarithm_ends(ends::log2);
+        // The least may be infinite, and stays so by rounding and by a factor above 0.
+        let (low, high) = (down(low, false), up(high, false));
+        let (ll, lh) = (exponent.low * low, exponent.low * high);
+        let (hl, hh) = (exponent.high * low, exponent.high * high);
+        let product = Self::of(
+            down(least(least(ll, lh), least(hl, hh)), false),
+            up(greatest(greatest(ll, lh), greatest(hl, hh)), false),
+        );
+        let fine = (self.low >= 0.0)
+            & (self.high <= MAX)
+            & (exponent.low >= FLUSH)
+            & (exponent.high <= MAX)
+            & (product.high.abs() <= MAX);
+        product.exponential(ends::exp2).or_odd(!fine)
+    }
+
+    /// `x (1 - a) + y a` or `x + (y - x) a`.
+    #[inline(always)]
+    pub(super) fn mixed(self, y: Self, a: Self) -> Self {
+        let rest = Self::of(1.0, 1.0).sub(a);
+        let (left, right) = (self.mul(rest), y.mul(a));
+        let gap = y.sub(self);
+        let step = gap.mul(a);
+        let (first, second) = (left.add(right), self.add(step));
+        let either = Self::of(least(first.low, second.low), greatest(first.high, second.high));
+        let odd = rest.odd | left.odd | right.odd | gap.odd | step.odd | first.odd | second.odd;
+        let corner = |x: f64, y: f64, a: f64| x + (y - x) * a;
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+        for at in [
+            corner(self.low, y.low, a.low),
+            corner(self.low, y.low, a.high),
+            corner(self.low, y.high, a.low),
+            corner(self.low, y.high, a.high),
+            corner(self.high, y.low, a.low),
+            corner(self.high, y.low, a.high),
+            corner(self.high, y.high, a.low),
+            corner(self.high, y.high, a.high),
+        ] {
+            low = least(low, at);
+            high = greatest(high, at);
+        }
+        let size = |of: Self| greatest(of.low.abs(), of.high.abs());
+        let one = size(self) * ulp(size(rest)) + ulp(size(left)) + ulp(size(right)) + ulp(size(left) + size(right));
+        let other = size(a) * ulp(size(gap)) + ulp(size(step)) + ulp(size(self) + size(step));
+        let roundings = greatest(one, other) * (1.0 + 1e-6);
+        let found = Self::rounded(greatest(low - roundings, either.low), least(high + roundings, either.high));
+        let points = self.is_point() & y.is_point() & a.is_point();
+        Self {
+            low: if points { either.low } else { found.low },
+            high: if points { either.high } else { found.high },
+            odd: odd | found.odd | (found.low > found.high),
+        }
+    }
+}

@@ -1,0 +1,183 @@
+//! [`EnvelopeBlock`]: eight numbers, each part of them side by side, so that an operation is a few vector instructions.
+//!
+//! *In:* operands of eight lanes. *Out:* what [`EnvelopeFloat`]'s operation gives in each.
+//!
+//! *Holds:* the scalar operation is the definition. Nearly all lanes are computed together without branches; a lane that
+//! a rule treats apart (infinite ends, a NaN that may be dropped, a divisor that holds 0) is *odd*, and done once more
+//! by the scalar operation. Both give the same, but for the sign of a zero.
+//!
+//! | file | holds |
+//! | --- | --- |
+//! | `lane` | the operations on one lane's ends, without branches |
+//! | `operations` | those on blocks |
+//! | `sum` | sums of products, in any order |
+
+mod lane;
+mod operations;
+mod sum;
+#[cfg(test)]
+mod tests;
+
+use super::EnvelopeFloat;
+use crate::domain::{Element, Few, WIDTH};
+use lane::Ends;
+use std::hint::black_box;
+
+/// A number in each of eight lanes; vectors of four never cross a line of the cache.
+#[repr(align(32))]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct EnvelopeBlock {
+    value: [f64; WIDTH],
+    low: [f64; WIDTH],
+    high: [f64; WIDTH],
+    /// The lanes that may be NaN.
+    nan: u8,
+}
+
+/// Lanes that are not 0 are odd.
+type Odd = [u64; WIDTH];
+
+impl Element for EnvelopeFloat {
+    type Few = EnvelopeBlock;
+}
+
+impl Few<EnvelopeFloat> for EnvelopeBlock {
+    #[inline(always)]
+    fn splat(number: EnvelopeFloat) -> Self {
+        Self {
+            value: [number.value; WIDTH],
+            low: [number.low; WIDTH],
+            high: [number.high; WIDTH],
+            nan: if number.may_be_nan { u8::MAX } else { 0 },
+        }
+    }
+
+    #[inline(always)]
+    fn of(numbers: &[EnvelopeFloat; WIDTH]) -> Self {
+        let mut out = Self::default();
+        for (lane, number) in numbers.iter().enumerate() {
+            out.value[lane] = number.value;
+            out.low[lane] = number.low;
+            out.high[lane] = number.high;
+            out.nan |= u8::from(number.may_be_nan) << lane;
+        }
+        out
+    }
+
+    #[inline(always)]
+    fn get(&self, lane: usize) -> EnvelopeFloat {
+        let lane = lane % WIDTH;
+        EnvelopeFloat {
+            value: self.value[lane],
+            low: self.low[lane],
+            high: self.high[lane],
+            may_be_nan: self.nan >> lane & 1 == 1,
+        }
+    }
+
+    #[inline(always)]
+    fn set(&mut self, lane: usize, number: EnvelopeFloat) {
+        let lane = lane % WIDTH;
+        self.value[lane] = number.value;
+        self.low[lane] = number.low;
+        self.high[lane] = number.high;
+        self.nan = self.nan & !(1 << lane) | u8::from(number.may_be_nan) << lane;
+    }
+
+    #[inline(always)]
+    fn replaced(&self, by: &Self, mask: u8) -> Self {
+        let mut out = *self;
+        for lane in 0..WIDTH {
+            let new = mask >> lane & 1 == 1;
+            out.value[lane] = if new { by.value[lane] } else { self.value[lane] };
+            out.low[lane] = if new { by.low[lane] } else { self.low[lane] };
+            out.high[lane] = if new { by.high[lane] } else { self.high[lane] };
+        }
+        out.nan = self.nan & !mask | by.nan & mask;
+        out
+    }
+}
+
+impl EnvelopeBlock {
+    #[inline(always)]
+    fn ends(&self, lane: usize) -> Ends {
+        Ends::of(self.low[lane], self.high[lane])
+    }
+
+    /// Writes the ends of all lanes, and does those once more that are odd, or that `apart` names.
+    #[inline(always)]
+    fn fill(&mut self, ends: impl Fn(usize) -> Ends, apart: u8, exact: impl Fn(usize) -> EnvelopeFloat) {
+        let (mut low, mut high, mut odd) = ([0.0; WIDTH], [0.0; WIDTH], [0; WIDTH]);
+        let mut any = u64::from(apart);
+        for lane in 0..WIDTH {
+            let ends = ends(lane);
+            low[lane] = ends.low;
+            high[lane] = ends.high;
+            odd[lane] = u64::from(ends.odd);
+            any |= odd[lane];
+        }
+        self.low = low;
+        self.high = high;
+        if any != 0 {
+            // Copies, so that the compiler knows that nobody else reads or writes what the loop does.
+            *self = black_box(*self).redone(black_box(odd), apart, exact);
+        }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn redone(mut self, odd: Odd, apart: u8, exact: impl Fn(usize) -> EnvelopeFloat) -> Self {
+        for (lane, odd) in odd.iter().enumerate() {
+            if *odd != 0 || apart >> lane & 1 == 1 {
+                self.set(lane, exact(lane));
+            }
+        }
+        self
+    }
+
+    /// Applies a function.
+    #[inline(always)]
+    fn by_parts(
+        &self,
+        value: impl Fn(f64) -> f64,
+        ends: impl Fn(Ends) -> Ends,
+        exact: impl Fn(EnvelopeFloat) -> EnvelopeFloat,
+    ) -> Self {
+        let mut out = Self { nan: self.nan, ..Self::default() };
+        for lane in 0..WIDTH {
+            out.value[lane] = value(self.value[lane]);
+        }
+        out.fill(
+            #[inline(always)]
+            move |lane| ends(self.ends(lane)),
+            0,
+            #[inline(always)]
+            move |lane| exact(self.get(lane)),
+        );
+        out
+    }
+
+    /// Applies a function of two; `apart` names the lanes that may drop a NaN.
+    #[inline(always)]
+    fn by_both(
+        &self,
+        other: &Self,
+        apart: u8,
+        value: impl Fn(f64, f64) -> f64,
+        ends: impl Fn(Ends, Ends) -> Ends,
+        exact: impl Fn(EnvelopeFloat, EnvelopeFloat) -> EnvelopeFloat,
+    ) -> Self {
+        let mut out = Self { nan: self.nan | other.nan, ..Self::default() };
+        for lane in 0..WIDTH {
+            out.value[lane] = value(self.value[lane], other.value[lane]);
+        }
+        out.fill(
+            #[inline(always)]
+            move |lane| ends(self.ends(lane), other.ends(lane)),
+            apart,
+            #[inline(always)]
+            move |lane| exact(self.get(lane), other.get(lane)),
+        );
+        out
+    }
+}

@@ -1,0 +1,333 @@
+//! Operations of the language on blocks.
+
+use super::EnvelopeBlock;
+use super::lane::Ends;
+use super::sum::Sum;
+use crate::domain::envelope::{EnvelopeFloat, EnvelopeInt, ends};
+use crate::domain::{Block, Few, Integer, Number, WIDTH};
+use pulp::Arch;
+use std::f64::consts::{LN_2, LOG2_E};
+use std::sync::LazyLock;
+
+/// Answers for the lanes of a block.
+pub(super) type Answers = [EnvelopeInt; WIDTH];
+
+/// The vector unit that there is.
+static UNIT: LazyLock<Arch> = LazyLock::new(Arch::new);
+
+impl EnvelopeBlock {
+    /// A comparison by when it is true of all pairs, and when of none.
+    #[inline(always)]
+    fn answered(
+        &self,
+        other: &Self,
+        always: impl Fn(Ends, Ends) -> bool,
+        never: impl Fn(Ends, Ends) -> bool,
+        answer: impl Fn(f64, f64) -> bool,
+    ) -> Answers {
+        let nan = self.nan | other.nan;
+        let mut answers = Answers::default();
+        for (lane, slot) in answers.iter_mut().enumerate() {
+            let (a, b) = (self.ends(lane), other.ends(lane));
+            let sure = nan >> lane & 1 == 0;
+            let (always, never) = (always(a, b) & sure, never(a, b) & sure);
+            let likely = answer(self.value[lane], other.value[lane]);
+            *slot = EnvelopeInt {
+                bits: u32::from(always | (likely & !never)),
+                low: i32::from(always),
+                high: i32::from(!never),
+            };
+        }
+        answers
+    }
+}
+
+impl Block<EnvelopeFloat> for EnvelopeBlock {
+    const OWN: bool = true;
+    #[inline(always)]
+    fn vectorized<R>(work: impl FnOnce() -> R) -> R {
+        UNIT.dispatch(work)
+    }
+    #[inline(always)]
+    fn widen(&self) -> Self {
+        *self
+    }
+    #[inline(always)]
+    fn narrow(wide: &Self) -> Self {
+        *wide
+    }
+    #[inline(always)]
+    fn sum(count: usize, term: impl Fn(usize) -> Self) -> Self {
+        Sum::of(count, term)
+    }
+    #[inline(always)]
+    fn neg(&self) -> Self {
+        self.by_parts(
+            Number::neg,
+            #[inline(always)]
+            |a| a.neg(),
+            Number::neg,
+        )
+    }
+    #[inline(always)]
+    fn abs(&self) -> Self {
+        self.by_parts(
+            Number::abs,
+            #[inline(always)]
+            |a| a.abs(),
+            Number::abs,
+        )
+    }
+    #[inline(always)]
+    fn add(&self, other: &Self) -> Self {
+        self.by_both(
+            other,
+            0,
+            Number::add,
+            #[inline(always)]
+            |a, b| a.add(b),
+            Number::add,
+        )
+    }
+    #[inline(always)]
+    fn sub(&self, other: &Self) -> Self {
+        self.by_both(
+            other,
+            0,
+            Number::sub,
+            #[inline(always)]
+            |a, b| a.sub(b),
+            Number::sub,
+        )
+    }
+    #[inline(always)]
+    fn mul(&self, other: &Self) -> Self {
+        self.by_both(
+            other,
+            0,
+            Number::mul,
+            #[inline(always)]
+            |a, b| a.mul(b),
+            Number::mul,
+        )
+    }
+    #[inline(always)]
+    fn square(&self) -> Self {
+        self.by_parts(
+            Number::square,
+            #[inline(always)]
+            |a| a.square(),
+            Number::square,
+        )
+    }
+    #[inline(always)]
+    fn div(&self, other: &Self) -> Self {
+        self.by_both(
+            other,
+            0,
+            Number::div,
+            #[inline(always)]
+            |a, b| a.div(b),
+            Number::div,
+        )
+    }
+    #[inline(always)]
+    fn floor(&self) -> Self {
+        self.by_parts(
+            Number::floor,
+            #[inline(always)]
+            |ends| ends.rising(f64::floor),
+            Number::floor,
+        )
+    }
+    #[inline(always)]
+    fn fract(&self) -> Self {
+        self.by_parts(
+            Number::fract,
+            #[inline(always)]
+            |a| a.fract(),
+            Number::fract,
+        )
+    }
+    #[inline(always)]
+    fn sqrt(&self) -> Self {
+        self.by_parts(
+            Number::sqrt,
+            #[inline(always)]
+            |a| a.square_root(),
+            Number::sqrt,
+        )
+    }
+    #[inline(always)]
+    fn inversesqrt(&self) -> Self {
+        self.by_parts(
+            Number::inversesqrt,
+            #[inline(always)]
+            |a| a.inverse_square_root(),
+            Number::inversesqrt,
+        )
+    }
+    #[inline(always)]
+    fn exp(&self) -> Self {
+        self.by_parts(
+            Number::exp,
+            #[inline(always)]
+            |ends| {
+                ends.exponential(
+                    #[inline(always)]
+                    |end| ends::exp2(end * LOG2_E),
+                )
+            },
+            Number::exp,
+        )
+    }
+    #[inline(always)]
+    fn exp2(&self) -> Self {
+        self.by_parts(
+            Number::exp2,
+            #[inline(always)]
+            |ends| ends.exponential(ends::exp2),
+            Number::exp2,
+        )
+    }
+    #[inline(always)]
+    fn log(&self) -> Self {
+        self.by_parts(
+            Number::log,
+            #[inline(always)]
+            |ends| {
+                ends.logarithm(
+                    #[inline(always)]
+                    |end| ends::log2(end) * LN_2,
+                )
+            },
+            Number::log,
+        )
+    }
+    #[inline(always)]
+    fn log2(&self) -> Self {
+        self.by_parts(
+            Number::log2,
+            #[inline(always)]
+            |ends| ends.logarithm(ends::log2),
+            Number::log2,
+        )
+    }
+    #[inline(always)]
+    fn pow(&self, exponent: &Self) -> Self {
+        self.by_both(
+            exponent,
+            0,
+            Number::pow,
+            #[inline(always)]
+            |a, b| a.power(b),
+            Number::pow,
+        )
+    }
+    #[inline(always)]
+    fn cosine_at_most(&self) -> Self {
+        // Ends that are infinite leave all as it was.
+        self.by_parts(
+            #[inline(always)]
+            |value| value,
+            #[inline(always)]
+            |a| a.cosine_at_most(),
+            Number::cosine_at_most,
+        )
+    }
+    #[inline(always)]
+    fn min(&self, other: &Self) -> Self {
+        self.by_both(
+            other,
+            self.nan | other.nan,
+            Number::min,
+            #[inline(always)]
+            |a, b| a.min(b),
+            Number::min,
+        )
+    }
+    #[inline(always)]
+    fn max(&self, other: &Self) -> Self {
+        self.by_both(
+            other,
+            self.nan | other.nan,
+            Number::max,
+            #[inline(always)]
+            |a, b| a.max(b),
+            Number::max,
+        )
+    }
+    #[inline(always)]
+    fn mix(&self, y: &Self, a: &Self) -> Self {
+        let nan = self.nan | y.nan | a.nan;
+        let mut out = Self { nan, ..Self::default() };
+        for lane in 0..WIDTH {
+            out.value[lane] = self.value[lane] * (1.0 - a.value[lane]) + y.value[lane] * a.value[lane];
+        }
+        out.fill(
+            #[inline(always)]
+            move |lane| self.ends(lane).mixed(y.ends(lane), a.ends(lane)),
+            0,
+            #[inline(always)]
+            move |lane| self.get(lane).mix(y.get(lane), a.get(lane)),
+        );
+        out
+    }
+    #[inline(always)]
+    fn less(&self, other: &Self) -> Answers {
+        self.answered(
+            other,
+            #[inline(always)]
+            |a, b| a.high < b.low,
+            #[inline(always)]
+            |a, b| a.low >= b.high,
+            #[inline(always)]
+            |a, b| a < b,
+        )
+    }
+    #[inline(always)]
+    fn less_equal(&self, other: &Self) -> Answers {
+        self.answered(
+            other,
+            #[inline(always)]
+            |a, b| a.high <= b.low,
+            #[inline(always)]
+            |a, b| a.low > b.high,
+            #[inline(always)]
+            |a, b| a <= b,
+        )
+    }
+    #[inline(always)]
+    fn equal(&self, other: &Self) -> Answers {
+        self.answered(
+            other,
+            #[inline(always)]
+            |a, b| (a.low == a.high) & (b.low == b.high) & (a.low == b.low),
+            #[inline(always)]
+            |a, b| (a.high < b.low) | (b.high < a.low),
+            #[inline(always)]
+            |a, b| a == b,
+        )
+    }
+
+    /// `condition ? yes : no`
+    #[inline(always)]
+    fn select(condition: &Answers, yes: &Self, no: &Self) -> Self {
+        let mut out = Self::default();
+        let either = yes.nan | no.nan;
+        for (lane, condition) in condition.iter().enumerate() {
+            let (holds, open) = (condition.bits != 0, condition.low != condition.high);
+            let (chosen, other) = if holds { (yes.ends(lane), no.ends(lane)) } else { (no.ends(lane), yes.ends(lane)) };
+            out.value[lane] = if holds { yes.value[lane] } else { no.value[lane] };
+            out.low[lane] = if open & (other.low < chosen.low) { other.low } else { chosen.low };
+            out.high[lane] = if open & (other.high > chosen.high) { other.high } else { chosen.high };
+        }
+        if either != 0 {
+            for (lane, condition) in condition.iter().enumerate() {
+                let nan = if condition.bits != 0 { yes.nan } else { no.nan };
+                out.nan |= if condition.sure() { nan } else { either } & 1 << lane;
+            }
+        }
+        out
+    }
+}

@@ -1,0 +1,439 @@
+//! Operators, comparisons, conversions and selecting functions of the envelope.
+
+use super::round::{down, sum_down, sum_up, ulps_above, ulps_below, up};
+use super::{EnvelopeFloat, EnvelopeInt, ends};
+use crate::domain::rules::{self, FLUSH, ulp};
+use crate::domain::{Integer, Number};
+use glisten_scene::compare::Range;
+use std::f64::consts::{LN_2, LOG2_E};
+
+/// `minNum`: a NaN loses.
+#[inline(always)]
+pub(super) fn least(a: f64, b: f64) -> f64 {
+    if b < a { b } else { a }
+}
+
+#[inline(always)]
+pub(super) fn greatest(a: f64, b: f64) -> f64 {
+    if b > a { b } else { a }
+}
+
+/// Whether a number is 2^n for an n from -126 to 126, or the negative of such.
+#[inline(always)]
+pub(super) fn is_power_of_two(value: f64) -> bool {
+    const MANTISSA: u64 = (1 << 52) - 1;
+    value.to_bits() & MANTISSA == 0 && (FLUSH..=1.0 / FLUSH).contains(&value.abs())
+}
+
+impl EnvelopeFloat {
+    /// The most that a component of a unit vector may be: two ULP of the inverse root, one of the product, and those of
+    /// the sum below the root.
+    pub(super) const COSINE: f64 = 1.0 + 6.0 / (1 << 23) as f64;
+
+    /// Whether 0 is inside.
+    #[inline(always)]
+    fn holds_zero(self) -> bool {
+        self.low <= 0.0 && self.high >= 0.0
+    }
+
+    fn is_infinite_perhaps(self) -> bool {
+        self.low == f64::NEG_INFINITY || self.high == f64::INFINITY
+    }
+
+    /// A sum with an infinite end.
+    #[cold]
+    fn infinite_sum(self, other: Self) -> Self {
+        let end = |a: f64, b: f64, instead: f64| if (a + b).is_nan() { instead } else { a + b };
+        let cancels = |a: Self, b: Self| a.high == f64::INFINITY && b.low == f64::NEG_INFINITY;
+        Self {
+            value: self.value + other.value,
+            low: down(end(self.low, other.low, f64::NEG_INFINITY)),
+            high: up(end(self.high, other.high, f64::INFINITY)),
+            may_be_nan: self.may_be_nan || other.may_be_nan || cancels(self, other) || cancels(other, self),
+        }
+    }
+
+    /// A product with an infinite end.
+    #[cold]
+    fn infinite_product(self, other: Self) -> Self {
+        let value = self.value * other.value;
+        let nan = |a: Self, b: Self| a.holds_zero() && b.is_infinite_perhaps();
+        let may_be_nan = self.may_be_nan || other.may_be_nan || nan(self, other) || nan(other, self);
+        // Of an infinite end times 0, where 0 is exact or an end, nothing but 0 comes of the finite numbers.
+        let of = |a: f64, b: f64| if a == 0.0 || b == 0.0 { 0.0 } else { a * b };
+        let corners =
+            [of(self.low, other.low), of(self.low, other.high), of(self.high, other.low), of(self.high, other.high)];
+        let low = corners.iter().copied().fold(f64::INFINITY, f64::min);
+        let high = corners.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        Self::rounded(value, low, high, may_be_nan)
+    }
+
+    /// A quotient by what may be 0.
+    fn over_zero(self, other: Self) -> Self {
+        let value = self.value / other.value;
+        let may_be_nan = self.may_be_nan
+            || other.may_be_nan
+            || self.holds_zero()
+            || (self.is_infinite_perhaps() && other.is_infinite_perhaps());
+        if self.low == 0.0 && self.high == 0.0 {
+            return Self { value, low: 0.0, high: 0.0, may_be_nan }.joined(Self::anything(value));
+        }
+        Self { value, low: f64::NEG_INFINITY, high: f64::INFINITY, may_be_nan }
+    }
+
+    /// A function without rounding that never falls.
+    #[inline(always)]
+    fn rising(self, f: impl Fn(f64) -> f64) -> Self {
+        Self { value: f(self.value), low: f(self.low), high: f(self.high), may_be_nan: self.may_be_nan }
+    }
+
+    /// Sure if every pair gives the same answer.
+    #[inline(always)]
+    fn answered(self, other: Self, always: bool, never: bool, answer: bool) -> EnvelopeInt {
+        if !(self.may_be_nan || other.may_be_nan) {
+            if always {
+                return EnvelopeInt::from_bool(true);
+            }
+            if never {
+                return EnvelopeInt::from_bool(false);
+            }
+        }
+        EnvelopeInt::open(answer)
+    }
+
+    /// `min` or `max` where an operand may be NaN: the other one then, or NaN (§8.3 says nothing of it).
+    fn with_nan(self, a: Self, b: Self) -> Self {
+        let other =
+            |dropped: Self, kept: Self, joined: Self| if dropped.may_be_nan { joined.joined(kept) } else { joined };
+        other(b, a, other(a, b, self))
+    }
+
+    fn to_int_by(self, bits: u32, limit: impl Fn(f64) -> i64) -> EnvelopeInt {
+        if self.may_be_nan {
+            return EnvelopeInt::with_choices(bits, i32::MIN, i32::MAX);
+        }
+        match (i32::try_from(limit(self.low)), i32::try_from(limit(self.high))) {
+            (Ok(low), Ok(high)) => EnvelopeInt::with_choices(bits, low, high),
+            _ if self.low == self.high => EnvelopeInt::from_bits(bits),
+            _ => EnvelopeInt::with_choices(bits, i32::MIN, i32::MAX),
+        }
+    }
+}
+
+impl Number for EnvelopeFloat {
+    type Int = EnvelopeInt;
+    type Wide = Self;
+    const OPEN: bool = true;
+
+    #[inline(always)]
+    fn from_f64(value: f64) -> Self {
+        if value.is_nan() {
+            return Self::anything(value);
+        }
+        let flushed = value != 0.0 && value.abs() < FLUSH;
+        let (low, high) = if flushed { (value.min(0.0), value.max(0.0)) } else { (value, value) };
+        if flushed || f64::from(value as f32) == value {
+            return Self { value, low, high, may_be_nan: false };
+        }
+        Self { value, low: down(low), high: up(high), may_be_nan: false }
+    }
+    #[inline(always)]
+    fn with_range(value: f64, range: Range) -> Self {
+        Self::rounded(value, range.low, range.high, range.may_be_nan)
+    }
+    fn whole(value: f64, range: Range) -> Self {
+        Self { value, low: range.low, high: range.high, may_be_nan: range.may_be_nan }
+    }
+    #[inline(always)]
+    fn value(self) -> f64 {
+        self.value
+    }
+    #[inline(always)]
+    fn range(self) -> Range {
+        self.as_range()
+    }
+    #[inline(always)]
+    fn joined(self, other: Self) -> Self {
+        Self::joined(self, other)
+    }
+    #[inline(always)]
+    fn widen(self) -> Self {
+        self
+    }
+    #[inline(always)]
+    fn narrow(wide: Self) -> Self {
+        wide
+    }
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        let (low, high) = (sum_down(self.low, other.low), sum_up(self.high, other.high));
+        if (high - low).is_finite() {
+            return Self {
+                value: self.value + other.value,
+                low: down(low),
+                high: up(high),
+                may_be_nan: self.may_be_nan | other.may_be_nan,
+            };
+        }
+        self.infinite_sum(other)
+    }
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        self.add(other.neg())
+    }
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        if self.low >= 0.0 && other.low >= 0.0 {
+            // Most products of shaders: of what is not negative.
+            let (low, high) = (self.low * other.low, self.high * other.high);
+            if high.is_finite() {
+                let may_be_nan = self.may_be_nan | other.may_be_nan;
+                return Self { value: self.value * other.value, low: down(low), high: up(high), may_be_nan };
+            }
+        }
+        let (ll, lh) = (self.low * other.low, self.low * other.high);
+        let (hl, hh) = (self.high * other.low, self.high * other.high);
+        // Products of two f32 numbers are exact in f64.
+        if (ll + lh + hl + hh).is_finite() {
+            return Self {
+                value: self.value * other.value,
+                low: down(least(least(ll, lh), least(hl, hh))),
+                high: up(greatest(greatest(ll, lh), greatest(hl, hh))),
+                may_be_nan: self.may_be_nan | other.may_be_nan,
+            };
+        }
+        self.infinite_product(other)
+    }
+    #[inline(always)]
+    fn square(self) -> Self {
+        let (a, b) = (self.low * self.low, self.high * self.high);
+        let low = if self.holds_zero() { 0.0 } else { least(a, b) };
+        Self { value: self.value * self.value, low: down(low), high: up(greatest(a, b)), may_be_nan: self.may_be_nan }
+    }
+    #[inline(always)]
+    fn div(self, other: Self) -> Self {
+        if other.holds_zero() {
+            return self.over_zero(other);
+        }
+        let value = self.value / other.value;
+        if other.low == other.high && is_power_of_two(other.low) {
+            // The reciprocal is a float, so that every way to divide is one correctly rounded multiplication.
+            let quotient = self.mul(Self::exact(1.0 / other.low));
+            return Self { may_be_nan: quotient.may_be_nan | other.may_be_nan, ..quotient.of_value(value) };
+        }
+        let (ll, lh) = (self.low / other.low, self.low / other.high);
+        let (hl, hh) = (self.high / other.low, self.high / other.high);
+        let (low, high) = (least(least(ll, lh), least(hl, hh)), greatest(greatest(ll, lh), greatest(hl, hh)));
+        let sizes = (other.low.abs().min(other.high.abs()), other.low.abs().max(other.high.abs()));
+        // Outside these the specification promises nothing.
+        if !(sizes.0 >= FLUSH && sizes.1 <= 1.0 / FLUSH && (ll + lh + hl + hh).is_finite()) {
+            return Self { may_be_nan: true, ..Self::anything(value) };
+        }
+        let n = rules::DIV.ulps();
+        let below = if low == 0.0 { 0.0 } else { ulps_below(low, high, n) };
+        let above = if high == 0.0 { 0.0 } else { ulps_above(low, high, n) };
+        Self::rounded(value, below, above, self.may_be_nan | other.may_be_nan)
+    }
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self { value: -self.value, low: -self.high, high: -self.low, may_be_nan: self.may_be_nan }
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        let (a, b) = (self.low.abs(), self.high.abs());
+        let low = if self.holds_zero() { 0.0 } else { least(a, b) };
+        Self { value: self.value.abs(), low, high: greatest(a, b), may_be_nan: self.may_be_nan }
+    }
+    #[inline(always)]
+    fn sign(self) -> Self {
+        let sign = self.rising(Number::sign);
+        if self.may_be_nan { sign.joined(Self::exact(0.0)) } else { sign }
+    }
+    #[inline(always)]
+    fn floor(self) -> Self {
+        self.rising(f64::floor)
+    }
+    #[inline(always)]
+    fn ceil(self) -> Self {
+        self.rising(f64::ceil)
+    }
+    #[inline(always)]
+    fn trunc(self) -> Self {
+        self.rising(f64::trunc)
+    }
+    #[inline(always)]
+    fn round(self) -> Self {
+        // Halves may go either way (§8.3).
+        Self {
+            value: self.value.round_ties_even(),
+            low: (self.low - 0.5).ceil(),
+            high: (self.high + 0.5).floor(),
+            may_be_nan: self.may_be_nan,
+        }
+    }
+    #[inline(always)]
+    fn cosine_at_most(self) -> Self {
+        if (self.high - self.low).is_finite() {
+            return Self { low: greatest(self.low, -Self::COSINE), high: least(self.high, Self::COSINE), ..self };
+        }
+        // The squared length may be flushed or overflow.
+        self
+    }
+    fn fract(self) -> Self {
+        let value = self.value - self.value.floor();
+        if self.low.floor() == self.high.floor() && self.low.is_finite() {
+            let whole = self.low.floor();
+            return Self::rounded(value, self.low - whole, self.high - whole, self.may_be_nan);
+        }
+        Self { value, low: 0.0, high: 1.0, may_be_nan: self.may_be_nan || self.is_infinite_perhaps() }
+    }
+    fn modulo(self, y: Self) -> Self {
+        let formula = self.sub(y.mul(self.div(y).floor()));
+        let value = Number::modulo(self.value, y.value);
+        if !(y.low > 0.0 || y.high < 0.0) || formula.may_be_nan {
+            return formula.of_value(value);
+        }
+        // Between 0 and y, and as far beyond as roundings go on the way.
+        let size = self.low.abs().max(self.high.abs()) + y.low.abs().max(y.high.abs());
+        let slack = 4.0 * ulp(size);
+        formula.of_value(value).within(y.low.min(0.0) - slack, y.high.max(0.0) + slack)
+    }
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        let both = Self {
+            value: Number::min(self.value, other.value),
+            low: least(self.low, other.low),
+            high: least(self.high, other.high),
+            may_be_nan: self.may_be_nan | other.may_be_nan,
+        };
+        if both.may_be_nan { both.with_nan(self, other) } else { both }
+    }
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        let both = Self {
+            value: Number::max(self.value, other.value),
+            low: greatest(self.low, other.low),
+            high: greatest(self.high, other.high),
+            may_be_nan: self.may_be_nan | other.may_be_nan,
+        };
+        if both.may_be_nan { both.with_nan(self, other) } else { both }
+    }
+    fn mix(self, y: Self, a: Self) -> Self {
+        self.mixed(y, a)
+    }
+    fn smoothstep(edge0: Self, edge1: Self, x: Self) -> Self {
+        Self::smooth_step(edge0, edge1, x)
+    }
+    fn sqrt(self) -> Self {
+        self.square_root()
+    }
+    fn inversesqrt(self) -> Self {
+        self.inverse_square_root()
+    }
+    fn pow(self, exponent: Self) -> Self {
+        self.power(exponent)
+    }
+    fn exp(self) -> Self {
+        self.exponential(self.value.exp(), |end| ends::exp2(end * LOG2_E))
+    }
+    fn log(self) -> Self {
+        self.logarithm(self.value.ln(), |end| ends::log2(end) * LN_2)
+    }
+    fn exp2(self) -> Self {
+        self.exponential(self.value.exp2(), ends::exp2)
+    }
+    fn log2(self) -> Self {
+        self.logarithm(self.value.log2(), ends::log2)
+    }
+    fn sin(self) -> Self {
+        self.sine()
+    }
+    fn cos(self) -> Self {
+        self.cosine()
+    }
+    fn tan(self) -> Self {
+        // Inherited from sin / cos.
+        self.sine().div(self.cosine()).of_value(self.value.tan())
+    }
+    fn asin(self) -> Self {
+        self.arc_sine()
+    }
+    fn acos(self) -> Self {
+        self.arc_cosine()
+    }
+    fn atan(self) -> Self {
+        self.arc_tangent()
+    }
+    fn atan2(self, x: Self) -> Self {
+        self.angle(x)
+    }
+    fn sinh(self) -> Self {
+        self.by_ends(f64::sinh, Self::sinh_formula)
+    }
+    fn cosh(self) -> Self {
+        self.hyperbolic_cosine()
+    }
+    fn tanh(self) -> Self {
+        self.hyperbolic_tangent()
+    }
+    fn asinh(self) -> Self {
+        self.by_ends(f64::asinh, Self::asinh_formula)
+    }
+    fn acosh(self) -> Self {
+        self.by_ends(Number::acosh, Self::acosh_formula)
+    }
+    fn atanh(self) -> Self {
+        self.by_ends(Number::atanh, Self::atanh_formula)
+    }
+    #[inline(always)]
+    fn less(self, other: Self) -> EnvelopeInt {
+        self.answered(other, self.high < other.low, self.low >= other.high, self.value < other.value)
+    }
+    #[inline(always)]
+    fn less_equal(self, other: Self) -> EnvelopeInt {
+        self.answered(other, self.high <= other.low, self.low > other.high, self.value <= other.value)
+    }
+    #[inline(always)]
+    fn equal(self, other: Self) -> EnvelopeInt {
+        let same = self.is_point() && other.is_point() && self.low == other.low;
+        let apart = self.high < other.low || other.high < self.low;
+        self.answered(other, same, apart, self.value == other.value)
+    }
+    fn isnan(self) -> EnvelopeInt {
+        if self.may_be_nan { EnvelopeInt::open(self.value.is_nan()) } else { EnvelopeInt::from_bool(false) }
+    }
+    fn isinf(self) -> EnvelopeInt {
+        let answer = self.value.is_infinite();
+        if self.is_point() || !self.is_infinite_perhaps() && !self.may_be_nan {
+            return EnvelopeInt::from_bool(self.low.is_infinite());
+        }
+        EnvelopeInt::open(answer)
+    }
+    #[inline(always)]
+    fn select(condition: EnvelopeInt, yes: Self, no: Self) -> Self {
+        let (chosen, other) = if condition.bits != 0 { (yes, no) } else { (no, yes) };
+        if condition.sure() { chosen } else { chosen.joined(other) }
+    }
+    fn from_int(value: EnvelopeInt) -> Self {
+        let (low, high) = value.choices();
+        Self::rounded(f64::from(value.bits as i32), f64::from(low), f64::from(high), false)
+    }
+    fn from_uint(value: EnvelopeInt) -> Self {
+        let (low, high) = value.choices();
+        let (low, high) = match (value.sure(), low >= 0) {
+            (true, _) => (f64::from(value.bits), f64::from(value.bits)),
+            (false, true) => (f64::from(low), f64::from(high)),
+            (false, false) => (0.0, f64::from(u32::MAX)),
+        };
+        Self::rounded(f64::from(value.bits), low, high, false)
+    }
+    fn to_int(self) -> EnvelopeInt {
+        self.to_int_by(Number::to_int(self.value), |end| i64::from(end as i32))
+    }
+    fn to_uint(self) -> EnvelopeInt {
+        self.to_int_by(Number::to_uint(self.value), |end| i64::from(end as u32))
+    }
+    fn sum(terms: impl Iterator<Item = Self> + Clone) -> Self {
+        Self::summed(terms)
+    }
+}

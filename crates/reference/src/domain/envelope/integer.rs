@@ -1,0 +1,225 @@
+//! [`EnvelopeInt`]: an `int`, `uint` or `bool` that may be one of several.
+//!
+//! *Holds:* the interval is one of `int`s; of a `uint` beyond 2^31 that is not sure nothing is known. Operations on few
+//! choices try them all, so that `bool`s and short intervals keep what can be known; sums, products and comparisons of
+//! longer ones go by their ends; of the rest nothing is known.
+
+use crate::domain::Integer;
+
+/// The most pairs of choices that are tried one by one.
+const TRIED: i64 = 64;
+
+/// Bits with the interval of what a conforming GPU may have.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct EnvelopeInt {
+    /// What exact arithmetic gives.
+    pub bits: u32,
+    /// The least, as an `int`.
+    pub low: i32,
+    /// The greatest, as an `int`.
+    pub high: i32,
+}
+
+impl EnvelopeInt {
+    /// An answer that is open.
+    #[inline(always)]
+    pub(super) fn open(answer: bool) -> Self {
+        Self { bits: u32::from(answer), low: 0, high: 1 }
+    }
+
+    fn unknown(bits: u32) -> Self {
+        Self { bits, low: i32::MIN, high: i32::MAX }
+    }
+
+    /// An interval of wide integers; unknown where they do not fit.
+    fn of_wide(bits: u32, low: i64, high: i64) -> Self {
+        match (i32::try_from(low), i32::try_from(high)) {
+            (Ok(low), Ok(high)) => Self { bits, low, high },
+            _ => Self::unknown(bits),
+        }
+    }
+
+    fn count(self) -> i64 {
+        i64::from(self.high) - i64::from(self.low) + 1
+    }
+
+    fn hull(bits: u32, choices: impl Iterator<Item = u32>) -> Self {
+        let start = Self { bits, low: bits as i32, high: bits as i32 };
+        choices.fold(start, |hull, choice| Self {
+            low: hull.low.min(choice as i32),
+            high: hull.high.max(choice as i32),
+            ..hull
+        })
+    }
+
+    fn tried1(self, f: impl Fn(u32) -> u32) -> Self {
+        let bits = f(self.bits);
+        if self.count() > TRIED {
+            return Self::unknown(bits);
+        }
+        Self::hull(bits, (self.low..=self.high).map(|a| f(a as u32)))
+    }
+
+    fn tried2(self, other: Self, f: impl Fn(u32, u32) -> u32) -> Self {
+        let bits = f(self.bits, other.bits);
+        if self.count().saturating_mul(other.count()) > TRIED {
+            return Self::unknown(bits);
+        }
+        let pairs = (self.low..=self.high).flat_map(|a| (other.low..=other.high).map(move |b| (a, b)));
+        Self::hull(bits, pairs.map(|(a, b)| f(a as u32, b as u32)))
+    }
+
+    /// By the corners of the box, for what is monotonic in each.
+    fn by_corners(self, other: Self, bits: u32, f: impl Fn(i64, i64) -> i64) -> Self {
+        let corners = [(self.low, other.low), (self.low, other.high), (self.high, other.low), (self.high, other.high)]
+            .map(|(a, b)| f(i64::from(a), i64::from(b)));
+        let (low, high) = corners.iter().fold((i64::MAX, i64::MIN), |(low, high), &c| (low.min(c), high.max(c)));
+        Self::of_wide(bits, low, high)
+    }
+
+    /// Whether an `int` comparison is a `uint` comparison, too.
+    fn is_small(self) -> bool {
+        self.low >= 0
+    }
+}
+
+impl Integer for EnvelopeInt {
+    #[inline(always)]
+    fn from_bits(bits: u32) -> Self {
+        Self { bits, low: bits as i32, high: bits as i32 }
+    }
+    fn with_choices(bits: u32, low: i32, high: i32) -> Self {
+        Self { bits, low: low.min(bits as i32), high: high.max(bits as i32) }
+    }
+    #[inline(always)]
+    fn bits(self) -> u32 {
+        self.bits
+    }
+    #[inline(always)]
+    fn sure(self) -> bool {
+        self.low == self.high
+    }
+    #[inline(always)]
+    fn choices(self) -> (i32, i32) {
+        (self.low, self.high)
+    }
+    #[inline(always)]
+    fn lift1(self, f: impl Fn(u32) -> u32) -> Self {
+        if self.sure() { Self::from_bits(f(self.bits)) } else { self.tried1(f) }
+    }
+    #[inline(always)]
+    fn lift2(self, other: Self, f: impl Fn(u32, u32) -> u32) -> Self {
+        if self.sure() && other.sure() { Self::from_bits(f(self.bits, other.bits)) } else { self.tried2(other, f) }
+    }
+    fn neg(self) -> Self {
+        Self::of_wide(self.bits.wrapping_neg(), -i64::from(self.high), -i64::from(self.low))
+    }
+    fn add(self, other: Self) -> Self {
+        if self.sure() && other.sure() {
+            return Self::from_bits(self.bits.wrapping_add(other.bits));
+        }
+        self.by_corners(other, self.bits.wrapping_add(other.bits), |a, b| a + b)
+    }
+    fn sub(self, other: Self) -> Self {
+        if self.sure() && other.sure() {
+            return Self::from_bits(self.bits.wrapping_sub(other.bits));
+        }
+        self.by_corners(other, self.bits.wrapping_sub(other.bits), |a, b| a - b)
+    }
+    fn mul(self, other: Self) -> Self {
+        if self.sure() && other.sure() {
+            return Self::from_bits(self.bits.wrapping_mul(other.bits));
+        }
+        self.by_corners(other, self.bits.wrapping_mul(other.bits), |a, b| a * b)
+    }
+    fn shl(self, other: Self) -> Self {
+        if other.sure() && !self.sure() {
+            let factor = 1i64 << (other.bits & 31);
+            let bits = self.bits.wrapping_shl(other.bits);
+            return Self::of_wide(bits, i64::from(self.low) * factor, i64::from(self.high) * factor);
+        }
+        self.lift2(other, u32::wrapping_shl)
+    }
+    fn shr_signed(self, other: Self) -> Self {
+        if other.sure() {
+            let shift = |a: i32| a.wrapping_shr(other.bits);
+            return Self { bits: shift(self.bits as i32) as u32, low: shift(self.low), high: shift(self.high) };
+        }
+        self.lift2(other, |a, b| (a as i32).wrapping_shr(b) as u32)
+    }
+    fn shr_unsigned(self, other: Self) -> Self {
+        if self.is_small() { self.shr_signed(other) } else { self.lift2(other, u32::wrapping_shr) }
+    }
+    fn equal(self, other: Self) -> Self {
+        let answer = self.bits == other.bits;
+        if self.sure() && other.sure() {
+            return Self::from_bool(answer);
+        }
+        if self.high < other.low || other.high < self.low { Self::from_bool(false) } else { Self::open(answer) }
+    }
+    fn less_signed(self, other: Self) -> Self {
+        if self.high < other.low {
+            Self::from_bool(true)
+        } else if self.low >= other.high {
+            Self::from_bool(false)
+        } else {
+            Self::open((self.bits as i32) < other.bits as i32)
+        }
+    }
+    fn less_unsigned(self, other: Self) -> Self {
+        if self.is_small() && other.is_small() {
+            return self.less_signed(other);
+        }
+        let answer = self.bits < other.bits;
+        if self.sure() && other.sure() { Self::from_bool(answer) } else { Self::open(answer) }
+    }
+    fn less_equal_signed(self, other: Self) -> Self {
+        other.less_signed(self).not()
+    }
+    fn less_equal_unsigned(self, other: Self) -> Self {
+        other.less_unsigned(self).not()
+    }
+    fn clamp_index(self, last: Self) -> Self {
+        let most = (last.bits as i32).max(0);
+        let limit = |a: i32| a.min(most).max(0);
+        Self { bits: limit(self.bits as i32) as u32, low: limit(self.low), high: limit(self.high) }
+    }
+    fn select(self, yes: Self, no: Self) -> Self {
+        let (chosen, other) = if self.is_true() { (yes, no) } else { (no, yes) };
+        if self.sure() { chosen } else { chosen.joined(other) }
+    }
+    fn joined(self, other: Self) -> Self {
+        Self { bits: self.bits, low: self.low.min(other.low), high: self.high.max(other.high) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of(low: i32, high: i32) -> EnvelopeInt {
+        EnvelopeInt { bits: low as u32, low, high }
+    }
+
+    #[test]
+    fn short_intervals_are_tried_and_long_ones_go_by_their_ends() {
+        let a = of(3, 5).lift2(of(2, 2), |a, b| a % b);
+        assert_eq!((a.low, a.high), (0, 1));
+        let sum = of(0, 1000).add(of(-5, 7));
+        assert_eq!((sum.low, sum.high), (-5, 1007));
+        let product = of(-3, 100).mul(of(-2, 2));
+        assert_eq!((product.low, product.high), (-200, 200));
+        assert_eq!(of(0, 1000).xor(of(1, 1)).choices(), (i32::MIN, i32::MAX));
+        assert_eq!(of(i32::MAX, i32::MAX).add(of(0, 1)).choices(), (i32::MIN, i32::MAX), "it may wrap");
+    }
+
+    #[test]
+    fn comparisons_know_what_is_apart() {
+        assert!(of(0, 3).less_signed(of(4, 9)).sure());
+        assert!(!of(0, 4).less_signed(of(4, 9)).sure());
+        assert!(!of(-1, 4).less_unsigned(of(5, 9)).sure(), "-1 is the greatest uint");
+        assert_eq!(of(0, 1).not().choices(), (0, 1));
+        assert_eq!(of(0, 1).and(of(0, 0)), EnvelopeInt::from_bits(0));
+        assert_eq!(of(-4, 90).clamp_index(of(7, 7)).choices(), (0, 7));
+    }
+}

@@ -1,0 +1,209 @@
+//! [`Number`]: the `float` of a domain, and what each operation of the language does to it.
+
+use super::{Block, Element, Integer};
+use glisten_scene::compare::Range;
+
+/// A `float`. Methods without a comment are the operation or built-in function of that name (GLSL 1.50 §5.9, §8.1 to §8.3).
+///
+/// Defined here where GLSL is not: `min` and `max` drop a NaN where one operand is none (IEEE 754-2008 `minNum`, and what
+/// GPUs do); `sign` of NaN is 0; `pow` of a negative base is NaN, `pow(0, 0)` is 1; conversions to integers saturate and
+/// take NaN to 0; `round` goes to the even neighbor at halves.
+pub trait Number: Element<Few: Block<Self>> {
+    /// What comparisons give.
+    type Int: Integer;
+    /// What built-in functions are computed in before they are rounded to this.
+    type Wide: Number<Int = Self::Int>;
+
+    /// Whether a number stands for several that a conforming GPU may have.
+    const OPEN: bool = false;
+    /// Whether a second value is carried beside the first: what leaves the domain's arithmetic, a texture's coordinates,
+    /// is followed for both.
+    const PAIRED: bool = false;
+
+    /// The nearest.
+    fn from_f64(value: f64) -> Self;
+    /// The nearest, in whose place a GPU may have any in the range; domains without envelopes forget the range.
+    #[inline(always)]
+    fn with_range(value: f64, range: Range) -> Self {
+        let _ = range;
+        Self::from_f64(value)
+    }
+    /// An integer with the range of what a GPU may have, which keeps ends that an f32 has no room for.
+    #[inline(always)]
+    fn whole(value: f64, range: Range) -> Self {
+        Self::with_range(value, range)
+    }
+    /// The nearest, which a GPU may miss by `error`.
+    #[inline(always)]
+    fn with_error(value: f64, error: f64) -> Self {
+        Self::with_range(value, Range::around(value, error))
+    }
+    /// The value.
+    fn value(self) -> f64;
+    /// The value that is carried beside it.
+    #[inline(always)]
+    fn beside(self) -> f64 {
+        self.value()
+    }
+    /// The nearest of two values; domains that carry one forget the second.
+    #[inline(always)]
+    fn paired(value: f64, beside: f64) -> Self {
+        let _ = beside;
+        Self::from_f64(value)
+    }
+    /// What a conforming GPU may have; the value alone in domains without envelopes.
+    #[inline(always)]
+    fn range(self) -> Range {
+        Range::point(self.value())
+    }
+    /// How far a conforming GPU may be from the value; 0 in domains without envelopes.
+    #[inline(always)]
+    fn error(self) -> f64 {
+        if Self::OPEN { self.range().reach(self.value()) } else { 0.0 }
+    }
+    /// What a GPU may have, and as much as `error` to both sides of it.
+    #[inline(always)]
+    fn widened(self, error: f64) -> Self {
+        let Range { low, high, may_be_nan } = self.range();
+        Self::with_range(self.value(), Range { low: low - error, high: high + error, may_be_nan })
+    }
+    /// What a GPU may have of either, with this one's value.
+    #[inline(always)]
+    fn joined(self, other: Self) -> Self {
+        let _ = other;
+        self
+    }
+    /// To compute a built-in function in.
+    fn widen(self) -> Self::Wide;
+    /// The one rounding at a built-in function's end.
+    fn narrow(wide: Self::Wide) -> Self;
+
+    /// `a + b`
+    fn add(self, other: Self) -> Self;
+    /// `a - b`
+    fn sub(self, other: Self) -> Self;
+    /// `a * b`
+    fn mul(self, other: Self) -> Self;
+    /// `a a`, which is never negative.
+    #[inline(always)]
+    fn square(self) -> Self {
+        self.mul(self)
+    }
+    /// A sum, from left to right; with an envelope in any order.
+    #[inline(always)]
+    fn sum(terms: impl Iterator<Item = Self> + Clone) -> Self {
+        terms.reduce(Self::add).unwrap_or_default()
+    }
+    /// `a / b`
+    fn div(self, other: Self) -> Self;
+    /// `-a`
+    fn neg(self) -> Self;
+    /// §8.3
+    fn abs(self) -> Self;
+    /// §8.3
+    fn sign(self) -> Self;
+    /// §8.3
+    fn floor(self) -> Self;
+    /// §8.3
+    fn ceil(self) -> Self;
+    /// §8.3
+    fn trunc(self) -> Self;
+    /// `round` and `roundEven`, §8.3
+    fn round(self) -> Self;
+    /// The same, being a component of a unit vector: no farther from 0 than 1, but for the ULPs that normalizing leaves.
+    #[inline(always)]
+    fn cosine_at_most(self) -> Self {
+        self
+    }
+    /// `x - floor(x)` (§8.3)
+    #[inline(always)]
+    fn fract(self) -> Self {
+        let x = self.widen();
+        Self::narrow(x.sub(x.floor()))
+    }
+    /// `x - y floor(x / y)` (§8.3)
+    #[inline(always)]
+    fn modulo(self, y: Self) -> Self {
+        let (x, y) = (self.widen(), y.widen());
+        Self::narrow(x.sub(y.mul(x.div(y).floor())))
+    }
+    /// `x (1 - a) + y a` (§8.3)
+    #[inline(always)]
+    fn mix(self, y: Self, a: Self) -> Self {
+        let (x, y, a) = (self.widen(), y.widen(), a.widen());
+        Self::narrow(x.mul(Self::Wide::from_f64(1.0).sub(a)).add(y.mul(a)))
+    }
+    /// `t t (3 - 2 t)` with `t = clamp((x - edge0) / (edge1 - edge0), 0, 1)` (§8.3)
+    #[inline(always)]
+    fn smoothstep(edge0: Self, edge1: Self, x: Self) -> Self {
+        let constant = Self::Wide::from_f64;
+        let (low, high, x) = (edge0.widen(), edge1.widen(), x.widen());
+        let t = x.sub(low).div(high.sub(low)).max(constant(0.0)).min(constant(1.0));
+        Self::narrow(t.mul(t).mul(constant(3.0).sub(t.mul(constant(2.0)))))
+    }
+    /// §8.3
+    fn min(self, other: Self) -> Self;
+    /// §8.3
+    fn max(self, other: Self) -> Self;
+    /// §8.2
+    fn sqrt(self) -> Self;
+    /// §8.2
+    fn inversesqrt(self) -> Self;
+    /// §8.2
+    fn pow(self, exponent: Self) -> Self;
+    /// §8.2
+    fn exp(self) -> Self;
+    /// §8.2
+    fn log(self) -> Self;
+    /// §8.2
+    fn exp2(self) -> Self;
+    /// §8.2
+    fn log2(self) -> Self;
+    /// §8.1
+    fn sin(self) -> Self;
+    /// §8.1
+    fn cos(self) -> Self;
+    /// §8.1
+    fn tan(self) -> Self;
+    /// §8.1
+    fn asin(self) -> Self;
+    /// §8.1
+    fn acos(self) -> Self;
+    /// `atan(a)`, §8.1
+    fn atan(self) -> Self;
+    /// `atan(y, x)` with `y` this, §8.1
+    fn atan2(self, x: Self) -> Self;
+    /// §8.1
+    fn sinh(self) -> Self;
+    /// §8.1
+    fn cosh(self) -> Self;
+    /// §8.1
+    fn tanh(self) -> Self;
+    /// §8.1
+    fn asinh(self) -> Self;
+    /// §8.1
+    fn acosh(self) -> Self;
+    /// §8.1
+    fn atanh(self) -> Self;
+
+    /// `a < b`
+    fn less(self, other: Self) -> Self::Int;
+    /// `a <= b`
+    fn less_equal(self, other: Self) -> Self::Int;
+    /// `a == b`
+    fn equal(self, other: Self) -> Self::Int;
+    /// §8.3
+    fn isnan(self) -> Self::Int;
+    /// §8.3
+    fn isinf(self) -> Self::Int;
+    /// `c ? a : b`
+    fn select(condition: Self::Int, yes: Self, no: Self) -> Self;
+    /// `float(int)`
+    fn from_int(value: Self::Int) -> Self;
+    /// `float(uint)`
+    fn from_uint(value: Self::Int) -> Self;
+    /// `int(float)`: toward zero.
+    fn to_int(self) -> Self::Int;
+    /// `uint(float)`: toward zero.
+    fn to_uint(self) -> Self::Int;
+}

@@ -1,0 +1,111 @@
+//! [`Code`]: what a stage compiles to.
+
+use super::compile;
+use super::inst::{Class, Inst, List, Operand, TextureCall};
+use glisten_front::diagnostic::Diagnostic;
+use glisten_front::hir::{GlobalId, Stage};
+use glisten_front::link::{Program, RootIndex};
+use glisten_front::source::Span;
+use std::sync::Arc;
+
+/// The instructions of one stage, for every domain. Cheap to clone.
+#[derive(Clone, Debug)]
+pub struct Code {
+    pub(super) inner: Arc<Inner>,
+}
+
+/// Where a number for all lanes comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum PoolSource {
+    /// The bits of an f32, or of an int.
+    Constant(u32),
+    /// A scalar in a root's flat layout.
+    Uniform(RootIndex, u32),
+}
+
+/// Instructions with their operand lists.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Section {
+    pub(super) insts: Vec<Inst>,
+    /// The expression or statement that each instruction was made for.
+    pub(super) spans: Vec<Span>,
+    pub(super) lists: Vec<Operand>,
+}
+
+/// A scalar of an input or output.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Port {
+    pub(super) global: GlobalId,
+    pub(super) flat: u32,
+    pub(super) class: Class,
+    pub(super) register: usize,
+}
+
+#[derive(Clone, Debug)]
+pub(super) struct Inner {
+    pub(super) stage: Stage,
+    /// Runs once a machine. Register `k` holds result `k`, which then follows the sources in the pool.
+    pub(super) preamble: Section,
+    /// Runs once a tile.
+    pub(super) main: Section,
+    /// Labels and mask slots.
+    pub(super) words: Vec<u32>,
+    pub(super) textures: Vec<TextureCall>,
+    pub(super) float_pool: Vec<PoolSource>,
+    pub(super) int_pool: Vec<PoolSource>,
+    /// Results of the preamble, floats and ints.
+    pub(super) preamble_results: [usize; 2],
+    /// Registers of `main`, floats and ints.
+    pub(super) registers: [usize; 2],
+    /// Registers that hold one number of the pool in all lanes.
+    pub(super) splats: Vec<(Class, usize, Operand)>,
+    pub(super) inputs: Vec<Port>,
+    pub(super) outputs: Vec<Port>,
+    pub(super) mask_slots: usize,
+}
+
+impl Section {
+    /// Appends an instruction.
+    pub(super) fn push(&mut self, inst: Inst, span: Span) {
+        self.insts.push(inst);
+        self.spans.push(span);
+    }
+
+    #[inline(always)]
+    pub(super) fn list(&self, list: List) -> &[Operand] {
+        self.lists.get(list.start as usize..(list.start + list.len) as usize).unwrap_or(&[])
+    }
+}
+
+impl Inner {
+    #[inline(always)]
+    pub(super) fn words(&self, list: List) -> &[u32] {
+        self.words.get(list.start as usize..(list.start + list.len) as usize).unwrap_or(&[])
+    }
+}
+
+impl Code {
+    /// Compiles a stage of a program.
+    ///
+    /// # Errors
+    /// What the executor cannot run: a program without that stage or without `main`, multisample samplers, geometry
+    /// stages, programs past the limits of the compiler.
+    pub fn compile(program: &Program, stage: Stage) -> Result<Self, Vec<Diagnostic>> {
+        compile::compile(program, stage, false).map(|inner| Self { inner: Arc::new(inner) })
+    }
+
+    /// The same with an instruction of its own for each product and sum, so that an observer sees each; the numbers are
+    /// the same.
+    ///
+    /// # Errors
+    /// Those of [`Self::compile`].
+    pub fn compile_apart(program: &Program, stage: Stage) -> Result<Self, Vec<Diagnostic>> {
+        compile::compile(program, stage, true).map(|inner| Self { inner: Arc::new(inner) })
+    }
+
+    /// How many instructions run for a tile if every branch is taken once, and how many were computed once a draw
+    /// instead.
+    pub fn instruction_counts(&self) -> (usize, usize) {
+        (self.inner.main.insts.len(), self.inner.preamble.insts.len())
+    }
+}

@@ -1,0 +1,163 @@
+//! [`Effects`]: which expressions change variables, and which variables a construct changes.
+
+use glisten_front::hir::{
+    Condition, ExprId, ExprKind, FunctionId, GlobalId, LocalId, ParamMode, Shader, Stmt, StmtKind, Storage, VarRef,
+};
+use std::collections::BTreeSet;
+
+/// What a construct assigns to.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(super) struct Assigned {
+    pub(super) globals: BTreeSet<GlobalId>,
+    /// Of the function that the construct stands in.
+    pub(super) locals: BTreeSet<LocalId>,
+}
+
+/// Facts about a shader's expressions and functions.
+pub(super) struct Effects {
+    /// For each expression whether it assigns, or calls a function of the shader.
+    exprs: Vec<bool>,
+    /// For each function the globals that it or what it calls assigns to.
+    functions: Vec<Option<BTreeSet<GlobalId>>>,
+}
+
+impl Effects {
+    pub(super) fn of(shader: &Shader) -> Self {
+        let mut exprs: Vec<bool> = Vec::with_capacity(shader.exprs.len());
+        for expr in &shader.exprs {
+            let mut has = matches!(expr.kind, ExprKind::Assign(..) | ExprKind::IncDec(..) | ExprKind::Call(..))
+                || matches!(expr.kind, ExprKind::BuiltinCall(glisten_front::builtin::BuiltinFunction::Modf, _));
+            // Children stand before their parents.
+            each_child(&expr.kind, &mut |child| has |= exprs.get(child.index()).copied().unwrap_or(true));
+            exprs.push(has);
+        }
+        let mut effects = Self { exprs, functions: vec![None; shader.functions.len()] };
+        for (id, _) in shader.functions() {
+            effects.function(shader, id);
+        }
+        effects
+    }
+
+    /// Whether evaluating it may change a variable.
+    pub(super) fn has(&self, expr: ExprId) -> bool {
+        self.exprs.get(expr.index()).copied().unwrap_or(true)
+    }
+
+    fn function(&mut self, shader: &Shader, id: FunctionId) -> BTreeSet<GlobalId> {
+        if let Some(Some(known)) = self.functions.get(id.index()) {
+            return known.clone();
+        }
+        if let Some(entry) = self.functions.get_mut(id.index()) {
+            // Were there recursion (there is none behind the analysis), it would end here.
+            *entry = Some(BTreeSet::new());
+        }
+        let mut assigned = Assigned::default();
+        if let Some(body) = &shader.function(id).body {
+            self.stmts(shader, body, &mut assigned);
+        }
+        if let Some(entry) = self.functions.get_mut(id.index()) {
+            *entry = Some(assigned.globals.clone());
+        }
+        assigned.globals
+    }
+
+    /// Adds what the statements assign to.
+    pub(super) fn stmts(&mut self, shader: &Shader, stmts: &[Stmt], assigned: &mut Assigned) {
+        for stmt in stmts {
+            match &stmt.kind {
+                StmtKind::Expr(expr) => self.expr(shader, *expr, assigned),
+                StmtKind::Local(local, init) => {
+                    assigned.locals.insert(*local);
+                    init.iter().for_each(|init| self.expr(shader, *init, assigned));
+                }
+                StmtKind::Block(body) => self.stmts(shader, body, assigned),
+                StmtKind::If { arms, otherwise } => {
+                    for (condition, body) in arms {
+                        self.expr(shader, *condition, assigned);
+                        self.stmts(shader, body, assigned);
+                    }
+                    self.stmts(shader, otherwise, assigned);
+                }
+                StmtKind::Switch { selector, cases } => {
+                    self.expr(shader, *selector, assigned);
+                    cases.iter().for_each(|case| self.stmts(shader, &case.body, assigned));
+                }
+                StmtKind::Loop { condition, step, body, .. } => {
+                    self.condition(shader, condition.as_ref(), assigned);
+                    step.iter().for_each(|step| self.expr(shader, *step, assigned));
+                    self.stmts(shader, body, assigned);
+                }
+                StmtKind::Return(value) => value.iter().for_each(|value| self.expr(shader, *value, assigned)),
+                StmtKind::Break | StmtKind::Continue | StmtKind::Discard => {}
+            }
+        }
+    }
+
+    fn condition(&mut self, shader: &Shader, condition: Option<&Condition>, assigned: &mut Assigned) {
+        if let Some(condition) = condition {
+            assigned.locals.extend(condition.local);
+            self.expr(shader, condition.expr, assigned);
+        }
+    }
+
+    /// Adds what the expression assigns to.
+    pub(super) fn expr(&mut self, shader: &Shader, expr: ExprId, assigned: &mut Assigned) {
+        let mut rest = vec![expr];
+        while let Some(expr) = rest.pop() {
+            if !self.has(expr) {
+                continue;
+            }
+            let kind = &shader.expr(expr).kind;
+            match kind {
+                ExprKind::Assign(_, place, _) | ExprKind::IncDec(_, place) => root(shader, *place, assigned),
+                ExprKind::Call(function, arguments) => {
+                    let callee = shader.function(*function);
+                    for (index, argument) in arguments.iter().enumerate() {
+                        if matches!(callee.param_mode(index), ParamMode::Out | ParamMode::Inout) {
+                            root(shader, *argument, assigned);
+                        }
+                    }
+                    let globals = self.function(shader, *function);
+                    assigned.globals.extend(globals);
+                }
+                ExprKind::BuiltinCall(_, arguments) => {
+                    // `modf`: the second argument goes out.
+                    arguments.get(1).iter().for_each(|out| root(shader, **out, assigned));
+                }
+                _ => {}
+            }
+            each_child(kind, &mut |child| rest.push(child));
+        }
+    }
+}
+
+/// The variable behind an l-value.
+fn root(shader: &Shader, place: ExprId, assigned: &mut Assigned) {
+    let mut place = place;
+    loop {
+        match shader.expr(place).kind {
+            ExprKind::Var(VarRef::Global(global)) => {
+                if matches!(shader.global(global).storage, Storage::Out | Storage::Private) {
+                    assigned.globals.insert(global);
+                }
+                return;
+            }
+            ExprKind::Var(VarRef::Local(local)) => {
+                assigned.locals.insert(local);
+                return;
+            }
+            ExprKind::Member(base, _)
+            | ExprKind::Index(base, _)
+            | ExprKind::Swizzle(base, _)
+            | ExprKind::Convert(base) => {
+                place = base;
+            }
+            _ => return,
+        }
+    }
+}
+
+/// Shows the direct children.
+fn each_child(kind: &ExprKind, f: &mut dyn FnMut(ExprId)) {
+    kind.children().into_iter().for_each(f);
+}

@@ -1,0 +1,236 @@
+//! HIR to instructions.
+//!
+//! Functions are inlined (GLSL has no recursion). Each scalar of a variable is either a value that was computed (nothing
+//! is copied then) or stands in its *home* register. Code between two places where lanes part or meet is a *region*:
+//! inside the region that a variable was declared in, an assignment only notes the new value; before a construct whose
+//! parts assign to it under a narrower mask, the variable goes to its home, where stores look at the mask.
+//!
+//! What depends on constants and uniforms alone goes into the preamble ([`Emitter::pure`]).
+
+mod alloc;
+mod builtin;
+mod effects;
+mod emit;
+mod expr;
+mod fuse;
+mod matrix;
+mod path;
+mod stmt;
+mod texture;
+mod vars;
+
+use super::code::{Inner, Port};
+use super::inst::{Class, Operand, Slot};
+use effects::Effects;
+use emit::Emitter;
+use glisten_front::diagnostic::{Code, Diagnostic, codes};
+use glisten_front::hir::{ExprId, FunctionId, Scalar, Shader, Stage, Type, TypeId, Types};
+use glisten_front::link::Program;
+use glisten_front::source::Span;
+use rustc_hash::FxHashMap;
+use smallvec::SmallVec;
+use std::rc::Rc;
+use vars::{Var, VarId};
+
+/// The most scalars that one value may have.
+const MAX_SCALARS: u32 = 1 << 20;
+/// The most instructions of a stage, all calls inlined.
+const MAX_INSTRUCTIONS: usize = 1 << 20;
+
+/// The scalars of a value in flat order.
+type Val = SmallVec<[Operand; 4]>;
+
+/// What encloses the code that is being made, as far as leaving it goes.
+enum Scope {
+    /// Lanes wait in the slot for the end of a selection.
+    Arms {
+        join: Slot,
+    },
+    Switch {
+        join: Slot,
+    },
+    Loop {
+        join: Slot,
+        active: Slot,
+    },
+    /// An inlined call, or `main`.
+    Function,
+}
+
+/// The function that is being inlined.
+struct Frame {
+    function: FunctionId,
+    locals: Vec<Option<VarId>>,
+    result: Option<VarId>,
+    /// Whether lanes may leave before the end.
+    parts: bool,
+}
+
+struct Compiler<'a> {
+    types: &'a Types,
+    shader: &'a Shader,
+    program: &'a Program,
+    emit: Emitter,
+    effects: Effects,
+    vars: Vec<Var>,
+    globals: Vec<Option<VarId>>,
+    inputs: Vec<Port>,
+    frames: Vec<Frame>,
+    scopes: Vec<Scope>,
+    region: u32,
+    regions: u32,
+    /// Whether lanes have left a function that will go on without them: what outlives it is stored by mask.
+    parted: bool,
+    classes: FxHashMap<TypeId, Rc<[Class]>>,
+    errors: Vec<Diagnostic>,
+}
+
+/// Compiles a stage, its operations each `apart` if wanted; the diagnostics if the executor cannot run it.
+pub(super) fn compile(program: &Program, stage: Stage, apart: bool) -> Result<Inner, Vec<Diagnostic>> {
+    let missing = |what: &str| {
+        let message = format!("`{}` has no {what} for the CPU reference to run", program.name);
+        vec![Diagnostic::new(&codes::general::NOT_SUPPORTED_YET, Span::default(), message)]
+    };
+    let Some(shader) = program.stage(stage) else { return Err(missing(&format!("{} stage", stage.name()))) };
+    if stage == Stage::Geometry {
+        return Err(missing("vertex and fragment stages alone: geometry stages are not run, and so no pipeline"));
+    }
+    let Some(main) = shader.main else { return Err(missing("`main`")) };
+    shader.on_stack(|| Compiler::new(program, shader, apart).run(main))
+}
+
+impl<'a> Compiler<'a> {
+    fn new(program: &'a Program, shader: &'a Shader, apart: bool) -> Self {
+        Self {
+            types: &program.types,
+            shader,
+            program,
+            emit: Emitter::new(apart),
+            effects: Effects::of(shader),
+            vars: Vec::new(),
+            globals: vec![None; shader.globals.len()],
+            inputs: Vec::new(),
+            frames: Vec::new(),
+            scopes: Vec::new(),
+            region: 0,
+            regions: 0,
+            parted: false,
+            classes: FxHashMap::default(),
+            errors: Vec::new(),
+        }
+    }
+
+    fn run(mut self, main: FunctionId) -> Result<Inner, Vec<Diagnostic>> {
+        self.declare_globals();
+        self.inline(main, Vec::new(), Span::default());
+        let outputs = self.settle_outputs();
+        if self.emit.main.insts.len() > MAX_INSTRUCTIONS {
+            self.refuse(
+                &codes::general::NOT_SUPPORTED_YET,
+                Span::default(),
+                "so long a program with all calls inlined",
+            );
+        }
+        if !self.errors.is_empty() {
+            return Err(self.errors);
+        }
+        if !self.emit.apart {
+            fuse::fuse(&mut self.emit);
+        }
+        let mut ports: Vec<Port> = self.inputs.iter().chain(&outputs).copied().collect();
+        let registers = alloc::allocate(&mut self.emit, &mut ports);
+        let outputs = ports.split_off(self.inputs.len());
+        let Emitter { main, preamble, words, textures, pools, preamble_results, mask_slots, splats, .. } = self.emit;
+        let [float_pool, int_pool] = pools;
+        Ok(Inner {
+            stage: self.shader.stage,
+            preamble,
+            main,
+            words,
+            textures,
+            float_pool,
+            int_pool,
+            preamble_results: preamble_results.map(|count| count as usize),
+            registers,
+            splats: splats.into_iter().map(|(class, register, from)| (class, register.number(), from)).collect(),
+            inputs: ports,
+            outputs,
+            mask_slots: mask_slots as usize,
+        })
+    }
+
+    /// Notes that the executor cannot run this.
+    fn refuse(&mut self, code: &'static Code, span: Span, what: &str) {
+        self.errors.push(Diagnostic::new(code, span, format!("the CPU reference cannot run {what} yet")));
+    }
+
+    fn ty(&self, expr: ExprId) -> TypeId {
+        self.shader.expr(expr).ty
+    }
+
+    /// The file of each scalar of a type, in flat order. Samplers are ints: the numbers of their slots.
+    fn classes(&mut self, ty: TypeId) -> Rc<[Class]> {
+        if let Some(classes) = self.classes.get(&ty) {
+            return Rc::clone(classes);
+        }
+        if self.types.flat_len(ty) > MAX_SCALARS {
+            self.refuse(&codes::general::NOT_SUPPORTED_YET, Span::default(), "values of more than 2^20 scalars");
+            return Rc::new([]);
+        }
+        let mut list = Vec::new();
+        flatten(self.types, ty, &mut list);
+        let classes: Rc<[Class]> = list.into();
+        self.classes.insert(ty, Rc::clone(&classes));
+        classes
+    }
+
+    /// The file of the scalars of a scalar, vector or matrix.
+    fn class(&self, ty: TypeId) -> Class {
+        match self.types.scalar_of(ty) {
+            Some(Scalar::Float) => Class::Float,
+            _ => Class::Int,
+        }
+    }
+
+    /// Runs `body` in a region of its own.
+    fn in_region<R>(&mut self, body: impl FnOnce(&mut Self) -> R) -> R {
+        self.regions += 1;
+        let outer = std::mem::replace(&mut self.region, self.regions);
+        let result = body(self);
+        self.region = outer;
+        result
+    }
+
+    /// Runs `body`; what it emits, but for expressions and statements in it, stands for this text.
+    fn at<R>(&mut self, span: Span, body: impl FnOnce(&mut Self) -> R) -> R {
+        let outer = std::mem::replace(&mut self.emit.span, span);
+        let result = body(self);
+        self.emit.span = outer;
+        result
+    }
+
+    fn full(&self) -> bool {
+        self.emit.main.insts.len() > MAX_INSTRUCTIONS || !self.errors.is_empty()
+    }
+}
+
+fn flatten(types: &Types, ty: TypeId, list: &mut Vec<Class>) {
+    match types.get(ty) {
+        Type::Error | Type::Void => {}
+        Type::Sampler(_) => list.push(Class::Int),
+        Type::Scalar(_) | Type::Vector(..) | Type::Matrix(..) => {
+            let class = if types.scalar_of(ty) == Some(Scalar::Float) { Class::Float } else { Class::Int };
+            list.extend((0..types.flat_len(ty)).map(|_| class));
+        }
+        Type::Struct(id) => types.structure(id).members.iter().for_each(|member| flatten(types, member.ty, list)),
+        Type::Array(element, _) => {
+            let size = types.flat_len(element);
+            let start = list.len();
+            flatten(types, element, list);
+            let one: Vec<Class> = list.get(start..).unwrap_or(&[]).to_vec();
+            let count = types.flat_len(ty).checked_div(size).unwrap_or(0);
+            list.truncate(start);
+            (0..count).for_each(|_| list.extend_from_slice(&one));
+        }
+    }
+}

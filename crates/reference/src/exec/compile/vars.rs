@@ -1,0 +1,261 @@
+//! Variables: the values or homes of their scalars.
+
+use super::super::code::Port;
+use super::super::inst::{Class, Operand};
+use super::effects::Assigned;
+use super::{Compiler, Val};
+use glisten_front::hir::{Global, GlobalId, LocalId, ScalarValue, Stage, Storage, TypeId, Value, VarRef};
+use glisten_front::link::RootIndex;
+use std::rc::Rc;
+
+/// A variable of [`Compiler::vars`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct VarId(pub(super) usize);
+
+/// A variable of the code that is being made.
+pub(super) struct Var {
+    pub(super) classes: Rc<[Class]>,
+    /// What each scalar is now; 0 where nothing was assigned.
+    values: Vec<Option<Operand>>,
+    homes: Vec<Option<Operand>>,
+    /// The region that it was declared in.
+    region: u32,
+    /// Whether lanes that leave a function early still need it.
+    outlives: bool,
+    /// Whether it was ever assigned to.
+    written: bool,
+}
+
+impl Compiler<'_> {
+    /// A variable declared here and now.
+    pub(super) fn declare(&mut self, ty: TypeId, outlives: bool) -> VarId {
+        let classes = self.classes(ty);
+        let count = classes.len();
+        self.vars.push(Var {
+            classes,
+            values: vec![None; count],
+            homes: vec![None; count],
+            region: self.region,
+            outlives,
+            written: false,
+        });
+        VarId(self.vars.len() - 1)
+    }
+
+    /// The variables of all globals, with their initial values.
+    pub(super) fn declare_globals(&mut self) {
+        let shader = self.shader;
+        for (id, global) in shader.globals() {
+            let var = self.declare(global.ty, true);
+            if let Some(entry) = self.globals.get_mut(id.index()) {
+                *entry = Some(var);
+            }
+            let values = match global.storage {
+                Storage::Const => global.value.as_ref().map(|value| self.constant(value)),
+                Storage::Uniform => Some(self.uniform(id, global)),
+                // Registers are handed out as they are read.
+                Storage::In => None,
+                Storage::Private | Storage::Out => None,
+            };
+            if let (Some(values), Some(var)) = (values, self.vars.get_mut(var.0)) {
+                var.values = values.into_iter().map(Some).collect();
+            }
+        }
+        for (id, global) in shader.globals() {
+            if let (Storage::Const | Storage::Private, None, Some(init)) =
+                (global.storage, &global.value, global.initializer)
+            {
+                let value = self.expr(init);
+                if let Some(Some(var)) = self.globals.get(id.index()).copied() {
+                    self.assign_all(var, &value);
+                }
+            } else if let (Storage::Private, Some(value)) = (global.storage, &global.value) {
+                let value = self.constant(value);
+                if let Some(Some(var)) = self.globals.get(id.index()).copied() {
+                    self.assign_all(var, &value);
+                }
+            }
+        }
+    }
+
+    pub(super) fn constant(&mut self, value: &Value) -> Val {
+        value.scalars.iter().map(|scalar| self.literal(*scalar)).collect()
+    }
+
+    pub(super) fn literal(&mut self, value: ScalarValue) -> Operand {
+        match value {
+            ScalarValue::Bool(value) => self.emit.int(u32::from(value)),
+            ScalarValue::Int(value) => self.emit.int(value as u32),
+            ScalarValue::Uint(value) => self.emit.int(value),
+            ScalarValue::Float(value) => self.emit.float(value),
+        }
+    }
+
+    /// The pool's places of a uniform's scalars; samplers are the numbers of their slots.
+    fn uniform(&mut self, id: GlobalId, global: &Global) -> Val {
+        let end = (self.shader.stage, id);
+        let interface = &self.program.interface;
+        let root = interface.roots.iter().position(|root| root.globals.contains(&end));
+        let classes = self.classes(global.ty);
+        let mut values: Val = (classes.iter().enumerate())
+            .map(|(flat, class)| match root {
+                Some(root) => self.emit.uniform(*class, RootIndex(root as u32), flat as u32),
+                None => self.emit.zero(*class),
+            })
+            .collect();
+        for (slot, sampler) in interface.samplers.iter().enumerate() {
+            if sampler.globals.contains(&end)
+                && let Some(value) = values.get_mut(sampler.flat_offset as usize)
+            {
+                *value = self.emit.int(slot as u32);
+            }
+        }
+        values
+    }
+
+    pub(super) fn global_var(&self, id: GlobalId) -> Option<VarId> {
+        self.globals.get(id.index()).copied().flatten()
+    }
+
+    pub(super) fn local_var(&self, id: LocalId) -> Option<VarId> {
+        self.frames.last()?.locals.get(id.index()).copied().flatten()
+    }
+
+    pub(super) fn var_of(&self, var: VarRef) -> Option<VarId> {
+        match var {
+            VarRef::Global(id) => self.global_var(id),
+            VarRef::Local(id) => self.local_var(id),
+        }
+    }
+
+    /// Binds a local of the function that is being inlined.
+    pub(super) fn bind(&mut self, local: LocalId, var: VarId) {
+        if let Some(frame) = self.frames.last_mut()
+            && let Some(entry) = frame.locals.get_mut(local.index())
+        {
+            *entry = Some(var);
+        }
+    }
+
+    /// One scalar as it is now.
+    pub(super) fn read(&mut self, var: VarId, flat: usize) -> Operand {
+        let Some(known) = self.vars.get(var.0).and_then(|var| var.values.get(flat).copied()) else {
+            return self.emit.zero(Class::Float);
+        };
+        known.unwrap_or_else(|| self.first_read(var, flat))
+    }
+
+    /// Of an input: a register that the caller fills. Of anything else: 0, as nothing was assigned.
+    fn first_read(&mut self, var: VarId, flat: usize) -> Operand {
+        let Some(class) = self.vars.get(var.0).and_then(|var| var.classes.get(flat).copied()) else {
+            return self.emit.zero(Class::Float);
+        };
+        let input = (self.globals.iter().position(|global| *global == Some(var)))
+            .filter(|index| self.shader.globals.get(*index).is_some_and(|global| global.storage == Storage::In));
+        let Some(index) = input else { return self.emit.zero(class) };
+        let register = self.emit.temp(class);
+        let global = GlobalId::new(index);
+        self.inputs.push(Port { global, flat: flat as u32, class, register: register.number() });
+        if let Some(value) = self.vars.get_mut(var.0).and_then(|var| var.values.get_mut(flat)) {
+            *value = Some(register);
+        }
+        register
+    }
+
+    /// All scalars as they are now.
+    pub(super) fn read_all(&mut self, var: VarId) -> Val {
+        let count = self.vars.get(var.0).map_or(0, |var| var.classes.len());
+        (0..count).map(|flat| self.read(var, flat)).collect()
+    }
+
+    fn home(&mut self, var: VarId, flat: usize) -> Operand {
+        let (class, known) = match self.vars.get(var.0) {
+            Some(var) => {
+                (var.classes.get(flat).copied().unwrap_or(Class::Float), var.homes.get(flat).copied().flatten())
+            }
+            None => (Class::Float, None),
+        };
+        known.unwrap_or_else(|| {
+            let home = self.emit.home(class);
+            if let Some(entry) = self.vars.get_mut(var.0).and_then(|var| var.homes.get_mut(flat)) {
+                *entry = Some(home);
+            }
+            home
+        })
+    }
+
+    /// Puts one scalar into its home, and gives that.
+    pub(super) fn settle(&mut self, var: VarId, flat: usize) -> Operand {
+        let value = self.read(var, flat);
+        let home = self.home(var, flat);
+        if value != home {
+            let class = self.vars.get(var.0).and_then(|var| var.classes.get(flat).copied()).unwrap_or(Class::Float);
+            self.emit.copy(class, home, value);
+            if let Some(entry) = self.vars.get_mut(var.0).and_then(|var| var.values.get_mut(flat)) {
+                *entry = Some(home);
+            }
+        }
+        home
+    }
+
+    /// Puts what a construct assigns to into homes, before lanes part.
+    pub(super) fn settle_assigned(&mut self, assigned: &Assigned) {
+        let locals = assigned.locals.iter().filter_map(|local| self.local_var(*local)).collect::<Vec<_>>();
+        let globals = assigned.globals.iter().filter_map(|global| self.global_var(*global)).collect::<Vec<_>>();
+        for var in locals.into_iter().chain(globals) {
+            let count = self.vars.get(var.0).map_or(0, |var| var.classes.len());
+            for flat in 0..count {
+                self.settle(var, flat);
+            }
+        }
+    }
+
+    /// Assigns one scalar in the active lanes.
+    pub(super) fn assign(&mut self, var: VarId, flat: usize, value: Operand) {
+        let Some(state) = self.vars.get_mut(var.0) else { return };
+        state.written = true;
+        let class = state.classes.get(flat).copied().unwrap_or(Class::Float);
+        if state.region == self.region && !(state.outlives && self.parted) {
+            let kept = self.emit.keep(class, value);
+            if let Some(entry) = self.vars.get_mut(var.0).and_then(|var| var.values.get_mut(flat)) {
+                *entry = Some(kept);
+            }
+            return;
+        }
+        let home = self.settle(var, flat);
+        if home != value {
+            self.emit.store(class, home, value);
+        }
+    }
+
+    pub(super) fn assign_all(&mut self, var: VarId, values: &[Operand]) {
+        for (flat, value) in values.iter().enumerate() {
+            self.assign(var, flat, *value);
+        }
+    }
+
+    /// Notes a store through an index.
+    pub(super) fn mark_written(&mut self, var: VarId) {
+        if let Some(var) = self.vars.get_mut(var.0) {
+            var.written = true;
+        }
+    }
+
+    /// Puts every output into a register that stays.
+    pub(super) fn settle_outputs(&mut self) -> Vec<Port> {
+        let mut ports = Vec::new();
+        for (global, facts) in self.shader.globals() {
+            let Some(var) = self.global_var(global).filter(|_| facts.storage == Storage::Out) else { continue };
+            if !self.vars.get(var.0).is_some_and(|var| var.written) {
+                continue;
+            }
+            let classes = self.vars.get(var.0).map(|var| Rc::clone(&var.classes)).unwrap_or_else(|| Rc::new([]));
+            for (flat, class) in classes.iter().enumerate() {
+                let register = self.settle(var, flat);
+                ports.push(Port { global, flat: flat as u32, class: *class, register: register.number() });
+            }
+        }
+        let _ = Stage::ALL;
+        ports
+    }
+}

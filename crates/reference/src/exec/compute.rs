@@ -1,0 +1,347 @@
+//! Arithmetic: one loop over the lanes an instruction.
+
+use super::code::Section;
+use super::inst::{Compare, Derivative, Float1, Float2, Float3, FloatToInt, Inst, Int1, Int2, IntToFloat, Operand};
+use super::registers::{Filled, Registers, blocks1, blocks2, blocks3, copy, map1, map2, map3};
+use super::{DFDY_SIGN, LANES};
+use crate::domain::faults::{self, Fault};
+use crate::domain::{Block, Domain, Element, Few, Integer, Lanes, Number, Source};
+
+type Float<D> = <D as Domain>::Float;
+
+#[inline(always)]
+fn constant<N: Number>(value: f64) -> N {
+    N::from_f64(value)
+}
+
+/// A product with what is no float, rounded once.
+#[inline(always)]
+fn scaled<N: Number>(x: N, factor: f64) -> N {
+    N::narrow(x.widen().mul(constant(factor)))
+}
+
+/// An operation that has a form for blocks.
+macro_rules! each {
+    ($out:expr, $a:expr, $operation:ident) => {
+        blocks1(
+            $out,
+            $a,
+            #[inline(always)]
+            |a| a.$operation(),
+            N::$operation,
+        )
+    };
+    ($out:expr, $a:expr, $b:expr, $operation:ident) => {
+        blocks2(
+            $out,
+            $a,
+            $b,
+            #[inline(always)]
+            |a, b| a.$operation(b),
+            N::$operation,
+        )
+    };
+}
+
+fn float1<N: Number>(op: Float1, out: &mut Lanes<N>, a: Source<'_, N>) -> Filled {
+    match op {
+        Float1::Neg => each!(out, a, neg),
+        Float1::Abs => each!(out, a, abs),
+        Float1::Sign => map1(out, a, N::sign),
+        Float1::Floor => each!(out, a, floor),
+        Float1::Ceil => map1(out, a, N::ceil),
+        Float1::Trunc => map1(out, a, N::trunc),
+        Float1::Round => map1(out, a, N::round),
+        Float1::Fract => each!(out, a, fract),
+        Float1::Sqrt => each!(out, a, sqrt),
+        Float1::Inversesqrt => each!(out, a, inversesqrt),
+        Float1::Exp => each!(out, a, exp),
+        Float1::Log => each!(out, a, log),
+        Float1::Exp2 => each!(out, a, exp2),
+        Float1::Log2 => each!(out, a, log2),
+        Float1::Sin => map1(out, a, N::sin),
+        Float1::Cos => map1(out, a, N::cos),
+        Float1::Tan => map1(out, a, N::tan),
+        Float1::Asin => map1(out, a, N::asin),
+        Float1::Acos => map1(out, a, N::acos),
+        Float1::Atan => map1(out, a, N::atan),
+        Float1::Sinh => map1(out, a, N::sinh),
+        Float1::Cosh => map1(out, a, N::cosh),
+        Float1::Tanh => map1(out, a, N::tanh),
+        Float1::Asinh => map1(out, a, N::asinh),
+        Float1::Acosh => map1(out, a, N::acosh),
+        Float1::Atanh => map1(out, a, N::atanh),
+        Float1::Radians => map1(out, a, |x| scaled(x, std::f64::consts::PI / 180.0)),
+        Float1::Degrees => map1(out, a, |x| scaled(x, 180.0 / std::f64::consts::PI)),
+    }
+}
+
+#[inline(always)]
+fn float2<N: Number>(op: Float2, out: &mut Lanes<N>, a: Source<'_, N>, b: Source<'_, N>) -> Filled {
+    match op {
+        Float2::Add => each!(out, a, b, add),
+        Float2::Sub => each!(out, a, b, sub),
+        Float2::Mul => each!(out, a, b, mul),
+        Float2::Div => each!(out, a, b, div),
+        Float2::Min => each!(out, a, b, min),
+        Float2::Max => each!(out, a, b, max),
+        Float2::Mod => map2(out, a, b, N::modulo),
+        Float2::Pow => each!(out, a, b, pow),
+        Float2::Atan2 => map2(out, a, b, N::atan2),
+        Float2::Step => blocks2(
+            out,
+            a,
+            b,
+            #[inline(always)]
+            |edge, x| N::Few::select(&x.less(edge), &N::Few::splat(constant(0.0)), &N::Few::splat(constant(1.0))),
+            |edge, x| N::select(x.less(edge), constant(0.0), constant(1.0)),
+        ),
+    }
+}
+
+fn float3<N: Number>(op: Float3, out: &mut Lanes<N>, a: Source<'_, N>, b: Source<'_, N>, c: Source<'_, N>) -> Filled {
+    match op {
+        Float3::Mix => blocks3(
+            out,
+            [a, b, c],
+            #[inline(always)]
+            |x, y, a| x.mix(y, a),
+            N::mix,
+        ),
+        Float3::Clamp => blocks3(
+            out,
+            [a, b, c],
+            #[inline(always)]
+            |x, least, most| x.max(least).min(most),
+            |x, least, most| x.max(least).min(most),
+        ),
+        Float3::Smoothstep => map3(out, a, b, c, N::smoothstep),
+    }
+}
+
+#[inline(always)]
+fn compare<N: Number>(op: Compare, out: &mut Lanes<N::Int>, a: Source<'_, N>, b: Source<'_, N>) -> Filled {
+    match op {
+        Compare::Less => each!(out, a, b, less),
+        Compare::LessEqual => each!(out, a, b, less_equal),
+        Compare::Equal => each!(out, a, b, equal),
+        Compare::NotEqual => map2(out, a, b, |a, b| a.equal(b).not()),
+    }
+}
+
+fn int1<I: Integer>(op: Int1, out: &mut Lanes<I>, a: Source<'_, I>) -> Filled {
+    match op {
+        Int1::Neg => map1(out, a, I::neg),
+        Int1::BitNot => map1(out, a, |a| a.lift1(|a| !a)),
+        Int1::Not => map1(out, a, I::not),
+        Int1::Bool => map1(out, a, |a| a.lift1(|a| u32::from(a != 0))),
+        Int1::Abs => map1(out, a, |a| a.lift1(|a| (a as i32).wrapping_abs() as u32)),
+        Int1::Sign => map1(out, a, |a| a.lift1(|a| (a as i32).signum() as u32)),
+    }
+}
+
+#[inline(always)]
+fn int2<I: Integer>(op: Int2, out: &mut Lanes<I>, a: Source<'_, I>, b: Source<'_, I>) -> Filled {
+    match op {
+        Int2::Add => map2(out, a, b, I::add),
+        Int2::Sub => map2(out, a, b, I::sub),
+        Int2::Mul => map2(out, a, b, I::mul),
+        Int2::DivSigned => map2(out, a, b, I::div_signed),
+        Int2::DivUnsigned => map2(out, a, b, I::div_unsigned),
+        Int2::RemSigned => map2(out, a, b, I::rem_signed),
+        Int2::RemUnsigned => map2(out, a, b, I::rem_unsigned),
+        Int2::Shl => map2(out, a, b, I::shl),
+        Int2::ShrSigned => map2(out, a, b, I::shr_signed),
+        Int2::ShrUnsigned => map2(out, a, b, I::shr_unsigned),
+        Int2::And => map2(out, a, b, I::and),
+        Int2::Or => map2(out, a, b, I::or),
+        Int2::Xor => map2(out, a, b, I::xor),
+        Int2::Equal => map2(out, a, b, I::equal),
+        Int2::NotEqual => map2(out, a, b, |a, b| a.equal(b).not()),
+        Int2::LessSigned => map2(out, a, b, I::less_signed),
+        Int2::LessUnsigned => map2(out, a, b, I::less_unsigned),
+        Int2::LessEqualSigned => map2(out, a, b, I::less_equal_signed),
+        Int2::LessEqualUnsigned => map2(out, a, b, I::less_equal_unsigned),
+        Int2::MinSigned => map2(out, a, b, |a, b| b.less_signed(a).select(b, a)),
+        Int2::MinUnsigned => map2(out, a, b, |a, b| b.less_unsigned(a).select(b, a)),
+        Int2::MaxSigned => map2(out, a, b, |a, b| a.less_signed(b).select(b, a)),
+        Int2::MaxUnsigned => map2(out, a, b, |a, b| a.less_unsigned(b).select(b, a)),
+        Int2::ClampIndex => map2(out, a, b, I::clamp_index),
+    }
+}
+
+/// A GPU may take one difference for the whole quad: each may be the other, too.
+#[inline(always)]
+fn either<N: Number>(a: N, b: N) -> (N, N) {
+    (a.joined(b), b.joined(a))
+}
+
+/// Whatever the number is within its interval, it equals itself, if it is one.
+fn compare_with_itself<N: Number>(op: Compare, out: &mut Lanes<N::Int>, a: Source<'_, N>) -> Filled {
+    match op {
+        Compare::Less => map1(out, a, |_| N::Int::from_bool(false)),
+        Compare::LessEqual | Compare::Equal => map1(out, a, |a| a.isnan().not()),
+        Compare::NotEqual => map1(out, a, N::isnan),
+    }
+}
+
+/// Differences in quads: each row and column of a quad by itself.
+fn derivative<N: Number>(op: Derivative, out: &mut Lanes<N>, a: Source<'_, N>) {
+    let up = |upper: N, lower: N| if DFDY_SIGN < 0.0 { upper.sub(lower) } else { lower.sub(upper) };
+    for quad in (0..LANES).step_by(4) {
+        let [a0, a1, a2, a3] = [0, 1, 2, 3].map(|place| a.at(quad + place));
+        let (top, bottom) = either(a1.sub(a0), a3.sub(a2));
+        let (left, right) = either(up(a0, a2), up(a1, a3));
+        let differences = match op {
+            Derivative::X => [top, top, bottom, bottom],
+            Derivative::Y => [left, right, left, right],
+            Derivative::Width => {
+                let [top, bottom, left, right] = [top, bottom, left, right].map(N::abs);
+                [top.add(left), top.add(right), bottom.add(left), bottom.add(right)]
+            }
+        };
+        for (place, difference) in differences.into_iter().enumerate() {
+            out.set(quad + place, difference);
+        }
+    }
+}
+
+impl<D: Domain> Registers<D> {
+    /// An instruction without effects but on its results.
+    #[inline(always)]
+    pub(super) fn compute(&mut self, inst: &Inst, section: &Section) {
+        match *inst {
+            Inst::Float1 { op, dst, a } => self.write_float(dst, |this, out| {
+                let filled = float1(op, out, this.float(a));
+                if D::OPEN && matches!(op, Float1::Asin | Float1::Acos) && this.faults.admits(Fault::ArcFunctions) {
+                    out.update(|_, number| number.widened(faults::ARC_FUNCTIONS));
+                }
+                filled
+            }),
+            // One number twice is a square, which an envelope can make more of.
+            Inst::Float2 { op: Float2::Mul, dst, a, b } if D::OPEN && a == b => {
+                self.write_float(dst, |this, out| {
+                    blocks1(
+                        out,
+                        this.float(a),
+                        #[inline(always)]
+                        |a| a.square(),
+                        Number::square,
+                    )
+                });
+            }
+            Inst::MulAdd { dst, a, b, c } if D::OPEN && a == b => self.write_float(dst, |this, out| {
+                blocks2(
+                    out,
+                    this.float(a),
+                    this.float(c),
+                    #[inline(always)]
+                    |a, c| a.square().add(c),
+                    |a: Float<D>, c| a.square().add(c),
+                )
+            }),
+            Inst::Float2 { op, dst, a, b } => {
+                self.write_float(dst, |this, out| float2(op, out, this.float(a), this.float(b)));
+            }
+            Inst::MulAdd { dst, a, b, c } => self.write_float(dst, |this, out| {
+                blocks3(
+                    out,
+                    [a, b, c].map(|operand| this.float(operand)),
+                    #[inline(always)]
+                    |a, b, c| a.mul(b).add(c),
+                    |a: Float<D>, b, c| a.mul(b).add(c),
+                )
+            }),
+            Inst::SumOfProducts { dst, list } => {
+                self.write_float(dst, |this, out| sum_of_products(this, section.list(list), out));
+            }
+            Inst::Float3 { op, dst, a, b, c } => {
+                self.write_float(dst, |this, out| float3(op, out, this.float(a), this.float(b), this.float(c)));
+            }
+            Inst::Compare { op, dst, a, b } => {
+                self.write_int(dst, |this, out| match a == b {
+                    true => compare_with_itself(op, out, this.float(a)),
+                    false => compare(op, out, this.float(a), this.float(b)),
+                });
+            }
+            Inst::FloatToInt { op, dst, a } => self.write_int(dst, |this, out| {
+                let a = this.float(a);
+                match op {
+                    FloatToInt::Int => map1(out, a, Float::<D>::to_int),
+                    FloatToInt::Uint => map1(out, a, Float::<D>::to_uint),
+                    FloatToInt::Bool => map1(out, a, |a| a.equal(constant(0.0)).not()),
+                    FloatToInt::IsNan => map1(out, a, Float::<D>::isnan),
+                    FloatToInt::IsInf => map1(out, a, Float::<D>::isinf),
+                }
+            }),
+            Inst::IntToFloat { op, dst, a } => self.write_float(dst, |this, out| match op {
+                IntToFloat::Int => map1(out, this.int(a), Float::<D>::from_int),
+                IntToFloat::Uint => map1(out, this.int(a), Float::<D>::from_uint),
+            }),
+            Inst::Int1 { op, dst, a } => self.write_int(dst, |this, out| int1(op, out, this.int(a))),
+            Inst::Int2 { op, dst, a, b } => self.write_int(dst, |this, out| int2(op, out, this.int(a), this.int(b))),
+            Inst::SelectFloat { dst, c, a, b } => {
+                self.write_float(dst, |this, out| select(out, this.int(c), this.float(a), this.float(b)));
+            }
+            Inst::SelectInt { dst, c, a, b } => {
+                self.write_int(dst, |this, out| map3(out, this.int(c), this.int(a), this.int(b), D::Int::select));
+            }
+            Inst::Composite { op, size, results, arguments } => {
+                self.composite(op, size, section.list(results), section.list(arguments));
+            }
+            Inst::Derivative { op, dst, a } => self.write_float(dst, |this, out| {
+                // Infinity and envelopes have differences other than 0, even where all lanes are alike.
+                derivative(op, out, this.float(a));
+                Filled::Lanes
+            }),
+            Inst::MoveFloat { dst, a } => self.write_float(dst, |this, out| copy(out, this.float(a))),
+            Inst::MoveInt { dst, a } => self.write_int(dst, |this, out| copy(out, this.int(a))),
+            // The rest is `execute`'s.
+            _ => {}
+        }
+    }
+}
+
+/// Whether a number in all lanes comes of these.
+#[inline(always)]
+fn is_same<D: Domain>(this: &Registers<D>, operands: &[Operand]) -> bool {
+    operands.iter().all(|operand| matches!(this.float(*operand), Source::One(_)))
+}
+
+fn sum_of_products<D: Domain>(this: &Registers<D>, pairs: &[Operand], out: &mut Lanes<Float<D>>) -> Filled {
+    let same = is_same(this, pairs);
+    let count = pairs.len() / 2;
+    <Float<D> as Element>::Few::vectorized(
+        #[inline(always)]
+        || {
+            for (place, out) in out.blocks_mut().iter_mut().enumerate().take(if same { 1 } else { usize::MAX }) {
+                *out = Block::sum(
+                    count,
+                    #[inline(always)]
+                    |product| match pairs.get(2 * product..2 * product + 2) {
+                        Some([a, b]) if D::OPEN && a == b => this.float(*a).block(place).square(),
+                        Some([a, b]) => this.float(*a).block(place).mul(&this.float(*b).block(place)),
+                        _ => Few::splat(constant(0.0)),
+                    },
+                );
+            }
+        },
+    );
+    if same { Filled::One } else { Filled::Lanes }
+}
+
+/// `c ? a : b`
+fn select<N: Number>(out: &mut Lanes<N>, c: Source<'_, N::Int>, a: Source<'_, N>, b: Source<'_, N>) -> Filled {
+    if let Source::One(c) = c {
+        return map2(out, a, b, |a, b| N::select(c, a, b));
+    }
+    N::Few::vectorized(
+        #[inline(always)]
+        || {
+            for (place, out) in out.blocks_mut().iter_mut().enumerate() {
+                *out = N::Few::select(&c.block(place), &a.block(place), &b.block(place));
+            }
+            Filled::Lanes
+        },
+    )
+}

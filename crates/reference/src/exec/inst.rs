@@ -1,0 +1,582 @@
+//! The instruction set of the register machine.
+//!
+//! A register is one scalar in 64 lanes, of the float or of the int file; aggregates are their scalars in flat order
+//! ([`Types::flat_len`](glisten_front::hir::Types::flat_len)). A [`Operand`] may also be one number for all lanes. Arithmetic
+//! writes all lanes, active or not: it is total, so only stores to variables look at the mask.
+
+use glisten_front::hir::SamplerType;
+
+/// What an instruction reads or writes.
+///
+/// Compiled code goes through two stages: while it is made, registers are virtual and results of the preamble are
+/// numbered apart; [`alloc`](super::compile) then turns both into places of a [`Machine`](super::Machine).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub(super) struct Operand(u32);
+
+const POOL: u32 = 1 << 31;
+const PREAMBLE: u32 = 3 << 30;
+const NUMBER: u32 = (1 << 30) - 1;
+
+impl Operand {
+    /// A register: 64 lanes.
+    pub(super) fn reg(number: u32) -> Self {
+        Self(number & NUMBER)
+    }
+    /// A number for all lanes: a constant, or a scalar of a uniform.
+    pub(super) fn pool(number: u32) -> Self {
+        Self(POOL | number & NUMBER)
+    }
+    /// A number for all lanes that the preamble computes.
+    pub(super) fn preamble(number: u32) -> Self {
+        Self(PREAMBLE | number & NUMBER)
+    }
+    #[inline(always)]
+    pub(super) fn is_reg(self) -> bool {
+        self.0 & POOL == 0
+    }
+    /// Whether it is one number for all lanes.
+    #[inline(always)]
+    pub(super) fn is_scalar(self) -> bool {
+        !self.is_reg()
+    }
+    pub(super) fn is_preamble(self) -> bool {
+        self.0 & PREAMBLE == PREAMBLE
+    }
+    /// The place in its file.
+    #[inline(always)]
+    pub(super) fn number(self) -> usize {
+        (self.0 & NUMBER) as usize
+    }
+}
+
+/// The file that a register is in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub(super) enum Class {
+    Float,
+    Int,
+}
+
+/// A run of operands in [`Inner::lists`](super::code::Inner).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) struct List {
+    pub(super) start: u32,
+    pub(super) len: u32,
+}
+
+/// A place in the instructions.
+pub(super) type Target = u32;
+/// A saved mask.
+pub(super) type Slot = u32;
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Float1 {
+    Neg,
+    Abs,
+    Sign,
+    Floor,
+    Ceil,
+    Trunc,
+    Round,
+    Fract,
+    Sqrt,
+    Inversesqrt,
+    Exp,
+    Log,
+    Exp2,
+    Log2,
+    Sin,
+    Cos,
+    Tan,
+    Asin,
+    Acos,
+    Atan,
+    Sinh,
+    Cosh,
+    Tanh,
+    Asinh,
+    Acosh,
+    Atanh,
+    Radians,
+    Degrees,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Float2 {
+    Add,
+    Sub,
+    Mul,
+    Div,
+    Min,
+    Max,
+    Mod,
+    Pow,
+    Atan2,
+    Step,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Float3 {
+    Mix,
+    Clamp,
+    Smoothstep,
+}
+
+/// float, float to bool
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Compare {
+    Less,
+    LessEqual,
+    Equal,
+    NotEqual,
+}
+
+/// float to int
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum FloatToInt {
+    Int,
+    Uint,
+    Bool,
+    IsNan,
+    IsInf,
+}
+
+/// int to float
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum IntToFloat {
+    Int,
+    Uint,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Int1 {
+    Neg,
+    BitNot,
+    /// `!` of a `bool`.
+    Not,
+    /// 0 or 1.
+    Bool,
+    Abs,
+    Sign,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Int2 {
+    Add,
+    Sub,
+    Mul,
+    DivSigned,
+    DivUnsigned,
+    RemSigned,
+    RemUnsigned,
+    Shl,
+    ShrSigned,
+    ShrUnsigned,
+    And,
+    Or,
+    Xor,
+    Equal,
+    NotEqual,
+    LessSigned,
+    LessUnsigned,
+    LessEqualSigned,
+    LessEqualUnsigned,
+    MinSigned,
+    MinUnsigned,
+    MaxSigned,
+    MaxUnsigned,
+    /// The first limited to 0 ..= the second, as `int`s: an index of one dimension among several.
+    ClampIndex,
+}
+
+/// Built-in functions of whole vectors and matrices, computed in the domain's wide type and rounded once.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Composite {
+    Length,
+    Distance,
+    Dot,
+    Cross,
+    Normalize,
+    Faceforward,
+    Reflect,
+    Refract,
+    Determinant,
+    Inverse,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Derivative {
+    X,
+    Y,
+    /// `fwidth`
+    Width,
+}
+
+/// How a texture is looked up.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Lookup {
+    /// Level of detail from derivatives where the stage has them (else the base level), with a bias or none.
+    Implicit,
+    /// Explicit level of detail.
+    Lod,
+    /// Explicit derivatives.
+    Grad,
+    /// One texel.
+    Fetch,
+    /// The sizes of a level.
+    Size,
+}
+
+/// A texture instruction's operands; all are registers.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct TextureCall {
+    pub(super) lookup: Lookup,
+    pub(super) kind: SamplerType,
+    /// An int: the number of the sampler slot.
+    pub(super) sampler: Operand,
+    /// Floats (ints for `Fetch`), projection done, layer last.
+    pub(super) coordinate: Vec<Operand>,
+    /// The reference of a shadow sampler.
+    pub(super) reference: Option<Operand>,
+    /// Bias or level: a float, or an int for `Fetch` and `Size`.
+    pub(super) level: Option<Operand>,
+    pub(super) dx: Vec<Operand>,
+    pub(super) dy: Vec<Operand>,
+    /// Ints.
+    pub(super) offset: Vec<Operand>,
+    /// Results: floats or ints by the sampler's texel (ints for `Size`).
+    pub(super) results: Vec<Operand>,
+}
+
+/// An instruction. `dst` is always a register.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Inst {
+    Float1 {
+        op: Float1,
+        dst: Operand,
+        a: Operand,
+    },
+    Float2 {
+        op: Float2,
+        dst: Operand,
+        a: Operand,
+        b: Operand,
+    },
+    /// `a * b + c`, rounded twice.
+    MulAdd {
+        dst: Operand,
+        a: Operand,
+        b: Operand,
+        c: Operand,
+    },
+    /// `a0 b0 + a1 b1 + ...` over pairs in a list, from left to right, each step rounded.
+    SumOfProducts {
+        dst: Operand,
+        list: List,
+    },
+    Float3 {
+        op: Float3,
+        dst: Operand,
+        a: Operand,
+        b: Operand,
+        c: Operand,
+    },
+    Compare {
+        op: Compare,
+        dst: Operand,
+        a: Operand,
+        b: Operand,
+    },
+    FloatToInt {
+        op: FloatToInt,
+        dst: Operand,
+        a: Operand,
+    },
+    IntToFloat {
+        op: IntToFloat,
+        dst: Operand,
+        a: Operand,
+    },
+    Int1 {
+        op: Int1,
+        dst: Operand,
+        a: Operand,
+    },
+    Int2 {
+        op: Int2,
+        dst: Operand,
+        a: Operand,
+        b: Operand,
+    },
+    SelectFloat {
+        dst: Operand,
+        c: Operand,
+        a: Operand,
+        b: Operand,
+    },
+    SelectInt {
+        dst: Operand,
+        c: Operand,
+        a: Operand,
+        b: Operand,
+    },
+    /// `results` and `arguments` are registers; `size` is the dimension.
+    Composite {
+        op: Composite,
+        size: u8,
+        results: List,
+        arguments: List,
+    },
+    Derivative {
+        op: Derivative,
+        dst: Operand,
+        a: Operand,
+    },
+    Texture {
+        call: u32,
+    },
+    /// The element of a table that the index means, limited into range.
+    LoadFloat {
+        dst: Operand,
+        table: List,
+        index: Operand,
+    },
+    LoadInt {
+        dst: Operand,
+        table: List,
+        index: Operand,
+    },
+    /// All lanes.
+    MoveFloat {
+        dst: Operand,
+        a: Operand,
+    },
+    MoveInt {
+        dst: Operand,
+        a: Operand,
+    },
+    /// Active lanes.
+    StoreFloat {
+        dst: Operand,
+        a: Operand,
+    },
+    StoreInt {
+        dst: Operand,
+        a: Operand,
+    },
+    /// Active lanes, into the register of a table that the index means, limited into range.
+    StoreIndexedFloat {
+        table: List,
+        index: Operand,
+        a: Operand,
+    },
+    StoreIndexedInt {
+        table: List,
+        index: Operand,
+        a: Operand,
+    },
+    /// Saves the mask.
+    Save {
+        slot: Slot,
+    },
+    /// The lanes where `c` holds go on, the others wait in `rest`; to `next` if none goes on.
+    Arm {
+        c: Operand,
+        rest: Slot,
+        next: Target,
+    },
+    /// The waiting lanes go on; to `end` if there is none.
+    Rest {
+        rest: Slot,
+        end: Target,
+    },
+    /// The saved lanes go on, but those that have left.
+    Join {
+        slot: Slot,
+    },
+    /// The active lanes leave all these saved masks; none goes on.
+    Leave {
+        slots: List,
+    },
+    Discard,
+    /// The lanes where `c` holds stay in the loop; to `exit` if none does.
+    LoopTest {
+        c: Operand,
+        active: Slot,
+        exit: Target,
+    },
+    /// The lanes that are still in the loop go on, those that continued too; to `exit` if there is none.
+    LoopNext {
+        active: Slot,
+        exit: Target,
+    },
+    /// Back to the head, if the budget allows; else to `exit`.
+    LoopBack {
+        head: Target,
+        exit: Target,
+    },
+    /// Takes the lanes out of `rest` whose selector is among the labels, into `slot`.
+    CaseMask {
+        selector: Operand,
+        labels: List,
+        rest: Slot,
+        slot: Slot,
+    },
+    /// No lane goes on: before the first case.
+    Idle,
+    /// The lanes of `slot` join; to `next` if none is active then.
+    Case {
+        slot: Slot,
+        next: Target,
+    },
+}
+
+/// How an instruction uses an operand.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Use {
+    Read,
+    Write,
+}
+
+impl Inst {
+    /// Shows every operand that stands in the instruction itself.
+    pub(super) fn visit(&mut self, f: &mut dyn FnMut(Class, Use, &mut Operand)) {
+        use Class::{Float, Int};
+        use Use::{Read, Write};
+        match self {
+            Self::Float1 { dst, a, .. } | Self::Derivative { dst, a, .. } => {
+                f(Float, Read, a);
+                f(Float, Write, dst);
+            }
+            Self::Float2 { dst, a, b, .. } => {
+                f(Float, Read, a);
+                f(Float, Read, b);
+                f(Float, Write, dst);
+            }
+            Self::MulAdd { dst, a, b, c } | Self::Float3 { dst, a, b, c, .. } => {
+                f(Float, Read, a);
+                f(Float, Read, b);
+                f(Float, Read, c);
+                f(Float, Write, dst);
+            }
+            Self::SumOfProducts { dst, .. } => f(Float, Write, dst),
+            Self::Compare { dst, a, b, .. } => {
+                f(Float, Read, a);
+                f(Float, Read, b);
+                f(Int, Write, dst);
+            }
+            Self::FloatToInt { dst, a, .. } => {
+                f(Float, Read, a);
+                f(Int, Write, dst);
+            }
+            Self::IntToFloat { dst, a, .. } => {
+                f(Int, Read, a);
+                f(Float, Write, dst);
+            }
+            Self::Int1 { dst, a, .. } => {
+                f(Int, Read, a);
+                f(Int, Write, dst);
+            }
+            Self::Int2 { dst, a, b, .. } => {
+                f(Int, Read, a);
+                f(Int, Read, b);
+                f(Int, Write, dst);
+            }
+            Self::SelectFloat { dst, c, a, b } => {
+                f(Int, Read, c);
+                f(Float, Read, a);
+                f(Float, Read, b);
+                f(Float, Write, dst);
+            }
+            Self::SelectInt { dst, c, a, b } => {
+                f(Int, Read, c);
+                f(Int, Read, a);
+                f(Int, Read, b);
+                f(Int, Write, dst);
+            }
+            Self::LoadFloat { dst, index, .. } => {
+                f(Int, Read, index);
+                f(Float, Write, dst);
+            }
+            Self::LoadInt { dst, index, .. } => {
+                f(Int, Read, index);
+                f(Int, Write, dst);
+            }
+            Self::MoveFloat { dst, a } | Self::StoreFloat { dst, a } => {
+                f(Float, Read, a);
+                f(Float, Write, dst);
+            }
+            Self::MoveInt { dst, a } | Self::StoreInt { dst, a } => {
+                f(Int, Read, a);
+                f(Int, Write, dst);
+            }
+            Self::StoreIndexedFloat { index, a, .. } => {
+                f(Int, Read, index);
+                f(Float, Read, a);
+            }
+            Self::StoreIndexedInt { index, a, .. } => {
+                f(Int, Read, index);
+                f(Int, Read, a);
+            }
+            Self::Arm { c, .. } | Self::LoopTest { c, .. } => f(Int, Read, c),
+            Self::CaseMask { selector, .. } => f(Int, Read, selector),
+            Self::Composite { .. }
+            | Self::Texture { .. }
+            | Self::Save { .. }
+            | Self::Rest { .. }
+            | Self::Join { .. }
+            | Self::Leave { .. }
+            | Self::Discard
+            | Self::LoopNext { .. }
+            | Self::LoopBack { .. }
+            | Self::Idle
+            | Self::Case { .. } => {}
+        }
+    }
+
+    /// The lists of operands that it reads and writes.
+    pub(super) fn lists(&self) -> [Option<(Class, Use, List)>; 2] {
+        match *self {
+            Self::SumOfProducts { list, .. } => [Some((Class::Float, Use::Read, list)), None],
+            Self::Composite { results, arguments, .. } => {
+                [Some((Class::Float, Use::Read, arguments)), Some((Class::Float, Use::Write, results))]
+            }
+            Self::LoadFloat { table, .. } => [Some((Class::Float, Use::Read, table)), None],
+            Self::LoadInt { table, .. } => [Some((Class::Int, Use::Read, table)), None],
+            Self::StoreIndexedFloat { table, .. } => [Some((Class::Float, Use::Write, table)), None],
+            Self::StoreIndexedInt { table, .. } => [Some((Class::Int, Use::Write, table)), None],
+            _ => [None, None],
+        }
+    }
+
+    /// The target of a jump.
+    pub(super) fn target_mut(&mut self) -> Option<&mut Target> {
+        match self {
+            Self::Arm { next: target, .. }
+            | Self::Rest { end: target, .. }
+            | Self::LoopTest { exit: target, .. }
+            | Self::LoopNext { exit: target, .. }
+            | Self::LoopBack { exit: target, .. }
+            | Self::Case { next: target, .. } => Some(target),
+            _ => None,
+        }
+    }
+}
+
+impl TextureCall {
+    /// Shows every operand.
+    pub(super) fn visit(&mut self, f: &mut dyn FnMut(Class, Use, &mut Operand)) {
+        use glisten_front::hir::Scalar;
+        let by_integer = |integer: bool| if integer { Class::Int } else { Class::Float };
+        f(Class::Int, Use::Read, &mut self.sampler);
+        let coordinates = by_integer(self.lookup == Lookup::Fetch);
+        self.coordinate.iter_mut().for_each(|operand| f(coordinates, Use::Read, operand));
+        let levels = by_integer(matches!(self.lookup, Lookup::Fetch | Lookup::Size));
+        self.level.iter_mut().for_each(|operand| f(levels, Use::Read, operand));
+        self.reference.iter_mut().for_each(|operand| f(Class::Float, Use::Read, operand));
+        self.dx.iter_mut().chain(&mut self.dy).for_each(|operand| f(Class::Float, Use::Read, operand));
+        self.offset.iter_mut().for_each(|operand| f(Class::Int, Use::Read, operand));
+        let results =
+            by_integer(self.lookup == Lookup::Size || (self.kind.texel != Scalar::Float && !self.kind.shadow));
+        self.results.iter_mut().for_each(|operand| f(results, Use::Write, operand));
+    }
+}

@@ -1,0 +1,252 @@
+//! Texture instructions: operands of lanes and quads to lookups, one lane at a time.
+
+use super::inst::{Lookup, Operand, TextureCall};
+use super::machine::Machine;
+use super::registers::Registers;
+use super::{LANES, Mask};
+use crate::domain::faults::{self, Fault};
+use crate::domain::{Domain, Integer, Number};
+use crate::texture::{self, Bits, Gradients, MISSING, Near, Request, Sampled, Steps};
+use glisten_front::hir::{SamplerDim, Scalar, Stage};
+use glisten_scene::compare::Range;
+use glisten_scene::scene::{Filter, Texture};
+
+impl<D: Domain> Machine<D> {
+    /// Runs a texture instruction in these lanes; gives the lanes whose texture is not sure.
+    pub(super) fn texture(&mut self, call: &TextureCall, stage: Stage, mask: u64) -> u64 {
+        let mut undecided = 0;
+        for lane in Mask(mask).lanes() {
+            let slot = self.registers.int(call.sampler).at(lane);
+            let bound = self.textures.get(slot.bits() as usize).and_then(Option::as_deref);
+            let lookup = At { registers: &self.registers, call, lane, beside: false };
+            let sampled = lookup.sampled(bound, stage);
+            if D::Float::PAIRED {
+                let beside = At { beside: true, ..lookup }.sampled(bound, stage);
+                self.put_pair(call, lane, sampled, beside);
+            } else if slot.sure() {
+                self.put(call, lane, sampled);
+            } else {
+                undecided |= 1 << lane;
+                self.put(call, lane, sampled.unknown());
+            }
+        }
+        undecided
+    }
+
+    fn put(&mut self, call: &TextureCall, lane: usize, sampled: Sampled) {
+        for (k, result) in call.results.iter().enumerate() {
+            match sampled {
+                Sampled::Floats(values) => {
+                    let Near { value, low, high } = values[k % 4];
+                    let range = Range { low, high, may_be_nan: value.is_nan() };
+                    self.registers.floats.register(*result).spread().set(lane, D::Float::with_range(value, range));
+                }
+                Sampled::Bits(bits) => {
+                    let Bits { bits, low, high } = bits[k % 4];
+                    self.registers.ints.register(*result).spread().set(lane, D::Int::with_choices(bits, low, high));
+                }
+            }
+        }
+    }
+}
+
+impl<D: Domain> Machine<D> {
+    /// What the coordinates give, and what those beside them give.
+    fn put_pair(&mut self, call: &TextureCall, lane: usize, sampled: Sampled, beside: Sampled) {
+        for (k, result) in call.results.iter().enumerate() {
+            match (sampled, beside) {
+                (Sampled::Floats(a), Sampled::Floats(b)) => {
+                    self.registers
+                        .floats
+                        .register(*result)
+                        .spread()
+                        .set(lane, D::Float::paired(a[k % 4].value, b[k % 4].value));
+                }
+                (Sampled::Bits(a), Sampled::Bits(b)) => {
+                    self.registers
+                        .ints
+                        .register(*result)
+                        .spread()
+                        .set(lane, D::Int::paired(a[k % 4].bits, b[k % 4].bits));
+                }
+                // One instruction gives one kind.
+                _ => {}
+            }
+        }
+    }
+}
+
+fn nothing(call: &TextureCall) -> Sampled {
+    if call.kind.texel == Scalar::Float || call.kind.shadow {
+        Sampled::Floats(MISSING.map(Near::exact))
+    } else {
+        Sampled::Bits([0, 0, 0, 1].map(Bits::exact))
+    }
+}
+
+/// A texture instruction in one lane.
+struct At<'a, D: Domain> {
+    registers: &'a Registers<D>,
+    call: &'a TextureCall,
+    lane: usize,
+    /// Whether the values beside the values are meant.
+    beside: bool,
+}
+
+impl<D: Domain> At<'_, D> {
+    fn sampled(&self, texture: Option<&Texture>, stage: Stage) -> Sampled {
+        match (texture, self.call.lookup) {
+            (None, Lookup::Size) => Sampled::Bits([Bits::default(); 4]),
+            (None, _) => nothing(self.call),
+            (Some(texture), Lookup::Size) => self.size(texture),
+            (Some(texture), Lookup::Fetch) => self.fetch(texture),
+            (Some(texture), _) => self.filtered(texture, stage),
+        }
+    }
+
+    fn near(&self, operand: Operand) -> Near {
+        let number = self.registers.float(operand).at(self.lane);
+        if D::Float::PAIRED && self.beside {
+            return Near::exact(number.beside());
+        }
+        let value = number.value();
+        if !D::OPEN {
+            return Near::exact(value);
+        }
+        let range = number.range();
+        if range.may_be_nan { Near::anything(value) } else { Near { value, low: range.low, high: range.high } }
+    }
+
+    fn int(&self, operand: Operand) -> D::Int {
+        let int = self.registers.int(operand).at(self.lane);
+        if D::Float::PAIRED && self.beside { D::Int::from_bits(int.beside()) } else { int }
+    }
+
+    fn nears(&self, operands: &[Operand]) -> [Near; 3] {
+        std::array::from_fn(|k| operands.get(k).map_or(Near::default(), |operand| self.near(*operand)))
+    }
+
+    fn ints(&self, operands: &[Operand]) -> [i32; 3] {
+        std::array::from_fn(|k| operands.get(k).map_or(0, |operand| self.int(*operand).bits() as i32))
+    }
+
+    fn size(&self, texture: &Texture) -> Sampled {
+        let level = self.call.level.map(|level| self.int(level));
+        let [x, y, z] = texture::size(texture, self.call.kind, level.map_or(0, |level| level.bits() as i32));
+        let sizes = Sampled::Bits([x, y, z, 0].map(Bits::exact));
+        if level.is_none_or(Integer::sure) { sizes } else { sizes.unknown() }
+    }
+
+    /// A texel. Where the coordinates are open, the hull of those they may name, if these are few.
+    fn fetch(&self, texture: &Texture) -> Sampled {
+        const MOST: i64 = 64;
+        let offset = self.ints(&self.call.offset);
+        let offset = &offset[..self.call.offset.len().min(3)];
+        let level = self.call.level.map(|level| self.int(level));
+        let at = self.ints(&self.call.coordinate);
+        let of = |at: &[i32; 3]| {
+            texture::fetch(texture, self.call.kind, at, level.map_or(0, |level| level.bits() as i32), offset)
+        };
+        let likely = of(&at);
+        let mut choices = [(0, 0); 3];
+        for (choice, operand) in choices.iter_mut().zip(&self.call.coordinate) {
+            *choice = self.int(*operand).choices();
+        }
+        let count = choices.iter().map(|(low, high)| i64::from(*high) - i64::from(*low) + 1);
+        let count = count.fold(1i64, i64::saturating_mul);
+        if count > MOST || !level.is_none_or(Integer::sure) {
+            return likely.unknown();
+        }
+        let mut hull = likely;
+        if count > 1 {
+            for z in choices[2].0..=choices[2].1 {
+                for y in choices[1].0..=choices[1].1 {
+                    for x in choices[0].0..=choices[0].1 {
+                        hull = hull.joined(of(&[x, y, z]));
+                    }
+                }
+            }
+        }
+        hull
+    }
+
+    fn filtered(&self, texture: &Texture, stage: Stage) -> Sampled {
+        let kind = self.call.kind;
+        let axes = self.call.coordinate.len().saturating_sub(usize::from(kind.arrayed));
+        let (coordinate, layer) = self.call.coordinate.split_at(axes);
+        let at = self.nears(coordinate);
+        let request = Request {
+            kind,
+            at,
+            layer: layer.first().map_or(Near::default(), |layer| self.near(*layer)),
+            reference: self.call.reference.map_or(Near::default(), |reference| self.near(reference)),
+            level: if texture.filter == Filter::Trilinear { self.level(texture, stage, at) } else { Near::default() },
+            offset: self.ints(&self.call.offset),
+            bounded: D::OPEN,
+        };
+        texture::sample(texture, &request)
+    }
+
+    /// The level of detail.
+    fn level(&self, texture: &Texture, stage: Stage, at: [Near; 3]) -> Near {
+        let given = self.call.level.map_or(Near::default(), |level| self.near(level));
+        let (gradients, steps) = match self.call.lookup {
+            Lookup::Lod => return given,
+            Lookup::Grad => {
+                let values = |operands: &[Operand]| self.nears(operands).map(|near| near.value);
+                let gradients = Gradients { dx: values(&self.call.dx), dy: values(&self.call.dy) };
+                (gradients, D::OPEN.then(|| self.given_steps()))
+            }
+            // Outside fragment stages there are no derivatives: the base level (§8.7).
+            _ if stage != Stage::Fragment || self.call.kind.dim == SamplerDim::Rect => return given,
+            _ => (self.quad_gradients(), D::OPEN.then(|| self.quad_steps())),
+        };
+        let lambda =
+            texture::level_of_detail(texture, self.call.kind, at.map(|near| near.value), gradients, steps.as_ref());
+        let admitted = self.registers.faults.admits(Fault::LevelOfDetail);
+        let lambda = if admitted { lambda.widened(faults::LEVEL_OF_DETAIL) } else { lambda };
+        Near { value: lambda.value + given.value, low: lambda.low + given.low, high: lambda.high + given.high }
+    }
+
+    /// The derivatives that were given.
+    fn given_steps(&self) -> Steps {
+        let mut steps = Steps::default();
+        for operands in [&self.call.dx, &self.call.dy] {
+            operands.iter().enumerate().for_each(|(axis, operand)| steps.add(axis, self.near(*operand)));
+        }
+        steps
+    }
+
+    /// The difference of a coordinate between two lanes of the quad.
+    fn difference(&self, operand: Operand, from: usize, to: usize) -> Near {
+        let first = self.lane & !3;
+        let at = |lane: usize| At { lane: (first + lane) % LANES, ..*self }.near(operand);
+        let (a, b) = (at(from), at(to));
+        Near { value: b.value - a.value, low: b.low - a.high, high: b.high - a.low }
+    }
+
+    /// The differences of the coordinates in the lane's quad, by either row and column.
+    fn quad_steps(&self) -> Steps {
+        let mut steps = Steps::default();
+        for (axis, operand) in self.call.coordinate.iter().enumerate().take(3) {
+            let either = |a: (usize, usize), b: (usize, usize)| {
+                self.difference(*operand, a.0, a.1).joined(self.difference(*operand, b.0, b.1))
+            };
+            steps.add(axis, either((0, 1), (2, 3)));
+            steps.add(axis, either((0, 2), (1, 3)));
+        }
+        steps
+    }
+
+    /// Differences of the coordinates in the lane's quad.
+    fn quad_gradients(&self) -> Gradients {
+        let row = self.lane & 2;
+        let column = self.lane & 1;
+        let of = |from: usize, to: usize| -> [f64; 3] {
+            let value = |operand: &Operand| self.difference(*operand, from, to).value;
+            std::array::from_fn(|k| self.call.coordinate.get(k).map_or(0.0, value))
+        };
+        // The sign of a step does not matter for its length.
+        Gradients { dx: of(row, row + 1), dy: of(column, column + 2) }
+    }
+}

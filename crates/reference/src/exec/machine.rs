@@ -1,0 +1,255 @@
+//! [`Machine`]: runs [`Code`] in a domain.
+
+use super::Mask;
+use super::code::{Code, Inner, PoolSource, Port};
+use super::inst::Class;
+use super::mute::Muted;
+use super::observe::Observer;
+use super::paths::{Paths, couples};
+use super::registers::{Register, Registers};
+use crate::domain::faults::Faults;
+use crate::domain::{Domain, Integer, Lanes, Number};
+use glisten_front::hir::{GlobalId, ScalarValue};
+use glisten_front::source::Span;
+use glisten_scene::scene::Texture;
+use std::sync::Arc;
+
+/// How many instructions loops may run in one run of a machine: each time that a loop goes back to its head, the
+/// instructions between count, those of all lanes as one. Past it every loop is left, and [`Machine::budget_exceeded`]
+/// says so. 65,536 rounds of a body of 256 instructions; [`Machine::limit_loops`] changes it.
+pub const LOOP_BUDGET: u64 = 1 << 24;
+
+/// The registers of one thread for one draw. Reusable: run it tile after tile.
+#[derive(Debug)]
+pub struct Machine<D: Domain> {
+    pub(super) code: Code,
+    pub(super) registers: Registers<D>,
+    pub(super) slots: Vec<u64>,
+    pub(super) textures: Vec<Option<Arc<Texture>>>,
+    pub(super) discarded: u64,
+    pub(super) undecided: u64,
+    /// Lanes that may or may not be discarded.
+    pub(super) perhaps_discarded: u64,
+    pub(super) paths: Paths,
+    /// What adds nothing to envelopes.
+    pub(super) muted: Option<Muted>,
+    /// For a run.
+    pub(super) loop_budget: u64,
+    /// What is left in this run.
+    pub(super) budget: u64,
+    pub(super) budget_exceeded: bool,
+    /// The loop that went past it.
+    pub(super) runaway: Span,
+    pub(super) observer: Option<Box<dyn Observer<D>>>,
+    /// The lanes that an observer is shown.
+    pub(super) watched: u64,
+}
+
+/// What a machine may do beside running.
+#[derive(Debug)]
+struct Extras<D: Domain> {
+    faults: Faults,
+    muted: Option<Muted>,
+    observer: Option<Box<dyn Observer<D>>>,
+}
+
+impl<D: Domain> Default for Extras<D> {
+    fn default() -> Self {
+        Self { faults: Faults::NONE, muted: None, observer: None }
+    }
+}
+
+impl<D: Domain> Machine<D> {
+    /// A machine for the uniforms (of each root of the interface, flat) and textures (of each sampler slot) of a draw.
+    /// What does not depend on the invocation is computed here, once.
+    pub fn new(code: &Code, uniforms: &[Vec<ScalarValue>], textures: &[Option<Arc<Texture>>]) -> Self {
+        Self::made(code, uniforms, textures, Extras::default())
+    }
+
+    /// A machine in whose envelopes faults of a driver are admitted.
+    pub fn admitting(
+        faults: Faults,
+        code: &Code,
+        uniforms: &[Vec<ScalarValue>],
+        textures: &[Option<Arc<Texture>>],
+    ) -> Self {
+        Self::made(code, uniforms, textures, Extras { faults, ..Extras::default() })
+    }
+
+    /// A machine in whose envelopes the freedom of some operation is left out.
+    pub fn muting(
+        muted: Option<Muted>,
+        code: &Code,
+        uniforms: &[Vec<ScalarValue>],
+        textures: &[Option<Arc<Texture>>],
+    ) -> Self {
+        Self::made(code, uniforms, textures, Extras { muted, ..Extras::default() })
+    }
+
+    /// A machine with an observer that sees what is computed once, too.
+    pub fn watched(
+        code: &Code,
+        uniforms: &[Vec<ScalarValue>],
+        textures: &[Option<Arc<Texture>>],
+        observer: Box<dyn Observer<D>>,
+    ) -> Self {
+        Self::made(code, uniforms, textures, Extras { observer: Some(observer), ..Extras::default() })
+    }
+
+    fn made(code: &Code, uniforms: &[Vec<ScalarValue>], textures: &[Option<Arc<Texture>>], extras: Extras<D>) -> Self {
+        let Extras { faults, muted, observer } = extras;
+        let inner = &code.inner;
+        let floats = inner.float_pool.iter().map(|source| float_of::<D>(*source, uniforms)).collect();
+        let ints = inner.int_pool.iter().map(|source| int_of::<D>(*source, uniforms)).collect();
+        let mut machine = Self {
+            code: code.clone(),
+            registers: Registers::new(inner.preamble_results, floats, ints, faults),
+            slots: vec![0; inner.mask_slots],
+            textures: textures.to_vec(),
+            discarded: 0,
+            undecided: 0,
+            perhaps_discarded: 0,
+            paths: Paths::new(couples(&inner.main, inner)),
+            muted,
+            loop_budget: LOOP_BUDGET,
+            budget: LOOP_BUDGET,
+            budget_exceeded: false,
+            runaway: Span::default(),
+            observer,
+            watched: 1,
+        };
+        machine.execute(&inner.preamble, inner, 1);
+        machine.registers.finish_preamble(inner.registers);
+        for (class, register, from) in &inner.splats {
+            machine.registers.splat(*class, *register, *from);
+        }
+        machine
+    }
+
+    /// Replaces [`LOOP_BUDGET`].
+    pub fn limit_loops(&mut self, instructions: u64) {
+        self.loop_budget = instructions;
+    }
+
+    fn port(ports: &[Port], class: Class, global: GlobalId, flat: u32) -> Option<usize> {
+        let port = ports.iter().find(|port| port.global == global && port.flat == flat)?;
+        (port.class == class).then_some(port.register)
+    }
+
+    /// The lanes of a `float` in an input's flat layout ([`Types::flat_len`](glisten_front::hir::Types::flat_len)), to fill
+    /// before a run; they keep their values between runs. `None` if the stage does not read it or it is no float.
+    pub fn float_input(&mut self, global: GlobalId, flat: u32) -> Option<&mut Lanes<D::Float>> {
+        let register = Self::port(&self.code.inner.inputs, Class::Float, global, flat)?;
+        self.registers.floats.get_mut(register).map(Register::spread)
+    }
+
+    /// Likewise of an `int`, `uint` or `bool`.
+    pub fn int_input(&mut self, global: GlobalId, flat: u32) -> Option<&mut Lanes<D::Int>> {
+        let register = Self::port(&self.code.inner.inputs, Class::Int, global, flat)?;
+        self.registers.ints.get_mut(register).map(Register::spread)
+    }
+
+    /// Runs `main` on the lanes of both masks. Helper lanes run for the derivatives of their quads; what they do has no
+    /// other effect. The other lanes hold anything afterwards.
+    pub fn run(&mut self, live: Mask, helpers: Mask) {
+        let code = Arc::clone(&self.code.inner);
+        let inner: &Inner = &code;
+        self.discarded = 0;
+        self.undecided = 0;
+        self.perhaps_discarded = 0;
+        self.paths.clear();
+        // Once a machine has run away it is likely to do so again: then it shall be soon.
+        self.budget = if self.budget_exceeded { self.loop_budget >> 6 } else { self.loop_budget };
+        self.watched = live.0;
+        self.mute_input();
+        self.run_main(inner, live.0 | helpers.0);
+        self.show_outputs(live.0 & !self.discarded);
+        if D::OPEN {
+            self.explore(live.0 | helpers.0);
+        }
+        self.discarded &= live.0;
+        self.perhaps_discarded &= live.0;
+        self.undecided &= live.0;
+    }
+
+    /// Runs `main` alone, and gives each lane of the outputs its own number.
+    pub(super) fn run_main(&mut self, inner: &Inner, mask: u64) {
+        self.execute(&inner.main, inner, mask);
+        for port in &inner.outputs {
+            self.registers.spread(port.class, port.register);
+        }
+    }
+
+    /// The lanes of a `float` in an output's flat layout after a run; 0 where the shader wrote nothing. `None` if the
+    /// stage never writes it or it is no float.
+    pub fn float_output(&self, global: GlobalId, flat: u32) -> Option<&Lanes<D::Float>> {
+        let register = Self::port(&self.code.inner.outputs, Class::Float, global, flat)?;
+        self.registers.floats.get(register)?.lanes()
+    }
+
+    /// Likewise of an `int`, `uint` or `bool`.
+    pub fn int_output(&self, global: GlobalId, flat: u32) -> Option<&Lanes<D::Int>> {
+        let register = Self::port(&self.code.inner.outputs, Class::Int, global, flat)?;
+        self.registers.ints.get(register)?.lanes()
+    }
+
+    /// The lanes that the last run discarded.
+    pub fn discarded(&self) -> Mask {
+        Mask(self.discarded)
+    }
+
+    /// The lanes that the last run may or may not have discarded, by which way open conditions go; what
+    /// [`Self::discarded`] says of them follows the value. Always empty in domains without envelopes.
+    pub fn perhaps_discarded(&self) -> Mask {
+        Mask(self.perhaps_discarded)
+    }
+
+    /// The lanes of the last run that can go more ways than are run, or look up they cannot know which texture. Always
+    /// empty in domains without envelopes.
+    pub fn undecided(&self) -> Mask {
+        Mask(self.undecided)
+    }
+
+    /// The loop that went past [`LOOP_BUDGET`] in any run since the machine was made.
+    pub fn endless_loop(&self) -> Option<Span> {
+        self.budget_exceeded.then_some(self.runaway)
+    }
+
+    /// Whether any run since the machine was made went past [`LOOP_BUDGET`].
+    pub fn budget_exceeded(&self) -> bool {
+        self.budget_exceeded
+    }
+}
+
+fn uniform(uniforms: &[Vec<ScalarValue>], root: u32, flat: u32) -> Option<ScalarValue> {
+    uniforms.get(root as usize)?.get(flat as usize).copied()
+}
+
+/// A uniform that is not given is 0.
+fn float_of<D: Domain>(source: PoolSource, uniforms: &[Vec<ScalarValue>]) -> D::Float {
+    let value = match source {
+        PoolSource::Constant(bits) => f32::from_bits(bits),
+        PoolSource::Uniform(root, flat) => match uniform(uniforms, root.0, flat) {
+            Some(ScalarValue::Float(value)) => value,
+            Some(ScalarValue::Int(value)) => value as f32,
+            Some(ScalarValue::Uint(value)) => value as f32,
+            Some(ScalarValue::Bool(value)) => f32::from(u8::from(value)),
+            None => 0.0,
+        },
+    };
+    D::Float::from_f64(f64::from(value))
+}
+
+fn int_of<D: Domain>(source: PoolSource, uniforms: &[Vec<ScalarValue>]) -> D::Int {
+    let bits = match source {
+        PoolSource::Constant(bits) => bits,
+        PoolSource::Uniform(root, flat) => match uniform(uniforms, root.0, flat) {
+            Some(ScalarValue::Float(value)) => value as i32 as u32,
+            Some(ScalarValue::Int(value)) => value as u32,
+            Some(ScalarValue::Uint(value)) => value,
+            Some(ScalarValue::Bool(value)) => u32::from(value),
+            None => 0,
+        },
+    };
+    D::Int::from_bits(bits)
+}

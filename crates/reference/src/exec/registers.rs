@@ -1,0 +1,394 @@
+//! [`Registers`]: a file of floats and one of ints, and the loops over lanes.
+//!
+//! A register is a box: an instruction writes into a spare one and swaps it in, so that operands and result never
+//! overlap and nothing is copied. A register whose lanes are all alike keeps one number: what is computed from such
+//! registers is computed once. The counter of a loop over lights is one, and so is all that it picks from uniforms.
+
+use super::inst::{Class, Operand};
+use crate::domain::faults::Faults;
+use crate::domain::{Block, Domain, Element, Few, Lanes, Number, Source, WIDTH};
+use std::hint::black_box;
+
+/// The most results of one instruction: a `mat4`.
+const SPARES: usize = 16;
+
+/// What an instruction has written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Filled {
+    /// Each lane.
+    Lanes,
+    /// The first lane, which stands for all.
+    One,
+}
+
+/// One scalar.
+#[derive(Clone, Debug)]
+pub(super) struct Register<T: Element> {
+    lanes: Box<Lanes<T>>,
+    filled: Filled,
+}
+
+/// Registers of one type, and the numbers for all lanes of that type.
+#[derive(Debug)]
+pub(super) struct File<T: Element> {
+    registers: Vec<Register<T>>,
+    pub(super) pool: Vec<T>,
+    spares: Vec<Register<T>>,
+}
+
+#[derive(Debug)]
+pub(super) struct Registers<D: Domain> {
+    pub(super) floats: File<D::Float>,
+    pub(super) ints: File<D::Int>,
+    /// Faults of a driver that are admitted.
+    pub(super) faults: Faults,
+}
+
+impl<T: Element> Register<T> {
+    fn blank() -> Self {
+        Self { lanes: Box::default(), filled: Filled::Lanes }
+    }
+
+    #[inline(always)]
+    pub(super) fn source(&self) -> Source<'_, T> {
+        match self.filled {
+            Filled::Lanes => Source::Lanes(&self.lanes),
+            Filled::One => Source::One(self.lanes.get(0)),
+        }
+    }
+
+    /// Its lanes, where each has its own number.
+    pub(super) fn lanes(&self) -> Option<&Lanes<T>> {
+        (self.filled == Filled::Lanes).then_some(&self.lanes)
+    }
+
+    /// Its lanes, each with its own number from here on.
+    #[inline(always)]
+    pub(super) fn spread(&mut self) -> &mut Lanes<T> {
+        if self.filled == Filled::One {
+            *self.lanes = Lanes::splat(self.lanes.get(0));
+            self.filled = Filled::Lanes;
+        }
+        &mut self.lanes
+    }
+
+    /// Takes some lanes of another register.
+    pub(super) fn copy_lanes(&mut self, other: &Self, from: usize, to: usize, count: usize) {
+        let other = other.source();
+        let lanes = self.spread();
+        for place in 0..count {
+            lanes.set(to + place, other.at(from + place));
+        }
+    }
+
+    /// Lets `fill` write it.
+    #[inline(always)]
+    pub(super) fn fill(&mut self, fill: impl FnOnce(&mut Lanes<T>) -> Filled) {
+        self.filled = fill(&mut self.lanes);
+    }
+}
+
+impl<T: Element> File<T> {
+    fn new(count: usize, pool: Vec<T>) -> Self {
+        let blank = |count| (0..count).map(|_| Register::blank()).collect();
+        Self { registers: blank(count), pool, spares: blank(SPARES) }
+    }
+
+    /// Appends the preamble's results to the pool and makes room for the registers of `main`.
+    fn finish_preamble(&mut self, count: usize) {
+        self.pool.extend(self.registers.iter().map(|register| register.lanes.get(0)));
+        self.registers.resize_with(count, Register::blank);
+    }
+
+    #[inline(always)]
+    pub(super) fn source(&self, operand: Operand) -> Source<'_, T> {
+        // The compiler hands out every number that code names; see `alloc`.
+        let number = operand.number();
+        if operand.is_reg() { self.registers[number].source() } else { Source::One(self.pool[number]) }
+    }
+
+    /// The register of an operand that is one.
+    #[inline(always)]
+    pub(super) fn register(&mut self, operand: Operand) -> &mut Register<T> {
+        &mut self.registers[operand.number()]
+    }
+
+    /// A register by its number.
+    pub(super) fn get(&self, number: usize) -> Option<&Register<T>> {
+        self.registers.get(number)
+    }
+
+    /// Likewise to be changed.
+    pub(super) fn get_mut(&mut self, number: usize) -> Option<&mut Register<T>> {
+        self.registers.get_mut(number)
+    }
+
+    fn splat(&mut self, register: usize, from: Operand) {
+        let value = self.pool[from.number()];
+        self.registers[register].fill(|lanes| {
+            lanes.set(0, value);
+            Filled::One
+        });
+    }
+
+    /// A register to write into before it is [swapped in](Self::put).
+    #[inline(always)]
+    pub(super) fn take(&mut self) -> Register<T> {
+        self.spares.pop().unwrap_or_else(Register::blank)
+    }
+
+    /// Puts a register that is not needed back.
+    #[inline(always)]
+    pub(super) fn give_back(&mut self, spare: Register<T>) {
+        self.spares.push(spare);
+    }
+
+    /// Makes a spare register that of the operand.
+    #[inline(always)]
+    pub(super) fn put(&mut self, dst: Operand, mut spare: Register<T>) {
+        std::mem::swap(&mut self.registers[dst.number()], &mut spare);
+        self.spares.push(spare);
+    }
+}
+
+/// Eight lanes of a function.
+#[inline(always)]
+fn few<R: Element>(f: impl Fn(usize) -> R) -> R::Few {
+    let mut out = R::Few::default();
+    for lane in 0..WIDTH {
+        out.set(lane, f(lane));
+    }
+    out
+}
+
+/// Copies all lanes.
+#[inline(always)]
+pub(super) fn copy<T: Element>(out: &mut Lanes<T>, a: Source<'_, T>) -> Filled {
+    match a {
+        Source::Lanes(a) => {
+            *out = *a;
+            Filled::Lanes
+        }
+        Source::One(a) => {
+            out.set(0, a);
+            Filled::One
+        }
+    }
+}
+
+/// Applies a function lane by lane.
+#[inline(always)]
+pub(super) fn map1<A: Element, R: Element>(out: &mut Lanes<R>, a: Source<'_, A>, f: impl Fn(A) -> R) -> Filled {
+    match a {
+        Source::Lanes(a) => {
+            for (out, a) in out.blocks_mut().iter_mut().zip(a.blocks()) {
+                *out = few(|lane| f(a.get(lane)));
+            }
+            Filled::Lanes
+        }
+        Source::One(a) => {
+            out.set(0, f(a));
+            Filled::One
+        }
+    }
+}
+
+#[inline(always)]
+pub(super) fn map2<A: Element, B: Element, R: Element>(
+    out: &mut Lanes<R>,
+    a: Source<'_, A>,
+    b: Source<'_, B>,
+    f: impl Fn(A, B) -> R,
+) -> Filled {
+    match (a, b) {
+        (Source::Lanes(a), Source::Lanes(b)) => {
+            for (out, (a, b)) in out.blocks_mut().iter_mut().zip(a.blocks().iter().zip(b.blocks())) {
+                *out = few(|lane| f(a.get(lane), b.get(lane)));
+            }
+            Filled::Lanes
+        }
+        (Source::Lanes(a), Source::One(b)) => map1(out, Source::Lanes(a), |a| f(a, b)),
+        (Source::One(a), b) => map1(out, b, |b| f(a, b)),
+    }
+}
+
+/// For functions that cost far more than telling the kinds of operands apart.
+#[inline(always)]
+pub(super) fn map3<A: Element, B: Element, C: Element, R: Element>(
+    out: &mut Lanes<R>,
+    a: Source<'_, A>,
+    b: Source<'_, B>,
+    c: Source<'_, C>,
+    f: impl Fn(A, B, C) -> R,
+) -> Filled {
+    match (a, b, c) {
+        (Source::One(a), b, c) => map2(out, b, c, |b, c| f(a, b, c)),
+        (a, Source::One(b), Source::One(c)) => map1(out, a, |a| f(a, b, c)),
+        (a, b, c) => {
+            for (place, out) in out.blocks_mut().iter_mut().enumerate() {
+                let (a, b, c) = (a.block(place), b.block(place), c.block(place));
+                *out = few(|lane| f(a.get(lane), b.get(lane), c.get(lane)));
+            }
+            Filled::Lanes
+        }
+    }
+}
+
+/// A number for all lanes as a block. What is known to be the same in all lanes the compiler would make branches of where
+/// it makes vectors of what is not, so it is not told.
+#[inline(always)]
+fn spread_out<T: Element>(value: T) -> T::Few {
+    black_box(T::Few::splat(value))
+}
+
+/// Applies a function to blocks of lanes, or its like for one number: where all operands are one for all lanes, and in each
+/// lane of a domain that has no operations on blocks of its own.
+#[inline(always)]
+pub(super) fn blocks1<N: Number>(
+    out: &mut Lanes<N>,
+    a: Source<'_, N>,
+    block: impl Fn(&N::Few) -> N::Few,
+    one: impl Fn(N) -> N,
+) -> Filled {
+    if !N::Few::OWN {
+        return map1(out, a, one);
+    }
+    match a {
+        Source::Lanes(a) => N::Few::vectorized(
+            #[inline(always)]
+            || {
+                for (out, a) in out.blocks_mut().iter_mut().zip(a.blocks()) {
+                    *out = block(a);
+                }
+                Filled::Lanes
+            },
+        ),
+        Source::One(a) => {
+            out.set(0, one(a));
+            Filled::One
+        }
+    }
+}
+
+#[inline(always)]
+pub(super) fn blocks2<N: Number, R: Element>(
+    out: &mut Lanes<R>,
+    a: Source<'_, N>,
+    b: Source<'_, N>,
+    block: impl Fn(&N::Few, &N::Few) -> R::Few,
+    one: impl Fn(N, N) -> R,
+) -> Filled {
+    if !N::Few::OWN {
+        return map2(out, a, b, one);
+    }
+    if let (Source::One(a), Source::One(b)) = (a, b) {
+        out.set(0, one(a, b));
+        return Filled::One;
+    }
+    N::Few::vectorized(
+        #[inline(always)]
+        || {
+            match (a, b) {
+                (Source::Lanes(a), Source::Lanes(b)) => {
+                    for (out, (a, b)) in out.blocks_mut().iter_mut().zip(a.blocks().iter().zip(b.blocks())) {
+                        *out = block(a, b);
+                    }
+                }
+                (Source::Lanes(a), Source::One(b)) => {
+                    let b = spread_out(b);
+                    for (out, a) in out.blocks_mut().iter_mut().zip(a.blocks()) {
+                        *out = block(a, &b);
+                    }
+                }
+                (Source::One(a), Source::Lanes(b)) => {
+                    let a = spread_out(a);
+                    for (out, b) in out.blocks_mut().iter_mut().zip(b.blocks()) {
+                        *out = block(&a, b);
+                    }
+                }
+                (Source::One(_), Source::One(_)) => {}
+            }
+            Filled::Lanes
+        },
+    )
+}
+
+#[inline(always)]
+pub(super) fn blocks3<N: Number>(
+    out: &mut Lanes<N>,
+    [a, b, c]: [Source<'_, N>; 3],
+    block: impl Fn(&N::Few, &N::Few, &N::Few) -> N::Few,
+    one: impl Fn(N, N, N) -> N,
+) -> Filled {
+    if !N::Few::OWN {
+        return map3(out, a, b, c, one);
+    }
+    if let (Source::One(a), Source::One(b), Source::One(c)) = (a, b, c) {
+        out.set(0, one(a, b, c));
+        return Filled::One;
+    }
+    N::Few::vectorized(
+        #[inline(always)]
+        || {
+            for (place, out) in out.blocks_mut().iter_mut().enumerate() {
+                *out = block(&a.block(place), &b.block(place), &c.block(place));
+            }
+            Filled::Lanes
+        },
+    )
+}
+
+impl<D: Domain> Registers<D> {
+    pub(super) fn new(count: [usize; 2], float_pool: Vec<D::Float>, int_pool: Vec<D::Int>, faults: Faults) -> Self {
+        let [floats, ints] = count;
+        Self { floats: File::new(floats, float_pool), ints: File::new(ints, int_pool), faults }
+    }
+
+    /// Appends the preamble's results to the pools and makes room for the registers of `main`.
+    pub(super) fn finish_preamble(&mut self, count: [usize; 2]) {
+        let [floats, ints] = count;
+        self.floats.finish_preamble(floats);
+        self.ints.finish_preamble(ints);
+    }
+
+    pub(super) fn splat(&mut self, class: Class, register: usize, from: Operand) {
+        match class {
+            Class::Float => self.floats.splat(register, from),
+            Class::Int => self.ints.splat(register, from),
+        }
+    }
+
+    /// Gives each lane of a register its own number.
+    pub(super) fn spread(&mut self, class: Class, register: usize) {
+        match class {
+            Class::Float => drop(self.floats.get_mut(register).map(Register::spread)),
+            Class::Int => drop(self.ints.get_mut(register).map(Register::spread)),
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn float(&self, operand: Operand) -> Source<'_, D::Float> {
+        self.floats.source(operand)
+    }
+
+    #[inline(always)]
+    pub(super) fn int(&self, operand: Operand) -> Source<'_, D::Int> {
+        self.ints.source(operand)
+    }
+
+    /// Lets `fill` write a float register, whatever it reads.
+    #[inline(always)]
+    pub(super) fn write_float(&mut self, dst: Operand, fill: impl FnOnce(&Self, &mut Lanes<D::Float>) -> Filled) {
+        let mut spare = self.floats.take();
+        spare.fill(|lanes| fill(self, lanes));
+        self.floats.put(dst, spare);
+    }
+
+    /// Likewise of an int register.
+    #[inline(always)]
+    pub(super) fn write_int(&mut self, dst: Operand, fill: impl FnOnce(&Self, &mut Lanes<D::Int>) -> Filled) {
+        let mut spare = self.ints.take();
+        spare.fill(|lanes| fill(self, lanes));
+        self.ints.put(dst, spare);
+    }
+}

@@ -1,0 +1,160 @@
+//! The loop over instructions: masks and jumps.
+
+use super::LANES;
+use super::code::{Inner, Section};
+use super::inst::{Inst, Operand};
+use super::machine::Machine;
+use crate::domain::{Domain, Integer, Lanes, Source};
+
+impl<D: Domain> Machine<D> {
+    /// Runs a section from its start, with these lanes.
+    pub(super) fn execute(&mut self, section: &Section, inner: &Inner, start: u64) {
+        let mut mask = start;
+        let mut place = 0;
+        let watched = self.observer.is_some();
+        while let Some(inst) = section.insts.get(place) {
+            place += 1;
+            if watched {
+                self.show_choice(inst, section, place - 1, mask);
+            }
+            if D::OPEN && self.muted.is_some() && self.is_muted(section, place - 1) {
+                self.run_muted(inst, section, inner, mask);
+                continue;
+            }
+            match *inst {
+                Inst::StoreFloat { dst, a } => self.registers.store_float(dst, a, mask, mask == start),
+                Inst::StoreInt { dst, a } => self.registers.store_int(dst, a, mask, mask == start),
+                Inst::LoadFloat { dst, table, index } => {
+                    self.registers.load_float(dst, section.list(table), index);
+                }
+                Inst::LoadInt { dst, table, index } => {
+                    self.registers.load_int(dst, section.list(table), index);
+                }
+                Inst::StoreIndexedFloat { table, index, a } => {
+                    self.registers.store_indexed_float(section.list(table), index, a, mask);
+                }
+                Inst::StoreIndexedInt { table, index, a } => {
+                    self.registers.store_indexed_int(section.list(table), index, a, mask);
+                }
+                Inst::Texture { call } => {
+                    if let Some(call) = inner.textures.get(call as usize) {
+                        self.undecided |= self.texture(call, inner.stage, mask);
+                        if watched {
+                            self.show_texture(call, section, place - 1, mask);
+                        }
+                    }
+                }
+                Inst::Save { slot } => self.slots[slot as usize] = mask,
+                Inst::Arm { c, rest, next } => {
+                    let truth = self.truth(c, mask);
+                    self.slots[rest as usize] = mask & !truth;
+                    mask = truth;
+                    if mask == 0 {
+                        place = next as usize;
+                    }
+                }
+                Inst::Rest { rest: slot, end: target } | Inst::LoopNext { active: slot, exit: target } => {
+                    mask = self.slots[slot as usize] & !self.discarded;
+                    if mask == 0 {
+                        place = target as usize;
+                    }
+                }
+                Inst::Join { slot } => mask = self.slots[slot as usize] & !self.discarded,
+                Inst::Leave { slots } => {
+                    for slot in inner.words(slots) {
+                        self.slots[*slot as usize] &= !mask;
+                    }
+                    mask = 0;
+                }
+                Inst::Discard => {
+                    self.discarded |= mask;
+                    mask = 0;
+                }
+                Inst::LoopTest { c, active, exit } => {
+                    mask = self.truth(c, mask);
+                    self.slots[active as usize] = mask;
+                    if mask == 0 {
+                        place = exit as usize;
+                    }
+                }
+                Inst::LoopBack { head, exit } => {
+                    let cost = (place as u64).saturating_sub(u64::from(head)).max(1);
+                    match self.budget.checked_sub(cost) {
+                        Some(left) => {
+                            self.budget = left;
+                            place = head as usize;
+                        }
+                        None => {
+                            self.budget = 0;
+                            self.budget_exceeded = true;
+                            self.runaway = section.spans.get(place - 1).copied().unwrap_or_default();
+                            place = exit as usize;
+                        }
+                    }
+                }
+                Inst::CaseMask { selector, labels, rest, slot } => {
+                    let hit = self.matching(selector, inner.words(labels), self.slots[rest as usize]);
+                    self.slots[slot as usize] = hit;
+                    self.slots[rest as usize] &= !hit;
+                }
+                Inst::Idle => mask = 0,
+                Inst::Case { slot, next } => {
+                    mask |= self.slots[slot as usize] & !self.discarded;
+                    if mask == 0 {
+                        place = next as usize;
+                    }
+                }
+                ref pure => {
+                    self.registers.compute(pure, section);
+                    if watched {
+                        self.show(pure, section, place - 1, mask);
+                    }
+                }
+            }
+        }
+    }
+
+    /// The lanes of `mask` where the condition holds. Where the answer is open it is decided by the lane's path.
+    fn truth(&mut self, condition: Operand, mask: u64) -> u64 {
+        let (truth, open) = match self.registers.int(condition) {
+            Source::One(value) => (if value.is_true() { u64::MAX } else { 0 }, if value.sure() { 0 } else { u64::MAX }),
+            Source::Lanes(lanes) => bits_where(lanes),
+        };
+        if D::OPEN && open & mask != 0 {
+            return self.paths.decide(truth, open & mask) & mask;
+        }
+        truth & mask
+    }
+
+    fn matching(&mut self, selector: Operand, labels: &[u32], mask: u64) -> u64 {
+        let selector = self.registers.int(selector);
+        let (mut hit, mut open) = (0, 0);
+        for lane in 0..LANES {
+            let value = selector.at(lane);
+            hit |= u64::from(labels.contains(&value.bits())) << lane;
+            let (low, high) = value.choices();
+            let possible = labels.iter().any(|label| (low..=high).contains(&(*label as i32)));
+            open |= u64::from(!value.sure() && possible) << lane;
+        }
+        if D::OPEN && open & mask != 0 {
+            return self.paths.decide(hit, open & mask) & mask;
+        }
+        hit & mask
+    }
+}
+
+/// The lanes that are true, and those that are not sure.
+#[inline(always)]
+pub(super) fn bits_where<I: Integer>(lanes: &Lanes<I>) -> (u64, u64) {
+    let (mut truth, mut unsure) = (0u64, 0u64);
+    for (byte, lanes) in lanes.blocks().iter().enumerate() {
+        let (mut few, mut doubt) = (0u64, 0u64);
+        for (bit, lane) in lanes.iter().enumerate() {
+            few |= u64::from(lane.is_true()) << bit;
+            doubt |= u64::from(!lane.sure()) << bit;
+        }
+        truth |= few << (byte * 8);
+        unsure |= doubt << (byte * 8);
+    }
+    (truth, unsure)
+}

@@ -1,0 +1,226 @@
+//! Vertices into primitives (OpenGL 3.2 §2.6.1, table 2.12), clipped and with their pixels.
+//!
+//! *In:* shaded vertices, the order of a draw. *Out:* [`Prim`]s in order.
+//! *Holds:* culling and facing go by the sign of the snapped area (§3.6.1).
+
+use super::clip::SIDES;
+use super::vertices::Vertices;
+use crate::LineRule;
+use crate::domain::Domain;
+use crate::raster::{Fixed, Shape, line, point, triangle};
+use glisten_front::hir::Interpolation;
+use glisten_scene::scene::{Cull, Primitive, State};
+
+/// What the values of a primitive's fragments are interpolated from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Corners {
+    /// One vertex for all.
+    Point(u32),
+    /// A segment.
+    Line([u32; 2]),
+    /// A triangle.
+    Triangle([u32; 3]),
+}
+
+/// A primitive, or a part of one after clipping.
+#[derive(Clone, Debug)]
+pub(super) struct Prim {
+    pub(super) shape: Shape,
+    pub(super) corners: Corners,
+    /// The vertex whose values `flat` varyings have.
+    pub(super) provoking: u32,
+    /// `gl_FrontFacing`
+    pub(super) front: bool,
+    /// `gl_PrimitiveID`
+    pub(super) id: u32,
+    /// Whether a branch of a vertex may go either way.
+    pub(super) undecided: bool,
+}
+
+/// Where each primitive's vertices stand in the order of the draw, and which provokes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Assembled {
+    Point(u32),
+    Line([u32; 2]),
+    /// The corners and which of them provokes by the first-vertex convention; by the other it is the last.
+    Triangle([u32; 3], usize),
+}
+
+fn assemble(primitive: Primitive, count: u32) -> Vec<Assembled> {
+    let line = |from: u32, to: u32| Assembled::Line([from, to]);
+    let triangle = Assembled::Triangle;
+    match primitive {
+        Primitive::Points => (0..count).map(Assembled::Point).collect(),
+        Primitive::Lines => (0..count / 2).map(|i| line(2 * i, 2 * i + 1)).collect(),
+        Primitive::LineStrip => (1..count).map(|i| line(i - 1, i)).collect(),
+        Primitive::LineLoop => {
+            let closing = (count >= 2).then(|| line(count - 1, 0));
+            (1..count).map(|i| line(i - 1, i)).chain(closing).collect()
+        }
+        Primitive::Triangles => (0..count / 3).map(|i| triangle([3 * i, 3 * i + 1, 3 * i + 2], 0)).collect(),
+        Primitive::TriangleStrip => (0..count.saturating_sub(2))
+            .map(|i| if i % 2 == 1 { triangle([i + 1, i, i + 2], 1) } else { triangle([i, i + 1, i + 2], 0) })
+            .collect(),
+        Primitive::TriangleFan => (0..count.saturating_sub(2)).map(|i| triangle([0, i + 1, i + 2], 1)).collect(),
+    }
+}
+
+/// The primitives of one instance. `order` names the shaded vertices in the order of the draw.
+pub(super) fn primitives<D: Domain>(
+    vertices: &mut Vertices<D>,
+    order: &[u32],
+    state: &State,
+    lines: LineRule,
+) -> Vec<Prim> {
+    // Where nothing is flat, the runner leaves the provoking vertex where WebGPU has it. The pixels of a clipped primitive
+    // hang on which vertex comes first, if only by rounding.
+    let is_flat = vertices.int_count > 0 || vertices.interpolations.contains(&Interpolation::Flat);
+    let last_first = is_flat && state.provoking_last;
+    let assembled = assemble(state.primitive, order.len() as u32);
+    let mut list = Vec::with_capacity(assembled.len());
+    let vertex = |position: u32| order.get(position as usize).copied().unwrap_or(0);
+    for (id, assembled) in assembled.into_iter().enumerate() {
+        let id = id as u32;
+        match assembled {
+            Assembled::Point(position) => list.extend(point_prim(vertices, vertex(position), id, lines)),
+            Assembled::Line([from, to]) => {
+                let provoking = if state.provoking_last { to } else { from };
+                let turned = last_first && lines == LineRule::Vulkan;
+                let ends = if turned { [to, from] } else { [from, to] }.map(vertex);
+                list.extend(line_prim(vertices, ends, vertex(provoking), id, lines));
+            }
+            Assembled::Triangle(mut corners, first) => {
+                let provoking = corners[if state.provoking_last { 2 } else { first }];
+                corners.rotate_left(if last_first { 2 } else { first });
+                triangle_prims(vertices, corners.map(vertex), vertex(provoking), id, state, &mut list);
+            }
+        }
+    }
+    list
+}
+
+fn window<D: Domain>(vertices: &Vertices<D>, vertex: u32) -> Option<[f32; 2]> {
+    vertices.window32.get(vertex as usize).map(|&[x, y, _]| [x, y])
+}
+
+fn is_undecided<D: Domain>(vertices: &Vertices<D>, corners: &[u32]) -> bool {
+    corners.iter().any(|&vertex| vertices.undecided.get(vertex as usize).copied().unwrap_or(false))
+}
+
+fn point_prim<D: Domain>(vertices: &Vertices<D>, vertex: u32, id: u32, rule: LineRule) -> Option<Prim> {
+    // OpenGL discards a point whose center lies outside (§2.19); Vulkan may draw what of it reaches into the window.
+    let counted = match rule {
+        LineRule::OpenGl => u32::MAX,
+        LineRule::Vulkan => !SIDES,
+    };
+    if vertices.outside(vertex)? & counted != 0 {
+        return None;
+    }
+    let [x, y] = window(vertices, vertex)?;
+    let size = vertices.size.get(vertex as usize).copied()?;
+    let shape = point::shape(x, y, size)?;
+    let undecided = is_undecided(vertices, &[vertex]);
+    Some(Prim { shape, corners: Corners::Point(vertex), provoking: vertex, front: true, id, undecided })
+}
+
+fn line_prim<D: Domain>(
+    vertices: &mut Vertices<D>,
+    ends: [u32; 2],
+    provoking: u32,
+    id: u32,
+    rule: LineRule,
+) -> Option<Prim> {
+    let undecided = is_undecided(vertices, &ends);
+    let ends = vertices.clip_line(ends)?;
+    let [from, to] = ends.map(|vertex| window(vertices, vertex));
+    let (from, to) = (from?, to?);
+    let shape = match rule {
+        LineRule::Vulkan => line::rectangle(from, to)?,
+        LineRule::OpenGl => line::diamond_exit(Fixed::snap(from[0], from[1])?, Fixed::snap(to[0], to[1])?),
+    };
+    Some(Prim { shape, corners: Corners::Line(ends), provoking, front: true, id, undecided })
+}
+
+fn triangle_prims<D: Domain>(
+    vertices: &mut Vertices<D>,
+    corners: [u32; 3],
+    provoking: u32,
+    id: u32,
+    state: &State,
+    list: &mut Vec<Prim>,
+) {
+    let undecided = is_undecided(vertices, &corners);
+    let polygon = vertices.clip_triangle(corners);
+    let Some((&hub, rim)) = polygon.split_first() else { return };
+    for pair in rim.windows(2) {
+        let &[second, third] = pair else { continue };
+        let corners = [hub, second, third];
+        let snapped = corners.map(|vertex| window(vertices, vertex).and_then(|[x, y]| Fixed::snap(x, y)));
+        let [Some(a), Some(b), Some(c)] = snapped else { continue };
+        let is_clockwise = triangle::doubled_area([a, b, c]) > 0;
+        let front = is_clockwise != state.front_ccw;
+        let culled = match state.cull {
+            Cull::None => false,
+            Cull::Front => front,
+            Cull::Back => !front,
+        };
+        if culled {
+            continue;
+        }
+        if let Some(shape) = triangle::shape([a, b, c]) {
+            list.push(Prim { shape, corners: Corners::Triangle(corners), provoking, front, id, undecided });
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn provoking(primitive: Primitive, count: u32, last: bool) -> Vec<u32> {
+        assemble(primitive, count)
+            .into_iter()
+            .map(|assembled| match assembled {
+                Assembled::Point(vertex) => vertex,
+                Assembled::Line([from, to]) => {
+                    if last {
+                        to
+                    } else {
+                        from
+                    }
+                }
+                Assembled::Triangle(corners, first) => corners[if last { 2 } else { first }],
+            })
+            .collect()
+    }
+
+    #[test]
+    fn table_2_12() {
+        // Numbered from 0: first-vertex convention, then last-vertex convention.
+        let rows: [(Primitive, u32, &[u32], &[u32]); 7] = [
+            (Primitive::Points, 3, &[0, 1, 2], &[0, 1, 2]),
+            (Primitive::Lines, 5, &[0, 2], &[1, 3]),
+            (Primitive::LineStrip, 3, &[0, 1], &[1, 2]),
+            (Primitive::LineLoop, 3, &[0, 1, 2], &[1, 2, 0]),
+            (Primitive::Triangles, 7, &[0, 3], &[2, 5]),
+            (Primitive::TriangleStrip, 5, &[0, 1, 2], &[2, 3, 4]),
+            (Primitive::TriangleFan, 5, &[1, 2, 3], &[2, 3, 4]),
+        ];
+        for (primitive, count, first, last) in rows {
+            assert_eq!(provoking(primitive, count, false), first, "{primitive:?}");
+            assert_eq!(provoking(primitive, count, true), last, "{primitive:?}");
+        }
+    }
+
+    #[test]
+    fn strips_keep_their_winding() {
+        let corners: Vec<_> = assemble(Primitive::TriangleStrip, 5)
+            .into_iter()
+            .filter_map(|assembled| match assembled {
+                Assembled::Triangle(corners, _) => Some(corners),
+                _ => None,
+            })
+            .collect();
+        assert_eq!(corners, [[0, 1, 2], [2, 1, 3], [2, 3, 4]]);
+    }
+}

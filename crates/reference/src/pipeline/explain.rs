@@ -1,0 +1,115 @@
+//! What the bound of one pixel comes from.
+//!
+//! *In:* a scene and a pixel. *Out:* the operations of the fragment stage by how much narrower the pixel's envelope is
+//! without the freedom of their rules.
+//! *Holds:* the last draw that changes the pixel is asked; varyings stand for all that the vertex stage and
+//! interpolation bring.
+
+use super::fragments::{Shading, draw_bin};
+use super::target::Patch;
+use super::watch::Watch;
+use super::{draw_all, refuse};
+use crate::domain::Envelope;
+use crate::exec::{Code, Machine, Muted};
+use crate::raster::Bounds;
+use crate::{Contribution, RenderOptions};
+use glisten_front::diagnostic::Diagnostic;
+use glisten_front::diagnostic::codes::scenes::SCENE_CANNOT_DRAW;
+use glisten_front::hir::Stage;
+use glisten_scene::compare::Range;
+use glisten_scene::scene::Scene;
+
+/// What is called the operation of an input.
+const INTERPOLATION: &str = "interpolation";
+
+/// A channel of a pixel.
+#[derive(Clone, Copy, Debug)]
+struct Place {
+    x: i64,
+    y: i64,
+    attachment: usize,
+    channel: usize,
+}
+
+/// The contributions to the width of a channel's envelope, the largest first.
+pub(crate) fn explain(
+    scene: &Scene,
+    options: &RenderOptions,
+    [x, y]: [u32; 2],
+    attachment: usize,
+    channel: usize,
+) -> Result<Vec<Contribution>, Vec<Diagnostic>> {
+    let (width, height) = (i64::from(scene.framebuffer.width), i64::from(scene.framebuffer.height));
+    let place = Place { x: i64::from(x), y: i64::from(y), attachment, channel };
+    if place.x >= width || place.y >= height || channel > 3 {
+        return Err(vec![refuse(&SCENE_CANNOT_DRAW, "there is no such pixel")]);
+    }
+    // Whole quads, for derivatives.
+    let (x0, y0) = (place.x & !1, place.y & !1);
+    let area = Bounds { x0, x1: (x0 + 2).min(width), y0, y1: (y0 + 2).min(height) };
+    let mut patch = Patch::<Envelope>::new(scene.framebuffer, area);
+    let mut found = Vec::new();
+    for (number, draw) in scene.draws.iter().enumerate() {
+        let watch = Watch { make: None, draw: number, instance: 0, apart: true };
+        draw_all(scene, draw, options, watch, &mut |shading, code, _, _| {
+            if let Some(contributions) = of_draw(shading, code, &mut patch, place) {
+                found = contributions;
+            }
+        })?;
+    }
+    found.sort_by(|a: &Contribution, b: &Contribution| b.share.total_cmp(&a.share));
+    Ok(found)
+}
+
+/// Draws over the pixel; if that changes it, the contributions.
+fn of_draw(
+    shading: &Shading<'_, Envelope>,
+    code: &Code,
+    patch: &mut Patch<Envelope>,
+    place: Place,
+) -> Option<Vec<Contribution>> {
+    let touching = shading.prims.iter().enumerate().filter(|(_, prim)| prim.shape.may_touch(patch.area));
+    let list: Vec<u32> = touching.map(|(index, _)| index as u32).collect();
+    let before = patch.clone();
+    let drawn = |muted: Option<Muted>| {
+        let mut patch = before.clone();
+        let draw = shading.draw;
+        let mut machine = Machine::muting(muted, code, &draw.uniforms, &draw.textures);
+        patch.draw(|bin| draw_bin(shading, bin, &list, &mut machine));
+        patch
+    };
+    let range = |patch: &mut Patch<Envelope>| patch.range(place.x, place.y, place.attachment, place.channel);
+    if list.is_empty() {
+        return None;
+    }
+    let old = range(patch);
+    *patch = drawn(None);
+    let whole = range(patch);
+    if whole == old {
+        return None;
+    }
+    let share = |muted: Muted| share(whole, range(&mut drawn(Some(muted))));
+    let mut contributions = Vec::new();
+    for operation in code.operations() {
+        let share = share(operation.muted());
+        contributions.push(Contribution { span: operation.span, operation: operation.name, share });
+    }
+    let fragment = shading.draw.program.stage(Stage::Fragment)?;
+    let mut inputs: Vec<_> = shading.plan.floats.iter().map(|varying| varying.to.0).collect();
+    inputs.sort_unstable();
+    inputs.dedup();
+    for (global, facts) in inputs.into_iter().filter_map(|id| Some((id, fragment.globals.get(id.index())?))) {
+        let share = share(Muted::input(global));
+        contributions.push(Contribution { span: facts.span, operation: INTERPOLATION, share });
+    }
+    Some(contributions)
+}
+
+/// By how much of its width a range shrinks.
+fn share(whole: Range, muted: Range) -> f64 {
+    match (whole.width().is_finite(), muted.width().is_finite()) {
+        (true, _) if whole.width() > 0.0 => (1.0 - muted.width() / whole.width()).max(0.0),
+        (false, true) => 1.0,
+        _ => 0.0,
+    }
+}

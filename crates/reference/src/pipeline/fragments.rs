@@ -1,0 +1,220 @@
+//! The fragment stage: primitives over a bin, shaded 64 fragments at a time.
+//!
+//! *In:* the primitives that touch a bin, in order. *Out:* the bin, drawn.
+//!
+//! *Holds:* fragments of several primitives share a batch, so that small triangles do not leave lanes idle; where
+//! derivatives are taken whole quads are batched, with helper lanes, else single fragments. Within a batch lanes are in
+//! the order of the primitives, and so are the writes. A fragment is tested against depth before it is shaded where that
+//! cannot be seen: the shader neither discards nor writes depth.
+
+use super::assembly::Prim;
+use super::batch::{Batch, Run};
+use super::outputs::{Channel, OutputPlan};
+use super::plan::Plan;
+use super::source::Source;
+use super::target::{BIN, Bin, Tests, local};
+use super::vertices::Vertices;
+use crate::domain::faults::Faults;
+use crate::domain::{Domain, Integer, Number};
+use crate::exec::{Code, LANES, Machine, Mask};
+use glisten_front::hir::{FragCoordLayout, GlobalId, Stage};
+use glisten_scene::scene::{Draw, Framebuffer};
+use pulp::{Simd, WithSimd};
+
+/// What all bins of a draw share.
+pub(super) struct Shading<'a, D: Domain> {
+    pub(super) draw: &'a Draw,
+    pub(super) plan: &'a Plan,
+    pub(super) vertices: &'a Vertices<D>,
+    pub(super) prims: &'a [Prim],
+    pub(super) framebuffer: Framebuffer,
+    pub(super) outputs: &'a [OutputPlan],
+    pub(super) mark_edges: bool,
+    pub(super) faults: Faults,
+}
+
+/// Draws the primitives `list` names over a bin.
+pub(super) fn draw_bin<D: Domain>(
+    shading: &Shading<'_, D>,
+    bin: &mut Bin<'_, D>,
+    list: &[u32],
+    machine: &mut Machine<D>,
+) {
+    let area = bin.area;
+    let mut batch = Batch::new([area.x0 as i32, area.y0 as i32]);
+    for prim in list.iter().filter_map(|&index| shading.prims.get(index as usize)) {
+        if shading.mark_edges {
+            prim.shape.near_edges(area, |x, y| bin.mark_near_edge(x, y));
+        }
+        batch.begin(prim, Source::new(prim, shading.vertices));
+        if shading.plan.needs_quads {
+            prim.shape.quads(area, |x, y, covered| {
+                batch.add_quad(local(area, x, y), BIN as u32, covered);
+                if batch.is_full() {
+                    shading.settle(bin, &mut batch, machine);
+                }
+            });
+        } else {
+            prim.shape.rows(area, |y, x, pixels| {
+                let mut rest = pixels;
+                while rest != 0 {
+                    rest = batch.add_row(local(area, x, y), rest);
+                    if batch.is_full() {
+                        shading.settle(bin, &mut batch, machine);
+                    }
+                }
+            });
+        }
+        shading.settle(bin, &mut batch, machine);
+    }
+    shading.flush(bin, &mut batch, machine);
+}
+
+impl<D: Domain> Shading<'_, D> {
+    /// A machine for the fragment stage.
+    pub(super) fn machine(&self, code: &Code) -> Machine<D> {
+        Machine::admitting(self.faults, code, &self.draw.uniforms, &self.draw.textures)
+    }
+
+    /// Keeps of the batch's candidates those that pass the depth test, where that comes first, and shades when the batch is
+    /// full.
+    fn settle(&self, bin: &mut Bin<'_, D>, batch: &mut Batch<'_, D>, machine: &mut Machine<D>) {
+        let Some(before) = batch.locate() else { return };
+        let tests = if self.plan.early_depth {
+            bin.depth_tests(&batch.fragments.pixels, |lane| batch.fragments.z[lane], &self.draw.state, before)
+        } else {
+            before
+        };
+        if self.plan.needs_quads {
+            batch.keep::<4>(tests);
+        } else {
+            batch.keep::<1>(tests);
+        }
+        if batch.is_full() {
+            self.flush(bin, batch, machine);
+        }
+    }
+
+    /// Shades what waits and writes it.
+    fn flush(&self, bin: &mut Bin<'_, D>, batch: &mut Batch<'_, D>, machine: &mut Machine<D>) {
+        // Behind an endless loop nothing more is drawn: the picture will be refused.
+        if batch.live != 0 && !machine.budget_exceeded() {
+            pulp::Arch::new().dispatch(Interpolate { plan: self.plan, batch, machine });
+            self.fill_fixed(batch, machine);
+            machine.run(Mask(batch.live), batch.helpers());
+            self.write_lanes(bin, batch, machine);
+        }
+        batch.clear();
+    }
+
+    /// Fills in the built-in inputs.
+    fn fill_fixed(&self, batch: &Batch<'_, D>, machine: &mut Machine<D>) {
+        let fragments = &batch.fragments;
+        if let Some(id) = self.plan.frag_coord {
+            // gl_FragCoord.xy by the shader's layout (GLSL 1.50 §4.3.8.1).
+            let layout =
+                self.draw.program.stage(Stage::Fragment).map_or_else(FragCoordLayout::default, |s| s.frag_coord);
+            let center = if layout.pixel_center_integer { -0.5 } else { 0.0 };
+            let rows = f64::from(self.framebuffer.height);
+            let row = |y: f64| if layout.origin_upper_left { y } else { rows - y };
+            fill_float(machine, (id, 0), |lane| D::Float::from_f64(fragments.places.x[lane] + center));
+            fill_float(machine, (id, 1), |lane| D::Float::from_f64(row(fragments.places.y[lane]) + center));
+            fill_float(machine, (id, 2), |lane| fragments.z[lane]);
+            fill_float(machine, (id, 3), |lane| fragments.reciprocal[lane]);
+        }
+        if let Some(id) = self.plan.front_facing {
+            fill_int(machine, (id, 0), batch, |run| D::Int::from_bool(run.front));
+        }
+        if let Some(id) = self.plan.primitive_id {
+            fill_int(machine, (id, 0), batch, |run| D::Int::from_bits(run.id));
+        }
+        if let Some(id) = self.plan.point_coord {
+            let mut sprite = [[D::Float::default(); 2]; LANES];
+            for (run, lanes) in batch.runs() {
+                let Some(point) = run.source.point else { continue };
+                for lane in lanes {
+                    sprite[lane] = point.coordinates(fragments.places.x[lane], fragments.places.y[lane]);
+                }
+            }
+            for flat in 0..2 {
+                fill_float(machine, (id, flat), |lane| sprite[lane][flat as usize]);
+            }
+        }
+    }
+
+    /// What follows the fragment stage: late depth test, blending, storing.
+    fn write_lanes(&self, bin: &mut Bin<'_, D>, batch: &Batch<'_, D>, machine: &Machine<D>) {
+        let state = &self.draw.state;
+        let pixels = &batch.fragments.pixels;
+        let (discarded, perhaps) = (machine.discarded().0, machine.perhaps_discarded().0);
+        let reached = batch.live & (!discarded | perhaps);
+        let mut tests =
+            Tests { passes: batch.tests.passes & !discarded & reached, open: (batch.tests.open | perhaps) & reached };
+        if !self.plan.early_depth {
+            let depth = self.plan.frag_depth.and_then(|id| machine.float_output(id, 0));
+            let depth = |lane: usize| depth.map_or(batch.fragments.z[lane], |depth| depth.get(lane));
+            tests = bin.depth_tests(pixels, depth, state, tests);
+        }
+        bin.cover(pixels, tests, machine.undecided().0, state.blend.is_some());
+        for output in self.outputs {
+            let channels = output.channels(machine);
+            if let [Channel::Float(r), Channel::Float(g), Channel::Float(b), Channel::Float(a)] = channels {
+                let color = |lane: usize| [r, g, b, a].map(|channel| channel.get(lane));
+                bin.write_colors(pixels, output.attachment, color, state.blend, tests);
+            } else {
+                let color = |lane: usize| channels.map(|channel| channel.at(lane));
+                bin.write_colors(pixels, output.attachment, color, state.blend, tests);
+            }
+        }
+    }
+}
+
+/// Fills a `float` input, if the stage reads it.
+fn fill_float<D: Domain>(machine: &mut Machine<D>, (id, flat): (GlobalId, u32), value: impl Fn(usize) -> D::Float) {
+    if let Some(input) = machine.float_input(id, flat) {
+        input.update(|lane, _| value(lane));
+    }
+}
+
+/// Fills an `int` input with what each primitive has, if the stage reads it.
+fn fill_int<D: Domain>(
+    machine: &mut Machine<D>,
+    (id, flat): (GlobalId, u32),
+    batch: &Batch<'_, D>,
+    value: impl Fn(&Run<'_, D>) -> D::Int,
+) {
+    if let Some(input) = machine.int_input(id, flat) {
+        for (run, lanes) in batch.runs() {
+            lanes.for_each(|lane| input.set(lane, value(run)));
+        }
+    }
+}
+
+/// Fills in the varyings: to be compiled for wide vectors.
+struct Interpolate<'a, 'v, D: Domain> {
+    plan: &'a Plan,
+    batch: &'a mut Batch<'v, D>,
+    machine: &'a mut Machine<D>,
+}
+
+impl<D: Domain> WithSimd for Interpolate<'_, '_, D> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self { plan, batch, machine } = self;
+        batch.find_w();
+        let mut numbers = [D::Float::default(); LANES];
+        for (index, varying) in plan.floats.iter().enumerate() {
+            let Some(input) = machine.float_input(varying.to.0, varying.to.1) else { continue };
+            for (run, lanes) in batch.runs() {
+                let to = &mut numbers[lanes.clone()];
+                run.source.varying(&batch.fragments, lanes, (index, varying.interpolation), to);
+            }
+            input.load(&numbers);
+        }
+        for (index, varying) in plan.ints.iter().enumerate() {
+            fill_int(machine, varying.to, batch, |run| run.source.ints.get(index).copied().unwrap_or_default());
+        }
+    }
+}

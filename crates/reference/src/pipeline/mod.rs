@@ -1,0 +1,285 @@
+//! A scene drawn in one number domain.
+//!
+//! ```text
+//!  Draw ──► vertices    64 vertices at a time, positions in the domain and in f32
+//!       ──► assembly    primitives, clipped (clip), their pixels (raster), culled
+//!       ──► bins        32x32 pixels each, the primitives that touch them in order; threads take bins
+//!       ──► batch       a primitive's pixels as lanes: weights and depth (source, slack), early depth test (store)
+//!       ──► fragments   64 lanes at a time: varyings in, the fragment stage, colors out (outputs)
+//!       ──► target      late depth test, blending (store), into the rows of the picture (surface)
+//! ```
+//!
+//! *In:* a [`Scene`]. *Out:* a [`Picture`].
+//! *Holds:* the picture does not depend on the number of threads: within a bin everything happens in the order of the
+//! primitives.
+//!
+//! # What keeps it cheap
+//!
+//! `cargo bench --bench scaling` prints what a drawing takes without its program. What belongs to a primitive is computed
+//! once for it, and what belongs to a fragment in loops over its lanes. Coverage, weights and varyings are compiled for
+//! wide vectors, too (`pulp`), a primitive or a batch a call: for one fragment the call costs more than it gains.
+//! Varyings are found for fragments that passed the depth test, and written where the executor reads them; colors are
+//! written where the picture has them. Memory is touched once where it can be: new pages cost more than what is drawn
+//! on them.
+
+mod assembly;
+mod batch;
+mod clip;
+mod explain;
+mod fragments;
+mod outputs;
+mod plan;
+mod slack;
+mod source;
+mod store;
+mod surface;
+mod target;
+mod vertices;
+mod watch;
+
+use super::RenderOptions;
+use super::domain::Domain;
+use super::exec::{Code, LOOP_BUDGET, Machine};
+use super::raster::Shape;
+use assembly::{Prim, primitives};
+pub(super) use explain::explain;
+use fragments::{Shading, draw_bin};
+use glisten_front::diagnostic::codes::scenes::{SCENE_CANNOT_DRAW, SCENE_LOOP_BUDGET};
+use glisten_front::diagnostic::{Code as DiagnosticCode, Diagnostic};
+use glisten_front::hir::Stage;
+use glisten_front::source::Span;
+use glisten_scene::compare::Picture;
+use glisten_scene::scene::{Draw, Scene};
+use outputs::output_plans;
+use plan::Plan;
+use rayon::prelude::*;
+use smallvec::SmallVec;
+use std::sync::{Mutex, OnceLock};
+use surface::Surface;
+use target::{BIN, Target};
+use vertices::{Invocation, shade};
+pub(super) use watch::MakeObserver;
+use watch::{FRAGMENTS, SAME_FOR_FRAGMENTS, SAME_FOR_VERTICES, Watch};
+
+/// Vertices that are shaded before their primitives are drawn: instances beyond that are drawn in several goes.
+const MAX_INVOCATIONS: usize = 1 << 20;
+
+/// Draws a scene in a domain.
+pub(super) fn render<D: Domain>(scene: &Scene, options: &RenderOptions) -> Result<Picture, Vec<Diagnostic>> {
+    render_watched::<D>(scene, options, None)
+}
+
+/// The same; what is computed on the way is shown to observers.
+pub(super) fn render_watched<D: Domain>(
+    scene: &Scene,
+    options: &RenderOptions,
+    observers: Option<&MakeObserver<D>>,
+) -> Result<Picture, Vec<Diagnostic>> {
+    let mut surface = Surface::new::<D>(scene.framebuffer);
+    let mut target = Target::<D>::new(&mut surface);
+    for (number, draw) in scene.draws.iter().enumerate() {
+        let watch = Watch { make: observers, draw: number, instance: 0, apart: observers.is_some() };
+        draw_all(scene, draw, options, watch, &mut |shading, code, endless, watch| {
+            draw_prims(shading, code, &mut target, endless, watch);
+        })?;
+    }
+    let marks = target.into_marks();
+    Ok(surface.picture::<D>(marks))
+}
+
+/// What is done with the primitives of an instance.
+type Paint<'p, D> = dyn FnMut(&Shading<'_, D>, &Code, &OnceLock<Span>, &Watch<'_, D>) + 'p;
+
+fn draw_all<D: Domain>(
+    scene: &Scene,
+    draw: &Draw,
+    options: &RenderOptions,
+    mut watch: Watch<'_, D>,
+    paint: &mut Paint<'_, D>,
+) -> Result<(), Vec<Diagnostic>> {
+    if draw.program.stage(Stage::Geometry).is_some() {
+        return Err(vec![refuse(&SCENE_CANNOT_DRAW, "a program with a geometry stage cannot be drawn")]);
+    }
+    let compile = if watch.apart { Code::compile_apart } else { Code::compile };
+    let vertex_code = compile(&draw.program, Stage::Vertex)?;
+    let fragment_code = compile(&draw.program, Stage::Fragment)?;
+    watch.common(&vertex_code, draw, SAME_FOR_VERTICES);
+    watch.common(&fragment_code, draw, SAME_FOR_FRAGMENTS);
+    let plan = Plan::new(&draw.program);
+    let outputs = output_plans(draw, scene.framebuffer.attachments);
+    let viewport = [scene.framebuffer.width as f32, scene.framebuffer.height as f32];
+    let (order, unique) = unique_vertices(draw);
+    let group = (MAX_INVOCATIONS / unique.len().max(1)).max(1) as u32;
+    let endless = OnceLock::new();
+    let mut first = 0;
+    while first < draw.instances && !unique.is_empty() {
+        let instances = first..draw.instances.min(first + group);
+        let invocations: Vec<Invocation> =
+            instances.clone().flat_map(|instance| unique.iter().map(move |&vertex| (vertex, instance))).collect();
+        watch.instance = first;
+        let faults = options.faults;
+        let mut vertices = shade::<D>(draw, &vertex_code, &plan, &invocations, viewport, faults, &endless, &watch);
+        if endless.get().is_some() {
+            break;
+        }
+        for local in 0..instances.len() as u32 {
+            if endless.get().is_some() {
+                break;
+            }
+            watch.instance = first + local;
+            let base = local * unique.len() as u32;
+            let order: Vec<u32> = order.iter().map(|&position| base + position).collect();
+            let prims = primitives(&mut vertices, &order, &draw.state, options.lines);
+            let shading = Shading {
+                draw,
+                plan: &plan,
+                vertices: &vertices,
+                prims: &prims,
+                framebuffer: scene.framebuffer,
+                outputs: &outputs,
+                mark_edges: options.mark_edges,
+                faults: options.faults,
+            };
+            paint(&shading, &fragment_code, &endless, &watch);
+        }
+        first = instances.end;
+    }
+    match endless.get() {
+        Some(&place) => Err(vec![never_ends(place)]),
+        None => Ok(()),
+    }
+}
+
+fn refuse(code: &'static DiagnosticCode, message: &str) -> Diagnostic {
+    Diagnostic::new(code, Span::default(), message)
+}
+
+fn never_ends(place: Span) -> Diagnostic {
+    let told = Diagnostic::new(&SCENE_LOOP_BUDGET, place, "a loop of the program does not come to an end");
+    let budget = format!("left after it ran {LOOP_BUDGET} instructions for 64 invocations together");
+    told.here(budget).help("a loop needs a condition that turns false, a `break` or a `return`")
+}
+
+/// The vertices of a draw without repetition, and for each position of the draw its place among them.
+fn unique_vertices(draw: &Draw) -> (Vec<u32>, Vec<u32>) {
+    let Some(indices) = &draw.indices else {
+        let all: Vec<u32> = (0..draw.vertex_count).collect();
+        return (all.clone(), all);
+    };
+    let used = indices.get(..draw.vertex_count as usize).unwrap_or(indices);
+    let most = used.iter().copied().max().unwrap_or(0) as usize;
+    if most < 4 * used.len() {
+        // A table of all vertices: the place of each that is used.
+        let mut places = vec![u32::MAX; most + 1];
+        for &index in used {
+            places[index as usize] = 0;
+        }
+        let mut unique = Vec::new();
+        for (vertex, place) in (0..).zip(&mut places) {
+            if *place == 0 {
+                *place = unique.len() as u32;
+                unique.push(vertex);
+            }
+        }
+        return (used.iter().map(|&index| places[index as usize]).collect(), unique);
+    }
+    let mut unique = used.to_vec();
+    unique.sort_unstable();
+    unique.dedup();
+    let order = used.iter().map(|index| unique.partition_point(|known| known < index) as u32).collect();
+    (order, unique)
+}
+
+/// The primitives that touch each bin, in order: a list of lists in two arrays.
+struct Bins {
+    starts: Vec<u32>,
+    prims: Vec<u32>,
+}
+
+impl Bins {
+    fn new<D: Domain>(prims: &[Prim], target: &Target<'_, D>) -> Self {
+        let mut counts = vec![0_u32; target.bins.len() + 1];
+        let mut pairs = Vec::new();
+        for (index, prim) in prims.iter().enumerate() {
+            touched(&prim.shape, target, |bin| {
+                counts[bin + 1] += 1;
+                pairs.push((bin as u32, index as u32));
+            });
+        }
+        for bin in 1..counts.len() {
+            counts[bin] += counts[bin - 1];
+        }
+        let mut next = counts.clone();
+        let mut list = vec![0; pairs.len()];
+        for (bin, prim) in pairs {
+            let slot = &mut next[bin as usize];
+            list[*slot as usize] = prim;
+            *slot += 1;
+        }
+        Self { starts: counts, prims: list }
+    }
+
+    fn of(&self, bin: usize) -> &[u32] {
+        let range = self.starts.get(bin).zip(self.starts.get(bin + 1));
+        range.and_then(|(&start, &end)| self.prims.get(start as usize..end as usize)).unwrap_or(&[])
+    }
+}
+
+/// Calls `visit` once with each bin that a shape may touch.
+fn touched<D: Domain>(shape: &Shape, target: &Target<'_, D>, mut visit: impl FnMut(usize)) {
+    let bin_at = |column: i64, row: i64| (row * target.columns + column) as usize;
+    if let Shape::Pixels(pixels) = shape {
+        // Along the pixels, not over the rectangle around them: of a diagonal that is many times as much.
+        let mut seen: SmallVec<[usize; 32]> = SmallVec::new();
+        for &(x, y) in pixels {
+            let (column, row) = (x.div_euclid(BIN), y.div_euclid(BIN));
+            let is_inside = (0..target.columns).contains(&column) && (0..target.rows).contains(&row);
+            let bin = bin_at(column, row);
+            if is_inside && seen.last() != Some(&bin) && !seen.contains(&bin) {
+                seen.push(bin);
+                visit(bin);
+            }
+        }
+        return;
+    }
+    let bounds = shape.bounds();
+    let reach = |low: i64, high: i64, limit: i64| {
+        low.div_euclid(BIN).clamp(0, limit)..(high + BIN - 1).div_euclid(BIN).clamp(0, limit)
+    };
+    for row in reach(bounds.y0, bounds.y1, target.rows) {
+        for column in reach(bounds.x0, bounds.x1, target.columns) {
+            let bin = bin_at(column, row);
+            if target.bins.get(bin).is_some_and(|bin| shape.may_touch(bin.area)) {
+                visit(bin);
+            }
+        }
+    }
+}
+
+fn draw_prims<D: Domain>(
+    shading: &Shading<'_, D>,
+    code: &Code,
+    target: &mut Target<'_, D>,
+    endless: &OnceLock<Span>,
+    watch: &Watch<'_, D>,
+) {
+    let bins = Bins::new(shading.prims, target);
+    let idle: Mutex<Vec<Machine<D>>> = Mutex::new(Vec::new());
+    let take = || idle.lock().ok().and_then(|mut idle| idle.pop());
+    target.bins.par_iter_mut().enumerate().for_each(|(index, bin)| {
+        let list = bins.of(index);
+        if list.is_empty() || endless.get().is_some() {
+            return;
+        }
+        let mut machine = take().unwrap_or_else(|| shading.machine(code));
+        watch.begin(&mut machine);
+        draw_bin(shading, bin, list, &mut machine);
+        watch.end(&mut machine, FRAGMENTS, index);
+        if let Some(found) = machine.endless_loop() {
+            endless.get_or_init(|| found);
+        }
+        if let Ok(mut idle) = idle.lock() {
+            idle.push(machine);
+        }
+    });
+}

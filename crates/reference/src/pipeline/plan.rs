@@ -1,0 +1,156 @@
+//! What goes from the vertex stage to the fragment stage, worked out once for a draw.
+//!
+//! *In:* a linked program. *Out:* for each scalar that is handed on, where it comes from and goes to; the built-in
+//! variables that each stage names.
+
+use glisten_front::builtin::{BuiltinFunction, BuiltinVariable};
+use glisten_front::hir::{ExprKind, GlobalId, Interpolation, Scalar, Shader, Stage, Stmt, StmtKind};
+use glisten_front::link::Program;
+
+/// A scalar in a variable's flat layout.
+pub(super) type Place = (GlobalId, u32);
+
+/// A `float` that is handed on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct FloatVarying {
+    pub(super) from: Place,
+    pub(super) to: Place,
+    pub(super) interpolation: Interpolation,
+}
+
+/// An `int` or `uint` that is handed on, always flat.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct IntVarying {
+    pub(super) from: Place,
+    pub(super) to: Place,
+}
+
+/// What a draw's stages have to do with each other and with the fixed parts of the pipeline.
+#[derive(Clone, Debug)]
+pub(super) struct Plan {
+    pub(super) floats: Vec<FloatVarying>,
+    pub(super) ints: Vec<IntVarying>,
+    /// Outputs of the vertex stage.
+    pub(super) position: Option<GlobalId>,
+    pub(super) point_size: Option<GlobalId>,
+    pub(super) clip_distance: Option<GlobalId>,
+    /// Inputs of the vertex stage.
+    pub(super) vertex_id: Option<GlobalId>,
+    pub(super) instance_id: Option<GlobalId>,
+    /// Inputs of the fragment stage.
+    pub(super) frag_coord: Option<GlobalId>,
+    pub(super) front_facing: Option<GlobalId>,
+    pub(super) point_coord: Option<GlobalId>,
+    pub(super) primitive_id: Option<GlobalId>,
+    /// Output of the fragment stage, if it is written.
+    pub(super) frag_depth: Option<GlobalId>,
+    /// Whether the fragment stage's quads must be whole.
+    pub(super) needs_quads: bool,
+    /// Whether fragments may be tested against depth before they are shaded.
+    pub(super) early_depth: bool,
+}
+
+impl Plan {
+    /// The plan of a program with both stages.
+    pub(super) fn new(program: &Program) -> Self {
+        let vertex = program.stage(Stage::Vertex);
+        let fragment = program.stage(Stage::Fragment);
+        let of_vertex = |builtin| vertex.and_then(|shader| find(shader, builtin));
+        let of_fragment = |builtin| fragment.and_then(|shader| find(shader, builtin));
+        let frag_depth = of_fragment(BuiltinVariable::FragDepth)
+            .filter(|&id| fragment.and_then(|shader| shader.globals.get(id.index())).is_some_and(|g| g.written));
+        let discards = fragment.is_some_and(discards);
+        let mut plan = Self {
+            floats: Vec::new(),
+            ints: Vec::new(),
+            position: of_vertex(BuiltinVariable::Position),
+            point_size: of_vertex(BuiltinVariable::PointSize),
+            clip_distance: of_vertex(BuiltinVariable::ClipDistance),
+            vertex_id: of_vertex(BuiltinVariable::VertexId),
+            instance_id: of_vertex(BuiltinVariable::InstanceId),
+            frag_coord: of_fragment(BuiltinVariable::FragCoord),
+            front_facing: of_fragment(BuiltinVariable::FrontFacing),
+            point_coord: of_fragment(BuiltinVariable::PointCoord),
+            primitive_id: of_fragment(BuiltinVariable::PrimitiveId),
+            frag_depth,
+            needs_quads: fragment.is_some_and(takes_derivatives),
+            early_depth: frag_depth.is_none() && !discards,
+        };
+        plan.add_varyings(program);
+        if let (Some(from), Some(to)) = (plan.clip_distance, of_fragment(BuiltinVariable::ClipDistance)) {
+            plan.add_clip_distances(program, from, to);
+        }
+        plan
+    }
+
+    fn add_varyings(&mut self, program: &Program) {
+        for varying in &program.interface.varyings {
+            let (Some(from), Some(to), true) = (varying.from, varying.to, varying.active) else { continue };
+            let is_float = program.types.scalar_of(varying.ty) == Some(Scalar::Float);
+            for scalar in 0..program.types.flat_len(varying.ty) {
+                let from = (from.global, from.flat_offset + scalar);
+                let to = (to.global, to.flat_offset + scalar);
+                if is_float {
+                    self.floats.push(FloatVarying { from, to, interpolation: varying.interpolation });
+                } else {
+                    self.ints.push(IntVarying { from, to });
+                }
+            }
+        }
+    }
+
+    /// `gl_ClipDistance` is an input of the fragment stage, too (GLSL 1.50 §7.2).
+    fn add_clip_distances(&mut self, program: &Program, from: GlobalId, to: GlobalId) {
+        let len = |stage, id: GlobalId| {
+            let global = program.stage(stage).and_then(|shader| shader.globals.get(id.index()));
+            global.map_or(0, |global| program.types.flat_len(global.ty))
+        };
+        for index in 0..len(Stage::Vertex, from).min(len(Stage::Fragment, to)) {
+            self.floats.push(FloatVarying {
+                from: (from, index),
+                to: (to, index),
+                interpolation: Interpolation::Smooth,
+            });
+        }
+    }
+}
+
+fn find(shader: &Shader, builtin: BuiltinVariable) -> Option<GlobalId> {
+    shader.globals().find(|(_, global)| global.builtin == Some(builtin)).map(|(id, _)| id)
+}
+
+/// Whether a derivative is taken anywhere in the shader, if only for a level of detail.
+fn takes_derivatives(shader: &Shader) -> bool {
+    shader.exprs.iter().any(|expr| match expr.kind {
+        ExprKind::BuiltinCall(function, _) => matches!(
+            function,
+            BuiltinFunction::DFdx
+                | BuiltinFunction::DFdy
+                | BuiltinFunction::Fwidth
+                | BuiltinFunction::Texture
+                | BuiltinFunction::TextureProj
+                | BuiltinFunction::TextureOffset
+                | BuiltinFunction::TextureProjOffset
+        ),
+        _ => false,
+    })
+}
+
+/// Whether a `discard` stands in a function that `main` can reach.
+fn discards(shader: &Shader) -> bool {
+    let reachable = shader.functions.iter().filter(|function| function.reachable);
+    let mut rest: Vec<&Stmt> = reachable.filter_map(|function| function.body.as_ref()).flatten().collect();
+    while let Some(stmt) = rest.pop() {
+        match &stmt.kind {
+            StmtKind::Discard => return true,
+            StmtKind::Block(body) | StmtKind::Loop { body, .. } => rest.extend(body),
+            StmtKind::If { arms, otherwise } => {
+                rest.extend(arms.iter().flat_map(|(_, body)| body));
+                rest.extend(otherwise);
+            }
+            StmtKind::Switch { cases, .. } => rest.extend(cases.iter().flat_map(|case| &case.body)),
+            StmtKind::Expr(_) | StmtKind::Local(..) | StmtKind::Break | StmtKind::Continue | StmtKind::Return(_) => {}
+        }
+    }
+    false
+}

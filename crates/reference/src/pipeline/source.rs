@@ -1,0 +1,270 @@
+//! [`Source`]: what a primitive's fragments are interpolated from.
+//!
+//! *In:* a primitive and its vertices, and where its fragments are. *Out:* for each of them the weights of the vertices,
+//! depth, `1/w` and varyings, many fragments at a time ([`Fragments`]).
+//! *Holds:* the equations are those of [`interpolate`](crate::interpolate). A segment has the weights `1 - t`, `t`
+//! and 0, by which (108) and (106) are OpenGL's (3.6) and (3.7); a point has the weights 1, 0, 0.
+//!
+//! In a domain with envelopes the value is that of f64, and the interval is of our own making, for no specification has
+//! one ([`Slack`]).
+
+use super::assembly::{Corners, Prim};
+use super::slack::{Plane, Slack};
+use super::target::BIN;
+use super::vertices::Vertices;
+use crate::domain::{Domain, F64, Number, rules};
+use crate::exec::LANES;
+use crate::interpolate::{Frame, Vec2, along, linear, perspective, perspective_w, weights};
+use glisten_front::hir::Interpolation;
+use std::ops::Range;
+
+/// Where fragments are, lane by lane.
+#[derive(Debug)]
+pub(super) struct Places<D: Domain> {
+    /// Window x and y of their centers, in picture rows.
+    pub(super) x: [f64; LANES],
+    pub(super) y: [f64; LANES],
+    /// The weights of the second and the third vertex.
+    weights: [[D::Float; LANES]; 2],
+    /// The same by the values alone, in a domain with envelopes: what the vertices' places may be off is counted once, by
+    /// [`Slack`].
+    plain: [[f64; LANES]; 2],
+}
+
+impl<D: Domain> Places<D> {
+    /// The weights in some lanes, in a domain without envelopes.
+    #[inline(always)]
+    fn weights(&self, lanes: Range<usize>) -> impl Iterator<Item = [D::Float; 3]> {
+        let [u, v] = &self.weights;
+        u[lanes.clone()].iter().zip(&v[lanes]).map(|(u, v)| weights(*u, *v))
+    }
+}
+
+/// Fragments, lane by lane: their pixels and what is interpolated for every program.
+#[derive(Debug)]
+pub(super) struct Fragments<D: Domain> {
+    /// The places of their pixels in the bin.
+    pub(super) pixels: [u32; LANES],
+    pub(super) places: Places<D>,
+    /// Window z.
+    pub(super) z: [D::Float; LANES],
+    /// `gl_FragCoord.w`
+    pub(super) reciprocal: [D::Float; LANES],
+    /// Its reciprocal.
+    w: [D::Float; LANES],
+}
+
+impl<D: Domain> Fragments<D> {
+    pub(super) fn new() -> Self {
+        let blank = [D::Float::default(); LANES];
+        let places = Places { x: [0.0; LANES], y: [0.0; LANES], weights: [blank; 2], plain: [[0.0; LANES]; 2] };
+        Self { pixels: [0; LANES], places, z: blank, reciprocal: blank, w: blank }
+    }
+
+    /// Takes what is known of `COUNT` fragments to other lanes.
+    #[inline(always)]
+    pub(super) fn shift<const COUNT: usize>(&mut self, from: usize, to: usize) {
+        let from = from..from + COUNT;
+        self.pixels.copy_within(from.clone(), to);
+        self.z.copy_within(from.clone(), to);
+        let Places { x, y, weights, plain } = &mut self.places;
+        x.copy_within(from.clone(), to);
+        y.copy_within(from.clone(), to);
+        if D::OPEN {
+            plain.iter_mut().for_each(|lanes| lanes.copy_within(from.clone(), to));
+        } else {
+            weights.iter_mut().for_each(|lanes| lanes.copy_within(from.clone(), to));
+        }
+    }
+}
+
+/// A primitive ready to be interpolated.
+#[derive(Debug)]
+pub(super) struct Source<'v, D: Domain> {
+    kind: Kind<D>,
+    open: Option<Open>,
+    quotients: [&'v [D::Float]; 3],
+    /// Of the provoking vertex.
+    flat: &'v [D::Float],
+    pub(super) ints: &'v [D::Int],
+    reciprocals: [D::Float; 3],
+    z: [D::Float; 3],
+    pub(super) point: Option<Sprite<D>>,
+}
+
+/// The primitive by the values alone, and how far a GPU may be off.
+#[derive(Debug)]
+struct Open {
+    kind: Kind<F64>,
+    slack: Slack,
+}
+
+#[derive(Debug)]
+enum Kind<D: Domain> {
+    Point,
+    Line(Vec2<D::Float>, Vec2<D::Float>),
+    Triangle(Frame<D::Float>),
+}
+
+/// How far a driver's size of a point may be from the one that is asked for: half of the granularity that it has for them
+/// (OpenGL 3.2 §3.4.1), here of 1/256 pixel, the one of window positions.
+const POINT_SIZE_ERROR: f64 = 0.5 / 256.0;
+
+/// The square of a point, for `gl_PointCoord`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sprite<D: Domain> {
+    center: Vec2<D::Float>,
+    size: D::Float,
+}
+
+impl<D: Domain> Sprite<D> {
+    /// Equations (3.3) and (3.4) with the origin at the upper left, which is OpenGL's default, in picture rows.
+    pub(super) fn coordinates(&self, x: f64, y: f64) -> [D::Float; 2] {
+        let half = D::Float::from_f64(0.5);
+        let along = |p: f64, center: D::Float| {
+            let exact = half.add(D::Float::from_f64(p).sub(center).div(self.size));
+            let sized = (exact.value() - 0.5).abs() * POINT_SIZE_ERROR / self.size.value();
+            exact.widened(sized + rules::POINT_COORD.absolute())
+        };
+        [along(x, self.center[0]), along(y, self.center[1])]
+    }
+}
+
+impl<'v, D: Domain> Source<'v, D> {
+    pub(super) fn new(prim: &Prim, vertices: &'v Vertices<D>) -> Self {
+        let corners = match prim.corners {
+            Corners::Point(vertex) => [vertex; 3],
+            Corners::Line([from, to]) => [from, to, to],
+            Corners::Triangle(corners) => corners,
+        };
+        let window = corners.map(|vertex| vertices.window.get(vertex as usize).copied().unwrap_or_default());
+        let places = window.map(|[x, y, _, _]| [x, y]);
+        let kind = Kind::<D>::of(&prim.corners, places);
+        let is_point = matches!(kind, Kind::Point);
+        let size = vertices.size.get(corners[0] as usize).copied().unwrap_or(1.0).max(1.0);
+        let size = size.min(crate::raster::point::MAX_SIZE);
+        Self {
+            kind,
+            open: D::OPEN.then(|| Open {
+                kind: Kind::of(&prim.corners, places.map(|place| place.map(Number::value))),
+                slack: Slack::new(&prim.corners, places.map(|p| p.map(|c: D::Float| (c.value(), c.error())))),
+            }),
+            quotients: corners.map(|vertex| vertices.quotients_of(vertex)),
+            flat: vertices.floats_of(prim.provoking),
+            ints: vertices.ints_of(prim.provoking),
+            reciprocals: window.map(|[_, _, _, reciprocal]| reciprocal),
+            z: window.map(|[_, _, z, _]| z),
+            point: is_point.then(|| Sprite { center: places[0], size: D::Float::from_f64(f64::from(size)) }),
+        }
+    }
+
+    /// Finds weights and depth of the fragments in some lanes, in a bin with this corner.
+    #[inline(always)]
+    pub(super) fn locate(&self, fragments: &mut Fragments<D>, [x0, y0]: [i32; 2], lanes: Range<usize>) {
+        let Fragments { pixels, places, z, .. } = fragments;
+        let (x, y) = (&mut places.x[lanes.clone()], &mut places.y[lanes.clone()]);
+        for ((x, y), &pixel) in x.iter_mut().zip(y.iter_mut()).zip(&pixels[lanes.clone()]) {
+            let pixel = pixel as i32;
+            *x = f64::from(x0 + pixel % BIN as i32) + 0.5;
+            *y = f64::from(y0 + pixel / BIN as i32) + 0.5;
+        }
+        match &self.open {
+            Some(open) => open.kind.weights(x, y, places.plain.each_mut().map(|to| &mut to[lanes.clone()])),
+            None => self.kind.weights(x, y, places.weights.each_mut().map(|to| &mut to[lanes.clone()])),
+        }
+        self.in_plane(self.z, places, lanes.clone(), &mut z[lanes]);
+    }
+
+    /// Finds `gl_FragCoord.w` of fragments that are located, and its reciprocal.
+    #[inline(always)]
+    pub(super) fn find_w(&self, fragments: &mut Fragments<D>, lanes: Range<usize>) {
+        let Fragments { places, reciprocal, w, .. } = fragments;
+        let (reciprocal, w) = (&mut reciprocal[lanes.clone()], &mut w[lanes.clone()]);
+        self.in_plane(self.reciprocals, places, lanes.clone(), reciprocal);
+        if self.open.is_some() {
+            for (w, reciprocal) in w.iter_mut().zip(reciprocal) {
+                *w = D::Float::from_f64(1.0).div(*reciprocal);
+            }
+        } else {
+            for (w, weights) in w.iter_mut().zip(places.weights(lanes)) {
+                *w = perspective_w(weights, self.reciprocals);
+            }
+        }
+    }
+
+    /// Equation (106), with the bound of its evaluation in f32.
+    #[inline(always)]
+    fn in_plane(&self, values: [D::Float; 3], places: &Places<D>, lanes: Range<usize>, to: &mut [D::Float]) {
+        match &self.open {
+            Some(open) => {
+                let plane = Plane::new(&open.slack, values);
+                let [u, v] = places.plain.each_ref().map(|weights| &weights[lanes.clone()]);
+                plane.fill([u, v, &places.x[lanes.clone()], &places.y[lanes]], to);
+            }
+            None => {
+                for (to, weights) in to.iter_mut().zip(places.weights(lanes)) {
+                    *to = linear(weights, values);
+                }
+            }
+        }
+    }
+
+    /// A varying's scalar at the fragments in some lanes, whose `w` is found.
+    #[inline(always)]
+    pub(super) fn varying(
+        &self,
+        fragments: &Fragments<D>,
+        lanes: Range<usize>,
+        (index, interpolation): (usize, Interpolation),
+        to: &mut [D::Float],
+    ) {
+        if interpolation == Interpolation::Flat || matches!(self.kind, Kind::Point) {
+            to.fill(self.flat.get(index).copied().unwrap_or_default());
+            return;
+        }
+        let values = self.quotients.map(|quotients| quotients.get(index).copied().unwrap_or_default());
+        let Fragments { places, w, .. } = fragments;
+        let w = &w[lanes.clone()];
+        match (interpolation, &self.open) {
+            (Interpolation::Smooth, None) => {
+                for ((to, weights), w) in to.iter_mut().zip(places.weights(lanes)).zip(w) {
+                    *to = perspective(weights, *w, values);
+                }
+            }
+            (Interpolation::Smooth, Some(_)) => {
+                self.in_plane(values, places, lanes, to);
+                for (to, w) in to.iter_mut().zip(w) {
+                    *to = to.mul(*w);
+                }
+            }
+            (Interpolation::Noperspective | Interpolation::Flat, _) => self.in_plane(values, places, lanes, to),
+        }
+    }
+}
+
+impl<D: Domain> Kind<D> {
+    fn of(corners: &Corners, places: [Vec2<D::Float>; 3]) -> Self {
+        match corners {
+            Corners::Point(_) => Self::Point,
+            Corners::Line(_) => Self::Line(places[0], places[1]),
+            Corners::Triangle(_) => Self::Triangle(Frame::new(places[0], places[1], places[2])),
+        }
+    }
+
+    /// The weights of the second vertex and the third at places.
+    #[inline(always)]
+    fn weights(&self, x: &[f64], y: &[f64], [second, third]: [&mut [D::Float]; 2]) {
+        let places = x.iter().zip(y).map(|(x, y)| [D::Float::from_f64(*x), D::Float::from_f64(*y)]);
+        let to = second.iter_mut().zip(third);
+        let zero = D::Float::default();
+        match self {
+            Self::Point => to.for_each(|(u, v)| (*u, *v) = (zero, zero)),
+            Self::Line(from, end) => {
+                to.zip(places).for_each(|((u, v), place)| (*u, *v) = (along(place, *from, *end), zero));
+            }
+            Self::Triangle(frame) => {
+                to.zip(places).for_each(|((u, v), place)| (*u, *v) = frame.coordinates(place));
+            }
+        }
+    }
+}

@@ -1,0 +1,228 @@
+//! What becomes of one fragment at its pixel: depth test, blending, rounding to the format (OpenGL 3.2 §4.1).
+//!
+//! *In:* depth and color of a fragment and what the pixel holds. *Out:* what it holds then.
+//! *Holds:* where a conforming GPU may decide either way, the pixel holds the hull of both.
+
+use crate::domain::{Domain, Number, rules};
+use glisten_scene::compare::Range;
+use glisten_scene::scene::{BlendFactor, Compare, Format, State};
+use half::f16;
+
+/// What becomes of a fragment.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Test {
+    /// Whether it is drawn by the values.
+    pub(super) passes: bool,
+    /// Whether a conforming GPU may decide otherwise.
+    pub(super) open: bool,
+}
+
+/// The depth test (§4.1.5) of a fragment that came so far, and the write where it passes.
+#[inline(always)]
+pub(super) fn depth_test<D: Domain>(slot: &mut D::Float, z: D::Float, state: &State, before: Test) -> Test {
+    let stored = *slot;
+    let z = store_depth::<D>(z);
+    let passes = compare(state.depth_func, z.value(), stored.value());
+    let mut test = Test { passes: before.passes && passes, open: before.open };
+    if D::OPEN {
+        let (always, never) = certain(state.depth_func, z.range(), stored.range());
+        test = Test { passes: before.passes && !never && (passes || always), open: !never && (before.open || !always) };
+    }
+    if state.depth_write {
+        match (test.passes, test.open) {
+            (false, false) => {}
+            (true, false) => *slot = z,
+            (true, true) => *slot = z.joined(stored),
+            (false, true) => *slot = stored.joined(z),
+        }
+    }
+    test
+}
+
+/// A color blended into what a pixel holds, as the format stores it.
+pub(super) fn stored<D: Domain>(
+    color: [D::Float; 4],
+    old: [D::Float; 4],
+    blend: Option<(BlendFactor, BlendFactor)>,
+    format: Format,
+    test: Test,
+) -> [D::Float; 4] {
+    let color = match blend {
+        Some(factors) => {
+            let in_bytes = D::OPEN && format == Format::Rgba8Unorm;
+            let round = if in_bytes { in_steps::<D> } else { |value| value };
+            blended::<D>(factors, clamped::<D>(color, format).map(round), old, round)
+        }
+        None => color,
+    };
+    let new = color.map(|channel| store::<D>(channel, format));
+    match (test.passes, test.open) {
+        (_, false) => new,
+        (true, true) => std::array::from_fn(|i| new[i].joined(old[i])),
+        (false, true) => std::array::from_fn(|i| old[i].joined(new[i])),
+    }
+}
+
+/// Whether colors are stored as they are.
+pub(super) fn keeps(format: Format) -> bool {
+    matches!(format, Format::Rgba32Float | Format::Rgba32Sint | Format::Rgba32Uint)
+}
+
+pub(super) fn is_integer(format: Format) -> bool {
+    matches!(format, Format::Rgba32Sint | Format::Rgba32Uint)
+}
+
+/// A comparison of depth.
+fn compare(function: Compare, new: f64, stored: f64) -> bool {
+    match function {
+        Compare::Never => false,
+        Compare::Less => new < stored,
+        Compare::Equal => new == stored,
+        Compare::Lequal => new <= stored,
+        Compare::Greater => new > stored,
+        Compare::Notequal => new != stored,
+        Compare::Gequal => new >= stored,
+        Compare::Always => true,
+    }
+}
+
+/// Whether a comparison of depth holds, or fails, whatever both are.
+fn certain(function: Compare, new: Range, stored: Range) -> (bool, bool) {
+    let below = new.high < stored.low;
+    let above = new.low > stored.high;
+    let not_above = new.high <= stored.low;
+    let not_below = new.low >= stored.high;
+    let same = new.width() == 0.0 && stored.width() == 0.0 && new.low == stored.low;
+    let apart = below || above;
+    match function {
+        _ if new.may_be_nan => (function == Compare::Always, function == Compare::Never),
+        Compare::Never => (false, true),
+        Compare::Less => (below, not_below),
+        Compare::Equal => (same, apart),
+        Compare::Lequal => (not_above, above),
+        Compare::Greater => (above, not_above),
+        Compare::Notequal => (apart, same),
+        Compare::Gequal => (not_below, below),
+        Compare::Always => (true, false),
+    }
+}
+
+/// Depth as a 32-bit float, clamped to [0, 1] (§2.12.1).
+fn store_depth<D: Domain>(z: D::Float) -> D::Float {
+    let stored = f64::from(z.value() as f32).clamp(0.0, 1.0);
+    if !D::OPEN {
+        return D::Float::from_f64(stored);
+    }
+    let Range { low, high, may_be_nan } = z.range();
+    D::Float::with_range(stored, Range { low: low.clamp(0.0, 1.0), high: high.clamp(0.0, 1.0), may_be_nan })
+}
+
+/// A fixed-point attachment's source is clamped before blending (§4.1.7).
+fn clamped<D: Domain>(color: [D::Float; 4], format: Format) -> [D::Float; 4] {
+    if format != Format::Rgba8Unorm {
+        return color;
+    }
+    color.map(|channel| channel.max(D::Float::default()).min(D::Float::from_f64(1.0)))
+}
+
+/// A number and the step of 1/255 nearest to it: blending in an 8-bit attachment may be computed in as many bits as that
+/// has (§4.1.7), which rounds the source, the factors and the products, or in floats.
+fn in_steps<D: Domain>(value: D::Float) -> D::Float {
+    let Range { low, high, may_be_nan } = value.range();
+    let slack = rules::STORE_SLACK.absolute();
+    let step = |x: f64| (x * 255.0).round() / 255.0;
+    let (low, high) = (low.min(step(low - slack)), high.max(step(high + slack)));
+    D::Float::with_range(value.value(), Range { low, high, may_be_nan })
+}
+
+/// `source * S + destination * D` (§4.1.7, tables 4.1 and 4.2), with a rounding of factors and products.
+fn blended<D: Domain>(
+    (source_factor, destination_factor): (BlendFactor, BlendFactor),
+    source: [D::Float; 4],
+    destination: [D::Float; 4],
+    round: impl Fn(D::Float) -> D::Float,
+) -> [D::Float; 4] {
+    let by = |name: BlendFactor| factor::<D>(name, source, destination).map(&round);
+    let (s, d) = (by(source_factor), by(destination_factor));
+    std::array::from_fn(|i| {
+        let part = |weight: D::Float, value: D::Float, name: BlendFactor| match name {
+            // Nothing times infinity is nothing, where the factor is not computed.
+            BlendFactor::Zero => D::Float::default(),
+            BlendFactor::One => value,
+            _ => round(weight.mul(value)),
+        };
+        part(s[i], source[i], source_factor).add(part(d[i], destination[i], destination_factor))
+    })
+}
+
+fn factor<D: Domain>(name: BlendFactor, source: [D::Float; 4], destination: [D::Float; 4]) -> [D::Float; 4] {
+    let one = D::Float::from_f64(1.0);
+    let rest = |value: D::Float| one.sub(value);
+    let [_, _, _, source_alpha] = source;
+    let [_, _, _, destination_alpha] = destination;
+    match name {
+        BlendFactor::Zero => [D::Float::default(); 4],
+        BlendFactor::One => [one; 4],
+        BlendFactor::SrcColor => source,
+        BlendFactor::OneMinusSrcColor => source.map(rest),
+        BlendFactor::DstColor => destination,
+        BlendFactor::OneMinusDstColor => destination.map(rest),
+        BlendFactor::SrcAlpha => [source_alpha; 4],
+        BlendFactor::OneMinusSrcAlpha => [rest(source_alpha); 4],
+        BlendFactor::DstAlpha => [destination_alpha; 4],
+        BlendFactor::OneMinusDstAlpha => [rest(destination_alpha); 4],
+        BlendFactor::SrcAlphaSaturate => {
+            let least = source_alpha.min(rest(destination_alpha));
+            [least, least, least, one]
+        }
+    }
+}
+
+/// A channel as the format stores it (§2.1.5, §4.1.7); with an envelope from the least to the greatest step that a number
+/// inside may be stored at.
+pub(super) fn store<D: Domain>(value: D::Float, format: Format) -> D::Float {
+    let convert: fn(f64) -> f64 = match format {
+        Format::Rgba32Float | Format::Rgba32Sint | Format::Rgba32Uint => return value,
+        Format::Rgba16Float => |x| f64::from(f16::from_f64(x)),
+        Format::Rgba8Unorm => unorm8,
+    };
+    let stored = convert(value.value());
+    if !D::OPEN {
+        return D::Float::from_f64(stored);
+    }
+    let Range { low, high, may_be_nan } = value.range();
+    if low == high && convert(low) == low {
+        return D::Float::from_f64(stored);
+    }
+    // A step of 8 bits is no f32: its ends are rounded outward once more.
+    let range = match format {
+        Format::Rgba8Unorm => {
+            let slack = rules::STORE_SLACK.absolute();
+            let low = if may_be_nan { 0.0 } else { convert(low - slack) };
+            Range { low, high: convert(high + slack), may_be_nan: false }
+        }
+        _ => Range { low: half_below(low), high: -half_below(-high), may_be_nan },
+    };
+    D::Float::with_range(stored, range)
+}
+
+/// The greatest half float not above a number.
+fn half_below(x: f64) -> f64 {
+    let near = f16::from_f64(x);
+    let value = f64::from(near);
+    if value <= x || value.is_nan() {
+        return value;
+    }
+    let bits = near.to_bits();
+    let below = match (value > 0.0, value == 0.0) {
+        (true, _) => bits - 1,
+        (_, true) => 0x8001,
+        _ => bits + 1,
+    };
+    f64::from(f16::from_bits(below))
+}
+
+/// An 8-bit normalized channel: clamped, `round(255 x) / 255`; NaN is 0.
+fn unorm8(x: f64) -> f64 {
+    if x.is_nan() { 0.0 } else { (x.clamp(0.0, 1.0) * 255.0).round_ties_even() / 255.0 }
+}

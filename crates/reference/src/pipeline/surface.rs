@@ -1,0 +1,148 @@
+//! [`Surface`]: the colors of the picture that is being drawn.
+//!
+//! *In:* a framebuffer. *Out:* the [`Picture`].
+//! *Holds:* each pixel stands where it stands in the picture, so that nothing is copied at the end; bins own pieces of the
+//! rows. A number of a domain with envelopes is kept as its value and its range, of which the same number can be made.
+
+use super::store::store;
+use super::target::BIN;
+use crate::domain::{Domain, Number};
+use glisten_scene::compare::{Picture, Range};
+use glisten_scene::scene::Framebuffer;
+use rayon::prelude::*;
+
+/// What the attachments hold.
+#[derive(Clone, Debug)]
+pub(super) struct Surface {
+    pub(super) framebuffer: Framebuffer,
+    pub(super) attachments: Vec<Attachment>,
+}
+
+/// What one holds, row by row.
+#[derive(Clone, Debug)]
+pub(super) struct Attachment {
+    colors: Vec<[f64; 4]>,
+    /// Empty in domains without envelopes.
+    ranges: Vec<[Range; 4]>,
+}
+
+/// What was drawn to, row by row.
+#[derive(Debug)]
+pub(super) struct Marks {
+    pub(super) covered: Vec<bool>,
+    pub(super) undecided: Vec<bool>,
+    pub(super) near_edge: Vec<bool>,
+}
+
+/// A bin's part of the rows of an attachment.
+#[derive(Debug)]
+pub(super) struct Piece<'s> {
+    colors: Vec<&'s mut [[f64; 4]]>,
+    ranges: Vec<&'s mut [[Range; 4]]>,
+}
+
+/// A pixel of an attachment.
+#[derive(Debug)]
+pub(super) struct Pixel<'p> {
+    color: &'p mut [f64; 4],
+    range: Option<&'p mut [Range; 4]>,
+}
+
+impl Surface {
+    /// A cleared one for a domain.
+    pub(super) fn new<D: Domain>(framebuffer: Framebuffer) -> Self {
+        let count = framebuffer.width as usize * framebuffer.height as usize;
+        let clear = framebuffer.clear.map(|value| store::<D>(D::Float::from_f64(value), framebuffer.format));
+        let cleared = || Attachment {
+            colors: filled(count, clear.map(Number::value)),
+            ranges: if D::OPEN { filled(count, clear.map(Number::range)) } else { Vec::new() },
+        };
+        Self { framebuffer, attachments: (0..framebuffer.attachments).map(|_| cleared()).collect() }
+    }
+
+    /// The picture that was drawn.
+    pub(super) fn picture<D: Domain>(self, marks: Marks) -> Picture {
+        let (colors, ranges) = self.attachments.into_iter().map(|held| (held.colors, held.ranges)).unzip();
+        Picture {
+            width: self.framebuffer.width,
+            height: self.framebuffer.height,
+            attachments: colors,
+            covered: marks.covered,
+            ranges: D::OPEN.then_some(ranges),
+            undecided: marks.undecided,
+            near_edge: marks.near_edge,
+        }
+    }
+}
+
+/// The same in all pixels: written by all threads, because memory that is new takes longer to get than to fill.
+fn filled<T: Copy + Send + Sync>(count: usize, value: T) -> Vec<T> {
+    (0..count).into_par_iter().with_min_len(1 << 12).map(|_| value).collect()
+}
+
+impl Attachment {
+    /// The pieces that bins own, bin by bin.
+    pub(super) fn pieces(&mut self, width: usize) -> impl Iterator<Item = Piece<'_>> {
+        let columns = width.div_ceil(BIN as usize);
+        let rows = self.colors.len() / width.max(1);
+        let mut pieces = Vec::new();
+        pieces.resize_with(columns * rows.div_ceil(BIN as usize), || Piece {
+            colors: Vec::with_capacity(BIN as usize),
+            ranges: Vec::with_capacity(if self.ranges.is_empty() { 0 } else { BIN as usize }),
+        });
+        deal(&mut self.colors, width, &mut pieces, |piece| &mut piece.colors);
+        deal(&mut self.ranges, width, &mut pieces, |piece| &mut piece.ranges);
+        pieces.into_iter()
+    }
+}
+
+/// Gives each bin its part of the rows.
+fn deal<'s, T>(
+    all: &'s mut [T],
+    width: usize,
+    pieces: &mut [Piece<'s>],
+    of: impl for<'p> Fn(&'p mut Piece<'s>) -> &'p mut Vec<&'s mut [T]>,
+) {
+    let columns = width.div_ceil(BIN as usize).max(1);
+    let strips = all.chunks_mut((BIN as usize * width).max(1));
+    for (strip, pieces) in strips.zip(pieces.chunks_mut(columns)) {
+        for row in strip.chunks_mut(width.max(1)) {
+            for (part, piece) in row.chunks_mut(BIN as usize).zip(pieces.iter_mut()) {
+                of(piece).push(part);
+            }
+        }
+    }
+}
+
+impl Piece<'_> {
+    /// A pixel by its place in the bin.
+    #[inline(always)]
+    pub(super) fn pixel(&mut self, place: u32) -> Option<Pixel<'_>> {
+        let (row, column) = ((place / BIN as u32) as usize, (place % BIN as u32) as usize);
+        let color = self.colors.get_mut(row)?.get_mut(column)?;
+        Some(Pixel { color, range: self.ranges.get_mut(row).and_then(|row| row.get_mut(column)) })
+    }
+}
+
+impl Pixel<'_> {
+    #[inline(always)]
+    pub(super) fn read<D: Domain>(&self) -> [D::Float; 4] {
+        let range =
+            |channel: usize, value: f64| self.range.as_ref().map_or(Range::point(value), |range| range[channel]);
+        std::array::from_fn(|channel| D::Float::whole(self.color[channel], range(channel, self.color[channel])))
+    }
+
+    #[inline(always)]
+    pub(super) fn write<D: Domain>(&mut self, color: [D::Float; 4]) {
+        for (to, channel) in self.color.iter_mut().zip(&color) {
+            *to = channel.value();
+        }
+        if D::OPEN
+            && let Some(range) = self.range.as_deref_mut()
+        {
+            for (to, channel) in range.iter_mut().zip(&color) {
+                *to = channel.range();
+            }
+        }
+    }
+}

@@ -1,0 +1,251 @@
+//! What is drawn to: colors, depth, coverage, cut into square bins that threads own (OpenGL 3.2 §4.1, §4.2).
+//!
+//! *In:* fragments after shading. *Out:* what their pixels hold.
+//! *Holds:* a value is stored as the attachment's format stores it, except that `rgba32float` keeps the domain's own
+//! precision: the reference is not rounded to f32. Depth is stored as f32, as the format has it. Colors are written where
+//! the picture has them ([`Surface`]); the rest is a bin's own and there only once something is drawn.
+
+use super::store::{Test, depth_test, is_integer, keeps, stored};
+use super::surface::{Marks, Piece, Surface};
+use crate::domain::{Domain, Number};
+use crate::exec::{LANES, Mask};
+use crate::raster::Bounds;
+use glisten_scene::compare::Range;
+use glisten_scene::scene::{BlendFactor, Format, Framebuffer, State};
+use smallvec::SmallVec;
+
+/// Pixels along a side of a bin; even, so that quads lie within one.
+pub(super) const BIN: i64 = 32;
+
+/// What becomes of the fragments of a batch, as sets of lanes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Tests {
+    /// Those that are drawn by the values.
+    pub(super) passes: u64,
+    /// Those where a conforming GPU may decide otherwise.
+    pub(super) open: u64,
+}
+
+impl Tests {
+    /// Those that some GPU draws.
+    pub(super) fn possible(self) -> u64 {
+        self.passes | self.open
+    }
+
+    #[inline(always)]
+    fn of(self, lane: usize) -> Test {
+        Test { passes: self.passes >> lane & 1 == 1, open: self.open >> lane & 1 == 1 }
+    }
+}
+
+/// The framebuffer, cut into bins.
+#[derive(Debug)]
+pub(super) struct Target<'s, D: Domain> {
+    framebuffer: Framebuffer,
+    pub(super) columns: i64,
+    pub(super) rows: i64,
+    pub(super) bins: Vec<Bin<'s, D>>,
+}
+
+/// A bin's part of the framebuffer.
+#[derive(Debug)]
+pub(super) struct Bin<'s, D: Domain> {
+    /// Its pixels; at the right and lower rim it has fewer than elsewhere.
+    pub(super) area: Bounds,
+    format: Format,
+    attachments: SmallVec<[Piece<'s>; 1]>,
+    /// None as long as nothing is drawn.
+    pixels: Option<Pixels<D>>,
+}
+
+/// What is known of a bin's pixels beside their colors, row by row of [`BIN`].
+#[derive(Clone, Debug)]
+struct Pixels<D: Domain> {
+    /// Empty before the first test.
+    depth: Vec<D::Float>,
+    covered: Vec<bool>,
+    /// Empty if none is.
+    near_edge: Vec<bool>,
+    /// Whether a fragment that shows is drawn at all, or what it holds, is left open. Empty in domains without envelopes.
+    undecided: Vec<bool>,
+}
+
+/// The place of a pixel in its bin.
+#[inline(always)]
+pub(super) fn local(area: Bounds, x: i64, y: i64) -> u32 {
+    ((y - area.y0) * BIN + (x - area.x0)) as u32
+}
+
+impl<'s, D: Domain> Target<'s, D> {
+    /// A framebuffer over what its attachments hold.
+    pub(super) fn new(surface: &'s mut Surface) -> Self {
+        let framebuffer = surface.framebuffer;
+        let (width, height) = (i64::from(framebuffer.width), i64::from(framebuffer.height));
+        let (columns, rows) = ((width + BIN - 1) / BIN, (height + BIN - 1) / BIN);
+        let mut bins: Vec<Bin<'_, D>> = (0..columns * rows)
+            .map(|index| {
+                let (x0, y0) = (index % columns * BIN, index / columns * BIN);
+                let area = Bounds { x0, x1: (x0 + BIN).min(width), y0, y1: (y0 + BIN).min(height) };
+                Bin { area, format: framebuffer.format, attachments: SmallVec::new(), pixels: None }
+            })
+            .collect();
+        for attachment in &mut surface.attachments {
+            for (bin, piece) in bins.iter_mut().zip(attachment.pieces(framebuffer.width as usize)) {
+                bin.attachments.push(piece);
+            }
+        }
+        Self { framebuffer, columns, rows, bins }
+    }
+
+    /// What was drawn to.
+    pub(super) fn into_marks(self) -> Marks {
+        Marks {
+            covered: self.gathered(|pixels| &pixels.covered),
+            undecided: self.gathered(|pixels| &pixels.undecided),
+            near_edge: self.gathered(|pixels| &pixels.near_edge),
+        }
+    }
+
+    fn gathered(&self, of: impl Fn(&Pixels<D>) -> &[bool]) -> Vec<bool> {
+        let (width, height) = (self.framebuffer.width as usize, self.framebuffer.height as usize);
+        let mut all = vec![false; width * height];
+        for bin in &self.bins {
+            let Some(marks) = bin.pixels.as_ref().map(&of) else { continue };
+            let columns = bin.area.x0 as usize..bin.area.x1 as usize;
+            let rows = all.chunks_exact_mut(width).skip(bin.area.y0 as usize);
+            for (row, marks) in rows.zip(marks.chunks_exact(BIN as usize)) {
+                row[columns.clone()].copy_from_slice(&marks[..columns.len()]);
+            }
+        }
+        all
+    }
+}
+
+impl<D: Domain> Pixels<D> {
+    fn new() -> Self {
+        let count = (BIN * BIN) as usize;
+        let undecided = vec![false; if D::OPEN { count } else { 0 }];
+        Self { depth: Vec::new(), covered: vec![false; count], near_edge: Vec::new(), undecided }
+    }
+}
+
+impl<D: Domain> Bin<'_, D> {
+    #[inline(always)]
+    fn pixels(&mut self) -> &mut Pixels<D> {
+        self.pixels.get_or_insert_with(Pixels::new)
+    }
+
+    pub(super) fn mark_near_edge(&mut self, x: i64, y: i64) {
+        let place = local(self.area, x, y) as usize;
+        let near_edge = &mut self.pixels().near_edge;
+        near_edge.resize((BIN * BIN) as usize, false);
+        near_edge[place] = true;
+    }
+
+    /// The depth test (§4.1.5) of fragments that came so far, and the write where it passes.
+    pub(super) fn depth_tests(
+        &mut self,
+        places: &[u32; LANES],
+        depth_of: impl Fn(usize) -> D::Float,
+        state: &State,
+        before: Tests,
+    ) -> Tests {
+        if !state.depth_test {
+            return before;
+        }
+        let depth = &mut self.pixels().depth;
+        if depth.is_empty() {
+            *depth = vec![D::Float::from_f64(1.0); (BIN * BIN) as usize];
+        }
+        let mut after = Tests::default();
+        for lane in Mask(before.possible()).lanes() {
+            let Some(stored) = depth.get_mut(places[lane] as usize) else { continue };
+            let test = depth_test::<D>(stored, depth_of(lane), state, before.of(lane));
+            after.passes |= u64::from(test.passes) << lane;
+            after.open |= u64::from(test.open) << lane;
+        }
+        after
+    }
+
+    /// Notes that fragments are written to pixels, or may be. One that certainly is, and hides what was there, settles what
+    /// was open.
+    pub(super) fn cover(&mut self, places: &[u32; LANES], tests: Tests, undecided: u64, blends: bool) {
+        let pixels = self.pixels();
+        for lane in Mask(tests.passes).lanes() {
+            pixels.covered[places[lane] as usize] = true;
+        }
+        if D::OPEN {
+            for lane in Mask(tests.possible()).lanes() {
+                let slot = &mut pixels.undecided[places[lane] as usize];
+                let open = tests.of(lane).open;
+                *slot = undecided >> lane & 1 == 1 || open || (blends && *slot);
+            }
+        }
+    }
+
+    /// Blends colors into an attachment and stores them.
+    #[inline(always)]
+    pub(super) fn write_colors(
+        &mut self,
+        places: &[u32; LANES],
+        attachment: usize,
+        color: impl Fn(usize) -> [D::Float; 4],
+        blend: Option<(BlendFactor, BlendFactor)>,
+        tests: Tests,
+    ) {
+        let format = self.format;
+        let blend = blend.filter(|_| !is_integer(format));
+        let Some(piece) = self.attachments.get_mut(attachment) else { return };
+        if blend.is_none() && keeps(format) && tests.open == 0 {
+            for lane in Mask(tests.passes).lanes() {
+                if let Some(mut pixel) = piece.pixel(places[lane]) {
+                    pixel.write::<D>(color(lane));
+                }
+            }
+            return;
+        }
+        for lane in Mask(tests.possible()).lanes() {
+            if let Some(mut pixel) = piece.pixel(places[lane]) {
+                let color = stored::<D>(color(lane), pixel.read::<D>(), blend, format, tests.of(lane));
+                pixel.write::<D>(color);
+            }
+        }
+    }
+}
+
+/// A part of a picture that is drawn alone, and may be drawn again from where it was.
+#[derive(Clone, Debug)]
+pub(super) struct Patch<D: Domain> {
+    pub(super) area: Bounds,
+    surface: Surface,
+    pixels: Option<Pixels<D>>,
+}
+
+impl<D: Domain> Patch<D> {
+    /// No more than a bin's size, cleared.
+    pub(super) fn new(framebuffer: Framebuffer, area: Bounds) -> Self {
+        let (width, height) = ((area.x1 - area.x0) as u32, (area.y1 - area.y0) as u32);
+        Self { area, surface: Surface::new::<D>(Framebuffer { width, height, ..framebuffer }), pixels: None }
+    }
+
+    /// Draws to it.
+    pub(super) fn draw(&mut self, draw: impl FnOnce(&mut Bin<'_, D>)) {
+        if let Some(bin) = Target::<D>::new(&mut self.surface).bins.first_mut() {
+            bin.area = self.area;
+            bin.pixels = self.pixels.take();
+            draw(bin);
+            self.pixels = bin.pixels.take();
+        }
+    }
+
+    /// What a channel of a pixel inside may be.
+    pub(super) fn range(&mut self, x: i64, y: i64, attachment: usize, channel: usize) -> Range {
+        let mut range = Range::ALL;
+        let place = local(self.area, x, y);
+        self.draw(|bin| {
+            let color = bin.attachments.get_mut(attachment).and_then(|piece| piece.pixel(place)).map(|p| p.read::<D>());
+            range = color.and_then(|color| color.get(channel).copied()).map_or(Range::ALL, Number::range);
+        });
+        range
+    }
+}

@@ -1,0 +1,116 @@
+//! Textures, by OpenGL 3.2 §3.8: wrap modes, filters, mipmaps, level of detail, cubes without seams, shadow comparison.
+//!
+//! *In:* a [`Texture`] and coordinates with their intervals, as f64: every domain's coordinates are exact there. *Out:*
+//! the filtered value with the interval of what a GPU may give. The domain rounds once.
+//!
+//! *Holds:* no coordinate panics. Defined here where OpenGL is not: a coordinate that is not finite counts as 0; a fetch
+//! outside the texture gives 0 in all components; a missing texture gives (0, 0, 0, 1), as an incomplete one does
+//! (§3.8.14); where two axes of a cube's direction are equally long, z goes before y before x.
+//!
+//! The interval is the hull of all texels that a coordinate's interval touches
+//! ([`rules::NEAREST`](super::domain::rules::NEAREST)), with the precision of filter weights
+//! ([`rules::FILTER_WEIGHT`](super::domain::rules::FILTER_WEIGHT)) and of a level of detail from derivatives
+//! ([`rules::LEVEL_RANGE`](super::domain::rules::LEVEL_RANGE)).
+
+mod cube;
+mod lod;
+mod sample;
+mod texel;
+
+pub(crate) use lod::{Gradients, Steps, level_of_detail};
+pub(crate) use sample::{Request, sample};
+pub(crate) use texel::{fetch, size};
+
+use glisten_scene::scene::Texture;
+
+/// A number and the interval of what a GPU may have in its place.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Near {
+    pub(crate) value: f64,
+    pub(crate) low: f64,
+    pub(crate) high: f64,
+}
+
+impl Near {
+    pub(crate) fn exact(value: f64) -> Self {
+        Self { value, low: value, high: value }
+    }
+
+    /// Anything, with this as the value.
+    pub(crate) fn anything(value: f64) -> Self {
+        Self { value, low: f64::NEG_INFINITY, high: f64::INFINITY }
+    }
+
+    /// As much as `error` more to both sides.
+    pub(crate) fn widened(self, error: f64) -> Self {
+        Self { value: self.value, low: self.low - error, high: self.high + error }
+    }
+
+    /// A rising function of it.
+    pub(crate) fn map(self, f: impl Fn(f64) -> f64) -> Self {
+        Self { value: f(self.value), low: f(self.low), high: f(self.high) }
+    }
+
+    /// The hull of both, with this one's value.
+    pub(crate) fn joined(self, other: Self) -> Self {
+        Self { value: self.value, low: self.low.min(other.low), high: self.high.max(other.high) }
+    }
+
+    /// The farthest that it may be from its value.
+    pub(crate) fn error(self) -> f64 {
+        (self.value - self.low).max(self.high - self.value)
+    }
+}
+
+/// What a lookup gives.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Sampled {
+    Floats([Near; 4]),
+    /// The bits of an integer texture, and the `int`s between which a GPU's may be.
+    Bits([Bits; 4]),
+}
+
+/// Bits and the interval of `int`s that a GPU may have in their place.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Bits {
+    pub(crate) bits: u32,
+    pub(crate) low: i32,
+    pub(crate) high: i32,
+}
+
+impl Bits {
+    pub(crate) fn exact(bits: u32) -> Self {
+        Self { bits, low: bits as i32, high: bits as i32 }
+    }
+
+    pub(crate) fn joined(self, other: u32) -> Self {
+        Self { bits: self.bits, low: self.low.min(other as i32), high: self.high.max(other as i32) }
+    }
+}
+
+impl Sampled {
+    /// The hull of both, with this one's values.
+    pub(crate) fn joined(self, other: Self) -> Self {
+        match (self, other) {
+            (Self::Floats(a), Self::Floats(b)) => Self::Floats(std::array::from_fn(|k| a[k].joined(b[k]))),
+            (Self::Bits(a), Self::Bits(b)) => Self::Bits(std::array::from_fn(|k| a[k].joined(b[k].bits))),
+            (one, _) => one.unknown(),
+        }
+    }
+
+    /// Nothing is known but the likely result.
+    pub(crate) fn unknown(self) -> Self {
+        match self {
+            Self::Floats(values) => Self::Floats(values.map(|near| Near::anything(near.value))),
+            Self::Bits(bits) => Self::Bits(bits.map(|bits| Bits { low: i32::MIN, high: i32::MAX, ..bits })),
+        }
+    }
+}
+
+/// Of a sampler without a texture.
+pub(crate) const MISSING: [f64; 4] = [0.0, 0.0, 0.0, 1.0];
+
+/// The level in use, limited to those that there are.
+fn level(texture: &Texture, index: usize) -> Option<&glisten_scene::scene::TextureLevel> {
+    texture.levels.get(index.min(texture.levels.len().saturating_sub(1)))
+}

@@ -1,0 +1,366 @@
+//! Filtered lookups (OpenGL 3.2 §3.8.11 to §3.8.12, §3.8.16).
+
+use super::texel::{self, dimensions};
+use super::{Bits, Near, Sampled, cube, level};
+use crate::domain::rules;
+use glisten_front::hir::{SamplerDim, SamplerType, Scalar};
+use glisten_scene::scene::{Compare, Filter, Texture, TextureLevel, Wrap};
+
+/// One lookup.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Request {
+    pub(crate) kind: SamplerType,
+    /// s, t, r, as far as the texture has them.
+    pub(crate) at: [Near; 3],
+    pub(crate) layer: Near,
+    /// Of a shadow sampler.
+    pub(crate) reference: Near,
+    /// The level of detail, bias included.
+    pub(crate) level: Near,
+    /// In texels.
+    pub(crate) offset: [i32; 3],
+    /// Whether intervals are wanted.
+    pub(crate) bounded: bool,
+}
+
+/// One axis of a lookup in a level: the texels left and right, the weight of the right one, how far a GPU's place may
+/// be off, in texels, and the texels that it may touch.
+#[derive(Clone, Copy, Debug, Default)]
+struct Axis {
+    first: i64,
+    second: i64,
+    weight: f64,
+    error: f64,
+    touched: (i64, i64),
+}
+
+/// Looks a texture up.
+pub(crate) fn sample(texture: &Texture, request: &Request) -> Sampled {
+    let mut request = *request;
+    for at in &mut request.at {
+        if !at.value.is_finite() {
+            *at = Near::anything(0.0);
+        }
+    }
+    if request.kind.texel != Scalar::Float {
+        // Integers are not filtered (§3.8.14): nearest, in the base level.
+        let Some(base) = level(texture, 0) else { return Sampled::Bits([Bits::default(); 4]) };
+        return Sampled::Bits(nearest_bits(texture, base, &request));
+    }
+    let floats = match texture.filter {
+        Filter::Nearest => at_level(texture, 0, &request, false),
+        Filter::Linear => at_level(texture, 0, &request, true),
+        Filter::Trilinear => trilinear(texture, &request),
+    };
+    Sampled::Floats(floats)
+}
+
+/// Linear between levels; magnified, the base level. What a GPU may give is the hull over the levels of detail that it may
+/// have, linear between whole ones.
+fn trilinear(texture: &Texture, request: &Request) -> [Near; 4] {
+    let last = texture.levels.len().saturating_sub(1) as f64;
+    let limited = |lambda: f64| if lambda.is_nan() { 0.0 } else { lambda.clamp(0.0, last) };
+    let at = |lambda: f64| between(texture, request, lambda);
+    let mut result = at(limited(request.level.value));
+    if request.bounded {
+        let weight = rules::FILTER_WEIGHT.absolute();
+        let (low, high) = (limited(request.level.low - weight), limited(request.level.high + weight));
+        let whole = (low.ceil() as u64..=high.floor() as u64).map(|level| level as f64);
+        for lambda in [low, high].into_iter().chain(whole) {
+            for (near, other) in result.iter_mut().zip(at(lambda)) {
+                *near = near.joined(other);
+            }
+        }
+    }
+    result
+}
+
+/// Between the two levels around a level of detail.
+fn between(texture: &Texture, request: &Request, lambda: f64) -> [Near; 4] {
+    let (below, weight) = (lambda.floor(), lambda - lambda.floor());
+    let finer = at_level(texture, below as usize, request, true);
+    if weight == 0.0 {
+        return finer;
+    }
+    let coarser = at_level(texture, below as usize + 1, request, true);
+    let mix = |a: f64, b: f64| a * (1.0 - weight) + b * weight;
+    std::array::from_fn(|k| {
+        let (a, b) = (finer[k], coarser[k]);
+        Near { value: mix(a.value, b.value), low: mix(a.low, b.low), high: mix(a.high, b.high) }
+    })
+}
+
+/// The layer: nearest, limited to those that there are.
+fn layers(level: &TextureLevel, at: Near) -> (i64, (i64, i64)) {
+    let pick = |value: f64| (index((value + 0.5).floor())).clamp(0, i64::from(level.depth.max(1)) - 1);
+    (pick(at.value), (pick(at.low), pick(at.high)))
+}
+
+/// The coordinate in texels of a level.
+fn in_texels(kind: SamplerType, at: Near, size: u32) -> Near {
+    if kind.dim == SamplerDim::Rect {
+        return at;
+    }
+    let scale = f64::from(size);
+    // A GPU multiplies in f32.
+    at.map(|at| at * scale).widened(rules::ulp(at.value * scale))
+}
+
+fn wrapped(wrap: Wrap, index: i64, size: u32) -> i64 {
+    let n = i64::from(size.max(1));
+    match wrap {
+        Wrap::Repeat => index.rem_euclid(n),
+        Wrap::ClampToEdge => index.clamp(0, n - 1),
+        Wrap::MirroredRepeat => {
+            let within = index.rem_euclid(2 * n);
+            if within < n { within } else { 2 * n - 1 - within }
+        }
+    }
+}
+
+/// An index from a float; far ones stay far.
+fn index(value: f64) -> i64 {
+    const FAR: f64 = 4.0e18;
+    value.clamp(-FAR, FAR) as i64
+}
+
+fn axis(at: Near, offset: i32, linear: bool) -> Axis {
+    let shift = if linear { 0.5 } else { 0.0 };
+    let base = at.value - shift;
+    let floor = base.floor();
+    let place = |value: f64| index(value.floor()).saturating_add(i64::from(offset));
+    let first = place(base);
+    let second = first.saturating_add(1);
+    let weight = if linear { rules::FILTER_WEIGHT.absolute() } else { 0.0 };
+    let touched = (place(at.low - shift - weight), place(at.high - shift + weight).saturating_add(i64::from(linear)));
+    Axis { first, second, weight: if linear { base - floor } else { 0.0 }, error: at.error() + weight, touched }
+}
+
+/// The coordinates of a lookup in a level, as axes, and the face or layer.
+struct Footprint {
+    axes: [Axis; 3],
+    count: usize,
+    slice: i64,
+    /// The layers that it may be.
+    slices: (i64, i64),
+    wrap: Wrap,
+    cube: bool,
+}
+
+fn footprint(texture: &Texture, level: &TextureLevel, request: &Request, linear: bool) -> Footprint {
+    let kind = request.kind;
+    let mut axes = [Axis::default(); 3];
+    if kind.dim == SamplerDim::Cube {
+        let there = cube::face_of(request.at.map(|at| at.value));
+        let error = request.at.iter().map(|at| at.error()).fold(0.0, f64::max) / there.ma;
+        for (axis_at, c) in axes.iter_mut().zip([there.sc, there.tc]) {
+            let s = if there.ma > 0.0 { 0.5 * (c / there.ma + 1.0) } else { 0.5 };
+            let near = Near::exact(s).widened(error + 4.0 * rules::ulp(1.0));
+            *axis_at = axis(in_texels(kind, near, level.width), 0, linear);
+        }
+        let slice = there.face as i64;
+        return Footprint { axes, count: 2, slice, slices: (slice, slice), wrap: Wrap::ClampToEdge, cube: true };
+    }
+    let count = dimensions(kind.dim);
+    for (place, size) in [level.width, level.height, level.depth].into_iter().enumerate().take(count) {
+        axes[place] = axis(in_texels(kind, request.at[place], size), request.offset[place], linear);
+    }
+    let (slice, slices) = if kind.arrayed { layers(level, request.layer) } else { (0, (0, 0)) };
+    let wrap = if kind.dim == SamplerDim::Rect { Wrap::ClampToEdge } else { texture.wrap };
+    Footprint { axes, count, slice, slices, wrap, cube: false }
+}
+
+impl Footprint {
+    /// The place of a texel by unwrapped indices; `None` past a cube's corner.
+    fn place(&self, level: &TextureLevel, at: [i64; 3]) -> Option<[i64; 3]> {
+        self.place_in(level, at, self.slice)
+    }
+
+    /// The same in another layer.
+    fn place_in(&self, level: &TextureLevel, at: [i64; 3], slice: i64) -> Option<[i64; 3]> {
+        if self.cube {
+            let (face, x, y) = cube::across(slice as usize, at[0], at[1], level.width)?;
+            return Some([x, y, face as i64]);
+        }
+        let sizes = [level.width, level.height, level.depth];
+        let mut place = [0, 0, slice];
+        for axis in 0..self.count {
+            place[axis] = wrapped(self.wrap, at[axis], sizes[axis]);
+        }
+        Some(place)
+    }
+
+    /// Shows every texel that it may touch; false if these are too many.
+    fn each_touched(&self, level: &TextureLevel, mut show: impl FnMut([i64; 3])) -> bool {
+        const MOST: i64 = 4096;
+        let sizes = [level.width, level.height, level.depth].map(i64::from);
+        let mut ranges = [(0i64, 0i64); 3];
+        let mut total = self.slices.1 - self.slices.0 + 1;
+        for (axis, range) in ranges.iter_mut().enumerate().take(self.count) {
+            let (low, high) = self.axes[axis].touched;
+            let clamped = self.wrap == Wrap::ClampToEdge && !self.cube;
+            let limit = |at: i64| if clamped { at.clamp(-1, sizes[axis]) } else { at };
+            let (low, high) = (limit(low), limit(high));
+            // Twice round, as mirrored textures repeat, is all there is.
+            *range = (low, high.min(low.saturating_add(2 * sizes[axis])));
+            total = total.saturating_mul(range.1 - range.0 + 1);
+        }
+        if total > MOST {
+            return false;
+        }
+        for slice in self.slices.0..=self.slices.1 {
+            for z in ranges[2].0..=ranges[2].1 {
+                for y in ranges[1].0..=ranges[1].1 {
+                    for x in ranges[0].0..=ranges[0].1 {
+                        if let Some(place) = self.place_in(level, [x, y, z], slice) {
+                            show(place);
+                        }
+                    }
+                }
+            }
+        }
+        true
+    }
+}
+
+fn nearest_bits(texture: &Texture, level: &TextureLevel, request: &Request) -> [Bits; 4] {
+    let footprint = nearest(texture, level, request);
+    let place = footprint.place(level, footprint.axes.map(|axis| axis.first)).unwrap_or([0; 3]);
+    let mut result = texel::bits(level, place).map(Bits::exact);
+    if request.bounded {
+        let known = footprint.each_touched(level, |place| {
+            for (result, bits) in result.iter_mut().zip(texel::bits(level, place)) {
+                *result = result.joined(bits);
+            }
+        });
+        if !known {
+            return result.map(|bits| Bits { low: i32::MIN, high: i32::MAX, ..bits });
+        }
+    }
+    result
+}
+
+/// The footprint of a nearest lookup; on a cube within its face.
+fn nearest(texture: &Texture, level: &TextureLevel, request: &Request) -> Footprint {
+    let mut footprint = footprint(texture, level, request, false);
+    if footprint.cube {
+        let limit = i64::from(level.width.max(1)) - 1;
+        footprint.axes.iter_mut().for_each(|axis| axis.first = axis.first.clamp(0, limit));
+    }
+    footprint
+}
+
+/// A texel, or what comparing it gives.
+fn value(level: &TextureLevel, place: [i64; 3], texture: &Texture, request: &Request) -> [Near; 4] {
+    let texel = texel::floats(level, place);
+    if !request.kind.shadow {
+        return texel.map(Near::exact);
+    }
+    let passed = compare(texture.compare, request.reference.value, texel[0]);
+    // Both sides reach the comparison in f32.
+    let slack = rules::ulp(texel[0]);
+    let open = request.bounded
+        && (request.reference.low - slack..=request.reference.high + slack).contains(&texel[0])
+        && !matches!(texture.compare, Compare::Always | Compare::Never);
+    let value = f64::from(u8::from(passed));
+    let result = if open { Near { value, low: 0.0, high: 1.0 } } else { Near::exact(value) };
+    [result, Near::exact(0.0), Near::exact(0.0), Near::exact(1.0)]
+}
+
+/// `reference op stored` (§3.8.16).
+fn compare(op: Compare, reference: f64, stored: f64) -> bool {
+    match op {
+        Compare::Never => false,
+        Compare::Less => reference < stored,
+        Compare::Equal => reference == stored,
+        Compare::Lequal => reference <= stored,
+        Compare::Greater => reference > stored,
+        Compare::Notequal => reference != stored,
+        Compare::Gequal => reference >= stored,
+        Compare::Always => true,
+    }
+}
+
+/// A lookup in one level.
+fn at_level(texture: &Texture, number: usize, request: &Request, linear: bool) -> [Near; 4] {
+    let Some(level) = level(texture, number) else { return super::MISSING.map(Near::exact) };
+    let footprint = if linear { footprint(texture, level, request, linear) } else { nearest(texture, level, request) };
+    let result = blend(texture, level, request, &footprint, linear);
+    if request.bounded { limited(texture, level, request, &footprint, linear, result) } else { result }
+}
+
+/// The weighted sum over the corners of the footprint.
+fn blend(texture: &Texture, level: &TextureLevel, request: &Request, footprint: &Footprint, linear: bool) -> [Near; 4] {
+    let corners = if linear { 1usize << footprint.count } else { 1 };
+    let mut sum = [Near::default(); 4];
+    let mut missing = 0.0;
+    let mut present: [Option<[Near; 4]>; 8] = [None; 8];
+    let add = |sum: &mut [Near; 4], weight: f64, texel: &[Near; 4]| {
+        for (sum, texel) in sum.iter_mut().zip(texel) {
+            sum.value += weight * texel.value;
+            sum.low += weight * texel.low;
+            sum.high += weight * texel.high;
+        }
+    };
+    for (corner, kept) in present.iter_mut().enumerate().take(corners) {
+        let pick = |axis: usize| {
+            let side = footprint.axes[axis];
+            if corner >> axis & 1 == 1 { (side.second, side.weight) } else { (side.first, 1.0 - side.weight) }
+        };
+        let weight: f64 = (0..footprint.count).map(|axis| pick(axis).1).product();
+        match footprint.place(level, std::array::from_fn(|axis| pick(axis).0)) {
+            Some(place) => {
+                let texel = value(level, place, texture, request);
+                *kept = Some(texel);
+                // A texel of weight 0 does not count, not even a NaN.
+                if weight != 0.0 {
+                    add(&mut sum, weight, &texel);
+                }
+            }
+            None => missing += weight,
+        }
+    }
+    if missing > 0.0 {
+        // At a cube's corner three texels meet: the fourth is their mean.
+        present.iter().flatten().for_each(|texel| add(&mut sum, missing / 3.0, texel));
+    }
+    sum
+}
+
+/// What a GPU may give for where the footprint may be: of a nearest lookup any texel that it touches, of a linear one no
+/// more than the range of these times how far the weights may be off, and its own roundings.
+fn limited(
+    texture: &Texture,
+    level: &TextureLevel,
+    request: &Request,
+    footprint: &Footprint,
+    linear: bool,
+    result: [Near; 4],
+) -> [Near; 4] {
+    let (mut low, mut high) = ([f64::INFINITY; 4], [f64::NEG_INFINITY; 4]);
+    let known = footprint.each_touched(level, |place| {
+        for (k, texel) in value(level, place, texture, request).into_iter().enumerate() {
+            low[k] = low[k].min(texel.low);
+            high[k] = high[k].max(texel.high);
+        }
+    });
+    if !known {
+        return result.map(|near| Near::anything(near.value));
+    }
+    let off: f64 = footprint.axes.iter().take(footprint.count).map(|axis| axis.error).sum();
+    std::array::from_fn(|k| {
+        let near = result[k];
+        if !linear {
+            return Near { value: near.value, low: near.low.min(low[k]), high: near.high.max(high[k]) };
+        }
+        let spread = if high[k] > low[k] { (high[k] - low[k]) * off.min(1.0) } else { 0.0 };
+        let rounded = rules::FILTER_SUM.ulps() * rules::ulp(low[k].abs().max(high[k].abs()));
+        // A mean of texels lies between them.
+        let (least, most) = (low[k].min(near.low) - rounded, high[k].max(near.high) + rounded);
+        Near {
+            value: near.value,
+            low: (near.low - spread - rounded).max(least),
+            high: (near.high + spread + rounded).min(most),
+        }
+    })
+}

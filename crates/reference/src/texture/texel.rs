@@ -1,0 +1,83 @@
+//! Texels by integer coordinates.
+
+use super::{Bits, Near, Sampled};
+use glisten_front::hir::{SamplerDim, SamplerType};
+use glisten_scene::scene::{Texels, Texture, TextureLevel};
+
+/// The place of a texel in its level; `None` outside.
+pub(super) fn place(level: &TextureLevel, at: [i64; 3]) -> Option<usize> {
+    let inside = |k: i64, count: u32| (0..i64::from(count)).contains(&k);
+    let [x, y, z] = at;
+    let all = inside(x, level.width) && inside(y, level.height) && inside(z, level.depth);
+    all.then(|| ((z as usize * level.height as usize) + y as usize) * level.width as usize + x as usize)
+}
+
+/// A texel as floats; outside (0, 0, 0, 0).
+pub(super) fn floats(level: &TextureLevel, at: [i64; 3]) -> [f64; 4] {
+    let Some(place) = place(level, at) else { return [0.0; 4] };
+    match &level.texels {
+        Texels::Float(texels) => texels.get(place).map_or([0.0; 4], |texel| texel.map(f64::from)),
+        Texels::Int(texels) => texels.get(place).map_or([0.0; 4], |texel| texel.map(f64::from)),
+        Texels::Uint(texels) => texels.get(place).map_or([0.0; 4], |texel| texel.map(f64::from)),
+    }
+}
+
+/// A texel's bits as integers; outside 0.
+pub(super) fn bits(level: &TextureLevel, at: [i64; 3]) -> [u32; 4] {
+    let Some(place) = place(level, at) else { return [0; 4] };
+    match &level.texels {
+        Texels::Float(texels) => texels.get(place).map_or([0; 4], |texel| texel.map(|value| value as i32 as u32)),
+        Texels::Int(texels) => texels.get(place).map_or([0; 4], |texel| texel.map(|value| value as u32)),
+        Texels::Uint(texels) => texels.get(place).copied().unwrap_or([0; 4]),
+    }
+}
+
+/// `texelFetch`: coordinates in texels of the level, the layer last.
+pub(crate) fn fetch(texture: &Texture, kind: SamplerType, at: &[i32], level: i32, offset: &[i32]) -> Sampled {
+    let dimensions = dimensions(kind.dim);
+    let mut place = [0i64; 3];
+    for (axis, to) in place.iter_mut().enumerate().take(dimensions) {
+        let moved = offset.get(axis).copied().unwrap_or(0);
+        *to = i64::from(at.get(axis).copied().unwrap_or(0)) + i64::from(moved);
+    }
+    if kind.arrayed {
+        place[2] = i64::from(at.get(dimensions).copied().unwrap_or(0));
+    }
+    let found = usize::try_from(level).ok().and_then(|level| texture.levels.get(level));
+    let Some(level) = found else { return nothing(kind) };
+    if kind.texel == glisten_front::hir::Scalar::Float {
+        Sampled::Floats(floats(level, place).map(Near::exact))
+    } else {
+        Sampled::Bits(bits(level, place).map(Bits::exact))
+    }
+}
+
+fn nothing(kind: SamplerType) -> Sampled {
+    if kind.texel == glisten_front::hir::Scalar::Float {
+        Sampled::Floats([Near::default(); 4])
+    } else {
+        Sampled::Bits([Bits::default(); 4])
+    }
+}
+
+/// Axes that address a texel, without the layer.
+pub(super) fn dimensions(dim: SamplerDim) -> usize {
+    match dim {
+        SamplerDim::D1 | SamplerDim::Buffer => 1,
+        SamplerDim::D2 | SamplerDim::Rect | SamplerDim::Multisample => 2,
+        SamplerDim::D3 | SamplerDim::Cube => 3,
+    }
+}
+
+/// `textureSize`: the sizes of a level, the number of layers last; 0 past the last level.
+pub(crate) fn size(texture: &Texture, kind: SamplerType, level: i32) -> [u32; 3] {
+    let found = usize::try_from(level).ok().and_then(|level| texture.levels.get(level));
+    let Some(level) = found else { return [0; 3] };
+    let layers = level.depth;
+    match (kind.dim, kind.arrayed) {
+        (SamplerDim::D1 | SamplerDim::Buffer, true) => [level.width, layers, 0],
+        (SamplerDim::D1 | SamplerDim::Buffer, false) => [level.width, 0, 0],
+        (SamplerDim::D3, _) | (_, true) => [level.width, level.height, layers],
+        _ => [level.width, level.height, 0],
+    }
+}

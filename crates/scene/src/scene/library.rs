@@ -1,0 +1,63 @@
+//! [`Library`]: the programs that a scene may name without files of its own.
+//!
+//! *In:* what the package with the texts hands down. *Out:* programs by name, shaders by file name, modules to include.
+//! *Holds:* this crate embeds no GLSL.
+
+use glisten_front::source::{IncludeForm, IncludeResolver, Included, NoIncludes};
+use std::sync::Arc;
+
+/// Programs, and the modules that they include.
+pub trait Library {
+    /// The vertex and the fragment shader's file of a program (`program = "standard"`).
+    fn program(&self, name: &str) -> Option<(&'static str, &'static str)>;
+
+    /// The names of all programs.
+    fn program_names(&self) -> Vec<&'static str>;
+
+    /// The text of a shader by its file name (`<glisten/programs/phong.frag>`).
+    fn shader(&self, file: &str) -> Option<&'static str>;
+
+    /// The file names of all shaders.
+    fn shader_names(&self) -> Vec<&'static str>;
+
+    /// Resolves `#include <glisten/...>`.
+    fn includes(&self) -> Arc<dyn IncludeResolver + Send + Sync>;
+}
+
+/// A library without anything in it.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct NoLibrary;
+
+impl Library for NoLibrary {
+    fn program(&self, _: &str) -> Option<(&'static str, &'static str)> {
+        None
+    }
+
+    fn program_names(&self) -> Vec<&'static str> {
+        Vec::new()
+    }
+
+    fn shader(&self, _: &str) -> Option<&'static str> {
+        None
+    }
+
+    fn shader_names(&self) -> Vec<&'static str> {
+        Vec::new()
+    }
+
+    fn includes(&self) -> Arc<dyn IncludeResolver + Send + Sync> {
+        Arc::new(NoIncludes)
+    }
+}
+
+/// Includes of a user, and those of the library where the user's have none of that name.
+pub(super) struct WithLibrary {
+    pub(super) own: Arc<dyn IncludeResolver + Send + Sync>,
+    pub(super) library: Arc<dyn IncludeResolver + Send + Sync>,
+}
+
+impl IncludeResolver for WithLibrary {
+    fn resolve(&self, path: &str, form: IncludeForm, from: &str) -> Result<Included, String> {
+        self.own.resolve(path, form, from).or_else(|error| self.library.resolve(path, form, from).map_err(|_| error))
+    }
+}

@@ -1,0 +1,198 @@
+//! `[[light]]` and `global_ambient`: the values for uniforms of the library's module `scene`.
+//!
+//! *In:* the scene's tables. *Out:* [`Lighting`], and for a draw the value of each member of its lights by name.
+//! *Holds:* positions and directions are computed in f64, in world space or in the draw's eye space, and rounded
+//! once. Directions keep the length given in the scene.
+
+use super::reader::{Node, Reader};
+use glam::{DMat4, DVec3};
+use glisten_front::diagnostic::Diagnostic;
+use glisten_front::diagnostic::codes::scenes::SCENE_MISSING_KEY;
+use glisten_front::source::Span;
+use toml::de::DeTable;
+
+/// The kinds of lights, with the numbers of the module's constants `LIGHT_DIRECTIONAL` and so on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    Directional,
+    Point,
+    Spot,
+    Hemisphere,
+}
+
+const KINDS: &[(&str, Kind)] = &[
+    ("directional", Kind::Directional),
+    ("point", Kind::Point),
+    ("spot", Kind::Spot),
+    ("hemisphere", Kind::Hemisphere),
+];
+
+/// The space of positions and directions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum LightSpace {
+    World,
+    /// Eye space: the camera is at the origin and looks down -z.
+    Eye,
+}
+
+pub(super) const LIGHT_SPACES: &[(&str, LightSpace)] = &[("world", LightSpace::World), ("eye", LightSpace::Eye)];
+
+/// A value for a member of a uniform struct.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Member {
+    Int(i32),
+    Float(f64),
+    Vector([f64; 3]),
+}
+
+/// All lights of a scene.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Lighting {
+    pub(super) lights: Vec<Light>,
+    /// Ambient light that belongs to no light source: L_glob of (100).
+    pub(super) global_ambient: [f64; 3],
+}
+
+/// One light.
+#[derive(Clone, Debug)]
+pub(super) struct Light {
+    /// The span of its table.
+    pub(super) span: Span,
+    kind: Kind,
+    position: DVec3,
+    direction: DVec3,
+    ambient: [f64; 3],
+    diffuse: [f64; 3],
+    specular: [f64; 3],
+    attenuation: [f64; 3],
+    exponent: f64,
+}
+
+impl Lighting {
+    /// The lights of a scene.
+    pub(super) fn load(reader: &mut Reader, table: &DeTable<'_>) -> Self {
+        let mut lights = Vec::new();
+        if let Some(node) = table.get("light") {
+            match node.get_ref().as_array() {
+                Some(array) => lights.extend(array.iter().filter_map(|node| Light::load(reader, node))),
+                None => reader.wrong_type(node, "light", "a list of tables, each headed `[[light]]`"),
+            }
+        }
+        Self { lights, global_ambient: reader.reals(table, "global_ambient", [0.0; 3]) }
+    }
+}
+
+impl Light {
+    fn load(reader: &mut Reader, node: &Node<'_>) -> Option<Self> {
+        let table = reader.table(node, "light")?;
+        let span = reader.span_of(node);
+        let Some(kind) = table.get("kind") else {
+            let help = "add `kind = \"directional\"`, or `point`, `spot`, `hemisphere`";
+            reader.report(Diagnostic::new(&SCENE_MISSING_KEY, span, "a light names its kind").help(help));
+            return None;
+        };
+        let kind = reader.choice(kind, "kind", KINDS)?;
+        let (place, keys): (&str, &[&str]) = match kind {
+            Kind::Directional => {
+                ("a directional light", &["kind", "towards", "color", "ambient", "diffuse", "specular"])
+            }
+            Kind::Point => {
+                ("a point light", &["kind", "position", "color", "ambient", "diffuse", "specular", "attenuation"])
+            }
+            Kind::Spot => (
+                "a spot light",
+                &[
+                    "kind",
+                    "position",
+                    "direction",
+                    "target",
+                    "exponent",
+                    "color",
+                    "ambient",
+                    "diffuse",
+                    "specular",
+                    "attenuation",
+                ],
+            ),
+            Kind::Hemisphere => ("a hemisphere light", &["kind", "axis", "sky", "ground"]),
+        };
+        reader.check_keys(table, place, keys);
+        require(reader, table, span, place, kind)?;
+        let position = DVec3::from(reader.reals(table, "position", [0.0; 3]));
+        let direction = match kind {
+            // In the struct, the direction is that of the light's travel.
+            Kind::Directional => -DVec3::from(reader.reals(table, "towards", [0.0, 1.0, 0.0])),
+            Kind::Spot if table.contains_key("target") => {
+                DVec3::from(reader.reals(table, "target", [0.0; 3])) - position
+            }
+            Kind::Spot => reader.reals(table, "direction", [0.0, -1.0, 0.0]).into(),
+            Kind::Hemisphere => reader.reals(table, "axis", [0.0, 1.0, 0.0]).into(),
+            Kind::Point => DVec3::ZERO,
+        };
+        let color = reader.reals(table, "color", [1.0; 3]);
+        let (below, above) = match kind {
+            Kind::Hemisphere => ("ground", "sky"),
+            Kind::Directional | Kind::Point | Kind::Spot => ("ambient", "diffuse"),
+        };
+        Some(Self {
+            span,
+            kind,
+            position,
+            direction,
+            ambient: reader.reals(table, below, [0.0; 3]),
+            diffuse: reader.reals(table, above, color),
+            specular: reader.reals(table, "specular", color),
+            attenuation: reader.reals(table, "attenuation", [1.0, 0.0, 0.0]),
+            exponent: reader.real(table, "exponent", 1.0),
+        })
+    }
+
+    /// The members of the struct `Light`, by name.
+    pub(super) fn members(&self, space: LightSpace, view: DMat4) -> [(&'static str, Member); 8] {
+        let (position, direction) = match space {
+            LightSpace::World => (self.position, self.direction),
+            LightSpace::Eye => (view.transform_point3(self.position), view.transform_vector3(self.direction)),
+        };
+        [
+            ("kind", Member::Int(self.kind as i32)),
+            ("position", Member::Vector(position.to_array())),
+            ("direction", Member::Vector(direction.to_array())),
+            ("ambient", Member::Vector(self.ambient)),
+            ("diffuse", Member::Vector(self.diffuse)),
+            ("specular", Member::Vector(self.specular)),
+            ("attenuation", Member::Vector(self.attenuation)),
+            ("exponent", Member::Float(self.exponent)),
+        ]
+    }
+}
+
+/// Reports a missing key without which a light of this kind has no position or direction.
+fn require(reader: &mut Reader, table: &DeTable<'_>, span: Span, place: &str, kind: Kind) -> Option<()> {
+    let wanted: &[&str] = match kind {
+        Kind::Directional => &["towards"],
+        Kind::Point => &["position"],
+        Kind::Spot if table.contains_key("target") => &["position"],
+        Kind::Spot => &["position", "direction"],
+        Kind::Hemisphere => &[],
+    };
+    let Some(missing) = wanted.iter().find(|key| !table.contains_key(**key)) else { return Some(()) };
+    let message = format!("{place} has no `{missing}`");
+    reader.error(&SCENE_MISSING_KEY, span, message, "in this light");
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The module's constants must be equal to the numbers in a scene.
+    #[test]
+    fn kinds_have_the_numbers_of_the_module() {
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../shader_lib/lights.glsl");
+        let text = std::fs::read_to_string(path).expect("the module is there");
+        for (name, kind) in KINDS {
+            let line = format!("const int LIGHT_{} = {};\n", name.to_uppercase(), *kind as i32);
+            assert!(text.contains(&line), "{line}");
+        }
+    }
+}

@@ -1,0 +1,150 @@
+//! `[material]` and `[draw.material]`: the values for the uniforms `material` and `finish` of the library's module
+//! `scene`.
+//!
+//! *In:* the table of the draw, or else of the scene. *Out:* the value of each member by name, and the table, from
+//! which `textures` reads `decal`, `ramp` and `highlight`. *Holds:* a draw's own material replaces the scene's as a
+//! whole. The scene's material does not affect programs that declare none.
+
+use super::lights::Member;
+use super::reader::{Node, Reader};
+use glisten_front::diagnostic::Diagnostic;
+use glisten_front::diagnostic::codes::scenes::{SCENE_MISSING_KEY, SCENE_UNKNOWN_NAME};
+use glisten_front::link::Program;
+use toml::de::DeTable;
+
+/// The samplers of the library's programs for which a material may provide a texture.
+pub(super) const TEXTURES: &[&str] = &["decal", "ramp", "highlight"];
+
+const KEYS: &[&str] = &[
+    "ambient",
+    "diffuse",
+    "specular",
+    "emission",
+    "shininess",
+    "threshold",
+    "shade",
+    "diffuse_model",
+    "specular_model",
+    "decal",
+    "ramp",
+    "highlight",
+];
+
+/// Diffuse models, with the numbers of the module's constants `DIFFUSE_NONE` and so on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum DiffuseModel {
+    None,
+    Lambert,
+    HalfLambert,
+    ToonSoft,
+    ToonHard,
+}
+
+const DIFFUSE_MODELS: &[(&str, DiffuseModel)] = &[
+    ("none", DiffuseModel::None),
+    ("lambert", DiffuseModel::Lambert),
+    ("half_lambert", DiffuseModel::HalfLambert),
+    ("toon_soft", DiffuseModel::ToonSoft),
+    ("toon_hard", DiffuseModel::ToonHard),
+];
+
+/// Specular models, with the numbers of the module's constants `SPECULAR_NONE` and so on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum SpecularModel {
+    None,
+    Phong,
+    BlinnPhong,
+    SchlickPhong,
+    SchlickBlinn,
+    Threshold,
+    Quartic,
+    TableHalf,
+    TableLight,
+}
+
+const SPECULAR_MODELS: &[(&str, SpecularModel)] = &[
+    ("none", SpecularModel::None),
+    ("phong", SpecularModel::Phong),
+    ("blinn_phong", SpecularModel::BlinnPhong),
+    ("schlick_phong", SpecularModel::SchlickPhong),
+    ("schlick_blinn", SpecularModel::SchlickBlinn),
+    ("threshold", SpecularModel::Threshold),
+    ("quartic", SpecularModel::Quartic),
+    ("table_half", SpecularModel::TableHalf),
+    ("table_light", SpecularModel::TableLight),
+];
+
+/// The uniforms of a material by name.
+pub(super) type Material = [(&'static str, Member); 9];
+
+/// The material of a draw, with its node; `None` if there is none, or if the program does not use one.
+pub(super) fn load_material<'t, 'i>(
+    reader: &mut Reader,
+    draw: &'t DeTable<'i>,
+    scene: Option<&'t Node<'i>>,
+    program: &Program,
+) -> Option<(Material, &'t Node<'i>)> {
+    let declared = program.interface.roots.iter().any(|root| root.name == "material");
+    let own = draw.get_key_value("material");
+    if let Some((key, _)) = own
+        && !declared
+    {
+        let span = reader.span_of(key);
+        let diagnostic = Diagnostic::new(&SCENE_UNKNOWN_NAME, span, "the program declares no uniform `material`");
+        reader.report(diagnostic.help("`#include <glisten/scene.glsl>` declares it; `program = \"standard\"` uses it"));
+        return None;
+    }
+    if !declared {
+        return None;
+    }
+    let node = own.map(|(_, node)| node).or(scene)?;
+    let table = reader.table(node, "material")?;
+    reader.check_keys(table, "a material", KEYS);
+    let diffuse = reader.reals(table, "diffuse", [0.8; 3]);
+    let diffuse_model = reader.choice_at(table, "diffuse_model", DiffuseModel::Lambert, DIFFUSE_MODELS);
+    let specular_model = reader.choice_at(table, "specular_model", SpecularModel::BlinnPhong, SPECULAR_MODELS);
+    require(reader, table, "diffuse_model", "ramp", diffuse_model == DiffuseModel::ToonSoft)?;
+    let by_table = matches!(specular_model, SpecularModel::TableHalf | SpecularModel::TableLight);
+    require(reader, table, "specular_model", "highlight", by_table)?;
+    let members = [
+        ("material.ambient", Member::Vector(reader.reals(table, "ambient", diffuse))),
+        ("material.diffuse", Member::Vector(diffuse)),
+        ("material.specular", Member::Vector(reader.reals(table, "specular", [0.0; 3]))),
+        ("material.emission", Member::Vector(reader.reals(table, "emission", [0.0; 3]))),
+        ("material.shininess", Member::Float(reader.real(table, "shininess", 32.0))),
+        ("finish.threshold", Member::Float(reader.real(table, "threshold", 0.5))),
+        ("finish.shade", Member::Vector(reader.reals(table, "shade", [0.0; 3]))),
+        ("finish.diffuse_model", Member::Int(diffuse_model as i32)),
+        ("finish.specular_model", Member::Int(specular_model as i32)),
+    ];
+    Some((members, node))
+}
+
+/// Reports a model that reads a texture which is not there.
+fn require(reader: &mut Reader, table: &DeTable<'_>, model: &str, texture: &str, wanted: bool) -> Option<()> {
+    let Some(node) = table.get(model).filter(|_| wanted && !table.contains_key(texture)) else { return Some(()) };
+    let span = reader.span_of(node);
+    let message = format!("this model looks up the texture `{texture}`");
+    let pattern = if texture == "ramp" { "soft" } else { "specular" };
+    let help = format!("add `{texture} = {{ pattern = \"{pattern}\" }}` to the material");
+    reader.report(Diagnostic::new(&SCENE_MISSING_KEY, span, message).here("without a texture").help(help));
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The module's constants must be equal to the numbers in a scene.
+    #[test]
+    fn models_have_the_numbers_of_the_module() {
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../shader_lib/scene.glsl");
+        let text = std::fs::read_to_string(path).expect("the module is there");
+        let diffuse = DIFFUSE_MODELS.iter().map(|(name, model)| ("DIFFUSE", name, *model as i32));
+        let specular = SPECULAR_MODELS.iter().map(|(name, model)| ("SPECULAR", name, *model as i32));
+        for (what, name, number) in diffuse.chain(specular) {
+            let line = format!("const int {what}_{} = {number};\n", name.to_uppercase());
+            assert!(text.contains(&line), "{line}");
+        }
+    }
+}

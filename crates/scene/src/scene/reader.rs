@@ -1,0 +1,239 @@
+//! Typed access to the TOML of a scene: every value is requested by its required type, and any other value is
+//! reported at its position.
+//!
+//! *In:* TOML values with spans. *Out:* numbers, texts, choices, or `None` with a diagnostic. *Holds:* numbers are
+//! parsed from their decimal text directly to `f32`, so they are rounded once.
+
+use glisten_front::diagnostic::codes::scenes::{SCENE_UNKNOWN_KEY, SCENE_WRONG_TYPE, SCENE_WRONG_VALUE};
+use glisten_front::diagnostic::{Code, Diagnostic, Diagnostics, did_you_mean};
+use glisten_front::source::Span;
+use std::ops::{Range, RangeInclusive};
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+/// A value and its span.
+pub(super) type Node<'i> = Spanned<DeValue<'i>>;
+
+/// A number or boolean of a scene, and its span.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Number {
+    pub(super) value: NumberValue,
+    pub(super) span: Span,
+}
+
+/// The value of a [`Number`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum NumberValue {
+    Bool(bool),
+    /// An integer of TOML, and the nearest `f32`.
+    Int(i64, f32),
+    Float(f32),
+}
+
+/// Reads one scene file and collects its diagnostics.
+#[derive(Debug, Default)]
+pub(super) struct Reader {
+    /// The global offset of the file's first byte.
+    pub(super) base: u32,
+    pub(super) diagnostics: Diagnostics,
+}
+
+impl Reader {
+    /// The span of a range of bytes of the file.
+    pub(super) fn span(&self, range: Range<usize>) -> Span {
+        Span::new(self.base + range.start as u32, self.base + range.end as u32)
+    }
+
+    /// The span of a value.
+    pub(super) fn span_of<T>(&self, node: &Spanned<T>) -> Span {
+        self.span(node.span())
+    }
+
+    /// Adds a diagnostic.
+    pub(super) fn report(&mut self, diagnostic: Diagnostic) {
+        self.diagnostics.push(diagnostic);
+    }
+
+    /// Reports keys of `table` that are not among `known`.
+    pub(super) fn check_keys(&mut self, table: &DeTable<'_>, place: &str, known: &[&str]) {
+        for (key, _) in table {
+            let name: &str = key.get_ref();
+            if known.contains(&name) {
+                continue;
+            }
+            let message = format!("{place} has no key `{name}`");
+            let help = did_you_mean(name, known.iter().copied())
+                .map_or_else(|| format!("the keys here are {}", list(known)), |near| format!("did you mean `{near}`?"));
+            let span = self.span_of(key);
+            self.report(Diagnostic::new(&SCENE_UNKNOWN_KEY, span, message).here("unknown key").help(help));
+        }
+    }
+
+    /// Reports a value of the wrong type.
+    pub(super) fn wrong_type(&mut self, node: &Node<'_>, key: &str, wanted: &str) {
+        let found = node.get_ref().type_str();
+        let span = self.span_of(node);
+        let message = format!("`{key}` wants {wanted}");
+        self.report(Diagnostic::new(&SCENE_WRONG_TYPE, span, message).here(format!("this is of type {found}")));
+    }
+
+    /// Reports a value that is not allowed.
+    pub(super) fn wrong_value(&mut self, span: Span, message: impl Into<String>, here: impl Into<String>) {
+        self.report(Diagnostic::new(&SCENE_WRONG_VALUE, span, message).here(here));
+    }
+
+    /// Reports `code` with a label.
+    pub(super) fn error(&mut self, code: &'static Code, span: Span, message: String, here: &str) {
+        self.report(Diagnostic::new(code, span, message).here(here));
+    }
+
+    /// A table.
+    pub(super) fn table<'t, 'i>(&mut self, node: &'t Node<'i>, key: &str) -> Option<&'t DeTable<'i>> {
+        let table = node.get_ref().as_table();
+        if table.is_none() {
+            self.wrong_type(node, key, "a table");
+        }
+        table
+    }
+
+    /// The table under a key, if the key is there.
+    pub(super) fn table_at<'t, 'i>(&mut self, table: &'t DeTable<'i>, key: &str) -> Option<&'t DeTable<'i>> {
+        self.table(table.get(key)?, key)
+    }
+
+    /// A text.
+    pub(super) fn text<'t>(&mut self, node: &'t Node<'_>, key: &str) -> Option<&'t str> {
+        let text = node.get_ref().as_str();
+        if text.is_none() {
+            self.wrong_type(node, key, "a text in quotes");
+        }
+        text
+    }
+
+    /// `true` or `false`; `default` if the key is not there.
+    pub(super) fn flag(&mut self, table: &DeTable<'_>, key: &str, default: bool) -> bool {
+        let Some(node) = table.get(key) else { return default };
+        node.get_ref().as_bool().unwrap_or_else(|| {
+            self.wrong_type(node, key, "`true` or `false`");
+            default
+        })
+    }
+
+    /// An integer in a range.
+    pub(super) fn integer(&mut self, node: &Node<'_>, key: &str, range: RangeInclusive<i64>) -> Option<i64> {
+        let value = match as_number(node.get_ref()) {
+            Some(NumberValue::Int(value, _)) => value,
+            Some(NumberValue::Float(_) | NumberValue::Bool(_)) | None => {
+                self.wrong_type(node, key, "an integer");
+                return None;
+            }
+        };
+        if range.contains(&value) {
+            return Some(value);
+        }
+        let span = self.span_of(node);
+        let message = format!("`{key}` must be {} to {}", range.start(), range.end());
+        self.wrong_value(span, message, "out of range");
+        None
+    }
+
+    /// An integer in a range under a key; `default` if the key is not there.
+    pub(super) fn count(&mut self, table: &DeTable<'_>, key: &str, default: u32, range: RangeInclusive<u32>) -> u32 {
+        let Some(node) = table.get(key) else { return default };
+        let wide = i64::from(*range.start())..=i64::from(*range.end());
+        self.integer(node, key, wide).and_then(|value| u32::try_from(value).ok()).unwrap_or(default)
+    }
+
+    /// A number under a key, as `f64`; `default` if the key is not there.
+    pub(super) fn real(&mut self, table: &DeTable<'_>, key: &str, default: f64) -> f64 {
+        let Some(node) = table.get(key) else { return default };
+        as_f64(node.get_ref()).unwrap_or_else(|| {
+            self.wrong_type(node, key, "a number");
+            default
+        })
+    }
+
+    /// `N` numbers under a key, as `f64`.
+    pub(super) fn reals<const N: usize>(&mut self, table: &DeTable<'_>, key: &str, default: [f64; N]) -> [f64; N] {
+        let Some(node) = table.get(key) else { return default };
+        let numbers: Option<Vec<f64>> =
+            node.get_ref().as_array().and_then(|array| array.iter().map(|node| as_f64(node.get_ref())).collect());
+        numbers.and_then(|numbers| numbers.try_into().ok()).unwrap_or_else(|| {
+            self.wrong_type(node, key, &format!("a list of {N} numbers"));
+            default
+        })
+    }
+
+    /// One of the names of a table; `None` (reported) if it is none of them.
+    pub(super) fn choice<T: Copy>(&mut self, node: &Node<'_>, key: &str, names: &[(&str, T)]) -> Option<T> {
+        let name = self.text(node, key)?;
+        if let Some((_, value)) = names.iter().find(|(candidate, _)| *candidate == name) {
+            return Some(*value);
+        }
+        let candidates: Vec<&str> = names.iter().map(|(name, _)| *name).collect();
+        let help = did_you_mean(name, candidates.iter().copied())
+            .map_or_else(|| format!("`{key}` may be {}", list(&candidates)), |near| format!("did you mean `{near}`?"));
+        let span = self.span_of(node);
+        let message = format!("`{key}` cannot be `{name}`");
+        self.report(Diagnostic::new(&SCENE_WRONG_VALUE, span, message).here("not one of its values").help(help));
+        None
+    }
+
+    /// One of the names of a table under a key; `default` if the key is not there.
+    pub(super) fn choice_at<T: Copy>(&mut self, table: &DeTable<'_>, key: &str, default: T, names: &[(&str, T)]) -> T {
+        table.get(key).and_then(|node| self.choice(node, key, names)).unwrap_or(default)
+    }
+
+    /// A number, a list of numbers, or a list of such lists, flattened.
+    pub(super) fn numbers(&mut self, node: &Node<'_>, key: &str) -> Option<Vec<Number>> {
+        let mut numbers = Vec::new();
+        if self.gather(node, key, &mut numbers) { Some(numbers) } else { None }
+    }
+
+    // Recurses as deep as the TOML is nested, which its parser limits to 80 levels.
+    fn gather(&mut self, node: &Node<'_>, key: &str, into: &mut Vec<Number>) -> bool {
+        if let Some(array) = node.get_ref().as_array() {
+            return array.iter().all(|element| self.gather(element, key, into));
+        }
+        let Some(value) = as_number(node.get_ref()) else {
+            self.wrong_type(node, key, "numbers");
+            return false;
+        };
+        into.push(Number { value, span: self.span_of(node) });
+        true
+    }
+}
+
+fn as_number(value: &DeValue<'_>) -> Option<NumberValue> {
+    match value {
+        DeValue::Boolean(value) => Some(NumberValue::Bool(*value)),
+        DeValue::Integer(integer) => {
+            let digits = integer.as_str().replace('_', "");
+            let value = i64::from_str_radix(&digits, integer.radix()).ok()?;
+            Some(NumberValue::Int(value, value as f32))
+        }
+        DeValue::Float(float) => float.as_str().replace('_', "").parse().ok().map(NumberValue::Float),
+        DeValue::String(_) | DeValue::Datetime(_) | DeValue::Array(_) | DeValue::Table(_) => None,
+    }
+}
+
+fn as_f64(value: &DeValue<'_>) -> Option<f64> {
+    match value {
+        DeValue::Integer(_) => match as_number(value) {
+            Some(NumberValue::Int(value, _)) => Some(value as f64),
+            _ => None,
+        },
+        DeValue::Float(float) => float.as_str().replace('_', "").parse().ok(),
+        DeValue::Boolean(_) | DeValue::String(_) | DeValue::Datetime(_) | DeValue::Array(_) | DeValue::Table(_) => None,
+    }
+}
+
+/// `` `a`, `b` and `c` ``
+pub(super) fn list(names: &[&str]) -> String {
+    let quoted: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
+    match quoted.split_last() {
+        None => "none".into(),
+        Some((last, [])) => last.clone(),
+        Some((last, rest)) => format!("{} and {last}", rest.join(", ")),
+    }
+}

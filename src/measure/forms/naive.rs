@@ -1,0 +1,74 @@
+//! Closed forms of the naive transcriptions, for ordinary inputs only. The stiff cases show what they return
+//! elsewhere.
+
+use super::geometry::{barycentric, interpolated, segment};
+use super::{Form, Kind, cosine_power, dot, forms, half, norm};
+use crate::measure::vector::{add, mul, scale, sub};
+use crate::measure::{Answer, Args};
+
+/// A power of a cosine as in the literal equation: the exponent multiplies the rounding of the cosine.
+fn literal(answer: Option<Answer>, k: f64) -> Option<Answer> {
+    answer.map(|answer| Answer { condition: answer.condition + 2.0 * k.max(1.0), ..answer })
+}
+
+fn phong(a: &Args<'_>, unlimited: bool) -> Option<Answer> {
+    let (n, l, v, k) = (a.d(), a.d(), a.d(), a.f());
+    let r = sub(scale(2.0 * dot(n, l), n), l);
+    (k > 0.0 && (!unlimited || dot(r, v) > 0.0)).then(|| literal(cosine_power(r, v, k, 4.0), k))?
+}
+
+fn blinn(a: &Args<'_>, unlimited: bool) -> Option<Answer> {
+    let (n, l, v, k) = (a.d(), a.d(), a.d(), a.f());
+    let (h, blur) = half(l, v)?;
+    (k > 0.0 && (!unlimited || dot(n, h) > 0.0)).then(|| literal(cosine_power(n, h, k, blur), k * blur))?
+}
+
+pub(super) static FORMS: &[Form] = forms! {
+    "naive" "naiveLambertUnclamped(vec3,vec3,vec3,vec3)" [Direction, Direction, Color, Intensity]
+        |a| Some(Answer::new(scale(dot(a.d(), a.d()), mul(a.v(), a.v())), 4.0));
+    "naive" "naiveLambert(vec3,vec3,vec3,vec3)" [Direction, Direction, Color, Intensity]
+        |a| Some(Answer::new(scale(dot(a.d(), a.d()).max(0.0), mul(a.v(), a.v())), 4.0));
+    "naive" "naiveMirror(vec3,vec3)" [Direction, Direction] |a| {
+        let (n, l) = (a.d(), a.d());
+        Some(Answer::new(sub(scale(2.0 * dot(n, l), n), l), 1.0))
+    };
+    "naive" "naivePhongUnclamped(vec3,vec3,vec3,float)" [Lighting, Exponent] |a| phong(a, true);
+    "naive" "naivePhong(vec3,vec3,vec3,float)" [Lighting, Exponent] |a| phong(a, false);
+    "naive" "naiveHalf(vec3,vec3)" [Direction, Direction] |a| {
+        let (h, blur) = half(a.d(), a.d())?;
+        Some(Answer::new(h, 1.0).conditioned(blur))
+    };
+    "naive" "naiveBlinnPhongUnclamped(vec3,vec3,vec3,float)" [Lighting, Exponent] |a| blinn(a, true);
+    "naive" "naiveBlinnPhong(vec3,vec3,vec3,float)" [Lighting, Exponent] |a| blinn(a, false);
+    "naive" "naivePower(float,float)" [Unit, Exponent] |a| {
+        let (c, k) = (a.f(), a.f());
+        (k > 0.0).then(|| Answer::new([c.powf(k)], 1.0))
+    };
+    "naive" "naiveSchlick(float,float)" [Unit, Exponent] |a| {
+        let (t, k) = (a.f(), a.f());
+        (t > 0.0).then(|| Answer::new([t / (k * (1.0 - t) + t)], 1.0).conditioned(1.0 + k))
+    };
+    "naive" "naiveThreshold(float,float)" [Unit, Unit] |a| {
+        let (c, t) = (a.f(), a.f());
+        (c != 0.0 && t != 1.0).then(|| Answer::new([f64::from(u8::from(c > t))], 1.0))
+    };
+    "naive" "naiveDistance(vec3,vec3)" [Point, Point] |a| Some(Answer::relative([norm(sub(a.v(), a.v()))]));
+    "naive" "naiveInverseSquare(float)" [Distance] |a| Some(Answer::relative([a.f().powi(-2)]));
+    "naive" "naiveAttenuation(float,vec3)" [Distance, Weights] |a| {
+        let (r, s) = (a.f(), a.v());
+        Some(Answer::relative([1.0 / dot(s, [1.0, r, r * r])]))
+    };
+    "naive" "naiveSpot(vec3,vec3,float)" [Opposed, Exponent] |a| {
+        let (l, axis, k) = (a.d(), a.d(), a.f());
+        (k > 0.0).then(|| literal(cosine_power(scale(-1.0, l), axis, k, 2.0), k))?
+    };
+    "naive" "naiveBarycentric(vec2,vec2,vec2,vec2)" [Two, Two, Two, Two] barycentric;
+    "naive" "naiveSegment(float,vec2,vec2)" [Unit, SegmentEnd, SegmentEnd]
+        |a| Some(segment(a.f(), a.v2(), a.v2()).conditioned(4.0));
+    "naive" "naivePerspective(vec2,vec3,vec4,vec4,vec4)" [Barycentric, Depths, Four, Four, Four] interpolated;
+    "naive" "naiveHemisphere(vec3,vec3,vec3,vec3)" [Direction, Direction, Intensity, Intensity] |a| {
+        let (cos, sky, ground) = (dot(a.d(), a.d()), a.v(), a.v());
+        Some(Answer::new(add(scale(0.5 + 0.5 * cos, sky), scale(0.5 - 0.5 * cos, ground)), 4.0))
+    };
+    "naive" "naiveHalfRange(vec3,vec3)" [Direction, Direction] |a| Some(Answer::new([0.5 + dot(a.d(), a.d()) / 2.0], 1.0));
+};
