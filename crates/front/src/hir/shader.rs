@@ -343,9 +343,9 @@ impl Shader {
         self.functions.iter().enumerate().map(|(index, function)| (FunctionId::new(index), function))
     }
 
-    /// Runs a recursive traversal of this shader's expressions with enough stack for the deepest of them: on this
-    /// thread if they are shallow, else on a thread of its own. Valid chains have up to 16,384 operators.
-    pub fn on_stack<R: Send>(&self, walk: impl FnOnce() -> R + Send) -> R {
+    /// Runs a recursive traversal of this shader's expressions with enough stack for the deepest of them. Valid
+    /// chains have up to 16,384 operators.
+    pub fn on_stack<R>(&self, walk: impl FnOnce() -> R) -> R {
         crate::stack::with_stack(self.expr_depth, walk)
     }
 }

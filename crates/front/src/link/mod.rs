@@ -64,18 +64,18 @@ impl Context<'_> {
     }
 }
 
-/// What a host binds by name before it links.
+/// The locations that a host binds by name before linking.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Bindings<'a> {
-    /// `glBindAttribLocation`: name and location. The last of a name counts.
+    /// `glBindAttribLocation`: name and location. The last entry for a name counts.
     pub attribute_locations: &'a [(String, u32)],
-    /// `glBindFragDataLocation`: name and color number. The last of a name counts.
+    /// `glBindFragDataLocation`: name and color number. The last entry for a name counts.
     pub frag_data_locations: &'a [(String, u32)],
 }
 
-/// Links analyzed shaders; `None` if that fails. A lone shader links, too: its interface is then that of one stage. One
-/// that other shaders of its stage must complete (no `main`, a function that is only declared) gives warnings and no
-/// program.
+/// Links analyzed shaders; `None` if that fails. A single shader links, too: its interface is then that of one stage.
+/// If other shaders of its stage must complete it (no `main`, or a function that is only declared), the link gives
+/// warnings and no program.
 pub fn link(
     name: String,
     mut types: Types,
