@@ -1,7 +1,7 @@
 //! Scenes and pictures of glisten.
 //!
-//! [`scene`] reads scene files: what is drawn, with which programs and which data. [`compare`] holds pictures, intervals of
-//! what a pixel may be, and figures of how far two pictures are apart.
+//! [`scene`] reads scene files: what to draw, with which programs and which data. [`compare`] contains pictures,
+//! intervals of pixel values, and the figures of the difference between two pictures.
 //!
 //! *Holds:* nothing here draws.
 
