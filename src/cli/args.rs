@@ -148,7 +148,7 @@ pub(super) struct BindingArgs {
     frag_data: Vec<(String, u32)>,
 }
 
-/// What the host of the emitted code expects.
+/// The expectations of the host of the emitted code.
 #[derive(Args, Clone, Debug)]
 #[command(next_help_heading = "Conventions")]
 pub(super) struct ConventionArgs {

@@ -19,7 +19,7 @@ pub(super) struct LintArgs {
     sources: SourceArgs,
     #[command(flatten)]
     levels: LevelArgs,
-    /// The same as --diagnostics
+    /// Another name for --diagnostics
     #[arg(long, value_enum, conflicts_with = "diagnostics")]
     format: Option<DiagnosticFormat>,
     #[command(flatten)]

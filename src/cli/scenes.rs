@@ -1,4 +1,4 @@
-//! What `render`, `verify` and `report` share: reading a scene with its shaders, and running work with a time limit.
+//! Shared by `render`, `verify` and `report`: reading a scene with its shaders, and running work with a time limit.
 
 use super::args::{BindingArgs, LevelArgs, SourceArgs};
 use super::console::Console;

@@ -93,7 +93,7 @@ struct Run {
 #[derive(Clone, Debug, Serialize)]
 struct Skip {
     via: &'static str,
-    /// What the target lacks, with a way out.
+    /// The reason: what the target lacks, with a way out.
     reason: String,
 }
 

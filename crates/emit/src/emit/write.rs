@@ -162,8 +162,8 @@ fn write_wgsl(module: &naga::Module, info: &ModuleInfo, stage: Stage) -> Result<
     let text = wgsl::write_string(module, info, wgsl::WriterFlags::empty()).map_err(|error| chain(&error))?;
     let text = super::names::restored(&text);
     // GLSL allows derivatives in any control flow (§8.8 calls them undefined in some). WGSL rejects them where it
-    // cannot prove that control flow is uniform, unless told otherwise. naga has the directive in its IR but never
-    // writes it.
+    // cannot prove that control flow is uniform, unless a directive disables that. naga has the directive in its IR
+    // but never writes it.
     if stage == Stage::Fragment && takes_derivatives(module) {
         return Ok(format!("diagnostic(off, derivative_uniformity);\n\n{text}"));
     }

@@ -261,7 +261,7 @@ impl Ctx<'_, '_> {
         Ok(self.converted(value, from, to))
     }
 
-    /// The same conversion for a value.
+    /// Converts a value component by component.
     pub(super) fn converted(&mut self, value: Handle<Expression>, from: TypeId, to: TypeId) -> Handle<Expression> {
         let (from, to) = (self.low.types.scalar_of(from), self.low.types.scalar_of(to));
         match to {

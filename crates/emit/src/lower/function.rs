@@ -57,7 +57,7 @@ pub(super) struct Lowered {
     pub(super) handle: Handle<naga::Function>,
 }
 
-/// The kind of a literal, which tells literals of equal value apart.
+/// The kind of a literal, which distinguishes literals of equal value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 enum Shared {
     Bool(bool),

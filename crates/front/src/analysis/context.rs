@@ -22,7 +22,7 @@ use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 use std::cell::Cell;
 
-/// What the analysis knows about an expression besides its type.
+/// Facts about an expression besides its type.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Facts {
     /// The depth of the tree, counted along left operands too.
@@ -100,7 +100,7 @@ pub(super) struct Analyzer<'a> {
     pub(super) first_member_uses: FxHashMap<(GlobalId, u32), Span>,
     /// For each array without a size, the largest constant index, and its position (§4.1.9).
     pub(super) array_uses: FxHashMap<ArrayKey, (u32, Span)>,
-    /// The same map for the locals of the current function.
+    /// The largest constant indices for the locals of the current function.
     pub(super) local_array_uses: FxHashMap<LocalId, (u32, Span)>,
     /// `layout(...) uniform;`
     pub(super) block_defaults: BlockDefaults,

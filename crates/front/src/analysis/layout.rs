@@ -50,7 +50,7 @@ impl LayoutPlace {
     }
 }
 
-/// What a layout identifier sets.
+/// The effect of a layout identifier.
 #[derive(Clone, Copy, Debug)]
 enum Effect {
     Location,

@@ -10,7 +10,7 @@ use super::{Code, Diagnostic, Severity, codes};
 use crate::source::SourceMap;
 use std::collections::BTreeMap;
 
-/// What happens to a warning.
+/// The treatment of a warning.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Level {
     /// It is dropped.

@@ -7,7 +7,7 @@
 use crate::hir::{Interpolation, MatrixLayout, Shader, StructId, Type, TypeId, Types, Value};
 use rustc_hash::FxHashMap;
 
-/// What identifies a struct.
+/// The identity of a struct.
 #[derive(PartialEq, Eq, Hash)]
 struct Key {
     name: String,

@@ -52,7 +52,7 @@ fn check_frag_coord(shaders: &[Shader], found: &mut Vec<Diagnostic>) {
     }
 }
 
-/// What identifies a global: for a built-in variable which one it is, for all others the name. Blocks of one name are
+/// The identity of a global: for a built-in variable which one it is, for all others the name. Blocks of one name are
 /// different if one is `in` and the other `out`: "a block name is allowed to have different definitions in different
 /// interfaces" (§4.3.7).
 #[derive(PartialEq, Eq, Hash)]
@@ -70,7 +70,7 @@ fn global_key(global: &Global) -> GlobalKey {
     }
 }
 
-/// What identifies a function.
+/// The identity of a function.
 type FunctionKey = (String, Vec<TypeId>);
 
 fn function_key(function: &Function) -> FunctionKey {

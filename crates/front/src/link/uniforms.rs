@@ -299,7 +299,7 @@ fn too_large(ctx: &mut Context<'_>, shared: &Shared<'_>, bytes: u32) {
     ctx.report(Diagnostic::new(&codes::link::TOO_MUCH_UNIFORM_STORAGE, shared.global.span, message));
 }
 
-/// What the leaves of one root have in common.
+/// The common properties of the leaves of one root.
 struct Place {
     root: RootIndex,
     slot: SlotBinding,

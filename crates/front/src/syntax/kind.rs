@@ -1,5 +1,5 @@
-//! What the text of the specification forbids and every driver accepts in silence. glisten warns and cites the
-//! section; with `strict` it reports an error. All cases are rows of one table, each with its reason.
+//! The cases that the text of the specification forbids and every driver silently accepts. glisten warns and cites
+//! the section; with `strict` it reports an error. All cases are rows of one table, each with its reason.
 
 use super::token::Session;
 use crate::diagnostic::codes::{preprocess, syntax};

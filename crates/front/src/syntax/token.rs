@@ -307,7 +307,7 @@ impl Token {
         Extensions::from_bits_truncate(u32::from(self.extensions))
     }
 
-    /// The same token with these extensions enabled.
+    /// This token with these extensions enabled.
     #[must_use]
     pub fn with_extensions(self, extensions: Extensions) -> Self {
         Self { extensions: extensions.bits() as u16, ..self }

@@ -64,7 +64,7 @@ pub fn load(path: &str, files: &dyn FileSource, library: &dyn Library, compiler:
     Loaded { scene, sources, diagnostics: reader.diagnostics, io_error }
 }
 
-/// What identifies a program: draws with the same key share it.
+/// The identity of a program: draws with the same key share it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct ProgramKey {
     pub(super) files: Vec<(Stage, String)>,
@@ -73,7 +73,7 @@ pub(super) struct ProgramKey {
     pub(super) defines: Vec<(String, String)>,
 }
 
-/// What a scene defines for all its draws.
+/// The settings of a scene for all its draws.
 pub(super) struct Surroundings<'t, 'i> {
     pub(super) camera: Option<&'t DeTable<'i>>,
     pub(super) material: Option<&'t Node<'i>>,

@@ -130,7 +130,7 @@ impl Analyzer<'_> {
         (ty, Some(expr), value)
     }
 
-    /// `while (bool b = f())`: declares the variable anew in each iteration.
+    /// `while (bool b = f())`: declares the variable again in each iteration.
     pub(super) fn condition_variable(&mut self, declaration: &VariableDecl) -> Condition {
         let record = self.qualifiers(&declaration.qualifiers, Place::Local);
         let base = self.type_spec(&declaration.ty);

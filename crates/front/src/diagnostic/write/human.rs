@@ -133,7 +133,7 @@ struct Excerpts<'a> {
 }
 
 impl Excerpts<'_> {
-    /// Adds a label at `span`, unless that is nowhere or in an empty text. Of several lines, marks the first.
+    /// Adds a label at `span`, unless that is unknown or in an empty text. Of several lines, marks the first.
     fn label(&mut self, span: Span, message: &str, primary: bool) -> Option<codespan::Label<Excerpt>> {
         let at = self.sources.location(span)?;
         let file = self.sources.file(at.file);

@@ -1,4 +1,5 @@
-//! Tests of the parser, with trees printed as nested lists: operators bind as in §5.1, and declarations are told from
+//! Tests of the parser, with trees printed as nested lists: operators bind as in §5.1, and declarations are
+//! distinguished from expressions.
 //! expressions.
 
 use crate::diagnostic::Diagnostics;

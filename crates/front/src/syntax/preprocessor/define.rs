@@ -8,7 +8,7 @@ use std::sync::Arc;
 /// The largest number of parameters of a macro.
 const MAX_PARAMS: usize = 256;
 
-/// What a macro expands to.
+/// The expansion of a macro.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Meaning {
     /// Its body.

@@ -1,5 +1,5 @@
-//! Turns preprocessing tokens into tokens: tells keywords from names, converts numbers to values, and reports and
-//! drops what is not a token (GLSL 1.50 §3.1, §3.6, §4.1).
+//! Turns preprocessing tokens into tokens: distinguishes keywords from names, converts numbers to values, and reports
+//! and drops what is not a token (GLSL 1.50 §3.1, §3.6, §4.1).
 
 use super::{Preprocessor, Session, Span, Token, TokenKind, codes, kind};
 use crate::diagnostic::Diagnostic;

@@ -37,7 +37,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 /// The largest total size of all texts of a shader in bytes, with includes counted each time: 8 MiB.
 pub(super) const MAX_BYTES: usize = 8 << 20;
 
-/// What is known after the last token has been read.
+/// The outcome after the last token has been read.
 #[derive(Debug)]
 pub(super) struct Outcome {
     pub(super) version: Version,
@@ -58,7 +58,7 @@ struct Frame {
     conditionals: Vec<directive::Conditional>,
 }
 
-/// What is known about a word.
+/// Facts about a word.
 #[derive(Clone, Copy)]
 struct Word {
     /// The number of its macro + 1, or 0.
@@ -218,7 +218,7 @@ impl<'a> Preprocessor<'a> {
         self.version.number >= 420 || self.extensions.contains(Extensions::SHADING_LANGUAGE_420PACK)
     }
 
-    /// What is known about a word.
+    /// Facts about a word.
     fn word(&mut self, symbol: Symbol) -> &mut Word {
         let index = symbol.index();
         if index >= self.words.len() {
