@@ -63,7 +63,7 @@ impl From<ViaArg> for Via {
 fn parse_seconds(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(seconds) if seconds > 0.0 && seconds <= 1e6 => Ok(seconds),
-        _ => Err(format!("`{text}` is no number of seconds")),
+        _ => Err(format!("`{text}` is not a number of seconds")),
     }
 }
 

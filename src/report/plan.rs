@@ -209,7 +209,7 @@ fn scene_text(scene: &Table, draw: usize, way: &WayTable, tessellation: Option<[
         .and_then(Value::as_array_mut)
         .and_then(|draws| draws.get_mut(draw))
         .and_then(Value::as_table_mut)
-        .ok_or("the draw is no table")?;
+        .ok_or("the draw is not a table")?;
     merge(table, &way.set);
     if let Some([segments, rings]) = tessellation
         && let Some(mesh) = table.get_mut("mesh").and_then(Value::as_table_mut)

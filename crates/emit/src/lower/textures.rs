@@ -86,7 +86,7 @@ impl Ctx<'_, '_> {
                     let lookup = self.lookup(ty, value, form, rest)?;
                     if ty.texel == Scalar::Float { self.sample(&lookup) } else { self.integer_lookup(&lookup) }
                 }
-                None => Err(internal(self.here(), format!("`{}` is no texture function", function.name()))),
+                None => Err(internal(self.here(), format!("`{}` is not a texture function", function.name()))),
             },
         }
     }

@@ -201,7 +201,7 @@ impl Analyzer<'_> {
                 Diagnostic::new(
                     &qualifiers::LAYOUT_PLACE,
                     id.name.span,
-                    format!("`{spelling}` may not stand before {}", place.name()),
+                    format!("`{spelling}` is not allowed before {}", place.name()),
                 )
                 .here("not allowed here")
                 .help(format!("it belongs before {}", places.join(" or "))),
@@ -267,7 +267,7 @@ fn unknown(spelling: &str, span: Span) -> Diagnostic {
         Some((_, version)) => Some(format!("`{spelling}` came with GLSL {version}")),
         None => did_you_mean(spelling, ROWS.iter().map(|row| row.name)).map(|near| format!("did you mean `{near}`?")),
     };
-    Diagnostic::new(&qualifiers::UNKNOWN_LAYOUT, span, format!("`{spelling}` is no layout identifier"))
+    Diagnostic::new(&qualifiers::UNKNOWN_LAYOUT, span, format!("`{spelling}` is not a layout identifier"))
         .here("not known in this version")
         .maybe_help(help)
 }

@@ -182,7 +182,7 @@ impl Analyzer<'_> {
             if wrong && !self.allows_420pack(qualifier.span) {
                 let what = row.what;
                 self.report(
-                    Diagnostic::new(&qualifiers::ORDER, qualifier.span, format!("{what} stands too late"))
+                    Diagnostic::new(&qualifiers::ORDER, qualifier.span, format!("{what} comes too late"))
                         .here("must come earlier")
                         .label(other.span, "before this")
                         .help(
@@ -253,7 +253,7 @@ impl Analyzer<'_> {
 
     fn repeated(&mut self, code: &'static Code, first: Span, second: Span, what: &str) {
         self.report(
-            Diagnostic::new(code, second, format!("{what} stands twice in one declaration"))
+            Diagnostic::new(code, second, format!("{what} occurs twice in one declaration"))
                 .here("one too many")
                 .label(first, "the first one"),
         );

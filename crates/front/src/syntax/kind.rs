@@ -36,7 +36,7 @@ pub(super) static LATE_EXTENSION: Kindness = Kindness {
 /// `#endif NAME`
 pub(super) static EXTRA_TEXT: Kindness = Kindness {
     code: &preprocess::EXTRA_TEXT,
-    reason: "every driver ignores it, and many sources repeat the name behind `#endif`",
+    reason: "every driver ignores it, and many sources repeat the name after `#endif`",
 };
 /// `#include` without its extension.
 pub(super) static INCLUDE_WITHOUT_EXTENSION: Kindness = Kindness {
@@ -45,7 +45,7 @@ pub(super) static INCLUDE_WITHOUT_EXTENSION: Kindness = Kindness {
 };
 /// `#pragma optimize(off)` inside a function.
 pub(super) static PRAGMA_IN_FUNCTION: Kindness =
-    Kindness { code: &preprocess::PRAGMA_IN_FUNCTION, reason: "no driver looks where such a pragma stands" };
+    Kindness { code: &preprocess::PRAGMA_IN_FUNCTION, reason: "no driver checks where such a pragma is" };
 /// U+FEFF before the text.
 pub(super) static BYTE_ORDER_MARK: Kindness = Kindness {
     code: &preprocess::BYTE_ORDER_MARK,

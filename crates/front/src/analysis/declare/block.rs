@@ -149,7 +149,7 @@ impl Analyzer<'_> {
     fn block_member_base(&mut self, row: &MemberDecl) -> TypeId {
         if let TypeBase::Struct(_) = &row.ty.base {
             self.report(
-                Diagnostic::new(&types::STRUCT, row.ty.span, "a struct cannot be declared inside of a struct or block")
+                Diagnostic::new(&types::STRUCT, row.ty.span, "a struct cannot be declared inside a struct or block")
                     .here("declare it before"),
             );
             return TypeId::ERROR;
@@ -171,7 +171,7 @@ impl Analyzer<'_> {
         } else if self.types.contains_sampler(ty) {
             Some((&types::SAMPLER, "a sampler cannot be in a block"))
         } else if frame.storage != Storage::Uniform && self.types.shape(ty).holds(&[Scalar::Bool]) {
-            Some((&qualifiers::INTERFACE_TYPE, "booleans do not cross stages"))
+            Some((&qualifiers::INTERFACE_TYPE, "booleans cannot pass between stages"))
         } else {
             None
         };
@@ -187,7 +187,7 @@ impl Analyzer<'_> {
                 Diagnostic::new(
                     &qualifiers::INTEGER_NOT_FLAT,
                     span,
-                    format!("a `{type_name}` that comes into a fragment shader must be `flat`"),
+                    format!("a `{type_name}` input of a fragment shader must be `flat`"),
                 )
                 .here("integers are not interpolated")
                 .label(name, "declared here")

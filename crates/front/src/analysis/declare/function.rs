@@ -216,7 +216,7 @@ impl Analyzer<'_> {
                 if word == StorageWord::Out { ParamMode::Out } else { ParamMode::Inout }
             }
             (Some((word, span)), _) => {
-                let message = format!("`{}` may not stand before a parameter", word.spelling());
+                let message = format!("`{}` is not allowed before a parameter", word.spelling());
                 self.misplaced(span, message, "parameters are `in`, `out` or `inout`");
                 ParamMode::In
             }

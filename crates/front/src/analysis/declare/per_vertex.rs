@@ -74,7 +74,7 @@ impl Analyzer<'_> {
         };
         let name = row.name;
         self.report(
-            Diagnostic::new(&names::PER_VERTEX, span, format!("`{name}` is declared again beside `gl_PerVertex`"))
+            Diagnostic::new(&names::PER_VERTEX, span, format!("`{name}` is redeclared outside `gl_PerVertex`"))
                 .here("give it its size in the block")
                 .label(block.span, "the block is declared again here"),
         );

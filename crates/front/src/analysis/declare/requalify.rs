@@ -96,7 +96,7 @@ impl Analyzer<'_> {
             Some(_) => {
                 self.report(
                     Diagnostic::new(&names::NOT_A_VARIABLE, name.span, format!("`{spelling}` is not a variable"))
-                        .here("a variable is wanted here"),
+                        .here("a variable is required here"),
                 );
                 None
             }

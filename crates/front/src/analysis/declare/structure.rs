@@ -72,7 +72,7 @@ impl Analyzer<'_> {
         if let TypeBase::Struct(inner) = &row.ty.base {
             let at = inner.name.map_or(row.ty.span, |name| name.span);
             self.report(
-                Diagnostic::new(&types::STRUCT, at, "a struct cannot be declared inside of a struct or block")
+                Diagnostic::new(&types::STRUCT, at, "a struct cannot be declared inside a struct or block")
                     .here("declare it before"),
             );
             return TypeId::ERROR;
@@ -123,7 +123,7 @@ impl Analyzer<'_> {
         if let Some(earlier) = list.members.get(taken as usize) {
             let spelling = &member.name;
             self.report(
-                Diagnostic::new(&names::REDEFINED, name.span, format!("the member `{spelling}` is there twice"))
+                Diagnostic::new(&names::REDEFINED, name.span, format!("the member `{spelling}` is declared twice"))
                     .here("declared again here")
                     .label(earlier.span, "first declared here"),
             );

@@ -167,7 +167,7 @@ impl Analyzer<'_> {
     fn check_index_location(&mut self, layout: &Layout) {
         let (Some((index, span)), None) = (layout.index, layout.location) else { return };
         self.report(
-            Diagnostic::new(&qualifiers::LAYOUT_VALUE, span, "`index` needs a `location` beside it")
+            Diagnostic::new(&qualifiers::LAYOUT_VALUE, span, "`index` needs a `location`")
                 .here("no location given")
                 .help(format!("write `location = 0, index = {index}`")),
         );
@@ -180,7 +180,7 @@ impl Analyzer<'_> {
             (Storage::Out, Stage::Fragment) => LayoutPlace::FragmentOutput,
             (Storage::Out, _) => LayoutPlace::Other("an output variable"),
             (Storage::Uniform, _) if self.types.contains_sampler(ty) => LayoutPlace::Sampler,
-            (Storage::Uniform, _) => LayoutPlace::Other("a uniform outside of a block"),
+            (Storage::Uniform, _) => LayoutPlace::Other("a uniform outside a block"),
             (Storage::Const, _) => LayoutPlace::Other("a constant"),
             (Storage::Private, _) => LayoutPlace::Other("a variable without a storage qualifier"),
         }

@@ -21,7 +21,7 @@ static FUNCTIONS: &[(&str, &str)] = &[
     ("tex2D", "write `texture(s, p)`"),
     ("texCUBE", "write `texture(s, p)`"),
     ("tex2Dlod", "write `textureLod(s, p.xy, p.w)`"),
-    ("printf", "a shader writes to its outputs alone"),
+    ("printf", "a shader can only write to its outputs"),
 ];
 
 /// Types of HLSL and C.

@@ -298,7 +298,7 @@ impl Analyzer<'_> {
         let vectors = kinds.iter().any(|(ty, _)| matches!(ty, Type::Vector(..)));
         match (spelling, kinds) {
             ("<" | ">" | "<=" | ">=", _) if vectors => {
-                Some("compare vectors with `lessThan`, `greaterThan` and their like".into())
+                Some("compare vectors with `lessThan`, `greaterThan` and so on".into())
             }
             ("%", _) => Some("`%` is for integers; use `mod(a, b)` for floats".into()),
             ("&" | "|" | "^", [(_, Some(Scalar::Bool)), (_, Some(Scalar::Bool))]) => {

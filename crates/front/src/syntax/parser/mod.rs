@@ -206,12 +206,12 @@ impl<'p, 's, T: TokenSource> Parser<'p, 's, T> {
         }
         let forgotten = self.current.starts_line() || matches!(self.kind(), TokenKind::RightBrace | TokenKind::Eof);
         if !forgotten {
-            return Err(self.unexpected(&format!("`;` behind {what}")));
+            return Err(self.unexpected(&format!("`;` after {what}")));
         }
         let diagnostic = Diagnostic::new(
             &codes::MISSING_SEMICOLON,
             self.previous.span.after(),
-            format!("`;` is missing behind {what}"),
+            format!("`;` is missing after {what}"),
         )
         .here("expected `;`")
         .help("write `;` here");

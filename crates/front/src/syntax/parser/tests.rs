@@ -169,9 +169,9 @@ fn every_mistake_is_reported_once() {
         [
             "expected an expression, found `;`",
             "`(` is not closed",
-            "expected `;` behind the declaration, found `f`",
+            "expected `;` after the declaration, found `f`",
             "`(` is not closed",
-            "expected `;` behind the expression, found `l`",
+            "expected `;` after the expression, found `l`",
         ]
     );
     assert!(matches!(body(&ast).last(), Some(Stmt { kind: StmtKind::Expr(_), .. })));

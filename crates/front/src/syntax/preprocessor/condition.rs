@@ -84,7 +84,7 @@ impl Preprocessor<'_> {
         if tokens.is_empty() {
             if !self.stopped {
                 let diagnostic = Diagnostic::new(&codes::MALFORMED_CONDITION, directive, "the condition is empty")
-                    .here("an expression belongs behind this");
+                    .here("an expression must follow this");
                 session.report(diagnostic);
             }
             return false;
@@ -179,9 +179,11 @@ impl Evaluator<'_> {
         let value = self.binary(session, 1)?;
         match self.peek() {
             None => Ok(value),
-            Some(token) if token.kind == TokenKind::LeftParen => {
-                self.fail(session, Some(token), "a condition cannot call: what stands before the bracket is no macro")
-            }
+            Some(token) if token.kind == TokenKind::LeftParen => self.fail(
+                session,
+                Some(token),
+                "a condition cannot call: the name before the parenthesis is not a macro",
+            ),
             other => self.fail(session, other, "expected an operator in the condition"),
         }
     }
@@ -295,10 +297,10 @@ impl Evaluator<'_> {
     fn undefined(&self, session: &mut Session<'_>, token: Token) -> Result<i64, Malformed> {
         let name = session.spelling(token).to_owned();
         if self.purpose == Purpose::Line {
-            return self.fail(session, Some(token), &format!("`{name}` is no number"));
+            return self.fail(session, Some(token), &format!("`{name}` is not a number"));
         }
         if self.peek().is_some_and(|next| next.kind == TokenKind::LeftParen) {
-            return self.fail(session, Some(token), &format!("`{name}` is no macro with arguments"));
+            return self.fail(session, Some(token), &format!("`{name}` is not a macro with arguments"));
         }
         if self.unevaluated == 0 {
             let names = self.macros.iter().map(|definition| &*definition.name);

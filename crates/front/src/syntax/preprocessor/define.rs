@@ -160,7 +160,7 @@ impl Preprocessor<'_> {
         if predefined || name.starts_with("GL_") || name == "defined" {
             let (verb, why) = match (directive, predefined) {
                 ("#undef", true) => ("undefined", "it is predefined"),
-                (_, true) => ("defined anew", "it is predefined"),
+                (_, true) => ("redefined", "it is predefined"),
                 ("#undef", false) => ("undefined", "it is reserved"),
                 (_, false) => ("defined", "it is reserved"),
             };
@@ -256,9 +256,12 @@ impl Preprocessor<'_> {
                 }
                 TokenKind::HashHash => pastes = true,
                 TokenKind::Hash => {
-                    let diagnostic =
-                        Diagnostic::new(&codes::MISPLACED_HASH, token.span, "`#` is no operator in a macro of GLSL")
-                            .help("there are no strings; `##` joins two tokens");
+                    let diagnostic = Diagnostic::new(
+                        &codes::MISPLACED_HASH,
+                        token.span,
+                        "`#` is not an operator in a macro of GLSL",
+                    )
+                    .help("there are no strings; `##` joins two tokens");
                     session.report(diagnostic);
                     return None;
                 }

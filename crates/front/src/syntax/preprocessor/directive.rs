@@ -69,7 +69,7 @@ impl Preprocessor<'_> {
         let token = self.line_token(session);
         let span = session.sources.join(hash.span, token.span);
         if self.in_arguments && token.kind == TokenKind::Word {
-            let message = "a directive stands in the arguments of a macro's use";
+            let message = "a directive in the arguments of a macro use";
             kind::DIRECTIVE_IN_ARGUMENTS.report(session, self.strict, span, message);
         }
         let directive = match token.kind {
@@ -163,7 +163,7 @@ impl Preprocessor<'_> {
         if matches!(token.kind, TokenKind::Newline | TokenKind::Eof) {
             return;
         }
-        let message = format!("something stands behind the complete `{directive}`");
+        let message = format!("there is text after the complete `{directive}`");
         kind::EXTRA_TEXT.report(session, self.strict, token.span, message);
         self.skip_line(session);
     }
@@ -217,10 +217,9 @@ impl Preprocessor<'_> {
             return false;
         };
         if let Some(first) = open.else_at {
-            let diagnostic =
-                Diagnostic::new(&codes::STRAY_CONDITIONAL, span, format!("`{name}` stands behind an `#else`"))
-                    .label(first, "only `#endif` may follow this")
-                    .label(open.opening, "the group begins here");
+            let diagnostic = Diagnostic::new(&codes::STRAY_CONDITIONAL, span, format!("`{name}` after an `#else`"))
+                .label(first, "only `#endif` may follow this")
+                .label(open.opening, "the group begins here");
             session.report(diagnostic);
         } else if name == "#else" {
             open.else_at = Some(span);
@@ -345,7 +344,7 @@ impl Preprocessor<'_> {
             }
             [name @ ("optimize" | "debug"), "(", "on" | "off", ")"] => {
                 if self.in_function {
-                    let message = format!("`#pragma {name}` stands inside of a function");
+                    let message = format!("`#pragma {name}` inside a function");
                     let end = tokens.last().map_or(directive, |token| token.span);
                     let span = session.sources.join(directive, end);
                     let diagnostic = kind::PRAGMA_IN_FUNCTION.diagnostic(self.strict, span, message);

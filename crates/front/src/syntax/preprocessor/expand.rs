@@ -393,7 +393,7 @@ impl Preprocessor<'_> {
         let rest = lexer.next(Mode::Text, &mut session.names, &mut trivia);
         if rest.kind != TokenKind::Eof || !trivia.is_empty() || joined.kind == TokenKind::Unknown {
             let message = format!(
-                "`##` joins `{}` and `{}` to `{text}`, which is no token",
+                "`##` joins `{}` and `{}` to `{text}`, which is not a token",
                 written(session, left),
                 written(session, right)
             );

@@ -51,7 +51,7 @@ pub(crate) fn warning_of_use(on: Extensions, bringing: Extensions, span: Span) -
     let name = row.map_or("an extension", |row| row.name);
     let message = format!("this is not in the language without `{name}`");
     let diagnostic = Diagnostic::new(&codes::EXTENSION_USED, span, message).here("a use of the extension");
-    Some(diagnostic.note("`#extension` asks to be warned of each use"))
+    Some(diagnostic.note("`#extension` requests a warning for each use"))
 }
 
 /// The behaviors by name.
@@ -71,7 +71,7 @@ impl Preprocessor<'_> {
         }
         let colon = self.line_token(session);
         if colon.kind != TokenKind::Colon {
-            return self.malformed(session, colon, "`#extension` needs `:` and a behavior behind the name");
+            return self.malformed(session, colon, "`#extension` needs `:` and a behavior after the name");
         }
         let behavior = self.line_token(session);
         let spelled =
@@ -84,7 +84,7 @@ impl Preprocessor<'_> {
         let span = session.sources.join(directive, behavior.span);
         if let Some(first) = self.first_token {
             let diagnostic = kind::LATE_EXTENSION
-                .diagnostic(self.strict, span, "`#extension` stands behind the first token")
+                .diagnostic(self.strict, span, "`#extension` after the first token")
                 .label(first, "the first token");
             session.report(diagnostic);
         }
@@ -136,7 +136,7 @@ impl Preprocessor<'_> {
             Behavior::Disable => self.extensions = Extensions::empty(),
             Behavior::Warn => self.extensions = Extensions::all(),
             Behavior::Enable | Behavior::Require => {
-                let message = "`all` extensions can be disabled or warned of alone";
+                let message = "`all` extensions can only be disabled or warned about";
                 let diagnostic = Diagnostic::new(&codes::EXTENSION_FOR_ALL, token.span, message)
                     .help("name each extension that the source uses");
                 session.report(diagnostic);

@@ -25,7 +25,7 @@ impl Preprocessor<'_> {
                 token.kind = illegal_character(session, token.span)?;
             }
             TokenKind::Hash | TokenKind::HashHash => {
-                let message = format!("`{}` stands where no directive can be", token.kind.spelling());
+                let message = format!("`{}` where no directive can be", token.kind.spelling());
                 let diagnostic = Diagnostic::new(&codes::MISPLACED_HASH, token.span, message)
                     .here("neither first on its line nor an operator");
                 session.report(diagnostic);
@@ -100,16 +100,16 @@ fn malformed_number(text: &str, malformed: Malformed, span: Span) -> Diagnostic 
         }
         Malformed::OctalDigit => wrong(format!("`{text}` is octal because of its leading 0 and cannot hold 8 or 9"))
             .help(format!("write `{}` for the decimal number", text.trim_start_matches('0'))),
-        Malformed::NoDigits => wrong(format!("`{text}` has no digits behind its prefix")),
+        Malformed::NoDigits => wrong(format!("`{text}` has no digits after its prefix")),
         Malformed::NoExponent => wrong(format!("`{text}` has no digits in its exponent")),
         Malformed::Suffix(at) => {
             let (number, suffix) = text.split_at_checked(at).unwrap_or((text, ""));
             let help = match suffix {
                 "f" | "F" => Some(format!("write `{number}.0f` or `{number}.0`")),
-                "lf" | "LF" => Some("doubles belong to GLSL 4.00; leave the suffix out".to_owned()),
+                "lf" | "LF" => Some("doubles belong to GLSL 4.00; omit the suffix".to_owned()),
                 _ => None,
             };
-            wrong(format!("`{suffix}` is no suffix of a number")).here(format!("in `{text}`")).maybe_help(help)
+            wrong(format!("`{suffix}` is not a suffix of a number")).here(format!("in `{text}`")).maybe_help(help)
         }
     }
 }
@@ -153,16 +153,18 @@ fn illegal_character(session: &mut Session<'_>, span: Span) -> Option<TokenKind>
     let character = session.sources.snippet(span).chars().next().unwrap_or(char::REPLACEMENT_CHARACTER);
     let (message, help) = match character {
         char::REPLACEMENT_CHARACTER => ("the source is not UTF-8 here".to_owned(), None),
-        '"' | '\'' => (format!("`{character}` is no character of GLSL"), Some("there are no strings in GLSL")),
-        '\\' => ("`\\` is no character of GLSL".to_owned(), Some("a backslash may stand at the end of a line alone")),
-        '\u{feff}' => ("a byte order mark stands inside the source".to_owned(), None),
-        _ if character.is_control() => {
-            (format!("the control character {:#04x} is no character of GLSL", character as u32), None)
+        '"' | '\'' => (format!("`{character}` is not a character of GLSL"), Some("there are no strings in GLSL")),
+        '\\' => {
+            ("`\\` is not a character of GLSL".to_owned(), Some("a backslash is only allowed at the end of a line"))
         }
-        _ if character.is_ascii() => (format!("`{character}` is no character of GLSL"), None),
+        '\u{feff}' => ("a byte order mark inside the source".to_owned(), None),
+        _ if character.is_control() => {
+            (format!("the control character {:#04x} is not a character of GLSL", character as u32), None)
+        }
+        _ if character.is_ascii() => (format!("`{character}` is not a character of GLSL"), None),
         _ => (
-            format!("`{character}` (U+{:04X}) is no character of GLSL", character as u32),
-            Some("outside of comments the language is ASCII"),
+            format!("`{character}` (U+{:04X}) is not a character of GLSL", character as u32),
+            Some("outside comments, the language is ASCII"),
         ),
     };
     let meant = LOOK_ALIKES.iter().find(|row| row.0 == character).map(|row| row.1);

@@ -32,7 +32,7 @@ impl Preprocessor<'_> {
         let whole = session.sources.join(directive, header.span);
         if !self.extensions.contains(Extensions::INCLUDE) {
             let diagnostic = kind::INCLUDE_WITHOUT_EXTENSION
-                .diagnostic(self.strict, whole, "`#include` without the extension that brings it")
+                .diagnostic(self.strict, whole, "`#include` without the extension that provides it")
                 .help("write `#extension GL_ARB_shading_language_include : require` before it");
             session.report(diagnostic);
         } else if let Some(warning) = extension::warning_of_use(self.extensions, Extensions::INCLUDE, whole) {
@@ -81,7 +81,7 @@ impl Preprocessor<'_> {
             _ => None,
         };
         if header.is_none_or(str::is_empty) {
-            let found = if text.is_empty() { "nothing stands here".to_owned() } else { format!("found `{text}`") };
+            let found = if text.is_empty() { "nothing is here".to_owned() } else { format!("found `{text}`") };
             let message = "`#include` needs a name in quotes or angle brackets";
             session.report(Diagnostic::new(&codes::MALFORMED_DIRECTIVE, span, message).here(found));
             return None;

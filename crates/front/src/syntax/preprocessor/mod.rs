@@ -184,7 +184,7 @@ impl<'a> Preprocessor<'a> {
         if source.text().starts_with('\u{feff}') {
             let span = Span::new(source.base(), source.base() + '\u{feff}'.len_utf8() as u32);
             let diagnostic = kind::BYTE_ORDER_MARK
-                .diagnostic(self.strict, span, "a byte order mark stands before the text")
+                .diagnostic(self.strict, span, "a byte order mark before the text")
                 .help("save the file as UTF-8 without a byte order mark");
             session.report(diagnostic);
         }
@@ -207,7 +207,7 @@ impl<'a> Preprocessor<'a> {
         if odd * 8 > all {
             let span = Span::new(source.base(), source.base());
             let diagnostic = Diagnostic::new(&general::BINARY_SOURCE, span, "the source is not text")
-                .here(format!("{odd} of the first {all} characters are no text"));
+                .here(format!("{odd} of the first {all} characters are not text"));
             session.report(diagnostic);
             self.stop();
         }
@@ -285,7 +285,7 @@ impl<'a> Preprocessor<'a> {
                 Trivia::Pragma(span) => self.comment_pragma(session, span),
                 Trivia::Continuation(span, in_comment) if !self.joins_lines() => {
                     let message = if in_comment {
-                        "a comment ends in `\\`; compilers differ on whether it goes on in the next line"
+                        "a comment ends in `\\`; compilers differ on whether it continues on the next line"
                     } else {
                         "the lines are joined by `\\`"
                     };
@@ -304,7 +304,7 @@ impl<'a> Preprocessor<'a> {
                 Trivia::Unterminated(span) => {
                     let message = "the comment has no end";
                     let diagnostic = Diagnostic::new(&codes::UNTERMINATED_COMMENT, span, message)
-                        .here("`/*` without a `*/` behind it");
+                        .here("`/*` without a `*/` after it");
                     session.report(diagnostic);
                 }
             }

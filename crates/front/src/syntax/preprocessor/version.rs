@@ -79,12 +79,7 @@ impl Preprocessor<'_> {
 
     fn end_line_with_extra(&mut self, session: &mut Session<'_>, token: Token) {
         if !matches!(token.kind, TokenKind::Newline | TokenKind::Eof) {
-            kind::EXTRA_TEXT.report(
-                session,
-                self.strict,
-                token.span,
-                "something stands behind the complete `#version`",
-            );
+            kind::EXTRA_TEXT.report(session, self.strict, token.span, "there is text after the complete `#version`");
             self.skip_line(session);
         }
     }
@@ -99,10 +94,10 @@ impl Preprocessor<'_> {
             return false;
         }
         if let Some(first) = self.first_token {
-            session.report(late("`#version` does not come first", first, "this stands before it"));
+            session.report(late("`#version` does not come first", first, "this comes before it"));
         } else if let Some(first) = self.before_version {
             let diagnostic = kind::BEFORE_VERSION
-                .diagnostic(self.strict, first, "a directive stands before `#version`")
+                .diagnostic(self.strict, first, "a directive before `#version`")
                 .label(span, "this must come first");
             session.report(diagnostic);
         }
