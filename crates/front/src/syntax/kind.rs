@@ -1,7 +1,7 @@
 //! The cases that the text of the specification forbids and every driver silently accepts. glisten warns and cites
 //! the section; with `strict` it reports an error. All cases are rows of one table, each with its reason.
 
-use super::token::Session;
+use super::token::ParseSession;
 use crate::diagnostic::codes::{preprocess, syntax};
 use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::source::Span;
@@ -75,7 +75,7 @@ impl Kindness {
     }
 
     /// Reports one occurrence.
-    pub(super) fn report(&self, session: &mut Session<'_>, strict: bool, span: Span, message: impl Into<String>) {
+    pub(super) fn report(&self, session: &mut ParseSession<'_>, strict: bool, span: Span, message: impl Into<String>) {
         let diagnostic = self.diagnostic(strict, span, message);
         session.report(diagnostic);
     }

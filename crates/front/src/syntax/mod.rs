@@ -26,7 +26,7 @@ use ast::{Ast, Profile, Version};
 use parser::Parser;
 use preprocessor::Preprocessor;
 pub(crate) use preprocessor::extension::warning_of_use;
-use token::{Names, Session};
+use token::{Names, ParseSession};
 
 /// Options of a parse.
 #[derive(Clone, Debug)]
@@ -47,7 +47,7 @@ pub fn parse(
     includes: &(dyn IncludeResolver + Sync),
     diagnostics: &mut Diagnostics,
 ) -> Ast {
-    let mut session = Session { sources, diagnostics, names: Names::with_keywords() };
+    let mut session = ParseSession { sources, diagnostics, names: Names::with_keywords() };
     let mut preprocessor = Preprocessor::new(&mut session, file, &options.defines, options.strict, includes);
     let mut ast = Parser::new(&mut preprocessor, &mut session, empty_tree(), options.strict).translation_unit();
     let outcome = preprocessor.finish();

@@ -1,7 +1,7 @@
 //! Macro expansion by the rules of C++, on an explicit stack (GLSL 1.50 §3.3).
 
 use super::define::Meaning;
-use super::{Mode, Preprocessor, Session, Span, Token, TokenFlags, TokenKind, codes};
+use super::{Mode, Preprocessor, ParseSession, Span, Token, TokenFlags, TokenKind, codes};
 use crate::diagnostic::Diagnostic;
 use crate::source::{Expansion, ExpansionId};
 use crate::syntax::lexer::Lexer;
@@ -70,7 +70,7 @@ fn placed(mut token: Token, expansion: ExpansionId) -> Token {
 
 impl Preprocessor<'_> {
     /// The next token, after macro expansion.
-    pub(super) fn next_expanded(&mut self, session: &mut Session<'_>) -> Token {
+    pub(super) fn next_expanded(&mut self, session: &mut ParseSession<'_>) -> Token {
         loop {
             let token = self.next_unexpanded(session, false);
             if token.kind != TokenKind::Word || token.flags.contains(TokenFlags::NO_EXPAND) {
@@ -88,7 +88,7 @@ impl Preprocessor<'_> {
 
     /// Begins the expansion of a macro use. Returns false if it is not a use (a function-like macro without
     /// arguments).
-    fn expand(&mut self, session: &mut Session<'_>, name: Token, index: usize) -> bool {
+    fn expand(&mut self, session: &mut ParseSession<'_>, name: Token, index: usize) -> bool {
         let Some(definition) = self.macros.get(index) else { return false };
         let function_like = definition.params.is_some();
         if definition.meaning != Meaning::Body {
@@ -125,7 +125,7 @@ impl Preprocessor<'_> {
         true
     }
 
-    fn push(&mut self, session: &mut Session<'_>, context: Context, span: Span) {
+    fn push(&mut self, session: &mut ParseSession<'_>, context: Context, span: Span) {
         if let Some(definition) = context.definition.and_then(|index| self.macros.get_mut(index)) {
             definition.disabled = true;
         }
@@ -137,14 +137,14 @@ impl Preprocessor<'_> {
         }
     }
 
-    fn note_expansion(&mut self, session: &mut Session<'_>, index: usize, call: Span) -> ExpansionId {
+    fn note_expansion(&mut self, session: &mut ParseSession<'_>, index: usize, call: Span) -> ExpansionId {
         let Some(definition) = self.macros.get(index) else { return ExpansionId::NONE };
         let expansion = Expansion { name: definition.name.clone(), call, definition: definition.span };
         session.sources.add_expansion(expansion)
     }
 
     /// Charges tokens to the budget.
-    fn spend(&mut self, session: &mut Session<'_>, tokens: usize, span: Span) {
+    fn spend(&mut self, session: &mut ParseSession<'_>, tokens: usize, span: Span) {
         self.steps += tokens + 1;
         if self.steps > STEPS + STEPS_A_BYTE * self.bytes && !self.stopped {
             let message =
@@ -156,7 +156,7 @@ impl Preprocessor<'_> {
         }
     }
 
-    fn magic_number(&self, session: &Session<'_>, meaning: Meaning, span: Span) -> u32 {
+    fn magic_number(&self, session: &ParseSession<'_>, meaning: Meaning, span: Span) -> u32 {
         let site = session.sources.call_site(span);
         match meaning {
             Meaning::Line => session.sources.presented_line(site).or_else(|| session.sources.line(site)).unwrap_or(0),
@@ -164,14 +164,14 @@ impl Preprocessor<'_> {
         }
     }
 
-    fn number_token(&self, session: &mut Session<'_>, number: u32, at: Token) -> Token {
+    fn number_token(&self, session: &mut ParseSession<'_>, number: u32, at: Token) -> Token {
         let mut token = Token { kind: TokenKind::Number, ..at };
         token.payload = session.names.intern(&number.to_string()).bits();
         token
     }
 
     /// Reads `(` if it is next.
-    fn take_opening(&mut self, session: &mut Session<'_>) -> Option<Token> {
+    fn take_opening(&mut self, session: &mut ParseSession<'_>) -> Option<Token> {
         let token = self.next_unexpanded(session, true);
         match token.kind {
             TokenKind::LeftParen => return Some(token),
@@ -184,7 +184,7 @@ impl Preprocessor<'_> {
     /// The arguments after `(`, and the position of the `)`.
     fn arguments(
         &mut self,
-        session: &mut Session<'_>,
+        session: &mut ParseSession<'_>,
         name: Token,
         opening: Token,
         index: usize,
@@ -217,7 +217,7 @@ impl Preprocessor<'_> {
 
     /// Reports a macro use whose `)` is missing. In a directive the rest of the line is lost; in the text, the rest
     /// of the file.
-    fn unterminated_call(&mut self, session: &mut Session<'_>, name: Token, opening: Token, index: usize) {
+    fn unterminated_call(&mut self, session: &mut ParseSession<'_>, name: Token, opening: Token, index: usize) {
         if self.stopped {
             return;
         }
@@ -235,7 +235,7 @@ impl Preprocessor<'_> {
 
     fn check_argument_count(
         &mut self,
-        session: &mut Session<'_>,
+        session: &mut ParseSession<'_>,
         index: usize,
         mut arguments: Vec<Vec<Token>>,
         call: Span,
@@ -262,7 +262,7 @@ impl Preprocessor<'_> {
     /// The body with its parameters replaced by arguments and its `##` applied.
     fn substitute(
         &mut self,
-        session: &mut Session<'_>,
+        session: &mut ParseSession<'_>,
         index: usize,
         arguments: &[Vec<Token>],
         id: ExpansionId,
@@ -304,7 +304,7 @@ impl Preprocessor<'_> {
     #[expect(clippy::too_many_arguments, reason = "the state of one substitution, used nowhere else")]
     fn operand(
         &mut self,
-        session: &mut Session<'_>,
+        session: &mut ParseSession<'_>,
         token: Token,
         arguments: &[Vec<Token>],
         expanded: &mut [Option<Vec<Token>>],
@@ -338,7 +338,7 @@ impl Preprocessor<'_> {
     }
 
     /// An argument after the expansion of its own macros.
-    fn expand_argument(&mut self, session: &mut Session<'_>, argument: &[Token]) -> Vec<Token> {
+    fn expand_argument(&mut self, session: &mut ParseSession<'_>, argument: &[Token]) -> Vec<Token> {
         let has_macro =
             argument.iter().any(|token| token.kind == TokenKind::Word && self.macro_of(token.symbol()).is_some());
         if !has_macro {
@@ -359,7 +359,7 @@ impl Preprocessor<'_> {
     }
 
     /// A list of tokens after macro expansion, on its own.
-    pub(super) fn expand_all(&mut self, session: &mut Session<'_>, list: Vec<Token>) -> Vec<Token> {
+    pub(super) fn expand_all(&mut self, session: &mut ParseSession<'_>, list: Vec<Token>) -> Vec<Token> {
         let floor = self.contexts.len();
         self.contexts.push(Context::barrier(list));
         let mut tokens = Vec::new();
@@ -377,7 +377,7 @@ impl Preprocessor<'_> {
     }
 
     /// Joins the token at `boundary` with the one before it.
-    fn paste(&mut self, session: &mut Session<'_>, tokens: &mut Vec<Token>, boundary: usize, id: ExpansionId) {
+    fn paste(&mut self, session: &mut ParseSession<'_>, tokens: &mut Vec<Token>, boundary: usize, id: ExpansionId) {
         let (Some(&left), Some(&right)) = (boundary.checked_sub(1).and_then(|at| tokens.get(at)), tokens.get(boundary))
         else {
             return;
@@ -418,7 +418,7 @@ fn space_as(parameter: Token, first: Option<&mut Token>) {
 }
 
 /// The text of a token.
-pub(super) fn written(session: &Session<'_>, token: Token) -> String {
+pub(super) fn written(session: &ParseSession<'_>, token: Token) -> String {
     match token.kind {
         TokenKind::Word | TokenKind::Number | TokenKind::Invalid => session.spelling(token).to_owned(),
         TokenKind::Unknown => session.sources.snippet(token.span).to_owned(),

@@ -1,6 +1,6 @@
 //! `#extension` (GLSL 1.50 §3.3), and the table of known extensions.
 
-use super::{Behavior, Extensions, Preprocessor, Session, Span, Token, TokenKind, codes, kind};
+use super::{Behavior, Extensions, Preprocessor, ParseSession, Span, Token, TokenKind, codes, kind};
 use crate::diagnostic::{Diagnostic, did_you_mean};
 use std::sync::LazyLock;
 
@@ -64,7 +64,7 @@ static BEHAVIORS: &[(&str, Behavior)] = &[
 
 impl Preprocessor<'_> {
     /// `#extension name : behavior`, without macro expansion.
-    pub(super) fn extension(&mut self, session: &mut Session<'_>, directive: Span) {
+    pub(super) fn extension(&mut self, session: &mut ParseSession<'_>, directive: Span) {
         let name = self.line_token(session);
         if name.kind != TokenKind::Word {
             return self.malformed(session, name, "`#extension` needs the name of an extension or `all`");
@@ -96,7 +96,7 @@ impl Preprocessor<'_> {
         }
     }
 
-    fn set_behavior(&mut self, session: &mut Session<'_>, token: Token, name: &str, behavior: Behavior, span: Span) {
+    fn set_behavior(&mut self, session: &mut ParseSession<'_>, token: Token, name: &str, behavior: Behavior, span: Span) {
         if name == "all" {
             return self.set_all(session, token, behavior);
         }
@@ -131,7 +131,7 @@ impl Preprocessor<'_> {
         session.report(Diagnostic::new(code, token.span, message).here(here).maybe_help(help));
     }
 
-    fn set_all(&mut self, session: &mut Session<'_>, token: Token, behavior: Behavior) {
+    fn set_all(&mut self, session: &mut ParseSession<'_>, token: Token, behavior: Behavior) {
         match behavior {
             Behavior::Disable => self.extensions = Extensions::empty(),
             Behavior::Warn => self.extensions = Extensions::all(),

@@ -1,14 +1,14 @@
 //! Turns preprocessing tokens into tokens: distinguishes keywords from names, converts numbers to values, and reports
 //! and drops what is not a token (GLSL 1.50 §3.1, §3.6, §4.1).
 
-use super::{Preprocessor, Session, Span, Token, TokenKind, codes, kind};
+use super::{Preprocessor, ParseSession, Span, Token, TokenKind, codes, kind};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::syntax;
 use crate::syntax::number::{self, Doubt, Malformed, Numeral};
 
 impl Preprocessor<'_> {
     /// The token as the parser sees it; `None` if it is dropped.
-    pub(super) fn finish_token(&mut self, session: &mut Session<'_>, mut token: Token) -> Option<Token> {
+    pub(super) fn finish_token(&mut self, session: &mut ParseSession<'_>, mut token: Token) -> Option<Token> {
         match token.kind {
             TokenKind::Word => {
                 let word = self.word(token.symbol());
@@ -54,7 +54,7 @@ impl Preprocessor<'_> {
 
 impl Preprocessor<'_> {
     /// Warns, once, about a reserved name.
-    fn check_word(&self, session: &mut Session<'_>, token: Token) {
+    fn check_word(&self, session: &mut ParseSession<'_>, token: Token) {
         let name = session.spelling(token);
         if name.contains("__") {
             let message = format!("the name `{name}` is reserved: it holds two underscores in a row");
@@ -63,7 +63,7 @@ impl Preprocessor<'_> {
     }
 }
 
-fn number(session: &mut Session<'_>, token: &mut Token) {
+fn number(session: &mut ParseSession<'_>, token: &mut Token) {
     match number::read(session.spelling(*token)) {
         Ok(Numeral { kind, bits, doubt }) => {
             if let Some(doubt) = doubt {
@@ -115,7 +115,7 @@ fn malformed_number(text: &str, malformed: Malformed, span: Span) -> Diagnostic 
 }
 
 /// Reports the first character of a token that GLSL does not have.
-fn invalid_token(session: &mut Session<'_>, token: Token) {
+fn invalid_token(session: &mut ParseSession<'_>, token: Token) {
     let text = session.spelling(token);
     if text.starts_with('"') {
         let diagnostic = Diagnostic::new(&codes::ILLEGAL_CHARACTER, token.span, "a string, and GLSL has none");
@@ -149,7 +149,7 @@ static LOOK_ALIKES: &[(char, TokenKind)] = &[
 ];
 
 /// Reports a character. Returns the token that it resembles, if any.
-fn illegal_character(session: &mut Session<'_>, span: Span) -> Option<TokenKind> {
+fn illegal_character(session: &mut ParseSession<'_>, span: Span) -> Option<TokenKind> {
     let character = session.sources.snippet(span).chars().next().unwrap_or(char::REPLACEMENT_CHARACTER);
     let (message, help) = match character {
         char::REPLACEMENT_CHARACTER => ("the source is not UTF-8 here".to_owned(), None),

@@ -26,7 +26,7 @@ use super::ast::{Allow, Behavior, Extensions, Profile, Version};
 use super::keywords;
 use super::kind;
 use super::lexer::{Lexer, Mode, Trivia};
-use super::token::{Session, Symbol, Token, TokenFlags, TokenKind, TokenSource};
+use super::token::{ParseSession, Symbol, Token, TokenFlags, TokenKind, TokenSource};
 use crate::diagnostic::codes::preprocess as codes;
 use crate::diagnostic::{Diagnostic, codes::general};
 use crate::source::{FileId, IncludeForm, IncludeResolver, Inclusion, Span};
@@ -107,7 +107,7 @@ pub(super) struct Preprocessor<'a> {
 impl<'a> Preprocessor<'a> {
     /// A preprocessor that will read `file`, with `defines` defined before its first line.
     pub(super) fn new(
-        session: &mut Session<'_>,
+        session: &mut ParseSession<'_>,
         file: FileId,
         defines: &[(String, String)],
         strict: bool,
@@ -171,7 +171,7 @@ impl<'a> Preprocessor<'a> {
     }
 
     /// Begins to read a file, unless that exceeds the limit of bytes.
-    fn enter(&mut self, session: &mut Session<'_>, file: FileId, include: Span) {
+    fn enter(&mut self, session: &mut ParseSession<'_>, file: FileId, include: Span) {
         let source = session.sources.file(file);
         self.bytes += source.text().len();
         if self.bytes > MAX_BYTES {
@@ -196,7 +196,7 @@ impl<'a> Preprocessor<'a> {
     }
 
     /// Reports a file that is not text with one error instead of one for each byte.
-    fn check_is_text(&mut self, session: &mut Session<'_>, file: FileId) {
+    fn check_is_text(&mut self, session: &mut ParseSession<'_>, file: FileId) {
         let source = session.sources.file(file);
         let (mut odd, mut all) = (0, 0);
         for character in source.text().chars().take(1024) {
@@ -241,7 +241,7 @@ impl<'a> Preprocessor<'a> {
 
     /// The next token of the topmost file, after directives. With `collecting`, it does not go past the end of an
     /// included file: a macro use must be complete within one file.
-    fn next_from_file(&mut self, session: &mut Session<'_>, collecting: bool) -> Token {
+    fn next_from_file(&mut self, session: &mut ParseSession<'_>, collecting: bool) -> Token {
         loop {
             if self.stopped {
                 return self.end(Span::default());
@@ -265,7 +265,7 @@ impl<'a> Preprocessor<'a> {
     }
 
     /// Leaves a file at its end. Returns false if it is the main file.
-    fn leave(&mut self, session: &mut Session<'_>) -> bool {
+    fn leave(&mut self, session: &mut ParseSession<'_>) -> bool {
         let Some(frame) = self.frames.last_mut() else { return false };
         for conditional in frame.conditionals.drain(..) {
             conditional.report_unterminated(session);
@@ -278,7 +278,7 @@ impl<'a> Preprocessor<'a> {
     }
 
     /// Handles what the lexer recorded while skipping.
-    fn note_trivia(&mut self, session: &mut Session<'_>) {
+    fn note_trivia(&mut self, session: &mut ParseSession<'_>) {
         let mut trivia = std::mem::take(&mut self.trivia);
         for item in trivia.drain(..) {
             match item {
@@ -313,7 +313,7 @@ impl<'a> Preprocessor<'a> {
     }
 
     /// `// glisten: allow(CODE, ...)`
-    fn comment_pragma(&mut self, session: &mut Session<'_>, span: Span) {
+    fn comment_pragma(&mut self, session: &mut ParseSession<'_>, span: Span) {
         let text = session.sources.snippet(span);
         let words = text.split_once("glisten:").map_or("", |(_, words)| words.trim());
         let list = words.strip_prefix("allow").map(str::trim_start);
@@ -339,7 +339,7 @@ impl<'a> Preprocessor<'a> {
     }
 
     /// The next token, without macro expansion.
-    fn next_unexpanded(&mut self, session: &mut Session<'_>, collecting: bool) -> Token {
+    fn next_unexpanded(&mut self, session: &mut ParseSession<'_>, collecting: bool) -> Token {
         while let Some(context) = self.contexts.last_mut() {
             if let Some(mut token) = context.next() {
                 if token.kind == TokenKind::Word {
@@ -368,7 +368,7 @@ impl<'a> Preprocessor<'a> {
 }
 
 impl TokenSource for Preprocessor<'_> {
-    fn next(&mut self, session: &mut Session<'_>) -> Token {
+    fn next(&mut self, session: &mut ParseSession<'_>) -> Token {
         loop {
             if self.stopped {
                 return self.end(Span::default());
