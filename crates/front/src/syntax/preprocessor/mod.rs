@@ -50,7 +50,7 @@ pub(super) struct Outcome {
 }
 
 /// A file that is being read.
-struct Frame {
+struct FileFrame {
     file: FileId,
     lexer: Lexer,
     /// The value of `__FILE__` here: the depth of the include, or what `#line` said.
@@ -72,7 +72,7 @@ struct Word {
 pub(super) struct Preprocessor<'a> {
     includes: &'a (dyn IncludeResolver + Sync + 'a),
     strict: bool,
-    frames: Vec<Frame>,
+    frames: Vec<FileFrame>,
     contexts: Vec<Context>,
     macros: Vec<Macro>,
     words: Vec<Word>,
@@ -192,7 +192,7 @@ impl<'a> Preprocessor<'a> {
         let mut lexer = Lexer::new(source.text().clone(), source.base());
         lexer.joins_comments = self.joins_lines();
         let number = self.frames.len() as u32;
-        self.frames.push(Frame { file, lexer, number, conditionals: Vec::new() });
+        self.frames.push(FileFrame { file, lexer, number, conditionals: Vec::new() });
     }
 
     /// Reports a file that is not text with one error instead of one for each byte.
