@@ -116,7 +116,7 @@ impl Preprocessor<'_> {
     /// Expands the macros of the line and replaces `defined`.
     fn expand_condition(&mut self, session: &mut ParseSession<'_>, line: Vec<Token>) -> Option<Vec<Token>> {
         let floor = self.contexts.len();
-        self.contexts.push(super::expand::Context::barrier(line));
+        self.contexts.push(super::expand::TokenRun::barrier(line));
         let mut tokens = Vec::new();
         let mut result = Some(());
         while !self.stopped && result.is_some() {

@@ -18,7 +18,7 @@ const STEPS_A_BYTE: usize = 2;
 const PASTED_A_STEP: usize = 4;
 
 /// Tokens that are read before the rest of the files.
-enum Run {
+enum RunTokens {
     /// The body of a macro as defined; each token gets this expansion.
     Body(Arc<[Token]>, ExpansionId),
     /// Tokens that have their positions already.
@@ -26,27 +26,27 @@ enum Run {
 }
 
 /// A run of tokens, and how much of it has been read.
-pub(super) struct Context {
-    run: Run,
+pub(super) struct TokenRun {
+    run: RunTokens,
     next: usize,
     definition: Option<usize>,
     barrier: bool,
 }
 
-impl Context {
+impl TokenRun {
     /// Tokens after which nothing else is read until they are removed.
     pub(super) fn barrier(tokens: Vec<Token>) -> Self {
-        Self { run: Run::List(tokens), next: 0, definition: None, barrier: true }
+        Self { run: RunTokens::List(tokens), next: 0, definition: None, barrier: true }
     }
 
     fn list(tokens: Vec<Token>, definition: Option<usize>) -> Self {
-        Self { run: Run::List(tokens), next: 0, definition, barrier: false }
+        Self { run: RunTokens::List(tokens), next: 0, definition, barrier: false }
     }
 
     pub(super) fn next(&mut self) -> Option<Token> {
         let token = match &self.run {
-            Run::Body(body, expansion) => body.get(self.next).map(|token| placed(*token, *expansion)),
-            Run::List(tokens) => tokens.get(self.next).copied(),
+            RunTokens::Body(body, expansion) => body.get(self.next).map(|token| placed(*token, *expansion)),
+            RunTokens::List(tokens) => tokens.get(self.next).copied(),
         };
         self.next += 1;
         token
@@ -93,7 +93,7 @@ impl Preprocessor<'_> {
         let function_like = definition.params.is_some();
         if definition.meaning != Meaning::Body {
             let number = self.magic_number(session, definition.meaning, name.span);
-            self.contexts.push(Context::list(vec![self.number_token(session, number, name)], None));
+            self.contexts.push(TokenRun::list(vec![self.number_token(session, number, name)], None));
             return true;
         }
         if !function_like && !definition.pastes {
@@ -102,7 +102,7 @@ impl Preprocessor<'_> {
             self.spend(session, body.len(), span);
             self.push(
                 session,
-                Context { run: Run::Body(body, id), next: 0, definition: Some(index), barrier: false },
+                TokenRun { run: RunTokens::Body(body, id), next: 0, definition: Some(index), barrier: false },
                 span,
             );
             return true;
@@ -121,11 +121,11 @@ impl Preprocessor<'_> {
         let Some(arguments) = self.check_argument_count(session, index, arguments, call) else { return true };
         let id = self.note_expansion(session, index, call);
         let tokens = self.substitute(session, index, &arguments, id);
-        self.push(session, Context::list(tokens, Some(index)), call);
+        self.push(session, TokenRun::list(tokens, Some(index)), call);
         true
     }
 
-    fn push(&mut self, session: &mut ParseSession<'_>, context: Context, span: Span) {
+    fn push(&mut self, session: &mut ParseSession<'_>, context: TokenRun, span: Span) {
         if let Some(definition) = context.definition.and_then(|index| self.macros.get_mut(index)) {
             definition.disabled = true;
         }
@@ -176,7 +176,7 @@ impl Preprocessor<'_> {
         match token.kind {
             TokenKind::LeftParen => return Some(token),
             TokenKind::Eof => {}
-            _ => self.contexts.push(Context::list(vec![token], None)),
+            _ => self.contexts.push(TokenRun::list(vec![token], None)),
         }
         None
     }
@@ -226,7 +226,7 @@ impl Preprocessor<'_> {
         let diagnostic = Diagnostic::new(&codes::UNTERMINATED_MACRO_CALL, name.span, message)
             .label(opening.span, "this bracket is never closed");
         session.report(diagnostic);
-        if self.contexts.iter().any(Context::is_barrier) {
+        if self.contexts.iter().any(TokenRun::is_barrier) {
             self.broken_line = true;
         } else {
             self.stop();
@@ -255,7 +255,7 @@ impl Preprocessor<'_> {
         session.report(diagnostic);
         // A number replaces the use, so that the parser sees no hole.
         let zero = self.number_token(session, 0, Token::new(TokenKind::Number, call));
-        self.contexts.push(Context::list(vec![zero], None));
+        self.contexts.push(TokenRun::list(vec![zero], None));
         None
     }
 
@@ -361,7 +361,7 @@ impl Preprocessor<'_> {
     /// A list of tokens after macro expansion, on its own.
     pub(super) fn expand_all(&mut self, session: &mut ParseSession<'_>, list: Vec<Token>) -> Vec<Token> {
         let floor = self.contexts.len();
-        self.contexts.push(Context::barrier(list));
+        self.contexts.push(TokenRun::barrier(list));
         let mut tokens = Vec::new();
         while !self.stopped {
             let token = self.next_expanded(session);

@@ -31,7 +31,7 @@ use crate::diagnostic::codes::preprocess as codes;
 use crate::diagnostic::{Diagnostic, codes::general};
 use crate::source::{FileId, IncludeForm, IncludeResolver, Inclusion, Span};
 use define::Macro;
-use expand::Context;
+use expand::TokenRun;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// The largest total size of all texts of a shader in bytes, with includes counted each time: 8 MiB.
@@ -73,7 +73,7 @@ pub(super) struct Preprocessor<'a> {
     includes: &'a (dyn IncludeResolver + Sync + 'a),
     strict: bool,
     frames: Vec<FileFrame>,
-    contexts: Vec<Context>,
+    contexts: Vec<TokenRun>,
     macros: Vec<Macro>,
     words: Vec<Word>,
     kinds: Vec<TokenKind>,
