@@ -1,7 +1,7 @@
 //! Evaluates the expressions of `#if` and `#elif` (GLSL 1.50 §3.3), with C++'s 64-bit integers.
 
 use super::define::Macro;
-use super::{Preprocessor, ParseSession, Span, Token, TokenKind, codes, kind};
+use super::{ParseSession, Preprocessor, Span, Token, TokenKind, codes, kind};
 use crate::diagnostic::{Code, Diagnostic, did_you_mean};
 
 /// How deep parentheses and unary operators may nest in an `#if`.

@@ -1,6 +1,6 @@
 //! Macros: `#define`, `#undef`, and the predefined ones (GLSL 1.50 §3.3).
 
-use super::{Preprocessor, ParseSession, Span, Symbol, Token, TokenFlags, TokenKind, codes, extension, kind, version};
+use super::{ParseSession, Preprocessor, Span, Symbol, Token, TokenFlags, TokenKind, codes, extension, kind, version};
 use crate::diagnostic::Diagnostic;
 use crate::source::SourceMap;
 use std::sync::Arc;
@@ -238,7 +238,12 @@ impl Preprocessor<'_> {
     }
 
     /// Marks the parameters in a body and checks its `##`. Returns whether the body pastes, or `None` after an error.
-    fn check_body(&mut self, session: &mut ParseSession<'_>, params: Option<&[Symbol]>, body: &mut [Token]) -> Option<bool> {
+    fn check_body(
+        &mut self,
+        session: &mut ParseSession<'_>,
+        params: Option<&[Symbol]>,
+        body: &mut [Token],
+    ) -> Option<bool> {
         let mut pastes = false;
         let last = body.len().wrapping_sub(1);
         for (index, token) in body.iter_mut().enumerate() {

@@ -1,6 +1,6 @@
 //! Directives by name, conditional groups, `#line`, `#error` and `#pragma` (GLSL 1.50 §3.3).
 
-use super::{Extensions, Mode, Preprocessor, ParseSession, Span, Token, TokenKind, codes, kind};
+use super::{Extensions, Mode, ParseSession, Preprocessor, Span, Token, TokenKind, codes, kind};
 use crate::diagnostic::{Diagnostic, did_you_mean};
 
 /// An open conditional group.

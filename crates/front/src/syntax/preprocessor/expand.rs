@@ -1,7 +1,7 @@
 //! Macro expansion by the rules of C++, on an explicit stack (GLSL 1.50 §3.3).
 
 use super::define::Meaning;
-use super::{Mode, Preprocessor, ParseSession, Span, Token, TokenFlags, TokenKind, codes};
+use super::{Mode, ParseSession, Preprocessor, Span, Token, TokenFlags, TokenKind, codes};
 use crate::diagnostic::Diagnostic;
 use crate::source::{Expansion, ExpansionId};
 use crate::syntax::lexer::Lexer;

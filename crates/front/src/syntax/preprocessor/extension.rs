@@ -1,6 +1,6 @@
 //! `#extension` (GLSL 1.50 §3.3), and the table of known extensions.
 
-use super::{Behavior, Extensions, Preprocessor, ParseSession, Span, Token, TokenKind, codes, kind};
+use super::{Behavior, Extensions, ParseSession, Preprocessor, Span, Token, TokenKind, codes, kind};
 use crate::diagnostic::{Diagnostic, did_you_mean};
 use std::sync::LazyLock;
 
@@ -96,7 +96,14 @@ impl Preprocessor<'_> {
         }
     }
 
-    fn set_behavior(&mut self, session: &mut ParseSession<'_>, token: Token, name: &str, behavior: Behavior, span: Span) {
+    fn set_behavior(
+        &mut self,
+        session: &mut ParseSession<'_>,
+        token: Token,
+        name: &str,
+        behavior: Behavior,
+        span: Span,
+    ) {
         if name == "all" {
             return self.set_all(session, token, behavior);
         }

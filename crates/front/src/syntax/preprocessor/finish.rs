@@ -1,7 +1,7 @@
 //! Turns preprocessing tokens into tokens: distinguishes keywords from names, converts numbers to values, and reports
 //! and drops what is not a token (GLSL 1.50 §3.1, §3.6, §4.1).
 
-use super::{Preprocessor, ParseSession, Span, Token, TokenKind, codes, kind};
+use super::{ParseSession, Preprocessor, Span, Token, TokenKind, codes, kind};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::syntax;
 use crate::syntax::number::{self, Doubt, Malformed, Numeral};

@@ -1,6 +1,6 @@
 //! `#include` (ARB_shading_language_include, GL_GOOGLE_include_directive).
 
-use super::{Extensions, FileId, Preprocessor, ParseSession, Span, TokenFlags, TokenKind, codes, extension, kind};
+use super::{Extensions, FileId, ParseSession, Preprocessor, Span, TokenFlags, TokenKind, codes, extension, kind};
 use crate::diagnostic::{Diagnostic, codes::general};
 use crate::source::{IncludeForm, Included, Inclusion};
 

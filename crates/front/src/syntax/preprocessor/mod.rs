@@ -2,7 +2,7 @@
 //!
 //! *In:* the main file, macros defined from outside, and a resolver for `#include`. *Out:* tokens through
 //! [`TokenSource`], each with the position where it was written and the macro use that put it where it is; at the
-//! end, an [`Outcome`].
+//! end, an [`PreprocessorOutcome`].
 //!
 //! Tokens come from a stack of files, and before those from a stack of macro bodies that are being read. Both stacks
 //! are on the heap. A macro is disabled while its body is on the stack, and its name found there is marked so that it
@@ -39,7 +39,7 @@ pub(super) const MAX_BYTES: usize = 8 << 20;
 
 /// The outcome after the last token has been read.
 #[derive(Debug)]
-pub(super) struct Outcome {
+pub(super) struct PreprocessorOutcome {
     pub(super) version: Version,
     /// Whether the parser understands the language.
     pub(super) supported: bool,
@@ -101,7 +101,7 @@ pub(super) struct Preprocessor<'a> {
     broken_line: bool,
     once: FxHashSet<FileId>,
     resolved: FxHashMap<(FileId, IncludeForm, String), FileId>,
-    outcome: Outcome,
+    outcome: PreprocessorOutcome,
 }
 
 impl<'a> Preprocessor<'a> {
@@ -138,7 +138,7 @@ impl<'a> Preprocessor<'a> {
             broken_line: false,
             once: FxHashSet::default(),
             resolved: FxHashMap::default(),
-            outcome: Outcome {
+            outcome: PreprocessorOutcome {
                 version: Version { number: version::NEWEST_SUPPORTED, profile: Profile::Core, span: Span::default() },
                 supported: true,
                 invariant_all: None,
@@ -155,7 +155,7 @@ impl<'a> Preprocessor<'a> {
     }
 
     /// The outcome, after the parser has read the last token.
-    pub(super) fn finish(mut self) -> Outcome {
+    pub(super) fn finish(mut self) -> PreprocessorOutcome {
         self.outcome.version = self.version;
         self.outcome
     }

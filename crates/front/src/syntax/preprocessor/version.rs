@@ -1,6 +1,6 @@
 //! `#version`, and the end of the main file, where the lack of one is known (GLSL 1.50 §3.3).
 
-use super::{Preprocessor, Profile, ParseSession, Span, Token, TokenKind, Version, codes, keywords, kind};
+use super::{ParseSession, Preprocessor, Profile, Span, Token, TokenKind, Version, codes, keywords, kind};
 use crate::diagnostic::{Diagnostic, codes::general};
 
 /// The newest version that glisten compiles; it also reads texts without a version.
