@@ -144,7 +144,7 @@ impl Compiler {
             return None;
         };
         let strict = self.options.strict;
-        let options = syntax::Options { stage: source.stage, defines: self.options.defines.clone(), strict };
+        let options = syntax::ParseOptions { stage: source.stage, defines: self.options.defines.clone(), strict };
         let ast = syntax::parse(map, file, &options, &*self.includes, diagnostics);
         let mut shader = analyze(&ast, source.stage, strict, types, map, diagnostics);
         shader.texts.push(whole_text(map, file, ast.version.span, &ast.inclusions, &self.options.defines));

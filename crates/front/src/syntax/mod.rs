@@ -28,9 +28,9 @@ use preprocessor::Preprocessor;
 pub(crate) use preprocessor::extension::warning_of_use;
 use token::{Names, ParseSession};
 
-/// Options of a parse.
+/// ParseOptions of a parse.
 #[derive(Clone, Debug)]
-pub struct Options {
+pub struct ParseOptions {
     /// The stage.
     pub stage: Stage,
     /// Macros defined before the first line: name (with parameters, if it has any) and replacement text.
@@ -43,7 +43,7 @@ pub struct Options {
 pub fn parse(
     sources: &mut SourceMap,
     file: FileId,
-    options: &Options,
+    options: &ParseOptions,
     includes: &(dyn IncludeResolver + Sync),
     diagnostics: &mut Diagnostics,
 ) -> Ast {

@@ -6,14 +6,14 @@ use crate::diagnostic::Diagnostics;
 use crate::language::Stage;
 use crate::source::{NoIncludes, SourceMap};
 use crate::syntax::ast::{Ast, DeclarationKind, ExprId, ExprKind, IncDec, Literal, Stmt, StmtKind, TypeBase, UnaryOp};
-use crate::syntax::{Options, parse};
+use crate::syntax::{ParseOptions, parse};
 
 fn tree(body: &str) -> (Ast, Vec<String>) {
     let mut sources = SourceMap::default();
     let mut diagnostics = Diagnostics::default();
     let text = format!("#version 150\nvoid main() {{ {body} }}");
     let file = sources.add("test.vert", text).expect("room");
-    let options = Options { stage: Stage::Vertex, defines: Vec::new(), strict: false };
+    let options = ParseOptions { stage: Stage::Vertex, defines: Vec::new(), strict: false };
     let ast = parse(&mut sources, file, &options, &NoIncludes, &mut diagnostics);
     let messages = diagnostics.iter().map(|diagnostic| diagnostic.message.clone()).collect();
     (ast, messages)
