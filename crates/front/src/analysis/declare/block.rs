@@ -4,7 +4,7 @@
 
 use super::super::context::Analyzer;
 use super::super::layout::{Layout, LayoutPlace};
-use super::super::qualifiers::{Place, Qualifiers, StorageWord};
+use super::super::qualifiers::{DeclarationContext, Qualifiers, StorageWord};
 use super::super::scope::Entry;
 use super::structure::MemberList;
 use crate::diagnostic::Diagnostic;
@@ -26,7 +26,7 @@ struct Frame {
 impl Analyzer<'_> {
     /// `uniform B { .. } b[2];`
     pub(in crate::analysis) fn block(&mut self, block: &BlockDecl) {
-        let record = self.qualifiers(&block.qualifiers, Place::Block);
+        let record = self.qualifiers(&block.qualifiers, DeclarationContext::Block);
         let Some((word, word_span)) = record.storage else {
             self.report(
                 Diagnostic::new(&qualifiers::BLOCK, block.name.span, "a block must be `in`, `out` or `uniform`")
@@ -103,7 +103,7 @@ impl Analyzer<'_> {
     fn block_members(&mut self, block: &BlockDecl, frame: &Frame) -> MemberList {
         let mut members = MemberList::default();
         for row in &block.members {
-            let record = self.qualifiers(&row.qualifiers, Place::BlockMember);
+            let record = self.qualifiers(&row.qualifiers, DeclarationContext::BlockMember);
             self.check_member_storage(&record, frame);
             let place = if frame.storage == Storage::Uniform {
                 LayoutPlace::UniformMember

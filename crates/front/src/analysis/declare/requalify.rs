@@ -2,7 +2,7 @@
 
 use super::super::context::Analyzer;
 use super::super::layout::{BlockDefaults, LayoutPlace};
-use super::super::qualifiers::{Place, Qualifiers, StorageWord};
+use super::super::qualifiers::{DeclarationContext, Qualifiers, StorageWord};
 use super::super::scope::Entry;
 use crate::builtin::variables;
 use crate::diagnostic::Diagnostic;
@@ -14,7 +14,7 @@ use crate::syntax::ast::{Ident, Qualifier};
 impl Analyzer<'_> {
     /// Applies qualifiers to earlier declarations, or sets defaults for later ones.
     pub(in crate::analysis) fn requalify(&mut self, list: &[Qualifier], idents: &[Ident], span: Span) {
-        let record = self.qualifiers(list, Place::Alone);
+        let record = self.qualifiers(list, DeclarationContext::Alone);
         if idents.is_empty() {
             self.default_layout(&record, span);
             return;

@@ -1,7 +1,7 @@
 //! Declares structs (§4.1.8).
 
 use super::super::context::Analyzer;
-use super::super::qualifiers::Place;
+use super::super::qualifiers::DeclarationContext;
 use super::super::scope::Entry;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::{general, names, types};
@@ -39,7 +39,7 @@ impl Analyzer<'_> {
         let good_name = spec.name.is_none_or(|name| self.check_name(name));
         let mut members = MemberList::default();
         for row in &spec.members {
-            let record = self.qualifiers(&row.qualifiers, Place::StructMember);
+            let record = self.qualifiers(&row.qualifiers, DeclarationContext::StructMember);
             let base = self.member_base(row);
             self.check_precision(record.precision, base);
             for declarator in &row.declarators {

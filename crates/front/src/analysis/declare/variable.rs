@@ -2,7 +2,7 @@
 
 use super::super::context::{Analyzer, ArrayKey};
 use super::super::layout::{Layout, LayoutPlace};
-use super::super::qualifiers::{Place, Qualifiers, StorageWord};
+use super::super::qualifiers::{DeclarationContext, Qualifiers, StorageWord};
 use super::super::scope::Entry;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::{qualifiers, syntax, types};
@@ -19,7 +19,7 @@ pub(in crate::analysis) struct Initial {
 impl Analyzer<'_> {
     /// `uniform mat4 m, n;`, `struct S {..} s;`
     pub(in crate::analysis) fn global_variables(&mut self, declaration: &VariableDecl, _: Span) {
-        let record = self.qualifiers(&declaration.qualifiers, Place::Global);
+        let record = self.qualifiers(&declaration.qualifiers, DeclarationContext::Global);
         if declaration.declarators.is_empty() && self.lacks_type(&declaration.ty) {
             return;
         }
