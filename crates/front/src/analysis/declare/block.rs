@@ -16,7 +16,7 @@ use crate::source::Span;
 use crate::syntax::ast::{ArrayDim, BlockDecl, Declarator, Ident, MemberDecl, TypeBase};
 
 /// The properties that the members of a block share.
-struct Frame {
+struct BlockContext {
     storage: Storage,
     word: StorageWord,
     word_span: Span,
@@ -52,7 +52,7 @@ impl Analyzer<'_> {
             self.enter_block_name(block.name, storage);
         }
         let matrix = layout.matrix.unwrap_or(self.block_defaults.matrix);
-        let members = self.block_members(block, &Frame { storage, word, word_span, matrix });
+        let members = self.block_members(block, &BlockContext { storage, word, word_span, matrix });
         if members.is_empty() {
             self.report(
                 Diagnostic::new(&qualifiers::BLOCK, block.name.span, "a block must have a member").here("empty"),
@@ -100,12 +100,12 @@ impl Analyzer<'_> {
         None
     }
 
-    fn block_members(&mut self, block: &BlockDecl, frame: &Frame) -> MemberList {
+    fn block_members(&mut self, block: &BlockDecl, context: &BlockContext) -> MemberList {
         let mut members = MemberList::default();
         for row in &block.members {
             let record = self.qualifiers(&row.qualifiers, DeclarationContext::BlockMember);
-            self.check_member_storage(&record, frame);
-            let place = if frame.storage == Storage::Uniform {
+            self.check_member_storage(&record, context);
+            let place = if context.storage == Storage::Uniform {
                 LayoutPlace::UniformMember
             } else {
                 LayoutPlace::Other("a member of an input or output block")
@@ -116,20 +116,20 @@ impl Analyzer<'_> {
             for declarator in &row.declarators {
                 self.no_member_initializer(declarator);
                 let ty = self.with_array(base, &declarator.array);
-                let ty = self.check_member_type(ty, row, &record, frame, declarator.name.span);
-                let matrix = layout.matrix.unwrap_or(frame.matrix);
-                let member = self.block_member(declarator, ty, &record, matrix, frame.storage);
+                let ty = self.check_member_type(ty, row, &record, context, declarator.name.span);
+                let matrix = layout.matrix.unwrap_or(context.matrix);
+                let member = self.block_member(declarator, ty, &record, matrix, context.storage);
                 self.add_member(&mut members, declarator.name, member);
             }
         }
         members
     }
 
-    fn check_member_storage(&mut self, record: &Qualifiers, frame: &Frame) {
+    fn check_member_storage(&mut self, record: &Qualifiers, context: &BlockContext) {
         if let Some((word, span)) = record.storage
-            && word != frame.word
+            && word != context.word
         {
-            let (member, block) = (word.spelling(), frame.word.spelling());
+            let (member, block) = (word.spelling(), context.word.spelling());
             self.report(
                 Diagnostic::new(
                     &qualifiers::BLOCK,
@@ -137,11 +137,11 @@ impl Analyzer<'_> {
                     format!("a member cannot be `{member}` in an `{block}` block"),
                 )
                 .here("another storage than the block")
-                .label(frame.word_span, format!("the block is `{block}`"))
+                .label(context.word_span, format!("the block is `{block}`"))
                 .help("remove it"),
             );
         }
-        if frame.storage == Storage::Uniform || (self.stage == Stage::Vertex && frame.storage == Storage::In) {
+        if context.storage == Storage::Uniform || (self.stage == Stage::Vertex && context.storage == Storage::In) {
             self.no_interpolation(record, "a member of a uniform block");
         }
     }
@@ -162,7 +162,7 @@ impl Analyzer<'_> {
         ty: TypeId,
         row: &MemberDecl,
         record: &Qualifiers,
-        frame: &Frame,
+        context: &BlockContext,
         name: Span,
     ) -> TypeId {
         let span = row.ty.span;
@@ -170,7 +170,7 @@ impl Analyzer<'_> {
             Some((&types::VOID_VALUE, "a member cannot be `void`"))
         } else if self.types.contains_sampler(ty) {
             Some((&types::SAMPLER, "a sampler cannot be in a block"))
-        } else if frame.storage != Storage::Uniform && self.types.shape(ty).holds(&[Scalar::Bool]) {
+        } else if context.storage != Storage::Uniform && self.types.shape(ty).holds(&[Scalar::Bool]) {
             Some((&qualifiers::INTERFACE_TYPE, "booleans cannot pass between stages"))
         } else {
             None
@@ -180,7 +180,7 @@ impl Analyzer<'_> {
             return TypeId::ERROR;
         }
         let flat = matches!(record.interpolation, Some((Interpolation::Flat, _)));
-        let arrives = self.stage == Stage::Fragment && frame.storage == Storage::In;
+        let arrives = self.stage == Stage::Fragment && context.storage == Storage::In;
         if arrives && !flat && self.types.shape(ty).holds(&[Scalar::Int, Scalar::Uint]) {
             let type_name = self.type_name(ty);
             self.report(
