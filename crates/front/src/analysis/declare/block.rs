@@ -3,7 +3,7 @@
 //! *In:* a block's declaration. *Out:* a global of a block type, and names for its members or its instance.
 
 use super::super::context::Analyzer;
-use super::super::layout::{Layout, LayoutPlace};
+use super::super::layout::{Layout, LayoutSubject};
 use super::super::qualifiers::{DeclarationContext, Qualifiers, StorageWord};
 use super::super::scope::Entry;
 use super::structure::MemberList;
@@ -45,8 +45,9 @@ impl Analyzer<'_> {
             return;
         }
         let is_uniform = storage == Storage::Uniform;
-        let place = if is_uniform { LayoutPlace::UniformBlock } else { LayoutPlace::Other("an input or output block") };
-        let layout = self.layout(&record, place);
+        let subject =
+            if is_uniform { LayoutSubject::UniformBlock } else { LayoutSubject::Other("an input or output block") };
+        let layout = self.layout(&record, subject);
         let good_name = self.check_name(block.name);
         if good_name {
             self.enter_block_name(block.name, storage);
@@ -105,12 +106,12 @@ impl Analyzer<'_> {
         for row in &block.members {
             let record = self.qualifiers(&row.qualifiers, DeclarationContext::BlockMember);
             self.check_member_storage(&record, context);
-            let place = if context.storage == Storage::Uniform {
-                LayoutPlace::UniformMember
+            let subject = if context.storage == Storage::Uniform {
+                LayoutSubject::UniformMember
             } else {
-                LayoutPlace::Other("a member of an input or output block")
+                LayoutSubject::Other("a member of an input or output block")
             };
-            let layout = self.layout(&record, place);
+            let layout = self.layout(&record, subject);
             let base = self.block_member_base(row);
             self.check_precision(record.precision, base);
             for declarator in &row.declarators {

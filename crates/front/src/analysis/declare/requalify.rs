@@ -1,7 +1,7 @@
 //! Declarations without a type: `invariant a, b;` (§4.6.1), `layout(..) uniform;`, `layout(..) in;` (§4.3.8).
 
 use super::super::context::Analyzer;
-use super::super::layout::{BlockDefaults, LayoutPlace};
+use super::super::layout::{BlockDefaults, LayoutSubject};
 use super::super::qualifiers::{DeclarationContext, Qualifiers, StorageWord};
 use super::super::scope::Entry;
 use crate::builtin::variables;
@@ -116,18 +116,18 @@ impl Analyzer<'_> {
     fn default_layout(&mut self, record: &Qualifiers, span: Span) {
         match record.storage {
             Some((StorageWord::Uniform, _)) => {
-                let layout = self.layout(record, LayoutPlace::UniformDefault);
+                let layout = self.layout(record, LayoutSubject::UniformDefault);
                 self.block_defaults = BlockDefaults {
                     layout: layout.block.unwrap_or(self.block_defaults.layout),
                     matrix: layout.matrix.unwrap_or(self.block_defaults.matrix),
                 };
             }
             Some((StorageWord::In, _)) if self.stage == Stage::Geometry => {
-                let layout = self.layout(record, LayoutPlace::GeometryIn);
+                let layout = self.layout(record, LayoutSubject::GeometryIn);
                 self.geometry_input_layout(&layout, span);
             }
             Some((StorageWord::Out, _)) if self.stage == Stage::Geometry => {
-                let layout = self.layout(record, LayoutPlace::GeometryOut);
+                let layout = self.layout(record, LayoutSubject::GeometryOut);
                 self.geometry_output_layout(&layout);
             }
             Some((word @ (StorageWord::In | StorageWord::Out), at)) => {

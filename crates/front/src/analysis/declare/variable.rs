@@ -1,7 +1,7 @@
 //! Declares variables at global scope (§4.3).
 
 use super::super::context::{Analyzer, ArrayKey};
-use super::super::layout::{Layout, LayoutPlace};
+use super::super::layout::{Layout, LayoutSubject};
 use super::super::qualifiers::{DeclarationContext, Qualifiers, StorageWord};
 use super::super::scope::Entry;
 use crate::diagnostic::Diagnostic;
@@ -27,7 +27,7 @@ impl Analyzer<'_> {
         self.check_precision(record.precision, base);
         let storage = self.global_storage(&record);
         if declaration.declarators.is_empty() {
-            self.layout(&record, self.layout_place(storage, base));
+            self.layout(&record, self.layout_subject(storage, base));
         }
         for declarator in &declaration.declarators {
             let ty = self.with_array(base, &declarator.array);
@@ -101,7 +101,7 @@ impl Analyzer<'_> {
     ) {
         let name = declarator.name;
         let named_well = self.check_name(name) && self.check_block_name(name);
-        let layout = self.layout(record, self.layout_place(storage, ty));
+        let layout = self.layout(record, self.layout_subject(storage, ty));
         self.check_index_location(&layout);
         let ty = self.check_global_type(ty, storage, record, ty_span, name.span);
         let fits = self.check_global_size(ty, storage, false, name.span);
@@ -173,16 +173,16 @@ impl Analyzer<'_> {
         );
     }
 
-    fn layout_place(&self, storage: Storage, ty: TypeId) -> LayoutPlace {
+    fn layout_subject(&self, storage: Storage, ty: TypeId) -> LayoutSubject {
         match (storage, self.stage) {
-            (Storage::In, Stage::Vertex) => LayoutPlace::VertexInput,
-            (Storage::In, _) => LayoutPlace::Other("an input variable"),
-            (Storage::Out, Stage::Fragment) => LayoutPlace::FragmentOutput,
-            (Storage::Out, _) => LayoutPlace::Other("an output variable"),
-            (Storage::Uniform, _) if self.types.contains_sampler(ty) => LayoutPlace::Sampler,
-            (Storage::Uniform, _) => LayoutPlace::Other("a uniform outside a block"),
-            (Storage::Const, _) => LayoutPlace::Other("a constant"),
-            (Storage::Private, _) => LayoutPlace::Other("a variable without a storage qualifier"),
+            (Storage::In, Stage::Vertex) => LayoutSubject::VertexInput,
+            (Storage::In, _) => LayoutSubject::Other("an input variable"),
+            (Storage::Out, Stage::Fragment) => LayoutSubject::FragmentOutput,
+            (Storage::Out, _) => LayoutSubject::Other("an output variable"),
+            (Storage::Uniform, _) if self.types.contains_sampler(ty) => LayoutSubject::Sampler,
+            (Storage::Uniform, _) => LayoutSubject::Other("a uniform outside a block"),
+            (Storage::Const, _) => LayoutSubject::Other("a constant"),
+            (Storage::Private, _) => LayoutSubject::Other("a variable without a storage qualifier"),
         }
     }
 
