@@ -4,7 +4,7 @@
 //! takes the lowest free range of locations. Attributes that are read are assigned first, in order of declaration. A
 //! matrix takes one location per column, an array one per element.
 
-use super::{Attribute, Context};
+use super::{Attribute, Linker};
 use crate::builtin::constants::MAX_VERTEX_ATTRIBS;
 use crate::diagnostic::{Diagnostic, codes};
 use crate::hir::{ArraySize, Global, GlobalId, Shader, Storage, Type, TypeId, Types};
@@ -34,7 +34,7 @@ fn columns_of_element(types: &Types, ty: TypeId) -> u32 {
 
 /// Assigns locations to all inputs of the vertex stage. Attributes that nothing reads come last and are omitted if
 /// they do not fit.
-pub(super) fn assign(ctx: &mut Context<'_>, vertex: &Shader) -> Vec<Attribute> {
+pub(super) fn assign(ctx: &mut Linker<'_>, vertex: &Shader) -> Vec<Attribute> {
     let inputs = vertex
         .globals()
         .filter(|(_, global)| global.storage == Storage::In && global.builtin.is_none() && global.block.is_none());
@@ -107,7 +107,7 @@ impl Taken {
 }
 
 /// The location that the text or a binding sets.
-fn fixed_location(ctx: &mut Context<'_>, global: &Global) -> Option<u32> {
+fn fixed_location(ctx: &mut Linker<'_>, global: &Global) -> Option<u32> {
     let bound = ctx.bindings.attribute_locations.iter().rev().find(|(name, _)| *name == global.name);
     let bound = bound.map(|&(_, location)| location);
     if let (Some(declared), Some(bound)) = (global.location, bound)
@@ -120,7 +120,7 @@ fn fixed_location(ctx: &mut Context<'_>, global: &Global) -> Option<u32> {
     global.location.or(bound)
 }
 
-fn place_fixed(ctx: &mut Context<'_>, vertex: &Shader, taken: &mut Taken, candidate: &Candidate<'_>, location: u32) {
+fn place_fixed(ctx: &mut Linker<'_>, vertex: &Shader, taken: &mut Taken, candidate: &Candidate<'_>, location: u32) {
     let Candidate { id, global, columns, .. } = *candidate;
     if location.checked_add(columns).is_none_or(|end| end > MAX_VERTEX_ATTRIBS) {
         let message = format!(
@@ -139,7 +139,7 @@ fn place_fixed(ctx: &mut Context<'_>, vertex: &Shader, taken: &mut Taken, candid
     taken.mark(location, columns, id);
 }
 
-fn aliased(ctx: &mut Context<'_>, vertex: &Shader, (first, second): (GlobalId, GlobalId), location: u32) {
+fn aliased(ctx: &mut Linker<'_>, vertex: &Shader, (first, second): (GlobalId, GlobalId), location: u32) {
     let (other, global) = (vertex.global(first), vertex.global(second));
     let both = super::aliasing::path_reads_both(vertex, first, second);
     let code = if both { &codes::link::ATTRIBUTE_ALIASING } else { &codes::link::ATTRIBUTE_ALIASING_UNUSED };
@@ -148,7 +148,7 @@ fn aliased(ctx: &mut Context<'_>, vertex: &Shader, (first, second): (GlobalId, G
     ctx.report(Diagnostic::new(code, global.span, message).here(why).label(other.span, "the other one"));
 }
 
-fn too_many(ctx: &mut Context<'_>, candidate: &Candidate<'_>) {
+fn too_many(ctx: &mut Linker<'_>, candidate: &Candidate<'_>) {
     let message = format!(
         "no room for `{}`, which takes {} of the {MAX_VERTEX_ATTRIBS}",
         candidate.global.name,

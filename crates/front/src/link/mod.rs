@@ -50,14 +50,14 @@ use crate::hir::{Shader, Stage, Types};
 use canonical::Sizes;
 
 /// The state that all steps of a link share.
-struct Context<'a> {
+struct Linker<'a> {
     types: &'a Types,
     bindings: Bindings<'a>,
     diagnostics: &'a mut Diagnostics,
     failed: bool,
 }
 
-impl Context<'_> {
+impl Linker<'_> {
     fn report(&mut self, diagnostic: Diagnostic) {
         self.failed |= diagnostic.is_error();
         self.diagnostics.push(diagnostic);
@@ -88,7 +88,7 @@ pub fn link(
     let mut found = Vec::new();
     let mut stages = stages::in_order(&mut types, shaders, &mut found);
     canonical::unify(&mut types, &mut stages, Sizes::Settled);
-    let mut ctx = Context { types: &types, bindings, diagnostics, failed: false };
+    let mut ctx = Linker { types: &types, bindings, diagnostics, failed: false };
     found.into_iter().for_each(|diagnostic| ctx.report(diagnostic));
     let complete = stages::check(&mut ctx, &stages, lone);
     let interface = interface(&mut ctx, &stages);
@@ -96,7 +96,7 @@ pub fn link(
     (complete && !failed).then_some(Program { name, types, stages, interface })
 }
 
-fn interface(ctx: &mut Context<'_>, stages: &[Shader]) -> Interface {
+fn interface(ctx: &mut Linker<'_>, stages: &[Shader]) -> Interface {
     let of = |stage: Stage| stages.iter().find(|shader| shader.stage == stage);
     let mut interface = Interface::default();
     for pair in stages.windows(2) {

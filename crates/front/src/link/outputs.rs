@@ -5,7 +5,7 @@
 //! that nothing writes come last and are omitted if they do not fit.
 
 use super::attributes::plural;
-use super::{Context, Output};
+use super::{Linker, Output};
 use crate::builtin::BuiltinVariable;
 use crate::builtin::constants::MAX_DRAW_BUFFERS;
 use crate::diagnostic::{Diagnostic, codes};
@@ -27,7 +27,7 @@ fn numbers(types: &Types, ty: TypeId) -> u32 {
 }
 
 /// Assigns numbers to all color outputs of the fragment stage.
-pub(super) fn assign(ctx: &mut Context<'_>, fragment: &Shader) -> Vec<Output> {
+pub(super) fn assign(ctx: &mut Linker<'_>, fragment: &Shader) -> Vec<Output> {
     let outputs = fragment.globals().filter(|(_, global)| global.storage == Storage::Out && is_color(global));
     let mut candidates: Vec<Candidate<'_>> = outputs
         .map(|(id, global)| Candidate {
@@ -78,7 +78,7 @@ fn is_color(global: &Global) -> bool {
     }
 }
 
-fn fixed_location(ctx: &mut Context<'_>, global: &Global) -> Option<u32> {
+fn fixed_location(ctx: &mut Linker<'_>, global: &Global) -> Option<u32> {
     if global.builtin.is_some() {
         return Some(0);
     }
@@ -101,7 +101,7 @@ fn slots(taken: &mut Taken, index: u32, location: u32, numbers: u32) -> Option<&
     taken.get_mut(index as usize)?.get_mut(location as usize..end as usize)
 }
 
-fn place_fixed(ctx: &mut Context<'_>, fragment: &Shader, taken: &mut Taken, candidate: &Candidate<'_>, location: u32) {
+fn place_fixed(ctx: &mut Linker<'_>, fragment: &Shader, taken: &mut Taken, candidate: &Candidate<'_>, location: u32) {
     let Candidate { id, global, numbers, index, .. } = *candidate;
     let Some(slots) = slots(taken, index, location, numbers) else {
         let message = format!(
@@ -133,7 +133,7 @@ fn place_free(taken: &mut Taken, candidate: &Candidate<'_>) -> Option<u32> {
     Some(location)
 }
 
-fn too_many(ctx: &mut Context<'_>, candidate: &Candidate<'_>) {
+fn too_many(ctx: &mut Linker<'_>, candidate: &Candidate<'_>) {
     let message = format!(
         "no room for `{}`, which takes {} of the {MAX_DRAW_BUFFERS}",
         candidate.global.name,
@@ -144,7 +144,7 @@ fn too_many(ctx: &mut Context<'_>, candidate: &Candidate<'_>) {
 
 /// Checks that `gl_FragColor`, `gl_FragData` and declared outputs exclude each other (§7.2) across the shaders of the
 /// stage. The analysis checks each shader.
-pub(super) fn check_exclusive(ctx: &mut Context<'_>, fragment: &Shader) {
+pub(super) fn check_exclusive(ctx: &mut Linker<'_>, fragment: &Shader) {
     if fragment.stage != Stage::Fragment {
         return;
     }

@@ -8,7 +8,7 @@
 use super::compatible::{MemberDifference, block_parts, compare_members, same_type, same_value};
 use super::flatten::{join, parts};
 use super::layout::{self, MAX_BLOCK_BYTES, array_stride, extent, round_up, struct_members};
-use super::{Block, BlockIndex, Context, Interface, RootIndex, SlotBinding, UniformLeaf, UniformRoot};
+use super::{Block, BlockIndex, Interface, Linker, RootIndex, SlotBinding, UniformLeaf, UniformRoot};
 use crate::builtin::{BuiltinFunction, BuiltinVariable};
 use crate::diagnostic::{Diagnostic, codes};
 use crate::hir::{
@@ -36,7 +36,7 @@ impl Shared<'_> {
 }
 
 /// Assigns offsets and bindings to all uniforms but samplers.
-pub(super) fn assign(ctx: &mut Context<'_>, stages: &[Shader], interface: &mut Interface) {
+pub(super) fn assign(ctx: &mut Linker<'_>, stages: &[Shader], interface: &mut Interface) {
     let mut all = unite(ctx, stages);
     all.sort_by_key(|shared| !shared.active);
     let types = ctx.types;
@@ -80,7 +80,7 @@ fn asks_for_texels(types: &Types, stages: &[Shader]) -> bool {
 }
 
 /// One entry per name, in order of first declaration.
-fn unite<'a>(ctx: &mut Context<'_>, stages: &'a [Shader]) -> Vec<Shared<'a>> {
+fn unite<'a>(ctx: &mut Linker<'_>, stages: &'a [Shader]) -> Vec<Shared<'a>> {
     let mut all: Vec<Shared<'a>> = Vec::new();
     let mut places: FxHashMap<(bool, &'a str), usize> = FxHashMap::default();
     for shader in stages {
@@ -118,7 +118,7 @@ fn is_shared(global: &Global) -> bool {
     global.storage == Storage::Uniform && builtin
 }
 
-fn check_same(ctx: &mut Context<'_>, known: &Shared<'_>, stage: Stage, global: &Global) {
+fn check_same(ctx: &mut Linker<'_>, known: &Shared<'_>, stage: Stage, global: &Global) {
     let types = ctx.types;
     if known.is_block() {
         check_same_block(ctx, known, stage, global);
@@ -155,7 +155,7 @@ fn different_bindings(a: &Global, b: &Global) -> Option<(String, String)> {
     (ours != theirs).then(|| (format!("binding {ours}"), format!("binding {theirs}")))
 }
 
-fn check_same_block(ctx: &mut Context<'_>, known: &Shared<'_>, stage: Stage, global: &Global) {
+fn check_same_block(ctx: &mut Linker<'_>, known: &Shared<'_>, stage: Stage, global: &Global) {
     let types = ctx.types;
     let (Some(ours), Some(theirs)) = (&global.block, &known.global.block) else { return };
     let (Some((our_members, our_size)), Some((their_members, their_size))) =
@@ -232,7 +232,7 @@ fn order_word(order: MatrixLayout) -> &'static str {
     }
 }
 
-fn place_loose(ctx: &mut Context<'_>, loose: &[&Shared<'_>], stages: &[Shader], interface: &mut Interface) {
+fn place_loose(ctx: &mut Linker<'_>, loose: &[&Shared<'_>], stages: &[Shader], interface: &mut Interface) {
     let types = ctx.types;
     let slot = SlotBinding { group: GROUP, binding: 0 };
     let mut end = 0;
@@ -289,7 +289,7 @@ fn default_value(types: &Types, shared: &Shared<'_>) -> Option<Value> {
     Some(Value { ty: shared.global.ty, scalars: value.scalars.clone() })
 }
 
-fn too_large(ctx: &mut Context<'_>, shared: &Shared<'_>, bytes: u32) {
+fn too_large(ctx: &mut Linker<'_>, shared: &Shared<'_>, bytes: u32) {
     let what = if shared.is_block() { "the uniform block" } else { "the loose uniforms up to" };
     let message = format!(
         "{what} `{}` take{} {bytes} bytes, and a uniform buffer has at most {MAX_BLOCK_BYTES}",
@@ -344,7 +344,7 @@ fn leaves(
     }
 }
 
-fn place_blocks(ctx: &mut Context<'_>, blocks: &[&Shared<'_>], interface: &mut Interface) {
+fn place_blocks(ctx: &mut Linker<'_>, blocks: &[&Shared<'_>], interface: &mut Interface) {
     let types = ctx.types;
     let mut binding = u32::from(interface.loose.is_some());
     for shared in blocks {

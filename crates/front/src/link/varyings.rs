@@ -10,7 +10,7 @@ use super::attributes::plural;
 use super::compatible::same_type;
 use super::flatten::{join, parts};
 use super::matching::{Outputs, match_name};
-use super::{Context, Varying, VaryingEnd};
+use super::{Linker, Varying, VaryingEnd};
 use crate::diagnostic::{Diagnostic, codes};
 use crate::hir::{
     ArraySize, Global, GlobalId, Interpolation, MatrixLayout, Scalar, Shader, Storage, Type, TypeId, Types,
@@ -44,7 +44,7 @@ impl<'a> Whole<'a> {
 }
 
 /// All varyings of a program, in order of location.
-pub(super) fn assign(ctx: &mut Context<'_>, producer: Option<&Shader>, fragment: Option<&Shader>) -> Vec<Varying> {
+pub(super) fn assign(ctx: &mut Linker<'_>, producer: Option<&Shader>, fragment: Option<&Shader>) -> Vec<Varying> {
     let mut wholes = wholes(ctx.types, producer, fragment);
     wholes.sort_by_key(|whole| !whole.active());
     let mut pieces = Vec::new();
@@ -88,7 +88,7 @@ fn same_type_or_block(types: &Types, output: &Global, input: &Global) -> bool {
 }
 
 /// Whether a variable alone is within the limits, so that an absurdly large array is not split.
-fn fits(ctx: &mut Context<'_>, whole: &Whole<'_>) -> bool {
+fn fits(ctx: &mut Linker<'_>, whole: &Whole<'_>) -> bool {
     let Some(global) = whole.decisive() else { return true };
     let components = ctx.types.flat_len(global.ty);
     if components <= MAX_LOCATIONS * 4 {
@@ -210,7 +210,7 @@ fn vectors(types: &Types, name: &str, ty: TypeId) -> Vec<(String, TypeId, u32)> 
     }
 }
 
-fn warn_above_minimum(ctx: &mut Context<'_>, wholes: &[Whole<'_>], pieces: &[Piece]) {
+fn warn_above_minimum(ctx: &mut Linker<'_>, wholes: &[Whole<'_>], pieces: &[Piece]) {
     const MINIMUM: u32 = 60;
     let components: u32 = pieces.iter().filter(|piece| piece.varying.active).map(|piece| u32::from(piece.size)).sum();
     if components > MINIMUM {
@@ -223,7 +223,7 @@ fn warn_above_minimum(ctx: &mut Context<'_>, wholes: &[Whole<'_>], pieces: &[Pie
 }
 
 /// Assigns locations to all pieces. Inactive ones that do not fit are dropped.
-fn place(ctx: &mut Context<'_>, pieces: Vec<Piece>) -> Vec<Varying> {
+fn place(ctx: &mut Linker<'_>, pieces: Vec<Piece>) -> Vec<Varying> {
     let shared = pieces.len() > PORTABLE_LOCATIONS as usize;
     let mut slots: Vec<Slot> = Vec::new();
     let (fixed, mut free): (Vec<Piece>, Vec<Piece>) = pieces.into_iter().partition(|piece| piece.fixed.is_some());
@@ -261,7 +261,7 @@ fn at(piece: Piece, location: u32, component: u32) -> Varying {
     Varying { location, component, ..piece.varying }
 }
 
-fn no_room(ctx: &mut Context<'_>, piece: &Piece) {
+fn no_room(ctx: &mut Linker<'_>, piece: &Piece) {
     let message =
         format!("no room for the varying `{}`: there are {}", piece.varying.name, plural(MAX_LOCATIONS, "location"));
     ctx.report(Diagnostic::new(&codes::link::TOO_MANY_VARYINGS, piece.span, message));
