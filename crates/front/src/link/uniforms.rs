@@ -82,12 +82,12 @@ fn asks_for_texels(types: &Types, stages: &[Shader]) -> bool {
 /// One entry per name, in order of first declaration.
 fn unite<'a>(ctx: &mut Linker<'_>, stages: &'a [Shader]) -> Vec<Shared<'a>> {
     let mut all: Vec<Shared<'a>> = Vec::new();
-    let mut places: FxHashMap<(bool, &'a str), usize> = FxHashMap::default();
+    let mut indices: FxHashMap<(bool, &'a str), usize> = FxHashMap::default();
     for shader in stages {
         for (id, global) in shader.globals().filter(|(_, global)| is_shared(global)) {
             let name = super::matching::match_name(global);
-            let place = *places.entry((global.block.is_some(), name)).or_insert(all.len());
-            match all.get_mut(place) {
+            let index = *indices.entry((global.block.is_some(), name)).or_insert(all.len());
+            match all.get_mut(index) {
                 Some(known) => {
                     check_same(ctx, known, shader.stage, global);
                     known.globals.push((shader.stage, id));
@@ -259,8 +259,8 @@ fn place_loose(ctx: &mut Linker<'_>, loose: &[&Shared<'_>], stages: &[Shader], i
             default: default_value(types, shared),
             active: shared.active,
         });
-        let place = Place { root, slot, block_element: 0, flat_offset: 0, active: shared.active };
-        leaves(types, &place, &shared.global.name, shared.global.ty, offset, order, &mut interface.uniforms);
+        let context = RootContext { root, slot, block_element: 0, flat_offset: 0, active: shared.active };
+        leaves(types, &context, &shared.global.name, shared.global.ty, offset, order, &mut interface.uniforms);
     }
     end = round_up(end, 4);
     if reads_frag_coord(stages) {
@@ -300,7 +300,7 @@ fn too_large(ctx: &mut Linker<'_>, shared: &Shared<'_>, bytes: u32) {
 }
 
 /// The common properties of the leaves of one root.
-struct Place {
+struct RootContext {
     root: RootIndex,
     slot: SlotBinding,
     block_element: u32,
@@ -311,7 +311,7 @@ struct Place {
 /// Adds the leaves of a value at a byte offset.
 fn leaves(
     types: &Types,
-    place: &Place,
+    context: &RootContext,
     name: &str,
     ty: TypeId,
     offset: u32,
@@ -331,15 +331,15 @@ fn leaves(
             name: part.name,
             ty: element,
             array_size,
-            root: place.root,
-            block_element: place.block_element,
-            flat_offset: place.flat_offset + part.flat_offset,
-            slot: place.slot,
+            root: context.root,
+            block_element: context.block_element,
+            flat_offset: context.flat_offset + part.flat_offset,
+            slot: context.slot,
             offset: offset + layout::byte_offset(types, ty, part.flat_offset, order),
             array_stride: array_size.map(|_| array_stride(types, element, order)),
             matrix_stride: is_matrix.then(layout::matrix_stride),
             matrix_layout: if is_matrix { part.matrix_layout } else { MatrixLayout::ColumnMajor },
-            active: place.active,
+            active: context.active,
         });
     }
 }
@@ -382,9 +382,9 @@ fn place_blocks(ctx: &mut Linker<'_>, blocks: &[&Shared<'_>], interface: &mut In
             };
             let mut flat_offset = element * element_len;
             for (member, placed) in types.structure(id).members.iter().zip(&members) {
-                let place = Place { root, slot, block_element: element, flat_offset, active: shared.active };
+                let context = RootContext { root, slot, block_element: element, flat_offset, active: shared.active };
                 let name = join(&prefix, &member.name);
-                leaves(types, &place, &name, member.ty, placed.offset, placed.layout, &mut interface.uniforms);
+                leaves(types, &context, &name, member.ty, placed.offset, placed.layout, &mut interface.uniforms);
                 flat_offset += types.flat_len(member.ty);
             }
         }
