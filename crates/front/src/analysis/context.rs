@@ -87,7 +87,7 @@ pub(super) struct Analyzer<'a> {
     pub(super) n_global_scalars: u32,
     pub(super) n_local_scalars: u32,
     /// The number of globals that need a location or binding.
-    pub(super) n_places: u32,
+    pub(super) n_bound: u32,
     /// How many steps constant evaluation may still take in this shader.
     pub(super) fold_fuel: Cell<u64>,
     /// How many times the analysis searched for a name similar to an unknown one.
@@ -155,7 +155,7 @@ impl<'a> Analyzer<'a> {
             member_indices: FxHashMap::default(),
             n_global_scalars: 0,
             n_local_scalars: 0,
-            n_places: 0,
+            n_bound: 0,
             fold_fuel: Cell::new(MAX_FOLD_STEPS),
             n_suggestions: 0,
             block_defaults: BlockDefaults::default(),
