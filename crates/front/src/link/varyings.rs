@@ -225,7 +225,7 @@ fn warn_above_minimum(ctx: &mut Linker<'_>, wholes: &[Whole<'_>], pieces: &[Piec
 /// Assigns locations to all pieces. Inactive ones that do not fit are dropped.
 fn place(ctx: &mut Linker<'_>, pieces: Vec<Piece>) -> Vec<Varying> {
     let shared = pieces.len() > PORTABLE_LOCATIONS as usize;
-    let mut slots: Vec<Slot> = Vec::new();
+    let mut slots: Vec<LocationContents> = Vec::new();
     let (fixed, mut free): (Vec<Piece>, Vec<Piece>) = pieces.into_iter().partition(|piece| piece.fixed.is_some());
     let mut placed = Vec::new();
     for piece in fixed {
@@ -269,12 +269,12 @@ fn no_room(ctx: &mut Linker<'_>, piece: &Piece) {
 
 /// The contents of a location.
 #[derive(Clone, Copy, Default)]
-struct Slot {
+struct LocationContents {
     used: u8,
     kind: Option<(Scalar, Interpolation, bool)>,
 }
 
-impl Slot {
+impl LocationContents {
     fn fill(&mut self, piece: &Piece, used: u8) {
         self.used = used;
         self.kind = Some(kind(piece));
@@ -285,16 +285,16 @@ fn kind(piece: &Piece) -> (Scalar, Interpolation, bool) {
     (piece.scalar, piece.varying.interpolation, piece.varying.centroid)
 }
 
-fn slot_at(slots: &mut Vec<Slot>, location: u32) -> &mut Slot {
+fn slot_at(slots: &mut Vec<LocationContents>, location: u32) -> &mut LocationContents {
     let index = location as usize;
     if slots.len() <= index {
-        slots.resize(index + 1, Slot::default());
+        slots.resize(index + 1, LocationContents::default());
     }
     &mut slots[index]
 }
 
-fn find_slot(slots: &mut Vec<Slot>, piece: &Piece, shared: bool) -> Option<(u32, u32)> {
-    let fitting = |slot: &Slot| match slot.kind {
+fn find_slot(slots: &mut Vec<LocationContents>, piece: &Piece, shared: bool) -> Option<(u32, u32)> {
+    let fitting = |slot: &LocationContents| match slot.kind {
         None => true,
         Some(kept) => shared && kept == kind(piece) && slot.used + piece.size <= 4,
     };
