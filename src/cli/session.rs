@@ -189,7 +189,7 @@ impl<'a> Session<'a> {
 #[derive(Default)]
 struct Told {
     findings: Vec<Finding>,
-    seen: BTreeSet<(write::Place, &'static str, String)>,
+    seen: BTreeSet<(write::Region, &'static str, String)>,
 }
 
 impl Told {
@@ -198,7 +198,7 @@ impl Told {
         let mut fresh = Vec::new();
         for diagnostic in &batch.diagnostics {
             let finding = Finding::new(&batch.sources, diagnostic);
-            if self.seen.insert((finding.place.clone(), finding.code.id, finding.message.clone())) {
+            if self.seen.insert((finding.region.clone(), finding.code.id, finding.message.clone())) {
                 self.findings.push(finding);
                 fresh.push(diagnostic);
             }
