@@ -120,7 +120,7 @@ pub(super) fn run(args: &CompileArgs, console: &Console) -> Outcome {
     for unit in &mut units {
         warn_of_lone_stage(unit);
         refuse_what_is_no_program(unit);
-        session.judge(&mut unit.batch);
+        session.apply_levels(&mut unit.batch);
     }
     let emitted: Vec<Result<Vec<Output>, Vec<Diagnostic>>> =
         session.pool().install(|| units.par_iter().map(|unit| plan.emit(unit)).collect());
@@ -132,7 +132,7 @@ pub(super) fn run(args: &CompileArgs, console: &Console) -> Outcome {
         }
         let notes = unit.sound_program().map_or_else(Vec::new, |program| emit::notes(program, &plan.conventions));
         unit.batch.diagnostics.extend(notes);
-        session.judge(&mut unit.batch);
+        session.apply_levels(&mut unit.batch);
     }
     let exit = session.tell_units(&units, false)?;
     if !args.check {

@@ -41,7 +41,7 @@ pub(super) fn run(args: &LintArgs, console: &Console) -> Outcome {
     for unit in &mut units {
         if let Some(program) = &unit.program {
             unit.batch.diagnostics.extend(glisten_front::lint::check(program));
-            session.judge(&mut unit.batch);
+            session.apply_levels(&mut unit.batch);
         }
     }
     session.tell_units(&units, true)

@@ -87,7 +87,7 @@ impl Read<'_> {
             DrawError::Failure(failure) => Err(failure),
             DrawError::Diagnostics(diagnostics) => {
                 self.batch.diagnostics = diagnostics;
-                self.session.judge(&mut self.batch);
+                self.session.apply_levels(&mut self.batch);
                 Ok(self.session.tell(&[&self.batch], false)?.max(Exit::Content))
             }
         }
@@ -152,7 +152,7 @@ impl SceneArgs {
             Failure::new(Exit::Content, format!("internal error: {panic}")).help("please report it with the scene")
         })?;
         let mut batch = Batch { sources: loaded.sources, diagnostics: loaded.diagnostics.into_iter().collect() };
-        session.judge(&mut batch);
+        session.apply_levels(&mut batch);
         let exit = session.tell(&[&batch], false)?;
         Ok(match loaded.scene {
             Some(scene) if exit == Exit::Ok => Ok(Read { scene, session, batch }),

@@ -126,7 +126,7 @@ impl Compiler {
             link(name.clone(), types, shaders, self.options.bindings(), &mut diagnostics)
         };
         let levels = Levels::default();
-        diagnostics.retain(|diagnostic| levels.judge(&map, diagnostic).is_some());
+        diagnostics.retain(|diagnostic| levels.severity_of(&map, diagnostic).is_some());
         Compilation { name, sources: map, program, diagnostics }
     }
 
