@@ -171,7 +171,7 @@ impl Analyzer<'_> {
             Some((&types::VOID_VALUE, "a member cannot be `void`"))
         } else if self.types.contains_sampler(ty) {
             Some((&types::SAMPLER, "a sampler cannot be in a block"))
-        } else if context.storage != Storage::Uniform && self.types.shape(ty).holds(&[Scalar::Bool]) {
+        } else if context.storage != Storage::Uniform && self.types.summary(ty).holds(&[Scalar::Bool]) {
             Some((&qualifiers::INTERFACE_TYPE, "booleans cannot pass between stages"))
         } else {
             None
@@ -182,7 +182,7 @@ impl Analyzer<'_> {
         }
         let flat = matches!(record.interpolation, Some((Interpolation::Flat, _)));
         let arrives = self.stage == Stage::Fragment && context.storage == Storage::In;
-        if arrives && !flat && self.types.shape(ty).holds(&[Scalar::Int, Scalar::Uint]) {
+        if arrives && !flat && self.types.summary(ty).holds(&[Scalar::Int, Scalar::Uint]) {
             let type_name = self.type_name(ty);
             self.report(
                 Diagnostic::new(

@@ -125,7 +125,7 @@ impl Analyzer<'_> {
         if self.stage == Stage::Fragment
             && storage == Storage::In
             && !flat
-            && self.types.shape(ty).holds(&[Scalar::Int, Scalar::Uint])
+            && self.types.summary(ty).holds(&[Scalar::Int, Scalar::Uint])
         {
             let type_name = self.type_name(ty);
             self.report(
@@ -143,7 +143,7 @@ impl Analyzer<'_> {
 
     fn cannot_cross(&self, ty: TypeId, border: &Border) -> Option<&'static str> {
         let inner = self.element_of(ty);
-        if self.types.shape(ty).holds(&[Scalar::Bool]) {
+        if self.types.summary(ty).holds(&[Scalar::Bool]) {
             return Some("booleans cannot pass between stages; use an integer");
         }
         match self.types.get(inner) {

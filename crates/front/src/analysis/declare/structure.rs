@@ -140,7 +140,7 @@ impl Analyzer<'_> {
         if let (true, Type::Struct(id)) = (many, self.types.get(ty)) {
             self.member_indices.insert(id, list.indices);
         }
-        if self.types.shape(ty).depth > MAX_DEPTH {
+        if self.types.summary(ty).depth > MAX_DEPTH {
             self.report(
                 Diagnostic::new(&general::TOO_DEEP, span, format!("structs nest more than {MAX_DEPTH} levels deep"))
                     .here("one level too many"),
