@@ -84,10 +84,10 @@ pub fn link(
     diagnostics: &mut Diagnostics,
 ) -> Option<Program> {
     let lone = shaders.len() < 2;
-    canonical::unify(&mut types, &mut shaders, Sizes::Open);
+    canonical::unify(&mut types, &mut shaders, Sizes::Tentative);
     let mut found = Vec::new();
     let mut stages = stages::in_order(&mut types, shaders, &mut found);
-    canonical::unify(&mut types, &mut stages, Sizes::Settled);
+    canonical::unify(&mut types, &mut stages, Sizes::Final);
     let mut ctx = Linker { types: &types, bindings, diagnostics, failed: false };
     found.into_iter().for_each(|diagnostic| ctx.report(diagnostic));
     let complete = stages::check(&mut ctx, &stages, lone);
