@@ -5,7 +5,7 @@
 //! global that other functions use, too, is a private variable of the module.
 
 use super::constants::is_constant;
-use super::function::{Ctx, GlobalSlot, Slot};
+use super::function::{Ctx, GlobalSlot, LocalSlot};
 use super::{Lower, Try, internal, lacking, naga_span, unsupported};
 use crate::target::{Target, WindowOrigin};
 use glisten_front::builtin::BuiltinVariable;
@@ -266,14 +266,14 @@ impl Ctx<'_, '_> {
             _ if self.low.facts.indexed.get(id.index()) == Some(&true) => {
                 let variable = self.variable_of(&global.name, global.ty)?;
                 self.store(variable, value);
-                self.entry.insert(id, Slot::Pointer(variable));
+                self.entry.insert(id, LocalSlot::Pointer(variable));
             }
             _ => {
                 if !self.is_named(value) {
                     self.name(value, &global.name);
                     self.flush();
                 }
-                self.entry.insert(id, Slot::Value(value));
+                self.entry.insert(id, LocalSlot::Value(value));
             }
         }
         Ok(())

@@ -4,7 +4,7 @@
 //! *Holds:* a position is converted to the conventions when it is returned (clip-space z to [0, w], y flipped);
 //! colors have four components, as every color target requires.
 
-use super::function::{Ctx, GlobalSlot, Slot};
+use super::function::{Ctx, GlobalSlot, LocalSlot};
 use super::interface::{Location, path_name, plain_location, varying_binding};
 use super::{Try, lacking};
 use crate::target::{ClipZ, SpirvEnv, Target, WindowOrigin};
@@ -48,7 +48,7 @@ impl Ctx<'_, '_> {
             if is_entry && global.storage == Storage::Out {
                 self.at(global.span);
                 let variable = self.variable_of(&global.name, global.ty)?;
-                self.entry.insert(id, Slot::Pointer(variable));
+                self.entry.insert(id, LocalSlot::Pointer(variable));
             }
         }
         self.at(shader.function(self.id).span);
@@ -238,7 +238,7 @@ impl Ctx<'_, '_> {
         match self.low.global_slot(global).clone() {
             GlobalSlot::Private(variable) => Ok(self.global_variable(variable)),
             GlobalSlot::Entry => match self.entry.get(&global) {
-                Some(Slot::Pointer(pointer)) => Ok(*pointer),
+                Some(LocalSlot::Pointer(pointer)) => Ok(*pointer),
                 _ => Err(self.slip("an output has no variable")),
             },
             _ => Err(self.slip("an output has no place")),

@@ -1,6 +1,6 @@
 //! [`Place`]: what an l-value (§5.8), or a chain of members and elements, denotes.
 
-use super::function::{Ctx, GlobalSlot, Slot};
+use super::function::{Ctx, GlobalSlot, LocalSlot};
 use super::types::vector_size;
 use super::uniforms::{HostId, HostKind};
 use super::{Try, internal};
@@ -70,14 +70,14 @@ impl Ctx<'_, '_> {
                 }
                 GlobalSlot::Private(variable) => return Ok(Place::Pointer(self.global_variable(variable), ty)),
                 GlobalSlot::Constant(constant) => return Ok(Place::Value(self.module_constant(constant), ty)),
-                GlobalSlot::Entry => self.entry.get(&global).cloned().unwrap_or(Slot::Unset),
-                GlobalSlot::Unused => Slot::Unset,
+                GlobalSlot::Entry => self.entry.get(&global).cloned().unwrap_or(LocalSlot::Unset),
+                GlobalSlot::Unused => LocalSlot::Unset,
             },
         };
         match slot {
-            Slot::Pointer(pointer) => Ok(Place::Pointer(pointer, ty)),
-            Slot::Value(value) => Ok(Place::Value(value, ty)),
-            Slot::Unset => self.constant_place(var, ty),
+            LocalSlot::Pointer(pointer) => Ok(Place::Pointer(pointer, ty)),
+            LocalSlot::Value(value) => Ok(Place::Value(value, ty)),
+            LocalSlot::Unset => self.constant_place(var, ty),
         }
     }
 
