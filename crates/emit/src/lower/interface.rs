@@ -16,7 +16,7 @@ use naga::{AddressSpace, BinaryOperator, Binding, BuiltIn, Expression, GlobalVar
 use std::collections::BTreeMap;
 
 /// The varyings that share one location.
-pub(super) struct Location<'a> {
+pub(super) struct VaryingLocation<'a> {
     pub(super) location: u32,
     pub(super) rows: Vec<&'a Varying>,
 }
@@ -136,12 +136,12 @@ impl Lower<'_> {
     }
 
     /// The varyings by location, for those that `keep` selects and all that share a location with them.
-    pub(super) fn locations(&self, keep: impl Fn(&Varying) -> bool) -> Vec<Location<'_>> {
-        let mut locations: Vec<Location<'_>> = Vec::new();
+    pub(super) fn locations(&self, keep: impl Fn(&Varying) -> bool) -> Vec<VaryingLocation<'_>> {
+        let mut locations: Vec<VaryingLocation<'_>> = Vec::new();
         for row in &self.varyings {
             match locations.iter_mut().find(|known| known.location == row.location) {
                 Some(known) => known.rows.push(row),
-                None => locations.push(Location { location: row.location, rows: vec![row] }),
+                None => locations.push(VaryingLocation { location: row.location, rows: vec![row] }),
             }
         }
         locations.retain(|location| location.rows.iter().any(|row| keep(row)));
@@ -150,7 +150,7 @@ impl Lower<'_> {
     }
 
     /// The type at a location: that of its one varying, or a vector that contains all of them.
-    pub(super) fn location_type(&mut self, location: &Location<'_>) -> Try<Handle<naga::Type>> {
+    pub(super) fn location_type(&mut self, location: &VaryingLocation<'_>) -> Try<Handle<naga::Type>> {
         if let [row] = location.rows.as_slice()
             && row.component == 0
         {
@@ -197,7 +197,7 @@ impl Lower<'_> {
 }
 
 /// naga's binding of a varying. The interpolation is written on both sides of the rasterizer, which must agree.
-pub(super) fn varying_binding(location: &Location<'_>) -> Binding {
+pub(super) fn varying_binding(location: &VaryingLocation<'_>) -> Binding {
     let first = location.rows.first();
     let interpolation = first.map_or(Interpolation::Smooth, |row| row.interpolation);
     let centroid = first.is_some_and(|row| row.centroid);
@@ -229,7 +229,7 @@ pub(super) fn path_name(path: &str) -> String {
 
 /// A scalar or vector that the stage receives, and its index in its variable's flat layout.
 #[derive(Clone, Copy)]
-struct Arrived {
+struct Received {
     global: GlobalId,
     flat: u32,
     value: Handle<Expression>,
@@ -248,7 +248,7 @@ impl Ctx<'_, '_> {
             let value = match global.builtin {
                 Some(builtin) if builtin != BuiltinVariable::ClipDistance => self.builtin_input(builtin, global)?,
                 _ => {
-                    let own: Vec<Arrived> = arrived.iter().filter(|part| part.global == id).copied().collect();
+                    let own: Vec<Received> = arrived.iter().filter(|part| part.global == id).copied().collect();
                     self.assemble(global.ty, 0, &own)?
                 }
             };
@@ -282,7 +282,7 @@ impl Ctx<'_, '_> {
     /// Declares one argument per location: matrices by columns, arrays by elements. Attributes that share a location
     /// (OpenGL 3.2 §2.7, legal if no path reads both) share the argument, which has as many components as the longest
     /// of them.
-    fn attributes(&mut self) -> Try<Vec<Arrived>> {
+    fn attributes(&mut self) -> Try<Vec<Received>> {
         let interface = self.low.interface;
         let mut arrived = Vec::new();
         let used = |attribute: &&Attribute| self.low.facts.used.get(attribute.global.index()).copied().unwrap_or(false);
@@ -323,7 +323,7 @@ impl Ctx<'_, '_> {
                     true => value,
                     false => self.first_components(value, size as u8),
                 };
-                arrived.push(Arrived { global: attribute.global, flat: index * size, value });
+                arrived.push(Received { global: attribute.global, flat: index * size, value });
             }
         }
         Ok(arrived)
@@ -347,7 +347,7 @@ impl Ctx<'_, '_> {
         lacking(span, message, format!("bind `{}` to a location of its own", attribute.name))
     }
 
-    fn varyings(&mut self) -> Try<Vec<Arrived>> {
+    fn varyings(&mut self) -> Try<Vec<Received>> {
         let mut arguments = Vec::new();
         let used = &self.low.facts.used;
         let wanted = |row: &Varying| row.to.is_some_and(|end| used.get(end.global.index()).copied().unwrap_or(false));
@@ -364,7 +364,7 @@ impl Ctx<'_, '_> {
         }
         let mut arrived = Vec::new();
         for (location, rows, name, binding, packed, ends) in arguments {
-            let ty = self.low.location_type(&Location { location, rows: rows.iter().collect() })?;
+            let ty = self.low.location_type(&VaryingLocation { location, rows: rows.iter().collect() })?;
             let argument = self.argument(&name, ty, Some(binding));
             for (end, ty, component) in ends {
                 let value = if packed {
@@ -377,14 +377,14 @@ impl Ctx<'_, '_> {
                 } else {
                     argument
                 };
-                arrived.push(Arrived { global: end.global, flat: end.flat_offset, value });
+                arrived.push(Received { global: end.global, flat: end.flat_offset, value });
             }
         }
         Ok(arrived)
     }
 
     /// A value of any type, assembled from received scalars and vectors; what was not received is 0.
-    fn assemble(&mut self, ty: TypeId, flat: u32, parts: &[Arrived]) -> Try<Handle<Expression>> {
+    fn assemble(&mut self, ty: TypeId, flat: u32, parts: &[Received]) -> Try<Handle<Expression>> {
         if let Some(part) = parts.iter().find(|part| part.flat == flat)
             && matches!(self.low.types.get(ty), Type::Scalar(_) | Type::Vector(..))
         {

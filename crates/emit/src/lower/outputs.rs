@@ -5,7 +5,7 @@
 //! colors have four components, as every color target requires.
 
 use super::function::{Ctx, GlobalSlot, LocalSlot};
-use super::interface::{Location, path_name, plain_location, varying_binding};
+use super::interface::{VaryingLocation, path_name, plain_location, varying_binding};
 use super::{Try, lacking};
 use crate::target::{ClipZ, SpirvEnv, Target, WindowOrigin};
 use glisten_front::builtin::BuiltinVariable;
@@ -94,7 +94,7 @@ impl Ctx<'_, '_> {
             .map(|location| (location.location, location.rows.into_iter().cloned().collect()))
             .collect();
         for (number, rows) in locations {
-            let location = Location { location: number, rows: rows.iter().collect() };
+            let location = VaryingLocation { location: number, rows: rows.iter().collect() };
             let ty = self.low.location_type(&location)?;
             let name = match rows.as_slice() {
                 [row] if row.component == 0 => path_name(&row.name),
