@@ -73,12 +73,13 @@ pub fn emit_with_sources(
         write(module, &info, stage, target, conventions, sources)
     };
     glisten_front::stack::with_stack(if deep { NESTING } else { 0 }, move || {
-        catch_unwind(AssertUnwindSafe(write))
-            .unwrap_or_else(|_| Err(vec![slip(Span::default(), format!("the writer of {} panicked", target.name()))]))
+        catch_unwind(AssertUnwindSafe(write)).unwrap_or_else(|_| {
+            Err(vec![internal_error(Span::default(), format!("the writer of {} panicked", target.name()))])
+        })
     })
 }
 
-fn slip(span: Span, message: String) -> Diagnostic {
+fn internal_error(span: Span, message: String) -> Diagnostic {
     Diagnostic::new(&general::INTERNAL, span, message)
 }
 
@@ -88,7 +89,7 @@ fn validate(module: &naga::Module) -> Result<ModuleInfo, Vec<Diagnostic>> {
         let place = error.spans().find_map(|(span, _)| span.to_range());
         let span = place.map_or(Span::default(), |range| Span::new(range.start as u32, range.end as u32));
         let message = without_handles(&chain(error.as_inner()));
-        vec![slip(span, format!("the lowered program is not valid: {message}"))]
+        vec![internal_error(span, format!("the lowered program is not valid: {message}"))]
     })
 }
 
@@ -147,7 +148,7 @@ fn write(
     written.map_err(|message| {
         let message = format!("the writer of {} failed: {}", target.name(), without_handles(&message));
         match target {
-            Target::Wgsl | Target::Spirv => vec![slip(Span::default(), message)],
+            Target::Wgsl | Target::Spirv => vec![internal_error(Span::default(), message)],
             // For these three, naga's output is taken as it is, and its writers have gaps (for example `inverse` in
             // MSL and HLSL).
             Target::Msl | Target::Hlsl | Target::Glsl => {

@@ -162,7 +162,7 @@ impl Ctx<'_, '_> {
             let accept = self.in_block(|ctx| ctx.effect(accept))?;
             let reject = self.in_block(|ctx| ctx.effect(reject))?;
             self.branch(condition, accept, reject);
-            return Err(self.slip("an operand of `?:` has no value"));
+            return Err(self.internal_error("an operand of `?:` has no value"));
         }
         self.chosen(condition, accept, reject, ty)
     }

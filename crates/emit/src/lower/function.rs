@@ -448,7 +448,7 @@ impl<'l, 'a> Ctx<'l, 'a> {
     }
 
     /// The internal error of an invalid handle.
-    pub(super) fn slip(&self, message: &str) -> Box<glisten_front::diagnostic::Diagnostic> {
+    pub(super) fn internal_error(&self, message: &str) -> Box<glisten_front::diagnostic::Diagnostic> {
         internal(self.here(), message)
     }
 }

@@ -335,7 +335,7 @@ impl Ctx<'_, '_> {
         while !matches!(self.low.types.get(leaf), Type::Scalar(_) | Type::Vector(..)) {
             leaf = self.low.element_type(leaf);
             if leaf.is_error() {
-                return Err(self.slip("an attribute of a type that no attribute can have"));
+                return Err(self.internal_error("an attribute of a type that no attribute can have"));
             }
         }
         Ok(leaf)
@@ -471,7 +471,7 @@ impl Ctx<'_, '_> {
         let (mut x, mut y, z, w) = (part(0), part(1), part(2), part(3));
         if upside_down {
             let Some((variable, member)) = self.low.framebuffer_height else {
-                return Err(self.slip("the framebuffer's height has no place among the uniforms"));
+                return Err(self.internal_error("the framebuffer's height has no place among the uniforms"));
             };
             let base = self.global_variable(variable);
             let pointer = self.add(Expression::AccessIndex { base, index: member });

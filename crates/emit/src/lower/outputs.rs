@@ -239,9 +239,9 @@ impl Ctx<'_, '_> {
             GlobalSlot::Private(variable) => Ok(self.global_variable(variable)),
             GlobalSlot::Entry => match self.entry.get(&global) {
                 Some(LocalSlot::Pointer(pointer)) => Ok(*pointer),
-                _ => Err(self.slip("an output has no variable")),
+                _ => Err(self.internal_error("an output has no variable")),
             },
-            _ => Err(self.slip("an output has no place")),
+            _ => Err(self.internal_error("an output has no place")),
         }
     }
 
@@ -270,7 +270,7 @@ impl Ctx<'_, '_> {
                         }
                         rest -= size;
                     }
-                    found.ok_or_else(|| self.slip("a varying outside of its block"))?
+                    found.ok_or_else(|| self.internal_error("a varying outside of its block"))?
                 }
                 _ => break,
             };
