@@ -12,7 +12,7 @@ mod forms;
 mod inputs;
 mod vector;
 
-pub use inputs::Kind;
+pub use inputs::InputKind;
 
 use crate::evaluate::{EvaluateError, Evaluator, table};
 use crate::library::Embedded;
@@ -122,7 +122,7 @@ pub struct Form {
     /// The function, in the form that [`signatures`](crate::evaluate::signatures) writes.
     pub signature: &'static str,
     /// The kinds of its parameters, without samplers.
-    pub inputs: &'static [Kind],
+    pub inputs: &'static [InputKind],
     /// The closed form; `None` where the model is undefined.
     answer: fn(&Args<'_>) -> Option<Answer>,
 }
