@@ -1,6 +1,6 @@
 //! Emits code for targets, and the reflection.
 //!
-//! *In:* a [`Program`](glisten_front::link::Program) and [`Conventions`]. *Out:* WGSL or SPIR-V (also MSL, HLSL, GLSL), and
+//! *In:* a [`Program`](glisten_front::link::Program) and [`Conventions`](crate::Conventions). *Out:* WGSL or SPIR-V (also MSL, HLSL, GLSL), and
 //! the reflection.
 //!
 //! *Holds:* every module is checked by naga's validator. An error of naga's validator or writers becomes an internal

@@ -11,7 +11,7 @@
 //! * `types`, `qualifiers` and `layout` analyze what precedes a name.
 //! * `declare` enters names: variables, structs, blocks, functions, redeclared built-in variables.
 //! * `statement` and `expr` analyze function bodies.
-//! * [`fold`] computes constants.
+//! * [`fold`](crate::fold) computes constants.
 //!
 //! *Holds:* one mistake raises one message. Whatever is in error gets the type
 //! [`TypeId::ERROR`](crate::hir::TypeId::ERROR), which is compatible with everything. No traversal recurses along
