@@ -136,13 +136,13 @@ impl Ctx<'_, '_> {
             values.push((self.value(*argument)?, self.shader.expr(*argument).ty));
         }
         let Some(&first) = values.first() else {
-            return Err(self.slip("a built-in function without arguments"));
+            return Err(self.internal_error("a built-in function without arguments"));
         };
         match rule {
             Rule::Math(fun) => Ok(self.math(fun, &values)),
             Rule::Compare(op) => match values.get(1) {
                 Some(second) => Ok(self.op(op, first.0, second.0)),
-                None => Err(self.slip("a comparison of one value")),
+                None => Err(self.internal_error("a comparison of one value")),
             },
             Rule::Derivative(axis) => Ok(self.derivative(axis, first.0)),
             Rule::Own | Rule::Texture => self.own(function, &values, ty),
@@ -176,7 +176,7 @@ impl Ctx<'_, '_> {
 
     fn own(&mut self, function: BuiltinFunction, values: &[Typed], ty: TypeId) -> Try<Handle<Expression>> {
         use BuiltinFunction as F;
-        let (a, a_ty) = values.first().copied().ok_or_else(|| self.slip("an argument is missing"))?;
+        let (a, a_ty) = values.first().copied().ok_or_else(|| self.internal_error("an argument is missing"))?;
         let size = self.size_of(a_ty);
         match (function, values) {
             (F::Atan, [_]) => Ok(self.math1(MathFunction::Atan, a)),
@@ -220,7 +220,7 @@ impl Ctx<'_, '_> {
 
     /// `modf(x, out i)`: both parts have the sign of `x` (§8.3).
     fn modf(&mut self, arguments: &[ExprId]) -> Try<Handle<Expression>> {
-        let [argument, target] = arguments else { return Err(self.slip("`modf` takes two arguments")) };
+        let [argument, target] = arguments else { return Err(self.internal_error("`modf` takes two arguments")) };
         let value = self.value(*argument)?;
         let place = self.target(*target)?;
         let whole = self.math1(MathFunction::Trunc, value);

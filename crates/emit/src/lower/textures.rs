@@ -74,7 +74,7 @@ impl Ctx<'_, '_> {
     /// A call of a texture function.
     pub(super) fn texture_call(&mut self, function: BuiltinFunction, arguments: &[ExprId]) -> Try<Handle<Expression>> {
         let Some((sampler, rest)) = arguments.split_first() else {
-            return Err(self.slip("a texture function without a sampler"));
+            return Err(self.internal_error("a texture function without a sampler"));
         };
         let (ty, value) = self.sampler(*sampler)?;
         match function {
@@ -86,7 +86,7 @@ impl Ctx<'_, '_> {
                     let lookup = self.lookup(ty, value, form, rest)?;
                     if ty.texel == Scalar::Float { self.sample(&lookup) } else { self.integer_lookup(&lookup) }
                 }
-                None => Err(internal(self.here(), format!("`{}` is no texture function", function.name()))),
+                None => Err(internal(self.here(), format!("`{}` is not a texture function", function.name()))),
             },
         }
     }
@@ -328,7 +328,9 @@ impl Ctx<'_, '_> {
     /// `textureSize`
     fn texture_size(&mut self, ty: SamplerType, value: SamplerValue, level: Option<ExprId>) -> Try<Handle<Expression>> {
         if ty.dim == SamplerDim::Buffer {
-            return value.texel_count.ok_or_else(|| self.slip("the number of texels has no place among the uniforms"));
+            return value
+                .texel_count
+                .ok_or_else(|| self.internal_error("the number of texels has no place among the uniforms"));
         }
         if ty.dim == SamplerDim::Multisample && ty.arrayed {
             // naga's SPIR-V writer queries a level, which multisampled images do not have.

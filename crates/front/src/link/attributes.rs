@@ -4,7 +4,7 @@
 //! column, an array one an element. Inputs may share locations if no path reads both.
 
 use super::declared::{Clash, Rules, Variable};
-use super::{Attribute, Context};
+use super::{Attribute, Linker};
 use crate::builtin::constants::MAX_VERTEX_ATTRIBS;
 use crate::diagnostic::{Diagnostic, codes};
 use crate::hir::{ArraySize, Shader, Storage, Type, TypeId, Types};
@@ -29,7 +29,7 @@ fn columns_of_element(types: &Types, ty: TypeId) -> u32 {
 const MAX_ALIASED: u32 = 64;
 
 /// Places all inputs of the vertex stage.
-pub(super) fn assign(ctx: &mut Context<'_>, vertex: &Shader) -> Vec<Attribute> {
+pub(super) fn assign(ctx: &mut Linker<'_>, vertex: &Shader) -> Vec<Attribute> {
     let rules = Rules {
         limit: MAX_VERTEX_ATTRIBS,
         rows: 1,
@@ -72,7 +72,7 @@ fn attribute(variable: Variable<'_>) -> Option<Attribute> {
     })
 }
 
-fn aliased(ctx: &mut Context<'_>, vertex: &Shader, clash: &Clash) {
+fn aliased(ctx: &mut Linker<'_>, vertex: &Shader, clash: &Clash) {
     let Clash { variables: (first, second), shared: location } = *clash;
     let (other, global) = (vertex.global(first), vertex.global(second));
     let both = super::aliasing::path_reads_both(vertex, first, second);

@@ -5,7 +5,7 @@
 //! *Holds:* `layout(location)` in the text wins over a binding by name, that over the automatic choice: the lowest free
 //! run, in the order of the declarations, for the active variables first. Inactive ones that find no room are left out.
 
-use super::Context;
+use super::Linker;
 use super::locations::Locations;
 use crate::diagnostic::{Code, Diagnostic, codes};
 use crate::hir::{Global, GlobalId};
@@ -50,7 +50,7 @@ pub(super) struct Clash {
 
 impl Rules<'_> {
     /// The location that the text or a binding gives.
-    pub(super) fn fixed(&self, ctx: &mut Context<'_>, global: &Global) -> Option<u32> {
+    pub(super) fn fixed(&self, ctx: &mut Linker<'_>, global: &Global) -> Option<u32> {
         let bound = self.bindings.iter().rev().find(|(name, _)| *name == global.name);
         let bound = bound.map(|&(_, location)| location);
         if let (Some(declared), Some(bound)) = (global.location, bound)
@@ -67,9 +67,9 @@ impl Rules<'_> {
     /// Gives each variable its location; `clash` judges those that share one.
     pub(super) fn place(
         &self,
-        ctx: &mut Context<'_>,
+        ctx: &mut Linker<'_>,
         variables: &mut [Variable<'_>],
-        clash: &mut dyn FnMut(&mut Context<'_>, &Clash),
+        clash: &mut dyn FnMut(&mut Linker<'_>, &Clash),
     ) {
         let mut rows = vec![Locations::new(self.limit); self.rows];
         for variable in variables.iter() {
@@ -93,7 +93,7 @@ impl Rules<'_> {
 
     fn place_fixed(
         &self,
-        ctx: &mut Context<'_>,
+        ctx: &mut Linker<'_>,
         rows: &mut [Locations<Option<GlobalId>>],
         variable: &Variable<'_>,
         first: u32,
@@ -107,7 +107,7 @@ impl Rules<'_> {
         held.map(|(holder, shared)| Clash { variables: (holder, variable.id), shared })
     }
 
-    fn beyond_the_limit(&self, ctx: &mut Context<'_>, variable: &Variable<'_>, first: u32) {
+    fn beyond_the_limit(&self, ctx: &mut Linker<'_>, variable: &Variable<'_>, first: u32) {
         let Variable { global, count, .. } = variable;
         let (noun, number) = self.words;
         let (name, taken, limit) = (&global.name, plural(*count, noun), self.limit);
@@ -115,7 +115,7 @@ impl Rules<'_> {
         ctx.report(Diagnostic::new(self.too_many, global.span, message));
     }
 
-    fn no_room(&self, ctx: &mut Context<'_>, variable: &Variable<'_>) {
+    fn no_room(&self, ctx: &mut Linker<'_>, variable: &Variable<'_>) {
         let (name, taken) = (&variable.global.name, plural(variable.count, self.words.0));
         let message = format!("no room for `{name}`, which takes {taken} of the {}", self.limit);
         let diagnostic = Diagnostic::new(self.too_many, variable.global.span, message);

@@ -56,26 +56,26 @@ use crate::hir::{Shader, Stage, Types};
 use canonical::Sizes;
 
 /// The state that all steps of a link share.
-struct Context<'a> {
+struct Linker<'a> {
     types: &'a Types,
     bindings: Bindings<'a>,
     diagnostics: &'a mut Diagnostics,
     failed: bool,
 }
 
-impl Context<'_> {
+impl Linker<'_> {
     fn report(&mut self, diagnostic: Diagnostic) {
         self.failed |= diagnostic.is_error();
         self.diagnostics.push(diagnostic);
     }
 }
 
-/// What a host binds by name before it links.
+/// The locations that a host binds by name before linking.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Bindings<'a> {
-    /// `glBindAttribLocation`: name and location. The last of a name counts.
+    /// `glBindAttribLocation`: name and location. The last entry for a name counts.
     pub attribute_locations: &'a [(String, u32)],
-    /// `glBindFragDataLocation`: name and color number. The last of a name counts.
+    /// `glBindFragDataLocation`: name and color number. The last entry for a name counts.
     pub frag_data_locations: &'a [(String, u32)],
 }
 
@@ -90,11 +90,11 @@ pub fn link(
     diagnostics: &mut Diagnostics,
 ) -> Option<Program> {
     let lone = shaders.len() < 2;
-    canonical::unify(&mut types, &mut shaders, Sizes::Open);
+    canonical::unify(&mut types, &mut shaders, Sizes::Tentative);
     let mut found = Vec::new();
     let mut stages = stages::in_order(&mut types, shaders, &mut found);
-    canonical::unify(&mut types, &mut stages, Sizes::Settled);
-    let mut ctx = Context { types: &types, bindings, diagnostics, failed: false };
+    canonical::unify(&mut types, &mut stages, Sizes::Final);
+    let mut ctx = Linker { types: &types, bindings, diagnostics, failed: false };
     found.into_iter().for_each(|diagnostic| ctx.report(diagnostic));
     let complete = stages::check(&mut ctx, &stages, lone);
     let interface = interface(&mut ctx, &stages);
@@ -102,7 +102,7 @@ pub fn link(
     (complete && !failed).then_some(Program { name, types, stages, interface })
 }
 
-fn interface(ctx: &mut Context<'_>, stages: &[Shader]) -> Interface {
+fn interface(ctx: &mut Linker<'_>, stages: &[Shader]) -> Interface {
     let of = |stage: Stage| stages.iter().find(|shader| shader.stage == stage);
     let mut interface = Interface::default();
     for pair in stages.windows(2) {

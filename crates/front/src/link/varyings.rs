@@ -13,7 +13,7 @@ use super::declared::plural;
 use super::flatten::{join, parts};
 use super::locations::Locations;
 use super::matching::{Outputs, match_name};
-use super::{Context, Varying, VaryingEnd};
+use super::{Linker, Varying, VaryingEnd};
 use crate::diagnostic::{Diagnostic, codes};
 use crate::hir::{
     ArraySize, Global, GlobalId, Interpolation, MatrixLayout, Scalar, Shader, Storage, Type, TypeId, Types,
@@ -48,7 +48,7 @@ impl<'a> Whole<'a> {
 
 /// All varyings of a program, in the order of their locations, and the clip distances among what is interpolated.
 pub(super) fn assign(
-    ctx: &mut Context<'_>,
+    ctx: &mut Linker<'_>,
     producer: Option<&Shader>,
     fragment: Option<&Shader>,
 ) -> (Vec<Varying>, Vec<Varying>) {
@@ -96,7 +96,7 @@ fn same_type_or_block(types: &Types, output: &Global, input: &Global) -> bool {
 }
 
 /// Whether a variable alone is within the limits, so that an absurdly large array is not split.
-fn fits(ctx: &mut Context<'_>, whole: &Whole<'_>) -> bool {
+fn fits(ctx: &mut Linker<'_>, whole: &Whole<'_>) -> bool {
     let Some(global) = whole.decisive() else { return true };
     let components = ctx.types.flat_len(global.ty);
     if components <= MAX_LOCATIONS * 4 {
@@ -218,7 +218,7 @@ fn vectors(types: &Types, name: &str, ty: TypeId) -> Vec<(String, TypeId, u32)> 
     }
 }
 
-fn warn_above_minimum(ctx: &mut Context<'_>, wholes: &[Whole<'_>], pieces: &[Piece], clip: Option<&ClipDistances<'_>>) {
+fn warn_above_minimum(ctx: &mut Linker<'_>, wholes: &[Whole<'_>], pieces: &[Piece], clip: Option<&ClipDistances<'_>>) {
     const MINIMUM: u32 = 60;
     let components: u32 = pieces.iter().filter(|piece| piece.varying.active).map(|piece| u32::from(piece.size)).sum();
     let components = components + clip.map_or(0, ClipDistances::components);
@@ -232,7 +232,7 @@ fn warn_above_minimum(ctx: &mut Context<'_>, wholes: &[Whole<'_>], pieces: &[Pie
 }
 
 /// Gives every piece its place, then the clip distances theirs; inactive pieces that find no room are dropped.
-fn place(ctx: &mut Context<'_>, pieces: Vec<Piece>, clip: Option<&ClipDistances<'_>>) -> (Vec<Varying>, Vec<Varying>) {
+fn place(ctx: &mut Linker<'_>, pieces: Vec<Piece>, clip: Option<&ClipDistances<'_>>) -> (Vec<Varying>, Vec<Varying>) {
     let n_clip = clip.map_or(0, ClipDistances::locations);
     let mut room = Room::new(pieces.len() as u32 + n_clip > PORTABLE_LOCATIONS);
     let (fixed, mut free): (Vec<Piece>, Vec<Piece>) = pieces.into_iter().partition(|piece| piece.fixed.is_some());
@@ -274,7 +274,7 @@ fn at(piece: Piece, location: u32, component: u32) -> Varying {
     Varying { location, component, ..piece.varying }
 }
 
-fn no_room(ctx: &mut Context<'_>, piece: &Piece) {
+fn no_room(ctx: &mut Linker<'_>, piece: &Piece) {
     let message =
         format!("no room for the varying `{}`: there are {}", piece.varying.name, plural(MAX_LOCATIONS, "location"));
     ctx.report(Diagnostic::new(&codes::link::TOO_MANY_VARYINGS, piece.span, message));
@@ -282,12 +282,12 @@ fn no_room(ctx: &mut Context<'_>, piece: &Piece) {
 
 /// What stands at a location: how many of its components are taken, and by what kind of varyings.
 #[derive(Clone, Copy, Default)]
-struct Slot {
+struct LocationContents {
     used: u8,
     kind: Option<(Scalar, Interpolation, bool)>,
 }
 
-impl Slot {
+impl LocationContents {
     fn is_free(&self) -> bool {
         self.kind.is_none()
     }
@@ -304,7 +304,7 @@ fn kind(piece: &Piece) -> (Scalar, Interpolation, bool) {
 
 /// The locations of varyings, and whether several of one kind share one.
 struct Room {
-    slots: Locations<Slot>,
+    slots: Locations<LocationContents>,
     shared: bool,
 }
 
@@ -321,7 +321,7 @@ impl Room {
 
     /// Finds a location and the first free component in it, if so many locations stay free behind one another.
     fn put(&mut self, piece: &Piece, keep: u32) -> Option<(u32, u32)> {
-        let fitting = |slot: &Slot| match slot.kind {
+        let fitting = |slot: &LocationContents| match slot.kind {
             None => true,
             Some(kept) => self.shared && kept == kind(piece) && slot.used + piece.size <= 4,
         };
@@ -330,13 +330,13 @@ impl Room {
         let slot = slots.run_mut(location, 1)?.first_mut()?;
         let component = u32::from(slot.used);
         slot.fill(piece, slot.used + piece.size);
-        slots.lowest(keep, Slot::is_free)?;
+        slots.lowest(keep, LocationContents::is_free)?;
         self.slots = slots;
         Some((location, component))
     }
 
     /// The first of so many locations above all others.
     fn last(&self, count: u32) -> Option<u32> {
-        self.slots.above_all(count, Slot::is_free)
+        self.slots.above_all(count, LocationContents::is_free)
     }
 }
