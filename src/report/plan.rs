@@ -23,7 +23,7 @@
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::scenes::{SCENE_SYNTAX, SCENE_WRONG_VALUE};
 use glisten_front::source::{SourceMap, Span};
-use glisten_scene::scene::default_tessellation;
+use glisten_scene::default_tessellation;
 use serde::Deserialize;
 use std::ops::Range;
 use toml::{Table, Value};

@@ -9,7 +9,7 @@ use super::machine::Machine;
 use super::mute::Muted;
 use super::registers::Register;
 use crate::domain::{Domain, Number};
-use glisten_scene::compare::Range;
+use glisten_scene::picture::Interval;
 
 /// Registers and numbers for all lanes as they were.
 struct Saved<D: Domain> {
@@ -109,7 +109,7 @@ impl<D: Domain> Machine<D> {
 }
 
 fn exactly<N: Number>(number: N) -> N {
-    N::whole(number.value(), Range::point(number.value()))
+    N::whole(number.value(), Interval::point(number.value()))
 }
 
 /// A number without as much freedom as another has about its value.
@@ -123,6 +123,6 @@ fn without<N: Number>(number: N, own: N) -> N {
     let or_value = |end: f64| if end.is_nan() { value } else { end };
     N::whole(
         value,
-        Range { low: or_value(low), high: or_value(high), may_be_nan: range.may_be_nan && !own_range.may_be_nan },
+        Interval { low: or_value(low), high: or_value(high), may_be_nan: range.may_be_nan && !own_range.may_be_nan },
     )
 }
