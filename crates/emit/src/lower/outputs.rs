@@ -93,7 +93,8 @@ impl Ctx<'_, '_> {
                 [row] if row.component == 0 => path_name(&row.name),
                 _ => format!("packed_{}", location.location),
             };
-            let source = OutputSource::Varyings(location.rows.iter().map(|row| (row.component, row.ty, row.from)).collect());
+            let source =
+                OutputSource::Varyings(location.rows.iter().map(|row| (row.component, row.ty, row.from)).collect());
             members.push(OutputMember { name, ty, binding: varying_binding(&location), source });
         }
         self.clip_distances(&mut members)?;
