@@ -323,16 +323,7 @@ fn admitting(scene: &Scene) -> Result<Vec<(&'static str, Picture)>, DrawError> {
 /// The picture of shares: gray up to the bound, red beyond.
 fn shown(scene: &Scene, shares: &[f64]) -> Picture {
     let color = |share: &f64| if *share > 1.0 { [1.0, 0.0, 0.0, 1.0] } else { [*share, *share, *share, 1.0] };
-    let (width, height) = (scene.framebuffer.width, scene.framebuffer.height);
-    Picture {
-        width,
-        height,
-        attachments: vec![shares.iter().map(color).collect()],
-        covered: vec![true; shares.len()],
-        ranges: None,
-        undecided: Vec::new(),
-        near_edge: Vec::new(),
-    }
+    Picture::of_colors(scene.framebuffer.width, scene.framebuffer.height, shares.iter().map(color).collect())
 }
 
 fn on_gpu(args: &VerifyArgs, gpu: Arc<Gpu>, scene: Arc<Scene>, via: Via) -> Result<(Picture, f64), DrawError> {

@@ -408,13 +408,8 @@ impl Host {
         }
         let pixels: Vec<[f64; 4]> = rows.concat();
         Picture {
-            width: SIDE,
-            height: SIDE,
             covered: pixels.iter().map(|pixel| pixel[3] != 0.0).collect(),
-            ranges: None,
-            undecided: vec![false; pixels.len()],
-            near_edge: vec![false; pixels.len()],
-            attachments: vec![pixels],
+            ..Picture::of_colors(SIDE, SIDE, pixels)
         }
     }
 
