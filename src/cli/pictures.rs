@@ -1,13 +1,13 @@
-//! Pictures into files: `.npy`, `.png`, `.exr`, by the name's ending.
+//! Writes pictures to files: `.npy`, `.png` or `.exr`, depending on the extension.
 //!
-//! *In:* a [`Picture`] and the name that the user gave. *Out:* the files' names and bytes.
+//! *In:* a [`Picture`] and a file name, from the command line. *Out:* names and bytes of files.
 
 use super::exit::Failure;
 use crate::scene::Format;
 use glisten_scene::picture::{ImageFormat, Picture};
 use std::path::{Path, PathBuf};
 
-/// Where pictures go: one file for the first attachment, or with `%d` in the name one for each.
+/// Where to write pictures: one file for the first attachment or, with `%d` in the name, one for each.
 #[derive(Clone, Debug)]
 pub(super) struct Target {
     name: String,
@@ -15,7 +15,7 @@ pub(super) struct Target {
 }
 
 impl Target {
-    /// The target that a name means.
+    /// The target of a file name.
     pub(super) fn parse(name: &Path) -> Result<Self, Failure> {
         let text = name.to_string_lossy().into_owned();
         let Some(format) = ImageFormat::of_name(name) else {
@@ -25,7 +25,7 @@ impl Target {
         Ok(Self { name: text, format })
     }
 
-    /// Refuses what the format cannot hold.
+    /// Reports what the file format cannot represent.
     pub(super) fn check(&self, format: Format) -> Result<(), Failure> {
         let integer = matches!(format, Format::Rgba32Sint | Format::Rgba32Uint);
         if self.format == ImageFormat::Png && integer {

@@ -1,15 +1,15 @@
-//! Pictures of a report as PNG data URIs.
+//! Encodes the pictures of a report as PNG data URIs.
 //!
-//! *Holds:* colors are clamped to [0, 1] and rounded to 8 bits without gamma, as `glisten render` does; what is not
-//! finite is magenta. Differences are drawn on a logarithmic scale from [`FLOOR`] to 1; pixels that only one picture
-//! covers are cyan.
+//! *Holds:* colors are clamped to [0, 1] and rounded to 8 bits without gamma, as in `glisten render`; non-finite
+//! colors are magenta. Differences have a logarithmic scale from [`FLOOR`] to 1; pixels that only one picture covers
+//! are cyan.
 
 use glisten_scene::picture::{Effort, Picture, png_rgb, visible_rgb};
 
-/// The difference that is drawn black.
+/// The largest difference that is drawn black.
 pub(super) const FLOOR: f64 = 1e-7;
 
-/// The colors of the scale of differences, dark to light, at equal steps; between them colors are mixed.
+/// The colors of the difference scale, dark to light, in equal steps; colors between them are interpolated.
 pub(super) const SCALE: [[u8; 3]; 8] = [
     [0, 0, 4],
     [40, 11, 84],
@@ -21,14 +21,14 @@ pub(super) const SCALE: [[u8; 3]; 8] = [
     [252, 255, 164],
 ];
 
-/// The first attachment.
+/// The first attachment as a PNG data URI.
 pub(super) fn color_uri(picture: &Picture) -> String {
     let pixels = picture.attachments.first().map(Vec::as_slice).unwrap_or_default();
     let pixels: Vec<[u8; 3]> = pixels.iter().copied().map(visible_rgb).collect();
     data_uri(&pixels, picture.width, picture.height)
 }
 
-/// Differences from the truth.
+/// The differences from the truth as a PNG data URI.
 pub(super) fn difference_uri(differences: &[Option<f64>], width: u32, height: u32) -> String {
     let pixels = differences.iter().map(|difference| match difference {
         Some(difference) => scale_color(*difference),
@@ -53,7 +53,7 @@ fn data_uri(pixels: &[[u8; 3]], width: u32, height: u32) -> String {
     format!("data:image/png;base64,{}", base64(&png))
 }
 
-/// RFC 4648 §4.
+/// Base64 (RFC 4648 §4).
 fn base64(bytes: &[u8]) -> String {
     const ALPHABET: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
