@@ -1,19 +1,17 @@
 //! The pictures of a verification that failed.
 //!
-//! *In:* a [`Verification`]. *Out:* PNG files in a folder: one of each runner, `cpu.png`, `difference.png`.
+//! *In:* pictures by name. *Out:* PNG files in a folder.
 
-use super::Verification;
 use glisten_scene::picture::{ImageFormat, Picture};
 use std::path::{Path, PathBuf};
 
-/// Writes the pictures; returns the folder, or why they cannot be written.
-pub(super) fn write(folder: &Path, verification: &Verification) -> Result<PathBuf, String> {
+/// Writes pictures as `NAME.png` into a folder, which is created if it is missing. Returns the folder.
+///
+/// # Errors
+/// Why they cannot be written.
+pub fn write_pictures(folder: &Path, pictures: &[(&str, &Picture)]) -> Result<PathBuf, String> {
     std::fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
-    for run in &verification.runs {
-        write_picture(folder, run.runner, &run.picture)?;
-    }
-    write_picture(folder, "cpu", &verification.reference)?;
-    write_picture(folder, "difference", &verification.difference())?;
+    pictures.iter().try_for_each(|(name, picture)| write_picture(folder, name, picture))?;
     Ok(folder.to_owned())
 }
 

@@ -38,10 +38,11 @@ mod files;
 mod runner;
 
 pub use expected::Expected;
-#[cfg(feature = "gl")]
-pub use runner::OnOpenGl;
+pub use files::write_pictures;
 #[cfg(feature = "gpu")]
 pub use runner::OnGpu;
+#[cfg(feature = "gl")]
+pub use runner::OnOpenGl;
 pub use runner::{Channel, Cpu, Drawn, Failure, Reference, Runner, ThisThread};
 
 use crate::scene::Scene;
@@ -146,9 +147,14 @@ impl Verification {
 
     /// A picture of [`shares`](Self::shares): gray up to what is allowed, red beyond.
     pub fn difference(&self) -> Picture {
-        let color = |share: &f64| if *share > 1.0 { [1.0, 0.0, 0.0, 1.0] } else { [*share, *share, *share, 1.0] };
-        Picture::of_colors(self.reference.width, self.reference.height, self.shares.iter().map(color).collect())
+        difference(&self.reference, &self.shares)
     }
+}
+
+/// The picture of `shares` ([`compare::shares`]) in the size of the reference's: gray up to 1, red beyond.
+pub fn difference(reference: &Picture, shares: &[f64]) -> Picture {
+    let color = |share: &f64| if *share > 1.0 { [1.0, 0.0, 0.0, 1.0] } else { [*share, *share, *share, 1.0] };
+    Picture::of_colors(reference.width, reference.height, shares.iter().map(color).collect())
 }
 
 /// What failed, for the message of a test: a line for each run, and the folder with the pictures.
@@ -212,7 +218,12 @@ pub fn verify(scene: &Scene, runners: &[&dyn Runner], options: &Options<'_>) -> 
         allow_undecided,
     };
     if let Some(folder) = options.failures.filter(|_| !verification.holds()) {
-        verification.pictures = Some(files::write(folder, &verification));
+        let difference = verification.difference();
+        let mut pictures: Vec<(&str, &Picture)> =
+            verification.runs.iter().map(|run| (run.runner, &run.picture)).collect();
+        pictures.extend([("cpu", &verification.reference), ("difference", &difference)]);
+        let written = write_pictures(folder, &pictures);
+        verification.pictures = Some(written);
     }
     Ok(verification)
 }

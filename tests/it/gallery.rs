@@ -1,12 +1,11 @@
 //! The library's programs and scenes, and `glisten gallery` end to end.
 
+use crate::drawing::{complaint, from_texts, strict};
 use glisten::gallery::{Entry, entries};
 use glisten::library::{programs, scenes};
-use glisten::scene::{DiskFiles, MemoryFiles, Scene, load};
+use glisten::scene::{DiskFiles, Scene, load};
 use glisten_front::{Compiler, Options};
-use glisten_gpu::{Gpu, Via};
-use glisten_reference::{LineRule, Precision, RenderOptions};
-use glisten_scene::compare::{Judge, Verdict};
+use glisten_gpu::Gpu;
 use glisten_scene::picture::Image;
 use std::collections::BTreeSet;
 use std::fs;
@@ -62,33 +61,22 @@ fn programs_have_no_findings() {
 
 /// Compares the pictures of the GPU and of the reference for a scene, at a size that is fast enough for a test.
 /// Returns what is wrong.
-fn compare(gpu: &Gpu, name: &str, scene: &Scene) -> Vec<String> {
+fn compare(gpu: &Gpu, name: &str, scene: &Scene) -> Option<String> {
     let mut scene = scene.clone();
     (scene.framebuffer.width, scene.framebuffer.height) = (64, 64);
-    let options = RenderOptions { precision: Precision::Envelope, lines: LineRule::Vulkan, ..RenderOptions::default() };
-    let reference = glisten_reference::render(&scene, &options).expect("the reference draws the library's scenes");
-    assert!(reference.covered.contains(&true), "{name}: nothing is drawn");
-    let mut wrong = Vec::new();
-    for via in [Via::Spirv, Via::Wgsl] {
-        let picture = gpu.render(&scene, via).unwrap_or_else(|error| panic!("{name}: {error}")).picture;
-        let verdict = Verdict::new(&picture, &reference, Judge::Envelope);
-        if !verdict.holds(false) {
-            wrong.push(format!("{name} via {}: {verdict:#?}", via.name()));
-        }
-    }
-    wrong
+    complaint(&format!("gallery_{name}"), gpu, &scene, &strict())
 }
 
 #[test]
 fn every_scene_is_the_same_picture_on_both_sides() {
-    let gpu = crate::gpu::gpu();
-    let wrong: Vec<String> = all().iter().flat_map(|entry| compare(&gpu, entry.name, entry.scene())).collect();
+    let gpu = crate::drawing::gpu();
+    let wrong: Vec<String> = all().iter().filter_map(|entry| compare(&gpu, entry.name, entry.scene())).collect();
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
 #[test]
 fn programs_that_shade_each_vertex_are_the_same_picture_on_both_sides() {
-    let gpu = crate::gpu::gpu();
+    let gpu = crate::drawing::gpu();
     let mut wrong = Vec::new();
     for (scene, model) in [
         ("lambert", "lambert"),
@@ -104,11 +92,8 @@ fn programs_that_shade_each_vertex_are_the_same_picture_on_both_sides() {
         let program = format!("program = \"{model}\"");
         assert!(text.contains(&program), "{scene}");
         let text = text.replace(&program, &format!("program = \"{model}_vertex\""));
-        let files = MemoryFiles::new([("a.toml", text.as_str())]);
-        let loaded = load("a.toml", &files, &Compiler::new(Options::default()));
-        let told: Vec<&str> = loaded.diagnostics.iter().map(|finding| finding.message.as_str()).collect();
-        let drawn = loaded.scene.unwrap_or_else(|| panic!("{scene}: {told:?}"));
-        wrong.extend(compare(&gpu, &format!("{scene} at each vertex"), &drawn));
+        let drawn = from_texts([("a.toml", text.as_str())]);
+        wrong.extend(compare(&gpu, &format!("{scene}_at_each_vertex"), &drawn));
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }

@@ -3,11 +3,12 @@
 //!
 //! Needs a Vulkan software adapter.
 
+use crate::drawing;
 use glisten::scene::{self, DiskFiles};
 use glisten_emit::Reflection;
 use glisten_emit::reflection::{Attribute, Sampler, Slot, Uniform};
 use glisten_front::{Compiler, Options};
-use glisten_reference::{LineRule, Precision, RenderOptions};
+use glisten_reference::Precision;
 use glisten_scene::compare::{Judge, Verdict};
 use glisten_scene::picture::Picture;
 use std::path::Path;
@@ -115,10 +116,7 @@ fn reference(app: &App, draw: Draw) -> Picture {
     let defines = if draw.window { vec![("WINDOW".to_owned(), String::new())] } else { Vec::new() };
     let compiler = Compiler::new(Options { defines, ..Options::default() });
     let loaded = scene::load(&path.to_string_lossy(), &DiskFiles, &compiler);
-    let messages: Vec<_> = loaded.diagnostics.iter().map(|found| &found.message).collect();
-    let scene = loaded.scene.unwrap_or_else(|| panic!("{messages:?}\n{text}"));
-    let options = RenderOptions { precision: Precision::Envelope, lines: LineRule::Vulkan, ..RenderOptions::default() };
-    glisten_reference::render(&scene, &options).expect("the reference draws")
+    drawing::reference(&drawing::loaded("host.toml", loaded), Precision::Envelope)
 }
 
 /// Runs `glisten compile`; returns the exit code and, if it is 0, the reflection.

@@ -1,10 +1,11 @@
 //! [`Subject`] and [`Trial`]: a scene with its correct picture, and the outcome of one fault planted in it.
 
 use super::{Choice, Kind, Mutation, SIDE, mutations};
+use crate::drawing::reference;
 use glisten::scene::Scene;
 use glisten_front::hir::Stage;
 use glisten_gpu::{Error, Gpu};
-use glisten_reference::{LineRule, Precision, RenderOptions};
+use glisten_reference::Precision;
 use glisten_scene::compare::{Judge, Verdict, ulp_f32};
 use glisten_scene::picture::Picture;
 use std::cell::{Cell, RefCell};
@@ -126,9 +127,7 @@ impl<'a> Subject<'a> {
             words
         });
         let plain = plain.map_err(|error| error.to_string())?;
-        let options =
-            RenderOptions { precision: Precision::Envelope, lines: LineRule::Vulkan, ..RenderOptions::default() };
-        let reference = glisten_reference::render(&scene, &options).map_err(|found| format!("{found:?}"))?;
+        let reference = reference(&scene, Precision::Envelope);
         if fails(&plain, &reference, OURS) {
             return Err("verify fails it without a fault".to_owned());
         }
