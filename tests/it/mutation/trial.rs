@@ -1,11 +1,10 @@
 //! [`Subject`] and [`Trial`]: a scene with its correct picture, and the outcome of one fault planted in it.
 
 use super::{Choice, Kind, Mutation, SIDE, mutations};
-use crate::drawing::reference;
 use glisten::scene::Scene;
+use glisten::verify::{Expected, Options};
 use glisten_front::hir::Stage;
 use glisten_gpu::{Error, Gpu};
-use glisten_reference::Precision;
 use glisten_scene::compare::{Judge, Verdict, ulp_f32};
 use glisten_scene::picture::Picture;
 use std::cell::{Cell, RefCell};
@@ -127,7 +126,9 @@ impl<'a> Subject<'a> {
             words
         });
         let plain = plain.map_err(|error| error.to_string())?;
-        let reference = reference(&scene, Precision::Envelope);
+        let options = Options::default();
+        let expected = Expected::new(&scene, &options).map_err(|failure| failure.to_string())?;
+        let reference = expected.picture().clone();
         if fails(&plain, &reference, OURS) {
             return Err("verify fails it without a fault".to_owned());
         }

@@ -33,6 +33,7 @@ use glisten_front::diagnostic::{Diagnostic, Diagnostics, did_you_mean};
 use glisten_front::hir::Stage;
 use glisten_front::link::Program;
 use glisten_front::source::{SourceMap, Span};
+pub use mesh::default_tessellation;
 use std::path::Path;
 use std::sync::Arc;
 use toml::de::DeTable;
