@@ -1,5 +1,6 @@
 //! `glisten verify`: draws a scene on the GPU and with the CPU reference, and judges each pixel.
 
+use super::args::ResultFormat;
 use super::console::Console;
 use super::exit::{Exit, Outcome};
 use super::files;
@@ -28,7 +29,7 @@ pub(super) struct VerifyArgs {
     via: ViaChoice,
     /// The format of the figures
     #[arg(long, value_enum, default_value_t)]
-    format: Format,
+    format: ResultFormat,
     /// Judge by this absolute difference per channel instead of the derived envelope
     #[arg(long, value_name = "X", value_parser = parse_tolerance)]
     tolerance: Option<f64>,
@@ -52,15 +53,6 @@ enum ViaChoice {
     /// Both, one after the other
     #[default]
     Both,
-}
-
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-enum Format {
-    /// Figures for people
-    #[default]
-    Human,
-    /// One JSON object
-    Json,
 }
 
 fn parse_tolerance(text: &str) -> Result<f64, String> {
@@ -162,11 +154,11 @@ pub(super) fn run(args: &VerifyArgs, console: &Console) -> Outcome {
     };
     let holds = verification.holds();
     let text = match args.format {
-        Format::Json => {
+        ResultFormat::Json => {
             let report = Report { worse: &worse, runs: &runs, skipped: &skipped, forms_bit_unequal, holds };
             serde_json::to_string_pretty(&report).expect("figures are always JSON") + "\n"
         }
-        Format::Human => {
+        ResultFormat::Human => {
             let mut text: String = runs.iter().map(|run| human(run, args.allow_undecided)).collect();
             for skip in &skipped {
                 text.push_str(&format!("{}: not run: {}\n", skip.via, skip.reason));

@@ -42,7 +42,7 @@ static ORDER: &[(&str, &[&str])] = &[
         ],
     ),
     ("crates/emit/src", &["target", "lower", "emit"]),
-    ("crates/scene/src", &["picture", "compare", "model", "files", "library", "load"]),
+    ("crates/scene/src", &["picture", "compare", "model", "files", "library", "values", "load"]),
     ("src", &["library", "scene", "verify", "evaluate", "measure", "shader_test", "gallery", "report", "cli", "main"]),
 ];
 
