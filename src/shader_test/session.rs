@@ -247,7 +247,7 @@ impl TestSession {
             indices: geometry.indices,
             instances: geometry.instances,
             attributes: geometry.attributes,
-            uniforms: self.uniforms.values.clone(),
+            uniforms: self.uniforms.values.roots.clone(),
             textures,
             dynamic: Vec::new(),
         })

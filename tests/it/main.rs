@@ -5,6 +5,8 @@ mod architecture;
 mod cli;
 mod codes;
 mod diagnostics;
+#[cfg(feature = "reference")]
+mod drawing;
 mod emit;
 #[cfg(feature = "gpu")]
 mod envelope;
