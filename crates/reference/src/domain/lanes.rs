@@ -17,6 +17,8 @@ pub const WIDTH: usize = 8;
 
 /// What a lane holds.
 pub trait Element: Copy + Default + Debug + Send + Sync + 'static {
+    /// Whether it is one number of the machine: then a loop over lanes is a few vector instructions.
+    const PLAIN: bool = false;
     /// Eight of them.
     type Few: Few<Self>;
 }
@@ -68,6 +70,12 @@ pub type Answers<N> = <<N as Number>::Int as Element>::Few;
 pub trait Block<N: Number<Few = Self>>: Few<N> {
     /// Whether the operations are the block's own, not [`Number`]'s lane by lane.
     const OWN: bool = false;
+    /// Runs a loop over blocks, compiled for the vector unit that operations of the block's own are for; nothing where the
+    /// machine has none.
+    #[inline(always)]
+    fn if_vectorized<R>(work: impl FnOnce() -> R) -> Option<R> {
+        Some(work())
+    }
     /// Runs a loop over blocks, compiled for the vector unit that the machine has where that pays.
     #[inline(always)]
     fn vectorized<R>(work: impl FnOnce() -> R) -> R {
@@ -354,10 +362,15 @@ impl<T: Element> Source<'_, T> {
 }
 
 macro_rules! arrays {
-    ($($element:ty),*) => { $(impl Element for $element { type Few = [Self; WIDTH]; })* };
+    ($($element:ty: $plain:literal),*) => { $(
+        impl Element for $element {
+            const PLAIN: bool = $plain;
+            type Few = [Self; WIDTH];
+        }
+    )* };
 }
 
-arrays!(f64, f32, u32, super::EnvelopeInt, super::ShadowInt);
+arrays!(f64: true, f32: true, u32: true, super::EnvelopeInt: false, super::ShadowInt: false);
 
 impl<const INSIDE: bool> Element for super::Shadowed<INSIDE> {
     type Few = [Self; WIDTH];

@@ -1,13 +1,24 @@
 //! Built-in functions of whole vectors and matrices (§8.4, §8.5): computed in the domain's wide type, rounded once.
 //!
+//! *In:* registers of the arguments, component by component. *Out:* registers of the results.
+//!
 //! The formulas are those that the specification names. A vector without length normalizes to NaN, a singular matrix
 //! inverts to infinities or NaN: both are undefined in GLSL.
+//!
+//! *Holds:* a formula is compiled once a domain, for any number of components. Three components of plain numbers are
+//! compiled apart: there the loops over components cost more than what is in them.
 
 use super::inst::{Composite, Operand};
 use super::registers::{Filled, Registers};
 use crate::domain::{Block, Domain, Element, Few, LANES, Number, Source, WIDTH};
+use smallvec::SmallVec;
+use std::hint::black_box;
 
-type Vector<B, const N: usize> = [B; N];
+/// The most components of a vector.
+const MOST: usize = 4;
+
+/// The components of a vector; those that it lacks are blank.
+type Vector<B> = [B; MOST];
 
 /// What a domain's built-in functions are computed in.
 type Wide<D> = <<D as Domain>::Float as Number>::Wide;
@@ -15,13 +26,13 @@ type Wide<D> = <<D as Domain>::Float as Number>::Wide;
 /// Eight lanes of it.
 type WideFew<D> = <Wide<D> as Element>::Few;
 
-/// A vector by its components. Unlike the library's `from_fn` it is part of the loop that calls it, and so compiled for
+/// A vector of `size` components. Unlike the library's `from_fn` it is part of the loop that calls it, and so compiled for
 /// the same vector unit.
 #[inline(always)]
-fn each<B: Copy + Default, const N: usize>(component: impl Fn(usize) -> B) -> Vector<B, N> {
-    let mut vector = [B::default(); N];
-    for (k, slot) in vector.iter_mut().enumerate() {
-        *slot = component(k);
+fn each<B: Copy + Default>(size: usize, component: impl Fn(usize) -> B) -> Vector<B> {
+    let mut vector = [B::default(); MOST];
+    for k in 0..size {
+        vector[k % MOST] = component(k);
     }
     vector
 }
@@ -33,42 +44,39 @@ fn splat<W: Number>(value: f64) -> W::Few {
 }
 
 #[inline(always)]
-fn dot<W: Number, const N: usize>(a: &Vector<W::Few, N>, b: &Vector<W::Few, N>) -> W::Few {
+fn dot<W: Number>(size: usize, a: &Vector<W::Few>, b: &Vector<W::Few>) -> W::Few {
     Block::sum(
-        N,
+        size,
         #[inline(always)]
-        |k| a[k].mul(&b[k]),
+        |k| a[k % MOST].mul(&b[k % MOST]),
     )
 }
 
 /// `dot(a, a)`
 #[inline(always)]
-fn squared<W: Number, const N: usize>(a: &Vector<W::Few, N>) -> W::Few {
+fn squared<W: Number>(size: usize, a: &Vector<W::Few>) -> W::Few {
     Block::sum(
-        N,
+        size,
         #[inline(always)]
-        |k| a[k].square(),
+        |k| a[k % MOST].square(),
     )
-}
-
-#[inline(always)]
-fn length<W: Number, const N: usize>(a: &Vector<W::Few, N>) -> W::Few {
-    squared::<W, N>(a).sqrt()
 }
 
 /// A vector over the root of its squared length.
 #[inline(always)]
-fn normalize<W: Number, const N: usize>(a: &Vector<W::Few, N>, squared: &W::Few) -> Vector<W::Few, N> {
-    let scale = squared.inversesqrt();
+fn normalize<W: Number>(size: usize, a: &Vector<W::Few>) -> Vector<W::Few> {
+    let scale = squared::<W>(size, a).inversesqrt();
     each(
+        size,
         #[inline(always)]
-        |k| a[k].mul(&scale).cosine_at_most(),
+        |k| a[k % MOST].mul(&scale).cosine_at_most(),
     )
 }
 
 #[inline(always)]
-fn cross<W: Number>(a: &Vector<W::Few, 3>, b: &Vector<W::Few, 3>) -> Vector<W::Few, 3> {
+fn cross<W: Number>(size: usize, a: &Vector<W::Few>, b: &Vector<W::Few>) -> Vector<W::Few> {
     each(
+        size,
         #[inline(always)]
         |k| {
             let (i, j) = ((k + 1) % 3, (k + 2) % 3);
@@ -79,43 +87,48 @@ fn cross<W: Number>(a: &Vector<W::Few, 3>, b: &Vector<W::Few, 3>) -> Vector<W::F
 
 /// `I - 2 dot(N, I) N`
 #[inline(always)]
-fn reflect<W: Number, const N: usize>(incident: &Vector<W::Few, N>, normal: &Vector<W::Few, N>) -> Vector<W::Few, N> {
-    let twice = dot::<W, N>(normal, incident).mul(&splat::<W>(2.0));
+fn reflect<W: Number>(size: usize, incident: &Vector<W::Few>, normal: &Vector<W::Few>) -> Vector<W::Few> {
+    let twice = dot::<W>(size, normal, incident).mul(&splat::<W>(2.0));
     each(
+        size,
         #[inline(always)]
-        |k| incident[k].sub(&twice.mul(&normal[k])),
+        |k| incident[k % MOST].sub(&twice.mul(&normal[k % MOST])),
     )
 }
 
 /// With `k = 1 - eta eta (1 - dot(N, I)^2)`: 0 if that is negative, else `eta I - (eta dot(N, I) + sqrt(k)) N`.
 #[inline(always)]
-fn refract<W: Number, const N: usize>(
-    incident: &Vector<W::Few, N>,
-    normal: &Vector<W::Few, N>,
-    eta: W::Few,
-) -> Vector<W::Few, N> {
+fn refract<W: Number>(
+    size: usize,
+    incident: &Vector<W::Few>,
+    normal: &Vector<W::Few>,
+    eta: &W::Few,
+) -> Vector<W::Few> {
     let (zero, one) = (splat::<W>(0.0), splat::<W>(1.0));
-    let cosine = dot::<W, N>(normal, incident);
-    let k = one.sub(&eta.mul(&eta).mul(&one.sub(&cosine.mul(&cosine))));
+    let cosine = dot::<W>(size, normal, incident);
+    let k = one.sub(&eta.mul(eta).mul(&one.sub(&cosine.mul(&cosine))));
     let along = eta.mul(&cosine).add(&k.max(&zero).sqrt());
     let none = k.less(&zero);
     each(
+        size,
         #[inline(always)]
-        |i| Block::select(&none, &zero, &eta.mul(&incident[i]).sub(&along.mul(&normal[i]))),
+        |i| Block::select(&none, &zero, &eta.mul(&incident[i % MOST]).sub(&along.mul(&normal[i % MOST]))),
     )
 }
 
 /// `dot(Nref, I) < 0 ? N : -N`
 #[inline(always)]
-fn faceforward<W: Number, const N: usize>(
-    normal: &Vector<W::Few, N>,
-    incident: &Vector<W::Few, N>,
-    reference: &Vector<W::Few, N>,
-) -> Vector<W::Few, N> {
-    let side = dot::<W, N>(reference, incident).less(&splat::<W>(0.0));
+fn faceforward<W: Number>(
+    size: usize,
+    normal: &Vector<W::Few>,
+    incident: &Vector<W::Few>,
+    reference: &Vector<W::Few>,
+) -> Vector<W::Few> {
+    let side = dot::<W>(size, reference, incident).less(&splat::<W>(0.0));
     each(
+        size,
         #[inline(always)]
-        |k| Block::select(&side, &normal[k], &normal[k].neg()),
+        |k| Block::select(&side, &normal[k % MOST], &normal[k % MOST].neg()),
     )
 }
 
@@ -127,8 +140,7 @@ fn minor<W: Number>(m: &[W::Few], size: usize, columns: &[usize], rows: &[usize]
         ([first, rest @ ..], _) => {
             let mut sum: Option<W::Few> = None;
             for (k, row) in rows.iter().enumerate() {
-                let others: smallvec::SmallVec<[usize; 4]> =
-                    rows.iter().copied().filter(|other| other != row).collect();
+                let others: SmallVec<[usize; 4]> = rows.iter().copied().filter(|other| other != row).collect();
                 let term = m[first * size + row].mul(&minor::<W>(m, size, rest, &others));
                 sum = Some(match sum {
                     None => term,
@@ -142,19 +154,22 @@ fn minor<W: Number>(m: &[W::Few], size: usize, columns: &[usize], rows: &[usize]
     }
 }
 
+/// Rare enough that it is compiled for no vector unit.
+#[inline(never)]
 fn determinant<W: Number>(m: &[W::Few], size: usize) -> W::Few {
     let all = [0, 1, 2, 3];
     minor::<W>(m, size, &all[..size], &all[..size])
 }
 
 /// Cofactors over the determinant.
+#[inline(never)]
 fn inverse<W: Number>(m: &[W::Few], size: usize) -> [W::Few; 16] {
     let mut out = [splat::<W>(0.0); 16];
     let all = [0usize, 1, 2, 3];
     let determinant = determinant::<W>(m, size);
     for column in 0..size {
         for row in 0..size {
-            let without = |gone: usize| -> smallvec::SmallVec<[usize; 4]> {
+            let without = |gone: usize| -> SmallVec<[usize; 4]> {
                 all[..size].iter().copied().filter(|place| *place != gone).collect()
             };
             // The transposed cofactor.
@@ -166,144 +181,144 @@ fn inverse<W: Number>(m: &[W::Few], size: usize) -> [W::Few; 16] {
     out
 }
 
-/// Consecutive arguments as one vector.
-#[inline(always)]
-fn vector<B, const N: usize>(arguments: &[B], place: usize) -> &Vector<B, N> {
-    arguments[place * N..].first_chunk().expect("`by_few` counts the arguments")
+/// The arguments of a function, and the block of lanes that is computed.
+struct Arguments<'a, N: Number> {
+    sources: &'a [Source<'a, N>],
+    place: usize,
+}
+
+impl<N: Number> Arguments<'_, N> {
+    /// A component; what is not there is blank.
+    #[inline(always)]
+    fn scalar(&self, number: usize) -> <N::Wide as Element>::Few {
+        match self.sources.get(number) {
+            Some(source) => source.block(self.place).widen(),
+            None => Default::default(),
+        }
+    }
+
+    /// Consecutive components as a vector.
+    #[inline(always)]
+    fn vector(&self, size: usize, number: usize) -> Vector<<N::Wide as Element>::Few> {
+        each(
+            size,
+            #[inline(always)]
+            |k| self.scalar(number * size + k),
+        )
+    }
+
+    /// All components, of a matrix.
+    fn all(&self) -> [<N::Wide as Element>::Few; 16] {
+        let mut all = [Default::default(); 16];
+        for (k, slot) in all.iter_mut().enumerate() {
+            *slot = self.scalar(k);
+        }
+        all
+    }
 }
 
 impl<D: Domain> Registers<D> {
     pub(super) fn composite(&mut self, op: Composite, size: u8, results: &[Operand], arguments: &[Operand]) {
-        // Sizes of arrays cannot be computed from `N`: arguments and results a function are counted here.
-        match (op, size) {
-            (Composite::Cross, _) => self.each_few::<6, 3>(
-                results,
-                arguments,
-                #[inline(always)]
-                |a| cross::<Wide<D>>(vector(a, 0), vector(a, 1)),
-            ),
-            (Composite::Determinant, _) => {
-                let size = usize::from(size.min(4));
-                self.each_few::<16, 1>(
-                    results,
-                    arguments,
-                    #[inline(always)]
-                    |a| [determinant::<Wide<D>>(a, size)],
-                );
+        let size = usize::from(size).min(MOST);
+        match op {
+            Composite::Determinant => {
+                self.each_few(results, arguments, |a| [determinant::<Wide<D>>(&a.all(), size)]);
             }
-            (Composite::Inverse, _) => {
-                let size = usize::from(size.min(4));
-                self.each_few::<16, 16>(
-                    results,
-                    arguments,
-                    #[inline(always)]
-                    |a| inverse::<Wide<D>>(a, size),
-                );
-            }
-            (_, 1) => self.of_vectors::<1, 2, 3>(op, results, arguments),
-            (_, 2) => self.of_vectors::<2, 4, 6>(op, results, arguments),
-            (_, 3) => self.of_vectors::<3, 6, 9>(op, results, arguments),
-            _ => self.of_vectors::<4, 8, 12>(op, results, arguments),
+            Composite::Inverse => self.each_few(results, arguments, |a| inverse::<Wide<D>>(&a.all(), size)),
+            _ if size == 3 && Wide::<D>::PLAIN => self.of_vectors(op, 3, results, arguments),
+            // The compiler is not told how few they are, or it would write a loop out as often.
+            _ => self.of_vectors(op, black_box(size), results, arguments),
         }
     }
 
-    /// The functions of `N` components, of one, two (`N2` scalars) or three (`N3`) vectors.
-    fn of_vectors<const N: usize, const N2: usize, const N3: usize>(
-        &mut self,
-        op: Composite,
-        results: &[Operand],
-        arguments: &[Operand],
-    ) {
+    /// The functions of vectors of `size` components.
+    #[inline(always)]
+    fn of_vectors(&mut self, op: Composite, size: usize, results: &[Operand], arguments: &[Operand]) {
         match op {
-            Composite::Length => self.each_few::<N, 1>(
+            Composite::Length => self.each_few(
                 results,
                 arguments,
                 #[inline(always)]
-                |a| [length::<Wide<D>, N>(a)],
+                |a| [squared::<Wide<D>>(size, &a.vector(size, 0)).sqrt()],
             ),
-            Composite::Normalize => self.each_few::<N, N>(
+            Composite::Normalize => self.each_few(
                 results,
                 arguments,
                 #[inline(always)]
-                |a| normalize::<Wide<D>, N>(a, &squared::<Wide<D>, N>(a)),
+                |a| normalize::<Wide<D>>(size, &a.vector(size, 0)),
             ),
-            Composite::Dot if D::OPEN && arguments.get(..N) == arguments.get(N..) => {
-                self.each_few::<N, 1>(
-                    results,
-                    arguments,
-                    #[inline(always)]
-                    |a| [squared::<Wide<D>, N>(a)],
-                );
-            }
-            Composite::Dot => self.each_few::<N2, 1>(
+            Composite::Dot if D::OPEN && arguments.get(..size) == arguments.get(size..) => self.each_few(
                 results,
                 arguments,
                 #[inline(always)]
-                |a| [dot::<Wide<D>, N>(vector(a, 0), vector(a, 1))],
+                |a| [squared::<Wide<D>>(size, &a.vector(size, 0))],
             ),
-            Composite::Distance => self.each_few::<N2, 1>(
+            Composite::Dot => self.each_few(
+                results,
+                arguments,
+                #[inline(always)]
+                |a| [dot::<Wide<D>>(size, &a.vector(size, 0), &a.vector(size, 1))],
+            ),
+            Composite::Distance => self.each_few(
                 results,
                 arguments,
                 #[inline(always)]
                 |a| {
-                    let gap: Vector<_, N> = each(
+                    let gap = each(
+                        size,
                         #[inline(always)]
-                        |k| a[k].sub(&a[N + k]),
+                        |k| a.scalar(k).sub(&a.scalar(size + k)),
                     );
-                    [length::<Wide<D>, N>(&gap)]
+                    [squared::<Wide<D>>(size, &gap).sqrt()]
                 },
             ),
-            Composite::Reflect => {
-                self.each_few::<N2, N>(
-                    results,
-                    arguments,
-                    #[inline(always)]
-                    |a| reflect::<Wide<D>, N>(vector(a, 0), vector(a, 1)),
-                );
-            }
-            Composite::Refract => {
-                // Of the third argument, a float, one scalar is there; the rest is blank.
-                self.each_few::<N3, N>(
-                    results,
-                    arguments,
-                    #[inline(always)]
-                    |a| refract::<Wide<D>, N>(vector(a, 0), vector(a, 1), a[N2]),
-                );
-            }
-            Composite::Faceforward => self.each_few::<N3, N>(
+            Composite::Cross => self.each_few(
                 results,
                 arguments,
                 #[inline(always)]
-                |a| faceforward::<Wide<D>, N>(vector(a, 0), vector(a, 1), vector(a, 2)),
+                |a| cross::<Wide<D>>(size, &a.vector(size, 0), &a.vector(size, 1)),
+            ),
+            Composite::Reflect => self.each_few(
+                results,
+                arguments,
+                #[inline(always)]
+                |a| reflect::<Wide<D>>(size, &a.vector(size, 0), &a.vector(size, 1)),
+            ),
+            Composite::Refract => self.each_few(
+                results,
+                arguments,
+                #[inline(always)]
+                |a| refract::<Wide<D>>(size, &a.vector(size, 0), &a.vector(size, 1), &a.scalar(2 * size)),
+            ),
+            Composite::Faceforward => self.each_few(
+                results,
+                arguments,
+                #[inline(always)]
+                |a| faceforward::<Wide<D>>(size, &a.vector(size, 0), &a.vector(size, 1), &a.vector(size, 2)),
             ),
             // `composite` has seen to these.
-            Composite::Cross | Composite::Determinant | Composite::Inverse => {}
+            Composite::Determinant | Composite::Inverse => {}
         }
     }
 
-    /// Applies a function of at most `A` scalars with at most `R` results to a few lanes at a time.
+    /// Applies a function with at most `R` results to a few lanes at a time.
     #[inline(always)]
-    fn each_few<const A: usize, const R: usize>(
+    fn each_few<const R: usize>(
         &mut self,
         results: &[Operand],
         arguments: &[Operand],
-        f: impl Fn(&[WideFew<D>; A]) -> [WideFew<D>; R],
+        f: impl Fn(&Arguments<'_, D::Float>) -> [WideFew<D>; R],
     ) {
-        let blank = Source::One(D::Float::default());
         let mut outs: [_; R] = std::array::from_fn(|_| self.floats.take());
-        let sources: [Source<'_, D::Float>; A] =
-            std::array::from_fn(|k| arguments.get(k).map_or(blank, |operand| self.float(*operand)));
+        let sources: SmallVec<[Source<'_, D::Float>; 12]> =
+            arguments.iter().map(|operand| self.float(*operand)).collect();
         let same = sources.iter().all(|source| matches!(source, Source::One(_)));
         let (blocks, filled) = if same { (1, Filled::One) } else { (LANES / WIDTH, Filled::Lanes) };
         WideFew::<D>::vectorized(
             #[inline(always)]
             || {
                 for place in 0..blocks {
-                    let few: [WideFew<D>; A] = each(
-                        #[inline(always)]
-                        |k| sources[k].block(place).widen(),
-                    );
-                    let found = f(&few);
+                    let found = f(&Arguments { sources: &sources, place });
                     for (out, found) in outs.iter_mut().zip(&found).take(results.len()) {
                         out.fill(
                             #[inline(always)]
@@ -316,6 +331,7 @@ impl<D: Domain> Registers<D> {
                 }
             },
         );
+        drop(sources);
         for (place, out) in outs.into_iter().enumerate() {
             match results.get(place) {
                 Some(operand) => self.floats.put(*operand, out),
