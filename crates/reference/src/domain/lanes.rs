@@ -67,7 +67,7 @@ impl<T: Copy + Default + Debug + Send + Sync + 'static> Few<T> for [T; WIDTH] {
 pub type Answers<N> = <<N as Number>::Int as Element>::Few;
 
 /// Eight numbers. Methods without a comment are [`Number`]'s of that name, in each lane.
-pub trait Block<N: Number<Few = Self>>: Few<N> {
+pub trait Block<N: Number>: Few<N> {
     /// Whether the operations are the block's own, not [`Number`]'s lane by lane.
     const OWN: bool = false;
     /// Runs a loop over blocks, compiled for the vector unit that operations of the block's own are for; nothing where the
@@ -129,6 +129,13 @@ pub trait Block<N: Number<Few = Self>>: Few<N> {
     /// A sum from left to right; with an envelope in any order.
     #[inline(always)]
     fn sum(count: usize, term: impl Fn(usize) -> Self) -> Self {
+        if N::OPEN {
+            let mut out = Self::default();
+            for lane in 0..WIDTH {
+                out.set(lane, N::sum((0..count).map(|place| term(place).get(lane))));
+            }
+            return out;
+        }
         let mut sum = if count == 0 { Self::default() } else { term(0) };
         for place in 1..count {
             sum = sum.add(&term(place));
@@ -265,7 +272,9 @@ pub trait Block<N: Number<Few = Self>>: Few<N> {
     }
 }
 
-impl<N: Number<Few = [N; WIDTH]>> Block<N> for [N; WIDTH] {}
+/// Lane by lane: of each domain without operations on blocks of its own, and of the others where a machine has no unit for
+/// those.
+impl<N: Number> Block<N> for [N; WIDTH] {}
 
 /// An element in each of [`LANES`] lanes, which are counted modulo that.
 #[derive(Clone, Copy, Debug)]

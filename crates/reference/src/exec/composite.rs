@@ -9,7 +9,7 @@
 //! compiled apart: there the loops over components cost more than what is in them.
 
 use super::inst::{Composite, Operand};
-use super::registers::{Filled, Registers};
+use super::registers::{Filled, Register, Registers};
 use crate::domain::{Block, Domain, Element, Few, LANES, Number, Source, WIDTH};
 use smallvec::SmallVec;
 use std::hint::black_box;
@@ -23,8 +23,8 @@ type Vector<B> = [B; MOST];
 /// What a domain's built-in functions are computed in.
 type Wide<D> = <<D as Domain>::Float as Number>::Wide;
 
-/// Eight lanes of it.
-type WideFew<D> = <Wide<D> as Element>::Few;
+/// Eight lanes, each a number of its own.
+type ByLane<W> = [W; WIDTH];
 
 /// A vector of `size` components. Unlike the library's `from_fn` it is part of the loop that calls it, and so compiled for
 /// the same vector unit.
@@ -39,13 +39,13 @@ fn each<B: Copy + Default>(size: usize, component: impl Fn(usize) -> B) -> Vecto
 
 /// The same number in all lanes.
 #[inline(always)]
-fn splat<W: Number>(value: f64) -> W::Few {
-    W::Few::splat(W::from_f64(value))
+fn splat<W: Number, B: Block<W>>(value: f64) -> B {
+    B::splat(W::from_f64(value))
 }
 
 #[inline(always)]
-fn dot<W: Number>(size: usize, a: &Vector<W::Few>, b: &Vector<W::Few>) -> W::Few {
-    Block::sum(
+fn dot<W: Number, B: Block<W>>(size: usize, a: &Vector<B>, b: &Vector<B>) -> B {
+    B::sum(
         size,
         #[inline(always)]
         |k| a[k % MOST].mul(&b[k % MOST]),
@@ -54,8 +54,8 @@ fn dot<W: Number>(size: usize, a: &Vector<W::Few>, b: &Vector<W::Few>) -> W::Few
 
 /// `dot(a, a)`
 #[inline(always)]
-fn squared<W: Number>(size: usize, a: &Vector<W::Few>) -> W::Few {
-    Block::sum(
+fn squared<W: Number, B: Block<W>>(size: usize, a: &Vector<B>) -> B {
+    B::sum(
         size,
         #[inline(always)]
         |k| a[k % MOST].square(),
@@ -64,8 +64,8 @@ fn squared<W: Number>(size: usize, a: &Vector<W::Few>) -> W::Few {
 
 /// A vector over the root of its squared length.
 #[inline(always)]
-fn normalize<W: Number>(size: usize, a: &Vector<W::Few>) -> Vector<W::Few> {
-    let scale = squared::<W>(size, a).inversesqrt();
+fn normalize<W: Number, B: Block<W>>(size: usize, a: &Vector<B>) -> Vector<B> {
+    let scale = squared::<W, B>(size, a).inversesqrt();
     each(
         size,
         #[inline(always)]
@@ -74,7 +74,7 @@ fn normalize<W: Number>(size: usize, a: &Vector<W::Few>) -> Vector<W::Few> {
 }
 
 #[inline(always)]
-fn cross<W: Number>(size: usize, a: &Vector<W::Few>, b: &Vector<W::Few>) -> Vector<W::Few> {
+fn cross<W: Number, B: Block<W>>(size: usize, a: &Vector<B>, b: &Vector<B>) -> Vector<B> {
     each(
         size,
         #[inline(always)]
@@ -87,8 +87,8 @@ fn cross<W: Number>(size: usize, a: &Vector<W::Few>, b: &Vector<W::Few>) -> Vect
 
 /// `I - 2 dot(N, I) N`
 #[inline(always)]
-fn reflect<W: Number>(size: usize, incident: &Vector<W::Few>, normal: &Vector<W::Few>) -> Vector<W::Few> {
-    let twice = dot::<W>(size, normal, incident).mul(&splat::<W>(2.0));
+fn reflect<W: Number, B: Block<W>>(size: usize, incident: &Vector<B>, normal: &Vector<B>) -> Vector<B> {
+    let twice = dot::<W, B>(size, normal, incident).mul(&splat::<W, B>(2.0));
     each(
         size,
         #[inline(always)]
@@ -98,37 +98,32 @@ fn reflect<W: Number>(size: usize, incident: &Vector<W::Few>, normal: &Vector<W:
 
 /// With `k = 1 - eta eta (1 - dot(N, I)^2)`: 0 if that is negative, else `eta I - (eta dot(N, I) + sqrt(k)) N`.
 #[inline(always)]
-fn refract<W: Number>(
-    size: usize,
-    incident: &Vector<W::Few>,
-    normal: &Vector<W::Few>,
-    eta: &W::Few,
-) -> Vector<W::Few> {
-    let (zero, one) = (splat::<W>(0.0), splat::<W>(1.0));
-    let cosine = dot::<W>(size, normal, incident);
+fn refract<W: Number, B: Block<W>>(size: usize, incident: &Vector<B>, normal: &Vector<B>, eta: &B) -> Vector<B> {
+    let (zero, one) = (splat::<W, B>(0.0), splat::<W, B>(1.0));
+    let cosine = dot::<W, B>(size, normal, incident);
     let k = one.sub(&eta.mul(eta).mul(&one.sub(&cosine.mul(&cosine))));
     let along = eta.mul(&cosine).add(&k.max(&zero).sqrt());
     let none = k.less(&zero);
     each(
         size,
         #[inline(always)]
-        |i| Block::select(&none, &zero, &eta.mul(&incident[i % MOST]).sub(&along.mul(&normal[i % MOST]))),
+        |i| B::select(&none, &zero, &eta.mul(&incident[i % MOST]).sub(&along.mul(&normal[i % MOST]))),
     )
 }
 
 /// `dot(Nref, I) < 0 ? N : -N`
 #[inline(always)]
-fn faceforward<W: Number>(
+fn faceforward<W: Number, B: Block<W>>(
     size: usize,
-    normal: &Vector<W::Few>,
-    incident: &Vector<W::Few>,
-    reference: &Vector<W::Few>,
-) -> Vector<W::Few> {
-    let side = dot::<W>(size, reference, incident).less(&splat::<W>(0.0));
+    normal: &Vector<B>,
+    incident: &Vector<B>,
+    reference: &Vector<B>,
+) -> Vector<B> {
+    let side = dot::<W, B>(size, reference, incident).less(&splat::<W, B>(0.0));
     each(
         size,
         #[inline(always)]
-        |k| Block::select(&side, &normal[k % MOST], &normal[k % MOST].neg()),
+        |k| B::select(&side, &normal[k % MOST], &normal[k % MOST].neg()),
     )
 }
 
@@ -148,9 +143,9 @@ fn minor<W: Number>(m: &[W::Few], size: usize, columns: &[usize], rows: &[usize]
                     Some(sum) => sum.add(&term),
                 });
             }
-            sum.unwrap_or(splat::<W>(1.0))
+            sum.unwrap_or(splat::<W, W::Few>(1.0))
         }
-        _ => splat::<W>(1.0),
+        _ => splat::<W, W::Few>(1.0),
     }
 }
 
@@ -164,7 +159,7 @@ fn determinant<W: Number>(m: &[W::Few], size: usize) -> W::Few {
 /// Cofactors over the determinant.
 #[inline(never)]
 fn inverse<W: Number>(m: &[W::Few], size: usize) -> [W::Few; 16] {
-    let mut out = [splat::<W>(0.0); 16];
+    let mut out = [splat::<W, W::Few>(0.0); 16];
     let all = [0usize, 1, 2, 3];
     let determinant = determinant::<W>(m, size);
     for column in 0..size {
@@ -181,162 +176,181 @@ fn inverse<W: Number>(m: &[W::Few], size: usize) -> [W::Few; 16] {
     out
 }
 
-/// The arguments of a function, and the block of lanes that is computed.
-struct Arguments<'a, N: Number> {
-    sources: &'a [Source<'a, N>],
-    place: usize,
+/// A vector of arguments.
+#[inline(always)]
+fn vector<B: Copy + Default>(size: usize, number: usize, scalar: &impl Fn(usize) -> B) -> Vector<B> {
+    each(
+        size,
+        #[inline(always)]
+        |k| scalar(number * size + k),
+    )
 }
 
+/// A scalar as a result.
+#[inline(always)]
+fn alone<B: Copy + Default>(scalar: B) -> Vector<B> {
+    [scalar, B::default(), B::default(), B::default()]
+}
+
+/// A function of vectors of `size` components: of the components of its arguments, one after the other.
+#[inline(always)]
+fn of_vectors<W: Number, B: Block<W>>(
+    (op, squares): (Composite, bool),
+    size: usize,
+    scalar: impl Fn(usize) -> B,
+) -> Vector<B> {
+    match op {
+        Composite::Length => alone(squared::<W, B>(size, &vector(size, 0, &scalar)).sqrt()),
+        // One vector twice: its components are squares, which an envelope can make more of.
+        Composite::Dot if squares => alone(squared::<W, B>(size, &vector(size, 0, &scalar))),
+        Composite::Normalize => normalize::<W, B>(size, &vector(size, 0, &scalar)),
+        Composite::Dot => alone(dot::<W, B>(size, &vector(size, 0, &scalar), &vector(size, 1, &scalar))),
+        Composite::Distance => {
+            let gap = each(
+                size,
+                #[inline(always)]
+                |k| scalar(k).sub(&scalar(size + k)),
+            );
+            alone(squared::<W, B>(size, &gap).sqrt())
+        }
+        Composite::Cross => cross::<W, B>(size, &vector(size, 0, &scalar), &vector(size, 1, &scalar)),
+        Composite::Reflect => reflect::<W, B>(size, &vector(size, 0, &scalar), &vector(size, 1, &scalar)),
+        Composite::Refract => {
+            refract::<W, B>(size, &vector(size, 0, &scalar), &vector(size, 1, &scalar), &scalar(2 * size))
+        }
+        Composite::Faceforward => {
+            faceforward::<W, B>(size, &vector(size, 0, &scalar), &vector(size, 1, &scalar), &vector(size, 2, &scalar))
+        }
+        // `composite` has seen to these.
+        Composite::Determinant | Composite::Inverse => Vector::default(),
+    }
+}
+
+/// The arguments of a function.
+struct Arguments<'a, N: Number>(SmallVec<[Source<'a, N>; 12]>);
+
 impl<N: Number> Arguments<'_, N> {
-    /// A component; what is not there is blank.
+    /// A block of a component; what is not there is blank.
     #[inline(always)]
-    fn scalar(&self, number: usize) -> <N::Wide as Element>::Few {
-        match self.sources.get(number) {
-            Some(source) => source.block(self.place).widen(),
+    fn scalar(&self, place: usize, number: usize) -> <N::Wide as Element>::Few {
+        match self.0.get(number) {
+            Some(source) => source.block(place).widen(),
             None => Default::default(),
         }
     }
 
-    /// Consecutive components as a vector.
+    /// The same as numbers lane by lane.
     #[inline(always)]
-    fn vector(&self, size: usize, number: usize) -> Vector<<N::Wide as Element>::Few> {
-        each(
-            size,
-            #[inline(always)]
-            |k| self.scalar(number * size + k),
-        )
+    fn by_lane(&self, place: usize, number: usize) -> ByLane<N::Wide> {
+        let few = self.scalar(place, number);
+        let mut lanes = [N::Wide::default(); WIDTH];
+        for (lane, slot) in lanes.iter_mut().enumerate() {
+            *slot = few.get(lane);
+        }
+        lanes
     }
 
     /// All components, of a matrix.
-    fn all(&self) -> [<N::Wide as Element>::Few; 16] {
+    fn all(&self, place: usize) -> [<N::Wide as Element>::Few; 16] {
         let mut all = [Default::default(); 16];
         for (k, slot) in all.iter_mut().enumerate() {
-            *slot = self.scalar(k);
+            *slot = self.scalar(place, k);
         }
         all
+    }
+
+    /// The blocks that are to be computed: one if each argument is one number for all lanes.
+    fn blocks(&self) -> (usize, Filled) {
+        let same = self.0.iter().all(|source| matches!(source, Source::One(_)));
+        if same { (1, Filled::One) } else { (LANES / WIDTH, Filled::Lanes) }
+    }
+}
+
+/// Writes a block of each result.
+#[inline(always)]
+fn write<N: Number>(outs: &mut [Register<N>], place: usize, filled: Filled, found: &[<N::Wide as Element>::Few]) {
+    for (out, found) in outs.iter_mut().zip(found) {
+        out.fill(
+            #[inline(always)]
+            |lanes| {
+                lanes.blocks_mut()[place] = Block::narrow(found);
+                filled
+            },
+        );
+    }
+}
+
+/// A function of vectors, for all lanes.
+fn vectors<N: Number>(op: (Composite, bool), size: usize, arguments: &Arguments<'_, N>, outs: &mut [Register<N>]) {
+    let (blocks, filled) = arguments.blocks();
+    if N::Wide::PLAIN {
+        for place in 0..blocks {
+            let found = if size == 3 {
+                of_vectors::<N::Wide, <N::Wide as Element>::Few>(
+                    op,
+                    3,
+                    #[inline(always)]
+                    |number| arguments.scalar(place, number),
+                )
+            } else {
+                of_vectors::<N::Wide, <N::Wide as Element>::Few>(
+                    op,
+                    black_box(size),
+                    #[inline(always)]
+                    |number| arguments.scalar(place, number),
+                )
+            };
+            write(outs, place, filled, &found);
+        }
+        return;
+    }
+    // The compiler is not told how few components there are, or it would write each loop out as often.
+    let size = black_box(size);
+    let done = <N::Wide as Element>::Few::if_vectorized(
+        #[inline(always)]
+        || {
+            for place in 0..blocks {
+                let found = of_vectors::<N::Wide, <N::Wide as Element>::Few>(
+                    op,
+                    size,
+                    #[inline(always)]
+                    |number| arguments.scalar(place, number),
+                );
+                write(outs, place, filled, &found);
+            }
+        },
+    );
+    if done.is_none() {
+        for place in 0..blocks {
+            let found = of_vectors::<N::Wide, ByLane<N::Wide>>(op, size, |number| arguments.by_lane(place, number));
+            write(outs, place, filled, &found.map(|found| Few::of(&found)));
+        }
     }
 }
 
 impl<D: Domain> Registers<D> {
     pub(super) fn composite(&mut self, op: Composite, size: u8, results: &[Operand], arguments: &[Operand]) {
         let size = usize::from(size).min(MOST);
+        let mut outs: SmallVec<[Register<D::Float>; 16]> = results.iter().map(|_| self.floats.take()).collect();
+        let squares = D::OPEN && arguments.get(..size) == arguments.get(size..);
+        let arguments = Arguments(arguments.iter().map(|operand| self.float(*operand)).collect());
+        let (blocks, filled) = arguments.blocks();
         match op {
             Composite::Determinant => {
-                self.each_few(results, arguments, |a| [determinant::<Wide<D>>(&a.all(), size)]);
-            }
-            Composite::Inverse => self.each_few(results, arguments, |a| inverse::<Wide<D>>(&a.all(), size)),
-            _ if size == 3 && Wide::<D>::PLAIN => self.of_vectors(op, 3, results, arguments),
-            // The compiler is not told how few they are, or it would write a loop out as often.
-            _ => self.of_vectors(op, black_box(size), results, arguments),
-        }
-    }
-
-    /// The functions of vectors of `size` components.
-    #[inline(always)]
-    fn of_vectors(&mut self, op: Composite, size: usize, results: &[Operand], arguments: &[Operand]) {
-        match op {
-            Composite::Length => self.each_few(
-                results,
-                arguments,
-                #[inline(always)]
-                |a| [squared::<Wide<D>>(size, &a.vector(size, 0)).sqrt()],
-            ),
-            Composite::Normalize => self.each_few(
-                results,
-                arguments,
-                #[inline(always)]
-                |a| normalize::<Wide<D>>(size, &a.vector(size, 0)),
-            ),
-            Composite::Dot if D::OPEN && arguments.get(..size) == arguments.get(size..) => self.each_few(
-                results,
-                arguments,
-                #[inline(always)]
-                |a| [squared::<Wide<D>>(size, &a.vector(size, 0))],
-            ),
-            Composite::Dot => self.each_few(
-                results,
-                arguments,
-                #[inline(always)]
-                |a| [dot::<Wide<D>>(size, &a.vector(size, 0), &a.vector(size, 1))],
-            ),
-            Composite::Distance => self.each_few(
-                results,
-                arguments,
-                #[inline(always)]
-                |a| {
-                    let gap = each(
-                        size,
-                        #[inline(always)]
-                        |k| a.scalar(k).sub(&a.scalar(size + k)),
-                    );
-                    [squared::<Wide<D>>(size, &gap).sqrt()]
-                },
-            ),
-            Composite::Cross => self.each_few(
-                results,
-                arguments,
-                #[inline(always)]
-                |a| cross::<Wide<D>>(size, &a.vector(size, 0), &a.vector(size, 1)),
-            ),
-            Composite::Reflect => self.each_few(
-                results,
-                arguments,
-                #[inline(always)]
-                |a| reflect::<Wide<D>>(size, &a.vector(size, 0), &a.vector(size, 1)),
-            ),
-            Composite::Refract => self.each_few(
-                results,
-                arguments,
-                #[inline(always)]
-                |a| refract::<Wide<D>>(size, &a.vector(size, 0), &a.vector(size, 1), &a.scalar(2 * size)),
-            ),
-            Composite::Faceforward => self.each_few(
-                results,
-                arguments,
-                #[inline(always)]
-                |a| faceforward::<Wide<D>>(size, &a.vector(size, 0), &a.vector(size, 1), &a.vector(size, 2)),
-            ),
-            // `composite` has seen to these.
-            Composite::Determinant | Composite::Inverse => {}
-        }
-    }
-
-    /// Applies a function with at most `R` results to a few lanes at a time.
-    #[inline(always)]
-    fn each_few<const R: usize>(
-        &mut self,
-        results: &[Operand],
-        arguments: &[Operand],
-        f: impl Fn(&Arguments<'_, D::Float>) -> [WideFew<D>; R],
-    ) {
-        let mut outs: [_; R] = std::array::from_fn(|_| self.floats.take());
-        let sources: SmallVec<[Source<'_, D::Float>; 12]> =
-            arguments.iter().map(|operand| self.float(*operand)).collect();
-        let same = sources.iter().all(|source| matches!(source, Source::One(_)));
-        let (blocks, filled) = if same { (1, Filled::One) } else { (LANES / WIDTH, Filled::Lanes) };
-        WideFew::<D>::vectorized(
-            #[inline(always)]
-            || {
                 for place in 0..blocks {
-                    let found = f(&Arguments { sources: &sources, place });
-                    for (out, found) in outs.iter_mut().zip(&found).take(results.len()) {
-                        out.fill(
-                            #[inline(always)]
-                            |lanes| {
-                                lanes.blocks_mut()[place] = Block::narrow(found);
-                                filled
-                            },
-                        );
-                    }
+                    write(&mut outs, place, filled, &[determinant::<Wide<D>>(&arguments.all(place), size)]);
                 }
-            },
-        );
-        drop(sources);
-        for (place, out) in outs.into_iter().enumerate() {
-            match results.get(place) {
-                Some(operand) => self.floats.put(*operand, out),
-                None => self.floats.give_back(out),
             }
+            Composite::Inverse => {
+                for place in 0..blocks {
+                    write(&mut outs, place, filled, &inverse::<Wide<D>>(&arguments.all(place), size));
+                }
+            }
+            _ => vectors((op, squares), size, &arguments, &mut outs),
+        }
+        drop(arguments);
+        for (operand, out) in results.iter().zip(outs) {
+            self.floats.put(*operand, out);
         }
     }
 }

@@ -137,12 +137,6 @@ impl<T: Element> File<T> {
         self.spares.pop().unwrap_or_else(Register::blank)
     }
 
-    /// Puts a register that is not needed back.
-    #[inline(always)]
-    pub(super) fn give_back(&mut self, spare: Register<T>) {
-        self.spares.push(spare);
-    }
-
     /// Makes a spare register that of the operand.
     #[inline(always)]
     pub(super) fn put(&mut self, dst: Operand, mut spare: Register<T>) {
