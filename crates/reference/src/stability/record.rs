@@ -5,6 +5,7 @@
 
 use crate::domain::{Shadow, ShadowFloat};
 use crate::exec::{Event, Kind, Observer, Order, Values, What};
+use glisten_front::hir::Stage;
 use glisten_front::source::Span;
 use glisten_scene::compare::ulp_f32;
 use smallvec::SmallVec;
@@ -121,7 +122,7 @@ pub(super) struct Collected {
 }
 
 /// Whether a tally belongs to a vertex or a fragment stage, and where.
-pub(super) type Place = (u8, Span);
+pub(super) type Place = (Stage, Span);
 
 impl Collected {
     /// The tallies of each stage and span, and the largest error of a fragment stage's output.
@@ -131,12 +132,11 @@ impl Collected {
         let mut all: BTreeMap<Place, Tally> = BTreeMap::new();
         let mut output = 0.0_f64;
         for (order, recorder) in &parts {
-            // What is the same for all invocations counts with the stage: 0 with 2, 1 with 3.
-            let stage = order.stage % 2;
+            let stage = order.piece.stage();
             for (span, tally) in &recorder.tallies {
                 all.entry((stage, *span)).or_default().join(tally);
             }
-            if stage == 1 {
+            if stage == Stage::Fragment {
                 output = output.max(recorder.output);
             }
         }
