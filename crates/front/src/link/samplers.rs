@@ -9,7 +9,7 @@ use super::{Context, SamplerSlot, SlotBinding};
 use crate::builtin::constants::{MAX_COMBINED_TEXTURE_IMAGE_UNITS, MAX_TEXTURE_IMAGE_UNITS};
 use crate::diagnostic::{Diagnostic, codes};
 use crate::hir::{
-    ArraySize, Global, GlobalId, MatrixLayout, SamplerDim, SamplerType, Scalar, Shader, Stage, Storage, Type, TypeId,
+    ArraySize, Global, GlobalId, MatrixLayout, Shader, Stage, Storage, Type, TypeId,
 };
 use crate::source::Span;
 
@@ -46,23 +46,13 @@ pub(super) fn assign(ctx: &mut Context<'_>, stages: &[Shader]) -> Vec<SamplerSlo
     let mut binding = 0;
     for slot in &mut slots {
         slot.texture = SlotBinding { group: GROUP, binding };
-        if has_sampler(ctx.types.get(slot.ty)) {
+        if matches!(ctx.types.get(slot.ty), Type::Sampler(kind) if kind.is_filtered()) {
             binding += 1;
         }
         slot.sampler = SlotBinding { group: GROUP, binding };
         binding += 1;
     }
     slots
-}
-
-/// Whether texels are filtered, so that a sampler object is needed beside the texture.
-fn has_sampler(ty: Type) -> bool {
-    match ty {
-        Type::Sampler(SamplerType { texel, dim, .. }) => {
-            texel == Scalar::Float && !matches!(dim, SamplerDim::Buffer | SamplerDim::Multisample)
-        }
-        _ => false,
-    }
 }
 
 /// Adds a stage's declaration; that the types agree, `uniforms` checks.

@@ -2,7 +2,7 @@
 
 use super::super::Findings;
 use super::super::divergence::{self, Place};
-use crate::hir::{ExprKind, SamplerDim, SamplerType, Shader, Stage, Type, Types};
+use crate::hir::{ExprKind, Shader, Stage, Type, Types};
 use crate::link::Program;
 
 pub(super) fn check(program: &Program, findings: &mut Findings<'_>) {
@@ -22,11 +22,8 @@ pub(super) fn check(program: &Program, findings: &mut Findings<'_>) {
     }
 }
 
-/// Rectangle, buffer and multisample textures have no levels to choose from.
+/// Some textures have no levels to choose from.
 fn has_one_level(types: &Types, shader: &Shader, arguments: &[crate::hir::ExprId]) -> bool {
     let sampler = arguments.first().map(|&first| types.get(shader.expr(first).ty));
-    matches!(
-        sampler,
-        Some(Type::Sampler(SamplerType { dim: SamplerDim::Rect | SamplerDim::Buffer | SamplerDim::Multisample, .. }))
-    )
+    matches!(sampler, Some(Type::Sampler(kind)) if !kind.has_levels())
 }
