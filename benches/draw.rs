@@ -1,9 +1,10 @@
-//! The emitted SPIR-V against what glslang and `spirv-opt -O` make of the same program, drawn by lavapipe in one run.
+//! Compares the emitted SPIR-V with the output of glslang and `spirv-opt -O` for the same program, drawn by lavapipe
+//! in one run.
 //!
-//! `cargo bench --bench draw`: over the lighting programs of the fixtures, at the size of their scenes. glslang gets the
-//! same text with the version, locations and a uniform block that Vulkan wants, and one line more that brings z to [0, w];
-//! whatever else differs is the compilers' doing. Rounds go through ours, the peer's, and ours again; a figure is the
-//! median over the rounds of the ratio to the first of the round, so that the last shows the noise.
+//! `cargo bench --bench draw` runs the lighting programs of the fixtures at the size of their scenes. glslang gets
+//! the same text with the version, locations and uniform block that Vulkan requires, and one more line that maps z to
+//! [0, w]; any other difference is due to the compilers. Each round draws ours, the peer's, and ours again. A figure
+//! is the median over the rounds of the ratio to the first of the round, so the last one shows the noise.
 
 #![expect(clippy::print_stdout, reason = "a benchmark prints its figures")]
 
@@ -36,7 +37,7 @@ fn main() {
         let (mut theirs, mut again) = (Vec::new(), Vec::new());
         for round in 0..ROUNDS {
             let first = time(&ours);
-            // Which of the two comes next changes from round to round.
+            // The order of the two alternates from round to round.
             if round % 2 == 0 {
                 theirs.push(time(&peer) / first);
                 again.push(time(&ours) / first);
@@ -71,7 +72,7 @@ fn peers(gpu: &Gpu, scene: &Scene, name: &str) -> Option<Prepared> {
     Some(unsafe { gpu.prepare_edited(scene, &edit) }.expect("the peer's modules can be drawn"))
 }
 
-/// glslang and `spirv-opt -O` over the adapted text.
+/// The output of glslang and `spirv-opt -O` for the adapted text.
 fn compiled(name: &str, stage: Stage, reflection: &Reflection) -> Option<Vec<u32>> {
     let extension = if stage == Stage::Vertex { "vert" } else { "frag" };
     let source = format!("{}/fixtures/programs/{name}.{extension}", env!("CARGO_MANIFEST_DIR"));
@@ -94,7 +95,8 @@ fn run(tool: &str, arguments: &[&Path]) -> Option<()> {
     Some(())
 }
 
-/// The text for Vulkan: places for attributes, varyings and colors, and a block of the uniforms where the last one stood.
+/// The text for Vulkan: locations for attributes, varyings and colors, and a uniform block in place of the last
+/// uniform.
 fn adapted(text: &str, stage: Stage, reflection: &Reflection) -> String {
     let declaration = |line: &str, word: &str| {
         let rest = line.strip_prefix(word)?.split_once(';')?.0.trim();

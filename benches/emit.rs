@@ -1,8 +1,8 @@
-//! What emission costs: lowering alone, and GLSL text to WGSL text and to SPIR-V words, over the programs of the fixtures.
-//! `cargo bench --bench emit`; figures are a program (a vertex and a fragment shader) at the mean.
+//! The cost of emission: lowering alone, and from GLSL text to WGSL text and to SPIR-V words, over the programs of
+//! the fixtures. `cargo bench --bench emit`; figures are means per program (a vertex and a fragment shader).
 //!
-//! The goal is stated against libglslang 12, which takes about 575 us a shader from GLSL to SPIR-V on the machine that the
-//! front-end's benchmarks name: at most 0.6 of that, and 0.35 if it can be had.
+//! The goal is relative to libglslang 12, which takes about 575 us per shader from GLSL to SPIR-V on the machine that
+//! the front end's benchmarks name: at most 0.6 of that, and 0.35 if possible.
 
 use divan::{Bencher, black_box};
 use glisten::{Compiler, Options, Source};
@@ -16,7 +16,7 @@ fn main() {
     divan::main();
 }
 
-/// The pairs of shaders in the folders of fixtures that are whole programs.
+/// The pairs of shaders in those folders of the fixtures that contain whole programs.
 fn pairs() -> Vec<Vec<Source>> {
     let mut pairs = Vec::new();
     for folder in ["programs", "lower"] {

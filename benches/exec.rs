@@ -1,5 +1,5 @@
-//! How long the executor takes for the Blinn-Phong sphere of the report, in nanoseconds a fragment and domain, and the
-//! whole draw (64 x 32 mesh, 512 x 512 pixels, shading and raster) in milliseconds.
+//! The time of the executor for the Blinn-Phong sphere of the report, in nanoseconds per fragment and domain, and of
+//! the whole draw (64 x 32 mesh, 512 x 512 pixels, shading and rasterization) in milliseconds.
 //!
 //! `cargo bench --no-default-features --features reference --bench exec`
 
@@ -15,7 +15,7 @@ fn main() {
     divan::main();
 }
 
-/// The report's sphere at the size of the goal, shaded by Blinn-Phong.
+/// The report's sphere at the size of the goal, shaded with Blinn-Phong.
 struct Sphere;
 
 impl FileSource for Sphere {

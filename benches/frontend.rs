@@ -1,11 +1,11 @@
-//! How fast the front-end is: parse alone, and parse with analysis and link, over the fixtures and over one text of
-//! growing size. `cargo bench --bench frontend`; figures are bytes a second.
+//! The speed of the front end: parsing alone, and parsing with analysis and link, over the fixtures and over one text
+//! of growing size. `cargo bench --bench frontend`; figures are bytes per second.
 //!
-//! Before them stand two figures of their own: the time a byte takes from 10 KB to 5 MB of legal text, which must not grow
-//! with the size, and the peak of memory on 1 MB beside glslangValidator's, if that is installed (on Linux).
+//! Two further figures come first: the time per byte from 10 KB to 5 MB of legal text, which must not grow with the
+//! size, and the peak memory on 1 MB next to glslangValidator's, if that is installed (on Linux).
 //!
-//! Measured in user time on one core of a small virtual machine that others kept busy: parse 26 MB/s, the whole
-//! front-end 15 MB/s, both the same from 10 KB to 5 MB. No function takes more than a ninth of it.
+//! Measured in user time on one core of a small, busy virtual machine: parsing 26 MB/s, the whole front end 15 MB/s,
+//! both the same from 10 KB to 5 MB. No function takes more than a ninth of the time.
 
 #![expect(clippy::print_stdout, reason = "a benchmark prints its figures")]
 
@@ -38,15 +38,16 @@ fn main() {
 
 const SIZES: [usize; 4] = [10_000, 100_000, 1_000_000, 5_000_000];
 
-/// The time that this thread has been on a processor, in nanoseconds: what else the machine does counts little. On Linux;
-/// elsewhere the clock's.
+/// The processor time of this thread in nanoseconds, which hardly depends on the machine's other load. On Linux;
+/// elsewhere it is the time of the clock.
 fn processor_time(since: Instant) -> f64 {
     let schedule = fs::read_to_string("/proc/thread-self/schedstat").ok();
     let own = schedule.and_then(|line| line.split_whitespace().next()?.parse().ok());
     own.unwrap_or_else(|| since.elapsed().as_secs_f64() * 1e9)
 }
 
-/// The time of a run in nanoseconds: the least mean of three rounds, each long enough for the scheduler's books.
+/// The time of a run in nanoseconds: the smallest mean of three rounds, each long enough for the scheduler's
+/// accounting.
 fn least(runs: usize, mut work: impl FnMut()) -> f64 {
     let since = Instant::now();
     let time = |_| {
@@ -86,7 +87,7 @@ fn compile_once(path: &Path) {
     black_box(Compiler::new(Options::default()).compile(&[source]));
 }
 
-/// The peak of a process's memory in KiB.
+/// The peak memory of a process in KiB.
 fn high_water(process: u32) -> Option<u64> {
     let status = fs::read_to_string(format!("/proc/{process}/status")).ok()?;
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
@@ -114,7 +115,7 @@ fn peak_memory() {
     }
 }
 
-/// Runs a program and looks at its peak of memory until it ends; what it takes in its last millisecond is not seen.
+/// Runs a program and polls its peak memory until it ends; memory allocated in its last millisecond may be missed.
 fn watch(command: &mut Command) -> Option<u64> {
     let mut child = command.stdout(Stdio::null()).spawn().ok()?;
     let mut peak = None;

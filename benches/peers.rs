@@ -1,12 +1,12 @@
-//! The compiler against libglslang in process, over the same shaders in one run.
+//! Compares the compiler with libglslang in process, over the same shaders in one run.
 //!
-//! `cargo bench --bench peers -- [FOLDER...]`: over all shaders in the folders (default: `fixtures/programs` and
-//! `fixtures/lower`) that both accept. libglslang's side is `peers/glslang.cpp`, built with `c++` when Debian's
-//! `glslang-dev` is installed; without it the bench says so and ends. Rounds of the two alternate, each shader's time is
-//! the least over all rounds, and the figures are means over the shaders.
+//! `cargo bench --bench peers -- [FOLDER...]` runs all shaders in the folders (default: `fixtures/programs` and
+//! `fixtures/lower`) that both accept. libglslang's side is `peers/glslang.cpp`, built with `c++` if Debian's
+//! `glslang-dev` is installed; otherwise the bench says so and ends. Rounds of the two alternate. Each shader's time
+//! is the smallest over all rounds, and the figures are means over the shaders.
 //!
-//! Then processes: `glisten compile` of one shader against `glslangValidator` followed by `naga` (`cargo install naga-cli`),
-//! where those are on the path; in turns, each figure the median over its rounds.
+//! Then it compares processes: `glisten compile` of one shader with `glslangValidator` followed by `naga` (`cargo
+//! install naga-cli`), if those are on the path. They run in turns, and each figure is the median over its rounds.
 
 #![expect(clippy::print_stdout, reason = "a benchmark prints its figures")]
 
@@ -22,7 +22,7 @@ use std::time::Instant;
 const ROUNDS: usize = 5;
 const REPEATS: usize = 5;
 
-/// Microseconds for the front-end alone, and for the whole way to the target's text or words.
+/// Microseconds for the front end alone, and for the whole compilation to the target.
 #[derive(Clone, Copy)]
 struct Times {
     front: f64,
@@ -133,7 +133,7 @@ fn merge(all: &mut BTreeMap<PathBuf, Times>, round: BTreeMap<PathBuf, Times>) {
     }
 }
 
-/// Times one shader; `None` if it is refused or its target cannot hold it.
+/// Times one shader; `None` if it is rejected or its target cannot represent it.
 fn own_times(path: &Path) -> Option<Times> {
     let text: std::sync::Arc<str> = std::fs::read_to_string(path).ok()?.into();
     let stage = stage_of(path)?;

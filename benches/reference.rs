@@ -1,8 +1,8 @@
-//! The CPU reference's time for the Blinn-Phong sphere, as a ratio to lavapipe's for the same scene.
+//! Measures the CPU reference's time for the Blinn-Phong sphere, as a ratio to lavapipe's for the same scene.
 //!
-//! 512x512 pixels, a mesh of 64x32, both sides in turns, start-up and compilation left out:
+//! The scene has 512x512 pixels and a mesh of 64x32; both sides run in turns, without start-up and compilation:
 //! `RAYON_NUM_THREADS=2 cargo bench --bench reference`. The goal is 3 for f64 and 2 for f32, and 8 times f64 for the
-//! envelope. Ratios are of medians; the A/A row is lavapipe against itself.
+//! envelope. Ratios are of medians; the A/A row compares lavapipe with itself.
 
 use glisten::scene::{MemoryFiles, Scene, load};
 use glisten_front::{Compiler, Options};

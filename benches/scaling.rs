@@ -1,9 +1,9 @@
-//! Whether the CPU reference's time grows in proportion: to the pixels of the Blinn-Phong sphere, and to the length of its
-//! fragment program, whose lighting is repeated.
+//! Measures whether the CPU reference's time grows in proportion: to the pixels of the Blinn-Phong sphere, and to the
+//! length of its fragment shader, whose lighting is repeated.
 //!
-//! `cargo bench --no-default-features --features reference --bench scaling`; `RAYON_NUM_THREADS` as for a drawing. Figures
-//! are the best of the rounds of a second, three at least. The row without lighting is what all but the program costs: mesh, raster, interpolation,
-//! picture.
+//! `cargo bench --no-default-features --features reference --bench scaling`; set `RAYON_NUM_THREADS` as for drawing.
+//! Figures are the best of the rounds of one second, at least three. The row without lighting shows the cost of
+//! everything but the shader: mesh, rasterization, interpolation, picture.
 
 use glisten::scene::{MemoryFiles, Scene, load};
 use glisten_front::{Compiler, Options};
@@ -13,7 +13,7 @@ use std::time::{Duration, Instant};
 const PATIENCE: Duration = Duration::from_secs(1);
 const LEAST_ROUNDS: usize = 3;
 
-/// The sphere on a square of `side` pixels, each lit `repeats` times from places that differ a little.
+/// The sphere on a square of `side` pixels, lit `repeats` times from slightly different positions.
 fn scene(side: u32, repeats: u32) -> Scene {
     let root = env!("CARGO_MANIFEST_DIR");
     let read = |path: &str| std::fs::read_to_string(format!("{root}/fixtures/{path}")).expect("a fixture");
@@ -26,14 +26,14 @@ fn scene(side: u32, repeats: u32) -> Scene {
         read("programs/blinn_phong.frag").replace("illumination(ve, normalize(vn))", &format!("vn + ve{lit}"));
     let vertex = read("programs/blinn_phong.vert");
     let uniforms = text.find("[draw.uniforms]").expect("the scene sets uniforms");
-    // What no light needs is no uniform.
+    // A uniform that no light uses is not declared.
     let text = if repeats == 0 { &text[..uniforms] } else { &text[..] };
     let files =
         MemoryFiles::new([("sphere.toml", text), ("blinn_phong.vert", &vertex), ("blinn_phong.frag", &fragment)]);
     load("sphere.toml", &files, &Compiler::new(Options::default())).scene.expect("the scene is right")
 }
 
-/// In milliseconds.
+/// The best time in milliseconds.
 fn best(scene: &Scene, precision: Precision) -> f64 {
     let options = RenderOptions { precision, mark_edges: false, ..RenderOptions::default() };
     let begin = Instant::now();

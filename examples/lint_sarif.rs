@@ -1,4 +1,4 @@
-//! Checks shaders and prints what is wrong as SARIF, as a step of continuous integration would.
+//! Checks shaders and prints the diagnostics as SARIF, like a step of continuous integration.
 //!
 //! ```sh
 //! cargo run --no-default-features --example lint_sarif -- a.vert a.frag > results.sarif

@@ -1,12 +1,13 @@
-//! Plants faults in the SPIR-V that glisten emits for scenes, draws each and counts what `verify` catches.
+//! Plants faults in the SPIR-V that glisten emits for scenes, draws each one, and counts how many `verify` catches.
 //!
 //! ```text
 //! cargo run --release --example mutations -- fixtures/scenes [--each N] [--seed N] [--list]
 //! ```
 //!
-//! Takes scene files, and folders of them with the folders in them. Prints for each kind of fault how many change the
-//! picture, and how many of those the derived bound and a tolerance of 1/255 catch; then each fault that passes, with the
-//! reason. `--each` tries at most N faults of each kind a scene, `--list` prints what became of every one. Needs a Vulkan software adapter and `spirv-val`.
+//! The arguments are scene files and folders, which are searched recursively. For each kind of fault, it prints how
+//! many change the picture, and how many of those the derived bound and a tolerance of 1/255 catch; then each fault
+//! that passes, with the reason. `--each` tries at most N faults of each kind per scene; `--list` prints the outcome
+//! of every fault. It needs a Vulkan software adapter and `spirv-val`.
 
 #[path = "../tests/it/mutation/mod.rs"]
 mod mutation;
@@ -45,7 +46,7 @@ fn scene_files(path: &Path, found: &mut Vec<PathBuf>) {
     for entry in std::fs::read_dir(path).into_iter().flatten().flatten() {
         let path = entry.path();
         if path.is_symlink() {
-            // The library's scenes, which are drawn by the library's own tests.
+            // The library's scenes, which the library's own tests draw.
             continue;
         }
         if path.is_dir() || path.extension().is_some_and(|extension| extension == "toml") {

@@ -4,23 +4,23 @@
 //! cargo run --no-default-features --example piglit_compiler -- FOLDER [--all] [--show] [--raise]
 //! ```
 //!
-//! Each file says in a comment what is expected of it (`[config] expect_result: pass`). The stage is told by the
-//! extension. Folders of the compatibility profile are left out unless `--all` is given; `--show` prints the first
-//! diagnostic of every shader that is refused, rightly or wrongly; `--raise` puts `#version 150` in place of older
-//! versions, for what did not change since. Exits 1 if a verdict differs.
+//! Each file states its expected result in a comment (`[config] expect_result: pass`). The extension determines the
+//! stage. Folders of the compatibility profile are skipped unless `--all` is given. `--show` prints the first
+//! diagnostic of every shader that is rejected, rightly or wrongly. `--raise` replaces older versions by `#version
+//! 150`, for rules that have not changed since. It exits with 1 if a verdict differs.
 
 use glisten_front::hir::Stage;
 use glisten_front::{Compiler, Options, Source};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// What a file says of itself.
+/// The settings that a file states about itself.
 struct Test {
     path: PathBuf,
     stage: Stage,
     text: String,
     passes: bool,
-    /// Extensions that are not implemented, on which the verdict hangs.
+    /// Extensions that are not implemented, on which the verdict depends.
     extensions: Vec<String>,
 }
 
@@ -72,11 +72,11 @@ fn raised(text: &str) -> String {
     text.lines().map(line).collect()
 }
 
-/// A test that piglit's own harness would not judge so, and why.
+/// A test that piglit's own harness would not judge in this way, and the reason.
 const NOT_JUDGED: [(&str, &str); 1] =
     [("uniforms.geom", "it has no #version line, and version 1.10 (§3.3) has no geometry shaders")];
 
-/// All files under a folder, sorted.
+/// All files in a folder, sorted.
 fn files(folder: &Path, all: bool, found: &mut Vec<PathBuf>) -> std::io::Result<()> {
     let mut entries: Vec<PathBuf> =
         std::fs::read_dir(folder)?.map(|entry| entry.map(|entry| entry.path())).collect::<Result<_, _>>()?;

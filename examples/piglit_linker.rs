@@ -4,9 +4,9 @@
 //! cargo run --example piglit_linker -- path/to/piglit/tests/spec/glsl-1.50/linker
 //! ```
 //!
-//! Takes files and folders; of each file the shaders are compiled and linked, and the verdict is compared with the
-//! `link error` or `link success` of its `[test]` section (any drawing test must link). Prints each mismatch with the
-//! first error, and a summary; exits with 1 if there is a mismatch.
+//! The arguments are files and folders. The shaders of each file are compiled and linked, and the verdict is compared
+//! with the `link error` or `link success` of its `[test]` section (any drawing test must link). It prints each
+//! mismatch with the first error, and a summary, and exits with 1 if there is a mismatch.
 
 #![expect(clippy::print_stdout, reason = "a command-line program")]
 
@@ -15,14 +15,14 @@ use glisten_front::{Compilation, Compiler, Options, Source};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// Tests whose verdict is not one of GLSL 1.50 core alone, and why.
+/// Tests whose verdict depends on more than GLSL 1.50 core, and the reason.
 const NOT_JUDGED: [(&str, &str); 3] = [
     ("versions-mingled", "one shader is of version 1.40, which is not compiled"),
     ("compatibility", "the compatibility profile is not compiled"),
     ("vs-gs-max-in-out-components", "it requires GL_ARB_arrays_of_arrays; 1.50 has arrays of one dimension (§4.1.9)"),
 ];
 
-/// A shader test, as far as linking goes.
+/// A shader test, as far as linking needs it.
 #[derive(Default)]
 struct Test {
     shaders: Vec<(Stage, String)>,
@@ -72,7 +72,7 @@ fn collect(path: &Path, files: &mut Vec<PathBuf>) {
     }
 }
 
-/// `None` for tests with stages that glisten does not know.
+/// Parses a test; `None` if it has stages that glisten does not support.
 fn parse(text: &str) -> Option<Test> {
     let mut test = Test { must_link: true, ..Test::default() };
     let mut section = "";
@@ -110,7 +110,8 @@ fn passthrough() -> String {
     "in vec4 piglit_vertex;\nvoid main() { gl_Position = piglit_vertex; }\n".to_owned()
 }
 
-/// A shader without a `#version` line gets the one that the test requires, as the runner of such tests does.
+/// Compiles a test. A shader without a `#version` line gets the version that the test requires, as in the runner of
+/// such tests.
 fn compile(test: &Test) -> Compilation {
     let version = test.version.as_deref().unwrap_or("110");
     let sources: Vec<Source> = test

@@ -38,7 +38,7 @@ void main(void)
 fn main() {
     let source = |name: &str, text: &str, stage| Source { name: name.into(), text: text.into(), stage };
     let sources = [source("lit.vert", VERTEX, Stage::Vertex), source("lit.frag", FRAGMENT, Stage::Fragment)];
-    // What a host of OpenGL did by glBindAttribLocation before it linked.
+    // An OpenGL host did this with glBindAttribLocation before linking.
     let options = Options { attribute_locations: vec![("pv".to_owned(), 0)], ..Options::default() };
     let compilation = Compiler::new(options).compile(&sources);
     let program = compilation.program.expect("the shaders above have no errors");

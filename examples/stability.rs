@@ -4,7 +4,7 @@
 //! cargo run --release --example stability -- fixtures/scenes/blinn_phong.toml [--all]
 //! ```
 //!
-//! The ten worst causes are shown; with `--all` every one.
+//! It shows the ten worst causes; with `--all`, every one.
 
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "an example prints")]
 

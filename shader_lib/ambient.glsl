@@ -7,7 +7,7 @@
 #define GLISTEN_AMBIENT
 #include "safe.glsl"
 
-// Reflection (92) of light that comes from everywhere, linear RGB.
+// Reflection (92) of light from all directions, linear RGB.
 //   Kamb  reflectance for it, mostly the same as Kdiff, 0 to 1    Lamb  intensity of the light's ambient part, >= 0
 vec3 ambient(vec3 Kamb, vec3 Lamb)
 {

@@ -2,9 +2,9 @@
 // kind: light
 // equation: (94), (95), (96): r = |P_l - P|, d = 1 / r^2, d = 1 / (s_c + s_l r + s_q r^2)
 // source: textbook, section 10.1.5
-// stability: the literal (96) is NaN for a zero weight once r^2 overflows; this is right to rounding at every r
+// stability: the literal (96) is NaN for a zero weight once r^2 overflows; this is correct up to rounding for every r
 //
-// Outside of the model: r = 0 in (95), and weights that sum to nothing in (96), give the largest float.
+// Outside the model: r = 0 in (95), and weights of (96) that are all zero, yield the largest float.
 #ifndef GLISTEN_ATTENUATION
 #define GLISTEN_ATTENUATION
 #include "safe.glsl"
@@ -20,7 +20,7 @@ float attenuationInverseSquare(float r)
 {
     if (!(r > 0.0))
         return safeLargest();
-    // 1/r twice and not 1/(r r): the square of a small r is already 0 where 1/r still has its value.
+    // 1/r twice and not 1/(r r): the square of a small r is 0 while 1/r is still representable.
     float q = min(1.0 / r, safeLargest());
     return min(q * q, safeLargest());
 }
@@ -30,8 +30,8 @@ float attenuationInverseSquare(float r)
 // s = (1, 0, 0) is 1 at any distance, (0, 1, 0) is 1/r, (0, 0, 1) is (95).
 float attenuation(float r, vec3 s)
 {
-    // By Horner's rule no 0 meets an infinity: a zero weight takes out its power of r before r is squared. Where the sum
-    // overflows, d is below the smallest normal float.
+    // With Horner's rule, 0 is never multiplied by infinity: a zero weight removes its power of r before r is
+    // squared. Where the sum overflows, d is below the smallest normal float.
     float sum = s.x + r * (s.y + r * s.z);
     return sum > 0.0 ? min(1.0 / sum, safeLargest()) : safeLargest();
 }

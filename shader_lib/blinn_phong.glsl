@@ -4,18 +4,19 @@
 // source: textbook, section 10.1.3
 // stability: the error does not grow with the exponent, as it does in the literal (89)
 //
-// The power is taken from |N - H|^2 / 2 = 1 - N.H, which keeps the digits that N.H loses near 1. Outside of the model:
-// L = -V has no half vector and no highlight; nor has a surface that the light does not reach (N.L <= 0). K_shi <= 0
-// gives the flat highlight 1.
+// The power is computed from |N - H|^2 / 2 = 1 - N.H, which keeps the digits that N.H loses near 1. Outside the
+// model: L = -V has no half vector and no highlight; nor has a surface that the light does not reach (N.L <= 0).
+// K_shi <= 0 yields the flat highlight 1.
 #ifndef GLISTEN_BLINN_PHONG
 #define GLISTEN_BLINN_PHONG
 #include "safe.glsl"
 
-// The half vector (87) of two unit vectors: a unit vector; zero for L = -V. The nearer L is to -V, the more of it is
-// the rounding of L and V: about 6e-8 / |L + V|.
+// The half vector (87) of two unit vectors: a unit vector, or zero for L = -V. The closer L is to -V, the larger the
+// effect of rounding L and V: about 6e-8 / |L + V|.
 vec3 halfVector(vec3 L, vec3 V)
 {
-    // The sum of two large vectors may overflow. Halves would not help: drivers turn 0.5 L + 0.5 V into 0.5 (L + V).
+    // The sum of two large vectors may overflow. Halving them first does not help: drivers turn 0.5 L + 0.5 V into
+    // 0.5 (L + V).
     return safeNormalize(safeLimit(L + V));
 }
 

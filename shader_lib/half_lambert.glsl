@@ -7,15 +7,15 @@
 #define GLISTEN_HALF_LAMBERT
 #include "safe.glsl"
 
-// The cosine of the angle of incidence moved from [-1, 1] to [0, 1], so that the side turned away from the light keeps
-// its shape. Also the coordinate of ramps and look-up textures that cover both sides.
+// The cosine of the angle of incidence, mapped from [-1, 1] to [0, 1], so that the side away from the light keeps its
+// shape. It is also the coordinate of ramps and lookup textures that cover both sides.
 //   N  unit normal    L  unit vector towards the light
 float halfLambertFactor(vec3 N, vec3 L)
 {
     return safeUnit(0.5 * dot(N, L) + 0.5);
 }
 
-// The register that lets one four-component dot product do the same: (l_x / 2, l_y / 2, l_z / 2, 0.5).
+// The register with which a single four-component dot product does the same: (l_x / 2, l_y / 2, l_z / 2, 0.5).
 //   L  unit vector towards the light
 vec4 halfLambertRegister(vec3 L)
 {
@@ -23,7 +23,7 @@ vec4 halfLambertRegister(vec3 L)
 }
 
 // That dot product, limited to [0, 1].
-//   N  unit normal, whose fourth component is 1    c0  what halfLambertRegister() gives
+//   N  unit normal, whose fourth component is 1    c0  the result of halfLambertRegister()
 float halfLambertDot(vec3 N, vec4 c0)
 {
     return safeUnit(dot(vec4(N, 1.0), c0));

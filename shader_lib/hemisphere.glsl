@@ -8,15 +8,15 @@
 #include "lambert.glsl"
 #include "lut.glsl"
 
-// How much of the sky a surface sees: 0 turned away from the axis, 1 turned along it.
+// How much of the sky a surface sees: 0 if it faces away from the axis, 1 if it faces along it.
 //   N  unit normal    axis  unit vector towards the middle of the sky
 float hemisphereWeight(vec3 N, vec3 axis)
 {
     return safeUnit(0.5 * dot(N, axis) + 0.5);
 }
 
-// Light from two half spheres of uniform color, linear RGB. A weighted mean and not the article's
-// ground + weight (sky - ground), whose difference loses the darker color where the two are far apart.
+// Light from two half spheres of uniform color, linear RGB. It is a weighted mean and not the article's ground +
+// weight (sky - ground), whose difference loses the darker color if the two differ by orders of magnitude.
 //   N  unit normal    axis  unit vector towards the middle of the sky    sky, ground  colors of the two half spheres
 vec3 hemisphere(vec3 N, vec3 axis, vec3 sky, vec3 ground)
 {
@@ -24,15 +24,15 @@ vec3 hemisphere(vec3 N, vec3 axis, vec3 sky, vec3 ground)
     return safeLimit(a * sky + (1.0 - a) * ground);
 }
 
-// The same from a table whose first texel is the ground and whose last is the sky.
+// The same light from a table whose first texel is the ground and whose last is the sky.
 //   table  n by 1 texels, clamped
 vec3 hemisphereLut(sampler2D table, vec3 N, vec3 axis)
 {
     return lutColor(table, hemisphereWeight(N, axis));
 }
 
-// A directional light with the hemisphere in place of ambient light, linear RGB: max(N.L, 0) L_diff + hemisphere, times the
-// color of the material.
+// A directional light with the hemisphere as its ambient light, linear RGB: max(N.L, 0) L_diff + hemisphere, times
+// the color of the material.
 //   L  unit vector towards the light    Kdiff  color of the material, 0 to 1    Ldiff  intensity of the light, >= 0
 vec3 hemisphereDirectional(vec3 N, vec3 L, vec3 axis, vec3 Kdiff, vec3 Ldiff, vec3 sky, vec3 ground)
 {
@@ -40,7 +40,7 @@ vec3 hemisphereDirectional(vec3 N, vec3 L, vec3 axis, vec3 Kdiff, vec3 Ldiff, ve
     return safeLimit(Kdiff * safeFinite(light));
 }
 
-// The same with a highlight.
+// The same light with a highlight.
 //   Ispec  specular reflection of any model, linear RGB
 vec3 hemisphereSpecular(vec3 N, vec3 L, vec3 axis, vec3 Kdiff, vec3 Ldiff, vec3 sky, vec3 ground, vec3 Ispec)
 {

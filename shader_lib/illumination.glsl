@@ -1,6 +1,6 @@
 // name: illumination
 // kind: equation
-// equation: (93), (97), (99), (100): I_tot = c_spot (I_amb + d (I_diff + I_spec)) and what is part of it
+// equation: (93), (97), (99), (100): I_tot = c_spot (I_amb + d (I_diff + I_spec)) and its parts
 // source: textbook, sections 10.1.4 to 10.1.7
 // stability: finite for every finite input
 #ifndef GLISTEN_ILLUMINATION
@@ -28,8 +28,8 @@ vec3 illumination(vec3 Iamb, vec3 Idiff, vec3 Ispec, float d, float cspot)
     return safeLimit(cspot * illumination(Iamb, Idiff, Ispec, d));
 }
 
-// What no light gives (100): K_amb * L_glob + L_emi, linear RGB. The full equation (101) is this plus the sum of (99)
-// over the lights (module `lights`).
+// The part that comes from no light (100): K_amb * L_glob + L_emi, linear RGB. The full equation (101) is this plus
+// the sum of (99) over the lights (module `lights`).
 //   Kamb  ambient reflectance, 0 to 1    Lglob  global ambient light, >= 0    Lemi  light that the surface sends out itself, >= 0
 vec3 background(vec3 Kamb, vec3 Lglob, vec3 Lemi)
 {

@@ -2,17 +2,17 @@
 // kind: geometry
 // equation: (105), (106), (107), (108): C = w sum(b_i C_i / w_i), 1 / w = sum(b_i / w_i)
 // source: textbook, section 10.2.2
-// stability: right for w of any size, 1e-38 to 1e38; w = 0 and triangles without area have a value
+// stability: correct for w of any size, 1e-38 to 1e38; w = 0 and triangles without area have a value
 //
-// What the rasterizer does, as functions: `noperspective` is (106), `smooth` is (108), `flat` takes the last vertex. Of
-// use for rays, decals and tests.
+// The rasterizer's interpolation as functions: `noperspective` is (106), `smooth` is (108), `flat` takes the last
+// vertex. They are useful for rays, decals and tests.
 #ifndef GLISTEN_INTERPOLATION
 #define GLISTEN_INTERPOLATION
 #include "safe.glsl"
 
 // The coordinates (u, v) of P in the triangle P0 P1 P2 (105): P = P0 + u (P1 - P0) + v (P2 - P0). Both 0 for a triangle
 // without area.
-//   P, P0, P1, P2  in the window
+//   P, P0, P1, P2  in window space
 vec2 barycentric(vec2 P, vec2 P0, vec2 P1, vec2 P2)
 {
     vec2 u = P1 - P0;
@@ -28,18 +28,18 @@ vec2 barycentric(vec2 P, vec2 P0, vec2 P1, vec2 P2)
     return vec2(safeFinite(b.x), safeFinite(b.y));
 }
 
-// A weighted mean of three vertices, linear in the window (106): (1 - u - v) C0 + u C1 + v C2.
-//   uv  coordinates in the window (105)    C0, C1, C2  attributes of the vertices
+// A weighted mean of three vertices, linear in window space (106): (1 - u - v) C0 + u C1 + v C2.
+//   uv  coordinates in window space (105)    C0, C1, C2  attributes of the vertices
 vec4 interpolateLinear(vec2 uv, vec4 C0, vec4 C1, vec4 C2)
 {
     vec4 sum = (1.0 - uv.x - uv.y) * C0 + uv.x * C1 + uv.y * C2;
     return vec4(safeFinite(sum.xyz), safeFinite(sum.w));
 }
 
-// Weights of three vertices in a mean that is linear in space (108), of sum 1: b_i / w_i over their sum.
-//   uv  coordinates in the window (105)    w  of the vertices in clip space, none negative
-// Outside of the model: a vertex with w = 0, in the plane of the eye, takes all the weight, as it does in the limit
-// (the first of several). Weights that sum to 0 give the first vertex.
+// Weights of three vertices for a mean that is linear in space (108), with sum 1: b_i / w_i over their sum.
+//   uv  coordinates in window space (105)    w  of the vertices in clip space, none negative
+// Outside the model: a vertex with w = 0, in the plane of the eye, gets all the weight, as in the limit (the first
+// one of several). Weights that sum to 0 yield the first vertex.
 vec3 perspectiveWeights(vec2 uv, vec3 w)
 {
     vec3 b = vec3(1.0 - uv.x - uv.y, uv.x, uv.y);
@@ -50,7 +50,7 @@ vec3 perspectiveWeights(vec2 uv, vec3 w)
         return vec3(0.0, 1.0, 0.0);
     if (!(a.z > 0.0))
         return vec3(0.0, 0.0, 1.0);
-    // 1 / w_i times the smallest w, so that nothing overflows.
+    // 1 / w_i times the smallest w, to avoid overflow.
     vec3 q = b * (min(a.x, min(a.y, a.z)) / w);
     float sum = q.x + q.y + q.z;
     if (!(sum > 0.0) && !(sum < 0.0))
@@ -59,7 +59,7 @@ vec3 perspectiveWeights(vec2 uv, vec3 w)
 }
 
 // A mean of three vertices that is linear in space (108).
-//   uv  coordinates in the window (105)    w  of the vertices in clip space
+//   uv  coordinates in window space (105)    w  of the vertices in clip space
 vec4 interpolatePerspective(vec2 uv, vec3 w, vec4 C0, vec4 C1, vec4 C2)
 {
     vec3 q = perspectiveWeights(uv, w);
@@ -67,8 +67,8 @@ vec4 interpolatePerspective(vec2 uv, vec3 w, vec4 C0, vec4 C1, vec4 C2)
     return vec4(safeFinite(sum.xyz), safeFinite(sum.w));
 }
 
-// The point (x, z) of the segment from (x_a, z_a) to (x_b, z_b) whose projection parts the projected segment as
-// t : (1 - t) (107).
+// The point (x, z) of the segment from (x_a, z_a) to (x_b, z_b) whose projection divides the projected segment in the
+// ratio t : (1 - t) (107).
 //   t  0 to 1    a, b  the ends, (x, z) with z > 0
 vec2 segmentPoint(float t, vec2 a, vec2 b)
 {

@@ -5,10 +5,10 @@
 // stability: finite for every finite input
 //
 // The kinds of light as one struct, and a light's whole term with Lambert's diffuse and Blinn and Phong's specular
-// reflection. The equation is background() plus a loop over the lights that adds lightTerm(); the loop stands where the
-// lights do, since an array passed to a function is copied. For other models put the terms together from the same
-// pieces: lightVector(), lightAttenuation(), lightBeam() and illumination(). All positions and directions are in one
-// space.
+// reflection. The equation is background() plus a loop over the lights that adds lightTerm(). Write the loop where
+// the lights are declared, since an array is copied when it is passed to a function. For other models, combine the
+// same parts: lightVector(), lightAttenuation(), lightBeam() and illumination(). All positions and directions are in
+// one space.
 //
 // GLISTEN_LIGHTS is the size of a scene's array of lights; define it before the include for more than 8.
 #ifndef GLISTEN_LIGHTS_MODULE
@@ -25,21 +25,21 @@
 #define GLISTEN_LIGHTS 8
 #endif
 
-// What Light.kind says.
+// The values of Light.kind.
 const int LIGHT_DIRECTIONAL = 0;
 const int LIGHT_POINT = 1;
 const int LIGHT_SPOT = 2;
-// Two half spheres of light: `direction` points to the middle of the sky, `diffuse` is the sky's color and `ambient` the
-// ground's. What it gives counts as ambient light.
+// Two half spheres of light: `direction` points to the center of the sky, `diffuse` is the sky's color and `ambient`
+// the ground's. The result counts as ambient light.
 const int LIGHT_HEMISPHERE = 3;
 
 struct Light {
     int kind;
-    // Point and spot lights: where it is.
+    // Point and spot lights: the position.
     vec3 position;
-    // Directional and spot lights: the way the light goes, of any length but 0.
+    // Directional and spot lights: the direction in which the light travels, of any length but 0.
     vec3 direction;
-    // Its intensity in the three terms, linear RGB.
+    // The intensity in the three terms, linear RGB.
     vec3 ambient;
     vec3 diffuse;
     vec3 specular;
@@ -58,7 +58,7 @@ struct Material {
     vec3 emission;
 };
 
-// The unit vector L from the shaded point P towards the light. Zero where there is none: at a point light, for a
+// The unit vector L from the shaded point P towards the light. It is zero if there is none: at a point light, for a
 // directional light without a direction, for a hemisphere.
 vec3 lightVector(Light light, vec3 P)
 {
@@ -73,21 +73,21 @@ float lightAttenuation(Light light, vec3 P)
     return light.kind == LIGHT_DIRECTIONAL ? 1.0 : attenuation(lightDistance(light.position, P), light.attenuation);
 }
 
-// The factor c_spot (98) of the beam for the unit vector L towards the light; 1 for lights that are no spots.
+// The factor c_spot (98) of the beam for the unit vector L towards the light; 1 for lights other than spots.
 float lightBeam(Light light, vec3 L)
 {
     return light.kind == LIGHT_SPOT ? spotFactor(L, safeNormalize(light.direction), light.exponent) : 1.0;
 }
 
 // The light of a hemisphere, linear RGB.
-//   light  its members    N  unit normal
+//   light  the light    N  unit normal
 vec3 lightDome(Light light, vec3 N)
 {
     return hemisphere(N, safeNormalize(light.direction), light.diffuse, light.ambient);
 }
 
 // One term of the sum in (101), linear RGB.
-//   light, material  their members    P  shaded point    N  unit normal    V  unit vector towards the eye
+//   light, material  the light and the material    P  shaded point    N  unit normal    V  unit vector towards the eye
 vec3 lightTerm(Light light, Material material, vec3 P, vec3 N, vec3 V)
 {
     if (light.kind == LIGHT_HEMISPHERE)

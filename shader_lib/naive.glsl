@@ -1,11 +1,11 @@
 // name: naive
 // kind: reference
-// equation: (82) to (108), letter by letter
+// equation: (82) to (108), literally
 // source: textbook and article
-// stability: none: as the letter has it
+// stability: none: as in the literal equations
 //
-// The equations as they are printed, with no thought for rounding, range or poles: to measure what the stable forms
-// of the other modules are worth. Do not draw with them. K and L are left out of all but (82) and (83).
+// The equations as printed, regardless of rounding, range and poles, to measure the value of the stable forms in the
+// other modules. Do not draw with them. K and L are omitted in all but (82) and (83).
 #ifndef GLISTEN_NAIVE
 #define GLISTEN_NAIVE
 
@@ -83,7 +83,7 @@ vec3 naiveHemisphere(vec3 N, vec3 A, vec3 sky, vec3 ground)
     return 0.5 * (1.0 + dot(N, A)) * sky + 0.5 * (1.0 - dot(N, A)) * ground;
 }
 
-// The coordinate of the article's half-range look-up.
+// The coordinate of the article's half-range lookup.
 float naiveHalfRange(vec3 N, vec3 L) { return 0.5 * dot(N, L) + 0.5; }
 
 #endif

@@ -4,8 +4,8 @@
 // source: textbook, section 10.1.3
 // stability: the error does not grow with the exponent, as it does in the literal (86)
 //
-// Outside of the model: a surface that the light does not reach (N.L <= 0) has no highlight, although the literal (86)
-// would light it from behind. K_shi <= 0 gives the flat highlight 1.
+// Outside the model: a surface that the light does not reach (N.L <= 0) has no highlight, although the literal (86)
+// would light it from behind. K_shi <= 0 yields the flat highlight 1.
 #ifndef GLISTEN_PHONG
 #define GLISTEN_PHONG
 #include "safe.glsl"

@@ -4,7 +4,8 @@
 // source: article, program `specular`
 // stability: finite for every finite input
 //
-// The power that a vertex processor without pow() can do: two squarings. Also exact where a GPU's pow() is not.
+// The power that a vertex processor without pow() can compute: two squarings. It is also exact where a GPU's pow() is
+// not.
 #ifndef GLISTEN_QUARTIC
 #define GLISTEN_QUARTIC
 #include "phong.glsl"

@@ -5,10 +5,10 @@
 // stability: finite for every finite input
 //
 // Building blocks that are finite for every finite input. Each equals the plain form wherever that is defined and
-// does not overflow on the way. Numbers below 2^-126 may count as 0: most GPUs flush them.
+// does not overflow in between. Numbers below 2^-126 may count as 0: most GPUs flush them.
 //
-// Literals here and in all modules are exact in binary or quotients of such, so that the same text evaluated in f64 is
-// right to f64's last places.
+// Literals here and in all modules are exact in binary, or quotients of exact ones, so that the same text is also
+// accurate when evaluated in f64.
 #ifndef GLISTEN_SAFE
 #define GLISTEN_SAFE
 
@@ -18,32 +18,32 @@ float safeLargest()
     return 16777215.0 * exp2(104.0);
 }
 
-// x with infinities brought back to the largest floats. x must not be a NaN.
+// x with infinities replaced by the largest floats. x must not be a NaN.
 float safeLimit(float x)
 {
     return clamp(x, -safeLargest(), safeLargest());
 }
 
-// The same for each component.
+// The scalar function for each component.
 vec3 safeLimit(vec3 v)
 {
     return clamp(v, vec3(-safeLargest()), vec3(safeLargest()));
 }
 
-// The same for each component.
+// The scalar function for each component.
 vec4 safeLimit(vec4 v)
 {
     return clamp(v, vec4(-safeLargest()), vec4(safeLargest()));
 }
 
-// x with infinities brought back to the largest floats and a NaN to 0. Comparisons alone: what min() and max() make of
-// a NaN is the driver's choice.
+// x with infinities replaced by the largest floats and a NaN by 0. It uses only comparisons: what min() and max()
+// return for a NaN depends on the driver.
 float safeFinite(float x)
 {
     return x > 0.0 ? min(x, safeLargest()) : (x < 0.0 ? max(x, -safeLargest()) : 0.0);
 }
 
-// The same for each component.
+// The scalar function for each component.
 vec3 safeFinite(vec3 v)
 {
     return vec3(safeFinite(v.x), safeFinite(v.y), safeFinite(v.z));
@@ -68,15 +68,15 @@ float safeExtent(vec3 v)
     return max(a.x, max(a.y, a.z));
 }
 
-// The power of two 2^-100, 1 or 2^100 by which a vector of this extent is multiplied so that no square of its
-// components overflows, and none that counts is flushed to zero. A power of two rounds nothing.
+// The power of two 2^-100, 1 or 2^100 by which a vector of this extent is multiplied so that the square of a
+// component neither overflows nor, if it matters, is flushed to zero. Multiplying by a power of two does not round.
 float safeScale(float extent)
 {
     return extent > exp2(60.0) ? exp2(-100.0) : (extent < exp2(-40.0) ? exp2(100.0) : 1.0);
 }
 
-// |v| for every finite v, where the literal length() overflows from 1.8e19 on and vanishes below 1.1e-19. Past the largest
-// float: the largest float.
+// |v| for every finite v, where the literal length() overflows from 1.8e19 on and vanishes below 1.1e-19. It is
+// limited to the largest float.
 float safeLength(vec3 v)
 {
     float s = safeScale(safeExtent(v));
@@ -84,7 +84,7 @@ float safeLength(vec3 v)
     return min(sqrt(dot(u, u)) / s, safeLargest());
 }
 
-// v / |v| for every finite v but zero, where the literal form gives 0 or NaN outside of lengths 1.1e-19 to 1.8e19.
+// v / |v| for every finite v but zero, where the literal form yields 0 or NaN for lengths outside 1.1e-19 to 1.8e19.
 // The zero vector stays the zero vector: no direction, and no light from it.
 vec3 safeNormalize(vec3 v)
 {
@@ -95,8 +95,8 @@ vec3 safeNormalize(vec3 v)
     return u / sqrt(dot(u, u));
 }
 
-// log(1 - d) for d in [0, 1), accurate for small d where 1 - d has lost it: -2 atanh(d / (2 - d)) by its series.
-// 0 for d <= 0, the largest negative float for d >= 1.
+// log(1 - d) for d in [0, 1), accurate for small d where 1 - d loses it: -2 atanh(d / (2 - d)) by its series. 0 for d
+// <= 0, the largest negative float for d >= 1.
 float safeLogOneMinus(float d)
 {
     if (!(d > 0.0))
@@ -107,12 +107,12 @@ float safeLogOneMinus(float d)
         return log(1.0 - d);
     float s = d / (2.0 - d);
     float q = s * s;
-    // At d = 1/8 the first term left out is 2e-18 of the sum.
+    // At d = 1/8, the first omitted term is 2e-18 of the sum.
     float sum = 1.0 + q * (1.0 / 3.0 + q * (1.0 / 5.0 + q * (1.0 / 7.0 + q * (1.0 / 9.0 + q * (1.0 / 11.0 + q / 13.0)))));
     return -2.0 * s * sum;
 }
 
-// (1 - d)^k: the power of a number in [0, 1] whose distance d from 1 is known better than itself.
+// (1 - d)^k: the power of a number in [0, 1] whose distance d from 1 is known more precisely than the number.
 //   d  limited to [0, 1]    k  limited to k >= 0
 // 1 for k = 0 (also at d = 1, where the literal power is 0^0).
 float safePowOneMinus(float d, float k)
@@ -124,8 +124,8 @@ float safePowOneMinus(float d, float k)
 
 // x^k.
 //   x  limited to [0, 1]    k  limited to k >= 0
-// 1 for k = 0 (also 0^0). Near x = 1 the logarithm is taken by a series: a GPU's log2 loses it there, and k multiplies
-// what it loses.
+// 1 for k = 0 (also 0^0). Near x = 1 the logarithm is computed by a series: a GPU's log2 loses precision there, and k
+// amplifies the loss.
 float safePow(float x, float k)
 {
     if (!(k > 0.0))
@@ -137,8 +137,8 @@ float safePow(float x, float k)
     return exp(max(k * l, -safeLargest()));
 }
 
-// 1 - cos of the angle between two unit vectors: |a - b|^2 / 2. Where a and b are near, this keeps the digits that
-// dot(a, b) rounds away. At least 0; at most the largest float.
+// 1 - cos of the angle between two unit vectors: |a - b|^2 / 2. If a and b are close, this keeps the digits that
+// dot(a, b) rounds away. At least 0, at most the largest float.
 float safeOneMinusCos(vec3 a, vec3 b)
 {
     vec3 d = a - b;
@@ -146,7 +146,7 @@ float safeOneMinusCos(vec3 a, vec3 b)
 }
 
 // max(cos, 0)^k of the angle between two unit vectors, 0 to 1: near 1 from |a - b|^2 / 2, so that the error does not
-// grow with the exponent; elsewhere from dot(a, b), which is exact for vectors at right angles.
+// grow with the exponent; elsewhere from dot(a, b), which is exact for perpendicular vectors.
 //   k  limited to k >= 0
 // 1 for k = 0, whatever the angle (the literal power is 0^0 from a right angle on).
 float safeCosPow(vec3 a, vec3 b, float k)

@@ -2,14 +2,14 @@
 // kind: interface
 // equation: none
 // source: textbook, section 10.1.7
-// stability: declarations alone
+// stability: declarations only
 //
-// The uniforms that a scene's [[light]], [material] and global_ambient fill: include this in a program of your own, and
-// the scene gives them their values. The structs are those of `lights`. All positions and directions are in one space:
-// world space, unless the scene's draw says `light_space = "eye"`.
+// The uniforms for a scene's [[light]], [material] and global_ambient: include this in your own program, and the
+// scene sets them. The structs are those of `lights`. All positions and directions are in one space: world space,
+// unless the scene's draw says `light_space = "eye"`.
 //
-// Which models are chosen are uniforms and not macros, so that one program draws every scene; a compiler that knows the
-// uniforms can leave out the rest.
+// The selected models are uniforms and not macros, so that one program draws every scene. A compiler that knows the
+// uniforms can remove the other models.
 #ifndef GLISTEN_SCENE
 #define GLISTEN_SCENE
 #include "lights.glsl"
@@ -32,18 +32,18 @@ const int SPECULAR_QUARTIC = 6;
 const int SPECULAR_TABLE_HALF = 7;
 const int SPECULAR_TABLE_LIGHT = 8;
 
-// The models of a material, and what they take beside its reflectances.
+// The models of a material, and their parameters besides its reflectances.
 struct Finish {
     int diffuse_model;
     int specular_model;
-    // t of (91), and the cosine at which the hard toon parts.
+    // t of (91), and the cosine at which hard toon shading changes.
     float threshold;
-    // The dark color of the hard toon.
+    // The dark color of hard toon shading.
     vec3 shade;
 };
 
 uniform Light light[GLISTEN_LIGHTS];
-// How many of them shine.
+// How many of the lights are used.
 uniform int lights;
 uniform Material material;
 uniform Finish finish;

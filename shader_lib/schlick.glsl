@@ -4,9 +4,9 @@
 // source: textbook, section 10.1.4
 // stability: K - tK does not cancel, so the error does not grow with K as in the literal (90)
 //
-// Schlick's rational stand-in for the power t^K, written as t / (K d + t) with d = 1 - t taken from the vectors' distance.
-// Outside of the model: t is limited to [0, 1] (without that (90) has a pole at t = -K / (1 - K)); t = 0 gives 0, also
-// for K = 0, where (90) is 0/0. A surface that the light does not reach (N.L <= 0) has no highlight.
+// Schlick's rational approximation of the power t^K, written as t / (K d + t) with d = 1 - t computed from the
+// vectors' distance. Outside the model: t is limited to [0, 1] (otherwise (90) has a pole at t = -K / (1 - K)); t = 0
+// yields 0, also for K = 0, where (90) is 0/0. A surface that the light does not reach (N.L <= 0) has no highlight.
 #ifndef GLISTEN_SCHLICK
 #define GLISTEN_SCHLICK
 #include "blinn_phong.glsl"
@@ -33,14 +33,14 @@ float schlickBetween(vec3 a, vec3 b, float shininess)
     return t / (max(shininess, 0.0) * min(d, 1.0) + t);
 }
 
-// (90) on the angle between half vector and normal, in place of Blinn and Phong's power.
+// (90) on the angle between half vector and normal, instead of Blinn and Phong's power.
 //   N  unit normal    L, V  unit vectors towards the light and the eye    shininess  K_shi, limited to >= 0
 float schlickBlinnFactor(vec3 N, vec3 L, vec3 V, float shininess)
 {
     return dot(N, L) > 0.0 ? schlickBetween(N, halfVector(L, V), shininess) : 0.0;
 }
 
-// (90) on the angle between mirror direction and eye, in place of Phong's power. Arguments as above.
+// (90) on the angle between mirror direction and eye, instead of Phong's power. Arguments as above.
 float schlickPhongFactor(vec3 N, vec3 L, vec3 V, float shininess)
 {
     return dot(N, L) > 0.0 ? schlickBetween(mirrorDirection(N, L), V, shininess) : 0.0;

@@ -2,10 +2,10 @@
 // kind: specular
 // equation: table(U), U = N.H or N.L
 // source: article, program `texspec` and the metal variant
-// stability: as good as its table: a linear filter over x^k is off by (k / n)^2 / 8, 8 bits by 1/255
+// stability: as good as its table: the error of a linear filter over x^k is (k / n)^2 / 8, that of 8 bits 1/255
 //
-// The highlight drawn into a texture, so that it may have any profile: x^k, or the blotches that look like metal. How to
-// fill the table stands in `lut`. A table that is 0 at its first texel gives no light to surfaces that face away.
+// The highlight as a texture, so that it may have any profile: x^k, or the blotches that look like metal. `lut` says
+// how to fill the table. A table that is 0 at its first texel does not light surfaces that face away.
 #ifndef GLISTEN_SPECULAR_LUT
 #define GLISTEN_SPECULAR_LUT
 #include "blinn_phong.glsl"
@@ -18,8 +18,8 @@ vec3 specularLutHalf(sampler2D table, vec3 N, vec3 L, vec3 V)
     return lutColor(table, dot(N, halfVector(L, V)));
 }
 
-// The table's color for the angle between light and normal, the article's dp3 with a register that holds the light's
-// direction (or any other fixed vector).
+// The table's color for the angle between light and normal: the article's dp3 with a register that contains the
+// light's direction (or any other fixed vector).
 //   table  n by 1 texels, clamped    N  unit normal    L  unit vector
 vec3 specularLutLight(sampler2D table, vec3 N, vec3 L)
 {

@@ -4,7 +4,7 @@
 // source: textbook, section 10.1.6
 // stability: the error does not grow with the exponent, as it does in the literal (98)
 //
-// Outside of the model: L_exp <= 0 is no beam but a point light, the factor 1 in all directions.
+// Outside the model: L_exp <= 0 is not a beam but a point light, with the factor 1 in all directions.
 #ifndef GLISTEN_SPOT
 #define GLISTEN_SPOT
 #include "safe.glsl"

@@ -4,7 +4,8 @@
 // source: textbook, section 10.1.7; article, program `hemi_spec`
 // stability: finite for every finite input
 //
-// The sum over a scene's lights (module `scene`) by any of the library's models: what the standard program computes.
+// The sum over a scene's lights (module `scene`) with any of the library's models, as the standard program computes
+// it.
 #ifndef GLISTEN_STANDARD
 #define GLISTEN_STANDARD
 #include "half_lambert.glsl"
@@ -17,12 +18,12 @@
 #include "threshold.glsl"
 #include "toon.glsl"
 
-// Of the soft toon: the dark side at s = 0, the lit one at 1.
+// The ramp of soft toon shading: the dark side at s = 0, the lit side at 1.
 uniform sampler2D ramp;
-// Of the specular tables: cosine 0 at s = 0, 1 at 1.
+// The specular tables: cosine 0 at s = 0, 1 at 1.
 uniform sampler2D highlight;
 
-// What reaches the eye, parted so that a decal can color the one and not the other; linear RGB.
+// The light that reaches the eye, in two parts so that a decal can color one and not the other; linear RGB.
 struct Reflection {
     // Ambient and diffuse.
     vec3 body;
@@ -88,7 +89,7 @@ Reflection standardLight(Light one, vec3 P, vec3 N, vec3 V)
     return Reflection(illumination(Iamb, Idiff, none, d, cspot), illumination(none, none, Ispec, d, cspot));
 }
 
-// (101) without the emission.
+// (101) without emission.
 //   P, N, V  as above
 Reflection standardReflection(vec3 P, vec3 N, vec3 V)
 {
@@ -102,7 +103,7 @@ Reflection standardReflection(vec3 P, vec3 N, vec3 V)
     return sum;
 }
 
-// (101), linear RGB: the body's color is multiplied by a decal.
+// (101), linear RGB: a decal multiplies the color of the body.
 //   reflection  of all lights    decal  white for none
 vec3 standardColor(Reflection reflection, vec3 decal)
 {

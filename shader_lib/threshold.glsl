@@ -2,10 +2,10 @@
 // kind: specular
 // equation: (91): ceil(max(N.H, 0) - t) K_spec * L_spec
 // source: textbook, section 10.1.4
-// stability: a step: within rounding of the threshold (about 2e-7) either side may come
+// stability: a step: within rounding of the threshold (about 2e-7), either value is possible
 //
-// A highlight with a sharp edge. The ceiling is meant as a step from 0 to 1; literally it gives -1 at N.H = 0, t = 1 and
-// 2 where rounding puts N.H past 1.
+// A highlight with a sharp edge. The ceiling is meant as a step from 0 to 1; literally it yields -1 at N.H = 0, t =
+// 1, and 2 where rounding makes N.H larger than 1.
 #ifndef GLISTEN_THRESHOLD
 #define GLISTEN_THRESHOLD
 #include "blinn_phong.glsl"

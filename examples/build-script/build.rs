@@ -1,7 +1,7 @@
-//! Compiles `shaders/wave`, which includes a lighting model of the library, to WGSL and writes the offsets of its uniforms as
-//! Rust constants.
+//! Compiles `shaders/wave`, which includes a lighting model of the library, to WGSL, and writes the offsets of its
+//! uniforms as Rust constants.
 //!
-//! A mistake in a shader stops the build with the excerpt that `glisten lint` would show.
+//! An error in a shader stops the build with the same excerpt as in `glisten lint`.
 
 use glisten::diagnostic::write::human;
 use glisten::emit::{Conventions, Emitted, Target, emit, reflect};

@@ -22,29 +22,29 @@ pub(super) enum DiagnosticFormat {
     Github,
 }
 
-/// How sources are read.
+/// How to read sources.
 #[derive(Args, Clone, Debug)]
 #[command(next_help_heading = "Sources")]
 pub(super) struct SourceArgs {
-    /// Defines a macro before the first line (without a value: 1)
+    /// Define a macro before the first line (without a value: 1)
     #[arg(short = 'D', value_name = "NAME[=VALUE]", value_parser = parse_define)]
     pub(super) defines: Vec<(String, String)>,
-    /// Looks for included files there
+    /// Search this folder for included files
     #[arg(short = 'I', value_name = "DIR")]
     pub(super) include_dirs: Vec<PathBuf>,
-    /// Makes errors of what the specification forbids and every driver forgives
+    /// Report an error for what the specification forbids and every driver accepts
     #[arg(long)]
     pub(super) strict: bool,
 }
 
-/// Which files are which stage and which program.
+/// Which files are which stage, and which form a program.
 #[derive(Args, Clone, Debug)]
 #[command(next_help_heading = "Programs")]
 pub(super) struct ProgramArgs {
-    /// The stage of standard input, and of files whose name does not tell it (of a single file in any case)
+    /// The stage of standard input, and of files whose name does not say (for a single file, always)
     #[arg(long, value_enum)]
     pub(super) stage: Option<StageArg>,
-    /// Files that make one program together (repeatable)
+    /// Files that form one program (repeatable)
     #[arg(long = "program", value_name = "A.vert,B.frag")]
     pub(super) programs: Vec<String>,
 }
@@ -61,17 +61,17 @@ impl SourceArgs {
     }
 }
 
-/// What is said of findings.
+/// The levels and the format of diagnostics.
 #[derive(Args, Clone, Debug)]
 #[command(next_help_heading = "Diagnostics")]
 pub(super) struct LevelArgs {
-    /// Drops warnings of that code
+    /// Drop warnings with this code
     #[arg(long, value_name = "CODE", value_delimiter = ',')]
     allow: Vec<String>,
-    /// Makes warnings of that code
+    /// Report diagnostics with this code as warnings
     #[arg(long, value_name = "CODE", value_delimiter = ',')]
     warn: Vec<String>,
-    /// Makes errors of that code, or of all `warnings`
+    /// Report diagnostics with this code as errors; `warnings` stands for all warnings
     #[arg(long, value_name = "CODE|warnings", value_delimiter = ',')]
     deny: Vec<String>,
     /// The format of diagnostics
@@ -80,7 +80,7 @@ pub(super) struct LevelArgs {
 }
 
 impl LevelArgs {
-    /// The levels, if all codes are known and no code has two.
+    /// The levels, if all codes are known and no code has two levels.
     pub(super) fn levels(&self) -> Result<Levels, Failure> {
         let mut levels = Levels::default();
         let lists = [
@@ -100,7 +100,7 @@ impl LevelArgs {
     }
 }
 
-/// Gives one code, or all `warnings`, a level; else says what is wrong and what may have been meant.
+/// Sets the level of one code, or of all `warnings`. On failure, returns the message and a suggestion.
 pub(super) fn set_level(levels: &mut Levels, level: Level, key: &str) -> Result<(), (String, Option<String>)> {
     if key == "warnings" {
         if level == Level::Deny {
@@ -125,25 +125,25 @@ pub(super) fn set_level(levels: &mut Levels, level: Level, key: &str) -> Result<
     Ok(())
 }
 
-/// The code or name of a code that is nearest to `key`.
+/// The identifier or name of the code that is most similar to `key`.
 pub(super) fn nearest_code(key: &str) -> Option<&'static str> {
     let names = || codes::all().flat_map(|code: &'static Code| [code.id, code.name]);
     let letters = did_you_mean(&key.to_ascii_uppercase(), codes::all().map(|code| code.id));
     did_you_mean(key, names()).or(letters).or_else(|| {
-        // Part of a name: `undeclared` for `undeclared-identifier`.
+        // A part of a name: `undeclared` for `undeclared-identifier`.
         let lower = key.to_ascii_lowercase();
         codes::all().map(|code| code.name).find(|name| lower.len() >= 3 && name.contains(lower.as_str()))
     })
 }
 
-/// Places by name, as `glBindAttribLocation` and `glBindFragDataLocation` give them.
+/// Locations by name, as set by `glBindAttribLocation` and `glBindFragDataLocation`.
 #[derive(Args, Clone, Debug, Default)]
 #[command(next_help_heading = "Bindings")]
 pub(super) struct BindingArgs {
-    /// Binds a vertex attribute to a location (glBindAttribLocation)
+    /// Bind a vertex attribute to a location (glBindAttribLocation)
     #[arg(long = "bind-attrib", value_name = "NAME=LOCATION", value_parser = parse_binding)]
     attributes: Vec<(String, u32)>,
-    /// Binds a fragment output to a color number (glBindFragDataLocation)
+    /// Bind a fragment output to a color number (glBindFragDataLocation)
     #[arg(long = "bind-frag-data", value_name = "NAME=COLOR_NUMBER", value_parser = parse_binding)]
     frag_data: Vec<(String, u32)>,
 }
@@ -152,19 +152,19 @@ pub(super) struct BindingArgs {
 #[derive(Args, Clone, Debug)]
 #[command(next_help_heading = "Conventions")]
 pub(super) struct ConventionArgs {
-    /// The range of clip space z that the target clips to
+    /// The range of clip-space z to which the target clips
     #[arg(long, value_enum, default_value_t)]
     clip_z: ClipZArg,
-    /// Where row 0 of the framebuffer is (lower-left flips in the vertex stage)
+    /// The position of row 0 of the framebuffer (lower-left flips y in the vertex stage)
     #[arg(long, value_enum, default_value_t)]
     window_origin: WindowOriginArg,
-    /// Whether SPIR-V is written for y up (as wgpu arranges) or for a plain Vulkan viewport
+    /// Whether SPIR-V is for y up (as wgpu provides) or for a plain Vulkan viewport
     #[arg(long, value_enum, default_value_t)]
     spirv_env: SpirvEnvArg,
     /// How many clip distances are enabled (default: all that are written)
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=8))]
     clip_distances: Option<u32>,
-    /// Lets gl_PointSize count; without it points are one pixel wide
+    /// Enable gl_PointSize; without it, points are one pixel wide
     #[arg(long)]
     program_point_size: bool,
 }
@@ -206,7 +206,7 @@ enum WindowOriginArg {
     /// No flip: upright on the screen
     #[default]
     UpperLeft,
-    /// Flipped, so that a texture rendered to holds OpenGL's rows
+    /// Flipped, so that a render target contains OpenGL's rows
     LowerLeft,
 }
 

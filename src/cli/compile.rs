@@ -1,7 +1,7 @@
-//! `glisten compile`: programs to texts and words for targets, with the reflection beside them.
+//! `glisten compile`: translates programs to target languages and writes their reflection.
 //!
-//! *Holds:* of a program with errors nothing is written. All outputs are known by name before any work begins, so that
-//! two programs that would write the same file are refused at once.
+//! *Holds:* nothing is written for a program with errors. The names of all outputs are known before any work begins,
+//! so two programs that would write the same file are rejected at once.
 
 use super::args::{BindingArgs, ConventionArgs, LevelArgs, ProgramArgs, SourceArgs};
 use super::console::Console;
@@ -24,31 +24,31 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::PathBuf;
 
-/// Translates programs to WGSL, SPIR-V and others, and writes their reflection
+/// Translate programs to WGSL, SPIR-V and other targets, and write their reflection
 #[derive(Args, Debug)]
 pub(super) struct CompileArgs {
     /// Shaders, or `-` for standard input
     #[arg(required_unless_present = "programs", value_name = "FILE")]
     files: Vec<String>,
-    /// The folder to write to
+    /// The output folder
     #[arg(short, long, value_name = "DIR", required_unless_present_any = ["check", "emit"])]
     output: Option<PathBuf>,
-    /// What to write (repeatable; default: wgsl and spirv)
+    /// The target to write (repeatable; default: wgsl and spirv)
     #[arg(long = "target", value_enum)]
     targets: Vec<TargetArg>,
-    /// Checks everything and writes nothing
+    /// Check everything, but write nothing
     #[arg(long)]
     check: bool,
-    /// Prints what is between the languages instead of writing files
+    /// Print the typed program (HIR) instead of writing files
     #[arg(long, value_enum, conflicts_with_all = ["output", "depfile", "check"])]
     emit: Option<EmitArg>,
-    /// Writes a Make rule of all outputs, inputs and includes
+    /// Write a Make rule with all outputs, inputs and includes
     #[arg(long, value_name = "FILE")]
     depfile: Option<PathBuf>,
-    /// Puts source lines into SPIR-V
+    /// Write source lines into SPIR-V
     #[arg(short = 'g')]
     debug_lines: bool,
-    /// How many threads (0: one a core)
+    /// The number of threads (0: one per core)
     #[arg(short, long, default_value_t = 0, value_name = "N")]
     jobs: usize,
     #[command(flatten)]
@@ -63,10 +63,10 @@ pub(super) struct CompileArgs {
     levels: LevelArgs,
 }
 
-/// What `--emit` prints.
+/// The intermediate form that `--emit` prints.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum EmitArg {
-    /// The typed program as GLSL: conversions explicit, constants folded
+    /// The typed program as GLSL, with explicit conversions and folded constants
     Hir,
 }
 
@@ -91,7 +91,7 @@ impl TargetArg {
         }
     }
 
-    /// What is put behind the file's name.
+    /// The extension that is appended to the file's name.
     fn extension(self) -> &'static str {
         match self {
             Self::Wgsl => "wgsl",
@@ -146,7 +146,7 @@ pub(super) fn run(args: &CompileArgs, console: &Console) -> Outcome {
     Ok(exit)
 }
 
-/// What is written where.
+/// The outputs and where to write them.
 struct Plan {
     folder: PathBuf,
     targets: BTreeSet<TargetArg>,
@@ -170,7 +170,7 @@ impl Plan {
     fn names(&self, group: &Group) -> Vec<String> {
         let mut names: Vec<String> = Vec::new();
         for stage in Stage::ALL {
-            // Several files of one stage give one output, named after the first.
+            // Several files of one stage have one output, which is named after the first.
             if let Some(input) = group.inputs.iter().find(|input| input.stage == stage) {
                 let file = input.file_name();
                 names.extend(self.targets.iter().map(|target| format!("{file}.{}", target.extension())));
@@ -208,7 +208,7 @@ impl Plan {
         Ok(())
     }
 
-    /// The outputs of one program; none if there are errors already.
+    /// The outputs of one program; none if there are errors.
     fn emit(&self, unit: &Unit) -> Result<Vec<Output>, Vec<Diagnostic>> {
         let Some(program) = unit.sound_program() else { return Ok(Vec::new()) };
         guard::guarded(|| self.emit_program(&unit.group, program, &unit.batch.sources)).unwrap_or_else(|panic| {
@@ -253,7 +253,7 @@ impl Plan {
         outputs.iter().try_for_each(|(path, bytes)| files::write(path, bytes))
     }
 
-    /// One rule: all outputs, then all inputs and includes, each once.
+    /// One rule: all outputs, then all inputs and includes without repetitions.
     fn make_rule(&self, units: &[Unit]) -> String {
         let targets: Vec<String> = units
             .iter()
@@ -276,7 +276,7 @@ impl Plan {
     }
 }
 
-/// All stages of all programs, each headed by its file's name.
+/// All stages of all programs, each under the name of its file.
 fn typed_programs(units: &[Unit]) -> String {
     let mut text = String::new();
     for unit in units {
@@ -299,8 +299,8 @@ fn files_of(group: &Group) -> String {
     group.inputs.iter().map(|input| format!("`{}`", input.name)).collect::<Vec<_>>().join(", ")
 }
 
-/// A lone shader that lacks a function is sound as a part of a program, which `lint` has to grant, but nothing can be
-/// emitted for it: its warnings are errors here.
+/// Turns the warnings of a single shader that lacks a function into errors. Such a shader is valid as part of a
+/// program, which `lint` accepts, but nothing can be emitted for it.
 fn refuse_what_is_no_program(unit: &mut Unit) {
     if unit.program.is_some() {
         return;
@@ -310,7 +310,7 @@ fn refuse_what_is_no_program(unit: &mut Unit) {
             diagnostic.severity = Severity::Error;
         }
     }
-    // Counts the errors anew.
+    // Counts the errors again.
     unit.batch.diagnostics.retain(|_| true);
 }
 

@@ -1,4 +1,4 @@
-//! `glisten.toml`: the levels of a project, looked for upwards from each source.
+//! `glisten.toml`: the levels of a project, found by searching upwards from each source.
 //!
 //! ```toml
 //! [lint]
@@ -7,7 +7,7 @@
 //! deny = ["warnings"]
 //! ```
 //!
-//! *Holds:* the nearest file counts alone; a level on the command line beats it.
+//! *Holds:* only the nearest file counts; a level on the command line takes precedence.
 
 use super::args::set_level;
 use super::files;
@@ -41,16 +41,16 @@ struct LintTable {
     deny: Vec<Spanned<String>>,
 }
 
-/// The configurations of all folders met so far, under the levels of the command line.
+/// The configurations of all folders so far, completed by the levels of the command line.
 pub(super) struct Configs {
     given: Levels,
     by_folder: BTreeMap<PathBuf, Levels>,
-    /// What is wrong with the configurations themselves.
+    /// The errors in the configurations themselves.
     pub(super) errors: Vec<Batch>,
 }
 
 impl Configs {
-    /// Configurations under the levels that the command line gives.
+    /// An empty set of configurations, with the levels of the command line.
     pub(super) fn new(given: Levels) -> Self {
         Self { given, by_folder: BTreeMap::new(), errors: Vec::new() }
     }

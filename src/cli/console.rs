@@ -1,13 +1,13 @@
-//! [`Console`]: the only place where anything is printed.
+//! [`Console`]: the only place that prints.
 //!
-//! *Holds:* results go to standard output, everything else to standard error. A reader that went away ends the program
-//! in silence; any other failure to write is told.
+//! *Holds:* results go to standard output, everything else to standard error. If the reader of standard output goes
+//! away, the program ends silently; any other failure to write is reported.
 
 use super::exit::Failure;
 use clap::ValueEnum;
 use std::io::{self, IsTerminal, Write};
 
-/// When to color.
+/// When to use colors.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(super) enum ColorChoice {
     /// If the output is a terminal and `NO_COLOR` is not set.
@@ -19,7 +19,7 @@ pub(super) enum ColorChoice {
     Never,
 }
 
-/// Standard output and standard error with the user's wishes about them.
+/// Standard output and standard error, with the user's settings for them.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Console {
     quiet: bool,
@@ -32,22 +32,22 @@ impl Console {
         Self { quiet, color }
     }
 
-    /// Whether progress and summaries are to be left out.
+    /// Whether to omit progress and summaries.
     pub(super) fn is_quiet(&self) -> bool {
         self.quiet
     }
 
-    /// Whether standard error is a terminal that a person looks at.
+    /// Whether standard error is a terminal.
     pub(super) fn is_watched(&self) -> bool {
         !self.quiet && io::stderr().is_terminal() && std::env::var_os("TERM").is_none_or(|term| term != "dumb")
     }
 
-    /// Whether what goes to standard output is to be colored.
+    /// Whether to color standard output.
     pub(super) fn colors_output(&self) -> bool {
         self.colors(&io::stdout())
     }
 
-    /// Whether what goes to standard error is to be colored.
+    /// Whether to color standard error.
     pub(super) fn colors_messages(&self) -> bool {
         self.colors(&io::stderr())
     }
@@ -74,20 +74,20 @@ impl Console {
         }
     }
 
-    /// Writes to standard error. Where that fails there is nobody left to tell.
+    /// Writes to standard error. A failure is ignored, since there is no other place to report it.
     pub(super) fn message(&self, text: &str) {
         let mut stderr = io::stderr().lock();
         let _ = stderr.write_all(text.as_bytes()).and_then(|()| stderr.flush());
     }
 
-    /// Writes a line to standard error that `--quiet` leaves out.
+    /// Writes a line to standard error, which `--quiet` omits.
     pub(super) fn remark(&self, text: &str) {
         if !self.quiet {
             self.message(&format!("{text}\n"));
         }
     }
 
-    /// Tells of a failure.
+    /// Reports a failure.
     pub(super) fn failure(&self, message: &str, help: Option<&str>) {
         let (red, bold, off) = if self.colors_messages() { ("\x1b[1;31m", "\x1b[1m", "\x1b[0m") } else { ("", "", "") };
         let mut text = format!("{red}error{off}{bold}: {message}{off}\n");

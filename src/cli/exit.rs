@@ -1,24 +1,24 @@
-//! How a command ends: exit codes, and failures that are no diagnostics of a source.
+//! How a command ends: exit codes, and failures that are not diagnostics of a source.
 
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::{general, preprocess, scenes};
 use std::process::ExitCode;
 
-/// The exit codes, from the best to the worst; the worst that applies wins.
+/// The exit codes, from the best to the worst. The worst one that applies is returned.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Exit {
-    /// 0: done, nothing wrong found.
+    /// 0: success, nothing wrong found.
     #[default]
     Ok,
-    /// 1: the content of an input has errors, or a check did not hold.
+    /// 1: an input has errors, or a check did not hold.
     Content,
-    /// 2: wrong usage; a file is missing, unreadable, a folder, or cannot be written.
+    /// 2: wrong usage; or a file is missing, unreadable, a folder, or cannot be written.
     Usage,
     /// 3: the machine lacks something.
     Machine,
 }
 
-/// Codes of errors about files rather than their content.
+/// The codes of errors about files rather than about their content.
 static FILE_CODES: &[&str] = &[
     general::FILE_NOT_FOUND.id,
     general::FILE_UNREADABLE.id,
@@ -28,7 +28,7 @@ static FILE_CODES: &[&str] = &[
 ];
 
 impl Exit {
-    /// What a list of findings comes to.
+    /// The exit code of a list of diagnostics.
     pub(super) fn of<'a>(diagnostics: impl IntoIterator<Item = &'a Diagnostic>) -> Self {
         diagnostics.into_iter().filter(|diagnostic| diagnostic.is_error()).map(Self::of_error).max().unwrap_or_default()
     }
@@ -44,19 +44,19 @@ impl From<Exit> for ExitCode {
     }
 }
 
-/// Why a command cannot go on.
+/// Why a command cannot continue.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) enum Failure {
-    /// Something to tell the user.
+    /// A failure to report to the user.
     Told {
         /// The exit code.
         exit: Exit,
-        /// What went wrong, without a full stop.
+        /// The message, without a full stop.
         message: String,
-        /// What to do.
+        /// The help text.
         help: Option<String>,
     },
-    /// Nobody reads standard output any more: end without a word.
+    /// Standard output was closed by its reader: end silently.
     OutputClosed,
 }
 
@@ -71,7 +71,7 @@ impl Failure {
         Self::Told { exit, message: message.into(), help: None }
     }
 
-    /// Says what to do.
+    /// Adds a help text.
     pub(super) fn help(self, help: impl Into<String>) -> Self {
         match self {
             Self::Told { exit, message, .. } => Self::Told { exit, message, help: Some(help.into()) },
@@ -80,5 +80,5 @@ impl Failure {
     }
 }
 
-/// What a command comes to.
+/// The result of a command.
 pub(super) type Outcome = Result<Exit, Failure>;

@@ -1,4 +1,4 @@
-//! `glisten explain`: the page of a diagnostic, from the registry of codes.
+//! `glisten explain`: prints the page of a diagnostic from the registry of codes.
 
 use super::args::nearest_code;
 use super::console::Console;
@@ -7,13 +7,13 @@ use clap::Args;
 use glisten_front::diagnostic::{Code, Example, codes};
 use glisten_front::hir::Stage;
 
-/// Shows what a diagnostic means, with a bad and a good example
+/// Show what a diagnostic means, with a bad and a good example
 #[derive(Args, Debug)]
 pub(super) struct ExplainArgs {
     /// A code or its name: `E0301`, `undeclared-identifier`
     #[arg(required_unless_present = "list")]
     code: Option<String>,
-    /// Names all codes
+    /// List all codes
     #[arg(long, conflicts_with = "code")]
     list: bool,
 }
@@ -42,7 +42,7 @@ fn list() -> String {
     codes::all().map(|code| format!("{:6} {:8} {}\n", code.id, code.severity, code.name)).collect()
 }
 
-/// The page as it is printed: head, what it means, section, examples.
+/// The printed page: heading, meaning, section, examples.
 fn page(code: &Code) -> String {
     let mut text = format!("{} {} ({})\n\n{}\n", code.id, code.name, code.severity, wrap(code.page));
     if !code.section.is_empty() {
@@ -80,7 +80,7 @@ fn example(title: &str, example: Example) -> String {
         .collect()
 }
 
-/// Fills paragraphs to lines of at most 80 characters.
+/// Wraps paragraphs to lines of at most 80 characters.
 fn wrap(text: &str) -> String {
     const WIDTH: usize = 80;
     let mut lines = vec![String::new()];

@@ -1,4 +1,4 @@
-//! Files: read whole with a clear word about each thing that can be wrong, written whole or not at all.
+//! Reads files completely, with a clear message for each possible failure, and writes them completely or not at all.
 
 use super::exit::Failure;
 use glisten_front::diagnostic::codes::general;
@@ -9,17 +9,17 @@ use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// The largest file that is read at all. Sources have a smaller limit of their own, told by its own code.
+/// The largest file that is read at all. Sources have a smaller limit of their own, with its own code.
 const MAX_BYTES: u64 = 64 << 20;
 
-/// Why a file cannot be had: a code and a sentence that names the file.
+/// Why a file cannot be read: a code, and a sentence that names the file.
 #[derive(Debug)]
 pub(super) struct ReadError {
-    /// The rule.
+    /// The code.
     pub(super) code: &'static Code,
-    /// What is wrong.
+    /// The message.
     pub(super) message: String,
-    /// What to do.
+    /// The help text.
     pub(super) help: Option<String>,
 }
 
@@ -79,7 +79,7 @@ fn read_error(name: &str, path: &Path, error: &io::Error) -> ReadError {
     not_found
 }
 
-/// A file beside the missing one whose name is like its own.
+/// A file next to the missing one whose name is similar.
 fn nearest_file(path: &Path) -> Option<PathBuf> {
     let folder = path.parent()?;
     let listed = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
@@ -93,7 +93,7 @@ fn nearest_file(path: &Path) -> Option<PathBuf> {
     glisten_front::diagnostic::did_you_mean(wanted, names.iter().map(String::as_str)).map(|name| folder.join(name))
 }
 
-/// The text in `bytes`, if they are text.
+/// The text of `bytes`, if they are text.
 pub(super) fn text_of(name: &str, bytes: Vec<u8>) -> Result<Arc<str>, ReadError> {
     if bytes.iter().all(u8::is_ascii_whitespace) {
         let mut empty = ReadError::new(&general::EMPTY_SOURCE, format!("`{name}` is empty"));
@@ -111,7 +111,7 @@ pub(super) fn text_of(name: &str, bytes: Vec<u8>) -> Result<Arc<str>, ReadError>
     })
 }
 
-/// `None` for text, else what the bytes look like, if that can be told.
+/// `None` for text; otherwise the apparent file type, if it is known.
 fn binary(bytes: &[u8]) -> Option<Option<&'static str>> {
     static MAGIC: &[(&[u8], &str)] = &[
         (&[0x03, 0x02, 0x23, 0x07], "it looks like SPIR-V; glisten takes the GLSL text"),
@@ -123,13 +123,13 @@ fn binary(bytes: &[u8]) -> Option<Option<&'static str>> {
     let known = MAGIC.iter().find(|(magic, _)| bytes.starts_with(magic)).map(|(_, what)| *what);
     let has_nul = bytes.contains(&0);
     let odd = bytes.iter().filter(|byte| !byte.is_ascii_graphic() && !byte.is_ascii_whitespace()).count();
-    // UTF-8 of other scripts in comments is legal, so bytes above 127 count only where they are no UTF-8.
+    // Other scripts in comments are legal as UTF-8, so bytes above 127 count only if they are not UTF-8.
     let mostly_odd = odd * 10 > bytes.len() * 3 && std::str::from_utf8(bytes).is_err();
     (has_nul || mostly_odd || known.is_some()).then_some(known)
 }
 
-/// Writes a file whole: to a temporary name beside it, then renamed. What is no regular file (a pipe, `/dev/null`) is
-/// written to as it is.
+/// Writes a file completely: to a temporary name next to it, which is then renamed. Anything but a regular file (a
+/// pipe, `/dev/null`) is written to directly.
 pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     let failed = |error: &io::Error| Failure::usage(format!("cannot write `{}`: {error}", path.display()));
     match fs::metadata(path) {
@@ -142,7 +142,7 @@ pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
         }
         _ => {}
     }
-    // A link is followed, so that it stays a link.
+    // A link is followed, so that it remains a link.
     let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
     let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let mut file = builder().tempfile_in(folder).map_err(|error| failed(&error))?;
@@ -150,7 +150,7 @@ pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     file.persist(&target).map(drop).map_err(|error| failed(&error.error))
 }
 
-/// Temporary files get the permissions of any new file rather than those of a secret.
+/// Gives temporary files the permissions of any new file rather than restricted ones.
 fn builder() -> tempfile::Builder<'static, 'static> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(".glisten-");
@@ -162,7 +162,7 @@ fn builder() -> tempfile::Builder<'static, 'static> {
     builder
 }
 
-/// Makes a folder and those above it.
+/// Creates a folder and its parents.
 pub(super) fn make_folder(path: &Path) -> Result<(), Failure> {
     if path.exists() && !path.is_dir() {
         return Err(Failure::usage(format!("`{}` is a file, not a folder", path.display())));

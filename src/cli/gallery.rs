@@ -1,4 +1,4 @@
-//! `glisten gallery`: every scene of the library drawn onto one page.
+//! `glisten gallery`: draws every scene of the library onto one page.
 
 use super::console::Console;
 use super::exit::{Exit, Failure, Outcome};
@@ -14,34 +14,34 @@ use glisten_reference::{LineRule, Precision, RenderOptions};
 use glisten_scene::compare::Picture;
 use std::path::PathBuf;
 
-/// Columns of the contact sheet.
+/// The number of columns of the contact sheet.
 const COLUMNS: u32 = 7;
-/// Width of a picture on the contact sheet, in pixels, and what is between two.
+/// The width of a picture on the contact sheet, in pixels, and the gap between two.
 const SIDE: u32 = 156;
 const GAP: u32 = 4;
-/// The largest pictures, in pixels.
+/// The largest size of a picture, in pixels.
 const MAX_SIZE: i64 = 2048;
 
-/// Draws every scene of the library onto a page
+/// Draw every scene of the library onto a page
 #[derive(Args, Debug)]
 pub(super) struct GalleryArgs {
-    /// The folder for index.html, a picture of each scene, and gallery.png with all of them
+    /// The folder for index.html, a picture of each scene, and gallery.png with all pictures
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
-    /// Who draws
+    /// The backend
     #[arg(long, value_enum, default_value_t)]
     backend: Backend,
-    /// What the GPU runs
+    /// The form of the code that the GPU runs
     #[arg(long, value_enum, default_value_t)]
     via: ViaArg,
-    /// Width of the pictures in pixels
+    /// The width of the pictures in pixels
     #[arg(long, value_name = "PIXELS", default_value_t = 320, value_parser = clap::value_parser!(u32).range(8..=MAX_SIZE))]
     size: u32,
     #[command(flatten)]
     machine: MachineArgs,
 }
 
-/// What draws.
+/// The backend that draws.
 enum Painter {
     Gpu(Box<Gpu>, Via),
     Cpu,
@@ -72,7 +72,7 @@ pub(super) fn run(args: &GalleryArgs, console: &Console) -> Outcome {
     }
     let sheet = gallery::contact_sheet(&tiles, COLUMNS, SIDE, GAP).png().map_err(internal)?;
     files::write(&args.output.join(gallery::SHEET), &sheet)?;
-    // Last, so that a page that is there names pictures that are there.
+    // Last, so that a page always refers to pictures that exist.
     let path = args.output.join(gallery::PAGE);
     files::write(&path, page.as_bytes())?;
     console.remark(&format!("wrote {}", path.display()));
@@ -110,7 +110,7 @@ impl Painter {
     }
 }
 
-/// The library's own shaders have no findings to show; what there is of them is one sentence.
+/// A failure as one sentence: the library's own shaders have no diagnostics to show.
 fn failure(error: DrawError) -> Failure {
     match error {
         DrawError::Failure(failure) => failure,

@@ -1,4 +1,4 @@
-//! Slips of glisten's own: a panic in a job becomes a sentence to report, never a raw message and never the end of the
+//! Handles internal errors: a panic in a job becomes a sentence to report, never a raw message, and never ends the
 //! other jobs.
 
 use glisten_front::diagnostic::Diagnostic;
@@ -8,11 +8,11 @@ use std::any::Any;
 use std::panic::{self, AssertUnwindSafe};
 use std::sync::Mutex;
 
-/// Messages and places of panics so far. A job may panic on a thread that it started itself, so the place is found by
-/// the message.
+/// The messages and positions of panics so far. A job may panic on a thread that it started itself, so the position
+/// is found by the message.
 static SEEN: Mutex<Vec<(String, String)>> = Mutex::new(Vec::new());
 
-/// Keeps panics from being printed; [`guarded`] tells of them.
+/// Keeps panics from being printed; [`guarded`] reports them.
 pub(super) fn silence_panics() {
     panic::set_hook(Box::new(|info| {
         let place = info.location().map(ToString::to_string).unwrap_or_default();
@@ -22,9 +22,9 @@ pub(super) fn silence_panics() {
     }));
 }
 
-/// Runs a job; a panic in it comes back as what it said and where.
+/// Runs a job. A panic in it is returned as its message and position.
 pub(super) fn guarded<R>(job: impl FnOnce() -> R) -> Result<R, String> {
-    // A job that panicked is dropped whole; nothing of its state is looked at again.
+    // A job that panicked is dropped; nothing examines its state again.
     panic::catch_unwind(AssertUnwindSafe(job)).map_err(|payload| {
         let message = text_of(payload.as_ref());
         let seen = SEEN.lock().ok();
@@ -36,7 +36,7 @@ pub(super) fn guarded<R>(job: impl FnOnce() -> R) -> Result<R, String> {
     })
 }
 
-/// What a panic in the compilation of the text at `span` is told as.
+/// The diagnostic for a panic in the compilation of the text at `span`.
 pub(super) fn diagnostic(what: &str, span: Span) -> Diagnostic {
     let first = what.lines().next().unwrap_or_default();
     Diagnostic::new(&INTERNAL, span, format!("internal error: {first}"))

@@ -1,22 +1,22 @@
-//! [`DiskIncludes`]: finds on disk what `#include` names.
+//! [`DiskIncludes`]: finds the files that `#include` names on disk.
 //!
-//! *Holds:* `"x"` is looked for beside the including file, then along `-I` in the order given; `<x>` along `-I`, then among
-//! the embedded modules (`<glisten/phong.glsl>`).
-//! An include found is named by the path that led to it, so that diagnostics and depfiles show a path that opens.
+//! *Holds:* `"x"` is searched next to the including file, then in the `-I` folders in order; `<x>` in the `-I`
+//! folders, then among the embedded modules (`<glisten/phong.glsl>`). The name of an included file is the path under
+//! which it was found, so that diagnostics and depfiles show a path that opens.
 
 use super::files;
 use crate::library::{self, Embedded};
 use glisten_front::source::{IncludeForm, IncludeResolver, Included};
 use std::path::{Component, Path, PathBuf};
 
-/// Files beside the including one and along a search path.
+/// Finds files next to the including one and along a search path.
 #[derive(Clone, Debug)]
 pub(super) struct DiskIncludes {
     folders: Vec<PathBuf>,
 }
 
 impl DiskIncludes {
-    /// Looks along `folders` (`-I`).
+    /// A resolver that searches `folders` (`-I`).
     pub(super) fn new(folders: &[PathBuf]) -> Self {
         Self { folders: folders.to_vec() }
     }
@@ -42,7 +42,7 @@ impl IncludeResolver for DiskIncludes {
                 continue;
             }
             let name = candidate.to_string_lossy().into_owned();
-            // An included file may well be empty; everything else is as with a source.
+            // An included file may be empty; otherwise the same rules hold as for a source.
             let bytes = files::read(&name, candidate).map_err(|error| error.message)?;
             let text = if bytes.is_empty() {
                 "".into()
@@ -65,7 +65,8 @@ impl IncludeResolver for DiskIncludes {
     }
 }
 
-/// The path without `.` and without `x/..`, as far as that can be told without looking (a leading `..` stays).
+/// The path without `.` and without `x/..`, as far as that is possible without reading the disk (a leading `..`
+/// stays).
 fn normal(path: &Path) -> PathBuf {
     let mut normal = PathBuf::new();
     for component in path.components() {

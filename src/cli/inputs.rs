@@ -1,9 +1,9 @@
-//! Which files a command works on, and which of them are one program.
+//! Which files a command works on, and which of them form one program.
 //!
-//! *In:* names on the command line. *Out:* [`Group`]s in the order in which they were named: files with the same
-//! folder and stem and different stages, and each `--program`.
+//! *In:* names on the command line. *Out:* [`Group`]s in the order of their first names: files with the same folder
+//! and stem and different stages, and each `--program`.
 //!
-//! *Holds:* a file that is named twice counts once; a file that stands in a `--program` makes no group of its own.
+//! *Holds:* a file that is named twice counts once; a file in a `--program` forms no group of its own.
 
 use super::args::ProgramArgs;
 use super::exit::Failure;
@@ -28,7 +28,7 @@ pub(super) struct Input {
 }
 
 impl Input {
-    /// The name that outputs take: `phong.vert`; of standard input `stdin.vert`.
+    /// The name for its outputs: `phong.vert`; for standard input, `stdin.vert`.
     pub(super) fn file_name(&self) -> String {
         match &self.path {
             Some(path) => path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default(),
@@ -41,39 +41,39 @@ impl Input {
         }
     }
 
-    /// The name without what tells the stage.
+    /// The name without the part that says the stage.
     pub(super) fn stem(&self) -> String {
         self.path.as_deref().map_or("stdin".to_owned(), stages::stem)
     }
 }
 
-/// Files that are one program.
+/// Files that form one program.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Group {
     /// The stem of the first file.
     pub(super) name: String,
-    /// At least one.
+    /// The inputs, at least one.
     pub(super) inputs: Vec<Input>,
 }
 
 impl Group {
-    /// Whether a stage is alone that will need a partner.
+    /// Whether it has only one stage, which will need a partner.
     pub(super) fn is_lone(&self) -> bool {
         self.inputs.iter().all(|input| Some(input.stage) == self.inputs.first().map(|first| first.stage))
     }
 }
 
-/// What the command line comes to.
+/// The inputs that the command line names.
 #[derive(Debug, Default)]
 pub(super) struct Inputs {
     /// The programs.
     pub(super) groups: Vec<Group>,
-    /// Folders in which no shader was found.
+    /// Folders that contain no shader.
     pub(super) empty_folders: Vec<String>,
 }
 
-/// Collects the inputs of a command. Folders are searched only if `scans` is set; else they stay in the list, and
-/// reading them tells what they are.
+/// Collects the inputs of a command. Folders are searched only if `scans` is set. Otherwise they stay in the list,
+/// and reading them gives the error.
 pub(super) fn collect(files: &[String], args: &ProgramArgs, scans: bool) -> Result<Inputs, Failure> {
     let mut inputs = Inputs::default();
     let mut named = Vec::new();
@@ -111,7 +111,7 @@ pub(super) fn collect(files: &[String], args: &ProgramArgs, scans: bool) -> Resu
     Ok(inputs)
 }
 
-/// What makes two names the same file.
+/// A key that is equal for two names of the same file.
 fn identity(name: &str) -> PathBuf {
     if name == STDIN { PathBuf::from(STDIN) } else { fs::canonicalize(name).unwrap_or_else(|_| PathBuf::from(name)) }
 }
@@ -127,7 +127,7 @@ fn input(name: &str, args: &ProgramArgs, alone: bool) -> Result<Input, Failure> 
     let path = PathBuf::from(name);
     let told = stages::by_name(&path);
     let stage = if alone { given.or(told) } else { told.or(given) };
-    // What is no readable file is told when it is read; its stage does not matter then.
+    // Reading reports what is not a readable file; its stage does not matter then.
     let stage = stage.or_else(|| (!path.is_file()).then_some(Stage::Vertex));
     match stage {
         Some(stage) => Ok(Input { name: name.to_owned(), path: Some(path), stage }),
@@ -136,8 +136,8 @@ fn input(name: &str, args: &ProgramArgs, alone: bool) -> Result<Input, Failure> 
     }
 }
 
-/// Adds all shaders in a folder and those below it, in the order of their names. Hidden folders are left out, and links
-/// to folders are not followed, so that a circle of links is no trouble.
+/// Adds all shaders in a folder and its subfolders, in the order of their names. Hidden folders are skipped, and
+/// links to folders are not followed, so that a cycle of links does no harm.
 fn scan(folder: &Path, found: &mut Vec<String>) -> Result<(), Failure> {
     let mut pending = vec![folder.to_owned()];
     let mut files = Vec::new();
@@ -161,7 +161,7 @@ fn scan(folder: &Path, found: &mut Vec<String>) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Groups files by folder and stem; each stage stands in a group once.
+/// Groups files by folder and stem; each stage occurs at most once in a group.
 fn group(inputs: Vec<Input>) -> Vec<Group> {
     let mut groups: Vec<((PathBuf, String), Group)> = Vec::new();
     for input in inputs {
@@ -178,7 +178,7 @@ fn group(inputs: Vec<Input>) -> Vec<Group> {
     groups.into_iter().map(|(_, group)| group).map(in_pipeline_order).collect()
 }
 
-/// Stages in the order of the pipeline, so that the order of names on the command line changes nothing.
+/// Sorts the stages in pipeline order, so that the order on the command line does not matter.
 fn in_pipeline_order(mut group: Group) -> Group {
     group.inputs.sort_by_key(|input| input.stage);
     group

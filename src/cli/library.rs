@@ -1,4 +1,5 @@
-//! `glisten lib`: the library of lighting models as a list, a page a module, files, and figures of its errors.
+//! `glisten lib`: the library of lighting models as a list, as one page per module, as files, and as a table of its
+//! errors.
 
 use super::console::Console;
 use super::exit::{Exit, Failure, Outcome};
@@ -13,7 +14,7 @@ use glisten_reference::Precision;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
-/// The library of lighting models
+/// Use the library of lighting models
 #[derive(Args, Debug)]
 pub(super) struct LibArgs {
     #[command(subcommand)]
@@ -22,37 +23,37 @@ pub(super) struct LibArgs {
 
 #[derive(Debug, Subcommand)]
 enum LibCommand {
-    /// Names all modules
+    /// List all modules
     List {
         /// The format of the list
         #[arg(long, value_enum, default_value_t)]
         format: Format,
     },
-    /// Shows a module: its equation, its functions, what they cost and how far they are off
+    /// Show a module: its equation, its functions, their cost and their errors
     Show {
         /// A module or a function: `phong`, `phongFactor`
         name: String,
-        /// Prints the module's text instead
+        /// Print the text of the module instead
         #[arg(long, conflicts_with = "format")]
         source: bool,
         /// The format of the page
         #[arg(long, value_enum, default_value_t)]
         format: Format,
     },
-    /// Writes all modules, and the programs made of them, as files that include each other
+    /// Write all modules, and the programs made of them, as files that include each other
     Export {
-        /// The folder
+        /// The output folder
         #[arg(value_name = "DIR")]
         folder: PathBuf,
     },
-    /// Measures every function against its closed form in f64
+    /// Measure every function against its closed form in f64
     Measure {
-        /// Modules; all without any
+        /// The modules to measure (default: all)
         modules: Vec<String>,
-        /// Random inputs for each function
+        /// The number of random inputs for each function
         #[arg(long, value_name = "N", default_value_t = 4096, value_parser = clap::value_parser!(u32).range(1..=262_144))]
         rows: u32,
-        /// The CPU reference alone, or the GPU as well
+        /// The CPU reference only, or the GPU as well
         #[arg(long, value_enum, default_value_t)]
         backend: Backend,
         /// The GPU to use, by a part of its name (default: the first software adapter)
@@ -77,7 +78,7 @@ enum Format {
 enum Backend {
     /// The CPU reference in f64 and f32
     Cpu,
-    /// That and Vulkan through wgpu
+    /// The CPU reference, and Vulkan through wgpu
     #[default]
     Both,
 }
@@ -105,7 +106,7 @@ fn lines(value: &impl Serialize) -> String {
     serde_json::to_string_pretty(value).expect("names and numbers are always JSON") + "\n"
 }
 
-/// The module of that name, or with a function of that name.
+/// The module with this name, or with a function of this name.
 fn find(name: &str) -> Result<Entry, Failure> {
     let file = name.trim_start_matches("glisten/").trim_end_matches(".glsl");
     if let Some(module) = modules().iter().find(|module| module.name == file) {
@@ -124,7 +125,7 @@ fn find(name: &str) -> Result<Entry, Failure> {
     })
 }
 
-/// The function of a module that costs most.
+/// The most expensive function of a module.
 fn dearest(entry: &Entry) -> Option<Cost> {
     entry.functions.iter().map(|function| function.cost).max_by_key(|cost| cost.weight())
 }
@@ -145,7 +146,7 @@ fn list() -> String {
             dearest function. `glisten lib show MODULE` tells more; a shader includes <glisten/MODULE.glsl>.\n"
 }
 
-/// A module as JSON, in the order of the keys.
+/// A module as JSON, with its keys in order.
 #[derive(Serialize)]
 struct Summary<'a> {
     name: &'a str,
@@ -201,7 +202,7 @@ fn show(entry: &Entry, source: bool, format: Format) -> Result<String, Failure> 
     Ok(text)
 }
 
-/// The errors of a function over a few inputs, measured here.
+/// The errors of a function over a few inputs, measured now.
 fn error_of(form: &'static Form) -> Result<String, Failure> {
     let trial = Trial::new(form, 1024).map_err(|error| told(form, &error))?;
     let figures = |precision| trial.reference(precision).map_err(|error| told(form, &error));
@@ -214,7 +215,7 @@ fn error_of(form: &'static Form) -> Result<String, Failure> {
     ))
 }
 
-/// Fills paragraphs to lines of at most 100 characters behind an indent; indented lines stay.
+/// Wraps paragraphs to lines of at most 100 characters after an indent; indented lines are unchanged.
 fn wrapped(text: &str, indent: &str) -> String {
     const WIDTH: usize = 100;
     let mut lines: Vec<String> = Vec::new();
@@ -254,7 +255,7 @@ fn export(folder: &Path, console: &Console) -> Outcome {
     Ok(Exit::Ok)
 }
 
-/// The text of a program's shader with its includes of modules by their place on disk, a folder up.
+/// The text of a program's shader with paths to the modules in place of their include names, one folder up.
 fn from_disk(text: &str) -> String {
     let line = |line: &str| match line.strip_prefix("#include <glisten/").and_then(|rest| rest.strip_suffix('>')) {
         Some(file) => format!("#include \"../{file}\"\n"),
@@ -263,7 +264,7 @@ fn from_disk(text: &str) -> String {
     text.lines().map(line).collect()
 }
 
-/// A function's figures: in f64, in f32, on the GPU.
+/// The figures of a function: in f64, in f32, on the GPU.
 struct Row {
     form: &'static Form,
     wide: Figures,
@@ -293,7 +294,7 @@ fn measure(names: &[String], rows: usize, gpu: Option<&Gpu>, format: Format) -> 
     })
 }
 
-/// A table that is Markdown, too.
+/// The table, which is also Markdown.
 fn table(rows: &[Row]) -> String {
     let head = ["function", "inputs", "f64 (ULP)", "f32", "GPU"].map(str::to_owned);
     let cells = |row: &Row| {
@@ -319,7 +320,7 @@ fn table(rows: &[Row]) -> String {
     all.iter().enumerate().map(|(index, row)| if index == 0 { line(row) + &rule } else { line(row) }).collect()
 }
 
-/// Two digits.
+/// Two significant digits.
 fn short(number: f64) -> String {
     if number == 0.0 {
         "0".to_owned()
@@ -332,7 +333,7 @@ fn short(number: f64) -> String {
     }
 }
 
-/// A row as JSON, in the order of the keys. Infinite errors are null.
+/// A row as JSON, with its keys in order. Infinite errors are null.
 #[derive(Serialize)]
 struct RowJson {
     module: &'static str,

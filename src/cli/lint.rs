@@ -1,4 +1,4 @@
-//! `glisten lint`: validates each file alone, then links the programs, and tells everything that is wrong.
+//! `glisten lint`: validates each file, then links the programs, and reports everything that is wrong.
 
 use super::args::{BindingArgs, DiagnosticFormat, LevelArgs, ProgramArgs, SourceArgs};
 use super::console::Console;
@@ -7,7 +7,7 @@ use super::inputs;
 use super::session::Session;
 use clap::Args;
 
-/// Checks shaders and the programs that they make
+/// Check shaders and the programs that they form
 #[derive(Args, Debug)]
 pub(super) struct LintArgs {
     /// Shaders, folders to search for shaders, or `-` for standard input
@@ -24,7 +24,7 @@ pub(super) struct LintArgs {
     format: Option<DiagnosticFormat>,
     #[command(flatten)]
     bindings: BindingArgs,
-    /// How many threads (0: one a core)
+    /// The number of threads (0: one per core)
     #[arg(short, long, default_value_t = 0, value_name = "N")]
     jobs: usize,
 }

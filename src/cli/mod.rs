@@ -1,10 +1,11 @@
-//! The command line, one file a subcommand. Only here is anything printed, read from the environment, or exited from.
+//! The command line, with one file for each subcommand. Only this module prints, reads the environment, or exits.
 //!
-//! *In:* arguments and files. *Out:* results on standard output and in files, diagnostics on standard error (`lint`: on
-//! standard output), an exit code: 0 nothing wrong found, 1 an input's content is wrong or a check did not hold, 2 wrong
-//! usage or a file that cannot be read or written, 3 the machine lacks something. The highest that applies wins.
+//! *In:* arguments and files. *Out:* results on standard output and in files; diagnostics on standard error (for
+//! `lint` on standard output); an exit code: 0 nothing wrong found, 1 an input has errors or a check did not hold, 2
+//! wrong usage or a file that cannot be read or written, 3 the machine lacks something. The highest one that applies
+//! is returned.
 //!
-//! *Holds:* never a panic, never a half-written file, the same bytes for the same input with any `-j`.
+//! *Holds:* no panics, no half-written files, and the same bytes for the same input with any `-j`.
 
 mod args;
 mod compile;
@@ -37,10 +38,10 @@ use exit::{Exit, Failure, Outcome};
 use std::ffi::OsString;
 use std::process::ExitCode;
 
-/// Stack of the thread that a command runs on.
+/// The stack size of the thread that runs a command.
 const STACK_BYTES: usize = 16 << 20;
 
-/// Compiles, checks, draws and measures GLSL of OpenGL 3.2 (#version 150)
+/// Compile, check, draw and measure GLSL of OpenGL 3.2 (#version 150)
 #[derive(Debug, Parser)]
 #[command(name = "glisten", version, disable_help_subcommand = true, max_term_width = 100)]
 #[command(after_help = "Exit codes: 0 nothing wrong found; 1 an input is wrong or a check did not hold;\n\
@@ -54,10 +55,10 @@ struct Cli {
 
 #[derive(Args, Debug)]
 struct GlobalArgs {
-    /// Leaves out progress and summaries
+    /// Omit progress and summaries
     #[arg(short, long, global = true)]
     quiet: bool,
-    /// When to color
+    /// When to use colors
     #[arg(long, global = true, value_enum, default_value_t, value_name = "WHEN")]
     color: ColorChoice,
 }
@@ -116,9 +117,9 @@ fn dispatch(command: &Command, console: &Console) -> Outcome {
     }
 }
 
-/// Tells of wrong arguments, or shows the help or the version that was asked for.
+/// Reports wrong arguments, or prints the requested help or version.
 fn usage(error: &clap::Error) -> ExitCode {
-    // Where it cannot be printed there is nobody to tell.
+    // If it cannot be printed, there is no other place to report it.
     let _ = error.print();
     if error.use_stderr() { Exit::Usage.into() } else { Exit::Ok.into() }
 }

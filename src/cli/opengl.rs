@@ -1,4 +1,4 @@
-//! Scenes drawn by OpenGL, where that is built.
+//! Draws scenes by OpenGL, if that backend is built in.
 
 use super::exit::Failure;
 use super::scenes::{DrawError, MachineArgs};
@@ -10,7 +10,7 @@ use super::exit::Exit;
 #[cfg(feature = "gl")]
 use glisten_gl::{Error, Gl};
 
-/// Refuses the backend where it is not built.
+/// Reports an error if the backend is not built in.
 pub(super) fn require() -> Result<(), Failure> {
     if cfg!(feature = "gl") { Ok(()) } else { Err(not_built()) }
 }
@@ -29,7 +29,7 @@ pub(super) fn draw(_: &MachineArgs, _: Scene) -> Result<Picture, DrawError> {
 /// Draws a scene.
 #[cfg(feature = "gl")]
 pub(super) fn draw(machine: &MachineArgs, scene: Scene) -> Result<Picture, DrawError> {
-    // Contexts belong to their thread.
+    // A context belongs to its thread.
     machine.within_time(move || Ok(Gl::new()?.render(&scene)?))
 }
 

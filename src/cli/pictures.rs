@@ -1,8 +1,8 @@
-//! Pictures into files: `.npy`, `.png`, `.exr`, by the name's ending.
+//! Writes pictures to files: `.npy`, `.png` or `.exr`, depending on the extension.
 //!
 //! *In:* a [`Picture`], top row first. *Out:* bytes.
-//! *Holds:* `.npy` and `.exr` carry float32 RGBA as the framebuffer holds it; `.png` carries 8 bits, straight alpha,
-//! clamped to [0, 1] and rounded, without gamma.
+//! *Holds:* `.npy` and `.exr` contain float32 RGBA as in the framebuffer; `.png` contains 8 bits per channel with
+//! straight alpha, clamped to [0, 1] and rounded, without gamma.
 
 use super::exit::Failure;
 use crate::scene::Format;
@@ -14,7 +14,7 @@ use npyz::WriterBuilder;
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
-/// What a name may end in.
+/// The format, by the extension of the name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
     Npy,
@@ -22,7 +22,7 @@ enum Kind {
     Exr,
 }
 
-/// Where pictures go: one file for the first attachment, or with `%d` in the name one for each.
+/// Where to write pictures: one file for the first attachment or, with `%d` in the name, one for each.
 #[derive(Clone, Debug)]
 pub(super) struct Target {
     name: String,
@@ -30,7 +30,7 @@ pub(super) struct Target {
 }
 
 impl Target {
-    /// The target that a name means.
+    /// The target of a file name.
     pub(super) fn parse(name: &Path) -> Result<Self, Failure> {
         let text = name.to_string_lossy().into_owned();
         let ending = name.extension().and_then(|ending| ending.to_str()).unwrap_or_default().to_ascii_lowercase();
@@ -46,7 +46,7 @@ impl Target {
         Ok(Self { name: text, kind })
     }
 
-    /// Refuses what the format cannot hold.
+    /// Reports what the file format cannot represent.
     pub(super) fn check(&self, format: Format) -> Result<(), Failure> {
         let integer = matches!(format, Format::Rgba32Sint | Format::Rgba32Uint);
         if self.kind == Kind::Png && integer {
@@ -83,7 +83,7 @@ impl Target {
 /// A file to write.
 type File = (PathBuf, Vec<u8>);
 
-/// What an encoder complains of.
+/// The error of an encoder.
 type EncodeError = Box<dyn std::error::Error>;
 
 fn floats(pixels: &[[f64; 4]]) -> impl Iterator<Item = f32> {

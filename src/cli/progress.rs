@@ -1,7 +1,7 @@
-//! [`Progress`]: a bar on the terminal for what takes longer than a second.
+//! [`Progress`]: a progress bar on the terminal for work that takes longer than a second.
 //!
 //! *Holds:* it is drawn on standard error, only if that is a terminal, only without `--quiet`, and never in the first
-//! second; it is gone when the work is done.
+//! second. It disappears when the work is done.
 
 use super::console::Console;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -20,7 +20,7 @@ pub(super) struct Progress {
 }
 
 impl Progress {
-    /// Work of `steps` steps.
+    /// A bar for work of `steps` steps.
     pub(super) fn new(console: &Console, steps: usize) -> Self {
         let bar = ProgressBar::with_draw_target(Some(steps as u64), ProgressDrawTarget::hidden());
         let style = ProgressStyle::with_template("{wide_msg} [{bar:30}] {pos}/{len} {elapsed}");
@@ -28,13 +28,13 @@ impl Progress {
         Self { bar, start: Instant::now(), watched: console.is_watched(), shown: AtomicBool::new(false) }
     }
 
-    /// Says what is done now.
+    /// Shows the current step.
     pub(super) fn say(&self, what: &str) {
         self.bar.set_message(what.to_owned());
         self.show_if_late();
     }
 
-    /// A step is done.
+    /// Completes a step.
     pub(super) fn step(&self) {
         self.bar.inc(1);
         self.show_if_late();

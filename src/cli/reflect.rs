@@ -1,4 +1,4 @@
-//! `glisten reflect`: what a host needs to know of a program, as a table or as JSON, or what one name is.
+//! `glisten reflect`: what a host needs to know about a program, as a table or as JSON, or what one name is.
 
 use super::args::{BindingArgs, ConventionArgs, LevelArgs, ProgramArgs, SourceArgs};
 use super::console::Console;
@@ -11,7 +11,7 @@ use glisten_emit::{Conventions, Reflection, reflect};
 use glisten_front::link::Program;
 use indexmap::IndexMap;
 
-/// Shows what a host needs to know: attributes, varyings, outputs, blocks, uniforms, samplers
+/// Show what a host needs to know: attributes, varyings, outputs, blocks, uniforms, samplers
 #[derive(Args, Debug)]
 pub(super) struct ReflectArgs {
     /// Shaders, or `-` for standard input
@@ -20,7 +20,7 @@ pub(super) struct ReflectArgs {
     /// The format of the reflection
     #[arg(long, value_enum, default_value_t)]
     format: Format,
-    /// Says what a name is and where
+    /// Show what a name is, and its location
     #[arg(long, value_name = "NAME")]
     find: Option<String>,
     #[command(flatten)]
@@ -40,13 +40,13 @@ enum Format {
     /// Tables for people
     #[default]
     Table,
-    /// JSON; of several programs an object by stem
+    /// JSON; for several programs, an object by stem
     Json,
 }
 
 /// A program with its reflection.
 struct Reflected<'a> {
-    /// The stem, with the folder where two programs share it.
+    /// The stem, with its folder if two programs share the stem.
     name: String,
     program: &'a Program,
     reflection: Reflection,

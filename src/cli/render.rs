@@ -1,4 +1,4 @@
-//! `glisten render`: a scene to a picture, by the GPU, by the CPU reference or by OpenGL.
+//! `glisten render`: draws a scene to a picture on the GPU, with the CPU reference or by OpenGL.
 
 use super::console::Console;
 use super::exit::{Exit, Failure, Outcome};
@@ -13,26 +13,26 @@ use glisten_reference::{LineRule, Precision, RenderOptions};
 use glisten_scene::compare::Picture;
 use std::path::PathBuf;
 
-/// Draws a scene
+/// Draw a scene
 #[derive(Args, Debug)]
 pub(super) struct RenderArgs {
     #[command(flatten)]
     scene: SceneArgs,
-    /// The picture: .npy (float32), .png (8 bits) or .exr (float32); `%d` in it counts attachments
+    /// The picture: .npy (float32), .png (8 bits) or .exr (float32); `%d` in the name counts attachments
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
-    /// Who draws
+    /// The backend
     #[arg(long, value_enum, default_value_t)]
     backend: Backend,
-    /// The numbers that the CPU reference computes with
+    /// The precision of the CPU reference
     #[arg(long, value_enum, default_value_t)]
     precision: PrecisionArg,
-    /// What the GPU runs
+    /// The form of the code that the GPU runs
     #[arg(long, value_enum, default_value_t)]
     via: ViaArg,
 }
 
-/// What draws a scene.
+/// The backend that draws a scene.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(super) enum Backend {
     /// Vulkan through wgpu
@@ -40,12 +40,12 @@ pub(super) enum Backend {
     Gpu,
     /// The CPU reference
     Cpu,
-    /// OpenGL through EGL, by the sources themselves; only where built with `--features gl`
+    /// OpenGL through EGL, from the original sources; only if built with `--features gl`
     Gl,
 }
 
 impl Backend {
-    /// Refuses what is not built.
+    /// Reports an error if the backend is not built in.
     pub(super) fn require(self) -> Result<(), Failure> {
         match self {
             Self::Gpu | Self::Cpu => Ok(()),
@@ -59,7 +59,7 @@ enum PrecisionArg {
     /// Double precision
     #[default]
     F64,
-    /// Single precision, one rounding an operation
+    /// Single precision, with one rounding per operation
     F32,
 }
 

@@ -13,7 +13,7 @@ use glisten_front::source::SourceMap;
 use glisten_gpu::Via;
 use std::path::PathBuf;
 
-/// Measures the ways to shade a scene: error against run time
+/// Measure the ways to shade a scene: error against run time
 #[derive(Args, Debug)]
 pub(super) struct ReportArgs {
     #[command(flatten)]
@@ -21,12 +21,12 @@ pub(super) struct ReportArgs {
     /// The folder for report.json and report.html
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
-    /// What the GPU runs
+    /// The form of the code that the GPU runs
     #[arg(long, value_enum, default_value_t)]
     via: ViaArg,
 }
 
-/// Shows the steps of a report as they go on.
+/// Shows the steps of a report as progress.
 struct Steps<'a> {
     console: &'a Console,
     progress: Progress,

@@ -1,4 +1,4 @@
-//! What `render`, `verify` and `report` share: a scene read with its shaders, and work that has a limit of time.
+//! What `render`, `verify` and `report` share: reading a scene with its shaders, and running work with a time limit.
 
 use super::args::{BindingArgs, LevelArgs, SourceArgs};
 use super::console::Console;
@@ -13,10 +13,10 @@ use glisten_gpu::{Error, Gpu, Via};
 use std::sync::mpsc::{self, RecvTimeoutError};
 use std::time::Duration;
 
-/// Stack of the thread that draws.
+/// The stack size of the thread that draws.
 const STACK_BYTES: usize = 16 << 20;
 
-/// The scene and how its shaders are read.
+/// The scene, and how to read its shaders.
 #[derive(Args, Clone, Debug)]
 pub(super) struct SceneArgs {
     /// A scene file
@@ -30,10 +30,10 @@ pub(super) struct SceneArgs {
     levels: LevelArgs,
 }
 
-/// What draws, and how long it may take for a scene.
+/// The GPU, and the time limit for a scene.
 #[derive(Args, Clone, Debug)]
 pub(super) struct MachineArgs {
-    /// Gives up after that many seconds
+    /// Give up after this many seconds
     #[arg(long, value_name = "SECONDS", default_value_t = 60.0, value_parser = parse_seconds)]
     timeout: f64,
     /// The GPU to use, by a part of its name (default: the first software adapter)
@@ -41,13 +41,13 @@ pub(super) struct MachineArgs {
     adapter: Option<String>,
 }
 
-/// Which emitted form the GPU runs.
+/// The form of the emitted code that the GPU runs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(super) enum ViaArg {
-    /// SPIR-V, passed to the driver as it is
+    /// SPIR-V, passed to the driver unchanged
     #[default]
     Spirv,
-    /// WGSL, read by wgpu
+    /// WGSL, parsed by wgpu
     Wgsl,
 }
 
@@ -67,7 +67,7 @@ fn parse_seconds(text: &str) -> Result<f64, String> {
     }
 }
 
-/// A scene that was read, with the texts that diagnostics about it need.
+/// A scene that was read, with the texts that its diagnostics refer to.
 pub(super) struct Read<'a> {
     /// The scene.
     pub(super) scene: Scene,
@@ -81,7 +81,7 @@ impl Read<'_> {
         &self.batch.sources
     }
 
-    /// Tells of a failure to draw the scene.
+    /// Reports a failure to draw the scene.
     pub(super) fn failed(mut self, error: DrawError) -> Result<Exit, Failure> {
         match error {
             DrawError::Failure(failure) => Err(failure),
@@ -96,9 +96,9 @@ impl Read<'_> {
 
 /// Why a scene was not drawn.
 pub(super) enum DrawError {
-    /// Something about its shaders.
+    /// Errors in its shaders.
     Diagnostics(Vec<Diagnostic>),
-    /// Something else.
+    /// Any other failure.
     Failure(Failure),
 }
 
@@ -124,13 +124,13 @@ impl From<Error> for DrawError {
     }
 }
 
-/// What to tell of a GPU that is missing or does not draw.
+/// The failure for a GPU that is missing or does not draw.
 pub(super) fn gpu_failure(error: Error) -> Failure {
     let exit = if error.is_environment() { Exit::Machine } else { Exit::Content };
     told(exit, &error.to_string())
 }
 
-/// A failure by the message of a runner, which carries its help in a second line.
+/// A failure from the message of a runner, whose second line is the help text.
 pub(super) fn told(exit: Exit, text: &str) -> Failure {
     match text.split_once("\nhelp: ") {
         Some((message, help)) => Failure::new(exit, message).help(help),
@@ -144,7 +144,7 @@ impl SceneArgs {
         Session::new(console, &self.sources, &BindingArgs::default(), &self.levels, 0)
     }
 
-    /// Reads the scene and tells what was found; without a scene, what that comes to.
+    /// Reads the scene and reports its diagnostics. Without a scene, returns the exit code.
     pub(super) fn read<'a>(&self, console: &'a Console) -> Result<Result<Read<'a>, Exit>, Failure> {
         let mut session = self.session(console)?;
         let loaded = guard::guarded(|| scene::load(&self.scene, &DiskFiles, session.compiler()));
@@ -184,14 +184,14 @@ impl MachineArgs {
         Ok(gpu.with_timeout(Duration::from_secs_f64(self.timeout)))
     }
 
-    /// Runs work on a thread of its own and gives up on it when its time is over.
+    /// Runs work on a thread of its own and gives up when the time limit is reached.
     pub(super) fn within_time<R: Send + 'static>(
         &self,
         work: impl FnOnce() -> Result<R, DrawError> + Send + 'static,
     ) -> Result<R, DrawError> {
         let (sender, receiver) = mpsc::channel();
         let job = move || {
-            // Nobody listens any more once the time is over.
+            // After the time limit, nothing receives this.
             let _ = sender.send(guard::guarded(work));
         };
         std::thread::Builder::new()

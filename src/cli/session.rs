@@ -1,6 +1,6 @@
-//! [`Session`]: what all commands that read shaders do: read, compile in parallel, judge by levels, tell.
+//! [`Session`]: what all commands that read shaders do: read, compile in parallel, apply levels, report.
 //!
-//! *Holds:* results stand in the order of the groups, whatever `-j` is.
+//! *Holds:* results are in the order of the groups, whatever `-j` is.
 
 use super::args::{BindingArgs, DiagnosticFormat, LevelArgs, SourceArgs};
 use super::config::Configs;
@@ -19,45 +19,45 @@ use glisten_front::source::{SourceMap, Span};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 
-/// Stack of the threads that compile. The phases bound their recursion themselves; this is what they may count on.
+/// The stack size of the threads that compile. The phases limit their recursion themselves, relying on this size.
 const STACK_BYTES: usize = 16 << 20;
 
-/// Findings with the texts that they are about.
+/// Diagnostics with the texts that they refer to.
 #[derive(Debug, Default)]
 pub(super) struct Batch {
     /// The texts.
     pub(super) sources: SourceMap,
-    /// The findings.
+    /// The diagnostics.
     pub(super) diagnostics: Vec<Diagnostic>,
 }
 
-/// What came of a group of files.
+/// The result for a group of files.
 #[derive(Debug)]
 pub(super) struct Unit {
     /// The files.
     pub(super) group: Group,
     /// Files that could not be read, one batch each.
     pub(super) unread: Vec<Batch>,
-    /// What the compiler found, and what commands add.
+    /// The diagnostics of the compiler, and those that commands add.
     pub(super) batch: Batch,
     /// The linked program, if there are no errors.
     pub(super) program: Option<Program>,
 }
 
 impl Unit {
-    /// What the findings come to.
+    /// The exit code of the diagnostics.
     pub(super) fn exit(&self) -> Exit {
         let unread = self.unread.iter().map(|batch| Exit::of(&batch.diagnostics)).max().unwrap_or_default();
         unread.max(Exit::of(&self.batch.diagnostics))
     }
 
-    /// The program, unless anything about it is an error (a denied warning included).
+    /// The program, unless it has any error (which may be a denied warning).
     pub(super) fn sound_program(&self) -> Option<&Program> {
         self.program.as_ref().filter(|_| self.exit() == Exit::Ok)
     }
 }
 
-/// The shared course of a command.
+/// The state of a command that reads shaders.
 pub(super) struct Session<'a> {
     console: &'a Console,
     compiler: Compiler,
@@ -68,7 +68,7 @@ pub(super) struct Session<'a> {
 }
 
 impl<'a> Session<'a> {
-    /// A session with `jobs` threads (0: one a core).
+    /// A session with `jobs` threads (0: one per core).
     pub(super) fn new(
         console: &'a Console,
         sources: &SourceArgs,
@@ -96,7 +96,7 @@ impl<'a> Session<'a> {
         &self.compiler
     }
 
-    /// The threads.
+    /// The thread pool.
     pub(super) fn pool(&self) -> &rayon::ThreadPool {
         &self.pool
     }
@@ -118,7 +118,7 @@ impl<'a> Session<'a> {
         };
         let mut units: Vec<(Unit, usize)> = self.pool.install(|| groups.into_par_iter().map(work).collect());
         for (unit, dropped) in &mut units {
-            // What is wrong with a configuration is told even where there is nothing to judge by it.
+            // Errors in a configuration are reported even if there are no diagnostics that it applies to.
             for input in &unit.group.inputs {
                 self.configs.levels(&input.name);
             }
@@ -128,7 +128,7 @@ impl<'a> Session<'a> {
         units.into_iter().map(|(unit, _)| unit).collect()
     }
 
-    /// Applies the levels to a batch and puts its findings into the order of the text.
+    /// Applies the levels to a batch and sorts its diagnostics by their position in the text.
     pub(super) fn judge(&mut self, batch: &mut Batch) {
         let sources = &batch.sources;
         let configs = &mut self.configs;
@@ -146,8 +146,8 @@ impl<'a> Session<'a> {
         batch.diagnostics.sort_by_key(|diagnostic| sources.call_site(diagnostic.primary.span).start);
     }
 
-    /// Tells all findings, to standard output if `to_output` (as `lint` does), else to standard error; each finding
-    /// once, though several programs may share a file. Returns what they come to.
+    /// Reports all diagnostics, to standard output if `to_output` (as `lint` does), otherwise to standard error. Each
+    /// is reported once, though several programs may share a file. Returns the exit code.
     pub(super) fn tell(&self, batches: &[&Batch], to_output: bool) -> Result<Exit, Failure> {
         let all: Vec<&Batch> = self.configs.errors.iter().chain(batches.iter().copied()).collect();
         let color = if to_output { self.console.colors_output() } else { self.console.colors_messages() };
@@ -178,14 +178,14 @@ impl<'a> Session<'a> {
         Ok(all.iter().map(|batch| Exit::of(&batch.diagnostics)).max().unwrap_or_default())
     }
 
-    /// Tells what was found about these units, see [`Self::tell`].
+    /// Reports the diagnostics of these units; see [`Self::tell`].
     pub(super) fn tell_units(&self, units: &[Unit], to_output: bool) -> Result<Exit, Failure> {
         let batches: Vec<&Batch> = units.iter().flat_map(|unit| unit.unread.iter().chain([&unit.batch])).collect();
         self.tell(&batches, to_output)
     }
 }
 
-/// Findings told so far.
+/// The diagnostics that have been reported.
 #[derive(Default)]
 struct Told {
     findings: Vec<Finding>,
@@ -193,7 +193,7 @@ struct Told {
 }
 
 impl Told {
-    /// Takes over what is new in a batch and returns it.
+    /// Adds a batch and returns its diagnostics that are new.
     fn add<'b>(&mut self, batch: &'b Batch) -> Vec<&'b Diagnostic> {
         let mut fresh = Vec::new();
         for diagnostic in &batch.diagnostics {
@@ -222,7 +222,7 @@ fn summary(findings: &[Finding], dropped: usize) -> Option<String> {
     (!parts.is_empty()).then(|| parts.join(", "))
 }
 
-/// Reads and compiles a group; the second value counts findings past the compiler's limit.
+/// Reads and compiles a group. The second value counts diagnostics past the compiler's limit.
 fn compile_group(compiler: &Compiler, group: Group) -> (Unit, usize) {
     let mut unread = Vec::new();
     let mut sources = Vec::new();
@@ -248,7 +248,7 @@ fn compile_group(compiler: &Compiler, group: Group) -> (Unit, usize) {
     }
 }
 
-/// A batch that tells of a slip in the compilation of these sources.
+/// A batch that reports an internal error in the compilation of these sources.
 fn internal(sources: &[Source], panic: &str) -> Batch {
     let mut map = SourceMap::default();
     let mut span = Span::default();

@@ -1,10 +1,10 @@
-//! The stage of a shader by its file's name.
+//! The stage of a shader, by the name of its file.
 
 use clap::ValueEnum;
 use glisten_front::hir::Stage;
 use std::path::Path;
 
-/// Extensions by stage.
+/// File extensions, with their stages.
 static EXTENSIONS: &[(&str, Stage)] = &[
     ("vert", Stage::Vertex),
     ("vs", Stage::Vertex),
@@ -43,13 +43,13 @@ impl From<StageArg> for Stage {
     }
 }
 
-/// The stage that a file's extension tells.
+/// The stage of a file extension.
 pub(super) fn by_extension(path: &Path) -> Option<Stage> {
     let extension = path.extension()?.to_str()?;
     EXTENSIONS.iter().find(|(known, _)| known.eq_ignore_ascii_case(extension)).map(|(_, stage)| *stage)
 }
 
-/// The stage that a file's name tells, `phong.vert.glsl` included, which a folder scan leaves to inclusion.
+/// The stage of a file name, including `phong.vert.glsl`, which a folder scan does not pick up.
 pub(super) fn by_name(path: &Path) -> Option<Stage> {
     by_extension(path).or_else(|| by_extension(Path::new(without_glsl(path)?)))
 }
@@ -58,7 +58,7 @@ fn without_glsl(path: &Path) -> Option<&str> {
     path.file_name()?.to_str()?.strip_suffix(".glsl")
 }
 
-/// The name without what tells the stage: `phong` of `phong.vert` and of `phong.vert.glsl`.
+/// The name without the part that says the stage: `phong` for `phong.vert` and for `phong.vert.glsl`.
 pub(super) fn stem(path: &Path) -> String {
     let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
     let inner = match without_glsl(path) {

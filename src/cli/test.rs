@@ -1,4 +1,4 @@
-//! `glisten test`: runs `.shader_test` files on the GPU and by the CPU reference.
+//! `glisten test`: runs `.shader_test` files on the GPU and with the CPU reference.
 
 use super::console::Console;
 use super::exit::{Exit, Failure, Outcome};
@@ -17,22 +17,22 @@ use serde::Serialize;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// Runs .shader_test files: shaders, draws, and what pixels must be
+/// Run .shader_test files: shaders, draws, and expected pixels
 #[derive(Args, Debug)]
 pub(super) struct TestArgs {
-    /// Test files, or folders that are searched for them
+    /// Test files, or folders to search for them
     #[arg(required = true, value_name = "FILE|DIR")]
     paths: Vec<PathBuf>,
-    /// Who draws
+    /// The backend
     #[arg(long, value_enum, default_value_t)]
     backend: Backend,
-    /// What the GPU runs
+    /// The form of the code that the GPU runs
     #[arg(long, value_enum, default_value_t)]
     via: super::scenes::ViaArg,
     /// The GPU to use, by a part of its name (default: the first software adapter)
     #[arg(long, value_name = "NAME")]
     adapter: Option<String>,
-    /// Gives up on a draw after that many seconds
+    /// Give up on a draw after this many seconds
     #[arg(long, value_name = "SECONDS", default_value_t = 60)]
     timeout: u64,
     /// The format of the results
@@ -46,21 +46,21 @@ enum Backend {
     Gpu,
     /// The CPU reference
     Cpu,
-    /// One after the other
+    /// Both, one after the other
     #[default]
     Both,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 enum Format {
-    /// A line a test that did not pass, and a summary
+    /// One line for each test that did not pass, and a summary
     #[default]
     Human,
     /// One JSON array
     Json,
 }
 
-/// How a test ended on a backend.
+/// The result of a test on a backend.
 #[derive(Debug, Serialize)]
 struct TestResult {
     file: String,
@@ -108,14 +108,14 @@ pub(super) fn run(args: &TestArgs, console: &Console) -> Outcome {
     Ok(if failed { Exit::Content } else { Exit::Ok })
 }
 
-/// A test; a panic fails it and leaves the others alone.
+/// Runs a test. A panic fails it and does not affect the others.
 fn one(name: &str, text: &str, painter: &mut dyn Painter) -> Ending {
     let compiler = Compiler::new(Options::default());
     guard::guarded(|| shader_test::run(name, text, &compiler, painter))
         .unwrap_or_else(|panic| Ending::Fail(format!("internal error: {panic}")))
 }
 
-/// The files at a path: itself, or what is in it, in the order of names.
+/// Collects the files at a path: the path itself, or the files in it, in the order of their names.
 fn collect(path: &Path, files: &mut Vec<PathBuf>, depth: u32) -> Result<(), Failure> {
     let unreadable = |error: std::io::Error| Failure::usage(format!("cannot read `{}`: {error}", path.display()));
     if !std::fs::metadata(path).map_err(unreadable)?.is_dir() {
@@ -128,7 +128,7 @@ fn collect(path: &Path, files: &mut Vec<PathBuf>, depth: u32) -> Result<(), Fail
     entries.sort();
     for entry in entries {
         let is_test = entry.extension().is_some_and(|extension| extension == EXTENSION);
-        // A link to a folder above would lead in circles.
+        // A link to a parent folder would make the search endless.
         let is_folder = entry.is_dir() && !entry.is_symlink() && depth < MOST_FOLDERS;
         if is_test || is_folder {
             collect(&entry, files, depth + 1)?;
@@ -176,7 +176,7 @@ struct CpuPainter;
 
 impl Painter for CpuPainter {
     fn paint(&mut self, scene: &Scene) -> Result<Picture, Ending> {
-        // A test says what floats of 32 bits come to: where they underflow, say.
+        // A test states the results of 32-bit floats, for example where they underflow.
         let options = RenderOptions {
             precision: Precision::F32,
             lines: LineRule::OpenGl,
@@ -193,7 +193,7 @@ fn first(diagnostics: &[Diagnostic]) -> String {
         .map_or_else(|| "it cannot be drawn".to_owned(), |first| format!("{} ({})", first.message, first.code))
 }
 
-/// A line for each test that did not pass, then how many did.
+/// One line for each test that did not pass, then the number of those that did.
 fn human(results: &[TestResult]) -> String {
     let mut text = String::new();
     for result in results.iter().filter(|result| result.result != "pass") {

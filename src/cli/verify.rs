@@ -1,4 +1,4 @@
-//! `glisten verify`: draws a scene on the GPU and by the CPU reference, and judges each pixel.
+//! `glisten verify`: draws a scene on the GPU and with the CPU reference, and judges each pixel.
 
 use super::console::Console;
 use super::exit::{Exit, Outcome};
@@ -20,38 +20,38 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
 
-/// Draws a scene by GPU and CPU and compares
+/// Draw a scene on the GPU and the CPU, and compare the pictures
 #[derive(Args, Debug)]
 pub(super) struct VerifyArgs {
     #[command(flatten)]
     scene: SceneArgs,
-    /// What the GPU runs
+    /// The form of the code that the GPU runs
     #[arg(long, value_enum, default_value_t)]
     via: ViaChoice,
     /// The format of the figures
     #[arg(long, value_enum, default_value_t)]
     format: Format,
-    /// Judges by this absolute difference of each channel instead of the derived envelope
+    /// Judge by this absolute difference per channel instead of the derived envelope
     #[arg(long, value_name = "X", value_parser = parse_tolerance)]
     tolerance: Option<f64>,
-    /// Accepts any number of pixels that the reference cannot decide
+    /// Accept any number of pixels that the reference cannot decide
     #[arg(long)]
     allow_undecided: bool,
-    /// Excuses no pixel by what the driver is known to do wrong
+    /// Excuse no pixel because of known faults of the driver
     #[arg(long)]
     no_known_faults: bool,
-    /// Writes a picture of |difference| / bound: gray up to the bound, red beyond
+    /// Write a picture of |difference| / bound: gray up to the bound, red beyond
     #[arg(long, value_name = "FILE")]
     difference: Option<PathBuf>,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 enum ViaChoice {
-    /// SPIR-V, passed to the driver as it is
+    /// SPIR-V, passed to the driver unchanged
     Spirv,
-    /// WGSL, read by wgpu
+    /// WGSL, parsed by wgpu
     Wgsl,
-    /// One after the other
+    /// Both, one after the other
     #[default]
     Both,
 }
@@ -72,7 +72,7 @@ fn parse_tolerance(text: &str) -> Result<f64, String> {
     }
 }
 
-/// The comparison of one way to run on the GPU.
+/// The comparison for one form of the code.
 #[derive(Clone, Debug, Serialize)]
 struct Run {
     /// `spirv`, `wgsl`, or `both` for the worse of the two.
@@ -81,19 +81,19 @@ struct Run {
     verdict: Verdict,
     /// Mean FLIP error, 0 to 1.
     flip: f64,
-    /// Pixels that are not, bit for bit, the reference's rounded to f32.
+    /// The number of pixels that differ, bit by bit, from the reference rounded to f32.
     bit_unequal: u64,
-    /// GPU time in ms.
+    /// The GPU time in ms.
     gpu_ms: f64,
-    /// Wall time of the reference in ms.
+    /// The wall time of the reference in ms.
     cpu_ms: f64,
 }
 
-/// A way to run that a program cannot take.
+/// A form that cannot represent the program.
 #[derive(Clone, Debug, Serialize)]
 struct Skip {
     via: &'static str,
-    /// What the target lacks, and the way out.
+    /// What the target lacks, with a way out.
     reason: String,
 }
 
@@ -104,27 +104,27 @@ impl Skip {
     }
 }
 
-/// All comparisons, and the pictures behind them.
+/// All comparisons, with their pictures.
 #[derive(Default)]
 struct Compared {
     runs: Vec<Run>,
     pictures: Vec<Picture>,
     skipped: Vec<Skip>,
-    /// Of each pixel the largest difference as a share of its bound.
+    /// For each pixel, the largest difference relative to its bound.
     shares: Vec<f64>,
-    /// What the bound of the worst pixel comes from.
+    /// The origin of the worst pixel's bound.
     note: Option<Diagnostic>,
 }
 
-/// What is printed as JSON: the worse of all runs, and each of them.
+/// The JSON output: the worse of all runs, and each of them.
 #[derive(Serialize)]
 struct Report<'a> {
     #[serde(flatten)]
     worse: &'a Run,
     runs: &'a [Run],
-    /// The ways that `both` left out because the target cannot hold the program.
+    /// The forms that `both` skipped because the target cannot represent the program.
     skipped: &'a [Skip],
-    /// Pixels where SPIR-V and WGSL drew other bits; null if only one of them ran.
+    /// The number of pixels at which SPIR-V and WGSL drew different bits; null if only one of them ran.
     forms_bit_unequal: Option<u64>,
     holds: bool,
 }
@@ -202,7 +202,8 @@ fn compare(args: &VerifyArgs, scene: Arc<Scene>, vias: &[Via], progress: &Progre
     for via in vias {
         progress.say(via.name());
         let (picture, gpu_ms) = match on_gpu(args, Arc::clone(&gpu), Arc::clone(&scene), *via) {
-            // With `both`, one target's lack (WGSL has no point size, say) does not keep the other from being judged.
+            // With `both`, a limitation of one target (for example, WGSL has no point size) does not keep the other
+            // from being judged.
             Err(DrawError::Diagnostics(lack)) if *via == Via::Wgsl && !compared.runs.is_empty() => {
                 compared.skipped.push(Skip::new(*via, &lack));
                 continue;
@@ -232,12 +233,12 @@ fn compare(args: &VerifyArgs, scene: Arc<Scene>, vias: &[Via], progress: &Progre
     Ok(compared)
 }
 
-/// How many contributions to a bound are told.
+/// How many contributions to a bound are reported.
 const TOLD: usize = 3;
-/// Less than this share of a bound is not worth telling.
+/// The smallest share of a bound that is reported.
 const LEAST_SHARE: f64 = 0.01;
 
-/// Adds to the worst pixel of each run what its bound comes from.
+/// Adds, for the worst pixel of each run, the origin of its bound.
 fn explained(
     args: &VerifyArgs,
     scene: &Arc<Scene>,
@@ -299,7 +300,7 @@ fn note(told: &[Contribution], [x, y, _, channel]: [u32; 4]) -> Option<Diagnosti
     Some(rest.iter().fold(note, |note, one| note.label(one.span, text(one))))
 }
 
-/// The reference with its envelope; lines by the rule of the target.
+/// The reference with its envelope; lines follow the rule of the target.
 fn reference(scene: &Scene) -> Result<Picture, DrawError> {
     drawn(scene, Faults::NONE)
 }
@@ -312,14 +313,14 @@ fn drawn(scene: &Scene, faults: Faults) -> Result<Picture, DrawError> {
     Ok(glisten_reference::render(scene, &options(faults))?)
 }
 
-/// The reference with each known fault of the driver admitted, and with all of them.
+/// The reference pictures with each known fault of the driver excused, and with all of them.
 fn admitting(scene: &Scene) -> Result<Vec<(&'static str, Picture)>, DrawError> {
     let one = KNOWN.iter().map(|known| (known.name, Faults::only(known.fault)));
     let all = one.chain([("several", Faults::all())]);
     all.map(|(name, faults)| Ok((name, drawn(scene, faults)?))).collect()
 }
 
-/// The picture of shares: gray up to the bound, red beyond.
+/// The picture of relative differences: gray up to the bound, red beyond.
 fn shown(scene: &Scene, shares: &[f64]) -> Picture {
     let color = |share: &f64| if *share > 1.0 { [1.0, 0.0, 0.0, 1.0] } else { [*share, *share, *share, 1.0] };
     let (width, height) = (scene.framebuffer.width, scene.framebuffer.height);

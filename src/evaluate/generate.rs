@@ -1,19 +1,20 @@
-//! The program around a function: reads its inputs from a texture, calls it, writes what comes back.
+//! Generates the program around a function: it reads the inputs from a texture, calls the function, and writes the
+//! results.
 //!
-//! *In:* a text and a signature. *Out:* the text of a fragment shader, and how many numbers go in and out.
+//! *In:* a text and a signature. *Out:* the text of a fragment shader, and the number of inputs and results.
 
 use super::EvaluateError;
 use glisten_front::diagnostic::did_you_mean;
 use glisten_front::hir::{ArraySize, Function, ParamMode, SamplerDim, Scalar, Shader, Stage, Type, TypeId, Types};
 use glisten_front::{Compiler, Source};
 
-/// A triangle over the whole window.
+/// A triangle that covers the whole window.
 pub(super) const VERTEX: &str = "#version 150\nvoid main()\n{\n    vec2 p = vec2(gl_VertexID == 1 ? 3.0 : -1.0, \
     gl_VertexID == 2 ? 3.0 : -1.0);\n    gl_Position = vec4(p, 0.0, 1.0);\n}\n";
-/// What the names of the uniforms for tables start with; a number follows.
+/// The prefix of the names of the table uniforms; a number follows.
 pub(super) const TABLE: &str = "glisten_table";
 
-/// A call in text.
+/// The text of a call.
 pub(super) struct Call {
     pub(super) text: String,
     pub(super) inputs: usize,
@@ -25,7 +26,8 @@ fn head(text: &str) -> String {
     format!("#version 150\n#extension GL_ARB_shading_language_include : enable\n{text}\n")
 }
 
-/// The signatures of all functions that a text defines, those of its includes too, in order: `lerp(float,float,float)`.
+/// The signatures of all functions that a text defines, including those of its includes, in order:
+/// `lerp(float,float,float)`.
 ///
 /// # Errors
 /// The text does not compile.

@@ -1,7 +1,8 @@
-//! One GLSL function called with many inputs at once, on the reference and on a GPU: to test functions by value.
+//! Evaluates one GLSL function for many inputs at once, on the reference and on a GPU, to test functions by value.
 //!
-//! *In:* a text with the function, its signature, rows of numbers. *Out:* a [`Scene`] of one pixel (or a few) a row, and the
-//! results read back from its picture. *Holds:* the reference's results keep the precision of its domain.
+//! *In:* a text with the function, its signature, and rows of numbers. *Out:* a [`Scene`] with one pixel (or a few)
+//! per row, and the results, read from its picture. *Holds:* the reference's results keep the precision of its
+//! domain.
 //!
 //! ```
 //! use glisten::evaluate::Evaluator;
@@ -30,15 +31,15 @@ use std::sync::Arc;
 
 pub use generate::signatures;
 
-/// Rows of inputs in a line of the picture.
+/// How many rows of inputs share a line of the picture.
 const ROWS_A_LINE: usize = 64;
-/// The most lines: the height that every GPU can draw.
+/// The largest number of lines: the height that every GPU can draw.
 const MAX_LINES: usize = 8192;
 
 /// Why a function cannot be evaluated.
 #[derive(Clone, Debug)]
 pub struct EvaluateError {
-    /// What is wrong, in a sentence.
+    /// The message, a sentence.
     pub message: String,
 }
 
@@ -75,16 +76,16 @@ pub struct Evaluator {
 impl Evaluator {
     /// Prepares the calls of a function.
     ///
-    /// - `compiler`: its options and includes hold for the text.
+    /// - `compiler`: its options and includes apply to the text.
     /// - `text`: GLSL 1.50 without a `#version` line and without `main`.
-    /// - `signature`: as [`signatures`] writes it: `lerp(float,float,float)`. Parameters are passed in; floats, vectors,
-    ///   matrices, `int`, `uint`, `bool`, and structs and arrays of these may be parameters, `sampler2D` too; floats,
-    ///   vectors, matrices, integers and booleans may come back.
-    /// - `wraps`: a parameter's place among those that are no samplers, and a function that its value is put through
+    /// - `signature`: in the form that [`signatures`] writes: `lerp(float,float,float)`. All parameters must be `in`.
+    ///   Floats, vectors, matrices, `int`, `uint`, `bool`, structs and arrays of these, and `sampler2D` may be
+    ///   parameters; floats, vectors, matrices, integers and booleans may be results.
+    /// - `wraps`: the index of a parameter, not counting samplers, and a function that is applied to its value
     ///   before the call: `(0, "normalize")`.
     ///
     /// # Errors
-    /// The text has errors, it has no such function, or a type is none of the above.
+    /// The text has errors, it has no such function, or a type is not supported.
     pub fn new(
         compiler: &Compiler,
         text: &str,
@@ -104,12 +105,12 @@ impl Evaluator {
         Ok(Self { program, text: call.text, inputs: call.inputs, results: call.results, tables: call.tables })
     }
 
-    /// How many numbers a row of inputs has: the parameters' components in order, samplers left out.
+    /// How many numbers a row of inputs has: the components of all parameters except samplers, in order.
     pub fn inputs(&self) -> usize {
         self.inputs
     }
 
-    /// How many numbers come back for a row.
+    /// How many numbers a result has.
     pub fn results(&self) -> usize {
         self.results
     }
@@ -128,10 +129,10 @@ impl Evaluator {
         self.results.div_ceil(4)
     }
 
-    /// The scene that calls the function for each row. `tables` are the textures of its samplers, in order.
+    /// The scene that calls the function for each row. `tables` are the textures for its samplers, in order.
     ///
     /// # Errors
-    /// The inputs are no whole number of rows, none, or too many (524,288 rows fit), or a table is missing.
+    /// The inputs are empty, not a whole number of rows, or too many (524,288 rows fit), or a table is missing.
     pub fn scene(&self, inputs: &[f32], tables: &[Arc<Texture>]) -> Result<Scene, EvaluateError> {
         let rows = inputs.len().checked_div(self.inputs).unwrap_or(1);
         if rows == 0 || rows * self.inputs != inputs.len() || rows > ROWS_A_LINE * MAX_LINES {
@@ -171,7 +172,7 @@ impl Evaluator {
         Ok(Scene { name: "evaluate".into(), framebuffer, draws: vec![draw] })
     }
 
-    /// Inputs as texels: a row's numbers side by side, 64 rows in a line.
+    /// The inputs as texels: the numbers of a row side by side, 64 rows per line.
     fn packed(&self, inputs: &[f32], lines: usize) -> Texture {
         let texels_a_row = self.inputs.div_ceil(4).max(1);
         let mut texels = vec![[0.0; 4]; lines * ROWS_A_LINE * texels_a_row];
@@ -184,12 +185,12 @@ impl Evaluator {
         table_of(TextureLevel { width, height, depth: 1, texels: Texels::Float(texels) }, Filter::Nearest)
     }
 
-    /// The results in a picture of the scene: for each row of inputs [`results`](Self::results) numbers.
+    /// The results in a picture of the scene: for each row of inputs, [`results`](Self::results) numbers.
     pub fn read(&self, picture: &Picture, rows: usize) -> Vec<Vec<f64>> {
         let Some(pixels) = picture.attachments.first() else { return Vec::new() };
         let (parts, width, height) = (self.parts(), picture.width as usize, picture.height as usize);
         let row = |index: usize| {
-            // Lines of the picture go from the top, gl_FragCoord from the bottom.
+            // Lines of the picture count from the top, `gl_FragCoord` from the bottom.
             let line = height.saturating_sub(index / ROWS_A_LINE + 1);
             let start = line * width + index % ROWS_A_LINE * parts;
             let numbers = pixels.get(start..start + parts).unwrap_or(&[]).iter().flatten().copied();
@@ -201,7 +202,7 @@ impl Evaluator {
     /// Calls the function for each row on the CPU reference.
     ///
     /// # Errors
-    /// Those of [`scene`](Self::scene), and what the reference cannot draw.
+    /// The errors of [`scene`](Self::scene), and those of the reference.
     pub fn reference(
         &self,
         inputs: &[f32],
@@ -233,7 +234,7 @@ fn table_of(level: TextureLevel, filter: Filter) -> Texture {
     Texture { kind, levels: vec![level], filter, wrap: Wrap::ClampToEdge, compare: Compare::Lequal }
 }
 
-/// A table of one row of texels, clamped: a function of one number for a `sampler2D`.
+/// A texture with one row of texels, clamped: a function of one number, for a `sampler2D`.
 pub fn table(texels: Vec<[f32; 4]>, filter: Filter) -> Texture {
     let width = texels.len() as u32;
     table_of(TextureLevel { width, height: 1, depth: 1, texels: Texels::Float(texels) }, filter)

@@ -1,11 +1,11 @@
-//! [`Entry`]: a scene of the library with what the gallery says of it.
+//! [`Entry`]: a scene of the library, with its texts for the gallery.
 
 use crate::library::{self, Embedded, LibraryScene};
 use crate::scene::{self, MemoryFiles, Scene};
 use glisten_front::compiler::{Compiler, Options};
 use serde::Deserialize;
 
-/// How many times as wide and high a scene is drawn as its picture is in the end.
+/// How many samples a picture has per pixel in each direction.
 const SUPERSAMPLING: u32 = 2;
 
 /// The `[gallery]` table of a scene.
@@ -15,12 +15,12 @@ pub(super) struct Meta {
     pub(super) title: String,
     /// The `id` of a chapter of the page.
     pub(super) chapter: String,
-    /// Where the document has it.
+    /// The section of the document.
     pub(super) place: String,
-    /// In the subset of TeX that `math` reads, a formula each.
+    /// The formulas, in the subset of TeX that `math` parses.
     pub(super) equation: Vec<String>,
     pub(super) says: String,
-    /// Modules (`phong.glsl`) and shaders (`programs/phong.frag`) of the library.
+    /// The modules (`phong.glsl`) and shaders (`programs/phong.frag`) of the library that it shows.
     pub(super) sources: Vec<String>,
 }
 
@@ -32,9 +32,9 @@ struct File {
 /// A scene of the gallery.
 #[derive(Clone, Debug)]
 pub struct Entry {
-    /// The scene's name, and its picture's without the ending.
+    /// The scene's name, which is also its picture's name without the extension.
     pub name: &'static str,
-    /// The scene's text.
+    /// The text of the scene.
     pub(super) text: &'static str,
     pub(super) meta: Meta,
     scene: Scene,
@@ -43,7 +43,7 @@ pub struct Entry {
 /// All entries, in the order of the page.
 ///
 /// # Errors
-/// What is wrong with a scene: a fault of the library, which its tests would tell of.
+/// What is wrong with a scene. That is an error in the library, which its tests would find.
 pub fn entries() -> Result<Vec<Entry>, String> {
     library::scenes().iter().map(entry).collect()
 }
@@ -63,13 +63,13 @@ fn entry(file: &LibraryScene) -> Result<Entry, String> {
 }
 
 impl Entry {
-    /// The scene as it stands in its file.
+    /// The scene as in its file.
     pub fn scene(&self) -> &Scene {
         &self.scene
     }
 
-    /// The scene as [`Tile::new`](super::Tile::new) wants it for a picture of this width in pixels: several samples a pixel,
-    /// so that edges are smooth. The height follows from the scene's.
+    /// The scene for [`Tile::new`](super::Tile::new) and a picture of this width in pixels. It has several samples
+    /// per pixel, so that edges are smooth. The height keeps the scene's aspect ratio.
     pub fn supersampled(&self, width: u32) -> Scene {
         let mut scene = self.scene.clone();
         let framebuffer = &mut scene.framebuffer;

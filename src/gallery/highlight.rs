@@ -1,8 +1,9 @@
-//! GLSL and TOML as HTML with a class for each kind of word: comments, directives, keywords, types, numbers, texts.
+//! Highlights GLSL and TOML as HTML, with a class for each kind of token: comments, directives, keywords, types,
+//! numbers, strings.
 //!
-//! *Holds:* without its tags the HTML is the escaped text: nothing is lost, whatever the text is.
+//! *Holds:* without its tags, the HTML is the escaped text: nothing is lost, whatever the text.
 
-/// Which language a text is in.
+/// The language of a text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Language {
     Glsl,
@@ -38,7 +39,7 @@ const KEYWORDS: &[&str] = &[
 const TYPES: &[&str] = &["void", "bool", "int", "uint", "float", "mat2", "mat3", "mat4", "sampler2D"];
 const VECTORS: &[&str] = &["vec", "ivec", "uvec", "bvec"];
 
-/// The text with a `<span>` around each word that has a kind.
+/// The text with a `<span>` around each token that has a class.
 pub(super) fn html(text: &str, language: Language) -> String {
     let mut out = String::with_capacity(text.len() * 2);
     let mut rest = text;

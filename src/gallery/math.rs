@@ -1,10 +1,10 @@
-//! Formulas as MathML, which browsers set by themselves.
+//! Converts formulas to MathML, which browsers typeset themselves.
 //!
-//! *In:* a small subset of TeX: letters, numbers, operators, `_` and `^` with a letter or a `{group}`, and the commands of
-//! [`SYMBOLS`], [`FUNCTIONS`], `\frac`, `\mathbf`, `\mathrm`, `\text`, `\sum`. *Out:* a `<math>` element, escaped.
-//! *Holds:* what is not in the subset is an error and never dropped.
+//! *In:* a small subset of TeX: letters, numbers, operators, `_` and `^` with a letter or a `{group}`, and the
+//! commands of [`SYMBOLS`], [`FUNCTIONS`], `\frac`, `\mathbf`, `\mathrm`, `\text`, `\sum`. *Out:* a `<math>` element,
+//! escaped. *Holds:* anything outside the subset is an error and is never dropped.
 
-/// Commands that stand for one operator or letter: name, element, text.
+/// Commands for one operator or letter: name, element, text.
 const SYMBOLS: &[(&str, &str, &str)] = &[
     ("cdot", "mo", "\u{22c5}"),
     ("otimes", "mo", "\u{2297}"),
@@ -19,16 +19,16 @@ const SYMBOLS: &[(&str, &str, &str)] = &[
 /// Commands that are set upright, as words.
 const FUNCTIONS: &[&str] = &["max", "min", "cos"];
 
-/// Commands that are room: name and width in em.
+/// Commands for space: name, and width in em.
 const SPACES: &[(&str, &str)] = &[(",", "0.17em"), (";", "0.28em"), ("quad", "1em")];
 
-/// Groups within groups that a formula may have.
+/// The deepest nesting of groups in a formula.
 const MAX_DEPTH: u32 = 16;
 
-/// A formula as a `<math>` element.
+/// The `<math>` element of a formula.
 ///
 /// # Errors
-/// What in the text is not of the subset.
+/// The part of the text that is not in the subset.
 pub(super) fn mathml(tex: &str) -> Result<String, String> {
     let mut parser = Parser { rest: tex, depth: 0 };
     let row = parser.row()?;
@@ -56,12 +56,12 @@ impl<'t> Parser<'t> {
         taken
     }
 
-    /// As long as it is one of these, in bytes.
+    /// The length in bytes of the leading characters that `accept` allows.
     fn length(&self, accept: impl Fn(char) -> bool) -> usize {
         self.rest.find(|character| !accept(character)).unwrap_or(self.rest.len())
     }
 
-    /// Elements up to a `}` or the end.
+    /// The elements up to a `}` or the end.
     fn row(&mut self) -> Result<String, String> {
         let mut row = String::new();
         while let Some(next) = self.peek() {
@@ -73,7 +73,7 @@ impl<'t> Parser<'t> {
         Ok(row)
     }
 
-    /// An element with what stands below and above it.
+    /// An element with its subscript and superscript.
     fn scripted(&mut self) -> Result<String, String> {
         let is_sum = self.rest.starts_with("\\sum");
         let base = self.atom()?;
@@ -95,7 +95,7 @@ impl<'t> Parser<'t> {
         })
     }
 
-    /// A group or one element; a group of letters alone is a word.
+    /// A group or one element. A group of letters alone is a word.
     fn script(&mut self) -> Result<String, String> {
         if self.peek() == Some('{') {
             let body = self.rest.get(1..).unwrap_or_default();
@@ -126,7 +126,7 @@ impl<'t> Parser<'t> {
         Ok(format!("<mrow>{row}</mrow>"))
     }
 
-    /// The text of a group, as it stands.
+    /// The text of a group, uninterpreted.
     fn words(&mut self) -> Result<&'t str, String> {
         let end = self.rest.find('}').filter(|_| self.rest.starts_with('{'));
         let end = end.ok_or("a `{text}` is missing")?;

@@ -1,7 +1,8 @@
-//! The gallery: every scene of the library on one page, beside its equation, its source and what the document says of it.
+//! The gallery: every scene of the library on one page, next to its equation, its source, and what the document says
+//! about it.
 //!
-//! *In:* the scenes of [`crate::library::scenes`], each with a `[gallery]` table, and the pictures that a backend drew of them.
-//! *Out:* PNG files, a contact sheet of them, and a page that needs nothing else.
+//! *In:* the scenes of [`crate::library::scenes`], each with a `[gallery]` table, and the pictures that a backend
+//! drew. *Out:* PNG files, a contact sheet of them, and a page that needs no other files.
 //!
 //! ```text
 //!  library ──► entry     the scene and its [gallery] table
@@ -21,7 +22,7 @@ pub use entry::{Entry, entries};
 pub use page::page;
 pub use tile::{Tile, contact_sheet};
 
-/// The page's file name.
+/// The file name of the page.
 pub const PAGE: &str = "index.html";
-/// The contact sheet's file name.
+/// The file name of the contact sheet.
 pub const SHEET: &str = "gallery.png";

@@ -1,6 +1,8 @@
 //! The gallery as one HTML page.
 //!
-//! *Holds:* the pictures are named by their files beside the page; nothing comes from elsewhere.
+//! *In:* the entries and their pictures. *Out:* the text of the page.
+//!
+//! *Holds:* the pictures are files next to the page; nothing else is loaded.
 
 use super::entry::Entry;
 use super::highlight::{Language, html};
@@ -12,11 +14,11 @@ use minijinja::{Environment, Value, context};
 const TEMPLATE: &str = include_str!("page.html");
 const STYLE: &str = include_str!("page.css");
 
-/// A part of the page: the scenes that name its `id`.
+/// A chapter of the page: the scenes that name its `id`.
 struct Chapter {
     id: &'static str,
     title: &'static str,
-    /// Of which document, and where in it.
+    /// The document, and the section in it.
     of: &'static str,
     about: &'static str,
 }
@@ -67,11 +69,11 @@ const CHAPTERS: &[Chapter] = &[
     },
 ];
 
-/// The page for pictures that `by` drew, one an entry.
+/// The page for pictures that `by` drew, one per entry.
 ///
 /// # Errors
-/// What is wrong with an entry's text, or the template engine's message: faults of the library, which its tests would
-/// tell of.
+/// What is wrong with an entry's text, or the message of the template engine. Both are errors in the library, which
+/// its tests would find.
 pub fn page(entries: &[Entry], tiles: &[Tile], by: &str) -> Result<String, String> {
     let mut chapters = Vec::new();
     for chapter in CHAPTERS {
@@ -125,7 +127,7 @@ fn card(entry: &Entry, tile: &Tile) -> Result<Value, String> {
     })
 }
 
-/// The text of a module or of a shader of a program.
+/// The text of a module, or of a program's shader.
 fn source(name: &str) -> Option<&'static str> {
     match name.strip_prefix("programs/") {
         Some(file) => library::shader(file),
@@ -136,7 +138,7 @@ fn source(name: &str) -> Option<&'static str> {
     }
 }
 
-/// Escaped, with what stands between backquotes as code.
+/// The escaped text, with parts between backquotes as code.
 fn inline_code(text: &str) -> String {
     let mut out = String::new();
     for (index, part) in text.split('`').enumerate() {

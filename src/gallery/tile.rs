@@ -1,7 +1,7 @@
-//! [`Tile`]: a picture of the gallery in 8 bits, and many of them on one sheet.
+//! [`Tile`]: a picture of the gallery with 8 bits per channel, and the sheet of many of them.
 //!
-//! *Holds:* colors are clamped to [0, 1], averaged over a pixel's samples, and rounded to 8 bits without gamma, as
-//! `glisten render` rounds; what is not finite is magenta.
+//! *Holds:* colors are clamped to [0, 1], averaged over the samples of a pixel, and rounded to 8 bits without gamma,
+//! as in `glisten render`. Non-finite colors are magenta.
 
 use super::entry::supersampling;
 use glisten_scene::compare::Picture;
@@ -9,15 +9,15 @@ use image::ImageEncoder;
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 
 const MAGENTA: [f64; 3] = [1.0, 0.0, 1.0];
-/// The sheet's ground, between tiles.
+/// The background of the sheet.
 const GROUND: [u8; 3] = [24, 25, 30];
 
-/// An RGB picture of 8 bits a channel.
+/// An RGB picture with 8 bits per channel.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Tile {
     width: u32,
     height: u32,
-    /// Top row first.
+    /// The pixels, top row first.
     pixels: Vec<[u8; 3]>,
 }
 
@@ -35,7 +35,7 @@ impl Tile {
         box_filter(picture.width / n, picture.height / n, picture.width, picture.height, color)
     }
 
-    /// The tile `side` pixels wide and high, each the mean of what it covers.
+    /// The tile scaled to `side` pixels in width and height; each pixel is the mean of the area that it covers.
     fn resized(&self, side: u32) -> Self {
         let color = |x: u32, y: u32| {
             let pixel = self.pixels.get(y as usize * self.width as usize + x as usize);
@@ -57,13 +57,13 @@ impl Tile {
         Ok(png)
     }
 
-    /// Width and height in pixels.
+    /// The width and height in pixels.
     pub fn size(&self) -> (u32, u32) {
         (self.width, self.height)
     }
 }
 
-/// Each pixel of a picture the mean, by area, of what it covers of a larger one.
+/// Scales a picture down: each pixel is the area-weighted mean of the pixels that it covers.
 fn box_filter(
     width: u32,
     height: u32,
@@ -92,7 +92,7 @@ fn box_filter(
     Tile { width, height, pixels }
 }
 
-/// For each of `count` equal parts of a line of `from` units the units that it covers, and how much of each.
+/// For each of `count` equal parts of a line of `from` units: the units that it covers, and the weight of each.
 fn spans(count: u32, from: u32) -> Vec<Vec<(u32, f64)>> {
     let step = f64::from(from) / f64::from(count);
     (0..count)
@@ -107,7 +107,7 @@ fn spans(count: u32, from: u32) -> Vec<Vec<(u32, f64)>> {
         .collect()
 }
 
-/// All tiles on one sheet of so many columns, each `side` pixels wide, `gap` apart.
+/// All tiles on one sheet with `columns` columns, each `side` pixels wide, `gap` apart.
 pub fn contact_sheet(tiles: &[Tile], columns: u32, side: u32, gap: u32) -> Tile {
     let columns = columns.max(1);
     let rows = (tiles.len() as u32).div_ceil(columns);

@@ -1,7 +1,7 @@
-//! The catalogue: each module with its header, its functions, what they document and what they cost.
+//! The catalogue: each module with its header, its functions, their documentation and their cost.
 //!
-//! *In:* the embedded modules. *Out:* an [`Entry`] each, from the header and the compiled text; nothing in it is written
-//! twice by hand.
+//! *In:* the embedded modules. *Out:* an [`Entry`] for each, from the header and the compiled text, so that nothing
+//! is written twice by hand.
 
 use super::cost::{Cost, cost};
 use super::header::{Header, notes, paragraphs};
@@ -13,15 +13,15 @@ use serde::Serialize;
 /// A function of a module.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct FunctionEntry {
-    /// Its name; overloads share it.
+    /// The name, which overloads share.
     pub name: String,
-    /// Name and types of the parameters: `lambertFactor(vec3,vec3)`.
+    /// The name and the types of the parameters: `lambertFactor(vec3,vec3)`.
     pub signature: String,
-    /// As it is declared: `float lambertFactor(vec3 N, vec3 L)`.
+    /// The declaration: `float lambertFactor(vec3 N, vec3 L)`.
     pub declaration: String,
-    /// Its comment: what it computes, then a line a parameter.
+    /// The comment: what the function computes, then one line per parameter.
     pub documentation: String,
-    /// Operations of a call.
+    /// The cost of a call.
     pub cost: Cost,
 }
 
@@ -30,15 +30,15 @@ pub struct FunctionEntry {
 pub struct Entry {
     /// The module.
     pub module: &'static Module,
-    /// Its header.
+    /// The header.
     pub header: Header<'static>,
-    /// What holds for all of it; may be empty.
+    /// Notes about the whole module; may be empty.
     pub notes: String,
-    /// The functions that it defines, in the order of its text.
+    /// The functions that it defines, in source order.
     pub functions: Vec<FunctionEntry>,
 }
 
-/// A shader that includes a module and does nothing with it.
+/// A shader that includes a module and does not use it.
 fn shader_with(module: &Module) -> Source {
     let text = format!(
         "#version 150\n#extension GL_ARB_shading_language_include : require\n#include <glisten/{}.glsl>\n\
@@ -48,12 +48,12 @@ fn shader_with(module: &Module) -> Source {
     Source { name: format!("{}.frag", module.name), text: text.into(), stage: Stage::Fragment }
 }
 
-/// The catalogue's entry of a module.
+/// The entry of a module.
 pub fn entry(module: &'static Module) -> Entry {
     let compilation = Compiler::new(Options::default()).with_includes(Embedded).compile(&[shader_with(module)]);
     let own = format!("{SHOWN}{}.glsl", module.name);
     let mut functions = Vec::new();
-    // Every module compiles: a test says so.
+    // Every module compiles, as a test checks.
     let stages =
         compilation.program.iter().flat_map(|program| program.stages.iter().map(move |shader| (program, shader)));
     for (program, shader) in stages {
@@ -90,7 +90,7 @@ fn declaration(types: &Types, function: &Function) -> String {
     format!("{} {}({})", types.name(function.ret), function.name, params.join(", "))
 }
 
-/// The comment that ends on the line above `line` (from 1).
+/// The comment that ends on the line above `line`, counted from 1.
 fn comment_above(text: &str, line: u32) -> String {
     let above: Vec<&str> = text.lines().take(line.saturating_sub(1) as usize).collect();
     let start = above.iter().rposition(|line| !line.starts_with("//")).map_or(0, |index| index + 1);

@@ -1,27 +1,27 @@
-//! What a function costs: operations counted in its typed body.
+//! The cost of a function: operations counted in its typed body.
 //!
-//! *In:* a function of a [`Shader`]. *Out:* its [`Cost`], by the dearest way through it.
+//! *In:* a function of a [`Shader`]. *Out:* its [`Cost`] on the most expensive path.
 //!
-//! *Holds:* operations on a vector count once a component; operations on literals alone, and calls of functions without
-//! parameters, are folded by every compiler and count nothing. The body of a loop counts once. *Not done here:* what a
-//! driver makes of it; times are what `glisten report` measures.
+//! *Holds:* an operation on a vector counts once per component. Operations on literals only, and calls of functions
+//! without parameters, are folded by every compiler and count nothing. The body of a loop counts once. *Not done
+//! here:* what a driver makes of the code; `glisten report` measures times.
 
 use glisten_front::builtin::BuiltinFunction as F;
 use glisten_front::hir::{BinaryOp, ExprId, ExprKind, FunctionId, Shader, Stmt, StmtKind, Type, TypeId, Types};
 use serde::Serialize;
 
-/// Scalar operations of a call.
+/// The scalar operations of a call.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Cost {
     /// Additions, products, comparisons, minima, maxima, conversions, selections.
     pub arithmetic: u32,
     /// Divisions, roots, exponentials, logarithms, trigonometry.
     pub special: u32,
-    /// Texture look-ups.
+    /// Texture lookups.
     pub texture: u32,
-    /// Branches that are met.
+    /// Branches on the path.
     pub branches: u32,
-    /// Loops; what is in their bodies is counted once.
+    /// Loops; their bodies count once.
     pub loops: u32,
 }
 
@@ -44,7 +44,8 @@ impl Cost {
         }
     }
 
-    /// By which ways are compared: a division or a root takes about as long as four products on a GPU, a look-up longer.
+    /// The weight by which paths are compared: on a GPU a division or a root takes about as long as four products, a
+    /// lookup longer.
     pub fn weight(self) -> u32 {
         self.arithmetic + 4 * self.special + 16 * self.texture + self.branches
     }
@@ -71,7 +72,7 @@ impl std::fmt::Display for Cost {
     }
 }
 
-/// The cost of a call of the function, its arguments left out.
+/// The cost of a call of the function, without its arguments.
 pub fn cost(types: &Types, shader: &Shader, function: FunctionId) -> Cost {
     let mut counter = Counter { types, shader, known: vec![None; shader.functions.len()] };
     shader.on_stack(|| counter.function(function))
@@ -96,7 +97,7 @@ impl Counter<'_> {
         cost
     }
 
-    /// The dearest way through statements that are reached at the cost `so_far`.
+    /// The most expensive path through statements that are reached at the cost `so_far`.
     fn stmts(&mut self, stmts: &[Stmt], so_far: Cost) -> Cost {
         let (mut cost, mut dearest) = (so_far, so_far);
         for stmt in stmts {
@@ -160,7 +161,7 @@ impl Counter<'_> {
         self.types.flat_len(ty).max(1)
     }
 
-    /// Whether it is made of literals, and of functions that take nothing.
+    /// Whether the expression consists of literals and of calls without arguments.
     fn constant(&self, id: ExprId) -> bool {
         let kind = &self.shader.expr(id).kind;
         !matches!(kind, ExprKind::Var(_)) && kind.children().into_iter().all(|child| self.constant(child))
@@ -184,7 +185,7 @@ impl Counter<'_> {
     }
 }
 
-/// Whether a body always ends the function, the loop or the round.
+/// Whether a body always ends the function, the loop or the iteration.
 fn leaves(body: &[Stmt]) -> bool {
     let last = body.last().map(|stmt| &stmt.kind);
     match last {
@@ -194,7 +195,7 @@ fn leaves(body: &[Stmt]) -> bool {
     }
 }
 
-/// A built-in function that gives `size` components from a first argument of `first`.
+/// The cost of a built-in function that returns `size` components and whose first argument has `first`.
 fn builtin(function: F, size: u32, first: u32) -> Cost {
     let dot = 2 * first - 1;
     match function {

@@ -1,25 +1,25 @@
 //! The header of a module: lines `// key: value`, then notes.
 //!
-//! *In:* a module's text. *Out:* its [`Header`]. *Holds:* every module has all keys; a test says when one lacks.
+//! *In:* a module's text. *Out:* its [`Header`]. *Holds:* every module has all keys, as a test checks.
 
-/// What a module says of itself in its first comment lines.
+/// The information in the first comment lines of a module.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Header<'a> {
-    /// Its name, that of its file.
+    /// The name, which is that of the file.
     pub name: &'a str,
-    /// `light`, `diffuse`, `specular`, `ambient`, `equation`, `geometry`, `helper`, `interface`
-    /// (declarations alone) or `reference`.
+    /// `light`, `diffuse`, `specular`, `ambient`, `equation`, `geometry`, `helper`, `interface` (declarations only)
+    /// or `reference`.
     pub kind: &'a str,
     /// The equations, by number and as text.
     pub equation: &'a str,
-    /// Where in the source documents they stand.
+    /// Their section in the source documents.
     pub source: &'a str,
-    /// What to expect of its rounding, range and poles.
+    /// The rounding, the range and the poles to expect.
     pub stability: &'a str,
 }
 
 impl<'a> Header<'a> {
-    /// Reads the header of a text.
+    /// Parses the header of a text.
     pub fn of(text: &'a str) -> Self {
         let mut header = Self::default();
         for line in text.lines() {
@@ -38,13 +38,13 @@ impl<'a> Header<'a> {
     }
 }
 
-/// The comment lines behind the keys: what holds for the whole module. Paragraphs are parted by empty lines.
+/// The comment lines after the keys, about the whole module. Empty lines separate paragraphs.
 pub(super) fn notes(text: &str) -> String {
     let comments = text.lines().map_while(|line| line.strip_prefix("//"));
     paragraphs(comments.skip_while(|line| !line.is_empty()))
 }
 
-/// Comment lines (without their slashes) joined to paragraphs; lines that are indented stay lines of their own.
+/// Joins comment lines (without their slashes) into paragraphs; indented lines remain lines of their own.
 pub(super) fn paragraphs<'a>(lines: impl Iterator<Item = &'a str>) -> String {
     let mut text = String::new();
     for line in lines {

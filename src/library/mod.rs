@@ -1,9 +1,9 @@
 //! The lighting models that come with glisten, as modules to include: `#include <glisten/phong.glsl>`.
 //!
-//! *In:* the files under `shader_lib`, embedded. *Out:* [`modules`], [`Embedded`], which resolves includes of them, and the
-//! catalogue ([`entries`]): what each module says of itself, its functions and their cost.
+//! *In:* the files in `shader_lib`, embedded. *Out:* [`modules`]; [`Embedded`], which resolves includes of them; and
+//! the catalogue ([`entries`]): the header, the functions and the cost of each module.
 //!
-//! *Holds:* every function there is total: a finite result for every finite input. A module includes what it needs and
+//! *Holds:* every function is total: its result is finite for every finite input. A module includes what it needs and
 //! may be included twice.
 
 mod catalogue;
@@ -22,15 +22,15 @@ use glisten_front::source::{IncludeForm, IncludeResolver, Included};
 
 /// The folder of the modules in an include: `<glisten/...>`.
 const FOLDER: &str = "glisten/";
-/// What stands before a module's file name where the name of a file is shown.
+/// The prefix of a module's file name where a file name is shown.
 const SHOWN: &str = "<glisten>/";
 
 /// A module of the library.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Module {
-    /// Its name: `phong`.
+    /// The name: `phong`.
     pub name: &'static str,
-    /// Its text, GLSL 1.50 without a `#version` line.
+    /// The text, GLSL 1.50 without a `#version` line.
     pub text: &'static str,
 }
 
@@ -71,17 +71,17 @@ pub fn modules() -> &'static [Module] {
     MODULES
 }
 
-/// Whether a file's name is that of a module, and no file on disk.
+/// Whether a file name is that of a module rather than of a file on disk.
 pub fn is_embedded(name: &str) -> bool {
     name.starts_with(SHOWN)
 }
 
-/// Resolves `<glisten/phong.glsl>`, and what the modules include of each other; nothing else.
+/// Resolves `<glisten/phong.glsl>` and the includes among modules, and nothing else.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Embedded;
 
 impl Embedded {
-    /// The module that an include means, if it means one.
+    /// The module that an include refers to, if there is one.
     pub fn find(path: &str, form: IncludeForm, from: &str) -> Option<Included> {
         let file = match form {
             IncludeForm::Angled => path.strip_prefix(FOLDER)?,
@@ -125,7 +125,7 @@ impl glisten_scene::scene::Library for Embedded {
     }
 }
 
-/// Why there is no module for an include, with the nearest one.
+/// A message that no module has this name, with the most similar one.
 pub fn missing(path: &str) -> String {
     let name = path.trim_start_matches(FOLDER).trim_end_matches(".glsl");
     match glisten_front::diagnostic::did_you_mean(name, MODULES.iter().map(|module| module.name)) {

@@ -1,20 +1,21 @@
-//! The programs of the library: pairs of shaders under `shader_lib/programs`, made of its modules.
+//! The programs of the library: pairs of shaders in `shader_lib/programs`, made of its modules.
 //!
 //! *In:* the embedded files. *Out:* [`programs`] by name, [`shader`] by file name.
 //!
-//! *Holds:* inputs of a vertex are called `position`, `normal` and `texcoord`, and matrices as the roles of a scene's
-//! `[draw.matrices]`, so that a scene need not name them; the textbook's own programs keep the textbook's names.
+//! *Holds:* vertex inputs are called `position`, `normal` and `texcoord`, and matrices have the names of the roles in
+//! a scene's `[draw.matrices]`, so that a scene need not name them. The textbook's own programs keep the textbook's
+//! names.
 
 /// A program of the library.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LibraryProgram {
-    /// Its name: `hemi_spec`.
+    /// The name: `hemi_spec`.
     pub name: &'static str,
     /// The file of its vertex shader.
     pub vertex: &'static str,
     /// The file of its fragment shader.
     pub fragment: &'static str,
-    /// What it draws, and which document has it.
+    /// What it draws, and from which document.
     pub about: &'static str,
 }
 
@@ -131,12 +132,12 @@ pub fn programs() -> &'static [LibraryProgram] {
     PROGRAMS
 }
 
-/// The text of a shader by the name of its file: `standard.frag`.
+/// The text of a shader, by the name of its file: `standard.frag`.
 pub fn shader(file: &str) -> Option<&'static str> {
     SHADERS.iter().find(|(name, _)| *name == file).map(|(_, text)| *text)
 }
 
-/// The names of all shaders' files, sorted.
+/// The file names of all shaders, sorted.
 pub fn shader_files() -> impl Iterator<Item = &'static str> {
     SHADERS.iter().map(|(name, _)| *name)
 }

@@ -1,15 +1,15 @@
-//! The scenes of the library, which `glisten gallery` draws: files under `shader_lib/scenes`.
+//! The scenes of the library, which `glisten gallery` draws: files in `shader_lib/scenes`.
 //!
 //! *In:* the embedded files. *Out:* [`scenes`], in the order of the gallery.
 //!
-//! *Holds:* a scene names programs of the library and generated textures alone, so that it needs no other file.
+//! *Holds:* a scene refers only to programs of the library and to generated textures, so it needs no other files.
 
 /// A scene of the library.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LibraryScene {
-    /// Its name: `hemi_spec`.
+    /// The name: `hemi_spec`.
     pub name: &'static str,
-    /// Its text, TOML.
+    /// The text, TOML.
     pub text: &'static str,
 }
 
@@ -64,7 +64,7 @@ static SCENES: &[LibraryScene] = &[
     scene!("hemi_knot"),
 ];
 
-/// All scenes, in the order in which the two documents come to what they show.
+/// All scenes, in the order in which the two documents discuss what they show.
 pub fn scenes() -> &'static [LibraryScene] {
     SCENES
 }

@@ -1,33 +1,33 @@
-//! Inputs for the value tests: random with a fixed seed, with the edges of each kind among them.
+//! Inputs for the value tests: random numbers from a fixed seed, including the edge cases of each kind.
 
 use super::vector::{V, add, scale, unit};
 
-/// What a parameter, or a few that belong together, are filled with.
+/// The kind of values for a parameter, or for a few that belong together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// A number of any size that a float holds, 0 among them.
+    /// Any number that a float can represent, including 0.
     Any,
-    /// Three of these.
+    /// Three such numbers.
     Any3,
-    /// Four.
+    /// Four such numbers.
     Any4,
-    /// 0 to 1, the ends and their neighbors among them.
+    /// 0 to 1, including the ends and their neighbors.
     Unit,
     /// -1.5 to 1.5.
     Signed,
-    /// 1e-12 to 1, evenly in its logarithm: a distance from 1.
+    /// 1e-12 to 1, uniform in the logarithm: a distance from 1.
     Distance01,
-    /// An exponent: 0, and 0.5 to 1e6, evenly in its logarithm.
+    /// An exponent: 0, or 0.5 to 1e6, uniform in the logarithm.
     Exponent,
-    /// A size of a table: 1 to 4096.
+    /// The size of a table: 1 to 4096.
     Size,
-    /// A unit vector, along an axis now and then.
+    /// A unit vector, sometimes along an axis.
     Direction,
-    /// Two unit vectors, mostly near each other: 1e-6 to 2 radians.
+    /// Two unit vectors, mostly close to each other: 1e-6 to 2 radians.
     Near,
-    /// Two unit vectors, the first mostly near the other's opposite.
+    /// Two unit vectors, the first mostly close to the opposite of the other.
     Opposed,
-    /// A unit normal and unit vectors towards the light and the eye, mostly near the mirror direction.
+    /// A unit normal, and unit vectors towards the light and the eye, mostly close to the mirror direction.
     Lighting,
     /// A reflectance: three numbers from 0 to 1.
     Color,
@@ -35,11 +35,11 @@ pub enum Kind {
     Intensity,
     /// 0 to 2.
     Gain,
-    /// 0, and 0.01 to 0.5: half of a ramp's extent.
+    /// 0, or 0.01 to 0.5: half the extent of a ramp.
     Width,
-    /// A distance: 2^-30 to 2^30, evenly in its logarithm.
+    /// A distance: 2^-30 to 2^30, uniform in the logarithm.
     Distance,
-    /// Weights of (96), now and then but not all 0.
+    /// Weights of (96): sometimes 0, but never all of them.
     Weights,
     /// A point within 10 of the origin.
     Point,
@@ -51,7 +51,7 @@ pub enum Kind {
     Material,
     /// Nine numbers from -2 to 2.
     Matrix3,
-    /// Sixteen.
+    /// Sixteen such numbers.
     Matrix4,
     /// A point in clip space with w from 0.1 to 10.
     Clip,
@@ -63,11 +63,11 @@ pub enum Kind {
     Barycentric,
     /// Three positive numbers, 1e-3 to 1e3.
     Depths,
-    /// A point of a segment's end: x within 2, z from 0.1 to 100.
+    /// An end point of a segment: x within 2, z from 0.1 to 100.
     SegmentEnd,
 }
 
-/// Numbers from a fixed seed (splitmix64).
+/// Random numbers from a fixed seed (splitmix64).
 pub(super) struct Random(u64);
 
 impl Random {
@@ -83,7 +83,7 @@ impl Random {
         z ^ (z >> 31)
     }
 
-    /// 0 to 1, 1 left out.
+    /// 0 to 1, excluding 1.
     fn unit(&mut self) -> f64 {
         (self.next() >> 11) as f64 / (1u64 << 53) as f64
     }
@@ -92,7 +92,7 @@ impl Random {
         low + self.unit() * (high - low)
     }
 
-    /// Evenly in the logarithm.
+    /// Uniform in the logarithm.
     fn spread(&mut self, low: f64, high: f64) -> f64 {
         (self.range(low.ln(), high.ln())).exp()
     }
@@ -125,12 +125,12 @@ impl Random {
         }
     }
 
-    /// A direction about `radians` away.
+    /// A direction about `radians` away from `a`.
     fn beside(&mut self, a: V, radians: f64) -> V {
         unit(add(a, scale(radians, self.direction())))
     }
 
-    /// In the half space of `n`.
+    /// A direction in the half space of `n`.
     fn above(&mut self, n: V) -> V {
         let a = self.direction();
         if super::vector::dot(a, n) < 0.0 { scale(-1.0, a) } else { a }
@@ -186,7 +186,7 @@ impl Random {
         [self.range(0.0, size), self.range(0.0, size), self.range(0.0, size)]
     }
 
-    /// The numbers of a kind, not yet rounded to f32.
+    /// Appends the numbers of a kind, before rounding to f32.
     pub(super) fn fill(&mut self, kind: Kind, to: &mut Vec<f64>) {
         const NEAR_ONE: f64 = 1.0 - 1.0 / 16_777_216.0;
         match kind {
@@ -245,8 +245,8 @@ impl Random {
 }
 
 impl Kind {
-    /// How many parameters it fills, and whether they are put through `normalize` before the call, so that the
-    /// reference computes with vectors that are unit to its own precision.
+    /// How many parameters the kind fills, and whether they pass through `normalize` before the call, so that the
+    /// reference computes with vectors that are unit vectors to its own precision.
     pub(super) fn params(self) -> (usize, bool) {
         match self {
             Self::Direction => (1, true),

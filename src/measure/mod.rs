@@ -1,11 +1,12 @@
-//! The library's functions by value: each against its closed form, written here in f64 from the equations.
+//! Measures the library's functions by value: each is compared with its closed form, which is written here in f64
+//! from the equations.
 //!
-//! *In:* [`forms()`], a row a function. *Out:* [`Figures`] of its errors on the reference in f64 and f32, and on whatever drew
-//! the scene of a [`Trial`].
+//! *In:* [`forms()`], one row per function. *Out:* the [`Figures`] of its errors on the reference in f64 and f32, and
+//! on any backend that drew the scene of a [`Trial`].
 //!
-//! *Holds:* the closed forms share no text with the modules, and where an equation has two good forms they take the other
-//! one. Directions are put through `normalize` on both sides, so that what is measured is the function and not the rounding
-//! of its inputs. Every function of every module has a row; a test compares the lists.
+//! *Holds:* the closed forms share no text with the modules, and where an equation has two good forms, they use the
+//! other one. Directions pass through `normalize` on both sides, so that the function is measured and not the
+//! rounding of its inputs. Every function of every module has a row; a test compares the lists.
 
 mod forms;
 mod inputs;
@@ -22,10 +23,10 @@ use inputs::Random;
 use std::cell::Cell;
 use std::sync::Arc;
 
-/// Texels of the table that functions with a sampler are given.
+/// The number of texels of the table for functions with a sampler.
 const TABLE: usize = 64;
 
-/// Numbers that functions are tried with for totality: whatever a float holds.
+/// Extreme values of floats, for testing that functions are total.
 static EDGES: [f32; 18] = [
     0.0,
     -0.0,
@@ -47,18 +48,18 @@ static EDGES: [f32; 18] = [
     f32::MIN,
 ];
 
-/// What a function should give.
+/// The expected result of a function.
 #[derive(Clone, Debug)]
 pub struct Answer {
-    /// The numbers that come back.
+    /// The expected numbers.
     pub values: Vec<f64>,
-    /// The magnitude that errors are stated in: 1 for factors, the value itself where errors are relative.
+    /// The magnitude to which errors are relative: 1 for factors, or the value itself.
     pub scale: f64,
-    /// How many times the rounding of the arguments shows in the result.
+    /// The condition number: by how much the rounding of the arguments is amplified in the result.
     pub condition: f64,
-    /// How far the arguments are from where the result jumps, in multiples of their own uncertainty beyond rounding.
+    /// The distance of the arguments from a jump of the result, in multiples of their uncertainty beyond rounding.
     pub jump: f64,
-    /// Whether the result is right up to a positive factor.
+    /// Whether the result is only determined up to a positive factor.
     pub projective: bool,
 }
 
@@ -67,7 +68,7 @@ impl Answer {
         Self { values: values.into(), scale, condition: 1.0, jump: f64::INFINITY, projective: false }
     }
 
-    /// Errors are stated as parts of the largest number.
+    /// An answer whose errors are relative to its largest number.
     fn relative(values: impl Into<Vec<f64>>) -> Self {
         let values = values.into();
         let scale = values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
@@ -83,7 +84,7 @@ impl Answer {
     }
 }
 
-/// A row's numbers, read in order.
+/// The numbers of a row, read in order.
 struct Args<'a> {
     numbers: &'a [f64],
     at: Cell<usize>,
@@ -99,7 +100,7 @@ impl Args<'_> {
         [self.f(), self.f(), self.f()]
     }
 
-    /// A direction, as unit as f64 has it.
+    /// A direction, normalized in f64.
     fn d(&self) -> vector::V {
         vector::unit(self.v())
     }
@@ -113,16 +114,16 @@ impl Args<'_> {
     }
 }
 
-/// A function with its closed form.
+/// A function and its closed form.
 #[derive(Debug)]
 pub struct Form {
     /// The module.
     pub module: &'static str,
-    /// The function, as [`signatures`](crate::evaluate::signatures) writes it.
+    /// The function, in the form that [`signatures`](crate::evaluate::signatures) writes.
     pub signature: &'static str,
-    /// What its parameters are filled with, samplers left out.
+    /// The kinds of its parameters, without samplers.
     pub inputs: &'static [Kind],
-    /// `None` where the model says nothing.
+    /// The closed form; `None` where the model is undefined.
     answer: fn(&Args<'_>) -> Option<Answer>,
 }
 
@@ -131,35 +132,36 @@ pub fn forms() -> impl Iterator<Item = &'static Form> {
     forms::ALL.iter().copied().flatten()
 }
 
-/// Errors of one function over many inputs.
+/// The errors of one function over many inputs.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Figures {
-    /// Rows that were judged.
+    /// The number of rows that were compared.
     pub judged: usize,
-    /// Rows within rounding of a place where the result jumps, and those of which the model says nothing.
+    /// The number of rows within rounding of a jump of the result, and of those where the model is undefined.
     pub undecided: usize,
-    /// Rows with a result that is not finite.
+    /// The number of rows with a result that is not finite.
     pub non_finite: usize,
-    /// The largest error, as a part of the answer's scale.
+    /// The largest error, relative to the answer's scale.
     pub error: f64,
-    /// The largest error over what rounding of the arguments explains, in ULPs of the precision that was judged.
+    /// The largest error relative to what the rounding of the arguments explains, in ULPs of the precision.
     pub ulps: f64,
 }
 
 /// How a precision rounds.
 struct Rounding {
-    /// Of 1.
+    /// The ULP of 1.
     ulp: f64,
-    /// The least condition: f32 is not asked for the digits of numbers that are small beside the scale.
+    /// The smallest condition number: in f32, numbers that are small compared with the scale need not have all
+    /// digits.
     least: f64,
-    /// Within so much of a jump either side may come. In f32 twice what was seen on a GPU.
+    /// Within this distance of a jump, either side is accepted. For f32, twice what was observed on a GPU.
     jump: f64,
 }
 
 const DOUBLE: Rounding = Rounding { ulp: f64::EPSILON, least: 0.0, jump: 1e-12 };
 const SINGLE: Rounding = Rounding { ulp: f32::EPSILON as f64, least: 1.0, jump: 4e-7 };
 
-/// A function with the inputs it is tried on.
+/// A function and the inputs for measuring it.
 #[derive(Debug)]
 pub struct Trial {
     form: &'static Form,
@@ -170,7 +172,7 @@ pub struct Trial {
 }
 
 impl Trial {
-    /// A trial on `rows` random inputs with a fixed seed.
+    /// A trial on `rows` random inputs from a fixed seed.
     ///
     /// # Errors
     /// The function is not what the row says.
@@ -191,8 +193,8 @@ impl Trial {
         Self::of(form, &wraps, numbers)
     }
 
-    /// A trial on whatever floats can hold: zeros, the smallest and the largest, numbers that are flushed to zero. There
-    /// are no answers to these but that they be finite.
+    /// A trial on extreme floats: zeros, the smallest and the largest numbers, numbers that are flushed to zero. The
+    /// only requirement is that the results are finite.
     ///
     /// # Errors
     /// The function is not what the row says.
@@ -218,7 +220,7 @@ impl Trial {
     /// The scene that calls the function, for a GPU.
     ///
     /// # Errors
-    /// Never with the rows that a trial makes.
+    /// None for the rows of a trial.
     pub fn scene(&self) -> Result<Scene, EvaluateError> {
         self.evaluator.scene(&self.numbers, &self.tables)
     }
@@ -228,16 +230,16 @@ impl Trial {
         &self.evaluator
     }
 
-    /// Figures on the CPU reference.
+    /// The figures on the CPU reference.
     ///
     /// # Errors
-    /// What the reference cannot draw.
+    /// The errors of the reference.
     pub fn reference(&self, precision: Precision) -> Result<Figures, EvaluateError> {
         let results = self.evaluator.reference(&self.numbers, &self.tables, precision)?;
         Ok(self.judge(&results, if precision == Precision::F32 { &SINGLE } else { &DOUBLE }))
     }
 
-    /// Figures of a picture of the scene.
+    /// The figures from a picture of the scene.
     pub fn picture(&self, picture: &glisten_scene::compare::Picture) -> Figures {
         self.judge(&self.evaluator.read(picture, self.rows), &SINGLE)
     }
@@ -273,14 +275,14 @@ impl Figures {
     }
 }
 
-/// The table that functions with a sampler are given: a power, its mirror image and a line, so that no two channels and
-/// no two texels are alike.
+/// The table for functions with a sampler: a power, its mirror image and a line, so that no two channels and no two
+/// texels are equal.
 fn texel(index: usize) -> [f32; 4] {
     let x = index as f32 / (TABLE - 1) as f32;
     [x.powi(4), (1.0 - x).powi(2), 0.25 + 0.5 * x, 1.0]
 }
 
-/// What a linear filter gives of that table at the corrected coordinate for x.
+/// The result of linear filtering in that table at the corrected coordinate for x.
 fn looked_up(x: f64) -> Vec<f64> {
     let at = x.clamp(0.0, 1.0) * (TABLE - 1) as f64;
     let below = at.floor() as usize;

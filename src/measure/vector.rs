@@ -1,4 +1,4 @@
-//! Vectors of three f64, as much as the closed forms need.
+//! Vectors of three f64, with the operations that the closed forms need.
 
 /// A vector.
 pub(super) type V = [f64; 3];
@@ -31,7 +31,7 @@ pub(super) fn norm(a: V) -> f64 {
     a[0].hypot(a[1]).hypot(a[2])
 }
 
-/// Zero stays zero.
+/// The vector normalized; zero remains zero.
 pub(super) fn unit(a: V) -> V {
     let length = norm(a);
     if length > 0.0 { a.map(|x| x / length) } else { a }

@@ -1,9 +1,9 @@
-//! Figures of a report: differences of pictures, spreads of ratios, the Pareto front.
+//! The figures of a report: differences of pictures, spreads of ratios, the Pareto front.
 
 use super::model::{Figures, Spread, Way};
 use glisten_scene::compare::Picture;
 
-/// How far `picture` is from `truth`, and the difference at each pixel.
+/// The difference between `picture` and `truth`, as figures and per pixel.
 pub(super) fn compare(picture: &Picture, truth: &Picture) -> (Figures, Vec<Option<f64>>) {
     let mut figures = Figures::default();
     let mut squares = 0.0;
@@ -42,7 +42,7 @@ pub(super) fn compare(picture: &Picture, truth: &Picture) -> (Figures, Vec<Optio
     (figures, differences)
 }
 
-/// Median and quartiles; of no values, NaN.
+/// The median and the quartiles; NaN if there are no values.
 pub(super) fn spread(values: &[f64]) -> Spread {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
@@ -54,7 +54,7 @@ pub(super) fn spread(values: &[f64]) -> Spread {
     Spread { median: at(0.5), low: at(0.25), high: at(0.75) }
 }
 
-/// Marks the ways of each model that no other one beats in both error and time.
+/// Marks the ways of each model that no other way beats in both error and time.
 pub(super) fn mark_pareto(ways: &mut [Way]) {
     let points: Vec<(String, f64, f64)> =
         ways.iter().map(|way| (way.model.clone(), way.ratio.median, way.error.rmse)).collect();

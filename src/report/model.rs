@@ -1,48 +1,48 @@
-//! [`Report`]: every figure of a report, as `report.json` has them.
+//! [`Report`]: every figure of a report, in the form of `report.json`.
 //!
-//! *Units:* errors are absolute, in units of a color channel (1 is full intensity of an 8-bit screen), over the RGB of
-//! the first attachment and the pixels that both pictures cover; times are milliseconds of GPU time a frame; ratios are
-//! to the baseline of the same run and have none.
+//! *Units:* errors are absolute, in units of a color channel (1 is full intensity of an 8-bit screen), over the RGB
+//! of the first attachment and the pixels that both pictures cover. Times are milliseconds of GPU time per frame.
+//! Ratios are to the baseline of the same run and have no unit.
 
 use glisten_scene::compare::Picture;
 use serde::Serialize;
 
-/// Error against run time of the ways to shade a scene.
+/// The error against run time of each way to shade a scene.
 #[derive(Clone, Debug, Serialize)]
 pub struct Report {
     /// The scene's name.
     pub scene: String,
-    /// Width and height in pixels.
+    /// The width and height in pixels.
     pub size: [u32; 2],
-    /// What drew.
+    /// The GPU.
     pub adapter: Adapter,
     /// `spirv` or `wgsl`.
     pub via: &'static str,
-    /// What the ways are judged by, one a model.
+    /// The truths, one per model.
     pub truths: Vec<Truth>,
-    /// How times were taken.
+    /// How times were measured.
     pub timing: Timing,
     /// The ways, in the order of the scene, coarse to fine.
     pub ways: Vec<Way>,
 }
 
-/// What drew.
+/// The GPU that drew.
 #[derive(Clone, Debug, Serialize)]
 pub struct Adapter {
-    /// As Vulkan names it.
+    /// The name in Vulkan.
     pub name: String,
     /// The driver's version text.
     pub driver: String,
 }
 
-/// The picture that the ways of a model are judged by.
+/// The picture with which the ways of a model are compared.
 #[derive(Clone, Debug, Serialize)]
 pub struct Truth {
     /// The model.
     pub model: String,
-    /// The way that is drawn.
+    /// The way that draws it.
     pub way: String,
-    /// Segments and rings of its mesh, if that was tessellated for the report.
+    /// The segments and rings of its mesh, if that was tessellated for the report.
     pub tessellation: Option<[u32; 2]>,
     /// Always `f64`: the CPU reference.
     pub precision: &'static str,
@@ -51,23 +51,23 @@ pub struct Truth {
     pub picture: Picture,
 }
 
-/// How times were taken.
+/// How times were measured.
 #[derive(Clone, Debug, Serialize)]
 pub struct Timing {
     /// The way whose time is 1.
     pub baseline: String,
-    /// Its time in milliseconds a frame, at the median.
+    /// Its median time in milliseconds per frame.
     pub baseline_ms: f64,
-    /// How often all ways were drawn in turns.
+    /// How often all ways were drawn, in turns.
     pub rounds: u32,
-    /// The baseline against a second copy of itself in the same run: what this says of 1 is noise.
+    /// The ratio of a second copy of the baseline to the first in the same run: its distance from 1 is noise.
     pub same_again: Spread,
 }
 
 /// A ratio over the rounds of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Spread {
-    /// At the median.
+    /// The median.
     pub median: f64,
     /// The lower quartile.
     pub low: f64,
@@ -78,48 +78,49 @@ pub struct Spread {
 /// A way to shade the scene.
 #[derive(Clone, Debug, Serialize)]
 pub struct Way {
-    /// As the scene names it.
+    /// The name in the scene.
     pub name: String,
-    /// Which truth judges it.
+    /// The model, which selects the truth.
     pub model: String,
-    /// Segments and rings of its mesh, if that was tessellated for the report.
+    /// The segments and rings of its mesh, if that was tessellated for the report.
     pub tessellation: Option<[u32; 2]>,
-    /// Vertices drawn, repeated ones counted each time.
+    /// The number of vertices drawn, counting repeated ones each time.
     pub vertices: u64,
     /// How often the fragment stage ran in a frame; null if the adapter does not count.
     pub fragments: Option<u64>,
-    /// The picture of the GPU against the truth.
+    /// The GPU's picture compared with the truth.
     pub error: Figures,
-    /// The picture of the GPU against the same way in f64: what rounding alone does.
+    /// The GPU's picture compared with the same way in f64: the effect of rounding alone.
     pub rounding: Figures,
-    /// Milliseconds of GPU time a frame, at the median.
+    /// The median GPU time in milliseconds per frame.
     pub milliseconds: f64,
-    /// Time against the baseline's.
+    /// The time relative to the baseline's.
     pub ratio: Spread,
-    /// Whether no other way of the model is both faster and nearer to the truth.
+    /// Whether no other way of the model is both faster and closer to the truth.
     pub pareto: bool,
     /// The picture.
     #[serde(skip)]
     pub picture: Picture,
-    /// For each pixel the largest difference of its channels from the truth; `None` where only one covers.
+    /// For each pixel, the largest difference of its channels from the truth; `None` where only one picture covers
+    /// it.
     #[serde(skip)]
     pub difference: Vec<Option<f64>>,
 }
 
-/// How far a picture is from another.
+/// The difference between two pictures.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Figures {
     /// The largest difference of a channel.
     pub max_abs: f64,
-    /// The root of the mean square.
+    /// The root mean square difference.
     pub rmse: f64,
     /// Decibels against a peak of 1; null for equal pictures.
     pub psnr: Option<f64>,
-    /// Pixels that both cover.
+    /// The number of pixels that both cover.
     pub covered: u64,
-    /// Pixels that only one covers.
+    /// The number of pixels that only one covers.
     pub coverage_mismatch: u64,
-    /// Pixels that both cover with a NaN or infinity on either side; they count nowhere else.
+    /// The number of pixels that both cover and that have a NaN or infinity on either side; they count nowhere else.
     pub non_finite: u64,
 }
 

@@ -10,7 +10,7 @@ const STYLE: &str = include_str!("page.css");
 /// The page.
 ///
 /// # Errors
-/// The template engine's, which only a broken template gives.
+/// The error of the template engine, which only a broken template causes.
 pub(super) fn page(report: &Report) -> Result<String, minijinja::Error> {
     let mut environment = Environment::new();
     environment.add_template("page.html", TEMPLATE)?;
@@ -48,7 +48,7 @@ fn model(report: &Report, index: usize, truth: &Truth) -> Value {
         })
         .collect();
     let front: Vec<Value> = front(&members);
-    // One row a way, if every way is drawn at as many tessellations.
+    // One row per way, if every way is drawn at the same number of tessellations.
     let columns = (ways.len() / names.len().max(1)).clamp(1, 4);
     context! {
         index,
@@ -87,7 +87,7 @@ fn row(report: &Report, way: &Way, shape: usize) -> Value {
     }
 }
 
-/// The ways of the front from the fastest to the most exact, for the sentence above the pictures.
+/// The ways of the Pareto front from the fastest to the most exact, for the sentence above the pictures.
 fn front(ways: &[&Way]) -> Vec<Value> {
     let mut best: Vec<&&Way> = ways.iter().filter(|way| way.pareto).collect();
     best.sort_by(|a, b| a.ratio.median.total_cmp(&b.ratio.median));
@@ -115,7 +115,7 @@ fn decibels(figures: &Figures) -> String {
     figures.psnr.map_or_else(|| "\u{221e}".into(), |psnr| format!("{psnr:.1}"))
 }
 
-/// `1.2e-3` as `1.2 x 10^-3` in typographic signs; 0 as 0.
+/// `1.2e-3` as `1.2 x 10^-3` in typographic characters; 0 as 0.
 fn scientific(value: f64) -> String {
     if value == 0.0 {
         return "0".into();
@@ -135,7 +135,7 @@ fn scientific(value: f64) -> String {
     format!("{mantissa}\u{202f}\u{d7}\u{202f}10{raised}")
 }
 
-/// Digits in groups of three.
+/// The digits in groups of three.
 fn grouped(value: u64) -> String {
     let digits = value.to_string();
     let mut text = String::new();
@@ -225,7 +225,7 @@ mod tests {
         let report = example();
         let page = page(&report).expect("the template is good");
         assert!(page.contains("sphere &lt;&amp;&gt;: error against run time"), "the scene's name is escaped");
-        // A truth a model, and a picture with its difference a way.
+        // One truth per model; a picture and its difference per way.
         assert_eq!(page.matches("<img src=\"data:image/png;base64,").count(), 2 + 2 * report.ways.len());
         assert_eq!(page.matches("<tr class=\"model-").count(), report.ways.len());
         for outside in ["http://", "https://", "src=\"/", "<link", "@import"] {

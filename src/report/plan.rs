@@ -1,7 +1,7 @@
-//! The ways that a scene file asks to be compared, each as a scene of its own.
+//! The ways that a scene file asks to compare, each as a scene of its own.
 //!
-//! *In:* the text of a scene file, with a `[report]` table or without. *Out:* [`Plan`]: for every way and tessellation
-//! the text of a scene that is drawn exactly as `glisten render` would draw it.
+//! *In:* the text of a scene file, with or without a `[report]` table. *Out:* [`Plan`]: for every way and
+//! tessellation, the text of a scene, which is drawn exactly as `glisten render` would draw it.
 //!
 //! ```toml
 //! [report]
@@ -17,8 +17,8 @@
 //! set = { vertex = "phong.vert", fragment = "phong.frag" }    # replaces or adds keys of the draw
 //! ```
 //!
-//! Without the table the one way is the scene as it stands, at a quarter, a half and all of its mesh's segments and
-//! rings. *Holds:* `set` goes into tables (`set = { mesh = { radius = 2.0 } }` keeps the other keys of the mesh).
+//! Without the table there is one way: the scene as it is, with a quarter, a half and all of its mesh's segments and
+//! rings. *Holds:* `set` merges tables (`set = { mesh = { radius = 2.0 } }` keeps the other keys of the mesh).
 
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::scenes::{SCENE_SYNTAX, SCENE_WRONG_VALUE};
@@ -27,12 +27,12 @@ use serde::Deserialize;
 use std::ops::Range;
 use toml::{Table, Value};
 
-/// What is compared.
+/// The ways and truths to draw.
 #[derive(Clone, Debug)]
 pub(super) struct Plan {
-    /// In the order of the file, coarse to fine.
+    /// The ways, in the order of the file, coarse to fine.
     pub(super) ways: Vec<PlannedWay>,
-    /// One a model, in the order in which models are first named.
+    /// The truths, one per model, in the order in which models are first named.
     pub(super) truths: Vec<PlannedTruth>,
     /// How often all ways are timed.
     pub(super) rounds: u32,
@@ -44,17 +44,17 @@ pub(super) struct PlannedWay {
     pub(super) name: String,
     pub(super) model: String,
     pub(super) tessellation: Option<[u32; 2]>,
-    /// The scene file.
+    /// The text of the scene file.
     pub(super) text: String,
 }
 
-/// What the ways of a model are judged by.
+/// The truth of a model.
 #[derive(Clone, Debug)]
 pub(super) struct PlannedTruth {
     pub(super) model: String,
     pub(super) way: String,
     pub(super) tessellation: Option<[u32; 2]>,
-    /// The scene file.
+    /// The text of the scene file.
     pub(super) text: String,
 }
 
@@ -83,7 +83,7 @@ struct WayTable {
     set: Table,
 }
 
-/// A scene file of which the report reads its own table alone.
+/// A scene file, of which the report itself reads only its own table.
 #[derive(Deserialize)]
 struct SceneFile {
     report: Option<toml::Spanned<ReportTable>>,
@@ -91,15 +91,15 @@ struct SceneFile {
 
 const ROUNDS: u32 = 15;
 const MOST_ROUNDS: u32 = 1000;
-/// How much finer the truth's mesh is than the finest way's, unless `truth_tessellation` says.
+/// How much finer the truth's mesh is than the finest way's, unless `truth_tessellation` is given.
 const TRUTH_FACTOR: u32 = 4;
-/// What a mesh has if its table does not say (see `docs/scenes.md`).
+/// The tessellation of a mesh whose table does not give it (see `docs/scenes.md`).
 const DEFAULT_TESSELLATION: [u32; 2] = [64, 32];
 
 /// Reads the plan of the scene file `name`.
 ///
 /// # Errors
-/// One diagnostic whose place is in `text`, which `sources` holds from `base` on.
+/// One diagnostic at a position in `text`, which `sources` contains from `base` on.
 pub(super) fn plan(scene_name: &str, text: &str, base: u32) -> Result<Plan, Box<Diagnostic>> {
     let at = |range: Option<Range<usize>>| {
         range.map_or_else(Span::default, |range| Span::new(base + range.start as u32, base + range.end as u32))
@@ -163,7 +163,7 @@ fn model(way: &WayTable) -> String {
     way.model.clone().unwrap_or_else(|| way.name.clone())
 }
 
-/// The way of a model that is its truth: the one that says so, or the only one.
+/// The way that is the truth of its model: the one that says so, or the only one.
 fn judge<'a>(ways: &'a [WayTable], model_name: &str) -> Result<&'a WayTable, String> {
     let members: Vec<&WayTable> = ways.iter().filter(|way| model(way) == model_name).collect();
     let marked: Vec<&WayTable> = members.iter().copied().filter(|way| way.truth).collect();
@@ -175,7 +175,7 @@ fn judge<'a>(ways: &'a [WayTable], model_name: &str) -> Result<&'a WayTable, Str
     }
 }
 
-/// The levels at which every way is drawn; `None` alone if the draw has no mesh that can be tessellated.
+/// The tessellations at which every way is drawn; only `None` if the draw's mesh cannot be tessellated.
 fn tessellations(report: &ReportTable, draw: &Table) -> Result<Vec<Option<[u32; 2]>>, String> {
     let shape = draw.get("mesh").and_then(Value::as_table).filter(|mesh| mesh.contains_key("shape"));
     match (&report.tessellations, shape) {
@@ -194,14 +194,14 @@ fn tessellations(report: &ReportTable, draw: &Table) -> Result<Vec<Option<[u32; 
     }
 }
 
-/// The mesh of the truth: as asked for, or finer than the finest.
+/// The tessellation of the truth: the requested one, or one finer than the finest.
 fn finest(tessellations: &[Option<[u32; 2]>], asked: Option<[u32; 2]>) -> Option<[u32; 2]> {
     let finest =
         tessellations.iter().flatten().max_by_key(|[segments, rings]| u64::from(*segments) * u64::from(*rings))?;
     Some(asked.unwrap_or_else(|| finest.map(|n| n.saturating_mul(TRUTH_FACTOR).min(1024))))
 }
 
-/// The scene with the keys of a way and a tessellation.
+/// The scene with the keys of a way and of a tessellation.
 fn scene_text(scene: &Table, draw: usize, way: &WayTable, tessellation: Option<[u32; 2]>) -> Result<String, String> {
     let mut scene = scene.clone();
     let table = scene
@@ -220,9 +220,9 @@ fn scene_text(scene: &Table, draw: usize, way: &WayTable, tessellation: Option<[
     toml::to_string(&scene).map_err(|error| format!("the scene cannot be written again: {error}"))
 }
 
-/// Replaces and adds keys; tables are merged, all else is replaced.
+/// Replaces and adds keys; tables are merged, all other values are replaced.
 fn merge(into: &mut Table, from: &Table) {
-    // TOML's parser bounds the nesting, so the recursion is bounded as well.
+    // TOML's parser limits the nesting, so the recursion is limited as well.
     for (key, value) in from {
         match (into.get_mut(key), value) {
             (Some(Value::Table(old)), Value::Table(new)) => merge(old, new),
@@ -233,7 +233,7 @@ fn merge(into: &mut Table, from: &Table) {
     }
 }
 
-/// Where the scene's text begins among the sources of a loaded scene.
+/// The start of the scene's text among the sources of a loaded scene.
 pub(super) fn base_of(sources: &SourceMap, path: &str) -> u32 {
     sources.files().find(|(_, file)| file.name() == path).map_or(0, |(_, file)| file.base())
 }

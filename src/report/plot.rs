@@ -1,8 +1,8 @@
-//! The error-against-time plot as SVG: both axes logarithmic, a line a way through its tessellations, the Pareto front
-//! of each model ringed and joined.
+//! The plot of error against time as SVG. Both axes are logarithmic; each way is a line through its tessellations;
+//! the Pareto front of each model is ringed and joined.
 //!
-//! *Holds:* no color is written here; the page's style sheet gives `.model-0`, `.model-1`, ... theirs, so that the plot
-//! follows its light and dark sides. Points carry a `<title>` for the pointer and assistive tools.
+//! *Holds:* no color is written here; the page's style sheet sets those of `.model-0`, `.model-1`, ... so that the
+//! plot follows its light and dark themes. Points have a `<title>` for the pointer and for assistive tools.
 
 use super::model::{Report, Way};
 use std::fmt::Write as _;
@@ -13,7 +13,7 @@ const LEFT: f64 = 76.0;
 const RIGHT: f64 = 24.0;
 const TOP: f64 = 18.0;
 const BOTTOM: f64 = 58.0;
-/// What stands for an error of 0, which has no place on a logarithmic axis.
+/// The value plotted for an error of 0, which a logarithmic axis cannot show.
 const LEAST_ERROR: f64 = 1e-9;
 
 /// A logarithmic axis from one end of the plot to the other.
@@ -25,7 +25,7 @@ struct Axis {
 }
 
 impl Axis {
-    /// Covers all values with a margin on both sides.
+    /// An axis that covers all values, with a margin on both sides.
     fn over(values: impl Iterator<Item = f64>, margin: f64, from: f64, to: f64) -> Self {
         let logs = values.filter(|value| value.is_finite() && *value > 0.0).map(f64::log10);
         let (low, high) =
@@ -41,7 +41,8 @@ impl Axis {
         self.from + (value.log10() - self.low) / (self.high - self.low) * (self.to - self.from)
     }
 
-    /// Round numbers within the axis: the decades alone if there are many, else as few in each decade as make three.
+    /// Round numbers within the axis: the decades alone if there are many, otherwise few steps in each decade, at
+    /// least three ticks in all.
     fn ticks(&self) -> Vec<f64> {
         let decades: &[f64] = &[1.0];
         let finer: [&[f64]; 3] =
@@ -54,9 +55,9 @@ impl Axis {
         all.into_iter().nth(enough).unwrap_or_default()
     }
 
-    /// These steps in every decade, as far as they lie within the axis.
+    /// These steps in every decade, within the axis.
     fn multiples(&self, steps: &[f64]) -> Vec<f64> {
-        // Divided where they are fractions, so that they print as they are meant.
+        // A division where they are fractions, so that they print exactly.
         let at = |step: f64, decade: i32| {
             if decade < 0 { step / 10f64.powi(-decade) } else { step * 10f64.powi(decade) }
         };
@@ -68,7 +69,7 @@ impl Axis {
     }
 }
 
-/// Where a way stands in the plot.
+/// The position of a way in the plot.
 type Place<'a> = &'a dyn Fn(&Way) -> (f64, f64);
 
 /// The whole plot.
@@ -96,7 +97,7 @@ pub(super) fn svg(report: &Report) -> String {
     svg
 }
 
-/// The names of ways in their order, each once.
+/// The names of ways in order, without repetitions.
 pub(super) fn names<'a>(ways: &[&'a Way]) -> Vec<&'a str> {
     let mut names: Vec<&str> = Vec::new();
     for way in ways {
@@ -140,7 +141,7 @@ fn axes(svg: &mut String, x: &Axis, y: &Axis) {
     );
 }
 
-/// `10` raised, with a factor in front if it is not 1.
+/// A power of `10` with its exponent raised, and a factor before it if that is not 1.
 fn power(tick: f64) -> String {
     let exponent = tick.log10().floor();
     let factor = (tick / 10f64.powf(exponent) * 10.0).round() / 10.0;
@@ -149,7 +150,7 @@ fn power(tick: f64) -> String {
     if factor == 1.0 { raised } else { format!("{factor}\u{b7}{raised}") }
 }
 
-/// The Pareto front from the fastest to the most exact.
+/// The Pareto front from the fastest way to the most exact.
 fn front(svg: &mut String, ways: &[&Way], point: Place<'_>) {
     let mut best: Vec<(f64, f64)> = ways.iter().filter(|way| way.pareto).map(|way| point(way)).collect();
     best.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -180,13 +181,14 @@ fn series(svg: &mut String, ways: &[&Way], name: &str, [model, shape]: [usize; 2
     }
 }
 
-/// The tessellation beside a point: above it for one model and below it for the next, since models lie close together.
+/// The tessellation next to a point, above it for one model and below it for the next, since models lie close
+/// together.
 fn label(way: &Way, x: f64, y: f64) -> String {
     let Some([segments, rings]) = way.tessellation else { return String::new() };
     format!("<text class=\"label\" x=\"{:.1}\" y=\"{y:.1}\">{segments}\u{d7}{rings}</text>", x + 10.0)
 }
 
-/// A filled shape for each way of a model: circle, square, diamond, triangle, and again.
+/// The marker of a way, filled: circle, square, diamond, triangle, and again from the start.
 pub(super) fn marker(shape: usize, x: f64, y: f64) -> String {
     match shape % 4 {
         0 => format!("<circle class=\"mark\" cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"5.5\"/>"),

@@ -1,17 +1,17 @@
-//! Pictures of a report as PNG data URIs.
+//! Encodes the pictures of a report as PNG data URIs.
 //!
-//! *Holds:* colors are clamped to [0, 1] and rounded to 8 bits without gamma, as `glisten render` does; what is not
-//! finite is magenta. Differences are drawn on a logarithmic scale from [`FLOOR`] to 1; pixels that only one picture
-//! covers are cyan.
+//! *Holds:* colors are clamped to [0, 1] and rounded to 8 bits without gamma, as in `glisten render`; non-finite
+//! colors are magenta. Differences have a logarithmic scale from [`FLOOR`] to 1; pixels that only one picture covers
+//! are cyan.
 
 use glisten_scene::compare::Picture;
 use image::ImageEncoder;
 use image::codecs::png::PngEncoder;
 
-/// The difference that is drawn black.
+/// The largest difference that is drawn black.
 pub(super) const FLOOR: f64 = 1e-7;
 
-/// The colors of the scale of differences, dark to light, at equal steps; between them colors are mixed.
+/// The colors of the difference scale, dark to light, in equal steps; colors between them are interpolated.
 pub(super) const SCALE: [[u8; 3]; 8] = [
     [0, 0, 4],
     [40, 11, 84],
@@ -23,7 +23,7 @@ pub(super) const SCALE: [[u8; 3]; 8] = [
     [252, 255, 164],
 ];
 
-/// The first attachment.
+/// The first attachment as a PNG data URI.
 pub(super) fn color_uri(picture: &Picture) -> String {
     let pixels = picture.attachments.first().map(Vec::as_slice).unwrap_or_default();
     let bytes = pixels.iter().flat_map(|[r, g, b, _]| {
@@ -36,7 +36,7 @@ pub(super) fn color_uri(picture: &Picture) -> String {
     data_uri(&bytes.collect::<Vec<u8>>(), picture.width, picture.height)
 }
 
-/// Differences from the truth.
+/// The differences from the truth as a PNG data URI.
 pub(super) fn difference_uri(differences: &[Option<f64>], width: u32, height: u32) -> String {
     let bytes = differences.iter().flat_map(|difference| match difference {
         Some(difference) => scale_color(*difference),
@@ -58,14 +58,14 @@ fn scale_color(difference: f64) -> [u8; 3] {
 fn data_uri(rgb: &[u8], width: u32, height: u32) -> String {
     let mut png = Vec::new();
     let encoded = PngEncoder::new(&mut png).write_image(rgb, width, height, image::ExtendedColorType::Rgb8);
-    // Writing to memory fails only if the sizes disagree; an empty picture shows that better than no page at all.
+    // Writing to memory fails only if the sizes disagree. An empty picture shows that better than no page at all.
     if encoded.is_err() {
         png.clear();
     }
     format!("data:image/png;base64,{}", base64(&png))
 }
 
-/// RFC 4648 §4.
+/// Base64 (RFC 4648 §4).
 fn base64(bytes: &[u8]) -> String {
     const ALPHABET: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);

@@ -1,7 +1,7 @@
 //! Draws and times every way of a plan.
 //!
-//! *Holds:* all ways, and the baseline a second time, are timed in one run in turns; the order within a round is turned
-//! from round to round, so that no way always follows the same other.
+//! *Holds:* all ways, and the baseline a second time, are timed in turns in one run. The order rotates from round to
+//! round, so that no way always follows the same other way.
 
 use super::figures::{compare, mark_pareto, spread};
 use super::model::{Adapter, Report, Timing, Truth, Way};
@@ -14,43 +14,43 @@ use glisten_gpu::{Gpu, Prepared, Via};
 use glisten_reference::{Precision, RenderOptions};
 use glisten_scene::compare::Picture;
 
-/// Why there is no report.
+/// Why a report could not be made.
 #[derive(Debug)]
 pub enum Error {
-    /// The scene, or what it names, is at fault; the findings belong to these sources.
+    /// The scene, or something that it names, has errors; the diagnostics belong to these sources.
     Scene {
         /// The texts.
         sources: Box<SourceMap>,
-        /// The findings.
+        /// The diagnostics.
         diagnostics: Diagnostics,
-        /// Whether a file that was named cannot be read.
+        /// Whether a file that it names cannot be read.
         io_error: bool,
     },
     /// The reference cannot draw a way.
     Reference {
         /// The way.
         way: String,
-        /// The findings.
+        /// The diagnostics.
         diagnostics: Vec<Diagnostic>,
     },
     /// The GPU cannot draw a way.
     Gpu {
         /// The way.
         way: String,
-        /// Why.
+        /// The reason.
         error: glisten_gpu::Error,
     },
 }
 
-/// What is told of the work while it goes on: the number of steps, then each step.
+/// Follows the progress of the work: the number of steps, then each step.
 pub trait Watcher {
-    /// So many steps there will be.
+    /// Announces the number of steps.
     fn steps(&mut self, count: usize);
-    /// This one begins.
+    /// Announces a step.
     fn step(&mut self, what: &str);
 }
 
-/// Watches nothing.
+/// Ignores progress.
 impl Watcher for () {
     fn steps(&mut self, _count: usize) {}
     fn step(&mut self, _what: &str) {}
@@ -66,7 +66,7 @@ struct Candidate {
 /// Compares the ways of the scene at `path`.
 ///
 /// # Errors
-/// [`Error`]; the first way that cannot be drawn ends it.
+/// [`Error`]; the first way that cannot be drawn ends the report.
 pub fn run(
     path: &str,
     files: &dyn FileSource,
@@ -128,7 +128,7 @@ fn read_plan(path: &str, files: &dyn FileSource, whole: &Loaded) -> Result<Plan,
     })
 }
 
-/// The files of another source, with the scene's own text in place of what stands there.
+/// The files of another source, except that the scene's own text replaces its file.
 struct Replaced<'a> {
     path: &'a str,
     text: &'a str,
@@ -143,7 +143,7 @@ impl FileSource for Replaced<'_> {
 
 fn scene_of(path: &str, text: &str, files: &dyn FileSource, compiler: &Compiler) -> Result<Scene, Error> {
     let loaded = load(path, &Replaced { path, text, files }, compiler)?;
-    // `load` refuses what has no scene.
+    // `load` reports an error if there is no scene.
     loaded.scene.ok_or(Error::Scene { sources: Box::default(), diagnostics: Diagnostics::default(), io_error: false })
 }
 
@@ -202,7 +202,7 @@ fn time(
         watcher.step(&format!("round {} of {}", round + 1, plan.rounds));
         for turn in 0..=count {
             let index = (turn + round) % (count + 1);
-            // The place past the last is the baseline's second copy.
+            // The index after the last one is the second copy of the baseline.
             let Some(candidate) = candidates.get_mut(if index == count { 0 } else { index }) else { continue };
             let measured = gpu.measure(&candidate.prepared, candidate.frames);
             let way = ways.first().map(|way| way.name.clone()).unwrap_or_default();

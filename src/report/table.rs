@@ -3,7 +3,7 @@
 use super::model::Report;
 use std::fmt::Write as _;
 
-/// Lines of at most some 100 columns, then what the figures mean.
+/// Writes lines of at most some 100 columns, then an explanation of the figures.
 pub(super) fn table(report: &Report) -> String {
     let mut rows = vec![
         ["way", "max error", "RMSE", "rounding", "fragments", "ms", "time", "quartiles", ""]
@@ -49,7 +49,7 @@ pub(super) fn table(report: &Report) -> String {
     text
 }
 
-/// The first column to the left, all others to the right.
+/// Aligns the first column to the left, all others to the right.
 fn aligned(rows: &[Vec<String>]) -> String {
     let columns = rows.first().map_or(0, Vec::len);
     let widths: Vec<usize> = (0..columns)

@@ -1,4 +1,4 @@
-//! Draw commands as draws of a scene.
+//! Turns draw commands of a test into draws of a scene.
 
 use super::vertex_data::{Column, VertexData};
 use super::words::Words;
@@ -7,7 +7,7 @@ use crate::scene::{AttributeData, AttributeValues, Primitive};
 use glisten_front::hir::{Scalar, Type, TypeId, Types};
 use glisten_front::link::{Attribute, Program};
 
-/// What a draw command draws.
+/// The vertices of a draw command.
 #[derive(Clone, Debug)]
 pub(super) struct Geometry {
     pub(super) primitive: Primitive,
@@ -20,7 +20,7 @@ pub(super) struct Geometry {
 /// The attribute of a rectangle's corners, and that of its texture coordinates.
 const VERTEX: &str = "piglit_vertex";
 const TEXCOORD: &str = "piglit_texcoord";
-/// The most instances of a draw.
+/// The largest number of instances of a draw.
 const MOST_INSTANCES: u32 = 1 << 16;
 
 const MODES: &[(&str, Primitive)] = &[
@@ -33,7 +33,7 @@ const MODES: &[(&str, Primitive)] = &[
     ("GL_TRIANGLE_FAN", Primitive::TriangleFan),
 ];
 
-/// Reads what follows `draw`.
+/// Parses what follows `draw`.
 pub(super) fn parse(
     words: &mut Words<'_>,
     program: &Program,
@@ -75,7 +75,7 @@ pub(super) fn parse(
     })
 }
 
-/// The attribute that takes a rectangle's corners: the one by that name, else the one at location 0.
+/// The attribute that receives a rectangle's corners: the one with that name, or else the one at location 0.
 fn corner_attribute(program: &Program) -> &str {
     let attributes = &program.interface.attributes;
     let named = attributes.iter().any(|attribute| attribute.name == VERTEX);
@@ -83,7 +83,7 @@ fn corner_attribute(program: &Program) -> &str {
     first.filter(|_| !named).map_or(VERTEX, |attribute| attribute.name.as_str())
 }
 
-/// The four corners for a strip.
+/// The four corners of a rectangle as a triangle strip.
 fn rectangle(attribute: &str, [x, y, width, height]: [f64; 4]) -> Column {
     let values = vec![x, y, x + width, y, x, y + height, x + width, y + height];
     Column { attribute: attribute.into(), element: 0, column: 0, size: 2, is_integer: false, values }
@@ -102,12 +102,13 @@ fn arrays(words: &mut Words<'_>, program: &Program, data: &VertexData) -> Result
     let (primitive, indices) = match MODES.iter().find(|(name, _)| *name == mode) {
         Some((_, primitive)) => (*primitive, None),
         None if mode == "GL_QUADS" && !counts_primitives(program) => {
-            // The last vertex of a quad provokes both of its halves.
+            // The last vertex of a quad is the provoking vertex of both its halves.
             let halves = (0..count / 4).flat_map(|quad| [0, 1, 3, 1, 2, 3].map(|corner| quad * 4 + corner));
             (Primitive::Triangles, Some(halves.collect::<Vec<u32>>()))
         }
         None if mode == "GL_QUAD_STRIP" && !counts_primitives(program) => {
-            // Corners 2q, 2q + 1, 2q + 3, 2q + 2 go round, and 2q + 3 provokes (OpenGL 3.0 §2.6.1).
+            // The corners 2q, 2q + 1, 2q + 3, 2q + 2 are in order around the quad, and 2q + 3 provokes (OpenGL 3.0
+            // §2.6.1).
             let quads = (count / 2).saturating_sub(1);
             let halves = (0..quads).flat_map(|quad| [2, 0, 3, 0, 1, 3].map(|corner| quad * 2 + corner));
             (Primitive::Triangles, Some(halves.collect::<Vec<u32>>()))
@@ -117,7 +118,7 @@ fn arrays(words: &mut Words<'_>, program: &Program, data: &VertexData) -> Result
         }
         None => return skip(line, format_args!("`{mode}` is not supported")),
     };
-    // gl_VertexID counts from `first`; indices do that, too.
+    // `gl_VertexID` counts from `first`, which indices provide.
     let indices = match indices {
         Some(indices) => Some(indices.into_iter().map(|index| index + first).collect()),
         None if first > 0 => Some((first..first.saturating_add(count)).collect()),
@@ -132,12 +133,12 @@ fn arrays(words: &mut Words<'_>, program: &Program, data: &VertexData) -> Result
     })
 }
 
-/// Whether the fragment stage would see that a quad is two triangles.
+/// Whether the fragment stage could tell that a quad is two triangles.
 fn counts_primitives(program: &Program) -> bool {
     program.stages.iter().flat_map(|shader| shader.globals()).any(|(_, global)| global.name == "gl_PrimitiveID")
 }
 
-/// The data of every attribute of a program, `None` where the table has no column for it.
+/// The data of every attribute of a program; `None` where the table has no column for it.
 fn attributes(program: &Program, data: &VertexData) -> Vec<Option<AttributeData>> {
     program.interface.attributes.iter().map(|attribute| attribute_data(&program.types, attribute, data)).collect()
 }
@@ -146,7 +147,8 @@ fn attribute_data(types: &Types, attribute: &Attribute, data: &VertexData) -> Op
     let columns: Vec<&Column> = data.columns.iter().filter(|column| column.attribute == attribute.name).collect();
     let (scalar, height, per_element) = shape(types, attribute.ty)?;
     let first = columns.first()?;
-    // A lone column keeps its own size, so that missing components are filled by the rule; of several each is whole.
+    // A single column keeps its own size, so that missing components get their defaults; several columns are all
+    // complete.
     let size = if attribute.columns == 1 { first.size.min(height) } else { attribute.columns * height };
     let mut values = Vec::new();
     for row in 0..data.rows as usize {
@@ -170,7 +172,7 @@ fn attribute_data(types: &Types, attribute: &Attribute, data: &VertexData) -> Op
     Some(AttributeData { size, divisor: 0, values })
 }
 
-/// The scalar, the components of a location, and the locations of an array's element.
+/// The scalar type, the number of components per location, and the number of locations per element of an array.
 fn shape(types: &Types, ty: TypeId) -> Option<(Scalar, u32, u32)> {
     match types.get(ty) {
         Type::Scalar(scalar) => Some((scalar, 1, 1)),

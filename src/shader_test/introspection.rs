@@ -1,18 +1,18 @@
-//! `active uniform NAME PNAME VALUE`: what a host would learn of a uniform (OpenGL 3.2 §2.11.4).
+//! `active uniform NAME PNAME VALUE`: what a host would learn about a uniform (OpenGL 3.2 §2.11.4).
 
 use super::words::Words;
 use super::{Outcome, fail, skip, uniforms};
 use glisten_front::hir::{MatrixLayout, Scalar, Type, Types};
 use glisten_front::link::{Program, UniformLeaf};
 
-/// Holds the linked program against what the test says.
+/// Compares the linked program with the expectation of the test.
 pub(super) fn check(program: &Program, words: &mut Words<'_>) -> Result<(), Outcome> {
     let line = words.line;
     let (name, property, wanted) = (words.word()?, words.word()?, words.word()?);
     let Some((leaf, _)) = uniforms::find(program, name, 0) else {
         return fail(line, format_args!("there is no active uniform `{name}`"));
     };
-    // Loose uniforms have no place that a host could ask for.
+    // Loose uniforms have no offset that a host could query.
     let is_loose = program.interface.roots.get(leaf.root.0 as usize).is_none_or(|root| root.block.is_none());
     let place = |value: u32| if is_loose { "-1".to_owned() } else { value.to_string() };
     let found = match property {
@@ -32,7 +32,7 @@ fn is_row_major(types: &Types, leaf: &UniformLeaf) -> u32 {
     u32::from(is_matrix && leaf.matrix_layout == MatrixLayout::RowMajor)
 }
 
-/// OpenGL's name of a type.
+/// The OpenGL enumerant of a type.
 fn type_name(types: &Types, leaf: &UniformLeaf) -> String {
     let scalar = |scalar| match scalar {
         Scalar::Bool => "GL_BOOL",

@@ -1,8 +1,8 @@
-//! Runs `.shader_test` files: shaders, data, draws and what the picture must be, in one text file; the format of piglit's
-//! shader_runner.
+//! Runs `.shader_test` files, the format of piglit's shader_runner: shaders, data, draws and the expected picture,
+//! all in one text file.
 //!
-//! *In:* the text of a test, and a painter (the GPU or the reference). *Out:* [`Outcome`]: pass, fail or skip, with the
-//! reason.
+//! *In:* the text of a test, and a painter (the GPU or the reference). *Out:* an [`Outcome`]: pass, fail or skip,
+//! with the reason.
 //!
 //! ```text
 //! [require]
@@ -22,8 +22,9 @@
 //! probe all rgba 0 1 0 1
 //! ```
 //!
-//! *Holds:* what a test asks for and this runner does not know is a skip that names it, never a pass. A text of an older
-//! version runs with its version raised to 1.50, and is skipped if it is not valid then.
+//! *Holds:* if a test requests something that this runner does not support, the test is skipped with its name, and
+//! never passes. A shader of an older version runs with its version raised to 1.50, and is skipped if that makes it
+//! invalid.
 //! *Not done here:* geometry, tessellation and compute shaders, compatibility state, transform feedback.
 
 mod draw;
@@ -42,14 +43,14 @@ use crate::scene::Scene;
 use glisten_front::compiler::Compiler;
 use glisten_scene::compare::Picture;
 
-/// How a test ended.
+/// The result of a test.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Outcome {
-    /// Everything was as the test says.
+    /// All expectations hold.
     Pass,
-    /// Something was not; where and what.
+    /// An expectation does not hold; the text says where and which.
     Fail(String),
-    /// The test asks for something that is not there; what.
+    /// The test requests something that is not supported; the text says what.
     Skip(String),
 }
 
@@ -63,7 +64,7 @@ impl Outcome {
         }
     }
 
-    /// Why, if it did not pass.
+    /// The reason, if the test did not pass.
     pub fn reason(&self) -> Option<&str> {
         match self {
             Self::Pass => None,
@@ -72,16 +73,16 @@ impl Outcome {
     }
 }
 
-/// What draws the scenes of a test. An error is a failure of the test, or a skip if the painter lacks a feature.
+/// Draws the scenes of a test. An error fails the test, or skips it if the painter lacks a feature.
 pub trait Painter {
-    /// The picture of a scene.
+    /// Draws a scene.
     ///
     /// # Errors
     /// [`Outcome::Fail`] or [`Outcome::Skip`].
     fn paint(&mut self, scene: &Scene) -> Result<Picture, Outcome>;
 }
 
-/// Runs the test called `name`, whose text this is.
+/// Runs the test called `name` with this text.
 pub fn run(name: &str, text: &str, compiler: &Compiler, painter: &mut dyn Painter) -> Outcome {
     match session::run(name, text, compiler, painter) {
         Ok(()) => Outcome::Pass,
@@ -89,12 +90,12 @@ pub fn run(name: &str, text: &str, compiler: &Compiler, painter: &mut dyn Painte
     }
 }
 
-/// Fails with a place and a reason.
+/// Fails with a line number and a reason.
 fn fail<T>(line: u32, reason: impl std::fmt::Display) -> Result<T, Outcome> {
     Err(Outcome::Fail(format!("line {line}: {reason}")))
 }
 
-/// Skips with a place and a reason.
+/// Skips with a line number and a reason.
 fn skip<T>(line: u32, reason: impl std::fmt::Display) -> Result<T, Outcome> {
     Err(Outcome::Skip(format!("line {line}: {reason}")))
 }

@@ -1,9 +1,9 @@
-//! The sections of a test.
+//! Splits a test into its sections.
 
 use super::{Outcome, fail, skip};
 use glisten_front::hir::Stage;
 
-/// A line with its number, counted from 1, without comment and surrounding blanks.
+/// A line and its number, counted from 1, without its comment and surrounding white space.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Line {
     pub(super) number: u32,
@@ -14,13 +14,13 @@ pub(super) struct Line {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct ShaderText {
     pub(super) stage: Stage,
-    /// With so many empty lines in front that its lines have the numbers of the test's.
+    /// The text, after so many empty lines that its line numbers are those of the test.
     pub(super) text: String,
-    /// Whether it is the ready-made one.
+    /// Whether it is the predefined pass-through shader.
     pub(super) passthrough: bool,
 }
 
-/// A test cut into its sections.
+/// The sections of a test.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct TestFile {
     pub(super) requirements: Vec<Line>,
@@ -29,10 +29,10 @@ pub(super) struct TestFile {
     pub(super) commands: Vec<Line>,
 }
 
-/// What `[vertex shader passthrough]` stands for.
+/// The text of `[vertex shader passthrough]`.
 const PASSTHROUGH: &str = "#version 150\nin vec4 piglit_vertex;\nvoid main() { gl_Position = piglit_vertex; }\n";
 
-/// What a line belongs to.
+/// The section that a line belongs to.
 enum Section {
     Nothing,
     Requirements,
@@ -42,7 +42,7 @@ enum Section {
     Ignored,
 }
 
-/// Cuts a test into its sections.
+/// Splits a test into its sections.
 pub(super) fn parse(text: &str) -> Result<TestFile, Outcome> {
     let mut file = TestFile::default();
     let mut section = Section::Nothing;
@@ -52,7 +52,7 @@ pub(super) fn parse(text: &str) -> Result<TestFile, Outcome> {
             section = open(&mut file, name, number)?;
             continue;
         }
-        // Some tests explain themselves in the comments of C.
+        // Some tests contain C comments.
         let bare = if matches!(section, Section::Shader) { String::new() } else { uncommented(raw, &mut commented) };
         let line = || Line { number, text: bare.split('#').next().unwrap_or("").trim().to_owned() };
         let list = match section {
@@ -79,7 +79,7 @@ pub(super) fn parse(text: &str) -> Result<TestFile, Outcome> {
     Ok(file)
 }
 
-/// A line without what stands between `/*` and `*/`, which may go on over lines.
+/// A line without its `/*` to `*/` comments, which may span lines.
 fn uncommented(raw: &str, inside: &mut bool) -> String {
     let mut text = String::new();
     let mut rest = raw;

@@ -1,10 +1,10 @@
-//! Probes: what pixels must be.
+//! Probes: the expected values of pixels.
 
 use super::words::Words;
 use super::{Outcome, fail, skip};
 use glisten_scene::compare::Picture;
 
-/// A rectangle in window coordinates, whose origin is at the lower left.
+/// A rectangle in window coordinates, with the origin at the lower left.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Area {
     x: u32,
@@ -13,10 +13,10 @@ struct Area {
     height: u32,
 }
 
-/// What a probe looks at, before the window's size is known to matter.
+/// A parsed probe.
 struct Probe {
     area: Area,
-    /// The wanted channels: 3 or 4.
+    /// The expected channels: 3 or 4.
     color: Vec<f64>,
 }
 
@@ -25,7 +25,7 @@ pub(super) fn is_probe(words: &Words<'_>) -> bool {
     matches!(words.rest(), ["probe", ..] | ["relative", "probe", ..])
 }
 
-/// Reads a probe and holds it against the picture.
+/// Parses a probe and compares it with the picture.
 pub(super) fn check(mut words: Words<'_>, picture: &Picture, tolerance: [f64; 4]) -> Result<(), Outcome> {
     let line = words.line;
     let probe = parse(&mut words, [picture.width, picture.height])?;
@@ -37,7 +37,7 @@ pub(super) fn check(mut words: Words<'_>, picture: &Picture, tolerance: [f64; 4]
             };
             let index = row as usize * picture.width as usize + x as usize;
             let Some(color) = pixels.get(index) else { continue };
-            // A NaN is near nothing.
+            // A NaN is not near anything.
             let near = |((seen, wanted), tolerance): ((&f64, &f64), &f64)| (seen - wanted).abs() <= *tolerance;
             if !color.iter().zip(&probe.color).zip(&tolerance).all(near) {
                 return fail(
@@ -59,7 +59,7 @@ fn tuple(channels: &[f64]) -> String {
     format!("({})", list.join(", "))
 }
 
-/// All forms, each in pixels or relative to the window's size.
+/// Parses all forms of probes, in pixels or relative to the window's size.
 fn parse(words: &mut Words<'_>, size: [u32; 2]) -> Result<Probe, Outcome> {
     let line = words.line;
     let relative = words.eat("relative");
@@ -98,7 +98,7 @@ fn area([x, y, width, height]: [f64; 4]) -> Area {
     Area { x: x as u32, y: y as u32, width: width as u32, height: height as u32 }
 }
 
-/// Fractions of the window; a point at its far edge is the last pixel.
+/// An area in fractions of the window. A point on the far edge is in the last pixel.
 fn relative_area(corner: [f64; 2], extent: Option<[f64; 2]>, size: [u32; 2]) -> Area {
     let scaled = |fraction: [f64; 2]| [fraction[0] * f64::from(size[0]), fraction[1] * f64::from(size[1])];
     let [x, y] = scaled(corner);

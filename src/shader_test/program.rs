@@ -1,4 +1,4 @@
-//! The program of a test: its shaders compiled, linked, and whether the link's success is what the test expects.
+//! The program of a test: compiles and links its shaders, and checks whether the link should succeed.
 
 use super::parse::TestFile;
 use super::require::Setup;
@@ -9,12 +9,12 @@ use glisten_front::link::Program;
 use glisten_front::source::SourceMap;
 use std::sync::Arc;
 
-/// The version that older texts are raised to.
+/// The version that replaces older versions.
 const RAISED: &str = "150";
-/// Versions that are raised.
+/// The versions that are replaced.
 const OLDER: &[&str] = &["110", "120", "130", "140"];
 
-/// The program, or `None` if it does not link and the test says `link error`.
+/// The program, or `None` if it does not link and the test expects `link error`.
 pub(super) fn build(
     name: &str,
     file: &TestFile,
@@ -60,7 +60,7 @@ fn first_error(diagnostics: &Diagnostics, sources: &SourceMap) -> String {
     format!("line {line}: {} ({})", error.message, error.code.id)
 }
 
-/// The text with a `#version` line, in one of the empty lines in front of it if it has none of its own.
+/// The text with a `#version` line. If it has none of its own, one of the empty lines before it becomes one.
 fn versioned(text: &str, version: u32) -> String {
     if text.contains("#version") {
         return text.to_owned();
@@ -71,7 +71,7 @@ fn versioned(text: &str, version: u32) -> String {
     }
 }
 
-/// The text with its version raised, if it is an older one of the desktop.
+/// The text with its version raised, if that is an older desktop version.
 fn raise(text: &str) -> Option<String> {
     let start = text.find("#version")?;
     let (line, _) = text[start..].split_once('\n')?;

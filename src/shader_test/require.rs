@@ -1,28 +1,28 @@
-//! `[require]`: what a test needs.
+//! `[require]`: the requirements of a test.
 
 use super::parse::Line;
 use super::words::Words;
 use super::{Outcome, fail, skip};
 
-/// What the requirements ask of the run.
+/// The settings that the requirements ask for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Setup {
-    /// Of the window, in pixels.
+    /// The size of the window, in pixels.
     pub(super) size: [u32; 2],
-    /// Whether the compatibility profile is asked for.
+    /// Whether the compatibility profile is requested.
     pub(super) compatibility: bool,
-    /// 100 times the version that shaders without a `#version` line are written in.
+    /// 100 times the version of shaders without a `#version` line.
     pub(super) version: u32,
 }
 
-/// The window of shader_runner.
+/// The size of shader_runner's window.
 const WINDOW: [u32; 2] = [250, 250];
-/// The version of shaders without a `#version` line where no requirement names one.
+/// The version of shaders without a `#version` line, if no requirement names one.
 const DEFAULT_VERSION: u32 = 110;
-/// The largest window that a test may ask for.
+/// The largest window that a test may request.
 const LARGEST: u32 = 4096;
 
-/// Extensions that are core in OpenGL 3.2, or that the compiler knows.
+/// The extensions that are core in OpenGL 3.2 or that the compiler supports.
 const EXTENSIONS: &[&str] = &[
     "GL_ARB_draw_instanced",
     "GL_ARB_explicit_attrib_location",
@@ -42,7 +42,7 @@ const EXTENSIONS: &[&str] = &[
     "GL_EXT_texture_integer",
 ];
 
-/// What limits are (OpenGL 3.2, tables 6.40 and following: the least maxima).
+/// The limits (OpenGL 3.2, tables 6.40 and following: the smallest required maxima).
 const LIMITS: &[(&str, f64)] = &[
     ("GL_MAX_CLIP_DISTANCES", 8.0),
     ("GL_MAX_CLIP_PLANES", 8.0),
@@ -53,18 +53,18 @@ const LIMITS: &[(&str, f64)] = &[
     ("GL_MAX_VARYING_COMPONENTS", 64.0),
     ("GL_MAX_VERTEX_ATTRIBS", 16.0),
     ("GL_MAX_UNIFORM_BLOCK_SIZE", 16384.0),
-    // The loose uniforms' block holds 64 KiB, and an element of an array of `float` takes 16 bytes of it.
+    // The block of the loose uniforms has 64 KiB, of which each element of an array of `float` takes 16 bytes.
     ("GL_MAX_FRAGMENT_UNIFORM_COMPONENTS", 4096.0),
     ("GL_MAX_VERTEX_UNIFORM_COMPONENTS", 4096.0),
 ];
 
-/// Reads the requirements; the first that is not met is a skip.
+/// Checks the requirements. The first one that is not met is a skip.
 pub(super) fn check(lines: &[Line]) -> Result<Setup, Outcome> {
     let mut setup = Setup { size: WINDOW, compatibility: false, version: DEFAULT_VERSION };
     for line in lines {
         let mut words = Words::new(line.number, line.text.strip_prefix("require ").unwrap_or(&line.text));
         match words.word()? {
-            // A limit for the operating system; ours are in the compiler.
+            // A limit for the operating system; the compiler has limits of its own.
             "rlimit" => {}
             "GLSL" => {
                 if words.eat("ES") {
@@ -104,7 +104,7 @@ pub(super) fn check(lines: &[Line]) -> Result<Setup, Outcome> {
     Ok(setup)
 }
 
-/// The version that is asked for, if it is met.
+/// The requested version, if the comparison holds.
 fn versions(line: &Line, words: &mut Words<'_>, ours: f64, what: &str) -> Result<f64, Outcome> {
     let asked = words.rest().get(1).and_then(|word| word.parse().ok()).unwrap_or(0.0);
     let holds = comparison(words, ours)?;
@@ -123,7 +123,7 @@ fn limit(line: &Line, words: &mut Words<'_>) -> Result<(), Outcome> {
     }
 }
 
-/// `>= 1.50` against what is there.
+/// Evaluates a comparison such as `>= 1.50` with the supported value.
 fn comparison(words: &mut Words<'_>, ours: f64) -> Result<bool, Outcome> {
     let operator = words.word()?;
     let wanted = words.number()?;

@@ -1,7 +1,7 @@
-//! The commands of a test, one after the other.
+//! Runs the commands of a test in order.
 //!
-//! *Holds:* draws are collected and painted when a probe looks; a clear begins anew. Each draw keeps the uniforms and the
-//! state that it was made with.
+//! *Holds:* draws are collected, and painted when a probe needs the picture; a clear discards them. Each draw keeps
+//! the uniforms and the state of its command.
 
 use super::draw::{self, Geometry};
 use super::parse::{Line, TestFile, parse};
@@ -17,7 +17,7 @@ use glisten_front::link::Program;
 use glisten_scene::compare::Picture;
 use std::sync::Arc;
 
-/// Runs a test; `Ok` is a pass.
+/// Runs a test; `Ok` means that it passes.
 pub(super) fn run(name: &str, text: &str, compiler: &Compiler, painter: &mut dyn Painter) -> Result<(), Outcome> {
     let file = parse(text)?;
     let setup = require::check(&file.requirements)?;
@@ -34,30 +34,30 @@ fn commands(file: &TestFile, session: &mut Session, painter: &mut dyn Painter) -
     Ok(())
 }
 
-/// What commands change.
+/// The state that commands change.
 struct Session {
     program: Arc<Program>,
     data: VertexData,
     uniforms: Uniforms,
     units: Units,
     state: State,
-    /// GL_CLIP_DISTANCEi that are enabled, by bit.
+    /// The enabled GL_CLIP_DISTANCEi, one bit each.
     clip: u32,
     blending: bool,
     factors: (BlendFactor, BlendFactor),
     element: u32,
     framebuffer: Framebuffer,
-    /// What the next clear clears to.
+    /// The color of the next clear.
     clear_color: [f64; 4],
     tolerance: [f64; 4],
     draws: Vec<Draw>,
-    /// Of all draws so far.
+    /// The picture of all draws so far.
     picture: Option<Picture>,
 }
 
-/// The tolerance of shader_runner.
+/// The default tolerance of shader_runner.
 const TOLERANCE: f64 = 0.01;
-/// The most draws between two clears; each probe paints all of them.
+/// The largest number of draws between two clears, all of which each probe paints.
 const MOST_DRAWS: usize = 1024;
 
 const FACTORS: &[(&str, BlendFactor)] = &[
@@ -99,7 +99,7 @@ impl Session {
             clip_distances: 0,
             program_point_size: false,
         };
-        // A window stores 8 bits a channel.
+        // A window stores 8 bits per channel.
         let framebuffer = Framebuffer { width, height, clear: [0.0; 4], format: Format::Rgba8Unorm, attachments: 1 };
         Self {
             uniforms: Uniforms::new(&program),
@@ -153,7 +153,7 @@ impl Session {
                 Ok(())
             }
             "polygon" => skip(line.number, "`polygon mode`: WebGPU draws polygons filled"),
-            // Fixed-function matrices and shading: a core program does not see them.
+            // Fixed-function matrices and shading, which a core program does not see.
             "ortho" | "frustum" | "hint" | "shade" => Ok(()),
             _ => skip(line.number, format_args!("`{}` is not supported", line.text)),
         }

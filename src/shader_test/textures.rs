@@ -1,4 +1,4 @@
-//! Textures by unit, in the patterns that tests name.
+//! The textures of the units, with the patterns that tests name.
 
 use super::words::Words;
 use super::{Outcome, fail, skip};
@@ -7,11 +7,11 @@ use glisten_front::hir::{SamplerType, Scalar};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// What is bound to the texture units.
+/// The textures that are bound to units.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Units {
     units: BTreeMap<u32, Unit>,
-    /// The unit that `texparameter` means: that of the last `texture` command.
+    /// The unit that `texparameter` refers to: that of the last `texture` command.
     active: u32,
 }
 
@@ -28,7 +28,7 @@ const RED: [f32; 4] = [1.0, 0.0, 0.0, 1.0];
 const GREEN: [f32; 4] = [0.0, 1.0, 0.0, 1.0];
 const BLUE: [f32; 4] = [0.0, 0.0, 1.0, 1.0];
 const WHITE: [f32; 4] = [1.0; 4];
-/// The largest texture that a test may ask for.
+/// The largest side of a texture that a test may request.
 const LARGEST: u32 = 4096;
 
 const COMPARES: &[(&str, Compare)] = &[
@@ -43,7 +43,7 @@ const COMPARES: &[(&str, Compare)] = &[
 ];
 
 impl Units {
-    /// `texture checkerboard 0 0 (8, 8) (..) (..)` and its like.
+    /// Runs a `texture` command such as `texture checkerboard 0 0 (8, 8) (..) (..)`.
     pub(super) fn create(&mut self, words: &mut Words<'_>) -> Result<(), Outcome> {
         let line = words.line;
         let form = words.word()?;
@@ -95,7 +95,7 @@ impl Units {
         Ok(())
     }
 
-    /// `texparameter 2D min nearest` and its like.
+    /// Runs a `texparameter` command such as `texparameter 2D min nearest`.
     pub(super) fn parameter(&mut self, words: &mut Words<'_>) -> Result<(), Outcome> {
         let line = words.line;
         words.word()?;
@@ -117,7 +117,7 @@ impl Units {
         Ok(())
     }
 
-    /// The texture that a sampler of this type sees at a unit; an unbound unit is black.
+    /// The texture for a sampler of this type at a unit; an unbound unit is black.
     pub(super) fn texture(&self, line: u32, number: u32, kind: SamplerType) -> Result<Option<Arc<Texture>>, Outcome> {
         let Some(unit) = self.units.get(&number) else { return Ok(None) };
         let dimensions = glisten_front::hir::SamplerDim::D2 == kind.dim && !kind.arrayed && kind.texel == Scalar::Float;

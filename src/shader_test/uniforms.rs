@@ -1,4 +1,4 @@
-//! Uniform values as a test sets them, by name.
+//! Uniform values that a test sets by name.
 
 use super::words::Words;
 use super::{Outcome, fail, skip};
@@ -9,12 +9,12 @@ use glisten_front::link::{Program, UniformLeaf};
 #[derive(Clone, Debug)]
 pub(super) struct Uniforms {
     pub(super) values: Vec<Vec<ScalarValue>>,
-    /// By sampler slot.
+    /// The unit of each sampler slot.
     pub(super) units: Vec<u32>,
 }
 
 impl Uniforms {
-    /// Initializers, or 0.
+    /// The values of the initializers, or 0.
     pub(super) fn new(program: &Program) -> Self {
         let zeros = |root: &glisten_front::link::UniformRoot| {
             let mut flat = vec![ScalarValue::Float(0.0); program.types.flat_len(root.ty) as usize];
@@ -37,7 +37,7 @@ impl Uniforms {
         Self { values, units }
     }
 
-    /// `uniform vec4 name 0 1 0 1`; `element` picks one of an array of blocks.
+    /// Runs `uniform vec4 name 0 1 0 1`; `element` selects a block of an array of blocks.
     pub(super) fn set(&mut self, program: &Program, words: &mut Words<'_>, element: u32) -> Result<(), Outcome> {
         let line = words.line;
         let ty = words.word()?;
@@ -49,7 +49,7 @@ impl Uniforms {
             return Ok(());
         }
         let Some((leaf, first)) = find(program, name, element) else {
-            // What a compiler need not call active has no location, and setting nothing is no error.
+            // A uniform that a compiler may call inactive has no location, and setting it is no error.
             return if is_declared(program, name) {
                 Ok(())
             } else {
@@ -71,7 +71,7 @@ impl Uniforms {
         Ok(())
     }
 
-    /// `uniform int name 1` of a sampler; an array takes a unit an element.
+    /// Runs `uniform int name 1` for a sampler; an array takes one unit per element.
     fn set_unit(&mut self, program: &Program, name: &str, words: &mut Words<'_>) -> Result<bool, Outcome> {
         let slots = &program.interface.samplers;
         let element = |index: usize| format!("{name}[{index}]");
@@ -94,7 +94,7 @@ fn roots_match(program: &Program, leaf: &UniformLeaf, root: &glisten_front::link
     program.interface.roots.get(leaf.root.0 as usize).is_some_and(|other| std::ptr::eq(other, root))
 }
 
-/// How many scalars a leaf holds, and of which type.
+/// The number of scalars of a leaf, and their type.
 fn extent(program: &Program, leaf: &UniformLeaf) -> (u32, Scalar) {
     let scalar = program.types.scalar_of(leaf.ty).unwrap_or(Scalar::Float);
     (program.types.flat_len(leaf.ty) * leaf.array_size.unwrap_or(1), scalar)
@@ -103,14 +103,14 @@ fn extent(program: &Program, leaf: &UniformLeaf) -> (u32, Scalar) {
 fn number(scalar: Scalar, value: f64) -> ScalarValue {
     match scalar {
         Scalar::Bool => ScalarValue::Bool(value != 0.0),
-        // Bits beyond the 32nd are lost, as they are in OpenGL's own call.
+        // Bits beyond the 32nd are dropped, as in OpenGL's own call.
         Scalar::Int => ScalarValue::Int(value as i64 as i32),
         Scalar::Uint => ScalarValue::Uint(value as i64 as u32),
         Scalar::Float => ScalarValue::Float(value as f32),
     }
 }
 
-/// The leaf of a name and the first scalar in it that an index at the name's end picks.
+/// The leaf of a name, and the index of the scalar that an array index in the name selects.
 pub(super) fn find<'p>(program: &'p Program, name: &str, element: u32) -> Option<(&'p UniformLeaf, u32)> {
     let leaves = &program.interface.uniforms;
     let picked = |leaf: &&UniformLeaf| leaf.block_element == element || is_indexed(leaf, name);
@@ -126,12 +126,12 @@ pub(super) fn find<'p>(program: &'p Program, name: &str, element: u32) -> Option
     (index < leaf.array_size?).then(|| (leaf, index * program.types.flat_len(leaf.ty)))
 }
 
-/// Whether the test's own name has the index of the block's element.
+/// Whether the name in the test has the index of the block's element.
 fn is_indexed(leaf: &UniformLeaf, name: &str) -> bool {
     name.starts_with(leaf.name.split('.').next().unwrap_or_default())
 }
 
-/// `Block.member` of `Block[1].member`.
+/// `Block.member` for `Block[1].member`.
 fn without_block_index(leaf: &UniformLeaf) -> String {
     match (leaf.name.split_once('.'), leaf.name.find('[')) {
         (Some((block, member)), Some(open)) if open < block.len() => format!("{}.{member}", &block[..open]),

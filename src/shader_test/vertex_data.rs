@@ -1,4 +1,4 @@
-//! `[vertex data]`: a table with an attribute's column a column.
+//! `[vertex data]`: a table whose columns are columns of attributes.
 
 use super::parse::Line;
 use super::words::{parse_integer, parse_number};
@@ -7,15 +7,15 @@ use super::{Outcome, fail, skip};
 /// A column of the table: components of an attribute, or of one of its matrix columns or array elements.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Column {
-    /// Without index.
+    /// The attribute's name, without an index.
     pub(super) attribute: String,
-    /// Which location of the attribute: the array's element times the columns of an element, plus the column.
+    /// The location within the attribute: the array index times the columns of an element, plus the column.
     pub(super) element: u32,
     /// The matrix column.
     pub(super) column: u32,
-    /// How many components.
+    /// The number of components.
     pub(super) size: u32,
-    /// Whether the numbers are integers: then hexadecimal ones are not the bits of floats.
+    /// Whether the numbers are integers, so that hexadecimal ones are not the bits of floats.
     pub(super) is_integer: bool,
     /// All rows, `size` numbers each.
     pub(super) values: Vec<f64>,
@@ -28,7 +28,7 @@ pub(super) struct VertexData {
     pub(super) rows: u32,
 }
 
-/// Reads the table.
+/// Parses the table.
 pub(super) fn parse(lines: &[Line]) -> Result<VertexData, Outcome> {
     let Some((head, rows)) = lines.split_first() else { return Ok(VertexData::default()) };
     let mut columns =
@@ -69,7 +69,7 @@ fn header(line: u32, word: &str) -> Result<Column, Outcome> {
     Ok(Column { attribute: attribute.into(), element, column, size, is_integer: data != "float", values: Vec::new() })
 }
 
-/// How many numbers a type has (of a matrix: a column): `vec3`, `mat2x3`, or a bare `3`.
+/// How many numbers a type has (for a matrix, per column): `vec3`, `mat2x3`, or just `3`.
 fn components(shape: &str) -> Option<u32> {
     if let Ok(count) = shape.parse() {
         return (1..=4).contains(&count).then_some(count);

@@ -1,8 +1,8 @@
-//! The words of a command: blanks, commas and parentheses part them.
+//! Splits a command into words, separated by white space, commas and parentheses.
 
 use super::{Outcome, fail};
 
-/// The words of a line that are still to be read.
+/// The words of a line that have not been read.
 #[derive(Clone, Debug)]
 pub(super) struct Words<'a> {
     pub(super) line: u32,
@@ -16,7 +16,7 @@ impl<'a> Words<'a> {
         Self { line, words: words.collect(), next: 0 }
     }
 
-    /// Takes these words if they are the next ones.
+    /// Reads these words if they are next.
     pub(super) fn eat(&mut self, phrase: &str) -> bool {
         let wanted: Vec<&str> = phrase.split(' ').collect();
         let is_next = self.rest().starts_with(&wanted);
@@ -26,7 +26,7 @@ impl<'a> Words<'a> {
         is_next
     }
 
-    /// The words not yet read.
+    /// The words that have not been read.
     pub(super) fn rest(&self) -> &[&'a str] {
         self.words.get(self.next..).unwrap_or_default()
     }
@@ -43,21 +43,21 @@ impl<'a> Words<'a> {
         self.number_by(parse_number)
     }
 
-    /// The next word as an integer, whose hexadecimal form is its own value and not the bits of a float.
+    /// The next word as an integer. A hexadecimal integer is its own value, not the bits of a float.
     pub(super) fn integer(&mut self) -> Result<f64, Outcome> {
         self.number_by(parse_integer)
     }
 
     fn number_by(&mut self, parse: fn(&str) -> Option<f64>) -> Result<f64, Outcome> {
         let word = self.word()?;
-        // What follows a number is passed over by C's functions, and some tests end their lines as statements.
+        // C's functions ignore what follows a number, and some tests end their lines with a semicolon.
         match parse(word.trim_end_matches(';')) {
             Some(number) => Ok(number),
             None => fail(self.line, format_args!("`{word}` is no number")),
         }
     }
 
-    /// The next words as so many numbers.
+    /// The next `N` words as numbers.
     pub(super) fn numbers<const N: usize>(&mut self) -> Result<[f64; N], Outcome> {
         let mut numbers = [0.0; N];
         for number in &mut numbers {
@@ -66,7 +66,7 @@ impl<'a> Words<'a> {
         Ok(numbers)
     }
 
-    /// The next word as a count or index.
+    /// The next word as a count or an index.
     pub(super) fn count(&mut self) -> Result<u32, Outcome> {
         let number = self.number()?;
         if number >= 0.0 && number <= f64::from(u32::MAX) && number.fract() == 0.0 {

@@ -11,7 +11,7 @@ const VERTEX: &str = "#version 150 core\nin vec4 pv;\nin vec4 cv;\nuniform mat4 
     {\n    vc = cv;\n    gl_Position = mc * pv;\n}\n";
 const FRAGMENT: &str = "#version 150 core\nin vec4 vc;\nout vec4 fc;\nvoid main(void)\n{\n    fc = vc;\n}\n";
 
-/// A temporary folder with files in it, and the program run there.
+/// A temporary folder with files, in which the program runs.
 struct Place(TempDir);
 
 impl Place {
@@ -141,7 +141,7 @@ fn an_unreadable_file_is_told() {
     let place = Place::triangle();
     fs::set_permissions(place.path("tri.vert"), fs::Permissions::from_mode(0o000)).expect("permissions");
     if fs::read(place.path("tri.vert")).is_ok() {
-        // The superuser reads everything; what cannot be read then is a file that is a socket.
+        // The superuser can read everything; in that case, use a socket as a file that cannot be read.
         fs::remove_file(place.path("tri.vert")).expect("removed");
         let _socket = std::os::unix::net::UnixListener::bind(place.path("tri.vert")).expect("a socket");
         let (findings, exit) = place.lint(&["tri.vert"]);
@@ -216,7 +216,7 @@ fn a_reader_that_goes_away_ends_the_program_in_silence() {
     assert!(err(&output).is_empty(), "{}", err(&output));
 }
 
-/// Whether a path is a file with something in it.
+/// Whether a path is a non-empty file.
 fn is_written(path: &Path) -> bool {
     fs::metadata(path).is_ok_and(|metadata| metadata.is_file() && metadata.len() > 0)
 }
@@ -473,7 +473,7 @@ fn macros_come_from_the_command_line() {
     assert_eq!(code(&place.run(&["lint", "a.frag", "-D", "1X"])), 2);
 }
 
-/// A scene with the triangle in it.
+/// A scene that contains the triangle.
 const SCENE: &str = "[framebuffer]\nwidth = 16\nheight = 8\n\n[[draw]]\nvertex = \"tri.vert\"\nfragment = \"tri.frag\"\n\
     primitive = \"triangles\"\n[draw.attributes]\npv = { size = 2, values = [-1, -1, 3, -1, -1, 3] }\n\
     cv = { size = 4, values = [0.5, 0.25, 2.0, 1, 0.5, 0.25, 2.0, 1, 0.5, 0.25, 2.0, 1] }\n[draw.uniforms]\n\

@@ -1,12 +1,12 @@
-//! The registry of codes: each has an example that raises it and one that is clean, a fixture, and a page in whole
-//! sentences.
+//! Tests of the registry of codes: each has an example that raises it and one that is clean, a fixture, and a page in
+//! whole sentences.
 
 use crate::support::{Settings, Shader, compile, shaders_under};
 use glisten_front::diagnostic::{Code, Example, codes};
 use glisten_front::hir::Stage;
 use std::collections::BTreeSet;
 
-/// Codes without a `bad` example that runs, and why.
+/// Codes without a `bad` example that runs, and the reason.
 static WITHOUT_EXAMPLE: &[(&str, &str)] = &[
     ("E0001", "what raises it changes with what is supported"),
     ("E0002", "a fault of glisten"),
@@ -23,7 +23,7 @@ static WITHOUT_EXAMPLE: &[(&str, &str)] = &[
     ("W0108", "needs a second file; the fixtures have it"),
 ];
 
-/// Codes that no fixture raises, and why.
+/// Codes that no fixture raises, and the reason.
 static WITHOUT_FIXTURE: &[(&str, &str)] = &[
     ("E0001", "what raises it changes with what is supported"),
     ("E0002", "a fault of glisten"),
@@ -40,7 +40,8 @@ fn has_fixtures(code: &Code) -> bool {
     is_of_the_front_end(code)
 }
 
-/// Phases whose rows are judged here; those of targets, scenes and the command line are not raised by compiling.
+/// Whether a code's examples are compiled here; codes of targets, scenes and the command line are not raised by
+/// compiling.
 fn is_of_the_front_end(code: &Code) -> bool {
     let phase = code.id.get(1..3).and_then(|digits| digits.parse::<u32>().ok());
     let compiles = matches!(phase, Some(1..=7)) && !code.id.starts_with('L');

@@ -1,10 +1,11 @@
-//! The fixtures under `fixtures/valid`, `fixtures/invalid` and `fixtures/link`: what is found in each is exactly what
-//! its comments say.
+//! The fixtures in `fixtures/valid`, `fixtures/invalid` and `fixtures/link`: the diagnostics of each are exactly
+//! those that its comments expect.
 //!
-//! A comment `//~ CODE start:end` expects a finding on its own line, `//~^ CODE start:end` on the line above (one `^`
-//! a line, lines that hold nothing but such comments not counted). Columns count from 1, the end is exclusive; a finding of several lines is `start:+lines:end`. A first line
-//! `// fixture: strict, NAME=VALUE, NAME, attribute NAME=LOCATION` sets how the file is compiled. Files under `fixtures/link`
-//! whose names are equal up to the first point are one program (`a.vert`, `a.2.vert`, `a.frag`).
+//! A comment `//~ CODE start:end` expects a diagnostic on its own line, `//~^ CODE start:end` on the line above (one
+//! `^` for each line, not counting lines that contain only such comments). Columns count from 1, the end is
+//! exclusive; a diagnostic that spans several lines is `start:+lines:end`. A first line `// fixture: strict,
+//! NAME=VALUE, NAME, attribute NAME=LOCATION` sets how the file is compiled. Files in `fixtures/link` whose names are
+//! equal up to the first dot are one program (`a.vert`, `a.2.vert`, `a.frag`).
 
 use crate::support::{Settings, Shader, compile, shaders_under};
 use glisten_front::diagnostic::Diagnostics;
@@ -13,7 +14,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::Path;
 
-/// File, line, the rest of the expectation.
+/// The file, the line, and the rest of the expectation.
 type Finding = (String, u32, String);
 
 fn settings(text: &str) -> Settings {
@@ -34,10 +35,10 @@ fn settings(text: &str) -> Settings {
     settings
 }
 
-/// What the comments of a text expect.
+/// The diagnostics that the comments of a text expect.
 fn expected(name: &str, text: &str) -> Vec<Finding> {
     let mut findings = Vec::new();
-    // The numbers of the lines that hold more than expectations.
+    // The numbers of the lines that contain more than expectations.
     let mut lines = Vec::new();
     for (index, line) in text.split('\n').enumerate() {
         if !line.trim_start().starts_with("//~") {
@@ -56,7 +57,7 @@ fn expected(name: &str, text: &str) -> Vec<Finding> {
     findings
 }
 
-/// What was found, in the words of the comments.
+/// The diagnostics, in the notation of the comments.
 fn found(sources: &SourceMap, diagnostics: &Diagnostics) -> Vec<Finding> {
     let finding = |span: Span, code: &str| {
         let Some(at) = sources.location(sources.call_site(span)) else {
@@ -69,7 +70,7 @@ fn found(sources: &SourceMap, diagnostics: &Diagnostics) -> Vec<Finding> {
     diagnostics.iter().map(|diagnostic| finding(diagnostic.primary.span, diagnostic.code.id)).collect()
 }
 
-/// Compiles a program and says how it differs from what its comments expect.
+/// Compiles a program and reports how its diagnostics differ from those that its comments expect.
 fn check(shaders: &[Shader]) -> Result<(), String> {
     let first = shaders.first().map_or("", |shader| &shader.text);
     let (sources, diagnostics) = compile(shaders, &settings(first));

@@ -1,7 +1,7 @@
-//! Emission over all fixtures: what comes out has to be accepted by judges that are not ours.
+//! Emission over all fixtures: external judges have to accept the output.
 //!
-//! WGSL by naga's own front-end and validator and by Tint (through Dawn's null backend, the npm package `webgpu`),
-//! SPIR-V by `spirv-val`. On a machine that lacks one of the outside judges the test says so; where `CI` is set, it fails.
+//! The judges are naga's own front end and validator and Tint (through Dawn's null backend, the npm package `webgpu`)
+//! for WGSL, and `spirv-val` for SPIR-V. If an external judge is missing, the test says so; if `CI` is set, it fails.
 
 use glisten::library::{Embedded, programs, shader};
 use glisten_emit::{ClipZ, Conventions, Emitted, SpirvEnv, Target, WindowOrigin, emit, notes};
@@ -14,10 +14,10 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// What a target may refuse of a valid program: a stage or feature that it lacks.
+/// The errors with which a target may reject a valid program: a stage or feature that it lacks.
 const REFUSALS: [&str; 2] = ["E0801", "E0802"];
 
-/// All shaders below a folder, grouped into programs by folder and stem.
+/// All shaders in a folder, grouped into programs by folder and stem.
 fn fixtures(folder: &str) -> BTreeMap<PathBuf, Vec<PathBuf>> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures").join(folder);
     let mut programs: BTreeMap<PathBuf, Vec<PathBuf>> = BTreeMap::new();
@@ -57,12 +57,12 @@ fn compile(files: &[PathBuf]) -> glisten::Compilation {
     Compiler::new(Options::default()).compile(&sources)
 }
 
-/// Everything that is emitted, on disk for the outside judges.
+/// All emitted code, on disk for the external judges.
 pub(crate) struct Collected {
     folder: tempfile::TempDir,
     /// Files of WGSL with the names of their sources.
     wgsl: Vec<(PathBuf, String)>,
-    /// Files of SPIR-V, likewise.
+    /// Files of SPIR-V with the names of their sources.
     spirv: Vec<(PathBuf, String)>,
     failures: Vec<String>,
 }
@@ -89,13 +89,13 @@ impl Collected {
         let compilation = compile(files);
         let name = format!("{} as {}", files[0].with_extension("").display(), target.name());
         let Some(program) = &compilation.program else {
-            // Fixtures that are not programs (a lone file with an unmatched input) are the business of other tests.
+            // Fixtures that are not programs (a single file with an unmatched input) are left to other tests.
             return;
         };
         self.linked(&name, program, target, conventions);
     }
 
-    /// The same of a program that is linked already.
+    /// Emits all stages of a program that is already linked.
     fn linked(&mut self, name: &str, program: &Program, target: Target, conventions: &Conventions) {
         for shader in &program.stages {
             let first = emit(program, shader.stage, target, conventions);
@@ -117,7 +117,7 @@ impl Collected {
         }
     }
 
-    /// Hands all to the outside judges.
+    /// Passes everything to the external judges.
     pub(crate) fn judge(mut self) {
         self.tint();
         self.spirv_val();
@@ -161,11 +161,11 @@ impl Collected {
     }
 }
 
-/// Says that a judge is not there; where it has to be, that is a failure.
+/// Reports that a judge is missing; where it is required, that is a failure.
 pub(crate) fn missing(judge: &str, way: &str) {
     let message = format!("{judge} is missing, so nothing was shown to it: {way}");
     assert!(std::env::var_os("CI").is_none(), "{message}");
-    // Not captured by the test harness: a judge that is left out must be seen.
+    // The test harness does not capture this: a missing judge must be visible.
     writeln!(std::io::stderr(), "\n{message}").expect("standard error can be written to");
 }
 
@@ -255,7 +255,7 @@ fn the_fixtures_of_lowering_are_programs_and_every_target_takes_or_refuses_them(
     }
 }
 
-/// The codes of a lone shader's emission.
+/// The codes of emitting a single shader.
 fn codes(stage: Stage, text: &str, target: Target, conventions: &Conventions) -> Vec<&'static str> {
     let source = Source { name: "shader".into(), text: format!("#version 150\n{text}").into(), stage };
     let compilation = Compiler::new(Options::default()).compile(&[source]);
@@ -321,7 +321,7 @@ fn long_chains_become_flat_text() {
     reparse(&wgsl).expect("naga reads its own text");
 }
 
-/// The WGSL of a lone fragment shader.
+/// The WGSL of a single fragment shader.
 fn wgsl(text: &str) -> String {
     let source = Source { name: "shader".into(), text: format!("#version 150\n{text}").into(), stage: Stage::Fragment };
     let program = Compiler::new(Options::default()).compile(&[source]).program.expect("the shader is valid");

@@ -1,4 +1,5 @@
-//! The envelope against lavapipe: what it excuses, how wide it is, what its own rules rest on, what it is laid at.
+//! The envelope compared with lavapipe: what it excuses, how wide it is, what its own rules are based on, and which
+//! operations it is attributed to.
 //!
 //! Figures of the docs are printed by `cargo test --test it -- envelope --nocapture`. Needs a Vulkan software adapter.
 
@@ -74,7 +75,7 @@ fn known_faults_explain_what_the_strict_envelope_leaves_outside() {
     }
 }
 
-/// Channels of covered pixels: the width of the envelope and lavapipe's error.
+/// For the channels of covered pixels: the width of the envelope, and lavapipe's error.
 fn widths_and_errors(picture: &Picture, reference: &Picture) -> Vec<(f64, f64)> {
     let ranges = &reference.ranges.as_ref().expect("it has envelopes")[0];
     let mut pairs = Vec::new();
@@ -159,8 +160,8 @@ fn measured(what: &str, found: f64, allowed: f64, unit: &str) {
     assert!(found <= allowed, "{what}");
 }
 
-/// Where vertices lie between points of the grid that coverage is decided on, a varying with a steep slope tells whether
-/// it is interpolated between the snapped places: how far off it is, in pixels.
+/// How far off the interpolated position is, in pixels. If vertices are between points of the grid for coverage, a
+/// varying with a steep slope shows whether it is interpolated between the snapped positions.
 fn snapping(gpu: &Gpu) -> f64 {
     let text = "[framebuffer]\nwidth = 64\nheight = 64\n[[draw]]\nvertex = \"a.vert\"\nfragment = \"a.frag\"\n\
                 primitive = \"triangles\"\n[draw.attributes]\n\
@@ -172,12 +173,12 @@ fn snapping(gpu: &Gpu) -> f64 {
     let files = MemoryFiles::new([("a.toml", text), ("a.vert", vertex), ("a.frag", fragment)]);
     let scene = load("a.toml", &files, &Compiler::new(Options::default())).scene.expect("the scene is right");
     let (picture, exact) = (drawn(gpu, &scene), reference(&scene, Precision::F64));
-    // The slope is one a pixel.
+    // The slope is one per pixel.
     let pairs = picture.attachments[0].iter().zip(&exact.attachments[0]).zip(&picture.covered);
     pairs.filter(|(_, covered)| **covered).map(|((gpu, cpu), _)| (gpu[0] - cpu[0]).abs()).fold(0.0, f64::max)
 }
 
-/// How far from the middle between two steps of 8 bits a number may be that is stored at the farther one.
+/// How far from the middle between two 8-bit steps a number may be that is stored as the farther step.
 fn storing(gpu: &Gpu) -> f64 {
     let body = "void main() { color = vec4(gl_FragCoord.x / 64.0, gl_FragCoord.y / 64.0, (gl_FragCoord.x + 64.0 * \
                 gl_FragCoord.y) / 4192.0, 1); }";
@@ -201,7 +202,7 @@ fn measured_rules_rest_on_what_the_driver_does() {
         let used = used.into_iter().filter(|share| share.is_finite()).fold(0.0, f64::max);
         measured(&format!("varyings of {name}"), used, 1.0, "of what is allowed");
     }
-    // A vertex that is snapped moves by up to 1/512 pixel.
+    // A snapped vertex moves by up to 1/512 pixel.
     measured("varyings follow snapped vertices by", snapping(&gpu), 1e-4, "pixels");
     measured("storing in 8 bits, from the middle", storing(&gpu), rules::STORE_SLACK.absolute(), "");
     let scene = from_disk("core/texture_linear.toml");

@@ -1,5 +1,5 @@
-//! The CPU reference's executor on every valid fixture and program: it takes them all, and a tile of odd inputs runs in
-//! every domain without a panic.
+//! The CPU reference's executor on every valid fixture and program: it accepts all of them, and a tile of unusual
+//! inputs runs in every domain without a panic.
 
 use crate::support::{Beside, Shader, shaders_under};
 use glisten_front::hir::Stage;
@@ -13,7 +13,7 @@ fn program(shader: &Shader) -> Option<Program> {
     Compiler::new(Options::default()).with_includes(Beside).compile(&[source]).program
 }
 
-/// Fills every input with numbers that are likely to hurt, and runs.
+/// Fills every input with numbers that are likely to cause trouble, and runs.
 fn run<D: Domain>(code: &Code, program: &Program, stage: Stage) {
     const ODD: [f64; 8] = [0.0, 1.0, -1.5, 1e30, -1e-40, f64::INFINITY, f64::NAN, 3.25];
     let mut machine = Machine::<D>::new(code, &[], &[]);
@@ -32,7 +32,7 @@ fn run<D: Domain>(code: &Code, program: &Program, stage: Stage) {
     machine.run(Mask::first(60), Mask(0xf << 60));
 }
 
-/// What only other parts of glisten serve.
+/// Whether the message is about something that only other parts of glisten provide.
 fn may_be_refused(message: &str) -> bool {
     message.contains("2DMS") || message.contains("`main`")
 }

@@ -33,7 +33,8 @@ fn every_program_has_a_scene() {
         .collect();
     let without: Vec<&str> =
         programs().iter().map(|program| program.name).filter(|name| !drawn.contains(name)).collect();
-    // Each is a program of the textbook at each vertex, whose one of its kind is drawn, or at another interpolation.
+    // The omitted programs: those of the textbook per vertex (one of them is drawn), and those with another
+    // interpolation.
     let siblings = [
         "lambert_vertex",
         "phong_vertex",
@@ -57,7 +58,8 @@ fn programs_have_no_findings() {
     assert_eq!(run.status.code(), Some(0), "{}", String::from_utf8_lossy(&run.stdout));
 }
 
-/// What the GPU and the reference draw of a scene, in a size that the tests have time for; what is wrong with it.
+/// Compares the pictures of the GPU and of the reference for a scene, at a size that is fast enough for a test.
+/// Returns what is wrong.
 fn compare(gpu: &Gpu, name: &str, scene: &Scene) -> Vec<String> {
     let mut scene = scene.clone();
     (scene.framebuffer.width, scene.framebuffer.height) = (64, 64);
@@ -118,7 +120,7 @@ fn gallery(folder: &Path, arguments: &[&str]) -> Output {
         .expect("the program runs")
 }
 
-/// Pixels of a PNG file, RGB.
+/// The pixels of a PNG file, as RGB.
 fn pixels(path: &Path) -> image::RgbImage {
     image::open(path).unwrap_or_else(|error| panic!("{}: {error}", path.display())).to_rgb8()
 }

@@ -1,4 +1,4 @@
-//! The GPU against the CPU reference on scenes, and what a machine without a driver is told.
+//! The GPU compared with the CPU reference on scenes, and the message on a machine without a driver.
 //! These tests need a Vulkan software adapter and fail loudly without one.
 
 use glisten::scene::{self, DiskFiles, MemoryFiles, Scene};
@@ -63,7 +63,8 @@ const VERTEX: &str =
     "#version 150\nin vec4 pv;\nin vec4 cv;\nflat out vec4 vc;\nvoid main() { vc = cv; gl_Position = pv; }\n";
 const FRAGMENT: &str = "#version 150\nflat in vec4 vc;\nout vec4 fc;\nvoid main() { fc = vc; }\n";
 
-/// A flat triangle, or two of a strip or fan, whose vertices are red, green, blue and white, begun at vertex `first`.
+/// A flat triangle, or two from a strip or fan, whose vertices are red, green, blue and white, starting at vertex
+/// `first`.
 fn flat_scene(primitive: &str, vertices: usize, first: usize) -> Scene {
     let corners = [[-0.9, -0.9], [0.9, -0.9], [0.0, 0.9], [0.9, 0.8]];
     let colors = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 1.0, 1.0]];
@@ -89,7 +90,7 @@ fn rotating_a_flat_triangle_changes_its_color_as_opengl_says() {
     let colors = [[1.0, 0.0, 0.0, 1.0], [0.0, 1.0, 0.0, 1.0], [0.0, 0.0, 1.0, 1.0]];
     for first in 0..3 {
         let scene = flat_scene("triangles", 3, first);
-        // The last vertex provokes: of the order 0 1 2 it is 2, of 1 2 0 it is 0, of 2 0 1 it is 1.
+        // The last vertex provokes: in the order 0 1 2 it is 2, in 1 2 0 it is 0, in 2 0 1 it is 1.
         let wanted = colors[(first + 2) % 3];
         let pictures = [
             gpu.render(&scene, Via::Spirv).expect("it draws").picture,
@@ -114,7 +115,7 @@ fn strips_and_fans_provoke_by_their_last_vertex_on_both_backends() {
             .filter(both)
             .filter(|&index| picture.attachments[0][index] != reference.attachments[0][index])
             .collect();
-        // Where lines cross at a corner, the picture depends on which pixel of it is covered; nothing else may differ.
+        // Where lines cross at a corner, the picture depends on which pixel is covered; nothing else may differ.
         assert!(differing.len() <= 4, "{primitive}: {differing:?}");
         assert!((0..picture.covered.len()).any(|index| both(&index)), "{primitive}: something is drawn");
     }
@@ -130,7 +131,7 @@ fn a_machine_without_a_driver_is_told_what_to_install() {
         .arg(&scene)
         .arg("-o")
         .arg(output.path().join("out.npy"))
-        // Vulkan's loader finds no driver by either name of the variable, nor by itself.
+        // With these variables, Vulkan's loader finds no driver.
         .env("VK_ICD_FILENAMES", "/nonexistent.json")
         .env("VK_DRIVER_FILES", "/nonexistent.json")
         .output()

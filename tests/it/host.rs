@@ -1,5 +1,5 @@
-//! A host written from the reflection alone: it takes the emitted files and the JSON, and knows nothing else of the
-//! program. What it draws is held against the reference, under every flag of `glisten compile`.
+//! A host that uses only the reflection: it reads the emitted files and the JSON, and knows nothing else about the
+//! program. Its picture is compared with the reference, with every flag of `glisten compile`.
 //!
 //! Needs a Vulkan software adapter.
 
@@ -16,7 +16,7 @@ use wgpu::util::DeviceExt;
 const SIDE: u32 = 64;
 const VERTICES: usize = 9;
 
-/// The application's data, by GLSL names, as its author would have passed it to OpenGL.
+/// The application's data by GLSL names, as its author would have passed it to OpenGL.
 struct App {
     attributes: Vec<(&'static str, usize, Vec<f64>)>,
     uniforms: Vec<(&'static str, Vec<f64>)>,
@@ -24,7 +24,7 @@ struct App {
 }
 
 fn app() -> App {
-    // Three triangles: one beside, one in front of, and one turned away from the others.
+    // Three triangles: one next to the others, one in front of them, and one that faces away.
     let place = [
         [-0.91, -0.87, -0.5],
         [0.77, -0.93, -0.25],
@@ -67,11 +67,11 @@ fn app() -> App {
     }
 }
 
-/// What the host may do as it likes.
+/// The choices that a host has.
 #[derive(Clone, Copy)]
 struct Draw {
     points: bool,
-    /// Whether the code reads what depends on the window's origin.
+    /// Whether the code reads values that depend on the window's origin.
     window: bool,
     clip_distances: u32,
 }
@@ -88,7 +88,7 @@ fn reference(app: &App, draw: Draw) -> Picture {
         draw.clip_distances,
     );
     let list = |name: &str, values: &[f64]| match name {
-        // Integers are written as such.
+        // Integers are written without a point.
         "cell" | "table" => format!("{:?}", values.iter().map(|value| *value as i32).collect::<Vec<i32>>()),
         _ => format!("{values:?}"),
     };
@@ -120,7 +120,7 @@ fn reference(app: &App, draw: Draw) -> Picture {
     glisten_reference::render(&scene, &options).expect("the reference draws")
 }
 
-/// `glisten compile`; the exit code and, if it is 0, the reflection.
+/// Runs `glisten compile`; returns the exit code and, if it is 0, the reflection.
 fn compile(into: &Path, flags: &[&str]) -> (Option<i32>, Option<Reflection>) {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/lower");
     let run = Command::new(env!("CARGO_BIN_EXE_glisten"))
@@ -140,7 +140,7 @@ struct Host {
     queue: wgpu::Queue,
 }
 
-/// Columns and rows of `mat3x2`, `vec4`, `int`.
+/// The columns and rows of `mat3x2`, `vec4`, `int`.
 fn shape(ty: &str) -> (u32, u32) {
     let digits: Vec<u32> = ty.chars().filter_map(|c| c.to_digit(10)).collect();
     match (ty.starts_with("mat"), digits.as_slice()) {
@@ -151,7 +151,7 @@ fn shape(ty: &str) -> (u32, u32) {
     }
 }
 
-/// A number in the bytes of a component of `ivec3`, `bool`, `mat2`.
+/// The bytes of a number as a component of `ivec3`, `bool`, `mat2`.
 fn component(ty: &str, value: f64) -> [u8; 4] {
     match ty.as_bytes() {
         [b'i', ..] => (value as i32).to_ne_bytes(),
@@ -218,7 +218,8 @@ impl Host {
             spirv: Some(words.into()),
             ..wgpu::ShaderModuleDescriptorPassthrough::default()
         };
-        // SAFETY: the words are valid SPIR-V (`emit.rs` shows them to `spirv-val`), and the layout is the reflection's.
+        // SAFETY: the words are valid SPIR-V (`emit.rs` checks them with `spirv-val`), and the layout is that of the
+        // reflection.
         unsafe { self.device.create_shader_module_passthrough(descriptor) }
     }
 
@@ -247,7 +248,7 @@ impl Host {
             let given = app.uniforms.iter().find(|(name, _)| *name == uniform.name).map(|(_, values)| values.clone());
             let mut values = given.unwrap_or(initial);
             if uniform.name == "projection" && reflection.conventions.clip_z == "minus-one-to-one" {
-                // wgpu clips to [0, w]: the host's own matrix brings z there.
+                // wgpu clips to [0, w]: the host's own matrix maps z to it.
                 for column in values.chunks_mut(4) {
                     column[2] = 0.5 * column[2] + 0.5 * column[3];
                 }
@@ -322,7 +323,7 @@ impl Host {
         })
     }
 
-    /// Draws with the files in `folder`, whose names end in `extension`.
+    /// Draws with the files in `folder` whose names end in `extension`.
     fn draw(&self, folder: &Path, extension: &str, reflection: &Reflection, app: &App, draw: Draw) -> Picture {
         let device = &self.device;
         let buffers = self.buffers(reflection, app);
@@ -486,7 +487,7 @@ impl Host {
         })
     }
 
-    /// The rows of the framebuffer, the first in memory first.
+    /// The rows of the framebuffer, in memory order.
     fn run(
         &self,
         pipeline: &wgpu::RenderPipeline,
@@ -559,7 +560,7 @@ impl Host {
     }
 }
 
-/// Whether the code was written for normalized device coordinates whose y points down: wgpu's points up.
+/// Whether the code is for normalized device coordinates whose y points down; in wgpu, y points up.
 fn upside_down(reflection: &Reflection, extension: &str) -> bool {
     extension == "spv" && reflection.conventions.spirv_env == "vulkan"
 }
@@ -602,7 +603,7 @@ fn sample_type(name: &str) -> wgpu::TextureSampleType {
     }
 }
 
-/// The flags, what draws, and whether points or triangles.
+/// The flags, the form of the code, and whether to draw points or triangles.
 fn runs() -> Vec<(Vec<&'static str>, &'static str, Draw)> {
     let mut runs = Vec::new();
     for (index, (clip_z, origin)) in [
@@ -615,8 +616,8 @@ fn runs() -> Vec<(Vec<&'static str>, &'static str, Draw)> {
     .enumerate()
     {
         for (env, extension) in [("webgpu", "wgsl"), ("webgpu", "spv"), ("vulkan", "spv")] {
-            // A plain Vulkan host has the rows of the window where wgpu's are upside down, so that there is no window to
-            // ask for in this host.
+            // In a plain Vulkan host, the rows of the window are upright where wgpu's are upside down, so this host
+            // cannot provide a window.
             let window = env == "webgpu";
             let (distances, clip_distances) = [("2", 2), ("1", 1), ("0", 0), ("2", 2)][index];
             let mut flags = vec!["--target", if extension == "wgsl" { "wgsl" } else { "spirv" }];

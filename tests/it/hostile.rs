@@ -1,4 +1,4 @@
-//! Sources that mean harm: each ends in an error within a stack of 1 MiB, and long legal ones are accepted.
+//! Hostile sources: each ends in an error within a stack of 1 MiB, and long legal ones are accepted.
 
 use glisten_front::diagnostic::Diagnostics;
 use glisten_front::hir::Stage;
@@ -7,7 +7,7 @@ use glisten_front::syntax::{Options, parse};
 use glisten_front::{Compiler, Source};
 use std::fmt::Write as _;
 
-/// Every include finds a file that includes itself.
+/// A resolver in which every include finds a file that includes itself.
 struct Endless;
 
 impl IncludeResolver for Endless {
@@ -16,10 +16,10 @@ impl IncludeResolver for Endless {
     }
 }
 
-/// The stack that each source gets.
+/// The stack size for each source.
 const STACK: usize = 1 << 20;
 
-/// The codes of all findings of a whole compilation on a small stack.
+/// The codes of all diagnostics of a whole compilation on a small stack.
 fn compiled(text: String) -> Vec<&'static str> {
     let run = move || {
         let source = Source { name: "hostile.vert".into(), text: text.into(), stage: Stage::Vertex };
@@ -30,7 +30,7 @@ fn compiled(text: String) -> Vec<&'static str> {
     thread.expect("a thread").join().expect("no panic and no overflow")
 }
 
-/// The codes of all findings of the parse on a small stack.
+/// The codes of all diagnostics of the parse on a small stack.
 fn codes(text: String) -> Vec<&'static str> {
     let run = move || {
         let mut sources = SourceMap::default();
@@ -155,7 +155,7 @@ fn macros_are_bounded() {
     let wide = format!("#version 150\n#define F(x) {}\nfloat a = F({});", "x ".repeat(50_000), "y ".repeat(50_000));
     assert_eq!(codes(wide), ["E0129"]);
 
-    // Each `##` makes a name that is longer than the one before it.
+    // Each `##` makes a name that is longer than the previous one.
     let pasted = format!("#version 150\n#define P a{}\nfloat P;", "##a".repeat(200_000));
     assert_eq!(codes(pasted), ["E0129"]);
     let twice =
@@ -168,7 +168,7 @@ fn macros_are_bounded() {
     assert!(codes(groups).iter().all(|code| *code == "E0108"));
 }
 
-/// Arrays that initializers size, copied and compared as constants.
+/// Arrays whose sizes come from initializers, copied and compared as constants.
 #[test]
 fn constants_are_bounded() {
     let first = format!("#version 150\nconst float a0[] = float[]({}1.0);\n", "1.0, ".repeat(20_000));
@@ -201,7 +201,7 @@ fn junk_ends_in_errors() {
     assert_eq!(codes(in_main("a = \"text;")), ["E0103"]);
     assert_eq!(codes(in_main("a = \"text;\n")), ["E0103"]);
 
-    // A linear congruential generator, so that the junk is the same everywhere.
+    // A linear congruential generator, so that the junk is the same on every machine.
     let mut state = 1_u64;
     let mut next = || {
         state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
@@ -283,7 +283,7 @@ fn junk_ends_in_errors() {
     assert!(!codes(megabyte).is_empty());
 }
 
-/// Two stages whose thousands of outputs and inputs have names that are alike and never equal.
+/// Two stages with thousands of outputs and inputs whose names are similar and never equal.
 #[test]
 fn interfaces_are_matched_in_little_time() {
     const PLACES: usize = 4_000;

@@ -1,5 +1,5 @@
-//! Layouts proven, not believed: for random sets of uniforms, the offsets and strides in the interface (which the
-//! reflection shows) are those that WGSL gives the emitted text by itself and those that the SPIR-V is decorated with.
+//! Layouts checked against the emitted code: for random sets of uniforms, the offsets and strides in the interface
+//! (which the reflection shows) are the natural ones of the emitted WGSL, and those of the SPIR-V's decorations.
 
 use glisten_emit::{Conventions, Emitted, Target, emit};
 use glisten_front::hir::Stage;
@@ -14,7 +14,7 @@ const TYPES: [&str; 24] = [
     "mat3", "mat4", "mat2x3", "mat2x4", "mat3x2", "mat3x4", "mat4x2", "mat4x3", "Small", "Large", "Nested",
 ];
 
-/// Structs of the usual traps: smaller than 16 bytes, a vec3 before a scalar, arrays of short elements inside.
+/// Structs with the usual traps: smaller than 16 bytes, a vec3 before a scalar, arrays of short elements inside.
 const STRUCTS: &str = "struct Small { float value; };\n\
     struct Large { vec3 direction; float power; vec2 cone[2]; bool on; mat3x2 frame; };\n\
     struct Nested { bool first; Small small; Large larges[2]; int last; };\n";
@@ -44,7 +44,7 @@ fn declaration(member: &Member, name: &str) -> String {
     format!("{} {name}{array};\n", member.ty)
 }
 
-/// An expression that reads something of the member, so that it is in use.
+/// An expression that reads something of the member, so that the member is in use.
 fn reading(member: &Member, path: &str) -> String {
     let path = if member.len.is_some() { format!("{path}[0]") } else { path.to_owned() };
     match member.ty {
@@ -57,7 +57,7 @@ fn reading(member: &Member, path: &str) -> String {
     }
 }
 
-/// The version, loose uniforms, and a block of others.
+/// The version, loose uniforms, and a block of further members.
 pub(crate) fn declarations(loose: &[Member], block: &[Member]) -> String {
     let mut text = format!("#version 150\n{STRUCTS}");
     for (index, member) in loose.iter().enumerate() {
@@ -119,10 +119,11 @@ fn steps(path: &str) -> Vec<Step<'_>> {
     steps
 }
 
-/// Where a path leads in the WGSL module and in the SPIR-V module, walked side by side: SPIR-V has no names.
+/// Where a path leads in the WGSL module and in the SPIR-V module. Both are followed together, because SPIR-V has no
+/// names.
 fn walk(modules: [&Module; 2], slot: SlotBinding, path: &[Step<'_>]) -> [(u32, Handle<Type>); 2] {
     let mut at = modules.map(|module| (0, variable(module, slot)));
-    // naga's SPIR-V puts every block into a struct of its own, at offset 0.
+    // naga's SPIR-V wraps every block in a struct of its own, at offset 0.
     if let TypeInner::Struct { members, .. } = &modules[1].types[at[1].1].inner {
         assert_eq!((members.len(), members[0].offset), (1, 0), "the struct around the block");
         at[1].1 = members[0].ty;

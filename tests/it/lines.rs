@@ -1,4 +1,4 @@
-//! `-g`: the lines in SPIR-V are those of the files on disk, of included ones, too.
+//! `-g`: the lines in SPIR-V are those of the files on disk, including included files.
 
 use std::path::Path;
 use std::process::Command;
@@ -13,10 +13,10 @@ fn text(words: &[u32]) -> String {
     String::from_utf8(bytes).expect("names and texts are UTF-8")
 }
 
-/// A file's id, name and text.
+/// The id, name and text of a file.
 type File = (u32, String, String);
 
-/// The files with the texts that they carry, and all lines by the name of their file.
+/// The files with their texts, and all lines with the name of their file.
 fn lines(words: &[u32]) -> (Vec<File>, Vec<(String, u32)>) {
     let (mut files, mut lines) = (Vec::<File>::new(), Vec::new());
     let mut rest = &words[5..];

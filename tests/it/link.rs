@@ -1,4 +1,4 @@
-//! Linking and reflection: places, layouts, names, the JSON schema.
+//! Linking and reflection: locations, layouts, names, the JSON schema.
 
 use crate::support::{root, shaders_under};
 use glisten_emit::reflection::{Found, find, table};
@@ -27,7 +27,7 @@ fn reflection(vertex: &str, fragment: &str) -> Reflection {
 
 const POSITION: &str = "void main() { gl_Position = vec4(0.0); }";
 
-/// The two programs of the fixtures' kind that every reflection test may use.
+/// Two programs for the reflection tests.
 fn programs() -> BTreeMap<String, Vec<Source>> {
     let mut programs: BTreeMap<String, Vec<Source>> = BTreeMap::new();
     for folder in ["fixtures/programs", "fixtures/lower"] {
@@ -117,7 +117,7 @@ fn the_seeds_triangle_has_its_attributes_where_they_were_bound() {
         let reflection = reflect(&program, &Conventions::default());
         let places: Vec<_> = reflection.attributes.iter().map(|row| (row.name.as_str(), row.location)).collect();
         assert_eq!(places, [("pv", pv), ("cv", cv)]);
-        // The seed asks glGetUniformLocation for it.
+        // The seed document calls glGetUniformLocation for it.
         let Found::Known(lines) = find(&program, &reflection, "cv") else { panic!("`cv` is there") };
         assert!(lines[0].contains("is an attribute"), "{lines:?}");
         let Found::Unknown { nearest } = find(&program, &reflection, "mcc") else { panic!("`mcc` is not there") };

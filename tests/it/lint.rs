@@ -1,4 +1,4 @@
-//! The lint rules: their pages' examples, their fixtures, and silence on ordinary programs.
+//! Tests of the lint rules: their pages' examples, their fixtures, and no warnings on ordinary programs.
 
 use crate::support::{Settings, Shader, root, shaders_under};
 use glisten::{Compiler, Options, Source, lint};
@@ -7,7 +7,7 @@ use glisten_front::hir::Stage;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// The codes that the rules raise, with the severity of each; what the front-end says is a failure.
+/// The codes that the rules raise, with the severity of each. A diagnostic of the front end is a failure.
 fn lints(shaders: &[Shader]) -> Vec<(&'static str, Severity)> {
     let settings = Settings::default();
     let options = Options { defines: settings.defines, strict: settings.strict, ..Options::default() };

@@ -1,5 +1,5 @@
-//! Scene files that use the library: programs by name, lights and materials, textures by formula, and how their mistakes
-//! are told.
+//! Scene files that use the library: programs by name, lights and materials, textures by formula, and the diagnostics
+//! for errors in them.
 
 use crate::scenes::{the_error, told};
 use glisten::scene::{Draw, Loaded, MemoryFiles, Texels, Wrap, load};
@@ -60,7 +60,7 @@ fn good(loaded: &Loaded) -> &Draw {
     &loaded.scene.as_ref().expect("without findings there is a scene").draws[0]
 }
 
-/// The one error of a changed scene, as [`the_error`] gives it.
+/// The only error of a changed scene, in the form of [`the_error`].
 #[track_caller]
 fn mistake(from: &str, to: &str) -> (&'static str, String, String) {
     the_error(&changed(from, to))
@@ -87,7 +87,7 @@ fn lights_and_material_fill_the_uniforms() {
     let draw = good(&loaded);
     assert_eq!(value(draw, "lights"), [3.0]);
     assert_eq!(value(draw, "global_ambient"), [0.1, 0.2, 0.3]);
-    // The struct has the way that the light goes.
+    // In the struct, the direction is that of the light's travel.
     assert_eq!((value(draw, "light[0].kind"), value(draw, "light[0].direction")), (vec![0.0], vec![0.0, -2.0, 0.0]));
     assert_eq!(value(draw, "light[0].diffuse"), [1.0, 0.5, 0.25]);
     assert_eq!(value(draw, "light[0].specular"), [0.0, 0.0, 1.0]);
@@ -101,7 +101,7 @@ fn lights_and_material_fill_the_uniforms() {
         (value(draw, "light[2].diffuse"), value(draw, "light[2].ambient")),
         (vec![0.5, 0.6, 0.7], vec![0.3, 0.2, 0.1])
     );
-    // The ambient reflectance is the diffuse one unless given.
+    // The ambient reflectance defaults to the diffuse one.
     assert_eq!(value(draw, "material.ambient"), [0.5, 0.25, 0.125]);
     assert_eq!((value(draw, "material.shininess"), value(draw, "finish.specular_model")), (vec![20.0], vec![4.0]));
     assert_eq!(value(draw, "finish.diffuse_model"), [1.0]);
@@ -114,12 +114,12 @@ fn programs_of_the_library_need_no_names() {
     assert_eq!(value(draw, "model")[12..15], [1.0, 2.0, 3.0]);
     assert_eq!(value(draw, "eye"), [0.0, 0.0, 5.0]);
     assert!(draw.attributes.iter().all(Option::is_some));
-    // A sampler that nothing gives a texture is white.
+    // A sampler without a texture is white.
     for texture in &draw.textures {
         let texture = texture.as_ref().expect("it has texels");
         assert_eq!(texture.levels[0].texels, Texels::Float(vec![[1.0; 4]]));
     }
-    // What the draw says itself counts more.
+    // The draw's own settings take precedence.
     let loaded =
         changed("[[draw]]", "[[draw]]\nmatrices = { model = \"view\" }\nuniforms = { \"material.shininess\" = 7 }");
     let draw = good(&loaded);
@@ -254,7 +254,7 @@ fn textures_by_formula() {
     }
 }
 
-/// The scenes that the documentation shows whole.
+/// The complete scenes in the documentation.
 #[test]
 fn scenes_in_the_docs_load() {
     let mut seen = 0;

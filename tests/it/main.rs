@@ -1,4 +1,4 @@
-//! All integration tests, in one binary so that wgpu is linked once. One module an area.
+//! All integration tests in one binary, so that wgpu is linked once, with one module for each area.
 
 mod architecture;
 #[cfg(feature = "cli")]

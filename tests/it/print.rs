@@ -1,4 +1,4 @@
-//! The printer of the typed program: its text is valid GLSL, means the same, and is printed alike.
+//! The printer of the typed program: its text is valid GLSL, has the same meaning, and prints the same again.
 
 use glisten_front::hir::{Stage, print};
 use glisten_front::{Compilation, Compiler, Options, Source};
@@ -47,7 +47,7 @@ fn printing_and_reading_again_is_stable() {
         let name = file.display().to_string();
         let stage = stage_of(&file).expect("only shaders were collected");
         let text = String::from_utf8_lossy(&std::fs::read(&file).expect("readable")).into_owned();
-        // Fixtures with includes or errors are for other tests.
+        // Other tests handle fixtures with includes or errors.
         let Some(first) = printed(&compile(&name, text, stage)) else { continue };
         n_printed += 1;
         let again = compile(&name, first.clone(), stage);

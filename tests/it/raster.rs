@@ -1,7 +1,7 @@
-//! Coverage of the CPU reference against lavapipe's, fragment by fragment, on random primitives.
+//! Compares the coverage of the CPU reference with lavapipe's, fragment by fragment, on random primitives.
 //!
-//! Every fragment adds 1 and its primitive's number to the picture, so that a fragment that one side alone draws shows,
-//! wherever it is and whatever is drawn there else. Needs a Vulkan software adapter.
+//! Every fragment adds 1 and its primitive's number to the picture, so that a fragment that only one side draws is
+//! visible, wherever it is and whatever else is drawn there. The tests need a Vulkan software adapter.
 
 use crate::scenes;
 use glisten::scene::{DiskFiles, MemoryFiles, Scene, load};
@@ -16,7 +16,7 @@ const VERTEX: &str = "#version 150\nin vec4 p;\nin float id;\nin float size;\nfl
 const FRAGMENT: &str = "#version 150\nflat in float v;\nout vec4 fc;\nvoid main() { fc = vec4(1.0, v, 0.0, 0.0); }\n";
 pub(crate) const SIDE: usize = 192;
 
-/// Numbers that are the same every run.
+/// Random numbers from a seed, the same in every run.
 pub(crate) struct Random(pub(crate) u64);
 
 impl Random {
@@ -32,7 +32,7 @@ impl Random {
 
 pub(crate) type Vertex = [f64; 4];
 
-/// Clip coordinates of a window position in pixels from the lower left, with depth 0.
+/// The clip coordinates of a window position in pixels from the lower left, with depth 0.
 pub(crate) fn at(x: f64, y: f64, w: f64) -> Vertex {
     let ndc = |pixels: f64| pixels / SIDE as f64 * 2.0 - 1.0;
     [ndc(x) * w, ndc(y) * w, 0.0, w]
@@ -58,7 +58,7 @@ pub(crate) fn scene(primitive: &str, vertices: &[Vertex], each: usize, sizes: Op
     loaded.scene.unwrap_or_else(|| panic!("{messages:?}"))
 }
 
-/// Fragments, and pixels in which the two sides differ.
+/// The number of fragments, and of pixels in which the two sides differ.
 struct Count {
     fragments: usize,
     differing: Vec<(usize, usize)>,
@@ -101,7 +101,7 @@ fn triangles_inside_the_window() {
     let mut random = Random(1);
     let vertices: Vec<Vertex> = (0..3 * 4000)
         .map(|index| {
-            // From specks to the whole window.
+            // From specks to the size of the whole window.
             let reach = [2.0, 8.0, 40.0, 90.0][index / 3 % 4];
             let (x, y) = (random.within(reach, side() - reach), random.within(reach, side() - reach));
             at(x, y, random.within(0.5, 4.0))
@@ -110,7 +110,7 @@ fn triangles_inside_the_window() {
     assert_few(&count(&scene("triangles", &vertices, 3, None)), 0);
 }
 
-/// The share of a triangle's pixels whose centers lie within 1/128 pixel of its edges: those that a comparison leaves out.
+/// The share of a triangle's pixels whose centers are within 1/128 pixel of its edges, which a comparison omits.
 #[test]
 fn few_pixels_are_near_an_edge() {
     let mut random = Random(9);
@@ -129,7 +129,7 @@ fn few_pixels_are_near_an_edge() {
         covered += picture.covered.iter().filter(|covered| **covered).count();
     }
     let share = near as f64 / covered as f64;
-    // 1/64 pixel on both sides of a circumference of some three hundred pixels, of an area of some three thousand.
+    // 1/64 pixel on both sides of a circumference of some three hundred pixels, for an area of some three thousand.
     assert!(covered > 60_000 && share < 2e-3, "{near} of {covered}: {share}");
 }
 
@@ -151,7 +151,7 @@ fn slivers() {
 
 #[test]
 fn shared_edges_are_drawn_once() {
-    // A grid of jittered corners that reaches past the window on all sides.
+    // A grid of jittered corners that extends past the window on all sides.
     let mut random = Random(3);
     let cells = 36;
     let step = (side() + 20.0) / f64::from(cells);
@@ -179,7 +179,7 @@ fn shared_edges_are_drawn_once() {
         ..RenderOptions::default()
     };
     let picture = glisten_reference::render(&scene, &options).expect("the reference draws");
-    // Clipping puts new corners on the rim of the window; inside it every pixel is drawn exactly once.
+    // Clipping adds corners on the border of the window; inside it, every pixel is drawn exactly once.
     let wrong = (0..SIDE * SIDE).filter(|&pixel| picture.attachments[0][pixel][0] != 1.0).count();
     assert_eq!(wrong, 0);
     assert_few(&count(&scene), 0);
@@ -196,13 +196,14 @@ fn clipped_triangles() {
             vertices.push([random.within(-4.0, 4.0), random.within(-4.0, 4.0), random.within(-3.0, 3.0), w]);
         }
     }
-    // Four of ten million: where the driver's z of the target's clip space, rounded otherwise, cuts an edge a hair apart.
+    // Four of ten million: the driver's z in the target's clip space, rounded differently, cuts an edge slightly
+    // elsewhere.
     assert_few(&count(&scene("triangles", &vertices, 3, None)), 8);
 }
 
 #[test]
 fn a_triangle_far_past_the_window_covers_all_of_it() {
-    // In f32 a cut of such an edge is off by more than the window is wide, and drivers draw a part of it or nothing.
+    // In f32 a cut of such an edge is off by more than the window's width, and drivers draw a part of it or nothing.
     for reach in [1e4, 1e6, 1e8, 1e12] {
         let corners: [Vertex; 3] =
             [[-1.0, -1.0], [1.0, -0.3], [0.01, 2.0]].map(|[x, y]| [x * reach, y * reach, 0.0, 1.0]);
@@ -214,7 +215,7 @@ fn a_triangle_far_past_the_window_covers_all_of_it() {
         };
         let picture = glisten_reference::render(&scene("triangles", &corners, 3, None), &options).expect("it draws");
         assert!(picture.covered.iter().all(|covered| *covered), "{reach:e}");
-        // Two triangles: what the cuts make of it overlaps nowhere.
+        // The result consists of two triangles, and nothing overlaps after clipping.
         assert!(picture.attachments[0].iter().all(|pixel| pixel[0] == 1.0), "{reach:e}");
     }
 }
@@ -236,7 +237,7 @@ fn points_whose_centers_lie_outside() {
     let sizes = vec![9.0; 1500];
     let outer = scene("points", &vertices, 1, Some(&sizes));
     assert_few(&count(&outer), 0);
-    // OpenGL discards them: what it draws is what the points inside alone draw.
+    // OpenGL discards them: the picture is that of only the points inside.
     let inside: Vec<Vertex> = vertices.into_iter().filter(|[x, y, ..]| x.abs() <= 1.0 && y.abs() <= 1.0).collect();
     let options = RenderOptions {
         precision: Precision::F32,
@@ -291,7 +292,7 @@ fn every_scene_of_the_repository_agrees_with_lavapipe() {
     for path in scenes::paths() {
         let loaded = load(&path, &DiskFiles, &Compiler::new(Options::default()));
         let mut scene = loaded.scene.expect("another test loads it");
-        // Large scenes in little: the rules are the same.
+        // Large scenes are scaled down: the rules are the same.
         scene.framebuffer.width = scene.framebuffer.width.min(64);
         scene.framebuffer.height = scene.framebuffer.height.min(64);
         let reference = match glisten_reference::render(&scene, &options) {
@@ -329,7 +330,7 @@ fn every_scene_of_the_repository_agrees_with_lavapipe() {
     assert_eq!(excused, known, "what only a known fault explains");
 }
 
-/// The reference with each known fault of the driver admitted.
+/// The reference pictures with each known fault of the driver excused.
 fn faulty(scene: &Scene) -> Vec<(&'static str, Picture)> {
     let draw = |faults: Faults| {
         let precision = Precision::Envelope;
@@ -351,7 +352,7 @@ fn an_endless_loop_is_told_where_it_stands() {
         let files = MemoryFiles::new([("a.toml", text), ("a.vert", &vertex), ("a.frag", &fragment)]);
         let loaded = load("a.toml", &files, &Compiler::new(Options::default()));
         let options = RenderOptions { mark_edges: false, ..RenderOptions::default() };
-        // Were each instance or each pixel to use up its own budget, this would not end in a day.
+        // If each instance or each pixel had a budget of its own, this would take more than a day.
         let errors = glisten_reference::render(&loaded.scene.expect("it loads"), &options).expect_err("it has no end");
         let place = loaded.sources.location(errors[0].primary.span).expect("it is in a file");
         assert_eq!((errors[0].code.id, errors.len()), ("E0913", 1));
@@ -370,8 +371,8 @@ fn noperspective_is_linear_in_the_window_behind_the_eye_too() {
         ..RenderOptions::default()
     };
     let picture = glisten_reference::render(&scene, &options).expect("the reference draws");
-    // The corners of the scene after the division by w; the first lies behind the eye. Red is 1 there, green and blue
-    // at the others.
+    // The corners of the scene after the division by w; the first is behind the eye. Red is 1 there, green and blue
+    // at the other corners.
     let corners = [(1.8, 1.2), (2.5 / 1.7, -1.1 / 1.7), (-0.3 / 2.1, 1.9 / 2.1)];
     let (u, v) = (
         (corners[1].0 - corners[0].0, corners[1].1 - corners[0].1),

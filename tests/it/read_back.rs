@@ -1,7 +1,7 @@
-//! Layouts as a shader sees them: for random sets of uniforms, every scalar that the runner puts where the reflection says
-//! comes out of lavapipe as it went in, by the SPIR-V and by the WGSL.
+//! Layouts as a shader sees them: for random sets of uniforms, every scalar that the runner writes at its reflected
+//! offset is read back by lavapipe unchanged, with the SPIR-V and with the WGSL.
 //!
-//! Needs a Vulkan software adapter.
+//! The test needs a Vulkan software adapter.
 
 use crate::layouts::{declarations, member};
 use glisten::scene::{self, MemoryFiles, Scene};
@@ -15,13 +15,13 @@ const WIDTH: usize = 64;
 const VERTEX: &str = "#version 150\nvoid main() { vec2 p = vec2(gl_VertexID & 1, gl_VertexID >> 1);\n\
     gl_Position = vec4(p * 4.0 - 1.0, 0.0, 1.0); }\n";
 
-/// A scalar of a uniform: how GLSL names it, and the number that it holds.
+/// A scalar of a uniform: its GLSL expression, and its value.
 struct Scalar {
     path: String,
     value: f64,
 }
 
-/// Columns and rows of a scalar, vector or matrix.
+/// The columns and rows of a scalar, vector or matrix.
 fn shape(types: &Types, leaf: &UniformLeaf) -> (u32, u32) {
     match types.get(leaf.ty) {
         Type::Vector(_, size) => (1, u32::from(size)),
@@ -30,7 +30,7 @@ fn shape(types: &Types, leaf: &UniformLeaf) -> (u32, u32) {
     }
 }
 
-/// All scalars of a leaf in the order of a scene's numbers, counted on from `first`.
+/// All scalars of a leaf in the order of a scene's numbers, whose values count from `first`.
 fn scalars(types: &Types, leaf: &UniformLeaf, first: usize) -> Vec<Scalar> {
     let (columns, rows) = shape(types, leaf);
     let name = leaf.name.replacen("Block.", "block.", 1);
@@ -51,7 +51,7 @@ fn scalars(types: &Types, leaf: &UniformLeaf, first: usize) -> Vec<Scalar> {
     scalars
 }
 
-/// The declarations with a `main` that shows scalar number n in pixel n.
+/// The declarations, with a `main` that shows scalar number n in pixel n.
 fn reader(declarations: &str, scalars: &[Scalar]) -> String {
     let cases: String = scalars
         .iter()

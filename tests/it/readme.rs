@@ -1,11 +1,11 @@
-//! The README and the pages under `docs` say what is there: commands, flags, links, and the outputs shown.
+//! The README and the pages in `docs` are correct: commands, flags, links, and the outputs shown.
 
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-/// Subcommands whose output is the same on every machine; of the others only the arguments are checked.
+/// Subcommands whose output is the same on every machine; for the others, only the arguments are checked.
 static SAME_EVERYWHERE: &[&str] = &["lint", "explain", "compile", "reflect", "lib"];
 
 fn root() -> &'static Path {
@@ -69,12 +69,12 @@ fn glisten(arguments: &[&str]) -> (String, i32) {
     (text, output.status.code().expect("it ends by itself"))
 }
 
-/// Trailing blanks and blank lines at the ends do not count.
+/// The text without trailing white space, and without blank lines at its ends.
 fn normal(text: &str) -> String {
     text.lines().map(str::trim_end).collect::<Vec<_>>().join("\n").trim().to_owned()
 }
 
-/// Whether an output is the one shown, where a line `...` stands for any lines.
+/// Whether an output is the one shown, in which a line `...` stands for any lines.
 fn is_as_shown(output: &str, shown: &str) -> bool {
     let (output, shown) = (normal(output), normal(shown));
     match shown.split_once("\n...\n") {

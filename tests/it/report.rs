@@ -1,4 +1,4 @@
-//! `glisten report` end to end: the table, the JSON and the page.
+//! `glisten report`, end to end: the table, the JSON and the page.
 
 use serde_json::Value;
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! Scene files: what they mean and how their mistakes are told.
+//! Scene files: what they mean, and the diagnostics for their errors.
 
 use glisten::scene::{AttributeValues, DiskFiles, Format, Loaded, MemoryFiles, Texels, load};
 use glisten_front::diagnostic::{Diagnostic, Severity};
@@ -18,7 +18,7 @@ const VERTEX: &str = "#version 150\n\
 const FRAGMENT: &str = "#version 150\nin vec2 tv;\nuniform sampler2D tex;\nuniform isampler2D ids;\nout vec4 fc;\n\
     void main() { fc = texture(tex, tv) + vec4(texelFetch(ids, ivec2(0), 0)); }\n";
 
-/// All that the program wants, so that a test changes one line of it.
+/// A scene with everything that the program needs, so that a test changes one line of it.
 const GOOD: &str = r#"
 [framebuffer]
 width = 16
@@ -62,13 +62,13 @@ pub(crate) fn told(loaded: &Loaded) -> Vec<String> {
     loaded.diagnostics.iter().map(|diagnostic| format!("{}: {}", diagnostic.code, diagnostic.message)).collect()
 }
 
-/// The one error of a changed scene, as [`the_error`] gives it.
+/// The only error of a changed scene, in the form of [`the_error`].
 #[track_caller]
 fn mistake(from: &str, to: &str) -> (&'static str, String, String) {
     the_error(&changed(from, to))
 }
 
-/// The one error of a scene: its code, the text it stands at, and all that is said.
+/// The only error of a scene: its code, the text of its span, and all its messages.
 #[track_caller]
 pub(crate) fn the_error(loaded: &Loaded) -> (&'static str, String, String) {
     assert!(loaded.scene.is_none(), "it was accepted");
@@ -96,7 +96,7 @@ fn every_value_arrives() {
     };
     assert_eq!(attribute("cell").values, AttributeValues::Int(vec![1, 2, 3]));
     assert_eq!((attribute("pv").size, attribute("turn").size), (3, 4));
-    // w is filled in.
+    // w gets its default.
     assert_eq!(attribute("pv").fetch(1, 0, 0, 4, 3), ScalarValue::Float(1.0));
     let root = |name: &str| {
         let index = interface.roots.iter().position(|root| root.name == name).expect("declared");
@@ -142,7 +142,7 @@ fn undeclared_names_name_the_nearest() {
     assert!(text.contains("did you mean `mc`?"), "{text}");
     let (code, _, text) = mistake("\"lights[0].power\"", "\"lights[0].powr\"");
     assert!(code == "E0907" && text.contains("lights[0].power"), "{text}");
-    // An attribute that is not declared: the one that is then lacks its data, too.
+    // If an attribute's name is wrong, the intended attribute lacks its data, too.
     let loaded = changed("cell = { size = 1", "cel = { size = 1");
     assert_eq!(told(&loaded).len(), 2, "{:?}", told(&loaded));
     assert_eq!(mistake("ids = {", "tox = { width = 1, height = 1, values = [1, 1, 1, 1] }\nids = {").0, "E0907");
@@ -290,7 +290,7 @@ fn all_scenes_of_the_repository_load() {
     }
 }
 
-/// The scenes under `fixtures/scenes`, sorted.
+/// The scenes in `fixtures/scenes`, sorted.
 pub(crate) fn paths() -> Vec<String> {
     let root = concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/scenes");
     let mut paths = Vec::new();

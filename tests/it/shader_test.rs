@@ -1,4 +1,4 @@
-//! `glisten test` end to end, on both backends.
+//! `glisten test`, end to end, on both backends.
 
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -32,7 +32,7 @@ fn the_tests_of_the_fixtures_pass() {
     assert_eq!(code, Some(0));
 }
 
-/// The fixture with a text in it replaced.
+/// The results for the fixture with a text in it replaced.
 fn changed(from: &str, to: &str) -> (Vec<Value>, Option<i32>) {
     let text = std::fs::read_to_string(fixtures().join("uniforms_and_blocks.shader_test")).expect("the fixture");
     assert!(text.contains(from));

@@ -1,4 +1,4 @@
-//! What comes of the fixtures, as snapshots under review: WGSL, reflection, rendered diagnostics.
+//! The results for the fixtures as reviewed snapshots: WGSL, reflection, rendered diagnostics.
 //!
 //! `cargo insta review` shows what changed.
 
@@ -11,7 +11,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-/// Compiles the program that a vertex shader and the fragment shader beside it make.
+/// Compiles the program of a vertex shader and the fragment shader next to it.
 fn compile(vertex: &Path) -> Compilation {
     let source = |path: &Path, stage| {
         let name = path.file_name().expect("a file").to_string_lossy().into_owned();
@@ -41,7 +41,7 @@ fn programs_to_wgsl() {
     });
 }
 
-/// What `spirv-dis` makes of each stage; none where it is missing, which CI takes for a failure.
+/// The output of `spirv-dis` for each stage; `None` if the tool is missing, which is a failure in CI.
 fn disassembled(compilation: &Compilation) -> Option<String> {
     let program = compilation.program.as_ref().expect("the fixture has no errors");
     let folder = tempfile::tempdir().expect("a temporary folder");
@@ -50,7 +50,8 @@ fn disassembled(compilation: &Compilation) -> Option<String> {
         let emitted = emit(program, shader.stage, Target::Spirv, &Conventions::default());
         let words = folder.path().join("words.spv");
         fs::write(&words, emitted.expect("SPIR-V comes out").into_bytes()).expect("written");
-        // The header names the version of naga and a bound, neither of which is the program's.
+        // The header names the version of naga and the bound of the ids, neither of which depends only on the
+        // program.
         let Ok(output) = Command::new("spirv-dis").args(["--no-color", "--no-header"]).arg(&words).output() else {
             crate::emit::missing("spirv-dis", "Debian has it in the package spirv-tools");
             return None;
@@ -71,7 +72,7 @@ fn programs_to_spirv() {
     });
 }
 
-/// What a person would read: every construct that the lowering has to rewrite.
+/// Readable output for every construct that the lowering has to rewrite.
 #[test]
 fn rewritten_programs_to_wgsl() {
     insta::glob!("../../fixtures/lower", "{discard,host,parameters,statements,switches}.vert", |path| {

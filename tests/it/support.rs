@@ -1,4 +1,4 @@
-//! What several areas share: compiling texts and files, and includes that lie beside them.
+//! What several test areas share: compiling texts and files, and resolving includes next to them.
 
 use glisten_front::diagnostic::Diagnostics;
 use glisten_front::hir::Stage;
@@ -22,7 +22,7 @@ pub(crate) struct Settings {
     pub(crate) attribute_locations: Vec<(String, u32)>,
 }
 
-/// Finds includes beside the file that names them.
+/// Finds includes next to the including file.
 #[derive(Clone, Copy)]
 pub(crate) struct Beside;
 
@@ -39,7 +39,7 @@ pub(crate) fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// The stage that a file name says.
+/// The stage of a file name.
 pub(crate) fn stage_of(path: &Path) -> Option<Stage> {
     match path.extension()?.to_str()? {
         "vert" => Some(Stage::Vertex),
@@ -49,7 +49,7 @@ pub(crate) fn stage_of(path: &Path) -> Option<Stage> {
     }
 }
 
-/// All shaders under a folder of the package, in order, with names relative to the package.
+/// All shaders in a folder of the package, in order, with names relative to the package.
 pub(crate) fn shaders_under(folder: &str) -> Vec<Shader> {
     let mut pending = vec![root().join(folder)];
     let mut paths: Vec<PathBuf> = Vec::new();
@@ -69,7 +69,7 @@ pub(crate) fn shaders_under(folder: &str) -> Vec<Shader> {
     paths.iter().filter_map(shader).collect()
 }
 
-/// Everything that is found in the shaders of one program.
+/// All diagnostics of the shaders of one program.
 pub(crate) fn compile(shaders: &[Shader], settings: &Settings) -> (SourceMap, Diagnostics) {
     let options = Options {
         defines: settings.defines.clone(),

@@ -1,10 +1,10 @@
-//! An independent witness of syntax: glsl-lang's parser, of the 4.60 grammar, accepts what this one accepts.
+//! An independent opinion on syntax: glsl-lang's parser for the 4.60 grammar accepts what this one accepts.
 
 use crate::support::shaders_under;
 use glsl_lang::ast::TranslationUnit;
 use glsl_lang::parse::DefaultParse;
 
-/// Valid sources that it refuses, and why it is wrong about them.
+/// Valid sources that it rejects, and why it is wrong about them.
 static REFUSED: &[(&str, &str)] = &[
     ("fixtures/valid/names/scopes.vert", "a variable may hide a struct's name (§4.2.2)"),
     ("fixtures/valid/preprocess/byte_order_mark.vert", "a byte order mark before the text is forgiven"),

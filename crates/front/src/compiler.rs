@@ -1,4 +1,4 @@
-//! [`Compiler`]: texts in, a [`Program`] and diagnostics out. The one door to the front-end.
+//! [`Compiler`] turns texts into a [`Program`] and diagnostics. It is the only entry to the front end.
 
 use crate::analysis::analyze;
 use crate::diagnostic::codes::general::TOO_LARGE;
@@ -9,12 +9,12 @@ use crate::source::{IncludeResolver, NoIncludes, SourceMap, Span, whole_text};
 use crate::syntax;
 use std::sync::Arc;
 
-/// What a compilation may be told.
+/// The options of a compilation.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
     /// Macros defined before the first line: name and replacement text (`-D NAME=VALUE`).
     pub defines: Vec<(String, String)>,
-    /// What the text of the specification forbids and every driver forgives is an error instead of a warning.
+    /// Reports an error instead of a warning for what the specification forbids and every driver accepts.
     pub strict: bool,
     /// `glBindAttribLocation`: name and location.
     pub attribute_locations: Vec<(String, u32)>,
@@ -30,31 +30,32 @@ impl Options {
     }
 }
 
-/// A shader's text.
+/// The text of a shader.
 #[derive(Clone, Debug)]
 pub struct Source {
-    /// The name for diagnostics, by which includes are resolved: a path as the user gave it.
+    /// The name for diagnostics and for resolving includes: the path as the user wrote it.
     pub name: String,
-    /// The text. Bytes that are no UTF-8 stand in it as U+FFFD, which is legal in comments alone.
+    /// The text. Bytes that are not UTF-8 are replaced by U+FFFD, which is legal only in comments.
     pub text: Arc<str>,
     /// The stage.
     pub stage: Stage,
 }
 
-/// What came of a compilation.
+/// The result of a compilation.
 #[derive(Clone, Debug)]
 pub struct Compilation {
     /// The name of the program: the stem of the first source's name.
     pub name: String,
-    /// All texts, includes among them.
+    /// All texts, including the included files.
     pub sources: SourceMap,
     /// The linked program, if there are no errors.
     pub program: Option<Program>,
-    /// Everything that was found.
+    /// All diagnostics.
     pub diagnostics: Diagnostics,
 }
 
-/// Compiles programs. Holds options and no state: one compiler may be used a thousand times and from many threads.
+/// Compiles programs. It holds options but no state: one compiler can be used any number of times and from many
+/// threads.
 #[derive(Clone)]
 pub struct Compiler {
     options: Options,
@@ -67,13 +68,13 @@ impl Compiler {
         Self { options, includes: Arc::new(NoIncludes) }
     }
 
-    /// The same with a way to find what `#include` names.
+    /// The same compiler with a resolver for `#include`.
     #[must_use]
     pub fn with_includes(self, includes: impl IncludeResolver + Send + Sync + 'static) -> Self {
         Self { includes: Arc::new(includes), ..self }
     }
 
-    /// The same with other options.
+    /// The same compiler with other options.
     #[must_use]
     pub fn with_options(&self, options: Options) -> Self {
         Self { options, includes: Arc::clone(&self.includes) }
@@ -109,8 +110,8 @@ impl Compiler {
         self.compile_into(SourceMap::default(), sources)
     }
 
-    /// The same, its texts added behind those of `map`: for a file that names shaders, so that what is found in either
-    /// is shown from one map.
+    /// Compiles like [`Self::compile`], but adds the texts to `map`. A file that names shaders can then share one map
+    /// with them, so that diagnostics of both are shown from it.
     pub fn compile_into(&self, map: SourceMap, sources: &[Source]) -> Compilation {
         let name = sources.first().map_or_else(String::new, |source| stem(&source.name));
         let (mut map, mut diagnostics, mut types) = (map, Diagnostics::default(), Types::new());
@@ -129,7 +130,7 @@ impl Compiler {
         Compilation { name, sources: map, program, diagnostics }
     }
 
-    /// Parses and analyses one text.
+    /// Parses and analyzes one text.
     fn shader(
         &self,
         source: &Source,
@@ -151,7 +152,7 @@ impl Compiler {
     }
 }
 
-/// The file name of a path without its folder and its last extension.
+/// The file name of a path, without its folder and its last extension.
 fn stem(name: &str) -> String {
     let file = name.rsplit(['/', '\\']).next().unwrap_or(name);
     file.rsplit_once('.').map_or(file, |(stem, _)| stem).to_owned()

@@ -1,8 +1,8 @@
-//! [`Api`]: the functions of OpenGL that are called, safe to call.
+//! [`Api`]: safe wrappers for the OpenGL functions in use.
 //!
-//! *Holds:* the context that the functions belong to is current on this thread (`egl::Context` sees to it). OpenGL answers
-//! names, enumerants and sizes that make no sense by an error; memory of the program's is only ever handed over as slices,
-//! and where OpenGL would not ask how long one is, it is checked here.
+//! *Holds:* the context that the functions belong to is current on this thread (`egl::Context` ensures that). OpenGL
+//! answers meaningless names, enumerants and sizes with an error. Memory is only ever passed as slices, and where
+//! OpenGL does not check the length, it is checked here.
 
 use super::Error;
 use glow::HasContext;
@@ -13,7 +13,7 @@ pub(super) struct Api {
     provoking: extern "system" fn(u32),
 }
 
-/// Width, height and depth of a level; what a kind of texture does not have is 1.
+/// The width, height and depth of a level; dimensions that the kind of texture lacks are 1.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Size {
     pub(super) width: u32,
@@ -21,20 +21,20 @@ pub(super) struct Size {
     pub(super) depth: u32,
 }
 
-/// How texels or pixels are stored, and how they are handed over.
+/// How texels or pixels are stored, and how they are transferred.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Layout {
     /// The sized internal format.
     pub(super) internal: u32,
-    /// The channels that are handed over.
+    /// The channels that are transferred.
     pub(super) format: u32,
-    /// The type of each.
+    /// The data type of each channel.
     pub(super) kind: u32,
-    /// Bytes of a texel as it is handed over.
+    /// The bytes of a texel in transfer.
     pub(super) bytes: usize,
 }
 
-/// How many directions an image call takes.
+/// The number of dimensions of an image call.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Dimensions {
     One,
@@ -45,7 +45,7 @@ pub(super) enum Dimensions {
 macro_rules! safe {
     ($($name:ident($($argument:ident: $kind:ty),*) $(-> $result:ty)?;)*) => {
         $(pub(super) fn $name(&self, $($argument: $kind),*) $(-> $result)? {
-            // SAFETY: see the module.
+            // SAFETY: see the documentation of the module.
             unsafe { self.gl.$name($($argument),*) }
         })*
     };
@@ -159,19 +159,19 @@ impl Api {
         (version.major, version.minor)
     }
 
-    /// The most pixels that a side of an attachment may have.
+    /// The largest side of an attachment, in pixels.
     pub(super) fn max_side(&self) -> u32 {
         self.limit(glow::MAX_RENDERBUFFER_SIZE)
     }
 
-    /// The most textures that a program may read.
+    /// The largest number of textures that a program may read.
     pub(super) fn max_units(&self) -> u32 {
         self.limit(glow::MAX_COMBINED_TEXTURE_IMAGE_UNITS)
     }
 
-    /// A limit that is one number.
+    /// The value of a limit that is a single number.
     fn limit(&self, name: u32) -> u32 {
-        // SAFETY: the two above ask for one number each, and there is room for one.
+        // SAFETY: the two functions above query one number each, and there is room for one.
         u32::try_from(unsafe { self.gl.get_parameter_i32(name) }).unwrap_or(0)
     }
 
@@ -180,20 +180,20 @@ impl Api {
         (self.provoking)(convention);
     }
 
-    /// Draws the vertices from the first on; each attribute that is enabled must have as many.
+    /// Draws vertices from the first on. Each enabled attribute must have data for all of them.
     pub(super) fn draw_arrays(&self, mode: u32, count: i32, instances: i32) {
-        // SAFETY: `vertices` refuses a draw whose buffers are shorter than its vertices and instances ask for.
+        // SAFETY: `vertices` rejects a draw whose buffers are shorter than its vertices and instances need.
         unsafe { self.gl.draw_arrays_instanced(mode, 0, count, instances) }
     }
 
-    /// Draws the vertices that the bound index buffer names, 32 bits each.
+    /// Draws the vertices of the bound index buffer, with 32-bit indices.
     pub(super) fn draw_elements(&self, mode: u32, count: i32, instances: i32) {
-        // SAFETY: `vertices` refuses a draw whose buffers are shorter than its indices and instances ask for, and the
-        // index buffer has as many as are counted.
+        // SAFETY: `vertices` rejects a draw whose buffers are shorter than its indices and instances need, and the
+        // index buffer has as many indices as are drawn.
         unsafe { self.gl.draw_elements_instanced(mode, count, glow::UNSIGNED_INT, 0, instances) }
     }
 
-    /// Fills a level of the bound texture; `false` if there are fewer bytes than it takes.
+    /// Fills a level of the bound texture. Returns `false` if there are too few bytes.
     pub(super) fn tex_image(
         &self,
         target: u32,
@@ -211,7 +211,8 @@ impl Api {
         let Layout { internal, format, kind, .. } = layout;
         let internal = internal as i32;
         let texels = glow::PixelUnpackData::Slice(Some(bytes));
-        // SAFETY: the bytes were counted; every layout's texels are a multiple of 4 bytes, so that rows are not padded.
+        // SAFETY: the number of bytes was checked; every layout's texels are a multiple of 4 bytes, so rows are not
+        // padded.
         unsafe {
             match dimensions {
                 Dimensions::One => self.gl.tex_image_1d(target, level, internal, width, 0, format, kind, texels),
@@ -226,11 +227,11 @@ impl Api {
         true
     }
 
-    /// The pixels of the buffer that is read from, bottom row first.
+    /// The pixels of the current read buffer, bottom row first.
     pub(super) fn read_pixels(&self, width: u32, height: u32, layout: Layout) -> Vec<u8> {
         let mut bytes = vec![0; width as usize * height as usize * layout.bytes];
         let pixels = glow::PixelPackData::Slice(Some(&mut bytes));
-        // SAFETY: there is room for all rows, which are not padded: the alignment of packing is 1.
+        // SAFETY: there is room for all rows, which are not padded, because the pack alignment is 1.
         unsafe {
             self.gl.pixel_store_i32(glow::PACK_ALIGNMENT, 1);
             self.gl.read_pixels(0, 0, width as i32, height as i32, layout.format, layout.kind, pixels);
@@ -238,7 +239,7 @@ impl Api {
         bytes
     }
 
-    /// What went wrong since this was last asked.
+    /// Reports an error since the last call.
     pub(super) fn check(&self, doing: &str) -> Result<(), Error> {
         let name = match self.get_error() {
             glow::NO_ERROR => return Ok(()),

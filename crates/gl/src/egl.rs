@@ -1,8 +1,8 @@
-//! [`Gl`]: the way to OpenGL without a window, and the context of one scene.
+//! [`Gl`]: OpenGL without a window, and the context of one scene.
 //!
-//! *Holds:* a software device is preferred (Mesa's llvmpipe), so that a picture does not depend on the machine; without
-//! one, Mesa's platform without surfaces chooses. Every scene has a context of its own: what it leaves behind, mistakes
-//! included, goes with the context. The display itself is the process's and is never ended.
+//! *Holds:* a software device (Mesa's llvmpipe) is preferred, so that a picture does not depend on the machine;
+//! without one, Mesa's surfaceless platform selects the device. Every scene has its own context: its state, including
+//! errors, ends with the context. The display belongs to the process and is never terminated.
 
 use super::Error;
 use super::api::Api;
@@ -16,12 +16,12 @@ type Library = egl::DynamicInstance<egl::EGL1_5>;
 const PLATFORM_DEVICE: egl::Enum = 0x313F;
 /// EGL_MESA_platform_surfaceless
 const PLATFORM_SURFACELESS: egl::Enum = 0x31DD;
-/// Devices that are looked at.
+/// The largest number of devices to examine.
 const MOST_DEVICES: usize = 32;
-/// The oldest OpenGL that will do.
+/// The lowest sufficient version of OpenGL.
 const OLDEST: (i32, i32) = (3, 2);
 
-/// A display of EGL on which OpenGL draws without a window.
+/// An EGL display on which OpenGL draws without a window.
 pub struct Gl {
     library: Library,
     display: egl::Display,
@@ -30,7 +30,7 @@ pub struct Gl {
 }
 
 impl Gl {
-    /// Finds a driver of OpenGL.
+    /// Finds an OpenGL driver.
     ///
     /// # Errors
     /// [`Error::NoDriver`] if there is none, [`Error::Unsupported`] if it has no core context of OpenGL 3.2 or later.
@@ -47,7 +47,7 @@ impl Gl {
         Err(Error::NoDriver(why))
     }
 
-    /// What the driver calls itself: its renderer and its version.
+    /// The renderer and version, as the driver reports them.
     pub fn renderer(&self) -> &str {
         &self.renderer
     }
@@ -65,7 +65,7 @@ impl Gl {
         Ok((config, renderer))
     }
 
-    /// A context for one scene, current on this thread until it is dropped.
+    /// A context for one scene, current on this thread until dropped.
     pub(super) fn context(&self) -> Result<Context<'_>, Error> {
         Context::new(&self.library, self.display, self.config)
     }
@@ -77,7 +77,7 @@ fn refused(what: &str, error: egl::Error) -> Error {
 
 #[expect(unsafe_code, reason = "a library is loaded")]
 fn load() -> Result<Library, Error> {
-    // SAFETY: the library found by the name of libEGL is one, as the machine's installation has it.
+    // SAFETY: the library with the name of libEGL is EGL, as the machine has installed it.
     let loaded = unsafe { Library::load_required() };
     loaded.map_err(|error| Error::NoDriver(format!("libEGL 1.5 is not there: {error}")))
 }
@@ -96,19 +96,19 @@ fn displays(library: &Library) -> Vec<egl::Display> {
 
 #[expect(unsafe_code, reason = "a native display is a pointer to EGL")]
 fn display(library: &Library, platform: egl::Enum, native: *mut c_void) -> Option<egl::Display> {
-    // SAFETY: `native` is what the platform asks for: a device that EGL listed, or nothing.
+    // SAFETY: `native` is what the platform expects: a device that EGL listed, or nothing.
     unsafe { library.get_platform_display(platform, native, &[egl::ATTRIB_NONE]) }.ok()
 }
 
 type QueryDevices = unsafe extern "system" fn(egl::Int, *mut *mut c_void, *mut egl::Int) -> egl::Boolean;
 type QueryDeviceString = unsafe extern "system" fn(*mut c_void, egl::Int) -> *const std::ffi::c_char;
 
-/// The device that draws without hardware (EGL_EXT_device_base, EGL_MESA_device_software).
+/// The device that renders in software (EGL_EXT_device_base, EGL_MESA_device_software).
 #[expect(unsafe_code, reason = "functions of extensions have no types of their own")]
 fn software_device(library: &Library) -> Option<*mut c_void> {
     let devices = library.get_proc_address("eglQueryDevicesEXT")?;
     let text = library.get_proc_address("eglQueryDeviceStringEXT")?;
-    // SAFETY: EGL_EXT_device_base gives the functions of these names these types.
+    // SAFETY: EGL_EXT_device_base defines these types for the functions with these names.
     let (devices, text) = unsafe {
         (
             std::mem::transmute::<extern "system" fn(), QueryDevices>(devices),
@@ -117,12 +117,12 @@ fn software_device(library: &Library) -> Option<*mut c_void> {
     };
     let mut found = [std::ptr::null_mut(); MOST_DEVICES];
     let mut count = 0;
-    // SAFETY: there is room for as many as are said.
+    // SAFETY: there is room for as many devices as the first argument says.
     if unsafe { devices(MOST_DEVICES as egl::Int, found.as_mut_ptr(), &raw mut count) } != egl::TRUE {
         return None;
     }
     found.into_iter().take(usize::try_from(count).unwrap_or(0)).find(|&device| {
-        // SAFETY: the device is one that EGL listed; the text is a constant of EGL that ends in a zero.
+        // SAFETY: the device is one that EGL listed; the text is a zero-terminated constant of EGL.
         let extensions = unsafe {
             let extensions = text(device, egl::EXTENSIONS);
             if extensions.is_null() { None } else { Some(CStr::from_ptr(extensions)) }
@@ -138,7 +138,7 @@ pub(super) struct Context<'a> {
     display: egl::Display,
     context: egl::Context,
     api: Api,
-    /// Not to be sent to another thread.
+    /// Keeps the context from being sent to another thread.
     here: PhantomData<*const ()>,
 }
 
@@ -164,7 +164,7 @@ impl<'a> Context<'a> {
         match api {
             Ok(api) => Ok(Self { library, display, context, api, here: PhantomData }),
             Err(error) => {
-                // The error is told; that the context does not go either would add nothing.
+                // The first error is reported; that the context cannot be destroyed either adds nothing.
                 let _ = library.destroy_context(display, context);
                 Err(error)
             }
@@ -178,7 +178,7 @@ impl<'a> Context<'a> {
 
 impl Drop for Context<'_> {
     fn drop(&mut self) {
-        // What cannot be let go of stays until the process ends.
+        // A context that cannot be released remains until the process ends.
         let _ = self.library.make_current(self.display, None, None, None);
         let _ = self.library.destroy_context(self.display, self.context);
     }
@@ -190,13 +190,13 @@ type ProvokingVertex = extern "system" fn(u32);
 #[expect(unsafe_code, reason = "functions are asked for by name")]
 fn api(library: &Library) -> Result<Api, Error> {
     let address = |name: &str| library.get_proc_address(name);
-    // SAFETY: a context is current, and the functions are those that EGL gives by these names.
+    // SAFETY: a context is current, and EGL returns the functions with these names.
     let gl = unsafe {
         glow::Context::from_loader_function(|name| address(name).map_or(std::ptr::null(), |found| found as *const _))
     };
     let provoking =
         address("glProvokingVertex").ok_or_else(|| Error::Unsupported("glProvokingVertex of OpenGL 3.2".to_owned()))?;
-    // SAFETY: OpenGL 3.2 gives the function of this name this type.
+    // SAFETY: OpenGL 3.2 defines this type for the function with this name.
     let provoking = unsafe { std::mem::transmute::<extern "system" fn(), ProvokingVertex>(provoking) };
     Ok(Api::new(gl, provoking))
 }

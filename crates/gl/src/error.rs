@@ -1,37 +1,37 @@
-//! [`Error`]: why there is no picture.
+//! [`Error`]: why a scene could not be drawn by OpenGL.
 
 use glisten_front::hir::Stage;
 use std::fmt;
 
-/// Why there is no picture.
+/// Why a scene could not be drawn.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Error {
-    /// No EGL library, no display without a window, or no context of OpenGL on it; why.
+    /// There is no EGL library, no display without a window, or no OpenGL context on it. The text says which.
     NoDriver(String),
     /// The driver is too old, or lacks what the scene needs.
     Unsupported(String),
-    /// The driver's compiler refuses a stage.
+    /// The driver's compiler rejects a stage.
     Compile {
         /// The program.
         program: String,
         /// The stage.
         stage: Stage,
-        /// What the compiler says.
+        /// The compiler's log.
         log: String,
     },
-    /// The driver's linker refuses a program.
+    /// The driver's linker rejects a program.
     Link {
         /// The program.
         program: String,
-        /// What the linker says.
+        /// The linker's log.
         log: String,
     },
-    /// The scene asks for what the driver refuses.
+    /// The driver rejects the scene.
     Refused(String),
 }
 
 impl Error {
-    /// Whether this machine lacks something (exit code 3), rather than the scene being at fault.
+    /// Whether the cause is this machine (exit code 3) rather than the scene.
     pub fn is_environment(&self) -> bool {
         match self {
             Self::NoDriver(_) | Self::Unsupported(_) => true,

@@ -1,8 +1,8 @@
-//! One frame: attachments, fixed state, draws, and the way back to a [`Picture`].
+//! One frame: attachments, fixed-function state, draws, and the read-back to a [`Picture`].
 //!
-//! *Holds:* values come back as the format stores them, without conversion but to `f64`. OpenGL's row 0 is the lowest, a
-//! picture's the topmost. Coverage is the stencil that each written fragment sets, never a guess from colors. `near_edge`
-//! and `undecided` are all `false`: the driver tells nothing of edges.
+//! *Holds:* values are those that the format stores, without conversion except to `f64`. OpenGL's row 0 is the
+//! lowest, a picture's the topmost. Coverage is the stencil that each written fragment sets, never inferred from
+//! colors. `near_edge` and `undecided` are all `false`, because the driver does not report edges.
 
 use super::api::{Api, Layout};
 use super::states::{STENCIL, color_layout, compare, factor, mode};
@@ -16,8 +16,8 @@ impl Gl {
     /// Draws a scene.
     ///
     /// # Errors
-    /// [`Error::Compile`] and [`Error::Link`] if the driver does not take a program, [`Error::Unsupported`] and
-    /// [`Error::Refused`] if it does not take the scene.
+    /// [`Error::Compile`] and [`Error::Link`] if the driver rejects a program, [`Error::Unsupported`] and
+    /// [`Error::Refused`] if it rejects the scene.
     pub fn render(&self, scene: &Scene) -> Result<Picture, Error> {
         let context = self.context()?;
         let api = context.api();
@@ -41,7 +41,7 @@ impl Gl {
     }
 }
 
-/// Makes the attachments and binds them.
+/// Creates and binds the attachments.
 fn attach(api: &Api, framebuffer: &Framebuffer) -> Result<(), Error> {
     let Framebuffer { width, height, attachments, format, .. } = *framebuffer;
     let limit = api.max_side();
@@ -89,7 +89,7 @@ fn draw(api: &Api, framebuffer: &Framebuffer, linked: glow::Program, draw: &Draw
     uniforms::set(api, linked, draw)?;
     textures::bind(api, linked, draw)?;
     vertices::bind(api, draw)?;
-    // What no output is bound to keeps its color; OpenGL leaves open what it would become.
+    // An attachment without an output keeps its color; OpenGL leaves undefined what it would become.
     let places: Vec<u32> = (0..framebuffer.attachments)
         .map(|number| if draw.program.writes_color(number) { glow::COLOR_ATTACHMENT0 + number } else { glow::NONE })
         .collect();
@@ -110,7 +110,7 @@ fn draw(api: &Api, framebuffer: &Framebuffer, linked: glow::Program, draw: &Draw
 fn set_state(api: &Api, state: &State) {
     let switch = |what: u32, on: bool| if on { api.enable(what) } else { api.disable(what) };
     switch(glow::DITHER, false);
-    // WebGPU has no other cubes; contract of scenes.
+    // WebGPU has only seamless cubes, and scenes specify them.
     switch(glow::TEXTURE_CUBE_MAP_SEAMLESS, true);
     switch(glow::PROGRAM_POINT_SIZE, state.program_point_size);
     for plane in 0..8 {

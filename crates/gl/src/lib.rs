@@ -1,21 +1,22 @@
-//! Draws scenes on OpenGL through EGL, without a window: the sources themselves, as the driver's own compiler takes them.
+//! Draws scenes by OpenGL through EGL, without a window, from the original sources, which the driver's own compiler
+//! compiles.
 //!
-//! *In:* a [`Scene`](glisten_scene::scene::Scene). *Out:* a [`Picture`](glisten_scene::compare::Picture) as `gpu` and `cpu` give it.
+//! *In:* a [`Scene`](glisten_scene::scene::Scene). *Out:* a [`Picture`](glisten_scene::compare::Picture), as from `gpu` and `cpu`.
 //!
 //! ```text
 //!  libEGL ──► egl         a software device, and on it a core context of 3.2 or later for each scene
-//!         ──► api         the calls of OpenGL that are made, as safe functions
+//!         ──► api         safe wrappers for the OpenGL functions in use
 //!  Scene  ──► programs    the texts compiled and linked, attributes and outputs bound to the scene's locations
-//!         ──► uniforms    loose ones by name; blocks at the offsets that the driver tells
+//!         ──► uniforms    loose ones by name; blocks at the offsets that the driver reports
 //!         ──► textures    all kinds that 1.50 samples, with their parameters
-//!         ──► vertices    a buffer an attribute, components that are missing left to OpenGL
+//!         ──► vertices    a buffer per attribute; OpenGL fills in missing components
 //!         ──► frame       attachments, fixed state, draws, read-back ──► Picture
 //! ```
 //!
-//! *Holds:* the texts are the untouched ones; where a program uses `#include` or macros from outside, the texts with
-//! those in their places ([`Shader::texts`](glisten_front::hir::Shader::texts)). Nothing of `lower`, `emit` and `gpu` is used, and
-//! of `link` only names and locations: the driver is an independent judge of what the sources mean. Whatever a scene
-//! contains, the answer is a picture or an [`Error`]. All `unsafe` is in `egl` and `api`.
+//! *Holds:* the texts are the original ones; if a program uses `#include` or macros from outside, they are the texts
+//! with those inserted ([`Shader::texts`](glisten_front::hir::Shader::texts)). The runner uses nothing of `lower`, `emit` and
+//! `gpu`, and of `link` only names and locations, so the driver is an independent judge of what the sources mean.
+//! Whatever a scene contains, the result is a picture or an [`Error`]. All `unsafe` code is in `egl` and `api`.
 //!
 //! *Not done here:* judging the picture ([`compare`](glisten_scene::compare)), times, multisampling, geometry shaders.
 

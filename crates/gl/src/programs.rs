@@ -1,6 +1,6 @@
-//! Compiled and linked programs.
+//! Compiles and links programs with the driver.
 //!
-//! *In:* a program's texts and the locations of its attributes and outputs. *Out:* a program of the driver's.
+//! *In:* a program's texts and the locations of its attributes and outputs. *Out:* a program object of the driver.
 
 use super::Error;
 use super::api::Api;
@@ -18,7 +18,7 @@ pub(super) fn link(api: &Api, program: &Program) -> Result<glow::Program, Error>
     for attribute in &program.interface.attributes {
         api.bind_attrib_location(linked, attribute.location, &attribute.name);
     }
-    // `gl_FragColor` and its like have color numbers of their own.
+    // `gl_FragColor` and the other built-in outputs have fixed color numbers.
     for output in program.interface.outputs.iter().filter(|output| !output.name.starts_with("gl_")) {
         api.bind_frag_data_location(linked, output.location, &output.name);
     }

@@ -1,4 +1,4 @@
-//! Tables from a scene's fixed state to OpenGL's numbers.
+//! Tables from a scene's fixed-function state to OpenGL's enumerants.
 
 use super::api::Layout;
 use glisten_scene::scene::{BlendFactor, Compare, Format, Primitive, Wrap};
@@ -15,11 +15,11 @@ pub(super) fn color_layout(format: Format) -> Layout {
     }
 }
 
-/// How the stencil is stored, beside depth as 32-bit float, and read.
+/// How the stencil is stored (next to a 32-bit float depth) and read.
 pub(super) const STENCIL: Layout =
     Layout { internal: glow::DEPTH32F_STENCIL8, format: glow::STENCIL_INDEX, kind: glow::UNSIGNED_BYTE, bytes: 1 };
 
-/// What `glDraw*` calls a primitive.
+/// The mode of `glDraw*` for a primitive.
 pub(super) fn mode(primitive: Primitive) -> u32 {
     match primitive {
         Primitive::Points => glow::POINTS,
@@ -32,7 +32,7 @@ pub(super) fn mode(primitive: Primitive) -> u32 {
     }
 }
 
-/// Comparison functions.
+/// The comparison function.
 pub(super) fn compare(function: Compare) -> u32 {
     match function {
         Compare::Never => glow::NEVER,
@@ -46,7 +46,7 @@ pub(super) fn compare(function: Compare) -> u32 {
     }
 }
 
-/// Blend factors.
+/// The blend factor.
 pub(super) fn factor(factor: BlendFactor) -> u32 {
     match factor {
         BlendFactor::Zero => glow::ZERO,
@@ -63,7 +63,7 @@ pub(super) fn factor(factor: BlendFactor) -> u32 {
     }
 }
 
-/// Outside of a texture.
+/// The wrap mode.
 pub(super) fn wrap(wrap: Wrap) -> u32 {
     match wrap {
         Wrap::Repeat => glow::REPEAT,

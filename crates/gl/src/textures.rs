@@ -1,8 +1,8 @@
-//! Textures with their parameters (OpenGL 3.2 §3.8).
+//! Uploads textures with their parameters (OpenGL 3.2 §3.8).
 //!
-//! *In:* a draw's textures by sampler slot. *Out:* each bound to the unit of its slot's number, and the sampler told.
-//! *Holds:* texels are 32 bits a channel, as the scene has them; integer textures are never filtered, for OpenGL calls them
-//! incomplete then.
+//! *In:* a draw's textures by sampler slot. *Out:* each texture bound to the unit with its slot's number, and the
+//! sampler uniform set to it. *Holds:* texels have 32 bits per channel, as in the scene. Integer textures are never
+//! filtered, since OpenGL would then call them incomplete.
 
 use super::Error;
 use super::api::{Api, Dimensions, Layout, Size};
@@ -10,7 +10,7 @@ use super::states::{compare, wrap};
 use glisten_front::hir::{SamplerDim, SamplerType, Scalar, Type};
 use glisten_scene::scene::{Draw, Filter, Texels, Texture, TextureLevel};
 
-/// Binds all textures. The program is in use.
+/// Binds all textures. The program must be current.
 pub(super) fn bind(api: &Api, linked: glow::Program, draw: &Draw) -> Result<(), Error> {
     let units = api.max_units();
     let mut unit = 0;
@@ -49,7 +49,7 @@ fn layout(kind: SamplerType) -> Layout {
     }
 }
 
-/// The target of a sampler type, and the directions of its images.
+/// The texture target of a sampler type, and the number of dimensions of its images.
 fn target(kind: SamplerType) -> Result<(u32, Dimensions), Error> {
     Ok(match (kind.dim, kind.arrayed) {
         (SamplerDim::D1, false) => (glow::TEXTURE_1D, Dimensions::One),
@@ -143,7 +143,7 @@ fn buffer(api: &Api, kind: SamplerType, texture: &Texture) -> Result<(), Error> 
     Ok(())
 }
 
-/// The bytes of the texels; of depth the first channel alone.
+/// The bytes of the texels; for depth, only the first channel.
 fn texel_bytes(texels: &Texels, kind: SamplerType) -> Vec<u8> {
     let channels = if kind.shadow { 1 } else { 4 };
     match texels {

@@ -1,9 +1,8 @@
-//! Uniform values (OpenGL 3.2 §2.11.4).
+//! Sets uniform values (OpenGL 3.2 §2.11.4).
 //!
-//! *In:* a linked program and the flat values of its roots. *Out:* loose uniforms set by their names, and a buffer for each
-//! element of each block.
-//! *Holds:* where a member of a block stands is what the driver says of it, for every layout: glisten's own offsets are not
-//! asked. What the driver calls inactive is left alone.
+//! *In:* a linked program and the flat values of its roots. *Out:* loose uniforms set by name, and a buffer for each
+//! element of each block. *Holds:* for every layout, the offsets of block members are those that the driver reports;
+//! glisten's own offsets are not used. Uniforms that the driver calls inactive are skipped.
 
 use super::Error;
 use super::api::Api;
@@ -11,7 +10,7 @@ use glisten_front::hir::{Scalar, ScalarValue, Type};
 use glisten_front::link::{Block, Program, UniformLeaf};
 use glisten_scene::scene::Draw;
 
-/// Sets all uniforms but samplers. The program is in use.
+/// Sets all uniforms but samplers. The program must be current.
 pub(super) fn set(api: &Api, linked: glow::Program, draw: &Draw) -> Result<(), Error> {
     let program = &draw.program;
     for leaf in &program.interface.uniforms {
@@ -33,7 +32,7 @@ pub(super) fn set(api: &Api, linked: glow::Program, draw: &Draw) -> Result<(), E
     api.check("filling uniform blocks")
 }
 
-/// What a leaf is.
+/// The type of a leaf.
 #[derive(Clone, Copy)]
 struct Shape {
     scalar: Scalar,
@@ -55,7 +54,7 @@ impl Shape {
     }
 }
 
-/// The leaf's part of its root's values.
+/// The leaf's part of the values of its root.
 fn values<'a>(draw: &'a Draw, leaf: &UniformLeaf, shape: Shape) -> &'a [ScalarValue] {
     let start = leaf.flat_offset as usize;
     let flat = draw.uniforms.get(leaf.root.0 as usize).map_or(&[][..], Vec::as_slice);
@@ -83,7 +82,7 @@ fn set_loose(api: &Api, location: &glow::UniformLocation, shape: Shape, values: 
                 _ => api.uniform_matrix_4_f32_slice(at, false, &values),
             }
         }
-        // A boolean takes an integer.
+        // A boolean is set as an integer.
         Scalar::Int | Scalar::Bool => {
             let values: Vec<i32> = values.iter().map(|value| bits(*value).cast_signed()).collect();
             match shape.rows {
@@ -105,7 +104,7 @@ fn set_loose(api: &Api, location: &glow::UniformLocation, shape: Shape, values: 
     }
 }
 
-/// Fills one element of a block; whether the driver has it at all.
+/// Fills one element of a block. Returns whether the driver has it at all.
 fn set_block(
     api: &Api,
     linked: glow::Program,
@@ -136,7 +135,7 @@ fn set_block(
     Ok(true)
 }
 
-/// Where the driver has a member, in bytes.
+/// The layout of a member in the driver, in bytes.
 struct Place {
     offset: usize,
     array_stride: usize,
@@ -146,7 +145,8 @@ struct Place {
 
 impl Place {
     fn of(api: &Api, linked: glow::Program, block: &Block, leaf: &UniformLeaf) -> Option<Self> {
-        // The elements of an array of blocks are laid out alike, and OpenGL names the members of the block, not of one.
+        // All elements of an array of blocks have the same layout, and OpenGL uses the names of the block's members
+        // without an index.
         let element = format!("{}[{}].", block.name, leaf.block_element);
         let name = match leaf.name.strip_prefix(&element) {
             Some(member) if block.array_size.is_some() => format!("{}.{member}", block.name),
@@ -178,7 +178,7 @@ impl Place {
     }
 }
 
-/// A value's 32 bits in a buffer.
+/// The 32 bits of a value in a buffer.
 fn bits(value: ScalarValue) -> u32 {
     match value {
         ScalarValue::Bool(value) => u32::from(value),

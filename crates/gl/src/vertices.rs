@@ -1,7 +1,7 @@
-//! Vertex data (OpenGL 3.2 §2.8, §2.10).
+//! Uploads vertex data (OpenGL 3.2 §2.8, §2.10).
 //!
-//! *In:* a draw's attributes and indices. *Out:* a vertex array with a buffer for each attribute.
-//! *Holds:* components that the data does not have are OpenGL's to fill in. No draw reads past the end of a buffer.
+//! *In:* a draw's attributes and indices. *Out:* a vertex array with a buffer for each attribute. *Holds:* OpenGL
+//! fills in components that the data lacks. No draw reads past the end of a buffer.
 
 use super::Error;
 use super::api::Api;
@@ -18,7 +18,7 @@ pub(super) fn bind(api: &Api, draw: &Draw) -> Result<(), Error> {
         None => draw.vertex_count,
     };
     for (attribute, data) in draw.program.interface.attributes.iter().zip(&draw.attributes) {
-        // Inactive ones may share a location with active ones, and nothing reads them.
+        // Inactive attributes may share a location with active ones, and nothing reads them.
         let Some(data) = data.as_ref().filter(|_| attribute.active) else { continue };
         let rows = draw.instances.checked_next_multiple_of(data.divisor.max(1)).unwrap_or(u32::MAX);
         let rows = rows.checked_div(data.divisor).unwrap_or(vertices);
@@ -41,7 +41,7 @@ fn fill(api: &Api, target: u32, bytes: &[u8]) -> Result<(), Error> {
     Ok(())
 }
 
-/// What one location of an attribute holds.
+/// The scalar type and number of components at one location of an attribute.
 fn column(types: &Types, ty: TypeId) -> Option<(Scalar, u32)> {
     match types.get(ty) {
         Type::Scalar(scalar) => Some((scalar, 1)),
@@ -62,7 +62,7 @@ fn feed(api: &Api, attribute: &Attribute, data: &AttributeData, types: &Types) -
         let present = data.size.saturating_sub(start).min(height) as i32;
         let offset = start as i32 * 4;
         if present == 0 {
-            // A column that the data does not reach to.
+            // A column for which the data has no values.
             api.vertex_attrib_4_f32(location, 0.0, 0.0, 0.0, 1.0);
             continue;
         }

@@ -1,16 +1,17 @@
-//! Which vertices make which primitive, as lists (OpenGL 3.2 §2.6.1 and table 2.12).
+//! Primitive assembly: which vertices form which primitive, as lists (OpenGL 3.2 §2.6.1 and table 2.12).
 //!
-//! *In:* a primitive, the order of its vertices, and whose vertex provokes. *Out:* vertex numbers for a list of
-//! points, lines or triangles. WebGPU has neither fans nor loops, and its first vertex provokes: so every strip, fan
-//! and loop is unrolled, and where OpenGL's last vertex provokes each primitive is turned until that one comes first.
-//! Winding and the numbers of the primitives stay. Vertex numbers stay as well, so that `gl_VertexID` does.
+//! *In:* a primitive type, the order of its vertices, and the provoking vertex convention. *Out:* vertex indices for
+//! a list of points, lines or triangles. WebGPU has neither fans nor loops, and its first vertex is the provoking
+//! one. Every strip, fan and loop is therefore expanded, and where OpenGL's last vertex provokes, each primitive is
+//! rotated until that vertex comes first. *Holds:* winding and primitive numbers are unchanged. So are vertex
+//! indices, and with them `gl_VertexID`.
 
 use glisten_scene::scene::Primitive;
 
-/// The vertex numbers of a list, or `None` if drawing `count` vertices in their own order is the same.
+/// The vertex indices of a list, or `None` if drawing `count` vertices in order is the same.
 ///
-/// `provoking_last` may be `false` for a program without flat varyings whatever OpenGL's state says; that keeps the
-/// order of the vertices as the scene has it. Incomplete primitives at the end are dropped, as OpenGL does.
+/// `provoking_last` may be `false` for a program without flat varyings, whatever OpenGL's state; the order of the
+/// vertices is then that of the scene. Incomplete primitives at the end are dropped, as in OpenGL.
 pub(super) fn list(
     primitive: Primitive,
     count: u32,
@@ -45,7 +46,7 @@ pub(super) fn list(
             triangles(&mut positions, corners, if provoking_last { 2 } else { 0 });
         }
         Primitive::TriangleStrip => {
-            // Of an odd triangle (i + 1, i, i + 2), vertex i provokes by the first-vertex rule.
+            // In an odd triangle (i + 1, i, i + 2), vertex i provokes under the first-vertex convention.
             for i in 0..count.saturating_sub(2) {
                 let odd = i % 2 == 1;
                 let corners = if odd { [i + 1, i, i + 2] } else { [i, i + 1, i + 2] };
@@ -54,7 +55,7 @@ pub(super) fn list(
             }
         }
         Primitive::TriangleFan => {
-            // The hub never provokes: by the first-vertex rule it is the vertex after it.
+            // The hub never provokes: under the first-vertex convention it is the vertex after it.
             let corners = (0..count.saturating_sub(2)).map(|i| [0, i + 1, i + 2]);
             triangles(&mut positions, corners, if provoking_last { 2 } else { 1 });
         }
@@ -68,7 +69,7 @@ fn lines(positions: &mut Vec<u32>, ends: impl Iterator<Item = [u32; 2]>, provoki
     }
 }
 
-/// Adds triangles turned so that corner `first` comes first.
+/// Adds triangles, rotated so that corner `first` comes first.
 fn triangles(positions: &mut Vec<u32>, corners: impl Iterator<Item = [u32; 3]>, first: usize) {
     for mut triangle in corners {
         triangle.rotate_left(first);

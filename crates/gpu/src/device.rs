@@ -1,19 +1,19 @@
-//! [`Gpu`]: an adapter and its device, opened once and used for many scenes.
+//! [`Gpu`]: an adapter and its device, opened once and used for any number of scenes.
 
 use super::Error;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-/// What is known of the adapter, for reports.
+/// Facts about the adapter, for reports.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct AdapterFacts {
-    /// As Vulkan names it: `llvmpipe (LLVM 15.0.6, 256 bits)`.
+    /// The name in Vulkan: `llvmpipe (LLVM 15.0.6, 256 bits)`.
     pub name: String,
-    /// The driver's own version text.
+    /// The driver's version text.
     pub driver: String,
 }
 
-/// An open device. One serves any number of scenes, one after the other; nothing of a scene stays behind.
+/// An open device. It serves any number of scenes, one at a time, and keeps nothing of a scene.
 pub struct Gpu {
     pub(super) device: wgpu::Device,
     pub(super) queue: wgpu::Queue,
@@ -21,11 +21,11 @@ pub struct Gpu {
     pub(super) limits: wgpu::Limits,
     pub(super) timeout: Duration,
     facts: AdapterFacts,
-    /// What went wrong outside of every error scope, a lost device among it.
+    /// An error outside every error scope, such as a lost device.
     stray: Arc<Mutex<Option<Error>>>,
 }
 
-/// Asked for where the adapter has them; the scene decides later what is needed.
+/// The features that are requested if the adapter has them. The scene decides later what it needs.
 const WANTED: wgpu::Features = wgpu::Features::PASSTHROUGH_SHADERS
     .union(wgpu::Features::TIMESTAMP_QUERY)
     .union(wgpu::Features::PIPELINE_STATISTICS_QUERY)
@@ -38,10 +38,10 @@ const WANTED: wgpu::Features = wgpu::Features::PASSTHROUGH_SHADERS
     .union(wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES);
 
 impl Gpu {
-    /// How long a scene may take unless [`Gpu::with_timeout`] says otherwise.
+    /// The time limit of a scene, unless [`Gpu::with_timeout`] sets another.
     pub const DEFAULT_TIMEOUT: Duration = Duration::from_secs(60);
 
-    /// Opens the first software adapter of Vulkan, or the first whose name contains `adapter` (capitals count alike).
+    /// Opens the first software adapter of Vulkan, or the first whose name contains `adapter`, ignoring case.
     ///
     /// # Errors
     /// [`Error::NoAdapter`], [`Error::UnknownAdapter`], or [`Error::Unsupported`] if the device cannot be opened.
@@ -69,18 +69,18 @@ impl Gpu {
         Ok(Self { device, queue, features, limits, timeout: Self::DEFAULT_TIMEOUT, facts, stray })
     }
 
-    /// The same with another limit for each wait.
+    /// The same device with another limit for each wait.
     #[must_use]
     pub fn with_timeout(self, timeout: Duration) -> Self {
         Self { timeout, ..self }
     }
 
-    /// Name and driver of the adapter.
+    /// The name and driver of the adapter.
     pub fn adapter(&self) -> &AdapterFacts {
         &self.facts
     }
 
-    /// Runs `work` and turns what wgpu complains of meanwhile into an error.
+    /// Runs `work` and turns errors that wgpu reports meanwhile into an [`Error`].
     pub(super) fn guarded<T>(&self, work: impl FnOnce() -> Result<T, Error>) -> Result<T, Error> {
         let scopes = [wgpu::ErrorFilter::OutOfMemory, wgpu::ErrorFilter::Internal, wgpu::ErrorFilter::Validation]
             .map(|filter| self.device.push_error_scope(filter));
@@ -96,9 +96,9 @@ impl Gpu {
         }
     }
 
-    /// Waits for everything submitted.
+    /// Waits for all submitted work.
     ///
-    /// After a timeout the device is kept alive on purpose: dropping it would wait for the very work that hangs.
+    /// After a timeout the device is leaked on purpose: dropping it would wait for the work that hangs.
     pub(super) fn wait(&self) -> Result<(), Error> {
         let wait = wgpu::PollType::Wait { submission_index: None, timeout: Some(self.timeout) };
         match self.device.poll(wait) {
@@ -111,7 +111,7 @@ impl Gpu {
         }
     }
 
-    /// Refuses with a name for what is missing.
+    /// Reports an error that names the missing feature.
     pub(super) fn require(&self, feature: wgpu::Features, what: &str) -> Result<(), Error> {
         if self.features.contains(feature) { Ok(()) } else { Err(Error::Unsupported(what.into())) }
     }
@@ -133,7 +133,7 @@ fn choose<'a>(adapters: &'a [wgpu::Adapter], name: Option<&str>) -> Result<&'a w
     })
 }
 
-/// Keeps wgpu from its habit of panicking on errors that no scope catches.
+/// Keeps wgpu from panicking on errors outside every error scope.
 fn watch(device: &wgpu::Device, stray: &Arc<Mutex<Option<Error>>>) {
     let errors = Arc::clone(stray);
     device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
@@ -147,7 +147,7 @@ fn watch(device: &wgpu::Device, stray: &Arc<Mutex<Option<Error>>>) {
     });
 }
 
-/// wgpu's text is a chain of causes, one a line; the last ones say what is wrong.
+/// Extracts the message: wgpu's text is a chain of causes, one per line, of which the last ones say what is wrong.
 fn refusal(error: &wgpu::Error) -> Error {
     match error {
         wgpu::Error::OutOfMemory { .. } => Error::Refused("the device is out of memory".into()),

@@ -1,35 +1,35 @@
-//! [`Error`]: why there is no picture.
+//! [`Error`]: why a scene could not be drawn on the GPU.
 
 use glisten_front::diagnostic::Diagnostic;
 use std::fmt;
 use std::time::Duration;
 
-/// Why there is no picture.
+/// Why a scene could not be drawn.
 #[derive(Clone, Debug)]
 pub enum Error {
-    /// No Vulkan adapter of the wanted kind is there.
+    /// There is no Vulkan adapter of the wanted kind.
     NoAdapter,
     /// No adapter has this name.
     UnknownAdapter {
-        /// The name asked for.
+        /// The requested name.
         name: String,
-        /// The names that are there.
+        /// The names of the available adapters.
         available: Vec<String>,
     },
     /// The adapter cannot do what the scene needs.
     Unsupported(String),
     /// A program of the scene cannot be emitted for the target.
     Emit(Vec<Diagnostic>),
-    /// The scene asks for what the runner or the driver refuses; the message is wgpu's or the runner's own.
+    /// The runner or the driver rejects the scene; the message is wgpu's or the runner's own.
     Refused(String),
     /// The device stopped working.
     Lost(String),
-    /// The draw did not end in time.
+    /// The draw did not finish in time.
     Timeout(Duration),
 }
 
 impl Error {
-    /// Whether this machine lacks something (exit code 3), rather than the scene being at fault.
+    /// Whether the cause is this machine (exit code 3) rather than the scene.
     pub fn is_environment(&self) -> bool {
         match self {
             Self::NoAdapter | Self::UnknownAdapter { .. } | Self::Unsupported(_) => true,
@@ -37,7 +37,7 @@ impl Error {
         }
     }
 
-    /// The findings of emission, if that is what failed.
+    /// The diagnostics of emission, if that failed.
     pub fn diagnostics(&self) -> &[Diagnostic] {
         match self {
             Self::Emit(diagnostics) => diagnostics,

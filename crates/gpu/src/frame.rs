@@ -1,8 +1,8 @@
-//! One frame: attachments, the passes that draw a prepared scene, and the way back to a [`Picture`].
+//! One frame: attachments, the passes that draw a prepared scene, and the read-back to a [`Picture`].
 //!
-//! *Holds:* values come back as the format stores them, without clamping or conversion but to `f64`. Coverage is the
-//! stencil that each written fragment sets (see `states::depth_stencil`), never a guess from colors. The device knows
-//! nothing of edges: `near_edge` and `undecided` are all `false` here.
+//! *Holds:* values are those that the format stores, without clamping or conversion except to `f64`. Coverage is the
+//! stencil that each written fragment sets (see `states::depth_stencil`), never inferred from colors. The device does
+//! not report edges: `near_edge` and `undecided` are all `false` here.
 
 use super::prepare::Prepared;
 use super::states::{color_format, pixel_size};
@@ -11,7 +11,7 @@ use glisten_scene::compare::Picture;
 use glisten_scene::scene::{Format, Framebuffer, Scene};
 use std::time::Instant;
 
-/// What is drawn to.
+/// The attachments of a frame.
 pub(super) struct Attachments {
     colors: Vec<(wgpu::Texture, wgpu::TextureView)>,
     depth: (wgpu::Texture, wgpu::TextureView),
@@ -21,7 +21,7 @@ impl Gpu {
     /// Draws a scene once.
     ///
     /// # Errors
-    /// Those of [`Gpu::prepare`], and [`Error::Timeout`] or [`Error::Lost`].
+    /// The errors of [`Gpu::prepare`], and [`Error::Timeout`] or [`Error::Lost`].
     pub fn render(&self, scene: &Scene, via: Via) -> Result<Rendered, Error> {
         let prepared = self.prepare(scene, via)?;
         self.draw(&prepared)
@@ -75,7 +75,7 @@ impl Gpu {
         }
     }
 
-    /// A pass that clears everything and draws the scene.
+    /// Encodes a pass that clears all attachments and draws the scene.
     pub(super) fn encode_pass(
         &self,
         encoder: &mut wgpu::CommandEncoder,
@@ -86,7 +86,7 @@ impl Gpu {
         self.with_pass(encoder, prepared, attachments, timestamp_writes, |pass| record(pass, prepared));
     }
 
-    /// The same under a query that counts.
+    /// Encodes the same pass under a query that counts.
     pub(super) fn encode_counted_pass(
         &self,
         encoder: &mut wgpu::CommandEncoder,
@@ -134,7 +134,7 @@ impl Gpu {
         body(&mut pass);
     }
 
-    /// Copies every attachment and the stencil into buffers that the host can read.
+    /// Copies every attachment and the stencil to buffers that the host can read.
     fn read_back(
         &self,
         encoder: &mut wgpu::CommandEncoder,
@@ -206,12 +206,12 @@ impl Gpu {
     }
 }
 
-/// A buffer with rows of a picture.
+/// A buffer with the rows of a picture.
 struct Reader {
     buffer: wgpu::Buffer,
-    /// Bytes from row to row.
+    /// The stride of a row in bytes.
     row: usize,
-    /// Bytes of a row that count.
+    /// The number of used bytes in a row.
     used: usize,
 }
 
@@ -266,7 +266,7 @@ fn decode(format: Format, bytes: &[u8]) -> Vec<[f64; 4]> {
         .collect()
 }
 
-/// The value of a half (IEEE 754 binary16).
+/// The value of a half-precision number (IEEE 754 binary16).
 fn half(bits: u16) -> f64 {
     let sign = if bits & 0x8000 == 0 { 1.0 } else { -1.0 };
     let exponent = i32::from(bits >> 10 & 0x1f);

@@ -1,6 +1,6 @@
 //! Runs emitted code on Vulkan through wgpu.
 //!
-//! *In:* a [`Scene`](glisten_scene::scene::Scene). *Out:* a [`Picture`] and times.
+//! *In:* a [`Scene`](glisten_scene::scene::Scene). *Out:* a [`Picture`], and times.
 //!
 //! ```text
 //!  Scene ──► assembly    vertex numbers: strips, fans and loops made lists, the provoking vertex first
@@ -12,10 +12,10 @@
 //!        ──► timing      repeated draws under timestamp queries
 //! ```
 //!
-//! *Holds:* whatever a scene contains, the answer is a picture or an [`Error`]: wgpu's complaints are caught in error
-//! scopes, waiting has a limit. The emitted SPIR-V runs as it is; all `unsafe` of that is in `prepare`.
-//! Pictures are read top row first: code is emitted with [`WindowOrigin::UpperLeft`](glisten_emit::WindowOrigin), so
-//! what OpenGL draws at the top of the window is in row 0.
+//! *Holds:* whatever a scene contains, the result is a picture or an [`Error`]: error scopes catch wgpu's errors, and
+//! waiting has a limit. The emitted SPIR-V runs unchanged; the `unsafe` code for that is all in `prepare`. Pictures
+//! are read top row first: code is emitted with [`WindowOrigin::UpperLeft`](glisten_emit::WindowOrigin), so what
+//! OpenGL draws at the top of the window is in row 0.
 //!
 //! *Not done here:* judging the picture ([`compare`](glisten_scene::compare)), multisampling, geometry shaders.
 
@@ -40,12 +40,12 @@ pub use prepare::Prepared;
 
 use glisten_scene::compare::Picture;
 
-/// Which emitted form runs.
+/// The form of the emitted code that runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Via {
-    /// The emitted words, passed through to the driver untouched.
+    /// SPIR-V, passed to the driver unchanged.
     Spirv,
-    /// The emitted text, read again by wgpu's own naga.
+    /// WGSL, which wgpu parses with its own naga.
     Wgsl,
 }
 
@@ -59,12 +59,12 @@ impl Via {
     }
 }
 
-/// What a draw of a scene gave.
+/// The result of drawing a scene.
 #[derive(Clone, Debug)]
 pub struct Rendered {
     /// The picture.
     pub picture: Picture,
-    /// Milliseconds of GPU time of one draw of the whole scene, the pipelines' first draw included; wall time where
-    /// the adapter has no timestamp queries.
+    /// The GPU time in milliseconds for drawing the whole scene once, including the first use of its pipelines. Wall
+    /// time if the adapter has no timestamp queries.
     pub milliseconds: f64,
 }

@@ -1,9 +1,9 @@
 //! [`Prepared`]: a scene with its modules, layouts, buffers and pipelines on the device, ready to be drawn any number
 //! of times.
 //!
-//! *Holds:* each bind group layout lists exactly what the interface reflects, inactive things too, with bindings dense
-//! from 0. wgpu numbers the bindings of a pass-through module's layout anew, so a gap would bind the wrong resource
-//! in silence; it is refused here.
+//! *Holds:* each bind group layout lists exactly what the interface reflects, including inactive resources, and its
+//! bindings count from 0 without gaps. wgpu renumbers the bindings of a pass-through module's layout, so a gap would
+//! silently bind the wrong resource; it is rejected here.
 
 use super::states::{blend, color_format, depth_stencil, primitive_state};
 use super::textures::{self, Bound};
@@ -27,24 +27,24 @@ pub struct Prepared {
 /// A draw on the device.
 pub(super) struct PreparedDraw {
     pub(super) pipeline: wgpu::RenderPipeline,
-    /// By group number.
+    /// The bind groups, by group number.
     pub(super) groups: Vec<wgpu::BindGroup>,
     pub(super) vertex_buffers: Vec<wgpu::Buffer>,
     /// The index buffer, if there is one.
     pub(super) indices: Option<wgpu::Buffer>,
-    /// Vertices or indices.
+    /// The number of vertices, or of indices.
     pub(super) count: u32,
     pub(super) instances: u32,
 }
 
-/// Where the code of a draw's stage comes from.
+/// Returns the code of a stage of a draw.
 pub(super) type Modules<'a> = &'a dyn Fn(&Draw, Stage) -> Result<Emitted, Error>;
 
 fn emitted(draw: &Draw, stage: Stage, target: Target) -> Result<Emitted, Error> {
     emit::emit(&draw.program, stage, target, &conventions(draw)).map_err(Error::Emit)
 }
 
-/// A pipeline, and what it was made for: draws of one program in one state share it.
+/// A pipeline and what it was created for: draws of one program in one state share it.
 struct Made {
     program: Arc<Program>,
     state: State,
@@ -60,7 +60,7 @@ impl Gpu {
     /// Emits every program of a scene and puts everything on the device.
     ///
     /// # Errors
-    /// [`Error::Emit`] if a program has no form in the target, [`Error::Refused`] if wgpu or the driver takes it not.
+    /// [`Error::Emit`] if the target cannot represent a program, [`Error::Refused`] if wgpu or the driver rejects it.
     pub fn prepare(&self, scene: &Scene, via: Via) -> Result<Prepared, Error> {
         let target = match via {
             Via::Spirv => Target::Spirv,
@@ -69,15 +69,16 @@ impl Gpu {
         self.prepare_with(scene, &|draw, stage| emitted(draw, stage, target))
     }
 
-    /// [`Gpu::prepare`] by SPIR-V, each stage's emitted words changed by `edit`, in the order of the draws, vertex stages
-    /// first: for tests that plant faults. Draws of one program in one state ask once.
+    /// Prepares a scene with SPIR-V after `edit` has changed the emitted words of each stage, in the order of the
+    /// draws, vertex stages first. It is for tests that plant faults. Draws of one program in one state share one
+    /// call.
     ///
     /// # Errors
     /// Those of [`Gpu::prepare`].
     ///
     /// # Safety
-    /// The driver runs the words as they are, and what it does with words that are no valid module is not defined: show
-    /// them to `spirv-val` first.
+    /// The driver runs the words as they are, and its behavior is undefined if they are not a valid module: check
+    /// them with `spirv-val` first.
     #[expect(unsafe_code, reason = "nothing here can check what `edit` makes")]
     pub unsafe fn prepare_edited(
         &self,
@@ -154,7 +155,7 @@ impl Gpu {
         self.device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: None, contents: some, usage })
     }
 
-    /// Makes a module of a stage's code.
+    /// Creates the module of a stage's code.
     fn module(&self, draw: &Draw, stage: Stage, modules: Modules<'_>) -> Result<wgpu::ShaderModule, Error> {
         let program = &draw.program;
         if program.stage(stage).is_none() {
@@ -184,8 +185,8 @@ impl Gpu {
             spirv: Some(words.into()),
             ..wgpu::ShaderModuleDescriptorPassthrough::default()
         };
-        // SAFETY: the words come from naga's writer, from a module that its validator accepted; the pipeline's layout
-        // is explicit and lists exactly the bindings that the module declares (see `bindings`).
+        // SAFETY: naga's writer wrote the words, from a module that its validator accepted. The pipeline's layout is
+        // explicit and lists exactly the bindings that the module declares (see `bindings`).
         unsafe { self.device.create_shader_module_passthrough(descriptor) }
     }
 
@@ -305,7 +306,7 @@ impl Gpu {
     }
 }
 
-/// What the runner asks emission for.
+/// The conventions for emission.
 fn conventions(draw: &Draw) -> Conventions {
     Conventions {
         clip_distances: Some(draw.state.clip_distances),
@@ -314,7 +315,7 @@ fn conventions(draw: &Draw) -> Conventions {
     }
 }
 
-/// Comparisons in levels of detail are compiled for depth textures of one level.
+/// Rejects comparisons at explicit levels of detail, which are compiled only for depth textures of one level.
 fn refuse_levels(draw: &Draw) -> Result<(), Error> {
     let deep = draw.textures.iter().flatten().any(|texture| {
         texture.kind.shadow && texture.levels.len() > 1 && texture.filter == glisten_scene::scene::Filter::Trilinear
@@ -332,7 +333,7 @@ fn has_flat_varying(program: &Program) -> bool {
     program.interface.varyings.iter().any(|varying| varying.interpolation == Interpolation::Flat)
 }
 
-/// The color targets: what no output is bound to keeps its clear color.
+/// The color targets. An attachment without an output keeps its clear color.
 fn targets(framebuffer: &Framebuffer, draw: &Draw) -> Vec<Option<wgpu::ColorTargetState>> {
     let floats = matches!(framebuffer.format, Format::Rgba32Float | Format::Rgba16Float | Format::Rgba8Unorm);
     (0..framebuffer.attachments)
@@ -375,7 +376,7 @@ impl What {
     }
 }
 
-/// Everything that the interface reflects, by slot; dense from 0 in each group, or refused.
+/// Everything that the interface reflects, by binding. Bindings must count from 0 without gaps in each group.
 fn bindings(program: &Program) -> Result<Vec<Binding>, Error> {
     let interface = &program.interface;
     let mut all: Vec<Binding> = Vec::new();

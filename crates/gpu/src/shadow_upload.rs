@@ -1,7 +1,7 @@
-//! Depth textures by drawing: WebGPU copies nothing into a 32-bit depth texture.
+//! Uploads depth textures by drawing, since WebGPU cannot copy to a 32-bit depth texture.
 //!
-//! *In:* a texture for a shadow sampler, whose R is the depth. *Out:* a view of a depth texture. Each layer of each
-//! level is drawn once with a fragment shader that reads R and writes it as the depth; depths are clamped to [0, 1].
+//! *In:* a texture for a shadow sampler, with depth in R. *Out:* a view of a depth texture. Each layer of each level
+//! is drawn once with a fragment shader that reads R and writes it as the depth. Depths are clamped to [0, 1].
 
 use super::Gpu;
 use super::textures::extent;

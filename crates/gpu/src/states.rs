@@ -1,4 +1,4 @@
-//! Tables from OpenGL's fixed state to wgpu's.
+//! Tables from OpenGL's fixed-function state to wgpu's.
 
 use glisten_scene::scene::{BlendFactor, Compare, Cull, Filter, Format, Primitive, State, Wrap};
 
@@ -13,7 +13,7 @@ pub(super) fn color_format(format: Format) -> wgpu::TextureFormat {
     }
 }
 
-/// Bytes of a pixel.
+/// The number of bytes of a pixel.
 pub(super) fn pixel_size(format: Format) -> u32 {
     match format {
         Format::Rgba32Float | Format::Rgba32Sint | Format::Rgba32Uint => 16,
@@ -22,7 +22,7 @@ pub(super) fn pixel_size(format: Format) -> u32 {
     }
 }
 
-/// The list that strips, fans and loops are unrolled to.
+/// The list topology that strips, fans and loops are expanded to.
 pub(super) fn topology(primitive: Primitive) -> wgpu::PrimitiveTopology {
     match primitive {
         Primitive::Points => wgpu::PrimitiveTopology::PointList,
@@ -33,7 +33,7 @@ pub(super) fn topology(primitive: Primitive) -> wgpu::PrimitiveTopology {
     }
 }
 
-/// Culling and facing. The picture is upright, so that counterclockwise stays counterclockwise.
+/// Culling and front faces. The picture is upright, so counterclockwise stays counterclockwise.
 pub(super) fn primitive_state(state: &State) -> wgpu::PrimitiveState {
     wgpu::PrimitiveState {
         topology: topology(state.primitive),
@@ -47,7 +47,7 @@ pub(super) fn primitive_state(state: &State) -> wgpu::PrimitiveState {
     }
 }
 
-/// Comparison functions.
+/// The comparison function.
 pub(super) fn compare(function: Compare) -> wgpu::CompareFunction {
     match function {
         Compare::Never => wgpu::CompareFunction::Never,
@@ -61,7 +61,7 @@ pub(super) fn compare(function: Compare) -> wgpu::CompareFunction {
     }
 }
 
-/// The depth test, and a stencil that becomes 1 wherever a fragment is written: that is the coverage.
+/// The depth test, and a stencil that becomes 1 wherever a fragment is written, which is the coverage.
 pub(super) fn depth_stencil(state: &State) -> wgpu::DepthStencilState {
     let mark = wgpu::StencilFaceState {
         compare: wgpu::CompareFunction::Always,
@@ -79,7 +79,7 @@ pub(super) fn depth_stencil(state: &State) -> wgpu::DepthStencilState {
     }
 }
 
-/// Factors for color and alpha alike.
+/// Blend factors, the same for color and alpha.
 pub(super) fn blend(factors: (BlendFactor, BlendFactor)) -> wgpu::BlendState {
     let component = wgpu::BlendComponent {
         src_factor: factor(factors.0),
@@ -105,7 +105,7 @@ fn factor(factor: BlendFactor) -> wgpu::BlendFactor {
     }
 }
 
-/// Outside of the texture.
+/// The address mode of a wrap mode.
 pub(super) fn address_mode(wrap: Wrap) -> wgpu::AddressMode {
     match wrap {
         Wrap::Repeat => wgpu::AddressMode::Repeat,
@@ -114,7 +114,7 @@ pub(super) fn address_mode(wrap: Wrap) -> wgpu::AddressMode {
     }
 }
 
-/// Within a level.
+/// The filter within a level.
 pub(super) fn filter_mode(filter: Filter) -> wgpu::FilterMode {
     match filter {
         Filter::Nearest => wgpu::FilterMode::Nearest,

@@ -1,4 +1,4 @@
-//! The runner alone, on hand-written WGSL: what it does is seen apart from lowering. Needs a Vulkan software adapter.
+//! Tests of the runner alone, on hand-written WGSL, independent of lowering. They need a Vulkan software adapter.
 
 use super::{Error, Gpu, Rendered};
 use glisten_emit::Emitted;
@@ -82,7 +82,7 @@ fn state() -> State {
     }
 }
 
-/// A triangle over the lower left half of the window: red, green and blue corners.
+/// A triangle over the lower left half of the window, with red, green and blue corners.
 fn scene(types: Types, interface: Interface) -> Scene {
     let version = Version { number: 150, profile: Profile::Core, span: Span::default() };
     let program = Program {

@@ -1,9 +1,9 @@
-//! Textures and samplers on the device, as lowering expects them.
+//! Textures and samplers on the device, in the form that the lowering expects.
 //!
-//! *In:* a scene's [`Texture`] and the slot that reads it. *Out:* a view and a sampler. One-dimensional textures are
-//! two-dimensional ones of height 1, rectangles plain ones, buffers [`BUFFER_WIDTH`] texels wide; shadow samplers get
-//! a depth texture. A slot without a texture (an inactive one) gets a single black texel, so that every binding of
-//! the layout is filled.
+//! *In:* a scene's [`Texture`] and the sampler slot that reads it. *Out:* a view and a sampler. One-dimensional
+//! textures become two-dimensional ones of height 1, rectangles ordinary ones, buffers [`BUFFER_WIDTH`] texels wide;
+//! shadow samplers get a depth texture. A slot without a texture (an inactive one) gets a single black texel, so that
+//! every binding of the layout is filled.
 
 use super::states::{address_mode, compare, filter_mode};
 use super::{Error, Gpu, shadow_upload};
@@ -11,15 +11,15 @@ use glisten_emit::BUFFER_WIDTH;
 use glisten_front::hir::{SamplerDim, SamplerType, Scalar};
 use glisten_scene::scene::{Compare, Filter, Texels, Texture, TextureLevel, Wrap};
 
-/// What a sampler slot binds.
+/// The resources of a sampler slot.
 pub(super) struct Bound {
     /// The texture.
     pub(super) view: wgpu::TextureView,
-    /// How it is read.
+    /// The sampler.
     pub(super) sampler: wgpu::Sampler,
 }
 
-/// How the layout declares the texture of a sampler type.
+/// The binding type of a sampler type's texture.
 pub(super) fn texture_binding(kind: SamplerType) -> wgpu::BindingType {
     let multisampled = kind.dim == SamplerDim::Multisample;
     let sample_type = match kind.texel {
@@ -33,7 +33,7 @@ pub(super) fn texture_binding(kind: SamplerType) -> wgpu::BindingType {
     wgpu::BindingType::Texture { sample_type, view_dimension: view_dimension(kind), multisampled }
 }
 
-/// How the layout declares the sampler of a sampler type.
+/// The binding type of a sampler type's sampler.
 pub(super) fn sampler_binding(kind: SamplerType) -> wgpu::BindingType {
     wgpu::BindingType::Sampler(if kind.shadow {
         wgpu::SamplerBindingType::Comparison
@@ -45,7 +45,7 @@ pub(super) fn sampler_binding(kind: SamplerType) -> wgpu::BindingType {
 fn view_dimension(kind: SamplerType) -> wgpu::TextureViewDimension {
     match (kind.dim, kind.arrayed) {
         (SamplerDim::D3, _) => wgpu::TextureViewDimension::D3,
-        // Nothing loads from a cube, and integers are only loaded.
+        // Texels cannot be loaded from a cube, and integer texels are only loaded.
         (SamplerDim::Cube, false) if kind.texel != Scalar::Float => wgpu::TextureViewDimension::D2Array,
         (SamplerDim::Cube, false) => wgpu::TextureViewDimension::Cube,
         (SamplerDim::Cube, true) => wgpu::TextureViewDimension::CubeArray,
@@ -105,7 +105,7 @@ fn sampler(gpu: &Gpu, kind: SamplerType, texture: &Texture) -> wgpu::Sampler {
         min_filter: filter,
         mipmap_filter: if trilinear { wgpu::MipmapFilterMode::Linear } else { wgpu::MipmapFilterMode::Nearest },
         lod_min_clamp: 0.0,
-        // OpenGL's NEAREST and LINEAR never leave the base level, whatever level is asked for.
+        // OpenGL's NEAREST and LINEAR never leave the base level, whatever level is requested.
         lod_max_clamp: if trilinear { 1000.0 } else { 0.0 },
         compare: kind.shadow.then(|| compare(texture.compare)),
         ..wgpu::SamplerDescriptor::default()
@@ -145,13 +145,13 @@ fn color_view(gpu: &Gpu, kind: SamplerType, texture: &Texture) -> wgpu::TextureV
     })
 }
 
-/// How many texels the base level has; 0 without a texture.
+/// The number of texels of the base level; 0 without a texture.
 pub(super) fn texels(texture: Option<&Texture>) -> u32 {
     let level = texture.and_then(|texture| texture.levels.first());
     level.map_or(0, |level| level.width.saturating_mul(level.height).saturating_mul(level.depth.max(1)))
 }
 
-/// The size on the device of a level.
+/// The size of a level on the device.
 pub(super) fn extent(kind: SamplerType, level: Option<&TextureLevel>) -> wgpu::Extent3d {
     let (width, height, depth) = level.map_or((1, 1, 1), |level| (level.width, level.height, level.depth));
     if kind.dim == SamplerDim::Buffer {
@@ -169,7 +169,7 @@ fn texel_format(texel: Scalar) -> wgpu::TextureFormat {
     }
 }
 
-/// RGBA of 4 bytes each, converted if the data's kind is another than the sampler's.
+/// The texels as RGBA with 4 bytes per channel, converted if the data's type differs from the sampler's.
 fn texel_bytes(texels: &Texels, texel: Scalar) -> Vec<u8> {
     let bytes = |values: &mut dyn Iterator<Item = f64>| -> Vec<u8> {
         values
@@ -181,7 +181,7 @@ fn texel_bytes(texels: &Texels, texel: Scalar) -> Vec<u8> {
             .collect()
     };
     match (texels, texel) {
-        // NaNs keep their bits on the common way.
+        // This keeps the bits of NaNs in the most frequent case.
         (Texels::Float(texels), Scalar::Float) => texels.iter().flatten().flat_map(|v| v.to_ne_bytes()).collect(),
         (Texels::Float(texels), _) => bytes(&mut texels.iter().flatten().map(|&value| f64::from(value))),
         (Texels::Int(texels), _) => bytes(&mut texels.iter().flatten().map(|&value| f64::from(value))),
@@ -189,7 +189,7 @@ fn texel_bytes(texels: &Texels, texel: Scalar) -> Vec<u8> {
     }
 }
 
-/// A scene has no multisample textures; the slot is there all the same.
+/// A multisample view for a slot: a scene has no multisample textures, but the slot must be filled.
 fn multisample_view(gpu: &Gpu, kind: SamplerType) -> wgpu::TextureView {
     let layers = 1;
     let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {

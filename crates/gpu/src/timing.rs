@@ -1,8 +1,8 @@
-//! How long a draw takes on the device.
+//! Measures how long a draw takes on the device.
 //!
-//! *Holds:* a figure is the mean over so many whole frames (each clears, so that a depth test meets the same work) that
-//! the measured stretch lasts at least [`Gpu::STRETCH`]; the first frame, which holds the pipeline's compilation, is
-//! never in it. Candidates that are to be compared are measured in turns by the caller.
+//! *Holds:* a figure is the mean over enough whole frames (each clears, so that a depth test does the same work) that
+//! the measurement lasts at least [`Gpu::STRETCH`]. The first frame, which includes compiling the pipelines, is never
+//! part of it. The caller measures candidates for a comparison in turns.
 
 use super::frame::Attachments;
 use super::{Error, Gpu, Prepared, Via};
@@ -16,11 +16,11 @@ pub(super) struct Stopwatch {
     readable: wgpu::Buffer,
 }
 
-/// Two 64-bit timestamps.
+/// The size of two 64-bit timestamps.
 const STAMPS: u64 = 16;
 
 impl Stopwatch {
-    /// Which query takes the beginning and which the end of a pass.
+    /// The queries that record the beginning and the end of a pass.
     pub(super) fn writes(&self, beginning: u32, end: u32) -> wgpu::RenderPassTimestampWrites<'_> {
         wgpu::RenderPassTimestampWrites {
             query_set: &self.queries,
@@ -29,13 +29,13 @@ impl Stopwatch {
         }
     }
 
-    /// Puts the stamps where the host can read them.
+    /// Copies the timestamps to where the host can read them.
     pub(super) fn resolve(&self, encoder: &mut wgpu::CommandEncoder) {
         encoder.resolve_query_set(&self.queries, 0..2, &self.resolved, 0);
         encoder.copy_buffer_to_buffer(&self.resolved, 0, &self.readable, 0, STAMPS);
     }
 
-    /// From the first stamp to the second.
+    /// The time from the first timestamp to the second.
     pub(super) fn milliseconds(&self, gpu: &Gpu) -> Result<f64, Error> {
         let bytes = gpu.bytes(&self.readable)?;
         let stamps: Vec<u64> = bytes
@@ -51,9 +51,9 @@ impl Stopwatch {
 }
 
 impl Gpu {
-    /// The least length of a measured stretch. Shorter ones scatter by a factor of two on a software driver.
+    /// The shortest measurement. Shorter ones vary by a factor of two on a software driver.
     pub const STRETCH: Duration = Duration::from_millis(30);
-    /// The most frames in a stretch.
+    /// The largest number of frames in a measurement.
     const MOST_FRAMES: u32 = 4096;
 
     pub(super) fn stopwatch(&self) -> Option<Stopwatch> {
@@ -79,20 +79,20 @@ impl Gpu {
         })
     }
 
-    /// Milliseconds of a frame of the scene, measured `repeats` times on a warm pipeline.
+    /// The time of a frame of the scene in milliseconds, measured `repeats` times with warm pipelines.
     ///
     /// # Errors
-    /// Those of [`Gpu::render`].
+    /// The errors of [`Gpu::render`].
     pub fn time(&self, scene: &Scene, via: Via, repeats: u32) -> Result<Vec<f64>, Error> {
         let prepared = self.prepare(scene, via)?;
         let frames = self.frames_for_a_stretch(&prepared)?;
         (0..repeats).map(|_| self.measure(&prepared, frames)).collect()
     }
 
-    /// How many frames make a stretch; warms the pipelines up.
+    /// The number of frames in a measurement; warms up the pipelines.
     ///
     /// # Errors
-    /// Those of [`Gpu::draw`].
+    /// The errors of [`Gpu::draw`].
     pub fn frames_for_a_stretch(&self, prepared: &Prepared) -> Result<u32, Error> {
         self.measure(prepared, 1)?;
         let one = self.measure(prepared, 2)?.max(1e-3);
@@ -100,10 +100,10 @@ impl Gpu {
         Ok((frames as u32).clamp(1, Self::MOST_FRAMES))
     }
 
-    /// Milliseconds of a frame: the mean over `frames` frames drawn in one go.
+    /// The time of a frame in milliseconds: the mean over `frames` frames drawn in one go.
     ///
     /// # Errors
-    /// Those of [`Gpu::draw`].
+    /// The errors of [`Gpu::draw`].
     pub fn measure(&self, prepared: &Prepared, frames: u32) -> Result<f64, Error> {
         let frames = frames.max(1);
         self.guarded(|| {
@@ -129,11 +129,11 @@ impl Gpu {
         })
     }
 
-    /// How many times the fragment stage runs in a frame, helpers of quads left out if the driver does; `None` where
+    /// How often the fragment stage runs in a frame, without helper invocations if the driver omits them; `None` if
     /// the adapter does not count.
     ///
     /// # Errors
-    /// Those of [`Gpu::draw`].
+    /// The errors of [`Gpu::draw`].
     pub fn fragments_shaded(&self, prepared: &Prepared) -> Result<Option<u64>, Error> {
         if !self.features.contains(wgpu::Features::PIPELINE_STATISTICS_QUERY) {
             return Ok(None);
@@ -168,7 +168,8 @@ impl Gpu {
     }
 }
 
-/// The first frame takes the beginning and the last the end; a single one takes both.
+/// The timestamps of a frame: the first frame records the beginning and the last the end; a single frame records
+/// both.
 fn edges(watch: &Stopwatch, frame: u32, frames: u32) -> Option<wgpu::RenderPassTimestampWrites<'_>> {
     let (first, last) = (frame == 0, frame + 1 == frames);
     (first || last).then(|| wgpu::RenderPassTimestampWrites {

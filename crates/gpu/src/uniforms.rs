@@ -1,8 +1,8 @@
-//! Uniform values as bytes (§4.3.7, OpenGL 3.2 §2.11.4).
+//! Packs uniform values into bytes (§4.3.7, OpenGL 3.2 §2.11.4).
 //!
-//! *In:* a program's interface and flat values by root. *Out:* the bytes of the buffer at each binding, as the
-//! reflection lays them out. *Holds:* every byte comes from a [`UniformLeaf`]: what a host
-//! can do with the reflection alone is all that is done here.
+//! *In:* a program's interface and the flat values of its roots. *Out:* the bytes of the buffer at each binding, in
+//! the reflected layout. *Holds:* every byte comes from a [`UniformLeaf`], so nothing here goes beyond what a host
+//! can do with the reflection alone.
 
 use glisten_front::hir::{MatrixLayout, ScalarValue, Type, Types};
 use glisten_front::link::{Interface, Program, SlotBinding, UniformLeaf};
@@ -10,14 +10,14 @@ use glisten_front::link::{Interface, Program, SlotBinding, UniformLeaf};
 /// The bytes of one uniform buffer.
 #[derive(Debug, PartialEq)]
 pub(super) struct UniformBytes {
-    /// Where it is bound.
+    /// The binding.
     pub(super) slot: SlotBinding,
-    /// A multiple of 16 of them, at least 16.
+    /// The bytes, a multiple of 16 and at least 16.
     pub(super) bytes: Vec<u8>,
 }
 
-/// All uniform buffers of a program, by binding. `framebuffer_height` is in pixels; `texels` are the numbers of texels of
-/// the textures of the interface's sampler slots, in their order.
+/// All uniform buffers of a program, by binding. `framebuffer_height` is in pixels; `texels` are the numbers of
+/// texels of the textures in the interface's sampler slots, in order.
 pub(super) fn pack(
     program: &Program,
     values: &[Vec<ScalarValue>],
@@ -49,7 +49,7 @@ pub(super) fn pack(
     buffers
 }
 
-/// Zeroed buffers for the loose block and every element of every block.
+/// Zeroed buffers for the loose block and for every element of every block.
 fn buffers(interface: &Interface) -> Vec<UniformBytes> {
     let zeroed = |slot, size: u32| UniformBytes { slot, bytes: vec![0; size.max(16).next_multiple_of(16) as usize] };
     let mut buffers: Vec<UniformBytes> = interface.loose.iter().map(|&(slot, size)| zeroed(slot, size)).collect();
@@ -97,7 +97,7 @@ fn scalar_bytes(value: ScalarValue) -> [u8; 4] {
     }
 }
 
-/// Writes four bytes where there is room for them.
+/// Writes four bytes if there is room for them.
 fn put(bytes: &mut [u8], offset: usize, value: [u8; 4]) {
     if let Some(place) = bytes.get_mut(offset..offset.saturating_add(4)) {
         place.copy_from_slice(&value);

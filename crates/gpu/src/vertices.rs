@@ -1,9 +1,9 @@
-//! Attribute data as vertex buffers.
+//! Packs attribute data into vertex buffers.
 //!
-//! *In:* a draw's attributes. *Out:* at most two buffers, one with a row a vertex and one with a row an instance, and
-//! their layouts. Every column is expanded to its declared type (missing components from (0, 0, 0, 1)), because a
-//! format that is shorter than the shader's input would get other defaults or none in an integer's case; divisors
-//! above 1, which WebGPU lacks, become a row for each instance.
+//! *In:* a draw's attributes. *Out:* at most two buffers, one with a row per vertex and one with a row per instance,
+//! and their layouts. Every column is expanded to its declared type (missing components from (0, 0, 0, 1)), because a
+//! format shorter than the shader's input would get other defaults, or none for integers. Divisors above 1, which
+//! WebGPU lacks, become one row per instance.
 
 use glisten_front::hir::{Scalar, ScalarValue, Type, TypeId, Types};
 use glisten_front::link::Attribute;
@@ -13,15 +13,15 @@ use glisten_scene::scene::{AttributeData, Draw};
 pub(super) struct Rows {
     /// The bytes of all rows.
     pub(super) bytes: Vec<u8>,
-    /// Bytes of a row.
+    /// The stride of a row in bytes.
     pub(super) stride: u64,
-    /// Whether a row is a vertex's or an instance's.
+    /// Whether there is a row per vertex or per instance.
     pub(super) step: wgpu::VertexStepMode,
-    /// What is in a row.
+    /// The columns of a row.
     pub(super) columns: Vec<wgpu::VertexAttribute>,
 }
 
-/// A column: what one location holds.
+/// A column: the data for one location.
 struct Column<'a> {
     data: Option<&'a AttributeData>,
     location: u32,
@@ -71,7 +71,7 @@ fn columns<'a>(attributes: &[Attribute], data: &'a [Option<AttributeData>], type
     columns
 }
 
-/// What one location of an attribute holds.
+/// The scalar type and number of components at one location of an attribute.
 fn shape(types: &Types, ty: TypeId) -> Option<(Scalar, u32)> {
     match types.get(ty) {
         Type::Scalar(scalar) => Some((scalar, 1)),
@@ -104,7 +104,7 @@ fn fill(columns: &[Column<'_>], rows: u32, step: wgpu::VertexStepMode) -> Rows {
     Rows { bytes, stride, step, columns: layout }
 }
 
-/// A row is a vertex and an instance at once: `fetch` looks at the one that the divisor tells.
+/// The bytes of a component. A row is a vertex or an instance, which the divisor determines.
 fn component_bytes(column: &Column<'_>, row: u32, component: u32) -> [u8; 4] {
     let value = match column.data {
         Some(data) => data.fetch(row, row, column.index, column.height, component),

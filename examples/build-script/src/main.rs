@@ -1,4 +1,4 @@
-//! Shows what `build.rs` made: WGSL for the pipeline, and where in the uniform buffer each uniform goes.
+//! Shows the results of `build.rs`: WGSL for the pipeline, and the offset of each uniform in the uniform buffer.
 
 /// Byte offsets of the uniforms in their buffer.
 mod offsets {

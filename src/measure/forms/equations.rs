@@ -1,10 +1,10 @@
-//! Lights and the sums: (93) to (101).
+//! Closed forms of lights and of the sums: (93) to (101).
 
 use super::{Form, Kind, cosine_power, dot, forms, half, norm};
 use crate::measure::vector::{V, add, mul, scale, sub, unit};
 use crate::measure::{Answer, Args};
 
-/// A light's numbers in the order of its members.
+/// The members of a light, in order.
 struct Light {
     kind: f64,
     position: V,
@@ -38,7 +38,7 @@ fn light(a: &Args<'_>) -> Light {
 
 fn material(a: &Args<'_>) -> Material {
     let material = Material { ambient: a.v(), diffuse: a.v(), specular: a.v(), shininess: a.f() };
-    // The emission is no light's.
+    // The emission belongs to no light.
     a.v();
     material
 }
@@ -56,13 +56,13 @@ impl Light {
         if self.kind == 0.0 { 1.0 } else { weighted(norm(sub(self.position, p)), self.weights) }
     }
 
-    /// The light of two half spheres: the sky's color in the middle of the sky, the ground's opposite.
+    /// The light of two half spheres: the sky's color at the center of the sky, the ground's opposite.
     fn dome(&self, n: V) -> V {
         let half = 0.5 * (1.0 + dot(n, unit(self.direction)));
         add(self.ambient, scale(half, sub(self.diffuse, self.ambient)))
     }
 
-    /// The beam's factor and its condition.
+    /// The factor of the beam, and its condition number.
     fn beam(&self, l: V) -> Option<(f64, f64)> {
         if self.kind != 2.0 {
             return Some((1.0, 1.0));
@@ -72,12 +72,12 @@ impl Light {
     }
 }
 
-/// (96) by the powers of r.
+/// (96), by powers of r.
 fn weighted(r: f64, s: V) -> f64 {
     1.0 / dot(s, [1.0, r, r * r])
 }
 
-/// A term of (101), with its condition and its distance from the gate of the highlight.
+/// A term of (101), with its condition number and its distance from the gate of the highlight.
 fn term(light: &Light, material: &Material, p: V, n: V, v: V) -> Option<(V, f64, f64)> {
     if light.kind == 3.0 {
         return Some((mul(material.ambient, light.dome(n)), 1.0, f64::INFINITY));
@@ -101,7 +101,7 @@ fn single(a: &Args<'_>) -> V {
     add(add(a.v(), a.v()), a.v())
 }
 
-/// I_amb + d (I_diff + I_spec), and the magnitude of what is added.
+/// I_amb + d (I_diff + I_spec), and the magnitude of the sum.
 fn attenuated(a: &Args<'_>) -> (V, f64) {
     let (ambient, diffuse, specular, d) = (a.v(), a.v(), a.v(), a.f());
     (add(ambient, add(scale(d, diffuse), scale(d, specular))), 4.0 + 8.0 * d)

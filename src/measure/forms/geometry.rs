@@ -1,10 +1,11 @@
-//! Normals, outlines and interpolation: §10.2 and the article's `edge`.
+//! Closed forms of normals, outlines and interpolation: §10.2, and the article's `edge`.
 
 use super::{Form, Kind, dot, forms, norm};
 use crate::measure::vector::{V, add, scale, unit};
 use crate::measure::{Answer, Args};
 
-/// The inverse of three columns by elimination with pivots, and how far its rounding reaches; `None` near singular.
+/// The inverse of a matrix of three columns by elimination with pivots, and how much its rounding is amplified;
+/// `None` near singular.
 fn inverse(columns: [V; 3]) -> Option<([V; 3], f64)> {
     let mut rows: [[f64; 6]; 3] = [[0.0; 6]; 3];
     for (i, row) in rows.iter_mut().enumerate() {
@@ -30,7 +31,7 @@ fn inverse(columns: [V; 3]) -> Option<([V; 3], f64)> {
             }
         }
     }
-    // Rows of the inverse, which are the columns of its transpose.
+    // The rows of the inverse, which are the columns of its transpose.
     let inverse = rows.map(|row| [row[3], row[4], row[5]]);
     let size = |m: [V; 3]| m.iter().map(|v| dot(*v, *v)).sum::<f64>().sqrt();
     Some((inverse, size(inverse) * size(columns)))
@@ -69,7 +70,7 @@ fn cross2(a: [f64; 2], b: [f64; 2]) -> f64 {
     a[0] * b[1] - a[1] * b[0]
 }
 
-/// (105) by the areas of the triangles with P in place of a corner.
+/// (105), by the areas of the triangles with P in place of a corner.
 pub(super) fn barycentric(a: &Args<'_>) -> Option<Answer> {
     let points = [a.v2(), a.v2(), a.v2(), a.v2()];
     let area = |a: [f64; 2], b: [f64; 2], c: [f64; 2]| cross2(a, b) + cross2(b, c) + cross2(c, a);
@@ -85,7 +86,7 @@ fn mean(weights: V, corners: [[f64; 4]; 3]) -> Vec<f64> {
     (0..4).map(|i| dot(weights, [corners[0][i], corners[1][i], corners[2][i]])).collect()
 }
 
-/// (108) without a division but the last: b_i times the other two w; and how the rounding of 1 - u - v shows.
+/// (108) with only one division, at the end: b_i times the other two w; and the effect of the rounding of 1 - u - v.
 fn perspective(uv: [f64; 2], w: V) -> (V, f64) {
     let b = [1.0 - uv[0] - uv[1], uv[0], uv[1]];
     let q = [b[0] * w[1] * w[2], b[1] * w[2] * w[0], b[2] * w[0] * w[1]];
@@ -93,7 +94,7 @@ fn perspective(uv: [f64; 2], w: V) -> (V, f64) {
     (scale(1.0 / sum, q), 1.0 + w[1] * w[2] / sum)
 }
 
-/// (107) by the parameter of the point on the segment.
+/// (107), by the parameter of the point on the segment.
 pub(super) fn segment(t: f64, a: [f64; 2], b: [f64; 2]) -> Answer {
     let s = t * a[1] / ((1.0 - t) * b[1] + t * a[1]);
     let value = [a[0] + s * (b[0] - a[0]), a[1] + s * (b[1] - a[1])];

@@ -1,4 +1,4 @@
-//! `safe` and `lut`.
+//! Closed forms of `safe` and `lut`.
 
 use super::{Form, Kind, cosine_power, cross, dot, forms, norm};
 use crate::measure::{Answer, looked_up, vector};
@@ -9,7 +9,7 @@ fn exact(values: impl Into<Vec<f64>>) -> Option<Answer> {
     Some(Answer::relative(values))
 }
 
-/// The power of two that brings an extent near 1.
+/// The power of two that scales an extent to about 1.
 fn power_of_two(extent: f64) -> f64 {
     match extent {
         x if x > 60.0f64.exp2() => (-100.0f64).exp2(),
@@ -18,7 +18,7 @@ fn power_of_two(extent: f64) -> f64 {
     }
 }
 
-/// e^(k log) of a number whose logarithm is known to rounding.
+/// e^(k log) of a number whose logarithm is known up to rounding.
 fn power(log: f64, k: f64) -> Option<Answer> {
     let exponent = if k > 0.0 { k * log } else { 0.0 };
     let value = exponent.exp();
@@ -45,7 +45,7 @@ pub(super) static FORMS: &[Form] = forms! {
         let (a, b) = (a.d(), a.d());
         let half = 0.5 * norm(cross(a, b)).atan2(dot(a, b));
         let distance = 2.0 * half.sin().powi(2);
-        // Vectors that are nearer to each other than their rounding have a distance of its square.
+        // Vectors closer to each other than their rounding have a distance of about its square.
         Some(Answer::new([distance], 1.0).conditioned(2.0 * half + distance + f64::EPSILON))
     };
     "safe" "safeCosPow(vec3,vec3,float)" [Near, Exponent] |a| cosine_power(a.d(), a.d(), a.f(), 2.0);

@@ -1,4 +1,4 @@
-//! The closed forms, a file a group of modules.
+//! The closed forms, with one file for each group of modules.
 
 mod equations;
 mod geometry;
@@ -20,14 +20,14 @@ macro_rules! forms {
 }
 use forms;
 
-/// max(cos, 0)^k of the angle between two unit vectors, each `blur` times as uncertain as its rounding. By the sine near
-/// 0 degrees, where the modules take the distance of the vectors.
+/// max(cos, 0)^k of the angle between two unit vectors, each `blur` times as uncertain as its rounding. Near 0
+/// degrees it uses the sine, where the modules use the distance of the vectors.
 fn cosine_power(a: V, b: V, k: f64, blur: f64) -> Option<Answer> {
     let (cos, sin) = (dot(a, b), norm(cross(a, b)));
     if k <= 0.0 {
         return Some(Answer::new([1.0], 1.0));
     }
-    // Small exponents rise steeply from a right angle.
+    // Small exponents have a steep slope at a right angle.
     let jump = if cos == 0.0 { f64::INFINITY } else { cos.abs() / blur };
     if cos <= 0.0 {
         return Some(Answer::new([0.0], 1.0).jumping(jump));
@@ -58,7 +58,7 @@ fn half(l: V, v: V) -> Option<(V, f64)> {
     (length > 1e-6).then(|| (super::vector::unit(sum), 2.0 / length.min(1.0)))
 }
 
-/// What a factor gives behind the gate N.L > 0.
+/// The value of a factor behind the gate N.L > 0.
 fn lit(n: V, l: V, factor: impl FnOnce() -> Option<Answer>) -> Option<Answer> {
     let cos = dot(n, l);
     let answer = if cos > 0.0 { factor()? } else { Answer::new([0.0], 1.0) };

@@ -1,15 +1,15 @@
-//! Diffuse and specular reflection, the hemisphere, toon shading: (82) to (92) and the article's.
+//! Closed forms of diffuse and specular reflection, the hemisphere and toon shading: (82) to (92), and the article's.
 
 use super::{Form, Kind, cosine_power, cross, dot, forms, half, lit, rational, tinted};
 use crate::measure::vector::{V, add, mul, scale, sub};
 use crate::measure::{Answer, Args, looked_up};
 
-/// The mirror direction by its parts along and across the normal.
+/// The mirror direction, by its parts along and across the normal.
 fn mirror(n: V, l: V) -> V {
     sub(scale(dot(n, l), n), cross(n, cross(l, n)))
 }
 
-/// 0.5 (1 + cos) by the length of the sum.
+/// 0.5 (1 + cos), by the length of the sum.
 fn half_range(n: V, l: V) -> f64 {
     let sum = add(n, l);
     dot(sum, sum) / 4.0
@@ -65,7 +65,7 @@ fn colored(values: V, scale: f64) -> Option<Answer> {
     Some(Answer::new(values, scale))
 }
 
-/// What the table holds; its steepest slope is 4.
+/// The contents of the table, whose steepest slope is 4.
 fn table(x: f64) -> Option<Answer> {
     Some(Answer::new(looked_up(x), 1.0).conditioned(8.0))
 }

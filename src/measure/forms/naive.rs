@@ -1,11 +1,12 @@
-//! The naive transcriptions, on ordinary inputs alone: what they give elsewhere is what the stiff cases are about.
+//! Closed forms of the naive transcriptions, for ordinary inputs only. The stiff cases show what they return
+//! elsewhere.
 
 use super::geometry::{barycentric, interpolated, segment};
 use super::{Form, Kind, cosine_power, dot, forms, half, norm};
 use crate::measure::vector::{add, mul, scale, sub};
 use crate::measure::{Answer, Args};
 
-/// A power of a cosine as the letter has it: what rounds the cosine is multiplied by the exponent.
+/// A power of a cosine as in the literal equation: the exponent multiplies the rounding of the cosine.
 fn literal(answer: Option<Answer>, k: f64) -> Option<Answer> {
     answer.map(|answer| Answer { condition: answer.condition + 2.0 * k.max(1.0), ..answer })
 }

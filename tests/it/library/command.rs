@@ -1,4 +1,4 @@
-//! `glisten lib` end to end.
+//! `glisten lib`, end to end.
 
 use serde_json::Value;
 use std::fs;
@@ -96,13 +96,13 @@ fn exported_modules_include_each_other_from_disk() {
         .output()
         .expect("the program runs");
     assert_eq!(lint.status.code(), Some(0), "{}{}", out(&lint), err(&lint));
-    // The programs include the modules that lie beside them.
+    // The programs include the modules next to them.
     let lint = Command::new(env!("CARGO_BIN_EXE_glisten")).arg("lint").arg(target.join("programs")).output();
     let lint = lint.expect("the program runs");
     assert_eq!(lint.status.code(), Some(0), "{}{}", out(&lint), err(&lint));
     let written = fs::read_to_string(target.join("programs/phong.frag")).expect("it is written");
     assert!(written.contains("#include \"../phong.glsl\"") && !written.contains("<glisten/"), "{written}");
-    // A file where the folder should be.
+    // A file in place of the folder.
     let file = folder.path().join("file");
     fs::write(&file, "").expect("written");
     assert_eq!(run(&["export", &file.to_string_lossy()]).status.code(), Some(2));

@@ -1,4 +1,4 @@
-//! [`Evaluator`]: what a function may take and give, and what it is told when it cannot be called.
+//! [`Evaluator`]: the types that a function may take and return, and the errors for others.
 
 use super::call;
 use glisten::evaluate::{Evaluator, signatures};

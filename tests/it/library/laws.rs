@@ -1,4 +1,4 @@
-//! Laws that the models have beyond their values: symmetry, limits, poles, peaks, rates.
+//! Properties of the models beyond their values: symmetry, limits, poles, peaks, rates.
 
 use super::{call, function};
 use glisten::evaluate::{Evaluator, table};
@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 type V = [f32; 3];
 
-/// Directions spread over the sphere, as unit as f32 has them.
+/// Directions spread over the sphere, normalized in f32.
 fn sphere(count: u32) -> impl Iterator<Item = V> {
     (0..count).map(move |i| {
         let y = 1.0 - (2.0 * f64::from(i) + 1.0) / f64::from(count);
@@ -21,7 +21,7 @@ fn dot(a: V, b: V) -> f64 {
     a.iter().zip(b).map(|(a, b)| f64::from(*a) * f64::from(b)).sum()
 }
 
-/// A rotation that f32 holds exactly: it moves the axes in a circle and turns two of them round.
+/// A rotation that is exact in f32: it permutes the axes cyclically and inverts two of them.
 fn turned(v: V) -> V {
     [-v[1], v[2], -v[0]]
 }
@@ -103,7 +103,7 @@ fn the_hemisphere_has_its_two_colors_at_the_poles_and_their_mean_at_the_equator(
     assert_eq!(named[0], sky.map(f64::from));
     assert_eq!(named[1], ground.map(f64::from));
     assert_eq!(named[2], [0.375, 0.375, 0.5 + 0.5 * f64::from(1e-30_f32)]);
-    // Over the whole sphere: as much of one as of the other.
+    // Over the whole sphere, both kinds occur equally often.
     let count = 400;
     let sum: f64 = at(sphere(count).collect()).iter().map(|color| color[0]).sum();
     assert!((sum / f64::from(count) - 0.375).abs() < 1e-6);
@@ -189,7 +189,7 @@ fn a_table_comes_near_the_power_at_the_rate_of_its_square() {
                 .fold(0.0_f64, |most, (x, result)| most.max((f64::from(*x).powi(k) - result[0]).abs()));
             let expected = (f64::from(k) / f64::from(n)).powi(2) / 8.0;
             let ratio = error / expected;
-            // The second derivative is k (k - 1), and rounding of the texels to f32 adds half a unit.
+            // The second derivative is k (k - 1), and rounding the texels to f32 adds half a unit.
             assert!((0.6..1.05).contains(&ratio), "k = {k}, n = {n}: {error:e} is {ratio} of (k/n)^2/8");
         }
     }

@@ -1,5 +1,5 @@
-//! The library of lighting models: by value, at its edges, by its laws, against the article's register programs, through
-//! every target, and its command.
+//! The library of lighting models: its values, edge cases and properties, the article's register programs, every
+//! target, and its command.
 
 #[cfg(feature = "cli")]
 mod command;
@@ -23,7 +23,7 @@ fn function(module: &str, signature: &str, wraps: &[(usize, &str)]) -> Evaluator
     Evaluator::new(&compiler, &text, signature, wraps).unwrap_or_else(|error| panic!("{signature}: {error}"))
 }
 
-/// What it gives in f64 for each row.
+/// The results in f64 for each row.
 fn call(function: &Evaluator, rows: &[f32]) -> Vec<Vec<f64>> {
     function.reference(rows, &[], Precision::F64).unwrap_or_else(|error| panic!("{error}"))
 }

@@ -1,4 +1,5 @@
-//! The two programs that the article prints, run by an interpreter of their eight instructions, against the library.
+//! Compares the two programs that the article prints, run by an interpreter of their eight instructions, with the
+//! library.
 
 use super::{call, function};
 use glisten::evaluate::table;
@@ -19,7 +20,7 @@ impl Machine {
         self
     }
 
-    /// A source: a sign, a register, and which components, the last repeated: `-r1`, `c12.y`.
+    /// A source operand: a sign, a register, and components, of which the last is repeated: `-r1`, `c12.y`.
     fn read(&self, source: &str) -> Register {
         let (sign, source) = source.strip_prefix('-').map_or((1.0, source), |source| (-1.0, source));
         let (name, swizzle) = source.split_once('.').unwrap_or((source, "xyzw"));
@@ -28,7 +29,8 @@ impl Machine {
         std::array::from_fn(|i| sign * value[component(swizzle.as_bytes()[i.min(last)])])
     }
 
-    /// Runs a line: `mad r0, r0, r1, r1`. A result goes to all components of the target, or to those that it names.
+    /// Runs a line: `mad r0, r0, r1, r1`. The result goes to all components of the destination, or to those that it
+    /// names.
     fn run(&mut self, line: &str) {
         let (name, operands) = line.split_once(' ').expect("an instruction and its operands");
         let mut operands = operands.split(',').map(str::trim);
@@ -61,7 +63,7 @@ fn component(letter: u8) -> usize {
     "xyzw".bytes().position(|other| other == letter).expect("a component")
 }
 
-/// The position, alike in both programs.
+/// The position, the same in both programs.
 const POSITION: [&str; 4] = ["dp4 oPos.x, v0, c0", "dp4 oPos.y, v0, c1", "dp4 oPos.z, v0, c2", "dp4 oPos.w, v0, c3"];
 
 /// Program `hemisphere`: c12 constants, c15 color of the mesh, c18 upper and c19 lower half sphere, c20 axis.
@@ -80,7 +82,7 @@ const HEMISPHERE: [&str; 8] = [
 const SOFT: [&str; 5] =
     ["mov oD0, c15", "dp3 r0.w, v3, c13", "mul r0.w, r0.w, c12.y", "add oT1.xy, r0.w, c12.y", "mov oT0, v7"];
 
-/// Directions that f32 holds as unit as it can.
+/// Directions, normalized as precisely as f32 allows.
 fn directions() -> Vec<[f32; 3]> {
     (0..200)
         .map(|i| {
@@ -122,7 +124,7 @@ fn the_hemisphere_program_gives_the_librarys_colors() {
         let mesh = machine.read("c15");
         for (i, color) in color.iter().enumerate() {
             let difference = (machine.read("oD0")[i] - color * mesh[i]).abs();
-            // f32 vectors are a little longer or shorter than 1, and the library limits the weight to [0, 1].
+            // f32 vectors are slightly longer or shorter than 1, and the library limits the weight to [0, 1].
             assert!(difference < 1e-7, "{normal:?}: {difference}");
         }
         assert_eq!(machine.read("oPos"), [0.85, -0.7, -1.5, 2.0]);

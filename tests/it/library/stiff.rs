@@ -1,4 +1,5 @@
-//! `fixtures/library/stiff.toml`: each case by the letter and by the library, on the reference in f64 and f32 and on the GPU.
+//! `fixtures/library/stiff.toml`: each case with the literal equation and with the library, on the reference in f64
+//! and f32 and on the GPU.
 
 use super::function;
 use glisten::evaluate::Evaluator;
@@ -27,7 +28,7 @@ fn numbers(value: &Value) -> Vec<f64> {
     list.iter().map(|number_text| number(number_text.as_str().expect("numbers are text"))).collect()
 }
 
-/// A case: what the letter gives and what the library shall give.
+/// A case: the expected results of the literal equation and of the library.
 struct Case {
     title: String,
     letter: Evaluator,
@@ -48,7 +49,7 @@ impl Case {
         let called = |module: &str, call: &Table| {
             let wrap = call.get("wrap").and_then(Value::as_str);
             let wraps: Vec<(usize, &str)> = wrap.into_iter().map(|wrap| (0, wrap)).collect();
-            // The plain `normalize` is always there; the library's own comes with each module.
+            // The plain `normalize` is always available; the library's own comes with each module.
             function(module, &text(call, "function"), &wraps)
         };
         let floats = |numbers: Vec<f64>| numbers.into_iter().map(|number| number as f32).collect();
@@ -86,8 +87,8 @@ fn cases() -> Vec<Case> {
     list.iter().map(|case| Case::new(case.as_table().expect("a table"))).collect()
 }
 
-/// Whether each number is the wanted one to a part `relative` of it, or to the smallest normal float. Values beyond
-/// another's first are not stated where the case is about the first alone.
+/// Whether each number is equal to the expected one up to the relative error `relative`, or up to the smallest normal
+/// float. Further values are not stated if the case is only about the first.
 fn agrees(found: &[f64], wanted: &[f64], relative: f64) -> bool {
     found.iter().zip(wanted).all(|(found, wanted)| {
         (found.is_nan() && wanted.is_nan())

@@ -1,4 +1,4 @@
-//! The sum over the lights (101), as the standard program computes it, against its closed form.
+//! Compares the sum over the lights (101), as the standard program computes it, with its closed form.
 
 use glam::DVec3;
 use glisten::scene::{MemoryFiles, load};
@@ -7,7 +7,7 @@ use glisten_reference::{RenderOptions, render};
 
 const SIDE: usize = 16;
 
-/// All numbers are exact in f32. The beam's axis and the way of the parallel light are no unit vectors.
+/// All numbers are exact in f32. The beam's axis and the direction of the directional light are not unit vectors.
 const SCENE: &str = r#"
 global_ambient = [0.125, 0.25, 0.0625]
 [framebuffer]
@@ -59,7 +59,7 @@ const FRAGMENT: &str = "#version 150\n#extension GL_ARB_shading_language_include
         color = vec4(standardColor(standardReflection(P, vec3(0.0, 0.0, 1.0), V), vec3(1.0)), 1.0);\n\
     }";
 
-/// The equation, letter by letter, over the numbers of [`SCENE`].
+/// The literal equation over the numbers of [`SCENE`].
 fn equation(p: DVec3) -> DVec3 {
     let v = |x: f64, y: f64, z: f64| DVec3::new(x, y, z);
     let (k_amb, k_diff, k_spec, shininess) = (v(0.5, 0.25, 0.75), v(0.75, 0.5, 0.25), v(0.25, 0.5, 0.5), 9.0);
@@ -102,7 +102,7 @@ fn the_sum_over_the_lights_is_the_equations() {
         let (x, row) = (place % SIDE, place / SIDE);
         let expected = equation(DVec3::new(x as f64 + 0.5, (SIDE - row) as f64 - 0.5, 0.0));
         let error = (DVec3::new(pixel[0], pixel[1], pixel[2]) - expected).abs();
-        // Some ten roundings of f64 at each step, and the powers multiply them by up to 9.
+        // There are some ten roundings of f64 in each step, and the powers amplify them by up to 9.
         assert!(error.max_element() < 200.0 * f64::EPSILON * expected.max_element(), "{x} {row}: {pixel:?} {expected}");
     }
 }

@@ -1,4 +1,4 @@
-//! Every function goes the whole way alone, called from a fragment shader and from a vertex shader.
+//! Compiles every function alone for every target, called from a fragment shader and from a vertex shader.
 
 use crate::emit::Collected;
 use glisten::library::Embedded;

@@ -1,4 +1,5 @@
-//! Every function against its closed form, on the reference and on the GPU, and finite whatever comes in.
+//! Compares every function with its closed form, on the reference and on the GPU, and checks that its results are
+//! finite for all inputs.
 
 use glisten::library::{Entry, entries, modules};
 use glisten::measure::{Form, Trial, forms};
@@ -12,7 +13,7 @@ fn trial(form: &'static Form) -> Trial {
     Trial::new(form, ROWS).unwrap_or_else(|error| panic!("{}: {error}", form.signature))
 }
 
-/// Stable or not by promise: the transcriptions are as the letter has them.
+/// Whether the form promises to be stable: the transcriptions are literal.
 fn is_stable(form: &Form) -> bool {
     form.module != "naive"
 }
@@ -30,7 +31,7 @@ fn reads_uniforms(entry: &Entry) -> bool {
 fn every_function_of_every_module_has_a_closed_form() {
     let tested: BTreeSet<(&str, &str)> = forms().map(|form| (form.module, form.signature)).collect();
     let entries = entries();
-    // What reads uniforms is no function of its arguments; scenes test it.
+    // A function that reads uniforms depends on more than its arguments; scenes test it.
     let there: BTreeSet<(&str, &str)> = entries
         .iter()
         .filter(|entry| !reads_uniforms(entry))
@@ -54,8 +55,8 @@ fn every_function_is_its_closed_form_to_a_few_ulps_of_f64() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// ULPs of f32 that a stable form may be off, its condition taken into account: twice the largest that was seen, that of
-/// `safeLogOneMinus` and of the power of four.
+/// The error in f32 ULPs that a stable form may have, relative to its condition number: twice the largest that was
+/// observed, that of `safeLogOneMinus` and of the fourth power.
 const F32_ULPS: f64 = 8.0;
 
 #[test]

@@ -1,7 +1,7 @@
-//! Faults planted in emitted SPIR-V: how many of them the judge of pictures sees.
+//! Faults planted in emitted SPIR-V: how many of them the judge of pictures catches.
 //!
-//! *In:* a device and scenes. *Out:* a [`Study`]: for each kind of fault how many were drawn, changed the picture at all,
-//! were caught by the judge of `verify` and by a tolerance of 1/255, and which were missed and why.
+//! *In:* a device and scenes. *Out:* a [`Study`]: for each kind of fault, how many were drawn, changed the picture at
+//! all, and were caught by `verify`'s judge and by a tolerance of 1/255, and which ones were missed and why.
 //!
 //! ```text
 //!  Scene ──► gpu.prepare_edited   the emitted words of every stage
@@ -10,8 +10,9 @@
 //!        ──► study                tables
 //! ```
 //!
-//! *Holds:* the same scenes and [`Choice`] give the same trials. The judge sees the mutant's picture and the reference
-//! only; the picture without the fault serves to tell faults that change nothing from those that are missed.
+//! *Holds:* the same scenes and the same [`Choice`] give the same trials. The judge sees only the mutant's picture
+//! and the reference; the picture without the fault only serves to tell faults that change nothing from those that
+//! are missed.
 
 mod operations;
 mod places;
@@ -25,21 +26,22 @@ pub(crate) use trial::Outcome;
 use glisten_front::hir::Stage;
 use words::{Splice, instructions, spliced};
 
-/// Scenes are drawn in little, no side longer than this: the rules are the same, and a study draws thousands.
+/// The largest side of a picture. Scenes are drawn small: the rules are the same, and a study draws thousands of
+/// pictures.
 pub(crate) const SIDE: u32 = 64;
 
-/// What is changed.
+/// What a mutation changes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Kind {
-    /// Another operation, or its operands in another order.
+    /// An operation, or the order of its operands.
     Operation,
     /// One bit of a constant.
     Constant,
     /// One interpolation qualifier.
     Qualifier,
-    /// One component taken for another.
+    /// One component is replaced by another.
     Swizzle,
-    /// The position of all vertices, a little.
+    /// The position of all vertices, by a little.
     Vertex,
 }
 
@@ -57,14 +59,14 @@ impl Kind {
     }
 }
 
-/// One change of one module.
+/// A change of one module.
 #[derive(Clone, Debug)]
 struct Mutation {
     kind: Kind,
-    /// What becomes what, with the identifier that a disassembler shows.
+    /// What is replaced by what, with the identifier that a disassembler shows.
     name: String,
     splices: Vec<Splice>,
-    /// Identifiers that it adds.
+    /// How many identifiers it adds.
     more_ids: u32,
 }
 
@@ -78,23 +80,23 @@ impl Mutation {
     }
 }
 
-/// Every change that can be made to a module.
+/// Every possible change of a module.
 fn mutations(words: &[u32], stage: Stage) -> Vec<Mutation> {
     let operations = instructions(words).into_iter().filter_map(operations::operation);
     operations.chain(places::places(words, stage)).collect()
 }
 
-/// How many of the changes are tried.
+/// Which of the changes to try.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Choice {
-    /// At most this many of each kind in each scene; all if `None`.
+    /// The largest number of each kind in each scene; `None` for all.
     pub(crate) each: Option<usize>,
-    /// Which of them.
+    /// The seed of the selection.
     pub(crate) seed: u64,
 }
 
 impl Choice {
-    /// Some of a scene's list, in its order; others in another scene.
+    /// Selects a part of a scene's list, in order; the selection differs between scenes.
     fn of<T>(self, scene: &str, list: Vec<T>) -> Vec<T> {
         let Some(each) = self.each.filter(|each| *each < list.len()) else { return list };
         let stirred = |random: u64, by: u64| {

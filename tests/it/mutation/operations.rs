@@ -1,22 +1,22 @@
-//! What becomes of an operation: one table for the instructions of SPIR-V (§3.32), one for those of GLSL.std.450.
+//! The mutations of operations: one table for the instructions of SPIR-V (§3.32), one for those of GLSL.std.450.
 
 use super::words::{Instruction, Splice, encoded, op};
 use super::{Kind, Mutation};
 
-/// What happens to an instruction.
+/// The change of an instruction.
 #[derive(Clone, Copy)]
 enum Change {
     /// Another instruction with the same operands.
     Code(u16),
-    /// The first two operands change places.
+    /// The first two operands are swapped.
     Swap,
-    /// The second and third operands change places.
+    /// The second and third operands are swapped.
     SwapLast,
-    /// Another instruction, and the first two operands change places.
+    /// Another instruction, with the first two operands swapped.
     CodeAndSwap(u16),
-    /// The first operand stands for the result.
+    /// The result is replaced by the first operand.
     First,
-    /// The first operand stands for the second too.
+    /// The second operand is replaced by the first.
     Twice,
 }
 
@@ -33,7 +33,7 @@ const fn row(code: u16, name: &'static str, becomes: &'static str, change: Chang
 
 use Change::{Code, CodeAndSwap, First, Swap, SwapLast, Twice};
 
-/// Results and types come first, operands from word 3.
+/// The result type and the result come first; operands start at word 3.
 const INSTRUCTIONS: &[Row] = &[
     row(127, "FNegate", "its operand", First),
     row(128, "IAdd", "ISub", Code(130)),
@@ -82,7 +82,7 @@ const INSTRUCTIONS: &[Row] = &[
     row(209, "Fwidth", "DPdx", Code(207)),
 ];
 
-/// The set and the number come before the operands: these start at word 5.
+/// The set and the number precede the operands, which start at word 5.
 const EXTENDED: &[Row] = &[
     row(1, "Round", "Trunc", Code(3)),
     row(2, "RoundEven", "Trunc", Code(3)),
@@ -136,7 +136,7 @@ const EXTENDED: &[Row] = &[
     row(72, "Refract", "its arguments swapped", Swap),
 ];
 
-/// What can be made of one instruction.
+/// The mutations of one instruction.
 pub(super) fn operation(instruction: Instruction<'_>) -> Option<Mutation> {
     let extended = instruction.opcode() == op::EXT_INST;
     let (table, code, operands) = match extended {
@@ -149,7 +149,7 @@ pub(super) fn operation(instruction: Instruction<'_>) -> Option<Mutation> {
     Some(Mutation { kind: Kind::Operation, name, splices: vec![splice], more_ids: 0 })
 }
 
-/// `None` if nothing would change.
+/// The changed instruction; `None` if nothing would change.
 fn changed(instruction: Instruction<'_>, change: Change, operands: usize, extended: bool) -> Option<Splice> {
     let mut words = instruction.words.to_vec();
     match change {

@@ -1,12 +1,12 @@
-//! Constants, swizzles, interpolation qualifiers and positions.
+//! The mutations of constants, swizzles, interpolation qualifiers and positions.
 
 use super::words::{Instruction, bound, encoded, instructions, op};
 use super::{Kind, Mutation};
 use glisten_front::hir::Stage;
 use std::collections::BTreeMap;
 
-/// The bits of a constant's fraction that are flipped, the last being 0: the last eight stay, as they may well be
-/// within what a GPU is allowed.
+/// The bits of a constant's fraction that are flipped, counted from the lowest. The lowest eight are not flipped, as
+/// that may be within what a GPU is allowed.
 const FLIPPED_BITS: [u32; 4] = [8, 11, 14, 18];
 
 /// Decorations (§3.20).
@@ -16,12 +16,12 @@ const NO_PERSPECTIVE: u32 = 13;
 const FLAT: u32 = 14;
 const CENTROID: u32 = 16;
 const LOCATION: u32 = 30;
-/// The built-in variable that is the position.
+/// The number of the built-in variable for the position.
 const POSITION: u32 = 0;
 /// The storage class of inputs.
 const INPUT: u32 = 1;
 
-/// A component of the position that becomes itself times `factor` plus `shift` times w.
+/// A change of one component of the position: times `factor`, plus `shift` times w.
 struct Nudge {
     name: &'static str,
     component: u32,
@@ -29,7 +29,7 @@ struct Nudge {
     shift: f32,
 }
 
-/// A picture's side in pixels: half of it is one unit of normalized device coordinates.
+/// The side of a picture in pixels; half of it is one unit of normalized device coordinates.
 const SIDE: f32 = super::SIDE as f32;
 
 const NUDGES: [Nudge; 6] = [
@@ -41,14 +41,14 @@ const NUDGES: [Nudge; 6] = [
     Nudge { name: "w is 2^-12 of itself off", component: 3, factor: 1.0 + 1.0 / 4096.0, shift: 0.0 },
 ];
 
-/// What a module declares.
+/// The declarations of a module.
 pub(super) struct Declared<'a> {
     instructions: &'a [Instruction<'a>],
     /// The type of 32-bit floats.
     float: Option<u32>,
-    /// Vector types: how many components.
+    /// Vector types: the number of components.
     vectors: BTreeMap<u32, u32>,
-    /// Pointer types: what they point to.
+    /// Pointer types: the pointee.
     pointers: BTreeMap<u32, u32>,
     /// Variables: their pointer type and storage class.
     variables: BTreeMap<u32, (u32, u32)>,
@@ -73,7 +73,7 @@ impl<'a> Declared<'a> {
         }
     }
 
-    /// The components of a variable that is a vector, and its type.
+    /// The number of components of a vector variable, and its type.
     fn vector(&self, variable: u32) -> Option<(u32, u32)> {
         let ty = *self.pointers.get(&self.variables.get(&variable)?.0)?;
         Some((*self.vectors.get(&ty)?, ty))
@@ -84,7 +84,7 @@ impl<'a> Declared<'a> {
         all.filter(move |decoration| decoration.word(1) == target)
     }
 
-    /// A float constant that is not 0, with one bit of its fraction flipped.
+    /// Changes of a nonzero float constant: one bit of its fraction is flipped.
     pub(super) fn constants(&self, instruction: Instruction<'_>) -> Vec<Mutation> {
         let bits = instruction.word(3);
         let is_float = instruction.opcode() == op::CONSTANT && Some(instruction.word(1)) == self.float;
@@ -99,7 +99,7 @@ impl<'a> Declared<'a> {
         FLIPPED_BITS.into_iter().map(flipped).collect()
     }
 
-    /// Another component than the one that is taken.
+    /// Changes of the component that is selected.
     pub(super) fn swizzle(&self, instruction: Instruction<'_>) -> Vec<Mutation> {
         let last = instruction.words.len() - 1;
         let made = |place: usize, word: u32, name: String| {
@@ -107,7 +107,7 @@ impl<'a> Declared<'a> {
         };
         let id = instruction.word(2);
         match instruction.opcode() {
-            // Each component becomes the next of the list, which the operands surely have.
+            // Each component is replaced by the next in the list, which the operands certainly have.
             op::VECTOR_SHUFFLE => (5..=last)
                 .filter_map(|place| {
                     let next = instruction.word(if place == last { 5 } else { place + 1 });
@@ -124,7 +124,7 @@ impl<'a> Declared<'a> {
         }
     }
 
-    /// A component of a variable that is a vector.
+    /// A component of a vector variable.
     fn component(&self, instruction: Instruction<'_>) -> Option<Mutation> {
         let (count, _) = self.vector(instruction.word(3))?;
         let (ty, index) = *self.constants.get(&instruction.word(4))?;
@@ -134,7 +134,7 @@ impl<'a> Declared<'a> {
         Some(Mutation::new(Kind::Swizzle, name, instruction.with(4, *other)))
     }
 
-    /// A qualifier more or less at an input of a fragment stage.
+    /// Adds or removes a qualifier of an input of a fragment stage.
     pub(super) fn qualifiers(&self, instruction: Instruction<'_>) -> Vec<Mutation> {
         let (variable, decoration) = (instruction.word(1), instruction.word(2));
         let is_input = self.variables.get(&variable).is_some_and(|(_, class)| *class == INPUT);
@@ -158,7 +158,7 @@ impl<'a> Declared<'a> {
             .collect()
     }
 
-    /// A position that is a little off where it is stored.
+    /// Changes a position slightly where it is stored.
     pub(super) fn positions(&self, instruction: Instruction<'_>) -> Vec<Mutation> {
         let pointer = instruction.word(1);
         let is_position = |decoration: &Instruction<'_>| decoration.words[2..] == [BUILT_IN, POSITION];
@@ -190,7 +190,7 @@ impl<'a> Declared<'a> {
     }
 }
 
-/// Everything but operations.
+/// All mutations other than those of operations.
 pub(super) fn places(words: &[u32], stage: Stage) -> Vec<Mutation> {
     let list = instructions(words);
     let declared = Declared::of(words, &list);

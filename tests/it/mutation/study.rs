@@ -1,4 +1,4 @@
-//! [`Study`]: all trials, and the tables that are printed of them.
+//! [`Study`]: all trials, and the tables printed from them.
 
 use super::trial::{Cover, Subject, Trial};
 use super::{Choice, Kind, Outcome};
@@ -10,13 +10,13 @@ use std::fmt;
 #[derive(Debug, Default)]
 pub(crate) struct Study {
     pub(crate) trials: Vec<Trial>,
-    /// Scenes that could not be tried, and why.
+    /// Scenes that could not be tried, with the reason.
     pub(crate) left_out: Vec<(String, String)>,
-    /// Scenes that 1/255 fails without a fault.
+    /// Scenes that fail 1/255 without a fault.
     pub(crate) false_alarms: Vec<String>,
 }
 
-/// How many trials came out how.
+/// The number of trials by outcome.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Count {
     pub(crate) invalid: usize,
@@ -24,7 +24,7 @@ pub(crate) struct Count {
     pub(crate) unseen: usize,
     pub(crate) seen: usize,
     pub(crate) caught: usize,
-    /// Of those seen, where 1/255 has something to say.
+    /// How many of those seen are in scenes that pass 1/255 without a fault.
     pub(crate) by_hand_of: usize,
     pub(crate) by_hand: usize,
 }
@@ -34,7 +34,7 @@ fn percent(part: usize, whole: usize) -> f64 {
 }
 
 impl Study {
-    /// Tries the chosen faults of each scene; `progress` hears the name of each scene and how many faults wait.
+    /// Tries the selected faults of each scene; `progress` gets the name of each scene and the number of its faults.
     pub(crate) fn of(
         gpu: &Gpu,
         scenes: &[(String, Scene)],
@@ -56,7 +56,7 @@ impl Study {
         study
     }
 
-    /// The trials that a test holds for.
+    /// Counts the trials for which a condition holds.
     pub(crate) fn count(&self, holds: impl Fn(&Trial) -> bool) -> Count {
         let mut count = Count::default();
         for trial in self.trials.iter().filter(|trial| holds(trial)) {
@@ -75,7 +75,7 @@ impl Study {
         count
     }
 
-    /// The faults that change the picture and pass `verify`, where they could hide.
+    /// The faults that change the picture and pass `verify`, by the reason for passing.
     pub(crate) fn survivors(&self, wanted: Cover) -> Vec<&Trial> {
         let survives =
             |trial: &&Trial| matches!(trial.outcome, Outcome::Seen { caught: false, cover, .. } if cover == wanted);

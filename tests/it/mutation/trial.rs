@@ -1,4 +1,4 @@
-//! [`Subject`] and [`Trial`]: a scene with its true picture, and what becomes of one fault planted in it.
+//! [`Subject`] and [`Trial`]: a scene with its correct picture, and the outcome of one fault planted in it.
 
 use super::{Choice, Kind, Mutation, SIDE, mutations};
 use glisten::scene::Scene;
@@ -11,19 +11,19 @@ use std::fmt;
 use std::io::Write;
 use std::process::{Command, Stdio};
 
-/// What `verify` judges by.
+/// The judge of `verify`.
 const OURS: Judge = Judge::Envelope;
-/// The tolerance that people pick by hand.
+/// The tolerance that people choose by hand.
 const BY_HAND: Judge = Judge::Tolerance(1.0 / 255.0);
 
 /// Why a fault that changes the picture passes the judge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Cover {
-    /// Colors that are judged differ, and a conforming GPU may draw them.
+    /// Colors that are judged differ, but a conforming GPU may draw them.
     Within,
-    /// Pixels alone differ that the reference leaves open.
+    /// Only undecided pixels differ.
     Undecided,
-    /// Pixels alone differ whose center lies on an edge as good as exactly.
+    /// Only pixels whose center is practically on an edge differ.
     Edge,
 }
 
@@ -39,35 +39,35 @@ impl Cover {
     }
 }
 
-/// How a mutant's picture differs from the one without the fault, in the pixels that are judged by their colors.
+/// How a mutant's picture differs from the one without the fault, over the pixels whose colors are judged.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Change {
     /// The largest difference of a channel.
     pub(crate) absolute: f64,
-    /// The same in ULP of the reference.
+    /// The largest difference in ULP of the reference.
     pub(crate) ulps: f64,
-    /// How far a GPU may be off there.
+    /// The bound at that channel.
     pub(crate) allowed: f64,
-    /// How many pixels differ at all.
+    /// The number of pixels that differ at all.
     pub(crate) pixels: u64,
 }
 
-/// What became of a mutant.
+/// The outcome of a mutant.
 #[derive(Clone, Debug)]
 pub(crate) enum Outcome {
-    /// `spirv-val` refuses it.
+    /// `spirv-val` rejects it.
     Invalid,
-    /// The driver refuses it, or does not end.
+    /// The driver rejects it, or does not finish.
     Refused(String),
-    /// The picture is the same bit for bit: on this scene there is no fault.
+    /// The picture is the same bit for bit: for this scene it is not a fault.
     Unseen,
-    /// The picture is another.
+    /// The picture differs.
     Seen {
         /// Whether `verify` fails.
         caught: bool,
-        /// Whether `verify --tolerance` with 1/255 fails; `None` where it fails without a fault, too.
+        /// Whether `verify --tolerance` with 1/255 fails; `None` if it also fails without a fault.
         by_hand: Option<bool>,
-        /// Where it could hide.
+        /// Why it may pass.
         cover: Cover,
         change: Change,
     },
@@ -100,21 +100,21 @@ impl fmt::Display for Trial {
     }
 }
 
-/// A scene, and what is drawn of it without a fault.
+/// A scene, with its pictures without a fault.
 pub(super) struct Subject<'a> {
     gpu: &'a Gpu,
     name: String,
     scene: Scene,
-    /// The emitted words in the order in which the device asks for them.
+    /// The emitted words, in the order in which the device asks for them.
     modules: Vec<(Stage, Vec<u32>)>,
     plain: Picture,
     reference: Picture,
-    /// Whether 1/255 fails the picture without a fault.
+    /// Whether the picture fails 1/255 without a fault.
     pub(super) false_alarm: bool,
 }
 
 impl<'a> Subject<'a> {
-    /// `Err` says why it cannot be tried: `verify` fails it as it is, say, so that a failure would tell nothing of a fault.
+    /// Prepares a scene. `Err` says why it cannot be tried, for example because `verify` fails it without a fault.
     pub(super) fn new(gpu: &'a Gpu, name: &str, scene: &Scene) -> Result<Self, String> {
         let mut scene = scene.clone();
         scene.framebuffer.width = scene.framebuffer.width.min(SIDE);
@@ -136,7 +136,7 @@ impl<'a> Subject<'a> {
         Ok(Self { gpu, name: name.to_owned(), scene, modules, plain, reference, false_alarm })
     }
 
-    /// The faults that are chosen: the number of the module, and the change.
+    /// The selected faults: the index of the module, and the change.
     pub(super) fn faults(&self, choice: Choice) -> Vec<(usize, Mutation)> {
         let all: Vec<(usize, Mutation)> = (self.modules.iter().enumerate())
             .flat_map(|(number, (stage, words))| mutations(words, *stage).into_iter().map(move |one| (number, one)))
@@ -174,7 +174,7 @@ impl<'a> Subject<'a> {
         Outcome::Seen { caught, by_hand, cover, change }
     }
 
-    /// How far a GPU may be off in a channel, those of all attachments one after the other.
+    /// The bound of a channel, counting those of all attachments in sequence.
     fn allowed(&self, pixel: usize, channel: usize) -> f64 {
         let color = self.reference.attachments[channel / 4][pixel][channel % 4];
         let ranges = self.reference.ranges.as_ref().and_then(|ranges| ranges.get(channel / 4)?.get(pixel));
@@ -224,7 +224,7 @@ fn fails(picture: &Picture, reference: &Picture, judge: Judge) -> bool {
 
 #[expect(unsafe_code, reason = "the words are glisten's own, or spirv-val has accepted them")]
 fn draw(gpu: &Gpu, scene: &Scene, edit: &dyn Fn(Stage, Vec<u32>) -> Vec<u32>) -> Result<Picture, Error> {
-    // SAFETY: `edit` gives back what it got, or what `valid` has let through.
+    // SAFETY: `edit` returns its input unchanged, or words that `valid` has accepted.
     let prepared = unsafe { gpu.prepare_edited(scene, edit)? };
     Ok(gpu.draw(&prepared)?.picture)
 }
@@ -240,7 +240,7 @@ fn valid(words: &[u32]) -> bool {
         .expect("spirv-val is needed: Debian has it in the package spirv-tools");
     let bytes: Vec<u8> = words.iter().flat_map(|word| word.to_le_bytes()).collect();
     if let Some(mut input) = child.stdin.take() {
-        // A module that it refuses early closes the pipe.
+        // If the validator rejects a module early, it closes the pipe.
         let _ = input.write_all(&bytes);
     }
     child.wait().is_ok_and(|status| status.success())

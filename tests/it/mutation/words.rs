@@ -1,14 +1,14 @@
-//! SPIR-V as words (SPIR-V 1.3 §2.3): what instructions there are, and changing some.
+//! SPIR-V as words (SPIR-V 1.3 §2.3): splits modules into instructions, and changes instructions.
 //!
-//! *In:* the words of a module that is valid. *Out:* its [`Instruction`]s; words with some replaced. *Holds:* nothing is
-//! checked: what comes out has to be shown to `spirv-val` before a driver sees it.
+//! *In:* the words of a valid module. *Out:* its [`Instruction`]s; words with some of them replaced. *Not done here:*
+//! checking. The result has to be checked with `spirv-val` before a driver gets it.
 
-/// Words before the first instruction.
+/// The number of words before the first instruction.
 const HEADER: usize = 5;
-/// The word of the header that is one more than the largest identifier.
+/// The index of the header word that is one more than the largest identifier.
 const BOUND: usize = 3;
 
-/// The instructions that are looked for here by name, by their numbers (§3.32).
+/// The opcodes of instructions that the tests refer to by name (§3.32).
 pub(crate) mod op {
     pub(crate) const EXT_INST: u16 = 12;
     pub(crate) const TYPE_FLOAT: u16 = 22;
@@ -31,9 +31,9 @@ pub(crate) mod op {
 /// One instruction of a module.
 #[derive(Clone, Copy)]
 pub(crate) struct Instruction<'a> {
-    /// Where it begins among the words of the module.
+    /// The index of its first word in the module.
     pub(crate) at: usize,
-    /// All its words, the number and length first.
+    /// All its words; the first contains the opcode and the length.
     pub(crate) words: &'a [u32],
 }
 
@@ -42,22 +42,22 @@ impl Instruction<'_> {
         self.word(0) as u16
     }
 
-    /// The word at a place; 0 where there is none.
+    /// The word at an index; 0 past the end.
     pub(crate) fn word(&self, place: usize) -> u32 {
         self.words.get(place).copied().unwrap_or(0)
     }
 
-    /// It with other words.
+    /// Replaces it by other words.
     pub(crate) fn replaced(&self, words: Vec<u32>) -> Splice {
         Splice { at: self.at, len: self.words.len(), words }
     }
 
-    /// Words before it.
+    /// Inserts words before it.
     pub(crate) fn preceded(&self, words: Vec<u32>) -> Splice {
         Splice { at: self.at, len: 0, words }
     }
 
-    /// It with another word at a place.
+    /// Replaces one of its words.
     pub(crate) fn with(&self, place: usize, word: u32) -> Splice {
         let mut words = self.words.to_vec();
         words[place] = word;
@@ -65,13 +65,13 @@ impl Instruction<'_> {
     }
 }
 
-/// An instruction's words: its number, then operands.
+/// The words of an instruction: its opcode, then its operands.
 pub(crate) fn encoded(opcode: u16, operands: &[u32]) -> Vec<u32> {
     let first = (operands.len() as u32 + 1) << 16 | u32::from(opcode);
     std::iter::once(first).chain(operands.iter().copied()).collect()
 }
 
-/// The instructions of a module in order.
+/// The instructions of a module, in order.
 pub(crate) fn instructions(words: &[u32]) -> Vec<Instruction<'_>> {
     let mut list = Vec::new();
     let mut at = HEADER;
@@ -83,12 +83,12 @@ pub(crate) fn instructions(words: &[u32]) -> Vec<Instruction<'_>> {
     list
 }
 
-/// The first identifier that is not in use.
+/// The first unused identifier.
 pub(crate) fn bound(words: &[u32]) -> u32 {
     words.get(BOUND).copied().unwrap_or(0)
 }
 
-/// Words in place of others.
+/// A replacement of words.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Splice {
     at: usize,
@@ -96,7 +96,7 @@ pub(crate) struct Splice {
     words: Vec<u32>,
 }
 
-/// The module with splices, in order of their places, and room for more identifiers.
+/// The module after replacements, which are sorted by position, with room for more identifiers.
 pub(crate) fn spliced(words: &[u32], splices: &[Splice], more_ids: u32) -> Vec<u32> {
     let mut out = Vec::with_capacity(words.len() + 64);
     let mut done = 0;

@@ -1,5 +1,5 @@
-//! Coverage of the reference against the OpenGL driver's, fragment by fragment, on random primitives: those of
-//! `raster`, but for lines by OpenGL's own rule.
+//! Compares the coverage of the reference with the OpenGL driver's, fragment by fragment, on random primitives: those
+//! of `raster`, except that lines follow OpenGL's own rule.
 
 use crate::raster::{Random, SIDE, Vertex, at, scene};
 use glisten::scene::Scene;
@@ -19,7 +19,7 @@ fn both(scene: &Scene) -> Option<[Picture; 2]> {
     Some([gl.render(scene).unwrap_or_else(|error| panic!("{error}")), reference])
 }
 
-/// The pixels that differ, and how many fragments the reference has drawn.
+/// The pixels that differ, and the number of fragments that the reference has drawn.
 fn differing([drawn, reference]: &[Picture; 2]) -> (Vec<usize>, usize) {
     let (drawn, reference) = (&drawn.attachments[0], &reference.attachments[0]);
     let pixels = (0..SIDE * SIDE).filter(|&pixel| drawn[pixel] != reference[pixel]).collect();
@@ -28,7 +28,7 @@ fn differing([drawn, reference]: &[Picture; 2]) -> (Vec<usize>, usize) {
     (pixels, fragments)
 }
 
-/// OpenGL counts rows from below, so that a position may be rounded otherwise before it is snapped.
+/// OpenGL counts rows from the bottom, so a position may be rounded differently before it is snapped.
 #[test]
 fn triangles() {
     let mut random = Random(11);
@@ -49,7 +49,7 @@ fn triangles() {
     }
 }
 
-/// An edge of a point that is snapped onto pixels' centers takes them on the driver's own side, row by row.
+/// The driver decides, row by row, on which side an edge of a point is that is snapped to the centers of pixels.
 #[test]
 fn points() {
     let mut random = Random(12);
@@ -63,7 +63,7 @@ fn points() {
     assert!(pixels.len() * 200 <= fragments, "{pixels:?}");
 }
 
-/// A line has a cell of its own. A driver's fragments may be one unit off in x or y (OpenGL 3.2, section 3.5.1).
+/// Each line is in a cell of its own. A driver's fragments may be off by one in x or y (OpenGL 3.2, section 3.5.1).
 #[test]
 fn lines() {
     const CELL: usize = 24;

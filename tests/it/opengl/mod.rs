@@ -1,9 +1,10 @@
-//! The reference draws what an OpenGL driver draws for the untouched sources: every scene of the fixtures on Mesa's
-//! llvmpipe, judged as `verify` judges the GPU's picture, but for lines, which go by OpenGL's own rule.
+//! The reference draws the same pictures as an OpenGL driver from the original sources: every scene of the fixtures
+//! is drawn on Mesa's llvmpipe and judged as `verify` judges the GPU's picture, except that lines follow OpenGL's own
+//! rule.
 //!
-//! On a machine without OpenGL the tests say so; where `CI` is set, they fail. Figures are printed by `cargo test
-//! --all-features --test it -- opengl --nocapture`; `OPENGL_SCENES=DIR` judges the scenes and `.shader_test`s of a folder of
-//! yours instead of the fixtures.
+//! On a machine without OpenGL, the tests say so; if `CI` is set, they fail. `cargo test --all-features --test it --
+//! opengl --nocapture` prints figures. `OPENGL_SCENES=DIR` judges the scenes and `.shader_test`s of your own folder
+//! instead of the fixtures.
 
 #![expect(clippy::print_stdout, reason = "what was judged, and what was excused, is told")]
 
@@ -24,20 +25,20 @@ use glisten_reference::{LineRule, Precision, RenderOptions};
 use glisten_scene::compare::{Judge, Picture, Verdict};
 use std::path::{Path, PathBuf};
 
-/// Larger scenes are drawn at a part of their size.
+/// Larger scenes are scaled down.
 const MOST_PIXELS_A_SIDE: u32 = 64;
 
-/// What is expected of a scene on which the driver and the reference are not of one mind.
+/// The expectation for a scene on which the driver and the reference disagree.
 enum Expected {
-    /// The driver's compiler does not take the sources, with this in its log.
+    /// The driver's compiler rejects the sources, with this in its log.
     Refused(&'static str),
-    /// This channel of the only attachment is open; all others are judged.
+    /// This channel of the only attachment is not judged; all others are.
     Open(usize),
-    /// All channels are judged by this difference.
+    /// All channels are judged with this tolerance.
     Within(f64),
 }
 
-/// A scene, what is expected of it, and why.
+/// A scene, the expectation, and the reason.
 type Exception = (&'static str, Expected, &'static str);
 
 static EXCEPTIONS: &[Exception] = &[
@@ -58,8 +59,8 @@ static EXCEPTIONS: &[Exception] = &[
     ),
     (
         "core/smooth_line_strip",
-        // The fragment's center lies up to half a pixel beside the line, the projection moves that by the line's slope:
-        // at most 0.354 pixels along a line of 33 or more.
+        // The fragment's center is up to half a pixel off the line, and the projection moves that by the line's
+        // slope: at most 0.354 pixels along a line of length 33 or more.
         Expected::Within(0.354 / 33.0),
         "llvmpipe interpolates along the major axis of a line, and not by the projection of (3.5)",
     ),
@@ -86,14 +87,14 @@ fn gl() -> Option<Gl> {
     }
 }
 
-/// The variable that names a folder of yours.
+/// The variable that names your own folder.
 const ASKED: &str = "OPENGL_SCENES";
 
 fn asked_or(fixtures: &str) -> PathBuf {
     std::env::var_os(ASKED).map_or_else(|| root().join(fixtures), PathBuf::from)
 }
 
-/// All files with an extension under a folder, with names relative to it.
+/// All files with an extension in a folder, with names relative to it.
 fn files_under(folder: &Path, wanted: &str) -> Vec<(String, PathBuf)> {
     let mut pending = vec![folder.to_owned()];
     let mut files = Vec::new();
@@ -121,7 +122,7 @@ fn scene(name: &str, loaded: Loaded) -> Scene {
     scene
 }
 
-/// A scene of given texts: `vertex`, `fragment`, and what stands behind the first keys of its only draw.
+/// A scene from texts: `vertex`, `fragment`, and what follows the first keys of its only draw.
 fn written(vertex: &str, fragment: &str, rest: &str) -> Scene {
     let text = format!(
         "[framebuffer]\nwidth = 16\nheight = 16\n[[draw]]\nvertex = \"a.vert\"\nfragment = \"a.frag\"\n{rest}\n"
@@ -136,7 +137,7 @@ fn reference(scene: &Scene, faults: Faults) -> Picture {
     glisten_reference::render(scene, &options).expect("the reference draws every scene of the fixtures")
 }
 
-/// As `verify` judges: by the strict envelope, and where that does not do, with each known fault of the driver admitted.
+/// Judges like `verify`: by the strict envelope and, if that fails, with each known fault of the driver excused.
 fn judged(scene: &Scene, mut picture: Picture, exception: Option<&Exception>) -> Verdict {
     let strict = reference(scene, Faults::NONE);
     close(scene, &mut picture, &strict);
@@ -157,7 +158,8 @@ fn judged(scene: &Scene, mut picture: Picture, exception: Option<&Exception>) ->
     Verdict::admitting(&picture, &strict, Judge::Envelope, &admitted)
 }
 
-/// Components that an output does not have are undefined (OpenGL 3.2, section 3.9.2): they are the reference's then.
+/// Replaces components that an output does not have, which are undefined (OpenGL 3.2, section 3.9.2), by the
+/// reference's.
 fn close(scene: &Scene, picture: &mut Picture, reference: &Picture) {
     for program in scene.draws.iter().map(|draw| &draw.program) {
         for output in &program.interface.outputs {
@@ -184,7 +186,7 @@ fn take_over(picture: &mut Picture, reference: &Picture, attachment: usize, chan
     }
 }
 
-/// What is wrong with a scene; `None` if all is as expected.
+/// What is wrong with a scene; `None` if everything is as expected.
 fn complaint(gl: &Gl, name: &str, scene: &Scene, excused: &mut u64) -> Option<String> {
     let exception = EXCEPTIONS.iter().find(|(known, ..)| *known == name);
     let picture = match (gl.render(scene), exception) {
@@ -228,7 +230,7 @@ fn the_reference_draws_what_opengl_draws() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// Draws the pictures of `.shader_test`s, and has each judged.
+/// Draws the pictures of `.shader_test`s and judges each.
 struct Judged<'a> {
     gl: &'a Gl,
     pictures: usize,
@@ -396,7 +398,7 @@ fn what_the_driver_refuses_is_an_error() {
         "#version 150\nout vec4 color;\nfloat one(float) { return 1.0; }\nvoid main() { color = vec4(one(0.0)); }\n";
     match gl.render(&written(PLACE, nameless, SQUARE)) {
         Err(Error::Compile { stage: Stage::Fragment, log, .. }) => assert!(log.contains("lacks a name"), "{log}"),
-        // Another driver may take it.
+        // Another driver may accept it.
         other => assert!(other.is_ok(), "{other:?}"),
     }
     let mut scene = written(PLACE, "#version 150\nout vec4 color;\nvoid main() { color = vec4(1.0); }\n", SQUARE);
@@ -445,7 +447,7 @@ mod command {
         }
         let folder = tempfile::tempdir().expect("a temporary folder");
         let file = folder.path().join("out.npy");
-        // libglvnd finds no vendor by this.
+        // With this variable, libglvnd finds no vendor.
         let none = [("__EGL_VENDOR_LIBRARY_FILENAMES", "/nonexistent.json")];
         let run = render("fixtures/scenes/triangle.toml", &file, &none);
         let told = String::from_utf8_lossy(&run.stderr).into_owned();

@@ -1,17 +1,17 @@
-//! Whether what a shader computes depends on the order in which operands are evaluated.
+//! Finds out whether the result of a shader depends on the order in which operands are evaluated.
 //!
-//! GLSL 1.50 gives the order of `,`, `&&`, `||` and `?:` (section 5.9) and no other. The reference goes from left to right;
-//! a driver may do otherwise.
+//! GLSL 1.50 defines the order for `,`, `&&`, `||` and `?:` (section 5.9) and for nothing else. The reference goes
+//! from left to right; a driver need not.
 
 use glisten_front::builtin::BuiltinFunction;
 use glisten_front::hir::{ExprId, ExprKind, ParamMode, Shader, VarRef};
 
-/// What the evaluation of an expression touches.
+/// The variables that evaluating an expression reads and writes.
 #[derive(Clone, Default)]
 struct Effects {
     reads: Vec<VarRef>,
     writes: Vec<VarRef>,
-    /// A function of the shader's, which may touch any global.
+    /// Whether it calls a function of the shader, which may access any global.
     calls: bool,
 }
 
@@ -22,7 +22,7 @@ impl Effects {
         self.calls |= other.calls;
     }
 
-    /// Whether it writes what the other touches, or may.
+    /// Whether it writes, or may write, something that the other accesses.
     fn disturbs(&self, other: &Self) -> bool {
         let touched = |var: &VarRef| other.reads.contains(var) || other.writes.contains(var);
         let mut all = other.reads.iter().chain(&other.writes);
@@ -46,7 +46,7 @@ pub(super) fn is_open(shader: &Shader) -> bool {
         let mut written: Vec<VarRef> = Vec::new();
         match &expr.kind {
             ExprKind::Assign(operation, target, _) => {
-                // What is assigned to is written last of all, and read only if there is an operation.
+                // The target of an assignment is written last, and read only if there is an operation.
                 if operation.is_none() {
                     forget(&mut operands[0], shader.root_variable(*target));
                 }
@@ -81,7 +81,7 @@ pub(super) fn is_open(shader: &Shader) -> bool {
     false
 }
 
-/// Takes away one reading of a variable.
+/// Removes one read of a variable.
 fn forget(effects: &mut Effects, root: Option<VarRef>) {
     if let Some(place) = effects.reads.iter().position(|var| Some(*var) == root) {
         effects.reads.swap_remove(place);

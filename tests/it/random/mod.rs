@@ -1,7 +1,7 @@
-//! Random programs the whole way: what is emitted is accepted by all judges, and the picture that lavapipe draws of it is
-//! the reference's. The reference never sees the lowering, so that a mistake in it shows.
+//! Random programs, end to end: all judges accept the emitted code, and lavapipe's picture of it is the reference's.
+//! The reference never sees the lowering, so a mistake in the lowering shows.
 //!
-//! Each program draws a point a pixel with inputs of its own. `RANDOM_PROGRAMS=first..end` runs other seeds.
+//! Each program draws one point per pixel with its own inputs. `RANDOM_PROGRAMS=first..end` runs other seeds.
 
 mod text;
 
@@ -25,7 +25,7 @@ pub(crate) fn seeds() -> Range<u64> {
     first.parse().expect("a number")..end.parse().expect("a number")
 }
 
-/// A scene that draws the fragment shader once a pixel.
+/// A scene that runs the fragment shader once per pixel.
 fn scene(fragment: &str) -> Result<Scene, String> {
     let list = |values: Vec<f64>| format!("{values:?}");
     let pixels = || 0..SIDE * SIDE;

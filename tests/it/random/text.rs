@@ -1,14 +1,14 @@
-//! Random fragment shaders as text: well-typed, without anything that GLSL leaves undefined (no index outside of its
-//! bounds, no division by zero, nothing read before it is written), and with all that a lowering has to put in order:
-//! side effects inside expressions, `out` parameters that name one variable twice, cases that run on, names that hide
-//! others, aggregates by value.
+//! Generates random fragment shaders as text. They are well-typed and contain nothing that GLSL leaves undefined (no
+//! index out of bounds, no division by zero, no read before a write). They contain everything that a lowering has to
+//! get right: side effects in expressions, `out` parameters that name one variable twice, fall-through cases, names
+//! that hide others, aggregates by value.
 //!
-//! *Holds:* the same seed gives the same text. Numbers stay small dyadic fractions where they can, so that most results
-//! are exact and the bound of the reference is narrow.
+//! *Holds:* the same seed gives the same text. Numbers remain small dyadic fractions where possible, so that most
+//! results are exact and the reference's bound is narrow.
 
 use std::fmt::Write;
 
-/// Numbers that are the same every run.
+/// Random numbers from a seed, the same in every run.
 pub(super) struct Random(u64);
 
 impl Random {
@@ -50,7 +50,7 @@ const SCALARS: [&str; 4] = ["float", "int", "uint", "bool"];
 const VECTORS: [[&str; 3]; 4] =
     [["vec2", "vec3", "vec4"], ["ivec2", "ivec3", "ivec4"], ["uvec2", "uvec3", "uvec4"], ["bvec2", "bvec3", "bvec4"]];
 const MATRICES: [&str; 4] = ["mat2", "mat3", "mat2x3", "mat3x2"];
-/// What a local may be.
+/// The types of locals.
 const TYPES: [&str; 21] = [
     "float", "float", "int", "int", "uint", "bool", "vec2", "vec3", "vec4", "ivec2", "ivec3", "uvec2", "uvec4",
     "bvec2", "bvec3", "mat2", "mat3", "mat2x3", "S", "float[4]", "ivec3[2]",
@@ -69,7 +69,7 @@ fn vector(class: usize, size: usize) -> &'static str {
     if size == 1 { SCALARS[class] } else { VECTORS[class][size - 2] }
 }
 
-/// Columns and rows.
+/// The columns and rows of a matrix type.
 fn matrix(ty: &str) -> Option<(usize, usize)> {
     Some(match ty {
         "mat2" => (2, 2),
@@ -80,7 +80,7 @@ fn matrix(ty: &str) -> Option<(usize, usize)> {
     })
 }
 
-/// Element and length.
+/// The element type and the length of an array type.
 fn array(ty: &str) -> Option<(&'static str, usize)> {
     Some(match ty {
         "float[4]" => ("float", 4),
@@ -118,7 +118,7 @@ struct Writer {
     loops: usize,
     breakable: usize,
     ret: &'static str,
-    /// Statements that may still be written.
+    /// How many statements may still be written.
     budget: usize,
 }
 
@@ -133,7 +133,7 @@ impl Writer {
         self.scopes.last_mut().expect("a scope is open").push(variable);
     }
 
-    /// All variables, those alone that no inner one hides.
+    /// All variables that no inner one hides.
     fn visible(&self) -> Vec<Variable> {
         let mut seen: Vec<&str> = Vec::new();
         let mut found = Vec::new();
@@ -182,7 +182,7 @@ impl Writer {
         for number in 0..count {
             let ty = TYPES[self.random.pick(TYPES.len())];
             let mode = ["in", "in", "out", "inout", "const in"][self.random.pick(5)];
-            // A parameter that hides a global now and then.
+            // Sometimes a parameter hides a global.
             let name = if self.random.pick(6) == 0 && number == 0 { "g".into() } else { format!("p{number}") };
             heads.push(format!("{mode} {} {name}{}", base(ty), dims(ty)));
             self.declare(&name, ty, mode != "const in");
@@ -191,7 +191,7 @@ impl Writer {
         let name = format!("f{index}");
         self.line(&format!("{ret} {name}({}) {{", heads.join(", ")));
         self.indent += 1;
-        // What comes out is written before anything reads it.
+        // `out` parameters are written before anything reads them.
         for (number, (mode, ty)) in params.iter().enumerate() {
             if *mode == "out" {
                 let name = self.scopes.last().expect("open")[number].name.clone();
@@ -316,7 +316,7 @@ impl Writer {
     fn declaration(&mut self) {
         let ty = TYPES[self.random.pick(TYPES.len())];
         let init = self.expr(ty, 3);
-        // A name that hides an outer one, where the innermost scope has none of it.
+        // A name that hides an outer one and that the innermost scope does not have.
         let outer: Vec<String> =
             self.scopes[..self.scopes.len() - 1].iter().flatten().map(|v| v.name.clone()).collect();
         let own: Vec<&String> = self.scopes.last().expect("open").iter().map(|variable| &variable.name).collect();
@@ -325,7 +325,7 @@ impl Writer {
             .filter(|name| {
                 !own.contains(name) && !name.contains('.') && !["c0", "g", "s", "gu", "b"].contains(&name.as_str())
             })
-            // Whether a loop's body may hide the loop's own variable is not for this test to say.
+            // This test does not cover whether a loop's body may hide the loop's own variable.
             .filter(|name| !name.starts_with('i'))
             .collect();
         let name = if self.indent > 1 && !hidden.is_empty() && self.random.pick(4) == 0 {
@@ -350,7 +350,7 @@ impl Writer {
         self.line(&format!("if ({condition}) {what}"));
     }
 
-    /// A loop of a few rounds, by a counter that nothing else writes to.
+    /// A loop of a few iterations with a counter that nothing else writes.
     fn iteration(&mut self, depth: usize) {
         self.names += 1;
         let counter = format!("i{}", self.names);
@@ -437,7 +437,7 @@ impl Writer {
         format!("S({})", members.join(", "))
     }
 
-    /// Places of a type among the variables: whole ones, members, elements, components.
+    /// L-values of a type among the variables: whole variables, members, elements, components.
     fn places(&mut self, ty: &str, writable: bool) -> Vec<String> {
         let index = |writer: &mut Self, len: usize| match writer.random.pick(3) {
             0 => format!("({}) & {}", writer.small_int(), len.next_power_of_two() / 2 * 2 - 1),
@@ -521,7 +521,7 @@ impl Writer {
         format!("{place} = {value}")
     }
 
-    /// A call of a function with this result, if there is one whose `out` arguments can be filled.
+    /// A call of a function with this result type, if there is one whose `out` arguments can be provided.
     fn call_of(&mut self, ret: &str, depth: usize) -> Option<String> {
         let fitting: Vec<usize> = (0..self.functions.len()).filter(|&index| self.functions[index].ret == ret).collect();
         if fitting.is_empty() {
@@ -552,7 +552,7 @@ impl Writer {
         match self.random.pick(14) {
             0 => {
                 let (condition, yes, no) = (self.expr("bool", depth), self.expr(ty, depth), self.expr(ty, depth));
-                // Arrays may not stand in `?:`.
+                // Arrays are not allowed in `?:`.
                 return if array(ty).is_some() { yes } else { format!("({condition} ? {yes} : {no})") };
             }
             1 if array(ty).is_none() => {

@@ -1,19 +1,19 @@
-//! Fewer names in text: reads that need no name of their own are written where they are used.
+//! Removes unneeded names from emitted text: a load that needs no name is written where it is used.
 //!
-//! naga's text writers give every load a name (`let _e7 = color;`), because a statement between the load and its use
-//! might change what is read. Most often none does.
+//! naga's text writers name every load (`let _e7 = color;`), because a statement between the load and its use might
+//! change the value. Usually none does.
 //!
-//! *In:* a validated module. *Out:* the same module without the `Emit`s of such loads: writers spell out an expression
-//! that was never emitted at the place of its use. The result is for the text writers alone, since naga's validator wants
-//! every expression emitted.
+//! *In:* a validated module. *Out:* the same module without the `Emit`s of such loads. The writers spell out an
+//! expression without an `Emit` at its use. The result is only for the text writers, since naga's validator requires
+//! that every expression is emitted.
 //!
-//! *Holds:* a load is left out only if all of its uses are evaluated by the same run of `Emit`s or by the statement right
-//! behind that run, and that statement evaluates its operands before it does anything.
+//! *Holds:* a load is removed only if all of its uses are evaluated in the same run of `Emit`s or by the statement
+//! directly after that run, and that statement evaluates its operands before it does anything else.
 
 use crate::lower::for_each_operand;
 use naga::{Block, Expression, Function, Handle, Range, Statement};
 
-/// Leaves out the emission of loads that need no name.
+/// Removes the `Emit`s of loads that need no name.
 pub(super) fn inline_loads(module: &mut naga::Module) {
     for (_, function) in module.functions.iter_mut() {
         inline_in(function);
@@ -30,17 +30,17 @@ fn inline_in(function: &mut Function) {
     function.body = body;
 }
 
-/// Who uses an expression.
+/// The uses of an expression.
 #[derive(Clone, Copy, Debug, Default)]
 struct Use {
     count: u32,
-    /// The expression that uses it, if an expression does.
+    /// The expression that uses it, if the user is an expression.
     user: Option<Handle<Expression>>,
 }
 
 struct Uses {
     all: Vec<Use>,
-    /// By expression: the number of the run of `Emit`s that it is evaluated in, counted from 1.
+    /// For each expression, the number of the run of `Emit`s that evaluates it, counted from 1.
     run: Vec<u32>,
     runs: u32,
 }
@@ -63,7 +63,7 @@ impl Uses {
         }
     }
 
-    /// Counts what statements use, but for the operands of a statement right behind a run, which `block` finds again.
+    /// Counts the uses by statements, except operands of a statement directly after a run, which `block` handles.
     fn statements(&mut self, block: &Block) {
         for statement in block {
             operands(statement, |handle| self.count(handle, None));
@@ -92,7 +92,7 @@ impl Uses {
         *block = kept;
     }
 
-    /// Writes the `Emit`s of a run without the loads that need none.
+    /// Writes the `Emit`s of a run without the loads that need no name.
     fn write_run(
         &mut self,
         function: &Function,
@@ -109,7 +109,7 @@ impl Uses {
             }
         }
         let mut by_statement = Vec::new();
-        // The condition at the end of a loop is evaluated there, not in front of it.
+        // The condition at the end of a loop is evaluated there, not before the loop.
         if let Some(statement) = behind.filter(|statement| !matches!(statement, Statement::Loop { .. })) {
             operands(statement, |handle| by_statement.push(handle));
         }
@@ -126,13 +126,13 @@ impl Uses {
         }
     }
 
-    /// Whether a load may be written at its use.
+    /// Whether a load can be written at its use.
     fn needs_no_name(&self, function: &Function, handle: Handle<Expression>, by: &[Handle<Expression>]) -> bool {
         let is_load = matches!(function.expressions[handle], Expression::Load { .. });
         is_load && !function.named_expressions.contains_key(&handle) && self.is_used_here(function, handle, by)
     }
 
-    /// Whether the expression's one use is evaluated in its own run, or by the statement behind it.
+    /// Whether the only use of the expression is in its own run, or in the statement after it.
     fn is_used_here(&self, function: &Function, mut handle: Handle<Expression>, by: &[Handle<Expression>]) -> bool {
         let run = self.run.get(handle.index()).copied();
         loop {
@@ -151,14 +151,14 @@ impl Uses {
         }
     }
 
-    /// Whether the writers give the expression a name where it is emitted.
+    /// Whether the writers name the expression where it is emitted.
     fn is_written_at_once(&self, function: &Function, handle: Handle<Expression>) -> bool {
         let count = self.all.get(handle.index()).map_or(0, |known| known.count);
         match function.expressions[handle] {
             _ if function.named_expressions.contains_key(&handle) => true,
             Expression::ImageSample { .. } | Expression::ImageLoad { .. } | Expression::ImageQuery { .. } => true,
             Expression::Derivative { .. } => true,
-            // It may be left out itself.
+            // These may be removed themselves.
             Expression::Load { .. } | Expression::Access { .. } | Expression::AccessIndex { .. } => false,
             _ => count >= 2,
         }
@@ -171,7 +171,7 @@ fn push_range(block: &mut Block, open: Option<(Handle<Expression>, Handle<Expres
     }
 }
 
-/// The operands that a statement evaluates before it does anything.
+/// The operands that a statement evaluates before it does anything else.
 fn operands(statement: &Statement, mut visit: impl FnMut(Handle<Expression>)) {
     match statement {
         Statement::If { condition, .. } => visit(*condition),
@@ -212,7 +212,7 @@ mod tests {
     use super::inline_loads;
     use naga::valid::{Capabilities, ValidationFlags, Validator};
 
-    /// The text of a module with loads left out where that is possible.
+    /// The text of a module after removing loads.
     fn written(text: &str) -> String {
         let mut module = naga::front::wgsl::parse_str(text).expect("the test's text is WGSL");
         let info = Validator::new(ValidationFlags::all(), Capabilities::all()).validate(&module).expect("valid");

@@ -1,9 +1,9 @@
-//! Source lines in SPIR-V (`-g`), of included files, too.
+//! Source lines in SPIR-V (`-g`), including those of included files.
 //!
-//! naga counts lines in one text of one name. It gets all files one behind the other, as they stand among the global
-//! offsets; afterwards every `OpLine` is led back to its file, and each file has an `OpString` and an `OpSource` of its own.
+//! naga counts lines in one text with one name. It gets all files concatenated, at their global offsets. Afterwards,
+//! every `OpLine` is mapped back to its file, and each file gets its own `OpString` and `OpSource`.
 //!
-//! *In:* the texts, and words as naga writes them. *Out:* the words with lines that are those of the files on disk.
+//! *In:* the texts, and the SPIR-V words that naga wrote. *Out:* the words with the lines of the files on disk.
 
 use glisten_front::source::{SourceMap, Span};
 use std::sync::Arc;
@@ -12,34 +12,34 @@ const OP_SOURCE_CONTINUED: u32 = 2;
 const OP_SOURCE: u32 = 3;
 const OP_STRING: u32 = 7;
 const OP_LINE: u32 = 8;
-/// SPIR-V's number for GLSL, and its version.
+/// SPIR-V's number for the language GLSL, and its version.
 const GLSL: u32 = 2;
 const VERSION: u32 = 150;
-/// Words of the header; the bound of the ids is the fourth.
+/// The number of words in the header; the fourth is the bound of the ids.
 const HEADER: usize = 5;
 const BOUND: usize = 3;
-/// The most bytes of text in one instruction, whose length has 16 bits.
+/// The largest number of bytes of text in one instruction, whose length has 16 bits.
 const CHUNK: usize = 200_000;
 
-/// A file among the lines that naga counts.
+/// A file within the text in which naga counts lines.
 struct File {
     name: String,
     text: Arc<str>,
-    /// The line of the whole text that is the file's first, from 0.
+    /// The line of the whole text at which the file begins, counted from 0.
     first_line: u32,
     id: u32,
 }
 
-/// All files, as one text.
+/// All files as one text.
 pub(super) struct SourceLines {
     files: Vec<File>,
-    /// The file of the entry point, which naga names.
+    /// The file of the entry point; naga writes its name.
     main: usize,
     pub(super) text: String,
 }
 
 impl SourceLines {
-    /// The texts behind a module; none if nothing in it has a place.
+    /// The texts that a module comes from; `None` if nothing in it has a position.
     pub(super) fn of(module: &naga::Module, sources: &SourceMap) -> Option<Self> {
         let entry = module.entry_points.first()?;
         let (_, span) = entry.function.body.span_iter().find(|(_, span)| span.is_defined())?;
@@ -47,7 +47,7 @@ impl SourceLines {
         let of_entry = sources.file_of(Span::new(range.start as u32, range.end as u32))?;
         let (mut text, mut files, mut main) = (String::new(), Vec::new(), 0);
         for (id, file) in sources.files() {
-            // One byte lies between files.
+            // Between two files there is one byte.
             while text.len() < file.base() as usize {
                 text.push('\n');
             }
@@ -62,12 +62,12 @@ impl SourceLines {
         Some(Self { files, main, text })
     }
 
-    /// The name that naga is to give.
+    /// The name that naga is to write.
     pub(super) fn name(&self) -> &str {
         self.files.get(self.main).map_or("", |file| file.name.as_str())
     }
 
-    /// Leads every line back to its file.
+    /// Maps every line back to its file.
     pub(super) fn led_back(mut self, words: &[u32]) -> Vec<u32> {
         let Some(own) = instructions(words).find(|found| found[0] & 0xffff == OP_STRING).map(|found| found[1]) else {
             return words.to_vec();
@@ -104,7 +104,7 @@ impl SourceLines {
         Some((index, line - self.files.get(index)?.first_line + 1))
     }
 
-    /// The name and the text of every file in use: names first, as SPIR-V's order of sections lets them stand.
+    /// Writes the name and the text of every file in use, the names first, as SPIR-V's section order requires.
     fn strings(&self, words: &mut Vec<u32>) {
         let used = || self.files.iter().filter(|file| file.id != 0);
         for file in used() {
@@ -122,7 +122,7 @@ impl SourceLines {
     }
 }
 
-/// As much of a text as an instruction holds, and the rest.
+/// Splits off as much text as one instruction can hold.
 fn cut(text: &str) -> (&str, &str) {
     let mut end = text.len().min(CHUNK);
     while !text.is_char_boundary(end) {
@@ -142,7 +142,7 @@ fn push(words: &mut Vec<u32>, op: u32, operands: &[u32], text: &[u8]) {
     words.extend(bytes.chunks_exact(4).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]])));
 }
 
-/// The instructions behind the header, each with its first word.
+/// The instructions after the header, each with its first word.
 fn instructions(words: &[u32]) -> impl Iterator<Item = &[u32]> {
     let mut rest = words.get(HEADER..).unwrap_or_default();
     std::iter::from_fn(move || {

@@ -1,9 +1,10 @@
-//! The text or binary of each target, and the reflection.
+//! Emits code for targets, and the reflection.
 //!
-//! *In:* a [`Program`](glisten_front::link::Program) and [`Conventions`](crate::Conventions). *Out:* WGSL, SPIR-V (MSL, HLSL, GLSL), the reflection.
+//! *In:* a [`Program`](glisten_front::link::Program) and [`Conventions`](crate::Conventions). *Out:* WGSL or SPIR-V (also MSL, HLSL, GLSL), and
+//! the reflection.
 //!
-//! *Holds:* what comes out went through naga's validator; a complaint of its validator or writers is an internal error at
-//! the place in the GLSL text, and never shows a handle of naga's. The same input gives the same bytes.
+//! *Holds:* every module is checked by naga's validator. An error of naga's validator or writers becomes an internal
+//! error at the position in the GLSL text, without naga's handles. The same input gives the same bytes.
 
 mod inline;
 mod lines;

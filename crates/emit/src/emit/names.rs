@@ -1,12 +1,12 @@
-//! Names of the source, given back to the emitted text.
+//! Restores the names of the source in emitted text.
 //!
-//! naga keeps names apart in the whole module, so that a second function's `x` becomes `x_1`; it writes an underscore behind
-//! names that end in a digit, and calls what has no name `_e12`. WGSL has scopes: what is local to a function need only
-//! differ from what that function mentions.
+//! naga makes names unique in the whole module, so that a second function's `x` becomes `x_1`. It appends an
+//! underscore to names that end in a digit, and calls unnamed values `_e12`. WGSL has scopes: a local name need only
+//! differ from the other names that its function uses.
 //!
-//! *In:* WGSL as naga writes it (identifiers of ASCII, no comments, a function's closing brace in column 0). *Out:* the
-//! same program. *Holds:* a name is given only if nothing else in the same function (for names of the module: in the
-//! whole text) is called so, and it is no word of the language.
+//! *In:* WGSL as naga writes it (ASCII identifiers, no comments, a function's closing brace in column 0). *Out:* the
+//! same program. *Holds:* a name is changed only if nothing else in the same function (for names of the module: in
+//! the whole text) has the new name, and the new name is not reserved.
 
 use naga::keywords::wgsl::{BUILTIN_IDENTIFIERS, RESERVED};
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -17,11 +17,11 @@ use std::ops::Range;
 struct Word<'t> {
     text: &'t str,
     start: usize,
-    /// Behind a `.`, where a member stands and no variable.
+    /// Whether it follows a `.`, and is therefore a member and not a variable.
     is_member: bool,
 }
 
-/// The text with names as near to the source's as scopes allow.
+/// The text with names as close to the source's as scopes allow.
 pub(super) fn restored(text: &str) -> String {
     let words = words(text);
     let module = names_of_module(&words);
@@ -62,7 +62,7 @@ fn apply<'t>(
     }
 }
 
-/// All identifiers, in order; numbers and their suffixes are none.
+/// All identifiers in order; numbers and their suffixes are not among them.
 fn words(text: &str) -> Vec<Word<'_>> {
     let bytes = text.as_bytes();
     let is_part = |byte: u8| byte.is_ascii_alphanumeric() || byte == b'_';
@@ -83,12 +83,12 @@ fn words(text: &str) -> Vec<Word<'_>> {
     words
 }
 
-/// Where the functions stand: from their first word to their closing brace.
+/// The ranges of the functions, from the first word to the closing brace.
 fn functions(text: &str) -> Vec<Range<usize>> {
     let mut found = Vec::new();
     let mut at = 0;
     while let Some(start) = text[at..].find("fn ").map(|offset| at + offset) {
-        // Attributes may stand in front of it, on lines of their own.
+        // Attributes may precede it, on lines of their own.
         let begins_line = start == 0 || text.as_bytes()[start - 1] == b'\n';
         let end = text[start..].find("\n}").map_or(text.len(), |offset| start + offset + 2);
         if begins_line {
@@ -105,7 +105,7 @@ fn is_word_of_wgsl(name: &str) -> bool {
     RESERVED.contains(&name) || BUILTIN_IDENTIFIERS.contains(&name)
 }
 
-/// Names without the underscore that naga writes behind a digit.
+/// Names without the underscore that naga appends after a digit.
 fn names_of_module<'t>(words: &[Word<'t>]) -> FxHashMap<&'t str, &'t str> {
     let is_marked = |word: &Word<'_>| word.text.ends_with('_');
     if !words.iter().any(is_marked) {
@@ -130,7 +130,7 @@ fn names_of_function<'t>(
     for (index, word) in words.iter().enumerate() {
         let behind = &text[word.start + word.text.len()..];
         let declares = index > 0 && matches!(words[index - 1].text, "let" | "var");
-        // A parameter: everything else that a colon follows is behind `let` and `var`, or a label of `switch`.
+        // A parameter. Any other name before a colon follows `let` or `var`, or is a label of `switch`.
         let is_parameter = behind.starts_with(": ") && !declares && word.text != "default" && !word.is_member;
         if (declares || is_parameter)
             && let Some(base) = base_of(word.text, behind)
@@ -162,7 +162,7 @@ fn names_of_function<'t>(
     names
 }
 
-/// The name that a name of naga's making was made of, or says what it is; none if it is the source's own.
+/// The name that naga derived a name from, or a name that says what the value is; `None` if it is the source's own.
 fn base_of(name: &str, behind: &str) -> Option<String> {
     if name.strip_prefix("_e").is_some_and(|digits| digits.bytes().all(|byte| byte.is_ascii_digit())) {
         let value = behind.strip_prefix(" = ").unwrap_or_default();

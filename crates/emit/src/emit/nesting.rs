@@ -1,16 +1,17 @@
-//! How deep statements nest, before somebody recurses over them.
+//! Limits how deep statements nest, before anything recurses over them.
 //!
-//! *In:* a lowered module. *Out:* whether it takes a larger stack, and the diagnostic of what no reader of WGSL takes.
+//! *In:* a lowered module. *Out:* whether it needs a larger stack, and the diagnostic for nesting that no WGSL parser
+//! accepts.
 
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::targets::NESTING_TOO_DEEP_FOR_TARGET;
 use glisten_front::source::Span;
 use naga::{Block, Module, Statement};
 
-/// How many levels of blocks and statements Tint reads; naga reads more.
+/// How many levels of blocks and statements Tint accepts; naga accepts more.
 const WGSL_LEVELS: u32 = 127;
 
-/// Calls `visit` with each block inside a statement and how many levels of text it is deeper than the statement's own.
+/// Calls `visit` with each block inside a statement, and with its level of nesting relative to the statement.
 fn inner(statement: &Statement, mut visit: impl FnMut(&Block, u32)) {
     match statement {
         Statement::Block(block) => visit(block, 1),
@@ -45,7 +46,7 @@ fn bodies(module: &Module) -> impl Iterator<Item = &Block> {
     functions.chain(module.entry_points.iter().map(|entry| &entry.function.body))
 }
 
-/// The diagnostic of the first statement that stands too deep for the text of WGSL.
+/// The diagnostic for the first statement that is nested too deeply for WGSL.
 pub(super) fn too_deep(module: &Module) -> Option<Diagnostic> {
     let span = bodies(module).find_map(|body| beyond(body, 1))?;
     let place = span.to_range().map_or(Span::default(), |range| Span::new(range.start as u32, range.end as u32));
@@ -54,7 +55,7 @@ pub(super) fn too_deep(module: &Module) -> Option<Diagnostic> {
     Some(Diagnostic::new(&NESTING_TOO_DEEP_FOR_TARGET, place, message).here("this stands too deep").help(help))
 }
 
-/// The first statement of a block at `level` that stands too deep. Does not go deeper than the limit.
+/// The first statement of a block at `level` that is nested too deeply. Does not descend below the limit.
 fn beyond(block: &Block, level: u32) -> Option<naga::Span> {
     for (statement, span) in block.span_iter() {
         if level >= WGSL_LEVELS && !matches!(statement, Statement::Emit(_)) {

@@ -1,4 +1,4 @@
-//! What emission leaves out: without changing the picture, or where only the host can tell.
+//! Notes on what emission omits, where that does not change the picture or where only the host can tell.
 
 use crate::target::Conventions;
 use glisten_front::builtin::{BuiltinFunction, BuiltinVariable};
@@ -38,7 +38,8 @@ fn point_size(program: &Program, conventions: &Conventions) -> Option<Diagnostic
     )
 }
 
-/// Lookups in depth textures that name a level of detail, or shift it: targets know the implicit one and the base level.
+/// Lookups in depth textures with an explicit or biased level of detail: targets have only the implicit level and the
+/// base level.
 pub fn levels_of_comparisons(program: &Program) -> impl Iterator<Item = Span> {
     program.stages.iter().flat_map(|shader| {
         let mut spans = Vec::new();

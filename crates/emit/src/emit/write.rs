@@ -1,6 +1,6 @@
-//! The writers: naga's, with every switch set on purpose.
+//! Runs naga's writers, with every option set explicitly.
 //!
-//! *Holds:* naga's writers are run behind `catch_unwind`, since they panic on some modules that its validator accepts.
+//! *Holds:* naga's writers run inside `catch_unwind`, since they panic on some modules that its validator accepts.
 
 use super::inline::inline_loads;
 use super::lines::SourceLines;
@@ -16,7 +16,7 @@ use naga::proc::{BoundsCheckPolicies, BoundsCheckPolicy};
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// What a writer gave.
+/// The output of a writer.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Emitted {
     /// WGSL, MSL, HLSL, GLSL.
@@ -26,7 +26,7 @@ pub enum Emitted {
 }
 
 impl Emitted {
-    /// The bytes of the file: UTF-8, or little-endian words.
+    /// The contents of the file: UTF-8, or little-endian words.
     pub fn into_bytes(self) -> Vec<u8> {
         match self {
             Self::Text(text) => text.into_bytes(),
@@ -38,7 +38,7 @@ impl Emitted {
 /// Writes one stage of a program for a target.
 ///
 /// # Errors
-/// What the target cannot hold, and slips of glisten's own.
+/// What the target cannot represent, and internal errors.
 pub fn emit(
     program: &Program,
     stage: Stage,
@@ -48,10 +48,10 @@ pub fn emit(
     emit_with_sources(program, stage, target, conventions, None)
 }
 
-/// The same, with the texts that source lines in SPIR-V are counted in ([`Conventions::debug_lines`]).
+/// Like [`emit`], with the texts that source lines in SPIR-V refer to ([`Conventions::debug_lines`]).
 ///
 /// # Errors
-/// As those of [`emit`].
+/// The same as those of [`emit`].
 pub fn emit_with_sources(
     program: &Program,
     stage: Stage,
@@ -82,7 +82,7 @@ fn slip(span: Span, message: String) -> Diagnostic {
     Diagnostic::new(&general::INTERNAL, span, message)
 }
 
-/// naga's validation; its complaint becomes an internal error at the place in the GLSL text.
+/// Runs naga's validator. Its error becomes an internal error at the position in the GLSL text.
 fn validate(module: &naga::Module) -> Result<ModuleInfo, Vec<Diagnostic>> {
     Validator::new(ValidationFlags::all(), Capabilities::all()).validate(module).map_err(|error| {
         let place = error.spans().find_map(|(span, _)| span.to_range());
@@ -104,7 +104,7 @@ fn chain(error: &dyn std::error::Error) -> String {
     text
 }
 
-/// naga's words without its handles (`Expression [12]`, `[3]`), which mean nothing to anybody else.
+/// A message of naga without its handles (`Expression [12]`, `[3]`), which mean nothing to a user.
 fn without_handles(text: &str) -> String {
     let mut shown = String::with_capacity(text.len());
     let mut rest = text;
@@ -148,7 +148,8 @@ fn write(
         let message = format!("the writer of {} failed: {}", target.name(), without_handles(&message));
         match target {
             Target::Wgsl | Target::Spirv => vec![slip(Span::default(), message)],
-            // These three are what naga makes of them, and naga's writers have gaps (`inverse` in MSL and HLSL, say).
+            // For these three, naga's output is taken as it is, and its writers have gaps (for example `inverse` in
+            // MSL and HLSL).
             Target::Msl | Target::Hlsl | Target::Glsl => {
                 let diagnostic = Diagnostic::new(&targets::FEATURE_NOT_IN_TARGET, Span::default(), message);
                 vec![diagnostic.help("compile for WGSL or SPIR-V, and translate that with a tool of the target")]
@@ -160,15 +161,16 @@ fn write(
 fn write_wgsl(module: &naga::Module, info: &ModuleInfo, stage: Stage) -> Result<String, String> {
     let text = wgsl::write_string(module, info, wgsl::WriterFlags::empty()).map_err(|error| chain(&error))?;
     let text = super::names::restored(&text);
-    // GLSL lets derivatives stand in any control flow (§8.8 calls them undefined in some); WGSL refuses what it cannot
-    // prove uniform, unless it is told not to. naga has the directive in its IR and never writes it.
+    // GLSL allows derivatives in any control flow (§8.8 calls them undefined in some). WGSL rejects them where it
+    // cannot prove that control flow is uniform, unless told otherwise. naga has the directive in its IR but never
+    // writes it.
     if stage == Stage::Fragment && takes_derivatives(module) {
         return Ok(format!("diagnostic(off, derivative_uniformity);\n\n{text}"));
     }
     Ok(text)
 }
 
-/// Whether anything in the module takes derivatives, said or unsaid.
+/// Whether the module takes any derivatives, explicit or implicit.
 fn takes_derivatives(module: &naga::Module) -> bool {
     let takes = |function: &naga::Function| {
         function.expressions.iter().any(|(_, expression)| match expression {
@@ -183,7 +185,7 @@ fn takes_derivatives(module: &naga::Module) -> bool {
         || module.entry_points.iter().any(|entry| takes(&entry.function))
 }
 
-/// Indices outside of their bounds are undefined in GLSL (§4.1.9) and must not crash a host: they are moved inside.
+/// Indices out of bounds are undefined in GLSL (§4.1.9) and must not crash a host: they are clamped.
 fn policies() -> BoundsCheckPolicies {
     BoundsCheckPolicies {
         index: BoundsCheckPolicy::Restrict,
@@ -199,9 +201,9 @@ fn write_spirv(
     conventions: &Conventions,
     sources: Option<&SourceMap>,
 ) -> Result<Vec<u32>, String> {
-    // Not ADJUST_COORDINATE_SPACE, which flips y: the lowering has done what the conventions say. Not CLAMP_FRAG_DEPTH:
-    // OpenGL clamps in the fixed function behind the shader, and so does Vulkan. Not LABEL_VARYINGS: names of locations
-    // have no meaning. FORCE_POINT_SIZE, since Vulkan leaves points undefined whose size is not written.
+    // Not ADJUST_COORDINATE_SPACE, which flips y: the lowering has applied the conventions. Not CLAMP_FRAG_DEPTH:
+    // OpenGL clamps in fixed function after the shader, and so does Vulkan. Not LABEL_VARYINGS: names of locations
+    // have no meaning. FORCE_POINT_SIZE, since in Vulkan the size of a point is undefined if it is not written.
     let mut flags = spv::WriterFlags::FORCE_POINT_SIZE;
     let lines = sources.filter(|_| conventions.debug_lines).and_then(|sources| SourceLines::of(module, sources));
     if lines.is_some() {
@@ -213,20 +215,22 @@ fn write_spirv(
         language: spv::SourceLanguage::GLSL,
     });
     let options = spv::Options {
-        // Vulkan 1.1 takes up to 1.3.
+        // Vulkan 1.1 accepts up to 1.3.
         lang_version: (1, 3),
         flags,
-        // A binding that is missing is a slip, which must be seen.
+        // A missing binding is an internal error, which must not be hidden.
         fake_missing_bindings: false,
         binding_map: own_bindings(module),
-        // Vulkan's robust access keeps reads of uniform buffers inside of them. An index clamped here would hide from the
-        // driver that a loop over lights goes at most to the end of the array, so that it is not unrolled: lavapipe was
-        // seen to take 1.6 times as long.
+        // Vulkan's robust access keeps reads of uniform buffers inside them. An index clamped here would hide from
+        // the driver that a loop over lights stays within the array, so the driver would not unroll the loop: in a
+        // measurement, lavapipe took 1.6 times as long.
         bounds_check_policies: BoundsCheckPolicies { buffer: BoundsCheckPolicy::Unchecked, ..policies() },
         zero_initialize_workgroup_memory: spv::ZeroInitializeWorkgroupMemoryMode::None,
-        // A pair of counters in every loop, against compilers that take endless loops for impossible. GLSL asks for none.
+        // This would add a pair of counters to every loop, against compilers that assume that loops end. GLSL does
+        // not require it.
         force_loop_bounding: false,
-        // A function call for every `/` and `%`. §5.9 leaves division by zero undefined "without termination".
+        // This would add a function call for every `/` and `%`. §5.9 leaves division by zero undefined "without
+        // termination".
         emit_int_div_checks: false,
         debug_info,
         ..spv::Options::default()
@@ -238,7 +242,7 @@ fn write_spirv(
     })
 }
 
-/// Every resource at its own binding: link has assigned them.
+/// Gives every resource the binding that link has assigned.
 fn own_bindings(module: &naga::Module) -> spv::BindingMap {
     let bindings = module.global_variables.iter().filter_map(|(_, variable)| variable.binding);
     bindings
@@ -251,7 +255,7 @@ fn own_bindings(module: &naga::Module) -> spv::BindingMap {
 
 fn write_msl(module: &naga::Module, info: &ModuleInfo) -> Result<String, String> {
     let options = msl::Options {
-        // The least that has `primitive_id`.
+        // The lowest version that has `primitive_id`.
         lang_version: (2, 3),
         fake_missing_bindings: true,
         bounds_check_policies: policies(),

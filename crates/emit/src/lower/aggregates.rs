@@ -1,4 +1,5 @@
-//! `==` of matrices, arrays and structs (§5.7, §5.9): inline for matrices, by a generated function for the rest.
+//! Lowers `==` of matrices, arrays and structs (§5.7, §5.9): inline for matrices, through a generated function for
+//! the others.
 
 use super::function::Ctx;
 use super::{Lower, Try};
@@ -6,14 +7,14 @@ use glisten_front::hir::{ArraySize, Type, TypeId};
 use naga::{BinaryOperator, Expression, Handle, Statement};
 use rustc_hash::FxHashMap;
 
-/// The functions that were generated.
+/// The functions generated so far.
 #[derive(Debug, Default)]
 pub(super) struct Helpers {
     equal: FxHashMap<TypeId, Handle<naga::Function>>,
 }
 
 impl Ctx<'_, '_> {
-    /// `==` (or `!=`) of two values of any type, as one `bool`.
+    /// `==` (or `!=`) of two values of any type; the result is one `bool`.
     pub(super) fn whole_equal(
         &mut self,
         left: Handle<Expression>,
@@ -131,7 +132,7 @@ impl Ctx<'_, '_> {
         value_ty: Handle<naga::Type>,
         (element, len): (TypeId, u32),
     ) -> Try<Handle<Expression>> {
-        // Arguments cannot be indexed by a variable in every target.
+        // Not every target can index an argument with a variable.
         let left_copy = self.variable("left_array", value_ty);
         let right_copy = self.variable("right_array", value_ty);
         self.store(left_copy, left);

@@ -1,6 +1,6 @@
-//! Built-in functions (§8) but for textures, in terms of naga's.
+//! Lowers built-in functions (§8) except texture functions, in terms of naga's functions.
 //!
-//! *Holds:* every function is matched, so that a new one does not compile before it is lowered.
+//! *Holds:* the match is exhaustive, so a new function does not compile until it is lowered.
 
 use super::function::Ctx;
 use super::operators::Typed;
@@ -12,13 +12,13 @@ use naga::{BinaryOperator, DerivativeAxis, DerivativeControl, Expression, Handle
 
 /// How a function is lowered.
 enum Rule {
-    /// A math function of naga's with the same arguments; scalars beside vectors are repeated.
+    /// naga's math function with the same arguments; a scalar among vectors is splatted.
     Math(MathFunction),
-    /// A comparison of vectors, component by component.
+    /// A component-wise comparison of vectors.
     Compare(BinaryOperator),
     /// A derivative.
     Derivative(DerivativeAxis),
-    /// By a function of its own.
+    /// A lowering of its own.
     Own,
     /// A texture function.
     Texture,
@@ -52,7 +52,7 @@ fn rule(function: BuiltinFunction) -> Rule {
         F::Sign => Rule::Math(M::Sign),
         F::Floor => Rule::Math(M::Floor),
         F::Trunc => Rule::Math(M::Trunc),
-        // §8.3 leaves open which way `round` rounds a half; naga's rounds it to even.
+        // §8.3 leaves open in which direction `round` rounds a half; naga's rounds it to even.
         F::Round | F::RoundEven => Rule::Math(M::Round),
         F::Ceil => Rule::Math(M::Ceil),
         F::Fract => Rule::Math(M::Fract),
@@ -149,7 +149,7 @@ impl Ctx<'_, '_> {
         }
     }
 
-    /// A math function of naga's, scalars repeated to the size of the largest argument.
+    /// naga's math function, with scalars splatted to the size of the largest argument.
     fn math(&mut self, fun: MathFunction, values: &[Typed]) -> Handle<Expression> {
         let size = values.iter().map(|value| self.size_of(value.1)).max().unwrap_or(1);
         let mut arguments = values.iter().map(|&(value, ty)| (value, self.size_of(ty))).collect::<Vec<_>>().into_iter();
@@ -160,12 +160,12 @@ impl Ctx<'_, '_> {
         let (first, arg1, arg2) = (next(), next(), next());
         match first {
             Some(arg) => self.add(Expression::Math { fun, arg, arg1, arg2, arg3: None }),
-            // Nothing is called without arguments; `builtin` has looked.
+            // No function is called without arguments; `builtin` has checked that.
             None => self.float(0.0),
         }
     }
 
-    /// `dFdx`, `dFdy`, `fwidth`. Where the target's rows run downwards, so does its y.
+    /// `dFdx`, `dFdy`, `fwidth`. Where the target's rows run downwards, so does its y axis.
     fn derivative(&mut self, axis: DerivativeAxis, expr: Handle<Expression>) -> Handle<Expression> {
         let value = self.add(Expression::Derivative { axis, ctrl: DerivativeControl::None, expr });
         if axis == DerivativeAxis::Y && self.low.conventions.window_origin == WindowOrigin::UpperLeft {
@@ -201,7 +201,7 @@ impl Ctx<'_, '_> {
             (F::Any, _) => Ok(self.any(a, size)),
             (F::All, _) => Ok(self.all(a, size)),
             (F::Not, _) => Ok(self.not(a)),
-            // §8.9 allows a constant; hardware of this age and Mesa give 0.
+            // §8.9 allows a constant; hardware of that time and Mesa return 0.
             (F::Noise1 | F::Noise2 | F::Noise3 | F::Noise4, _) => {
                 let ty = self.low.value_type(ty)?;
                 Ok(self.zero(ty))
@@ -235,7 +235,8 @@ impl Ctx<'_, '_> {
         Ok(self.math3(MathFunction::Mix, a.0, b.0, factor.0))
     }
 
-    /// `smoothstep`. Spelled out where both edges are literals in the wrong order, which WGSL refuses and drivers take.
+    /// `smoothstep`. Spelled out if both edges are literals in the wrong order, which WGSL rejects and drivers
+    /// accept.
     fn smoothstep(&mut self, low: Typed, high: Typed, x: Typed) -> Try<Handle<Expression>> {
         let literal = |ctx: &Self, handle| match ctx.expressions()[handle] {
             Expression::Literal(naga::Literal::F32(value)) => Some(value),
@@ -257,7 +258,7 @@ impl Ctx<'_, '_> {
         Ok(self.op(BinaryOperator::Multiply, square, rest))
     }
 
-    /// `isnan`, `isinf` by their bits: targets may assume that neither occurs and fold comparisons.
+    /// `isnan` and `isinf`, by bits: targets may assume that neither occurs and fold comparisons.
     fn bits_beyond_infinity(&mut self, value: Handle<Expression>, size: u8, op: BinaryOperator) -> Handle<Expression> {
         let bits = self.add(Expression::As { expr: value, kind: naga::ScalarKind::Uint, convert: None });
         let mask = self.uint(0x7fff_ffff);

@@ -1,8 +1,8 @@
-//! Calls of the shader's own functions (§6.1).
+//! Lowers calls of the shader's own functions (§6.1).
 //!
-//! *Holds:* arguments are evaluated left to right, each once; `out` and `inout` ones are copied into and out of
-//! temporaries in the order of the parameters. A whole local variable that no other argument names is its own temporary,
-//! since nobody else can look at it meanwhile.
+//! *Holds:* arguments are evaluated left to right, each once. `out` and `inout` arguments are copied to and from
+//! temporaries, in the order of the parameters. A whole local variable that no other argument mentions is its own
+//! temporary, since nothing else can access it during the call.
 
 use super::function::Ctx;
 use super::places::Place;
@@ -10,7 +10,7 @@ use super::{Try, facts, internal};
 use glisten_front::hir::{ExprId, ExprKind, FunctionId, ParamMode, TypeId, VarRef};
 use naga::{Expression, Handle};
 
-/// An argument to be copied back.
+/// An argument that is copied back after the call.
 struct CopyBack {
     from: Handle<Expression>,
     from_ty: TypeId,
@@ -19,7 +19,7 @@ struct CopyBack {
 }
 
 impl Ctx<'_, '_> {
-    /// A call; gives the result, if the function has one.
+    /// Lowers a call; returns the result, if the function has one.
     pub(super) fn user_call(&mut self, id: FunctionId, arguments: &[ExprId]) -> Try<Option<Handle<Expression>>> {
         let callee = self.shader.function(id);
         let Some(lowered) = self.low.lowered(id).copied() else {
@@ -65,7 +65,7 @@ impl Ctx<'_, '_> {
         Ok(result)
     }
 
-    /// The pointer to a whole local variable that serves as the temporary.
+    /// The pointer to a whole local variable that can be its own temporary.
     fn own_temporary(
         &mut self,
         argument: ExprId,
@@ -85,7 +85,7 @@ impl Ctx<'_, '_> {
         }
     }
 
-    /// Whether the expression names the variable.
+    /// Whether the expression mentions the variable.
     fn names(&self, id: ExprId, var: VarRef) -> bool {
         let mut work = vec![id];
         while let Some(id) = work.pop() {

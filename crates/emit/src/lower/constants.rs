@@ -1,20 +1,21 @@
-//! Constant values (§4.3.3), and keeping what is not finite from the target's own evaluation.
+//! Lowers constant values (§4.3.3), and keeps the target from evaluating what is not finite.
 //!
-//! *Holds:* WGSL has no literal that is not finite, and makes an error of every constant expression that comes out so.
-//! Such a float is its bits in a private variable, which no target evaluates before the shader runs.
+//! *Holds:* WGSL has no non-finite literals, and every constant expression with such a value is an error. A
+//! non-finite float is therefore read as bits from a private variable, which no target evaluates before the shader
+//! runs.
 
 use super::function::{Ctx, GlobalSlot, Slot};
 use super::{Lower, Try, for_each_operand, internal};
 use glisten_front::hir::{ArraySize, ExprId, FunctionId, LocalKind, Scalar, ScalarValue, Type, TypeId, Value, VarRef};
 use naga::{AddressSpace, BinaryOperator, Expression, GlobalVariable, Handle, Literal};
 
-/// Whether a float has a literal. The largest float has none: its shortest decimal spelling is a little above it, which
-/// Tint refuses.
+/// Whether a float has a literal. The largest float has none: its shortest decimal spelling is a little larger than
+/// it is, and Tint rejects that.
 fn is_spellable(value: f32) -> bool {
     value.abs() < f32::MAX
 }
 
-/// Whether all of a value can be spelled.
+/// Whether every part of a value has a literal.
 pub(super) fn is_constant(value: &Value) -> bool {
     value.scalars.iter().all(|scalar| match scalar {
         ScalarValue::Float(value) => is_spellable(*value),
@@ -23,7 +24,7 @@ pub(super) fn is_constant(value: &Value) -> bool {
 }
 
 impl Ctx<'_, '_> {
-    /// A scalar constant, finite or not.
+    /// A scalar constant, which need not be finite.
     pub(super) fn scalar(&mut self, value: ScalarValue) -> Handle<Expression> {
         match value {
             ScalarValue::Float(float) if !is_spellable(float) => {
@@ -62,8 +63,8 @@ impl Ctx<'_, '_> {
         Ok(self.add(Expression::Compose { ty, components }))
     }
 
-    /// A named constant: a constant of the module, or a variable if something indexes it by a variable (the SPIR-V
-    /// writer would copy it at each index).
+    /// A named constant: a constant of the module, or a variable if it is indexed by a variable (the SPIR-V writer
+    /// would copy it for each index).
     pub(super) fn named_constant(
         &mut self,
         var: VarRef,
@@ -111,7 +112,7 @@ impl Ctx<'_, '_> {
 
 impl Ctx<'_, '_> {
     /// Whether a target knows the value of an expression before the shader runs: all of its operands are constant, and
-    /// none has a name.
+    /// none is a named value.
     pub(super) fn is_known(&self, expression: &Expression) -> bool {
         let computes = matches!(
             expression,
@@ -136,8 +137,9 @@ impl Ctx<'_, '_> {
         known
     }
 
-    /// Targets refuse constant expressions whose result does not fit, and integer division by a constant 0. What is
-    /// constant in GLSL was evaluated already; an operand that became so here (`(n++, 5)`) is read from a variable.
+    /// Hides operands from the target's constant evaluation. Targets reject constant expressions whose result does
+    /// not fit, and integer division by a constant 0. What GLSL calls constant has been evaluated already; an operand
+    /// that became constant during lowering (`(n++, 5)`) is read from a variable.
     pub(super) fn kept_from_evaluation(&mut self, expression: Expression) -> Expression {
         use BinaryOperator as Op;
         match expression {
@@ -157,7 +159,7 @@ impl Ctx<'_, '_> {
         }
     }
 
-    /// The operand, read from a variable if its type is plain to see.
+    /// The operand, read from a variable if its type is evident.
     fn hidden_operand(&mut self, operand: Handle<Expression>) -> Handle<Expression> {
         let Some(ty) = self.type_of_known(operand) else { return operand };
         let variable = self.variable("operand", ty);
@@ -165,7 +167,7 @@ impl Ctx<'_, '_> {
         self.load(variable)
     }
 
-    /// Whether an operand is an integer constant with a 0 in it.
+    /// Whether an operand is an integer constant that contains a 0.
     fn may_be_zero(&self, operand: Handle<Expression>) -> bool {
         let expressions = self.expressions();
         let zero = |handle: &Handle<Expression>| {
@@ -179,7 +181,7 @@ impl Ctx<'_, '_> {
         }
     }
 
-    /// The type of a constant, as far as it is plain to see.
+    /// The type of a constant, as far as it is evident.
     fn type_of_known(&mut self, handle: Handle<Expression>) -> Option<Handle<naga::Type>> {
         let scalar = |literal: &Literal| match literal {
             Literal::F32(_) => Some(Scalar::Float),
@@ -203,7 +205,7 @@ impl Ctx<'_, '_> {
 }
 
 impl Lower<'_> {
-    /// A private variable that holds bits.
+    /// A private variable that contains these bits.
     fn hidden_bits(&mut self, bits: u32) -> Handle<GlobalVariable> {
         if let Some((_, known)) = self.hidden.iter().find(|(known, _)| *known == bits) {
             return *known;
@@ -230,7 +232,7 @@ impl Lower<'_> {
         variable
     }
 
-    /// A finite constant among the module's expressions.
+    /// A finite constant as an expression of the module.
     pub(super) fn global_constant(&mut self, value: &Value) -> Try<Handle<Expression>> {
         let mut scalars = value.scalars.iter().copied();
         self.global_part(value.ty, &mut scalars)
@@ -280,7 +282,7 @@ impl Lower<'_> {
         })
     }
 
-    /// The value of a scalar expression that is constant.
+    /// The value of a scalar expression, if it is constant.
     pub(super) fn constant_of(&self, function: FunctionId, id: ExprId) -> Option<ScalarValue> {
         match self.evaluated(function, id)?.scalars.as_slice() {
             [one] => Some(*one),

@@ -1,11 +1,11 @@
-//! Constructors (§5.4) in the normal forms of [`ConstructKind`].
+//! Lowers constructors (§5.4), given in the normal forms of [`ConstructKind`].
 
 use super::Try;
 use super::function::Ctx;
 use glisten_front::hir::{ConstructKind, ExprId, Scalar, Swizzle, Type, TypeId};
 use naga::{Expression, Handle};
 
-/// Components of a scalar or vector that are still to be used up.
+/// The components of a scalar or vector that have not been used yet.
 struct Piece {
     value: Handle<Expression>,
     size: u8,
@@ -58,7 +58,7 @@ impl Ctx<'_, '_> {
         Ok(self.add(Expression::Compose { ty, components }))
     }
 
-    /// `mat3(m)`: the upper left of `m`, the rest from the identity.
+    /// `mat3(m)`: takes the upper left of `m`, and the rest from the identity.
     fn resize(&mut self, value: Handle<Expression>, from: TypeId, ty: TypeId) -> Try<Handle<Expression>> {
         let (Type::Matrix(columns, rows), Type::Matrix(_, from_rows)) =
             (self.low.types.get(ty), self.low.types.get(from))

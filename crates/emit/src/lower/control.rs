@@ -1,4 +1,4 @@
-//! Loops and switches (§6.2, §6.3).
+//! Lowers loops and switches (§6.2, §6.3).
 
 use super::Try;
 use super::facts::is_counted;
@@ -8,7 +8,7 @@ use glisten_front::hir::{
 };
 use naga::{BinaryOperator, Block, Statement, SwitchCase, SwitchValue};
 
-/// The flag that a loop looks at before each round, if it has to.
+/// The flag that a loop checks before each iteration, if it has to.
 type Guard = Option<naga::Handle<naga::GlobalVariable>>;
 
 impl Ctx<'_, '_> {
@@ -22,8 +22,8 @@ impl Ctx<'_, '_> {
     ) -> Try<()> {
         self.loops += 1;
         let in_switch = std::mem::replace(&mut self.in_switch, false);
-        // Where an invocation goes on behind a `discard`, with values that the program never meant to go on with, a loop
-        // that is not plain to end is left.
+        // In targets where an invocation continues after a `discard`, it may continue with values that the program
+        // never meant to use. A loop that does not evidently end is then left.
         let facts = self.low.facts.function(self.id);
         let counted =
             facts.is_some_and(|facts| is_counted(self.shader, facts, condition.map(|found| found.expr), step));
@@ -57,7 +57,7 @@ impl Ctx<'_, '_> {
             ctx.leave_if_discarded(guard);
             match condition {
                 Some(condition) => ctx.leave_unless(condition)?,
-                // Tint refuses a loop that nothing leaves.
+                // Tint rejects a loop that nothing leaves.
                 None if guard.is_none() && !leaves(body) => {
                     let never = ctx.boolean(false);
                     ctx.leave_if(never);
@@ -114,8 +114,8 @@ impl Ctx<'_, '_> {
         self.statement(Statement::If { condition, accept, reject: Block::new() });
     }
 
-    /// `switch`. Targets have no case that runs into the next: where one does, the switch only says where to start,
-    /// and the bodies stand in a row behind it.
+    /// `switch`. Targets have no fall-through. If a case falls through, the switch only determines where to start,
+    /// and the bodies follow it in sequence.
     pub(super) fn switch(&mut self, selector: ExprId, cases: &[Case]) -> Try<()> {
         let unsigned = self.low.types.scalar_of(self.shader.expr(selector).ty) == Some(Scalar::Uint);
         let selector = self.value(selector)?;
@@ -142,7 +142,7 @@ impl Ctx<'_, '_> {
         Ok(())
     }
 
-    /// Cases that run on: `start` is the number of the first body to run, and each body runs if it is not before it.
+    /// Cases that fall through: `start` is the index of the first body to run, and each body from there on runs.
     fn row(&mut self, selector: naga::Handle<naga::Expression>, cases: &[Case], unsigned: bool) -> Try<()> {
         let start = self.variable_of("start", TypeId::INT)?;
         let none = self.int(cases.len() as i32);
@@ -189,25 +189,25 @@ fn push_case(cases: &mut Vec<SwitchCase>, labels: &[CaseLabel], body: Block, uns
     cases.push(SwitchCase { value: value(last), body, fall_through: false });
 }
 
-/// naga wants a default in every switch.
+/// Adds the default that naga requires in every switch.
 fn with_default(cases: &mut Vec<SwitchCase>) {
     if !cases.iter().any(|case| case.value == SwitchValue::Default) {
         cases.push(SwitchCase { value: SwitchValue::Default, body: Block::new(), fall_through: false });
     }
 }
 
-/// Whether control cannot run out of the end of the statements, as far as is plain to see.
+/// Whether control evidently does not reach the end of the statements.
 fn ends(body: &[Stmt]) -> bool {
     match body.last().map(|stmt| &stmt.kind) {
         Some(StmtKind::Break | StmtKind::Continue | StmtKind::Return(_) | StmtKind::Discard) => true,
-        // A `break` inside the last block leaves the switch just so.
+        // A `break` inside the last block leaves the switch as well.
         Some(StmtKind::Block(body)) => ends(body),
         Some(StmtKind::If { arms, otherwise }) => ends(otherwise) && arms.iter().all(|(_, body)| ends(body)),
         _ => false,
     }
 }
 
-/// Whether something in the body of a loop leaves it.
+/// Whether something in the body of a loop leaves the loop.
 fn leaves(body: &[Stmt]) -> bool {
     body.iter().any(|stmt| match &stmt.kind {
         StmtKind::Break | StmtKind::Return(_) => true,
@@ -219,7 +219,7 @@ fn leaves(body: &[Stmt]) -> bool {
     })
 }
 
-/// Whether a `return` stands anywhere inside.
+/// Whether there is a `return` anywhere inside.
 fn returns(body: &[Stmt]) -> bool {
     body.iter().any(|stmt| match &stmt.kind {
         StmtKind::Return(_) => true,

@@ -1,4 +1,4 @@
-//! Expressions (§5): each is evaluated where it stands, left to right.
+//! Lowers expressions (§5). Each is evaluated where GLSL evaluates it, left to right.
 
 use super::function::Ctx;
 use super::places::Place;
@@ -8,7 +8,7 @@ use glisten_front::hir::{
 };
 use naga::{BinaryOperator, Expression, Handle, Statement, UnaryOperator};
 
-/// The costliest operand of `?:`, in nodes, that is evaluated though it may not be wanted.
+/// The highest cost, in nodes, of an operand of `?:` that is evaluated even if it is not selected.
 const SELECTED: u32 = 12;
 
 impl Ctx<'_, '_> {
@@ -26,7 +26,7 @@ impl Ctx<'_, '_> {
         if self.is_operation(&expr.kind)
             && let Some(value) = self.low.evaluated(self.id, id)
         {
-            // What a target would evaluate before the shader runs is evaluated here: targets refuse results that are
+            // What a target would evaluate before the shader runs is evaluated here. Targets reject results that are
             // not finite, integers that overflow, and divisions by zero.
             return self.constant(&value);
         }
@@ -57,7 +57,7 @@ impl Ctx<'_, '_> {
         }
     }
 
-    /// Evaluates an expression for its effects; what has none is not evaluated.
+    /// Evaluates an expression for its effects; one without effects is not evaluated.
     pub(super) fn effect(&mut self, id: ExprId) -> Try<()> {
         if !self.low.facts.nature(id).effects {
             return Ok(());
@@ -100,7 +100,7 @@ impl Ctx<'_, '_> {
         }
     }
 
-    /// `if`; turned round if only the second block does anything.
+    /// `if`, inverted if only the second block has contents.
     pub(super) fn branch(&mut self, condition: Handle<Expression>, accept: naga::Block, reject: naga::Block) {
         if accept.is_empty() && reject.is_empty() {
             return;
@@ -118,8 +118,8 @@ impl Ctx<'_, '_> {
         self.add(Expression::Unary { op: UnaryOperator::LogicalNot, expr })
     }
 
-    /// `&&` and `||`: the right operand is evaluated only if it is wanted, which matters only if it has effects. Its
-    /// evaluation where it is not wanted cannot be seen otherwise: indices are kept inside their bounds.
+    /// `&&` and `||`. Evaluating the right operand needlessly matters only if it has effects; otherwise nobody can tell, because
+    /// indices are kept in bounds.
     fn logical(&mut self, op: LogicalOp, left: ExprId, right: ExprId) -> Try<Handle<Expression>> {
         let left = self.value(left)?;
         if !self.low.facts.nature(right).effects {
@@ -144,7 +144,7 @@ impl Ctx<'_, '_> {
         Ok(self.load(result))
     }
 
-    /// `?:`: a selection where both operands are cheap and without effects, else a branch.
+    /// `?:`: a selection if both operands are cheap and without effects, otherwise a branch.
     fn ternary(&mut self, condition: ExprId, accept: ExprId, reject: ExprId, ty: TypeId) -> Try<Handle<Expression>> {
         let plain = |id| {
             let nature = self.low.facts.nature(id);
@@ -195,7 +195,7 @@ impl Ctx<'_, '_> {
         Ok(self.load(result))
     }
 
-    /// `a = b`, `a op= b`: the place of `a`, then (for `op=`) its value, then `b` (§5.8).
+    /// `a = b`, `a op= b`: evaluates the place `a`, then (for `op=`) its value, then `b` (§5.8).
     fn assign(&mut self, op: Option<BinaryOp>, target: ExprId, value: ExprId) -> Try<Handle<Expression>> {
         let place = self.place(target)?;
         let result = match op {
@@ -243,7 +243,7 @@ impl Ctx<'_, '_> {
         }
         let op = match op {
             UnaryOp::Negate if self.low.types.scalar_of(ty) == Some(Scalar::Uint) => {
-                // WGSL has no `-` of unsigned integers.
+                // WGSL has no unary `-` for unsigned integers.
                 let zero = self.uint(0);
                 return self.binary_values(BinaryOp::Sub, (zero, TypeId::UINT), (value, ty));
             }
@@ -261,7 +261,7 @@ impl Ctx<'_, '_> {
         Ok(self.converted(value, from, to))
     }
 
-    /// The same of a value.
+    /// The same conversion for a value.
     pub(super) fn converted(&mut self, value: Handle<Expression>, from: TypeId, to: TypeId) -> Handle<Expression> {
         let (from, to) = (self.low.types.scalar_of(from), self.low.types.scalar_of(to));
         match to {
@@ -273,7 +273,7 @@ impl Ctx<'_, '_> {
         }
     }
 
-    /// The scalar repeated, or itself for a size of 1.
+    /// The scalar splatted to a vector, or itself for size 1.
     pub(super) fn splat(&mut self, value: Handle<Expression>, size: u8) -> Handle<Expression> {
         if size <= 1 {
             return value;
@@ -281,7 +281,7 @@ impl Ctx<'_, '_> {
         self.add(Expression::Splat { size: super::types::vector_size(size), value })
     }
 
-    /// The place of an l-value, for a call that writes to it.
+    /// The place of an l-value that a call writes to.
     pub(super) fn target(&mut self, id: ExprId) -> Try<Place> {
         let outer = self.at(self.shader.expr(id).span);
         let place = self.place(id);
@@ -291,8 +291,8 @@ impl Ctx<'_, '_> {
 }
 
 impl Ctx<'_, '_> {
-    /// Whether the expression computes something new from its operands. A vector put together from vectors counts: naga's
-    /// SPIR-V writer wants constant ones component by component.
+    /// Whether the expression computes something new from its operands. A vector composed of vectors counts: naga's
+    /// SPIR-V writer requires constant vectors component by component.
     fn is_operation(&self, kind: &ExprKind) -> bool {
         match kind {
             ExprKind::Unary(..)

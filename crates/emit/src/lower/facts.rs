@@ -1,7 +1,7 @@
-//! What the lowering must know of a shader before it starts: who calls whom, what is written, what has effects.
+//! Facts about a shader that the lowering needs before it starts: calls, writes, side effects.
 //!
-//! *In:* a [`Shader`]. *Out:* [`Facts`]. Nothing here recurses over expressions: the arena holds children before their
-//! parents, so one pass over it is enough, and functions are walked with lists of work.
+//! *In:* a [`Shader`]. *Out:* [`Facts`]. *Holds:* nothing here recurses over expressions. The arena stores children
+//! before their parents, so one pass over it is enough; functions are traversed with work lists.
 
 use glisten_front::builtin::BuiltinFunction;
 use glisten_front::hir::{
@@ -9,61 +9,62 @@ use glisten_front::hir::{
     StmtKind, Storage, VarRef,
 };
 
-/// What an expression may do besides having a value.
+/// What an expression may do besides yielding a value.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Nature {
-    /// It writes, or calls a function of the shader.
+    /// Whether it writes, or calls a function of the shader.
     pub(super) effects: bool,
-    /// It samples a texture or takes a derivative, which depends on control flow.
+    /// Whether it samples a texture or takes a derivative, so that it depends on control flow.
     pub(super) control: bool,
-    /// Its value may be known before the shader runs: it is made of literals and constants.
+    /// Whether its value may be known before the shader runs: it consists of literals and constants.
     pub(super) constant: bool,
-    /// How many nodes it has; saturates.
+    /// The number of its nodes, saturating.
     pub(super) cost: u32,
 }
 
-/// What is known of a function.
+/// Facts about a function.
 #[derive(Clone, Debug, Default)]
 pub(super) struct FunctionFacts {
-    /// By local: assigned after its declaration, passed to an `out` parameter, or indexed by a variable.
+    /// For each local: whether it is assigned after its declaration, passed to an `out` parameter, or indexed by a
+    /// variable.
     pub(super) needs_variable: Vec<bool>,
-    /// By local: assigned after its declaration or passed to an `out` parameter.
+    /// For each local: whether it is assigned after its declaration or passed to an `out` parameter.
     pub(super) written: Vec<bool>,
-    /// The globals that it names.
+    /// The globals that it uses.
     pub(super) globals: Vec<GlobalId>,
     /// The functions that it calls.
     pub(super) calls: Vec<FunctionId>,
-    /// The deepest nesting of its statements.
+    /// The depth of its nested statements.
     pub(super) depth: u32,
-    /// By local: how often something in the function writes to it after its declaration; saturates.
+    /// For each local: how often the function writes to it after its declaration, saturating.
     writes: Vec<u8>,
-    /// Whether a `discard` stands in it.
+    /// Whether it contains a `discard`.
     discards: bool,
-    /// Whether a loop stands in it that is not plain to end (see [`is_counted`]).
+    /// Whether it contains a loop that does not evidently end (see [`is_counted`]).
     open_loop: bool,
 }
 
-/// What is known of a shader.
+/// Facts about a shader.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Facts {
-    /// By expression.
+    /// The nature of each expression.
     pub(super) natures: Vec<Nature>,
-    /// By function.
+    /// The facts of each function.
     pub(super) functions: Vec<FunctionFacts>,
-    /// Functions that `main` reaches, callees before callers, `main` itself last.
+    /// The functions that `main` reaches, callees before callers, `main` last.
     pub(super) order: Vec<FunctionId>,
-    /// By global: named in a function other than `main`, or in another global's initializer.
+    /// For each global: whether a function other than `main`, or the initializer of another global, uses it.
     pub(super) shared: Vec<bool>,
-    /// By global: named at all in something that `main` reaches.
+    /// For each global: whether anything that `main` reaches uses it.
     pub(super) used: Vec<bool>,
-    /// By global: indexed by a variable somewhere.
+    /// For each global: whether it is indexed by a variable.
     pub(super) indexed: Vec<bool>,
-    /// Whether a loop that is not plain to end may run in an invocation that was discarded.
+    /// Whether a discarded invocation may run a loop that does not evidently end.
     pub(super) loops_after_discard: bool,
 }
 
 impl Facts {
-    /// Looks at a shader.
+    /// Collects the facts about a shader.
     pub(super) fn of(shader: &Shader) -> Self {
         let mut facts = Self {
             natures: Vec::new(),
@@ -109,7 +110,7 @@ impl Facts {
                 }
             }
         }
-        // Initializers of private globals run at the start of `main`, those of used ones alone.
+        // Initializers of private globals run at the start of `main`, but only those of globals in use.
         for (index, global) in shader.globals.iter().enumerate().rev() {
             if !self.used.get(index).copied().unwrap_or(false) || global.value.is_some() {
                 continue;
@@ -133,12 +134,13 @@ fn set(flags: &mut [bool], index: usize) {
     }
 }
 
-/// Calls `visit` with each operand, in the order of evaluation.
+/// Calls `visit` with each operand, in evaluation order.
 pub(super) fn children(kind: &ExprKind, visit: impl FnMut(ExprId)) {
     kind.children().into_iter().for_each(visit);
 }
 
-/// `constants` says which expressions name a local constant, which only their function knows.
+/// The nature of each expression. `constants` says which expressions are local constants, which only their function
+/// knows.
 fn natures(shader: &Shader, constants: &[bool]) -> Vec<Nature> {
     let mut all: Vec<Nature> = Vec::with_capacity(shader.exprs.len());
     for (expr, constant) in shader.exprs.iter().zip(constants) {
@@ -179,7 +181,7 @@ fn own_nature(shader: &Shader, kind: &ExprKind, local_constant: bool) -> Nature 
     Nature { effects, control, constant, cost: 1 }
 }
 
-/// Whether the function takes derivatives, said or unsaid (GLSL 1.50 §8.7, §8.8).
+/// Whether the function takes derivatives, explicitly or implicitly (GLSL 1.50 §8.7, §8.8).
 pub(super) fn depends_on_control_flow(function: BuiltinFunction) -> bool {
     use BuiltinFunction as F;
     matches!(
@@ -206,7 +208,7 @@ struct FunctionWalk<'a> {
     indexed: &'a mut [bool],
     constants: &'a mut [bool],
     roots: Vec<ExprId>,
-    /// Conditions and steps of the loops.
+    /// The condition and step of each loop.
     loops: Vec<(Option<ExprId>, Option<ExprId>)>,
 }
 
@@ -336,8 +338,8 @@ impl<'a> FunctionWalk<'a> {
     }
 }
 
-/// Whether a loop is plain to end: its condition compares an `int` with something that stays, and its step alone moves it
-/// there.
+/// Whether a loop evidently ends: its condition compares an `int` with something constant, and only its step changes
+/// the `int`, towards the end.
 pub(super) fn is_counted(
     shader: &Shader,
     facts: &FunctionFacts,
@@ -380,7 +382,7 @@ pub(super) fn is_counted(
     shader.expr(left).ty == TypeId::INT && moves_counter && stays && only_step
 }
 
-/// Callees first. A call graph has no cycles (§6.1), and a walk with a stack of its own needs no stack of ours.
+/// The functions, callees first. The call graph has no cycles (§6.1), and the traversal has a stack of its own.
 fn order(shader: &Shader, functions: &[FunctionFacts]) -> Vec<FunctionId> {
     let Some(main) = shader.main else { return Vec::new() };
     let mut done = vec![false; functions.len()];
@@ -394,7 +396,7 @@ fn order(shader: &Shader, functions: &[FunctionFacts]) -> Vec<FunctionId> {
         match callee {
             Some(callee) => {
                 stack.push((id, next + 1));
-                // A function on the stack already would be recursion, which the analysis refuses.
+                // A function that is already on the stack would be recursive, which the analysis rejects.
                 if !stack.iter().any(|(open, _)| *open == callee) {
                     stack.push((callee, 0));
                 }

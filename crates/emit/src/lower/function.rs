@@ -1,7 +1,7 @@
-//! [`Ctx`]: the state of lowering one function: naga's arenas, which expressions are to be emitted, and names.
+//! [`Ctx`]: the state of lowering one function: naga's arenas, the expressions to emit, and names.
 //!
-//! *Holds:* an expression is evaluated where its `Emit` stands, so what is added between two statements is emitted
-//! between them. Literals, variables and arguments are evaluated nowhere and stand outside of every range.
+//! *Holds:* an expression is evaluated at its `Emit`, so what is added between two statements is emitted between
+//! them. Literals, variables and arguments are not evaluated and are outside every range.
 
 use super::uniforms::HostId;
 use super::{Lower, Try, for_each_operand, internal, naga_span};
@@ -11,10 +11,10 @@ use glisten_front::source::Span;
 use naga::{Arena, Block, Expression, Handle, Literal, LocalVariable, Statement};
 use rustc_hash::FxHashMap;
 
-/// Where a global is to be found.
+/// How a global is represented.
 #[derive(Clone, Debug)]
 pub(super) enum GlobalSlot {
-    /// Nowhere: this stage does not name it, or it is a sampler.
+    /// Not at all: this stage does not use it, or it is a sampler.
     Unused,
     /// A member of the block of the loose uniforms.
     Loose { variable: Handle<naga::GlobalVariable>, member: u32, host: HostId },
@@ -24,40 +24,40 @@ pub(super) enum GlobalSlot {
     Private(Handle<naga::GlobalVariable>),
     /// A constant of the module.
     Constant(Handle<naga::Constant>),
-    /// A variable or argument of the entry point, the only function that names it.
+    /// A variable or argument of the entry point, the only function that uses it.
     Entry,
 }
 
-/// Where a local is to be found.
+/// How a local is represented.
 #[derive(Clone, Debug)]
 pub(super) enum Slot {
-    /// Nowhere yet.
+    /// Not represented yet.
     Unset,
-    /// Behind a pointer: a variable, or an `out` argument.
+    /// Through a pointer: a variable, or an `out` argument.
     Pointer(Handle<Expression>),
-    /// A value that has a name.
+    /// A named value.
     Value(Handle<Expression>),
 }
 
-/// A texture and the sampler that belongs to it, as values of a function.
+/// A texture and its sampler, as values of a function.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SamplerValue {
-    /// The place in the flat layout of the variable that it is part of.
+    /// The index in the flat layout of the variable that it belongs to.
     pub(super) flat: u32,
     pub(super) texture: Handle<Expression>,
-    /// Absent for kinds that are only fetched from.
+    /// `None` for kinds that are only fetched from.
     pub(super) sampler: Option<Handle<Expression>>,
-    /// The number of texels of a buffer texture, if the program asks for that of any.
+    /// The number of texels of a buffer texture, if the program queries that of any.
     pub(super) texel_count: Option<Handle<Expression>>,
 }
 
-/// A function of the shader that was lowered.
+/// A function of the shader after lowering.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Lowered {
     pub(super) handle: Handle<naga::Function>,
 }
 
-/// The kind of a literal, for telling them apart.
+/// The kind of a literal, which tells literals of equal value apart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 enum Shared {
     Bool(bool),
@@ -70,11 +70,11 @@ enum Shared {
     Zero(Handle<naga::Type>),
 }
 
-/// How deep an expression's text may nest before it gets a name. Tint and naga refuse text that nests much deeper
-/// than a hundred levels, and a reader does long before.
+/// How deep an expression may nest in the text before it gets a name. Tint and naga reject text that nests much
+/// deeper than a hundred levels, and a reader gives up long before.
 const TEXT_DEPTH: u8 = 24;
 
-/// The state of one function.
+/// The state of lowering one function.
 pub(super) struct Ctx<'l, 'a> {
     pub(super) low: &'l mut Lower<'a>,
     pub(super) shader: &'a Shader,
@@ -84,11 +84,11 @@ pub(super) struct Ctx<'l, 'a> {
     open: usize,
     slots: Vec<Slot>,
     pub(super) param_samplers: FxHashMap<LocalId, Vec<SamplerValue>>,
-    /// In the entry point: globals that no other function names.
+    /// In the entry point: the globals that no other function uses.
     pub(super) entry: FxHashMap<GlobalId, Slot>,
-    /// By expression: how deep its text nests.
+    /// For each expression: how deep it nests in the text.
     depths: Vec<u8>,
-    /// By expression: whether a target knows its value before the shader runs.
+    /// For each expression: whether a target knows its value before the shader runs.
     pub(super) known: Vec<bool>,
     shared: FxHashMap<Shared, Handle<Expression>>,
     span: naga::Span,
@@ -102,7 +102,7 @@ pub(super) struct Ctx<'l, 'a> {
 }
 
 impl<'l, 'a> Ctx<'l, 'a> {
-    /// An empty function for the function of the shader.
+    /// An empty function for a function of the shader.
     pub(super) fn new(low: &'l mut Lower<'a>, id: FunctionId) -> Self {
         let shader = low.shader;
         let function = shader.function(id);
@@ -127,7 +127,7 @@ impl<'l, 'a> Ctx<'l, 'a> {
         }
     }
 
-    /// An empty function that the shader does not have.
+    /// An empty function that the shader does not have, for generated code.
     pub(super) fn helper(low: &'l mut Lower<'a>, name: &str) -> Self {
         let main = low.shader.main.unwrap_or(FunctionId::new(0));
         let mut ctx = Self::new(low, main);
@@ -141,23 +141,23 @@ impl<'l, 'a> Ctx<'l, 'a> {
         self.shader.stage == Stage::Vertex
     }
 
-    /// Says what is being lowered from here on.
+    /// Sets the span of what is lowered from here on.
     pub(super) fn at(&mut self, span: Span) -> naga::Span {
         std::mem::replace(&mut self.span, naga_span(span))
     }
 
-    /// Goes back to what [`Self::at`] gave.
+    /// Restores the span that [`Self::at`] returned.
     pub(super) fn back_to(&mut self, span: naga::Span) {
         self.span = span;
     }
 
-    /// The span of the expression or statement being lowered.
+    /// The span of the current expression or statement.
     pub(super) fn here(&self) -> Span {
         let range = self.span.to_range().unwrap_or(0..0);
         Span::new(range.start as u32, range.end as u32)
     }
 
-    /// Adds an expression, to be evaluated here.
+    /// Adds an expression that is evaluated here.
     pub(super) fn add(&mut self, expression: Expression) -> Handle<Expression> {
         if expression.needs_pre_emit() {
             self.flush();
@@ -173,7 +173,7 @@ impl<'l, 'a> Ctx<'l, 'a> {
         for_each_operand(&expression, |operand| {
             depth = depth.max(self.depths.get(operand.index()).copied().unwrap_or(0));
         });
-        // A place is no value and cannot have a name; loads of it can.
+        // A pointer is not a value and cannot have a name; loads from it can.
         let nameable = !matches!(expression, Expression::Access { .. } | Expression::AccessIndex { .. });
         let deep = depth >= TEXT_DEPTH && nameable;
         let handle = self.append(expression, if deep { 0 } else { depth.saturating_add(1) }, known);
@@ -194,12 +194,12 @@ impl<'l, 'a> Ctx<'l, 'a> {
         self.out.named_expressions.entry(handle).or_insert_with(|| name.to_owned());
     }
 
-    /// Whether the value has a name or is one.
+    /// Whether the value has a name or is a name.
     pub(super) fn is_named(&self, handle: Handle<Expression>) -> bool {
         self.out.named_expressions.contains_key(&handle) || self.out.expressions[handle].needs_pre_emit()
     }
 
-    /// Emits all that was added.
+    /// Emits all expressions added so far.
     pub(super) fn flush(&mut self) {
         let range = self.out.expressions.range_from(self.open);
         self.open = self.out.expressions.len();
@@ -217,7 +217,7 @@ impl<'l, 'a> Ctx<'l, 'a> {
         &mut self.blocks[last]
     }
 
-    /// Adds a statement behind all that was added.
+    /// Adds a statement after everything added so far.
     pub(super) fn statement(&mut self, statement: Statement) {
         self.flush();
         let span = self.span;
@@ -229,13 +229,13 @@ impl<'l, 'a> Ctx<'l, 'a> {
         self.open == self.out.expressions.len() && self.blocks.last().is_some_and(ends)
     }
 
-    /// Whether the block that is being filled is the function's own.
+    /// Whether the current block is the function's own.
     pub(super) fn is_outermost(&self) -> bool {
         self.blocks.len() <= 1
     }
 
-    /// Whether the end of the function cannot be reached, in the eyes of the target: for SPIR-V alone a `discard` is an
-    /// end.
+    /// Whether the target sees that the end of the function cannot be reached. Only in SPIR-V does a `discard` end a
+    /// function.
     pub(super) fn has_returned(&mut self) -> bool {
         self.flush();
         let kill_ends = self.low.target == Target::Spirv || self.out.result.is_none();
@@ -248,13 +248,13 @@ impl<'l, 'a> Ctx<'l, 'a> {
         self.blocks.push(Block::new());
     }
 
-    /// Closes the block and gives it.
+    /// Closes the block and returns it.
     pub(super) fn end(&mut self) -> Block {
         self.flush();
         self.blocks.pop().unwrap_or_default()
     }
 
-    /// Lowers into a block of its own.
+    /// Lowers into a new block.
     pub(super) fn in_block(&mut self, lower: impl FnOnce(&mut Self) -> Try<()>) -> Try<Block> {
         self.begin();
         let result = lower(self);
@@ -262,7 +262,7 @@ impl<'l, 'a> Ctx<'l, 'a> {
         result.map(|()| block)
     }
 
-    /// The result of a call, which is evaluated by the call statement.
+    /// The result of a call, which the call statement evaluates.
     pub(super) fn call(
         &mut self,
         function: Handle<naga::Function>,
@@ -297,7 +297,7 @@ impl<'l, 'a> Ctx<'l, 'a> {
         self.variable_with(name, ty, None)
     }
 
-    /// A variable of the function with an initial value that is evaluated nowhere.
+    /// A variable of the function with an initial value that needs no evaluation.
     pub(super) fn variable_with(
         &mut self,
         name: &str,
@@ -324,7 +324,7 @@ impl<'l, 'a> Ctx<'l, 'a> {
         handle
     }
 
-    /// A literal. A float that is not finite has none: see [`Self::scalar`].
+    /// A literal. A non-finite float has none: see [`Self::scalar`].
     pub(super) fn literal(&mut self, value: ScalarValue) -> Handle<Expression> {
         let (key, literal) = match value {
             ScalarValue::Bool(value) => (Shared::Bool(value), Literal::Bool(value)),
@@ -355,7 +355,7 @@ impl<'l, 'a> Ctx<'l, 'a> {
         self.literal(ScalarValue::Bool(value))
     }
 
-    /// The zero of a type.
+    /// The zero value of a type.
     pub(super) fn zero(&mut self, ty: Handle<naga::Type>) -> Handle<Expression> {
         self.shared_expression(Shared::Zero(ty), Expression::ZeroValue(ty))
     }
@@ -370,22 +370,22 @@ impl<'l, 'a> Ctx<'l, 'a> {
         self.shared_expression(Shared::Constant(constant), Expression::Constant(constant))
     }
 
-    /// Reads what a pointer points to.
+    /// Loads from a pointer.
     pub(super) fn load(&mut self, pointer: Handle<Expression>) -> Handle<Expression> {
         self.add(Expression::Load { pointer })
     }
 
-    /// Writes to what a pointer points to.
+    /// Stores to a pointer.
     pub(super) fn store(&mut self, pointer: Handle<Expression>, value: Handle<Expression>) {
         self.statement(Statement::Store { pointer, value });
     }
 
-    /// Where a local is.
+    /// The representation of a local.
     pub(super) fn slot(&self, local: LocalId) -> Slot {
         self.slots.get(local.index()).cloned().unwrap_or(Slot::Unset)
     }
 
-    /// Says where a local is.
+    /// Sets the representation of a local.
     pub(super) fn set_slot(&mut self, local: LocalId, slot: Slot) {
         if let Some(place) = self.slots.get_mut(local.index()) {
             *place = slot;
@@ -397,14 +397,14 @@ impl<'l, 'a> Ctx<'l, 'a> {
         &self.out.expressions
     }
 
-    /// Takes over the body; the function is done.
+    /// Returns the finished function.
     pub(super) fn finish(mut self) -> (naga::Function, &'l mut Lower<'a>) {
         self.flush();
         self.out.body = self.blocks.pop().unwrap_or_default();
         (self.out, self.low)
     }
 
-    /// Declares the parameters: `out` ones as pointers, samplers as a texture and a sampler each.
+    /// Declares the parameters: `out` parameters as pointers, a sampler as a texture and a sampler.
     pub(super) fn declare_parameters(&mut self) -> Try<()> {
         let function = self.shader.function(self.id);
         for (index, param) in function.params().iter().enumerate() {
@@ -431,7 +431,7 @@ impl<'l, 'a> Ctx<'l, 'a> {
         self.copy_written_parameters()
     }
 
-    /// Arguments cannot be written to: those that are get a variable.
+    /// Gives parameters that are written a variable, since arguments cannot be written to.
     fn copy_written_parameters(&mut self) -> Try<()> {
         let function = self.shader.function(self.id);
         for (index, param) in function.params().iter().enumerate() {
@@ -447,19 +447,19 @@ impl<'l, 'a> Ctx<'l, 'a> {
         Ok(())
     }
 
-    /// The slip of a handle that leads nowhere.
+    /// The internal error of an invalid handle.
     pub(super) fn slip(&self, message: &str) -> Box<glisten_front::diagnostic::Diagnostic> {
         internal(self.here(), message)
     }
 }
 
-/// Whether the block ends in a statement behind which naga allows none.
+/// Whether the block ends in a statement after which naga allows none.
 fn ends(block: &Block) -> bool {
     matches!(block.last(), Some(Statement::Break | Statement::Continue | Statement::Return { .. } | Statement::Kill))
 }
 
 impl Lower<'_> {
-    /// Lowers a function of the shader that is not `main`.
+    /// Lowers a function of the shader other than `main`.
     pub(super) fn function(&mut self, id: FunctionId) -> Try<()> {
         let shader = self.shader;
         let function = shader.function(id);

@@ -1,8 +1,8 @@
-//! Everything at the borders of a stage (§4.3, §7.1, §7.2): variables of the module, and the entry point with its
-//! arguments. What it returns is in [`outputs`](super::outputs).
+//! Lowers the interfaces of a stage (§4.3, §7.1, §7.2): variables of the module, and the entry point with its
+//! arguments. Its result is in [`outputs`](super::outputs).
 //!
-//! *Holds:* `main` is the entry point itself. A global that only `main` names is an argument or variable of it; one that
-//! other functions name, too, is a private variable of the module.
+//! *Holds:* `main` is the entry point itself. A global that only `main` uses is an argument or a variable of it; a
+//! global that other functions use, too, is a private variable of the module.
 
 use super::constants::is_constant;
 use super::function::{Ctx, GlobalSlot, Slot};
@@ -15,14 +15,14 @@ use glisten_front::link::{Attribute, Program, Varying, VaryingEnd};
 use naga::{AddressSpace, BinaryOperator, Binding, BuiltIn, Expression, GlobalVariable, Handle};
 use std::collections::BTreeMap;
 
-/// The varyings that stand at one location.
+/// The varyings that share one location.
 pub(super) struct Location<'a> {
     pub(super) location: u32,
     pub(super) rows: Vec<&'a Varying>,
 }
 
-/// The varyings of a program, and behind them those that carry `gl_ClipDistance` to a fragment stage that reads it: no
-/// target gives it to that stage by itself (§7.2).
+/// The varyings of a program, followed by those that carry `gl_ClipDistance` to a fragment stage that reads it: no
+/// target provides it there (§7.2).
 pub(super) fn hidden_varyings(program: &Program) -> Vec<Varying> {
     let mut varyings = program.interface.varyings.clone();
     let clip_distance = |stage| {
@@ -75,7 +75,8 @@ impl Lower<'_> {
         Ok(())
     }
 
-    /// In these targets an invocation goes on behind a `discard`, and a loop that it would have left might never end.
+    /// Declares the flag of discarded invocations. In these targets an invocation continues after a `discard`, and a
+    /// loop that it would have left might never end.
     fn declare_discarded(&mut self) -> Try<()> {
         let goes_on = matches!(self.target, Target::Wgsl | Target::Msl | Target::Hlsl);
         if goes_on && self.facts.loops_after_discard {
@@ -112,14 +113,14 @@ impl Lower<'_> {
         Ok(GlobalSlot::Private(self.module.global_variables.append(variable, naga_span(global.span))))
     }
 
-    /// The initial value of a private global, if it is constant and can be spelled.
+    /// The initial value of a private global, if it is constant and has literals.
     fn private_constant(&self, global: &Global) -> Option<Value> {
         let initializer = global.initializer.filter(|_| global.storage == Storage::Private)?;
         let value = self.evaluated(self.shader.main?, initializer)?;
         is_constant(&value).then_some(value)
     }
 
-    /// Whether the hidden height of the framebuffer is needed: `gl_FragCoord` counts from below, the target from above.
+    /// Whether the framebuffer's height is needed: `gl_FragCoord` counts from the bottom, the target from the top.
     pub(super) fn needs_framebuffer_height(&self) -> bool {
         self.shader.stage == Stage::Fragment
             && self.conventions.window_origin == WindowOrigin::UpperLeft
@@ -127,14 +128,14 @@ impl Lower<'_> {
             && self.builtin_global(BuiltinVariable::FragCoord).is_some()
     }
 
-    /// The global that is a built-in variable, if the stage uses it.
+    /// The global of a built-in variable, if the stage uses it.
     pub(super) fn builtin_global(&self, builtin: BuiltinVariable) -> Option<GlobalId> {
         let mut globals = self.shader.globals();
         let (id, _) = globals.find(|(_, global)| global.builtin == Some(builtin))?;
         self.facts.used.get(id.index()).copied().unwrap_or(false).then_some(id)
     }
 
-    /// The varyings by location, those alone that `keep` wants, with all that share a location with them.
+    /// The varyings by location, for those that `keep` selects and all that share a location with them.
     pub(super) fn locations(&self, keep: impl Fn(&Varying) -> bool) -> Vec<Location<'_>> {
         let mut locations: Vec<Location<'_>> = Vec::new();
         for row in &self.varyings {
@@ -148,7 +149,7 @@ impl Lower<'_> {
         locations
     }
 
-    /// The type of what stands at a location: its one varying's, or a vector that holds all of them.
+    /// The type at a location: that of its one varying, or a vector that contains all of them.
     pub(super) fn location_type(&mut self, location: &Location<'_>) -> Try<Handle<naga::Type>> {
         if let [row] = location.rows.as_slice()
             && row.component == 0
@@ -195,7 +196,7 @@ impl Lower<'_> {
     }
 }
 
-/// naga's binding of a varying. Interpolation is written on both sides of the rasteriser, which have to agree.
+/// naga's binding of a varying. The interpolation is written on both sides of the rasterizer, which must agree.
 pub(super) fn varying_binding(location: &Location<'_>) -> Binding {
     let first = location.rows.first();
     let interpolation = first.map_or(Interpolation::Smooth, |row| row.interpolation);
@@ -204,7 +205,7 @@ pub(super) fn varying_binding(location: &Location<'_>) -> Binding {
     let (interpolation, sampling) = match interpolation {
         Interpolation::Smooth => (naga::Interpolation::Perspective, sampling),
         Interpolation::Noperspective => (naga::Interpolation::Linear, sampling),
-        // Nothing said means the first vertex, which naga's GLSL writer would not take in so many words.
+        // No sampling means the first vertex, which naga's GLSL writer would not accept explicitly.
         Interpolation::Flat => (naga::Interpolation::Flat, None),
     };
     Binding::Location {
@@ -216,17 +217,17 @@ pub(super) fn varying_binding(location: &Location<'_>) -> Binding {
     }
 }
 
-/// A location of an attribute or a fragment output.
+/// The location of an attribute or a fragment output.
 pub(super) fn plain_location(location: u32, blend_src: Option<u32>) -> Binding {
     Binding::Location { location, interpolation: None, sampling: None, blend_src, per_primitive: false }
 }
 
-/// A path as a name: `lights[1].color` as `lights_1_color`.
+/// A path as an identifier: `lights[1].color` becomes `lights_1_color`.
 pub(super) fn path_name(path: &str) -> String {
     path.replace(['.', '['], "_").replace(']', "")
 }
 
-/// A scalar or vector that came in, and where it belongs in its variable's flat layout.
+/// A scalar or vector that the stage receives, and its index in its variable's flat layout.
 #[derive(Clone, Copy)]
 struct Arrived {
     global: GlobalId,
@@ -235,7 +236,7 @@ struct Arrived {
 }
 
 impl Ctx<'_, '_> {
-    /// Declares the arguments and puts together the variables that they stand for.
+    /// Declares the arguments and assembles the variables from them.
     fn inputs(&mut self) -> Try<()> {
         let arrived = if self.is_vertex() { self.attributes()? } else { self.varyings()? };
         let shader = self.shader;
@@ -278,8 +279,9 @@ impl Ctx<'_, '_> {
         Ok(())
     }
 
-    /// One argument a location: matrices by columns, arrays by elements. Attributes that share a location (OpenGL 3.2
-    /// §2.7, legal where no path reads both) share the argument, which has as many components as the longest of them.
+    /// Declares one argument per location: matrices by columns, arrays by elements. Attributes that share a location
+    /// (OpenGL 3.2 §2.7, legal if no path reads both) share the argument, which has as many components as the longest
+    /// of them.
     fn attributes(&mut self) -> Try<Vec<Arrived>> {
         let interface = self.low.interface;
         let mut arrived = Vec::new();
@@ -327,7 +329,7 @@ impl Ctx<'_, '_> {
         Ok(arrived)
     }
 
-    /// The scalar or vector that an attribute is made of.
+    /// The scalar or vector type that an attribute consists of.
     fn attribute_leaf(&self, ty: TypeId) -> Try<TypeId> {
         let mut leaf = ty;
         while !matches!(self.low.types.get(leaf), Type::Scalar(_) | Type::Vector(..)) {
@@ -381,7 +383,7 @@ impl Ctx<'_, '_> {
         Ok(arrived)
     }
 
-    /// A value of any type from the scalars and vectors that came in; what did not come is 0.
+    /// A value of any type, assembled from received scalars and vectors; what was not received is 0.
     fn assemble(&mut self, ty: TypeId, flat: u32, parts: &[Arrived]) -> Try<Handle<Expression>> {
         if let Some(part) = parts.iter().find(|part| part.flat == flat)
             && matches!(self.low.types.get(ty), Type::Scalar(_) | Type::Vector(..))
@@ -452,8 +454,8 @@ impl Ctx<'_, '_> {
         Ok(value)
     }
 
-    /// `gl_FragCoord` (§7.2) with its origin where the shader has it, from a target that counts rows from above; where
-    /// the vertex stage flips, the target's rows are OpenGL's.
+    /// `gl_FragCoord` (§7.2), with the origin that the shader declares. The target counts rows from the top; if the
+    /// vertex stage flips y, its rows are OpenGL's.
     fn frag_coord(&mut self) -> Try<Handle<Expression>> {
         let layout = self.shader.frag_coord;
         let ty = self.low.value_type(TypeId::VEC4)?;
@@ -497,8 +499,8 @@ impl Ctx<'_, '_> {
         Ok(())
     }
 
-    /// `gl_PointCoord` (§7.2). OpenGL's default origin is the upper left, and so is the target's; where the vertex stage
-    /// flips, the point is upside down.
+    /// `gl_PointCoord` (§7.2). OpenGL's default origin is the upper left, like the target's; if the vertex stage
+    /// flips y, the point is upside down.
     fn point_coord(&mut self) -> Try<Handle<Expression>> {
         let ty = self.low.value_type(TypeId::VEC2)?;
         let argument = self.argument("gl_PointCoord", ty, Some(Binding::BuiltIn(BuiltIn::PointCoord)));
@@ -512,7 +514,7 @@ impl Ctx<'_, '_> {
         Ok(self.add(Expression::Compose { ty, components: vec![x, y] }))
     }
 
-    /// Initializers of private globals run before `main` (§4.3), in the order of their declarations.
+    /// Runs the initializers of private globals before `main` (§4.3), in order of declaration.
     fn private_initializers(&mut self) -> Try<()> {
         let shader = self.shader;
         for (id, global) in shader.globals() {

@@ -1,4 +1,4 @@
-//! Matrices column by column, and the matrix functions (§8.5).
+//! Lowers matrix operations by columns, and the matrix functions (§8.5).
 
 use super::Try;
 use super::function::Ctx;
@@ -6,7 +6,7 @@ use glisten_front::hir::{Type, TypeId};
 use naga::{BinaryOperator, Expression, Handle, MathFunction};
 
 impl Ctx<'_, '_> {
-    /// The columns of a matrix and their type.
+    /// The columns of a matrix, and their type.
     pub(super) fn columns(&mut self, matrix: Handle<Expression>, ty: TypeId) -> Try<(TypeId, Vec<Handle<Expression>>)> {
         let Type::Matrix(columns, _) = self.low.types.get(ty) else {
             return Err(self.slip("a matrix was expected"));
@@ -16,7 +16,7 @@ impl Ctx<'_, '_> {
         Ok((self.low.element_type(ty), columns))
     }
 
-    /// A matrix of the same type whose columns are made from those of `matrix`.
+    /// A matrix of the same type, whose columns are computed from those of `matrix`.
     pub(super) fn map_columns(
         &mut self,
         matrix: Handle<Expression>,
@@ -49,7 +49,8 @@ impl Ctx<'_, '_> {
         })
     }
 
-    /// `outerProduct(c, r)`: column `i` is `c * r[i]`. naga has the function in its IR, and no text writer for it.
+    /// `outerProduct(c, r)`: column `i` is `c * r[i]`. naga has the function in its IR, but no text writer supports
+    /// it.
     pub(super) fn outer_product(
         &mut self,
         column: Handle<Expression>,
@@ -68,12 +69,12 @@ impl Ctx<'_, '_> {
         Ok(self.add(Expression::Compose { ty, components }))
     }
 
-    /// A math function of one argument.
+    /// naga's math function of one argument.
     pub(super) fn math1(&mut self, fun: MathFunction, arg: Handle<Expression>) -> Handle<Expression> {
         self.add(Expression::Math { fun, arg, arg1: None, arg2: None, arg3: None })
     }
 
-    /// A math function of two arguments.
+    /// naga's math function of two arguments.
     pub(super) fn math2(
         &mut self,
         fun: MathFunction,
@@ -83,7 +84,7 @@ impl Ctx<'_, '_> {
         self.add(Expression::Math { fun, arg, arg1: Some(arg1), arg2: None, arg3: None })
     }
 
-    /// A math function of three arguments.
+    /// naga's math function of three arguments.
     pub(super) fn math3(
         &mut self,
         fun: MathFunction,

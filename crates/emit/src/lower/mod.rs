@@ -1,24 +1,24 @@
-//! The typed program to naga IR: OpenGL's semantics to WebGPU's and Vulkan's.
+//! Lowers the typed program to naga IR, from OpenGL's semantics to WebGPU's and Vulkan's.
 //!
 //! *In:* a [`Program`] without errors and the conventions. *Out:* a `naga::Module` for one stage, whose spans are
 //! the global offsets of the [`SourceMap`](glisten_front::source::SourceMap).
 //!
-//! *Holds:* locations, offsets and bindings are those of [`Program::interface`]; the natural layout of every type in
-//! uniform space is its std140 layout, because naga's WGSL writer writes neither sizes nor strides; no pointer but to
-//! a whole local variable is ever passed to a function, because naga's SPIR-V writer has no other. Expressions are
-//! evaluated left to right, each where GLSL evaluates it. What a target cannot hold is a diagnostic and never a
+//! *Holds:* locations, offsets and bindings are those of [`Program::interface`]. The natural layout of every type in
+//! uniform space is its std140 layout, because naga's WGSL writer writes neither sizes nor strides. The only pointers
+//! passed to functions point to whole local variables, because naga's SPIR-V writer has no others. Expressions are
+//! evaluated left to right, each where GLSL evaluates it. What a target cannot represent is a diagnostic and never a
 //! wrong result.
 //!
-//! | file | what it lowers |
+//! | file | contents |
 //! | --- | --- |
-//! | `facts` | nothing: what must be known first |
-//! | `types`, `uniforms` | types as values, types as std140 memory |
+//! | `facts` | facts that must be known first |
+//! | `types`, `uniforms` | types of values, types in std140 memory |
 //! | `interface`, `outputs` | attributes, varyings, colors, built-in variables, the entry point |
 //! | `function` | the state of one function: naga's arenas, emission, names |
 //! | `statements`, `control` | §6 |
 //! | `expressions`, `operators`, `constructors`, `places`, `calls` | §5 |
 //! | `builtins`, `textures`, `texel_loads`, `matrices`, `aggregates` | §8 |
-//! | `constants` | constant values, and keeping what is not finite from the target's evaluation |
+//! | `constants` | constant values, and how to keep the target from evaluating what is not finite |
 
 mod aggregates;
 mod builtins;
@@ -54,13 +54,13 @@ use glisten_front::link::{Interface, Program, Varying};
 use glisten_front::source::Span;
 use rustc_hash::FxHashMap;
 
-/// A result of the lowering; the one diagnostic says why there is none.
+/// A result of the lowering, or the one diagnostic that says why there is none.
 type Try<T> = Result<T, Box<Diagnostic>>;
 
 /// Lowers one stage of a program.
 ///
 /// # Errors
-/// Diagnostics, errors all: what the target cannot hold, what is not supported yet, and slips of glisten's own.
+/// Diagnostics, all of them errors: what the target cannot represent, what is not supported yet, and internal errors.
 pub(crate) fn lower(
     program: &Program,
     stage: Stage,
@@ -76,7 +76,7 @@ pub(crate) fn lower(
     }
     let facts = Facts::of(shader);
     let nesting = facts.functions.iter().map(|function| function.depth).max().unwrap_or(0);
-    // A statement and what it holds take several frames; an expression takes one or two.
+    // A statement and its contents take several stack frames; an expression takes one or two.
     glisten_front::stack::with_stack(shader.expr_depth.saturating_add(nesting.saturating_mul(4)), || {
         Lower::new(program, shader, target, conventions, facts).run()
     })
@@ -99,19 +99,19 @@ struct Lower<'a> {
     facts: Facts,
     module: naga::Module,
     layouter: naga::proc::Layouter,
-    /// Those of the interface, and hidden ones (see [`hidden_varyings`](interface::hidden_varyings)).
+    /// The varyings of the interface, and hidden ones (see [`hidden_varyings`](interface::hidden_varyings)).
     varyings: Vec<Varying>,
     values: FxHashMap<glisten_front::hir::TypeId, naga::Handle<naga::Type>>,
     hosts: uniforms::Hosts,
     globals: Vec<GlobalSlot>,
     samplers: FxHashMap<GlobalId, Vec<samplers::SamplerVariables>>,
     framebuffer_height: Option<(naga::Handle<naga::GlobalVariable>, u32)>,
-    /// By the offset of a hidden number of texels: the block and the member of it.
+    /// For each offset of a hidden number of texels: its block and the member in it.
     texel_counts: FxHashMap<u32, (naga::Handle<naga::GlobalVariable>, u32)>,
     functions: Vec<Option<Lowered>>,
     helpers: aggregates::Helpers,
     hidden: Vec<(u32, naga::Handle<naga::GlobalVariable>)>,
-    /// Whether the invocation was discarded, where the target lets it go on and a loop has to know.
+    /// Whether the invocation has been discarded, in targets where it continues and a loop has to know.
     discarded: Option<naga::Handle<naga::GlobalVariable>>,
     diagnostics: Vec<Diagnostic>,
 }
@@ -157,7 +157,7 @@ impl<'a> Lower<'a> {
             let lowered = if Some(id) == self.shader.main { self.entry_point(id) } else { self.function(id) };
             if let Err(diagnostic) = lowered {
                 self.diagnostics.push(*diagnostic);
-                // What calls a function that could not be lowered would only say so again.
+                // Every caller of a function that could not be lowered would only report the same.
                 return Err(self.diagnostics);
             }
         }
@@ -173,22 +173,22 @@ impl<'a> Lower<'a> {
     }
 }
 
-/// A slip of glisten's own.
+/// An internal error of glisten.
 fn internal(span: Span, message: impl Into<String>) -> Box<Diagnostic> {
     Box::new(Diagnostic::new(&general::INTERNAL, span, message))
 }
 
-/// Something that glisten knows of and cannot carry.
+/// The diagnostic for something that glisten knows but does not support.
 fn unsupported(span: Span, message: impl Into<String>) -> Box<Diagnostic> {
     Box::new(Diagnostic::new(&general::NOT_SUPPORTED_YET, span, message))
 }
 
-/// Something that the target lacks, and a way out.
+/// The diagnostic for something that the target lacks, with a way out.
 fn lacking(span: Span, message: impl Into<String>, help: impl Into<String>) -> Box<Diagnostic> {
     Box::new(Diagnostic::new(&targets::FEATURE_NOT_IN_TARGET, span, message).help(help))
 }
 
-/// The span in naga's terms.
+/// The span as naga's type.
 fn naga_span(span: Span) -> naga::Span {
     naga::Span::new(span.start, span.end)
 }

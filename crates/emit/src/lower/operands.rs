@@ -1,4 +1,4 @@
-//! The operands of a naga expression, which naga keeps to itself.
+//! The operands of a naga expression, which naga does not make public.
 
 use naga::{Expression, Handle, SampleLevel};
 
@@ -49,7 +49,7 @@ pub(crate) fn for_each_operand(expression: &Expression, mut visit: impl FnMut(Ha
             visit(arg);
             arg1.into_iter().chain(arg2).chain(arg3).for_each(visit);
         }
-        // The rest has no operands, or is never made here.
+        // The other expressions have no operands, or are never created here.
         _ => {}
     }
 }

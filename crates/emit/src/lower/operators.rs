@@ -1,8 +1,8 @@
-//! Operators with two operands (§5.9), in terms of what naga's have.
+//! Lowers binary operators (§5.9), in terms of naga's operators.
 //!
-//! *Holds:* naga's `+ - / %` and comparisons want operands of one type, so a scalar beside a vector is repeated; matrices
-//! are taken column by column where naga has no operator for them. Shifts are masked to five bits (GLSL leaves wider ones
-//! undefined; WGSL makes constant ones errors).
+//! *Holds:* naga's `+ - / %` and comparisons require operands of one type, so a scalar operand is splatted to match a
+//! vector. Matrices are processed by columns where naga has no operator for them. Shift distances are masked to five
+//! bits (GLSL leaves larger ones undefined; WGSL rejects constant ones).
 
 use super::Try;
 use super::function::Ctx;
@@ -13,15 +13,15 @@ use naga::{BinaryOperator, Expression, Handle, Literal, RelationalFunction};
 pub(super) type Typed = (Handle<Expression>, TypeId);
 
 impl Ctx<'_, '_> {
-    /// A binary expression. A chain `a + b + c + ...` of thousands of links recurses along its left operands, which
-    /// [`Shader::on_stack`](glisten_front::hir::Shader::on_stack) provides for.
+    /// Lowers a binary expression. A chain `a + b + c + ...` of thousands of operators recurses along its left
+    /// operands, for which [`Shader::on_stack`](glisten_front::hir::Shader::on_stack) provides the stack.
     pub(super) fn binary(&mut self, op: BinaryOp, left: ExprId, right: ExprId) -> Try<Handle<Expression>> {
         let left = (self.value(left)?, self.shader.expr(left).ty);
         let right = (self.value(right)?, self.shader.expr(right).ty);
         self.binary_values(op, left, right)
     }
 
-    /// The same of values.
+    /// The same operation on values.
     pub(super) fn binary_values(&mut self, op: BinaryOp, left: Typed, right: Typed) -> Try<Handle<Expression>> {
         match op {
             BinaryOp::Add => self.arithmetic(BinaryOperator::Add, left, right),
@@ -60,7 +60,7 @@ impl Ctx<'_, '_> {
         }
     }
 
-    /// A binary operator of naga's.
+    /// naga's binary operator.
     pub(super) fn op(
         &mut self,
         op: BinaryOperator,
@@ -70,7 +70,7 @@ impl Ctx<'_, '_> {
         self.add(Expression::Binary { op, left, right })
     }
 
-    /// The number of components; 1 for all but vectors.
+    /// The number of components; 1 for everything but vectors.
     pub(super) fn size_of(&self, ty: TypeId) -> u8 {
         match self.low.types.get(ty) {
             Type::Vector(_, size) => size,
@@ -78,7 +78,7 @@ impl Ctx<'_, '_> {
         }
     }
 
-    /// Repeats a scalar beside a vector.
+    /// Splats a scalar operand to the size of the other operand.
     fn like_sized(&mut self, op: BinaryOperator, left: Typed, right: Typed) -> Handle<Expression> {
         let (left_size, right_size) = (self.size_of(left.1), self.size_of(right.1));
         let mut values = (left.0, right.0);
@@ -131,12 +131,12 @@ impl Ctx<'_, '_> {
         Ok(self.op(op, left.0, count))
     }
 
-    /// `all` of a vector of `bool`; the scalar itself.
+    /// `all` of a vector of `bool`, or the scalar itself.
     pub(super) fn all(&mut self, argument: Handle<Expression>, size: u8) -> Handle<Expression> {
         self.relational(RelationalFunction::All, argument, size)
     }
 
-    /// `any` of a vector of `bool`; the scalar itself.
+    /// `any` of a vector of `bool`, or the scalar itself.
     pub(super) fn any(&mut self, argument: Handle<Expression>, size: u8) -> Handle<Expression> {
         self.relational(RelationalFunction::Any, argument, size)
     }
@@ -145,7 +145,7 @@ impl Ctx<'_, '_> {
         if size <= 1 { argument } else { self.add(Expression::Relational { fun, argument }) }
     }
 
-    /// `==` (or `!=`) of two scalars or vectors, as one `bool`.
+    /// `==` (or `!=`) of two scalars or vectors; the result is one `bool`.
     pub(super) fn vector_equal(
         &mut self,
         left: Handle<Expression>,

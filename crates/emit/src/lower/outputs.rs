@@ -1,8 +1,8 @@
-//! What an entry point returns: the position, varyings and built-in outputs of a vertex shader, the colors and depth of a
-//! fragment shader.
+//! Lowers the result of an entry point: the position, varyings and built-in outputs of a vertex shader, the colors
+//! and depth of a fragment shader.
 //!
-//! *Holds:* a position is rewritten on its way out as the conventions say (clip space z to [0, w], y turned over); colors
-//! have four components, as every color target takes them.
+//! *Holds:* a position is converted to the conventions when it is returned (clip-space z to [0, w], y flipped);
+//! colors have four components, as every color target requires.
 
 use super::function::{Ctx, GlobalSlot, Slot};
 use super::interface::{Location, path_name, plain_location, varying_binding};
@@ -13,7 +13,7 @@ use glisten_front::hir::{ArraySize, GlobalId, Scalar, ScalarValue, Storage, Swiz
 use glisten_front::link::{Varying, VaryingEnd};
 use naga::{BinaryOperator, Binding, BuiltIn, Expression, Handle, Statement, UnaryOperator};
 
-/// One member of the result.
+/// A member of the result.
 #[derive(Clone, Debug)]
 pub(super) struct OutputMember {
     name: String,
@@ -22,13 +22,13 @@ pub(super) struct OutputMember {
     source: Source,
 }
 
-/// Where a member's value comes from.
+/// Where the value of a member comes from.
 #[derive(Clone, Debug)]
 enum Source {
     Position,
     PointSize,
     ClipDistances(GlobalId, u32),
-    /// The varyings of a location: each with its component and, if the stage writes it, where it stands.
+    /// The varyings at a location: each with its component and, if the stage writes it, its variable.
     Varyings(Vec<(u32, TypeId, Option<VaryingEnd>)>),
     /// A color: a variable, or an element of an array.
     Color {
@@ -40,7 +40,7 @@ enum Source {
 }
 
 impl Ctx<'_, '_> {
-    /// Outputs that only `main` names are its variables.
+    /// Declares variables for the outputs that only `main` uses.
     pub(super) fn output_variables(&mut self) -> Try<()> {
         let shader = self.shader;
         for (id, global) in shader.globals() {
@@ -55,7 +55,7 @@ impl Ctx<'_, '_> {
         Ok(())
     }
 
-    /// Decides what is returned.
+    /// Declares the members of the result.
     pub(super) fn declare_outputs(&mut self) -> Try<()> {
         let members = if self.is_vertex() { self.vertex_outputs()? } else { self.fragment_outputs()? };
         let result = match members.as_slice() {
@@ -108,7 +108,7 @@ impl Ctx<'_, '_> {
         Ok(members)
     }
 
-    /// `gl_ClipDistance` (§7.1): as many as the conventions enable, all that there are by default.
+    /// `gl_ClipDistance` (§7.1): as many distances as the conventions enable, by default all.
     fn clip_distances(&mut self, members: &mut Vec<OutputMember>) -> Try<()> {
         let Some(global) = self.low.builtin_global(BuiltinVariable::ClipDistance) else { return Ok(()) };
         let Type::Array(_, ArraySize::Sized(len)) = self.low.types.get(self.shader.global(global).ty) else {
@@ -128,7 +128,7 @@ impl Ctx<'_, '_> {
         Ok(())
     }
 
-    /// `gl_PointSize` (§7.1) counts only where the host enables it; elsewhere points are one pixel wide.
+    /// `gl_PointSize` (§7.1) has an effect only if the host enables it; otherwise points are one pixel wide.
     fn point_size(&mut self, members: &mut Vec<OutputMember>) -> Try<()> {
         let Some(global) = self.low.builtin_global(BuiltinVariable::PointSize) else { return Ok(()) };
         if !self.low.conventions.program_point_size {
@@ -190,7 +190,7 @@ impl Ctx<'_, '_> {
         Ok(members)
     }
 
-    /// Leaves the entry point with its outputs.
+    /// Returns from the entry point with its outputs.
     pub(super) fn return_outputs(&mut self) -> Try<()> {
         let members = self.outputs.clone();
         let mut values = Vec::with_capacity(members.len());
@@ -245,7 +245,7 @@ impl Ctx<'_, '_> {
         }
     }
 
-    /// A scalar or vector out of an output variable, by its place in the flat layout.
+    /// A scalar or vector of an output variable, by its index in the flat layout.
     fn output_part(&mut self, global: GlobalId, flat: u32, part: TypeId) -> Try<Handle<Expression>> {
         let mut pointer = self.output_pointer(global)?;
         let mut ty = self.shader.global(global).ty;
@@ -289,7 +289,7 @@ impl Ctx<'_, '_> {
         Ok(self.swizzled(value, Swizzle { len: want, components }))
     }
 
-    /// All varyings of a location as one scalar or vector; what the stage does not write is 0.
+    /// All varyings at a location as one scalar or vector; what the stage does not write is 0.
     fn varyings_at(
         &mut self,
         rows: &[(u32, TypeId, Option<VaryingEnd>)],
@@ -328,7 +328,7 @@ impl Ctx<'_, '_> {
         Ok(self.add(Expression::Compose { ty, components }))
     }
 
-    /// A color with the components that it lacks: (0, 0, 0, 1), though OpenGL leaves them undefined.
+    /// A color completed to four components from (0, 0, 0, 1), though OpenGL leaves the missing ones undefined.
     fn four_components(&mut self, value: Handle<Expression>, ty: TypeId) -> Handle<Expression> {
         let size = self.size_of(ty);
         if size == 4 {
@@ -349,7 +349,7 @@ impl Ctx<'_, '_> {
         self.add(Expression::Compose { ty, components })
     }
 
-    /// The position as the conventions want it.
+    /// The position, converted to the conventions.
     fn position(&mut self) -> Try<Handle<Expression>> {
         let ty = self.low.value_type(TypeId::VEC4)?;
         let Some(global) = self.low.builtin_global(BuiltinVariable::Position) else { return Ok(self.zero(ty)) };

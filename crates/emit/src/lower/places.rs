@@ -1,4 +1,4 @@
-//! [`Place`]: what an l-value (§5.8), or a chain of members and elements, stands for.
+//! [`Place`]: what an l-value (§5.8), or a chain of members and elements, denotes.
 
 use super::function::{Ctx, GlobalSlot, Slot};
 use super::types::vector_size;
@@ -10,25 +10,25 @@ use glisten_front::hir::{
 };
 use naga::{Expression, Handle, SwizzleComponent};
 
-/// Where a value is.
+/// Where a value is stored.
 #[derive(Clone, Debug)]
 pub(super) enum Place {
-    /// Behind a pointer, as a value of its type.
+    /// Behind a pointer, in the representation of values.
     Pointer(Handle<Expression>, TypeId),
-    /// Behind a pointer, in uniform memory.
+    /// Behind a pointer, in the representation of uniform memory.
     Host(Handle<Expression>, HostId),
     /// The first components of a `vec4` in uniform memory: an element of an array.
     Wide(Handle<Expression>, TypeId),
-    /// Nowhere: a value.
+    /// Not stored: a value.
     Value(Handle<Expression>, TypeId),
-    /// An array of uniform blocks, before its index.
+    /// An array of uniform blocks that is not indexed yet.
     Blocks(Vec<Handle<naga::GlobalVariable>>, HostId),
     /// Components of a vector behind a pointer.
     Swizzle(Handle<Expression>, TypeId, Swizzle),
 }
 
 impl Ctx<'_, '_> {
-    /// The place of an l-value, or of a chain that reads; indices are evaluated here.
+    /// The place of an l-value, or of a chain that is read; evaluates the indices.
     pub(super) fn place(&mut self, id: ExprId) -> Try<Place> {
         let expr = self.shader.expr(id);
         match &expr.kind {
@@ -81,14 +81,14 @@ impl Ctx<'_, '_> {
         }
     }
 
-    /// A constant has a value, and a variable only if something indexes it.
+    /// The place of a constant: its value, or a variable if it is indexed by a variable.
     fn constant_place(&mut self, var: VarRef, ty: TypeId) -> Try<Place> {
         let shader = self.shader;
         if let VarRef::Global(id) = var
             && shader.global(id).builtin == Some(BuiltinVariable::DepthRange)
         {
-            // §7.5: near, far, and their difference; WebGPU's and Vulkan's viewports have [0, 1] unless a host says
-            // otherwise, and no target tells the shader.
+            // The near and far plane and their difference (§7.5). WebGPU's and Vulkan's viewports have [0, 1] unless
+            // a host says otherwise, and no target passes them to the shader.
             let (near, far) = (self.float(0.0), self.float(1.0));
             let naga_ty = self.low.value_type(ty)?;
             let value = self.add(Expression::Compose { ty: naga_ty, components: vec![near, far, far] });
@@ -176,7 +176,8 @@ impl Ctx<'_, '_> {
         }
     }
 
-    /// The component of the vector that component `index` of the swizzle is, for an index known at run time alone.
+    /// The component of the vector that component `index` of the swizzle selects, for an index known only at run
+    /// time.
     fn swizzled_index(&mut self, index: ExprId, swizzle: Swizzle) -> Try<Handle<Expression>> {
         let index = self.index_value(index)?;
         let index = self.convert_index(index, swizzle.len);
@@ -189,7 +190,7 @@ impl Ctx<'_, '_> {
         Ok(self.add(Expression::Access { base: table, index }))
     }
 
-    /// Keeps an index inside a vector, whose bounds no policy of a writer checks on every target.
+    /// Clamps an index to a vector's size, which the writers' bounds checks do not do on every target.
     fn convert_index(&mut self, index: Handle<Expression>, len: u8) -> Handle<Expression> {
         let zero = self.int(0);
         let last = self.int(i32::from(len) - 1);
@@ -229,8 +230,8 @@ impl Ctx<'_, '_> {
         }
     }
 
-    /// `base[index]` of a pointer or value; a constant index outside of the bounds reads the last element, since
-    /// targets refuse it and GLSL leaves it undefined.
+    /// `base[index]` of a pointer or value. A constant index out of bounds reads the last element, since targets
+    /// reject it and GLSL leaves it undefined.
     pub(super) fn access(&mut self, base: Handle<Expression>, ty: TypeId, index: ExprId) -> Try<Handle<Expression>> {
         if let Some(index) = self.literal_index(index) {
             let index = index.min(self.len_of(ty).saturating_sub(1));
@@ -245,7 +246,8 @@ impl Ctx<'_, '_> {
         if self.literal_index(index).is_some() || matches!(self.low.types.get(ty), Type::Vector(..)) {
             return Ok(Place::Value(self.access(base, ty, index)?, element));
         }
-        // naga indexes no matrix by value, and its SPIR-V writer copies an array at each index: copy it once.
+        // naga cannot index a matrix value with a variable, and its SPIR-V writer copies an array for each index:
+        // copy it once.
         let variable = self.variable_of("indexed", ty)?;
         self.store(variable, base);
         let pointer = self.access(variable, ty, index)?;
@@ -276,7 +278,7 @@ impl Ctx<'_, '_> {
         }
     }
 
-    /// A column of a `row_major` matrix: one component out of each row.
+    /// A column of a `row_major` matrix: one component from each row.
     fn column_of_rows(&mut self, base: Handle<Expression>, ty: TypeId, index: ExprId) -> Try<Handle<Expression>> {
         let Type::Matrix(columns, rows) = self.low.types.get(ty) else {
             return Err(self.slip("a matrix was expected"));
@@ -324,7 +326,7 @@ impl Ctx<'_, '_> {
         }
     }
 
-    /// Components of a vector that is a value.
+    /// Swizzled components of a vector value.
     pub(super) fn swizzled(&mut self, vector: Handle<Expression>, swizzle: Swizzle) -> Handle<Expression> {
         if swizzle.len == 1 {
             return self.add(Expression::AccessIndex { base: vector, index: u32::from(swizzle.components[0]) });
@@ -338,7 +340,7 @@ impl Ctx<'_, '_> {
         self.add(Expression::Swizzle { size: vector_size(swizzle.len), vector, pattern })
     }
 
-    /// The first components of a vector that is a value.
+    /// The first components of a vector value.
     pub(super) fn first_components(&mut self, vector: Handle<Expression>, len: u8) -> Handle<Expression> {
         self.swizzled(vector, Swizzle { len, components: [0, 1, 2, 3] })
     }
@@ -353,7 +355,7 @@ impl Ctx<'_, '_> {
         }
     }
 
-    /// Reads a place.
+    /// Reads from a place.
     pub(super) fn load_place(&mut self, place: &Place) -> Try<Handle<Expression>> {
         match place {
             Place::Value(value, _) => Ok(*value),
@@ -385,14 +387,14 @@ impl Ctx<'_, '_> {
         Ok(if scalar == Scalar::Bool { self.bits_to_bool(loaded, size) } else { loaded })
     }
 
-    /// `u32` that stand for `bool`.
+    /// Converts `u32` in memory to `bool`.
     fn bits_to_bool(&mut self, bits: Handle<Expression>, size: u8) -> Handle<Expression> {
         let zero = self.uint(0);
         let right = self.splat(zero, size);
         self.add(Expression::Binary { op: naga::BinaryOperator::NotEqual, left: bits, right })
     }
 
-    /// Reads a value out of uniform memory.
+    /// Reads a value from uniform memory.
     pub(super) fn load_host(&mut self, pointer: Handle<Expression>, host: HostId) -> Try<Handle<Expression>> {
         let ty = self.low.host(host).ty;
         match self.low.host(host).kind.clone() {
@@ -431,7 +433,7 @@ impl Ctx<'_, '_> {
         }
     }
 
-    /// A matrix whose lines of two stand in `vec4`s.
+    /// A matrix whose columns or rows, of two components each, are stored as `vec4`s.
     fn load_lines(
         &mut self,
         pointer: Handle<Expression>,
@@ -453,7 +455,7 @@ impl Ctx<'_, '_> {
         element: HostId,
         wide: bool,
     ) -> Try<Handle<Expression>> {
-        /// Longer arrays are read by a loop: the text of each element would take a line.
+        /// Longer arrays are read with a loop: each element would take a line of text.
         const UNROLLED: u32 = 16;
         let len = self.len_of(ty);
         let element_ty = self.low.host(element).ty;

@@ -1,12 +1,12 @@
-//! Combined samplers (§4.1.7) as textures and samplers apart: as variables, as parameters, as arguments.
+//! Splits combined samplers (§4.1.7) into textures and samplers: as variables, as parameters, as arguments.
 //!
 //! | GLSL | texture | sampler |
 //! | --- | --- | --- |
 //! | `sampler1D`, `sampler1DArray` | 2D (array) of height 1 | filtering |
 //! | `sampler2D`, `sampler2DArray`, `sampler3D`, `samplerCube` | the same | filtering |
 //! | `sampler2DRect` | 2D, coordinates divided by its size | filtering |
-//! | `sampler..Shadow` | the depth texture of that shape | comparison |
-//! | `isampler..`, `usampler..` | integer texture; of a cube an array of its faces | none: texels are loaded |
+//! | `sampler..Shadow` | the depth texture of that dimensionality | comparison |
+//! | `isampler..`, `usampler..` | integer texture; for a cube, an array of its faces | none: texels are loaded |
 //! | `samplerBuffer` | 2D of width [`BUFFER_WIDTH`](crate::target::BUFFER_WIDTH) | none: texels are loaded |
 //! | `sampler2DMS`, `sampler2DMSArray` | multisampled 2D (array) | none: texels are loaded |
 
@@ -26,7 +26,7 @@ pub(super) struct SamplerVariables {
     pub(super) flat: u32,
     pub(super) texture: Handle<naga::GlobalVariable>,
     pub(super) sampler: Option<Handle<naga::GlobalVariable>>,
-    /// The uniform block and the member of it that holds the number of texels of a buffer.
+    /// The uniform block, and its member with the number of texels of a buffer.
     pub(super) texel_count: Option<(Handle<naga::GlobalVariable>, u32)>,
 }
 
@@ -35,12 +35,13 @@ pub(super) fn only_fetched(ty: SamplerType) -> bool {
     ty.texel != Scalar::Float || matches!(ty.dim, SamplerDim::Buffer | SamplerDim::Multisample)
 }
 
-/// Whether an array of the faces stands for the cube: nothing loads from a cube, and integers are only loaded.
+/// Whether an array of the faces represents the cube: texels cannot be loaded from a cube, and integer texels are
+/// only loaded.
 pub(super) fn is_integer_cube(ty: SamplerType) -> bool {
     ty.dim == SamplerDim::Cube && ty.texel != Scalar::Float
 }
 
-/// A sampler inside a type: its place in the flat layout, its path, its type.
+/// A sampler in a type: its index in the flat layout, its path, its type.
 pub(super) struct Leaf {
     pub(super) flat: u32,
     pub(super) path: String,
@@ -48,7 +49,7 @@ pub(super) struct Leaf {
 }
 
 impl Lower<'_> {
-    /// The texture type that stands for a sampler type.
+    /// The texture type that represents a sampler type.
     pub(super) fn texture_type(&mut self, ty: SamplerType) -> Handle<naga::Type> {
         let faces = is_integer_cube(ty);
         let dim = match ty.dim {
@@ -74,7 +75,7 @@ impl Lower<'_> {
         self.insert_type(None, TypeInner::Sampler { comparison: ty.shadow })
     }
 
-    /// Refuses kinds that the target has no type for.
+    /// Reports kinds for which the target has no type.
     fn check_kind(&self, ty: SamplerType, span: Span) -> Try<()> {
         if self.target == Target::Wgsl && ty.dim == SamplerDim::Multisample && ty.arrayed {
             return Err(lacking(
@@ -86,7 +87,7 @@ impl Lower<'_> {
         Ok(())
     }
 
-    /// Whether the number of texels goes with samplers of this type.
+    /// Whether samplers of this type come with their number of texels.
     pub(super) fn counts_texels(&self, ty: SamplerType) -> bool {
         ty.dim == SamplerDim::Buffer && self.interface.samplers.iter().any(|slot| slot.texel_count.is_some())
     }
@@ -118,7 +119,7 @@ impl Lower<'_> {
         Ok(())
     }
 
-    /// All samplers inside a type, in the order of the flat layout.
+    /// All samplers in a type, in the order of the flat layout.
     pub(super) fn sampler_leaves(&self, ty: TypeId, path: &str, flat: u32, leaves: &mut Vec<Leaf>) {
         match self.types.get(ty) {
             Type::Sampler(_) => leaves.push(Leaf { flat, path: path.to_owned(), ty }),
@@ -168,7 +169,7 @@ impl Ctx<'_, '_> {
         Ok(values)
     }
 
-    /// The texture and sampler that an expression of a sampler type names.
+    /// The texture and sampler that an expression of a sampler type denotes.
     pub(super) fn sampler(&mut self, id: ExprId) -> Try<(SamplerType, SamplerValue)> {
         let expr = self.shader.expr(id);
         let Type::Sampler(ty) = self.low.types.get(expr.ty) else {
@@ -179,7 +180,7 @@ impl Ctx<'_, '_> {
         value.map(|value| (ty, value)).ok_or_else(|| internal(expr.span, "this sampler has no place"))
     }
 
-    /// All samplers inside an argument, in the order of the flat layout.
+    /// All samplers in an argument, in the order of the flat layout.
     pub(super) fn samplers_of(&mut self, id: ExprId) -> Try<Vec<SamplerValue>> {
         let expr = self.shader.expr(id);
         let (var, flat) = self.sampler_path(id)?;
@@ -206,7 +207,7 @@ impl Ctx<'_, '_> {
         }
     }
 
-    /// The variable that `a.b[2]` starts from, and the place in its flat layout.
+    /// The variable at the root of `a.b[2]`, and the index in its flat layout.
     fn sampler_path(&mut self, mut id: ExprId) -> Try<(VarRef, u32)> {
         let mut flat = 0_u32;
         loop {
@@ -227,14 +228,14 @@ impl Ctx<'_, '_> {
         }
     }
 
-    /// Where a member starts in the flat layout of its struct.
+    /// The index of a member in the flat layout of its struct.
     pub(super) fn flat_of_member(&self, ty: TypeId, member: u32) -> u32 {
         let Type::Struct(id) = self.low.types.get(ty) else { return 0 };
         let before = self.low.types.structure(id).members.iter().take(member as usize);
         before.fold(0, |sum: u32, member| sum.saturating_add(self.low.types.flat_len(member.ty)))
     }
 
-    /// Arrays of samplers and of blocks take constant indices alone (§4.1.9, §4.3.7).
+    /// The value of a constant index: arrays of samplers and of blocks allow no others (§4.1.9, §4.3.7).
     pub(super) fn constant_index(&self, id: ExprId) -> Try<u32> {
         let expr = self.shader.expr(id);
         match self.low.constant_of(self.id, id) {
@@ -244,7 +245,7 @@ impl Ctx<'_, '_> {
         }
     }
 
-    /// The size of the whole texture in texels, of a level if it has levels: `uint` or a vector of them.
+    /// The size of the whole texture in texels, or of one level: a `uint` or a vector of them.
     pub(super) fn texture_dimensions(
         &mut self,
         image: Handle<Expression>,

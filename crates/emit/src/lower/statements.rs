@@ -1,4 +1,4 @@
-//! Statements (§6) but for loops and switches.
+//! Lowers statements (§6) except loops and switches.
 
 use super::Try;
 use super::function::{Ctx, Slot};
@@ -6,12 +6,12 @@ use crate::target::Target;
 use glisten_front::hir::{ExprId, LocalId, LocalKind, Stmt, StmtKind, TypeId};
 use naga::{Block, Expression, Handle, Statement};
 
-/// How many arms of an `else if` chain nest in the text. Past so many, a flag carries the chain on at the outer level:
-/// naga and Tint read no text that nests a thousand levels, and its indentation alone would be megabytes.
+/// How many arms of an `else if` chain nest in the text. After these, a flag continues the chain at the outer level:
+/// naga and Tint reject text that nests a thousand levels, and the indentation alone would take megabytes.
 const NESTED_ARMS: usize = 8;
 
 impl Ctx<'_, '_> {
-    /// The statements of a block. What stands behind a jump is dropped, since naga allows nothing there.
+    /// Lowers the statements of a block. Drops what follows a jump, since naga allows nothing there.
     pub(super) fn body(&mut self, body: &[Stmt]) -> Try<()> {
         for stmt in body {
             if self.is_over() {
@@ -31,7 +31,7 @@ impl Ctx<'_, '_> {
             StmtKind::Expr(id) => self.effect(*id),
             StmtKind::Local(local, initializer) => self.declare(*local, *initializer),
             StmtKind::Block(body) => {
-                // Names are unique in the whole function here, so that a block needs no block of its own.
+                // Names are unique in the whole function here, so a block needs no block of its own.
                 let in_switch = std::mem::replace(&mut self.in_switch, false);
                 let done = self.body(body);
                 self.in_switch = in_switch;
@@ -58,9 +58,9 @@ impl Ctx<'_, '_> {
         }
     }
 
-    /// `discard`. naga's `Kill` ends the invocation in SPIR-V and leaves it running without effects in WGSL, where a loop
-    /// around it would go on for ever and the end of a function would lack its result: there, the function is left, too.
-    /// Loops of the functions that call this one, and loops behind, look at a flag (see [`Ctx::repeat`]).
+    /// `discard`. naga's `Kill` ends the invocation in SPIR-V; in WGSL the invocation continues without effects.
+    /// There, a loop around it could run forever and the end of a function would lack its result, so the function is
+    /// left, too. Loops in the callers, and later loops, check a flag (see [`Ctx::repeat`]).
     fn discard(&mut self) -> Try<()> {
         if let Some(variable) = self.low.discarded {
             let pointer = self.global_variable(variable);
@@ -81,8 +81,8 @@ impl Ctx<'_, '_> {
         self.return_nothing()
     }
 
-    /// Leaves the function without a value of the shader's: with the outputs in an entry point, with a zero where a
-    /// value is expected (§6.1: undefined).
+    /// Returns from the function without a value from the shader: with the outputs in an entry point, with a zero if
+    /// a value is expected (§6.1: undefined).
     pub(super) fn return_nothing(&mut self) -> Try<()> {
         if self.is_entry {
             return self.return_outputs();
@@ -98,7 +98,7 @@ impl Ctx<'_, '_> {
         Ok(())
     }
 
-    /// A local comes to life: as a name for its initializer if it is never written to, else as a variable.
+    /// Declares a local: as a name for its initializer if it is never written, otherwise as a variable.
     fn declare(&mut self, local: LocalId, initializer: Option<ExprId>) -> Try<()> {
         let declared = self.shader.function(self.id).local(local);
         if declared.kind == LocalKind::Const && declared.value.is_some() {
@@ -121,7 +121,7 @@ impl Ctx<'_, '_> {
                 }
                 self.set_slot(local, Slot::Value(value));
             }
-            // A variable's own initial value is set once, before the function starts.
+            // A variable's own initial value is set only once, before the function starts.
             Some(value) if literal && self.loops == 0 && !self.in_switch => {
                 let ty = self.low.value_type(declared.ty)?;
                 let variable = self.variable_with(&declared.name, ty, Some(value));
@@ -141,7 +141,7 @@ impl Ctx<'_, '_> {
         Ok(())
     }
 
-    /// `if .. else if .. else`, flat if it is long.
+    /// `if .. else if .. else`, flattened if it is long.
     fn chain(&mut self, arms: &[(ExprId, Vec<Stmt>)], otherwise: &[Stmt]) -> Try<()> {
         let in_switch = std::mem::replace(&mut self.in_switch, false);
         let lowered = self.first_of(
@@ -210,7 +210,7 @@ type Condition<'f, C, A> = &'f dyn Fn(&mut C, &A) -> Try<Handle<Expression>>;
 /// Lowers the body of an arm.
 type Body<'f, C, A> = &'f dyn Fn(&mut C, &A) -> Try<()>;
 
-/// Whether nothing behind the block can be reached; `kill_ends` says whether that holds behind a `discard`.
+/// Whether nothing after the block can be reached; `kill_ends` says whether that is so after a `discard`.
 pub(super) fn terminates(block: &Block, kill_ends: bool) -> bool {
     match block.last() {
         Some(Statement::Break | Statement::Continue | Statement::Return { .. }) => true,

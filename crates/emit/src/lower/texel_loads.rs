@@ -1,8 +1,8 @@
-//! Lookups in integer textures, which no target can sample: a texel is loaded by own arithmetic.
+//! Lowers lookups in integer textures, which no target can sample: computes the texel and loads it.
 //!
-//! *Holds:* the filter is NEAREST, the only complete one for integer textures (OpenGL 3.2 §3.8.10 leaves all others
-//! incomplete). The wrap mode is OpenGL's default, since a shader cannot see the sampler's state: REPEAT, for rectangles
-//! CLAMP_TO_EDGE. The level is the one asked for, rounded; without one it is the base level.
+//! *Holds:* the filter is NEAREST, the only complete one for integer textures (OpenGL 3.2 §3.8.10 makes all others
+//! incomplete). The wrap mode is OpenGL's default, since a shader cannot see the sampler's state: REPEAT, for
+//! rectangles CLAMP_TO_EDGE. The level is the requested one, rounded, or else the base level.
 
 use super::Try;
 use super::function::Ctx;
@@ -36,8 +36,8 @@ impl Ctx<'_, '_> {
         }))
     }
 
-    /// The texel of the face that a direction meets (OpenGL 3.2 §3.8.6, table 3.21): faces are the layers of an array.
-    /// Where axes are equally long, z comes before y before x, as in the reference.
+    /// The texel of the face that a direction hits (OpenGL 3.2 §3.8.6, table 3.21); the faces are layers of an array.
+    /// Where axes are equally long, z precedes y, and y precedes x, as in the reference.
     fn integer_cube_lookup(&mut self, lookup: &Lookup) -> Try<Handle<Expression>> {
         if matches!(lookup.level, SampleLevel::Gradient { .. }) {
             return Err(lacking(
@@ -106,7 +106,7 @@ impl Ctx<'_, '_> {
         self.math3(MathFunction::Clamp, value, zero, last)
     }
 
-    /// The level asked for, rounded to the nearest that is there.
+    /// The requested level, rounded and clamped to the existing levels.
     fn integer_level(&mut self, lookup: &Lookup) -> Handle<Expression> {
         let lod = match lookup.level {
             SampleLevel::Exact(lod) => lod,
@@ -121,7 +121,7 @@ impl Ctx<'_, '_> {
         self.inside(level, levels, 1)
     }
 
-    /// log2 of the longer of the gradients in texels (OpenGL 3.2 §3.8.9, equation 3.17).
+    /// log2 of the longer gradient in texels (OpenGL 3.2 §3.8.9, equation 3.17).
     fn gradient_level(&mut self, lookup: &Lookup, x: Handle<Expression>, y: Handle<Expression>) -> Handle<Expression> {
         let n = dimensions(lookup.ty.dim);
         let zero = self.int(0);
@@ -135,13 +135,13 @@ impl Ctx<'_, '_> {
         };
         let (x, y) = (length(x), length(y));
         let longer = self.math2(MathFunction::Max, x, y);
-        // Below one texel the base level is read anyway, and the logarithm of 0 is not wanted.
+        // Below one texel the base level is read anyway, and this avoids the logarithm of 0.
         let one = self.float(1.0);
         let longer = self.math2(MathFunction::Max, longer, one);
         self.math1(MathFunction::Log2, longer)
     }
 
-    /// The texel that a coordinate falls into, offset and wrapped.
+    /// The texel that contains a coordinate, with offset and wrap mode applied.
     fn integer_coordinate(&mut self, lookup: &Lookup, size: Handle<Expression>) -> Handle<Expression> {
         let n = dimensions(lookup.ty.dim);
         let size = if n == 1 { self.add(Expression::AccessIndex { base: size, index: 0 }) } else { size };
@@ -167,7 +167,7 @@ impl Ctx<'_, '_> {
         self.add(Expression::Compose { ty, components: vec![wrapped, zero] })
     }
 
-    /// `texel` modulo `size`, at least 0.
+    /// `texel` modulo `size`, never negative.
     fn repeated(&mut self, texel: Handle<Expression>, size: Handle<Expression>) -> Handle<Expression> {
         let rest = self.op(BinaryOperator::Modulo, texel, size);
         let above = self.op(BinaryOperator::Add, rest, size);

@@ -1,8 +1,8 @@
-//! Texture functions (§8.7) on textures and samplers apart.
+//! Lowers texture functions (§8.7) to separate textures and samplers.
 //!
-//! *Holds:* a call is first taken apart into a [`Lookup`] by the tables of §8.7, then put together for the kind of texture
-//! that stands for the sampler (see [`samplers`](super::samplers)). Integer textures have no sampler in any target:
-//! their lookups are in [`texel_loads`](super::texel_loads).
+//! *Holds:* the arguments of a call are first decomposed into a [`Lookup`] by the tables of §8.7, and then recombined
+//! for the texture that represents the sampler (see [`samplers`](super::samplers)). Integer textures have no sampler
+//! in any target: their lookups are in [`texel_loads`](super::texel_loads).
 
 use super::function::{Ctx, SamplerValue};
 use super::{Try, internal, lacking};
@@ -11,7 +11,7 @@ use glisten_front::builtin::BuiltinFunction;
 use glisten_front::hir::{ExprId, SamplerDim, SamplerType, Scalar, ScalarValue, Swizzle, TypeId};
 use naga::{BinaryOperator, Expression, Handle, MathFunction, SampleLevel};
 
-/// What a function's name says.
+/// The variant of a function that its name selects.
 #[derive(Clone, Copy, Debug)]
 struct Form {
     projective: bool,
@@ -19,7 +19,7 @@ struct Form {
     level: Level,
 }
 
-/// How the level of detail is given.
+/// How the level of detail is selected.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Level {
     Implicit,
@@ -27,21 +27,21 @@ enum Level {
     Gradient,
 }
 
-/// A lookup taken apart.
+/// A decomposed lookup.
 pub(super) struct Lookup {
     pub(super) ty: SamplerType,
     pub(super) value: SamplerValue,
-    /// As many components as the GLSL shape has: 1 for 1D.
+    /// The coordinate, with as many components as the GLSL type: 1 for 1D.
     pub(super) coordinate: Handle<Expression>,
-    /// The layer, not rounded.
+    /// The layer before rounding.
     pub(super) layer: Option<Handle<Expression>>,
     pub(super) reference: Option<Handle<Expression>>,
     pub(super) level: SampleLevel,
-    /// As many components as the GLSL shape has.
+    /// The offset, with as many components as the coordinate.
     pub(super) offset: Option<Vec<i32>>,
 }
 
-/// How many coordinates the GLSL shape has.
+/// The number of coordinates of a dimensionality in GLSL.
 pub(super) fn dimensions(dim: SamplerDim) -> u8 {
     match dim {
         SamplerDim::D1 | SamplerDim::Buffer => 1,
@@ -91,7 +91,7 @@ impl Ctx<'_, '_> {
         }
     }
 
-    /// Takes the arguments behind the sampler apart, in the order in which they stand: P, level, offset, bias.
+    /// Decomposes the arguments after the sampler, in order: P, level, offset, bias.
     fn lookup(&mut self, ty: SamplerType, value: SamplerValue, form: Form, arguments: &[ExprId]) -> Try<Lookup> {
         let mut arguments = arguments.iter().copied();
         let mut next = || arguments.next();
@@ -116,14 +116,14 @@ impl Ctx<'_, '_> {
             level = SampleLevel::Bias(self.value(bias)?);
         }
         if self.is_vertex() && matches!(level, SampleLevel::Auto | SampleLevel::Bias(_)) {
-            // §8.7: outside of the fragment stage the base level is read.
+            // Outside the fragment stage, the base level is read (§8.7).
             level = SampleLevel::Zero;
         }
         let (coordinate, layer, reference) = self.coordinates(ty, form.projective, p, p_size);
         Ok(Lookup { ty, value, coordinate, layer, reference, level, offset })
     }
 
-    /// Coordinate, layer and reference value out of P (the tables of §8.7).
+    /// The coordinate, layer and reference value in P (the tables of §8.7).
     fn coordinates(
         &mut self,
         ty: SamplerType,
@@ -136,7 +136,7 @@ impl Ctx<'_, '_> {
             let index = u32::from(index.min(p_size.saturating_sub(1)));
             self.add(Expression::AccessIndex { base: p, index })
         };
-        // The reference of a 1D shadow stands in z, behind a component that nothing reads; that of a cube in w.
+        // The reference value of a 1D shadow is in z, after an unused component; that of a cube is in w.
         let reference =
             ty.shadow.then(|| component(if ty.arrayed || n == 3 { n.max(1) + u8::from(ty.arrayed) } else { 2 }));
         let layer = ty.arrayed.then(|| component(n));
@@ -153,7 +153,7 @@ impl Ctx<'_, '_> {
         }
     }
 
-    /// Offsets are constant expressions (§8.7).
+    /// The value of an offset, which must be a constant expression (§8.7).
     fn constant_offset(&mut self, id: ExprId) -> Try<Vec<i32>> {
         let expr = self.shader.expr(id);
         let value = self.low.evaluated(self.id, id).ok_or_else(|| {
@@ -205,8 +205,8 @@ impl Ctx<'_, '_> {
         }))
     }
 
-    /// Comparisons know the implicit level and level 0 alone, which are the only ones of a texture with one level; that
-    /// another was asked for is a warning ([`notes`](crate::emit::notes)).
+    /// The level of a comparison: the implicit one or level 0, which are the only ones of a texture with one level.
+    /// If another was requested, there is a warning ([`notes`](crate::emit::notes)).
     fn shadow_level(&self, lookup: &Lookup) -> SampleLevel {
         match lookup.level {
             level if lookup.reference.is_none() => level,
@@ -215,8 +215,8 @@ impl Ctx<'_, '_> {
         }
     }
 
-    /// The coordinate for the texture that stands for the sampler: 1D is the middle of a row, a rectangle's texels are
-    /// divided by its size.
+    /// The coordinate for the texture that represents the sampler. For 1D, it is in the middle of the row; for a
+    /// rectangle, it is divided by the size in texels.
     fn target_coordinate(&mut self, lookup: &Lookup, coordinate: Handle<Expression>) -> Handle<Expression> {
         match lookup.ty.dim {
             SamplerDim::D1 => {
@@ -246,7 +246,7 @@ impl Ctx<'_, '_> {
         self.op(BinaryOperator::Divide, texels, size)
     }
 
-    /// The layer that a coordinate names: floor(c + 0.5) (OpenGL 3.2 §3.8.9); targets clamp it.
+    /// The layer of a coordinate: floor(c + 0.5) (OpenGL 3.2 §3.8.9); targets clamp it.
     pub(super) fn layer_index(&mut self, layer: Handle<Expression>) -> Handle<Expression> {
         let half = self.float(0.5);
         let sum = self.op(BinaryOperator::Add, layer, half);
@@ -331,7 +331,7 @@ impl Ctx<'_, '_> {
             return value.texel_count.ok_or_else(|| self.slip("the number of texels has no place among the uniforms"));
         }
         if ty.dim == SamplerDim::Multisample && ty.arrayed {
-            // naga's SPIR-V writer asks for a level, which multisampled images do not have.
+            // naga's SPIR-V writer queries a level, which multisampled images do not have.
             return Err(lacking(
                 self.here(),
                 format!("the number of layers of a `{}` cannot be asked for", ty.name()),

@@ -1,13 +1,13 @@
-//! Types as values: what variables, arguments and results hold (§4.1).
+//! Lowers types of values: of variables, arguments and results (§4.1).
 //!
-//! *Holds:* samplers are no values; a struct leaves its samplers out, and its members' numbers are counted without them.
+//! *Holds:* samplers are not values. A struct omits its samplers, and member indices do not count them.
 
 use super::{Lower, Try, internal};
 use glisten_front::hir::{ArraySize, Scalar, Type, TypeId};
 use glisten_front::source::Span;
 use naga::{Handle, StructMember, TypeInner, VectorSize};
 
-/// naga's scalar.
+/// The scalar type in naga.
 pub(super) fn naga_scalar(scalar: Scalar) -> naga::Scalar {
     match scalar {
         Scalar::Bool => naga::Scalar::BOOL,
@@ -17,7 +17,7 @@ pub(super) fn naga_scalar(scalar: Scalar) -> naga::Scalar {
     }
 }
 
-/// naga's vector size; 4 for all that is no size.
+/// The vector size in naga; 4 for any invalid size.
 pub(super) fn vector_size(size: u8) -> VectorSize {
     match size {
         2 => VectorSize::Bi,
@@ -32,7 +32,7 @@ pub(super) fn round_up(offset: u32, align: u32) -> u32 {
 }
 
 impl Lower<'_> {
-    /// The type of values of a GLSL type.
+    /// The type for values of a GLSL type.
     pub(super) fn value_type(&mut self, ty: TypeId) -> Try<Handle<naga::Type>> {
         if let Some(known) = self.values.get(&ty) {
             return Ok(*known);
@@ -51,15 +51,15 @@ impl Lower<'_> {
         Ok(handle)
     }
 
-    /// Adds a type and lays it out.
+    /// Adds a type and computes its layout.
     pub(super) fn insert_type(&mut self, name: Option<String>, inner: TypeInner) -> Handle<naga::Type> {
         let handle = self.module.types.insert(naga::Type { name, inner }, naga::Span::UNDEFINED);
-        // Fails for types whose size is unknown alone; none of those is ever made here.
+        // This fails only for types of unknown size; none of those is ever created here.
         let _ = self.layouter.update(self.module.to_ctx());
         handle
     }
 
-    /// `vecN`, or the scalar for a size of 1.
+    /// `vecN`, or the scalar for size 1.
     pub(super) fn vector_type(&mut self, scalar: Scalar, size: u8) -> Handle<naga::Type> {
         let scalar = naga_scalar(scalar);
         let inner = match size {
@@ -76,7 +76,7 @@ impl Lower<'_> {
         self.insert_type(None, inner)
     }
 
-    /// An array of an element type already made, at its natural stride.
+    /// An array of an existing element type, with its natural stride.
     pub(super) fn natural_array(&mut self, base: Handle<naga::Type>, len: u32) -> Handle<naga::Type> {
         let stride = self.layouter[base].to_stride();
         let size = naga::ArraySize::Constant(std::num::NonZeroU32::new(len).unwrap_or(std::num::NonZeroU32::MIN));
@@ -105,7 +105,7 @@ impl Lower<'_> {
         Ok(self.natural_struct(name, members))
     }
 
-    /// A struct whose members stand at their natural offsets.
+    /// A struct whose members have their natural offsets.
     pub(super) fn natural_struct(
         &mut self,
         name: String,
@@ -125,7 +125,7 @@ impl Lower<'_> {
         self.insert_type(Some(name), TypeInner::Struct { members: placed, span })
     }
 
-    /// Whether anything but samplers is in the type.
+    /// Whether the type contains anything but samplers.
     pub(super) fn has_value(&self, ty: TypeId) -> bool {
         match self.types.get(ty) {
             Type::Sampler(_) | Type::Void | Type::Error => false,
@@ -135,7 +135,7 @@ impl Lower<'_> {
         }
     }
 
-    /// The number of a struct's member when samplers are not counted; `None` for what has no value.
+    /// The index of a struct's member, not counting samplers; `None` for a member without a value.
     pub(super) fn member_index(&self, ty: TypeId, member: u32) -> Option<u32> {
         let Type::Struct(id) = self.types.get(ty) else { return None };
         let members = &self.types.structure(id).members;
@@ -154,7 +154,7 @@ impl Lower<'_> {
         }
     }
 
-    /// The type of what `[..]` gives: an element, a column, a component.
+    /// The type that indexing yields: an element, a column, a component.
     pub(super) fn element_type(&self, ty: TypeId) -> TypeId {
         match self.types.get(ty) {
             Type::Array(element, _) => element,

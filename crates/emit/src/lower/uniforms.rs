@@ -1,9 +1,10 @@
-//! Types as std140 memory (OpenGL 3.2 §2.11.4, "Standard Uniform Block Layout"), and the variables that hold uniforms.
+//! Lowers types of uniform memory (OpenGL 3.2 §2.11.4, "Standard Uniform Block Layout"), and the variables of
+//! uniforms.
 //!
-//! *Holds:* naga's WGSL writer never writes `@size`, `@align` or a stride, so the layout that WGSL gives a type by itself
-//! has to be the std140 layout: gaps are members of their own, elements of less than 16 bytes stand in a `vec4`,
-//! matrices of two rows are arrays of `vec4`, `row_major` matrices are stored transposed, a `bool` is a `u32`. Where
-//! nothing of that is needed, the type as a value and the type in memory are one.
+//! *Holds:* naga's WGSL writer never writes `@size`, `@align` or a stride, so the natural WGSL layout of a type has
+//! to be its std140 layout. Gaps are members of their own, elements of less than 16 bytes are stored in a `vec4`,
+//! matrices of two rows are arrays of `vec4`, `row_major` matrices are stored transposed, and a `bool` is a `u32`.
+//! Where none of that is needed, the type of the value and the type in memory are the same.
 
 use super::function::GlobalSlot;
 use super::types::round_up;
@@ -18,26 +19,26 @@ use rustc_hash::FxHashMap;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct HostId(usize);
 
-/// How a value of the type is found in memory.
+/// How a value of the type is represented in memory.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum HostKind {
-    /// As it is.
+    /// Unchanged.
     Value,
     /// A `bool` or a vector of them as `u32`.
     Bits,
-    /// Columns of two, each in a `vec4` of an array.
+    /// Columns of two components, each in a `vec4` of an array.
     WideColumns,
     /// A `row_major` matrix as the matrix of its rows.
     Rows,
     /// A `row_major` matrix of two columns: its rows, each in a `vec4` of an array.
     WideRows,
-    /// By GLSL member: the member of the struct in memory and its own type; nothing for samplers.
+    /// For each GLSL member: the member of the struct in memory, and its own type; `None` for samplers.
     Struct(Vec<Option<(u32, HostId)>>),
-    /// Elements one by one; `wide` ones are the first components of a `vec4`.
+    /// Elements one by one; a `wide` element is the first components of a `vec4`.
     Array { element: HostId, wide: bool },
 }
 
-/// A type in memory: naga's type, and std140's figures in bytes.
+/// A type in memory: naga's type, and its std140 layout in bytes.
 #[derive(Clone, Debug)]
 pub(super) struct Host {
     pub(super) ty: TypeId,
@@ -54,7 +55,7 @@ pub(super) struct Hosts {
     ids: FxHashMap<(TypeId, MatrixLayout), HostId>,
 }
 
-/// A member on its way into a struct in memory.
+/// A member with its offset in a struct in memory.
 struct Placed {
     name: String,
     handle: Handle<naga::Type>,
@@ -62,19 +63,19 @@ struct Placed {
     size: u32,
 }
 
-/// What a member of the loose uniforms' block stands for.
+/// The contents of a member of the loose uniforms' block.
 enum LooseMember<'a> {
     Root(&'a UniformRoot, HostId),
     /// The framebuffer's height.
     Height,
-    /// The number of texels of a buffer texture, by its offset.
+    /// The number of texels of a buffer texture, identified by its offset.
     TexelCount(u32),
 }
 
 impl Lower<'_> {
-    /// The type in memory behind a handle.
+    /// The type in memory of a handle.
     pub(super) fn host(&self, id: HostId) -> &Host {
-        // A `HostId` is only ever made for this table.
+        // A `HostId` is only made for this table.
         &self.hosts.all[id.0]
     }
 
@@ -170,7 +171,7 @@ impl Lower<'_> {
                 hosts.push(None);
                 continue;
             }
-            // In a block each member has its own order; in a struct inside one, that of the member it is part of.
+            // In a block each member has its own matrix layout; in a nested struct, that of the member it belongs to.
             let order = if structure.is_block { member.matrix_layout } else { layout };
             let host = self.host_of(member.ty, order)?;
             let Host { handle, size, align, .. } = *self.host(host);
@@ -193,8 +194,8 @@ impl Lower<'_> {
         Ok(Host { ty, handle, kind: HostKind::Struct(kind), size, align: 16 })
     }
 
-    /// Puts members where they belong, with members of four bytes in the gaps and, if a size is given, at the end. Gives the members, the
-    /// numbers of those that were asked for, and the struct's own size.
+    /// Places members at their offsets, with members of four bytes in the gaps and, if a size is given, at the end.
+    /// Returns the members, the indices of those that were placed, and the size of the struct.
     fn pad(&self, placed: &[Placed], size: Option<u32>, ty: TypeId) -> Try<(Vec<StructMember>, Vec<u32>, u32)> {
         let filler = self.values.get(&TypeId::UINT).copied();
         let mut members: Vec<StructMember> = Vec::new();
@@ -235,9 +236,9 @@ impl Lower<'_> {
         Ok((members, numbers, end))
     }
 
-    /// Declares the variables that hold the uniforms this stage uses.
+    /// Declares the variables for the uniforms that this stage uses.
     pub(super) fn declare_uniforms(&mut self) -> Try<()> {
-        // The filler of gaps, so that `pad` finds it.
+        // The type that fills gaps, so that `pad` finds it.
         self.value_type(TypeId::UINT)?;
         let interface = self.interface;
         self.declare_loose()?;
@@ -273,7 +274,7 @@ impl Lower<'_> {
             placed.push(Placed { name: root.name.clone(), handle, offset: root.offset, size });
             hosts.push(LooseMember::Root(root, host));
         }
-        // Link has put what is hidden behind all roots.
+        // Link has placed hidden members after all roots.
         if let Some(offset) = interface.framebuffer_height {
             let handle = self.value_type(TypeId::FLOAT)?;
             placed.push(Placed { name: "framebuffer_height".into(), handle, offset, size: 4 });

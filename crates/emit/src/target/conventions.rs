@@ -1,4 +1,4 @@
-//! [`Conventions`]: what the target's host expects, as the flags of `glisten compile` say it.
+//! [`Conventions`]: what the host expects of the emitted code, as chosen by the flags of `glisten compile`.
 
 /// A target language.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -15,7 +15,7 @@ impl Target {
     /// All targets.
     pub const ALL: [Self; 5] = [Self::Wgsl, Self::Spirv, Self::Msl, Self::Hlsl, Self::Glsl];
 
-    /// As it is spoken of: `WGSL`.
+    /// The usual name: `WGSL`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Wgsl => "WGSL",
@@ -27,49 +27,49 @@ impl Target {
     }
 }
 
-/// The range of clip space z that the target clips to.
+/// The range of clip-space z to which the target clips.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum ClipZ {
-    /// `[0, w]`: WebGPU, Vulkan, Metal, Direct3D. The position is rewritten.
+    /// `[0, w]`: WebGPU, Vulkan, Metal, Direct3D. The vertex stage rewrites the position.
     #[default]
     ZeroToOne,
-    /// `[-w, w]`: kept as it is.
+    /// `[-w, w]`: the position is unchanged.
     MinusOneToOne,
 }
 
-/// Where row 0 of the framebuffer is.
+/// The position of row 0 of the framebuffer.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum WindowOrigin {
-    /// No flip: upright on the screen; `gl_FragCoord.y`, `dFdy` and `gl_PointCoord` are corrected.
+    /// No flip: the picture is upright on the screen; `gl_FragCoord.y`, `dFdy` and `gl_PointCoord` are corrected.
     #[default]
     UpperLeft,
-    /// The vertex stage flips y, so that a texture rendered to holds the rows that OpenGL's would.
+    /// The vertex stage flips y, so that a render target contains the same rows as in OpenGL.
     LowerLeft,
 }
 
-/// Which way y points in the normalized device coordinates that SPIR-V is written for.
+/// The direction of y in the normalized device coordinates of emitted SPIR-V.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum SpirvEnv {
-    /// Up, as wgpu arranges it with a negative viewport.
+    /// Up, which wgpu provides with a negative viewport.
     #[default]
     Webgpu,
-    /// Down: a plain Vulkan viewport.
+    /// Down, as with a plain Vulkan viewport.
     Vulkan,
 }
 
 /// What the host expects.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Conventions {
-    /// Clip space z.
+    /// The range of clip-space z.
     pub clip_z: ClipZ,
-    /// Framebuffer rows.
+    /// The order of framebuffer rows.
     pub window_origin: WindowOrigin,
-    /// For SPIR-V.
+    /// The environment of SPIR-V.
     pub spirv_env: SpirvEnv,
     /// How many clip distances are enabled; `None` for all that are written.
     pub clip_distances: Option<u32>,
-    /// Whether `gl_PointSize` counts.
+    /// Whether `gl_PointSize` has an effect.
     pub program_point_size: bool,
-    /// Whether SPIR-V carries source lines.
+    /// Whether SPIR-V contains source lines.
     pub debug_lines: bool,
 }

@@ -1,11 +1,12 @@
-//! [`Shape`]: the texture and sampler that stand for a sampler type, in WebGPU's own words.
+//! [`Shape`]: the texture and sampler that represent a sampler type, in WebGPU's terms.
 //!
-//! *In:* a [`SamplerType`]. *Out:* what a host puts into the layout of its bind group. *Holds:* the same as what the lowering
-//! declares (see `lower/samplers.rs`), which a test of a host that knows the reflection alone shows.
+//! *In:* a [`SamplerType`]. *Out:* the entry for the layout of a bind group. *Holds:* it agrees with what the
+//! lowering declares (see `lower/samplers.rs`); a test with a host that knows only the reflection shows that.
 
 use glisten_front::hir::{SamplerDim, SamplerType, Scalar};
 
-/// Texels in a row of the 2D texture that stands for a buffer texture: texel `i` is at (`i` mod width, `i` / width).
+/// The number of texels in a row of the 2D texture that emulates a buffer texture: texel `i` is at (`i` mod width,
+/// `i` / width).
 pub const BUFFER_WIDTH: u32 = 4096;
 
 /// A texture and its sampler.
@@ -19,14 +20,14 @@ pub(crate) struct Shape {
 }
 
 impl Shape {
-    /// What stands for a sampler type.
+    /// The texture and sampler of a sampler type.
     pub(crate) fn of(ty: SamplerType) -> Self {
         let multisampled = ty.dim == SamplerDim::Multisample;
         let fetched = multisampled || ty.dim == SamplerDim::Buffer;
         Self {
             view_dimension: match (ty.dim, ty.arrayed) {
                 (SamplerDim::D3, _) => "3d",
-                // Nothing loads from a cube, and integers are only loaded.
+                // Texels cannot be loaded from a cube, and integer texels are only loaded.
                 (SamplerDim::Cube, false) if ty.texel != Scalar::Float => "2d-array",
                 (SamplerDim::Cube, false) => "cube",
                 (SamplerDim::Cube, true) => "cube-array",

@@ -1,4 +1,4 @@
-//! Constant expressions (§4.3.3): what is one, and its value.
+//! Constant expressions (§4.3.3): which expressions are constant, and their values.
 
 use super::context::Analyzer;
 use crate::builtin::BuiltinFunction;
@@ -7,15 +7,16 @@ use crate::diagnostic::codes::types;
 use crate::fold;
 use crate::hir::{ExprId, ExprKind, ScalarValue, Value, VarRef};
 
-/// Whether a call of a built-in function with constant arguments is a constant expression: not of the noise functions,
-/// nor of those that act. Texture functions never have constant arguments, for samplers are none.
+/// Whether a call of a built-in function with constant arguments is a constant expression. It is not for noise
+/// functions and for functions with side effects. Texture functions never have constant arguments, because samplers
+/// are not constant.
 pub(super) fn is_foldable(function: BuiltinFunction) -> bool {
     use BuiltinFunction::{EmitVertex, EndPrimitive, Noise1, Noise2, Noise3, Noise4};
     !matches!(function, EmitVertex | EndPrimitive | Noise1 | Noise2 | Noise3 | Noise4)
 }
 
 impl Analyzer<'_> {
-    /// The value of a constant expression; `None` for every other.
+    /// The value of a constant expression; `None` for any other expression.
     pub(super) fn evaluate(&self, id: ExprId) -> Option<Value> {
         if !self.is_constant(id) || self.fold_fuel.get() == 0 {
             return None;
@@ -25,7 +26,7 @@ impl Analyzer<'_> {
             VarRef::Local(id) => self.local(id)?.value.as_ref(),
         };
         let value = fold::evaluate_within(&self.shader, self.types, id, &local, &self.fold_fuel)?;
-        // Kept values take memory: the longer ones weigh more than the steps that made them.
+        // Stored values take memory, so the longer ones cost more than the steps that made them.
         let weight = 16 * value.scalars.len() as u64;
         if value.scalars.len() > 16 {
             self.fold_fuel.set(self.fold_fuel.get().saturating_sub(weight));
@@ -33,7 +34,7 @@ impl Analyzer<'_> {
         Some(value)
     }
 
-    /// The value of a constant expression that is one `int` or `uint`.
+    /// The value of a constant expression of type `int` or `uint`.
     pub(super) fn evaluate_integer(&self, id: ExprId) -> Option<i64> {
         match self.evaluate(id)?.scalars.first()? {
             ScalarValue::Int(value) => Some(i64::from(*value)),
@@ -42,7 +43,7 @@ impl Analyzer<'_> {
         }
     }
 
-    /// The finding that an initializer has no value known now.
+    /// The diagnostic for an initializer whose value is not known at compile time.
     pub(super) fn not_constant_value(&self, id: ExprId, what: &str) -> Diagnostic {
         if self.fold_fuel.get() == 0 {
             let message = "the constants of the shader take too long to compute";
@@ -58,7 +59,7 @@ impl Analyzer<'_> {
         self.not_constant(id, what)
     }
 
-    /// The finding that an expression is not constant where `what` must be; it points at the part that is to blame.
+    /// The diagnostic for an expression that is not constant where `what` must be; it points at the part to blame.
     pub(super) fn not_constant(&self, id: ExprId, what: &str) -> Diagnostic {
         let culprit = self.culprit(id);
         let reason = match &self.expr_at(culprit).kind {
@@ -72,7 +73,7 @@ impl Analyzer<'_> {
             .label(self.span(culprit), reason)
     }
 
-    /// The deepest part that makes an expression not constant.
+    /// The innermost part that makes an expression non-constant.
     fn culprit(&self, id: ExprId) -> ExprId {
         let mut at = id;
         while let Some(child) = self.shader.children(at).into_iter().find(|&child| !self.is_constant(child)) {

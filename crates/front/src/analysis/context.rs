@@ -1,4 +1,9 @@
-//! [`Analyzer`]: the state of the walk over one shader.
+//! [`Analyzer`]: the state of the traversal of one shader.
+//!
+//! *In:* the syntax tree, the options, the types that all stages share. *Out:* a typed shader and diagnostics.
+//!
+//! *Holds:* expressions are appended in evaluation order, children before parents; `facts` runs parallel to them.
+//! Every name that cannot be resolved becomes poison after its one message.
 
 use super::layout::BlockDefaults;
 use super::scope::{Entry, Scopes};
@@ -17,42 +22,42 @@ use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 use std::cell::Cell;
 
-/// What the analysis knows of an expression beside its type.
+/// What the analysis knows about an expression besides its type.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Facts {
-    /// How deep the tree is, along left operands too.
+    /// The depth of the tree, counted along left operands too.
     pub(super) depth: u32,
     /// Whether it is a constant expression (§4.3.3).
     pub(super) constant: bool,
 }
 
-/// How many scalars the constants of a shader may read and make: some tenths of a second.
+/// How many scalars the constants of a shader may read and make; it takes some tenths of a second.
 const MAX_FOLD_STEPS: u64 = 1 << 26;
 
-/// The function whose body is being read.
+/// The function whose body is being analyzed.
 pub(super) struct Body {
     pub(super) function: FunctionId,
     pub(super) loops: u32,
     pub(super) switches: u32,
-    /// It holds a `return`, or something that was not understood and may have been one.
+    /// Whether it contains a `return`, or something broken that may have been one.
     pub(super) returns: bool,
 }
 
-/// An array that may lack a size.
+/// An array that may still lack a size.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum ArrayKey {
     /// A global.
     Global(GlobalId),
     /// A member of a global that is a block or an array of blocks.
     Member(GlobalId, u32),
-    /// A local of the function being read.
+    /// A local of the current function.
     Local(LocalId),
 }
 
 /// The types of a function's parameters.
 pub(super) type Signature = SmallVec<[TypeId; 4]>;
 
-/// The state of the walk.
+/// The state of the traversal.
 pub(super) struct Analyzer<'a> {
     pub(super) ast: &'a Ast,
     pub(super) stage: Stage,
@@ -64,38 +69,38 @@ pub(super) struct Analyzer<'a> {
     /// Parallel to the shader's expressions.
     pub(super) facts: Vec<Facts>,
     pub(super) scopes: Scopes,
-    /// The extensions that are on at the declaration being read.
+    /// The extensions that are enabled at the current declaration.
     pub(super) extensions: Extensions,
-    /// The function being read.
+    /// The current function.
     pub(super) body: Option<Body>,
     /// The type of each type keyword met so far.
     pub(super) keyword_types: FxHashMap<Symbol, Option<TypeId>>,
     /// The functions of the shader by name and parameters.
     pub(super) signatures: FxHashMap<(Symbol, Signature), FunctionId>,
-    /// The names of blocks, which mean nothing else at global scope (§4.3.7).
+    /// The names of blocks, which have no other meaning at global scope (§4.3.7).
     pub(super) block_names: FxHashMap<Symbol, Span>,
-    /// The names of blocks with what they are, and where.
+    /// The names of blocks with their storage, and their positions.
     pub(super) block_interfaces: FxHashMap<(Symbol, Storage), Span>,
-    /// The places of the members of structs that have many.
+    /// The indices of the members, for structs with many members.
     pub(super) member_indices: FxHashMap<StructId, FxHashMap<Symbol, u32>>,
-    /// The scalars of all globals so far, and of all locals of the function being read.
+    /// The number of scalars of all globals so far, and of all locals of the current function.
     pub(super) n_global_scalars: u32,
     pub(super) n_local_scalars: u32,
-    /// The globals that need a place of their own at a border of the stage.
+    /// The number of globals that need a location or binding.
     pub(super) n_places: u32,
-    /// How many steps the constants of the shader may still take.
+    /// How many steps constant evaluation may still take in this shader.
     pub(super) fold_fuel: Cell<u64>,
-    /// How many times a name like an unknown one was looked for.
+    /// How many times the analysis searched for a name similar to an unknown one.
     pub(super) n_suggestions: u32,
-    /// The built-in variables that are named or redeclared.
+    /// The built-in variables that are used or redeclared.
     pub(super) builtins: FxHashMap<crate::builtin::BuiltinVariable, GlobalId>,
     /// The first use of each global.
     pub(super) first_uses: FxHashMap<GlobalId, Span>,
     /// The first use of each member of an input or output block without an instance name.
     pub(super) first_member_uses: FxHashMap<(GlobalId, u32), Span>,
-    /// The largest constant index of each array without a size, and where it stands (§4.1.9).
+    /// For each array without a size, the largest constant index, and its position (§4.1.9).
     pub(super) array_uses: FxHashMap<ArrayKey, (u32, Span)>,
-    /// The same for the locals of the function being read.
+    /// The same map for the locals of the current function.
     pub(super) local_array_uses: FxHashMap<LocalId, (u32, Span)>,
     /// `layout(...) uniform;`
     pub(super) block_defaults: BlockDefaults,
@@ -103,13 +108,13 @@ pub(super) struct Analyzer<'a> {
     pub(super) geometry_size: Option<(u32, Span)>,
     /// Where the parts of the geometry layout were first declared.
     pub(super) geometry_spans: GeometrySpans,
-    /// The output block `gl_PerVertex`, if it is declared again.
+    /// The output block `gl_PerVertex`, if it is redeclared.
     pub(super) per_vertex_out: Option<super::declare::PerVertex>,
     /// The first redeclaration of `gl_FragCoord`.
     pub(super) frag_coord_span: Option<Span>,
 }
 
-/// Where a geometry shader's layouts were first declared.
+/// The positions of the first declaration of each of a geometry shader's layouts.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct GeometrySpans {
     pub(super) input: Span,
@@ -161,7 +166,7 @@ impl<'a> Analyzer<'a> {
         }
     }
 
-    /// Reads all declarations, then does what needs the whole shader.
+    /// Analyzes all declarations, then runs the checks that need the whole shader.
     pub(super) fn run(mut self) -> Shader {
         let ast = self.ast;
         for declaration in &ast.declarations {
@@ -186,7 +191,7 @@ impl<'a> Analyzer<'a> {
         self.shader
     }
 
-    /// Reports a finding.
+    /// Reports a diagnostic.
     pub(super) fn report(&mut self, diagnostic: Diagnostic) {
         self.diagnostics.push(worded(diagnostic));
     }
@@ -196,13 +201,13 @@ impl<'a> Analyzer<'a> {
         self.ast.name(ident)
     }
 
-    /// The name of a type as it is written.
+    /// The name of a type, as written in GLSL.
     pub(super) fn type_name(&self, ty: TypeId) -> String {
         self.types.name(ty)
     }
 
-    /// Whether what stands at `span` may stand there: the language has it from `since` on, or an extension that is on
-    /// brings it. A use is warned of where the source asks for that (§3.3).
+    /// Whether the feature at `span` is available: either the language has had it since version `since`, or an
+    /// enabled extension provides it. Warns about the use if the source asks for that (§3.3).
     pub(super) fn allows(&mut self, extension: Extensions, since: u16, span: Span) -> bool {
         if self.ast.version.number >= since {
             return true;
@@ -213,12 +218,12 @@ impl<'a> Analyzer<'a> {
         self.extensions.intersects(extension)
     }
 
-    /// Whether what stands at `span` may stand there by the rules of ARB_shading_language_420pack.
+    /// Whether ARB_shading_language_420pack makes the construct at `span` available.
     pub(super) fn allows_420pack(&mut self, span: Span) -> bool {
         self.allows(Extensions::SHADING_LANGUAGE_420PACK, 420, span)
     }
 
-    /// Adds an expression, and what is known of it.
+    /// Adds an expression and its facts.
     pub(super) fn push(&mut self, kind: ExprKind, ty: TypeId, span: Span) -> ExprId {
         let facts = self.facts_of(&kind);
         self.shader.expr_depth = self.shader.expr_depth.max(facts.depth);
@@ -226,7 +231,7 @@ impl<'a> Analyzer<'a> {
         self.shader.push(kind, ty, span)
     }
 
-    /// An expression that was not understood; the reason is already reported.
+    /// An expression in error, whose cause has been reported.
     pub(super) fn poison(&mut self, span: Span) -> ExprId {
         self.push(ExprKind::Error, TypeId::ERROR, span)
     }
@@ -236,7 +241,7 @@ impl<'a> Analyzer<'a> {
         self.push(ExprKind::Literal(value), TypeId::vector(value.scalar(), 1), span)
     }
 
-    /// The expression behind a handle.
+    /// The expression of a handle.
     pub(super) fn expr_at(&self, id: ExprId) -> &Expr {
         self.shader.expr(id)
     }
@@ -246,7 +251,7 @@ impl<'a> Analyzer<'a> {
         self.shader.expr(id).ty
     }
 
-    /// The text of an expression.
+    /// The span of an expression.
     pub(super) fn span(&self, id: ExprId) -> Span {
         self.shader.expr(id).span
     }
@@ -256,26 +261,26 @@ impl<'a> Analyzer<'a> {
         self.facts.get(id.index()).is_some_and(|facts| facts.constant)
     }
 
-    /// The local of the function being read.
+    /// A local of the current function.
     pub(super) fn local(&self, id: LocalId) -> Option<&Local> {
         let body = self.body.as_ref()?;
         self.shader.functions.get(body.function.index())?.locals.get(id.index())
     }
 
-    /// Adds a local to the function being read.
+    /// Adds a local to the current function.
     pub(super) fn add_local(&mut self, local: Local) -> Option<LocalId> {
         let function = self.current_function()?;
         function.locals.push(local);
         Some(LocalId::new(function.locals.len() - 1))
     }
 
-    /// The function being read.
+    /// The current function.
     pub(super) fn current_function(&mut self) -> Option<&mut Function> {
         let id = self.body.as_ref()?.function;
         self.shader.functions.get_mut(id.index())
     }
 
-    /// Enters a name, unless its scope has it already: that is reported, and the name then means nothing.
+    /// Enters a name, unless its scope already has it: that is reported, and the name is then poison.
     pub(super) fn enter(&mut self, name: Ident, entry: Entry) {
         if let Some(earlier) = self.scopes.find_here(name.symbol) {
             if earlier.entry != Entry::Poison {
@@ -296,7 +301,7 @@ impl<'a> Analyzer<'a> {
         self.scopes.enter(name.symbol, entry, name.span);
     }
 
-    /// Enters what a declaration that was not understood would have declared: uses of it raise nothing more.
+    /// Enters the names of a broken declaration as poison, so that their uses raise no more messages.
     pub(super) fn enter_broken(&mut self, names: &[Ident]) {
         for name in names {
             if self.scopes.find_here(name.symbol).is_none() {
@@ -305,7 +310,8 @@ impl<'a> Analyzer<'a> {
         }
     }
 
-    /// Whether a name like an unknown one is still looked for: each look compares it with all names in sight.
+    /// Whether to keep searching for names similar to unknown ones: each search compares a name with all names in
+    /// scope.
     pub(super) fn may_suggest(&mut self) -> Option<()> {
         const MOST: usize = 64;
         const MOST_COMPARED: usize = 1 << 17;
@@ -314,7 +320,7 @@ impl<'a> Analyzer<'a> {
         (looks <= MOST && looks.saturating_mul(self.scopes.len()) <= MOST_COMPARED).then_some(())
     }
 
-    /// Notes that a global is named.
+    /// Records a use of a global.
     pub(super) fn note_use(&mut self, global: GlobalId, span: Span) {
         self.first_uses.entry(global).or_insert(span);
     }

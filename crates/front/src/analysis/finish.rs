@@ -1,5 +1,5 @@
-//! What needs the whole shader: the sizes of arrays that only their use sizes (§4.1.9), recursion (§6.1), static use
-//! (§3.8), and the outputs that exclude each other (§7.2).
+//! The checks that need the whole shader: sizes of arrays that follow from their uses (§4.1.9), recursion (§6.1),
+//! static use (§3.8), and outputs that exclude each other (§7.2).
 
 use super::context::{Analyzer, ArrayKey};
 use crate::builtin::BuiltinVariable;
@@ -18,7 +18,7 @@ impl Analyzer<'_> {
         self.check_pragma();
     }
 
-    /// Gives each array without a size as many elements as its use asks for.
+    /// Gives each array without a size the size that its uses require.
     fn size_arrays(&mut self) {
         for index in 0..self.shader.globals.len() {
             let id = GlobalId::new(index);
@@ -53,13 +53,13 @@ impl Analyzer<'_> {
         }
     }
 
-    /// The array type that holds all elements that are named.
+    /// The array type that covers all elements that are used.
     pub(super) fn sized_by_use(&mut self, key: ArrayKey, element: TypeId, is_clip_distance: bool) -> TypeId {
         let largest = match key {
             ArrayKey::Local(id) => self.local_array_uses.get(&id).copied(),
             _ => self.array_uses.get(&key).copied(),
         };
-        // An array that is never indexed still needs a size to exist; nothing can tell which.
+        // An array that is never indexed needs some size to exist; nothing determines which.
         let size = largest.map_or(1, |(index, _)| index.saturating_add(1));
         if let Some((_, span)) = largest.filter(|_| is_clip_distance) {
             self.check_clip_distances(size, span);
@@ -67,7 +67,7 @@ impl Analyzer<'_> {
         self.types.array(element, ArraySize::Sized(size))
     }
 
-    /// The same for the locals of the function that has just been read, whose expressions begin at `first`.
+    /// Does the same for the locals of the function that was just analyzed, whose expressions begin at `first`.
     pub(super) fn size_locals(&mut self, first: usize) {
         let Some(n_locals) = self.current_function().map(|function| function.locals.len()) else { return };
         let mut any = false;
@@ -96,7 +96,7 @@ impl Analyzer<'_> {
         self.local_array_uses.clear();
     }
 
-    /// Brings the types of expressions that name such arrays up to date. Children stand before their parents.
+    /// Updates the types of expressions that name such arrays. Children come before their parents.
     fn retype(&mut self) {
         for index in 0..self.shader.exprs.len() {
             let Some(expr) = self.shader.exprs.get(index) else { continue };
@@ -120,7 +120,7 @@ impl Analyzer<'_> {
         }
     }
 
-    /// §4.6.1: `#pragma STDGL invariant(all)` is for shaders whose outputs others read.
+    /// Checks that `#pragma STDGL invariant(all)` is in a shader whose outputs another stage reads (§4.6.1).
     fn check_pragma(&mut self) {
         if let Some(span) = self.ast.invariant_all.filter(|_| self.stage == Stage::Fragment) {
             self.report(
@@ -134,7 +134,7 @@ impl Analyzer<'_> {
         }
     }
 
-    /// A shader writes `gl_FragColor`, or `gl_FragData`, or outputs of its own.
+    /// Checks that a shader writes only one of `gl_FragColor`, `gl_FragData` and its own outputs.
     fn check_fragment_outputs(&mut self) {
         if self.stage != Stage::Fragment {
             return;

@@ -1,4 +1,4 @@
-//! The type keywords (§3.6, §4.1), one row a keyword, with the version from which it is in the language.
+//! The type keywords (§3.6, §4.1), one row each, with the version that introduced them.
 
 use crate::hir::{SamplerDim, SamplerType, Scalar, Type};
 use crate::syntax::ast::{Extensions, Version};
@@ -70,7 +70,7 @@ static KEYWORDS: &[Keyword] = &[
     row("usampler2DMSArray", sampler(Uint, Multisample, true, false), 150),
 ];
 
-/// The type that a keyword names in a version of the language with these extensions.
+/// The type that a keyword denotes in a version of the language with these extensions.
 pub(super) fn type_of(name: &str, version: Version, extensions: Extensions) -> Option<Type> {
     let keyword = KEYWORDS.iter().find(|keyword| keyword.name == name)?;
     let known = version.number >= keyword.since || extensions.intersects(keyword.extension);

@@ -1,4 +1,4 @@
-//! Layout qualifiers (§4.3.8): one row an identifier, with the places where it may stand.
+//! Layout qualifiers (§4.3.8): one row per identifier, with the declarations that accept it.
 
 use super::context::Analyzer;
 use super::qualifiers::Qualifiers;
@@ -8,7 +8,7 @@ use crate::hir::{BlockLayout, MatrixLayout, PrimitiveIn, PrimitiveOut};
 use crate::source::Span;
 use crate::syntax::ast::{ExprKind as AstExprKind, Extensions, LayoutId, Literal};
 
-/// What a layout qualifier stands before.
+/// The declaration that a layout qualifier applies to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum LayoutPlace {
     /// An input of a vertex shader.
@@ -21,7 +21,7 @@ pub(super) enum LayoutPlace {
     Sampler,
     /// A uniform block.
     UniformBlock,
-    /// A member of one.
+    /// A member of a uniform block.
     UniformMember,
     /// `layout(..) uniform;`
     UniformDefault,
@@ -29,7 +29,7 @@ pub(super) enum LayoutPlace {
     GeometryIn,
     /// `layout(..) out;` of a geometry shader.
     GeometryOut,
-    /// Anything else, by the words that name it.
+    /// Any other declaration, with its description.
     Other(&'static str),
 }
 
@@ -50,7 +50,7 @@ impl LayoutPlace {
     }
 }
 
-/// What an identifier sets.
+/// What a layout identifier sets.
 #[derive(Clone, Copy, Debug)]
 enum Effect {
     Location,
@@ -62,7 +62,7 @@ enum Effect {
     Matrix(MatrixLayout),
     In(PrimitiveIn),
     Out(PrimitiveOut),
-    /// `points` is an input and an output.
+    /// `points` is both an input and an output primitive.
     Points,
     MaxVertices,
 }
@@ -120,7 +120,7 @@ static ROWS: &[Row] = &[
     valued(row("max_vertices", Effect::MaxVertices, &[GeometryOut])),
 ];
 
-/// Identifiers of later versions, for which the message is another than for a slip of the pen.
+/// Identifiers of later versions, which get another message than misspelled ones.
 static LATER: &[(&str, &str)] = &[
     ("stream", "4.00"),
     ("invocations", "4.00"),
@@ -137,7 +137,7 @@ static LATER: &[(&str, &str)] = &[
     ("push_constant", "4.50 for Vulkan"),
 ];
 
-/// What a `layout(...)` says.
+/// The contents of a `layout(...)`.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Layout {
     pub(super) location: Option<(u32, Span)>,
@@ -147,13 +147,13 @@ pub(super) struct Layout {
     pub(super) pixel_center_integer: bool,
     pub(super) block: Option<BlockLayout>,
     pub(super) matrix: Option<MatrixLayout>,
-    /// Each primitive that is named, in order: `layout(points, lines)`.
+    /// Each input primitive, in source order: `layout(points, lines)`.
     pub(super) inputs: Vec<(PrimitiveIn, Span)>,
     pub(super) outputs: Vec<(PrimitiveOut, Span)>,
     pub(super) max_vertices: Option<(u32, Span)>,
 }
 
-/// `layout(...) uniform;`: what blocks behind it inherit.
+/// `layout(...) uniform;`: the defaults that later blocks inherit.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct BlockDefaults {
     pub(super) layout: BlockLayout,
@@ -161,8 +161,8 @@ pub(super) struct BlockDefaults {
 }
 
 impl Analyzer<'_> {
-    /// Reads the layout identifiers of a declaration. Each must be known, on, and allowed at the place; later ones
-    /// override earlier ones.
+    /// Evaluates the layout identifiers of a declaration. Each must be known, enabled, and allowed for this
+    /// declaration; later ones override earlier ones.
     pub(super) fn layout(&mut self, qualifiers: &Qualifiers, place: LayoutPlace) -> Layout {
         let mut layout = Layout::default();
         for id in &qualifiers.layout {
@@ -178,7 +178,7 @@ impl Analyzer<'_> {
 
     fn layout_row(&mut self, id: &LayoutId, place: LayoutPlace) -> Option<&'static Row> {
         let spelling = self.name(id.name);
-        // The identifiers are not case sensitive in 1.50.
+        // In 1.50 the identifiers are not case-sensitive.
         let Some(row) = ROWS.iter().find(|row| row.name.eq_ignore_ascii_case(spelling)) else {
             self.report(unknown(spelling, id.name.span));
             return None;
@@ -218,7 +218,7 @@ impl Analyzer<'_> {
         None
     }
 
-    /// The value behind `=`, an integer that is not negative.
+    /// The value after `=`, a non-negative integer.
     fn layout_value(&mut self, id: &LayoutId) -> Option<(u32, Span)> {
         let expr = self.ast.expr(id.value?);
         let value = match &expr.kind {

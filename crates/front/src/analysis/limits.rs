@@ -1,7 +1,8 @@
-//! Limits on the sizes of types and variables, past which no target can bind or hold them.
+//! Limits on the sizes of types and variables. Beyond them, no target can bind or store the data.
 //!
-//! The minima of `gl_Max*` are not errors (drivers have more); these are far above what any driver has, and keep a short
-//! text from asking for gigabytes: structs that hold each other twice double with each line.
+//! The minima of `gl_Max*` are not limits, since drivers have more. These limits are far above those of any driver.
+//! They keep a short text from asking for gigabytes: structs that contain each other twice double in size with each
+//! line.
 
 use super::context::Analyzer;
 use crate::diagnostic::Diagnostic;
@@ -9,23 +10,24 @@ use crate::diagnostic::codes::types;
 use crate::hir::{Storage, TypeId};
 use crate::source::Span;
 
-/// The scalars of one type, of all variables of a function, and of all globals of a shader that are no uniforms.
+/// The largest number of scalars of one type, of all variables of a function, and of all non-uniform globals of a
+/// shader.
 const MAX_SCALARS: u32 = 1 << 20;
 
-/// The scalars of all uniforms of a shader: 64 times what drivers have.
+/// The largest number of scalars of all uniforms of a shader: 64 times what drivers have.
 const MAX_UNIFORM_SCALARS: u32 = 1 << 18;
 
-/// The inputs, outputs, blocks and samplers of a shader: each needs a place of its own, and no target has more than a
-/// thousand of any kind.
+/// The largest number of inputs, outputs, blocks and samplers of a shader. Each needs a location or binding, and no
+/// target has more than a thousand of any kind.
 const MAX_PLACES: u32 = 4096;
 
 impl Analyzer<'_> {
-    /// Whether a type is small enough to exist.
+    /// Checks that a type is small enough.
     pub(super) fn check_size(&mut self, ty: TypeId, span: Span) -> bool {
         self.check_scalars(self.types.flat_len(ty), MAX_SCALARS, span)
     }
 
-    /// Whether a global still fits beside those before it.
+    /// Checks that a global still fits together with those before it.
     pub(super) fn check_global_size(&mut self, ty: TypeId, storage: Storage, is_block: bool, span: Span) -> bool {
         let limit = if storage == Storage::Uniform { MAX_UNIFORM_SCALARS } else { MAX_SCALARS };
         let has_place = matches!(storage, Storage::In | Storage::Out) || is_block || self.types.contains_sampler(ty);
@@ -41,7 +43,7 @@ impl Analyzer<'_> {
         self.check_scalars(self.n_global_scalars, limit, span)
     }
 
-    /// Whether a local still fits beside those before it.
+    /// Checks that a local still fits together with those before it.
     pub(super) fn check_local_size(&mut self, ty: TypeId, span: Span) -> bool {
         self.n_local_scalars = self.n_local_scalars.saturating_add(self.types.flat_len(ty));
         self.check_scalars(self.n_local_scalars, MAX_SCALARS, span)

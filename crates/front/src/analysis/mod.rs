@@ -1,19 +1,21 @@
-//! Syntax tree to typed program: scopes, types, overloads, conversions, constants, qualifiers (GLSL 1.50 §4 to §7).
+//! From syntax tree to typed program: scopes, types, overloads, conversions, constants, qualifiers (GLSL 1.50 §4 to
+//! §7).
 //!
-//! *In:* an [`Ast`]. *Out:* a [`Shader`], whole even where the source is wrong, and diagnostics.
+//! *In:* an [`Ast`]. *Out:* a [`Shader`], complete even if the source has errors, and diagnostics.
 //!
-//! One walk over the declarations in their order does almost everything, for every rule of the language looks back and
-//! none looks ahead; what needs the whole shader stands behind it: the sizes of implicitly sized arrays
-//! (`finish`), recursion (`recursion`), static use (in [`hir`](crate::hir)).
+//! One traversal of the declarations in source order does almost everything, because every rule of the language looks
+//! back and none looks ahead. What needs the whole shader comes after it: the sizes of implicitly sized arrays
+//! (`finish`), recursion (`recursion`), and static use (in [`hir`](crate::hir)).
 //!
-//! * `context` holds the state of the walk, `scope` the names in sight.
-//! * `types`, `qualifiers` and `layout` read what stands before a name.
-//! * `declare` enters names: variables, structs, blocks, functions, redeclared built-ins.
-//! * `statement` and `expr` read function bodies.
-//! * [`fold`] computes constants.
+//! * `context` holds the state of the traversal, `scope` the names in scope.
+//! * `types`, `qualifiers` and `layout` analyze what precedes a name.
+//! * `declare` enters names: variables, structs, blocks, functions, redeclared built-in variables.
+//! * `statement` and `expr` analyze function bodies.
+//! * [`fold`](crate::fold) computes constants.
 //!
-//! *Holds:* one mistake raises one message: what is not understood becomes an expression or a type of
-//! [`TypeId::ERROR`](crate::hir::TypeId::ERROR), with which everything agrees. No walk recurses along left operands.
+//! *Holds:* one mistake raises one message. Whatever is in error gets the type
+//! [`TypeId::ERROR`](crate::hir::TypeId::ERROR), which is compatible with everything. No traversal recurses along
+//! left operands.
 
 mod constant;
 mod context;
@@ -40,8 +42,8 @@ use crate::stack::with_stack;
 use crate::syntax::ast::Ast;
 use context::Analyzer;
 
-/// Gives a syntax tree its meaning. `strict` makes errors of what every driver forgives; `types` is shared by all
-/// stages of a compilation.
+/// Analyzes a syntax tree. `strict` turns what every driver accepts into errors; all stages of a compilation share
+/// `types`.
 pub fn analyze(
     ast: &Ast,
     stage: Stage,
@@ -53,8 +55,8 @@ pub fn analyze(
     with_stack(nesting(ast), || Analyzer::new(ast, stage, strict, types, sources, diagnostics).run())
 }
 
-/// How deep the walk may recurse: right operands, arguments and indices; left operands are walked by a loop. Statements
-/// nest at most as deep as the parser allows, and each level of either kind is counted.
+/// How deep the traversal may recurse. It recurses into right operands, arguments and indices; a loop handles left
+/// operands. Statements nest at most as deep as the parser allows, and each level of either kind counts.
 fn nesting(ast: &Ast) -> u32 {
     let mut depths: Vec<u32> = Vec::with_capacity(ast.exprs.len());
     let mut deepest = 0;

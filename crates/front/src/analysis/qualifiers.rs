@@ -1,4 +1,4 @@
-//! Qualifiers (§4.3 to §4.7): one list as it is written to a [`Qualifiers`] record, and where each may stand.
+//! Qualifiers (§4.3 to §4.7): turns a list as written into a [`Qualifiers`] record, and checks where each is allowed.
 
 use super::context::Analyzer;
 use crate::diagnostic::codes::qualifiers;
@@ -7,7 +7,7 @@ use crate::hir::Interpolation;
 use crate::source::Span;
 use crate::syntax::ast::{LayoutId, Qualifier, QualifierKind};
 
-/// The storage and parameter qualifiers, of which a declaration has at most one beside `const`.
+/// The storage and parameter qualifiers; a declaration has at most one of them besides `const`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum StorageWord {
     Attribute,
@@ -19,7 +19,7 @@ pub(super) enum StorageWord {
 }
 
 impl StorageWord {
-    /// As it is written.
+    /// The spelling in GLSL.
     pub(super) fn spelling(self) -> &'static str {
         match self {
             Self::Attribute => "attribute",
@@ -42,13 +42,13 @@ pub(super) struct Qualifiers {
     pub(super) invariant: Option<Span>,
     pub(super) precision: Option<Span>,
     pub(super) precise: Option<Span>,
-    /// All identifiers of all `layout(...)`, in order.
+    /// All identifiers of all `layout(...)`, in source order.
     pub(super) layout: Vec<LayoutId>,
     /// The first `layout(...)`.
     pub(super) layout_span: Option<Span>,
 }
 
-/// Where a list of qualifiers stands.
+/// The kind of declaration that a list of qualifiers belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Place {
     /// A variable at global scope.
@@ -57,7 +57,7 @@ pub(super) enum Place {
     Local,
     /// A parameter.
     Parameter,
-    /// Before a function's return type.
+    /// The return type of a function.
     Return,
     /// A member of a struct.
     StructMember,
@@ -65,11 +65,11 @@ pub(super) enum Place {
     BlockMember,
     /// An interface block.
     Block,
-    /// Without a type: `invariant gl_Position;`, `layout(..) in;`
+    /// A declaration without a type: `invariant gl_Position;`, `layout(..) in;`.
     Alone,
 }
 
-/// The kinds of qualifiers for order and place.
+/// The classes of qualifiers, which determine their order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Class {
     Layout,
@@ -85,7 +85,7 @@ enum Class {
 struct ClassRow {
     class: Class,
     what: &'static str,
-    /// The rank in the order of §4.7; `layout` has none but stands before storage.
+    /// The rank in the order of §4.7. `layout` has none, but comes before storage.
     rank: u8,
     places: &'static [Place],
 }
@@ -142,7 +142,7 @@ impl Place {
 }
 
 impl Analyzer<'_> {
-    /// Reads a list of qualifiers: none twice, each where it may stand, in the order of §4.7.
+    /// Checks a list of qualifiers: none twice, each allowed here, in the order of §4.7.
     pub(super) fn qualifiers(&mut self, list: &[Qualifier], place: Place) -> Qualifiers {
         let mut record = Qualifiers::default();
         let mut last: Option<(u8, &Qualifier)> = None;
@@ -259,7 +259,7 @@ impl Analyzer<'_> {
         );
     }
 
-    /// Reports a qualifier that cannot stand before this variable for the reason given.
+    /// Reports a qualifier that is not allowed on this variable.
     pub(super) fn misplaced(&mut self, span: Span, message: impl Into<String>, help: &str) {
         self.report(Diagnostic::new(&qualifiers::MISPLACED, span, message.into()).here("not allowed here").help(help));
     }

@@ -1,4 +1,4 @@
-//! Recursion (§6.1): the graph of calls must have no cycle, whether it is ever entered or not.
+//! Recursion (§6.1): the call graph must not have a cycle, even if it is never entered.
 
 use super::context::Analyzer;
 use crate::diagnostic::Diagnostic;
@@ -6,7 +6,7 @@ use crate::diagnostic::codes::statements;
 use crate::hir::{ExprId, ExprKind, FunctionId};
 use crate::source::Span;
 
-/// A call: from where, to what.
+/// A call: its caller, its callee and its position.
 #[derive(Clone, Copy)]
 struct Edge {
     callee: FunctionId,
@@ -30,7 +30,7 @@ impl Analyzer<'_> {
             if states.get(start) != Some(&State::New) {
                 continue;
             }
-            // The path from `start`: a function and the next of its calls to follow.
+            // The path from `start`: each function, and the index of its next call to follow.
             let mut path = vec![(start, 0)];
             while let Some(&mut (at, ref mut next)) = path.last_mut() {
                 set(&mut states, at, State::Open);

@@ -1,18 +1,18 @@
-//! [`Scopes`]: which name means what at a place in the text (§4.2).
+//! [`Scopes`]: the meaning of each name at a position in the text (§4.2).
 //!
-//! Names of variables, structs and functions share one space. The built-in names stand in a scope of their own outside
-//! the global one; they are not entered here but asked of the tables when nothing here answers.
+//! Variables, structs and functions share one name space. Built-in names are in a scope outside the global one. They
+//! are not entered here; the caller looks them up in the tables if nothing is found here.
 
 use crate::hir::{FunctionId, GlobalId, TypeId, VarRef};
 use crate::source::Span;
 use crate::syntax::token::Symbol;
 use rustc_hash::FxHashMap;
 
-/// A set of overloads in [`Scopes`].
+/// The handle of a set of overloads in [`Scopes`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct OverloadSet(u32);
 
-/// What a name means.
+/// The meaning of a name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Entry {
     /// A variable.
@@ -21,20 +21,20 @@ pub(super) enum Entry {
     Member(GlobalId, u32),
     /// A struct.
     Struct(TypeId),
-    /// The functions of that name.
+    /// The functions of this name.
     Functions(OverloadSet),
-    /// Something whose declaration was in error: it agrees with everything.
+    /// Something whose declaration was in error; it is compatible with everything.
     Poison,
 }
 
 /// A declared name.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Binding {
-    /// What it means.
+    /// The meaning.
     pub(super) entry: Entry,
-    /// The name in its declaration; nowhere for what is built in.
+    /// The name in its declaration; unknown for built-in names.
     pub(super) span: Span,
-    /// The scope: 0 is global.
+    /// The level of the scope: 0 is global.
     pub(super) level: u32,
 }
 
@@ -44,7 +44,7 @@ struct Row {
     hidden: Option<u32>,
 }
 
-/// The names in sight.
+/// The names in scope.
 #[derive(Default)]
 pub(super) struct Scopes {
     rows: Vec<Row>,
@@ -59,7 +59,7 @@ impl Scopes {
         self.starts.push(self.rows.len());
     }
 
-    /// Closes the innermost scope; its names are forgotten and those they hid are back.
+    /// Closes the innermost scope: forgets its names, and reveals those that they hid.
     pub(super) fn close(&mut self) {
         let start = self.starts.pop().unwrap_or(0);
         for row in self.rows.drain(start..).rev() {
@@ -75,18 +75,18 @@ impl Scopes {
         self.starts.is_empty()
     }
 
-    /// What a name means here.
+    /// The meaning of a name here.
     pub(super) fn find(&self, symbol: Symbol) -> Option<Binding> {
         let row = *self.visible.get(&symbol)?;
         self.rows.get(row as usize).map(|row| row.binding)
     }
 
-    /// What a name means if it was declared in the innermost scope itself.
+    /// The meaning of a name, if it was declared in the innermost scope.
     pub(super) fn find_here(&self, symbol: Symbol) -> Option<Binding> {
         self.find(symbol).filter(|binding| binding.level == self.level())
     }
 
-    /// Enters a name into the innermost scope, where it hides what it meant before.
+    /// Enters a name into the innermost scope, where it hides its outer meaning.
     pub(super) fn enter(&mut self, symbol: Symbol, entry: Entry, span: Span) {
         let binding = Binding { entry, span, level: self.level() };
         let hidden = self.visible.insert(symbol, self.rows.len() as u32);
@@ -100,7 +100,7 @@ impl Scopes {
         }
     }
 
-    /// How many names are declared in all open scopes.
+    /// The number of names declared in all open scopes.
     pub(super) fn len(&self) -> usize {
         self.rows.len()
     }
@@ -123,7 +123,7 @@ impl Scopes {
         }
     }
 
-    /// All names in sight, in the order of their declarations.
+    /// All names in scope, in order of declaration.
     pub(super) fn names(&self) -> impl Iterator<Item = (Symbol, Binding)> {
         let in_sight = |(index, row): &(usize, &Row)| self.visible.get(&row.symbol) == Some(&(*index as u32));
         self.rows.iter().enumerate().filter(in_sight).map(|(_, row)| (row.symbol, row.binding))

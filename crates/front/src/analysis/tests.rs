@@ -1,4 +1,4 @@
-//! What a text becomes: normal forms of the typed program, and walks that must not overflow the stack.
+//! Tests of the analysis: the normal forms of the typed program, and traversals that must not overflow the stack.
 
 use crate::hir::{ConstructKind, ExprKind, GlobalId, LoopKind, ScalarValue, Shader, Stage, Stmt, StmtKind, TypeId};
 use crate::link::Program;
@@ -137,7 +137,7 @@ fn arrays_take_the_size_of_their_use() {
     assert!(!unsized_left, "an expression kept the type without a size");
 }
 
-/// Runs on a thread with as little stack as a browser gives.
+/// Runs on a thread with as little stack as a browser provides.
 fn on_small_stack(run: impl FnOnce() + Send + 'static) {
     let thread = std::thread::Builder::new().stack_size(1 << 20).spawn(run).expect("a thread starts");
     thread.join().expect("no overflow and no panic");
@@ -185,7 +185,7 @@ fn deep_nesting_works_up_to_the_limit_on_a_small_stack() {
     });
 }
 
-/// Each struct holds the one before it twice: the members double with each line.
+/// Each struct contains the one before it twice: the number of members doubles with each line.
 #[test]
 fn doubling_structs_end_in_an_error_at_once() {
     let mut text = String::from("struct S0 { float x; };\n");

@@ -1,4 +1,4 @@
-//! Types as they are written to types (§4.1), and the sizes of arrays (§4.1.9).
+//! Type specifiers (§4.1) and array sizes (§4.1.9), resolved to types.
 
 use super::context::Analyzer;
 use super::keywords;
@@ -10,11 +10,11 @@ use crate::source::Span;
 use crate::syntax::ast::{ArrayDim, ExprId as AstExprId, Ident, Qualifier, TypeBase, TypeSpec};
 use crate::syntax::token::Symbol;
 
-/// The largest array that is taken: what is longer cannot be bound by any target and would only cost memory.
+/// The largest size of an array. No target could bind a larger one, which would only cost memory.
 const MAX_ARRAY_SIZE: u32 = 1 << 16;
 
 impl Analyzer<'_> {
-    /// The type that a specifier names, with the arrays behind it. A struct that it declares is entered.
+    /// The type that a specifier denotes, with the arrays after it. Enters a struct that the specifier declares.
     pub(super) fn type_spec(&mut self, spec: &TypeSpec) -> TypeId {
         let base = match &spec.base {
             TypeBase::Error => TypeId::ERROR,
@@ -26,7 +26,7 @@ impl Analyzer<'_> {
         self.with_array(base, &spec.array)
     }
 
-    /// An array of `base` for each of the brackets; 1.50 has one-dimensional arrays only.
+    /// An array of `base` for each pair of brackets; 1.50 has only one-dimensional arrays.
     pub(super) fn with_array(&mut self, base: TypeId, dims: &[ArrayDim]) -> TypeId {
         let mut ty = base;
         for dim in dims.iter().rev() {
@@ -56,7 +56,7 @@ impl Analyzer<'_> {
         ty
     }
 
-    /// The size between brackets; `None` if it was in error.
+    /// The size in brackets; `None` if it is in error.
     fn array_size(&mut self, dim: &ArrayDim) -> Option<ArraySize> {
         match dim.size {
             Some(size) => self.constant_size(size).map(ArraySize::Sized),
@@ -64,7 +64,7 @@ impl Analyzer<'_> {
         }
     }
 
-    /// An integral constant expression greater than zero.
+    /// The value of a constant integral expression greater than zero.
     fn constant_size(&mut self, size: AstExprId) -> Option<u32> {
         let id = self.expr(size);
         let (ty, span) = (self.ty(id), self.span(id));
@@ -105,10 +105,10 @@ impl Analyzer<'_> {
         u32::try_from(size).ok()
     }
 
-    /// `precision highp float;` (§4.5.3): nothing follows from it.
+    /// `precision highp float;` (§4.5.3), which has no effect.
     pub(super) fn precision(&mut self, qualifier: &Qualifier, spec: &TypeSpec) {
         let ty = self.type_spec(spec);
-        // Samplers came with GLSL ES and 4.x; every driver takes them here, and nothing follows from them either.
+        // GLSL ES and 4.x added samplers here; every driver accepts them, also without effect.
         let forgiven = !self.strict && self.types.contains_sampler(ty);
         if ty.is_error() || ty == TypeId::INT || ty == TypeId::FLOAT || forgiven {
             return;
@@ -121,7 +121,7 @@ impl Analyzer<'_> {
         );
     }
 
-    /// A precision before a type that has none (§4.5.2).
+    /// Reports a precision qualifier on a type that cannot have one (§4.5.2).
     pub(super) fn check_precision(&mut self, precision: Option<Span>, ty: TypeId) {
         let Some(span) = precision.filter(|_| !ty.is_error()) else { return };
         let element = self.element_of(ty);
@@ -145,7 +145,7 @@ impl Analyzer<'_> {
                 let name = self.ast.names.spelling(symbol);
                 let ty = keywords::type_of(name, self.ast.version, self.extensions);
                 let known = ty.map(|ty| self.types.intern(ty));
-                // What is unknown here may be known behind an `#extension` line.
+                // A name that is unknown here may be known after an `#extension` line.
                 if known.is_some() {
                     self.keyword_types.insert(symbol, known);
                 }

@@ -1,4 +1,4 @@
-//! The wording that findings share: articles before names, and short quotes of the source.
+//! The wording that diagnostics share: articles before names, and short quotes of the source.
 
 use super::context::Analyzer;
 use crate::diagnostic::Diagnostic;
@@ -7,8 +7,8 @@ use crate::hir::ExprId;
 /// The longest text that is quoted in a message.
 const LONGEST_QUOTE: usize = 40;
 
-/// Writes `an` before quoted names that are spoken with a vowel first (`int`, `in`, `out`), and `a` before the rest
-/// (`uint`, `uniform`): the names come from tables and sources, the words before them from the messages.
+/// Writes `an` before quoted names whose pronunciation begins with a vowel (`int`, `in`, `out`), and `a` before the
+/// others (`uint`, `uniform`). The names come from tables and sources, the text before them from the messages.
 pub(super) fn with_articles(text: &str) -> String {
     let mut out = String::with_capacity(text.len() + 4);
     let mut rest = text;
@@ -30,7 +30,7 @@ pub(super) fn with_articles(text: &str) -> String {
     out
 }
 
-/// A finding with its articles in order.
+/// A diagnostic with its articles corrected.
 pub(super) fn worded(mut finding: Diagnostic) -> Diagnostic {
     finding.message = with_articles(&finding.message);
     for label in std::iter::once(&mut finding.primary).chain(&mut finding.secondary) {
@@ -40,7 +40,7 @@ pub(super) fn worded(mut finding: Diagnostic) -> Diagnostic {
 }
 
 impl Analyzer<'_> {
-    /// The text of an expression in quotes if it is short and stands as written, else `this`.
+    /// The text of an expression in quotes if it is short and outside macros, else `this`.
     pub(super) fn quote(&self, id: ExprId) -> String {
         let span = self.span(id);
         let text = self.sources.snippet(span);

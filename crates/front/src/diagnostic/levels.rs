@@ -1,23 +1,23 @@
-//! [`Levels`]: what the user wants to hear of, and how loudly.
+//! [`Levels`]: which diagnostics the user wants, and at which severity.
 //!
-//! *In:* levels by code, and comments `// glisten: allow(CODE)` in the sources. *Out:* diagnostics dropped, or with
-//! another severity.
+//! *In:* levels by code, and comments `// glisten: allow(CODE)` in the sources. *Out:* each diagnostic is dropped, or
+//! gets its severity.
 //!
-//! *Holds:* errors of the language are not up for negotiation: levels touch warnings and notes only. A level for a code
-//! beats `deny warnings`; a comment beats both.
+//! *Holds:* levels affect only warnings and notes, never errors of the language. A level for a code takes precedence
+//! over `deny warnings`; a comment takes precedence over both.
 
 use super::{Code, Diagnostic, Severity, codes};
 use crate::source::SourceMap;
 use std::collections::BTreeMap;
 
-/// What becomes of a warning.
+/// What happens to a warning.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Level {
     /// It is dropped.
     Allow,
-    /// It is a warning.
+    /// It stays a warning.
     Warn,
-    /// It is an error.
+    /// It becomes an error.
     Deny,
 }
 
@@ -34,17 +34,17 @@ impl Levels {
         self.by_code.insert(code.id, level);
     }
 
-    /// Makes errors of all warnings that have no level of their own.
+    /// Turns all warnings without a level of their own into errors.
     pub fn deny_warnings(&mut self) {
         self.deny_warnings = true;
     }
 
-    /// The level that a code was given.
+    /// The level that a code has been given.
     pub fn get(&self, code: &Code) -> Option<Level> {
         self.by_code.get(code.id).copied()
     }
 
-    /// These levels, and where they are silent those of `base`.
+    /// These levels, completed by those of `base`.
     #[must_use]
     pub fn over(&self, base: &Self) -> Self {
         let mut by_code = base.by_code.clone();
@@ -52,7 +52,7 @@ impl Levels {
         Self { by_code, deny_warnings: self.deny_warnings || base.deny_warnings }
     }
 
-    /// The severity that a finding has under these levels, or `None` if nobody wants to hear of it.
+    /// The severity of a diagnostic under these levels, or `None` if it is dropped.
     pub fn judge(&self, sources: &SourceMap, diagnostic: &Diagnostic) -> Option<Severity> {
         if diagnostic.severity == Severity::Error {
             return Some(Severity::Error);
@@ -70,7 +70,7 @@ impl Levels {
     }
 }
 
-/// Whether a comment on the finding's line, or on lines of nothing but comments right above, allows the code.
+/// Whether a comment on the diagnostic's line, or on comment-only lines directly above it, allows the code.
 fn is_allowed_by_comment(sources: &SourceMap, diagnostic: &Diagnostic) -> bool {
     let Some(at) = sources.location(sources.call_site(diagnostic.primary.span)) else { return false };
     let file = sources.file(at.file);

@@ -1,10 +1,10 @@
-//! What is wrong with a source, as data.
+//! Diagnostics: what is wrong with a source, as data.
 //!
-//! *In:* facts that a phase found. *Out:* [`Diagnostic`]s, each with a stable [`Code`] of the one registry,
-//! a primary label, further labels, a help text and the section of the specification it rests on.
-//! The writers (human, JSON, SARIF, GitHub) know nothing of rules; they are under [`mod@write`].
+//! *In:* facts that a phase found. *Out:* [`Diagnostic`]s, each with a stable [`Code`] from the one registry, a
+//! primary label, secondary labels, a help text, and the section of the specification. The writers (human, JSON,
+//! SARIF, GitHub) know nothing about rules; they are in [`mod@write`].
 //!
-//! *Holds:* a phase reports and goes on; nothing here prints.
+//! *Holds:* a phase reports and continues; nothing here prints.
 
 pub mod codes;
 mod levels;
@@ -18,12 +18,12 @@ pub use sink::Diagnostics;
 use crate::source::Span;
 use std::fmt;
 
-/// How bad it is.
+/// The severity of a diagnostic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Severity {
     /// Worth knowing.
     Note,
-    /// Legal, or forgiven, and likely to hurt.
+    /// Legal, or forgiven, and likely to cause trouble.
     Warning,
     /// The input is wrong.
     Error,
@@ -39,38 +39,38 @@ impl fmt::Display for Severity {
     }
 }
 
-/// A place with a word about it.
+/// A span with a message about it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Label {
-    /// Where.
+    /// The span.
     pub span: Span,
-    /// Why here; may be empty for the primary label.
+    /// The reason for this span; may be empty for the primary label.
     pub message: String,
 }
 
-/// One finding.
+/// One diagnostic.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic {
-    /// Which rule.
+    /// The code.
     pub code: &'static Code,
-    /// How bad; starts as the code's own severity.
+    /// The severity, initially that of the code.
     pub severity: Severity,
     /// One sentence without a full stop that names the construct.
     pub message: String,
     /// The offending tokens.
     pub primary: Label,
-    /// Further places: the other stage's declaration, the earlier definition, the macro.
+    /// Related spans: the other stage's declaration, the earlier definition, the macro.
     pub secondary: Vec<Label>,
-    /// Facts that need no place.
+    /// Facts that need no span.
     pub notes: Vec<String>,
-    /// What to do.
+    /// What to do about it.
     pub help: Option<String>,
-    /// The line that a `#line` directive gave the place, if one did.
+    /// The line number that a `#line` directive gave to the primary span, if there is one.
     pub presented_line: Option<u32>,
 }
 
 impl Diagnostic {
-    /// A finding of `code` at `span`.
+    /// A diagnostic of `code` at `span`.
     #[must_use]
     pub fn new(code: &'static Code, span: Span, message: impl Into<String>) -> Self {
         Self {
@@ -85,14 +85,14 @@ impl Diagnostic {
         }
     }
 
-    /// Says at the primary place why here.
+    /// Sets the message of the primary label.
     #[must_use]
     pub fn here(mut self, message: impl Into<String>) -> Self {
         self.primary.message = message.into();
         self
     }
 
-    /// Shows a further place.
+    /// Adds a secondary label.
     #[must_use]
     pub fn label(mut self, span: Span, message: impl Into<String>) -> Self {
         self.secondary.push(Label { span, message: message.into() });
@@ -106,14 +106,14 @@ impl Diagnostic {
         self
     }
 
-    /// Says what to do.
+    /// Sets the help text.
     #[must_use]
     pub fn help(mut self, help: impl Into<String>) -> Self {
         self.help = Some(help.into());
         self
     }
 
-    /// Says what to do, if there is something to say.
+    /// Sets the help text, if there is one.
     #[must_use]
     pub fn maybe_help(mut self, help: Option<String>) -> Self {
         self.help = help.or(self.help);
@@ -126,10 +126,10 @@ impl Diagnostic {
     }
 }
 
-/// The name among `candidates` nearest to `name`, if one is near enough to be a slip of the pen:
-/// at most a third of the letters wrong, capitals counting for less.
+/// The name among `candidates` that is most similar to `name`, if it is similar enough to be what was meant: at most
+/// a third of the letters differ, where a difference in case counts less.
 pub fn did_you_mean<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    // A longer name is no slip of the pen, and comparing it would take long.
+    // A longer name is unlikely to be a misspelling, and comparing it would take long.
     const LONGEST: usize = 64;
     if name.len() > LONGEST {
         return None;

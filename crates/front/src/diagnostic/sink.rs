@@ -1,13 +1,13 @@
-//! [`Diagnostics`]: collects findings, drops repetitions, and keeps to a limit.
+//! [`Diagnostics`] collects diagnostics, drops repetitions, and keeps to a limit.
 
 use super::{Diagnostic, Severity};
 use crate::source::Span;
 use rustc_hash::FxHashSet;
 
-/// The findings of a compilation in the order in which they were found.
+/// The diagnostics of a compilation, in the order in which they were found.
 ///
-/// The same code at the same place is kept once, so an error in a file that is included twice is
-/// reported once. Past [`Diagnostics::LIMIT`] findings the rest is only counted.
+/// The same code at the same place is kept once, so an error in a file that is included twice is reported once. Past
+/// [`Diagnostics::LIMIT`], diagnostics are only counted.
 #[derive(Clone, Debug, Default)]
 pub struct Diagnostics {
     list: Vec<Diagnostic>,
@@ -17,10 +17,10 @@ pub struct Diagnostics {
 }
 
 impl Diagnostics {
-    /// The largest number of findings kept.
+    /// The largest number of diagnostics kept.
     pub const LIMIT: usize = 500;
 
-    /// Adds a finding.
+    /// Adds a diagnostic.
     pub fn push(&mut self, diagnostic: Diagnostic) {
         if diagnostic.is_error() {
             self.errors += 1;
@@ -34,48 +34,49 @@ impl Diagnostics {
         }
     }
 
-    /// Whether an error is among them.
+    /// Whether there is an error.
     pub fn has_errors(&self) -> bool {
         self.errors > 0
     }
 
-    /// How many findings past the limit were dropped.
+    /// How many diagnostics past the limit were dropped.
     pub fn dropped(&self) -> usize {
         self.dropped
     }
 
-    /// Whether no room is left; a phase may stop then.
+    /// Whether the limit is reached; a phase may stop then.
     pub fn is_full(&self) -> bool {
         self.list.len() >= Self::LIMIT
     }
 
-    /// All findings.
+    /// All diagnostics.
     pub fn iter(&self) -> std::slice::Iter<'_, Diagnostic> {
         self.list.iter()
     }
 
-    /// All findings, to change severities by the user's levels.
+    /// All diagnostics, to change severities by the user's levels.
     pub fn iter_mut(&mut self) -> std::slice::IterMut<'_, Diagnostic> {
         self.list.iter_mut()
     }
 
-    /// The number of findings kept.
+    /// The number of diagnostics kept.
     pub fn len(&self) -> usize {
         self.list.len()
     }
 
-    /// Whether nothing was found.
+    /// Whether there are none.
     pub fn is_empty(&self) -> bool {
         self.list.is_empty()
     }
 
-    /// Keeps the findings that `keep` wants and counts the errors anew (`severity` may have changed).
+    /// Keeps the diagnostics for which `keep` returns true, and counts the errors again (`severity` may have
+    /// changed).
     pub fn retain(&mut self, keep: impl FnMut(&Diagnostic) -> bool) {
         self.list.retain(keep);
         self.errors = self.list.iter().filter(|diagnostic| diagnostic.severity == Severity::Error).count();
     }
 
-    /// Takes over the findings of another phase.
+    /// Adds the diagnostics of another phase.
     pub fn extend(&mut self, others: impl IntoIterator<Item = Diagnostic>) {
         for diagnostic in others {
             self.push(diagnostic);

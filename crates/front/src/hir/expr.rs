@@ -1,4 +1,7 @@
-//! Expressions (§5).
+//! Typed expressions (§5).
+//!
+//! *Holds:* an expression has a smaller handle than its parent; conversions are explicit; constructors are in normal
+//! form.
 
 use super::{FunctionId, GlobalId, LocalId, ScalarValue, TypeId};
 use crate::builtin::BuiltinFunction;
@@ -7,39 +10,39 @@ use smallvec::{SmallVec, smallvec};
 
 pub use crate::language::IncDec;
 
-/// An expression in a [`Shader`](super::Shader); children have smaller handles than their parents.
+/// The handle of an expression in a [`Shader`](super::Shader). Children have smaller handles than their parents.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct ExprId(pub(crate) u32);
 
 impl ExprId {
-    /// The place in the arena.
+    /// The index in the arena.
     pub fn index(self) -> usize {
         self.0 as usize
     }
 }
 
-/// An expression, its type, and the text it stands for.
+/// An expression with its type and its span.
 #[derive(Clone, Debug)]
 pub struct Expr {
-    /// Which.
+    /// The kind.
     pub kind: ExprKind,
-    /// Its type.
+    /// The type.
     pub ty: TypeId,
-    /// Where.
+    /// The span.
     pub span: Span,
 }
 
-/// A variable that an expression names.
+/// A variable that an expression refers to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum VarRef {
-    /// A global, a built-in variable, or a block (its members are reached by [`ExprKind::Member`], also those of
-    /// a block without an instance name).
+    /// A global, a built-in variable, or a block. [`ExprKind::Member`] reaches the members of a block, also of one
+    /// without an instance name.
     Global(GlobalId),
-    /// A local or a parameter of the function that the expression stands in.
+    /// A local or a parameter of the function that contains the expression.
     Local(LocalId),
 }
 
-/// Operators with one operand.
+/// The unary operators.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum UnaryOp {
     /// `-a` of scalars, vectors and matrices, component by component.
@@ -50,11 +53,12 @@ pub enum UnaryOp {
     BitNot,
 }
 
-/// Operators with two operands that are both evaluated, left first.
+/// The binary operators that evaluate both operands, left first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[expect(missing_docs, reason = "the names say it")]
 pub enum BinaryOp {
-    /// Component by component. One operand may be a scalar beside a vector or matrix; else both have one type.
+    /// Component by component. One operand may be a scalar and the other a vector or matrix; otherwise both have one
+    /// type.
     Add,
     Sub,
     Mul,
@@ -62,25 +66,25 @@ pub enum BinaryOp {
     Rem,
     /// Matrix times vector, vector times matrix, matrix times matrix.
     MatMul,
-    /// Integers; the right operand may be a scalar beside a vector and may differ in sign.
+    /// On integers. The right operand may be a scalar when the left one is a vector, and may differ in signedness.
     Shl,
     Shr,
     BitAnd,
     BitXor,
     BitOr,
-    /// Scalars, giving `bool`.
+    /// On scalars; the result is a `bool`.
     Less,
     Greater,
     LessEqual,
     GreaterEqual,
-    /// Whole values of any type but samplers, giving one `bool`.
+    /// On complete values of any type but samplers; the result is one `bool`.
     Equal,
     NotEqual,
     /// `^^`
     LogicalXor,
 }
 
-/// Operators whose right operand is evaluated only if the left one leaves the answer open.
+/// The operators that evaluate the right operand only if the left one does not decide the result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[expect(missing_docs, reason = "the names say it")]
 pub enum LogicalOp {
@@ -91,9 +95,9 @@ pub enum LogicalOp {
 /// One to four components of a vector.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Swizzle {
-    /// How many.
+    /// The number of components.
     pub len: u8,
-    /// Which, 0 to 3 each; those past `len` are 0.
+    /// The index of each component, 0 to 3; entries past `len` are 0.
     pub components: [u8; 4],
 }
 
@@ -104,28 +108,28 @@ impl Swizzle {
     }
 }
 
-/// The normal forms of constructors (§5.4). Scalar conversions stand before them as [`ExprKind::Convert`].
+/// The normal forms of constructors (§5.4). Scalar conversions are separate [`ExprKind::Convert`]s in the arguments.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ConstructKind {
     /// A vector from one scalar of its own component type.
     Splat,
-    /// A vector or matrix from scalars, vectors and matrices of its own component type, whose components (matrices by
-    /// columns) fill it in order; the last argument may have components left over.
+    /// A vector or matrix from scalars, vectors and matrices of its own component type. Their components (those of
+    /// matrices by columns) fill it in order; the last argument may have excess components.
     Compose,
     /// A matrix from one float on its diagonal.
     Diagonal,
-    /// A matrix from a matrix; what the argument lacks comes from the identity.
+    /// A matrix from a matrix; elements that the argument lacks come from the identity.
     Resize,
-    /// An array, one argument an element.
+    /// An array, with one argument for each element.
     Array,
-    /// A struct, one argument a member.
+    /// A struct, with one argument for each member.
     Struct,
 }
 
-/// What an expression is. L-values (§5.8) are built from `Var`, `Member`, `Index` and `Swizzle`.
+/// The kinds of expressions. L-values (§5.8) are built from `Var`, `Member`, `Index` and `Swizzle`.
 #[derive(Clone, Debug)]
 pub enum ExprKind {
-    /// Already reported.
+    /// An expression in error, which has been reported.
     Error,
     /// A literal.
     Literal(ScalarValue),
@@ -142,30 +146,31 @@ pub enum ExprKind {
     Convert(ExprId),
     /// A constructor.
     Construct(ConstructKind, Vec<ExprId>),
-    /// One operand.
+    /// A unary operation.
     Unary(UnaryOp, ExprId),
-    /// `++`, `--`; the operand is an l-value.
+    /// `++` or `--`; the operand is an l-value.
     IncDec(IncDec, ExprId),
-    /// Two operands.
+    /// A binary operation.
     Binary(BinaryOp, ExprId, ExprId),
     /// `&&`, `||`
     Logical(LogicalOp, ExprId, ExprId),
-    /// `a ? b : c`: only one of the two is evaluated.
+    /// `a ? b : c`: evaluates only one of `b` and `c`.
     Ternary(ExprId, ExprId, ExprId),
-    /// `a = b`, `a op= b`; the value is that of `a` afterwards. The right side has the type that the operator wants.
+    /// `a = b` or `a op= b`. The value is that of `a` afterwards. The right side has the type that the operator
+    /// requires.
     Assign(Option<BinaryOp>, ExprId, ExprId),
     /// `a, b`
     Comma(ExprId, ExprId),
-    /// A function of the shader. Arguments are evaluated left to right; those for `out` and `inout` parameters are
-    /// l-values, evaluated once, and copied back in the parameters' order after the call (§6.1.1), with a conversion
-    /// if the parameter's type differs.
+    /// A call of a function of the shader. Arguments are evaluated left to right. Those for `out` and `inout`
+    /// parameters are l-values; they are evaluated once, and after the call the results are copied back in the order
+    /// of the parameters (§6.1.1), with a conversion if the parameter's type differs.
     Call(FunctionId, Vec<ExprId>),
-    /// A built-in function. Which overload it is, the arguments' types tell.
+    /// A call of a built-in function. The types of the arguments determine the overload.
     BuiltinCall(BuiltinFunction, Vec<ExprId>),
 }
 
 impl ExprKind {
-    /// The operands, in the order in which they are evaluated.
+    /// The operands, in evaluation order.
     pub fn children(&self) -> SmallVec<[ExprId; 4]> {
         match self {
             Self::Error | Self::Literal(_) | Self::Var(_) => SmallVec::new(),

@@ -1,13 +1,13 @@
-//! The typed program: what a shader means, every name resolved and every expression typed.
+//! The typed program: the meaning of a shader, with every name resolved and every expression typed.
 //!
-//! *In:* built by [`analysis`](crate::analysis) from the syntax tree. *Out:* read by `link`, `lint`, `lower`
-//! and `cpu`. A [`Shader`] is one stage; [`Types`] is shared by all stages of a compilation, so that equal types
-//! have equal handles.
+//! *In:* [`analysis`](crate::analysis) builds it from the syntax tree. *Out:* `link`, `lint`, `lower` and `cpu` read
+//! it. A [`Shader`] is one stage. All stages of a compilation share one [`Types`], so that equal types have equal
+//! handles.
 //!
-//! *Holds:* no naga type is known here. Implicit conversions (§4.1.10) are explicit [`ExprKind::Convert`]s,
-//! constructors are in normal form, `.length()` is a literal. Expression children precede their parents in the
-//! arena. A shader with errors still has a HIR: what was not understood is [`ExprKind::Error`] of
-//! [`TypeId::ERROR`]; nothing behind `link` ever sees one, because a program with errors is not handed on.
+//! *Holds:* there are no naga types here. Implicit conversions (§4.1.10) are explicit [`ExprKind::Convert`]s,
+//! constructors are in normal form, `.length()` is a literal. Child expressions precede their parents in the arena. A
+//! shader with errors still has a HIR, in which anything in error is [`ExprKind::Error`] of [`TypeId::ERROR`]. No
+//! phase after `link` ever sees one, because a program with errors is not passed on.
 
 mod expr;
 mod print;

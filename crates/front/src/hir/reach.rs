@@ -1,9 +1,11 @@
-//! Static use (§3.8): which functions `main` can reach, and which globals those name and write.
+//! Static use (§3.8): which functions `main` can reach, and which globals those read and write.
+//!
+//! *In:* a shader with complete bodies. *Out:* its flags `reachable`, `used` and `written`.
 
 use super::{ExprId, ExprKind, FunctionId, GlobalId, ParamMode, Shader, Stmt, StmtKind, VarRef};
 use crate::builtin::BuiltinFunction;
 
-/// What a function or an initializer mentions.
+/// The globals and functions that a function or an initializer mentions.
 #[derive(Default)]
 struct Mentions {
     globals: Vec<GlobalId>,
@@ -13,7 +15,7 @@ struct Mentions {
 
 impl Shader {
     /// Sets [`Function::reachable`](super::Function::reachable), [`Global::used`](super::Global::used) and
-    /// [`Global::written`](super::Global::written) from the bodies. To be called again when bodies have changed.
+    /// [`Global::written`](super::Global::written) from the bodies. Call it again after changing bodies.
     pub fn mark_static_use(&mut self) {
         self.functions.iter_mut().for_each(|function| function.reachable = false);
         for global in &mut self.globals {
@@ -96,7 +98,7 @@ impl Shader {
         }
     }
 
-    /// The expressions that stand directly in statements, in the order of the text.
+    /// The expressions directly in statements, in source order.
     pub fn roots(&self, body: &[Stmt]) -> Vec<ExprId> {
         let mut roots = Vec::new();
         collect_roots(body, &mut roots);

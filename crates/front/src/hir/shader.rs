@@ -1,4 +1,4 @@
-//! [`Shader`]: one stage, and what stands at global scope.
+//! [`Shader`]: one stage and everything at global scope.
 
 use super::{Expr, ExprId, ExprKind, Stmt, TypeId, Value, VarRef};
 use crate::builtin::BuiltinVariable;
@@ -18,7 +18,7 @@ macro_rules! handle {
                 Self(index as u32)
             }
 
-            /// The place in its arena.
+            /// The index in its arena.
             pub fn index(self) -> usize {
                 self.0 as usize
             }
@@ -27,15 +27,15 @@ macro_rules! handle {
 }
 
 handle!(
-    /// A global in a [`Shader`].
+    /// The handle of a global in a [`Shader`].
     GlobalId
 );
 handle!(
-    /// A function in a [`Shader`].
+    /// The handle of a function in a [`Shader`].
     FunctionId
 );
 handle!(
-    /// A local in a [`Function`].
+    /// The handle of a local in a [`Function`].
     LocalId
 );
 
@@ -49,14 +49,14 @@ pub enum BlockLayout {
     Std140,
 }
 
-/// What a global that is an interface block has beyond its type, a struct or an array of one.
+/// The properties of a global that is an interface block. Its type is a struct or an array of structs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct BlockInfo {
-    /// The name behind `uniform`, `in` or `out`: by it blocks are matched.
+    /// The name after `uniform`, `in` or `out`, by which blocks are matched.
     pub name: String,
-    /// The instance name; without one the members are global names.
+    /// The instance name. Without one, the members are global names.
     pub instance: Option<String>,
-    /// Uniform blocks.
+    /// The layout, for uniform blocks.
     pub layout: BlockLayout,
     /// `layout(binding = n)` (ARB_shading_language_420pack).
     pub binding: Option<u32>,
@@ -65,17 +65,17 @@ pub struct BlockInfo {
 /// A variable at global scope, declared or built in.
 #[derive(Clone, Debug)]
 pub struct Global {
-    /// Its name; for a block without an instance name the block's name.
+    /// The name; for a block without an instance name, the block's name.
     pub name: String,
-    /// Its type.
+    /// The type.
     pub ty: TypeId,
-    /// Where it lives.
+    /// The storage.
     pub storage: Storage,
-    /// The built-in variable that it is.
+    /// The built-in variable, if it is one.
     pub builtin: Option<BuiltinVariable>,
-    /// `in` and `out` between stages.
+    /// The interpolation, for `in` and `out` between stages.
     pub interpolation: Interpolation,
-    /// Whether an interpolation qualifier is written.
+    /// Whether the interpolation qualifier is explicit.
     pub interpolation_written: bool,
     /// `centroid`
     pub centroid: bool,
@@ -83,34 +83,34 @@ pub struct Global {
     pub invariant: bool,
     /// `layout(location = n)` (ARB_explicit_attrib_location).
     pub location: Option<u32>,
-    /// `layout(index = n)` likewise.
+    /// `layout(index = n)` (ARB_explicit_attrib_location).
     pub index: Option<u32>,
     /// `layout(binding = n)` of a sampler (ARB_shading_language_420pack).
     pub binding: Option<u32>,
-    /// For blocks.
+    /// The block, if it is one.
     pub block: Option<BlockInfo>,
-    /// The initializer: of constants, uniforms and private variables, already of the global's type.
+    /// The initializer of a constant, uniform or private variable, converted to the global's type.
     pub initializer: Option<ExprId>,
     /// The value of a constant or of a uniform's initializer.
     pub value: Option<Value>,
-    /// Whether the size of its array comes from use alone (§4.1.9).
+    /// Whether the size of its array follows only from its uses (§4.1.9).
     pub implicitly_sized: bool,
-    /// Whether it is named in a function that `main` can reach, or in the initializer of such a global ("static use").
+    /// Whether a function that `main` can reach uses it, or the initializer of such a global does ("static use").
     pub used: bool,
-    /// Likewise, and assigned to.
+    /// Whether such a function assigns to it.
     pub written: bool,
-    /// The name in the declaration; nowhere for a built-in that is not redeclared.
+    /// The name in the declaration; unknown for a built-in variable that is not redeclared.
     pub span: Span,
 }
 
 impl Global {
-    /// The texture unit or buffer binding point that `layout(binding = n)` gives it.
+    /// The texture unit or buffer binding point that `layout(binding = n)` selects.
     pub fn unit(&self) -> Option<u32> {
         self.block.as_ref().map_or(self.binding, |block| block.binding)
     }
 }
 
-/// Whether a local is a parameter.
+/// The kind of a local.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum LocalKind {
     /// A parameter.
@@ -124,30 +124,30 @@ pub enum LocalKind {
 /// A variable of a function.
 #[derive(Clone, Debug)]
 pub struct Local {
-    /// Its name; empty for a parameter without one.
+    /// The name; empty for an unnamed parameter.
     pub name: String,
-    /// Its type.
+    /// The type.
     pub ty: TypeId,
-    /// What it is.
+    /// The kind.
     pub kind: LocalKind,
     /// The value of a constant.
     pub value: Option<Value>,
-    /// Where.
+    /// The name in the declaration.
     pub span: Span,
 }
 
 /// A function (§6.1).
 #[derive(Clone, Debug)]
 pub struct Function {
-    /// Its name; overloads share it.
+    /// The name, which overloads share.
     pub name: String,
-    /// What it returns.
+    /// The return type.
     pub ret: TypeId,
-    /// How many of the first locals are parameters.
+    /// The number of parameters, which come first among the locals.
     pub param_count: usize,
-    /// Parameters first, then variables in the order of their declarations.
+    /// The locals: parameters first, then variables in order of declaration.
     pub locals: Vec<Local>,
-    /// The body; `None` if only a prototype was seen.
+    /// The body; `None` if there is only a prototype.
     pub body: Option<Vec<Stmt>>,
     /// Whether `main` can reach it.
     pub reachable: bool,
@@ -161,7 +161,7 @@ impl Function {
         self.locals.get(..self.param_count).unwrap_or(&[])
     }
 
-    /// How the parameter is passed; `In` past the last.
+    /// How a parameter is passed; `In` for an index past the last.
     pub fn param_mode(&self, index: usize) -> ParamMode {
         match self.params().get(index).map(|local| local.kind) {
             Some(LocalKind::Param(mode)) => mode,
@@ -169,7 +169,7 @@ impl Function {
         }
     }
 
-    /// The types of the parameters and how they are passed.
+    /// The types of the parameters, and how they are passed.
     pub fn param_types(&self) -> impl Iterator<Item = (TypeId, ParamMode)> {
         self.params().iter().map(|param| match param.kind {
             LocalKind::Param(mode) => (param.ty, mode),
@@ -177,14 +177,14 @@ impl Function {
         })
     }
 
-    /// The local behind a handle of this function.
+    /// The local of a handle of this function.
     pub fn local(&self, id: LocalId) -> &Local {
-        // A `LocalId` is only ever made for this function.
+        // A `LocalId` is only made for this function.
         &self.locals[id.index()]
     }
 }
 
-/// `layout(points) in;` and its like (§4.3.8.1).
+/// The input primitive of a geometry shader: `layout(points) in;` and so on (§4.3.8.1).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[expect(missing_docs, reason = "the names say it")]
 pub enum PrimitiveIn {
@@ -196,7 +196,7 @@ pub enum PrimitiveIn {
 }
 
 impl PrimitiveIn {
-    /// The vertices of one primitive: the size of the input arrays.
+    /// The number of vertices of one primitive, which is the size of the input arrays.
     pub fn vertices(self) -> u32 {
         match self {
             Self::Points => 1,
@@ -208,7 +208,7 @@ impl PrimitiveIn {
     }
 }
 
-/// `layout(line_strip) out;` and its like (§4.3.8.2).
+/// The output primitive of a geometry shader: `layout(line_strip) out;` and so on (§4.3.8.2).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[expect(missing_docs, reason = "the names say it")]
 pub enum PrimitiveOut {
@@ -217,18 +217,18 @@ pub enum PrimitiveOut {
     TriangleStrip,
 }
 
-/// What a geometry shader declares.
+/// The layouts that a geometry shader declares.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct GeometryLayout {
-    /// What comes in.
+    /// The input primitive.
     pub input: Option<PrimitiveIn>,
-    /// What goes out.
+    /// The output primitive.
     pub output: Option<PrimitiveOut>,
-    /// At most so many vertices.
+    /// The largest number of vertices that it emits.
     pub max_vertices: Option<u32>,
 }
 
-/// What a fragment shader declares of `gl_FragCoord` (§4.3.8.1).
+/// The redeclaration of `gl_FragCoord` in a fragment shader (§4.3.8.1).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FragCoordLayout {
     /// `layout(origin_upper_left)`
@@ -237,10 +237,10 @@ pub struct FragCoordLayout {
     pub pixel_center_integer: bool,
 }
 
-/// `out gl_PerVertex { .. };` declared anew.
+/// The redeclaration `out gl_PerVertex { .. };`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PerVertexOut {
-    /// The members that are left, in order.
+    /// The members of the redeclared block, in order.
     pub members: Vec<String>,
     /// The block's name in the declaration.
     pub span: Span,
@@ -251,27 +251,27 @@ pub struct PerVertexOut {
 pub struct Shader {
     /// Which stage.
     pub stage: Stage,
-    /// The language it was written in.
+    /// The version that it is written in.
     pub version: Version,
     /// All expressions of all functions and initializers.
     pub exprs: Vec<Expr>,
-    /// All globals that are declared, and the built-in variables that are named.
+    /// All declared globals, and the built-in variables in use.
     pub globals: Vec<Global>,
-    /// All functions that are declared or defined; prototypes of functions of the same shader are merged into them.
+    /// All functions that are declared or defined. A prototype and its definition are one function.
     pub functions: Vec<Function>,
     /// `main`, if it is defined.
     pub main: Option<FunctionId>,
-    /// Geometry shaders.
+    /// The layouts of a geometry shader.
     pub geometry: GeometryLayout,
-    /// Fragment shaders.
+    /// The layout of `gl_FragCoord` in a fragment shader.
     pub frag_coord: FragCoordLayout,
-    /// Vertex and geometry shaders that declare their built-in outputs anew.
+    /// The redeclared built-in outputs of a vertex or geometry shader.
     pub per_vertex_out: Option<PerVertexOut>,
-    /// The deepest expression, counted along left operands too: more than a few hundred asks for a big stack
-    /// (see [`Shader::on_stack`]).
+    /// The depth of the deepest expression, counted along left operands too. More than a few hundred levels need a
+    /// large stack (see [`Shader::on_stack`]).
     pub expr_depth: u32,
-    /// What an OpenGL driver takes for it, a text for each source ([`whole_text`](crate::source::whole_text)); empty for a
-    /// shader that was not compiled.
+    /// The text for an OpenGL driver, one for each source ([`whole_text`](crate::source::whole_text)); empty for a
+    /// shader that was not compiled from text.
     pub texts: Vec<Arc<str>>,
 }
 
@@ -300,9 +300,9 @@ impl Shader {
         id
     }
 
-    /// The expression behind a handle of this shader.
+    /// The expression of a handle of this shader.
     pub fn expr(&self, id: ExprId) -> &Expr {
-        // An `ExprId` is only ever made by `push` of this shader.
+        // Only `push` of this shader makes an `ExprId`.
         &self.exprs[id.index()]
     }
 
@@ -311,7 +311,7 @@ impl Shader {
         self.expr(id).kind.children()
     }
 
-    /// The variable that an l-value or a part of a variable stands in; `None` for values of their own.
+    /// The variable that an l-value or a part of a variable belongs to; `None` for other values.
     pub fn root_variable(&self, id: ExprId) -> Option<VarRef> {
         let mut at = id;
         loop {
@@ -323,12 +323,12 @@ impl Shader {
         }
     }
 
-    /// The global behind a handle of this shader.
+    /// The global of a handle of this shader.
     pub fn global(&self, id: GlobalId) -> &Global {
         &self.globals[id.index()]
     }
 
-    /// The function behind a handle of this shader.
+    /// The function of a handle of this shader.
     pub fn function(&self, id: FunctionId) -> &Function {
         &self.functions[id.index()]
     }
@@ -343,9 +343,9 @@ impl Shader {
         self.functions.iter().enumerate().map(|(index, function)| (FunctionId::new(index), function))
     }
 
-    /// Runs a recursive walk over this shader's expressions with enough stack for the deepest of them: here if they
-    /// are shallow, else on a thread of its own. Legal chains are up to 16,384 operators long.
-    pub fn on_stack<R: Send>(&self, walk: impl FnOnce() -> R + Send) -> R {
+    /// Runs a recursive traversal of this shader's expressions with enough stack for the deepest of them. Valid
+    /// chains have up to 16,384 operators.
+    pub fn on_stack<R>(&self, walk: impl FnOnce() -> R) -> R {
         crate::stack::with_stack(self.expr_depth, walk)
     }
 }

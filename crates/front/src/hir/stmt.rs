@@ -1,4 +1,4 @@
-//! Statements (§6).
+//! Typed statements (§6).
 
 use super::{ExprId, LocalId};
 use crate::source::Span;
@@ -6,39 +6,41 @@ use crate::source::Span;
 /// A statement.
 #[derive(Clone, Debug)]
 pub struct Stmt {
-    /// Which.
+    /// The kind.
     pub kind: StmtKind,
-    /// Where.
+    /// The span.
     pub span: Span,
 }
 
-/// What a statement is.
+/// The kinds of statements.
 #[derive(Clone, Debug)]
 #[expect(missing_docs, reason = "fields of variants say what they are")]
 pub enum StmtKind {
-    /// An expression for its effects.
+    /// An expression, evaluated for its effects.
     Expr(ExprId),
-    /// A local comes to life, with its initializer or undefined.
+    /// The start of a local's lifetime, with its initializer or with an undefined value.
     Local(LocalId, Option<ExprId>),
     /// `{ .. }`
     Block(Vec<Stmt>),
-    /// The first arm whose condition holds, or `otherwise`. A chain of `else if` of any length is one statement.
+    /// `if`: runs the first arm whose condition holds, or `otherwise`. A chain of `else if` of any length is one
+    /// statement.
     If { arms: Vec<(ExprId, Vec<Stmt>)>, otherwise: Vec<Stmt> },
-    /// `switch`: each case runs into the next unless it ends in `break`.
+    /// `switch`: each case falls through to the next unless it ends in `break`.
     Switch { selector: ExprId, cases: Vec<Case> },
-    /// `for`, `while`, `do`. A `for`'s initializer stands before it in a [`StmtKind::Block`] that holds both.
+    /// `for`, `while`, `do`. The initializer of a `for` precedes the loop in a [`StmtKind::Block`] that contains
+    /// both.
     Loop { kind: LoopKind, condition: Option<Condition>, step: Option<ExprId>, body: Vec<Stmt> },
     /// Leaves the innermost loop or switch.
     Break,
-    /// On to the step and condition of the innermost loop.
+    /// Continues with the step and the condition of the innermost loop.
     Continue,
-    /// Leaves the function.
+    /// Returns from the function.
     Return(Option<ExprId>),
-    /// Ends the fragment.
+    /// Discards the fragment.
     Discard,
 }
 
-/// Cases of a switch that share a body.
+/// The labels of a switch that share a body, and the body.
 #[derive(Clone, Debug)]
 pub struct Case {
     /// One or more labels.
@@ -56,7 +58,7 @@ pub enum CaseLabel {
     Default,
 }
 
-/// Whether the condition stands before or behind the body.
+/// The form of a loop, which says whether the condition comes before or after the body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LoopKind {
     /// `for`
@@ -70,7 +72,7 @@ pub enum LoopKind {
 /// The condition of a loop.
 #[derive(Clone, Debug)]
 pub struct Condition {
-    /// `while (bool b = ..)`: the local that takes the value in each round.
+    /// `while (bool b = ..)`: the local that takes the value in each iteration.
     pub local: Option<LocalId>,
     /// The `bool`.
     pub expr: ExprId,

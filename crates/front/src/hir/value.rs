@@ -27,11 +27,11 @@ impl ScalarValue {
     }
 }
 
-/// A constant of any type, laid out flat: members in order, elements in order, matrices by columns.
+/// A constant of any type, in flat layout: members in order, elements in order, matrices by columns.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Value {
     /// The type.
     pub ty: TypeId,
-    /// [`Types::flat_len`](super::Types::flat_len) scalars.
+    /// The scalars, [`Types::flat_len`](super::Types::flat_len) of them.
     pub scalars: Vec<ScalarValue>,
 }

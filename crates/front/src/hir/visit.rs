@@ -1,10 +1,10 @@
-//! Walks over statements and expressions that need no stack of the caller's: every expression of a body, and the
+//! Traversals of statements and expressions that do not use the caller's stack: every expression of a body, and the
 //! functions that a function calls.
 
 use super::{Condition, ExprId, ExprKind, FunctionId, Shader, Stmt, StmtKind};
 
 impl StmtKind {
-    /// The expressions that stand in the statement itself, in the order in which they are first evaluated.
+    /// The expressions directly in the statement, in the order of their first evaluation.
     pub fn exprs(&self) -> smallvec::SmallVec<[ExprId; 4]> {
         match self {
             Self::Expr(expr) => smallvec::smallvec![*expr],
@@ -18,7 +18,7 @@ impl StmtKind {
         }
     }
 
-    /// The bodies inside, in order.
+    /// The bodies inside the statement, in order.
     pub fn bodies(&self) -> smallvec::SmallVec<[&[Stmt]; 4]> {
         match self {
             Self::Block(body) | Self::Loop { body, .. } => smallvec::smallvec![body.as_slice()],
@@ -34,7 +34,7 @@ impl StmtKind {
 }
 
 impl Shader {
-    /// Calls `f` for an expression and everything inside it, operands after the whole, left before right.
+    /// Calls `f` for an expression and everything inside it: operands after the whole, left before right.
     pub fn visit_expr(&self, root: ExprId, f: &mut dyn FnMut(ExprId)) {
         let mut stack = vec![root];
         while let Some(id) = stack.pop() {
@@ -43,7 +43,7 @@ impl Shader {
         }
     }
 
-    /// Calls `f` for every statement of a body, outer ones first, in the order of the text.
+    /// Calls `f` for every statement of a body: outer ones first, in source order.
     pub fn visit_statements<'a>(&'a self, body: &'a [Stmt], f: &mut dyn FnMut(&'a Stmt)) {
         let mut stack: Vec<&'a Stmt> = body.iter().rev().collect();
         while let Some(statement) = stack.pop() {
@@ -63,7 +63,7 @@ impl Shader {
         });
     }
 
-    /// The functions that a function calls, in the order of the calls.
+    /// The functions that a function calls, in order of the calls.
     pub fn callees(&self, id: FunctionId) -> Vec<FunctionId> {
         let mut list = Vec::new();
         if let Some(body) = self.functions.get(id.index()).and_then(|function| function.body.as_deref()) {
@@ -76,7 +76,8 @@ impl Shader {
         list
     }
 
-    /// The functions that `root` reaches, callees before callers, `root` last. Recursion, an error of the source, is cut.
+    /// The functions that `root` reaches, callees before callers, `root` last. Recursion, an error in the source, is
+    /// cut.
     pub fn callees_first(&self, root: FunctionId) -> Vec<FunctionId> {
         let mut order = Vec::new();
         let mut seen = vec![false; self.functions.len()];

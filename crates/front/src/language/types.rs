@@ -1,12 +1,15 @@
 //! [`Types`]: the types of §4.1, interned.
+//!
+//! *Holds:* equal handles mean equal types. The basic types have the same handles in every table, so constants such
+//! as [`TypeId::VEC4`] need no table. Two declarations of a struct are two types.
 
 use rustc_hash::FxHashMap;
 
-/// A type in [`Types`]; equal handles mean equal types.
+/// The handle of a type in [`Types`]; equal handles mean equal types.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct TypeId(u32);
 
-/// A struct in [`Types`].
+/// The handle of a struct in [`Types`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct StructId(u32);
 
@@ -40,7 +43,7 @@ impl Scalar {
     }
 }
 
-/// The shape of a texture.
+/// The dimensionality of a texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[expect(missing_docs, reason = "the names say it")]
 pub enum SamplerDim {
@@ -56,9 +59,9 @@ pub enum SamplerDim {
 /// A sampler type (§4.1.7).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct SamplerType {
-    /// What a texel's components are: `Float`, `Int` or `Uint`.
+    /// The type of a texel's components: `Float`, `Int` or `Uint`.
     pub texel: Scalar,
-    /// The shape.
+    /// The dimensionality.
     pub dim: SamplerDim,
     /// `...Array`
     pub arrayed: bool,
@@ -67,7 +70,7 @@ pub struct SamplerType {
 }
 
 impl SamplerType {
-    /// All that GLSL 1.50 has, in the order in which [`Types`] holds them.
+    /// All sampler types of GLSL 1.50, in the order in which [`Types`] stores them.
     pub const ALL: [Self; 36] = Self::list();
 
     const fn list() -> [Self; 36] {
@@ -140,7 +143,7 @@ impl SamplerType {
             && self.shadow == other.shadow
     }
 
-    /// As it is written: `isampler2DArray`.
+    /// The spelling in GLSL: `isampler2DArray`.
     pub fn name(self) -> String {
         let prefix = match self.texel {
             Scalar::Int => "i",
@@ -167,15 +170,16 @@ impl SamplerType {
 pub enum ArraySize {
     /// `[n]`
     Sized(u32),
-    /// `[]`: the analysis replaces it in the variable's type by the size that initializer, redeclaration or use
-    /// gives (§4.1.9); it stays only on geometry inputs before their layout is known, and in shaders with errors.
+    /// `[]`. The analysis replaces it, in the variable's type, by the size from the initializer, a redeclaration or
+    /// the uses (§4.1.9). It remains only on geometry inputs before their layout is known, and in shaders with
+    /// errors.
     Unsized,
 }
 
 /// A type.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Type {
-    /// Already reported; agrees with everything.
+    /// A type in error, which has been reported; it is compatible with everything.
     Error,
     /// `void`
     Void,
@@ -205,34 +209,34 @@ pub enum MatrixLayout {
 /// A member of a struct or a block.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Member {
-    /// Its name.
+    /// The name.
     pub name: String,
-    /// Its type.
+    /// The type.
     pub ty: TypeId,
-    /// In uniform blocks: the member's own or inherited order.
+    /// In uniform blocks: the matrix layout of the member, its own or inherited.
     pub matrix_layout: MatrixLayout,
-    /// In `in` and `out` blocks: interpolation and `centroid` of the member.
+    /// In `in` and `out` blocks: the member's interpolation.
     pub interpolation: Option<super::Interpolation>,
     /// `centroid`
     pub centroid: bool,
-    /// In `in` and `out` blocks: `invariant`.
+    /// In `in` and `out` blocks: whether the member is `invariant`.
     pub invariant: bool,
-    /// An array that its use has given its size (§4.1.9).
+    /// Whether the size of its array follows only from its uses (§4.1.9).
     pub implicitly_sized: bool,
-    /// Where it is declared.
+    /// The declaration.
     pub span: crate::source::Span,
 }
 
-/// A struct type; two declarations are two types, whatever they hold.
+/// A struct type. Two declarations are two types, whatever their members.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct StructType {
     /// The name; empty for `struct { .. } s;`. For the type of a block, the block's name.
     pub name: String,
     /// The members.
     pub members: Vec<Member>,
-    /// Whether this is the type behind an interface block.
+    /// Whether this is the type of an interface block.
     pub is_block: bool,
-    /// Where it is declared.
+    /// The declaration.
     pub span: crate::source::Span,
 }
 
@@ -242,20 +246,20 @@ pub struct Types {
     types: Vec<Type>,
     ids: FxHashMap<Type, TypeId>,
     structs: Vec<StructType>,
-    /// What is in each struct, so that structs of structs do not cost a walk of all that is in them.
+    /// A summary of each struct's contents, so that nested structs are not traversed again and again.
     shapes: Vec<Option<Shape>>,
 }
 
-/// What is in a type.
+/// A summary of a type's contents.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Shape {
     /// [`Types::flat_len`]
     flat_len: u32,
-    /// Whether a sampler is anywhere inside.
+    /// Whether it contains a sampler.
     sampler: bool,
-    /// A bit for each [`Scalar`] that is anywhere inside.
+    /// A bit for each [`Scalar`] that it contains.
     scalars: u8,
-    /// How deep structs nest in it.
+    /// The depth of nested structs.
     pub(crate) depth: u32,
 }
 
@@ -273,7 +277,7 @@ impl Shape {
         }
     }
 
-    /// Whether a scalar of one of these kinds is anywhere inside.
+    /// Whether it contains a scalar of one of these types.
     pub(crate) fn holds(self, kinds: &[Scalar]) -> bool {
         kinds.iter().any(|&kind| self.scalars & (1 << kind as u8) != 0)
     }
@@ -286,7 +290,7 @@ impl Default for Types {
 }
 
 impl TypeId {
-    /// Already reported; agrees with everything.
+    /// The type of something in error, which has been reported; it is compatible with everything.
     pub const ERROR: Self = Self(0);
     /// `void`
     pub const VOID: Self = Self(1);
@@ -305,7 +309,7 @@ impl TypeId {
     /// `vec4`
     pub const VEC4: Self = Self::vector(Scalar::Float, 4);
 
-    /// The scalar (`size` 1) or vector (2 to 4) type, without a table; sizes outside are clamped.
+    /// The scalar (`size` 1) or vector (2 to 4) type, without a table. Other sizes are clamped.
     pub const fn vector(scalar: Scalar, size: u8) -> Self {
         let size = if size < 1 {
             1
@@ -317,7 +321,7 @@ impl TypeId {
         Self(2 + scalar as u32 * 4 + size as u32 - 1)
     }
 
-    /// The matrix type of so many columns and rows (2 to 4 each, others are clamped), without a table.
+    /// The matrix type with this many columns and rows, without a table. Counts outside 2 to 4 are clamped.
     pub const fn matrix(columns: u8, rows: u8) -> Self {
         let columns = if columns < 2 {
             2
@@ -336,7 +340,7 @@ impl TypeId {
         Self(18 + (columns as u32 - 2) * 3 + rows as u32 - 2)
     }
 
-    /// The sampler type, without a table; [`Self::ERROR`] for a combination that no GLSL 1.50 sampler has.
+    /// The sampler type, without a table. [`Self::ERROR`] for a combination that GLSL 1.50 does not have.
     pub const fn sampler(sampler: SamplerType) -> Self {
         let mut index = 0;
         while index < SamplerType::ALL.len() {
@@ -359,7 +363,7 @@ impl TypeId {
 }
 
 impl Types {
-    /// The basic types alone.
+    /// A table of the basic types.
     pub fn new() -> Self {
         let mut types = Self { types: Vec::new(), ids: FxHashMap::default(), structs: Vec::new(), shapes: Vec::new() };
         types.intern(Type::Error);
@@ -402,12 +406,12 @@ impl Types {
         (0..self.types.len() as u32).map(TypeId)
     }
 
-    /// The type behind a handle of this table.
+    /// The type of a handle of this table.
     pub fn get(&self, id: TypeId) -> Type {
         self.types.get(id.index()).copied().unwrap_or(Type::Error)
     }
 
-    /// Adds a struct and gives its type.
+    /// Adds a struct and returns its type.
     pub fn add_struct(&mut self, declaration: StructType) -> TypeId {
         let id = StructId(self.structs.len() as u32);
         self.shapes.push(Some(self.shape_of_members(&declaration)));
@@ -415,13 +419,13 @@ impl Types {
         self.intern(Type::Struct(id))
     }
 
-    /// The struct behind a handle of this table.
+    /// The struct of a handle of this table.
     pub fn structure(&self, id: StructId) -> &StructType {
-        // A `StructId` is only ever made by `add_struct` of this table.
+        // Only `add_struct` of this table makes a `StructId`.
         &self.structs[id.0 as usize]
     }
 
-    /// The struct behind a handle, to complete it.
+    /// The struct of a handle, to complete it.
     pub fn structure_mut(&mut self, id: StructId) -> &mut StructType {
         self.shapes[id.0 as usize] = None;
         &mut self.structs[id.0 as usize]
@@ -432,7 +436,7 @@ impl Types {
         self.intern(Type::Array(element, size))
     }
 
-    /// The scalar behind a scalar, vector or matrix; `None` for all else.
+    /// The component type of a scalar, vector or matrix; `None` for other types.
     pub fn scalar_of(&self, id: TypeId) -> Option<Scalar> {
         match self.get(id) {
             Type::Scalar(scalar) | Type::Vector(scalar, _) => Some(scalar),
@@ -441,13 +445,13 @@ impl Types {
         }
     }
 
-    /// How many scalars a value holds when it is laid out flat: members in order, elements in order, matrices by
-    /// columns. Samplers count as one. Saturates; unsized arrays count 0.
+    /// The number of scalars of a value in flat layout: members in order, elements in order, matrices by columns.
+    /// Samplers count as one. The number saturates; unsized arrays count 0.
     pub fn flat_len(&self, id: TypeId) -> u32 {
         self.shape(id).flat_len
     }
 
-    /// What is in a type, without a walk of all of it.
+    /// The summary of a type's contents, without traversing them.
     pub(crate) fn shape(&self, id: TypeId) -> Shape {
         match self.get(id) {
             Type::Error | Type::Void => Shape::default(),
@@ -473,7 +477,7 @@ impl Types {
         Shape { depth: shape.depth + 1, ..shape }
     }
 
-    /// What an index selects: an array's element, a matrix's column, a vector's component.
+    /// The type that indexing selects: an array's element, a matrix's column, a vector's component.
     pub fn element(&self, id: TypeId) -> Option<TypeId> {
         match self.get(id) {
             Type::Array(element, _) => Some(element),
@@ -483,12 +487,12 @@ impl Types {
         }
     }
 
-    /// Whether a sampler is anywhere inside.
+    /// Whether the type contains a sampler.
     pub fn contains_sampler(&self, id: TypeId) -> bool {
         self.shape(id).sampler
     }
 
-    /// As it is written in GLSL: `vec4`, `mat2x3`, `Light[2]`.
+    /// The spelling in GLSL: `vec4`, `mat2x3`, `Light[2]`.
     pub fn name(&self, id: TypeId) -> String {
         match self.get(id) {
             Type::Error => "<error>".into(),

@@ -1,17 +1,17 @@
-//! Whether one run of a vertex shader may read two attributes that share a location (OpenGL 3.2 §2.11.3).
+//! Whether one execution of a vertex shader may read two attributes that share a location (OpenGL 3.2 §2.11.3).
 //!
-//! Every statement is given the set of what a run through it may have read: nothing, the one, the other, both. Sets of
-//! statements in sequence combine; those of branches unite. Conditions count as free, so the answer errs on the side of
-//! "yes". Functions are judged callees first; GLSL has no recursion.
+//! Each statement has the set of possible reads of an execution through it: neither attribute, the first, the second,
+//! both. The sets of statements in sequence combine; those of branches unite. Every condition counts as unknown, so
+//! the answer errs on the side of "yes". Functions are examined callees first; GLSL has no recursion.
 
 use crate::hir::{ExprId, ExprKind, FunctionId, GlobalId, Shader, Stmt, StmtKind, VarRef};
 
-/// A set of subsets of {first, second}: bit n stands for the subset whose members are the bits of n.
+/// A set of subsets of {first, second}: bit n represents the subset whose members are the bits of n.
 #[derive(Clone, Copy, PartialEq, Eq)]
 struct Paths(u8);
 
 impl Paths {
-    /// A run that reads neither.
+    /// An execution that reads neither.
     const NONE: Self = Self(1);
 
     fn reading(which: usize) -> Self {
@@ -45,7 +45,7 @@ struct Walk<'a> {
     functions: Vec<Paths>,
 }
 
-/// Whether a run of the shader may read both globals.
+/// Whether an execution of the shader may read both globals.
 pub(super) fn path_reads_both(shader: &Shader, first: GlobalId, second: GlobalId) -> bool {
     let Some(main) = shader.main else { return false };
     let mut walk = Walk { shader, pair: [first, second], functions: vec![Paths::NONE; shader.functions.len()] };
@@ -88,7 +88,7 @@ impl Walk<'_> {
             }
             StmtKind::Switch { selector, cases } => {
                 let selector = self.expr(*selector);
-                // Cases may run into each other, so that any run of neighbors is a path.
+                // Cases may fall through, so any sequence of consecutive cases is a path.
                 let mut result = Paths::NONE;
                 let mut running = Paths(0);
                 for case in cases {

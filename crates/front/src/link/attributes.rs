@@ -1,8 +1,8 @@
-//! Vertex attributes and their locations (OpenGL 3.2 §2.11.3).
+//! Assigns locations to vertex attributes (OpenGL 3.2 §2.11.3).
 //!
-//! `layout(location)` in the text wins over a binding by name, that over the automatic choice: the lowest free run of
-//! locations, in the order of the declarations, for the attributes that are read first. A matrix takes a location a
-//! column, an array one an element.
+//! `layout(location)` in the text takes precedence over a binding by name, and that over automatic assignment, which
+//! takes the lowest free range of locations. Attributes that are read are assigned first, in order of declaration. A
+//! matrix takes one location per column, an array one per element.
 
 use super::{Attribute, Context};
 use crate::builtin::constants::MAX_VERTEX_ATTRIBS;
@@ -16,7 +16,7 @@ struct Candidate<'a> {
     location: Option<u32>,
 }
 
-/// How many locations an input of this type takes.
+/// The number of locations that an input of this type takes.
 fn columns(types: &Types, ty: TypeId) -> u32 {
     match types.get(ty) {
         Type::Matrix(columns, _) => u32::from(columns),
@@ -32,7 +32,8 @@ fn columns_of_element(types: &Types, ty: TypeId) -> u32 {
     }
 }
 
-/// Places all inputs of the vertex stage. Attributes that nothing reads come last and are left out if they do not fit.
+/// Assigns locations to all inputs of the vertex stage. Attributes that nothing reads come last and are omitted if
+/// they do not fit.
 pub(super) fn assign(ctx: &mut Context<'_>, vertex: &Shader) -> Vec<Attribute> {
     let inputs = vertex
         .globals()
@@ -77,15 +78,15 @@ fn attribute(candidate: Candidate<'_>) -> Option<Attribute> {
     })
 }
 
-/// Which attribute holds each location.
+/// The attribute at each location.
 #[derive(Default)]
 struct Taken {
     by: [Option<GlobalId>; MAX_VERTEX_ATTRIBS as usize],
-    /// How many were found to share a location.
+    /// How many attributes were found to share a location.
     n_shared: u32,
 }
 
-/// How many attributes that share a location are told apart by a walk over the shader.
+/// How many attributes that share a location are examined by a traversal of the shader.
 const MAX_ALIASED: u32 = 64;
 
 impl Taken {
@@ -105,7 +106,7 @@ impl Taken {
     }
 }
 
-/// The location that text or binding give.
+/// The location that the text or a binding sets.
 fn fixed_location(ctx: &mut Context<'_>, global: &Global) -> Option<u32> {
     let bound = ctx.bindings.attribute_locations.iter().rev().find(|(name, _)| *name == global.name);
     let bound = bound.map(|&(_, location)| location);

@@ -1,13 +1,13 @@
-//! One type for each struct of a program (GLSL 1.50 §4.2.6: "Structures must have the same name, sequence of type names,
-//! and type definitions, and field names to be considered the same type").
+//! Gives equal structs of a program one type (GLSL 1.50 §4.2.6: "Structures must have the same name, sequence of type
+//! names, and type definitions, and field names to be considered the same type").
 //!
-//! *In:* shaders whose structs were declared apart. *Out:* the same shaders, in which structs that are equal but for their
-//! places have one handle, so that everything behind the link compares handles.
+//! *In:* shaders whose structs were declared separately. *Out:* the same shaders, in which structs that are equal
+//! except for their positions have one handle. Everything after the link can then compare handles.
 
 use crate::hir::{Interpolation, MatrixLayout, Shader, StructId, Type, TypeId, Types, Value};
 use rustc_hash::FxHashMap;
 
-/// What makes a struct what it is.
+/// What identifies a struct.
 #[derive(PartialEq, Eq, Hash)]
 struct Key {
     name: String,
@@ -15,15 +15,15 @@ struct Key {
     members: Vec<MemberKey>,
 }
 
-/// Name, type and qualifiers of a member, the last those that it has or lacks.
+/// The name, type and qualifiers of a member; the flags say which qualifiers it has.
 type MemberKey = (String, TypeId, MatrixLayout, Option<Interpolation>, [bool; 3]);
 
-/// Whether other shaders of a stage may still give an array another size.
+/// Whether other shaders of a stage may still change the size of an array.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Sizes {
-    /// An array in a block that its use has sized differs from one that its declaration sizes.
+    /// They may: an array in a block that takes its size from its uses differs from one that its declaration sizes.
     Open,
-    /// A size is a size.
+    /// All sizes are final.
     Settled,
 }
 

@@ -1,6 +1,7 @@
-//! When two types in different shaders are the same (§4.3.5, §4.3.7, §4.3.9): equal but for where they are declared.
+//! When two types in different shaders are the same (§4.3.5, §4.3.7, §4.3.9): if they are equal except for their
+//! positions.
 //!
-//! A struct declared in two shaders gives two handles; it matches if it has the same name and the same members in the
+//! A struct that two shaders declare has two handles. It matches if it has the same name and the same members in the
 //! same order.
 
 use crate::hir::{Member, ScalarValue, StructId, Type, TypeId, Types, Value};
@@ -25,7 +26,7 @@ fn same_struct(types: &Types, a: StructId, b: StructId) -> bool {
         && a.members.iter().zip(&b.members).all(|(a, b)| a.name == b.name && same_type(types, a.ty, b.ty))
 }
 
-/// Equal bit by bit, so that a NaN equals itself and 0 differs from -0.
+/// Whether two values are equal bit by bit: a NaN equals itself, and 0 differs from -0.
 pub(super) fn same_value(a: &Value, b: &Value) -> bool {
     let bits = |value: &ScalarValue| match *value {
         ScalarValue::Bool(value) => u32::from(value),
@@ -36,7 +37,7 @@ pub(super) fn same_value(a: &Value, b: &Value) -> bool {
     a.scalars.iter().map(bits).eq(b.scalars.iter().map(bits))
 }
 
-/// The struct behind a block's type, and the size of an array of blocks.
+/// The struct of a block's type, and the size of an array of blocks.
 pub(super) fn block_parts(types: &Types, ty: TypeId) -> Option<(StructId, Option<crate::hir::ArraySize>)> {
     match types.get(ty) {
         Type::Struct(id) => Some((id, None)),
@@ -50,11 +51,11 @@ pub(super) fn block_parts(types: &Types, ty: TypeId) -> Option<(StructId, Option
 
 /// The first difference between the members of two declarations of one block.
 pub(super) enum MemberDifference<'a> {
-    /// One has a member more.
+    /// One has more members.
     Count(usize, usize),
-    /// Another name or type at the same place.
+    /// Members at the same index differ in name or type.
     Declaration(&'a Member, &'a Member),
-    /// Another interpolation, `centroid`, invariance or matrix order.
+    /// Members differ in interpolation, `centroid`, invariance or matrix layout.
     Qualifiers(&'a Member, &'a Member),
 }
 

@@ -1,20 +1,20 @@
-//! Cuts a variable into the scalars, vectors and matrices it consists of, with the names that hosts use.
+//! Splits a variable into its scalars, vectors, matrices and arrays of these, with the names that the host uses.
 
 use crate::hir::{ArraySize, MatrixLayout, Type, TypeId, Types};
 
-/// A part that is no struct and no array of structs.
+/// A part that is neither a struct nor an array of structs.
 pub(super) struct Part {
     /// The path: `light[1].position`.
     pub(super) name: String,
-    /// Its type; arrays of scalars, vectors, matrices and samplers stay whole.
+    /// The type; arrays of scalars, vectors, matrices and samplers stay whole.
     pub(super) ty: TypeId,
-    /// The first of its scalars in the variable's flat layout.
+    /// The index of its first scalar in the variable's flat layout.
     pub(super) flat_offset: u32,
-    /// The order of a matrix, from the nearest member that a block qualifies.
+    /// The matrix layout, from the nearest member of a block.
     pub(super) matrix_layout: MatrixLayout,
 }
 
-/// The parts of a variable in flat order. The caller bounds the size of the type before.
+/// The parts of a variable in flat order. The caller must have bounded the size of the type.
 pub(super) fn parts(types: &Types, name: &str, ty: TypeId, matrix_layout: MatrixLayout) -> Vec<Part> {
     let mut list = Vec::new();
     walk(types, name.to_owned(), ty, 0, matrix_layout, &mut list);
@@ -41,7 +41,7 @@ fn walk(types: &Types, name: String, ty: TypeId, flat_offset: u32, layout: Matri
     }
 }
 
-/// `name.member`, or the member alone where the whole has no name (a block without an instance name).
+/// `name.member`, or the member alone if the whole has no name (a block without an instance name).
 pub(super) fn join(name: &str, member: &str) -> String {
     if name.is_empty() { member.to_owned() } else { format!("{name}.{member}") }
 }

@@ -1,11 +1,11 @@
-//! The sizes of a geometry stage's inputs when several shaders make the stage (GLSL 1.50 §4.3.8.1): the input primitive,
-//! which one of them declares, sizes the arrays of all.
+//! The sizes of a geometry stage's inputs when several shaders form the stage (GLSL 1.50 §4.3.8.1): one of them
+//! declares the input primitive, which sizes the arrays of all.
 
 use crate::diagnostic::{Diagnostic, codes};
 use crate::fold;
 use crate::hir::{ArraySize, ExprKind, GlobalId, ScalarValue, Shader, Storage, Type, Types, VarRef};
 
-/// Sizes the inputs, and reports those that have another size and constant indices beyond the last element.
+/// Sizes the inputs, and reports inputs of another size and constant indices past the last element.
 pub(super) fn size_inputs(types: &mut Types, shader: &mut Shader, found: &mut Vec<Diagnostic>) {
     let Some(input) = shader.geometry.input else { return };
     let vertices = input.vertices();

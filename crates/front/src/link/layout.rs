@@ -1,40 +1,41 @@
 //! The std140 layout (OpenGL 3.2 §2.11.4, rules 1 to 10), used for every uniform block and for the loose uniforms.
 //!
-//! `shared` and `packed` blocks are laid out alike: any layout would do for them. `bool` takes four bytes. Samplers take
-//! none.
+//! `shared` and `packed` blocks have the same layout, since any layout is valid for them. A `bool` takes four bytes,
+//! a sampler none.
 
 use crate::hir::{ArraySize, MatrixLayout, StructId, Type, TypeId, Types};
 
-/// The most bytes that a uniform block may have, in bytes: what WebGPU guarantees for a uniform binding.
+/// The largest size of a uniform block in bytes: what WebGPU guarantees for a uniform binding.
 pub const MAX_BLOCK_BYTES: u32 = 64 << 10;
 
 const VEC4_ALIGN: u32 = 16;
 
-/// Where a type stands and how much room it takes, in bytes.
+/// The alignment and size of a type, in bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Extent {
     pub(super) align: u32,
     pub(super) size: u32,
 }
 
-/// `offset` rounded up to a multiple of `align`; saturates.
+/// `offset` rounded up to a multiple of `align`, saturating.
 pub(super) fn round_up(offset: u32, align: u32) -> u32 {
     offset.checked_next_multiple_of(align).unwrap_or(u32::MAX)
 }
 
 fn vector_extent(components: u8) -> Extent {
     let size = u32::from(components) * 4;
-    // Rules 1 to 3: a three-component vector is aligned as one of four.
+    // Rules 1 to 3: a vector of three components is aligned like one of four.
     let align = if components == 3 { VEC4_ALIGN } else { size };
     Extent { align, size }
 }
 
-/// Bytes from column to column (from row to row in `row_major`): rules 5 and 7 store a matrix as an array of vectors.
+/// The stride in bytes between columns (in `row_major`, rows): by rules 5 and 7 a matrix is stored as an array of
+/// vectors.
 pub(super) fn matrix_stride() -> u32 {
     VEC4_ALIGN
 }
 
-/// Alignment and size of a type by rules 1 to 10.
+/// The alignment and size of a type by rules 1 to 10.
 pub(super) fn extent(types: &Types, ty: TypeId, layout: MatrixLayout) -> Extent {
     match types.get(ty) {
         Type::Error | Type::Void | Type::Sampler(_) | Type::Array(_, ArraySize::Unsized) => {
@@ -57,20 +58,20 @@ pub(super) fn extent(types: &Types, ty: TypeId, layout: MatrixLayout) -> Extent 
     }
 }
 
-/// Bytes from element to element of an array: rule 4.
+/// The stride in bytes between elements of an array: rule 4.
 pub(super) fn array_stride(types: &Types, element: TypeId, layout: MatrixLayout) -> u32 {
     round_up(extent(types, element, layout).size, VEC4_ALIGN)
 }
 
-/// Where a member stands in its struct.
+/// The offset of a member in its struct.
 pub(super) struct Placed {
     pub(super) offset: u32,
     pub(super) end: u32,
     pub(super) layout: MatrixLayout,
 }
 
-/// The members of a struct in order. The members of a block have a matrix order of their own, which those of a struct
-/// inside inherit.
+/// The members of a struct in order. The members of a block have a matrix layout of their own, which the members of
+/// nested structs inherit.
 pub(super) fn struct_members(types: &Types, id: StructId, inherited: MatrixLayout) -> Vec<Placed> {
     let structure = types.structure(id);
     let mut end = 0;
@@ -80,7 +81,7 @@ pub(super) fn struct_members(types: &Types, id: StructId, inherited: MatrixLayou
         let Extent { align, size } = extent(types, member.ty, layout);
         let offset = round_up(end, align);
         end = offset.saturating_add(size);
-        // The member after an array or a struct starts at a multiple of its alignment (rules 4 and 9).
+        // The member after an array or a struct is aligned to that one's alignment (rules 4 and 9).
         if matches!(types.get(member.ty), Type::Array(..) | Type::Struct(_)) {
             end = round_up(end, align);
         }
@@ -89,8 +90,8 @@ pub(super) fn struct_members(types: &Types, id: StructId, inherited: MatrixLayou
     placed
 }
 
-/// The byte offset, from the start of a value, of the part whose first scalar has this place in the flat layout. The
-/// place is that of a scalar, vector, matrix or array of those.
+/// The byte offset, from the start of a value, of the part whose first scalar has this index in the flat layout. The
+/// part must be a scalar, vector, matrix or array of those.
 pub(super) fn byte_offset(types: &Types, ty: TypeId, flat_offset: u32, layout: MatrixLayout) -> u32 {
     match types.get(ty) {
         Type::Struct(id) => {

@@ -1,8 +1,8 @@
-//! The outputs of one stage against the inputs of the next (GLSL 1.50 §4.3.4, §4.3.6, §4.3.7, §4.3.9).
+//! Matches the outputs of one stage with the inputs of the next (GLSL 1.50 §4.3.4, §4.3.6, §4.3.7, §4.3.9).
 //!
-//! Variables are matched by name, blocks by block name. What matches must agree in type and qualifiers; what is declared
-//! in one stage alone is superfluous and legal, unless the later stage reads it. A geometry shader's inputs are arrays of
-//! what the vertex shader writes.
+//! Variables match by name, blocks by block name. Matching declarations must agree in type and qualifiers. A
+//! declaration in only one stage is superfluous and legal, unless the later stage reads it. The inputs of a geometry
+//! shader are arrays of what the vertex shader writes.
 
 use super::Context;
 use super::compatible::{MemberDifference, block_parts, compare_members, same_type};
@@ -10,17 +10,17 @@ use crate::diagnostic::{Diagnostic, codes, did_you_mean};
 use crate::hir::{ArraySize, Global, GlobalId, Shader, Stage, Storage, Type, TypeId, Types};
 use rustc_hash::{FxHashMap, FxHashSet};
 
-/// Whether a global is an ordinary output or input that has a partner in another stage.
+/// Whether a global is an ordinary output or input, which needs a partner in the other stage.
 fn is_interface(global: &Global, storage: Storage) -> bool {
     global.storage == storage && global.builtin.is_none()
 }
 
-/// The name by which a variable or block is matched.
+/// The name by which a variable or block matches.
 pub(super) fn match_name(global: &Global) -> &str {
     global.block.as_ref().map_or(&global.name, |block| &block.name)
 }
 
-/// The outputs of a stage, by what an input finds them by.
+/// The outputs of a stage, by the keys with which an input finds them.
 pub(super) struct Outputs<'a> {
     producer: &'a Shader,
     by_name: FxHashMap<(&'a str, bool), GlobalId>,
@@ -28,7 +28,7 @@ pub(super) struct Outputs<'a> {
 }
 
 impl<'a> Outputs<'a> {
-    /// Those of `producer`; of several with one name or location the first counts.
+    /// The outputs of `producer`. Of several with the same name or location, the first counts.
     pub(super) fn new(producer: &'a Shader) -> Self {
         let (mut by_name, mut by_location) = (FxHashMap::default(), FxHashMap::default());
         for (id, output) in producer.globals().filter(|(_, output)| is_interface(output, Storage::Out)) {
@@ -41,7 +41,7 @@ impl<'a> Outputs<'a> {
         Self { producer, by_name, by_location }
     }
 
-    /// The output that feeds an input: of the same name and kind, else of the same explicit location.
+    /// The output that feeds an input: one of the same name and kind, or else of the same explicit location.
     pub(super) fn partner(&self, input: &Global) -> Option<(GlobalId, &'a Global)> {
         let is_block = input.block.is_some();
         let by_location = || self.by_location.get(&(input.location?, is_block));
@@ -50,7 +50,7 @@ impl<'a> Outputs<'a> {
     }
 }
 
-/// How many inputs without a partner get a help that is looked for among all outputs.
+/// For how many inputs without a partner the help text searches all outputs.
 const MAX_SUGGESTIONS: usize = 16;
 
 /// Checks all inputs of `consumer` against the outputs of `producer`.
@@ -114,7 +114,7 @@ fn describe_other(global: &Global) -> &'static str {
     }
 }
 
-/// The one output of the input's type that no input takes.
+/// The output of the input's type that no input reads, if there is exactly one.
 fn only_unread<'a>(types: &Types, outputs: &[&'a Global], consumer: &Shader, input: &Global) -> Option<&'a Global> {
     let inputs = consumer.globals.iter().filter(|other| is_interface(other, Storage::In));
     let taken: FxHashSet<&str> = inputs.map(match_name).collect();
@@ -127,7 +127,7 @@ fn only_unread<'a>(types: &Types, outputs: &[&'a Global], consumer: &Shader, inp
     free.next().is_none().then_some(first)
 }
 
-/// An output that would feed an input, as GLSL.
+/// The declaration of an output that would feed an input, as GLSL.
 fn declaration(types: &Types, consumer: &Shader, input: &Global) -> String {
     if let Some(block) = &input.block {
         return format!("out {} {{ .. }};", block.name);
@@ -176,7 +176,7 @@ impl Pair<'_> {
     }
 }
 
-/// The type of an input of one vertex: a geometry shader has an array of it.
+/// The type of an input for one vertex: a geometry shader declares an array of it.
 fn per_vertex(types: &Types, consumer: Stage, ty: TypeId) -> Option<TypeId> {
     if consumer != Stage::Geometry {
         return Some(ty);
@@ -272,8 +272,8 @@ fn member_qualifiers(member: &crate::hir::Member) -> String {
     format!("{interpolation}{centroid}{invariant}")
 }
 
-/// "The type and presence of the interpolation qualifiers and storage qualifiers and invariant qualifiers … must match"
-/// (§4.3.9): `smooth` and no qualifier at all differ, too.
+/// "The type and presence of the interpolation qualifiers and storage qualifiers and invariant qualifiers … must
+/// match" (§4.3.9): `smooth` and no qualifier differ, too.
 fn check_qualifiers(ctx: &mut Context<'_>, pair: &Pair<'_>) {
     let Pair { output, input, .. } = pair;
     let interpolation = |global: &Global| global.interpolation_written.then_some(global.interpolation);

@@ -1,8 +1,8 @@
-//! Several shaders of one stage become one (OpenGL 3.2 §2.11.2; GLSL 1.50 §4.2.6, §6.1).
+//! Merges several shaders of one stage into one (OpenGL 3.2 §2.11.2; GLSL 1.50 §4.2.6, §6.1).
 //!
-//! Globals of one name are one variable, if they agree in type and qualifiers; a function that one shader declares is the
-//! one that another defines. All handles of the later shaders are moved behind those of the first. What needs the whole
-//! stage is done anew at the end: static use, the sizes of a geometry shader's inputs.
+//! Globals of one name are one variable and must agree in type and qualifiers. A function that one shader declares is
+//! the one that another defines. The handles of later shaders are moved after those of the first. What depends on the
+//! whole stage is computed again at the end: static use, and the sizes of a geometry shader's inputs.
 
 use super::compatible::same_value;
 use super::matching::match_name;
@@ -15,7 +15,7 @@ use crate::hir::{
 use rustc_hash::FxHashMap;
 use std::hash::Hash;
 
-/// The one shader that a stage consists of; `None` if there is none.
+/// The one shader that forms a stage; `None` if there is none.
 pub(super) fn merge(types: &mut Types, shaders: Vec<Shader>, found: &mut Vec<Diagnostic>) -> Option<Shader> {
     check_frag_coord(&shaders, found);
     super::per_vertex::check_stage(&shaders, found);
@@ -35,7 +35,7 @@ pub(super) fn merge(types: &mut Types, shaders: Vec<Shader>, found: &mut Vec<Dia
     Some(all)
 }
 
-/// If one shader declares `gl_FragCoord` anew, all that use it must, and alike (§4.3.8.1).
+/// Checks that, if one shader redeclares `gl_FragCoord`, all that use it do so in the same way (§4.3.8.1).
 fn check_frag_coord(shaders: &[Shader], found: &mut Vec<Diagnostic>) {
     let is_frag_coord = |global: &&Global| global.builtin == Some(BuiltinVariable::FragCoord);
     let users: Vec<(&Shader, &Global)> =
@@ -52,8 +52,8 @@ fn check_frag_coord(shaders: &[Shader], found: &mut Vec<Diagnostic>) {
     }
 }
 
-/// What makes two globals one: a built-in variable is one by what it is, all others by their names. Blocks of one name are
-/// apart if one is `in` and the other `out`: "a block name is allowed to have different definitions in different
+/// What identifies a global: for a built-in variable which one it is, for all others the name. Blocks of one name are
+/// different if one is `in` and the other `out`: "a block name is allowed to have different definitions in different
 /// interfaces" (§4.3.7).
 #[derive(PartialEq, Eq, Hash)]
 enum GlobalKey {
@@ -70,14 +70,14 @@ fn global_key(global: &Global) -> GlobalKey {
     }
 }
 
-/// What makes two functions one.
+/// What identifies a function.
 type FunctionKey = (String, Vec<TypeId>);
 
 fn function_key(function: &Function) -> FunctionKey {
     (function.name.clone(), function.params().iter().map(|param| param.ty).collect())
 }
 
-/// The first of the handles of each key.
+/// The first handle of each key.
 fn first_places<K: Eq + Hash, Id>(list: impl Iterator<Item = (K, Id)>) -> FxHashMap<K, Id> {
     let mut places = FxHashMap::default();
     for (key, id) in list {
@@ -124,12 +124,12 @@ impl Merge<'_> {
         self.retype_variables();
     }
 
-    /// The global that a later one is; a new place if there is none yet.
+    /// The handle of a later shader's global in the merged shader; a new one if it is not there yet.
     fn place_of_global(&mut self, known: &mut FxHashMap<GlobalKey, GlobalId>, global: &Global) -> GlobalId {
         let next = GlobalId::new(self.all.globals.len());
         let place = *known.entry(global_key(global)).or_insert(next);
         if place == next {
-            // A stand-in without an initializer, which `unite_global` replaces.
+            // A placeholder without an initializer, which `unite_global` replaces.
             self.all.globals.push(Global { initializer: None, ..global.clone() });
         }
         place
@@ -201,7 +201,7 @@ impl Merge<'_> {
         known.pixel_center_integer |= frag_coord.pixel_center_integer;
     }
 
-    /// Expressions that name a global have its type, which may have got a size.
+    /// Updates the types of expressions that refer to globals, whose sizes may have changed.
     fn retype_variables(&mut self) {
         super::remap::retype_globals(self.types, self.all);
     }
@@ -248,12 +248,12 @@ fn global_problem(types: &Types, known: &Global, other: &Global) -> Option<Diagn
     }
 }
 
-/// A declaration as an array.
+/// The size of an array as one shader declares it.
 #[derive(Clone, Copy)]
 struct Extent {
     element: TypeId,
     size: Option<u32>,
-    /// Its use has given it the size.
+    /// Whether the size follows only from the uses.
     implicit: bool,
 }
 
@@ -266,7 +266,7 @@ impl Extent {
         }
     }
 
-    /// Whether at most one has a size of its own, and the use of the other fits it.
+    /// Whether at most one size is explicit and covers the uses of the other.
     fn fits(self, other: Self) -> bool {
         match (self.size, self.implicit, other.size, other.implicit) {
             (None, ..) | (_, _, None, _) | (_, true, _, true) => true,
@@ -276,7 +276,7 @@ impl Extent {
         }
     }
 
-    /// The size of both together, and whether use alone has given it.
+    /// The common size, and whether it follows only from uses.
     fn united(self, other: Self) -> (ArraySize, bool) {
         let size = match (self.size, self.implicit, other.size, other.implicit) {
             (Some(a), false, _, _) => Some(a),
@@ -288,8 +288,8 @@ impl Extent {
     }
 }
 
-/// Equal, or equal but for the sizes of arrays, of which at most one is declared and the use of the other fits it. The
-/// arrays are the variables themselves, and the members of blocks.
+/// Whether two types are equal except for array sizes, of which at most one is explicit and covers the uses of the
+/// other. The arrays are the variables themselves, and the members of blocks.
 fn types_agree(types: &Types, known: &Global, other: &Global) -> bool {
     if known.ty == other.ty {
         return true;
@@ -320,7 +320,7 @@ fn members_agree(types: &Types, a: &Member, b: &Member) -> bool {
     a.name == b.name && same_type && qualifiers(a) == qualifiers(b)
 }
 
-/// The type of a variable that two shaders declare, and whether use alone has given its size.
+/// The type of a variable that two shaders declare, and whether its size follows only from uses.
 fn united_type(types: &mut Types, known: &Global, other: &Global) -> (TypeId, bool) {
     let known_array = Extent::new(types, known.ty, known.implicitly_sized);
     let other_array = Extent::new(types, other.ty, other.implicitly_sized);
@@ -332,7 +332,7 @@ fn united_type(types: &mut Types, known: &Global, other: &Global) -> (TypeId, bo
     (types.array(element, size), implicit)
 }
 
-/// The struct of a block whose arrays have the sizes that two shaders ask for; what is no block stays as it is.
+/// The struct of a block, with array sizes that satisfy both shaders. Types other than blocks are returned unchanged.
 fn united_block(types: &mut Types, known: TypeId, other: TypeId) -> TypeId {
     let (Type::Struct(a), Type::Struct(b)) = (types.get(known), types.get(other)) else { return known };
     if a == b {

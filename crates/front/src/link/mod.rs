@@ -1,23 +1,23 @@
-//! Stages into a program (GLSL 1.50 §4.3.4 to §4.3.9, OpenGL 3.2 §2.11).
+//! Links stages into a program (GLSL 1.50 §4.3.4 to §4.3.9, OpenGL 3.2 §2.11).
 //!
-//! *In:* analysed shaders, bindings by name. *Out:* a [`Program`]: the stages with every interface matched and every
-//! location, offset and binding assigned; or none, if the link has errors.
+//! *In:* analyzed shaders, and bindings by name. *Out:* a [`Program`]: the stages, with every interface matched and
+//! every location, offset and binding assigned; or none, if the link has errors.
 //!
-//! *Holds:* the [`Interface`] is all that `lower`, `emit`, `cpu` and `gpu` know of the outside of a shader; none of them
-//! assigns a place of its own. All errors of a link are reported, each at the declaration nearer to the fragment, with
-//! the other side as a label.
+//! *Holds:* the [`Interface`] is everything that `lower`, `emit`, `cpu` and `gpu` know about a shader's interfaces;
+//! none of them assigns locations of its own. A link reports all its errors, each at the declaration in the later
+//! stage, with the earlier stage's declaration as a secondary label.
 //!
-//! | file | what it does |
+//! | file | contents |
 //! | --- | --- |
-//! | `canonical` | equal structs of different shaders become one type |
-//! | `merge`, `remap`, `geometry` | several shaders of one stage become one |
+//! | `canonical` | gives equal structs of different shaders one type |
+//! | `merge`, `remap`, `geometry` | merge several shaders of one stage into one |
 //! | `compatible` | when two declarations in different shaders have the same type |
-//! | `stages` | which stages make a program, `main`, geometry layouts |
+//! | `stages` | which stages form a program; `main`; geometry layouts |
 //! | `matching` | outputs of one stage against inputs of the next |
-//! | `per_vertex` | `gl_PerVertex` declared anew |
-//! | `varyings` | what the rasterizer interpolates, cut up and placed |
-//! | `attributes`, `outputs` | vertex inputs and fragment outputs, placed |
-//! | `uniforms`, `samplers` | what stays the same over a draw, placed |
+//! | `per_vertex` | redeclared `gl_PerVertex` |
+//! | `varyings` | splits varyings and assigns their locations |
+//! | `attributes`, `outputs` | assign locations to vertex inputs and fragment outputs |
+//! | `uniforms`, `samplers` | assign offsets and bindings |
 //! | `layout` | std140 |
 
 mod aliasing;
@@ -49,7 +49,7 @@ use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::hir::{Shader, Stage, Types};
 use canonical::Sizes;
 
-/// What all steps of a link share.
+/// The state that all steps of a link share.
 struct Context<'a> {
     types: &'a Types,
     bindings: Bindings<'a>,
@@ -73,9 +73,9 @@ pub struct Bindings<'a> {
     pub frag_data_locations: &'a [(String, u32)],
 }
 
-/// Links analyzed shaders; `None` if that fails. A lone shader links, too: its interface is then that of one stage. One
-/// that other shaders of its stage must complete (no `main`, a function that is only declared) gives warnings and no
-/// program.
+/// Links analyzed shaders; `None` if that fails. A single shader links, too: its interface is then that of one stage.
+/// If other shaders of its stage must complete it (no `main`, or a function that is only declared), the link gives
+/// warnings and no program.
 pub fn link(
     name: String,
     mut types: Types,

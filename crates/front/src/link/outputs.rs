@@ -1,8 +1,8 @@
-//! Fragment outputs and their color numbers (OpenGL 3.2 §3.9.2, GLSL 1.50 §7.2).
+//! Assigns color numbers to fragment outputs (OpenGL 3.2 §3.9.2, GLSL 1.50 §7.2).
 //!
-//! `layout(location)` wins over a binding by name, that over the automatic choice, the lowest free number; an array takes
-//! one an element. `gl_FragColor` and `gl_FragData` stand at number 0. Outputs that nothing writes come last and are left
-//! out if there is no room.
+//! `layout(location)` takes precedence over a binding by name, and that over automatic assignment, which takes the
+//! lowest free number. An array takes one number per element. `gl_FragColor` and `gl_FragData` have number 0. Outputs
+//! that nothing writes come last and are omitted if they do not fit.
 
 use super::attributes::plural;
 use super::{Context, Output};
@@ -26,7 +26,7 @@ fn numbers(types: &Types, ty: TypeId) -> u32 {
     }
 }
 
-/// Places all color outputs of the fragment stage.
+/// Assigns numbers to all color outputs of the fragment stage.
 pub(super) fn assign(ctx: &mut Context<'_>, fragment: &Shader) -> Vec<Output> {
     let outputs = fragment.globals().filter(|(_, global)| global.storage == Storage::Out && is_color(global));
     let mut candidates: Vec<Candidate<'_>> = outputs
@@ -69,7 +69,7 @@ fn output(candidate: Candidate<'_>) -> Option<Output> {
     })
 }
 
-/// Whether an output is a color: all but `gl_FragDepth`, and of the deprecated ones those that are written.
+/// Whether an output is a color: all are except `gl_FragDepth`, and the deprecated ones if they are not written.
 fn is_color(global: &Global) -> bool {
     match global.builtin {
         None => true,
@@ -142,8 +142,8 @@ fn too_many(ctx: &mut Context<'_>, candidate: &Candidate<'_>) {
     ctx.report(Diagnostic::new(&codes::link::TOO_MANY_OUTPUTS, candidate.global.span, message));
 }
 
-/// `gl_FragColor`, `gl_FragData` and declared outputs exclude each other (§7.2), also in different shaders of the stage; in
-/// one shader the analysis finds it.
+/// Checks that `gl_FragColor`, `gl_FragData` and declared outputs exclude each other (§7.2) across the shaders of the
+/// stage. The analysis checks each shader.
 pub(super) fn check_exclusive(ctx: &mut Context<'_>, fragment: &Shader) {
     if fragment.stage != Stage::Fragment {
         return;
@@ -171,7 +171,7 @@ pub(super) fn check_exclusive(ctx: &mut Context<'_>, fragment: &Shader) {
     }
 }
 
-/// Where a global is first assigned to.
+/// The position of the first assignment to a global.
 fn first_write(shader: &Shader, global: &Global) -> Option<crate::source::Span> {
     let (id, _) = shader.globals().find(|(_, other)| std::ptr::eq(*other, global))?;
     super::usage::first_write(shader, id)

@@ -1,5 +1,5 @@
-//! `gl_PerVertex` declared anew: alike wherever its members are used (ARB_separate_shader_objects; GLSL 4.10 §7.1 states
-//! for `gl_PerVertex` of 1.50 what follows from the rules of blocks).
+//! Redeclarations of `gl_PerVertex` must be the same wherever its members are used (ARB_separate_shader_objects; GLSL
+//! 4.10 §7.1 states for `gl_PerVertex` what in 1.50 follows from the rules of blocks).
 
 use super::stages::anchor;
 use crate::builtin::{BuiltinVariable, variables};
@@ -7,10 +7,10 @@ use crate::diagnostic::{Diagnostic, codes};
 use crate::hir::{Global, Shader, Storage, Type, Types};
 use crate::source::Span;
 
-/// What a shader has of one `gl_PerVertex` block that it uses.
+/// What a shader says about a `gl_PerVertex` block that it uses.
 struct Side<'a> {
     shader: &'a Shader,
-    /// The members if the block is declared anew; `None` for the intrinsic block.
+    /// The members, if the block is redeclared; `None` for the predefined block.
     members: Option<(Vec<&'a str>, Span)>,
 }
 
@@ -24,7 +24,7 @@ impl Side<'_> {
     }
 }
 
-/// The output block, if the shader names a member of it.
+/// The output block, if the shader uses a member of it.
 fn output(shader: &Shader) -> Option<Side<'_>> {
     let is_member = |global: &Global| {
         global.storage == Storage::Out
@@ -35,7 +35,7 @@ fn output(shader: &Shader) -> Option<Side<'_>> {
     (declared.is_some() || shader.globals.iter().any(is_member)).then_some(Side { shader, members })
 }
 
-/// `gl_in`, if the shader names it.
+/// `gl_in`, if the shader uses it.
 fn input<'a>(types: &'a Types, shader: &'a Shader) -> Option<Side<'a>> {
     let global = shader.globals.iter().find(|global| global.builtin == Some(BuiltinVariable::In))?;
     let members = match types.element(global.ty).map(|element| types.get(element)) {
@@ -57,7 +57,7 @@ pub(super) fn check_stage(shaders: &[Shader], found: &mut Vec<Diagnostic>) {
     }
 }
 
-/// Checks what a stage writes against the `gl_in` of the next.
+/// Checks the outputs of a stage against the `gl_in` of the next.
 pub(super) fn check_stages(types: &Types, producer: &Shader, consumer: &Shader) -> Option<Diagnostic> {
     mismatch(&output(producer)?, &input(types, consumer)?)
 }

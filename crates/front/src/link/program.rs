@@ -1,17 +1,17 @@
-//! [`Program`] and its [`Interface`]: what was linked, and where each thing stands.
+//! [`Program`] and its [`Interface`]: the result of a link, with all assigned locations, offsets and bindings.
 
 use crate::hir::{ArraySize, GlobalId, Interpolation, MatrixLayout, Shader, Stage, Type, TypeId, Types, Value};
 
 /// A linked program.
 #[derive(Clone, Debug)]
 pub struct Program {
-    /// The name that its outputs take: the stem of the first file.
+    /// The name for its output files: the stem of the first source file.
     pub name: String,
     /// All types of all stages.
     pub types: Types,
-    /// The stages in the order of the pipeline, at most one of each; a lone stage is a program, too.
+    /// The stages in pipeline order, at most one of each. A single stage is a program, too.
     pub stages: Vec<Shader>,
-    /// What they have in common with each other and with the outside.
+    /// The interfaces between the stages, and those to the host.
     pub interface: Interface,
 }
 
@@ -21,7 +21,7 @@ impl Program {
         self.stages.iter().find(|shader| shader.stage == stage)
     }
 
-    /// Whether an output is bound to a color number.
+    /// Whether an output is assigned to a color number.
     pub fn writes_color(&self, number: u32) -> bool {
         self.interface.outputs.iter().any(|output| {
             let elements = match self.types.get(output.ty) {
@@ -33,35 +33,36 @@ impl Program {
     }
 }
 
-/// A block in [`Interface::blocks`].
+/// The index of a block in [`Interface::blocks`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct BlockIndex(pub u32);
 
-/// A uniform in [`Interface::roots`].
+/// The index of a uniform in [`Interface::roots`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct RootIndex(pub u32);
 
-/// Everything at the borders of the stages.
+/// All interfaces of a program.
 #[derive(Clone, Debug, Default)]
 pub struct Interface {
-    /// Vertex inputs, in the order of their declarations. Built-in ones are not among them.
+    /// Vertex inputs, in order of declaration, without the built-in ones.
     pub attributes: Vec<Attribute>,
-    /// What the rasteriser interpolates, cut into scalars and vectors, in the order of their locations.
+    /// Varyings, split into scalars and vectors, in order of location.
     pub varyings: Vec<Varying>,
-    /// Fragment outputs, `gl_FragColor` and `gl_FragData` included.
+    /// Fragment outputs, including `gl_FragColor` and `gl_FragData`.
     pub outputs: Vec<Output>,
-    /// Uniform blocks with their places; the loose uniforms' block is not among them.
+    /// Uniform blocks with their bindings, without the block of the loose uniforms.
     pub blocks: Vec<Block>,
-    /// The place of the block that holds all loose uniforms, and its size in bytes (a multiple of 16).
+    /// The binding of the block that contains all loose uniforms, and its size in bytes (a multiple of 16).
     pub loose: Option<(SlotBinding, u32)>,
-    /// The offset in the loose block of a hidden `float`, the framebuffer's height in pixels: there if the fragment stage
-    /// reads `gl_FragCoord` with its origin at the lower left. Only `--window-origin upper-left` fills it.
+    /// The offset, in the loose block, of a hidden `float`: the framebuffer's height in pixels. It exists if the
+    /// fragment stage reads `gl_FragCoord` with its origin at the lower left. Only `--window-origin upper-left` sets
+    /// it.
     pub framebuffer_height: Option<u32>,
-    /// Uniform variables and blocks as declared, samplers left out.
+    /// Uniform variables and blocks as declared, without samplers.
     pub roots: Vec<UniformRoot>,
-    /// The same cut into scalars, vectors, matrices and arrays of those, as hosts name them.
+    /// The same uniforms, split into scalars, vectors, matrices and arrays of those, under the names that hosts use.
     pub uniforms: Vec<UniformLeaf>,
-    /// Samplers, one row an element of an array.
+    /// Samplers, with one entry per element of an array.
     pub samplers: Vec<SamplerSlot>,
 }
 
@@ -70,13 +71,13 @@ pub struct Interface {
 pub struct Attribute {
     /// The GLSL name.
     pub name: String,
-    /// The declared type; matrices and arrays take one location a column and element.
+    /// The declared type; a matrix takes one location per column, an array one per element.
     pub ty: TypeId,
     /// The variable in the vertex stage.
     pub global: GlobalId,
     /// The first location.
     pub location: u32,
-    /// How many locations.
+    /// The number of locations.
     pub columns: u32,
     /// Whether the stage reads it.
     pub active: bool,
@@ -87,14 +88,14 @@ pub struct Attribute {
 pub struct VaryingEnd {
     /// The variable.
     pub global: GlobalId,
-    /// The first of the scalars in the variable's flat layout; the varying's type tells how many follow.
+    /// The index of its first scalar in the variable's flat layout. The varying's type determines how many follow.
     pub flat_offset: u32,
 }
 
-/// A scalar or vector that the rasteriser interpolates.
+/// A scalar or vector that the rasterizer interpolates.
 #[derive(Clone, Debug)]
 pub struct Varying {
-    /// The path in GLSL: `vc`, `tangent[2]` (column of a matrix or element), `v.color`, `Block.member`.
+    /// The path in GLSL: `vc`, `tangent[2]` (a column or an element), `v.color`, `Block.member`.
     pub name: String,
     /// A scalar or vector of `float`, `int` or `uint`.
     pub ty: TypeId,
@@ -102,13 +103,13 @@ pub struct Varying {
     pub location: u32,
     /// The first of the location's four components.
     pub component: u32,
-    /// As the fragment stage has it.
+    /// The interpolation, as the fragment stage declares it.
     pub interpolation: Interpolation,
     /// `centroid`
     pub centroid: bool,
     /// Whether the fragment stage reads it.
     pub active: bool,
-    /// The output of the stage before the rasteriser, if that writes it.
+    /// The output of the stage before the rasterizer, if that stage writes it.
     pub from: Option<VaryingEnd>,
     /// The input of the fragment stage.
     pub to: Option<VaryingEnd>,
@@ -119,17 +120,17 @@ pub struct Varying {
 pub struct Output {
     /// The GLSL name.
     pub name: String,
-    /// The declared type; an array takes one location an element.
+    /// The declared type; an array takes one location per element.
     pub ty: TypeId,
     /// The variable in the fragment stage.
     pub global: GlobalId,
-    /// The first colour number.
+    /// The first color number.
     pub location: u32,
     /// For dual-source blending: 0 or 1.
     pub index: u32,
 }
 
-/// A bind group and a binding in it. Bindings are dense from 0 in every group.
+/// A bind group and a binding in it. In every group, bindings count from 0 without gaps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct SlotBinding {
     /// The group: 0 holds the loose uniforms and the blocks, 1 the textures and samplers.
@@ -141,91 +142,93 @@ pub struct SlotBinding {
 /// A uniform block.
 #[derive(Clone, Debug)]
 pub struct Block {
-    /// The block's name, without the index of an array's element.
+    /// The block's name, without an array index.
     pub name: String,
     /// The instance name.
     pub instance: Option<String>,
     /// The size of an array of blocks; its elements take consecutive bindings.
     pub array_size: Option<u32>,
-    /// Its place (that of its first element).
+    /// The binding (of the first element).
     pub slot: SlotBinding,
     /// The size of one element in bytes, a multiple of 16.
     pub size: u32,
-    /// The root that it is.
+    /// The root of the block.
     pub root: RootIndex,
-    /// `layout(binding = n)`: the buffer binding point, for the host to know; it never moves `slot`.
+    /// `layout(binding = n)`: the buffer binding point. It informs the host; it never affects `slot`.
     pub unit: Option<u32>,
     /// Whether a stage reads it.
     pub active: bool,
 }
 
-/// A uniform variable or block as it is declared.
+/// A uniform variable or block as declared.
 #[derive(Clone, Debug)]
 pub struct UniformRoot {
-    /// The variable's name; for a block the block's name.
+    /// The variable's name; for a block, the block's name.
     pub name: String,
-    /// Its type.
+    /// The type.
     pub ty: TypeId,
     /// The variable in each stage that declares it.
     pub globals: Vec<(Stage, GlobalId)>,
-    /// The block it is; `None` for a loose uniform.
+    /// The block, if it is one; `None` for a loose uniform.
     pub block: Option<BlockIndex>,
-    /// For a loose uniform: its offset in the loose block.
+    /// For a loose uniform: the offset in the loose block.
     pub offset: u32,
-    /// Its initializer's value.
+    /// The value of its initializer.
     pub default: Option<Value>,
     /// Whether a stage reads it.
     pub active: bool,
 }
 
-/// A scalar, vector, matrix, or array of those, inside a root.
+/// A scalar, vector, matrix, or array of those, in a root.
 #[derive(Clone, Debug)]
 pub struct UniformLeaf {
-    /// As hosts name it: `light[1].position`, `Block.member`, `Block[1].member`, `member` of a block without instance.
+    /// The name that hosts use: `light[1].position`, `Block.member`, `Block[1].member`, `member` of a block without
+    /// an instance name.
     pub name: String,
     /// The type of one element.
     pub ty: TypeId,
-    /// How many elements, if it is an array.
+    /// The number of elements, if it is an array.
     pub array_size: Option<u32>,
-    /// The root it is part of.
+    /// The root that it belongs to.
     pub root: RootIndex,
-    /// Which element of an array of blocks it is in, 0 elsewhere.
+    /// The index of the element of an array of blocks that it is in; otherwise 0.
     pub block_element: u32,
-    /// The first of its scalars in the root's flat layout; elements follow each other there without gaps.
+    /// The index of its first scalar in the root's flat layout. There, elements follow each other without gaps.
     pub flat_offset: u32,
-    /// The place of its block (for an element of an array of blocks, of that element).
+    /// The binding of its block (or of the element of an array of blocks).
     pub slot: SlotBinding,
-    /// Bytes from the start of the block.
+    /// The offset in bytes from the start of the block.
     pub offset: u32,
-    /// Bytes from element to element.
+    /// The stride in bytes between elements.
     pub array_stride: Option<u32>,
-    /// Bytes from column to column (from row to row in `row_major`).
+    /// The stride in bytes between columns (in `row_major`, rows).
     pub matrix_stride: Option<u32>,
-    /// The order of a matrix.
+    /// The matrix layout.
     pub matrix_layout: MatrixLayout,
     /// Whether a stage reads the root.
     pub active: bool,
 }
 
-/// A sampler: where its texture and its sampler stand.
+/// A sampler, with the bindings of its texture and its sampler.
 #[derive(Clone, Debug)]
 pub struct SamplerSlot {
-    /// As hosts name it: `tex`, `tex[1]`, `material.albedo`.
+    /// The name that hosts use: `tex`, `tex[1]`, `material.albedo`.
     pub name: String,
     /// The sampler type.
     pub ty: TypeId,
-    /// The size of the array that it is an element of.
+    /// The size of the array that it belongs to, if it is an element.
     pub array_size: Option<u32>,
     /// The variable in each stage that declares it.
     pub globals: Vec<(Stage, GlobalId)>,
-    /// Its place in the variable's flat layout.
+    /// The index in the variable's flat layout.
     pub flat_offset: u32,
-    /// The texture.
+    /// The binding of the texture.
     pub texture: SlotBinding,
-    /// The sampler; the same as `texture` for kinds that are only fetched from (buffer, integer, multisample).
+    /// The binding of the sampler; equal to `texture` for kinds that are only fetched from (buffer, integer,
+    /// multisample).
     pub sampler: SlotBinding,
-    /// The offset in the loose block of a hidden `int`, the number of texels of a buffer texture: there if the program asks
-    /// for the size of one. A texture stands for the buffer, and its own size is another.
+    /// The offset, in the loose block, of a hidden `int`: the number of texels of a buffer texture. It exists if the
+    /// program queries the size of one. A texture emulates the buffer, and its own size is a different one.
     pub texel_count: Option<u32>,
     /// `layout(binding = n)`: the texture unit.
     pub unit: Option<u32>,

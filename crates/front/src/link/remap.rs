@@ -1,10 +1,10 @@
-//! Moves the handles of one shader behind those of another.
+//! Moves the handles of one shader after those of another.
 
 use crate::hir::{Expr, ExprId, ExprKind, FunctionId, GlobalId, Shader, Stmt, StmtKind, Type, Types, VarRef};
 
-/// Where everything of a shader goes.
+/// The new handles of everything in a shader.
 pub(super) struct Remap {
-    /// How many expressions stand before.
+    /// The number of expressions before it.
     pub(super) exprs: u32,
     /// The new handle of each global.
     pub(super) globals: Vec<GlobalId>,
@@ -85,8 +85,8 @@ impl Remap {
     }
 }
 
-/// Gives each expression that names a global, or a part of one, its type, which may have changed its size. Children
-/// stand before their parents.
+/// Updates the type of each expression that refers to a global or a part of one, since its size may have changed.
+/// Children come before their parents.
 pub(super) fn retype_globals(types: &Types, shader: &mut Shader) {
     for index in 0..shader.exprs.len() {
         let Some(expr) = shader.exprs.get(index) else { continue };

@@ -1,6 +1,7 @@
-//! Samplers: each element of each sampler variable, also inside structs, gets a texture and a sampler in group 1.
+//! Assigns bindings to samplers: each element of each sampler variable, also inside structs, gets a texture and a
+//! sampler in group 1.
 //!
-//! Those that are read come first, so that the bindings of what is in use are dense, too.
+//! Samplers that are read come first, so that the bindings in use have no gaps either.
 
 use super::attributes::plural;
 use super::compatible::same_type;
@@ -17,7 +18,7 @@ const GROUP: u32 = 1;
 /// More sampler elements than any target binds.
 const MAX_SLOTS: usize = 1024;
 
-/// A uniform variable that is or holds a sampler.
+/// A uniform variable that is or contains a sampler.
 struct Variable<'a> {
     global: &'a Global,
     globals: Vec<(Stage, GlobalId)>,
@@ -25,7 +26,7 @@ struct Variable<'a> {
     unit: Option<u32>,
 }
 
-/// Places all samplers of a program.
+/// Assigns bindings to all samplers of a program.
 pub(super) fn assign(ctx: &mut Context<'_>, stages: &[Shader]) -> Vec<SamplerSlot> {
     let mut variables: Vec<Variable<'_>> = Vec::new();
     for shader in stages {
@@ -55,7 +56,7 @@ pub(super) fn assign(ctx: &mut Context<'_>, stages: &[Shader]) -> Vec<SamplerSlo
     slots
 }
 
-/// Adds a stage's declaration; that the types agree, `uniforms` checks.
+/// Adds the declaration of a stage. `uniforms` checks that the types agree.
 fn merge<'a>(ctx: &Context<'_>, variables: &mut Vec<Variable<'a>>, stage: Stage, id: GlobalId, global: &'a Global) {
     let known = variables
         .iter_mut()
@@ -73,7 +74,7 @@ fn merge<'a>(ctx: &Context<'_>, variables: &mut Vec<Variable<'a>>, stage: Stage,
     }
 }
 
-/// One row an element; false if there are absurdly many.
+/// Adds one entry per element. Returns false if there are absurdly many.
 fn cut(ctx: &mut Context<'_>, variable: &Variable<'_>, slots: &mut Vec<SamplerSlot>) -> bool {
     let Global { name, ty, span, .. } = variable.global;
     if slots.len() + ctx.types.flat_len(*ty) as usize > MAX_SLOTS {

@@ -1,10 +1,10 @@
-//! Which stages make a program, and what each must have (OpenGL 3.2 §2.11.2, §2.12; GLSL 1.50 §4.3.8, §6.1).
+//! Which stages form a program, and what each must have (OpenGL 3.2 §2.11.2, §2.12; GLSL 1.50 §4.3.8, §6.1).
 
 use super::{Context, merge};
 use crate::diagnostic::{Diagnostic, codes};
 use crate::hir::{FunctionId, Shader, Stage, Types};
 
-/// One shader a stage, in the order of the pipeline: several of one stage are merged.
+/// One shader per stage, in pipeline order; several shaders of one stage are merged.
 pub(super) fn in_order(types: &mut Types, shaders: Vec<Shader>, found: &mut Vec<Diagnostic>) -> Vec<Shader> {
     let mut by_stage: [Vec<Shader>; 3] = Default::default();
     for shader in shaders {
@@ -18,7 +18,7 @@ pub(super) fn in_order(types: &mut Types, shaders: Vec<Shader>, found: &mut Vec<
     by_stage.into_iter().filter_map(|shaders| merge::merge(types, shaders, found)).collect()
 }
 
-/// Whether the stages can run. What a lone shader may lack, a program may not: then it is a warning instead of an error.
+/// Checks that the stages can run. What only a program must have is a warning instead of an error in a single shader.
 pub(super) fn check(ctx: &mut Context<'_>, stages: &[Shader], lone: bool) -> bool {
     let mut complete = !stages.is_empty();
     for shader in stages {
@@ -44,7 +44,7 @@ pub(super) fn check(ctx: &mut Context<'_>, stages: &[Shader], lone: bool) -> boo
     complete
 }
 
-/// A function that is called must be defined in some shader of the stage (§6.1).
+/// Checks that every called function is defined in some shader of the stage (§6.1).
 fn functions_are_defined(ctx: &mut Context<'_>, shader: &Shader, lone: bool) -> bool {
     let code = if lone { &codes::link::LONE_WITHOUT_DEFINITION } else { &codes::link::UNDEFINED_FUNCTION };
     let undefined = shader.functions.iter().filter(|function| function.reachable && function.body.is_none());
@@ -57,7 +57,7 @@ fn functions_are_defined(ctx: &mut Context<'_>, shader: &Shader, lone: bool) -> 
     complete
 }
 
-/// Recursion through functions of different shaders (§6.1); that inside one shader the analysis has found.
+/// Reports recursion through functions of different shaders (§6.1). The analysis finds recursion within one shader.
 fn check_recursion(ctx: &mut Context<'_>, shader: &Shader) {
     let Some(main) = shader.main else { return };
     let order = shader.callees_first(main);
@@ -68,7 +68,7 @@ fn check_recursion(ctx: &mut Context<'_>, shader: &Shader) {
         }
     }
     for (index, &caller) in order.iter().enumerate() {
-        // Callees come first, unless a cycle had to be cut.
+        // Callees come first, except where a cycle was cut.
         let later = |callee: &FunctionId| place.get(callee.index()).is_some_and(|&place| place >= index);
         if let Some(callee) = shader.callees(caller).into_iter().find(later) {
             let (caller, callee) = (shader.function(caller), shader.function(callee));
@@ -89,7 +89,7 @@ fn missing_main(ctx: &mut Context<'_>, shader: &Shader, lone: bool) {
     ctx.report(Diagnostic::new(code, anchor(shader), message).maybe_help(help));
 }
 
-/// The `#version` line, or whatever has a place.
+/// The `#version` line, or else anything with a position.
 pub(super) fn anchor(shader: &Shader) -> crate::source::Span {
     let globals = shader.globals.iter().map(|global| global.span);
     let functions = shader.functions.iter().map(|function| function.span);

@@ -1,8 +1,9 @@
-//! Uniforms and uniform blocks (GLSL 1.50 §4.3.5, §4.3.7; OpenGL 3.2 §2.11.4): one name space for all stages.
+//! Assigns offsets and bindings to uniforms and uniform blocks (GLSL 1.50 §4.3.5, §4.3.7; OpenGL 3.2 §2.11.4). All
+//! stages share one name space.
 //!
-//! Loose uniforms stand together in one block at group 0, binding 0, laid out by std140 in the order of their
-//! declarations, those that are read first; uniform blocks follow, elements of an array of blocks at consecutive
-//! bindings. `gl_DepthRange` is a loose uniform with the default (0, 1, 1).
+//! Loose uniforms are in one block at group 0, binding 0, with std140 layout in order of declaration; those that are
+//! read come first. Uniform blocks follow; the elements of an array of blocks have consecutive bindings.
+//! `gl_DepthRange` is a loose uniform with the default (0, 1, 1).
 
 use super::compatible::{MemberDifference, block_parts, compare_members, same_type, same_value};
 use super::flatten::{join, parts};
@@ -18,7 +19,7 @@ use rustc_hash::FxHashMap;
 
 const GROUP: u32 = 0;
 
-/// A uniform or block as all stages have it.
+/// A uniform or block, merged over all stages.
 struct Shared<'a> {
     global: &'a Global,
     stage: Stage,
@@ -34,7 +35,7 @@ impl Shared<'_> {
     }
 }
 
-/// Places all uniforms but samplers.
+/// Assigns offsets and bindings to all uniforms but samplers.
 pub(super) fn assign(ctx: &mut Context<'_>, stages: &[Shader], interface: &mut Interface) {
     let mut all = unite(ctx, stages);
     all.sort_by_key(|shared| !shared.active);
@@ -57,7 +58,7 @@ fn only_samplers(types: &Types, ty: TypeId) -> bool {
     }
 }
 
-/// Whether the fragment stage needs the framebuffer's height to turn `gl_FragCoord.y` over.
+/// Whether the fragment stage needs the framebuffer's height to flip `gl_FragCoord.y`.
 fn reads_frag_coord(stages: &[Shader]) -> bool {
     stages.iter().filter(|shader| shader.stage == Stage::Fragment).any(|shader| {
         let reads = |global: &Global| global.used && global.builtin == Some(BuiltinVariable::FragCoord);
@@ -65,7 +66,7 @@ fn reads_frag_coord(stages: &[Shader]) -> bool {
     })
 }
 
-/// Whether something asks for the size of a buffer texture.
+/// Whether a stage queries the size of a buffer texture.
 fn asks_for_texels(types: &Types, stages: &[Shader]) -> bool {
     let is_buffer = |ty| matches!(types.get(ty), Type::Sampler(ty) if ty.dim == SamplerDim::Buffer);
     stages.iter().any(|shader| {
@@ -78,7 +79,7 @@ fn asks_for_texels(types: &Types, stages: &[Shader]) -> bool {
     })
 }
 
-/// One row a name, in the order of the first declarations.
+/// One entry per name, in order of first declaration.
 fn unite<'a>(ctx: &mut Context<'_>, stages: &'a [Shader]) -> Vec<Shared<'a>> {
     let mut all: Vec<Shared<'a>> = Vec::new();
     let mut places: FxHashMap<(bool, &'a str), usize> = FxHashMap::default();
@@ -148,7 +149,7 @@ fn check_same(ctx: &mut Context<'_>, known: &Shared<'_>, stage: Stage, global: &
     }
 }
 
-/// What two `layout(binding = n)` say, if both are there and differ (ARB_shading_language_420pack).
+/// The two values of `layout(binding = n)`, if both are there and differ (ARB_shading_language_420pack).
 fn different_bindings(a: &Global, b: &Global) -> Option<(String, String)> {
     let (ours, theirs) = (a.unit()?, b.unit()?);
     (ours != theirs).then(|| (format!("binding {ours}"), format!("binding {theirs}")))
@@ -307,7 +308,7 @@ struct Place {
     active: bool,
 }
 
-/// Adds the rows of a value at a byte offset.
+/// Adds the leaves of a value at a byte offset.
 fn leaves(
     types: &Types,
     place: &Place,
@@ -410,5 +411,5 @@ fn place_blocks(ctx: &mut Context<'_>, blocks: &[&Shared<'_>], interface: &mut I
     }
 }
 
-/// More uniform buffers than any target binds in a stage.
+/// More uniform buffers than any target binds in one stage.
 const MAX_BLOCKS: u32 = 72;

@@ -1,10 +1,10 @@
-//! Static use: which globals a body names, and which it may write (GLSL 1.50 §4.3.4, "actually read").
+//! Static use: which globals a body reads, and which it may write (GLSL 1.50 §4.3.4, "actually read").
 
 use crate::hir::{ExprId, ExprKind, GlobalId, ParamMode, Shader, VarRef};
 use crate::source::Span;
 
-/// Calls `f` with every l-value that an expression itself writes: the target of an assignment, of `++`, the arguments of
-/// `out` and `inout` parameters.
+/// Calls `f` with every l-value that an expression itself writes: the target of an assignment, of `++` or `--`, and
+/// the arguments for `out` and `inout` parameters.
 pub fn written_by(shader: &Shader, expr: ExprId, f: &mut dyn FnMut(ExprId)) {
     match &shader.expr(expr).kind {
         ExprKind::Assign(_, target, _) | ExprKind::IncDec(_, target) => f(*target),
@@ -25,7 +25,7 @@ pub fn written_by(shader: &Shader, expr: ExprId, f: &mut dyn FnMut(ExprId)) {
     }
 }
 
-/// Where a global is first assigned to in the text of the functions that `main` reaches.
+/// The position of the first assignment to a global in the functions that `main` reaches.
 pub(super) fn first_write(shader: &Shader, global: GlobalId) -> Option<Span> {
     let mut first: Option<Span> = None;
     for function in shader.functions.iter().filter(|function| function.reachable) {

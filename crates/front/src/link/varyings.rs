@@ -1,10 +1,10 @@
-//! What the rasterizer interpolates: outputs of the stage before it and inputs of the fragment stage, cut into scalars and
-//! vectors (columns of matrices, elements of arrays, members of structs and blocks), each with a location.
+//! Assigns locations to varyings: outputs of the stage before the rasterizer and inputs of the fragment stage, split
+//! into scalars and vectors (columns of matrices, elements of arrays, members of structs and blocks).
 //!
-//! With both stages there, a varying is what both declare; an output that the fragment stage does not declare is no
-//! varying, nor is an input without an output (which nothing reads, or the link failed). Those that are read come first.
-//! Each takes a location of its own while there are enough; else scalars and vectors of equal type and interpolation
-//! share locations. Explicit locations stay.
+//! If both stages are there, a varying is what both declare. An output that the fragment stage does not declare is
+//! not a varying; nor is an input without an output (nothing reads it, or the link failed). Varyings that are read
+//! come first. Each takes a location of its own while there are enough; after that, scalars and vectors of equal type
+//! and interpolation share locations. Explicit locations are kept.
 
 use super::attributes::plural;
 use super::compatible::same_type;
@@ -17,19 +17,19 @@ use crate::hir::{
 };
 use crate::source::Span;
 
-/// Locations for varyings that every WebGPU implementation has.
+/// The number of varying locations that every WebGPU implementation has.
 const PORTABLE_LOCATIONS: u32 = 16;
-/// The most that an implementation offers (gl_MaxFragmentInputComponents is 128).
+/// The largest number that an implementation offers (gl_MaxFragmentInputComponents is 128).
 const MAX_LOCATIONS: u32 = 32;
 
-/// A whole variable with its ends.
+/// A whole variable with both its ends.
 struct Whole<'a> {
     from: Option<(GlobalId, &'a Global)>,
     to: Option<(GlobalId, &'a Global)>,
 }
 
 impl<'a> Whole<'a> {
-    /// The end that decides on interpolation: the fragment side if it is there.
+    /// The end that determines the interpolation: the fragment stage's, if it is there.
     fn decisive(&self) -> Option<&'a Global> {
         self.to.or(self.from).map(|(_, global)| global)
     }
@@ -43,7 +43,7 @@ impl<'a> Whole<'a> {
     }
 }
 
-/// All varyings of a program, in the order of their locations.
+/// All varyings of a program, in order of location.
 pub(super) fn assign(ctx: &mut Context<'_>, producer: Option<&Shader>, fragment: Option<&Shader>) -> Vec<Varying> {
     let mut wholes = wholes(ctx.types, producer, fragment);
     wholes.sort_by_key(|whole| !whole.active());
@@ -80,13 +80,14 @@ fn wholes<'a>(types: &Types, producer: Option<&'a Shader>, fragment: Option<&'a 
     }
 }
 
-/// Blocks were compared member by member; a mismatch was reported then.
+/// Whether the types are the same or both are blocks. Blocks were compared member by member, with any mismatch
+/// reported.
 fn same_type_or_block(types: &Types, output: &Global, input: &Global) -> bool {
     types.flat_len(output.ty) == types.flat_len(input.ty)
         && (input.block.is_some() || same_type(types, output.ty, input.ty))
 }
 
-/// Whether a variable alone is not beyond any limit; keeps absurd array sizes from being cut up.
+/// Whether a variable alone is within the limits, so that an absurdly large array is not split.
 fn fits(ctx: &mut Context<'_>, whole: &Whole<'_>) -> bool {
     let Some(global) = whole.decisive() else { return true };
     let components = ctx.types.flat_len(global.ty);
@@ -102,10 +103,10 @@ fn fits(ctx: &mut Context<'_>, whole: &Whole<'_>) -> bool {
     false
 }
 
-/// A scalar or vector before it has a place.
+/// A scalar or vector without a location.
 struct Piece {
     varying: Varying,
-    /// The location that the text gives it.
+    /// The explicit location, if there is one.
     fixed: Option<u32>,
     scalar: Scalar,
     size: u8,
@@ -150,7 +151,8 @@ struct QualifiedMember {
     centroid: bool,
 }
 
-/// The variable itself, or the members of a block (of each element of an array of blocks), which are qualified one by one.
+/// The variable itself, or the members of a block (of each element of an array of blocks), each with its own
+/// qualifiers.
 fn members(types: &Types, global: &Global) -> Vec<QualifiedMember> {
     let Some(block) = &global.block else {
         let Global { name, ty, interpolation, centroid, .. } = global;
@@ -189,7 +191,7 @@ fn members(types: &Types, global: &Global) -> Vec<QualifiedMember> {
     list
 }
 
-/// A scalar, vector, matrix or array of those as scalars and vectors, with the offset of each in scalars.
+/// The scalars and vectors of a scalar, vector, matrix or array of those, with the offset of each in scalars.
 fn vectors(types: &Types, name: &str, ty: TypeId) -> Vec<(String, TypeId, u32)> {
     let indexed = |count: u32, element: TypeId| {
         let stride = types.flat_len(element);
@@ -220,7 +222,7 @@ fn warn_above_minimum(ctx: &mut Context<'_>, wholes: &[Whole<'_>], pieces: &[Pie
     }
 }
 
-/// Gives every piece its place; inactive ones that find no room are dropped.
+/// Assigns locations to all pieces. Inactive ones that do not fit are dropped.
 fn place(ctx: &mut Context<'_>, pieces: Vec<Piece>) -> Vec<Varying> {
     let shared = pieces.len() > PORTABLE_LOCATIONS as usize;
     let mut slots: Vec<Slot> = Vec::new();
@@ -237,7 +239,7 @@ fn place(ctx: &mut Context<'_>, pieces: Vec<Piece>) -> Vec<Varying> {
         placed.push(at(piece, location, 0));
     }
     if shared {
-        // Large ones first, so that small ones fill what they leave.
+        // Large ones first, so that small ones fill the gaps.
         free.sort_by_key(|piece| (!piece.varying.active, 4 - piece.size));
     }
     let mut reported = false;
@@ -265,7 +267,7 @@ fn no_room(ctx: &mut Context<'_>, piece: &Piece) {
     ctx.report(Diagnostic::new(&codes::link::TOO_MANY_VARYINGS, piece.span, message));
 }
 
-/// What stands at a location.
+/// The contents of a location.
 #[derive(Clone, Copy, Default)]
 struct Slot {
     used: u8,

@@ -1,21 +1,21 @@
-//! Where fragments next to each other may take different ways.
+//! Finds divergent control flow: where neighboring fragments may take different paths.
 //!
-//! A value differs between fragments if it comes, by data or by the conditions around its assignments, from a fragment
-//! input. Variables are judged as wholes, without regard to order; functions by what any of their calls passes. A
-//! condition that differs makes what it guards divergent, and the rest of a function behind a `return` that it guards,
-//! and the whole of a loop that it may leave.
+//! A value is divergent if it depends on a fragment input, through data or through the conditions around its
+//! assignments. A variable counts as a whole, regardless of the order of its assignments; a function by what any of
+//! its calls passes. A divergent condition makes what it guards divergent. If it guards a `return`, the rest of the
+//! function is divergent; if it may leave a loop, the whole loop is.
 
 use crate::hir::{ExprId, ExprKind, FunctionId, ParamMode, Shader, Stmt, StmtKind, Storage, VarRef};
 use crate::link::usage::written_by;
 
-/// A built-in call in divergent control flow.
+/// A call of a built-in function in divergent control flow.
 pub(super) struct Place {
     pub(super) expr: ExprId,
-    /// The condition that differs, if it stands in the same function.
+    /// The divergent condition, if it is in the same function.
     pub(super) condition: Option<ExprId>,
 }
 
-/// Rounds after which the analysis gives up; real shaders need two or three.
+/// The number of iterations after which the analysis gives up; real shaders need two or three.
 const MAX_ROUNDS: usize = 32;
 
 struct Divergence<'a> {
@@ -23,14 +23,14 @@ struct Divergence<'a> {
     globals: Vec<bool>,
     locals: Vec<Vec<bool>>,
     returns: Vec<bool>,
-    /// Functions that are called from divergent places.
+    /// Whether a function is called in divergent control flow.
     called: Vec<bool>,
     changed: bool,
     places: Option<Vec<Place>>,
     function: FunctionId,
 }
 
-/// Why control is divergent at a place.
+/// Whether control flow is divergent, and why.
 #[derive(Clone, Copy)]
 enum Flow {
     Uniform,
@@ -59,7 +59,7 @@ pub(super) fn divergent_calls(shader: &Shader) -> Vec<Place> {
     };
     for _ in 0..MAX_ROUNDS {
         walk.changed = false;
-        // Callers first for what they pass, then callees first for what they return.
+        // Callers first, for what they pass; then callees first, for what they return.
         order.iter().rev().chain(&order).for_each(|&id| walk.function(id));
         if !walk.changed {
             walk.places = Some(Vec::new());
@@ -80,7 +80,7 @@ impl Divergence<'_> {
         }
     }
 
-    /// Walks a body; what follows a divergent `return` (or, in a loop, `break` and `continue`) is divergent, too.
+    /// Traverses a body. What follows a divergent `return` (or, in a loop, `break` and `continue`) is divergent, too.
     fn body(&mut self, body: &[Stmt], mut flow: Flow) {
         for statement in body {
             self.statement(statement, flow);
@@ -92,7 +92,7 @@ impl Divergence<'_> {
         }
     }
 
-    /// The differing condition under which a statement leaves the function or the loop around it.
+    /// The divergent condition under which a statement leaves the function or the loop around it.
     fn divergent_exit(&self, statement: &Stmt) -> Option<ExprId> {
         let StmtKind::If { arms, otherwise } = &statement.kind else { return None };
         let condition = arms.iter().map(|(condition, _)| *condition).find(|&condition| self.differs(condition))?;
@@ -167,7 +167,7 @@ impl Divergence<'_> {
         if !flow.is_divergent() && self.differs(condition) { Flow::Divergent(Some(condition)) } else { flow }
     }
 
-    /// Whether the value may differ between fragments.
+    /// Whether the value may be divergent.
     fn differs(&self, root: ExprId) -> bool {
         let mut pending = vec![root];
         while let Some(id) = pending.pop() {
@@ -205,7 +205,7 @@ impl Divergence<'_> {
         }
     }
 
-    /// Follows an expression: writes, calls, and operands that are evaluated under a condition.
+    /// Traverses an expression: writes, calls, and operands that are evaluated conditionally.
     fn expr(&mut self, root: ExprId, flow: Flow) {
         let shader = self.shader;
         let mut pending = vec![(root, flow)];

@@ -1,9 +1,14 @@
-//! [`SourceMap`]: all texts of a compilation, and the translation of spans to files, lines and columns.
+//! [`SourceMap`] holds all texts of a compilation and translates spans to files, lines and columns.
+//!
+//! *In:* texts, macro uses and `#line` directives, in the order in which they are read.
+//! *Out:* for a [`Span`]: its file, its text, its [`Location`], its macro use.
+//!
+//! *Holds:* offset 0 belongs to no file; a [`FileId`] or [`ExpansionId`] is valid only in the map that made it.
 
 use super::{ExpansionId, Span};
 use std::sync::Arc;
 
-/// A text in a [`SourceMap`].
+/// The handle of a text in a [`SourceMap`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct FileId(u32);
 
@@ -13,7 +18,7 @@ impl FileId {
     }
 }
 
-/// One text with its name and the starts of its lines.
+/// A text with its name and the offsets of its line starts.
 #[derive(Clone, Debug)]
 pub struct SourceFile {
     name: String,
@@ -23,7 +28,7 @@ pub struct SourceFile {
 }
 
 impl SourceFile {
-    /// The name that diagnostics show: the path as the user gave it.
+    /// The name that diagnostics show: the path as the user wrote it.
     pub fn name(&self) -> &str {
         &self.name
     }
@@ -33,17 +38,17 @@ impl SourceFile {
         &self.text
     }
 
-    /// The text of line `line`, counted from 1, without its line end.
+    /// The text of line `line`, counted from 1, without its line ending.
     pub fn line(&self, line: u32) -> Option<&str> {
         self.text.get(self.line_range(line)?).map(|line| line.trim_end_matches(['\n', '\r']))
     }
 
-    /// How many lines there are; an empty text has one.
+    /// The number of lines; an empty text has one.
     pub fn line_count(&self) -> u32 {
         self.line_starts.len() as u32
     }
 
-    /// The bytes of line `line`, counted from 1, with its line end, as offsets in [`Self::text`].
+    /// The byte range of line `line`, counted from 1, including its line ending, as offsets into [`Self::text`].
     pub fn line_range(&self, line: u32) -> Option<std::ops::Range<usize>> {
         let index = (line as usize).checked_sub(1)?;
         let start = *self.line_starts.get(index)? as usize;
@@ -79,19 +84,19 @@ impl SourceFile {
     }
 }
 
-/// A macro use: which macro, where it is written, and where it was defined.
+/// A macro use: the macro, where it is used, and where it is defined.
 #[derive(Clone, Debug)]
 pub struct Expansion {
     /// The macro's name.
     pub name: Arc<str>,
-    /// The use (name and arguments), itself perhaps inside another expansion.
+    /// The use (name and arguments), which may itself lie inside another expansion.
     pub call: Span,
     /// The name in the `#define`.
     pub definition: Span,
 }
 
-/// A place for people: file, lines and columns, all counted from 1 (columns in Unicode scalar values,
-/// a tab is one), the end exclusive.
+/// A position for people: file, lines and columns. All are counted from 1, columns in Unicode scalar values (a tab is
+/// one); the end is exclusive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Location {
     /// The file.
@@ -111,30 +116,30 @@ pub struct Location {
 pub struct SourceMap {
     files: Vec<SourceFile>,
     expansions: Vec<Expansion>,
-    /// Sorted by place.
+    /// Sorted by offset.
     renumberings: Vec<Renumbering>,
 }
 
-/// A `#line` directive: the line behind it counts as `number`.
+/// A `#line` directive: the line after it counts as `number`.
 #[derive(Clone, Copy, Debug)]
 struct Renumbering {
     /// The global offset of the directive.
     offset: u32,
-    /// The line that it is on, counted from 1.
+    /// The line that the directive is on, counted from 1.
     line: u32,
     /// The number of the next line.
     number: u32,
 }
 
 impl SourceMap {
-    /// The largest number of bytes that all texts together may have, 1 GiB; each file and the
-    /// preprocessor have far smaller budgets of their own.
+    /// The largest total size of all texts in bytes, 1 GiB. Each file, and the preprocessor, has a far smaller budget
+    /// of its own.
     pub const MAX_BYTES: u32 = 1 << 30;
 
-    /// The name of the text that holds the macros defined from outside: no file.
+    /// The name of the text that holds the macros defined from outside. It is no file's name.
     pub const COMMAND_LINE: &'static str = "<command line>";
 
-    /// Adds a text; `None` if there is no room for it ([`Self::MAX_BYTES`]).
+    /// Adds a text. Returns `None` if the map has no room for it ([`Self::MAX_BYTES`]).
     pub fn add(&mut self, name: impl Into<String>, text: impl Into<Arc<str>>) -> Option<FileId> {
         let text = text.into();
         let base = self.files.last().map_or(1, |file| file.end() + 1);
@@ -147,9 +152,9 @@ impl SourceMap {
         Some(id)
     }
 
-    /// The text behind a handle that [`Self::add`] gave.
+    /// The text of a handle that [`Self::add`] returned.
     pub fn file(&self, id: FileId) -> &SourceFile {
-        // A `FileId` is only ever made by `add` of this map.
+        // Only `add` of this map makes a `FileId`.
         &self.files[id.index()]
     }
 
@@ -158,13 +163,13 @@ impl SourceMap {
         self.files.iter().enumerate().map(|(index, file)| (FileId(index as u32), file))
     }
 
-    /// Notes a macro use.
+    /// Records a macro use.
     pub fn add_expansion(&mut self, expansion: Expansion) -> ExpansionId {
         self.expansions.push(expansion);
         ExpansionId::new(self.expansions.len() as u32)
     }
 
-    /// The macro use behind a span's expansion number.
+    /// The macro use that a span's expansion number names.
     pub fn expansion(&self, id: ExpansionId) -> Option<&Expansion> {
         self.expansions.get(id.index()?)
     }
@@ -178,8 +183,8 @@ impl SourceMap {
         (span.start <= self.files.get(index)?.end()).then_some(FileId(index as u32))
     }
 
-    /// Notes a `#line` directive at `directive`: the line behind it counts as `number`. Locations stay those of the
-    /// text; [`Self::presented_line`] gives the number.
+    /// Records a `#line` directive at `directive`: the line after it counts as `number`. Locations remain those of
+    /// the text; [`Self::presented_line`] returns the number.
     pub fn renumber(&mut self, directive: Span, number: u32) {
         let Some(line) = self.line(directive) else { return };
         let row = Renumbering { offset: directive.start, line, number };
@@ -195,7 +200,8 @@ impl SourceMap {
         Some(self.file(self.file_of(span)?).line_at(span.start))
     }
 
-    /// The number that a `#line` directive before it gave the line of a span, if there is one in its file.
+    /// The number that an earlier `#line` directive of its file gave to the line of a span, if there is such a
+    /// directive.
     pub fn presented_line(&self, span: Span) -> Option<u32> {
         let index = self.renumberings.partition_point(|row| row.offset < span.start).checked_sub(1)?;
         let row = self.renumberings.get(index)?;
@@ -204,7 +210,7 @@ impl SourceMap {
         (line > row.line).then(|| row.number.saturating_add(line - row.line - 1))
     }
 
-    /// The text that a span covers where it is written.
+    /// The text that a span covers at the place where it is written.
     pub fn snippet(&self, span: Span) -> &str {
         let Some(file) = self.file_of(span).map(|id| self.file(id)) else { return "" };
         let start = span.start.saturating_sub(file.base) as usize;
@@ -212,18 +218,18 @@ impl SourceMap {
         file.text.get(start..end).unwrap_or("")
     }
 
-    /// The place outside all macros to show to a user: the outermost use that brought the text here.
+    /// The place outside all macros to show to a user: the outermost use that produced this text.
     pub fn call_site(&self, span: Span) -> Span {
         let mut outer = span;
-        // Each expansion's call lies in an earlier one, so this ends.
+        // The call of an expansion lies in an earlier expansion, so the loop ends.
         while let Some(expansion) = self.expansion(outer.expansion) {
             outer = expansion.call;
         }
         outer
     }
 
-    /// The smallest span from the start of `first` to the end of `last`. Where they come out of different
-    /// macro uses or files, it joins their call sites, and keeps to `first` if those lie in two files.
+    /// The smallest span from the start of `first` to the end of `last`. If they come from different macro uses or
+    /// files, this joins their call sites; if those lie in two files, it is `first`.
     pub fn join(&self, first: Span, last: Span) -> Span {
         if !first.is_known() {
             return last;
@@ -244,7 +250,7 @@ impl SourceMap {
         Span::new(first.start, last.end.max(first.end))
     }
 
-    /// Lines and columns of the place where a span is written.
+    /// The lines and columns at which a span is written.
     pub fn location(&self, span: Span) -> Option<Location> {
         let id = self.file_of(span)?;
         let file = self.file(id);
@@ -266,10 +272,10 @@ fn line_starts(text: &str) -> Vec<u32> {
     starts
 }
 
-/// How an include names its file.
+/// The form in which an include names its file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum IncludeForm {
-    /// `#include "x"`: beside the including file, then along the search path.
+    /// `#include "x"`: next to the including file, then along the search path.
     Quoted,
     /// `#include <x>`: along the search path, then among the embedded modules.
     Angled,
@@ -284,16 +290,16 @@ pub struct Included {
     pub text: Arc<str>,
 }
 
-/// Finds the files that `#include` names. The compiler itself reads nothing.
+/// Finds the files that `#include` names. The compiler itself does no I/O.
 pub trait IncludeResolver {
     /// The file that `path` names in the file called `from`.
     ///
     /// # Errors
-    /// A sentence for people, without a full stop: what was looked for, where, and why it failed.
+    /// A sentence for people, without a full stop, that says what was looked for, where, and why it was not found.
     fn resolve(&self, path: &str, form: IncludeForm, from: &str) -> Result<Included, String>;
 }
 
-/// Resolves nothing: for sources that stand alone.
+/// A resolver that finds nothing, for sources without includes.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct NoIncludes;
 

@@ -1,11 +1,11 @@
-//! Source texts and where things stand in them.
+//! Source texts, and positions in them.
 //!
-//! *In:* named texts, and an [`IncludeResolver`] for the files that those name.
-//! *Out:* a [`SourceMap`] in which every text has its range of global byte offsets, and [`Span`]s that
-//! point into it. A span of eight bytes plus an expansion number tells both where a token was
-//! written and, through [`ExpansionId`], which macro use brought it to its place.
+//! *In:* named texts, and an [`IncludeResolver`] for the files that they include.
+//! *Out:* a [`SourceMap`] in which every text has its own range of global byte offsets, and [`Span`]s that point into
+//! it. A span is eight bytes plus an expansion number: it says where a token was written and, through
+//! [`ExpansionId`], which macro use put it where it is.
 //!
-//! *Holds:* no I/O happens here or in any phase behind it; who compiles brings the texts.
+//! *Holds:* neither this phase nor any later one does I/O. The caller supplies the texts.
 
 mod map;
 mod span;

@@ -1,55 +1,55 @@
 //! [`Span`]: a range of source text and the macro use it came through.
 
-/// A macro use in a [`SourceMap`](super::SourceMap); [`ExpansionId::NONE`] for text that stands as written.
+/// The number of a macro use in a [`SourceMap`](super::SourceMap); [`ExpansionId::NONE`] for text outside macros.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct ExpansionId(u32);
 
 impl ExpansionId {
-    /// Not out of a macro.
+    /// Text that does not come from a macro.
     pub const NONE: Self = Self(0);
 
-    /// The expansion with this number in the source map (counted from 1).
+    /// The expansion with this number in the source map, counted from 1.
     pub(crate) fn new(number: u32) -> Self {
         Self(number)
     }
 
-    /// The place in the source map's table, or `None` for text that stands as written.
+    /// The index in the source map's table, or `None` for text outside macros.
     pub(crate) fn index(self) -> Option<usize> {
         (self.0 as usize).checked_sub(1)
     }
 
-    /// Whether the text came out of a macro.
+    /// Whether the text comes from a macro.
     pub fn is_some(self) -> bool {
         self.0 != 0
     }
 }
 
-/// A half-open range `start..end` of global byte offsets in a [`SourceMap`](super::SourceMap), where the
-/// text was *written*, and the macro use that put it where it is.
+/// A half-open range `start..end` of global byte offsets in a [`SourceMap`](super::SourceMap), at the place where the
+/// text was *written*, together with the macro use that put the text where it is.
 ///
-/// Offset 0 belongs to no file; `Span::default()` is "nowhere" and is shown without an excerpt.
+/// Offset 0 belongs to no file. `Span::default()` means "nowhere" and is shown without an excerpt.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Span {
     /// First byte.
     pub start: u32,
     /// One past the last byte.
     pub end: u32,
-    /// The macro use that brought the text here.
+    /// The macro use that put the text here.
     pub expansion: ExpansionId,
 }
 
 impl Span {
-    /// The range `start..end` of text that stands as written.
+    /// The range `start..end` of text outside macros.
     pub fn new(start: u32, end: u32) -> Self {
         Self { start, end, expansion: ExpansionId::NONE }
     }
 
-    /// Whether this is a place in a text at all.
+    /// Whether this is a position in a text at all.
     pub fn is_known(self) -> bool {
         self.end != 0
     }
 
-    /// An empty span just behind this one, where something is missing.
+    /// An empty span directly after this one, where something is missing.
     pub fn after(self) -> Self {
         Self { start: self.end, ..self }
     }

@@ -1,9 +1,10 @@
-//! [`whole_text`]: a shader as a driver takes it that knows neither `#include` nor macros from outside.
+//! [`whole_text`] makes a shader self-contained, for a driver that knows neither `#include` nor macros from outside.
 //!
-//! *In:* a file, what its `#include` lines brought while it was read, macros. *Out:* one text.
-//! *Holds:* a text without either is handed on untouched. Else each line stays as it is written, but for the `#include`
-//! lines, in whose places the files stand, and the `#extension` lines that allow them.
-//! *Not done here:* macros are not expanded and conditions not decided; that is left to the driver's preprocessor.
+//! *In:* a file, the files that its `#include` lines brought in, and macro definitions. *Out:* one text.
+//! *Holds:* a text without includes and definitions is returned untouched. Otherwise each line stays as written,
+//! except that each `#include` line is replaced by its file, and the `#extension` lines that allow includes are
+//! removed.
+//! *Not done here:* expanding macros and deciding conditions. That is left to the driver's preprocessor.
 
 use super::{FileId, SourceMap, Span};
 use std::sync::Arc;
@@ -11,17 +12,17 @@ use std::sync::Arc;
 /// A file that an `#include` brought in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Inclusion {
-    /// The `#` of the line.
+    /// The `#` of the directive.
     pub directive: Span,
-    /// What stands in its place: nothing for a file that was read before and is to be read once.
+    /// The file to insert: none for a file that is included only once and was read before.
     pub file: Option<FileId>,
 }
 
-/// Files inside each other: as many as the preprocessor lets be.
+/// The largest depth of nested includes, the same as the preprocessor's.
 const MAX_DEPTH: usize = 64;
 
-/// The text of `file` with its includes in their places and `defines` behind the line of its `#version`, which is at
-/// `version`. The `inclusions` stand in the order in which the preprocessor went into them.
+/// The text of `file` with its includes inserted and `defines` added after its `#version` line, which is at
+/// `version`. The `inclusions` are in the order in which the preprocessor entered them.
 pub fn whole_text(
     sources: &SourceMap,
     file: FileId,
@@ -49,7 +50,7 @@ pub fn whole_text(
 
 struct Writer<'a> {
     sources: &'a SourceMap,
-    /// Those that are not written yet.
+    /// The inclusions that are not written yet.
     inclusions: &'a [Inclusion],
     text: String,
 }
@@ -94,7 +95,7 @@ impl Writer<'_> {
     }
 }
 
-/// Whether a line is the `#extension` line of includes.
+/// Whether a line is the `#extension` line that allows includes.
 fn allows_includes(line: &str) -> bool {
     let words = line.trim_start().strip_prefix('#').and_then(|line| line.trim_start().strip_prefix("extension"));
     words.is_some_and(|words| {

@@ -1,7 +1,7 @@
-//! The syntax tree of one shader: what stands in the text, before any meaning.
+//! The syntax tree of one shader: what the text says, before any meaning.
 //!
-//! Expressions stand in one arena, children before their parents, so that a chain of ten thousand `+` is no
-//! deeper for the allocator than one of two. A walk must still not recurse along left operands: use a loop.
+//! Expressions are stored in one arena, children before parents, so that a chain of ten thousand `+` is no deeper for
+//! the allocator than a chain of two. A traversal must still not recurse along left operands: use a loop.
 
 #![expect(missing_docs, reason = "fields of variants are named for the grammar")]
 
@@ -9,30 +9,30 @@ use super::token::{Names, Symbol};
 pub use crate::language::{Behavior, Extensions, IncDec, Profile, Version};
 use crate::source::{Inclusion, Span};
 
-/// An expression in an [`Ast`].
+/// The handle of an expression in an [`Ast`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct ExprId(u32);
 
 impl ExprId {
-    /// The place in the arena.
+    /// The index in the arena.
     pub fn index(self) -> usize {
         self.0 as usize
     }
 }
 
-/// A name with its place.
+/// A name and its position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Ident {
     /// The name.
     pub symbol: Symbol,
-    /// Where.
+    /// The position.
     pub span: Span,
 }
 
 /// A whole shader.
 #[derive(Clone, Debug)]
 pub struct Ast {
-    /// The language.
+    /// The version of the language.
     pub version: Version,
     /// The global declarations in order.
     pub declarations: Vec<Declaration>,
@@ -40,23 +40,23 @@ pub struct Ast {
     pub exprs: Vec<Expr>,
     /// All names.
     pub names: Names,
-    /// Where `#pragma STDGL invariant(all)` stands, if it does (§4.6.1).
+    /// The position of `#pragma STDGL invariant(all)`, if there is one (§4.6.1).
     pub invariant_all: Option<Span>,
-    /// Comments of the form `// glisten: allow(CODE, ...)`: the lines they stand for and the codes.
+    /// The comments of the form `// glisten: allow(CODE, ...)`.
     pub allows: Vec<Allow>,
-    /// The places of all `#extension` lines that turned something on, for messages.
+    /// All `#extension` lines that enabled something, for messages.
     pub extension_lines: Vec<(String, Behavior, Span)>,
-    /// What `#include` lines brought in, in the order in which they were read.
+    /// The files that `#include` lines brought in, in reading order.
     pub inclusions: Vec<Inclusion>,
 }
 
-/// A comment `// glisten: allow(CODE)`: silences warnings of that code on its own line, or on the next line
-/// of code if it stands alone.
+/// A comment `// glisten: allow(CODE)`. It silences warnings of that code on its own line or, if it stands alone, on
+/// the next line of code.
 #[derive(Clone, Debug)]
 pub struct Allow {
     /// The comment.
     pub span: Span,
-    /// Code identifiers or names.
+    /// Identifiers or names of codes.
     pub codes: Vec<String>,
 }
 
@@ -68,9 +68,9 @@ impl Ast {
         id
     }
 
-    /// The expression behind a handle that [`Self::push`] gave.
+    /// The expression of a handle that [`Self::push`] returned.
     pub fn expr(&self, id: ExprId) -> &Expr {
-        // An `ExprId` is only ever made by `push` of this tree.
+        // Only `push` of this tree makes an `ExprId`.
         &self.exprs[id.0 as usize]
     }
 
@@ -80,12 +80,12 @@ impl Ast {
     }
 }
 
-/// An expression and the text it covers.
+/// An expression and its span.
 #[derive(Clone, Debug)]
 pub struct Expr {
-    /// Which.
+    /// The kind.
     pub kind: ExprKind,
-    /// Where.
+    /// The span.
     pub span: Span,
 }
 
@@ -94,15 +94,15 @@ pub struct Expr {
 pub enum Literal {
     /// `true`, `false`
     Bool(bool),
-    /// `1`, `0x1F`, `017`; the bits of a literal too large for `int` but not for 32 bits stand as they are.
+    /// `1`, `0x1F`, `017`. A literal too large for `int` but not for 32 bits keeps its bits.
     Int(i32),
     /// `1u`
     Uint(u32),
-    /// `1.0`, `1e3f`: the decimal value rounded once to f32 (§4.1.4).
+    /// `1.0`, `1e3f`: the decimal value, rounded once to f32 (§4.1.4).
     Float(f32),
 }
 
-/// Operators with one operand.
+/// The unary operators.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum UnaryOp {
     /// `+a`
@@ -115,7 +115,7 @@ pub enum UnaryOp {
     BitNot,
 }
 
-/// Operators with two operands, assignment and sequence apart (§5.1).
+/// The binary operators, without assignment and sequence (§5.1).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum BinaryOp {
     Mul,
@@ -140,7 +140,7 @@ pub enum BinaryOp {
 }
 
 impl BinaryOp {
-    /// As it is written.
+    /// The spelling in GLSL.
     pub fn spelling(self) -> &'static str {
         match self {
             Self::Mul => "*",
@@ -166,49 +166,49 @@ impl BinaryOp {
     }
 }
 
-/// What an expression is.
+/// The kinds of expressions.
 #[derive(Clone, Debug)]
 pub enum ExprKind {
-    /// A place where the text made no sense; already reported.
+    /// Text that made no sense and has been reported.
     Error,
     /// A literal.
     Literal(Literal),
     /// A name.
     Name(Ident),
-    /// One operand.
+    /// A unary operation.
     Unary(UnaryOp, ExprId),
-    /// `++`, `--`.
+    /// An increment or decrement.
     IncDec(IncDec, ExprId),
-    /// Two operands; the span of the operator itself.
+    /// A binary operation, with the span of the operator itself.
     Binary(BinaryOp, Span, ExprId, ExprId),
-    /// `a = b`, or `a op= b`; the span of the operator itself.
+    /// `a = b` or `a op= b`, with the span of the operator itself.
     Assign(Option<BinaryOp>, Span, ExprId, ExprId),
     /// `a ? b : c`
     Ternary(ExprId, ExprId, ExprId),
     /// `a, b`
     Comma(ExprId, ExprId),
-    /// `a[b]`; `a[]` before a call's brackets (`float[](..)` of a struct type) has no index.
+    /// `a[b]`. `a[]` before the arguments of a call (`float[](..)` of a struct type) has no index.
     Index(ExprId, Option<ExprId>),
-    /// `a.b`: member or swizzle.
+    /// `a.b`: a member or a swizzle.
     Field(ExprId, Ident),
-    /// `f(a, b)`, `S(a)`: function or constructor of a struct.
+    /// `f(a, b)`, `S(a)`: a function call or the constructor of a struct.
     Call(Ident, Vec<ExprId>),
-    /// `vec4(a)`, `float[2](a, b)`, `S[2](a, b)`: constructor of a type that shows as such.
+    /// `vec4(a)`, `float[2](a, b)`, `S[2](a, b)`: a constructor whose type is evident from the syntax.
     Construct(Box<TypeSpec>, Vec<ExprId>),
-    /// `a.length()` and any other method, which is an error.
+    /// `a.length()`, or any other method, which is an error.
     Method(ExprId, Ident, Vec<ExprId>),
     /// `{a, b}` as an initializer (ARB_shading_language_420pack).
     List(Vec<ExprId>),
 }
 
-/// A type as it is written.
+/// A type as written.
 #[derive(Clone, Debug)]
 pub struct TypeSpec {
-    /// Without its arrays.
+    /// The type without its arrays.
     pub base: TypeBase,
-    /// `[n]` behind the type, outermost first; an empty `[]` has no size.
+    /// `[n]` after the type, outermost first; an empty `[]` has no size.
     pub array: Vec<ArrayDim>,
-    /// Where.
+    /// The span.
     pub span: Span,
 }
 
@@ -217,14 +217,14 @@ pub struct TypeSpec {
 pub struct ArrayDim {
     /// The size.
     pub size: Option<ExprId>,
-    /// The brackets and what is between them.
+    /// The span from bracket to bracket.
     pub span: Span,
 }
 
 /// A type without its arrays.
 #[derive(Clone, Debug)]
 pub enum TypeBase {
-    /// Already reported.
+    /// A type that has been reported.
     Error,
     /// `void`
     Void,
@@ -241,40 +241,40 @@ pub enum TypeBase {
 pub struct StructSpec {
     /// The name, if it has one.
     pub name: Option<Ident>,
-    /// The members, one row a declaration.
+    /// The members, one entry for each declaration.
     pub members: Vec<MemberDecl>,
 }
 
 /// `vec3 a, b[2];` in a struct or a block.
 #[derive(Clone, Debug)]
 pub struct MemberDecl {
-    /// Qualifiers, in the order in which they stand.
+    /// The qualifiers, in source order.
     pub qualifiers: Vec<Qualifier>,
     /// The type.
     pub ty: TypeSpec,
     /// The names.
     pub declarators: Vec<Declarator>,
-    /// The whole line.
+    /// The span of the whole declaration.
     pub span: Span,
 }
 
-/// A name in a declaration, with its own arrays and initializer.
+/// A name in a declaration, with its array dimensions and its initializer.
 #[derive(Clone, Debug)]
 pub struct Declarator {
     /// The name.
     pub name: Ident,
-    /// `[n]` behind the name, outermost first.
+    /// `[n]` after the name, outermost first.
     pub array: Vec<ArrayDim>,
-    /// Behind `=`.
+    /// The expression after `=`.
     pub initializer: Option<ExprId>,
 }
 
-/// A qualifier and where it stands. Order matters in 1.50 (§4.7) and is checked by the analysis.
+/// A qualifier and its position. In 1.50 order matters (§4.7); the analysis checks it.
 #[derive(Clone, Debug)]
 pub struct Qualifier {
-    /// Which.
+    /// The kind.
     pub kind: QualifierKind,
-    /// Where.
+    /// The position.
     pub span: Span,
 }
 
@@ -305,27 +305,27 @@ pub enum QualifierKind {
 pub struct LayoutId {
     /// The name.
     pub name: Ident,
-    /// The value: an expression, which must be an integer literal in 1.50.
+    /// The value: an expression, which 1.50 requires to be an integer literal.
     pub value: Option<ExprId>,
 }
 
 /// A global declaration.
 #[derive(Clone, Debug)]
 pub struct Declaration {
-    /// Which.
+    /// The kind.
     pub kind: DeclarationKind,
-    /// Where.
+    /// The span.
     pub span: Span,
-    /// The extensions that are on here.
+    /// The extensions that are enabled here.
     pub extensions: Extensions,
 }
 
-/// What a global declaration is.
+/// The kinds of global declarations.
 #[derive(Clone, Debug)]
 pub enum DeclarationKind {
-    /// Already reported.
+    /// A declaration that has been reported.
     Error,
-    /// Already reported; a declaration of these names.
+    /// A declaration of these names that has been reported.
     Broken(Vec<Ident>),
     /// A lone `;`.
     Empty,
@@ -346,7 +346,7 @@ pub enum DeclarationKind {
 /// Variables of one type.
 #[derive(Clone, Debug)]
 pub struct VariableDecl {
-    /// Qualifiers in order.
+    /// The qualifiers, in source order.
     pub qualifiers: Vec<Qualifier>,
     /// The type.
     pub ty: TypeSpec,
@@ -357,7 +357,7 @@ pub struct VariableDecl {
 /// An interface block (§4.3.7).
 #[derive(Clone, Debug)]
 pub struct BlockDecl {
-    /// Qualifiers in order.
+    /// The qualifiers, in source order.
     pub qualifiers: Vec<Qualifier>,
     /// The block's name.
     pub name: Ident,
@@ -367,10 +367,10 @@ pub struct BlockDecl {
     pub instance: Option<(Ident, Vec<ArrayDim>)>,
 }
 
-/// The head of a function (§6.1).
+/// The header of a function (§6.1).
 #[derive(Clone, Debug)]
 pub struct FunctionHeader {
-    /// Qualifiers before the return type.
+    /// The qualifiers before the return type.
     pub qualifiers: Vec<Qualifier>,
     /// The return type.
     pub ty: TypeSpec,
@@ -378,40 +378,40 @@ pub struct FunctionHeader {
     pub name: Ident,
     /// The parameters; `(void)` has none.
     pub params: Vec<ParamDecl>,
-    /// The head alone.
+    /// The span of the header alone.
     pub span: Span,
 }
 
 /// A parameter.
 #[derive(Clone, Debug)]
 pub struct ParamDecl {
-    /// Qualifiers in order.
+    /// The qualifiers, in source order.
     pub qualifiers: Vec<Qualifier>,
     /// The type.
     pub ty: TypeSpec,
     /// The name, if it has one.
     pub name: Option<Ident>,
-    /// `[n]` behind the name.
+    /// `[n]` after the name.
     pub array: Vec<ArrayDim>,
-    /// Where.
+    /// The span.
     pub span: Span,
 }
 
 /// A statement (§6.2 to §6.4).
 #[derive(Clone, Debug)]
 pub struct Stmt {
-    /// Which.
+    /// The kind.
     pub kind: StmtKind,
-    /// Where.
+    /// The span.
     pub span: Span,
 }
 
-/// What a statement is.
+/// The kinds of statements.
 #[derive(Clone, Debug)]
 pub enum StmtKind {
-    /// Already reported.
+    /// A statement that has been reported.
     Error,
-    /// Already reported; a declaration of these names.
+    /// A declaration of these names that has been reported.
     Broken(Vec<Ident>),
     /// `;`
     Empty,
@@ -421,15 +421,15 @@ pub enum StmtKind {
     Variables(VariableDecl),
     /// `precision highp float;` inside a function.
     Precision { qualifier: Qualifier, ty: TypeSpec },
-    /// `invariant a;` inside a function, which is an error that the analysis explains.
+    /// `invariant a;` inside a function, an error that the analysis explains.
     Requalify { qualifiers: Vec<Qualifier>, names: Vec<Ident> },
-    /// A prototype inside a function, which is an error that the analysis explains.
+    /// A prototype inside a function, an error that the analysis explains.
     Prototype(FunctionHeader),
     /// `{ .. }`
     Block(Vec<Stmt>),
-    /// `if (a) .. else if (b) .. else ..`, flat: a chain of any length is one statement.
+    /// `if (a) .. else if (b) .. else ..`, flattened: a chain of any length is one statement.
     If { arms: Vec<(ExprId, Stmt)>, otherwise: Option<Box<Stmt>> },
-    /// `switch (a) { .. }`: labels and statements as they come.
+    /// `switch (a) { .. }`: labels and statements in source order.
     Switch { selector: ExprId, body: Vec<SwitchItem> },
     /// `for (init; condition; step) body`
     For { init: Box<Stmt>, condition: Option<Condition>, step: Option<ExprId>, body: Box<Stmt> },
@@ -447,7 +447,7 @@ pub enum StmtKind {
     Discard,
 }
 
-/// A line in a `switch`.
+/// An item in the body of a `switch`.
 #[derive(Clone, Debug)]
 pub enum SwitchItem {
     /// `case a:`
@@ -463,6 +463,6 @@ pub enum SwitchItem {
 pub enum Condition {
     /// An expression.
     Expr(ExprId),
-    /// `bool b = f()`: declared anew in each round.
+    /// `bool b = f()`: declared anew in each iteration.
     Declaration(Box<VariableDecl>),
 }

@@ -1,24 +1,26 @@
-//! The words of the language as data (GLSL 1.50 §3.6): where each is a keyword and where it is only reserved.
+//! The words of the language as data (GLSL 1.50 §3.6): in which versions each is a keyword and in which it is only
+//! reserved.
 //!
 //! *Holds:* row *n* is symbol *n* of [`Names::with_keywords`](super::token::Names::with_keywords).
-//! The `gl_` names, the built-in functions and the names inside `layout(..)` are no keywords and stand elsewhere.
+//! Names that begin with `gl_`, built-in functions and the names inside `layout(..)` are not keywords; they are not
+//! here.
 
 use super::token::TokenKind::{self, *};
 
-/// One word.
+/// A word of the language.
 #[derive(Clone, Copy, Debug)]
 pub struct Keyword {
-    /// As it is written.
+    /// The spelling.
     pub spelling: &'static str,
-    /// What it is as a keyword.
+    /// The token kind of the keyword.
     pub kind: TokenKind,
-    /// The first version where it is a keyword, or [`NEVER`].
+    /// The first version in which it is a keyword, or [`NEVER`].
     pub keyword_since: u16,
-    /// The first version where using it is an error, or [`NEVER`].
+    /// The first version in which using it is an error, or [`NEVER`].
     pub reserved_since: u16,
 }
 
-/// Later than every version.
+/// A version later than all others.
 pub const NEVER: u16 = u16::MAX;
 
 const fn word(spelling: &'static str, kind: TokenKind, keyword_since: u16, reserved_since: u16) -> Keyword {
@@ -26,7 +28,7 @@ const fn word(spelling: &'static str, kind: TokenKind, keyword_since: u16, reser
 }
 
 impl Keyword {
-    /// What the word is in a version.
+    /// The token kind of the word in a version.
     pub fn kind_in(&self, version: u16) -> TokenKind {
         if version >= self.keyword_since {
             self.kind
@@ -38,12 +40,12 @@ impl Keyword {
     }
 }
 
-/// What each word of the table is in a version, by symbol.
+/// The token kind of each word of the table in a version, by symbol.
 pub(super) fn kinds_in(version: u16) -> Vec<TokenKind> {
     TABLE.iter().map(|row| row.kind_in(version)).collect()
 }
 
-/// All words that are keywords or reserved in some version: keyword since, reserved since.
+/// All words that are keywords or reserved in some version.
 pub static TABLE: &[Keyword] = &[
     word("float", Type, 110, NEVER),
     word("int", Type, 110, NEVER),

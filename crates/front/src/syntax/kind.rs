@@ -1,17 +1,17 @@
-//! What the text of the specification forbids and every driver takes in silence: a warning that cites the section,
-//! and an error when strict. One table; each row has its reason.
+//! What the text of the specification forbids and every driver accepts in silence. glisten warns and cites the
+//! section; with `strict` it reports an error. All cases are rows of one table, each with its reason.
 
 use super::token::Session;
 use crate::diagnostic::codes::{preprocess, syntax};
 use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::source::Span;
 
-/// A row of the table.
+/// A case that is forgiven.
 #[derive(Debug)]
 pub(super) struct Kindness {
-    /// Its section is the one that forbids it.
+    /// The code; its section is the one that forbids the case.
     code: &'static Code,
-    /// Why it is forgiven.
+    /// Why drivers forgive it.
     reason: &'static str,
 }
 
@@ -20,7 +20,7 @@ pub(super) static LINE_CONTINUATION: Kindness = Kindness {
     code: &preprocess::LINE_CONTINUATION,
     reason: "every driver joins the lines, as GLSL 4.20 and GL_ARB_shading_language_420pack have it",
 };
-/// `#if NAME` where nothing of that name is defined.
+/// `#if NAME` where no macro `NAME` is defined.
 pub(super) static UNDEFINED_IN_CONDITION: Kindness =
     Kindness { code: &preprocess::UNDEFINED_IN_CONDITION, reason: "every driver counts it as 0, as C does" };
 /// Directives before `#version`.
@@ -28,7 +28,7 @@ pub(super) static BEFORE_VERSION: Kindness = Kindness {
     code: &preprocess::BEFORE_VERSION,
     reason: "drivers accept directives there, because tools that put texts together write them there",
 };
-/// `#extension` behind the first token.
+/// `#extension` after the first token.
 pub(super) static LATE_EXTENSION: Kindness = Kindness {
     code: &preprocess::LATE_EXTENSION,
     reason: "drivers turn the extension on from there, because included texts bring their own lines",
@@ -43,7 +43,7 @@ pub(super) static INCLUDE_WITHOUT_EXTENSION: Kindness = Kindness {
     code: &preprocess::INCLUDE_WITHOUT_EXTENSION,
     reason: "engines resolve it before the driver sees the text",
 };
-/// `#pragma optimize(off)` inside of a function.
+/// `#pragma optimize(off)` inside a function.
 pub(super) static PRAGMA_IN_FUNCTION: Kindness =
     Kindness { code: &preprocess::PRAGMA_IN_FUNCTION, reason: "no driver looks where such a pragma stands" };
 /// U+FEFF before the text.
@@ -51,10 +51,10 @@ pub(super) static BYTE_ORDER_MARK: Kindness = Kindness {
     code: &preprocess::BYTE_ORDER_MARK,
     reason: "editors write it, and programs often take it away before the driver sees the text",
 };
-/// `#ifdef` between the brackets of a macro's use.
+/// `#ifdef` inside the arguments of a macro use.
 pub(super) static DIRECTIVE_IN_ARGUMENTS: Kindness =
     Kindness { code: &preprocess::DIRECTIVE_IN_ARGUMENTS, reason: "preprocessors run it, as those of C++ do" };
-/// A macro whose name holds `__`.
+/// A macro whose name contains `__`.
 pub(super) static RESERVED_NAME: Kindness = Kindness {
     code: &preprocess::RESERVED_NAME,
     reason: "no driver uses such names, and include guards often have them",
@@ -64,7 +64,7 @@ pub(super) static STRAY_SEMICOLON: Kindness =
     Kindness { code: &syntax::STRAY_SEMICOLON, reason: "every driver skips it, and macros leave it behind" };
 
 impl Kindness {
-    /// The finding at a place; the caller adds labels and help.
+    /// The diagnostic for one occurrence; the caller adds labels and help.
     pub(super) fn diagnostic(&self, strict: bool, span: Span, message: impl Into<String>) -> Diagnostic {
         let mut diagnostic = Diagnostic::new(self.code, span, message);
         if strict {
@@ -74,7 +74,7 @@ impl Kindness {
         diagnostic.note(format!("forgiven because {}", self.reason))
     }
 
-    /// Reports it.
+    /// Reports one occurrence.
     pub(super) fn report(&self, session: &mut Session<'_>, strict: bool, span: Span, message: impl Into<String>) {
         let diagnostic = self.diagnostic(strict, span, message);
         session.report(diagnostic);

@@ -1,17 +1,17 @@
-//! [`Lexer`]: text to preprocessing tokens (GLSL 1.50 §3.1, §3.4, §3.5).
+//! [`Lexer`] cuts text into preprocessing tokens (GLSL 1.50 §3.1, §3.4, §3.5).
 //!
-//! *In:* one text. *Out:* one token a call: words and numbers as interned spellings (whether a word is a keyword
-//! and a number well formed is asked only of those that reach the parser), operators, and whatever else stands
-//! there as [`TokenKind::Unknown`]. Comments and white space are skipped; what is worth a word among them
-//! is left in [`Trivia`].
+//! *In:* one text. *Out:* one token per call. Words and numbers are interned spellings: whether a word is a keyword
+//! or a number is well formed is checked only for those that reach the parser. Operators have kinds of their own; all
+//! else is [`TokenKind::Unknown`]. Comments and white space are skipped; what later phases need to know about them is
+//! left in [`Trivia`].
 //!
-//! *Holds:* never fails, never recurses, reads each byte a bounded number of times.
+//! *Holds:* the lexer never fails, never recurses, and reads each byte a bounded number of times.
 
 use super::token::{Names, Token, TokenFlags, TokenKind};
 use crate::source::Span;
 use std::sync::Arc;
 
-/// What was skipped and matters.
+/// Skipped text that later phases need to know about.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Trivia {
     /// A comment that begins with `glisten:`.
@@ -22,26 +22,26 @@ pub(super) enum Trivia {
     Unterminated(Span),
 }
 
-/// How to read the end of a line.
+/// How to treat the end of a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Mode {
     /// As white space.
     Text,
-    /// As a token, which stays where it is: the next call gives it again.
+    /// As a token, which is not consumed: the next call returns it again.
     Directive,
 }
 
-/// Reads a text from front to back.
+/// Reads a text from start to end.
 #[derive(Clone, Debug)]
 pub(super) struct Lexer {
     text: Arc<str>,
     base: u32,
     pos: usize,
-    /// Where the last token ended.
+    /// The offset at which the last token ended.
     last_end: u32,
-    /// Nothing but white space and comments was on this line so far.
+    /// Whether this line has held only white space and comments so far.
     at_line_start: bool,
-    /// A `//` comment that ends in a backslash takes the next line with it (4.20 and 420pack).
+    /// Whether a `//` comment that ends in a backslash continues on the next line (4.20 and 420pack).
     pub(super) joins_comments: bool,
 }
 
@@ -68,9 +68,9 @@ fn class(byte: u8) -> u8 {
 }
 
 impl Lexer {
-    /// Reads `text`, whose first byte has the global offset `base`.
+    /// A lexer for `text`, whose first byte has the global offset `base`.
     pub(super) fn new(text: Arc<str>, base: u32) -> Self {
-        // A byte order mark at the start says how the file is encoded and is no part of the text.
+        // A byte order mark at the start names the encoding and is not part of the text.
         let pos = if text.starts_with('\u{feff}') { '\u{feff}'.len_utf8() } else { 0 };
         Self { text, base, pos, last_end: base, at_line_start: true, joins_comments: false }
     }
@@ -79,7 +79,7 @@ impl Lexer {
         self.text.as_bytes().get(self.pos + offset).copied()
     }
 
-    /// The byte there, or 0 behind the end, where 0 cannot be mistaken.
+    /// The byte at `offset` from here. Past the end it is 0, which no valid text contains.
     fn peek(&self, offset: usize) -> u8 {
         self.at(offset).unwrap_or(0)
     }
@@ -104,7 +104,7 @@ impl Lexer {
         }
         let start = self.pos;
         let Some(byte) = self.at(0) else {
-            // An empty file has no byte to point at; one behind the end shows the last line.
+            // An empty file has no byte to point at; one past the end shows the last line.
             return Token { flags, ..Token::new(TokenKind::Eof, self.span_from(start)) };
         };
         let kind = match class(byte) {
@@ -124,7 +124,7 @@ impl Lexer {
         token
     }
 
-    /// A word; one with letters that are not ASCII is [`TokenKind::Invalid`].
+    /// Reads a word. A word with non-ASCII letters is [`TokenKind::Invalid`].
     fn word(&mut self) -> TokenKind {
         let mut kind = TokenKind::Word;
         loop {
@@ -139,7 +139,7 @@ impl Lexer {
         }
     }
 
-    /// The length of a letter or digit that is not ASCII, if one is next.
+    /// The length of the next character if it is a non-ASCII letter or digit.
     fn foreign_letter(&self) -> Option<usize> {
         if self.peek(0) < 0x80 {
             return None;
@@ -148,7 +148,7 @@ impl Lexer {
         character.is_alphanumeric().then(|| character.len_utf8())
     }
 
-    /// What C takes for a string; one without an end is a single character.
+    /// Reads a string literal of C; a quote without a partner is a single character.
     fn string(&mut self) -> TokenKind {
         let rest = self.text.as_bytes().get(self.pos + 1..).unwrap_or(&[]);
         let end = rest.iter().position(|byte| matches!(byte, b'"' | b'\n' | b'\r'));
@@ -164,7 +164,7 @@ impl Lexer {
         }
     }
 
-    /// Interns what was read since `start`; a continued line may split it.
+    /// Interns what was read since `start`, which a line continuation may split.
     fn intern(&mut self, start: usize, names: &mut Names, trivia: &mut Vec<Trivia>) -> super::token::Symbol {
         if self.peek(0) != b'\\' || !self.is_word_continued() {
             return names.intern(self.text.get(start..self.pos).unwrap_or(""));
@@ -181,12 +181,12 @@ impl Lexer {
         names.intern(&spelling)
     }
 
-    /// Whether a backslash, the end of the line and a letter or digit follow.
+    /// Whether a backslash, a line end, and a letter or digit follow.
     fn is_word_continued(&self) -> bool {
         self.continuation_length().is_some_and(|length| class(self.peek(length)) != 0)
     }
 
-    /// The length of a backslash and the end of the line, if they stand here.
+    /// The length of a backslash and the line end after it, if they are next.
     fn continuation_length(&self) -> Option<usize> {
         match (self.peek(0), self.peek(1), self.peek(2)) {
             (b'\\', b'\r', b'\n') => Some(3),
@@ -204,7 +204,7 @@ impl Lexer {
         }
     }
 
-    /// Skips white space and comments; gives the end of the line in directives.
+    /// Skips white space and comments. In a directive, returns the end of the line.
     fn skip_space(&mut self, mode: Mode, flags: &mut TokenFlags, trivia: &mut Vec<Trivia>) -> Option<Token> {
         loop {
             match self.peek(0) {
@@ -219,7 +219,7 @@ impl Lexer {
                 b'/' if self.peek(1) == b'/' => self.line_comment(trivia),
                 b'/' if self.peek(1) == b'*' => {
                     if self.block_comment(trivia) {
-                        // New-lines are not eliminated by comments (§3.4): a directive ends in one.
+                        // A comment does not eliminate newlines (§3.4): a directive ends at one.
                         self.at_line_start = true;
                         if mode == Mode::Directive {
                             return Some(Token::new(TokenKind::Newline, Span::new(self.last_end, self.last_end)));
@@ -260,7 +260,7 @@ impl Lexer {
         self.pos += rest.iter().position(|&byte| byte == b'\n' || byte == b'\r').unwrap_or(rest.len());
     }
 
-    /// Whether the comment held the end of a line.
+    /// Skips a block comment. Returns whether it contained a line end.
     fn block_comment(&mut self, trivia: &mut Vec<Trivia>) -> bool {
         let start = self.pos;
         self.pos += 2;
@@ -284,7 +284,8 @@ impl Lexer {
         }
     }
 
-    /// Everything that could belong to a number, as C++ has it; the parser's side says whether it is one.
+    /// Reads everything that can belong to a number, by C++'s rule for preprocessing numbers. Whether it is one is
+    /// checked later.
     fn number(&mut self) -> TokenKind {
         let hexadecimal = self.peek(0) == b'0' && matches!(self.peek(1), b'x' | b'X');
         self.pos += 1;
@@ -358,7 +359,7 @@ impl Lexer {
         kind
     }
 
-    /// Skips to the next `#` that begins a line, past comments; false at the end of the text.
+    /// Skips to the next `#` that begins a line, outside comments. Returns false at the end of the text.
     pub(super) fn skip_to_directive(&mut self, trivia: &mut Vec<Trivia>) -> bool {
         let mut flags = TokenFlags::empty();
         loop {
@@ -374,7 +375,7 @@ impl Lexer {
         }
     }
 
-    /// Skips to where white space or a comment may begin to matter.
+    /// Skips bytes up to where white space or a comment may matter.
     fn skip_plain_text(&mut self) {
         self.pos += 1;
         while !matches!(self.peek(0), 0 | b'\n' | b'\r' | b'/' | b'\\') {
@@ -382,12 +383,12 @@ impl Lexer {
         }
     }
 
-    /// Skips the rest of a directive's line, comments that go on behind it included.
+    /// Skips the rest of a directive's line, including a comment that continues past it.
     pub(super) fn skip_line(&mut self, names: &mut Names, trivia: &mut Vec<Trivia>) {
         while !matches!(self.next(Mode::Directive, names, trivia).kind, TokenKind::Newline | TokenKind::Eof) {}
     }
 
-    /// The name in `#include "name"` or `#include <name>` with its quotes.
+    /// Reads the quoted name in `#include "name"` or `#include <name>`.
     pub(super) fn header_name(&mut self) -> Option<Span> {
         while matches!(self.peek(0), b' ' | b'\t') {
             self.pos += 1;

@@ -1,14 +1,14 @@
-//! Text to syntax tree.
+//! From text to syntax tree.
 //!
-//! *In:* a [`SourceMap`] and the file to start with, the include resolver, predefined
-//! macros. *Out:* an [`ast::Ast`] of what was understood, and diagnostics.
+//! *In:* a [`SourceMap`] and the file to start with, the include resolver, and predefined macros. *Out:* an
+//! [`ast::Ast`] of what was understood, and diagnostics.
 //!
-//! Three steps, each lazy and each with its budgets: the lexer cuts text into tokens, the preprocessor runs the
-//! directives and expands macros (GLSL 1.50 §3.3) behind the [`TokenSource`](token::TokenSource) interface, and
-//! the parser follows the grammar (§9) with recovery at declarations and statements.
+//! There are three steps, each lazy and each with its budgets. The lexer cuts text into tokens. The preprocessor runs
+//! directives and expands macros (GLSL 1.50 §3.3), behind the [`TokenSource`](token::TokenSource) interface. The
+//! parser follows the grammar (§9) and recovers at declarations and statements.
 //!
-//! *Holds:* no type or scope is known here; `S(x)` is a call of something named `S`. A tree of a language that is not
-//! supported, which was reported, has no declarations.
+//! *Holds:* types and scopes are unknown here; `S(x)` is a call of something named `S`. If the language is
+//! unsupported, which is reported, the tree has no declarations.
 
 pub mod ast;
 pub mod keywords;
@@ -28,18 +28,18 @@ use preprocessor::Preprocessor;
 pub(crate) use preprocessor::extension::warning_of_use;
 use token::{Names, Session};
 
-/// What a parse may be told.
+/// Options of a parse.
 #[derive(Clone, Debug)]
 pub struct Options {
     /// The stage.
     pub stage: Stage,
-    /// Macros defined before the first line: name (with parameters, if it has some) and replacement text.
+    /// Macros defined before the first line: name (with parameters, if it has any) and replacement text.
     pub defines: Vec<(String, String)>,
-    /// What the specification forbids and every driver forgives is an error instead of a warning.
+    /// Reports an error instead of a warning for what the specification forbids and every driver accepts.
     pub strict: bool,
 }
 
-/// Reads the shader in `file`.
+/// Parses the shader in `file`.
 pub fn parse(
     sources: &mut SourceMap,
     file: FileId,

@@ -1,33 +1,33 @@
-//! Numerals to values (GLSL 1.50 §4.1.3, §4.1.4).
+//! Converts numerals to values (GLSL 1.50 §4.1.3, §4.1.4).
 //!
-//! *In:* the spelling of what the lexer took for a number. *Out:* a [`Numeral`], or why it is none.
+//! *In:* the spelling that the lexer read as a number. *Out:* a [`Numeral`], or the reason why it is not one.
 
 use super::token::TokenKind;
 
-/// A number's value.
+/// The value of a numeral.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Numeral {
     /// `Int`, `Uint` or `Float`.
     pub(super) kind: TokenKind,
     /// The value's bits.
     pub(super) bits: u32,
-    /// Something to warn of.
+    /// A reason for a warning.
     pub(super) doubt: Option<Doubt>,
 }
 
-/// Legal, and perhaps not meant.
+/// Why a legal numeral may not mean what its author thinks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Doubt {
-    /// A decimal without `u` past 2147483648: it becomes negative.
+    /// A decimal without `u` above 2147483648: it becomes negative.
     Negative,
-    /// A float past the largest: it becomes infinite.
+    /// A float above the largest finite one: it becomes infinite.
     Infinite,
 }
 
-/// Why a numeral is none.
+/// Why a spelling is not a numeral.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Malformed {
-    /// More than 32 bits.
+    /// It needs more than 32 bits.
     TooLarge,
     /// `089`
     OctalDigit,
@@ -35,11 +35,11 @@ pub(super) enum Malformed {
     NoDigits,
     /// `1e`, `1e+`
     NoExponent,
-    /// What stands behind the digits, from this byte on, is no suffix.
+    /// The text after the digits, from this byte on, is not a suffix.
     Suffix(usize),
 }
 
-/// Reads a numeral.
+/// Converts a numeral.
 pub(super) fn read(text: &str) -> Result<Numeral, Malformed> {
     if let Some(digits) = text.strip_prefix("0x").or_else(|| text.strip_prefix("0X")) {
         return integer(text, digits, 16);
@@ -49,7 +49,7 @@ pub(super) fn read(text: &str) -> Result<Numeral, Malformed> {
     }
     if matches!(text.bytes().last(), Some(b'f' | b'F')) && text.bytes().rev().skip(1).all(|byte| byte.is_ascii_digit())
     {
-        // `1f`: the grammar wants a point or an exponent before the suffix.
+        // `1f`: the grammar requires a point or an exponent before the suffix.
         return Err(Malformed::Suffix(text.len() - 1));
     }
     if text.len() > 1 && text.starts_with('0') {
@@ -97,7 +97,7 @@ fn float(text: &str) -> Result<Numeral, Malformed> {
     if !matches!(text.get(end..), Some("" | "f" | "F")) {
         return Err(Malformed::Suffix(end));
     }
-    // Rust reads every spelling that the grammar allows, and rounds once to the nearest.
+    // Rust parses every spelling that the grammar allows, and rounds once to nearest.
     let value: f32 = text.get(..end).and_then(|number| number.parse().ok()).ok_or(Malformed::Suffix(0))?;
     let doubt = value.is_infinite().then_some(Doubt::Infinite);
     Ok(Numeral { kind: TokenKind::Float, bits: value.to_bits(), doubt })

@@ -1,6 +1,6 @@
-//! [`Token`]: what the lexer and the preprocessor hand to the parser; [`Names`]: the spellings of a tree.
+//! [`Token`], which the lexer and the preprocessor hand to the parser, and [`Names`], the spellings of a tree.
 //!
-//! *Holds:* every word and every number is interned, so that two of them are equal if their symbols are. The
+//! *Holds:* every word and every number is interned, so that two of them are equal exactly if their symbols are. The
 //! words of the [keyword table](super::keywords) come first in [`Names::with_keywords`], in the table's order.
 
 use super::ast::Extensions;
@@ -15,25 +15,25 @@ use std::sync::LazyLock;
 pub struct Symbol(u32);
 
 impl Symbol {
-    /// The place among the names, in the order in which they were first met.
+    /// The index among the names, in the order of first occurrence.
     pub fn index(self) -> usize {
         self.0 as usize
     }
 
-    /// As the payload of a token.
+    /// The symbol as the payload of a token.
     pub(crate) fn bits(self) -> u32 {
         self.0
     }
 }
 
-/// The spellings behind [`Symbol`]s: one text for all, and an open-addressing table over it, so that a copy of
-/// the prepared keywords is three plain copies of memory.
+/// The spellings of [`Symbol`]s: one text for all, and an open-addressing hash table over it, so that a copy of the
+/// prepared keywords is three plain copies of memory.
 #[derive(Clone, Debug, Default)]
 pub struct Names {
     text: String,
-    /// Where each spelling ends in the text, and its hash.
+    /// The end of each spelling in the text, and its hash.
     entries: Vec<(u32, u32)>,
-    /// A power of two of places: symbol + 1, or 0.
+    /// The slots of the hash table, a power of two of them: symbol + 1, or 0.
     slots: Vec<u32>,
 }
 
@@ -46,7 +46,7 @@ static KEYWORDS: LazyLock<Names> = LazyLock::new(|| {
 });
 
 impl Names {
-    /// Names that hold the words of the keyword table, so that symbol *n* is row *n*.
+    /// Names that begin with the words of the keyword table, so that symbol *n* is row *n*.
     pub fn with_keywords() -> Self {
         KEYWORDS.clone()
     }
@@ -70,7 +70,7 @@ impl Names {
         }
     }
 
-    /// The symbol of a spelling that may not have occurred.
+    /// The symbol of a spelling, if it has occurred.
     pub fn get(&self, name: &str) -> Option<Symbol> {
         if self.slots.is_empty() { None } else { self.probe(name, hash(name)).ok() }
     }
@@ -83,7 +83,7 @@ impl Names {
         self.text.get(start as usize..end as usize).unwrap_or("")
     }
 
-    /// How many names there are.
+    /// The number of names.
     pub fn len(&self) -> usize {
         self.entries.len()
     }
@@ -93,7 +93,7 @@ impl Names {
         self.entries.is_empty()
     }
 
-    /// The symbol, or the empty slot where it belongs. The table must not be empty nor full.
+    /// The symbol, or the empty slot where it belongs. The table must be neither empty nor full.
     fn probe(&self, name: &str, hash: u32) -> Result<Symbol, usize> {
         let mask = self.slots.len() - 1;
         let mut slot = hash as usize & mask;
@@ -132,7 +132,7 @@ fn hash(name: &str) -> u32 {
 
 macro_rules! token_kinds {
     ($($(#[$doc:meta])* $kind:ident $spelling:literal,)*) => {
-        /// What a token is.
+        /// The kinds of tokens.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
         #[repr(u8)]
         #[expect(missing_docs, reason = "the spelling says it")]
@@ -141,7 +141,7 @@ macro_rules! token_kinds {
         }
 
         impl TokenKind {
-            /// As it is written, or what it is called.
+            /// The spelling, or a description.
             pub fn spelling(self) -> &'static str {
                 match self {
                     $(Self::$kind => $spelling,)*
@@ -152,30 +152,31 @@ macro_rules! token_kinds {
 }
 
 token_kinds! {
-    /// Behind the last token; payload 1 if the preprocessor gave up, and all has been said.
+    /// After the last token. The payload is 1 if the preprocessor gave up and its error has been reported.
     Eof "end of file",
-    /// The end of a line, inside directives alone.
+    /// The end of a line, only inside directives.
     Newline "end of line",
-    /// A word of which is not yet known whether it is a keyword; the parser never sees one.
+    /// A word that may turn out to be a keyword. The parser never sees one.
     Word "word",
-    /// A number that is not yet converted; the parser never sees one.
+    /// A number before conversion. The parser never sees one.
     Number "number",
-    /// A character that has no place in the language; the parser never sees one.
+    /// A character that the language does not have. The parser never sees one.
     Unknown "character",
-    /// A word or a string that no GLSL has; the payload is its symbol. It was reported, and stands for a name or a value.
+    /// A word or a string that no version of GLSL has; the payload is its symbol. It has been reported and counts as
+    /// a name or a value.
     Invalid "invalid token",
-    /// A parameter in the body of a macro; the payload is its place. The parser never sees one.
+    /// A parameter in the body of a macro; the payload is its index. The parser never sees one.
     Param "parameter",
     Hash "#",
     HashHash "##",
 
     /// A name; the payload is its symbol.
     Ident "identifier",
-    /// A word that is reserved for the future (§3.6); the payload is its symbol.
+    /// A word that is reserved for future use (§3.6); the payload is its symbol.
     Reserved "reserved word",
     /// A type keyword; the payload is its symbol.
     Type "type",
-    /// The payload is the value's bits, as in all literals.
+    /// The payload is the bits of the value, as in all literals.
     Int "integer",
     Uint "unsigned integer",
     Float "number",
@@ -263,14 +264,14 @@ token_kinds! {
 }
 
 bitflags::bitflags! {
-    /// What surrounds a token.
+    /// The context of a token.
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
     pub struct TokenFlags: u8 {
-        /// First on its line.
+        /// The token is the first on its line.
         const LINE_START = 1;
-        /// White space stands before it.
+        /// White space comes before it.
         const SPACE = 2;
-        /// The name of a macro inside its own expansion: never expanded again.
+        /// The name of a macro inside its own expansion, which is never expanded again.
         const NO_EXPAND = 4;
     }
 }
@@ -278,15 +279,15 @@ bitflags::bitflags! {
 /// A token. Twenty bytes.
 #[derive(Clone, Copy, Debug)]
 pub struct Token {
-    /// Which.
+    /// The kind.
     pub kind: TokenKind,
-    /// What surrounds it.
+    /// The context.
     pub flags: TokenFlags,
-    /// The extensions that are on at its place, as [`Extensions`] bits.
+    /// The extensions that are enabled here, as [`Extensions`] bits.
     pub(super) extensions: u16,
-    /// A symbol or the bits of a value, by kind.
+    /// A symbol or the bits of a value, depending on the kind.
     pub payload: u32,
-    /// Where it was written, and which macro use brought it here.
+    /// Where it was written, and which macro use put it here.
     pub span: Span,
 }
 
@@ -301,41 +302,41 @@ impl Token {
         Symbol(self.payload)
     }
 
-    /// The extensions that are on at its place.
+    /// The extensions that are enabled here.
     pub fn extensions(self) -> Extensions {
         Extensions::from_bits_truncate(u32::from(self.extensions))
     }
 
-    /// The same where these extensions are on.
+    /// The same token with these extensions enabled.
     #[must_use]
     pub fn with_extensions(self, extensions: Extensions) -> Self {
         Self { extensions: extensions.bits() as u16, ..self }
     }
 
-    /// Whether it is the first on its line.
+    /// Whether it is the first token on its line.
     pub fn starts_line(self) -> bool {
         self.flags.contains(TokenFlags::LINE_START)
     }
 }
 
-/// What all steps of a parse share.
+/// The state that all steps of a parse share.
 pub struct Session<'a> {
     /// The texts.
     pub sources: &'a mut SourceMap,
-    /// Where findings go.
+    /// Where diagnostics go.
     pub diagnostics: &'a mut Diagnostics,
-    /// The names met so far.
+    /// The names that have occurred.
     pub names: Names,
 }
 
 impl Session<'_> {
-    /// Reports a finding.
+    /// Reports a diagnostic.
     pub fn report(&mut self, diagnostic: Diagnostic) {
         self.diagnostics.push(diagnostic);
     }
 
-    /// Whether to look for names that were perhaps meant: not for a source that is wrong all over, where it would take
-    /// longer than all else.
+    /// Whether to look for a similar name to suggest. Not in a source that is wrong all over, where that would
+    /// dominate the run time.
     pub(super) fn may_suggest(&self) -> bool {
         self.diagnostics.len() < 50
     }
@@ -346,9 +347,9 @@ impl Session<'_> {
     }
 }
 
-/// Where the parser gets its tokens: the preprocessor, or a test.
+/// A source of tokens for the parser: the preprocessor, or a test.
 pub trait TokenSource: Send {
-    /// The next token; [`TokenKind::Eof`] for ever behind the last.
+    /// The next token; after the last, [`TokenKind::Eof`] forever.
     fn next(&mut self, session: &mut Session<'_>) -> Token;
 }
 

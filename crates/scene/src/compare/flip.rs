@@ -1,9 +1,9 @@
-//! FLIP: how much of a difference a person sees who flips between two pictures.
+//! FLIP: how much of a difference a person sees when flipping between two pictures.
 
 use super::Picture;
 
 /// The mean FLIP error of the first attachment of two pictures of the same size, 0 (the same) to 1, at the default
-/// distance to the screen. Colors are clamped to [0, 1]; what is not finite is black.
+/// viewing distance. Colors are clamped to [0, 1]; non-finite colors are black.
 ///
 /// Source: Andersson et al., "FLIP: A Difference Evaluator for Alternating Images", 2020.
 pub fn flip(reference: &Picture, test: &Picture) -> f64 {

@@ -1,6 +1,6 @@
-//! Pictures and how far they are apart.
+//! Pictures and the differences between them.
 //!
-//! *In:* two [`Picture`]s. *Out:* error figures.
+//! *In:* two [`Picture`]s of the same scene. *Out:* error figures and a [`Verdict`].
 
 #[cfg(feature = "flip")]
 mod flip;

@@ -1,29 +1,30 @@
-//! [`Picture`]: what a draw leaves in the framebuffer.
+//! [`Picture`]: the contents of the framebuffer after a draw.
 
 use super::Range;
 
-/// What was drawn, top row first, x fastest.
+/// The contents of a framebuffer, top row first, x fastest.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Picture {
-    /// Pixels from left to right.
+    /// The width in pixels.
     pub width: u32,
-    /// Rows.
+    /// The height in pixels.
     pub height: u32,
-    /// RGBA of every pixel of every color attachment, as stored in the framebuffer's format (integers as they are).
+    /// The RGBA of every pixel of every color attachment, as stored in the framebuffer's format (integers unchanged).
     pub attachments: Vec<Vec<[f64; 4]>>,
     /// Whether a fragment was written to the pixel, after discard and depth test.
     pub covered: Vec<bool>,
-    /// Of a reference with envelopes: what a conforming GPU may have, for each channel of each attachment.
+    /// For a reference with envelopes: the values that a conforming GPU may draw, for each channel of each
+    /// attachment.
     pub ranges: Option<Vec<Vec<[Range; 4]>>>,
-    /// Of a reference with envelopes: pixels where a discard, a depth test or too many branches may go either way.
+    /// For a reference with envelopes: pixels where a discard, a depth test or too many branches are undecided.
     pub undecided: Vec<bool>,
-    /// Pixels whose center lies within 1/128 pixel of an edge of a primitive that was drawn.
+    /// Pixels whose center is within 1/128 pixel of an edge of a primitive that was drawn.
     pub near_edge: Vec<bool>,
 }
 
 impl Picture {
-    /// How many pixels have a channel, in any attachment, that is another f32, bit for bit, when both pictures are rounded
-    /// to f32. NaNs are all alike.
+    /// The number of pixels with a channel, in any attachment, that differs bit by bit when both pictures are rounded
+    /// to f32. All NaNs count as equal.
     pub fn bit_unequal(&self, other: &Self) -> u64 {
         let differs = |a: &[f64; 4], b: &[f64; 4]| {
             a.iter()

@@ -1,39 +1,39 @@
-//! [`Range`]: the values that a number may have.
+//! [`Range`]: an interval of possible values of a number.
 
 use serde::Serialize;
 
-/// A closed interval of reals, and whether the number may be NaN. Ends may be infinite.
+/// A closed interval of reals, and whether the number may be NaN. Bounds may be infinite.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Range {
-    /// The least value.
+    /// The lower bound.
     pub low: f64,
-    /// The greatest value.
+    /// The upper bound.
     pub high: f64,
-    /// Whether it may be no number at all.
+    /// Whether the number may be NaN.
     pub may_be_nan: bool,
 }
 
 impl Range {
-    /// Anything.
+    /// Any value.
     pub const ALL: Self = Self { low: f64::NEG_INFINITY, high: f64::INFINITY, may_be_nan: true };
 
-    /// One value; of NaN anything.
+    /// Exactly one value; for NaN, any value.
     pub fn point(value: f64) -> Self {
         if value.is_nan() { Self::ALL } else { Self { low: value, high: value, may_be_nan: false } }
     }
 
-    /// The values at most `error` from `value`; anything where that is no number.
+    /// The values at most `error` from `value`; any value if that is NaN.
     pub fn around(value: f64, error: f64) -> Self {
         let (low, high) = (value - error, value + error);
         if low <= high { Self { low, high, may_be_nan: false } } else { Self::ALL }
     }
 
-    /// Whether the number may be this one.
+    /// Whether the number may have this value.
     pub fn contains(self, value: f64) -> bool {
         if value.is_nan() { self.may_be_nan } else { self.low <= value && value <= self.high }
     }
 
-    /// The values of both and those between them.
+    /// The smallest interval that contains both.
     #[must_use]
     pub fn hull(self, other: Self) -> Self {
         Self {
@@ -43,8 +43,8 @@ impl Range {
         }
     }
 
-    /// How far `from`, which lies inside, may be from the number on the side that `to` lies on: infinite where nothing
-    /// bounds it, 0 where the number is sure.
+    /// How far the number may be from `from`, which is inside, on the side of `to`: infinite if it is unbounded
+    /// there, 0 if the number is exact.
     pub fn room(self, from: f64, to: f64) -> f64 {
         let room = match to.partial_cmp(&from) {
             Some(std::cmp::Ordering::Less) => from - self.low,
@@ -54,7 +54,7 @@ impl Range {
         if room.is_nan() { f64::INFINITY } else { room.max(0.0) }
     }
 
-    /// The farthest that the number may be from `from`.
+    /// The largest distance of the number from `from`.
     pub fn reach(self, from: f64) -> f64 {
         if self.low == from && self.high == from {
             return 0.0;
@@ -63,7 +63,7 @@ impl Range {
         if reach.is_nan() { f64::INFINITY } else { reach.max(0.0) }
     }
 
-    /// The distance of its ends.
+    /// The distance between the bounds.
     pub fn width(self) -> f64 {
         if self.low == self.high { 0.0 } else { self.high - self.low }
     }

@@ -1,12 +1,13 @@
-//! [`Verdict`]: how far a GPU's picture is from the reference's, and whether that is explained.
+//! [`Verdict`]: how far a GPU's picture is from the reference's, and whether the difference is explained.
 //!
-//! *In:* two pictures of one scene, the reference's with its envelope, or a tolerance. *Out:* counts and error figures.
+//! *In:* two pictures of one scene, and the reference's envelope or a tolerance. *Out:* counts and error figures.
 //!
-//! *Holds:* each pixel is counted in one way only: one side alone covers it (`coverage_mismatch`, or `edge_pixels` if its
-//! center is so near an edge that rounding decides), or the reference leaves open what it is (`undecided`), or its colors
-//! are compared. Colors never decide what is covered. An undecided pixel may be uncovered; if it is covered, its color must
-//! lie in the envelope, too. Numbers that are not finite are counted apart and never enter an error figure; where the
-//! envelope holds them they are no mismatch. What only a known fault of the driver explains is counted under its name.
+//! *Holds:* each pixel is counted exactly once. Either only one side covers it (`coverage_mismatch`, or `edge_pixels`
+//! if its center is so near an edge that rounding decides), or the reference cannot decide it (`undecided`), or its
+//! colors are compared. Colors never decide coverage. An undecided pixel may be uncovered; if it is covered, its
+//! color must lie in the envelope, too. Non-finite numbers are counted separately and never enter an error figure; if
+//! the envelope contains them, they are no mismatch. A difference that only a known fault of the driver explains is
+//! counted under the fault's name.
 
 use super::{Picture, Range};
 use serde::Serialize;
@@ -14,102 +15,102 @@ use serde::Serialize;
 /// What decides whether a difference is explained.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Judge {
-    /// The reference's own envelope for each channel of each pixel.
+    /// The reference's envelope for each channel of each pixel.
     Envelope,
-    /// The same absolute difference for all channels.
+    /// One absolute tolerance for all channels.
     Tolerance(f64),
 }
 
-/// A place in a shader that a bound comes from.
+/// A place in a shader that contributes to a bound.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Contributed {
     /// The shader.
     pub file: String,
-    /// From 1.
+    /// The line, counted from 1.
     pub line: u32,
-    /// From 1, in characters.
+    /// The column, counted from 1, in characters.
     pub column: u32,
-    /// Behind the last character.
+    /// One past the last column.
     pub end_column: u32,
-    /// How GLSL writes the operation, or `interpolation`.
+    /// The operation as GLSL writes it, or `interpolation`.
     pub operation: &'static str,
-    /// By how much of its width the envelope would be narrower without the freedom of this operation, 0 to 1.
+    /// The share by which the envelope would be narrower if this operation were exact, 0 to 1.
     pub share: f64,
 }
 
-/// A pixel that is further off than all others, measured by what it may be off.
+/// The pixel with the largest difference, relative to its bound.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Worst {
-    /// Column from the left.
+    /// The column from the left.
     pub x: u32,
-    /// Row from the top.
+    /// The row from the top.
     pub y: u32,
     /// The color attachment.
     pub attachment: u32,
-    /// The channel that is furthest off.
+    /// The channel with the largest difference.
     pub channel: u32,
     /// The GPU's color.
     pub gpu: [f64; 4],
     /// The reference's color.
     pub cpu: [f64; 4],
-    /// How far each channel may be off toward the GPU's side; infinite (null) where nothing bounds it.
+    /// How far each channel may differ towards the GPU's value; infinite (null) if it is unbounded there.
     pub bound: [f64; 4],
-    /// The least that each channel may be.
+    /// The lower bound of each channel.
     pub low: [f64; 4],
-    /// The greatest.
+    /// The upper bound of each channel.
     pub high: [f64; 4],
-    /// What the bound comes from, the largest share first; empty where nobody asked.
+    /// The contributions to the bound, the largest share first; empty unless requested.
     pub contributions: Vec<Contributed>,
 }
 
-/// Pixels that only a known fault of the driver explains.
+/// The pixels that only a known fault of the driver explains.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct FaultCount {
-    /// Its name, or `several` where it takes more than one.
+    /// The fault's name, or `several` if it takes more than one.
     pub fault: &'static str,
-    /// How many.
+    /// The number of pixels.
     pub pixels: u64,
 }
 
-/// Figures and counts of one comparison. Errors are absolute, over all channels of all attachments of the pixels that
-/// both sides cover and that are decided and finite.
+/// The figures and counts of one comparison. Errors are absolute, over all channels of all attachments of the pixels
+/// that both sides cover and that are decided and finite.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Verdict {
     /// The largest difference.
     pub max_abs: f64,
-    /// The root of the mean square of the differences.
+    /// The root mean square difference.
     pub rmse: f64,
     /// `-20 log10(rmse)` in dB for a peak of 1; `None` (null) if the pictures are equal.
     pub psnr: Option<f64>,
-    /// The largest difference in units in the last place of the reference's value as an f32.
+    /// The largest difference in units in the last place (ULP) of the reference's value as an f32.
     pub max_ulp: f64,
-    /// How many pixels a picture has.
+    /// The number of pixels in a picture.
     pub pixels: u64,
     /// Pixels that both sides cover.
     pub covered: u64,
-    /// Pixels that one side alone covers.
+    /// Pixels that only one side covers.
     pub coverage_mismatch: u64,
-    /// Pixels within 1/128 pixel of an edge that differ in coverage or in more than they may.
+    /// Pixels within 1/128 pixel of an edge whose coverage differs, or whose difference exceeds the bound.
     pub edge_pixels: u64,
-    /// Pixels that both cover with a number of the GPU that is not finite.
+    /// Pixels that both cover and whose value on the GPU is not finite.
     pub non_finite_gpu: u64,
-    /// Likewise of the reference.
+    /// Pixels that both cover and whose value in the reference is not finite.
     pub non_finite_cpu: u64,
-    /// Channels that are finite on one side alone.
+    /// Channels that are finite on only one side.
     pub finiteness_mismatch: u64,
     /// `envelope` or `tolerance`.
     pub judged_by: &'static str,
-    /// Pixels that are further off than they may be.
+    /// Pixels whose difference exceeds the bound.
     pub outside: u64,
-    /// Pixels whose discard, depth test or coverage may go either way, or that can go too many ways.
+    /// Pixels whose discard, depth test or coverage is undecided, or that have too many possible paths.
     pub undecided: u64,
-    /// Pixels that only a known fault of the driver explains; they count under nothing else.
+    /// Pixels that only a known fault of the driver explains; they count nowhere else.
     pub known_faults: Vec<FaultCount>,
-    /// The pixel that is furthest off; `None` (null) if none is compared.
+    /// The pixel with the largest difference; `None` (null) if none was compared.
     pub worst: Option<Worst>,
 }
 
-/// The largest share of undecided pixels that is accepted.
+/// The largest accepted share of undecided pixels.
 const MAX_UNDECIDED_SHARE: f64 = 0.01;
 
 impl Verdict {
@@ -118,7 +119,8 @@ impl Verdict {
         Self::admitting(gpu, cpu, judge, &[])
     }
 
-    /// The same, with the reference drawn once more for each known fault of the driver that is admitted.
+    /// Compares like [`Self::new`], given a further reference picture for each known fault of the driver that is
+    /// excused.
     pub fn admitting(gpu: &Picture, cpu: &Picture, judge: Judge, faults: &[(&'static str, Picture)]) -> Self {
         let judged_by = match judge {
             Judge::Envelope => "envelope",
@@ -140,8 +142,8 @@ impl Verdict {
         tally.finish()
     }
 
-    /// Whether everything is explained. Undecided pixels count against it from 1 % of the covered ones on, unless they
-    /// are allowed.
+    /// Whether every difference is explained. Undecided pixels are not accepted from 1 % of the covered ones on,
+    /// unless they are allowed.
     pub fn holds(&self, allow_undecided: bool) -> bool {
         let undecided = self.undecided as f64 > MAX_UNDECIDED_SHARE * self.covered as f64;
         self.outside == 0
@@ -150,12 +152,12 @@ impl Verdict {
             && (allow_undecided || !undecided)
     }
 
-    /// Whether it needs an explanation that the specifications do not give.
+    /// Whether there is a difference that the specifications do not explain.
     pub fn needs_excuse(&self) -> bool {
         self.outside > 0 || self.finiteness_mismatch > 0 || self.coverage_mismatch > 0
     }
 
-    /// The worse of two verdicts in every figure.
+    /// The worse of two verdicts, figure by figure.
     #[must_use]
     pub fn worse(&self, other: &Self) -> Self {
         let (near, far) = if self.max_abs >= other.max_abs { (other, self) } else { (self, other) };
@@ -196,8 +198,8 @@ fn worse_faults(a: &[FaultCount], b: &[FaultCount]) -> Vec<FaultCount> {
     all
 }
 
-/// Of each pixel the largest difference of its channels as a share of what it may be off; infinite where one side alone
-/// covers a pixel that is decided, or a number is not finite that may not be so.
+/// For each pixel, the largest difference of its channels relative to the bound. It is infinite where only one side
+/// covers a decided pixel, or where a number is not finite but must be.
 pub fn shares(gpu: &Picture, cpu: &Picture, judge: Judge) -> Vec<f64> {
     let verdict = Verdict::default();
     let tally = Tally { gpu, cpu, judge, faults: &[], verdict, squares: 0.0, channels: 0, worst_rank: -1.0 };
@@ -231,18 +233,19 @@ struct Tally<'a> {
     worst_rank: f64,
 }
 
-/// What the channels of one pixel of one attachment come to.
+/// The comparison of one pixel of one attachment.
 #[derive(Default)]
 struct PixelError {
     non_finite: [bool; 2],
     finiteness_mismatch: u64,
     outside: bool,
-    /// The largest difference as a share of what is allowed.
+    /// The largest difference relative to the bound.
     share: f64,
-    /// The same for choosing the worst pixel: what is outside goes before all that is inside, and there half an ULP does
-    /// not count, so that the rounding of a number that is known but for that is not the farthest off.
+    /// The rank for choosing the worst pixel. Every pixel outside its bound ranks before all those inside. Among the
+    /// latter, half an ULP does not count, so that a number known except for its final rounding does not appear as
+    /// the worst.
     rank: f64,
-    /// The channel of that.
+    /// The channel with that rank.
     channel: usize,
 }
 
@@ -273,7 +276,7 @@ impl Tally<'_> {
             (0..self.cpu.attachments.len()).map(|attachment| self.judge_channels(attachment, pixel)).collect();
         let is_wrong = errors.iter().any(|error| error.outside || error.finiteness_mismatch > 0);
         if near_edge && is_wrong {
-            // Which of two triangles drew it is what rounding decides there.
+            // There, rounding decides which of two triangles drew it.
             self.verdict.edge_pixels += 1;
             return;
         }
@@ -300,7 +303,7 @@ impl Tally<'_> {
         }
     }
 
-    /// Whether a known fault explains the pixel; then it counts under that.
+    /// Whether a known fault explains the pixel, which is then counted under that fault.
     fn excused(&mut self, pixel: usize) -> bool {
         let covers = self.gpu.covered.get(pixel).copied().unwrap_or(false);
         let explains = |picture: &Picture| {
@@ -336,7 +339,7 @@ impl Tally<'_> {
         found.unwrap_or_else(|| Self::color(picture, attachment, pixel).map(Range::point))
     }
 
-    /// What each channel may be.
+    /// The allowed values of each channel.
     fn allowed(&self, attachment: usize, pixel: usize) -> [Range; 4] {
         match self.judge {
             Judge::Tolerance(tolerance) => {
@@ -417,10 +420,10 @@ impl Tally<'_> {
     }
 }
 
-/// The distance between neighboring f32 numbers at `value`; that of the smallest normal number below it.
+/// The distance between neighboring f32 numbers at `value`; below the smallest normal number, the distance there.
 pub fn ulp_f32(value: f64) -> f64 {
     let magnitude = value.abs().max(f64::from(f32::MIN_POSITIVE));
-    // Exact: the exponent is found in f64, which holds every f32 and its neighbors.
+    // This is exact: the exponent is computed in f64, which represents every f32 and its neighbors.
     2.0_f64.powi(magnitude.log2().floor() as i32 - 23)
 }
 
@@ -469,7 +472,7 @@ mod tests {
         cpu.near_edge[1] = true;
         cpu.undecided[2] = true;
         let verdict = Verdict::new(&gpu, &cpu, Judge::Envelope);
-        // The undecided one is outside of its envelope all the same.
+        // The undecided pixel is outside its envelope nevertheless.
         assert_eq!((verdict.coverage_mismatch, verdict.edge_pixels, verdict.undecided, verdict.outside), (1, 1, 1, 1));
         assert_eq!((verdict.covered, verdict.max_abs), (2, 0.0));
     }

@@ -1,4 +1,4 @@
-//! `[draw.attributes]` and the attributes of a mesh into [`AttributeData`].
+//! Loads `[draw.attributes]` and the attributes of a mesh as [`AttributeData`].
 
 use super::draw::report_unknown_name;
 use super::mesh::Mesh;
@@ -16,7 +16,7 @@ use toml::de::DeTable;
 
 const KEYS: &[&str] = &["size", "values", "divisor", "kind"];
 
-/// The data of each attribute of the program, in its order.
+/// The data of each attribute of the program, in the program's order.
 pub(super) fn load_attributes(
     reader: &mut Reader,
     draw: &DeTable<'_>,
@@ -88,12 +88,12 @@ fn global_span(program: &Program, attribute: &Attribute) -> Span {
         .map_or_else(Span::default, |g| g.span)
 }
 
-/// How many numbers a vertex the declared type takes at most.
+/// The largest number of components per vertex that the declared type takes.
 fn components(types: &Types, ty: TypeId) -> u32 {
     types.flat_len(ty)
 }
 
-/// The scalar behind a type, through arrays.
+/// The scalar type of a type, also through arrays.
 pub(super) fn scalar_of(types: &Types, mut ty: TypeId) -> Scalar {
     while let Type::Array(element, _) = types.get(ty) {
         ty = element;

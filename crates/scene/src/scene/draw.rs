@@ -1,4 +1,4 @@
-//! A `[[draw]]` table into a [`Draw`].
+//! Loads a `[[draw]]` table as a [`Draw`].
 
 use super::attributes::{load_attributes, scalar_of};
 use super::lights::{LIGHT_SPACES, LightSpace};
@@ -60,7 +60,7 @@ pub(super) fn load_draw(loader: &mut Loader<'_>, node: &Node<'_>, around: &Surro
     let framebuffer = &around.framebuffer;
     let table = loader.reader.table(node, "draw")?;
     loader.reader.check_keys(table, "a draw", KEYS);
-    // The header alone, so that an excerpt does not show the whole table.
+    // The header only, so that an excerpt does not show the whole table.
     let place = loader.reader.span(node.span());
     let state = load_state(&mut loader.reader, table);
     let files = load_files(loader, table, place);
@@ -117,7 +117,7 @@ fn load_blend(reader: &mut Reader, table: &DeTable<'_>) -> Option<(BlendFactor, 
     }
 }
 
-/// The shaders of a draw: stage, name, place of the name. Fewer than two if one is missing (reported).
+/// The shaders of a draw: stage, name, span of the name. Fewer than two if one is missing (reported).
 fn load_files(loader: &mut Loader<'_>, table: &DeTable<'_>, place: Span) -> Vec<(Stage, String, Span)> {
     let stages = [("vertex", Stage::Vertex), ("fragment", Stage::Fragment)];
     let Some(node) = table.get("program") else {
@@ -234,7 +234,7 @@ fn load_locations(reader: &mut Reader, table: &DeTable<'_>, key: &str) -> Vec<(S
     list
 }
 
-/// Reports a name that the program does not declare, with the nearest that it does.
+/// Reports a name that the program does not declare, and suggests the most similar one.
 pub(super) fn report_unknown_name(reader: &mut Reader, span: Span, what: &str, name: &str, candidates: &[&str]) {
     let help = match did_you_mean(name, candidates.iter().copied()) {
         Some(near) => Some(format!("did you mean `{near}`?")),
@@ -304,7 +304,7 @@ fn load_dynamic(reader: &mut Reader, table: &DeTable<'_>, program: &Program) -> 
     names
 }
 
-/// How many vertices are drawn, and the indices.
+/// The number of vertices to draw, and the indices.
 fn load_counts(
     loader: &mut Loader<'_>,
     table: &DeTable<'_>,
@@ -344,7 +344,7 @@ fn load_counts(
     Some((count, indices))
 }
 
-/// The number of vertices for which there is data; `None` inside if no attribute tells it.
+/// The number of vertices for which there is data; the inner `None` if no attribute determines it.
 fn check_rows(
     reader: &mut Reader,
     program: &Program,

@@ -1,7 +1,8 @@
-//! Where scene files, shaders, meshes and images come from.
+//! The sources of scene files, shaders, meshes and images.
 //!
-//! *In:* a path. *Out:* its bytes, or which of the few things that matter to a user went wrong. The loader itself does no
-//! I/O: it asks a [`FileSource`], so tests and pages bring files from memory, and the program brings [`DiskFiles`].
+//! *In:* a path. *Out:* the bytes of the file, or one of the few reasons for failure that matter to a user. *Holds:*
+//! the loader itself does no I/O. It asks a [`FileSource`], so tests and pages supply files from memory, and the
+//! program uses [`DiskFiles`].
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -10,11 +11,11 @@ use std::io::ErrorKind;
 /// Why a file could not be read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum FileError {
-    /// Nothing is there.
+    /// There is no such file.
     Missing,
-    /// A folder stands where a file should be.
+    /// The path is a folder.
     Folder,
-    /// It is there and cannot be read; the system's reason.
+    /// The file exists but cannot be read; the text is the system's reason.
     Unreadable(String),
 }
 
@@ -28,12 +29,12 @@ impl fmt::Display for FileError {
     }
 }
 
-/// Brings files to the loader.
+/// Supplies files to the loader.
 pub trait FileSource {
     /// The bytes of the file at `path`.
     ///
     /// # Errors
-    /// Which of the ways to fail it was.
+    /// The reason for the failure.
     fn read(&self, path: &str) -> Result<Vec<u8>, FileError>;
 }
 
@@ -51,12 +52,12 @@ impl FileSource for DiskFiles {
     }
 }
 
-/// Files held in memory, by path.
+/// Files in memory, by path.
 #[derive(Clone, Debug, Default)]
 pub struct MemoryFiles(pub BTreeMap<String, Vec<u8>>);
 
 impl MemoryFiles {
-    /// The files of a list of paths and texts.
+    /// Files from a list of paths and texts.
     pub fn new<'a>(files: impl IntoIterator<Item = (&'a str, &'a str)>) -> Self {
         Self(files.into_iter().map(|(path, text)| (path.to_owned(), text.as_bytes().to_vec())).collect())
     }
@@ -68,7 +69,7 @@ impl FileSource for MemoryFiles {
     }
 }
 
-/// The path of a file that the file at `from` names: beside it, unless it is absolute.
+/// The path of a file that the file at `from` refers to: relative to its folder, unless it is absolute.
 pub(crate) fn beside(from: &str, path: &str) -> String {
     match std::path::Path::new(from).parent() {
         Some(folder) => folder.join(path).to_string_lossy().into_owned(),

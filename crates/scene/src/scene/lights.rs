@@ -1,8 +1,8 @@
-//! `[[light]]` and `global_ambient`: what uniforms of the library's module `scene` are filled with.
+//! `[[light]]` and `global_ambient`: the values for uniforms of the library's module `scene`.
 //!
-//! *In:* the scene's tables. *Out:* [`Lighting`], and for a draw the values of each member of its lights by name.
-//! *Holds:* places and directions are computed in f64, in world space or in the draw's eye space, and rounded once.
-//! Directions keep the length that the scene gives them.
+//! *In:* the scene's tables. *Out:* [`Lighting`], and for a draw the value of each member of its lights by name.
+//! *Holds:* positions and directions are computed in f64, in world space or in the draw's eye space, and rounded
+//! once. Directions keep the length given in the scene.
 
 use super::reader::{Node, Reader};
 use glam::{DMat4, DVec3};
@@ -11,7 +11,7 @@ use glisten_front::diagnostic::codes::scenes::SCENE_MISSING_KEY;
 use glisten_front::source::Span;
 use toml::de::DeTable;
 
-/// The kinds of lights, numbered as the module's constants `LIGHT_DIRECTIONAL` and the others are.
+/// The kinds of lights, with the numbers of the module's constants `LIGHT_DIRECTIONAL` and so on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
     Directional,
@@ -27,17 +27,17 @@ const KINDS: &[(&str, Kind)] = &[
     ("hemisphere", Kind::Hemisphere),
 ];
 
-/// Which space positions and directions are given in.
+/// The space of positions and directions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum LightSpace {
     World,
-    /// The camera's: it stands at the origin and looks down -z.
+    /// Eye space: the camera is at the origin and looks down -z.
     Eye,
 }
 
 pub(super) const LIGHT_SPACES: &[(&str, LightSpace)] = &[("world", LightSpace::World), ("eye", LightSpace::Eye)];
 
-/// A value for a member of a struct of uniforms.
+/// A value for a member of a uniform struct.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Member {
     Int(i32),
@@ -49,14 +49,14 @@ pub(super) enum Member {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Lighting {
     pub(super) lights: Vec<Light>,
-    /// Light from everywhere that belongs to no light: L_glob of (100).
+    /// Ambient light that belongs to no light source: L_glob of (100).
     pub(super) global_ambient: [f64; 3],
 }
 
 /// One light.
 #[derive(Clone, Debug)]
 pub(super) struct Light {
-    /// Its table.
+    /// The span of its table.
     pub(super) span: Span,
     kind: Kind,
     position: DVec3,
@@ -120,7 +120,7 @@ impl Light {
         require(reader, table, span, place, kind)?;
         let position = DVec3::from(reader.reals(table, "position", [0.0; 3]));
         let direction = match kind {
-            // The struct has the way that the light goes.
+            // In the struct, the direction is that of the light's travel.
             Kind::Directional => -DVec3::from(reader.reals(table, "towards", [0.0, 1.0, 0.0])),
             Kind::Spot if table.contains_key("target") => {
                 DVec3::from(reader.reals(table, "target", [0.0; 3])) - position
@@ -147,7 +147,7 @@ impl Light {
         })
     }
 
-    /// The members of the struct `Light` by name.
+    /// The members of the struct `Light`, by name.
     pub(super) fn members(&self, space: LightSpace, view: DMat4) -> [(&'static str, Member); 8] {
         let (position, direction) = match space {
             LightSpace::World => (self.position, self.direction),
@@ -166,7 +166,7 @@ impl Light {
     }
 }
 
-/// Reports a key without which a light of this kind is nowhere, or shines nowhere.
+/// Reports a missing key without which a light of this kind has no position or direction.
 fn require(reader: &mut Reader, table: &DeTable<'_>, span: Span, place: &str, kind: Kind) -> Option<()> {
     let wanted: &[&str] = match kind {
         Kind::Directional => &["towards"],
@@ -185,7 +185,7 @@ fn require(reader: &mut Reader, table: &DeTable<'_>, span: Span, place: &str, ki
 mod tests {
     use super::*;
 
-    /// What the module calls a number must be what the scene gives.
+    /// The module's constants must be equal to the numbers in a scene.
     #[test]
     fn kinds_have_the_numbers_of_the_module() {
         let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../shader_lib/lights.glsl");

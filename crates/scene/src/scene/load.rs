@@ -1,8 +1,8 @@
-//! [`load`]: a scene file into a [`Scene`].
+//! [`load`]: reads a scene file as a [`Scene`].
 //!
-//! *In:* the path of a scene, a [`FileSource`], a [`Compiler`]. *Out:* [`Loaded`]: the scene if nothing is wrong, and
-//! everything that was found, in the scene and in the shaders that it names.
-//! *Holds:* all mistakes of a scene are reported, not only the first; a scene with an error is not handed on.
+//! *In:* the path of a scene, a [`FileSource`], a [`Compiler`]. *Out:* [`Loaded`]: the scene, if there are no errors,
+//! and all diagnostics of the scene and of its shaders. *Holds:* all errors of a scene are reported, not only the
+//! first; a scene with an error is not passed on.
 
 use super::draw::load_draw;
 use super::files::{FileError, FileSource, beside};
@@ -33,16 +33,16 @@ pub const MAX_ATTACHMENTS: u32 = 8;
 
 const KEYS: &[&str] = &["framebuffer", "draw", "camera", "light", "material", "global_ambient", "report", "gallery"];
 
-/// What came of loading a scene.
+/// The result of loading a scene.
 #[derive(Clone, Debug)]
 pub struct Loaded {
     /// The scene, if there are no errors.
     pub scene: Option<Scene>,
     /// The scene file and all shaders.
     pub sources: SourceMap,
-    /// Everything that was found.
+    /// All diagnostics.
     pub diagnostics: Diagnostics,
-    /// Whether a file that was named is missing, a folder or unreadable: exit code 2 rather than 1.
+    /// Whether a file is missing, a folder or unreadable: exit code 2 rather than 1.
     pub io_error: bool,
 }
 
@@ -64,7 +64,7 @@ pub fn load(path: &str, files: &dyn FileSource, library: &dyn Library, compiler:
     Loaded { scene, sources, diagnostics: reader.diagnostics, io_error }
 }
 
-/// What makes two draws share a program.
+/// What identifies a program: draws with the same key share it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct ProgramKey {
     pub(super) files: Vec<(Stage, String)>,
@@ -73,7 +73,7 @@ pub(super) struct ProgramKey {
     pub(super) defines: Vec<(String, String)>,
 }
 
-/// What a scene says for all its draws.
+/// What a scene defines for all its draws.
 pub(super) struct Surroundings<'t, 'i> {
     pub(super) camera: Option<&'t DeTable<'i>>,
     pub(super) material: Option<&'t Node<'i>>,
@@ -81,7 +81,7 @@ pub(super) struct Surroundings<'t, 'i> {
     pub(super) framebuffer: Framebuffer,
 }
 
-/// The file that a scene means by `<glisten/programs/phong.frag>`.
+/// The file that a scene refers to with `<glisten/programs/phong.frag>`.
 pub(super) fn library_file(name: &str) -> Option<&str> {
     name.strip_prefix("<glisten/programs/")?.strip_suffix('>')
 }
@@ -140,7 +140,7 @@ impl Loader<'_> {
         complete.then_some(Scene { name, framebuffer, draws })
     }
 
-    /// Warns of lights and a material that no program asks for.
+    /// Warns about lights and a material that no program uses.
     fn warn_unlit(&mut self, table: &DeTable<'_>, draws: &[Draw]) {
         for (key, root) in [("light", "light"), ("material", "material"), ("global_ambient", "global_ambient")] {
             let Some((name, _)) = table.get_key_value(key) else { continue };
@@ -216,13 +216,13 @@ impl Loader<'_> {
         Some(Framebuffer { width, height, clear, format, attachments })
     }
 
-    /// The clear color, rounded to `f32` as `glClearColor` takes it.
+    /// The clear color, rounded to `f32` as by `glClearColor`.
     fn clear(&mut self, table: &DeTable<'_>) -> [f64; 4] {
         let color = self.reader.reals(table, "clear", [0.0, 0.0, 0.0, 1.0]);
         color.map(|channel| f64::from(channel as f32))
     }
 
-    /// The text of a file that the scene names, or `None` and a diagnostic at `span`.
+    /// The contents of a file that the scene refers to, or `None` and a diagnostic at `span`.
     pub(super) fn bytes(&mut self, name: &str, span: Span) -> Option<(String, Vec<u8>)> {
         let path = beside(self.path, name);
         match self.files.read(&path) {
@@ -240,7 +240,7 @@ impl Loader<'_> {
         self.reader.report(Diagnostic::new(&SCENE_FILE_UNREADABLE, span, message));
     }
 
-    /// The program of a draw, compiled once for all draws that name the same files and bindings. `places` are those of
+    /// The program of a draw, compiled once for all draws with the same files and bindings. `places` are the spans of
     /// the files' names in the scene.
     pub(super) fn program(&mut self, key: ProgramKey, places: &[Span]) -> Option<Arc<Program>> {
         if let Some((_, program)) = self.programs.iter().find(|(known, _)| *known == key) {
@@ -283,7 +283,7 @@ impl Loader<'_> {
         compilation.program.map(Arc::new)
     }
 
-    /// The text of a shader that the scene names, a file or one of the library's.
+    /// The text of a shader that the scene refers to: a file, or one from the library.
     fn shader_text(&mut self, name: &str, span: Span) -> Option<(String, Arc<str>)> {
         let Some(file) = library_file(name) else {
             let (path, bytes) = self.bytes(name, span)?;
@@ -299,7 +299,7 @@ impl Loader<'_> {
         None
     }
 
-    /// Reports a key that must be there.
+    /// Reports a required key that is missing.
     pub(super) fn missing_key(&mut self, span: Span, message: &str, help: &str) {
         self.reader.report(Diagnostic::new(&SCENE_MISSING_KEY, span, message).help(help));
     }

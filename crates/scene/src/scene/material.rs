@@ -1,8 +1,9 @@
-//! `[material]` and `[draw.material]`: what the uniforms `material` and `finish` of the library's module `scene` are filled with.
+//! `[material]` and `[draw.material]`: the values for the uniforms `material` and `finish` of the library's module
+//! `scene`.
 //!
-//! *In:* the table of the draw, or else of the scene. *Out:* the values of each member by name, and the table, of which
-//! `textures` reads `decal`, `ramp` and `highlight`.
-//! *Holds:* a draw's own material replaces the scene's as a whole; the scene's passes by programs that declare none.
+//! *In:* the table of the draw, or else of the scene. *Out:* the value of each member by name, and the table, from
+//! which `textures` reads `decal`, `ramp` and `highlight`. *Holds:* a draw's own material replaces the scene's as a
+//! whole. The scene's material does not affect programs that declare none.
 
 use super::lights::Member;
 use super::reader::{Node, Reader};
@@ -11,7 +12,7 @@ use glisten_front::diagnostic::codes::scenes::{SCENE_MISSING_KEY, SCENE_UNKNOWN_
 use glisten_front::link::Program;
 use toml::de::DeTable;
 
-/// The samplers of the library's programs that a material may bring a texture for.
+/// The samplers of the library's programs for which a material may provide a texture.
 pub(super) const TEXTURES: &[&str] = &["decal", "ramp", "highlight"];
 
 const KEYS: &[&str] = &[
@@ -29,7 +30,7 @@ const KEYS: &[&str] = &[
     "highlight",
 ];
 
-/// Numbered as the module's constants `DIFFUSE_NONE` and the others are.
+/// Diffuse models, with the numbers of the module's constants `DIFFUSE_NONE` and so on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum DiffuseModel {
     None,
@@ -47,7 +48,7 @@ const DIFFUSE_MODELS: &[(&str, DiffuseModel)] = &[
     ("toon_hard", DiffuseModel::ToonHard),
 ];
 
-/// Numbered as the module's constants `SPECULAR_NONE` and the others are.
+/// Specular models, with the numbers of the module's constants `SPECULAR_NONE` and so on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum SpecularModel {
     None,
@@ -76,7 +77,7 @@ const SPECULAR_MODELS: &[(&str, SpecularModel)] = &[
 /// The uniforms of a material by name.
 pub(super) type Material = [(&'static str, Member); 9];
 
-/// The material of a draw with its node; `None` if there is none, or the program wants none.
+/// The material of a draw, with its node; `None` if there is none, or if the program does not use one.
 pub(super) fn load_material<'t, 'i>(
     reader: &mut Reader,
     draw: &'t DeTable<'i>,
@@ -119,7 +120,7 @@ pub(super) fn load_material<'t, 'i>(
     Some((members, node))
 }
 
-/// Reports a model that looks up a texture which is not there.
+/// Reports a model that reads a texture which is not there.
 fn require(reader: &mut Reader, table: &DeTable<'_>, model: &str, texture: &str, wanted: bool) -> Option<()> {
     let Some(node) = table.get(model).filter(|_| wanted && !table.contains_key(texture)) else { return Some(()) };
     let span = reader.span_of(node);
@@ -134,7 +135,7 @@ fn require(reader: &mut Reader, table: &DeTable<'_>, model: &str, texture: &str,
 mod tests {
     use super::*;
 
-    /// What the module calls a number must be what the scene gives.
+    /// The module's constants must be equal to the numbers in a scene.
     #[test]
     fn models_have_the_numbers_of_the_module() {
         let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../shader_lib/scene.glsl");

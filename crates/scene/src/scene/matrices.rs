@@ -1,9 +1,8 @@
-//! `[camera]`, `[draw.camera]`, `[draw.transform]`: the matrices that `[draw.matrices]` hands to uniforms by role.
+//! `[camera]`, `[draw.camera]`, `[draw.transform]`: the matrices that `[draw.matrices]` assigns to uniforms by role.
 //!
-//! *In:* eye, target and the like in degrees and world units. *Out:* matrices computed in f64 and rounded once to f32,
-//! column-major.
-//! *Holds:* right-handed eye space that looks down -z, clip space z in `[-w, w]`, as `gluLookAt` and `gluPerspective`
-//! make them.
+//! *In:* the eye, the target and so on, in degrees and world units. *Out:* column-major matrices, computed in f64 and
+//! rounded once to f32. *Holds:* eye space is right-handed and looks down -z; clip-space z is in `[-w, w]`, as with
+//! `gluLookAt` and `gluPerspective`.
 
 use super::model::Framebuffer;
 use super::reader::Reader;
@@ -11,7 +10,7 @@ use glam::{DMat3, DMat4, DQuat, DVec3};
 use glisten_front::hir::{Scalar, Type};
 use toml::de::DeTable;
 
-/// What a uniform is filled with.
+/// The role of a uniform that a matrix or position fills.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Role {
     Model,
@@ -22,9 +21,9 @@ pub(super) enum Role {
     ModelViewProjection,
     /// The inverse transpose of the upper left 3x3 of the model-view matrix.
     Normal,
-    /// Likewise of the model matrix.
+    /// The inverse transpose of the upper left 3x3 of the model matrix.
     ModelNormal,
-    /// The camera's place in world space.
+    /// The camera's position in world space.
     Eye,
 }
 
@@ -43,7 +42,7 @@ pub(super) const ROLES: &[(&str, Role)] = &[
 const CAMERA_KEYS: &[&str] = &["eye", "target", "up", "fovy", "aspect", "near", "far", "ortho"];
 const TRANSFORM_KEYS: &[&str] = &["translate", "rotate", "scale"];
 
-/// Model, view and projection of a draw.
+/// The model, view and projection of a draw.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct View {
     model: DMat4,
@@ -53,7 +52,7 @@ pub(super) struct View {
 }
 
 impl View {
-    /// The matrices of a draw: its own camera, or the scene's, or none (identity).
+    /// The matrices of a draw: from its own camera, or the scene's, or the identity.
     pub(super) fn load(
         reader: &mut Reader,
         draw: &DeTable<'_>,
@@ -89,12 +88,12 @@ impl View {
         };
     }
 
-    /// From world space to eye space.
+    /// The matrix from world space to eye space.
     pub(super) fn view_matrix(&self) -> DMat4 {
         self.view
     }
 
-    /// The type of a role and its numbers.
+    /// The type of a role, and its numbers.
     pub(super) fn matrix(&self, role: Role) -> (Type, Vec<f32>) {
         let model_view = self.view * self.model;
         let four = |matrix: DMat4| (Type::Matrix(4, 4), round(&matrix.to_cols_array()));
@@ -158,7 +157,8 @@ fn orthographic(half_width: f64, half_height: f64, near: f64, far: f64) -> DMat4
     DMat4::from_translation(shift) * DMat4::from_scale(scale)
 }
 
-/// Scale first, then rotation (degrees about x, then y, then z; or `[degrees, x, y, z]` about an axis), then translation.
+/// Scales first, then rotates (degrees about x, then y, then z; or `[degrees, x, y, z]` about an axis), then
+/// translates.
 fn load_transform(reader: &mut Reader, table: &DeTable<'_>) -> DMat4 {
     reader.check_keys(table, "a transform", TRANSFORM_KEYS);
     let translate = DVec3::from(reader.reals(table, "translate", [0.0; 3]));

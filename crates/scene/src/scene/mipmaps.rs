@@ -1,13 +1,13 @@
-//! Mipmap chains, box-filtered (OpenGL 3.2 §3.8.11).
+//! Computes mipmap chains with a box filter (OpenGL 3.2 §3.8.11).
 //!
-//! *In:* the first level. *Out:* all levels down to one texel. Each texel is the mean of the texels of the level before
-//! that it covers, weighted by how much of each it covers; for even sizes, the mean of 2, 4 or 8. Sums are in f64 and
-//! rounded once a level, as a texture in `rgba32f` stores them. Faces and layers are filtered apart.
+//! *In:* the first level. *Out:* all levels down to one texel. Each texel is the weighted mean of the texels of the
+//! level before that it covers; for even sizes, the mean of 2, 4 or 8. *Holds:* sums are in f64 and rounded once per
+//! level, as a texture in `rgba32f` stores them. Faces and layers are filtered separately.
 
 use super::model::{Texels, TextureLevel};
 use glisten_front::hir::{SamplerDim, SamplerType};
 
-/// The whole chain that starts with `base`. Integers are not averaged: such textures keep one level.
+/// The whole chain that starts with `base`. Integers are not averaged: such textures have only one level.
 pub(super) fn chain(base: TextureLevel, kind: SamplerType) -> Vec<TextureLevel> {
     let shrinks_depth = kind.dim == SamplerDim::D3;
     let mut levels = vec![base];
@@ -22,7 +22,7 @@ pub(super) fn chain(base: TextureLevel, kind: SamplerType) -> Vec<TextureLevel> 
     levels
 }
 
-/// The weights of the texels of `from` that texel `index` of `to` covers: first texel, weights that sum to 1.
+/// The texels of `from` that texel `index` of `to` covers: the first one, and weights that add up to 1.
 fn footprint(from: u32, to: u32, index: u32) -> (u32, Vec<f64>) {
     let scale = f64::from(from) / f64::from(to);
     let (start, end) = (f64::from(index) * scale, f64::from(index + 1) * scale);

@@ -1,11 +1,11 @@
-//! Scene files: what is drawn, with which programs and which data.
+//! Scene files: what to draw, with which programs and which data.
 //!
-//! *In:* the TOML of a scene (`[framebuffer]`, `[[draw]]`; see `docs/scenes.md`) and the compiled programs it names.
-//! *Out:* a [`Scene`] in which everything is resolved: vertex data by attribute, uniform values by root, textures by
-//! sampler. `cpu` and `gpu` draw it and know nothing of TOML.
+//! *In:* the TOML of a scene (`[framebuffer]`, `[[draw]]`; see `docs/scenes.md`) and the compiled programs that it
+//! names. *Out:* a [`Scene`] with everything resolved: vertex data by attribute, uniform values by root, textures by
+//! sampler. `cpu` and `gpu` draw it and know nothing about TOML.
 //!
-//! *Holds:* semantics are OpenGL's (lower-left origin, last vertex provoking, clip space z in `[-w, w]`). Files come
-//! through a [`FileSource`]; only its implementation [`DiskFiles`] does I/O.
+//! *Holds:* semantics are OpenGL's (lower-left origin, last vertex provoking, clip-space z in `[-w, w]`). A
+//! [`FileSource`] supplies the files; only its implementation [`DiskFiles`] does I/O.
 
 mod attributes;
 mod draw;

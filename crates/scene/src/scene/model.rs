@@ -1,4 +1,7 @@
 //! [`Scene`]: a scene with every name resolved.
+//!
+//! *Holds:* indices are below the length of each attribute's data; the values of a root have the length of its type;
+//! a runner can draw a scene without further checks of sizes.
 
 use glisten_front::hir::{SamplerType, ScalarValue};
 use glisten_front::link::Program;
@@ -9,24 +12,24 @@ use std::sync::Arc;
 pub struct Scene {
     /// The stem of the scene file's name.
     pub name: String,
-    /// What is drawn to.
+    /// The framebuffer.
     pub framebuffer: Framebuffer,
-    /// What is drawn, in order.
+    /// The draws, in order.
     pub draws: Vec<Draw>,
 }
 
-/// The color attachments and the depth buffer (cleared to 1).
+/// The color attachments, and the depth buffer (cleared to 1).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Framebuffer {
-    /// Pixels from left to right.
+    /// The width in pixels.
     pub width: u32,
-    /// Pixels from bottom to top.
+    /// The height in pixels.
     pub height: u32,
     /// The color that every attachment is cleared to.
     pub clear: [f64; 4],
     /// The format of every attachment.
     pub format: Format,
-    /// How many color attachments.
+    /// The number of color attachments.
     pub attachments: u32,
 }
 
@@ -41,7 +44,7 @@ pub enum Format {
     Rgba32Uint,
 }
 
-/// How vertices make primitives (OpenGL 3.2 §2.6.1).
+/// How vertices form primitives (OpenGL 3.2 §2.6.1).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub enum Primitive {
@@ -54,7 +57,7 @@ pub enum Primitive {
     TriangleFan,
 }
 
-/// Which faces are dropped.
+/// Which faces are culled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub enum Cull {
@@ -77,7 +80,7 @@ pub enum Compare {
     Always,
 }
 
-/// Blend factors (OpenGL 3.2 table 4.2), the constant-color ones left out.
+/// Blend factors (OpenGL 3.2 table 4.2), without those of a constant color.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub enum BlendFactor {
@@ -94,28 +97,28 @@ pub enum BlendFactor {
     SrcAlphaSaturate,
 }
 
-/// Fixed state of a draw.
+/// The fixed-function state of a draw.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct State {
     /// The primitive.
     pub primitive: Primitive,
-    /// Which faces are dropped.
+    /// Which faces are culled.
     pub cull: Cull,
-    /// Whether counterclockwise in the window is front.
+    /// Whether counterclockwise triangles in the window are front faces.
     pub front_ccw: bool,
-    /// Whether the last vertex provokes (OpenGL's default), or the first.
+    /// Whether the last vertex is the provoking one (OpenGL's default), or the first.
     pub provoking_last: bool,
-    /// Whether the depth test is on; without it depth is not written either.
+    /// Whether the depth test is enabled; without it, depth is not written either.
     pub depth_test: bool,
-    /// Whether a passed test writes.
+    /// Whether a passed test writes depth.
     pub depth_write: bool,
-    /// The test.
+    /// The comparison function of the depth test.
     pub depth_func: Compare,
-    /// Source and destination factor for color and alpha alike; `None` for no blending.
+    /// The source and destination factors, the same for color and alpha; `None` for no blending.
     pub blend: Option<(BlendFactor, BlendFactor)>,
     /// How many clip distances are enabled.
     pub clip_distances: u32,
-    /// Whether `gl_PointSize` counts; else points are one pixel wide.
+    /// Whether `gl_PointSize` has an effect; otherwise points are one pixel wide.
     pub program_point_size: bool,
 }
 
@@ -124,30 +127,31 @@ pub struct State {
 pub struct Draw {
     /// The program.
     pub program: Arc<Program>,
-    /// Fixed state.
+    /// The fixed-function state.
     pub state: State,
-    /// How many vertices are drawn: entries of `indices`, if there are any.
+    /// The number of vertices to draw, or of entries of `indices`, if there are any.
     pub vertex_count: u32,
-    /// Indices of vertices; every one is below the length of each attribute's data.
+    /// The vertex indices, each below the length of each attribute's data.
     pub indices: Option<Vec<u32>>,
-    /// How many instances.
+    /// The number of instances.
     pub instances: u32,
-    /// Data of each of the interface's attributes, in its order; `None` for inactive ones without data.
+    /// The data of each of the interface's attributes, in order; `None` for inactive ones without data.
     pub attributes: Vec<Option<AttributeData>>,
-    /// The value of each of the interface's roots, in its order, flat ([`Types::flat_len`](glisten_front::hir::Types::flat_len)).
+    /// The value of each of the interface's roots, in order, flat ([`Types::flat_len`](glisten_front::hir::Types::flat_len)).
     pub uniforms: Vec<Vec<ScalarValue>>,
-    /// The texture of each of the interface's sampler slots, in its order.
+    /// The texture of each of the interface's sampler slots, in order.
     pub textures: Vec<Option<Arc<Texture>>>,
-    /// Uniforms that change from frame to frame.
+    /// The uniforms that change from frame to frame.
     pub dynamic: Vec<String>,
 }
 
-/// Data of one attribute.
+/// The data of one attribute.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AttributeData {
-    /// Numbers a vertex, at most as many as the declared type has; for matrices all columns.
+    /// The number of components per vertex, at most as many as the declared type has; for matrices, those of all
+    /// columns.
     pub size: u32,
-    /// 0: a row a vertex; n: a row every n instances.
+    /// 0: one row per vertex; n: one row per n instances.
     pub divisor: u32,
     /// The numbers.
     pub values: AttributeValues,
@@ -163,7 +167,7 @@ pub enum AttributeValues {
 }
 
 impl AttributeValues {
-    /// How many numbers.
+    /// The number of values.
     pub fn len(&self) -> usize {
         match self {
             Self::Float(values) => values.len(),
@@ -179,8 +183,8 @@ impl AttributeValues {
 }
 
 impl AttributeData {
-    /// Component `component` of column `column` (of columns `rows` components high) for a vertex and an instance.
-    /// Missing components come from (0, 0, 0, 1); rows past the end are (0, 0, 0, 1), too.
+    /// Component `component` of column `column` (of columns that are `rows` components high) for a vertex and an
+    /// instance. Missing components come from (0, 0, 0, 1); rows past the end are (0, 0, 0, 1), too.
     pub fn fetch(&self, vertex: u32, instance: u32, column: u32, rows: u32, component: u32) -> ScalarValue {
         let row = instance.checked_div(self.divisor).unwrap_or(vertex);
         let within = column * rows + component;
@@ -201,13 +205,13 @@ impl AttributeData {
     }
 }
 
-/// Magnification and minification alike.
+/// The filter, the same for magnification and minification.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub enum Filter {
     Nearest,
     Linear,
-    /// Linear within and between levels.
+    /// Linear within levels and between them.
     Trilinear,
 }
 
@@ -220,7 +224,7 @@ pub enum Wrap {
     MirroredRepeat,
 }
 
-/// The texels of a level, RGBA each.
+/// The texels of a level, as RGBA.
 #[derive(Clone, Debug, PartialEq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub enum Texels {
@@ -234,25 +238,25 @@ pub enum Texels {
 pub struct TextureLevel {
     /// Texels along s.
     pub width: u32,
-    /// Texels along t; 1 for one-dimensional ones.
+    /// Texels along t; 1 for one-dimensional textures.
     pub height: u32,
-    /// Texels along p, or layers, or 6 faces; 1 otherwise.
+    /// Texels along p, or the number of layers, or 6 faces; otherwise 1.
     pub depth: u32,
     /// `width * height * depth` texels.
     pub texels: Texels,
 }
 
-/// A texture with its sampler.
+/// A texture and its sampler.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Texture {
-    /// Dimension, array, shadow and texel kind, as the sampler that reads it.
+    /// The dimensionality, array, shadow and texel kind, the same as of the sampler that reads it.
     pub kind: SamplerType,
-    /// At least one level; each is half of the one before, rounded down, at least 1.
+    /// The levels, at least one; each is half the size of the one before, rounded down, at least 1.
     pub levels: Vec<TextureLevel>,
     /// The filter.
     pub filter: Filter,
-    /// All directions alike.
+    /// The wrap mode, the same in all directions.
     pub wrap: Wrap,
-    /// For shadow samplers.
+    /// The comparison function, for shadow samplers.
     pub compare: Compare,
 }

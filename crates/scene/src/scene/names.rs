@@ -1,4 +1,4 @@
-//! The names that scene files use for fixed state: one row a name.
+//! The names that scene files use for fixed-function state, one row per name.
 
 use super::model::{BlendFactor, Compare, Cull, Filter, Format, Primitive, Wrap};
 use glisten_front::hir::{SamplerDim, Scalar};
@@ -23,10 +23,10 @@ pub(super) const PRIMITIVES: &[(&str, Primitive)] = &[
 
 pub(super) const CULLS: &[(&str, Cull)] = &[("none", Cull::None), ("front", Cull::Front), ("back", Cull::Back)];
 
-/// Whether counterclockwise is front.
+/// Whether counterclockwise faces are front faces.
 pub(super) const FRONT_FACES: &[(&str, bool)] = &[("ccw", true), ("cw", false)];
 
-/// Whether the last vertex provokes.
+/// Whether the last vertex is the provoking one.
 pub(super) const PROVOKING: &[(&str, bool)] = &[("last", true), ("first", false)];
 
 pub(super) const COMPARES: &[(&str, Compare)] = &[
@@ -75,7 +75,7 @@ pub(super) const WRAPS: &[(&str, Wrap)] = &[
 pub(super) const ATTRIBUTE_KINDS: &[(&str, Scalar)] =
     &[("float", Scalar::Float), ("int", Scalar::Int), ("uint", Scalar::Uint)];
 
-/// The shape of a texture, whether it is arrayed, whether it is for a shadow sampler.
+/// The dimensionality of a texture, whether it is an array, and whether it is for a shadow sampler.
 pub(super) type TextureKind = (SamplerDim, bool, bool);
 
 pub(super) const TEXTURE_KINDS: &[(&str, TextureKind)] = &[

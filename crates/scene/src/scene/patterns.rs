@@ -2,9 +2,9 @@
 //!
 //! *In:* the name of a pattern and its parameters. *Out:* a level of float texels, computed in f64 and rounded once.
 //!
-//! *Holds:* tables over a cosine (`specular`, `metal`, `soft`, `hemisphere`) hold f(i / (n - 1)) in texel i, so that their
-//! ends are exact and the library's coordinate `lutCoordinate` meets them; pictures (`checker`, `tile`, `sky`) hold the
-//! color of each texel's center and repeat. The formulas stand in `docs/scenes.md`.
+//! *Holds:* tables over a cosine (`specular`, `metal`, `soft`, `hemisphere`) contain f(i / (n - 1)) in texel i, so
+//! that their ends are exact and match the library's coordinate `lutCoordinate`. Pictures (`checker`, `tile`, `sky`)
+//! contain the color at each texel's center and repeat. The formulas are in `docs/scenes.md`.
 
 use super::load::Loader;
 use super::model::{Texels, TextureLevel, Wrap};
@@ -16,22 +16,22 @@ use toml::de::DeTable;
 
 type Color = [f64; 3];
 
-/// A pattern's name, formula and defaults.
+/// A pattern: its name, formula and defaults.
 #[derive(Clone, Copy)]
 pub(super) struct Pattern {
     name: &'static str,
-    /// The parameters that it has.
+    /// The parameters that it uses.
     keys: &'static [&'static str],
-    /// Texels along s and t unless the scene says.
+    /// The number of texels along s and t, unless the scene gives them.
     size: (u32, u32),
-    /// Whether texel i stands for i / (n - 1), or else for its center.
+    /// Whether texel i is the value at i / (n - 1) rather than at its center.
     is_table: bool,
     from: Color,
     to: Color,
     formula: fn(&Parameters, f64, f64) -> Color,
 }
 
-/// What the formulas are given.
+/// The parameters of a formula.
 struct Parameters {
     from: Color,
     to: Color,
@@ -124,20 +124,20 @@ const PATTERNS: &[Pattern] = &[
     },
 ];
 
-/// Whether the scene asks for a pattern, and which keys it brings to those of any texture.
+/// The pattern that a scene requests, if it does, with the keys that it adds to those of any texture.
 pub(super) fn find(table: &DeTable<'_>) -> Option<Pattern> {
     let name = table.get("pattern")?.get_ref().as_str()?;
     PATTERNS.iter().find(|pattern| pattern.name == name).copied()
 }
 
 impl Pattern {
-    /// Tables clamp unless the scene says otherwise: a table that repeats mixes its two ends at both.
+    /// The default wrap mode. Tables clamp: a table that repeats would mix its two ends at both.
     pub(super) fn wrap(&self) -> Wrap {
         if self.is_table { Wrap::ClampToEdge } else { Wrap::Repeat }
     }
 }
 
-/// The level that a texture's table asks for; `node` is its `pattern`.
+/// The level for a texture's table; `node` is its `pattern`.
 pub(super) fn load(
     loader: &mut Loader<'_>,
     table: &DeTable<'_>,
@@ -215,14 +215,14 @@ fn is_odd(p: &Parameters, s: f64, t: f64) -> bool {
     ((s * p.cells).floor() + (t * p.cells).floor()).rem_euclid(2.0) >= 1.0
 }
 
-/// Bands that grow brighter towards the highlight, and the highlight's power: the mottled look of a metal that mirrors its
-/// surroundings.
+/// Bands that grow brighter towards the highlight, times the highlight's power: the mottled look of metal that
+/// mirrors its surroundings.
 fn metal(p: &Parameters, x: f64) -> f64 {
     let band = 0.5 - 0.5 * (TAU * p.bands * x).cos();
     (0.12 * x + 0.5 * x * band + 0.9 * x.powf(p.exponent)).min(1.0)
 }
 
-/// Square tiles, every other one a little darker, parted by gaps of `gap` of a tile.
+/// Square tiles, every other one a little darker, separated by gaps of `gap` of a tile.
 fn tile(p: &Parameters, s: f64, t: f64) -> Color {
     let inside = |x: f64| {
         let place = (x * p.cells).rem_euclid(1.0);
@@ -235,7 +235,8 @@ fn tile(p: &Parameters, s: f64, t: f64) -> Color {
     p.to.map(|channel| channel * level)
 }
 
-/// From the horizon (t = 0) to the zenith (t = 1), with clouds: five octaves of crossed sine waves, whole waves around.
+/// From the horizon (t = 0) to the zenith (t = 1), with clouds: five octaves of crossed sine waves, with whole
+/// numbers of waves around.
 fn sky(p: &Parameters, s: f64, t: f64) -> Color {
     let mut cloud = 0.0;
     for octave in 0..5 {
@@ -301,7 +302,7 @@ mod tests {
         let checker = texels("checker", 64, 64);
         assert_eq!(checker[0][0], 0.9);
         assert_eq!((checker[8][0], checker[63][0]), (0.2, 0.2));
-        // Around the horizon neighbors differ no more at the seam than elsewhere.
+        // Around the horizon, neighbors at the seam differ no more than elsewhere.
         let sky = texels("sky", 512, 64);
         for row in sky.chunks(512) {
             let step = |a: [f32; 4], b: [f32; 4]| (a[0] - b[0]).abs();

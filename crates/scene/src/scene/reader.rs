@@ -1,8 +1,8 @@
-//! Typed access to the TOML of a scene: every value is asked for by the type it must have, and what is not so is
-//! reported where it stands.
+//! Typed access to the TOML of a scene: every value is requested by its required type, and any other value is
+//! reported at its position.
 //!
-//! *In:* spanned TOML values. *Out:* numbers, texts, choices, or `None` with a diagnostic.
-//! *Holds:* numbers are read from their decimal text straight to `f32`, so they are rounded once.
+//! *In:* TOML values with spans. *Out:* numbers, texts, choices, or `None` with a diagnostic. *Holds:* numbers are
+//! parsed from their decimal text directly to `f32`, so they are rounded once.
 
 use glisten_front::diagnostic::codes::scenes::{SCENE_UNKNOWN_KEY, SCENE_WRONG_TYPE, SCENE_WRONG_VALUE};
 use glisten_front::diagnostic::{Code, Diagnostic, Diagnostics, did_you_mean};
@@ -11,26 +11,26 @@ use std::ops::{Range, RangeInclusive};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-/// A value with its place.
+/// A value and its span.
 pub(super) type Node<'i> = Spanned<DeValue<'i>>;
 
-/// A number or truth value of a scene, with its place.
+/// A number or boolean of a scene, and its span.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Number {
     pub(super) value: NumberValue,
     pub(super) span: Span,
 }
 
-/// What a [`Number`] is.
+/// The value of a [`Number`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum NumberValue {
     Bool(bool),
-    /// Every integer of TOML, and the nearest `f32` to it.
+    /// An integer of TOML, and the nearest `f32`.
     Int(i64, f32),
     Float(f32),
 }
 
-/// Reads one scene file and collects what is wrong with it.
+/// Reads one scene file and collects its diagnostics.
 #[derive(Debug, Default)]
 pub(super) struct Reader {
     /// The global offset of the file's first byte.
@@ -39,17 +39,17 @@ pub(super) struct Reader {
 }
 
 impl Reader {
-    /// The place of a range of bytes of the file.
+    /// The span of a range of bytes of the file.
     pub(super) fn span(&self, range: Range<usize>) -> Span {
         Span::new(self.base + range.start as u32, self.base + range.end as u32)
     }
 
-    /// The place of a value.
+    /// The span of a value.
     pub(super) fn span_of<T>(&self, node: &Spanned<T>) -> Span {
         self.span(node.span())
     }
 
-    /// Reports `code` at a place and leaves it to the caller to add labels.
+    /// Adds a diagnostic.
     pub(super) fn report(&mut self, diagnostic: Diagnostic) {
         self.diagnostics.push(diagnostic);
     }
@@ -77,7 +77,7 @@ impl Reader {
         self.report(Diagnostic::new(&SCENE_WRONG_TYPE, span, message).here(format!("this is of type {found}")));
     }
 
-    /// Reports a value that is not among those allowed.
+    /// Reports a value that is not allowed.
     pub(super) fn wrong_value(&mut self, span: Span, message: impl Into<String>, here: impl Into<String>) {
         self.report(Diagnostic::new(&SCENE_WRONG_VALUE, span, message).here(here));
     }
@@ -184,13 +184,13 @@ impl Reader {
         table.get(key).and_then(|node| self.choice(node, key, names)).unwrap_or(default)
     }
 
-    /// A number, or a list of numbers, or a list of such lists, flat.
+    /// A number, a list of numbers, or a list of such lists, flattened.
     pub(super) fn numbers(&mut self, node: &Node<'_>, key: &str) -> Option<Vec<Number>> {
         let mut numbers = Vec::new();
         if self.gather(node, key, &mut numbers) { Some(numbers) } else { None }
     }
 
-    // As deep as the TOML is nested, which its parser bounds at 80 levels.
+    // Recurses as deep as the TOML is nested, which its parser limits to 80 levels.
     fn gather(&mut self, node: &Node<'_>, key: &str, into: &mut Vec<Number>) -> bool {
         if let Some(array) = node.get_ref().as_array() {
             return array.iter().all(|element| self.gather(element, key, into));

@@ -1,4 +1,4 @@
-//! `[draw.textures]` into [`Texture`]s.
+//! Loads `[draw.textures]` as [`Texture`]s.
 
 use super::draw::report_unknown_name;
 use super::load::Loader;
@@ -28,8 +28,8 @@ const MAX_SIDE: u32 = 8192;
 /// The largest number of texels of a texture's first level.
 const MAX_TEXELS: u64 = 1 << 25;
 
-/// The texture of each sampler slot of the program, in its order: the draw's own, or the material's, or for a sampler of
-/// one of the library's programs (`conventional`) white.
+/// The texture of each sampler slot of the program, in order: the draw's own, or the material's, or, for a sampler of
+/// one of the library's programs (`conventional`), a white one.
 pub(super) fn load_textures(
     loader: &mut Loader<'_>,
     draw: &DeTable<'_>,
@@ -92,7 +92,7 @@ pub(super) fn load_textures(
     textures
 }
 
-/// One texel, or one a face, of (level, level, level, 1).
+/// A texture with one texel (or one per face) of (level, level, level, 1).
 fn unset_texture(kind: SamplerType, level: u8) -> Texture {
     let depth = if kind.dim == SamplerDim::Cube { 6 } else { 1 };
     let texels = match kind.texel {
@@ -140,7 +140,7 @@ fn load_texture(loader: &mut Loader<'_>, node: &Node<'_>, name: &str, kind: Samp
     Some(Texture { kind, levels, filter, wrap, compare })
 }
 
-/// Texels come from one of three places.
+/// Checks that the texels come from exactly one of three origins.
 fn check_origin(loader: &mut Loader<'_>, table: &DeTable<'_>) -> Option<()> {
     let origins = ["values", "file", "pattern"].map(|key| table.get_key_value(key));
     let mut given = origins.into_iter().flatten();
@@ -157,7 +157,7 @@ fn check_kind(loader: &mut Loader<'_>, table: &DeTable<'_>, name: &str, sampler:
     let wanted: TextureKind = (sampler.dim, sampler.arrayed, sampler.shadow);
     if let Some(node) = table.get("kind") {
         let kind = loader.reader.choice(node, "kind", TEXTURE_KINDS)?;
-        // `shadow_` may be left out: the sampler's type tells it.
+        // `shadow_` may be omitted: the type of the sampler implies it.
         let agrees = kind == wanted || (kind.0, kind.1, true) == wanted;
         if !agrees {
             let span = loader.reader.span(node.span());
@@ -178,7 +178,7 @@ fn check_kind(loader: &mut Loader<'_>, table: &DeTable<'_>, name: &str, sampler:
     Some(())
 }
 
-/// Combinations of state that OpenGL calls incomplete (OpenGL 3.2 §3.8.12) or refuses.
+/// Reports combinations of state that OpenGL calls incomplete (OpenGL 3.2 §3.8.12) or rejects.
 fn check_state(
     loader: &mut Loader<'_>,
     table: &DeTable<'_>,
@@ -202,7 +202,7 @@ fn check_state(
     None
 }
 
-/// Width, height and depth of the first level; `values` texels are there, to tell a size that is left out.
+/// The width, height and depth of the first level; the number of `values` determines a size that is omitted.
 fn load_size(
     loader: &mut Loader<'_>,
     table: &DeTable<'_>,
@@ -332,8 +332,8 @@ fn gather<T: Copy>(numbers: &[Number], each: usize, missing: [T; 4], convert: im
         .collect()
 }
 
-/// An image file as a level: 8 or 16 bits a channel as numbers in [0, 1], no gamma. The bottom row is at t = 0, so that
-/// the image stands upright, unless `flip = false`.
+/// Loads an image file as a level: 8 or 16 bits per channel become numbers in [0, 1], without gamma. The bottom row
+/// is at t = 0, so that the image is upright, unless `flip = false`.
 fn load_image(
     loader: &mut Loader<'_>,
     table: &DeTable<'_>,

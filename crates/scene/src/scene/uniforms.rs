@@ -1,4 +1,4 @@
-//! `[draw.uniforms]` and `[draw.matrices]` into the flat values of each root.
+//! Loads `[draw.uniforms]` and `[draw.matrices]` as the flat values of each root.
 //!
 //! *Holds:* a uniform that is not listed keeps its initializer, or is 0 (GLSL 1.50 §4.3.5).
 
@@ -14,25 +14,25 @@ use glisten_front::link::{Program, UniformLeaf};
 use glisten_front::source::Span;
 use toml::de::DeTable;
 
-/// The values of all roots while they are filled.
+/// The values of all roots, while they are being set.
 struct Values<'p> {
     program: &'p Program,
     roots: Vec<Vec<ScalarValue>>,
     set: Vec<Vec<bool>>,
 }
 
-/// What the uniforms of a draw are filled from beside its own table.
+/// The sources of a draw's uniform values besides its own table.
 pub(super) struct Context<'a> {
     pub(super) program: &'a Program,
     pub(super) view: &'a View,
     pub(super) lighting: &'a Lighting,
     pub(super) space: LightSpace,
-    /// Whether matrices go to uniforms of their roles' names: the convention of the library's programs.
+    /// Whether matrices go to uniforms named after their roles, by the convention of the library's programs.
     pub(super) conventional: bool,
 }
 
-/// The value of each root of the program, in its order, flat. What the draw's own tables say counts more than the
-/// scene's lights, the material and the library's conventions.
+/// The value of each root of the program, in order, flat. The draw's own tables take precedence over the scene's
+/// lights, the material and the library's conventions.
 pub(super) fn load_uniforms(
     reader: &mut Reader,
     draw: &DeTable<'_>,
@@ -86,7 +86,7 @@ pub(super) fn load_uniforms(
     values.roots
 }
 
-/// A leaf, or one element of it.
+/// A leaf, or one element of a leaf.
 struct Target<'p> {
     leaf: &'p UniformLeaf,
     element: Option<u32>,
@@ -108,7 +108,7 @@ impl<'p> Values<'p> {
         Self { program, roots, set }
     }
 
-    /// What a name of the scene means.
+    /// The uniform that a name in the scene refers to.
     fn find(&self, reader: &mut Reader, name: &str, span: Span) -> Option<Target<'p>> {
         let leaves = &self.program.interface.uniforms;
         if let Some(leaf) = leaves.iter().find(|leaf| leaf.name == name) {
@@ -147,7 +147,7 @@ impl<'p> Values<'p> {
         None
     }
 
-    /// Matrices to the uniforms of their roles' names and types.
+    /// Sets the uniforms with the names and types of roles to their matrices.
     fn fill_roles(&mut self, view: &View) {
         for (name, role) in ROLES {
             let (shape, numbers) = view.matrix(*role);
@@ -161,7 +161,8 @@ impl<'p> Values<'p> {
         }
     }
 
-    /// The scene's lights to the uniforms `light`, `lights` and `global_ambient`, as far as the program declares them.
+    /// Sets the uniforms `light`, `lights` and `global_ambient` to the scene's lights, as far as the program declares
+    /// them.
     fn fill_lights(&mut self, reader: &mut Reader, context: &Context<'_>, place: Span) {
         let Lighting { lights, global_ambient } = context.lighting;
         let program = self.program;
@@ -183,7 +184,7 @@ impl<'p> Values<'p> {
             reader.report(Diagnostic::new(&SCENE_WRONG_SIZE, light.span, message).here("one too many").help(help));
             return;
         }
-        // Those that do not shine are zero, which is not worth a word.
+        // Lights beyond those of the scene are zero, which needs no warning.
         if let Some(set) = self.set.get_mut(root) {
             set.fill(true);
         }
@@ -196,7 +197,7 @@ impl<'p> Values<'p> {
         self.offer(reader, "global_ambient", Member::Vector(*global_ambient), place);
     }
 
-    /// Gives a value to a leaf, if there is one of this name.
+    /// Sets a leaf to a value, if there is one with this name.
     fn offer(&mut self, reader: &mut Reader, name: &str, value: Member, span: Span) {
         let Some(leaf) = self.program.interface.uniforms.iter().find(|leaf| leaf.name == name) else { return };
         let (shape, scalars) = match value {
@@ -233,7 +234,7 @@ impl<'p> Values<'p> {
         }
     }
 
-    /// One warning for each root with leaves that nothing gives a value.
+    /// Warns once for each root with leaves that have no value.
     fn warn_unset(&self, reader: &mut Reader, place: Span) {
         for (index, root) in self.program.interface.roots.iter().enumerate() {
             if !root.active || root.default.is_some() {

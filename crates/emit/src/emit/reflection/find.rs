@@ -1,7 +1,7 @@
-//! What a name of a program is, and where (`glisten reflect --find`).
+//! Finds out what a name of a program is (`glisten reflect --find`).
 //!
-//! Hosts of OpenGL ask for attributes, uniforms and outputs by different functions, and asking the wrong one gives -1
-//! in silence; the answer therefore says which kind a name is.
+//! OpenGL hosts look up attributes, uniforms and outputs with different functions. The wrong function silently
+//! returns -1, so the answer says which kind a name is.
 
 use super::{Reflection, Slot};
 use glisten_front::diagnostic::did_you_mean;
@@ -11,16 +11,16 @@ use glisten_front::link::Program;
 /// The answer.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Found {
-    /// What it is, in one line for each thing of that name.
+    /// One line for each thing of that name.
     Known(Vec<String>),
-    /// There is no such name; the nearest.
+    /// There is no such name.
     Unknown {
-        /// The nearest name.
+        /// The most similar name.
         nearest: Option<String>,
     },
 }
 
-/// Looks a name up among attributes, varyings, outputs, uniforms, blocks and samplers, then among all other globals.
+/// Looks up a name among attributes, varyings, outputs, uniforms, blocks and samplers, then among all other globals.
 /// `a[0]` finds the array `a`; a struct or a block finds its members.
 pub fn find(program: &Program, reflection: &Reflection, name: &str) -> Found {
     let mut lines = exact(reflection, name);
@@ -87,7 +87,7 @@ fn exact(reflection: &Reflection, name: &str) -> Vec<String> {
     lines
 }
 
-/// The parts of a struct, a matrix, a block.
+/// The members or columns of a struct, matrix or block.
 fn members(reflection: &Reflection, name: &str) -> Vec<String> {
     let inside = |path: &str| path.strip_prefix(name).is_some_and(|rest| rest.starts_with(['.', '[']));
     let paths = reflection.uniforms.iter().map(|row| (&row.name, "uniform"));
@@ -100,7 +100,7 @@ fn members(reflection: &Reflection, name: &str) -> Vec<String> {
     lines
 }
 
-/// Names that have no place outside: outputs that nothing reads, built-in and global variables.
+/// Names that the host cannot access: outputs that nothing reads, built-in and global variables.
 fn globals(program: &Program, name: &str) -> Vec<String> {
     let mut lines = Vec::new();
     for shader in &program.stages {

@@ -1,8 +1,8 @@
-//! [`Reflection`]: all that a host needs to know of a program, in the names of its GLSL.
+//! [`Reflection`]: everything that a host needs to know about a program, under its GLSL names.
 //!
 //! *In:* a linked [`Program`] and the [`Conventions`] of its emission. *Out:* a value that serializes to the JSON of
-//! `glisten reflect --format json` (its schema is `docs/reflection.schema.json`), a table for people, and the answer to
-//! "what is this name?". *Holds:* keys are only ever added; rows stand in the order of the [`Interface`].
+//! `glisten reflect --format json` (its schema is `docs/reflection.schema.json`), a table for people, and the answer
+//! to "what is this name?". *Holds:* keys are only ever added; rows are in the order of the [`Interface`].
 
 mod find;
 mod table;
@@ -16,39 +16,39 @@ use glisten_front::hir::{MatrixLayout, ScalarValue, Stage, Storage, Type, Types,
 use glisten_front::link::{Interface, Program, SamplerSlot, SlotBinding, UniformLeaf};
 use serde::{Deserialize, Serialize};
 
-/// What a host needs to know of a program.
+/// Everything that a host needs to know about a program.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Reflection {
     /// The name of each stage's entry point.
     pub entry_points: EntryPoints,
     /// Vertex inputs.
     pub attributes: Vec<Attribute>,
-    /// What the rasterizer interpolates.
+    /// Varyings, split into scalars and vectors.
     pub varyings: Vec<Varying>,
     /// Fragment outputs.
     pub outputs: Vec<Output>,
-    /// The block that holds the loose uniforms, if there are any.
+    /// The block of the loose uniforms, if there are any.
     pub loose_block: Option<LooseBlock>,
     /// Uniform blocks.
     pub blocks: Vec<Block>,
     /// Uniforms, loose and in blocks.
     pub uniforms: Vec<Uniform>,
-    /// Samplers, one row an element of an array.
+    /// Samplers, one row per element of an array.
     pub samplers: Vec<Sampler>,
-    /// How the program was emitted.
+    /// The conventions of the emitted code.
     pub conventions: ReflectedConventions,
 }
 
-/// Names of entry points.
+/// The names of the entry points.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct EntryPoints {
-    /// Of the vertex stage.
+    /// The entry point of the vertex stage.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub vertex: Option<String>,
-    /// Of the geometry stage, which no target has.
+    /// The entry point of the geometry stage, which no target has.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub geometry: Option<String>,
-    /// Of the fragment stage.
+    /// The entry point of the fragment stage.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub fragment: Option<String>,
 }
@@ -63,7 +63,7 @@ pub struct Attribute {
     pub ty: String,
     /// The first location.
     pub location: u32,
-    /// How many locations: a matrix takes one a column, an array one an element (or its columns).
+    /// The number of locations: a matrix takes one per column, an array one per element (or per column of each).
     pub columns: u32,
     /// Whether the vertex stage reads it.
     pub active: bool,
@@ -97,9 +97,9 @@ pub struct Output {
     /// The GLSL type.
     #[serde(rename = "type")]
     pub ty: String,
-    /// The first color number; an array takes one an element.
+    /// The first color number; an array takes one per element.
     pub location: u32,
-    /// 1 for the second source of dual-source blending, else 0.
+    /// 1 for the second source of dual-source blending, otherwise 0.
     pub index: u32,
 }
 
@@ -108,7 +108,7 @@ pub struct Output {
 pub struct Slot {
     /// The group.
     pub group: u32,
-    /// The binding, dense from 0 in its group.
+    /// The binding; in each group, bindings count from 0 without gaps.
     pub binding: u32,
 }
 
@@ -118,14 +118,14 @@ impl From<SlotBinding> for Slot {
     }
 }
 
-/// The uniform buffer that holds the loose uniforms.
+/// The uniform buffer of the loose uniforms.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct LooseBlock {
     /// The group.
     pub group: u32,
     /// The binding.
     pub binding: u32,
-    /// Bytes, a multiple of 16.
+    /// The size in bytes, a multiple of 16.
     pub size: u32,
 }
 
@@ -136,15 +136,15 @@ pub struct Block {
     pub name: String,
     /// The instance name.
     pub instance: Option<String>,
-    /// The size of an array of blocks, whose elements take consecutive bindings.
+    /// The size of an array of blocks; its elements have consecutive bindings.
     pub array_size: Option<u32>,
     /// The group.
     pub group: u32,
     /// The binding of the (first) block.
     pub binding: u32,
-    /// Bytes of one element, a multiple of 16.
+    /// The size of one element in bytes, a multiple of 16.
     pub size: u32,
-    /// `layout(binding = n)` of the text.
+    /// `layout(binding = n)` in the source.
     pub unit: Option<u32>,
     /// Whether a stage reads it.
     pub active: bool,
@@ -153,12 +153,12 @@ pub struct Block {
 /// A scalar, vector, matrix, or array of those.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Uniform {
-    /// The path as a host names it: `light[1].position`, `Block.member`, `Block[1].member`.
+    /// The path that hosts use: `light[1].position`, `Block.member`, `Block[1].member`.
     pub name: String,
     /// The GLSL type of one element.
     #[serde(rename = "type")]
     pub ty: String,
-    /// How many elements, if it is an array.
+    /// The number of elements, if it is an array.
     pub array_size: Option<u32>,
     /// The block's name; none for a loose uniform.
     pub block: Option<String>,
@@ -166,92 +166,94 @@ pub struct Uniform {
     pub group: u32,
     /// The binding of the buffer.
     pub binding: u32,
-    /// Bytes from the start of the buffer.
+    /// The offset in bytes from the start of the buffer.
     pub offset: u32,
-    /// Bytes from element to element.
+    /// The stride in bytes between elements.
     pub array_stride: Option<u32>,
-    /// Bytes from column to column, in `row_major` from row to row.
+    /// The stride in bytes between columns; in `row_major`, between rows.
     pub matrix_stride: Option<u32>,
-    /// Whether a matrix stands row by row.
+    /// Whether a matrix is stored by rows.
     pub row_major: bool,
-    /// The initializer's numbers or booleans, elements in order, matrices by columns; a number that JSON lacks is null.
+    /// The numbers or booleans of the initializer, elements in order, matrices by columns. A number that JSON cannot
+    /// represent is null.
     pub default: Option<Vec<serde_json::Value>>,
     /// Whether a stage reads it.
     pub active: bool,
 }
 
-/// A texture with its sampler.
+/// A texture and its sampler.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Sampler {
-    /// The path as a host names it: `tex`, `tex[1]`, `material.albedo`.
+    /// The path that hosts use: `tex`, `tex[1]`, `material.albedo`.
     pub name: String,
     /// The GLSL type.
     #[serde(rename = "type")]
     pub ty: String,
-    /// The size of the array that it is an element of.
+    /// The size of the array that it belongs to, if it is an element.
     pub array_size: Option<u32>,
-    /// Where the texture stands.
+    /// The binding of the texture.
     pub texture: Slot,
-    /// Where the sampler stands; the same as `texture` where the kind has none (integer, buffer, multisample).
+    /// The binding of the sampler; the same as `texture` where the kind has none (integer, buffer, multisample).
     pub sampler: Slot,
-    /// The view of the texture, as WebGPU names it: `2d`, `2d-array`, `3d`, `cube`.
+    /// The view dimension, in WebGPU's terms: `2d`, `2d-array`, `3d`, `cube`.
     #[serde(default)]
     pub view_dimension: String,
-    /// What is read, as WebGPU names it: `float`, `unfilterable-float`, `depth`, `sint`, `uint`.
+    /// The sample type, in WebGPU's terms: `float`, `unfilterable-float`, `depth`, `sint`, `uint`.
     #[serde(default)]
     pub sample_type: String,
     /// Whether the texture is multisampled.
     #[serde(default)]
     pub multisampled: bool,
-    /// The kind of sampler, as WebGPU names it: `filtering`, `comparison`; none where there is no sampler.
+    /// The sampler type, in WebGPU's terms: `filtering`, `comparison`; none if there is no sampler.
     #[serde(default)]
     pub sampler_type: Option<String>,
-    /// How many texels a row has of the 2D texture that stands for a buffer texture; none for other kinds.
+    /// The number of texels in a row of the 2D texture that emulates a buffer texture; none for other kinds.
     #[serde(default)]
     pub row_width: Option<u32>,
-    /// Where the host writes the number of texels of a buffer texture, an `int`; none if the program does not ask for it.
+    /// Where the host writes the number of texels of a buffer texture, an `int`; none if the program does not query
+    /// it.
     #[serde(default)]
     pub texel_count: Option<HiddenSlot>,
-    /// `layout(binding = n)` of the text: the texture unit.
+    /// `layout(binding = n)` in the source: the texture unit.
     pub unit: Option<u32>,
     /// Whether a stage reads it.
     pub active: bool,
 }
 
-/// How the program was emitted.
+/// The conventions of the emitted code.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ReflectedConventions {
     /// `zero-to-one`, `minus-one-to-one`
     pub clip_z: String,
     /// `upper-left`, `lower-left`
     pub window_origin: String,
-    /// `as-declared`, or `inverted` where the vertex stage flips.
+    /// `as-declared`, or `inverted` if the vertex stage flips y.
     pub front_face: String,
-    /// Where the host writes the framebuffer's height in pixels, a `float`; none if the program need not know it.
+    /// Where the host writes the framebuffer's height in pixels, a `float`; none if the program does not need it.
     pub framebuffer_height: Option<HiddenSlot>,
-    /// `first`: WGSL and Vulkan take a `flat` varying from the first vertex, OpenGL from the last, so that the host
-    /// rotates its indices.
+    /// `first`: WGSL and Vulkan take the value of a `flat` varying from the first vertex, OpenGL from the last, so
+    /// the host must rotate its indices.
     pub provoking_vertex: String,
     /// `webgpu`, `vulkan`
     pub spirv_env: String,
-    /// How many clip distances are in effect.
+    /// How many clip distances have an effect.
     pub clip_distances: u32,
-    /// Whether the program sets the size of points.
+    /// Whether the program sets the point size.
     pub point_size: bool,
 }
 
-/// Four bytes in the loose uniforms' block that no uniform of the program's stands for.
+/// Four bytes in the block of the loose uniforms that are not a uniform of the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct HiddenSlot {
     /// The group.
     pub group: u32,
     /// The binding.
     pub binding: u32,
-    /// Bytes from the start of the block.
+    /// The offset in bytes from the start of the block.
     pub offset: u32,
 }
 
-/// What a host needs to know of a program emitted under these conventions.
+/// The reflection of a program emitted under these conventions.
 pub fn reflect(program: &Program, conventions: &Conventions) -> Reflection {
     let Program { types, interface, .. } = program;
     let name = |ty| types.name(ty);
@@ -333,7 +335,7 @@ fn uniform(types: &Types, interface: &Interface, leaf: &UniformLeaf) -> Uniform 
     }
 }
 
-/// A part of a value's flat layout as JSON.
+/// A part of a value in flat layout, as JSON.
 fn numbers(value: &Value, start: u32, len: u32) -> Option<Vec<serde_json::Value>> {
     let scalars = value.scalars.get(start as usize..start.checked_add(len)? as usize)?;
     let json = |scalar: &ScalarValue| match *scalar {
@@ -399,13 +401,13 @@ fn reflected_conventions(program: &Program, conventions: &Conventions) -> Reflec
     }
 }
 
-/// The output of the vertex stage that is this built-in variable, if that is written.
+/// The output of the vertex stage that is this built-in variable, if the stage writes it.
 fn writes(program: &Program, builtin: BuiltinVariable) -> Option<&glisten_front::hir::Global> {
     let globals = &program.stage(Stage::Vertex)?.globals;
     globals.iter().find(|global| global.builtin == Some(builtin) && global.storage == Storage::Out && global.written)
 }
 
-/// How many clip distances count: those that are written, at most as many as the conventions enable.
+/// How many clip distances have an effect: those that are written, up to the number that the conventions enable.
 fn clip_distances(program: &Program, conventions: &Conventions) -> u32 {
     let Some(global) = writes(program, BuiltinVariable::ClipDistance) else { return 0 };
     let declared = match program.types.get(global.ty) {

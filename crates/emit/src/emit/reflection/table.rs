@@ -1,9 +1,9 @@
-//! The reflection as tables for people.
+//! Writes the reflection as tables for people.
 
 use super::Reflection;
 
-/// One table a kind of thing, with a heading, left-aligned columns and no colors; kinds that the program lacks are left
-/// out.
+/// Writes one table for each kind, with a heading, left-aligned columns and no colors. Kinds that the program lacks
+/// are omitted.
 pub fn table(reflection: &Reflection) -> String {
     let mut text = String::new();
     let mut section = |title: &str, heads: &[&str], rows: Vec<Vec<String>>| {

@@ -1,4 +1,6 @@
-//! Interface blocks (§4.3.7).
+//! Declares interface blocks (§4.3.7).
+//!
+//! *In:* a block's declaration. *Out:* a global of a block type, and names for its members or its instance.
 
 use super::super::context::Analyzer;
 use super::super::layout::{Layout, LayoutPlace};
@@ -13,7 +15,7 @@ use crate::hir::{
 use crate::source::Span;
 use crate::syntax::ast::{ArrayDim, BlockDecl, Declarator, Ident, MemberDecl, TypeBase};
 
-/// What the members of a block have in common.
+/// The properties that the members of a block share.
 struct Frame {
     storage: Storage,
     word: StorageWord,
@@ -60,7 +62,7 @@ impl Analyzer<'_> {
         self.add_block(block, ty, storage, &layout, &record);
     }
 
-    /// Enters the names of a block that is not allowed, so that their uses raise nothing more.
+    /// Enters the names of an invalid block as poison, so that their uses raise no more messages.
     fn poison_block(&mut self, block: &BlockDecl) {
         match &block.instance {
             Some((instance, _)) => self.enter(*instance, Entry::Poison),
@@ -216,7 +218,7 @@ impl Analyzer<'_> {
         }
     }
 
-    /// Enters the block as a global, and its members or its instance as names.
+    /// Adds the block as a global, and enters its members or its instance.
     fn add_block(&mut self, block: &BlockDecl, ty: TypeId, storage: Storage, layout: &Layout, record: &Qualifiers) {
         let name = self.name(block.name);
         let ty = match &block.instance {
@@ -232,7 +234,7 @@ impl Analyzer<'_> {
             None => (block.name.span, name),
         };
         let mut global = self.new_global(span, own_name, ty, storage, record, layout, None);
-        // A block has its binding in its record, and each member its own invariance.
+        // The block's binding is in its record, and invariance is a property of each member.
         (global.binding, global.invariant) = (None, false);
         global.block = Some(BlockInfo {
             name: name.to_owned(),
@@ -263,7 +265,7 @@ impl Analyzer<'_> {
         }
     }
 
-    /// The type of an instance: arrays need a size, but for geometry inputs, which need to be arrays.
+    /// The type of an instance. An array needs a size, except for geometry inputs, which must be arrays.
     fn block_array(&mut self, ty: TypeId, storage: Storage, instance: Ident, dims: &[ArrayDim]) -> TypeId {
         let array = self.with_array(ty, dims);
         let is_geometry_input = self.stage == Stage::Geometry && storage == Storage::In;
@@ -293,7 +295,7 @@ impl Analyzer<'_> {
         }
     }
 
-    /// Block names are used for nothing else, and once in an interface.
+    /// Enters a block name. It must have no other use, and occur once per interface.
     fn enter_block_name(&mut self, name: Ident, storage: Storage) {
         let spelling = self.name(name);
         let key = (name.symbol, storage);
@@ -312,7 +314,7 @@ impl Analyzer<'_> {
         self.block_names.entry(name.symbol).or_insert(name.span);
     }
 
-    /// Whether a global name is not also the name of a block (§4.3.7).
+    /// Checks that a global name is not also the name of a block (§4.3.7).
     pub(in crate::analysis) fn check_block_name(&mut self, name: Ident) -> bool {
         if !self.scopes.is_global() {
             return true;

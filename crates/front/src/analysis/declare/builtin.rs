@@ -1,4 +1,4 @@
-//! Built-in variables (§7.1, §7.2): entered when they are named, and declared anew where 1.50 allows it.
+//! Declares built-in variables (§7.1, §7.2): at their first use, or when they are redeclared, where 1.50 allows that.
 
 use super::super::context::{Analyzer, ArrayKey};
 use super::super::layout::{Layout, LayoutPlace};
@@ -12,7 +12,7 @@ use crate::source::Span;
 use crate::syntax::ast::Declarator;
 
 impl Analyzer<'_> {
-    /// The global that a built-in variable is, made at its first mention.
+    /// The global of a built-in variable, which its first use creates.
     pub(in crate::analysis) fn builtin_global(&mut self, row: &Row) -> GlobalId {
         if let Some(&id) = self.builtins.get(&row.variable) {
             return id;
@@ -43,7 +43,7 @@ impl Analyzer<'_> {
         id
     }
 
-    /// `in vec4 gl_FragCoord;`: whether the name is built in, and the declaration therefore dealt with here.
+    /// Handles `in vec4 gl_FragCoord;`. Returns whether the name is built in, so that the declaration is complete.
     pub(super) fn redeclare_builtin(&mut self, declarator: &Declarator, ty: TypeId, record: &Qualifiers) -> bool {
         let name = self.name(declarator.name);
         let span = declarator.name.span;
@@ -78,7 +78,8 @@ impl Analyzer<'_> {
         true
     }
 
-    /// A redeclaration must repeat the storage and the type. `None` if it does not, which is reported.
+    /// Checks that a redeclaration repeats the storage and the type. Returns `None` if it does not, which is
+    /// reported.
     fn same_storage(&mut self, row: &Row, span: Span, record: &Qualifiers) -> Option<()> {
         let wanted = if row.storage == Storage::In { StorageWord::In } else { StorageWord::Out };
         if matches!(record.storage, Some((word, _)) if word == wanted) {
@@ -132,7 +133,7 @@ impl Analyzer<'_> {
         }
     }
 
-    /// §7.1: at most `gl_MaxClipDistances`.
+    /// Checks that there are at most `gl_MaxClipDistances` (§7.1).
     pub(in crate::analysis) fn check_clip_distances(&mut self, size: u32, span: Span) -> bool {
         let max = constants::MAX_CLIP_DISTANCES;
         if size <= max {

@@ -1,4 +1,4 @@
-//! Functions (§6.1): prototypes and definitions.
+//! Declares functions (§6.1): prototypes and definitions.
 
 use super::super::context::{Analyzer, Body, Signature};
 use super::super::qualifiers::{Place, StorageWord};
@@ -8,7 +8,7 @@ use crate::diagnostic::codes::{names, statements, types};
 use crate::hir::{ArraySize, Function, FunctionId, Local, LocalId, LocalKind, ParamMode, Type, TypeId, VarRef};
 use crate::syntax::ast::{FunctionHeader, Ident, ParamDecl, Stmt, TypeBase};
 
-/// The overloads of one name: each call that needs a conversion looks at all of them.
+/// The largest number of overloads of one name: each call that needs a conversion considers all of them.
 const MAX_OVERLOADS: usize = 1024;
 
 impl Analyzer<'_> {
@@ -20,7 +20,7 @@ impl Analyzer<'_> {
     /// `float f(float x) { .. }`
     pub(in crate::analysis) fn function(&mut self, header: &FunctionHeader, body: &[Stmt]) {
         let Some(id) = self.declare_function(header) else {
-            // The body is still read for its own mistakes, as that of a function nobody can call.
+            // The body is still analyzed for its own errors, as that of a function that cannot be called.
             let function = self.header(header);
             self.shader.functions.push(function);
             let id = FunctionId::new(self.shader.functions.len() - 1);
@@ -36,7 +36,7 @@ impl Analyzer<'_> {
             );
             return;
         }
-        // Parameters are named in the definition, whatever the prototype called them.
+        // The definition names the parameters, whatever the prototype called them.
         let function = self.header_again(header, id);
         if let Some(slot) = self.shader.functions.get_mut(id.index()) {
             *slot = function;
@@ -54,7 +54,7 @@ impl Analyzer<'_> {
                 self.enter(name, Entry::Variable(VarRef::Local(LocalId::new(index))));
             }
         }
-        // §4.2: the body is a scope nested inside of that of the parameters.
+        // The body is a scope nested inside that of the parameters (§4.2).
         self.scopes.open();
         let body = self.statements(body);
         self.scopes.close();
@@ -70,8 +70,8 @@ impl Analyzer<'_> {
         }
     }
 
-    /// "Functions that do not return a value must be declared as void" (§4.1.1). Whether each way through a body ends in
-    /// a `return` is not asked: the value is then undefined.
+    /// "Functions that do not return a value must be declared as void" (§4.1.1). It is not an error if only some
+    /// paths through a body end in a `return`: the value is then undefined.
     fn check_returns(&mut self, id: FunctionId) {
         let function = self.shader.function(id);
         let (ret, name, span) = (function.ret, function.name.clone(), function.span);
@@ -87,7 +87,7 @@ impl Analyzer<'_> {
         );
     }
 
-    /// Enters a function, or finds the one that it declares again. `None` if the name is taken by something else.
+    /// Adds a function, or finds the one that it redeclares. `None` if the name is taken by something else.
     fn declare_function(&mut self, header: &FunctionHeader) -> Option<FunctionId> {
         let function = self.header(header);
         let name = header.name;
@@ -165,7 +165,8 @@ impl Analyzer<'_> {
         }
     }
 
-    /// The header of a definition whose types are known already: only the names of the parameters are new.
+    /// The header of a definition whose types are already known from a prototype: only the names of the parameters
+    /// are new.
     fn header_again(&mut self, header: &FunctionHeader, id: FunctionId) -> Function {
         let known = self.shader.function(id).clone();
         let mut locals = known.locals;
@@ -264,7 +265,7 @@ impl Analyzer<'_> {
         ty
     }
 
-    /// `void main()`, and nothing else.
+    /// Checks that `main` is declared as `void main()`.
     fn check_main(&mut self, header: &FunctionHeader, function: &Function) {
         if function.param_count == 0 && (function.ret == TypeId::VOID || function.ret.is_error()) {
             return;
@@ -277,7 +278,7 @@ impl Analyzer<'_> {
         );
     }
 
-    /// A function declared again must be the same in all but its parameters' names.
+    /// Checks that a redeclared function is the same except for the names of its parameters.
     fn is_same(&mut self, id: FunctionId, again: &Function) -> bool {
         let first = self.shader.function(id);
         let (name, earlier) = (first.name.clone(), first.span);
@@ -301,7 +302,7 @@ impl Analyzer<'_> {
     }
 }
 
-/// The types of the parameters, by which overloads are told apart.
+/// The types of the parameters, which tell overloads apart.
 fn types_of(function: &Function) -> Signature {
     function.params().iter().map(|param| param.ty).collect()
 }

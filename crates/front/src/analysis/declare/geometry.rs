@@ -1,4 +1,4 @@
-//! The layouts of a geometry shader (§4.3.8.1, §4.3.8.2), and the sizes of its inputs.
+//! Declares the layouts of a geometry shader (§4.3.8.1, §4.3.8.2), and the sizes of its inputs that follow from them.
 
 use super::super::context::{Analyzer, ArrayKey};
 use super::super::layout::Layout;
@@ -9,7 +9,7 @@ use crate::hir::{ArraySize, GlobalId, PrimitiveIn, PrimitiveOut, Stage, Storage,
 use crate::source::Span;
 
 impl Analyzer<'_> {
-    /// `layout(triangles) in;`: one primitive, the same each time.
+    /// `layout(triangles) in;`: one input primitive, the same in each declaration.
     pub(super) fn geometry_input_layout(&mut self, layout: &Layout, _: Span) {
         for (index, &(primitive, span)) in layout.inputs.iter().enumerate() {
             if index > 0 {
@@ -88,7 +88,8 @@ impl Analyzer<'_> {
         }
     }
 
-    /// The type of a geometry input with the size that is known by now; notes the size of one that has its own.
+    /// The type of a geometry input, with the size if it is known by now. Records the size of an input that has its
+    /// own.
     pub(super) fn sized_by_geometry(&mut self, ty: TypeId, storage: Storage, span: Span) -> TypeId {
         if self.stage != Stage::Geometry || storage != Storage::In {
             return ty;
@@ -106,7 +107,7 @@ impl Analyzer<'_> {
         }
     }
 
-    /// All sizes of inputs and of the layout must agree.
+    /// Checks that all sizes of the inputs and of the layout agree.
     fn fix_geometry_size(&mut self, size: u32, span: Span) {
         match self.geometry_size {
             Some((earlier, at)) if earlier != size => {
@@ -125,7 +126,7 @@ impl Analyzer<'_> {
         }
     }
 
-    /// Sizes the inputs that were declared before the layout.
+    /// Gives a size to the inputs that were declared before the layout.
     fn size_geometry_inputs(&mut self, size: u32, span: Span) {
         for index in 0..self.shader.globals.len() {
             let id = GlobalId::new(index);

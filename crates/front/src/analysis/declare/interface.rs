@@ -1,4 +1,4 @@
-//! Which types a global may have, by its storage and the stage (§4.1.7, §4.3.4 to §4.3.6).
+//! Which types a global may have, depending on its storage and the stage (§4.1.7, §4.3.4 to §4.3.6).
 
 use super::super::context::Analyzer;
 use super::super::qualifiers::{Qualifiers, StorageWord};
@@ -7,7 +7,7 @@ use crate::diagnostic::codes::{qualifiers, types};
 use crate::hir::{ArraySize, Interpolation, Scalar, Stage, Storage, Type, TypeId};
 use crate::source::Span;
 
-/// A border of a stage, and what may not cross it.
+/// An interface of a stage, and the types that cannot cross it.
 struct Border {
     stage: Option<Stage>,
     storage: Storage,
@@ -40,7 +40,7 @@ static BORDERS: &[Border] = &[
 ];
 
 impl Analyzer<'_> {
-    /// Checks a global's type and qualifiers against its storage; gives the type, or poison.
+    /// Checks the type and qualifiers of a global against its storage. Returns the type, or poison.
     pub(super) fn check_global_type(
         &mut self,
         ty: TypeId,
@@ -119,7 +119,7 @@ impl Analyzer<'_> {
         ty
     }
 
-    /// Integers reach a fragment shader only if they are `flat` (§4.3.4).
+    /// Checks that integer inputs of a fragment shader are `flat` (§4.3.4).
     fn check_flat(&mut self, ty: TypeId, storage: Storage, record: &Qualifiers, ty_span: Span, name: Span) {
         let flat = matches!(record.interpolation, Some((Interpolation::Flat, _)));
         if self.stage == Stage::Fragment
@@ -159,7 +159,7 @@ impl Analyzer<'_> {
         }
     }
 
-    /// The type without its array.
+    /// The type without its array dimensions.
     pub(in crate::analysis) fn element_of(&self, ty: TypeId) -> TypeId {
         match self.types.get(ty) {
             Type::Array(element, _) => element,

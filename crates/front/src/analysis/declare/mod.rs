@@ -1,9 +1,9 @@
 //! Declarations at global scope (§4.2, §4.3, §6.1): what a shader declares, entered as globals, types and functions.
 //!
-//! * [`variable`]: variables and their initializers; [`interface`]: which types may cross which stage's borders.
+//! * [`variable`]: variables and their initializers; [`interface`]: which types may cross which interface.
 //! * [`structure`]: structs. [`block`]: interface blocks. [`function`]: prototypes and definitions.
-//! * [`builtin`]: built-in variables, named or declared anew. [`requalify`]: `invariant a;`, `layout(..) in;`.
-//! * [`geometry`]: the layouts of a geometry shader, and the sizes of its inputs that hang on them.
+//! * [`builtin`]: built-in variables, used or redeclared. [`requalify`]: `invariant a;`, `layout(..) in;`.
+//! * [`geometry`]: the layouts of a geometry shader, and the input sizes that depend on them.
 
 mod block;
 mod builtin;

@@ -1,4 +1,4 @@
-//! Which names may be declared (§3.7).
+//! Which names a shader may declare (§3.7).
 
 use super::super::context::Analyzer;
 use crate::diagnostic::Diagnostic;
@@ -6,7 +6,8 @@ use crate::diagnostic::codes::names;
 use crate::syntax::ast::Ident;
 
 impl Analyzer<'_> {
-    /// Whether a name may be declared: not if it starts with `gl_`. (The lexer warns of two underscores in a row.)
+    /// Checks that a name may be declared: it must not start with `gl_`. (The preprocessor warns about two
+    /// consecutive underscores.)
     pub(in crate::analysis) fn check_name(&mut self, name: Ident) -> bool {
         let spelling = self.name(name);
         if spelling.starts_with("gl_") {

@@ -1,8 +1,8 @@
-//! `gl_PerVertex` declared anew (ARB_separate_shader_objects; 1.50 is silent, and every driver takes it).
+//! Redeclares `gl_PerVertex` (ARB_separate_shader_objects; 1.50 is silent, and every driver accepts it).
 //!
-//! The rules are those of GLSL 4.10 §7.1: once, before any member is used or declared anew on its own, a subset of the
-//! members with their own types, as `gl_in[]` on the way in and without an instance on the way out; and what is left out
-//! can no longer be used.
+//! The rules are those of GLSL 4.10 §7.1. The block is redeclared at most once, and before any member is used or
+//! redeclared on its own. It lists a subset of the members with their own types, as `gl_in[]` for the input and
+//! without an instance name for the output. Members that it omits can no longer be used.
 
 use super::super::context::Analyzer;
 use super::super::qualifiers::Place;
@@ -14,7 +14,7 @@ use crate::hir::{ArraySize, Member, Stage, Storage, StructType, Type, TypeId};
 use crate::source::Span;
 use crate::syntax::ast::{BlockDecl, Declarator, Extensions};
 
-/// A redeclared `gl_PerVertex`.
+/// A redeclaration of `gl_PerVertex`.
 #[derive(Clone, Debug)]
 pub(in crate::analysis) struct PerVertex {
     span: Span,
@@ -49,7 +49,7 @@ impl Analyzer<'_> {
         self.per_vertex_out = Some(PerVertex { span, members: names });
     }
 
-    /// Reports a member that the redeclared block left out.
+    /// Reports the use of a member that the redeclared block omits.
     pub(in crate::analysis) fn is_left_out(&mut self, row: &Row, span: Span) -> bool {
         let Some(block) = self.per_vertex_out.clone().filter(|_| row.per_vertex && row.storage == Storage::Out) else {
             return false;
@@ -67,7 +67,7 @@ impl Analyzer<'_> {
         true
     }
 
-    /// Reports the redeclaration of a member outside of the redeclared block.
+    /// Reports the redeclaration of a member outside the redeclared block.
     pub(super) fn is_in_per_vertex(&mut self, row: &Row, span: Span) -> bool {
         let Some(block) = self.per_vertex_out.clone().filter(|_| row.per_vertex && row.storage == Storage::Out) else {
             return false;
@@ -105,7 +105,7 @@ impl Analyzer<'_> {
         let used = self.builtins.iter().filter(|(variable, _)| {
             if storage == Storage::In { **variable == BuiltinVariable::In } else { is_per_vertex(**variable) }
         });
-        // The earliest of them, whatever the order of the table.
+        // The earliest use, whatever the order of the table.
         let earliest = used
             .filter_map(|(_, id)| {
                 let declared = Some(self.shader.global(*id).span).filter(|span| span.is_known());

@@ -12,7 +12,7 @@ use crate::source::Span;
 use crate::syntax::ast::{Ident, Qualifier};
 
 impl Analyzer<'_> {
-    /// Qualifiers for what is declared already, or for what will be.
+    /// Applies qualifiers to earlier declarations, or sets defaults for later ones.
     pub(in crate::analysis) fn requalify(&mut self, list: &[Qualifier], idents: &[Ident], span: Span) {
         let record = self.qualifiers(list, Place::Alone);
         if idents.is_empty() {
@@ -20,7 +20,7 @@ impl Analyzer<'_> {
             return;
         }
         if record.invariant.is_none() {
-            // `uniform S;` declares nothing, legally if `S` is a struct (§9).
+            // `uniform S;` declares nothing, which is legal if `S` is a struct (§9).
             let is_struct = |name: &Ident| {
                 self.scopes.find(name.symbol).is_some_and(|binding| matches!(binding.entry, Entry::Struct(_)))
             };
@@ -38,7 +38,7 @@ impl Analyzer<'_> {
         }
     }
 
-    /// `invariant a;`: `a` is an output, or an input of a fragment shader, not used before.
+    /// `invariant a;`: `a` must be an output, or an input of a fragment shader, and must not be used before.
     fn make_invariant(&mut self, name: Ident) {
         let spelling = self.name(name);
         let Some((id, member)) = self.global_named(name) else { return };
@@ -85,7 +85,8 @@ impl Analyzer<'_> {
         }
     }
 
-    /// The global behind a name, declared or built in, and its member that is meant; else that is reported.
+    /// The global that a name denotes, declared or built in, and the member, if it denotes one. Reports any other
+    /// name.
     fn global_named(&mut self, name: Ident) -> Option<(GlobalId, Option<u32>)> {
         let spelling = self.name(name);
         match self.scopes.find(name.symbol).map(|binding| binding.entry) {

@@ -1,4 +1,4 @@
-//! Structs (§4.1.8).
+//! Declares structs (§4.1.8).
 
 use super::super::context::Analyzer;
 use super::super::qualifiers::Place;
@@ -11,7 +11,7 @@ use crate::syntax::ast::{Declarator, Ident, MemberDecl, StructSpec, TypeBase};
 use crate::syntax::token::Symbol;
 use rustc_hash::FxHashMap;
 
-/// Members under way, with their places by name.
+/// The members of a struct so far, with their indices by name.
 #[derive(Default)]
 pub(super) struct MemberList {
     members: Vec<Member>,
@@ -25,10 +25,10 @@ impl MemberList {
     }
 }
 
-/// Up to so many members are looked through one by one.
+/// Up to this many members are searched one by one.
 const FEW_MEMBERS: usize = 16;
 
-/// Structs may nest so deep; all walks over types recurse by them.
+/// How deep structs may nest; all traversals of types recurse along them.
 const MAX_DEPTH: u32 = 64;
 
 impl Analyzer<'_> {
@@ -85,7 +85,7 @@ impl Analyzer<'_> {
         self.type_spec(&row.ty)
     }
 
-    /// The type of a member: sized, and something.
+    /// The type of a member, which must have a size and must not be `void`.
     fn member_type(&mut self, declarator: &Declarator, base: TypeId, row: &MemberDecl) -> TypeId {
         self.no_member_initializer(declarator);
         let ty = self.with_array(base, &declarator.array);
@@ -132,7 +132,7 @@ impl Analyzer<'_> {
         list.members.push(member);
     }
 
-    /// Adds a struct or the type of a block; poison if it is too deep or too large for anything.
+    /// Adds a struct or the type of a block; poison if it is too deep or too large.
     pub(super) fn add_structure(&mut self, name: &str, list: MemberList, is_block: bool, span: Span) -> TypeId {
         let many = list.members.len() > FEW_MEMBERS;
         let declaration = StructType { name: name.to_owned(), members: list.members, is_block, span };

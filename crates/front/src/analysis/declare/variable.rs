@@ -1,4 +1,4 @@
-//! Variables at global scope (§4.3).
+//! Declares variables at global scope (§4.3).
 
 use super::super::context::{Analyzer, ArrayKey};
 use super::super::layout::{Layout, LayoutPlace};
@@ -10,7 +10,7 @@ use crate::hir::{ArraySize, ExprId, Global, GlobalId, Interpolation, Stage, Stor
 use crate::source::Span;
 use crate::syntax::ast::{Declarator, TypeBase, TypeSpec, VariableDecl};
 
-/// A value for a variable: the expression, converted, and what it folds to.
+/// The initial value of a variable: the expression after conversion, and its constant value, if it has one.
 pub(in crate::analysis) struct Initial {
     pub(in crate::analysis) expr: ExprId,
     pub(in crate::analysis) value: Option<Value>,
@@ -38,7 +38,8 @@ impl Analyzer<'_> {
         }
     }
 
-    /// `S;` declares nothing, and legally so if `S` is a struct (§9); any other name lacks its type, which is reported.
+    /// `S;` declares nothing, which is legal if `S` is a struct (§9). Any other name lacks its type, which is
+    /// reported.
     fn lacks_type(&mut self, spec: &TypeSpec) -> bool {
         let TypeBase::Named(name) = spec.base else { return false };
         match self.scopes.find(name.symbol).map(|binding| binding.entry) {
@@ -54,7 +55,7 @@ impl Analyzer<'_> {
         true
     }
 
-    /// What the storage qualifier of a global means in this stage.
+    /// The storage that a global's qualifiers mean in this stage.
     fn global_storage(&mut self, record: &Qualifiers) -> Storage {
         if let (Some(constant), Some((word, span))) = (record.constant, record.storage) {
             self.report(
@@ -162,7 +163,7 @@ impl Analyzer<'_> {
         GlobalId::new(self.shader.globals.len() - 1)
     }
 
-    /// ARB_explicit_attrib_location: an index without a location means nothing.
+    /// Reports an index without a location, which means nothing (ARB_explicit_attrib_location).
     fn check_index_location(&mut self, layout: &Layout) {
         let (Some((index, span)), None) = (layout.index, layout.location) else { return };
         self.report(
@@ -185,7 +186,7 @@ impl Analyzer<'_> {
         }
     }
 
-    /// Reads the initializer of a global; it may size an array.
+    /// Analyzes the initializer of a global, which may determine the size of an array.
     fn global_initializer(
         &mut self,
         declarator: &Declarator,
@@ -242,7 +243,7 @@ impl Analyzer<'_> {
         );
     }
 
-    /// Converts an initializer to the variable's type, which takes the size of an array without one.
+    /// Converts an initializer to the variable's type. An array type without a size takes that of its initializer.
     pub(in crate::analysis) fn fit_initializer(
         &mut self,
         declarator: &Declarator,
@@ -264,7 +265,7 @@ impl Analyzer<'_> {
         (ty, self.convert_or_report(expr, ty, &what))
     }
 
-    /// An array declared before without a size may be declared again with one (§4.1.9).
+    /// Whether this redeclares, with a size, an array that was declared without one (§4.1.9).
     fn resizes(&mut self, declarator: &Declarator, ty: TypeId, storage: Storage) -> bool {
         let Some(binding) = self.scopes.find_here(declarator.name.symbol) else { return false };
         if let Entry::Member(..) = binding.entry {
@@ -289,7 +290,7 @@ impl Analyzer<'_> {
         true
     }
 
-    /// Sees to it that a size holds all elements that were named before it.
+    /// Checks that a size covers all elements that were used before.
     pub(in crate::analysis) fn check_resize(&mut self, key: ArrayKey, size: u32, span: Span) {
         let used = match key {
             ArrayKey::Local(id) => self.local_array_uses.get(&id),

@@ -1,4 +1,4 @@
-//! Parts of values: `a.b`, `a.xyz`, `a[i]`, `a.length()` (§5.5 to §5.7).
+//! Analyzes access to parts of values: `a.b`, `a.xyz`, `a[i]`, `a.length()` (§5.5 to §5.7).
 
 use super::super::context::{Analyzer, ArrayKey};
 use super::swizzle::{self, Fault};
@@ -44,7 +44,7 @@ impl Analyzer<'_> {
         }
     }
 
-    /// The place of a member; structs with many have a table.
+    /// The index of a member; structs with many members have a table.
     pub(in crate::analysis) fn member_index(&self, id: StructId, field: Ident) -> Option<u32> {
         if let Some(indices) = self.member_indices.get(&id) {
             return indices.get(&field.symbol).copied();
@@ -138,7 +138,7 @@ impl Analyzer<'_> {
         self.push(ExprKind::Index(base, index), element, span)
     }
 
-    /// The rules of §4.1.7, §4.1.9, §4.3.7 on which indices may be what.
+    /// Checks an index by the rules of §4.1.7, §4.1.9 and §4.3.7.
     fn check_index(&mut self, base: ExprId, index: ExprId, size: Option<u32>) -> bool {
         let ty = self.ty(base);
         if let Some(value) = self.evaluate_integer(index) {
@@ -196,7 +196,8 @@ impl Analyzer<'_> {
         }
     }
 
-    /// An input of a geometry shader: its size is that of the input primitive, perhaps declared later.
+    /// Whether an expression is an input of a geometry shader, whose size is that of the input primitive, which may
+    /// be declared later.
     fn is_geometry_input(&self, base: ExprId) -> bool {
         match self.expr_at(base).kind {
             ExprKind::Var(VarRef::Global(id)) => {
@@ -206,7 +207,7 @@ impl Analyzer<'_> {
         }
     }
 
-    /// Notes the largest constant index of an array that has no size yet; it will have that many elements (§4.1.9).
+    /// Records the largest constant index of an array that has no size yet; it determines the size (§4.1.9).
     fn note_array_index(&mut self, base: ExprId, index: u32, at: Span) {
         let key = match self.expr_at(base).kind {
             ExprKind::Var(VarRef::Global(id)) => ArrayKey::Global(id),

@@ -1,4 +1,4 @@
-//! Assignments (§5.8), `++` and `--`.
+//! Analyzes assignments (§5.8), `++` and `--`.
 
 use super::super::context::Analyzer;
 use super::Purpose;
@@ -47,7 +47,7 @@ impl Analyzer<'_> {
         self.push(ExprKind::Assign(None, target, value), ty, span)
     }
 
-    /// `a op= b` is `a = a op b`: both must be possible.
+    /// `a op= b` is `a = a op b`: both the operation and the assignment must be valid.
     fn assign_by(&mut self, operator: ast::BinaryOp, at: Span, target: ExprId, value: ExprId, span: Span) -> ExprId {
         let ty = self.ty(target);
         match self.typed_binary(operator, target, value) {
@@ -94,7 +94,7 @@ impl Analyzer<'_> {
         self.push(ExprKind::IncDec(operator, target), ty, span)
     }
 
-    /// Whether an initializer or an argument may be taken as a whole: not `void`, and no array of unknown size.
+    /// Checks that an initializer or argument is a complete value: neither `void` nor an array of unknown size.
     pub(in crate::analysis) fn is_whole_value(&mut self, id: ExprId) -> bool {
         let (ty, span) = (self.ty(id), self.span(id));
         if ty == TypeId::VOID {

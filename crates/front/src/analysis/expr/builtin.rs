@@ -1,4 +1,4 @@
-//! Calls of built-in functions (§8), resolved over the rows of the table.
+//! Analyzes calls of built-in functions (§8): resolves overloads over the rows of the table.
 
 use super::super::context::Analyzer;
 use super::super::layout::extension_name;
@@ -12,7 +12,7 @@ use crate::source::Span;
 use crate::syntax::ast::{Extensions, Ident};
 
 impl Analyzer<'_> {
-    /// A call of a name that some version has built in.
+    /// A call of a name that is a built-in function in some version.
     pub(super) fn builtin_call(&mut self, name: Ident, arguments: Vec<ExprId>, span: Span) -> ExprId {
         let (stage, version, extensions) = (self.stage, self.ast.version, self.extensions);
         let rows = functions::named(self.name(name));
@@ -23,7 +23,7 @@ impl Analyzer<'_> {
             self.report_unavailable(name, rows);
             return self.poison(span);
         }
-        // Most calls match exactly, and then nothing needs to be gathered.
+        // Most calls match exactly, and then no candidates need to be collected.
         let exact = signatures().find(|(_, signature)| {
             let params = signature.params();
             params.len() == given.len() && params.iter().zip(&given).all(|((param, _), given)| param == given)
@@ -38,7 +38,7 @@ impl Analyzer<'_> {
         self.push(ExprKind::BuiltinCall(row.function, arguments), signature.ret, span)
     }
 
-    /// The overload that takes the arguments after conversions, if it is the only one.
+    /// The overload that takes the arguments after implicit conversions, if there is exactly one.
     fn builtin_by_conversion(
         &mut self,
         name: Ident,
@@ -66,7 +66,8 @@ impl Analyzer<'_> {
         }
     }
 
-    /// Overloads that the table spells twice (`max(genType, genType)` and `max(genType, float)` of one float) count once.
+    /// Resolves the overload. Two rows that have the same signature (`max(genType, genType)` and `max(genType,
+    /// float)` for one float) count once.
     fn resolve_builtin(&self, candidates: &[(&'static Row, Signature)], given: &[TypeId]) -> Resolution {
         let params = candidates.iter().map(|(_, signature)| signature.params().iter().copied());
         let found = resolve(self.types, given, params);
@@ -83,7 +84,7 @@ impl Analyzer<'_> {
         }
     }
 
-    /// The offsets of the texture functions must be constant expressions (§8.7).
+    /// Checks that the offsets of texture functions are constant expressions (§8.7).
     fn check_offset(&mut self, row: &Row, arguments: &[ExprId]) -> bool {
         let position = row.params.iter().position(|param| param.name == "offset");
         let Some(&offset) = position.and_then(|index| arguments.get(index)) else { return true };
@@ -130,7 +131,7 @@ impl Analyzer<'_> {
         let mut finding = self.no_overload(name, given);
         let (version, extensions, stage) = (self.ast.version, self.extensions, self.stage);
         let prototypes = rows.iter().filter(|row| row.availability.holds(version, extensions, stage));
-        // Those with the right number of parameters are the closest.
+        // The overloads with the right number of parameters are the closest.
         let mut closest: Vec<_> = prototypes.collect();
         closest.sort_by_key(|row| row.params.len().abs_diff(given.len()));
         for row in closest.iter().take(4) {
@@ -140,7 +141,7 @@ impl Analyzer<'_> {
     }
 }
 
-/// A hint for the slips that are made most often.
+/// A help text for the most frequent mistakes.
 fn derivative_help(rows: &[&'static Row], given: &[TypeId], analyzer: &Analyzer<'_>) -> Option<String> {
     let function = rows.first()?.function;
     let sampler = given.first().is_some_and(|&ty| analyzer.types.contains_sampler(ty));

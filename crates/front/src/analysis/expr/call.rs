@@ -1,5 +1,5 @@
-//! Calls (§5.3, §6.1): of functions of the shader and of constructors of structs. Built-in functions have a file of
-//! their own.
+//! Analyzes calls (§5.3, §6.1) of functions of the shader and of constructors of structs. Calls of built-in functions
+//! are in `builtin`.
 
 use super::super::context::{Analyzer, Signature};
 use super::super::scope::{Entry, OverloadSet};
@@ -104,7 +104,7 @@ impl Analyzer<'_> {
         self.push(ExprKind::Call(function, arguments), ret, span)
     }
 
-    /// The overload that takes the arguments after conversions, if it is the only one.
+    /// The overload that takes the arguments after implicit conversions, if there is exactly one.
     fn by_conversion(&mut self, name: Ident, set: OverloadSet, given: &[TypeId]) -> Option<FunctionId> {
         let candidates: Vec<FunctionId> = self.scopes.functions(set).to_vec();
         let resolution =
@@ -136,7 +136,8 @@ impl Analyzer<'_> {
         }
     }
 
-    /// Converts the arguments that go in, and sees to it that those that come out can be written.
+    /// Converts the arguments for `in` parameters, and checks that those for `out` and `inout` parameters are
+    /// l-values.
     pub(super) fn pass(&mut self, arguments: Vec<ExprId>, params: &[(TypeId, ParamMode)]) -> Option<Vec<ExprId>> {
         let mut passed = Vec::with_capacity(arguments.len());
         let mut good = true;
@@ -156,7 +157,7 @@ impl Analyzer<'_> {
         self.shader.function(id).param_types().collect()
     }
 
-    /// A function as it would be declared, for messages.
+    /// A function's prototype, for messages.
     pub(in crate::analysis) fn describe(&self, id: FunctionId) -> String {
         let function = self.shader.function(id);
         let params: Vec<String> = self

@@ -1,4 +1,4 @@
-//! Constructors (§5.4), brought into the normal forms of [`ConstructKind`].
+//! Analyzes constructors (§5.4) and brings them into the normal forms of [`ConstructKind`].
 
 use super::super::context::Analyzer;
 use crate::diagnostic::Diagnostic;
@@ -43,7 +43,7 @@ impl Analyzer<'_> {
         }
     }
 
-    /// `float(a)`: one argument, of which the first component counts.
+    /// `float(a)`: takes the first component of its one argument.
     fn construct_scalar(&mut self, ty: TypeId, scalar: Scalar, arguments: &[ExprId], head: Span, span: Span) -> ExprId {
         let name = self.type_name(ty);
         let &[argument] = arguments else {
@@ -59,7 +59,7 @@ impl Analyzer<'_> {
         if converted != argument {
             return converted;
         }
-        // `float(x)` of a float is `x`, but no l-value.
+        // `float(x)` of a float is `x`, but not an l-value.
         self.push(ExprKind::Convert(argument), ty, span)
     }
 
@@ -79,7 +79,7 @@ impl Analyzer<'_> {
         }
     }
 
-    /// Vectors and matrices.
+    /// Constructors of vectors and matrices.
     fn construct_components(
         &mut self,
         ty: TypeId,
@@ -112,13 +112,13 @@ impl Analyzer<'_> {
         self.push(ExprKind::Construct(ConstructKind::Compose, arguments), ty, span)
     }
 
-    /// An argument as components of the wanted scalar type; a matrix for a vector of integers is taken by its columns.
+    /// An argument as components of the wanted scalar type. A matrix in a vector of integers contributes its columns.
     fn component_argument(&mut self, argument: ExprId, scalar: Scalar) -> ExprId {
         match self.types.get(self.ty(argument)) {
             Type::Matrix(columns, rows) if scalar != Scalar::Float => {
                 let span = self.span(argument);
-                // A vector has at most four components; `check_components` has seen that a 2x2 matrix is all that fits
-                // whole, and what is left over of a larger one is not read.
+                // A vector has at most four components. `check_components` has made sure that a 2x2 matrix is the
+                // only one that fits whole; the excess components of a larger one are not read.
                 let floats = columns.saturating_mul(rows).min(4);
                 let ty = TypeId::vector(Scalar::Float, floats);
                 let kind = ExprKind::Construct(ConstructKind::Compose, vec![argument]);
@@ -249,7 +249,7 @@ impl Analyzer<'_> {
         self.push(ExprKind::Construct(kind, arguments), ty, span)
     }
 
-    /// The first argument too many, or the constructor's head if there are too few.
+    /// The first excess argument, or the constructor's head if there are too few.
     fn past(&self, arguments: &[ExprId], index: usize, head: Span) -> Span {
         arguments.get(index).map_or(head, |&argument| self.span(argument))
     }

@@ -1,11 +1,13 @@
 //! Implicit conversions (§4.1.10).
+//!
+//! *Holds:* a conversion is an expression of its own in the typed program; nothing later converts.
 
 use super::super::context::Analyzer;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::types;
 use crate::hir::{ArraySize, ExprId, ExprKind, Scalar, Type, TypeId, Types};
 
-/// Whether one type converts to another without being asked; a type does not convert to itself.
+/// Whether one type converts implicitly to another. A type does not convert to itself.
 pub(in crate::analysis) fn converts(types: &Types, from: TypeId, to: TypeId) -> bool {
     match (types.get(from), types.get(to)) {
         (Type::Scalar(from), Type::Scalar(to)) => scalar_converts(from, to),
@@ -14,13 +16,13 @@ pub(in crate::analysis) fn converts(types: &Types, from: TypeId, to: TypeId) -> 
     }
 }
 
-/// The table of 1.50: integers become `float`, and nothing else converts.
+/// The table of 1.50: integers convert to `float`; there is no other conversion.
 fn scalar_converts(from: Scalar, to: Scalar) -> bool {
     matches!((from, to), (Scalar::Int | Scalar::Uint, Scalar::Float))
 }
 
 impl Analyzer<'_> {
-    /// The expression as the type that is wanted; `None` if there is no such conversion.
+    /// The expression converted to a type; `None` if there is no such conversion.
     pub(in crate::analysis) fn convert(&mut self, id: ExprId, to: TypeId) -> Option<ExprId> {
         let from = self.ty(id);
         if from == to || from.is_error() || to.is_error() {
@@ -29,7 +31,7 @@ impl Analyzer<'_> {
         converts(self.types, from, to).then(|| self.push_convert(id, to))
     }
 
-    /// Like [`Self::convert`], and an expression that does not fit is reported: `what` is wanted as a `to`.
+    /// Like [`Self::convert`], but reports an expression that does not convert; `what` must be a `to`.
     pub(in crate::analysis) fn convert_or_report(&mut self, id: ExprId, to: TypeId, what: &str) -> ExprId {
         if let Some(converted) = self.convert(id, to) {
             return converted;
@@ -43,7 +45,7 @@ impl Analyzer<'_> {
         self.poison(span)
     }
 
-    /// Writes the constructor that would mend a mismatch, if there is one.
+    /// A help text with the constructor that would fix a mismatch, if there is one.
     pub(in crate::analysis) fn conversion_help(
         &self,
         from: TypeId,
@@ -63,7 +65,7 @@ impl Analyzer<'_> {
         }
     }
 
-    /// Converts a value of numbers or booleans component by component, as constructors do (§5.4.1).
+    /// Converts a numeric or boolean value component by component, as constructors do (§5.4.1).
     pub(in crate::analysis) fn with_scalar(&mut self, id: ExprId, scalar: Scalar) -> ExprId {
         let ty = match self.types.get(self.ty(id)) {
             Type::Scalar(from) if from != scalar => TypeId::vector(scalar, 1),

@@ -1,8 +1,8 @@
-//! Names that are no names of GLSL 1.50 and are often tried: of other languages, and of later versions.
+//! Names that GLSL 1.50 does not have and people often try: those of other languages and of later versions.
 //!
-//! *In:* an unknown name. *Out:* what to write instead. *Not done here:* names that were only misspelled.
+//! *In:* an unknown name. *Out:* what to write instead. *Not done here:* misspelled names.
 
-/// Functions of HLSL and their like, and what does the same here.
+/// Functions of HLSL and similar languages, and their equivalent in GLSL.
 #[rustfmt::skip]
 static FUNCTIONS: &[(&str, &str)] = &[
     ("lerp", "write `mix(a, b, t)`"),
@@ -33,7 +33,7 @@ static TYPES: &[(&str, &str)] = &[
     ("half4", "vec4"), ("char", "int"), ("size_t", "uint"), ("Texture2D", "sampler2D"),
 ];
 
-/// Functions that later versions brought.
+/// Functions of later versions.
 #[rustfmt::skip]
 static LATER: &[(&str, u16)] = &[
     ("floatBitsToInt", 330), ("floatBitsToUint", 330), ("intBitsToFloat", 330), ("uintBitsToFloat", 330),

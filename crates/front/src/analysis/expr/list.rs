@@ -1,4 +1,4 @@
-//! Initializer lists `{a, b}` (ARB_shading_language_420pack).
+//! Analyzes initializer lists `{a, b}` (ARB_shading_language_420pack).
 
 use super::super::context::Analyzer;
 use crate::diagnostic::Diagnostic;
@@ -8,18 +8,18 @@ use crate::source::Span;
 use crate::syntax::ast;
 
 impl Analyzer<'_> {
-    /// The initializer of a variable of type `ty`: an expression, or a list where those are on.
+    /// The initializer of a variable of type `ty`: an expression or, where the extension is enabled, a list.
     pub(in crate::analysis) fn initializer(&mut self, id: ast::ExprId, ty: TypeId) -> ExprId {
         let expr = self.ast.expr(id);
         let ast::ExprKind::List(elements) = &expr.kind else { return self.expr(id) };
         if !self.allows_420pack(expr.span) {
-            // The parser has said so.
+            // The parser has reported it.
             return self.poison(expr.span);
         }
         self.list(elements, ty, expr.span)
     }
 
-    /// A list anywhere but behind the `=` of a declaration.
+    /// Reports a list anywhere but after the `=` of a declaration.
     pub(super) fn misplaced_list(&mut self, _: &[ast::ExprId], span: Span) -> ExprId {
         self.report(
             Diagnostic::new(&types::LIST, span, "a list in braces only initializes a variable")

@@ -1,4 +1,4 @@
-//! L-values (§5.8): what can be written to, and why the rest cannot.
+//! L-values (§5.8): which expressions can be written to, and why the others cannot.
 
 use super::super::context::Analyzer;
 use crate::diagnostic::Diagnostic;
@@ -6,7 +6,7 @@ use crate::diagnostic::codes::types;
 use crate::hir::{ExprId, ExprKind, LocalKind, ParamMode, Storage, Swizzle, VarRef};
 use crate::source::Span;
 
-/// What an l-value is wanted for.
+/// Why an l-value is needed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::analysis) enum Purpose {
     /// `a = b`
@@ -17,7 +17,7 @@ pub(in crate::analysis) enum Purpose {
     Argument,
 }
 
-/// Why something is no l-value.
+/// The reason why an expression is not an l-value.
 struct Refusal {
     at: Span,
     why: String,
@@ -25,7 +25,7 @@ struct Refusal {
 }
 
 impl Analyzer<'_> {
-    /// Whether an expression can be written to; if not, that is reported. Poison passes.
+    /// Checks that an expression can be written to, and reports it otherwise. Poison passes.
     pub(in crate::analysis) fn require_lvalue(&mut self, id: ExprId, purpose: Purpose) -> bool {
         let Some(refusal) = self.refusal(id) else { return true };
         let what = self.quote(id);
@@ -94,7 +94,7 @@ impl Analyzer<'_> {
     }
 }
 
-/// Whether a component stands in a swizzle twice.
+/// Whether a swizzle has a component twice.
 fn repeats(swizzle: &Swizzle) -> bool {
     let components = swizzle.as_slice();
     components

@@ -1,8 +1,8 @@
-//! Expressions (§5): from the syntax tree to typed expressions.
+//! Analyzes expressions (§5): from the syntax tree to typed expressions.
 //!
-//! Chains such as `a + b + c + ...` lean to the left and may be thousands of operators long, so the walk goes down the
-//! left operands with a loop and types the operators on the way back; only right operands, arguments and indices
-//! recurse, and those nest at most as deep as the parser allows.
+//! A chain such as `a + b + c + ...` leans to the left and may be thousands of operators long. The traversal
+//! therefore descends along left operands with a loop and types the operators on its way back. It recurses only into
+//! right operands, arguments and indices, which nest at most as deep as the parser allows.
 
 mod access;
 mod assign;
@@ -58,12 +58,12 @@ impl Analyzer<'_> {
             ExprKind::Call(name, arguments) => self.call(*name, arguments, span),
             ExprKind::Construct(spec, arguments) => self.construct_spec(spec, arguments, span),
             ExprKind::List(elements) => self.misplaced_list(elements, span),
-            // Those with a left operand never come here; `left_operand` has taken them apart.
+            // Expressions with a left operand never get here; `left_operand` has taken them apart.
             _ => self.poison(span),
         }
     }
 
-    /// Types an operation whose left operand is typed.
+    /// Types an operation whose left operand has been typed.
     fn operation(&mut self, id: ast::ExprId, left: ExprId) -> ExprId {
         let expr = self.ast.expr(id);
         let span = expr.span;
@@ -96,7 +96,7 @@ impl Analyzer<'_> {
     }
 }
 
-/// The operand that stands at the very left of an operation.
+/// The leftmost operand of an operation.
 fn left_operand(kind: &ExprKind) -> Option<ast::ExprId> {
     match kind {
         ExprKind::Binary(_, _, left, _)
@@ -120,12 +120,12 @@ fn scalar(literal: Literal) -> ScalarValue {
     }
 }
 
-/// How deep the walk over an expression recurses, given the depths of all expressions before it.
+/// How deep the traversal of an expression recurses, given the depths of all earlier expressions.
 pub(super) fn recursion_depth(kind: &ExprKind, depths: &[u32]) -> u32 {
     let at = |id: &ast::ExprId| depths.get(id.index()).copied().unwrap_or(0);
     let list = |ids: &[ast::ExprId]| ids.iter().map(at).max().unwrap_or(0);
     let dims = |dims: &[ast::ArrayDim]| dims.iter().filter_map(|dim| dim.size.as_ref()).map(at).max().unwrap_or(0);
-    // The deepest operand that the loop reaches, and the deepest that it recurses into.
+    // The deepest operand that the loop visits, and the deepest that it recurses into.
     let (left, right) = match kind {
         ExprKind::Error | ExprKind::Literal(_) | ExprKind::Name(_) => return 0,
         ExprKind::Unary(_, a) | ExprKind::IncDec(IncDec::PreIncrement | IncDec::PreDecrement, a) => (0, at(a)),

@@ -1,4 +1,5 @@
-//! Names in expressions: variables, members of blocks without an instance, built-in variables and constants.
+//! Analyzes names in expressions: variables, members of blocks without an instance name, built-in variables and
+//! constants.
 
 use super::super::context::Analyzer;
 use super::super::scope::Entry;
@@ -9,8 +10,8 @@ use crate::hir::{ExprId, ExprKind, ScalarValue, Stage, Storage, Type, TypeId, Va
 use crate::source::Span;
 use crate::syntax::ast::Ident;
 
-/// The variables of §7.1.1, §7.3, §7.5.1 and §7.6 that the core profile lacks, without numbers at their ends. They are not
-/// in the table of built-in variables, for no phase knows what to do with them.
+/// The variables of §7.1.1, §7.3, §7.5.1 and §7.6 that the core profile lacks, without the digits at their ends. They
+/// are not in the table of built-in variables because no phase supports them.
 static COMPATIBILITY: [&str; 42] = [
     "gl_Vertex",
     "gl_Normal",
@@ -57,7 +58,7 @@ static COMPATIBILITY: [&str; 42] = [
 ];
 
 impl Analyzer<'_> {
-    /// The variable behind a name.
+    /// The variable that a name denotes.
     pub(super) fn name_expr(&mut self, name: Ident) -> ExprId {
         let span = name.span;
         let Some(binding) = self.scopes.find(name.symbol) else { return self.builtin_name(name) };
@@ -88,7 +89,7 @@ impl Analyzer<'_> {
         if ty.is_error() { self.poison(span) } else { self.push(ExprKind::Var(var), ty, span) }
     }
 
-    /// A member of a struct or block by its number.
+    /// A member of a struct or block, by its index.
     pub(in crate::analysis) fn member(&mut self, base: ExprId, member: u32, span: Span) -> ExprId {
         let ty = match self.types.get(self.ty(base)) {
             Type::Struct(id) => self.types.structure(id).members.get(member as usize).map(|member| member.ty),
@@ -100,7 +101,7 @@ impl Analyzer<'_> {
         }
     }
 
-    /// A name that the shader does not declare.
+    /// A name that the shader does not declare: a built-in one, or an error.
     fn builtin_name(&mut self, name: Ident) -> ExprId {
         let spelling = self.name(name);
         let version = self.ast.version;
@@ -116,7 +117,7 @@ impl Analyzer<'_> {
             return self.variable(VarRef::Global(id), name.span);
         }
         self.report_unknown(name);
-        // From here on the name is known to be unknown: one mistake, one message.
+        // From here on the name is poison, so that it is reported once.
         self.scopes.enter(name.symbol, Entry::Poison, name.span);
         self.poison(name.span)
     }

@@ -1,4 +1,4 @@
-//! Operators without side effects (§5.9): unary, binary, `?:` and `,`.
+//! Analyzes operators without side effects (§5.9): unary, binary, `?:` and `,`.
 
 use super::super::context::Analyzer;
 use crate::diagnostic::Diagnostic;
@@ -7,7 +7,7 @@ use crate::hir::{ArraySize, BinaryOp, ExprId, ExprKind, LogicalOp, Scalar, Type,
 use crate::source::Span;
 use crate::syntax::ast;
 
-/// The operands of a binary operator, converted, and what comes of them.
+/// The converted operands of a binary operator, and the type of the result.
 pub(super) struct Typed {
     pub(super) left: ExprId,
     pub(super) right: ExprId,
@@ -49,7 +49,7 @@ impl Analyzer<'_> {
             if self.shader.root_variable(operand).is_none() {
                 return operand;
             }
-            // `+a` is `a`, but no l-value; two negations change no bit of any number.
+            // `+a` is `a`, but not an l-value. Two negations change no bit of any number.
             let negated = self.push(ExprKind::Unary(kind, operand), ty, span);
             return self.push(ExprKind::Unary(kind, negated), ty, span);
         }
@@ -89,7 +89,7 @@ impl Analyzer<'_> {
         }
     }
 
-    /// Finds out what an operator does with two operands that are not in error; `None` if it takes no such operands.
+    /// Types an operator with two valid operands; `None` if it does not accept operands of these types.
     pub(super) fn typed_binary(&mut self, operator: ast::BinaryOp, left: ExprId, right: ExprId) -> Option<Typed> {
         use ast::BinaryOp as B;
         let operands = (left, right);
@@ -120,7 +120,7 @@ impl Analyzer<'_> {
         }
     }
 
-    /// `+ - * /` on numbers of one kind after conversion.
+    /// `+ - * /` on numbers of one scalar type, after conversion.
     fn arithmetic(&mut self, operator: BinaryOp, (left, right): (ExprId, ExprId)) -> Option<Typed> {
         let kinds = (self.types.scalar_of(self.ty(left))?, self.types.scalar_of(self.ty(right))?);
         let (left, right) = match kinds {
@@ -152,7 +152,8 @@ impl Analyzer<'_> {
         Some(Typed { left, right, operator, ty })
     }
 
-    /// `% & ^ |` on integers of one sign.
+    /// `% & ^
+    /// ` on integers of the same signedness.
     fn integers(&mut self, operator: BinaryOp, (left, right): (ExprId, ExprId)) -> Option<Typed> {
         let (a, b) = (self.ty(left), self.ty(right));
         let kind = self.types.scalar_of(a)?;
@@ -168,7 +169,7 @@ impl Analyzer<'_> {
         Some(Typed { left, right, operator, ty })
     }
 
-    /// `<< >>`: the signs may differ; a scalar is shifted by a scalar.
+    /// `<< >>`: the signedness may differ; a scalar is shifted only by a scalar.
     fn shift(&mut self, operator: BinaryOp, (left, right): (ExprId, ExprId)) -> Option<Typed> {
         let (a, b) = (self.ty(left), self.ty(right));
         let integer = |ty| self.types.scalar_of(ty).is_some_and(Scalar::is_integer);
@@ -191,7 +192,7 @@ impl Analyzer<'_> {
         }
     }
 
-    /// `== !=` on whole values of one type, samplers and arrays without a size apart.
+    /// `== !=` on complete values of one type, except samplers and arrays without a size.
     fn equality(&mut self, operator: BinaryOp, operands: (ExprId, ExprId)) -> Option<Typed> {
         let (left, right) = self.balance(operands)?;
         let ty = self.ty(left);
@@ -257,7 +258,7 @@ impl Analyzer<'_> {
         self.push(ExprKind::Comma(left, right), ty, span)
     }
 
-    /// Reports an expression that is no scalar `bool`.
+    /// Reports an expression that is not a scalar `bool`.
     pub(in crate::analysis) fn require_bool(&mut self, id: ExprId, what: &str) {
         let ty = self.ty(id);
         if ty == TypeId::BOOL || ty.is_error() {
@@ -279,7 +280,7 @@ impl Analyzer<'_> {
         );
     }
 
-    /// Reports operands that an operator does not take.
+    /// Reports operands that an operator does not accept.
     pub(super) fn report_operands(&mut self, spelling: &str, at: Span, left: ExprId, right: ExprId) {
         let (a, b) = (self.type_name(self.ty(left)), self.type_name(self.ty(right)));
         let help = self.operand_help(spelling, left, right);

@@ -1,20 +1,20 @@
-//! Overload resolution (§6.1): an exact match, else the one match by implicit conversions.
+//! Overload resolution (§6.1): an exact match, or else the only match by implicit conversions.
 
 use super::convert::converts;
 use crate::hir::{ParamMode, TypeId, Types};
 
-/// What resolution found among candidates.
+/// The result of overload resolution.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Resolution {
-    /// The candidate with this number.
+    /// The candidate with this index.
     Found(usize),
-    /// More than one by conversions: these two are the first.
+    /// Several candidates match by conversions; these are the first two.
     Ambiguous(usize, usize),
-    /// None.
+    /// No candidate matches.
     Missing,
 }
 
-/// How well a candidate takes the arguments.
+/// How a candidate matches the arguments.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Fit {
     Exact,
@@ -22,7 +22,7 @@ enum Fit {
     None,
 }
 
-/// Picks among candidates, each given by its parameters.
+/// Resolves a call among candidates, each given by its parameters.
 pub(super) fn resolve<P>(types: &Types, arguments: &[TypeId], candidates: impl Iterator<Item = P>) -> Resolution
 where
     P: IntoIterator<Item = (TypeId, ParamMode)>,

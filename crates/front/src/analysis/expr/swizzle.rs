@@ -1,24 +1,24 @@
-//! Component names of vectors (§5.5).
+//! Component names of vectors (§5.5), parsed into swizzles.
 
 use crate::hir::Swizzle;
 
-/// The three sets of names; names of different sets do not mix.
+/// The three sets of names, which cannot be mixed.
 const SETS: [&str; 3] = ["xyzw", "rgba", "stpq"];
 
-/// Why a field of a vector is no swizzle.
+/// Why a field of a vector is not a swizzle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Fault {
     /// A letter that names no component.
     NoComponent(char),
     /// Letters of two sets.
     Mixed,
-    /// More than four.
+    /// More than four letters.
     TooLong,
     /// A component that the vector does not have.
     Missing(char),
 }
 
-/// Reads the components of a vector of `size` components.
+/// Parses the swizzle of a vector of `size` components.
 pub(super) fn parse(text: &str, size: u8) -> Result<Swizzle, Fault> {
     let mut swizzle = Swizzle { len: 0, components: [0; 4] };
     let mut set = None;

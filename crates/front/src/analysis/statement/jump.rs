@@ -1,4 +1,4 @@
-//! Jumps (§6.4).
+//! Analyzes jumps (§6.4): `return`, `break`, `continue`, `discard`.
 
 use super::super::context::Analyzer;
 use crate::diagnostic::codes::statements;
@@ -67,7 +67,8 @@ impl Analyzer<'_> {
         }
     }
 
-    /// §6.4 names no conversion; 420pack adds it, and every driver has always done it.
+    /// Warns about a converted `return` value: §6.4 does not mention conversions; 420pack adds them, and every driver
+    /// has always converted.
     fn report_conversion(&mut self, span: Span, from: TypeId, to: TypeId) {
         let (from, to) = (self.type_name(from), self.type_name(to));
         let mut finding = Diagnostic::new(

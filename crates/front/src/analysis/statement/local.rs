@@ -1,4 +1,4 @@
-//! Local variables (§4.2, §4.3).
+//! Analyzes local variables (§4.2, §4.3).
 
 use super::super::context::{Analyzer, ArrayKey};
 use super::super::qualifiers::{Place, Qualifiers};
@@ -11,7 +11,7 @@ use crate::hir::{
 use crate::syntax::ast::{Declarator, VariableDecl};
 
 impl Analyzer<'_> {
-    /// `vec3 a = b, c;` inside of a function.
+    /// `vec3 a = b, c;` inside a function.
     pub(super) fn local_variables(&mut self, declaration: &VariableDecl, out: &mut Vec<Stmt>) {
         let record = self.qualifiers(&declaration.qualifiers, Place::Local);
         let base = self.type_spec(&declaration.ty);
@@ -56,7 +56,7 @@ impl Analyzer<'_> {
         (id.filter(|_| !ty.is_error()), initializer)
     }
 
-    /// An array declared before in this scope without a size may be declared again with one (§4.1.9).
+    /// Whether this redeclares, with a size, an array that was declared in this scope without one (§4.1.9).
     fn resizes_local(&mut self, declarator: &Declarator, ty: TypeId) -> bool {
         let found = self.scopes.find_here(declarator.name.symbol).map(|binding| binding.entry);
         let Some(Entry::Variable(VarRef::Local(id))) = found else { return false };
@@ -130,7 +130,7 @@ impl Analyzer<'_> {
         (ty, Some(expr), value)
     }
 
-    /// `while (bool b = f())`: declared anew in each round.
+    /// `while (bool b = f())`: declares the variable anew in each iteration.
     pub(super) fn condition_variable(&mut self, declaration: &VariableDecl) -> Condition {
         let record = self.qualifiers(&declaration.qualifiers, Place::Local);
         let base = self.type_spec(&declaration.ty);

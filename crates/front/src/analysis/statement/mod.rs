@@ -1,6 +1,7 @@
-//! Statements (§6.2 to §6.4).
+//! Analyzes statements (§6.2 to §6.4).
 //!
-//! A `for` becomes a block that holds its initializer and the loop, so that its variables live as long as it does.
+//! A `for` becomes a block that contains its initializer and the loop, so that its variables live as long as the
+//! block.
 
 mod jump;
 mod local;
@@ -14,7 +15,7 @@ use crate::hir::{Condition, ExprId, LoopKind, Stmt, StmtKind};
 use crate::source::Span;
 use crate::syntax::ast;
 
-/// How deep statements nest in a shader.
+/// How deep the statements of a shader nest.
 pub(super) fn nesting(ast: &ast::Ast) -> u32 {
     let bodies = ast.declarations.iter().filter_map(|declaration| match &declaration.kind {
         ast::DeclarationKind::Function(_, body) => Some(body),
@@ -23,7 +24,7 @@ pub(super) fn nesting(ast: &ast::Ast) -> u32 {
     bodies.map(nesting_of).max().unwrap_or(0)
 }
 
-/// Recurses, with small frames, as deep as the parser has already gone.
+/// Recurses, with small stack frames, as deep as the parser did.
 fn nesting_of<'s>(body: impl IntoIterator<Item = &'s ast::Stmt>) -> u32 {
     body.into_iter().map(nesting_of_one).max().unwrap_or(0)
 }
@@ -44,7 +45,7 @@ fn nesting_of_one(stmt: &ast::Stmt) -> u32 {
 }
 
 impl Analyzer<'_> {
-    /// Statements in a scope that the caller has opened.
+    /// Statements, in a scope that the caller has opened.
     pub(super) fn statements(&mut self, body: &[ast::Stmt]) -> Vec<Stmt> {
         let mut out = Vec::with_capacity(body.len());
         for stmt in body {
@@ -53,7 +54,7 @@ impl Analyzer<'_> {
         out
     }
 
-    /// A statement as a body of its own, in a scope of its own.
+    /// A statement as a body with its own scope.
     fn scoped(&mut self, stmt: &ast::Stmt) -> Vec<Stmt> {
         self.scopes.open();
         let out = self.unscoped(stmt);
@@ -61,7 +62,7 @@ impl Analyzer<'_> {
         out
     }
 
-    /// A statement as a body in the scope that is open; its braces open none.
+    /// A statement as a body in the current scope; its braces open none.
     fn unscoped(&mut self, stmt: &ast::Stmt) -> Vec<Stmt> {
         let mut out = Vec::new();
         match &stmt.kind {
@@ -83,7 +84,7 @@ impl Analyzer<'_> {
             }
             S::Broken(names) => return self.enter_broken(names),
             S::Empty => return,
-            // A declaration of nothing, `S;`, which only the meaning of the name tells from an expression (§9).
+            // A declaration of nothing, `S;`. Only the meaning of the name tells it from an expression (§9).
             S::Expr(expr) if self.is_struct_name(*expr) => return,
             S::Expr(expr) => StmtKind::Expr(self.expr(*expr)),
             S::Variables(declaration) => return self.local_variables(declaration, out),
@@ -171,9 +172,9 @@ impl Analyzer<'_> {
         }
     }
 
-    /// The body of `for` and `while` shares the scope of the loop's head (§4.2, §9).
+    /// The body of `for` and `while` shares the scope of the loop's header (§4.2, §9).
     fn loop_body(&mut self, body: &ast::Stmt, own_scope: bool) -> Vec<Stmt> {
-        // A `break` in the loop leaves the loop, even inside of a switch.
+        // A `break` in the loop leaves the loop, even inside a `switch`.
         let switches = self.body.as_mut().map_or(0, |state| {
             state.loops += 1;
             std::mem::take(&mut state.switches)

@@ -1,4 +1,4 @@
-//! `switch` (§6.2).
+//! Analyzes `switch` (§6.2).
 
 use super::super::context::Analyzer;
 use crate::diagnostic::Diagnostic;
@@ -38,7 +38,7 @@ impl Analyzer<'_> {
         );
     }
 
-    /// Groups labels and statements. A label behind a statement opens a new case.
+    /// Groups labels and statements into cases. A label after a statement begins a new case.
     fn cases(&mut self, selector: TypeId, body: &[SwitchItem]) -> Vec<Case> {
         let mut cases: Vec<Case> = Vec::new();
         let mut seen: FxHashMap<CaseLabel, Span> = FxHashMap::default();

@@ -1,4 +1,4 @@
-//! Limits, what is not supported yet, and slips of glisten's own.
+//! Codes for limits, unsupported features, and internal errors of glisten (`E00xx`).
 
 use super::Example::{Fragment, None, Text, Vertex};
 

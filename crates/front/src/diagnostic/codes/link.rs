@@ -1,4 +1,4 @@
-//! Codes of the phase `link`; the table in the parent module says which range.
+//! Codes of the phase `link` (`E07xx`, `W07xx`).
 
 use super::Example::{Fragment, Geometry, None, Program, Shaders, Text, Vertex};
 use crate::language::Stage;

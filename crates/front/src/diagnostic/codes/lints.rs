@@ -1,4 +1,4 @@
-//! Codes of the lint rules (`src/lint/rules`, one file a rule).
+//! Codes of the lint rules (`L0xxx`); each rule is a file in `src/lint/rules`.
 
 use super::Example::{Fragment, Program};
 

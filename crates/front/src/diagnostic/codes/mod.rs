@@ -1,7 +1,7 @@
-//! The registry of diagnostic codes: one row a code, one file a phase.
+//! The registry of diagnostic codes: one row for each code, one file for each phase.
 //!
-//! A row holds all that `glisten explain`, the reference page and SARIF's rule metadata need. Each `bad`
-//! example raises the code and each `good` one is clean; a test runs them all.
+//! A row contains everything that `glisten explain`, the reference page and SARIF's rule metadata need. Each `bad`
+//! example raises its code, and each `good` one is clean; a test runs them all.
 //!
 //! | range | phase |
 //! | --- | --- |
@@ -14,8 +14,8 @@
 //! | `E07xx` | link |
 //! | `E08xx` | lowering, emission, targets |
 //! | `E09xx` | scenes and running |
-//! | `E0001` to `E0099` | limits, "not supported yet", internal errors |
-//! | `W01xx` to `W07xx` | what is forgiven or legal and hurts, same hundreds as above |
+//! | `E0001` to `E0099` | limits, unsupported features, internal errors |
+//! | `W01xx` to `W07xx` | forgiven, or legal but harmful; the hundreds are those of the errors |
 //! | `L0xxx` | lint rules |
 
 use super::Severity;
@@ -24,19 +24,19 @@ use std::fmt;
 /// A row of the registry.
 #[derive(Debug)]
 pub struct Code {
-    /// `E0301`: stable for ever.
+    /// `E0301`: stable forever.
     pub id: &'static str,
-    /// A name that reads well after "allow": `undeclared-identifier`.
+    /// A name that can follow "allow": `undeclared-identifier`.
     pub name: &'static str,
-    /// The severity it has unless levels say otherwise.
+    /// The severity, unless levels change it.
     pub severity: Severity,
-    /// What it rests on: `GLSL 1.50 §4.2.2`, or empty.
+    /// The section of the specification: `GLSL 1.50 §4.2.2`, or empty.
     pub section: &'static str,
-    /// The page: what it means and why, in whole sentences.
+    /// The page: what the code means and why, in whole sentences.
     pub page: &'static str,
-    /// Raises the code.
+    /// An example that raises the code.
     pub bad: Example,
-    /// The same, mended.
+    /// The same example, corrected.
     pub good: Example,
 }
 
@@ -57,19 +57,19 @@ impl fmt::Display for Code {
 /// An example on a page.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Example {
-    /// A vertex shader alone. Without a `#version` line of its own, `#version 150` is put before it.
+    /// A single vertex shader. Without a `#version` line of its own, it gets `#version 150`.
     Vertex(&'static str),
-    /// A fragment shader alone, likewise.
+    /// A single fragment shader, with the same default version.
     Fragment(&'static str),
-    /// A geometry shader alone, likewise.
+    /// A single geometry shader, with the same default version.
     Geometry(&'static str),
-    /// A vertex and a fragment shader linked.
+    /// A vertex and a fragment shader, linked.
     Program(&'static str, &'static str),
-    /// Several shaders linked, also of one stage.
+    /// Several shaders, linked; some may be of the same stage.
     Shaders(&'static [(crate::language::Stage, &'static str)]),
-    /// Text that is no shader (a scene, a command line): shown, not run.
+    /// Text that is not a shader (a scene, a command line). It is shown, not run.
     Text(&'static str),
-    /// Nothing short would show it.
+    /// No short example exists.
     None,
 }
 

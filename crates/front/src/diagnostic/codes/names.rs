@@ -1,4 +1,4 @@
-//! Names, scopes, declarations (`E03xx`).
+//! Codes for names, scopes and declarations (`E03xx`).
 
 use super::Example::{Fragment, Geometry, Vertex};
 

@@ -1,4 +1,4 @@
-//! Codes of the phase `preprocess`: characters, comments, directives and macros (GLSL 1.50 §3.1 to §3.4).
+//! Codes of the phase `preprocess` (`E01xx`): characters, comments, directives and macros (GLSL 1.50 §3.1 to §3.4).
 
 use super::Example::{Fragment, None, Vertex};
 

@@ -1,4 +1,4 @@
-//! Qualifiers, layouts, blocks, built-in variables (`E06xx`).
+//! Codes for qualifiers, layouts, blocks and built-in variables (`E06xx`).
 
 use super::Example::{Fragment, Geometry, Vertex};
 

@@ -1,4 +1,4 @@
-//! Scene files and running them.
+//! Codes for scene files and for running them (`E09xx`).
 
 use super::Example::{None, Text};
 

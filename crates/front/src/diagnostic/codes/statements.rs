@@ -1,4 +1,4 @@
-//! Statements, functions (`E05xx`).
+//! Codes for statements and functions (`E05xx`).
 
 use super::Example::{Fragment, None, Vertex};
 

@@ -1,4 +1,4 @@
-//! Codes of the phase `syntax`: literals and the grammar (GLSL 1.50 §3.6, §4.1, §9).
+//! Codes of the phase `syntax` (`E02xx`): literals and the grammar (GLSL 1.50 §3.6, §4.1, §9).
 
 use super::Example::{Fragment, Vertex};
 

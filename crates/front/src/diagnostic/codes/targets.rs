@@ -1,4 +1,4 @@
-//! What a target cannot hold, found while lowering and emitting.
+//! Codes for what a target cannot represent, found during lowering and emission (`E08xx`).
 
 use super::Example::{Geometry, None, Vertex};
 

@@ -1,4 +1,4 @@
-//! Types, expressions, constants (`E04xx`).
+//! Codes for types, expressions and constants (`E04xx`).
 
 use super::Example::{Fragment, Vertex};
 

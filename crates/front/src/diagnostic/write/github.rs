@@ -1,9 +1,9 @@
-//! Diagnostics as workflow commands of GitHub Actions, which show them beside the changed lines.
+//! Writes diagnostics as workflow commands of GitHub Actions, which shows them next to the changed lines.
 
 use super::Finding;
 use crate::diagnostic::Severity;
 
-/// Writes one `::error file=...::` line a finding.
+/// Writes one `::error file=...::` line per finding.
 pub fn github(findings: &[Finding]) -> String {
     findings.iter().map(line).collect()
 }
@@ -20,7 +20,7 @@ fn line(finding: &Finding) -> String {
         message.push_str("\nhelp: ");
         message.push_str(help);
     }
-    // Columns are for annotations within one line only; GitHub refuses them otherwise.
+    // GitHub accepts columns only for annotations within one line.
     let columns = if place.line == place.end_line {
         format!(",col={},endColumn={}", place.column, place.end_column)
     } else {
@@ -36,12 +36,12 @@ fn line(finding: &Finding) -> String {
     )
 }
 
-/// Escapes the text behind `::`.
+/// Escapes the text after `::`.
 fn data(text: &str) -> String {
     text.replace('%', "%25").replace('\r', "%0D").replace('\n', "%0A")
 }
 
-/// Escapes a property's value.
+/// Escapes the value of a property.
 fn property(text: &str) -> String {
     data(text).replace(':', "%3A").replace(',', "%2C")
 }

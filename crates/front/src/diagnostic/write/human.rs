@@ -1,7 +1,8 @@
-//! Diagnostics for people: message, excerpt with carets, labels, notes, help, the section of the specification.
+//! Writes diagnostics for people: message, excerpt with carets, labels, notes, help, the section of the
+//! specification.
 //!
-//! *Holds:* what comes from a source never reaches a terminal as it is: control characters are replaced, and of a
-//! line that is too long only the part about the label is shown.
+//! *Holds:* source text never reaches a terminal unfiltered. Control characters are replaced, and an overlong line is
+//! cut to the part around the label.
 
 use super::{Finding, labels};
 use crate::diagnostic::{Diagnostic, Severity};
@@ -11,12 +12,12 @@ use codespan_reporting::files::{Error, Files};
 use codespan_reporting::term;
 use std::ops::Range;
 
-/// Bytes of a line above which only a part of it is shown.
+/// The length in bytes above which only a part of a line is shown.
 const LONG_LINE: usize = 300;
-/// Characters that are shown on either side of a label in a long line.
+/// How many characters are shown on either side of a label in such a line.
 const AROUND: usize = 80;
 
-/// Writes the diagnostics for people, each followed by an empty line; with `color`, by ANSI escapes.
+/// Writes the diagnostics for people, each followed by an empty line; with `color`, uses ANSI escapes.
 pub fn human<'a>(sources: &SourceMap, diagnostics: impl IntoIterator<Item = &'a Diagnostic>, color: bool) -> String {
     let mut text = String::new();
     for diagnostic in diagnostics {
@@ -92,7 +93,7 @@ fn notes(sources: &SourceMap, diagnostic: &Diagnostic, located: bool) -> Vec<Str
     notes
 }
 
-/// The text without control characters that a terminal would obey.
+/// The text, with replacements for control characters that a terminal would obey.
 fn clean(text: &str) -> String {
     text.chars().map(|character| if keeps(character) { character } else { '\u{fffd}' }).collect()
 }
@@ -101,17 +102,17 @@ fn keeps(character: char) -> bool {
     character == '\n' || character == '\t' || !is_hostile(character)
 }
 
-/// Control characters, and those that turn the direction of writing.
+/// Whether a character controls the terminal or changes the writing direction.
 fn is_hostile(character: char) -> bool {
     character.is_control() || matches!(character, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
-/// A text that an excerpt is taken from.
+/// A text from which an excerpt is taken.
 #[derive(Clone, Copy, PartialEq)]
 enum Excerpt {
-    /// A source as it is.
+    /// A whole source.
     Whole(FileId),
-    /// A part of a line, with what is not to be shown replaced.
+    /// A part of a line, with unsuitable characters replaced.
     Cut(usize),
 }
 
@@ -132,7 +133,7 @@ struct Excerpts<'a> {
 }
 
 impl Excerpts<'_> {
-    /// A label at `span`; nothing if that is nowhere or in an empty text. Of several lines the first is marked.
+    /// Adds a label at `span`, unless that is nowhere or in an empty text. Of several lines, marks the first.
     fn label(&mut self, span: Span, message: &str, primary: bool) -> Option<codespan::Label<Excerpt>> {
         let at = self.sources.location(span)?;
         let file = self.sources.file(at.file);

@@ -1,11 +1,11 @@
-//! Diagnostics as one JSON array, for editors and scripts.
+//! Writes diagnostics as one JSON array, for editors and scripts.
 //!
-//! *Holds:* keys are only ever added. Lines and columns count from 1, `end_column` is exclusive.
+//! *Holds:* keys are only ever added. Lines and columns count from 1; `end_column` is exclusive.
 
 use super::{Finding, Place};
 use serde::Serialize;
 
-/// A place's keys.
+/// The keys of a place.
 #[derive(Serialize)]
 struct JsonPlace<'a> {
     file: &'a str,
@@ -49,7 +49,7 @@ impl<'a> From<&'a Place> for JsonPlace<'a> {
     }
 }
 
-/// Writes the findings as a JSON array with a line end.
+/// Writes the findings as a JSON array, ending in a newline.
 pub fn json(findings: &[Finding]) -> String {
     let rows: Vec<JsonFinding<'_>> = findings.iter().map(row).collect();
     let mut text = serde_json::to_string_pretty(&rows).expect("strings and numbers are always JSON");

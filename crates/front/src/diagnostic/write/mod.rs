@@ -1,11 +1,11 @@
-//! Writers of diagnostics, one file a format. They know nothing of rules.
+//! The writers of diagnostics, one file for each format. They know nothing about rules.
 //!
 //! *In:* a [`SourceMap`] and [`Diagnostic`]s. *Out:* text for people ([`human()`]), or [`Finding`]s, which
-//! [`json()`], [`sarif()`] and [`github()`] turn into theirs. A [`Finding`] no longer needs its source map, so that the
-//! findings of many programs can be joined, sorted and freed of repetitions.
+//! [`json()`], [`sarif()`] and [`github()`] convert. A [`Finding`] no longer needs its source map, so the findings of
+//! many programs can be joined, sorted and deduplicated.
 //!
-//! *Holds:* places are those of the text on disk, whatever `#line` says. What came out of a macro stands at the
-//! macro's use; the text in the macro's body is a label.
+//! *Holds:* places are those of the text on disk, whatever `#line` says. The place of text from a macro is the use of
+//! the macro; the text in the macro's body becomes a label.
 
 mod github;
 mod human;
@@ -20,11 +20,11 @@ pub use sarif::sarif;
 use super::{Diagnostic, Label, Severity};
 use crate::source::{SourceMap, Span};
 
-/// A range of text for people. Lines and columns count from 1, columns in Unicode scalar values (a tab is one), the
-/// end exclusive.
+/// A range of text for people. Lines and columns count from 1, columns in Unicode scalar values (a tab is one); the
+/// end is exclusive.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Place {
-    /// The file's name as the user gave it.
+    /// The name of the file as the user wrote it.
     pub file: String,
     /// First line.
     pub line: u32,
@@ -36,38 +36,38 @@ pub struct Place {
     pub end_column: u32,
 }
 
-/// A place with a word about it.
+/// A place with a message about it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FindingLabel {
-    /// Where.
+    /// The place.
     pub place: Place,
-    /// Why there.
+    /// The message.
     pub message: String,
 }
 
-/// A diagnostic whose places are resolved.
+/// A diagnostic with resolved places.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Finding {
-    /// The offending tokens; of something without a place, the start of the first text.
+    /// The primary place; for a diagnostic without a span, the start of the first text.
     pub place: Place,
-    /// How bad.
+    /// The severity.
     pub severity: Severity,
-    /// The rule.
+    /// The code.
     pub code: &'static super::Code,
-    /// What is wrong.
+    /// The message.
     pub message: String,
-    /// What to do.
+    /// The help text.
     pub help: Option<String>,
-    /// Why here, if more is to be said than the message does, and further places.
+    /// The primary label's message, if it adds to the message, and the secondary labels.
     pub labels: Vec<FindingLabel>,
     /// Facts that need no place.
     pub notes: Vec<String>,
-    /// The line that a `#line` directive gave the place.
+    /// The line number that a `#line` directive gave to the place.
     pub presented_line: Option<u32>,
 }
 
 impl Finding {
-    /// Resolves the places of a diagnostic.
+    /// Resolves the spans of a diagnostic.
     pub fn new(sources: &SourceMap, diagnostic: &Diagnostic) -> Self {
         let outer = sources.call_site(diagnostic.primary.span);
         let labels = labels(sources, diagnostic)
@@ -92,11 +92,12 @@ pub fn findings<'a>(sources: &SourceMap, diagnostics: impl IntoIterator<Item = &
     diagnostics.into_iter().map(|diagnostic| Finding::new(sources, diagnostic)).collect()
 }
 
-/// How many macros are shown between a place and the use that brought it there.
+/// How many macros are shown between a span and the macro use that produced it.
 const MAX_MACRO_LABELS: usize = 3;
 
-/// The labels to show beside the primary place: why here (if that is said), the bodies of the macros through which
-/// the text came, and the diagnostic's own. All stand outside macros or where a macro is written.
+/// The labels to show besides the primary span: its own message (if there is one), the bodies of the macros that the
+/// text came through, and the diagnostic's secondary labels. All of them are outside macros or in the definition of
+/// one.
 fn labels(sources: &SourceMap, diagnostic: &Diagnostic) -> Vec<Label> {
     let primary = &diagnostic.primary;
     let mut labels = Vec::new();
@@ -109,7 +110,7 @@ fn labels(sources: &SourceMap, diagnostic: &Diagnostic) -> Vec<Label> {
             break;
         }
         let written = Span::new(span.start, span.end);
-        // An argument is written at the use itself: nothing more to show.
+        // An argument is written at the use itself, so there is nothing more to show.
         let in_call = expansion.call.start <= span.start && span.end <= expansion.call.end;
         if !in_call {
             labels.push(Label { span: written, message: format!("in the macro `{}`", expansion.name) });

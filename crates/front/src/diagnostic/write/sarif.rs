@@ -1,14 +1,14 @@
-//! Diagnostics as SARIF 2.1.0, the format that code-scanning services take.
+//! Writes diagnostics as SARIF 2.1.0, the format of code-scanning services.
 //!
-//! *Holds:* one run; `rules` lists the codes that occur, in the order of their identifiers, with their pages.
-//! Columns count Unicode code points (`columnKind`), the end exclusive.
+//! *Holds:* there is one run; `rules` lists the codes that occur, in order of identifier, with their pages. Columns
+//! count Unicode code points (`columnKind`); the end is exclusive.
 
 use super::{Finding, Place};
 use crate::diagnostic::{Code, Severity};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
-/// Writes the findings as a SARIF log with a line end.
+/// Writes the findings as a SARIF log, ending in a newline.
 pub fn sarif(findings: &[Finding]) -> String {
     let codes: BTreeMap<&str, &Code> = findings.iter().map(|finding| (finding.code.id, finding.code)).collect();
     let indices: BTreeMap<&str, usize> = codes.keys().enumerate().map(|(index, id)| (*id, index)).collect();
@@ -98,7 +98,7 @@ fn location(place: &Place) -> Value {
     }})
 }
 
-/// The path as a URI reference: what RFC 3986 does not allow in a path is percent-encoded, byte by byte.
+/// The path as a URI reference: bytes that RFC 3986 does not allow in a path are percent-encoded.
 fn uri(path: &str) -> String {
     let mut uri = String::new();
     for byte in path.replace('\\', "/").bytes() {

@@ -1,4 +1,4 @@
-//! Unit tests of the writers over small hand-made diagnostics.
+//! Unit tests of the writers, on small hand-made diagnostics.
 
 use super::{Finding, findings, github, human, json, sarif};
 use crate::diagnostic::codes::general::{NOT_SUPPORTED_YET, TOO_DEEP};

@@ -1,4 +1,4 @@
-//! What stands before the functions: version, extensions, layouts, structs, globals.
+//! Prints what precedes the functions: version, extensions, layouts, structs, globals.
 
 use super::Printer;
 use crate::builtin::BuiltinVariable;
@@ -59,7 +59,7 @@ impl Printer<'_> {
         }
     }
 
-    /// Functions that a global's initializer calls stand behind the globals, and must be known before.
+    /// Prints prototypes of functions that initializers of globals call, since the functions come after the globals.
     pub(super) fn early_prototypes(&mut self) {
         let shader = self.shader;
         let mut called = Vec::new();
@@ -93,7 +93,7 @@ impl Printer<'_> {
         }
     }
 
-    /// What a shader may say of a built-in variable: a size, a layout, `invariant`.
+    /// A redeclaration of a built-in variable: its size, its layout, or `invariant`.
     fn builtin(&mut self, global: &Global) {
         let direction = storage(global.storage);
         match global.builtin {
@@ -210,7 +210,7 @@ fn member_qualifiers(member: &Member, storage: &str) -> String {
     let row_major = storage == "uniform " && member.matrix_layout == MatrixLayout::RowMajor;
     let order = if row_major { "layout(row_major) " } else { "" };
     let interpolation = member.interpolation.map_or(String::new(), |word| format!("{} ", word.name()));
-    // `centroid` stands before a storage qualifier, which in a block can only be the block's own.
+    // `centroid` precedes a storage qualifier, which in a block can only be that of the block.
     let centroid = if member.centroid { format!("centroid {storage}") } else { String::new() };
     let invariant = if member.invariant { "invariant " } else { "" };
     format!("{order}{invariant}{interpolation}{centroid}")

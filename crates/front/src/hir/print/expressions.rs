@@ -1,4 +1,4 @@
-//! Expressions, with as few brackets as the precedences (GLSL 1.50 §5.1) allow.
+//! Prints expressions, with as few parentheses as the precedences (GLSL 1.50 §5.1) allow.
 
 use super::Printer;
 use crate::builtin::{BuiltinFunction, functions};
@@ -6,7 +6,7 @@ use crate::hir::{
     BinaryOp, Expr, ExprId, ExprKind, IncDec, LogicalOp, ParamMode, ScalarValue, Swizzle, Type, TypeId, UnaryOp, VarRef,
 };
 
-/// How tightly an operator binds; a greater number binds tighter.
+/// The precedence of an operator; a larger number binds more tightly.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Precedence(u8);
 
@@ -55,7 +55,7 @@ fn binary(op: BinaryOp) -> (&'static str, Precedence) {
     }
 }
 
-/// A literal that reads back as the same bits.
+/// A literal that parses to the same bits.
 pub(super) fn literal(value: ScalarValue) -> String {
     match value {
         ScalarValue::Bool(value) => value.to_string(),
@@ -63,7 +63,7 @@ pub(super) fn literal(value: ScalarValue) -> String {
         ScalarValue::Int(value) => value.to_string(),
         ScalarValue::Uint(value) => format!("{value}u"),
         ScalarValue::Float(value) if value.is_nan() => "0.0 / 0.0".into(),
-        // Beyond the range of f32, so that it is read as an infinity.
+        // A number outside the range of f32 parses to an infinity.
         ScalarValue::Float(value) if value.is_infinite() => (if value > 0.0 { "1e39" } else { "-1e39" }).into(),
         ScalarValue::Float(value) => {
             let text = format!("{value:?}");
@@ -91,7 +91,7 @@ impl Printer<'_> {
         text
     }
 
-    /// An expression among others that commas part.
+    /// An expression in a comma-separated list.
     pub(super) fn argument(&self, id: ExprId) -> String {
         let mut text = String::new();
         self.write(id, Precedence::ASSIGN, &mut text);
@@ -190,7 +190,7 @@ impl Printer<'_> {
         }
     }
 
-    /// A member of a block without an instance name is a name of its own.
+    /// Writes a member; in a block without an instance name, the member is a name of its own.
     fn write_member(&self, base: ExprId, member: u32, text: &mut String) {
         let base_expr = self.shader.expr(base);
         let nameless = match base_expr.kind {
@@ -208,7 +208,7 @@ impl Printer<'_> {
         }
     }
 
-    /// Components of a scalar (ARB_shading_language_420pack) are written as a constructor.
+    /// Writes a swizzle; components of a scalar (ARB_shading_language_420pack) become a constructor.
     fn write_swizzle(&self, expr: &Expr, base: ExprId, swizzle: Swizzle, text: &mut String) {
         if matches!(self.types.get(self.shader.expr(base).ty), Type::Scalar(_)) {
             self.write_call(&self.type_name(expr.ty), &[base], text);
@@ -220,7 +220,7 @@ impl Printer<'_> {
     }
 
     fn write_construct(&self, ty: TypeId, arguments: &[ExprId], text: &mut String) {
-        // A conversion is written as a constructor already: `vec2(i)`, not `vec2(vec2(i))`.
+        // A conversion is already written as a constructor: `vec2(i)`, not `vec2(vec2(i))`.
         if let [argument] = arguments
             && let Expr { kind: ExprKind::Convert(inner), ty: converted, .. } = self.shader.expr(*argument)
             && *converted == ty
@@ -278,7 +278,7 @@ impl Printer<'_> {
         self.write(right, own.tighter(), text);
     }
 
-    /// The name whose row has these types: `shadow2D` gives a `vec4`, `texture` of the same sampler a `float`.
+    /// The name whose row has these types: `shadow2D` returns a `vec4`, `texture` of the same sampler a `float`.
     fn builtin_name(&self, function: BuiltinFunction, ret: TypeId, arguments: &[ExprId]) -> &'static str {
         let types: Vec<(TypeId, ParamMode)> =
             arguments.iter().map(|&id| (self.shader.expr(id).ty, ParamMode::In)).collect();

@@ -1,10 +1,10 @@
-//! The typed program as readable GLSL 1.50.
+//! Prints the typed program as readable GLSL 1.50.
 //!
-//! *In:* a [`Shader`] without errors and its [`Types`]. *Out:* one text that means the same: every implicit conversion is
-//! written out, every array has its size, every name is used for one thing in a function. Structs come first, then globals
-//! in their order, then functions, callees before callers, so that no prototypes are needed.
+//! *In:* a [`Shader`] without errors, and its [`Types`]. *Out:* one text with the same meaning. It writes out every
+//! implicit conversion, gives every array its size, and uses every name for one thing within a function. Structs come
+//! first, then globals in their order, then functions, callees before callers, so that prototypes are not needed.
 //!
-//! *Holds:* reading the text again and printing it gives the same text.
+//! *Holds:* parsing the text and printing it again gives the same text.
 
 mod declarations;
 mod expressions;
@@ -24,12 +24,12 @@ pub fn print(types: &Types, shader: &Shader) -> String {
     })
 }
 
-/// The state of a print.
+/// The state of the printer.
 struct Printer<'a> {
     types: &'a Types,
     shader: &'a Shader,
     names: NameTable,
-    /// The function that is being printed.
+    /// The current function.
     function: Option<FunctionId>,
     text: String,
     indent: usize,
@@ -60,7 +60,7 @@ impl Printer<'_> {
         }
     }
 
-    /// A type as it stands before a name: `float[3]`.
+    /// The type as written before a name: `float[3]`.
     fn type_name(&self, ty: TypeId) -> String {
         match self.types.get(ty) {
             Type::Struct(id) => self.names.structure(id).to_owned(),
@@ -75,7 +75,7 @@ impl Printer<'_> {
         }
     }
 
-    /// Callees before callers: first what `main` needs, then the rest in their order.
+    /// The functions in print order, callees before callers: first those that `main` needs, then the others.
     fn function_order(&self) -> Vec<FunctionId> {
         let roots = self.shader.main.into_iter().chain(self.shader.functions().map(|(id, _)| id));
         let mut order: Vec<FunctionId> = Vec::new();

@@ -1,6 +1,6 @@
-//! Names for the printer: each struct, function and global keeps its own; a name that is taken gets a number.
+//! Names for the printer: each struct, function and global keeps its name; a name that is taken gets a number.
 //!
-//! Locals are numbered apart within their function, and apart from everything global, so that no scope matters.
+//! Locals get names that are unique within their function and among all globals, so that scopes do not matter.
 
 use crate::builtin::functions;
 use crate::hir::{FunctionId, GlobalId, LocalId, Shader, StructId, Type, TypeId, Types};
@@ -15,7 +15,7 @@ pub(super) struct NameTable {
     locals: Vec<Vec<String>>,
 }
 
-/// Names that are taken.
+/// The names that are taken.
 #[derive(Default)]
 struct Taken(FxHashSet<String>);
 
@@ -72,7 +72,7 @@ impl NameTable {
         self.structs.get(&id).map_or("", String::as_str)
     }
 
-    /// The structs to declare, members before what holds them.
+    /// The structs to declare, members before the structs that contain them.
     pub(super) fn structs(&self) -> &[StructId] {
         &self.struct_order
     }
@@ -90,7 +90,7 @@ impl NameTable {
     }
 }
 
-/// Blocks are known by their instance name; without one their members are global names.
+/// The name of a global: for a block its instance name. Without one, the members are global names.
 fn global_name(types: &Types, taken: &mut Taken, global: &crate::hir::Global) -> String {
     if global.builtin.is_some() {
         let name = global.builtin.map_or("", crate::builtin::BuiltinVariable::name);
@@ -121,7 +121,7 @@ fn members(types: &Types, ty: TypeId) -> Vec<String> {
     }
 }
 
-/// Overloads share a name.
+/// The names of the functions; overloads share one.
 fn function_names(shader: &Shader, taken: &mut Taken) -> Vec<String> {
     let mut known: FxHashMap<&str, String> = FxHashMap::default();
     let mut names = Vec::new();
@@ -132,7 +132,8 @@ fn function_names(shader: &Shader, taken: &mut Taken) -> Vec<String> {
     names
 }
 
-/// All structs that the shader mentions, blocks and built-in structs left out, members before what holds them.
+/// All structs that the shader uses, except blocks and built-in structs, members before the structs that contain
+/// them.
 fn used_structs(types: &Types, shader: &Shader) -> Vec<StructId> {
     let mut order = Vec::new();
     let mut seen = FxHashSet::default();

@@ -1,10 +1,10 @@
-//! Statements. Every body stands in braces.
+//! Prints statements. Every body has braces.
 
 use super::Printer;
 use crate::hir::{Case, CaseLabel, Condition, ExprId, LocalId, LocalKind, LoopKind, ScalarValue, Stmt, StmtKind, Type};
 
 impl Printer<'_> {
-    /// The statements of a body, one level deeper.
+    /// Prints the statements of a body, one level deeper.
     pub(super) fn body(&mut self, body: &[Stmt]) {
         self.indent += 1;
         for statement in body {
@@ -53,7 +53,7 @@ impl Printer<'_> {
         }
     }
 
-    /// A block, or the `for` that it stands for: declarations before a loop that nothing follows.
+    /// Prints a block, or the `for` that it represents: declarations before a loop, with nothing after it.
     fn block_statement(&mut self, body: &[Stmt]) {
         if let Some((last, before)) = body.split_last()
             && let StmtKind::Loop { kind: LoopKind::For, condition, step, body } = &last.kind
@@ -67,7 +67,7 @@ impl Printer<'_> {
         self.line("}");
     }
 
-    /// What stands in a `for` before the first semicolon, if it can be written there.
+    /// The part of a `for` before its first semicolon, if it can be written there.
     fn for_initializer(&self, before: &[Stmt]) -> Option<String> {
         match before {
             [] => Some(String::new()),

@@ -1,4 +1,5 @@
-//! `divergent-derivative`: an implicit derivative where neighboring fragments may have gone another way (§8.7, §8.8).
+//! `divergent-derivative`: an implicit derivative where neighboring fragments may have taken another path (§8.7,
+//! §8.8).
 
 use super::super::Findings;
 use super::super::divergence::{self, Place};
@@ -22,7 +23,7 @@ pub(super) fn check(program: &Program, findings: &mut Findings<'_>) {
     }
 }
 
-/// Some textures have no levels to choose from.
+/// Whether the texture has only one level, so that no level is selected.
 fn has_one_level(types: &Types, shader: &Shader, arguments: &[crate::hir::ExprId]) -> bool {
     let sampler = arguments.first().map(|&first| types.get(shader.expr(first).ty));
     matches!(sampler, Some(Type::Sampler(kind)) if !kind.has_levels())

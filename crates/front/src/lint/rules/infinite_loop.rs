@@ -1,4 +1,4 @@
-//! `infinite-loop`: a loop without an end and without a way out.
+//! `infinite-loop`: a loop whose condition is always true and that nothing leaves.
 
 use super::super::{Findings, running};
 use crate::fold;
@@ -24,7 +24,7 @@ pub(super) fn check(program: &Program, findings: &mut Findings<'_>) {
     }
 }
 
-/// The condition, or the whole loop if it has none.
+/// The span of the condition, or of the whole loop if it has none.
 fn head(shader: &Shader, statement: &Stmt) -> crate::source::Span {
     match &statement.kind {
         StmtKind::Loop { condition: Some(condition), .. } => shader.expr(condition.expr).span,
@@ -32,7 +32,7 @@ fn head(shader: &Shader, statement: &Stmt) -> crate::source::Span {
     }
 }
 
-/// Whether a `break` of this loop, a `return` or a `discard` stands in the body.
+/// Whether the body contains a `break` of this loop, a `return` or a `discard`.
 fn has_way_out(body: &[Stmt]) -> bool {
     let mut found = false;
     let mut pending: Vec<(&Stmt, bool)> = body.iter().map(|statement| (statement, true)).collect();

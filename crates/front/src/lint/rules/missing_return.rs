@@ -1,7 +1,7 @@
-//! `missing-return`: a way through a function that ends without the value that the function promises.
+//! `missing-return`: a path through a function that ends without returning a value.
 //!
-//! Conditions that are constant are known, others may go either way. A function without any `return` is an error, and no
-//! rule's business.
+//! The values of constant conditions are known; other conditions may be either. A function without any `return` is an
+//! error, which this rule leaves alone.
 
 use super::super::{Findings, running};
 use crate::fold;
@@ -23,14 +23,14 @@ pub(super) fn check(program: &Program, findings: &mut Findings<'_>) {
     }
 }
 
-/// Where control may go from a statement, beside out of the function.
+/// Where control may go after a statement, other than out of the function.
 #[derive(Clone, Copy, Debug, Default)]
 struct Flow {
-    /// On to the next statement.
+    /// To the next statement.
     next: bool,
-    /// Out of the loop or switch around it.
+    /// Out of the loop or switch around the statement.
     breaks: bool,
-    /// On to the next round of the loop around it.
+    /// To the next iteration of the loop around the statement.
     continues: bool,
 }
 
@@ -45,7 +45,7 @@ impl Flow {
         }
     }
 
-    /// Both, one behind the other.
+    /// The flow of two statements in sequence.
     fn then(self, other: Self) -> Self {
         Self { next: other.next, ..self.or(other) }
     }
@@ -68,7 +68,7 @@ impl Ways<'_> {
         flow
     }
 
-    /// The depth of statements is the parser's to limit.
+    /// The parser limits the nesting of statements.
     fn of(&self, statement: &Stmt) -> Flow {
         match &statement.kind {
             StmtKind::Expr(_) | StmtKind::Local(..) => Flow::NEXT,

@@ -1,4 +1,4 @@
-//! The rules, one file each; a rule is registered by its row here.
+//! The rules, one file each. A row here registers a rule.
 
 mod divergent_derivative;
 mod division_by_zero;

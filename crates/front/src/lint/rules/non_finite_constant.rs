@@ -1,4 +1,4 @@
-//! `non-finite-constant`: a constant operation that makes an infinity or NaN of finite operands.
+//! `non-finite-constant`: a constant operation that yields an infinity or NaN from finite operands.
 
 use super::super::{Findings, running};
 use crate::fold;
@@ -18,7 +18,7 @@ pub(super) fn check(program: &Program, findings: &mut Findings<'_>) {
 }
 
 fn examine(types: &Types, shader: &Shader, expr: ExprId, findings: &mut Findings<'_>) {
-    // Operands of anything deeper than this are no constants that a person wrote.
+    // Operands nested more deeply are not constants that a person wrote.
     if !matches!(shader.expr(expr).kind, ExprKind::Binary(..) | ExprKind::BuiltinCall(..)) {
         return;
     }
@@ -32,8 +32,8 @@ fn examine(types: &Types, shader: &Shader, expr: ExprId, findings: &mut Findings
     }
 }
 
-/// Whether a constant's numbers are all finite; `None` if it is not constant. Only literals, constructors and operators
-/// close by are looked at, so that long chains are not evaluated again at each link.
+/// Whether all numbers of a constant are finite; `None` if it is not constant. Examines only literals, constructors
+/// and operators close by, so that long chains are not evaluated again at each link.
 fn is_finite(types: &Types, shader: &Shader, expr: ExprId) -> Option<bool> {
     const REACH: usize = 64;
     let mut count = 0;

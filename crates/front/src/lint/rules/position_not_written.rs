@@ -1,4 +1,4 @@
-//! `position-not-written`: a vertex stage before a fragment stage that never writes `gl_Position`.
+//! `position-not-written`: a vertex stage that feeds a fragment stage and never writes `gl_Position`.
 
 use super::super::Findings;
 use crate::builtin::BuiltinVariable;

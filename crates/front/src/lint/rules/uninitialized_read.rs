@@ -1,7 +1,7 @@
-//! `uninitialized-read`: a local or an `out` parameter that is read where nothing can have been assigned to it yet.
+//! `uninitialized-read`: reads a local or an `out` parameter before anything can have been assigned to it.
 //!
-//! The walk follows the text: whatever assigns before, on any path, counts as assigned; a loop's own assignments count
-//! from its first line on. So it errs on the side of silence.
+//! The traversal follows the text. An earlier assignment on any path counts, and the assignments in a loop count from
+//! its first line on. So the rule errs on the side of silence.
 
 use super::super::{Findings, running};
 use crate::hir::{ExprId, ExprKind, Function, LocalId, LocalKind, ParamMode, Shader, Stmt, StmtKind, VarRef};
@@ -41,7 +41,7 @@ impl Walk<'_> {
         }
     }
 
-    /// Reports a local once.
+    /// Reports the first read of a local.
     fn read(&mut self, id: LocalId, expr: ExprId) {
         if self.assigned.get(id.index()) == Some(&false) && !self.function.local(id).name.is_empty() {
             self.reads.push((id, expr));
@@ -92,7 +92,7 @@ impl Walk<'_> {
         }
     }
 
-    /// Counts everything that a loop's body assigns as assigned.
+    /// Marks everything that a loop's body assigns as assigned.
     fn assign_all(&mut self, body: &[Stmt]) {
         let shader = self.shader;
         shader.visit_statements(body, &mut |statement| {
@@ -116,7 +116,7 @@ impl Walk<'_> {
         });
     }
 
-    /// Reads in the order of evaluation, then writes.
+    /// Handles the reads in evaluation order, then the writes.
     fn expr(&mut self, id: ExprId) {
         let shader = self.shader;
         match &shader.expr(id).kind {
@@ -150,7 +150,7 @@ impl Walk<'_> {
         }
     }
 
-    /// What an l-value that is written reads: its indices.
+    /// The reads of an l-value that is written: its indices.
     fn indices(&mut self, mut target: ExprId) {
         loop {
             match self.shader.expr(target).kind {

@@ -1,4 +1,4 @@
-//! `unreachable-code`: statements behind `return`, `break`, `continue` or `discard` in the same body.
+//! `unreachable-code`: statements after `return`, `break`, `continue` or `discard` in the same body.
 
 use super::super::{Findings, running};
 use crate::hir::{Stmt, StmtKind};
@@ -27,7 +27,7 @@ fn examine(body: &[Stmt], findings: &mut Findings<'_>) {
     };
     for pair in body.windows(2) {
         let [statement, next] = pair else { continue };
-        // A `break` behind a `return` is how some people end every case of a switch.
+        // Some people end every case of a switch with a `break`, even after a `return`.
         if let Some(word) = word(statement).filter(|_| !matches!(next.kind, StmtKind::Break)) {
             let message = format!("nothing behind this `{word}` is ever reached");
             let finding = findings.at(next.span, message);

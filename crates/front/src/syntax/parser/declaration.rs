@@ -1,4 +1,4 @@
-//! Declarations at global scope and in functions (GLSL 1.50 §4, §6.1, §9).
+//! Parses declarations, global and local (GLSL 1.50 §4, §6.1, §9).
 
 use super::types::is_qualifier;
 use super::{Parse, Parser, Reported, Token, TokenKind, TokenSource, codes};
@@ -10,8 +10,8 @@ use crate::syntax::ast::{
 };
 use crate::syntax::kind;
 
-/// How many tokens are looked at to tell a declaration from an expression. Without a bound, text that never closes
-/// its brackets would be looked through from each of its statements.
+/// How many tokens the parser looks ahead to tell a declaration from an expression. Without a bound, a text that
+/// never closes its brackets would be searched to its end from each statement.
 const MAX_AHEAD: usize = 1024;
 
 impl<T: TokenSource> Parser<'_, '_, T> {
@@ -43,7 +43,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         self.ast.declarations.push(Declaration { kind, span, extensions: start.extensions() });
     }
 
-    /// A `}` too many. Where a function's brace was assumed, the one that closes it may come after all.
+    /// Handles a stray `}`. If an opening brace was assumed before, this one may be its partner.
     fn stray_brace(&mut self) {
         let span = self.bump().span;
         if !std::mem::take(&mut self.assumed_brace) {
@@ -68,7 +68,8 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         Ok(kind)
     }
 
-    /// Whether a name at the start of a declaration can be a type: a name or a block's brace follows, past brackets.
+    /// Whether a name at the start of a declaration can be a type: a name or a block's brace follows, after any
+    /// brackets.
     fn begins_named_declaration(&mut self) -> bool {
         let mut at = 1;
         while self.ahead(at).kind == TokenKind::LeftBracket {
@@ -77,16 +78,16 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         let token = self.ahead(at);
         match token.kind {
             TokenKind::Ident | TokenKind::Reserved => true,
-            // A type alone, `S;`: the analysis knows whether it is one.
+            // A lone type, `S;`. The analysis knows whether `S` is a type.
             TokenKind::Semicolon => true,
             TokenKind::LeftBrace => at == 1,
-            // A missing name behind a type is told later.
+            // A missing name after a type is reported later.
             _ => self.is_unknown_qualifier(),
         }
     }
 
-    /// The place behind the bracket that closes the one at `at`, or of what shows that nothing closes it: the end of a
-    /// statement, or [`MAX_AHEAD`] tokens.
+    /// The index after the bracket that closes the one at `at`. If nothing closes it, the index of what shows that:
+    /// the end of a statement, or [`MAX_AHEAD`] tokens.
     pub(super) fn past_bracket(&mut self, mut at: usize, open: TokenKind, close: TokenKind) -> usize {
         let mut depth = 0_usize;
         loop {
@@ -130,7 +131,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         Reported
     }
 
-    /// function_definition behind its head
+    /// function_definition, after its header
     fn function_definition(&mut self, header: FunctionHeader) -> Parse<DeclarationKind> {
         self.function_brace = self.current.span;
         let body: Vec<Stmt> = self.compound_statement();
@@ -138,7 +139,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         Ok(DeclarationKind::Function(header, body))
     }
 
-    /// declaration without its `;`
+    /// declaration, without its `;`
     pub(super) fn declaration(&mut self) -> Parse<DeclarationKind> {
         if self.kind() == TokenKind::Precision {
             return self.precision();
@@ -168,7 +169,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         Ok(DeclarationKind::Variables(VariableDecl { qualifiers, ty, declarators }))
     }
 
-    /// Whether what follows a struct's `}` cannot be a variable, so that the `;` is what is missing.
+    /// Whether what follows the `}` of a struct cannot be a variable, so that a `;` must be missing.
     fn forgot_semicolon(&mut self, ty: &TypeSpec) -> bool {
         let begins = |kind| is_qualifier(kind) || matches!(kind, TokenKind::Type | TokenKind::Void | TokenKind::Struct);
         matches!(ty.base, TypeBase::Struct(_)) && self.current.starts_line() && begins(self.kind())
@@ -215,7 +216,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         Ok(DeclarationKind::Block(BlockDecl { qualifiers, name, members, instance }))
     }
 
-    /// init_declarator_list from its first name on
+    /// init_declarator_list, from its first name on
     fn declarators(&mut self, first: Ident) -> Parse<Vec<Declarator>> {
         let mut list = vec![self.declarator(first)?];
         while self.eat(TokenKind::Comma).is_some() {
@@ -240,7 +241,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         Ok(Declarator { name, array, initializer })
     }
 
-    /// function_prototype from its brackets on
+    /// function_prototype, from its parentheses on
     fn function_header(
         &mut self,
         start: Span,
@@ -259,7 +260,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
                 params.push(self.parameter()?);
             }
         }
-        // In front of a body a forgotten `)` is reported and assumed.
+        // Before a body, a forgotten `)` is reported and assumed.
         let body_follows = self.kind() == TokenKind::LeftBrace;
         let closed = self.close(opening, TokenKind::RightParen, "`,` or `)`");
         if !body_follows {
@@ -268,7 +269,8 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         Ok(FunctionHeader { qualifiers, ty, name, params, span: self.since(start) })
     }
 
-    /// Reads the comma before another parameter. One that is missing before what begins a parameter is assumed.
+    /// Reads the comma before another parameter. A missing comma before the start of a parameter is reported and
+    /// assumed.
     fn another_parameter(&mut self) -> bool {
         if self.eat(TokenKind::Comma).is_some() {
             return true;
@@ -307,7 +309,8 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         Ok(ParamDecl { qualifiers, ty, name, array, span: self.since(start) })
     }
 
-    /// Whether a declaration begins here, where an expression might as well: two names in a row do, past brackets.
+    /// Whether a declaration begins here, where an expression might as well. Two names in a row are a declaration,
+    /// brackets between them aside.
     pub(super) fn begins_declaration(&mut self) -> bool {
         match self.kind() {
             TokenKind::Struct | TokenKind::Precision | TokenKind::Void => true,
@@ -324,7 +327,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         }
     }
 
-    /// The kind of the token behind the next one and its `[..]`.
+    /// The kind of the token after the next one and its `[..]`.
     fn behind_brackets(&mut self) -> TokenKind {
         let mut at = 1;
         while self.ahead(at).kind == TokenKind::LeftBracket {

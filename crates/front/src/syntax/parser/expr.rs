@@ -1,4 +1,4 @@
-//! Expressions (GLSL 1.50 §5, §9).
+//! Parses expressions (GLSL 1.50 §5, §9).
 
 use super::{MAX_NESTING, Parse, Parser, Reported, Token, TokenKind, TokenSource, codes};
 use crate::diagnostic::Diagnostic;
@@ -6,7 +6,7 @@ use crate::source::Span;
 use crate::syntax::ast::{BinaryOp, Expr, ExprId, ExprKind, Ident, IncDec, Literal, TypeBase, TypeSpec, UnaryOp};
 use smallvec::SmallVec;
 
-/// Operators with two operands: which, and how strongly they bind (§5.1).
+/// The binary operator of a token kind and its binding strength (§5.1).
 fn binary_op(kind: TokenKind) -> Option<(BinaryOp, u8)> {
     use TokenKind::*;
     Some(match kind {
@@ -68,7 +68,7 @@ fn assignment_op(kind: TokenKind) -> Option<Option<BinaryOp>> {
     })
 }
 
-/// Operators before their operand.
+/// The prefix operators.
 #[derive(Clone, Copy)]
 enum Prefix {
     Unary(UnaryOp),
@@ -98,7 +98,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         Ok(self.ast.push(kind, span))
     }
 
-    /// An expression that stands for an error.
+    /// An expression that replaces an error.
     pub(super) fn error_expr(&mut self, span: Span) -> ExprId {
         self.depths.push(1);
         self.ast.push(ExprKind::Error, span)
@@ -112,7 +112,8 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         ids.iter().map(|id| self.depth(*id)).max().unwrap_or(0)
     }
 
-    /// One more than the deepest child; what stands on the left of a chain counts as of the same level.
+    /// The depth of an expression: one more than its deepest child, where the left operand of a chain counts as the
+    /// same level.
     fn depth_of(&self, kind: &ExprKind) -> u16 {
         let below = match kind {
             ExprKind::Error | ExprKind::Literal(_) | ExprKind::Name(_) => 0,
@@ -168,7 +169,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         })
     }
 
-    /// conditional_expression alone: where an assignment may not stand
+    /// conditional_expression alone, where an assignment is not allowed
     pub(super) fn constant_expression(&mut self) -> Parse<ExprId> {
         self.nested(|this| {
             let left = this.binary_expression()?;
@@ -188,7 +189,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         self.push(ExprKind::Ternary(condition, yes, no), span)
     }
 
-    /// logical_or_expression and all below it down to multiplicative_expression, with a stack of their own.
+    /// logical_or_expression and everything below it down to multiplicative_expression, on an explicit stack.
     fn binary_expression(&mut self) -> Parse<ExprId> {
         let floor = self.operators.len();
         let mut left = self.unary_expression()?;
@@ -273,7 +274,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         self.push(ExprKind::Field(base, name), span)
     }
 
-    /// `S[2](..)`: what was read as indices of a name are the sizes of a type.
+    /// `S[2](..)`: what was read as indices of a name are the array sizes of a type.
     fn array_constructor(&mut self, base: ExprId) -> Parse<ExprId> {
         let mut sizes = Vec::new();
         let mut inner = base;
@@ -321,7 +322,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         Ok(arguments)
     }
 
-    /// primary_expression, and calls of what has a name
+    /// primary_expression, and calls by name
     fn primary_expression(&mut self) -> Parse<ExprId> {
         let token = self.current;
         let literal = match token.kind {
@@ -364,7 +365,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         self.push(ExprKind::Call(name, arguments), span)
     }
 
-    /// A type keyword and its arguments.
+    /// A type keyword and the arguments of its constructor.
     fn constructor(&mut self) -> Parse<ExprId> {
         let token: Token = self.bump();
         let array = self.array_specifiers()?;
@@ -379,7 +380,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         self.push(ExprKind::Construct(Box::new(ty), arguments), whole)
     }
 
-    /// `(a)`: brackets leave no trace in the tree but for the span.
+    /// `(a)`: in the tree, parentheses only widen the span.
     fn parenthesized(&mut self) -> Parse<ExprId> {
         let opening = self.bump();
         if self.kind() == TokenKind::Type && self.ahead(1).kind == TokenKind::RightParen {

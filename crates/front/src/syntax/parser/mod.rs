@@ -1,13 +1,14 @@
-//! [`Parser`]: tokens to tree by the grammar of GLSL 1.50 §9 and ARB_shading_language_420pack, by recursive descent.
+//! [`Parser`] turns tokens into a tree by recursive descent, by the grammar of GLSL 1.50 §9 and
+//! ARB_shading_language_420pack.
 //!
 //! *In:* a [`TokenSource`]. *Out:* an [`Ast`] of what was understood, and diagnostics.
 //!
-//! No table of type names is kept: two names in a row begin a declaration, and `S(x)` is a call of something named
-//! `S`. An error ends the statement, member or declaration that it is in ([`recover`]), and the rest goes on.
+//! The parser keeps no table of type names: two names in a row begin a declaration, and `S(x)` is a call of something
+//! named `S`. An error ends the statement, member or declaration around it ([`recover`]); parsing goes on after that.
 //!
-//! *Holds:* every error is reported once, where it is found, and is then carried upwards as [`Reported`]. Nesting is
-//! bounded by [`MAX_NESTING`], in the parser's own calls and in the depth of the expressions that it builds, where a
-//! chain of operands on the left counts as one level.
+//! *Holds:* every error is reported once, where it is found, and then propagated as [`Reported`]. [`MAX_NESTING`]
+//! bounds the nesting, both of the parser's own calls and of the expressions that it builds. A chain of left operands
+//! counts as one level.
 
 mod declaration;
 mod expr;
@@ -27,20 +28,20 @@ use crate::stack::with_stack;
 use rustc_hash::FxHashSet;
 use std::collections::VecDeque;
 
-/// How deep expressions, blocks, lists and types may nest.
+/// The deepest nesting of expressions, blocks, lists and types.
 pub(super) const MAX_NESTING: u32 = 256;
 
-/// How deep the stack of the caller is used; what nests deeper gets a stack of its own.
+/// How deep the caller's stack is used; deeper nesting gets a stack of its own.
 const SHALLOW: u32 = 96;
 
-/// An error that was already reported.
+/// The error type of an error that has been reported.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reported;
 
-/// What a production gives.
+/// The result of a production.
 type Parse<T> = Result<T, Reported>;
 
-/// Where a statement, member or declaration began, for recovery.
+/// The start of a statement, member or declaration, for recovery.
 #[derive(Clone, Copy, Debug)]
 struct Mark {
     consumed: usize,
@@ -55,30 +56,30 @@ pub(super) struct Parser<'p, 's, T: TokenSource> {
     current: Token,
     ahead: VecDeque<Token>,
     previous: Token,
-    /// Tokens read so far, to see that recovery moves.
+    /// The number of tokens read so far, to make sure that recovery advances.
     consumed: usize,
-    /// Braces that were opened and not closed so far.
+    /// The number of braces that are open.
     braces: i32,
     nesting: u32,
-    /// For each expression its depth, see the module's words.
+    /// The depth of each expression (see the module's documentation).
     depths: Vec<u16>,
-    /// Operators that wait for their right operands.
+    /// Operators that wait for their right operand.
     operators: Vec<(BinaryOp, Span, ExprId)>,
-    /// Keywords and reserved words that were used as names, which was reported; they are names from there on.
+    /// Keywords and reserved words that were used as names. That was reported; from then on they are names.
     renamed: FxHashSet<u32>,
-    /// The end of the file was met inside something, which was reported.
+    /// Whether an unexpected end of file has been reported.
     end_reported: bool,
-    /// A function begins inside a function: its body is left as if its brace were there.
+    /// Whether a function begins inside a function: the outer body ends as if its brace were there.
     leaving_function: bool,
-    /// Nothing is left to skip after the error that is on its way up.
+    /// Whether the error that is being propagated leaves nothing to skip.
     recovered: bool,
-    /// Something nests too deep: what is left of the block around it is skipped.
+    /// Whether something nests too deeply: the rest of the block around it is skipped.
     overdeep: bool,
-    /// The brace that was assumed so.
+    /// Whether a closing brace was assumed for that reason.
     assumed_brace: bool,
-    /// The variables that the declaration under way has named so far.
+    /// The variables that the current declaration has named so far.
     declaring: Vec<Ident>,
-    /// The opening brace of the function that is being read.
+    /// The opening brace of the current function.
     function_brace: Span,
     strict: bool,
 }
@@ -111,7 +112,7 @@ impl<'p, 's, T: TokenSource> Parser<'p, 's, T> {
         }
     }
 
-    /// translation_unit: reads everything.
+    /// translation_unit: parses everything.
     pub(super) fn translation_unit(mut self) -> Ast {
         while self.current.kind != TokenKind::Eof && !self.session.diagnostics.is_full() {
             self.external_declaration();
@@ -138,7 +139,7 @@ impl<'p, 's, T: TokenSource> Parser<'p, 's, T> {
         }
     }
 
-    /// The token `n` places behind the next one.
+    /// The token `n` places after the next one.
     fn ahead(&mut self, n: usize) -> Token {
         if n == 0 {
             return self.current;
@@ -167,17 +168,17 @@ impl<'p, 's, T: TokenSource> Parser<'p, 's, T> {
         token
     }
 
-    /// Reads the next token if it is of a kind.
+    /// Reads the next token if it has this kind.
     fn eat(&mut self, kind: TokenKind) -> Option<Token> {
         (self.kind() == kind).then(|| self.bump())
     }
 
-    /// Reads a token of a kind, or reports what was expected.
+    /// Reads a token of this kind, or reports what was expected.
     fn expect(&mut self, kind: TokenKind) -> Parse<Token> {
         if self.kind() == kind { Ok(self.bump()) } else { Err(self.unexpected(&format!("`{}`", kind.spelling()))) }
     }
 
-    /// Reads the bracket that closes `opening`, with `expected` to say what else could stand there.
+    /// Reads the bracket that closes `opening`; `expected` names what else could follow here.
     fn close(&mut self, opening: Token, kind: TokenKind, expected: &str) -> Parse<Token> {
         if self.kind() == kind {
             return Ok(self.bump());
@@ -198,7 +199,7 @@ impl<'p, 's, T: TokenSource> Parser<'p, 's, T> {
         Err(self.report_found(diagnostic))
     }
 
-    /// Reads the `;` behind `what`. One that is missing at the end of a line is assumed.
+    /// Reads the `;` after `what`. A missing one at the end of a line is reported and assumed.
     fn semicolon(&mut self, what: &str) -> Parse<()> {
         if self.eat(TokenKind::Semicolon).is_some() {
             return Ok(());
@@ -218,7 +219,8 @@ impl<'p, 's, T: TokenSource> Parser<'p, 's, T> {
         Ok(())
     }
 
-    /// identifier, `what` for the message. A keyword or reserved word in its place is reported and taken for one.
+    /// identifier, called `what` in messages. A keyword or reserved word in its place is reported and taken as a
+    /// name.
     fn ident(&mut self, what: &str) -> Parse<Ident> {
         let token = self.current;
         match token.kind {
@@ -251,7 +253,7 @@ impl<'p, 's, T: TokenSource> Parser<'p, 's, T> {
         self.take_as_name(token);
     }
 
-    /// From here on a word is a name, so that it is reported once.
+    /// Makes a word a name from here on, so that it is reported only once.
     fn take_as_name(&mut self, token: Token) {
         self.renamed.insert(token.payload);
         let mut ahead = std::mem::take(&mut self.ahead);
@@ -270,8 +272,8 @@ impl<'p, 's, T: TokenSource> Parser<'p, 's, T> {
         self.report_found(diagnostic)
     }
 
-    /// Reports an error about the next token. Nothing is said if the tokens ended because of a reported error, and
-    /// the end of the file is reported once.
+    /// Reports an error at the next token, unless the tokens ended because of an error that has been reported. The
+    /// end of the file is reported once.
     fn report_found(&mut self, diagnostic: Diagnostic) -> Reported {
         if self.kind() == TokenKind::Eof {
             if self.end_reported || self.current.payload != 0 {
@@ -287,7 +289,7 @@ impl<'p, 's, T: TokenSource> Parser<'p, 's, T> {
         self.session.report(Diagnostic::new(code, span, message));
     }
 
-    /// A token in the words of a message.
+    /// A token in words, for a message.
     fn describe(&self, token: Token) -> String {
         match token.kind {
             TokenKind::Eof => "the end of the file".to_owned(),
@@ -306,7 +308,7 @@ impl<'p, 's, T: TokenSource> Parser<'p, 's, T> {
         }
     }
 
-    /// The place before the next token.
+    /// The position before the next token.
     fn mark(&self) -> Mark {
         Mark { consumed: self.consumed, braces: self.braces }
     }
@@ -335,7 +337,7 @@ impl<'p, 's, T: TokenSource> Parser<'p, 's, T> {
     }
 }
 
-/// Whether a token is a word, so that its payload is its symbol.
+/// Whether tokens of a kind are words, whose payload is a symbol.
 fn is_word(kind: TokenKind) -> bool {
     use TokenKind::*;
     (matches!(kind, Ident | Invalid | Reserved | Type | True | False | Void) || kind as u8 >= Attribute as u8)

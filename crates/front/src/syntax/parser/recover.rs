@@ -1,4 +1,4 @@
-//! What is skipped after an error, so that the rest can be read and nothing is reported twice.
+//! Error recovery: what to skip after an error, so that the rest is parsed and nothing is reported twice.
 
 use super::{Mark, Parser, Reported, TokenKind, TokenSource, codes};
 use crate::diagnostic::Diagnostic;
@@ -14,7 +14,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         self.report_found(diagnostic)
     }
 
-    /// Whether a statement or declaration surely begins with the next token, which is the first of its line.
+    /// Whether the next token is the first of its line and certainly begins a statement or declaration.
     fn begins_anew(&mut self) -> bool {
         if !self.current.starts_line() {
             return false;
@@ -34,8 +34,8 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         }
     }
 
-    /// Skips the rest of a broken statement or member that began at `start`: its `;` or its `{..}`, but no brace around
-    /// it. At least one token is skipped, unless it is such a brace.
+    /// Skips the rest of a broken statement or member that began at `start`: up to its `;` or past its `{..}`, but
+    /// never a brace that closes the block around it. Otherwise it skips at least one token.
     pub(super) fn recover_statement(&mut self, start: Mark) {
         self.operators.clear();
         if std::mem::take(&mut self.recovered) {
@@ -64,11 +64,11 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         }
     }
 
-    /// Skips the rest of a broken declaration: up to its `;`, or past its `{..}` and a `;` behind that.
+    /// Skips the rest of a broken declaration: up to its `;`, or past its `{..}` and a `;` after it.
     pub(super) fn recover_declaration(&mut self, start: Mark) {
         self.recover_statement(start);
         match self.kind() {
-            // The brace closes what was broken, or nothing: in both cases it has had its error.
+            // The brace closes the broken declaration, or nothing. Either way, its error has been reported.
             TokenKind::RightBrace => {
                 self.bump();
                 self.eat(TokenKind::Semicolon);
@@ -80,7 +80,8 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         }
     }
 
-    /// Skips the rest of a broken `( .. )` behind a keyword; false if it has no end before the body or the `;`s.
+    /// Skips the rest of a broken `( .. )` after a keyword. Returns false if it does not end before the body or
+    /// within its `;`s.
     pub(super) fn recover_header(&mut self) -> bool {
         self.operators.clear();
         if self.overdeep {
@@ -95,7 +96,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
                     return true;
                 }
                 TokenKind::RightParen => parens -= 1,
-                // The `)` was forgotten: the body is there all the same.
+                // The `)` was forgotten, and the body follows.
                 TokenKind::LeftBrace => return true,
                 TokenKind::RightBrace | TokenKind::Eof => return false,
                 _ if self.begins_anew() => return true,

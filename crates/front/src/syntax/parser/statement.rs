@@ -1,4 +1,4 @@
-//! Statements (GLSL 1.50 §6.2 to §6.4, §9).
+//! Parses statements (GLSL 1.50 §6.2 to §6.4, §9).
 
 use super::{Parse, Parser, Reported, Token, TokenKind, TokenSource, codes};
 use crate::diagnostic::Diagnostic;
@@ -6,7 +6,7 @@ use crate::source::Span;
 use crate::syntax::ast::{Condition, DeclarationKind, ExprId, Stmt, StmtKind, SwitchItem, VariableDecl};
 
 impl<T: TokenSource> Parser<'_, '_, T> {
-    /// compound_statement; a missing brace at the end was reported.
+    /// compound_statement; reports a missing closing brace.
     pub(super) fn compound_statement(&mut self) -> Vec<Stmt> {
         let opening = self.bump();
         let mut statements = Vec::new();
@@ -21,7 +21,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
                     statements.push(Stmt { kind: StmtKind::Error, span: self.current.span });
                     return statements;
                 }
-                // A megabyte of them need not be kept.
+                // A megabyte of empty statements need not be kept.
                 TokenKind::Semicolon => {
                     self.bump();
                 }
@@ -33,7 +33,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         }
     }
 
-    /// statement; one that makes no sense was reported and is skipped.
+    /// statement; reports and skips one that makes no sense.
     pub(super) fn statement(&mut self) -> Stmt {
         let start = self.current.span;
         let before = self.mark();
@@ -84,7 +84,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         }
     }
 
-    /// Whether `elseif (..) statement` stands here, and no call of something of that name.
+    /// Whether `elseif (..) statement` is next, rather than a call of something named so.
     fn is_misspelled_else_if(&mut self) -> bool {
         if self.ahead(1).kind != TokenKind::LeftParen
             || !matches!(self.session.spelling(self.current), "elseif" | "elif" | "elsif")
@@ -128,7 +128,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         })
     }
 
-    /// Whether `type name ( .. ) {` stands here.
+    /// Whether `type name ( .. ) {` is next.
     fn begins_function_definition(&mut self) -> bool {
         if !matches!(self.kind(), TokenKind::Void | TokenKind::Type | TokenKind::Ident) {
             return false;
@@ -140,7 +140,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         self.ahead(behind).kind == TokenKind::LeftBrace && self.ahead(behind - 1).kind == TokenKind::RightParen
     }
 
-    /// A function begins inside a function. It is read as if the outer one had ended.
+    /// Handles a function inside a function: parses it as if the outer one had ended.
     fn nested_function(&mut self) -> Reported {
         let name = self.ahead(1);
         let message = format!("the function `{}` is defined inside a function", self.session.spelling(name));
@@ -166,17 +166,17 @@ impl<T: TokenSource> Parser<'_, '_, T> {
             self.bump();
         }
         self.eat(TokenKind::Colon);
-        // What follows the label is a statement like others.
+        // What follows the label is an ordinary statement.
         self.recovered = true;
         Reported
     }
 
-    /// `( expression )` behind `if`, `switch` or `while`; a broken one is skipped to its end.
+    /// `( expression )` after `if`, `switch` or `while`; skips a broken one to its end.
     fn condition_in_parens(&mut self) -> Parse<ExprId> {
         self.in_parens(|this| this.expression())?.ok_or(Reported).or_else(|_| Ok(self.error_expr(self.previous.span)))
     }
 
-    /// Reads `( production )`. `None` if the production failed and the text behind its `)` can go on.
+    /// Parses `( production )`. Returns `None` if the production failed and parsing can go on after its `)`.
     fn in_parens<R>(&mut self, production: impl FnOnce(&mut Self) -> Parse<R>) -> Parse<Option<R>> {
         let opening: Token = self.expect(TokenKind::LeftParen)?;
         let result = production(self).and_then(|inner| {
@@ -195,7 +195,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         }
     }
 
-    /// selection_statement; `else if` goes round.
+    /// selection_statement; a loop handles `else if`.
     fn if_statement(&mut self) -> Parse<StmtKind> {
         let mut arms = Vec::new();
         loop {
@@ -270,7 +270,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
             Ok((init, condition, step))
         })?;
         let body = Box::new(self.statement());
-        // The body was read for its own errors; what it loops over is not known.
+        // The body was parsed for its own errors; the loop's header is unknown.
         let Some((init, condition, step)) = header else { return Ok(StmtKind::Error) };
         Ok(StmtKind::For { init: Box::new(init), condition, step, body })
     }
@@ -348,7 +348,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
 
     fn return_statement(&mut self) -> Parse<StmtKind> {
         self.bump();
-        // A `return` whose `;` was forgotten does not return what stands in the next line if that is no expression.
+        // A `return` whose `;` is missing does not return what is on the next line if that is not an expression.
         let value = match self.kind() {
             TokenKind::Semicolon | TokenKind::RightBrace => None,
             _ => Some(self.expression()?),

@@ -1,4 +1,5 @@
-//! Trees as nested lists: operators bind as §5.1 has it, and declarations are told from expressions.
+//! Tests of the parser, with trees printed as nested lists: operators bind as in §5.1, and declarations are told from
+//! expressions.
 
 use crate::diagnostic::Diagnostics;
 use crate::language::Stage;

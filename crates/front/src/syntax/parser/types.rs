@@ -1,4 +1,4 @@
-//! Qualifiers, types, structs and their members (GLSL 1.50 §4, §9).
+//! Parses qualifiers, types, structs and their members (GLSL 1.50 §4, §9).
 
 use super::{Parse, Parser, TokenKind, TokenSource, codes};
 use crate::diagnostic::Diagnostic;
@@ -9,7 +9,7 @@ use crate::syntax::ast::{
     TypeSpec,
 };
 
-/// The qualifiers of one word.
+/// The qualifier that a token kind is by itself.
 fn qualifier(kind: TokenKind) -> Option<QualifierKind> {
     Some(match kind {
         TokenKind::Const => QualifierKind::Const,
@@ -32,7 +32,7 @@ fn qualifier(kind: TokenKind) -> Option<QualifierKind> {
     })
 }
 
-/// Qualifiers of later versions that are names in this one, and those versions.
+/// Words that are names in 1.50 and qualifiers in a later version, with that version.
 static LATER_QUALIFIERS: &[(&str, u16)] = &[
     ("patch", 400),
     ("sample", 400),
@@ -50,7 +50,7 @@ pub(super) fn is_qualifier(kind: TokenKind) -> bool {
 }
 
 impl<T: TokenSource> Parser<'_, '_, T> {
-    /// Qualifiers in any number and order; the analysis knows which go together.
+    /// Qualifiers in any number and order; the analysis knows which may be combined.
     pub(super) fn qualifiers(&mut self) -> Parse<Vec<Qualifier>> {
         let mut list = Vec::new();
         loop {
@@ -81,7 +81,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         }
         let next = self.ahead(1);
         let declares = is_qualifier(next.kind) || matches!(next.kind, TokenKind::Type | TokenKind::Void);
-        // What begins the next line may be a declaration of its own, and this the rest of another.
+        // What begins the next line may be a declaration of its own, after an unfinished one.
         declares && !next.starts_line()
     }
 
@@ -111,7 +111,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         let opening = self.expect(TokenKind::LeftParen)?;
         let mut ids = Vec::new();
         loop {
-            // `packed` and `row_major` are reserved everywhere else.
+            // Outside `layout(..)`, `packed` and `row_major` are reserved words.
             if !matches!(self.kind(), TokenKind::Ident | TokenKind::Reserved) {
                 return Err(self.unexpected("the name of a layout"));
             }
@@ -151,7 +151,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         Ok(TypeSpec { base, array, span: self.since(token.span) })
     }
 
-    /// A reserved word as a type is reported at each of its places, since no declaration makes it right.
+    /// Reports a reserved word used as a type, at each use, since no declaration can make it right.
     fn report_reserved_type(&mut self) {
         let token = self.bump();
         let name = self.session.spelling(token);
@@ -194,7 +194,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         Ok(StructSpec { name, members })
     }
 
-    /// struct_declaration_list in its braces
+    /// struct_declaration_list, in its braces
     pub(super) fn member_list(&mut self) -> Parse<Vec<MemberDecl>> {
         let opening = self.expect(TokenKind::LeftBrace)?;
         let mut members = Vec::new();
@@ -240,7 +240,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         Ok(Declarator { name, array, initializer: None })
     }
 
-    /// initializer, with 420pack's lists
+    /// initializer, including the lists of 420pack
     pub(super) fn initializer(&mut self) -> Parse<ExprId> {
         if self.kind() != TokenKind::LeftBrace {
             return self.assignment_expression();

@@ -1,16 +1,16 @@
-//! The expressions of `#if` and `#elif` (GLSL 1.50 §3.3), with C++'s 64-bit integers.
+//! Evaluates the expressions of `#if` and `#elif` (GLSL 1.50 §3.3), with C++'s 64-bit integers.
 
 use super::define::Macro;
 use super::{Preprocessor, Session, Span, Token, TokenKind, codes, kind};
 use crate::diagnostic::{Code, Diagnostic, did_you_mean};
 
-/// How deep brackets and unary operators may nest in an `#if`.
+/// How deep parentheses and unary operators may nest in an `#if`.
 const MAX_NESTING: usize = 64;
 
-/// Among how many macros one of a name like an undefined one is looked for.
+/// How many macros are compared with an undefined name, to suggest one.
 const MAX_COMPARED: usize = 4096;
 
-/// Operators with two operands: how strongly they bind.
+/// The binding strength of a binary operator.
 fn precedence(kind: TokenKind) -> Option<u8> {
     use TokenKind::*;
     Some(match kind {
@@ -28,10 +28,10 @@ fn precedence(kind: TokenKind) -> Option<u8> {
     })
 }
 
-/// Already reported.
+/// The error type of an expression whose error has been reported.
 struct Malformed;
 
-/// What an expression is for.
+/// The directive that an expression belongs to.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Purpose {
     /// `#if`, `#elif`
@@ -60,18 +60,19 @@ struct Evaluator<'t> {
     tokens: &'t [Token],
     next: usize,
     purpose: Purpose,
-    /// The end of the line, for what is missing there.
+    /// The end of the line, where something may be missing.
     end: Span,
     strict: bool,
     nesting: usize,
-    /// Inside an operand whose value does not matter: names and divisions are not judged.
+    /// Greater than zero inside an operand whose value does not matter: undefined names and divisions by zero are not
+    /// reported.
     unevaluated: usize,
-    /// For "did you mean".
+    /// All macros, for "did you mean".
     macros: &'t [Macro],
 }
 
 impl Preprocessor<'_> {
-    /// Reads and evaluates the rest of an `#if` or `#elif` line; false if it is malformed.
+    /// Reads and evaluates the rest of an `#if` or `#elif` line. Returns false if it is malformed.
     pub(super) fn condition(&mut self, session: &mut Session<'_>, directive: Span) -> bool {
         let mut line = Vec::new();
         self.rest_of_line(session, &mut line);
@@ -94,7 +95,7 @@ impl Preprocessor<'_> {
         }
     }
 
-    /// The constant expressions of a `#line`, one behind the other; `None` after an error.
+    /// The constant expressions of a `#line`, one after the other; `None` after an error.
     pub(super) fn line_numbers(&self, session: &mut Session<'_>, tokens: &[Token], end: Span) -> Option<Vec<i64>> {
         let mut evaluator = self.evaluator(tokens, end, Purpose::Line);
         let mut numbers = Vec::new();
@@ -112,7 +113,7 @@ impl Preprocessor<'_> {
         Evaluator { tokens, next: 0, end, purpose, strict, nesting: 0, unevaluated: 0, macros: &self.macros }
     }
 
-    /// Expands the macros of the line, and replaces `defined`.
+    /// Expands the macros of the line and replaces `defined`.
     fn expand_condition(&mut self, session: &mut Session<'_>, line: Vec<Token>) -> Option<Vec<Token>> {
         let floor = self.contexts.len();
         self.contexts.push(super::expand::Context::barrier(line));
@@ -134,7 +135,7 @@ impl Preprocessor<'_> {
         result.map(|()| tokens)
     }
 
-    /// `defined NAME`, `defined(NAME)` as a number.
+    /// `defined NAME` or `defined(NAME)`, as a number.
     fn defined(&mut self, session: &mut Session<'_>, operator: Token) -> Option<Token> {
         let mut token = self.next_unexpanded(session, true);
         let bracket = token.kind == TokenKind::LeftParen;
@@ -211,7 +212,7 @@ impl Evaluator<'_> {
             }
             return Ok(0);
         }
-        // A shift by more than the width has no value in C++; here it is by the low bits.
+        // In C++ a shift by more than the width has no value; here the low bits of the distance count.
         let shift = (b & 63) as u32;
         Ok(match operator.kind {
             OrOr => i64::from(a != 0 || b != 0),
@@ -290,7 +291,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// A name that is no macro.
+    /// Handles a name that is not a macro.
     fn undefined(&self, session: &mut Session<'_>, token: Token) -> Result<i64, Malformed> {
         let name = session.spelling(token).to_owned();
         if self.purpose == Purpose::Line {

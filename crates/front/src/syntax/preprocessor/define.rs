@@ -1,14 +1,14 @@
-//! Macros: `#define`, `#undef`, and those that are there from the beginning (GLSL 1.50 §3.3).
+//! Macros: `#define`, `#undef`, and the predefined ones (GLSL 1.50 §3.3).
 
 use super::{Preprocessor, Session, Span, Symbol, Token, TokenFlags, TokenKind, codes, extension, kind, version};
 use crate::diagnostic::Diagnostic;
 use crate::source::SourceMap;
 use std::sync::Arc;
 
-/// How many parameters a macro may have.
+/// The largest number of parameters of a macro.
 const MAX_PARAMS: usize = 256;
 
-/// What a macro stands for.
+/// What a macro expands to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Meaning {
     /// Its body.
@@ -22,16 +22,16 @@ pub(super) enum Meaning {
 /// A macro.
 pub(super) struct Macro {
     pub(super) name: Arc<str>,
-    /// The name in its `#define`; nowhere for predefined ones.
+    /// The name in its `#define`; unknown for predefined macros.
     pub(super) span: Span,
     pub(super) meaning: Meaning,
     /// The parameters of a function-like macro.
     pub(super) params: Option<Vec<Symbol>>,
-    /// Uses of parameters are of kind [`TokenKind::Param`].
+    /// The body, in which uses of parameters have the kind [`TokenKind::Param`].
     pub(super) body: Arc<[Token]>,
-    /// `##` is in the body.
+    /// Whether `##` is in the body.
     pub(super) pastes: bool,
-    /// Its body is being read.
+    /// Whether the body is being read.
     pub(super) disabled: bool,
 }
 
@@ -40,7 +40,7 @@ impl Macro {
         !self.span.is_known()
     }
 
-    /// Whether two definitions are the same by C's rule: tokens and the presence of white space between them.
+    /// Whether two definitions are the same by C's rule: equal tokens, with white space between the same ones.
     fn same(&self, other: &Self, session: &Session<'_>) -> bool {
         let spaced = |token: &Token, first: bool| !first && token.flags.contains(TokenFlags::SPACE);
         let text = |token: &Token| match token.kind {
@@ -59,7 +59,7 @@ impl Macro {
 }
 
 impl Preprocessor<'_> {
-    /// Defines what every shader of the version has.
+    /// Defines the macros that every shader of the version has.
     pub(super) fn define_predefined(&mut self, session: &mut Session<'_>) {
         let number = version::NEWEST_SUPPORTED.to_string();
         let plain = [("__VERSION__", number.as_str()), ("GL_core_profile", "1")];
@@ -94,7 +94,7 @@ impl Preprocessor<'_> {
         self.word(symbol).definition = self.macros.len() as u32;
     }
 
-    /// Runs the definitions of the command line as a text of their own, so that errors in them have a place.
+    /// Processes the definitions of the command line as a text of their own, so that errors in them have a position.
     pub(super) fn define_from_outside(&mut self, session: &mut Session<'_>, defines: &[(String, String)]) {
         if defines.is_empty() {
             return;
@@ -147,7 +147,7 @@ impl Preprocessor<'_> {
         self.expect_line_end(session, "#undef");
     }
 
-    /// The name behind `#define` or `#undef`, if it may be touched.
+    /// The name after `#define` or `#undef`, if it may be defined or undefined.
     fn macro_name(&mut self, session: &mut Session<'_>, directive: &str) -> Option<Token> {
         let token = self.line_token(session);
         if token.kind != TokenKind::Word {
@@ -237,7 +237,7 @@ impl Preprocessor<'_> {
         None
     }
 
-    /// Marks the parameters in a body and checks its `##`; whether there are any, or `None` after an error.
+    /// Marks the parameters in a body and checks its `##`. Returns whether the body pastes, or `None` after an error.
     fn check_body(&mut self, session: &mut Session<'_>, params: Option<&[Symbol]>, body: &mut [Token]) -> Option<bool> {
         let mut pastes = false;
         let last = body.len().wrapping_sub(1);

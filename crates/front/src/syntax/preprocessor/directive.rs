@@ -3,13 +3,13 @@
 use super::{Extensions, Mode, Preprocessor, Session, Span, Token, TokenKind, codes, kind};
 use crate::diagnostic::{Diagnostic, did_you_mean};
 
-/// A conditional group that is open.
+/// An open conditional group.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Conditional {
     /// The directive that opened it.
     opening: Span,
     name: &'static str,
-    /// The place of its `#else`.
+    /// The position of its `#else`.
     else_at: Option<Span>,
 }
 
@@ -22,7 +22,7 @@ impl Conditional {
     }
 }
 
-/// What a directive does.
+/// The directives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Directive {
     Define,
@@ -41,7 +41,7 @@ enum Directive {
     Include,
 }
 
-/// All directives.
+/// All directives by name.
 static DIRECTIVES: &[(&str, Directive)] = &[
     ("define", Directive::Define),
     ("undef", Directive::Undef),
@@ -90,7 +90,7 @@ impl Preprocessor<'_> {
             Directive::If => self.if_directive(session, span),
             Directive::Ifdef => self.ifdef(session, span, "#ifdef", true),
             Directive::Ifndef => self.ifdef(session, span, "#ifndef", false),
-            // A group that was taken ends here; what follows up to `#endif` is skipped.
+            // The group that was taken ends here; everything up to `#endif` is skipped.
             Directive::Elif => self.end_group(session, span, "#elif"),
             Directive::Else => self.end_group(session, span, "#else"),
             Directive::Endif => self.endif(session, span),
@@ -112,7 +112,7 @@ impl Preprocessor<'_> {
         self.skip_line(session);
     }
 
-    /// The next token of the directive's line, macros not expanded.
+    /// The next token of the directive's line, without macro expansion.
     pub(super) fn line_token(&mut self, session: &mut Session<'_>) -> Token {
         let Some(frame) = self.frames.last_mut() else { return Token::new(TokenKind::Eof, Span::default()) };
         let token = frame.lexer.next(Mode::Directive, &mut session.names, &mut self.trivia);
@@ -140,7 +140,7 @@ impl Preprocessor<'_> {
         self.note_trivia(session);
     }
 
-    /// Skips the rest of the line behind `token`, which may be its end.
+    /// Skips the rest of the line after `token`, which may itself be the line end.
     pub(super) fn end_line(&mut self, session: &mut Session<'_>, token: Token) {
         if !matches!(token.kind, TokenKind::Newline | TokenKind::Eof) {
             self.skip_line(session);
@@ -157,7 +157,7 @@ impl Preprocessor<'_> {
         self.end_line(session, token);
     }
 
-    /// Says so if something stands behind a complete directive.
+    /// Reports text after a complete directive.
     pub(super) fn expect_line_end(&mut self, session: &mut Session<'_>, directive: &str) {
         let token = self.line_token(session);
         if matches!(token.kind, TokenKind::Newline | TokenKind::Eof) {
@@ -195,7 +195,7 @@ impl Preprocessor<'_> {
         }
     }
 
-    /// `#elif` or `#else` behind a group that was taken.
+    /// Handles `#elif` or `#else` after a group that was taken.
     fn end_group(&mut self, session: &mut Session<'_>, span: Span, name: &'static str) {
         if self.check_order(session, span, name) {
             if name == "#else" {
@@ -209,7 +209,7 @@ impl Preprocessor<'_> {
         }
     }
 
-    /// Whether `#elif` or `#else` may stand here; notes an `#else`.
+    /// Whether `#elif` or `#else` is allowed here; records an `#else`.
     fn check_order(&mut self, session: &mut Session<'_>, span: Span, name: &'static str) -> bool {
         let open = self.frames.last_mut().and_then(|frame| frame.conditionals.last_mut());
         let Some(open) = open else {
@@ -296,7 +296,7 @@ impl Preprocessor<'_> {
     fn skip_group(&mut self, session: &mut Session<'_>) -> Option<(Span, Directive)> {
         let mut depth = 0_usize;
         loop {
-            // What is skipped needs only to be lines: continuations and comments for glisten in it mean nothing.
+            // Skipped text need only consist of lines: continuations and `glisten:` comments in it mean nothing.
             let frame = self.frames.last_mut()?;
             let found = frame.lexer.skip_to_directive(&mut self.trivia);
             self.trivia.retain(|item| matches!(item, super::Trivia::Unterminated(_)));
@@ -332,7 +332,7 @@ impl Preprocessor<'_> {
         session.report(Diagnostic::new(&codes::ERROR_DIRECTIVE, session.sources.join(span, rest), message));
     }
 
-    /// `#pragma`: macros are not expanded in it, and what is not known is ignored.
+    /// `#pragma`: its macros are not expanded, and unknown pragmas are ignored.
     fn pragma(&mut self, session: &mut Session<'_>, directive: Span) {
         let mut tokens = Vec::new();
         self.rest_of_line(session, &mut tokens);
@@ -388,7 +388,7 @@ impl Preprocessor<'_> {
             return;
         };
         let small = |number: i64| u32::try_from(number.max(0)).unwrap_or(u32::MAX);
-        // Behind the directive the line is one more than it says (§3.3); 3.30 says otherwise.
+        // After the directive, the line number is one more than it says (§3.3); 3.30 says otherwise.
         let next = small(line).saturating_add(u32::from(self.version.number < 330));
         session.sources.renumber(span, next);
         if let (Some(&string), Some(frame)) = (numbers.get(1), self.frames.last_mut()) {

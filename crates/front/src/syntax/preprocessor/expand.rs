@@ -1,4 +1,4 @@
-//! Macro expansion as C++ has it, on a stack of its own (GLSL 1.50 §3.3).
+//! Macro expansion by the rules of C++, on an explicit stack (GLSL 1.50 §3.3).
 
 use super::define::Meaning;
 use super::{Mode, Preprocessor, Session, Span, Token, TokenFlags, TokenKind, codes};
@@ -7,25 +7,25 @@ use crate::source::{Expansion, ExpansionId};
 use crate::syntax::lexer::Lexer;
 use std::sync::Arc;
 
-/// How many macros may be inside each other.
+/// How deep macro uses may nest.
 const MAX_DEPTH: usize = 4096;
-/// How many uses may stand in the arguments of each other. Each takes a little of the real stack.
+/// How deep macro uses may nest in each other's arguments. Each level takes a little of the real stack.
 const MAX_ARGUMENT_DEPTH: usize = 64;
-/// How many tokens macros may produce: this many, and [`STEPS_A_BYTE`] for each byte of the text.
+/// How many tokens macros may produce: this many, plus [`STEPS_A_BYTE`] for each byte of the text.
 const STEPS: usize = 500_000;
 const STEPS_A_BYTE: usize = 2;
-/// How many characters `##` may join for one of them: a chain of it joins ever longer names.
+/// How many characters `##` may join for one of those tokens: a chain of it joins ever longer names.
 const PASTED_A_STEP: usize = 4;
 
-/// Tokens that are read before the files.
+/// Tokens that are read before the rest of the files.
 enum Run {
-    /// The body of a macro as it was defined; each token gets the expansion.
+    /// The body of a macro as defined; each token gets this expansion.
     Body(Arc<[Token]>, ExpansionId),
-    /// Tokens with places of their own.
+    /// Tokens that have their positions already.
     List(Vec<Token>),
 }
 
-/// A run of tokens and how far it was read.
+/// A run of tokens, and how much of it has been read.
 pub(super) struct Context {
     run: Run,
     next: usize,
@@ -34,7 +34,7 @@ pub(super) struct Context {
 }
 
 impl Context {
-    /// Tokens behind which nothing else is read until they are taken away.
+    /// Tokens after which nothing else is read until they are removed.
     pub(super) fn barrier(tokens: Vec<Token>) -> Self {
         Self { run: Run::List(tokens), next: 0, definition: None, barrier: true }
     }
@@ -61,7 +61,7 @@ impl Context {
     }
 }
 
-/// A token of a body where the macro is used.
+/// A token of a macro's body, placed at the use of the macro.
 fn placed(mut token: Token, expansion: ExpansionId) -> Token {
     token.span.expansion = expansion;
     token.flags.remove(TokenFlags::LINE_START);
@@ -69,7 +69,7 @@ fn placed(mut token: Token, expansion: ExpansionId) -> Token {
 }
 
 impl Preprocessor<'_> {
-    /// The next token with macros expanded.
+    /// The next token, after macro expansion.
     pub(super) fn next_expanded(&mut self, session: &mut Session<'_>) -> Token {
         loop {
             let token = self.next_unexpanded(session, false);
@@ -86,7 +86,8 @@ impl Preprocessor<'_> {
         }
     }
 
-    /// Begins the expansion of a macro's use; false if it is none (a function-like macro without arguments).
+    /// Begins the expansion of a macro use. Returns false if it is not a use (a function-like macro without
+    /// arguments).
     fn expand(&mut self, session: &mut Session<'_>, name: Token, index: usize) -> bool {
         let Some(definition) = self.macros.get(index) else { return false };
         let function_like = definition.params.is_some();
@@ -142,7 +143,7 @@ impl Preprocessor<'_> {
         session.sources.add_expansion(expansion)
     }
 
-    /// Counts tokens against the budget.
+    /// Charges tokens to the budget.
     fn spend(&mut self, session: &mut Session<'_>, tokens: usize, span: Span) {
         self.steps += tokens + 1;
         if self.steps > STEPS + STEPS_A_BYTE * self.bytes && !self.stopped {
@@ -180,7 +181,7 @@ impl Preprocessor<'_> {
         None
     }
 
-    /// The arguments behind `(`, and the place of the `)`.
+    /// The arguments after `(`, and the position of the `)`.
     fn arguments(
         &mut self,
         session: &mut Session<'_>,
@@ -206,7 +207,7 @@ impl Preprocessor<'_> {
                 }
                 _ => {}
             }
-            // What stands in the arguments of arguments is kept once for each level.
+            // The arguments of nested uses are kept once for each level.
             self.spend(session, 0, token.span);
             if let Some(argument) = arguments.last_mut() {
                 argument.push(token);
@@ -214,7 +215,8 @@ impl Preprocessor<'_> {
         }
     }
 
-    /// Reports a use whose `)` is missing. In a directive it costs the line, in the text all that is left of the file.
+    /// Reports a macro use whose `)` is missing. In a directive the rest of the line is lost; in the text, the rest
+    /// of the file.
     fn unterminated_call(&mut self, session: &mut Session<'_>, name: Token, opening: Token, index: usize) {
         if self.stopped {
             return;
@@ -251,13 +253,13 @@ impl Preprocessor<'_> {
         let message = format!("the macro `{}` takes {wanted} argument{plural} and is given {given}", definition.name);
         let diagnostic = Diagnostic::new(&codes::MACRO_ARGUMENTS, call, message).label(definition.span, "defined here");
         session.report(diagnostic);
-        // A number stands for the use, so that the parser does not stumble over the hole.
+        // A number replaces the use, so that the parser sees no hole.
         let zero = self.number_token(session, 0, Token::new(TokenKind::Number, call));
         self.contexts.push(Context::list(vec![zero], None));
         None
     }
 
-    /// The body with arguments in place of parameters, and pasted.
+    /// The body with its parameters replaced by arguments and its `##` applied.
     fn substitute(
         &mut self,
         session: &mut Session<'_>,
@@ -298,7 +300,7 @@ impl Preprocessor<'_> {
         tokens
     }
 
-    /// Appends one token of a body, or the argument that it stands for.
+    /// Appends one token of a body, or the argument that it names.
     #[expect(clippy::too_many_arguments, reason = "the state of one substitution, used nowhere else")]
     fn operand(
         &mut self,
@@ -335,7 +337,7 @@ impl Preprocessor<'_> {
         }
     }
 
-    /// An argument with its own macros expanded.
+    /// An argument after the expansion of its own macros.
     fn expand_argument(&mut self, session: &mut Session<'_>, argument: &[Token]) -> Vec<Token> {
         let has_macro =
             argument.iter().any(|token| token.kind == TokenKind::Word && self.macro_of(token.symbol()).is_some());
@@ -356,7 +358,7 @@ impl Preprocessor<'_> {
         tokens
     }
 
-    /// A list of tokens with its macros expanded, by itself.
+    /// A list of tokens after macro expansion, on its own.
     pub(super) fn expand_all(&mut self, session: &mut Session<'_>, list: Vec<Token>) -> Vec<Token> {
         let floor = self.contexts.len();
         self.contexts.push(Context::barrier(list));
@@ -408,14 +410,14 @@ impl Preprocessor<'_> {
     }
 }
 
-/// Before an argument stands white space if it does before its parameter.
+/// Gives an argument white space before it if its parameter has some.
 fn space_as(parameter: Token, first: Option<&mut Token>) {
     if let Some(first) = first {
         first.flags.set(TokenFlags::SPACE, parameter.flags.contains(TokenFlags::SPACE));
     }
 }
 
-/// A token as text.
+/// The text of a token.
 pub(super) fn written(session: &Session<'_>, token: Token) -> String {
     match token.kind {
         TokenKind::Word | TokenKind::Number | TokenKind::Invalid => session.spelling(token).to_owned(),

@@ -1,4 +1,4 @@
-//! `#extension` (GLSL 1.50 §3.3), and the extensions that are known.
+//! `#extension` (GLSL 1.50 §3.3), and the table of known extensions.
 
 use super::{Behavior, Extensions, Preprocessor, Session, Span, Token, TokenKind, codes, kind};
 use crate::diagnostic::{Diagnostic, did_you_mean};
@@ -14,7 +14,8 @@ pub(in crate::syntax) struct Implemented {
 static IMPLEMENTED: &[Implemented] = &[
     Implemented { name: "GL_ARB_draw_instanced", bit: Extensions::DRAW_INSTANCED },
     Implemented { name: "GL_ARB_explicit_attrib_location", bit: Extensions::EXPLICIT_ATTRIB_LOCATION },
-    // What this one and ARB_texture_multisample bring is in 1.50 itself; sources of the time still turn them on.
+    // What this extension and ARB_texture_multisample provide is part of 1.50; sources of that time still enable
+    // them.
     Implemented { name: "GL_ARB_fragment_coord_conventions", bit: Extensions::empty() },
     Implemented { name: "GL_ARB_separate_shader_objects", bit: Extensions::SEPARATE_SHADER_OBJECTS },
     Implemented { name: "GL_ARB_shading_language_420pack", bit: Extensions::SHADING_LANGUAGE_420PACK },
@@ -26,10 +27,11 @@ static IMPLEMENTED: &[Implemented] = &[
     Implemented { name: "GL_GOOGLE_include_directive", bit: Extensions::INCLUDE },
 ];
 
-/// Every name of the OpenGL and OpenGL ES registries, and those of the Khronos GLSL repository; sorted, one a line.
+/// Every extension name of the OpenGL and OpenGL ES registries and of the Khronos GLSL repository, sorted, one on
+/// each line.
 static REGISTERED: &str = include_str!("extensions.txt");
 
-/// The same, to be looked up.
+/// The names of [`REGISTERED`], for lookup.
 static NAMES: LazyLock<Vec<&'static str>> = LazyLock::new(|| REGISTERED.lines().collect());
 
 /// The extensions that shaders find defined as macros.
@@ -41,8 +43,8 @@ fn is_registered(name: &str) -> bool {
     NAMES.binary_search(&name).is_ok()
 }
 
-/// The warning for a use of what any of `bringing` brings, where `on` are on: each of those that are on and allow it is on
-/// with `warn` (§3.3).
+/// The warning for a use of a feature that any of `bringing` provides, where `on` are enabled: there is one if every
+/// enabled extension that allows the use is enabled with `warn` (§3.3).
 pub(crate) fn warning_of_use(on: Extensions, bringing: Extensions, span: Span) -> Option<Diagnostic> {
     let warned = on.to_warn_of(bringing)?;
     let row = IMPLEMENTED.iter().find(|row| !row.bit.is_empty() && warned.contains(row.bit));
@@ -61,7 +63,7 @@ static BEHAVIORS: &[(&str, Behavior)] = &[
 ];
 
 impl Preprocessor<'_> {
-    /// `#extension name : behavior`, macros not expanded.
+    /// `#extension name : behavior`, without macro expansion.
     pub(super) fn extension(&mut self, session: &mut Session<'_>, directive: Span) {
         let name = self.line_token(session);
         if name.kind != TokenKind::Word {
@@ -108,7 +110,7 @@ impl Preprocessor<'_> {
         }
         let registered = is_registered(name);
         let required = behavior == Behavior::Require;
-        // Off is what it is anyway.
+        // It is disabled already.
         if registered && behavior == Behavior::Disable {
             return;
         }

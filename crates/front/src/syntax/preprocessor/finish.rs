@@ -1,5 +1,5 @@
-//! Preprocessing tokens to tokens: keywords are told from names, numbers get their values, and what is no token is
-//! reported and dropped (GLSL 1.50 §3.1, §3.6, §4.1).
+//! Turns preprocessing tokens into tokens: tells keywords from names, converts numbers to values, and reports and
+//! drops what is not a token (GLSL 1.50 §3.1, §3.6, §4.1).
 
 use super::{Preprocessor, Session, Span, Token, TokenKind, codes, kind};
 use crate::diagnostic::Diagnostic;
@@ -7,7 +7,7 @@ use crate::diagnostic::codes::syntax;
 use crate::syntax::number::{self, Doubt, Malformed, Numeral};
 
 impl Preprocessor<'_> {
-    /// The token as the parser gets it; `None` if it is none.
+    /// The token as the parser sees it; `None` if it is dropped.
     pub(super) fn finish_token(&mut self, session: &mut Session<'_>, mut token: Token) -> Option<Token> {
         match token.kind {
             TokenKind::Word => {
@@ -20,7 +20,8 @@ impl Preprocessor<'_> {
             TokenKind::Number => number(session, &mut token),
             TokenKind::Invalid => invalid_token(session, token),
             TokenKind::Unknown => {
-                // A sign that looks like one of the language stands for it, so that it is one mistake.
+                // A character that looks like one of the language replaces it, so that this is one error and not
+                // many.
                 token.kind = illegal_character(session, token.span)?;
             }
             TokenKind::Hash | TokenKind::HashHash => {
@@ -35,7 +36,7 @@ impl Preprocessor<'_> {
                 return Some(self.end(token.span));
             }
             TokenKind::LeftBrace => {
-                // Of all that begins with a brace at global scope, a function alone has brackets before it.
+                // Of all constructs with a brace at global scope, only a function has a `)` before it.
                 self.in_function |= self.braces == 0 && self.last_kind == TokenKind::RightParen;
                 self.braces += 1;
             }
@@ -52,7 +53,7 @@ impl Preprocessor<'_> {
 }
 
 impl Preprocessor<'_> {
-    /// Reserved names are warned of once.
+    /// Warns, once, about a reserved name.
     fn check_word(&self, session: &mut Session<'_>, token: Token) {
         let name = session.spelling(token);
         if name.contains("__") {
@@ -79,7 +80,7 @@ fn number(session: &mut Session<'_>, token: &mut Token) {
         Err(malformed) => {
             let text = session.spelling(*token).to_owned();
             session.report(malformed_number(&text, malformed, token.span));
-            // What it was meant to be is told well enough by its point for the rest to be checked.
+            // A point shows well enough whether a float was meant to check the rest.
             let kind = match text.as_bytes() {
                 text if text.contains(&b'.') => TokenKind::Float,
                 [.., b'u' | b'U'] => TokenKind::Uint,
@@ -113,7 +114,7 @@ fn malformed_number(text: &str, malformed: Malformed, span: Span) -> Diagnostic 
     }
 }
 
-/// Reports the first character of a token that has no place in GLSL.
+/// Reports the first character of a token that GLSL does not have.
 fn invalid_token(session: &mut Session<'_>, token: Token) {
     let text = session.spelling(token);
     if text.starts_with('"') {
@@ -127,7 +128,7 @@ fn invalid_token(session: &mut Session<'_>, token: Token) {
     illegal_character(session, Span { start, end: start + length as u32, ..token.span });
 }
 
-/// Signs that word processors put in place of those of ASCII, and what they stand for.
+/// Characters that word processors substitute for ASCII, and the tokens that they resemble.
 static LOOK_ALIKES: &[(char, TokenKind)] = &[
     ('\u{2010}', TokenKind::Dash),
     ('\u{2011}', TokenKind::Dash),
@@ -147,7 +148,7 @@ static LOOK_ALIKES: &[(char, TokenKind)] = &[
     ('\u{ff09}', TokenKind::RightParen),
 ];
 
-/// Reports a character; gives what it stands for if it looks like a sign of the language.
+/// Reports a character. Returns the token that it resembles, if any.
 fn illegal_character(session: &mut Session<'_>, span: Span) -> Option<TokenKind> {
     let character = session.sources.snippet(span).chars().next().unwrap_or(char::REPLACEMENT_CHARACTER);
     let (message, help) = match character {

@@ -4,19 +4,19 @@ use super::{Extensions, FileId, Preprocessor, Session, Span, TokenFlags, TokenKi
 use crate::diagnostic::{Diagnostic, codes::general};
 use crate::source::{IncludeForm, Included, Inclusion};
 
-/// How many files may be inside each other.
+/// The largest depth of nested includes.
 const MAX_DEPTH: usize = 64;
 
-/// What an `#include` names.
+/// The name in an `#include`.
 struct Header {
-    /// With its quotes or angle brackets.
+    /// The name, with its quotes or angle brackets.
     text: String,
-    /// Where it is written.
+    /// The position.
     span: Span,
 }
 
 impl Preprocessor<'_> {
-    /// `#include "x"`, `#include <x>`, or macros that give one of them.
+    /// `#include "x"`, `#include <x>`, or macros that expand to one of them.
     pub(super) fn include(&mut self, session: &mut Session<'_>, directive: Span) {
         let plain = self.frames.last_mut().and_then(|frame| frame.lexer.header_name());
         let header = match plain {
@@ -54,7 +54,7 @@ impl Preprocessor<'_> {
         self.enter(session, file, whole);
     }
 
-    /// The name that the macros of an `#include` line give; `None` after an error.
+    /// The name that the macros of an `#include` line expand to; `None` after an error.
     fn expanded_header(&mut self, session: &mut Session<'_>, directive: Span) -> Option<Header> {
         let mut line = Vec::new();
         self.rest_of_line(session, &mut line);
@@ -89,7 +89,7 @@ impl Preprocessor<'_> {
         Some(Header { text, span })
     }
 
-    /// The file of an include; each is asked for and loaded once.
+    /// The file of an include; each is resolved and loaded once.
     fn find_include(&mut self, session: &mut Session<'_>, header: &Header) -> Option<FileId> {
         let from = self.frames.last()?.file;
         let Header { text: quoted, span: header } = header;
@@ -117,7 +117,7 @@ impl Preprocessor<'_> {
     }
 }
 
-/// The file in the map, where another include or another stage may have put it: what is wrong in it is reported once.
+/// The file in the map, where another include or stage may have put it, so that its errors are reported once.
 fn load(session: &mut Session<'_>, included: Included) -> Option<FileId> {
     let known = session.sources.files().find(|(_, file)| file.name() == included.name && *file.text() == included.text);
     match known.map(|(id, _)| id) {

@@ -1,15 +1,15 @@
-//! [`Preprocessor`]: runs directives, expands macros, and hands finished tokens to the parser (GLSL 1.50 §3.3).
+//! [`Preprocessor`] runs directives, expands macros, and hands finished tokens to the parser (GLSL 1.50 §3.3).
 //!
-//! *In:* the main file, macros defined from outside, and a resolver for what `#include` names. *Out:* tokens through
-//! [`TokenSource`], each with the place where it was written and the macro use that brought it, and what is left at
-//! the end: [`Outcome`].
+//! *In:* the main file, macros defined from outside, and a resolver for `#include`. *Out:* tokens through
+//! [`TokenSource`], each with the position where it was written and the macro use that put it where it is; at the
+//! end, an [`Outcome`].
 //!
 //! Tokens come from a stack of files, and before those from a stack of macro bodies that are being read. Both stacks
 //! are on the heap. A macro is disabled while its body is on the stack, and its name found there is marked so that it
-//! is never expanded again, as C has it.
+//! is never expanded again, as in C.
 //!
-//! *Holds:* every budget that is exceeded ends the tokens with one error ([`Preprocessor::stop`]), and the parser is
-//! told that all has been said.
+//! *Holds:* exceeding a budget ends the token stream with one error ([`Preprocessor::stop`]), and the parser then
+//! reports nothing more.
 
 mod condition;
 mod define;
@@ -34,14 +34,14 @@ use define::Macro;
 use expand::Context;
 use rustc_hash::{FxHashMap, FxHashSet};
 
-/// The most bytes that all texts of a shader may have, includes counted as often as they are included: 8 MiB.
+/// The largest total size of all texts of a shader in bytes, with includes counted each time: 8 MiB.
 pub(super) const MAX_BYTES: usize = 8 << 20;
 
-/// What is known once the last token was read.
+/// What is known after the last token has been read.
 #[derive(Debug)]
 pub(super) struct Outcome {
     pub(super) version: Version,
-    /// Whether the language is one that the parser understands.
+    /// Whether the parser understands the language.
     pub(super) supported: bool,
     pub(super) invariant_all: Option<Span>,
     pub(super) allows: Vec<Allow>,
@@ -53,18 +53,18 @@ pub(super) struct Outcome {
 struct Frame {
     file: FileId,
     lexer: Lexer,
-    /// What `__FILE__` says here: how deep the file is included, or what `#line` said.
+    /// The value of `__FILE__` here: the depth of the include, or what `#line` said.
     number: u32,
     conditionals: Vec<directive::Conditional>,
 }
 
-/// What is known of a word.
+/// What is known about a word.
 #[derive(Clone, Copy)]
 struct Word {
-    /// Number of its macro + 1, or 0.
+    /// The number of its macro + 1, or 0.
     definition: u32,
     kind: TokenKind,
-    /// Its double underscore was looked for.
+    /// Whether its spelling has been checked for a double underscore.
     checked: bool,
 }
 
@@ -80,23 +80,24 @@ pub(super) struct Preprocessor<'a> {
     trivia: Vec<Trivia>,
     version: Version,
     version_seen: bool,
-    /// The first directive that came before `#version`.
+    /// The first directive before `#version`.
     before_version: Option<Span>,
     extensions: Extensions,
-    /// The first token that went to the parser.
+    /// The first token handed to the parser.
     first_token: Option<Span>,
     stopped: bool,
     bytes: usize,
     steps: usize,
     argument_depth: usize,
-    /// Braces that are open behind the last token that went to the parser, and whether a function's body is the outermost.
+    /// The number of open braces after the last token handed to the parser, and whether a function's body is the
+    /// outermost.
     braces: usize,
     in_function: bool,
-    /// That token's kind.
+    /// The kind of that token.
     last_kind: TokenKind,
-    /// The arguments of a macro's use are being read.
+    /// Whether the arguments of a macro use are being read.
     in_arguments: bool,
-    /// A macro use on the line of a directive has no end, which was reported: the line has no meaning.
+    /// Whether a macro use on the line of a directive has no end. That was reported, and the line has no meaning.
     broken_line: bool,
     once: FxHashSet<FileId>,
     resolved: FxHashMap<(FileId, IncludeForm, String), FileId>,
@@ -153,23 +154,23 @@ impl<'a> Preprocessor<'a> {
         this
     }
 
-    /// What is left when the parser has read the last token.
+    /// The outcome, after the parser has read the last token.
     pub(super) fn finish(mut self) -> Outcome {
         self.outcome.version = self.version;
         self.outcome
     }
 
-    /// Ends the tokens: the error was reported, and going on would only repeat it.
+    /// Ends the token stream. The error has been reported, and going on would only repeat it.
     fn stop(&mut self) {
         self.stopped = true;
     }
 
-    /// The token behind the last.
+    /// The token after the last.
     fn end(&self, span: Span) -> Token {
         Token { payload: u32::from(self.stopped), ..Token::new(TokenKind::Eof, span) }
     }
 
-    /// Begins to read a file, unless that goes past the limit of bytes.
+    /// Begins to read a file, unless that exceeds the limit of bytes.
     fn enter(&mut self, session: &mut Session<'_>, file: FileId, include: Span) {
         let source = session.sources.file(file);
         self.bytes += source.text().len();
@@ -194,13 +195,13 @@ impl<'a> Preprocessor<'a> {
         self.frames.push(Frame { file, lexer, number, conditionals: Vec::new() });
     }
 
-    /// A file that is no text gets one error instead of one for each of its bytes.
+    /// Reports a file that is not text with one error instead of one for each byte.
     fn check_is_text(&mut self, session: &mut Session<'_>, file: FileId) {
         let source = session.sources.file(file);
         let (mut odd, mut all) = (0, 0);
         for character in source.text().chars().take(1024) {
             all += 1;
-            // Not U+FFFD: comments in an encoding of their own are legal.
+            // U+FFFD does not count: comments in other encodings are legal.
             odd += usize::from(character.is_control() && !character.is_whitespace());
         }
         if odd * 8 > all {
@@ -212,12 +213,12 @@ impl<'a> Preprocessor<'a> {
         }
     }
 
-    /// Whether a backslash joins lines by right and not by kindness.
+    /// Whether the version allows a backslash to join lines, rather than glisten forgiving it.
     fn joins_lines(&self) -> bool {
         self.version.number >= 420 || self.extensions.contains(Extensions::SHADING_LANGUAGE_420PACK)
     }
 
-    /// What is known of a word.
+    /// What is known about a word.
     fn word(&mut self, symbol: Symbol) -> &mut Word {
         let index = symbol.index();
         if index >= self.words.len() {
@@ -229,7 +230,7 @@ impl<'a> Preprocessor<'a> {
                 checked: false,
             }));
         }
-        // The line above made room for it.
+        // The resize above made room for it.
         &mut self.words[index]
     }
 
@@ -238,8 +239,8 @@ impl<'a> Preprocessor<'a> {
         (self.word(symbol).definition as usize).checked_sub(1)
     }
 
-    /// The next token of the topmost file, past directives. With `collecting` the end of an included file is not
-    /// passed: what a macro use reads must stand in one file.
+    /// The next token of the topmost file, after directives. With `collecting`, it does not go past the end of an
+    /// included file: a macro use must be complete within one file.
     fn next_from_file(&mut self, session: &mut Session<'_>, collecting: bool) -> Token {
         loop {
             if self.stopped {
@@ -263,7 +264,7 @@ impl<'a> Preprocessor<'a> {
         }
     }
 
-    /// Leaves a file at its end; false if it is the main one.
+    /// Leaves a file at its end. Returns false if it is the main file.
     fn leave(&mut self, session: &mut Session<'_>) -> bool {
         let Some(frame) = self.frames.last_mut() else { return false };
         for conditional in frame.conditionals.drain(..) {
@@ -276,7 +277,7 @@ impl<'a> Preprocessor<'a> {
         true
     }
 
-    /// Reports what the lexer skipped and matters.
+    /// Handles what the lexer recorded while skipping.
     fn note_trivia(&mut self, session: &mut Session<'_>) {
         let mut trivia = std::mem::take(&mut self.trivia);
         for item in trivia.drain(..) {
@@ -337,7 +338,7 @@ impl<'a> Preprocessor<'a> {
         self.outcome.allows.push(Allow { span, codes: wanted });
     }
 
-    /// The next token, macros not expanded.
+    /// The next token, without macro expansion.
     fn next_unexpanded(&mut self, session: &mut Session<'_>, collecting: bool) -> Token {
         while let Some(context) = self.contexts.last_mut() {
             if let Some(mut token) = context.next() {

@@ -1,4 +1,4 @@
-//! What comes out of the preprocessor, as text.
+//! Tests of the preprocessor, on its output as text.
 
 use super::Preprocessor;
 use crate::diagnostic::Diagnostics;

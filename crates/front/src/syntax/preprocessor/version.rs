@@ -1,17 +1,17 @@
-//! `#version`, and the end of the main file, where it is known whether there was one (GLSL 1.50 §3.3).
+//! `#version`, and the end of the main file, where the lack of one is known (GLSL 1.50 §3.3).
 
 use super::{Preprocessor, Profile, Session, Span, Token, TokenKind, Version, codes, keywords, kind};
 use crate::diagnostic::{Diagnostic, codes::general};
 
-/// What glisten compiles; texts without a version are read by it too.
+/// The newest version that glisten compiles; it also reads texts without a version.
 pub(super) const NEWEST_SUPPORTED: u16 = 150;
 
-/// An edition of the language.
+/// A version of the language.
 struct Edition {
     number: u16,
-    /// An edition for embedded systems; its `#version` line ends in `es` from 300 on.
+    /// Whether it is for embedded systems; its `#version` line ends in `es` from 300 on.
     es: bool,
-    /// It has profiles.
+    /// Whether it has profiles.
     profiles: bool,
     supported: bool,
 }
@@ -20,7 +20,7 @@ const fn edition(number: u16, es: bool, profiles: bool, supported: bool) -> Edit
     Edition { number, es, profiles, supported }
 }
 
-/// All editions.
+/// All versions.
 static EDITIONS: &[Edition] = &[
     edition(100, true, false, false),
     edition(110, false, false, false),
@@ -44,7 +44,7 @@ static EDITIONS: &[Edition] = &[
 const HELP: &str = "write `#version 150`";
 
 impl Preprocessor<'_> {
-    /// `#version number profile`, macros not expanded.
+    /// `#version number profile`, without macro expansion.
     pub(super) fn version(&mut self, session: &mut Session<'_>, directive: Span) {
         let number = self.line_token(session);
         let parsed: Option<u16> =
@@ -89,7 +89,7 @@ impl Preprocessor<'_> {
         }
     }
 
-    /// Whether the line counts: it is the first, and no token stands before it.
+    /// Whether the directive is valid here: it is the first, and no token comes before it.
     fn check_place(&mut self, session: &mut Session<'_>, span: Span) -> bool {
         let late = |message: &str, first: Span, label: &str| {
             Diagnostic::new(&codes::LATE_VERSION, span, message).label(first, label).help("make it the first line")
@@ -163,7 +163,7 @@ impl Preprocessor<'_> {
         self.stop();
     }
 
-    /// Makes keywords and `__VERSION__` those of the version.
+    /// Sets the keywords and `__VERSION__` of the version.
     fn apply_version(&mut self, session: &mut Session<'_>) {
         if self.version.number == NEWEST_SUPPORTED {
             return;
@@ -180,7 +180,7 @@ impl Preprocessor<'_> {
         }
     }
 
-    /// The end of the main file.
+    /// Handles the end of the main file.
     pub(super) fn at_end(&mut self, session: &mut Session<'_>) {
         if self.version_seen || self.stopped {
             return;

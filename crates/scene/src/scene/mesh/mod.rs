@@ -1,8 +1,8 @@
-//! `[draw.mesh]`: vertex data by the name of a shape or from a file, handed to attributes by role.
+//! `[draw.mesh]`: vertex data of a named shape or from a file, assigned to attributes by role.
 //!
 //! *In:* `shape = "sphere"` and its sizes, or `file = "x.obj"`; `position`, `normal`, `texcoord` name the attributes.
-//! *Out:* a [`Mesh`] of indexed triangles, counterclockwise seen from outside.
-//! *Holds:* coordinates are computed in f64 and rounded once to f32.
+//! *Out:* a [`Mesh`] of indexed triangles, counterclockwise as seen from outside. *Holds:* coordinates are computed
+//! in f64 and rounded once to f32.
 
 mod obj;
 mod shapes;
@@ -15,7 +15,7 @@ use glisten_front::source::Span;
 use shapes::Shape;
 use toml::de::DeTable;
 
-/// A mesh with its data already assigned to attributes.
+/// A mesh whose data is assigned to attributes.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Mesh {
     pub(super) indices: Vec<u32>,
@@ -27,14 +27,14 @@ pub(super) struct Mesh {
 pub(super) struct Stream {
     /// The attribute's GLSL name.
     pub(super) attribute: String,
-    /// The name in the scene.
+    /// The span of the name in the scene.
     pub(super) span: Span,
-    /// Whether the scene does not name the attribute: it is the convention of the library's programs.
+    /// Whether the name is implied by the convention of the library's programs.
     pub(super) implied: bool,
     pub(super) data: AttributeData,
 }
 
-/// Triangles with what a vertex has.
+/// Triangles with the data of their vertices.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Geometry {
     positions: Vec<[f64; 3]>,
@@ -70,7 +70,8 @@ const SHAPES: &[(&str, Shape)] = &[
     ("torus_knot", Shape::TorusKnot),
 ];
 
-/// `conventional`: a role that the scene does not hand to an attribute goes to the one of the role's own name.
+/// Loads a mesh. With `conventional`, a role that the scene does not assign goes to the attribute with the role's own
+/// name.
 pub(super) fn load_mesh(loader: &mut Loader<'_>, node: &Node<'_>, conventional: bool) -> Option<Mesh> {
     let table = loader.reader.table(node, "mesh")?;
     let span = loader.reader.span_of(node);

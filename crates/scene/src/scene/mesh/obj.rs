@@ -1,12 +1,12 @@
-//! Meshes in Wavefront's OBJ format: `v`, `vt`, `vn`, `f`; polygons become fans, all else is passed over.
+//! Parses meshes in Wavefront's OBJ format: `v`, `vt`, `vn`, `f`. Polygons become fans; everything else is ignored.
 
 use super::Geometry;
 use std::collections::BTreeMap;
 
-/// The corners of faces as the file numbers them: position, texture coordinate, normal.
+/// A corner of a face with its indices in the file: position, texture coordinate, normal.
 type Corner = (usize, Option<usize>, Option<usize>);
 
-/// Reads a mesh.
+/// Parses a mesh.
 ///
 /// # Errors
 /// A sentence that names the line.

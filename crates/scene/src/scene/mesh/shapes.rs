@@ -1,4 +1,4 @@
-//! Shapes by name: grids of vertices bent into a surface, with exact normals.
+//! Shapes by name: grids of vertices mapped to a surface, with exact normals.
 
 use super::super::reader::Reader;
 use super::Geometry;
@@ -22,8 +22,9 @@ pub(crate) enum Shape {
     Cylinder,
     /// `radius`, `height`, around the y axis, without its base.
     Cone,
-    /// A tube of radius `tube` along a curve on the torus of `radius` and `minor_radius` that goes `turns[0]` times
-    /// around the axis and `turns[1]` times around the torus; `segments` along, `rings` around the tube.
+    /// A tube of radius `tube` along a curve on the torus of `radius` and `minor_radius`. The curve goes `turns[0]`
+    /// times around the axis and `turns[1]` times around the tube of the torus; `segments` along, `rings` around the
+    /// tube.
     TorusKnot,
 }
 
@@ -63,8 +64,8 @@ pub(super) fn build(reader: &mut Reader, table: &DeTable<'_>, shape: Shape) -> G
     }
 }
 
-/// A grid of `columns` by `rows` squares over (s, t) in [0, 1]², two triangles each, counterclockwise where s goes right
-/// and t up.
+/// A grid of `columns` by `rows` squares over (s, t) in [0, 1]², two triangles each, counterclockwise if s points
+/// right and t up.
 fn grid(columns: u32, rows: u32, surface: impl Fn(f64, f64) -> ([f64; 3], [f64; 3])) -> Geometry {
     let mut geometry = Geometry::default();
     for row in 0..=rows {
@@ -87,7 +88,7 @@ fn grid(columns: u32, rows: u32, surface: impl Fn(f64, f64) -> ([f64; 3], [f64; 
     geometry
 }
 
-/// Sine and cosine of `turns` full turns, exact at the quarters, so that seams and poles close.
+/// The sine and cosine of `turns` full turns, exact at the quarters, so that seams and poles close.
 fn circle(turns: f64) -> (f64, f64) {
     let quarters = turns * 4.0;
     if quarters == quarters.round() {
@@ -101,7 +102,7 @@ fn circle(turns: f64) -> (f64, f64) {
     (turns * TAU).sin_cos()
 }
 
-/// t = 0 is the south pole; s = 0 faces +z and goes east.
+/// t = 0 is the south pole; s = 0 faces +z, and s increases eastwards.
 fn sphere(radius: f64, s: f64, t: f64) -> ([f64; 3], [f64; 3]) {
     let (sin_s, cos_s) = circle(s);
     let (sin_t, cos_t) = circle(t / 2.0);
@@ -117,14 +118,15 @@ fn torus(radius: f64, minor_radius: f64, s: f64, t: f64) -> ([f64; 3], [f64; 3])
     ([from_axis * sin_s, minor_radius * sin_t, from_axis * cos_s], normal)
 }
 
-/// The tube's frame is the torus's normal, at right angles to the curve as every normal of a surface that it lies on, and
-/// what is at right angles to both: it closes where the curve does. The tube's normal is exact for any frame.
+/// The frame of the tube consists of the torus's normal, which is perpendicular to the curve like every normal of a
+/// surface that contains it, and of the vector perpendicular to both. It closes where the curve does. The tube's
+/// normal is exact for any frame.
 fn torus_knot([radius, minor, tube]: [f64; 3], [around, through]: [f64; 2], s: f64, t: f64) -> ([f64; 3], [f64; 3]) {
     let (sin_a, cos_a) = circle(around * s);
     let (sin_b, cos_b) = circle(through * s);
     let from_axis = radius + minor * cos_b;
     let center = [from_axis * sin_a, minor * sin_b, from_axis * cos_a];
-    // The curve's derivative along the parallel and along the meridian of the torus, which are at right angles.
+    // The curve's derivatives along the parallel and along the meridian of the torus, which are perpendicular.
     let (along, across) = (around * from_axis, through * minor);
     let speed = along.hypot(across);
     let parallel = [cos_a, 0.0, -sin_a];
@@ -242,7 +244,7 @@ mod tests {
         }
         for column in 1..segments {
             let middle = center(column);
-            // The curve's direction by a central difference, good to the square of the step.
+            // The curve's direction by a central difference, accurate to the square of the step.
             let (before, after) = (center(column - 1), center(column + 1));
             let along = sub(after, before);
             for row in 0..=rings {
