@@ -169,6 +169,7 @@ impl Rule {
     pub fn describe(&self) -> String {
         let formula = |formula: &super::Formula| format!("`{}`", formula.text(self.arguments));
         match self.precision {
+            Precision::Exact => "exact".into(),
             Precision::Correct => "either f32 neighbor".into(),
             Precision::Ulps(n) => format!("{n} ULP"),
             Precision::UlpsWithArgument { fixed, slope } => format!("{fixed} + {slope} abs(x) ULP"),

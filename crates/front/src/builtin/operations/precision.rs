@@ -13,6 +13,8 @@ use std::f64::consts::PI;
 /// The error that one operation may add.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Precision {
+    /// No error: the exact result of f32 numbers is an f32.
+    Exact,
     /// One of the two f32 neighbors; the number itself where it is an f32.
     Correct,
     /// So many ULPs of f32 at the exact result.
@@ -105,12 +107,26 @@ impl Rule {
         }
     }
 
+    /// The range of arguments with a precision of their own; for angles where they are reduced, and where nothing is left.
+    pub const fn within(&self) -> (f64, f64) {
+        match self.precision {
+            UlpsOrWithin { low, high, .. } => (low, high),
+            Angle { reduced, lost, .. } => (reduced, lost),
+            _ => (f64::NEG_INFINITY, f64::INFINITY),
+        }
+    }
+
     /// The formula of a rule that has one.
     pub const fn formula(&self) -> Option<&'static Formula> {
         match self.precision {
             Inherited(formula) | InheritedOr(formula, _) => Some(formula),
             _ => None,
         }
+    }
+
+    /// Whether the operation may give anything but the exact result.
+    pub const fn adds_error(&self) -> bool {
+        !matches!(self.precision, Exact | EitherOfNan)
     }
 
     /// Whether the rule inherits from this very formula: a kernel that evaluates it in a faster way is right then.
@@ -146,7 +162,8 @@ rules! {
     ADD = "+, -" ("x", "y"), Correct, "Vulkan: OpFAdd, OpFSub";
     MUL = "*, matrixCompMult, outerProduct" ("x", "y"), Correct, "Vulkan: OpFMul";
     DIV = "/" ("x", "y"), Ulps(2.5), "Vulkan: OpFDiv, for |y| in [2^-126, 2^126]; beyond, anything";
-    EXACT = "abs, sign, floor, ceil, trunc, fract, modf, step, clamp, transpose" ("x"), Correct, "Vulkan: correctly rounded";
+    EXACT = "-x, abs, sign, floor, ceil, trunc, step, clamp, transpose" ("x"), Exact, "Vulkan: correctly rounded, and an f32";
+    FRACT = "fract, modf" ("x"), Correct, "Vulkan: correctly rounded";
     ROUND = "round, roundEven" ("x"), EitherHalf, "GLSL 1.50 8.3";
     EXTREMUM = "min, max" ("x", "y"), EitherOfNan, "GLSL.std.450: FMin, FMax";
     INVERSESQRT = "inversesqrt" ("x"), Ulps(2.0), "Vulkan: InverseSqrt";

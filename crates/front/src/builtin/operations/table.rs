@@ -192,7 +192,7 @@ operations! {
         floats Trunc "trunc" jumps each(1), EXACT, f64::trunc;
         floats Round "round" jumps each(1), ROUND, f64::round_ties_even;
         floats Ceil "ceil" jumps each(1), EXACT, f64::ceil;
-        floats Fract "fract" jumps each(1), EXACT, |x: f64| x - x.floor();
+        floats Fract "fract" jumps each(1), FRACT, |x: f64| x - x.floor();
     }
     unary operators {
         Neg "-" smooth EXACT, |x: f64| -x;
@@ -230,7 +230,7 @@ operations! {
     }
     other {
         RoundEven "roundEven" Class::Unary(Unary::Round), each(1), Some(&precision::ROUND);
-        Modf "modf" Class::Modf, each(1), Some(&precision::EXACT);
+        Modf "modf" Class::Modf, each(1), Some(&precision::FRACT);
         Isnan "isnan" Class::Test(Test::Nan), each(1), None;
         Isinf "isinf" Class::Test(Test::Infinite), each(1), None;
         MatrixCompMult "matrixCompMult" Class::Matrix(MatrixFunction::ComponentProduct), each(1), Some(&precision::MUL);
