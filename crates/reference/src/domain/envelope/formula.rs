@@ -11,7 +11,7 @@ use crate::domain::Number;
 use glisten_front::builtin::operations::{Binary, Formula, Precision, Rule, Unary};
 
 /// The value of a formula at a component of vectors of arguments; scalars go with every component.
-pub(in crate::domain) fn evaluate<N: Number>(formula: &Formula, arguments: &[&[N]], component: usize) -> N {
+pub(crate) fn evaluate<N: Number>(formula: &Formula, arguments: &[&[N]], component: usize) -> N {
     let of = |part: &Formula| evaluate(part, arguments, component);
     let size = || arguments.iter().map(|argument| argument.len()).max().unwrap_or(1);
     match formula {
@@ -132,6 +132,108 @@ impl EnvelopeFloat {
                 may_be_nan: self.may_be_nan,
             },
             Precision::EitherDifference | Precision::Cofactors => Self::anything(value),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::domain::rules::{self, PIPELINE};
+    use glisten_front::builtin::operations::precision::RULES;
+
+    fn of(low: f64, high: f64) -> EnvelopeFloat {
+        EnvelopeFloat::rounded((low + high) / 2.0, low, high, false)
+    }
+
+    fn by(precision: Precision) -> EnvelopeFloat {
+        let rule = Rule { precision, ..rules::ATAN };
+        of(0.7, 0.71).rising_by(&rule, f64::atan)
+    }
+
+    /// Each kind of rule gives another interval, and so does each other number in it.
+    #[test]
+    fn a_changed_rule_changes_the_result() {
+        const X: Formula = Formula::Argument(0);
+        const SQUARE_ROOT: Formula = Formula::Unary(Unary::Sqrt, &X);
+        const SINE: Formula = Formula::Unary(Unary::Sin, &X);
+        let found = [
+            Precision::Exact,
+            Precision::Correct,
+            Precision::Ulps(4.0),
+            Precision::Ulps(8.0),
+            Precision::UlpsWithArgument { fixed: 12.0, slope: 0.0 },
+            Precision::UlpsWithArgument { fixed: 12.0, slope: 100.0 },
+            Precision::UlpsOrWithin { ulps: 20.0, error: 1e-2, low: 1.0, high: 2.0 },
+            Precision::UlpsOrWithin { ulps: 20.0, error: 1e-2, low: 0.0, high: 2.0 },
+            Precision::Absolute(0.5),
+            Precision::Angle { error: 0.25, reduced: 1.0, lost: 2.0 },
+            Precision::Inherited(&SINE),
+            Precision::Inherited(&SQUARE_ROOT),
+            Precision::InheritedOr(&SINE, 0.125),
+            Precision::EitherHalf,
+            Precision::Cofactors,
+        ]
+        .map(|precision| (precision, by(precision)));
+        for (index, (one, result)) in found.iter().enumerate() {
+            for (other, different) in &found[..index] {
+                assert!((result.low, result.high) != (different.low, different.high), "{one:?} is as {other:?}");
+            }
+        }
+    }
+
+    /// Formulas that have a faster kernel: both give intervals of the same numbers, and the kernel is in use.
+    #[test]
+    fn kernels_evaluate_the_formulas_of_their_rules() {
+        assert!(rules::SQRT.inherits(&rules::kernels::SQRT));
+        assert!(rules::POW.inherits(&rules::kernels::POW));
+        assert!(rules::MIX.inherits(&rules::kernels::MIX));
+        let near = |fast: EnvelopeFloat, slow: EnvelopeFloat| {
+            let width = (slow.high - slow.low).max(rules::ulp(slow.high));
+            assert!((fast.low - slow.low).abs() <= width && (fast.high - slow.high).abs() <= width, "{fast:?} {slow:?}");
+            assert!(fast.high >= slow.low && fast.low <= slow.high, "{fast:?} {slow:?}");
+        };
+        for x in [0.01, 0.3, 1.0, 2.0, 7.5, 1e4, 3e12] {
+            let argument = EnvelopeFloat::from_f64(x);
+            near(argument.sqrt(), EnvelopeFloat::by_formula(&rules::SQRT, x.sqrt(), &[argument]));
+            for y in [0.5, 2.0, 3.25] {
+                let y = EnvelopeFloat::from_f64(y);
+                let slow = EnvelopeFloat::by_formula(&rules::POW, 0.0, &[argument, y]);
+                near(argument.pow(y), slow);
+                let a = EnvelopeFloat::from_f64(0.3);
+                near(argument.mix(y, a), EnvelopeFloat::by_formula(&rules::MIX, 0.0, &[argument, y, a]));
+            }
+        }
+    }
+
+    /// A formula computes what its function is: in f64 it gives the function's own value.
+    #[test]
+    fn formulas_compute_their_functions() {
+        let close = |a: f64, b: f64| (a - b).abs() <= 1e-9 * b.abs().max(1.0);
+        let mut count = 0;
+        for op in Unary::ALL {
+            let Some(formula) = op.rule().formula() else { continue };
+            let x = if *op == Unary::Acosh { 1.7 } else { 0.37 };
+            assert!(close(evaluate(formula, &[&[x]], 0), op.of(x)), "{}", op.name());
+            count += 1;
+        }
+        for op in Binary::ALL {
+            let Some(formula) = op.rule().formula() else { continue };
+            assert!(close(evaluate(formula, &[&[2.7], &[1.3]], 0), op.of(2.7, 1.3)), "{}", op.name());
+            count += 1;
+        }
+        for op in glisten_front::builtin::operations::Ternary::ALL {
+            let Some(formula) = op.rule().formula() else { continue };
+            assert!(close(evaluate(formula, &[&[0.2], &[1.3], &[0.6]], 0), op.of(0.2, 1.3, 0.6)), "{}", op.name());
+            count += 1;
+        }
+        assert_eq!(count, 16, "every formula of numbers");
+    }
+
+    #[test]
+    fn rules_have_names_of_their_own() {
+        for rule in RULES {
+            assert!(PIPELINE.iter().chain(rules::OWN).all(|step| step.operation != rule.operation));
         }
     }
 }

@@ -33,6 +33,8 @@ mod tests;
 mod vector;
 
 pub use block::EnvelopeBlock;
+#[cfg(test)]
+pub(crate) use formula::evaluate;
 pub use integer::EnvelopeInt;
 
 use glisten_scene::compare::Range;
