@@ -11,7 +11,7 @@ use crate::domain::faults::Faults;
 use crate::domain::{Domain, Integer, Lanes, Number};
 use glisten_front::hir::{GlobalId, ScalarValue};
 use glisten_front::source::Span;
-use glisten_scene::scene::Texture;
+use glisten_scene::Texture;
 use std::sync::Arc;
 
 /// How many instructions loops may run in one run of a machine: each time that a loop goes back to its head, the

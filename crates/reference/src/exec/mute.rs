@@ -13,7 +13,7 @@ use crate::domain::{Domain, Number};
 use glisten_front::builtin::operations::Rule;
 use glisten_front::hir::GlobalId;
 use glisten_front::source::Span;
-use glisten_scene::compare::Range;
+use glisten_scene::picture::Interval;
 
 /// An operation of the text, and the instructions that it was made into.
 #[derive(Clone, Debug)]
@@ -189,7 +189,7 @@ impl<D: Domain> Machine<D> {
 }
 
 fn exactly<N: Number>(number: N) -> N {
-    N::whole(number.value(), Range::point(number.value()))
+    N::whole(number.value(), Interval::point(number.value()))
 }
 
 /// A number without as much freedom as another has about its value.
@@ -203,6 +203,6 @@ fn without<N: Number>(number: N, own: N) -> N {
     let or_value = |end: f64| if end.is_nan() { value } else { end };
     N::whole(
         value,
-        Range { low: or_value(low), high: or_value(high), may_be_nan: range.may_be_nan && !own_range.may_be_nan },
+        Interval { low: or_value(low), high: or_value(high), may_be_nan: range.may_be_nan && !own_range.may_be_nan },
     )
 }

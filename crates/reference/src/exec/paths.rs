@@ -12,7 +12,7 @@ use super::machine::Machine;
 use super::registers::Register;
 use super::{LANES, Mask};
 use crate::domain::{Domain, Integer, Number};
-use glisten_scene::compare::Range;
+use glisten_scene::picture::Interval;
 
 /// The most ways of one group.
 pub(super) const MAX_WAYS: usize = 64;
@@ -225,7 +225,7 @@ impl<D: Domain> Machine<D> {
         let of = |class: Class| code.outputs.iter().filter(move |port| port.class == class);
         for lane in Mask(joined.undecided & !self.undecided).lanes() {
             for lanes in joined.floats.iter_mut().map(Register::spread) {
-                lanes.set(lane, D::Float::with_range(lanes.get(lane).value(), Range::ALL));
+                lanes.set(lane, D::Float::with_range(lanes.get(lane).value(), Interval::ALL));
             }
             for lanes in joined.ints.iter_mut().map(Register::spread) {
                 lanes.set(lane, D::Int::with_choices(lanes.get(lane).bits(), i32::MIN, i32::MAX));

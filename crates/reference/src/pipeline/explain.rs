@@ -16,8 +16,8 @@ use crate::{Contribution, RenderOptions};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::scenes::SCENE_CANNOT_DRAW;
 use glisten_front::hir::Stage;
-use glisten_scene::compare::Range;
-use glisten_scene::scene::Scene;
+use glisten_scene::Scene;
+use glisten_scene::picture::Interval;
 
 /// What is called the operation of an input.
 const INTERPOLATION: &str = "interpolation";
@@ -106,7 +106,7 @@ fn of_draw(
 }
 
 /// By how much of its width a range shrinks.
-fn share(whole: Range, muted: Range) -> f64 {
+fn share(whole: Interval, muted: Interval) -> f64 {
     match (whole.width().is_finite(), muted.width().is_finite()) {
         (true, _) if whole.width() > 0.0 => (1.0 - muted.width() / whole.width()).max(0.0),
         (false, true) => 1.0,

@@ -18,7 +18,7 @@ use crate::domain::faults::Faults;
 use crate::domain::{Domain, Integer, Number};
 use crate::exec::{Code, LANES, Machine, Mask};
 use glisten_front::hir::{FragCoordLayout, GlobalId, Stage};
-use glisten_scene::scene::{Draw, Framebuffer};
+use glisten_scene::{Draw, Framebuffer};
 use pulp::{Simd, WithSimd};
 
 /// What all bins of a draw share.

@@ -48,8 +48,8 @@ use glisten_front::diagnostic::codes::scenes::{SCENE_CANNOT_DRAW, SCENE_LOOP_BUD
 use glisten_front::diagnostic::{Code as DiagnosticCode, Diagnostic};
 use glisten_front::hir::Stage;
 use glisten_front::source::Span;
-use glisten_scene::compare::Picture;
-use glisten_scene::scene::{Draw, Scene};
+use glisten_scene::picture::Picture;
+use glisten_scene::{Draw, Scene};
 use outputs::output_plans;
 use plan::Plan;
 use rayon::prelude::*;

@@ -11,7 +11,7 @@ use crate::domain::{Domain, F32, Integer, Number};
 use crate::exec::{Code, LANES, Machine, Mask};
 use glisten_front::hir::{GlobalId, Interpolation, ScalarValue, Type, TypeId, Types};
 use glisten_front::source::Span;
-use glisten_scene::scene::Draw;
+use glisten_scene::Draw;
 use rayon::prelude::*;
 use std::sync::OnceLock;
 

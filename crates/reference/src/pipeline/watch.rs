@@ -4,7 +4,7 @@
 
 use crate::domain::Domain;
 use crate::exec::{Code, Machine, Observer, Order};
-use glisten_scene::scene::Draw;
+use glisten_scene::Draw;
 
 /// Makes an observer for a piece of the drawing.
 pub(crate) type MakeObserver<D> = dyn Fn() -> Box<dyn Observer<D>> + Sync;

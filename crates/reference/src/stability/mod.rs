@@ -23,8 +23,8 @@ use super::{RenderOptions, exec};
 use glisten_front::diagnostic::{Diagnostic, codes};
 use glisten_front::hir::Stage;
 use glisten_front::source::Span;
-use glisten_scene::compare::Picture;
-use glisten_scene::scene::Scene;
+use glisten_scene::Scene;
+use glisten_scene::picture::Picture;
 use record::{Collected, Recorder, Tally};
 use std::sync::Arc;
 

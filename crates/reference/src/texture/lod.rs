@@ -2,7 +2,7 @@
 
 use super::{Near, cube};
 use glisten_front::hir::{SamplerDim, SamplerType};
-use glisten_scene::scene::Texture;
+use glisten_scene::Texture;
 
 /// The change of the coordinates from pixel to pixel.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -7,9 +7,9 @@
 mod obj;
 mod shapes;
 
-use super::load::Loader;
-use super::model::{AttributeData, AttributeValues};
+use super::Loader;
 use super::reader::Node;
+use crate::model::{AttributeData, AttributeValues};
 use glisten_front::diagnostic::codes::scenes::{SCENE_BAD_ASSET, SCENE_MISSING_KEY, SCENE_WRONG_VALUE};
 use glisten_front::source::Span;
 use shapes::Shape;
