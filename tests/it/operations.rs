@@ -15,11 +15,8 @@ use glisten_front::{Compiler, Options, Source};
 use std::fmt::Write;
 
 /// What a target has no form for, whatever the program: the documents name them.
-const REFUSED: &[(&str, &str)] = &[
-    ("textureSize", "sampler2DMSArray"),
-    ("texelFetch", "sampler2DMSArray"),
-    ("textureGrad", "samplerCube"),
-];
+const REFUSED: &[(&str, &str)] =
+    &[("textureSize", "sampler2DMSArray"), ("texelFetch", "sampler2DMSArray"), ("textureGrad", "samplerCube")];
 
 /// An argument: samplers are uniforms, offsets constant, all else comes of a uniform, so that nothing is folded.
 fn argument(ty: TypeId, mode: ParamMode, role: Option<TextureArgument>, index: usize, uniforms: &mut String) -> String {
@@ -58,11 +55,8 @@ fn text(row: &Row, signature: &Signature) -> String {
         arguments.push(text);
     }
     let ret = types.name(signature.ret);
-    let extension = if row.section == "ARB_texture_rectangle" {
-        "#extension GL_ARB_texture_rectangle : enable\n"
-    } else {
-        ""
-    };
+    let extension =
+        if row.section == "ARB_texture_rectangle" { "#extension GL_ARB_texture_rectangle : enable\n" } else { "" };
     format!(
         "#version 150\n{extension}{uniforms}out vec4 o;\nvoid main() {{ {locals}{ret} r = {}({}); o = vec4(r == r); }}\n",
         row.name,

@@ -9,7 +9,8 @@ use super::{Try, unsupported};
 use crate::target::WindowOrigin;
 use glisten_front::builtin::BuiltinFunction;
 use glisten_front::builtin::operations::{
-    Binary, BooleanFunction, Class, Composite, Derivative, Emission, MatrixFunction, Numbers, Relation, Ternary, Test, Unary,
+    Binary, BooleanFunction, Class, Composite, Derivative, Emission, MatrixFunction, Numbers, Relation, Ternary, Test,
+    Unary,
 };
 use glisten_front::hir::{BinaryOp, ExprId, Scalar, ScalarValue, TypeId};
 use naga::{BinaryOperator, DerivativeAxis, DerivativeControl, Expression, Handle, MathFunction, UnaryOperator};

@@ -43,13 +43,7 @@ impl Ctx<'_, '_> {
     }
 
     /// Decomposes the arguments after the sampler, in their order.
-    fn lookup(
-        &mut self,
-        ty: SamplerType,
-        value: SamplerValue,
-        form: TextureForm,
-        arguments: &[ExprId],
-    ) -> Try<Lookup> {
+    fn lookup(&mut self, ty: SamplerType, value: SamplerValue, form: TextureForm, arguments: &[ExprId]) -> Try<Lookup> {
         let (mut p, mut gradient_x, mut offset, mut level) = (None, None, None, SampleLevel::Auto);
         for (role, &argument) in form.arguments(ty).into_iter().zip(arguments) {
             match role {
@@ -89,8 +83,7 @@ impl Ctx<'_, '_> {
             self.add(Expression::AccessIndex { base: p, index })
         };
         // The reference value of a 1D shadow is in z, after an unused component; that of a cube is in w.
-        let reference =
-            ty.shadow.then(|| component(ty.reference_component()));
+        let reference = ty.shadow.then(|| component(ty.reference_component()));
         let layer = ty.arrayed.then(|| component(n));
         let divisor = projective.then(|| component(p_size.saturating_sub(1)));
         let coordinate = if p_size == n { p } else { self.first_components(p, n) };

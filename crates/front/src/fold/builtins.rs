@@ -31,9 +31,7 @@ pub(super) fn call(types: &Types, function: BuiltinFunction, ty: TypeId, operand
         Class::Relation(op) => arguments.relation(op),
         Class::Boolean(BooleanFunction::Any) => one(Bool(operands.first()?.scalars.contains(&Bool(true)))),
         Class::Boolean(BooleanFunction::All) => one(Bool(!operands.first()?.scalars.contains(&Bool(false)))),
-        Class::Boolean(BooleanFunction::Not) => {
-            arguments.each(|x| if let Bool(x) = x { Some(Bool(!x)) } else { None })
-        }
+        Class::Boolean(BooleanFunction::Not) => arguments.each(|x| if let Bool(x) = x { Some(Bool(!x)) } else { None }),
         Class::Test(Test::Nan) => arguments.each(|x| Some(Bool(as_float(&x)?.is_nan()))),
         Class::Test(Test::Infinite) => arguments.each(|x| Some(Bool(as_float(&x)?.is_infinite()))),
         // Zero in a constant expression (§4.3.3).

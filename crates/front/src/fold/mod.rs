@@ -6,7 +6,7 @@
 //!
 //! | expression | value |
 //! | --- | --- |
-//! | integer `a / 0`, `a % 0` | `a`, `0` |
+//! | integer `a / 0`, `a % 0` | all bits set, as lavapipe gives |
 //! | the least `int` divided by -1 | itself, remainder 0 |
 //! | shifts by 32 or more | by the lowest five bits |
 //! | `float` to an integer it does not fit | the nearest integer, 0 for NaN |

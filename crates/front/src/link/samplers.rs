@@ -9,9 +9,7 @@ use super::flatten::parts;
 use super::{Context, SamplerSlot, SlotBinding};
 use crate::builtin::constants::{MAX_COMBINED_TEXTURE_IMAGE_UNITS, MAX_TEXTURE_IMAGE_UNITS};
 use crate::diagnostic::{Diagnostic, codes};
-use crate::hir::{
-    ArraySize, Global, GlobalId, MatrixLayout, Shader, Stage, Storage, Type, TypeId,
-};
+use crate::hir::{ArraySize, Global, GlobalId, MatrixLayout, Shader, Stage, Storage, Type, TypeId};
 use crate::source::Span;
 
 const GROUP: u32 = 1;

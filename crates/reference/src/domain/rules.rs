@@ -90,11 +90,7 @@ pub(crate) mod kernels {
             &Formula::Binary(Binary::Mul, &X, &Formula::Binary(Binary::Sub, &ONE, &A)),
             &Formula::Binary(Binary::Mul, &Y, &A),
         ),
-        &Formula::Binary(
-            Binary::Add,
-            &X,
-            &Formula::Binary(Binary::Mul, &Formula::Binary(Binary::Sub, &Y, &X), &A),
-        ),
+        &Formula::Binary(Binary::Add, &X, &Formula::Binary(Binary::Mul, &Formula::Binary(Binary::Sub, &Y, &X), &A)),
     );
 }
 
@@ -128,6 +124,15 @@ impl Step {
         match self.allowance {
             OfUlps(n) => n,
             OfSize(_) | Hull(_) => 0.0,
+        }
+    }
+
+    /// What is allowed, in words.
+    pub fn describe(&self) -> String {
+        match self.allowance {
+            OfUlps(n) => format!("{n} ULP"),
+            OfSize(error) => format!("{error:e}"),
+            Hull(choices) => choices.to_owned(),
         }
     }
 

@@ -9,9 +9,8 @@ use std::fmt::Write;
 
 /// Every operator on floats and every built-in function, section by section.
 pub fn markdown() -> String {
-    let mut out = String::from(
-        "### Operators on floats (§5.9)\n\n| operator | may jump | precision |\n| --- | --- | --- |\n",
-    );
+    let mut out =
+        String::from("### Operators on floats (§5.9)\n\n| operator | may jump | precision |\n| --- | --- | --- |\n");
     for (name, jumps, rule) in operators() {
         let _ = writeln!(out, "| `{name}` | {} | {} |", yes(jumps), rule.describe());
     }
@@ -155,8 +154,11 @@ impl Linear {
 impl CallCost {
     fn describe(self) -> String {
         let parts = [(self.special.describe(), "special"), (self.arithmetic.describe(), "arithmetic")];
-        let mut list: Vec<String> =
-            parts.into_iter().filter(|(count, _)| !count.is_empty()).map(|(count, unit)| format!("{count} {unit}")).collect();
+        let mut list: Vec<String> = parts
+            .into_iter()
+            .filter(|(count, _)| !count.is_empty())
+            .map(|(count, unit)| format!("{count} {unit}"))
+            .collect();
         if self.texture > 0 {
             list.push(format!("{} lookup", self.texture));
         }
@@ -177,10 +179,9 @@ impl Rule {
                 format!("{ulps} ULP; {} in [{low}, {high}]", power(error))
             }
             Precision::Absolute(error) => power(error),
-            Precision::Angle { error, .. } => format!(
-                "{}; beyond pi an ULP of the argument more; beyond 2^23 anything from -1 to 1",
-                power(error)
-            ),
+            Precision::Angle { error, .. } => {
+                format!("{}; beyond pi an ULP of the argument more; beyond 2^23 anything from -1 to 1", power(error))
+            }
             Precision::Inherited(inherited) => formula(inherited),
             Precision::InheritedOr(inherited, error) => format!("{}, or {error:e}", formula(inherited)),
             Precision::EitherHalf => "the nearest integer; a half to either side".into(),

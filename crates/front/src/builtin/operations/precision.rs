@@ -99,10 +99,7 @@ impl Rule {
     #[inline(always)]
     pub const fn absolute(&self) -> f64 {
         match self.precision {
-            Absolute(error)
-            | InheritedOr(_, error)
-            | UlpsOrWithin { error, .. }
-            | Angle { error, .. } => error,
+            Absolute(error) | InheritedOr(_, error) | UlpsOrWithin { error, .. } | Angle { error, .. } => error,
             _ => 0.0,
         }
     }

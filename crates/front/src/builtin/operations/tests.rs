@@ -20,7 +20,8 @@ fn every_operation_has_prototypes_a_section_and_a_name_of_its_own() {
 fn every_operation_that_computes_floats_has_a_rule() {
     for function in BuiltinFunction::ALL {
         let operation = function.operation();
-        let float = operation.prototypes().any(|row| row.ret.spelling().contains("genType") || row.ret.spelling() == "float");
+        let float =
+            operation.prototypes().any(|row| row.ret.spelling().contains("genType") || row.ret.spelling() == "float");
         let without = matches!(operation.class, Class::Texture(_) | Class::Noise(_));
         assert!(operation.rule.is_some() || !float || without, "{} has no rule", operation.name);
     }

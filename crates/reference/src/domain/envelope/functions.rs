@@ -4,8 +4,8 @@
 //! the function rises or falls throughout, and limited to what the function itself can give. Where the exact result is
 //! not defined for some arguments, those may give NaN.
 
-use super::round::{OUTWARD, ulps_above, ulps_below};
 use super::formula::evaluate;
+use super::round::{OUTWARD, ulps_above, ulps_below};
 use super::{EnvelopeFloat, ends};
 use crate::domain::Number;
 use crate::domain::rules::{self, FLUSH, ulp};
@@ -208,8 +208,7 @@ impl EnvelopeFloat {
 
     pub(super) fn arc_cosine(self) -> Self {
         let most = ulps_above(PI, PI, rules::ATAN.ulps());
-        self.arc(self.value.acos(), f64::acos, &rules::ACOS)
-            .within(-rules::ACOS.absolute(), most)
+        self.arc(self.value.acos(), f64::acos, &rules::ACOS).within(-rules::ACOS.absolute(), most)
     }
 
     pub(super) fn hyperbolic_cosine(self) -> Self {

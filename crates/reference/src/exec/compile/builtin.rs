@@ -1,6 +1,8 @@
 //! Calls of built-in functions (§8), by the class that the table of operations gives them.
 
-use super::super::inst::{Class as File, Composite, Derivative, Float1, Float2, Float3, FloatToInt, Inst, Int1, Int2, Operand};
+use super::super::inst::{
+    Class as File, Composite, Derivative, Float1, Float2, Float3, FloatToInt, Inst, Int1, Int2, Operand,
+};
 use super::expr::component;
 use super::{Compiler, Val};
 use glisten_front::builtin::BuiltinFunction;
@@ -21,7 +23,13 @@ fn relation(op: Relation) -> BinaryOp {
 }
 
 impl Compiler<'_> {
-    pub(super) fn builtin_call(&mut self, function: BuiltinFunction, arguments: &[ExprId], ty: TypeId, span: Span) -> Val {
+    pub(super) fn builtin_call(
+        &mut self,
+        function: BuiltinFunction,
+        arguments: &[ExprId],
+        ty: TypeId,
+        span: Span,
+    ) -> Val {
         if function.class() == Class::Modf {
             return self.modf(arguments);
         }

@@ -11,7 +11,11 @@ impl Compiler<'_> {
     pub(super) fn texture_call(
         &mut self,
         form: TextureForm,
-        values: &[Val], sampler: TypeId, ty: TypeId, span: Span) -> Val {
+        values: &[Val],
+        sampler: TypeId,
+        ty: TypeId,
+        span: Span,
+    ) -> Val {
         let (Type::Sampler(kind), Some(slot)) =
             (self.types.get(sampler), values.first().and_then(|value| value.first()).copied())
         else {

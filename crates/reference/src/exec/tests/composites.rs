@@ -22,9 +22,8 @@ fn call(function: BuiltinFunction) -> (Vec<TypeId>, TypeId, String) {
         .expect("there is an overload for `vec3`");
     let types: Vec<TypeId> = signature.params().iter().map(|param| param.0).collect();
     let arguments = types.iter().zip(["a", "b", "c"]);
-    let arguments: Vec<String> = arguments
-        .map(|(ty, name)| if *ty == TypeId::FLOAT { format!("{name}.x") } else { name.to_owned() })
-        .collect();
+    let arguments: Vec<String> =
+        arguments.map(|(ty, name)| if *ty == TypeId::FLOAT { format!("{name}.x") } else { name.to_owned() }).collect();
     (types, signature.ret, format!("{}({})", function.name(), arguments.join(", ")))
 }
 
