@@ -80,7 +80,7 @@ impl Ctx<'_, '_> {
     ) -> Try<Handle<Expression>> {
         let class = function.class();
         if let Class::Texture(form) = class {
-            return self.texture_call(form, arguments);
+            return self.texture_call(form, arguments, ty);
         }
         if class == Class::Modf {
             return self.modf(arguments);

@@ -27,7 +27,12 @@ pub(super) struct Lookup {
 
 impl Ctx<'_, '_> {
     /// A call of a texture function.
-    pub(super) fn texture_call(&mut self, form: TextureForm, arguments: &[ExprId]) -> Try<Handle<Expression>> {
+    pub(super) fn texture_call(
+        &mut self,
+        form: TextureForm,
+        arguments: &[ExprId],
+        ret: TypeId,
+    ) -> Try<Handle<Expression>> {
         let Some((sampler, rest)) = arguments.split_first() else {
             return Err(self.slip("a texture function without a sampler"));
         };
@@ -37,7 +42,16 @@ impl Ctx<'_, '_> {
             How::Fetch => self.texel_fetch(ty, value, form, rest),
             How::Implicit | How::Lod | How::Grad => {
                 let lookup = self.lookup(ty, value, form, rest)?;
-                if ty.texel == Scalar::Float { self.sample(&lookup) } else { self.integer_lookup(&lookup) }
+                if ty.texel != Scalar::Float {
+                    return self.integer_lookup(&lookup);
+                }
+                let result = self.sample(&lookup)?;
+                if !ty.shadow || self.size_of(ret) == 1 {
+                    return Ok(result);
+                }
+                // `shadow2D` and its like of older versions: luminance, and alpha 1.
+                let one = self.float(1.0);
+                Ok(self.float_vector(vec![result, result, result, one]))
             }
         }
     }
