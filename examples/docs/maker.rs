@@ -1,7 +1,7 @@
-//! What stands in the regions of the documentation, and what each is made from.
+//! The contents of the regions of the documentation, and their sources.
 //!
-//! *In:* a region's name, or a command line of glisten. *Out:* Markdown. *Holds:* a row of [`REGIONS`] for each name; a row says
-//! whether its text is the same on every machine. Measured text is made only when asked for.
+//! *In:* a region's name, or a command line of glisten. *Out:* Markdown. *Holds:* [`REGIONS`] has a row for each
+//! name, which says whether its text is the same on every machine. Measured text is generated only on request.
 
 use super::regions::Maker;
 use glisten::diagnostic::{Severity, codes};
@@ -12,7 +12,7 @@ use std::fmt::Write;
 use std::path::PathBuf;
 use std::process::Command;
 
-/// Makes a region.
+/// The source of a region.
 enum Source {
     /// From the tables of the code.
     Tables(fn() -> String),

@@ -109,7 +109,7 @@ type Output = (PathBuf, Vec<u8>);
 /// Runs the command.
 pub(super) fn run(args: &CompileArgs, console: &Console) -> Outcome {
     let inputs = inputs::collect(&args.files, &args.programs, false)?;
-    let plan = Plan::new(args, &inputs.groups)?;
+    let plan = OutputPlan::new(args, &inputs.groups)?;
     let mut session = Session::new(console, &args.sources, &args.bindings, &args.levels, args.jobs)?;
     let mut units = session.compile(inputs.groups);
     if let Some(EmitArg::Hir) = args.emit {
@@ -120,7 +120,7 @@ pub(super) fn run(args: &CompileArgs, console: &Console) -> Outcome {
     for unit in &mut units {
         warn_of_lone_stage(unit);
         refuse_what_is_no_program(unit);
-        session.judge(&mut unit.batch);
+        session.apply_levels(&mut unit.batch);
     }
     let emitted: Vec<Result<Vec<Output>, Vec<Diagnostic>>> =
         session.pool().install(|| units.par_iter().map(|unit| plan.emit(unit)).collect());
@@ -132,7 +132,7 @@ pub(super) fn run(args: &CompileArgs, console: &Console) -> Outcome {
         }
         let notes = unit.sound_program().map_or_else(Vec::new, |program| emit::notes(program, &plan.conventions));
         unit.batch.diagnostics.extend(notes);
-        session.judge(&mut unit.batch);
+        session.apply_levels(&mut unit.batch);
     }
     let exit = session.tell_units(&units, false)?;
     if !args.check {
@@ -147,13 +147,13 @@ pub(super) fn run(args: &CompileArgs, console: &Console) -> Outcome {
 }
 
 /// The outputs and where to write them.
-struct Plan {
+struct OutputPlan {
     folder: PathBuf,
     targets: BTreeSet<TargetArg>,
     conventions: Conventions,
 }
 
-impl Plan {
+impl OutputPlan {
     fn new(args: &CompileArgs, groups: &[Group]) -> Result<Self, Failure> {
         let mut targets: BTreeSet<TargetArg> = args.targets.iter().copied().collect();
         if targets.is_empty() {

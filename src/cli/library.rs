@@ -265,7 +265,7 @@ fn from_disk(text: &str) -> String {
 }
 
 /// The figures of a function: in f64, in f32, on the GPU.
-struct Row {
+struct FigureRow {
     form: &'static Form,
     wide: Figures,
     single: Figures,
@@ -286,7 +286,12 @@ fn measure(names: &[String], rows: usize, gpu: Option<&Gpu>, format: Format) -> 
                 Some(trial.picture(&rendered.picture))
             }
         };
-        measured.push(Row { form, wide: reference(Precision::F64)?, single: reference(Precision::F32)?, gpu: drawn });
+        measured.push(FigureRow {
+            form,
+            wide: reference(Precision::F64)?,
+            single: reference(Precision::F32)?,
+            gpu: drawn,
+        });
     }
     Ok(match format {
         Format::Table => table(&measured),
@@ -295,9 +300,9 @@ fn measure(names: &[String], rows: usize, gpu: Option<&Gpu>, format: Format) -> 
 }
 
 /// The table, which is also Markdown.
-fn table(rows: &[Row]) -> String {
+fn table(rows: &[FigureRow]) -> String {
     let head = ["function", "inputs", "f64 (ULP)", "f32", "GPU"].map(str::to_owned);
-    let cells = |row: &Row| {
+    let cells = |row: &FigureRow| {
         let gpu = row.gpu.map_or("-".to_owned(), |figures| short(figures.error));
         let name = format!("`{}`", row.form.signature);
         [name, row.wide.judged.to_string(), short(row.wide.ulps), short(row.single.error), gpu]
@@ -346,8 +351,8 @@ struct RowJson {
     gpu_non_finite: Option<usize>,
 }
 
-impl From<&Row> for RowJson {
-    fn from(row: &Row) -> Self {
+impl From<&FigureRow> for RowJson {
+    fn from(row: &FigureRow) -> Self {
         Self {
             module: row.form.module,
             function: row.form.signature,

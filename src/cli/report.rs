@@ -81,7 +81,7 @@ fn told(mut session: Session<'_>, sources: SourceMap, error: DrawError) -> Outco
         DrawError::Failure(failure) => Err(failure),
         DrawError::Diagnostics(diagnostics) => {
             let mut batch = Batch { sources, diagnostics };
-            session.judge(&mut batch);
+            session.apply_levels(&mut batch);
             Ok(session.tell(&[&batch], false)?.max(Exit::Content))
         }
     }

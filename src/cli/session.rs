@@ -122,20 +122,20 @@ impl<'a> Session<'a> {
             for input in &unit.group.inputs {
                 self.configs.levels(&input.name);
             }
-            self.judge(&mut unit.batch);
+            self.apply_levels(&mut unit.batch);
             self.dropped += *dropped;
         }
         units.into_iter().map(|(unit, _)| unit).collect()
     }
 
     /// Applies the levels to a batch and sorts its diagnostics by their position in the text.
-    pub(super) fn judge(&mut self, batch: &mut Batch) {
+    pub(super) fn apply_levels(&mut self, batch: &mut Batch) {
         let sources = &batch.sources;
         let configs = &mut self.configs;
         batch.diagnostics.retain_mut(|diagnostic| {
             let file = sources.file_of(sources.call_site(diagnostic.primary.span));
             let name = file.or(sources.files().next().map(|(id, _)| id)).map_or("", |id| sources.file(id).name());
-            match configs.levels(name).judge(sources, diagnostic) {
+            match configs.levels(name).severity_of(sources, diagnostic) {
                 Some(severity) => {
                     diagnostic.severity = severity;
                     true
@@ -189,7 +189,7 @@ impl<'a> Session<'a> {
 #[derive(Default)]
 struct Told {
     findings: Vec<Finding>,
-    seen: BTreeSet<(write::Place, &'static str, String)>,
+    seen: BTreeSet<(write::Region, &'static str, String)>,
 }
 
 impl Told {
@@ -198,7 +198,7 @@ impl Told {
         let mut fresh = Vec::new();
         for diagnostic in &batch.diagnostics {
             let finding = Finding::new(&batch.sources, diagnostic);
-            if self.seen.insert((finding.place.clone(), finding.code.id, finding.message.clone())) {
+            if self.seen.insert((finding.region.clone(), finding.code.id, finding.message.clone())) {
                 self.findings.push(finding);
                 fresh.push(diagnostic);
             }

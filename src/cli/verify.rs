@@ -69,7 +69,7 @@ enum Format {
 fn parse_tolerance(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(tolerance) if tolerance >= 0.0 => Ok(tolerance),
-        _ => Err(format!("`{text}` is no tolerance")),
+        _ => Err(format!("`{text}` is not a tolerance")),
     }
 }
 
@@ -94,7 +94,7 @@ struct Run {
 #[derive(Clone, Debug, Serialize)]
 struct Skip {
     via: &'static str,
-    /// What the target lacks, with a way out.
+    /// The reason: what the target lacks, with a way out.
     reason: String,
 }
 

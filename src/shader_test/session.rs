@@ -23,11 +23,11 @@ pub(super) fn run(name: &str, text: &str, compiler: &Compiler, painter: &mut dyn
     let setup = require::check(&file.requirements)?;
     let data = vertex_data::parse(&file.vertex_data)?;
     let Some(program) = program::build(name, &file, &setup, compiler)? else { return Ok(()) };
-    let mut session = Session::new(program, data, setup.size);
+    let mut session = TestSession::new(program, data, setup.size);
     commands(&file, &mut session, painter)
 }
 
-fn commands(file: &TestFile, session: &mut Session, painter: &mut dyn Painter) -> Result<(), Outcome> {
+fn commands(file: &TestFile, session: &mut TestSession, painter: &mut dyn Painter) -> Result<(), Outcome> {
     for line in &file.commands {
         session.command(line, painter)?;
     }
@@ -35,7 +35,7 @@ fn commands(file: &TestFile, session: &mut Session, painter: &mut dyn Painter) -
 }
 
 /// The state that commands change.
-struct Session {
+struct TestSession {
     program: Arc<Program>,
     data: VertexData,
     uniforms: Uniforms,
@@ -60,7 +60,7 @@ const TOLERANCE: f64 = 0.01;
 /// The largest number of draws between two clears, all of which each probe paints.
 const MOST_DRAWS: usize = 1024;
 
-impl Session {
+impl TestSession {
     fn new(program: Arc<Program>, data: VertexData, [width, height]: [u32; 2]) -> Self {
         let state = State {
             primitive: Primitive::TriangleStrip,

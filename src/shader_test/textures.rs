@@ -10,14 +10,14 @@ use std::sync::Arc;
 /// The textures that are bound to units.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Units {
-    units: BTreeMap<u32, Unit>,
+    units: BTreeMap<u32, TextureUnit>,
     /// The unit that `texparameter` refers to: that of the last `texture` command.
     active: u32,
 }
 
 /// A texture with its parameters.
 #[derive(Clone, Debug)]
-struct Unit {
+struct TextureUnit {
     levels: Vec<TextureLevel>,
     filter: Filter,
     wrap: Wrap,
@@ -37,7 +37,7 @@ impl Units {
         let line = words.line;
         let form = words.word()?;
         let number = words.count()?;
-        let unit = self.units.entry(number).or_insert(Unit {
+        let unit = self.units.entry(number).or_insert(TextureUnit {
             levels: Vec::new(),
             filter: Filter::Nearest,
             wrap: Wrap::Repeat,

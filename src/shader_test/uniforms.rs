@@ -49,7 +49,7 @@ impl Uniforms {
             return Ok(());
         }
         let Some((leaf, first)) = find(program, name, element) else {
-            // A uniform that a compiler may call inactive has no location, and setting it is no error.
+            // A uniform that a compiler may call inactive has no location, and setting it is not an error.
             return if is_declared(program, name) {
                 Ok(())
             } else {

@@ -46,9 +46,9 @@ static ORDER: &[(&str, &[&str])] = &[
     ("src", &["library", "scene", "evaluate", "measure", "shader_test", "gallery", "report", "cli", "main"]),
 ];
 
-/// What only the command line does.
+/// Only the command line does this.
 static PRINTING: &[&str] = &["println!", "print!(", "eprintln!", "eprint!(", "process::exit", "dbg!("];
-/// What only the command line and the sources of files do.
+/// Only the command line and the sources of files do this.
 static OUTSIDE: &[&str] = &["std::env", "std::fs", "std::thread"];
 /// Files that may do so, each with its reason.
 static MAY_TOUCH_OUTSIDE: &[(&str, &str)] = &[

@@ -5,7 +5,7 @@
 
 use glisten::scene::{self, DiskFiles};
 use glisten_emit::Reflection;
-use glisten_emit::reflection::{Attribute, Sampler, Slot, Uniform};
+use glisten_emit::reflection::{Attribute, Binding, Sampler, Uniform};
 use glisten_front::{Compiler, Options};
 use glisten_reference::{LineRule, Precision, RenderOptions};
 use glisten_scene::compare::{Judge, Verdict};
@@ -225,18 +225,18 @@ impl Host {
     }
 
     /// The bytes of every uniform buffer.
-    fn buffers(&self, reflection: &Reflection, app: &App) -> Vec<(Slot, wgpu::Buffer)> {
-        let mut buffers: Vec<(Slot, Vec<u8>)> = Vec::new();
+    fn buffers(&self, reflection: &Reflection, app: &App) -> Vec<(Binding, wgpu::Buffer)> {
+        let mut buffers: Vec<(Binding, Vec<u8>)> = Vec::new();
         if let Some(loose) = reflection.loose_block {
-            buffers.push((Slot { group: loose.group, binding: loose.binding }, vec![0; loose.size as usize]));
+            buffers.push((Binding { group: loose.group, binding: loose.binding }, vec![0; loose.size as usize]));
         }
         for block in &reflection.blocks {
             for element in 0..block.array_size.unwrap_or(1) {
-                let slot = Slot { group: block.group, binding: block.binding + element };
+                let slot = Binding { group: block.group, binding: block.binding + element };
                 buffers.push((slot, vec![0; block.size as usize]));
             }
         }
-        let place = |buffers: &mut Vec<(Slot, Vec<u8>)>, slot: Slot, write: &dyn Fn(&mut [u8])| {
+        let place = |buffers: &mut Vec<(Binding, Vec<u8>)>, slot: Binding, write: &dyn Fn(&mut [u8])| {
             let (_, bytes) = buffers.iter_mut().find(|(known, _)| *known == slot).expect("the buffer is reflected");
             write(bytes);
         };
@@ -254,18 +254,18 @@ impl Host {
                     column[2] = 0.5 * column[2] + 0.5 * column[3];
                 }
             }
-            let slot = Slot { group: uniform.group, binding: uniform.binding };
+            let slot = Binding { group: uniform.group, binding: uniform.binding };
             place(&mut buffers, slot, &|bytes| write_uniform(bytes, uniform, &values));
         }
         if let Some(height) = reflection.conventions.framebuffer_height {
-            place(&mut buffers, Slot { group: height.group, binding: height.binding }, &|bytes| {
+            place(&mut buffers, Binding { group: height.group, binding: height.binding }, &|bytes| {
                 bytes[height.offset as usize..][..4].copy_from_slice(&(SIDE as f32).to_ne_bytes());
             });
         }
         for sampler in &reflection.samplers {
             let Some(count) = sampler.texel_count else { continue };
             let (_, [width, ..], _) = app.textures.iter().find(|(name, ..)| *name == sampler.name).expect("given");
-            place(&mut buffers, Slot { group: count.group, binding: count.binding }, &|bytes| {
+            place(&mut buffers, Binding { group: count.group, binding: count.binding }, &|bytes| {
                 bytes[count.offset as usize..][..4].copy_from_slice(&(*width as i32).to_ne_bytes());
             });
         }

@@ -23,7 +23,7 @@ pub struct Options {
 }
 
 impl Options {
-    /// What the linker reads of them.
+    /// The options that the linker uses.
     fn bindings(&self) -> Bindings<'_> {
         let (attribute_locations, frag_data_locations) = (&self.attribute_locations, &self.frag_data_locations);
         Bindings { attribute_locations, frag_data_locations }
@@ -68,13 +68,13 @@ impl Compiler {
         Self { options, includes: Arc::new(NoIncludes) }
     }
 
-    /// The same compiler with a resolver for `#include`.
+    /// This compiler with a resolver for `#include`.
     #[must_use]
     pub fn with_includes(self, includes: impl IncludeResolver + Send + Sync + 'static) -> Self {
         Self { includes: Arc::new(includes), ..self }
     }
 
-    /// The same compiler with other options.
+    /// This compiler with other options.
     #[must_use]
     pub fn with_options(&self, options: Options) -> Self {
         Self { options, includes: Arc::clone(&self.includes) }
@@ -126,7 +126,7 @@ impl Compiler {
             link(name.clone(), types, shaders, self.options.bindings(), &mut diagnostics)
         };
         let levels = Levels::default();
-        diagnostics.retain(|diagnostic| levels.judge(&map, diagnostic).is_some());
+        diagnostics.retain(|diagnostic| levels.severity_of(&map, diagnostic).is_some());
         Compilation { name, sources: map, program, diagnostics }
     }
 
@@ -144,7 +144,7 @@ impl Compiler {
             return None;
         };
         let strict = self.options.strict;
-        let options = syntax::Options { stage: source.stage, defines: self.options.defines.clone(), strict };
+        let options = syntax::ParseOptions { stage: source.stage, defines: self.options.defines.clone(), strict };
         let ast = syntax::parse(map, file, &options, &*self.includes, diagnostics);
         let mut shader = analyze(&ast, source.stage, strict, types, map, diagnostics);
         shader.texts.push(whole_text(map, file, ast.version.span, &ast.inclusions, &self.options.defines));

@@ -17,7 +17,7 @@ pub(super) fn set(api: &Api, linked: glow::Program, draw: &Draw) -> Result<(), E
         let Some(root) = program.interface.roots.get(leaf.root.0 as usize) else { continue };
         if root.block.is_none()
             && let Some(location) = api.get_uniform_location(linked, &leaf.name)
-            && let Some(shape) = Shape::of(program, leaf)
+            && let Some(shape) = LeafType::of(program, leaf)
         {
             set_loose(api, &location, shape, values(draw, leaf, shape));
         }
@@ -34,14 +34,14 @@ pub(super) fn set(api: &Api, linked: glow::Program, draw: &Draw) -> Result<(), E
 
 /// The type of a leaf.
 #[derive(Clone, Copy)]
-struct Shape {
+struct LeafType {
     scalar: Scalar,
     columns: usize,
     rows: usize,
     elements: usize,
 }
 
-impl Shape {
+impl LeafType {
     fn of(program: &Program, leaf: &UniformLeaf) -> Option<Self> {
         let elements = leaf.array_size.unwrap_or(1) as usize;
         let (scalar, columns, rows) = match program.types.get(leaf.ty) {
@@ -55,13 +55,13 @@ impl Shape {
 }
 
 /// The leaf's part of the values of its root.
-fn values<'a>(draw: &'a Draw, leaf: &UniformLeaf, shape: Shape) -> &'a [ScalarValue] {
+fn values<'a>(draw: &'a Draw, leaf: &UniformLeaf, shape: LeafType) -> &'a [ScalarValue] {
     let start = leaf.flat_offset as usize;
     let flat = draw.uniforms.get(leaf.root.0 as usize).map_or(&[][..], Vec::as_slice);
     flat.get(start..start + shape.elements * shape.columns * shape.rows).unwrap_or(&[])
 }
 
-fn set_loose(api: &Api, location: &glow::UniformLocation, shape: Shape, values: &[ScalarValue]) {
+fn set_loose(api: &Api, location: &glow::UniformLocation, shape: LeafType, values: &[ScalarValue]) {
     let at = Some(location);
     match shape.scalar {
         Scalar::Float => {
@@ -122,9 +122,9 @@ fn set_block(
     let mut bytes = vec![0; usize::try_from(size).unwrap_or(0).max(16)];
     let leaves = draw.program.interface.uniforms.iter();
     for leaf in leaves.filter(|leaf| leaf.root == block.root && leaf.block_element == element) {
-        let Some(shape) = Shape::of(&draw.program, leaf) else { continue };
-        if let Some(place) = Place::of(api, linked, block, leaf) {
-            place.fill(shape, values(draw, leaf, shape), &mut bytes);
+        let Some(shape) = LeafType::of(&draw.program, leaf) else { continue };
+        if let Some(layout) = MemberLayout::of(api, linked, block, leaf) {
+            layout.fill(shape, values(draw, leaf, shape), &mut bytes);
         }
     }
     let buffer = api.create_buffer().map_err(Error::Refused)?;
@@ -136,14 +136,14 @@ fn set_block(
 }
 
 /// The layout of a member in the driver, in bytes.
-struct Place {
+struct MemberLayout {
     offset: usize,
     array_stride: usize,
     matrix_stride: usize,
     row_major: bool,
 }
 
-impl Place {
+impl MemberLayout {
     fn of(api: &Api, linked: glow::Program, block: &Block, leaf: &UniformLeaf) -> Option<Self> {
         // All elements of an array of blocks have the same layout, and OpenGL uses the names of the block's members
         // without an index.
@@ -165,14 +165,14 @@ impl Place {
         })
     }
 
-    fn fill(&self, shape: Shape, values: &[ScalarValue], bytes: &mut [u8]) {
+    fn fill(&self, shape: LeafType, values: &[ScalarValue], bytes: &mut [u8]) {
         for (number, value) in values.iter().enumerate() {
             let (row, column) = (number % shape.rows, number / shape.rows % shape.columns);
             let element = number / (shape.rows * shape.columns);
             let (line, along) = if self.row_major { (row, column) } else { (column, row) };
             let offset = self.offset + element * self.array_stride + line * self.matrix_stride + along * 4;
-            if let Some(place) = bytes.get_mut(offset..offset + 4) {
-                place.copy_from_slice(&bits(*value).to_ne_bytes());
+            if let Some(layout) = bytes.get_mut(offset..offset + 4) {
+                layout.copy_from_slice(&bits(*value).to_ne_bytes());
             }
         }
     }

@@ -354,7 +354,7 @@ struct Binding {
     what: What,
 }
 
-/// What is bound.
+/// The kind of a bound resource.
 #[derive(Clone, Copy)]
 enum What {
     Uniforms,

@@ -256,7 +256,7 @@ pub enum Filter {
     Trilinear,
 }
 
-/// What is outside `[0, 1]`.
+/// The treatment of coordinates outside `[0, 1]`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub enum Wrap {

@@ -187,7 +187,7 @@ fn take_over(picture: &mut Picture, reference: &Picture, attachment: usize, chan
     }
 }
 
-/// What is wrong with a scene; `None` if everything is as expected.
+/// A complaint about a scene; `None` if everything is as expected.
 fn complaint(gl: &Gl, name: &str, scene: &Scene, excused: &mut u64) -> Option<String> {
     let exception = EXCEPTIONS.iter().find(|(known, ..)| *known == name);
     let picture = match (gl.render(scene), exception) {

@@ -59,7 +59,7 @@ pub(crate) fn program(seed: u64) -> (String, Scene) {
     (fragment, scene)
 }
 
-/// What is wrong with the picture of a scene, and how many pixels could not be judged.
+/// The complaints about the picture of a scene, and how many pixels could not be judged.
 fn compare(gpu: &Gpu, scene: &Scene) -> (Vec<String>, usize) {
     let options = RenderOptions { precision: Precision::Envelope, lines: LineRule::Vulkan, ..RenderOptions::default() };
     let reference = match glisten_reference::render(scene, &options) {

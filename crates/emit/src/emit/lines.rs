@@ -22,7 +22,7 @@ const BOUND: usize = 3;
 const CHUNK: usize = 200_000;
 
 /// A file within the text in which naga counts lines.
-struct File {
+struct LineFile {
     name: String,
     text: Arc<str>,
     /// The line of the whole text at which the file begins, counted from 0.
@@ -32,7 +32,7 @@ struct File {
 
 /// All files as one text.
 pub(super) struct SourceLines {
-    files: Vec<File>,
+    files: Vec<LineFile>,
     /// The file of the entry point; naga writes its name.
     main: usize,
     pub(super) text: String,
@@ -55,7 +55,7 @@ impl SourceLines {
             if id == of_entry {
                 main = files.len();
             }
-            files.push(File { name: file.name().to_owned(), text: file.text().clone(), first_line, id: 0 });
+            files.push(LineFile { name: file.name().to_owned(), text: file.text().clone(), first_line, id: 0 });
             text.push_str(file.text());
         }
         text.push_str("\n\n");

@@ -52,7 +52,7 @@ pub(super) fn too_deep(module: &Module) -> Option<Diagnostic> {
     let place = span.to_range().map_or(Span::default(), |range| Span::new(range.start as u32, range.end as u32));
     let message = format!("statements nest deeper than the {WGSL_LEVELS} levels that Tint reads of WGSL");
     let help = "move the inner statements into a function of their own, or compile for SPIR-V (`--target spirv`)";
-    Some(Diagnostic::new(&NESTING_TOO_DEEP_FOR_TARGET, place, message).here("this stands too deep").help(help))
+    Some(Diagnostic::new(&NESTING_TOO_DEEP_FOR_TARGET, place, message).here("nested too deeply here").help(help))
 }
 
 /// The first statement of a block at `level` that is nested too deeply. Does not descend below the limit.

@@ -73,12 +73,13 @@ pub fn emit_with_sources(
         write(module, &info, stage, target, conventions, sources)
     };
     glisten_front::stack::with_stack(if deep { NESTING } else { 0 }, move || {
-        catch_unwind(AssertUnwindSafe(write))
-            .unwrap_or_else(|_| Err(vec![slip(Span::default(), format!("the writer of {} panicked", target.name()))]))
+        catch_unwind(AssertUnwindSafe(write)).unwrap_or_else(|_| {
+            Err(vec![internal_error(Span::default(), format!("the writer of {} panicked", target.name()))])
+        })
     })
 }
 
-fn slip(span: Span, message: String) -> Diagnostic {
+fn internal_error(span: Span, message: String) -> Diagnostic {
     Diagnostic::new(&general::INTERNAL, span, message)
 }
 
@@ -88,7 +89,7 @@ fn validate(module: &naga::Module) -> Result<ModuleInfo, Vec<Diagnostic>> {
         let place = error.spans().find_map(|(span, _)| span.to_range());
         let span = place.map_or(Span::default(), |range| Span::new(range.start as u32, range.end as u32));
         let message = without_handles(&chain(error.as_inner()));
-        vec![slip(span, format!("the lowered program is not valid: {message}"))]
+        vec![internal_error(span, format!("the lowered program is not valid: {message}"))]
     })
 }
 
@@ -147,7 +148,7 @@ fn write(
     written.map_err(|message| {
         let message = format!("the writer of {} failed: {}", target.name(), without_handles(&message));
         match target {
-            Target::Wgsl | Target::Spirv => vec![slip(Span::default(), message)],
+            Target::Wgsl | Target::Spirv => vec![internal_error(Span::default(), message)],
             // For these three, naga's output is taken as it is, and its writers have gaps (for example `inverse` in
             // MSL and HLSL).
             Target::Msl | Target::Hlsl | Target::Glsl => {
@@ -162,8 +163,8 @@ fn write_wgsl(module: &naga::Module, info: &ModuleInfo, stage: Stage) -> Result<
     let text = wgsl::write_string(module, info, wgsl::WriterFlags::empty()).map_err(|error| chain(&error))?;
     let text = super::names::restored(&text);
     // GLSL allows derivatives in any control flow (§8.8 calls them undefined in some). WGSL rejects them where it
-    // cannot prove that control flow is uniform, unless told otherwise. naga has the directive in its IR but never
-    // writes it.
+    // cannot prove that control flow is uniform, unless a directive disables that. naga has the directive in its IR
+    // but never writes it.
     if stage == Stage::Fragment && takes_derivatives(module) {
         return Ok(format!("diagnostic(off, derivative_uniformity);\n\n{text}"));
     }

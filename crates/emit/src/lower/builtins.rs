@@ -129,19 +129,19 @@ impl Ctx<'_, '_> {
             Class::Emission(Emission::Vertex | Emission::Primitive) => {
                 Err(unsupported(self.here(), format!("`{}`", function.name())))
             }
-            Class::Texture(_) | Class::Modf => Err(self.slip("these are lowered before their arguments")),
+            Class::Texture(_) | Class::Modf => Err(self.internal_error("these are lowered before their arguments")),
         }
     }
 
     /// As many arguments as a function has.
     fn of<const N: usize>(&self, values: &[Typed]) -> Try<[Typed; N]> {
-        values.try_into().map_err(|_| self.slip("a built-in function has too few or too many arguments"))
+        values.try_into().map_err(|_| self.internal_error("a built-in function has too few or too many arguments"))
     }
 
     fn unary_function(&mut self, op: Unary, values: &[Typed]) -> Try<Handle<Expression>> {
         match math_function(op) {
             Some(function) => Ok(self.math(function, values)),
-            None => Err(self.slip("an operator is called as a function")),
+            None => Err(self.internal_error("an operator is called as a function")),
         }
     }
 
@@ -157,7 +157,7 @@ impl Ctx<'_, '_> {
             Binary::Step => Ok(self.math(MathFunction::Step, values)),
             Binary::Atan2 => Ok(self.math(MathFunction::Atan2, values)),
             Binary::Add | Binary::Sub | Binary::Mul | Binary::Div => {
-                Err(self.slip("an operator is called as a function"))
+                Err(self.internal_error("an operator is called as a function"))
             }
         }
     }
@@ -278,7 +278,7 @@ impl Ctx<'_, '_> {
 
     /// `modf(x, out i)`: both parts have the sign of `x` (§8.3).
     fn modf(&mut self, arguments: &[ExprId]) -> Try<Handle<Expression>> {
-        let [argument, target] = arguments else { return Err(self.slip("`modf` takes two arguments")) };
+        let [argument, target] = arguments else { return Err(self.internal_error("`modf` takes two arguments")) };
         let value = self.value(*argument)?;
         let place = self.target(*target)?;
         let whole = self.math1(MathFunction::Trunc, value);

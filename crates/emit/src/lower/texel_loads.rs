@@ -42,7 +42,7 @@ impl Ctx<'_, '_> {
         if matches!(lookup.level, SampleLevel::Gradient { .. }) {
             return Err(lacking(
                 self.here(),
-                format!("`textureGrad` of a `{}`: nothing tells the level of an integer cube", lookup.ty.name()),
+                format!("`textureGrad` of a `{}`: the level of an integer cube cannot be determined", lookup.ty.name()),
                 "use `textureLod`, or a texture of floats",
             ));
         }

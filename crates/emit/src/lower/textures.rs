@@ -34,7 +34,7 @@ impl Ctx<'_, '_> {
         ret: TypeId,
     ) -> Try<Handle<Expression>> {
         let Some((sampler, rest)) = arguments.split_first() else {
-            return Err(self.slip("a texture function without a sampler"));
+            return Err(self.internal_error("a texture function without a sampler"));
         };
         let (ty, value) = self.sampler(*sampler)?;
         match form.lookup {
@@ -67,14 +67,14 @@ impl Ctx<'_, '_> {
                 Role::GradientX => gradient_x = Some(self.value(argument)?),
                 Role::GradientY => {
                     let y = self.value(argument)?;
-                    let x = gradient_x.ok_or_else(|| self.slip("a gradient along y without one along x"))?;
+                    let x = gradient_x.ok_or_else(|| self.internal_error("a gradient along y without one along x"))?;
                     level = SampleLevel::Gradient { x, y };
                 }
                 Role::Bias => level = SampleLevel::Bias(self.value(argument)?),
-                Role::Sample => return Err(self.slip("samples are fetched")),
+                Role::Sample => return Err(self.internal_error("samples are fetched")),
             }
         }
-        let Some((p, p_size)) = p else { return Err(self.slip("a texture function lacks an argument")) };
+        let Some((p, p_size)) = p else { return Err(self.internal_error("a texture function lacks an argument")) };
         if self.is_vertex() && matches!(level, SampleLevel::Auto | SampleLevel::Bias(_)) {
             // Outside the fragment stage, the base level is read (§8.7).
             level = SampleLevel::Zero;
@@ -245,11 +245,11 @@ impl Ctx<'_, '_> {
                 Role::Coordinate => p = Some((self.value(argument)?, self.size_of(self.shader.expr(argument).ty))),
                 Role::Level | Role::Sample => index = Some(self.value(argument)?),
                 Role::GradientX | Role::GradientY | Role::Bias => {
-                    return Err(self.slip("a texel is fetched without a level of detail"));
+                    return Err(self.internal_error("a texel is fetched without a level of detail"));
                 }
             }
         }
-        let Some((p, p_size)) = p else { return Err(self.slip("a texel fetch lacks an argument")) };
+        let Some((p, p_size)) = p else { return Err(self.internal_error("a texel fetch lacks an argument")) };
         let multisampled = ty.dim == SamplerDim::Multisample;
         let index = index.unwrap_or_else(|| self.int(0));
         let n = ty.dimensions();
@@ -289,7 +289,9 @@ impl Ctx<'_, '_> {
     /// `textureSize`
     fn texture_size(&mut self, ty: SamplerType, value: SamplerValue, level: Option<ExprId>) -> Try<Handle<Expression>> {
         if ty.dim == SamplerDim::Buffer {
-            return value.texel_count.ok_or_else(|| self.slip("the number of texels has no place among the uniforms"));
+            return value
+                .texel_count
+                .ok_or_else(|| self.internal_error("the number of texels has no place among the uniforms"));
         }
         if ty.dim == SamplerDim::Multisample && ty.arrayed {
             // naga's SPIR-V writer queries a level, which multisampled images do not have.

@@ -57,7 +57,7 @@ pub enum SpirvEnv {
     Vulkan,
 }
 
-/// What the host expects.
+/// The expectations of the host.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Conventions {
     /// The range of clip-space z.

@@ -1,6 +1,7 @@
-//! What a target is: [`Target`], the [`Conventions`] of its host, and the texture and sampler that stand for a sampler type.
+//! Descriptions of targets: [`Target`], the [`Conventions`] of its host, and the texture and sampler that represent a
+//! sampler type.
 //!
-//! *In:* nothing. *Out:* words in which lowering, emission and reflection agree. *Holds:* neither of them is known here.
+//! *In:* nothing. *Out:* the terms that lowering, emission and reflection share. *Holds:* none of them is known here.
 
 mod conventions;
 mod textures;

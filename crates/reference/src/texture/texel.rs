@@ -1,10 +1,10 @@
-//! Texels by integer coordinates.
+//! Accesses texels by integer coordinates.
 
 use super::{Bits, Near, Sampled};
 use glisten_front::hir::{SamplerDim, SamplerType};
 use glisten_scene::{Texels, Texture, TextureLevel};
 
-/// The place of a texel in its level; `None` outside.
+/// The index of a texel in its level; `None` outside.
 pub(super) fn place(level: &TextureLevel, at: [i64; 3]) -> Option<usize> {
     let inside = |k: i64, count: u32| (0..i64::from(count)).contains(&k);
     let [x, y, z] = at;
@@ -12,7 +12,7 @@ pub(super) fn place(level: &TextureLevel, at: [i64; 3]) -> Option<usize> {
     all.then(|| ((z as usize * level.height as usize) + y as usize) * level.width as usize + x as usize)
 }
 
-/// A texel as floats; outside (0, 0, 0, 0).
+/// A texel as floats; (0, 0, 0, 0) outside.
 pub(super) fn floats(level: &TextureLevel, at: [i64; 3]) -> [f64; 4] {
     let Some(place) = place(level, at) else { return [0.0; 4] };
     match &level.texels {
@@ -22,7 +22,7 @@ pub(super) fn floats(level: &TextureLevel, at: [i64; 3]) -> [f64; 4] {
     }
 }
 
-/// A texel's bits as integers; outside 0.
+/// A texel's bits as integers; 0 outside.
 pub(super) fn bits(level: &TextureLevel, at: [i64; 3]) -> [u32; 4] {
     let Some(place) = place(level, at) else { return [0; 4] };
     match &level.texels {
@@ -60,7 +60,7 @@ fn nothing(kind: SamplerType) -> Sampled {
     }
 }
 
-/// `textureSize`: the sizes of a level, the number of layers last; 0 past the last level.
+/// `textureSize`: the size of a level, with the number of layers last; 0 past the last level.
 pub(crate) fn size(texture: &Texture, kind: SamplerType, level: i32) -> [u32; 3] {
     let found = usize::try_from(level).ok().and_then(|level| texture.levels.get(level));
     let Some(level) = found else { return [0; 3] };

@@ -12,7 +12,7 @@
 use crate::picture::{Interval, Picture};
 use serde::Serialize;
 
-/// What decides whether a difference is explained.
+/// The standard by which a difference is explained.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Judge {
     /// The reference's envelope for each channel of each pixel.

@@ -164,7 +164,7 @@ fn load_defines(reader: &mut Reader, table: &DeTable<'_>) -> Vec<(String, String
         let starts_well = macro_name.starts_with(|first: char| first.is_ascii_alphabetic() || first == '_');
         if !starts_well || !macro_name.chars().all(|letter| letter.is_ascii_alphanumeric() || letter == '_') {
             let span = reader.span_of(name);
-            reader.wrong_value(span, format!("`{macro_name}` is no name for a macro"), "not an identifier");
+            reader.wrong_value(span, format!("`{macro_name}` is not a name for a macro"), "not an identifier");
             continue;
         }
         let value = match node.get_ref() {
@@ -330,7 +330,7 @@ fn load_counts(
         (Some(_), _) => loader.reader.count(table, "vertex_count", 0, 0..=MAX_COUNT),
         (None, Some(available)) => available,
         (None, None) => {
-            let help = "add `vertex_count = 3`: no attribute tells how many vertices there are";
+            let help = "add `vertex_count = 3`: no attribute determines the number of vertices";
             loader.missing_key(place, "a draw without vertex data needs `vertex_count`", help);
             return None;
         }

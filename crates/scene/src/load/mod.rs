@@ -33,6 +33,7 @@ use glisten_front::diagnostic::{Diagnostic, Diagnostics, did_you_mean};
 use glisten_front::hir::Stage;
 use glisten_front::link::Program;
 use glisten_front::source::{SourceMap, Span};
+pub use mesh::default_tessellation;
 use std::path::Path;
 use std::sync::Arc;
 use toml::de::DeTable;
@@ -77,7 +78,7 @@ pub fn load(path: &str, files: &dyn FileSource, library: &dyn Library, compiler:
     Loaded { scene, sources, diagnostics: reader.diagnostics, io_error }
 }
 
-/// What identifies a program: draws with the same key share it.
+/// The identity of a program: draws with the same key share it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct ProgramKey {
     files: Vec<(Stage, String)>,
@@ -183,14 +184,14 @@ impl Loader<'_> {
                 None
             }
             Err(_) => {
-                self.not_a_scene("its bytes are no UTF-8 text");
+                self.not_a_scene("its bytes are not UTF-8 text");
                 None
             }
         }
     }
 
     fn not_a_scene(&mut self, why: &str) {
-        let message = format!("`{}` is no scene: {why}", self.path);
+        let message = format!("`{}` is not a scene: {why}", self.path);
         self.reader.report(Diagnostic::new(&SCENE_SYNTAX, Span::default(), message));
     }
 

@@ -300,7 +300,7 @@ fn load_texels(
         _ => true,
     };
     if let Some(number) = numbers.iter().find(|number| refused(number) || !in_range(number)) {
-        let message = format!("`{name}` is a {}, and this is no texel of it", kind.name());
+        let message = format!("`{name}` is a {}, and this is not a texel of it", kind.name());
         loader.reader.error(&SCENE_WRONG_KIND, number.span, message, "of another kind");
         return None;
     }
@@ -356,7 +356,7 @@ fn load_image(
     let image = match image::load_from_memory(&bytes) {
         Ok(image) => image,
         Err(error) => {
-            let message = format!("`{path}` is no image that can be read: {error}");
+            let message = format!("`{path}` is not an image that can be read: {error}");
             loader.reader.error(&SCENE_BAD_ASSET, span, message, "");
             return None;
         }

@@ -2,13 +2,13 @@
 //! §8.8).
 
 use super::super::Findings;
-use super::super::divergence::{self, Place};
+use super::super::divergence::{self, DivergentCall};
 use crate::hir::{ExprKind, Shader, Stage, Type, Types};
 use crate::link::Program;
 
 pub(super) fn check(program: &Program, findings: &mut Findings<'_>) {
     let Some(fragment) = program.stage(Stage::Fragment) else { return };
-    for Place { expr, condition } in divergence::divergent_calls(fragment) {
+    for DivergentCall { expr, condition } in divergence::divergent_calls(fragment) {
         let ExprKind::BuiltinCall(function, arguments) = &fragment.expr(expr).kind else { continue };
         if !function.implicit_derivatives() || has_one_level(&program.types, fragment, arguments) {
             continue;
