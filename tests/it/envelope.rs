@@ -176,7 +176,7 @@ fn measured_rules_rest_on_what_the_driver_does() {
     let angle = "float a = (gl_FragCoord.x - 0.5 + 64.0 * (gl_FragCoord.y - 0.5)) * 256.0;";
     for (what, body) in [("sin up to 1e6", "sin(a)"), ("cos up to 1e6", "cos(a)")] {
         let found = error(&gpu, &format!("void main() {{ {angle} color = vec4({body}); }}"), 0);
-        measured(what, found, rules::SIN_BEYOND_PI.absolute(), "");
+        measured(what, found, rules::SIN.absolute(), "");
     }
     for name in ["quad_smooth.toml", "triangle.toml", "core/depth_less.toml"] {
         let scene = from_disk(format!("fixtures/scenes/{name}"));

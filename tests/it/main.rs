@@ -34,6 +34,7 @@ mod mutation;
 mod mutations;
 #[cfg(feature = "gl")]
 mod opengl;
+mod operations;
 mod print;
 #[cfg(feature = "gpu")]
 mod random;

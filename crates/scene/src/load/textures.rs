@@ -4,7 +4,7 @@ use super::Loader;
 use super::draw::report_unknown_name;
 use super::material::TEXTURES;
 use super::mipmaps::chain;
-use super::names::{COMPARES, FILTERS, TEXTURE_KINDS, TextureKind, WRAPS, kind_name};
+use super::names::{FILTERS, TEXTURE_KINDS, TextureKind, kind_name};
 use super::patterns;
 use super::reader::{Node, Number, NumberValue};
 use crate::model::{Compare, Filter, Texels, Texture, TextureLevel, Wrap};
@@ -128,8 +128,8 @@ fn load_texture(loader: &mut Loader<'_>, node: &Node<'_>, name: &str, kind: Samp
     let filter = loader.reader.choice_at(table, "filter", Filter::Nearest, FILTERS);
     let is_rect = kind.dim == SamplerDim::Rect;
     let default_wrap = if is_rect { Wrap::ClampToEdge } else { pattern.map_or(Wrap::Repeat, |pattern| pattern.wrap()) };
-    let wrap = loader.reader.choice_at(table, "wrap", default_wrap, WRAPS);
-    let compare = loader.reader.choice_at(table, "compare", Compare::Lequal, COMPARES);
+    let wrap = loader.reader.choice_at(table, "wrap", default_wrap, Wrap::NAMES);
+    let compare = loader.reader.choice_at(table, "compare", Compare::Lequal, Compare::NAMES);
     let mipmaps = loader.reader.flag(table, "mipmaps", false);
     check_state(loader, table, name, kind, (filter, wrap, mipmaps))?;
     let level = match (table.get("file"), table.get("pattern")) {
