@@ -44,4 +44,4 @@ pub use glisten_gpu::Gpu;
 #[cfg(feature = "reference")]
 pub use glisten_reference::{Precision, RenderOptions, render};
 #[cfg(feature = "reference")]
-pub use glisten_scene::compare::Picture;
+pub use glisten_scene::picture::Picture;

@@ -68,8 +68,7 @@ fn console(block: &[&str], maker: &mut dyn Maker) -> Result<String, String> {
     let mut made = String::new();
     let mut at = 0;
     while let Some(line) = block.get(at) {
-        let shown: Vec<&str> =
-            block.iter().skip(at + 1).take_while(|line| !line.starts_with("$ ")).copied().collect();
+        let shown: Vec<&str> = block.iter().skip(at + 1).take_while(|line| !line.starts_with("$ ")).copied().collect();
         push(&mut made, line);
         let command = line.strip_prefix("$ ").filter(|command| command.starts_with("glisten "));
         let elided = shown.contains(&"...");

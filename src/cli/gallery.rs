@@ -11,7 +11,7 @@ use crate::gallery::{self, Entry, Tile};
 use clap::Args;
 use glisten_gpu::{Gpu, Via};
 use glisten_reference::{LineRule, Precision, RenderOptions};
-use glisten_scene::compare::Picture;
+use glisten_scene::picture::Picture;
 use std::path::PathBuf;
 
 /// The number of columns of the contact sheet.

@@ -6,7 +6,7 @@
 
 use super::exit::Failure;
 use crate::scene::Format;
-use glisten_scene::compare::Picture;
+use glisten_scene::picture::Picture;
 use image::ImageEncoder;
 use image::codecs::openexr::OpenExrEncoder;
 use image::codecs::png::PngEncoder;
@@ -126,7 +126,7 @@ fn byte(value: f64) -> u8 {
 mod tests {
     use super::{Target, byte};
     use crate::scene::Format;
-    use glisten_scene::compare::Picture;
+    use glisten_scene::picture::Picture;
     use std::path::Path;
 
     fn picture() -> Picture {

@@ -12,7 +12,7 @@ use glisten_front::compiler::{Compiler, Options};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_gpu::{Gpu, Via};
 use glisten_reference::{LineRule, Precision, RenderOptions};
-use glisten_scene::compare::Picture;
+use glisten_scene::picture::Picture;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 use std::time::Duration;

@@ -25,7 +25,7 @@ use glisten_front::hir::{SamplerDim, SamplerType, Scalar, Stage};
 use glisten_front::link::Program;
 use glisten_front::{Compiler, Source};
 use glisten_reference::{Precision, RenderOptions};
-use glisten_scene::compare::Picture;
+use glisten_scene::picture::Picture;
 use std::fmt;
 use std::sync::Arc;
 

@@ -156,7 +156,7 @@ fn inline_code(text: &str) -> String {
 mod tests {
     use super::*;
     use crate::gallery::entries;
-    use glisten_scene::compare::Picture;
+    use glisten_scene::picture::Picture;
 
     fn tiles(count: usize) -> Vec<Tile> {
         let picture = Picture {

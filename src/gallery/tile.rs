@@ -4,7 +4,7 @@
 //! as in `glisten render`. Non-finite colors are magenta.
 
 use super::entry::supersampling;
-use glisten_scene::compare::Picture;
+use glisten_scene::picture::Picture;
 use image::ImageEncoder;
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 

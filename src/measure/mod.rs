@@ -240,7 +240,7 @@ impl Trial {
     }
 
     /// The figures from a picture of the scene.
-    pub fn picture(&self, picture: &glisten_scene::compare::Picture) -> Figures {
+    pub fn picture(&self, picture: &glisten_scene::picture::Picture) -> Figures {
         self.figures(&self.evaluator.read(picture, self.rows), &SINGLE)
     }
 

@@ -1,7 +1,7 @@
 //! The figures of a report: differences of pictures, spreads of ratios, the Pareto front.
 
 use super::model::{Figures, Spread, Way};
-use glisten_scene::compare::Picture;
+use glisten_scene::picture::Picture;
 
 /// The difference between `picture` and `truth`, as figures and per pixel.
 pub(super) fn compare(picture: &Picture, truth: &Picture) -> (Figures, Vec<Option<f64>>) {

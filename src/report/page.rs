@@ -153,7 +153,7 @@ mod tests {
     use super::super::figures::{compare, mark_pareto};
     use super::super::model::{Adapter, Spread, Timing};
     use super::*;
-    use glisten_scene::compare::Picture;
+    use glisten_scene::picture::Picture;
 
     fn picture(level: f64) -> Picture {
         let side = 64;

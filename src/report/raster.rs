@@ -4,7 +4,7 @@
 //! colors are magenta. Differences have a logarithmic scale from [`FLOOR`] to 1; pixels that only one picture covers
 //! are cyan.
 
-use glisten_scene::compare::Picture;
+use glisten_scene::picture::Picture;
 use image::ImageEncoder;
 use image::codecs::png::PngEncoder;
 

@@ -2,7 +2,7 @@
 
 use super::words::Words;
 use super::{Outcome, fail, skip};
-use glisten_scene::compare::Picture;
+use glisten_scene::picture::Picture;
 
 /// A rectangle in window coordinates, with the origin at the lower left.
 #[derive(Clone, Copy, Debug, PartialEq)]

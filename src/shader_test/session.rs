@@ -14,7 +14,7 @@ use crate::scene::{BlendFactor, Compare, Cull, Draw, Format, Framebuffer, Primit
 use glisten_front::compiler::Compiler;
 use glisten_front::hir::{Stage, Type};
 use glisten_front::link::Program;
-use glisten_scene::compare::Picture;
+use glisten_scene::picture::Picture;
 use std::sync::Arc;
 
 /// Runs a test; `Ok` means that it passes.

@@ -12,7 +12,8 @@ use glisten_gpu::{Gpu, Via};
 use glisten_reference::domain::faults::{ARC_FUNCTIONS, Faults, KNOWN};
 use glisten_reference::domain::rules;
 use glisten_reference::{LineRule, Precision, RenderOptions};
-use glisten_scene::compare::{Judge, Picture, Verdict, shares};
+use glisten_scene::compare::{Judge, Verdict, shares};
+use glisten_scene::picture::Picture;
 
 fn read(path: &str) -> String {
     std::fs::read_to_string(format!("{}/fixtures/{path}", env!("CARGO_MANIFEST_DIR"))).expect("a fixture")

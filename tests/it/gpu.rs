@@ -35,7 +35,7 @@ fn load(path: &Path) -> Scene {
     loaded.scene.unwrap_or_else(|| panic!("{}: {findings:?}", path.display()))
 }
 
-fn reference(scene: &Scene) -> glisten_scene::compare::Picture {
+fn reference(scene: &Scene) -> glisten_scene::picture::Picture {
     let options = RenderOptions { precision: Precision::Envelope, lines: LineRule::Vulkan, ..RenderOptions::default() };
     glisten_reference::render(scene, &options).expect("the reference draws every scene of the fixtures")
 }

@@ -8,8 +8,8 @@ use super::api::{Api, PixelLayout};
 use super::states::{STENCIL, color_layout, compare, factor, mode};
 use super::{Error, Gl, programs, textures, uniforms, vertices};
 use glisten_front::link::Program;
-use glisten_scene::compare::Picture;
-use glisten_scene::scene::{Cull, Draw, Format, Framebuffer, Scene, State};
+use glisten_scene::picture::Picture;
+use glisten_scene::{Cull, Draw, Format, Framebuffer, Scene, State};
 use std::sync::Arc;
 
 impl Gl {

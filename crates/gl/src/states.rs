@@ -1,7 +1,7 @@
 //! Tables from a scene's fixed-function state to OpenGL's enumerants.
 
 use super::api::PixelLayout;
-use glisten_scene::scene::{BlendFactor, Compare, Format, Primitive, Wrap};
+use glisten_scene::{BlendFactor, Compare, Format, Primitive, Wrap};
 
 /// How an attachment is stored and read.
 pub(super) fn color_layout(format: Format) -> PixelLayout {

@@ -8,7 +8,7 @@ use super::Error;
 use super::api::{Api, Dimensions, PixelLayout, Size};
 use super::states::{compare, wrap};
 use glisten_front::hir::{SamplerDim, SamplerType, Scalar, Type};
-use glisten_scene::scene::{Draw, Filter, Texels, Texture, TextureLevel};
+use glisten_scene::{Draw, Filter, Texels, Texture, TextureLevel};
 
 /// Binds all textures. The program must be current.
 pub(super) fn bind(api: &Api, linked: glow::Program, draw: &Draw) -> Result<(), Error> {

@@ -8,7 +8,7 @@ use super::Error;
 use super::api::Api;
 use glisten_front::hir::{Scalar, ScalarValue, Type};
 use glisten_front::link::{Block, Program, UniformLeaf};
-use glisten_scene::scene::Draw;
+use glisten_scene::Draw;
 
 /// Sets all uniforms but samplers. The program must be current.
 pub(super) fn set(api: &Api, linked: glow::Program, draw: &Draw) -> Result<(), Error> {

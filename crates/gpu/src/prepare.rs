@@ -14,7 +14,7 @@ use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::targets::FEATURE_NOT_IN_TARGET;
 use glisten_front::hir::{Interpolation, SamplerType, Stage, Type};
 use glisten_front::link::{Program, SlotBinding};
-use glisten_scene::scene::{Draw, Format, Framebuffer, Scene, State};
+use glisten_scene::{Draw, Format, Framebuffer, Scene, State};
 use std::sync::Arc;
 use wgpu::util::DeviceExt;
 
@@ -318,7 +318,7 @@ fn conventions(draw: &Draw) -> Conventions {
 /// Rejects comparisons at explicit levels of detail, which are compiled only for depth textures of one level.
 fn refuse_levels(draw: &Draw) -> Result<(), Error> {
     let deep = draw.textures.iter().flatten().any(|texture| {
-        texture.kind.shadow && texture.levels.len() > 1 && texture.filter == glisten_scene::scene::Filter::Trilinear
+        texture.kind.shadow && texture.levels.len() > 1 && texture.filter == glisten_scene::Filter::Trilinear
     });
     match emit::levels_of_comparisons(&draw.program).next().filter(|_| deep) {
         Some(span) => {

@@ -17,8 +17,8 @@ use domain::faults::Faults;
 use domain::{Envelope, F32, F64};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::source::Span;
-use glisten_scene::compare::Picture;
-use glisten_scene::scene::Scene;
+use glisten_scene::Scene;
+use glisten_scene::picture::Picture;
 
 /// The precision of the reference's numbers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]

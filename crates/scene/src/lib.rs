@@ -3,7 +3,20 @@
 //! [`scene`] reads scene files: what to draw, with which programs and which data. [`compare`] contains pictures,
 //! intervals of pixel values, and the figures of the difference between two pictures.
 //!
-//! *Holds:* nothing here draws.
+//! *Holds:* nothing here draws. Semantics are OpenGL's (lower-left origin, last vertex provoking, clip space z in `[-w, w]`).
+//! Files come through a [`FileSource`]; only its implementation [`DiskFiles`] does I/O.
 
 pub mod compare;
-pub mod scene;
+mod files;
+mod library;
+mod load;
+mod model;
+pub mod picture;
+
+pub use files::{DiskFiles, FileError, FileSource, MemoryFiles};
+pub use library::{Library, NoLibrary};
+pub use load::{Loaded, MAX_ATTACHMENTS, MAX_PIXELS, MAX_SIDE, default_tessellation, load};
+pub use model::{
+    AttributeData, AttributeValues, BlendFactor, Compare, Cull, Draw, Filter, Format, Framebuffer, Primitive, Scene,
+    State, Texels, Texture, TextureLevel, Wrap,
+};

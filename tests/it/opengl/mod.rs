@@ -22,7 +22,8 @@ use glisten_front::{Compiler, Options};
 use glisten_gl::{Error, Gl};
 use glisten_reference::domain::faults::{Faults, KNOWN};
 use glisten_reference::{LineRule, Precision, RenderOptions};
-use glisten_scene::compare::{Judge, Picture, Verdict};
+use glisten_scene::compare::{Judge, Verdict};
+use glisten_scene::picture::Picture;
 use std::path::{Path, PathBuf};
 
 /// Larger scenes are scaled down.

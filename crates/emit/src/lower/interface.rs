@@ -11,7 +11,7 @@ use crate::target::{Target, WindowOrigin};
 use glisten_front::builtin::BuiltinVariable;
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::hir::{ArraySize, FunctionId, Global, GlobalId, Interpolation, Stage, Storage, Type, TypeId, Value};
-use glisten_front::link::{Attribute, Program, Varying, VaryingEnd};
+use glisten_front::link::{Attribute, Varying};
 use naga::{AddressSpace, BinaryOperator, Binding, BuiltIn, Expression, GlobalVariable, Handle};
 use std::collections::BTreeMap;
 
@@ -21,33 +21,20 @@ pub(super) struct VaryingLocation<'a> {
     pub(super) rows: Vec<&'a Varying>,
 }
 
-/// The varyings of a program, followed by those that carry `gl_ClipDistance` to a fragment stage that reads it: no
-/// target provides it there (§7.2).
-pub(super) fn hidden_varyings(program: &Program) -> Vec<Varying> {
-    let mut varyings = program.interface.varyings.clone();
-    let clip_distance = |stage| {
-        let mut globals = program.stage(stage)?.globals();
-        let (id, global) = globals.find(|(_, global)| global.builtin == Some(BuiltinVariable::ClipDistance))?;
-        global.used.then_some((id, program.types.flat_len(global.ty)))
-    };
-    let Some((reader, len)) = clip_distance(Stage::Fragment) else { return varyings };
-    let writer = clip_distance(Stage::Vertex);
-    let first = varyings.iter().map(|row| row.location + 1).max().unwrap_or(0);
-    for index in 0..len {
-        let from = writer.filter(|(_, written)| index < *written);
-        varyings.push(Varying {
-            name: format!("gl_ClipDistance[{index}]"),
-            ty: TypeId::FLOAT,
-            location: first + index / 4,
-            component: index % 4,
-            interpolation: Interpolation::Smooth,
-            centroid: false,
-            active: true,
-            from: from.map(|(global, _)| VaryingEnd { global, flat_offset: index }),
-            to: Some(VaryingEnd { global: reader, flat_offset: index }),
-        });
+impl<'a> Lower<'a> {
+    /// The varyings by location, those alone that `keep` wants, with all that share a location with them.
+    pub(super) fn locations(&self, keep: impl Fn(&Varying) -> bool) -> Vec<VaryingLocation<'a>> {
+        let mut locations: Vec<VaryingLocation<'a>> = Vec::new();
+        for row in self.interface.interpolated() {
+            match locations.iter_mut().find(|known| known.location == row.location) {
+                Some(known) => known.rows.push(row),
+                None => locations.push(VaryingLocation { location: row.location, rows: vec![row] }),
+            }
+        }
+        locations.retain(|location| location.rows.iter().any(|row| keep(row)));
+        locations.sort_by_key(|location| location.location);
+        locations
     }
-    varyings
 }
 
 impl Lower<'_> {
@@ -135,21 +122,7 @@ impl Lower<'_> {
         self.facts.used.get(id.index()).copied().unwrap_or(false).then_some(id)
     }
 
-    /// The varyings by location, for those that `keep` selects and all that share a location with them.
-    pub(super) fn locations(&self, keep: impl Fn(&Varying) -> bool) -> Vec<VaryingLocation<'_>> {
-        let mut locations: Vec<VaryingLocation<'_>> = Vec::new();
-        for row in &self.varyings {
-            match locations.iter_mut().find(|known| known.location == row.location) {
-                Some(known) => known.rows.push(row),
-                None => locations.push(VaryingLocation { location: row.location, rows: vec![row] }),
-            }
-        }
-        locations.retain(|location| location.rows.iter().any(|row| keep(row)));
-        locations.sort_by_key(|location| location.location);
-        locations
-    }
-
-    /// The type at a location: that of its one varying, or a vector that contains all of them.
+    /// The type of what stands at a location: its one varying's, or a vector that holds all of them.
     pub(super) fn location_type(&mut self, location: &VaryingLocation<'_>) -> Try<Handle<naga::Type>> {
         if let [row] = location.rows.as_slice()
             && row.component == 0
@@ -348,7 +321,7 @@ impl Ctx<'_, '_> {
     }
 
     fn varyings(&mut self) -> Try<Vec<Received>> {
-        let mut arguments = Vec::new();
+        let mut arrived = Vec::new();
         let used = &self.low.facts.used;
         let wanted = |row: &Varying| row.to.is_some_and(|end| used.get(end.global.index()).copied().unwrap_or(false));
         for location in self.low.locations(wanted) {
@@ -358,15 +331,10 @@ impl Ctx<'_, '_> {
                 Some(row) if !packed => path_name(&row.name),
                 _ => format!("packed_{}", location.location),
             };
-            let ends: Vec<_> = location.rows.iter().filter_map(|row| Some((row.to?, row.ty, row.component))).collect();
-            let rows: Vec<Varying> = location.rows.iter().map(|row| (*row).clone()).collect();
-            arguments.push((location.location, rows, name, binding, packed, ends));
-        }
-        let mut arrived = Vec::new();
-        for (location, rows, name, binding, packed, ends) in arguments {
-            let ty = self.low.location_type(&VaryingLocation { location, rows: rows.iter().collect() })?;
+            let ty = self.low.location_type(&location)?;
             let argument = self.argument(&name, ty, Some(binding));
-            for (end, ty, component) in ends {
+            for row in location.rows {
+                let (Some(end), ty, component) = (row.to, row.ty, row.component) else { continue };
                 let value = if packed {
                     let len = self.low.types.flat_len(ty) as u8;
                     let mut components = [0; 4];

@@ -50,7 +50,7 @@ use function::{GlobalSlot, Lowered};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::{general, targets};
 use glisten_front::hir::{FunctionId, GlobalId, Shader, Stage, Types};
-use glisten_front::link::{Interface, Program, Varying};
+use glisten_front::link::{Interface, Program};
 use glisten_front::source::Span;
 use rustc_hash::FxHashMap;
 
@@ -99,8 +99,6 @@ struct Lower<'a> {
     facts: Facts,
     module: naga::Module,
     layouter: naga::proc::Layouter,
-    /// The varyings of the interface, and hidden ones (see [`hidden_varyings`](interface::hidden_varyings)).
-    varyings: Vec<Varying>,
     values: FxHashMap<glisten_front::hir::TypeId, naga::Handle<naga::Type>>,
     hosts: uniforms::Hosts,
     globals: Vec<GlobalSlot>,
@@ -133,7 +131,6 @@ impl<'a> Lower<'a> {
             facts,
             module: naga::Module::default(),
             layouter: naga::proc::Layouter::default(),
-            varyings: interface::hidden_varyings(program),
             values: FxHashMap::default(),
             hosts: uniforms::Hosts::default(),
             globals: vec![GlobalSlot::Unused; shader.globals.len()],

@@ -5,7 +5,7 @@
 //! colors have four components, as every color target requires.
 
 use super::function::{Ctx, GlobalSlot, LocalSlot};
-use super::interface::{VaryingLocation, path_name, plain_location, varying_binding};
+use super::interface::{path_name, plain_location, varying_binding};
 use super::{Try, lacking};
 use crate::target::{ClipZ, SpirvEnv, Target, WindowOrigin};
 use glisten_front::builtin::BuiltinVariable;
@@ -87,20 +87,14 @@ impl Ctx<'_, '_> {
             source: OutputSource::Position,
         }];
         let wanted = |row: &Varying| row.from.is_some() || row.to.is_some();
-        let locations: Vec<(u32, Vec<Varying>)> = self
-            .low
-            .locations(wanted)
-            .into_iter()
-            .map(|location| (location.location, location.rows.into_iter().cloned().collect()))
-            .collect();
-        for (number, rows) in locations {
-            let location = VaryingLocation { location: number, rows: rows.iter().collect() };
+        for location in self.low.locations(wanted) {
             let ty = self.low.location_type(&location)?;
-            let name = match rows.as_slice() {
+            let name = match location.rows.as_slice() {
                 [row] if row.component == 0 => path_name(&row.name),
-                _ => format!("packed_{number}"),
+                _ => format!("packed_{}", location.location),
             };
-            let source = OutputSource::Varyings(rows.iter().map(|row| (row.component, row.ty, row.from)).collect());
+            let source =
+                OutputSource::Varyings(location.rows.iter().map(|row| (row.component, row.ty, row.from)).collect());
             members.push(OutputMember { name, ty, binding: varying_binding(&location), source });
         }
         self.clip_distances(&mut members)?;

@@ -14,19 +14,25 @@
 //! | `compatible` | when two declarations in different shaders have the same type |
 //! | `stages` | which stages form a program; `main`; geometry layouts |
 //! | `matching` | outputs of one stage against inputs of the next |
-//! | `per_vertex` | redeclared `gl_PerVertex` |
-//! | `varyings` | splits varyings and assigns their locations |
-//! | `attributes`, `outputs` | assign locations to vertex inputs and fragment outputs |
-//! | `uniforms`, `samplers` | assign offsets and bindings |
+//! | `per_vertex` | `gl_PerVertex` declared anew |
+//! | `varyings` | what the rasterizer interpolates, cut up and placed |
+//! | `clip_distances` | `gl_ClipDistance` where the fragment stage reads it |
+//! | `attributes`, `outputs` | vertex inputs and fragment outputs, placed |
+//! | `declared` | variables that the text or the host may place |
+//! | `locations` | the one allocator of locations |
+//! | `uniforms`, `samplers` | what stays the same over a draw, placed |
 //! | `layout` | std140 |
 
 mod aliasing;
 mod attributes;
 mod canonical;
+mod clip_distances;
 mod compatible;
+mod declared;
 mod flatten;
 mod geometry;
 mod layout;
+mod locations;
 mod matching;
 mod merge;
 mod outputs;
@@ -107,7 +113,8 @@ fn interface(ctx: &mut Linker<'_>, stages: &[Shader]) -> Interface {
     if let Some(vertex) = of(Stage::Vertex) {
         interface.attributes = attributes::assign(ctx, vertex);
     }
-    interface.varyings = varyings::assign(ctx, of(Stage::Geometry).or(of(Stage::Vertex)), of(Stage::Fragment));
+    let producer = of(Stage::Geometry).or(of(Stage::Vertex));
+    (interface.varyings, interface.clip_distances) = varyings::assign(ctx, producer, of(Stage::Fragment));
     if let Some(fragment) = of(Stage::Fragment) {
         interface.outputs = outputs::assign(ctx, fragment);
     }

@@ -3,8 +3,8 @@
 //!
 //! Samplers that are read come first, so that the bindings in use have no gaps either.
 
-use super::attributes::plural;
 use super::compatible::same_type;
+use super::declared::plural;
 use super::flatten::parts;
 use super::{Linker, SamplerSlot, SlotBinding};
 use crate::builtin::constants::{MAX_COMBINED_TEXTURE_IMAGE_UNITS, MAX_TEXTURE_IMAGE_UNITS};

@@ -9,7 +9,7 @@ use crate::LineRule;
 use crate::domain::Domain;
 use crate::raster::{Fixed, Shape, line, point, triangle};
 use glisten_front::hir::Interpolation;
-use glisten_scene::scene::{Cull, Primitive, State};
+use glisten_scene::{Cull, Primitive, State};
 
 /// The vertices between which the values of a primitive's fragments are interpolated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -9,14 +9,15 @@ use super::target::Patch;
 use super::watch::Watch;
 use super::{draw_all, refuse};
 use crate::domain::Envelope;
-use crate::exec::{Code, Machine, Muted};
+use crate::domain::faults::Faults;
+use crate::exec::{Code, Machine, Muted, Purpose};
 use crate::raster::Bounds;
 use crate::{Contribution, RenderOptions};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::scenes::SCENE_CANNOT_DRAW;
 use glisten_front::hir::Stage;
-use glisten_scene::compare::Range;
-use glisten_scene::scene::Scene;
+use glisten_scene::Scene;
+use glisten_scene::picture::Interval;
 
 /// The operation's name for an input.
 const INTERPOLATION: &str = "interpolation";
@@ -73,7 +74,8 @@ fn of_draw(
     let drawn = |muted: Option<Muted>| {
         let mut patch = before.clone();
         let draw = shading.draw;
-        let mut machine = Machine::muting(muted, code, &draw.uniforms, &draw.textures);
+        let purpose = muted.map_or(Purpose::Results(Faults::NONE), Purpose::Share);
+        let mut machine = Machine::with(purpose, code, &draw.uniforms, &draw.textures);
         patch.draw(|bin| draw_bin(shading, bin, &list, &mut machine));
         patch
     };
@@ -105,7 +107,7 @@ fn of_draw(
 }
 
 /// The share by which an interval shrinks.
-fn share(whole: Range, muted: Range) -> f64 {
+fn share(whole: Interval, muted: Interval) -> f64 {
     match (whole.width().is_finite(), muted.width().is_finite()) {
         (true, _) if whole.width() > 0.0 => (1.0 - muted.width() / whole.width()).max(0.0),
         (false, true) => 1.0,

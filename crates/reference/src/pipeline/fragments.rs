@@ -16,9 +16,9 @@ use super::target::{BIN, Bin, Tests, local};
 use super::vertices::Vertices;
 use crate::domain::faults::Faults;
 use crate::domain::{Domain, Integer, Number};
-use crate::exec::{Code, LANES, Machine, Mask};
+use crate::exec::{Code, LANES, Machine, Mask, Purpose};
 use glisten_front::hir::{FragCoordLayout, GlobalId, Stage};
-use glisten_scene::scene::{Draw, Framebuffer};
+use glisten_scene::{Draw, Framebuffer};
 use pulp::{Simd, WithSimd};
 
 /// What all bins of a draw share.
@@ -73,7 +73,7 @@ pub(super) fn draw_bin<D: Domain>(
 impl<D: Domain> Shading<'_, D> {
     /// A machine for the fragment stage.
     pub(super) fn machine(&self, code: &Code) -> Machine<D> {
-        Machine::admitting(self.faults, code, &self.draw.uniforms, &self.draw.textures)
+        Machine::with(Purpose::Results(self.faults), code, &self.draw.uniforms, &self.draw.textures)
     }
 
     /// Keeps the batch's candidates that pass the depth test, if that comes first, and shades the batch when it is

@@ -38,7 +38,7 @@ mod watch;
 
 use super::RenderOptions;
 use super::domain::Domain;
-use super::exec::{Code, LOOP_BUDGET, Machine};
+use super::exec::{Code, LOOP_BUDGET, Machine, Piece};
 use super::raster::Shape;
 use assembly::{Prim, primitives};
 pub(super) use explain::explain;
@@ -47,8 +47,8 @@ use glisten_front::diagnostic::codes::scenes::{SCENE_CANNOT_DRAW, SCENE_LOOP_BUD
 use glisten_front::diagnostic::{Code as DiagnosticCode, Diagnostic};
 use glisten_front::hir::Stage;
 use glisten_front::source::Span;
-use glisten_scene::compare::Picture;
-use glisten_scene::scene::{Draw, Scene};
+use glisten_scene::picture::Picture;
+use glisten_scene::{Draw, Scene};
 use outputs::output_plans;
 use plan::Plan;
 use rayon::prelude::*;
@@ -58,7 +58,7 @@ use surface::Surface;
 use target::{BIN, Target};
 use vertices::{Invocation, shade};
 pub(super) use watch::MakeObserver;
-use watch::{FRAGMENTS, SAME_FOR_FRAGMENTS, SAME_FOR_VERTICES, Watch};
+use watch::Watch;
 
 /// The number of vertices that are shaded before their primitives are drawn. Instances beyond that are drawn in
 /// several passes.
@@ -103,8 +103,8 @@ fn draw_all<D: Domain>(
     let compile = if watch.apart { Code::compile_apart } else { Code::compile };
     let vertex_code = compile(&draw.program, Stage::Vertex)?;
     let fragment_code = compile(&draw.program, Stage::Fragment)?;
-    watch.common(&vertex_code, draw, SAME_FOR_VERTICES);
-    watch.common(&fragment_code, draw, SAME_FOR_FRAGMENTS);
+    watch.common(&vertex_code, draw, Piece::SameForVertices);
+    watch.common(&fragment_code, draw, Piece::SameForFragments);
     let plan = Plan::new(&draw.program);
     let outputs = output_plans(draw, scene.framebuffer.attachments);
     let viewport = [scene.framebuffer.width as f32, scene.framebuffer.height as f32];
@@ -274,7 +274,7 @@ fn draw_prims<D: Domain>(
         let mut machine = take().unwrap_or_else(|| shading.machine(code));
         watch.begin(&mut machine);
         draw_bin(shading, bin, list, &mut machine);
-        watch.end(&mut machine, FRAGMENTS, index);
+        watch.end(&mut machine, Piece::Fragments, index);
         if let Some(found) = machine.endless_loop() {
             endless.get_or_init(|| found);
         }

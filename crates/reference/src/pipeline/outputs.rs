@@ -6,8 +6,8 @@ use crate::domain::{Domain, Integer, Lanes, Number};
 use crate::exec::Machine;
 use glisten_front::builtin::BuiltinVariable;
 use glisten_front::hir::{GlobalId, Scalar, Stage, Type};
-use glisten_scene::compare::Range;
-use glisten_scene::scene::Draw;
+use glisten_scene::Draw;
+use glisten_scene::picture::Interval;
 
 /// The source and the destination of a color.
 #[derive(Clone, Debug)]
@@ -97,5 +97,5 @@ fn whole<D: Domain>(bits: D::Int, value: impl Fn(u32) -> f64) -> D::Float {
     let ends = [value(low as u32), value(high as u32)];
     let may_wrap = low < 0 && high >= 0 && ends[1] < ends[0];
     let (low, high) = if may_wrap { (0.0, f64::from(u32::MAX)) } else { (ends[0], ends[1]) };
-    D::Float::whole(likely, Range { low, high, may_be_nan: false })
+    D::Float::whole(likely, Interval { low, high, may_be_nan: false })
 }

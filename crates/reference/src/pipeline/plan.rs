@@ -77,14 +77,11 @@ impl Plan {
             early_depth: frag_depth.is_none() && !discards,
         };
         plan.add_varyings(program);
-        if let (Some(from), Some(to)) = (plan.clip_distance, of_fragment(BuiltinVariable::ClipDistance)) {
-            plan.add_clip_distances(program, from, to);
-        }
         plan
     }
 
     fn add_varyings(&mut self, program: &Program) {
-        for varying in &program.interface.varyings {
+        for varying in program.interface.interpolated() {
             let (Some(from), Some(to), true) = (varying.from, varying.to, varying.active) else { continue };
             let is_float = program.types.scalar_of(varying.ty) == Some(Scalar::Float);
             for scalar in 0..program.types.flat_len(varying.ty) {
@@ -96,21 +93,6 @@ impl Plan {
                     self.ints.push(IntVarying { from, to });
                 }
             }
-        }
-    }
-
-    /// Makes `gl_ClipDistance` an input of the fragment stage, too (GLSL 1.50 §7.2).
-    fn add_clip_distances(&mut self, program: &Program, from: GlobalId, to: GlobalId) {
-        let len = |stage, id: GlobalId| {
-            let global = program.stage(stage).and_then(|shader| shader.globals.get(id.index()));
-            global.map_or(0, |global| program.types.flat_len(global.ty))
-        };
-        for index in 0..len(Stage::Vertex, from).min(len(Stage::Fragment, to)) {
-            self.floats.push(FloatVarying {
-                from: (from, index),
-                to: (to, index),
-                interpolation: Interpolation::Smooth,
-            });
         }
     }
 }

@@ -4,8 +4,8 @@
 //! conforming GPU may decide either way, the pixel contains the hull of both.
 
 use crate::domain::{Domain, Number, rules};
-use glisten_scene::compare::Range;
-use glisten_scene::scene::{BlendFactor, Compare, Format, State};
+use glisten_scene::picture::Interval;
+use glisten_scene::{BlendFactor, Compare, Format, State};
 use half::f16;
 
 /// The result of testing a fragment.
@@ -87,7 +87,7 @@ fn compare(function: Compare, new: f64, stored: f64) -> bool {
 }
 
 /// Whether a comparison of depth certainly holds, and whether it certainly fails.
-fn certain(function: Compare, new: Range, stored: Range) -> (bool, bool) {
+fn certain(function: Compare, new: Interval, stored: Interval) -> (bool, bool) {
     let below = new.high < stored.low;
     let above = new.low > stored.high;
     let not_above = new.high <= stored.low;
@@ -113,8 +113,8 @@ fn store_depth<D: Domain>(z: D::Float) -> D::Float {
     if !D::OPEN {
         return D::Float::from_f64(stored);
     }
-    let Range { low, high, may_be_nan } = z.range();
-    D::Float::with_range(stored, Range { low: low.clamp(0.0, 1.0), high: high.clamp(0.0, 1.0), may_be_nan })
+    let Interval { low, high, may_be_nan } = z.range();
+    D::Float::with_range(stored, Interval { low: low.clamp(0.0, 1.0), high: high.clamp(0.0, 1.0), may_be_nan })
 }
 
 /// Clamps the source color of a fixed-point attachment before blending (§4.1.7).
@@ -128,11 +128,11 @@ fn clamped<D: Domain>(color: [D::Float; 4], format: Format) -> [D::Float; 4] {
 /// A number, joined with the nearest step of 1/255: blending in an 8-bit attachment may use only as many bits as the
 /// attachment has (§4.1.7), which rounds the source, the factors and the products, or may use floats.
 fn in_steps<D: Domain>(value: D::Float) -> D::Float {
-    let Range { low, high, may_be_nan } = value.range();
+    let Interval { low, high, may_be_nan } = value.range();
     let slack = rules::STORE_SLACK.absolute();
     let step = |x: f64| (x * 255.0).round() / 255.0;
     let (low, high) = (low.min(step(low - slack)), high.max(step(high + slack)));
-    D::Float::with_range(value.value(), Range { low, high, may_be_nan })
+    D::Float::with_range(value.value(), Interval { low, high, may_be_nan })
 }
 
 /// `source * S + destination * D` (§4.1.7, tables 4.1 and 4.2), with a rounding of factors and products.
@@ -190,7 +190,7 @@ pub(super) fn store<D: Domain>(value: D::Float, format: Format) -> D::Float {
     if !D::OPEN {
         return D::Float::from_f64(stored);
     }
-    let Range { low, high, may_be_nan } = value.range();
+    let Interval { low, high, may_be_nan } = value.range();
     if low == high && convert(low) == low {
         return D::Float::from_f64(stored);
     }
@@ -199,9 +199,9 @@ pub(super) fn store<D: Domain>(value: D::Float, format: Format) -> D::Float {
         Format::Rgba8Unorm => {
             let slack = rules::STORE_SLACK.absolute();
             let low = if may_be_nan { 0.0 } else { convert(low - slack) };
-            Range { low, high: convert(high + slack), may_be_nan: false }
+            Interval { low, high: convert(high + slack), may_be_nan: false }
         }
-        _ => Range { low: half_below(low), high: -half_below(-high), may_be_nan },
+        _ => Interval { low: half_below(low), high: -half_below(-high), may_be_nan },
     };
     D::Float::with_range(stored, range)
 }

@@ -7,8 +7,8 @@
 use super::store::store;
 use super::target::BIN;
 use crate::domain::{Domain, Number};
-use glisten_scene::compare::{Picture, Range};
-use glisten_scene::scene::Framebuffer;
+use glisten_scene::Framebuffer;
+use glisten_scene::picture::{Interval, Picture};
 use rayon::prelude::*;
 
 /// The contents of the attachments.
@@ -23,7 +23,7 @@ pub(super) struct Surface {
 pub(super) struct Attachment {
     colors: Vec<[f64; 4]>,
     /// Empty in domains without envelopes.
-    ranges: Vec<[Range; 4]>,
+    ranges: Vec<[Interval; 4]>,
 }
 
 /// Which pixels were drawn to, row by row.
@@ -38,14 +38,14 @@ pub(super) struct Marks {
 #[derive(Debug)]
 pub(super) struct Piece<'s> {
     colors: Vec<&'s mut [[f64; 4]]>,
-    ranges: Vec<&'s mut [[Range; 4]]>,
+    ranges: Vec<&'s mut [[Interval; 4]]>,
 }
 
 /// A pixel of an attachment.
 #[derive(Debug)]
 pub(super) struct Pixel<'p> {
     color: &'p mut [f64; 4],
-    range: Option<&'p mut [Range; 4]>,
+    range: Option<&'p mut [Interval; 4]>,
 }
 
 impl Surface {
@@ -128,7 +128,7 @@ impl Pixel<'_> {
     #[inline(always)]
     pub(super) fn read<D: Domain>(&self) -> [D::Float; 4] {
         let range =
-            |channel: usize, value: f64| self.range.as_ref().map_or(Range::point(value), |range| range[channel]);
+            |channel: usize, value: f64| self.range.as_ref().map_or(Interval::point(value), |range| range[channel]);
         std::array::from_fn(|channel| D::Float::whole(self.color[channel], range(channel, self.color[channel])))
     }
 

@@ -10,8 +10,8 @@ use super::surface::{Marks, Piece, Surface};
 use crate::domain::{Domain, Number};
 use crate::exec::{LANES, Mask};
 use crate::raster::Bounds;
-use glisten_scene::compare::Range;
-use glisten_scene::scene::{BlendFactor, Format, Framebuffer, State};
+use glisten_scene::picture::Interval;
+use glisten_scene::{BlendFactor, Format, Framebuffer, State};
 use smallvec::SmallVec;
 
 /// The side of a bin in pixels; it is even, so that quads are within one bin.
@@ -239,12 +239,12 @@ impl<D: Domain> Patch<D> {
     }
 
     /// The interval of a channel of a pixel inside the patch.
-    pub(super) fn range(&mut self, x: i64, y: i64, attachment: usize, channel: usize) -> Range {
-        let mut range = Range::ALL;
+    pub(super) fn range(&mut self, x: i64, y: i64, attachment: usize, channel: usize) -> Interval {
+        let mut range = Interval::ALL;
         let place = local(self.area, x, y);
         self.draw(|bin| {
             let color = bin.attachments.get_mut(attachment).and_then(|piece| piece.pixel(place)).map(|p| p.read::<D>());
-            range = color.and_then(|color| color.get(channel).copied()).map_or(Range::ALL, Number::range);
+            range = color.and_then(|color| color.get(channel).copied()).map_or(Interval::ALL, Number::range);
         });
         range
     }

@@ -5,13 +5,13 @@
 //! vertex that several indices refer to is shaded once. The order does not depend on threads.
 
 use super::plan::Plan;
-use super::watch::{VERTICES, Watch};
+use super::watch::Watch;
 use crate::domain::faults::Faults;
 use crate::domain::{Domain, F32, Integer, Number};
-use crate::exec::{Code, LANES, Machine, Mask};
+use crate::exec::{Code, LANES, Machine, Mask, Piece, Purpose};
 use glisten_front::hir::{GlobalId, Interpolation, ScalarValue, Type, TypeId, Types};
 use glisten_front::source::Span;
-use glisten_scene::scene::Draw;
+use glisten_scene::Draw;
 use rayon::prelude::*;
 use std::sync::OnceLock;
 
@@ -123,7 +123,7 @@ pub(super) fn shade<D: Domain>(
     watch: &Watch<'_, D>,
 ) -> Vertices<D> {
     let machines = || {
-        let machine = Machine::<D>::admitting(faults, code, &draw.uniforms, &draw.textures);
+        let machine = Machine::<D>::with(Purpose::Results(faults), code, &draw.uniforms, &draw.textures);
         (machine, Machine::<F32>::new(code, &draw.uniforms, &draw.textures))
     };
     let chunks: Vec<Chunk<D>> = invocations
@@ -137,7 +137,7 @@ pub(super) fn shade<D: Domain>(
             }
             watch.begin(machine);
             let chunk = shade_chunk(draw, plan, lanes, machine, single);
-            watch.end(machine, VERTICES, part);
+            watch.end(machine, Piece::Vertices, part);
             if let Some(found) = machine.endless_loop().or(single.endless_loop()) {
                 endless.get_or_init(|| found);
             }

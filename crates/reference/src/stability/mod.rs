@@ -24,8 +24,8 @@ use super::{RenderOptions, exec};
 use glisten_front::diagnostic::{Diagnostic, codes};
 use glisten_front::hir::Stage;
 use glisten_front::source::Span;
-use glisten_scene::compare::Picture;
-use glisten_scene::scene::Scene;
+use glisten_scene::Scene;
+use glisten_scene::picture::Picture;
 use record::{Collected, Recorder, Tally};
 use std::sync::Arc;
 
@@ -108,11 +108,11 @@ pub fn trace(scene: &Scene, options: &RenderOptions) -> Result<Trace, Vec<Diagno
 }
 
 impl SpanError {
-    fn new(stage: u8, span: Span, tally: &Tally) -> Self {
+    fn new(stage: Stage, span: Span, tally: &Tally) -> Self {
         let mean = |sum: f64| if tally.finite == 0 { 0.0 } else { sum / tally.finite as f64 };
         Self {
             span,
-            stage: if stage == 0 { Stage::Vertex } else { Stage::Fragment },
+            stage,
             evaluations: tally.evaluations,
             added: tally.added,
             added_ulps: tally.added_ulps,

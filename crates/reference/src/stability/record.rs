@@ -6,6 +6,7 @@
 
 use crate::domain::{Shadow, ShadowFloat};
 use crate::exec::{Event, Kind, Observer, Order, Values, What};
+use glisten_front::hir::Stage;
 use glisten_front::source::Span;
 use glisten_scene::compare::ulp_f32;
 use smallvec::SmallVec;
@@ -123,7 +124,7 @@ pub(super) struct Collected {
 }
 
 /// Whether a tally belongs to a vertex or a fragment stage, and its span.
-pub(super) type Place = (u8, Span);
+pub(super) type Place = (Stage, Span);
 
 impl Collected {
     /// The tallies of each stage and span, and the largest error of a fragment stage's output.
@@ -134,11 +135,11 @@ impl Collected {
         let mut output = 0.0_f64;
         for (order, recorder) in &parts {
             // Values that are the same for all invocations count with their stage: 0 with 2, 1 with 3.
-            let stage = order.stage % 2;
+            let stage = order.piece.stage();
             for (span, tally) in &recorder.tallies {
                 all.entry((stage, *span)).or_default().join(tally);
             }
-            if stage == 1 {
+            if stage == Stage::Fragment {
                 output = output.max(recorder.output);
             }
         }

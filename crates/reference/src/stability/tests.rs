@@ -4,7 +4,7 @@ use super::{SpanError, Trace, trace};
 use crate::RenderOptions;
 use glisten_front::compiler::{Compiler, Options};
 use glisten_front::source::SourceMap;
-use glisten_scene::scene::{MemoryFiles, NoLibrary, load};
+use glisten_scene::{MemoryFiles, NoLibrary, load};
 
 const VERTEX: &str =
     "#version 150\nin vec2 p;\nout vec2 at;\nvoid main() { at = p; gl_Position = vec4(p, 0.0, 1.0); }\n";

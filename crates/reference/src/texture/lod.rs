@@ -3,7 +3,7 @@
 use super::texel::dimensions;
 use super::{Near, cube};
 use glisten_front::hir::{SamplerDim, SamplerType};
-use glisten_scene::scene::Texture;
+use glisten_scene::Texture;
 
 /// The change of the coordinates from one pixel to the next.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -22,7 +22,7 @@ pub(crate) use lod::{Gradients, Steps, level_of_detail};
 pub(crate) use sample::{Request, sample};
 pub(crate) use texel::{fetch, size};
 
-use glisten_scene::scene::Texture;
+use glisten_scene::Texture;
 
 /// A number, and the interval of values that a GPU may have.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -112,6 +112,6 @@ impl Sampled {
 pub(crate) const MISSING: [f64; 4] = [0.0, 0.0, 0.0, 1.0];
 
 /// The level in use, limited to those that exist.
-fn level(texture: &Texture, index: usize) -> Option<&glisten_scene::scene::TextureLevel> {
+fn level(texture: &Texture, index: usize) -> Option<&glisten_scene::TextureLevel> {
     texture.levels.get(index.min(texture.levels.len().saturating_sub(1)))
 }

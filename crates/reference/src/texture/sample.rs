@@ -4,7 +4,7 @@ use super::texel::{self, dimensions};
 use super::{Bits, Near, Sampled, cube, level};
 use crate::domain::rules;
 use glisten_front::hir::{SamplerDim, SamplerType, Scalar};
-use glisten_scene::scene::{Compare, Filter, Texture, TextureLevel, Wrap};
+use glisten_scene::{Compare, Filter, Texture, TextureLevel, Wrap};
 
 /// One lookup.
 #[derive(Clone, Copy, Debug)]

@@ -2,7 +2,7 @@
 
 use super::{Bits, Near, Sampled};
 use glisten_front::hir::{SamplerDim, SamplerType};
-use glisten_scene::scene::{Texels, Texture, TextureLevel};
+use glisten_scene::{Texels, Texture, TextureLevel};
 
 /// The index of a texel in its level; `None` outside.
 pub(super) fn place(level: &TextureLevel, at: [i64; 3]) -> Option<usize> {

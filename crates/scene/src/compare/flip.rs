@@ -1,6 +1,6 @@
 //! FLIP: how much of a difference a person sees when flipping between two pictures.
 
-use super::Picture;
+use crate::picture::Picture;
 
 /// The mean FLIP error of the first attachment of two pictures of the same size, 0 (the same) to 1, at the default
 /// viewing distance. Colors are clamped to [0, 1]; non-finite colors are black.

@@ -4,7 +4,7 @@ use super::round::{down, sum_down, sum_up, ulps_above, ulps_below, up};
 use super::{EnvelopeFloat, EnvelopeInt, ends};
 use crate::domain::rules::{self, FLUSH, ulp};
 use crate::domain::{Integer, Number};
-use glisten_scene::compare::Range;
+use glisten_scene::picture::Interval;
 use std::f64::consts::{LN_2, LOG2_E};
 
 /// `minNum`: a NaN loses.
@@ -138,10 +138,10 @@ impl Number for EnvelopeFloat {
         Self { value, low: down(low), high: up(high), may_be_nan: false }
     }
     #[inline(always)]
-    fn with_range(value: f64, range: Range) -> Self {
+    fn with_range(value: f64, range: Interval) -> Self {
         Self::rounded(value, range.low, range.high, range.may_be_nan)
     }
-    fn whole(value: f64, range: Range) -> Self {
+    fn whole(value: f64, range: Interval) -> Self {
         Self { value, low: range.low, high: range.high, may_be_nan: range.may_be_nan }
     }
     #[inline(always)]
@@ -149,7 +149,7 @@ impl Number for EnvelopeFloat {
         self.value
     }
     #[inline(always)]
-    fn range(self) -> Range {
+    fn range(self) -> Interval {
         self.as_range()
     }
     #[inline(always)]

@@ -33,7 +33,7 @@ mod vector;
 pub use block::EnvelopeBlock;
 pub use integer::EnvelopeInt;
 
-use glisten_scene::compare::Range;
+use glisten_scene::picture::Interval;
 use round::{down, up};
 
 /// A `float` with its envelope.
@@ -99,7 +99,7 @@ impl EnvelopeFloat {
         [Self::exact(self.low), Self::exact(self.high)]
     }
 
-    fn as_range(self) -> Range {
-        Range { low: self.low, high: self.high, may_be_nan: self.may_be_nan }
+    fn as_range(self) -> Interval {
+        Interval { low: self.low, high: self.high, may_be_nan: self.may_be_nan }
     }
 }

@@ -1,13 +1,13 @@
 //! Loads `[draw.textures]` as [`Texture`]s.
 
+use super::Loader;
 use super::draw::report_unknown_name;
-use super::load::Loader;
 use super::material::TEXTURES;
 use super::mipmaps::chain;
-use super::model::{Compare, Filter, Texels, Texture, TextureLevel, Wrap};
 use super::names::{COMPARES, FILTERS, TEXTURE_KINDS, TextureKind, WRAPS, kind_name};
 use super::patterns;
 use super::reader::{Node, Number, NumberValue};
+use crate::model::{Compare, Filter, Texels, Texture, TextureLevel, Wrap};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::scenes::{
     SCENE_BAD_ASSET, SCENE_UNSET_TEXTURE, SCENE_WRONG_KIND, SCENE_WRONG_SIZE, SCENE_WRONG_VALUE,

@@ -4,13 +4,26 @@
 //! and all diagnostics of the scene and of its shaders. *Holds:* all errors of a scene are reported, not only the
 //! first; a scene with an error is not passed on.
 
-use super::draw::load_draw;
-use super::files::{FileError, FileSource, beside};
-use super::library::{Library, WithLibrary};
-use super::lights::Lighting;
-use super::model::{Draw, Format, Framebuffer, Scene};
-use super::names::FORMATS;
-use super::reader::{Node, Reader};
+mod attributes;
+mod draw;
+mod lights;
+mod material;
+mod matrices;
+mod mesh;
+mod mipmaps;
+mod names;
+mod patterns;
+mod reader;
+mod textures;
+mod uniforms;
+
+use self::draw::load_draw;
+use self::lights::Lighting;
+use self::names::FORMATS;
+use self::reader::{Node, Reader};
+use crate::files::{FileError, FileSource, beside};
+use crate::library::{Library, WithLibrary};
+use crate::model::{Draw, Format, Framebuffer, Scene};
 use glisten_front::compiler::{Compiler, Options, Source};
 use glisten_front::diagnostic::codes::scenes::{
     SCENE_CANNOT_DRAW, SCENE_FILE_UNREADABLE, SCENE_MISSING_KEY, SCENE_SYNTAX, SCENE_UNUSED_LIGHT, SCENE_WRONG_TYPE,
@@ -20,6 +33,7 @@ use glisten_front::diagnostic::{Diagnostic, Diagnostics, did_you_mean};
 use glisten_front::hir::Stage;
 use glisten_front::link::Program;
 use glisten_front::source::{SourceMap, Span};
+pub use mesh::default_tessellation;
 use std::path::Path;
 use std::sync::Arc;
 use toml::de::DeTable;
@@ -66,33 +80,33 @@ pub fn load(path: &str, files: &dyn FileSource, library: &dyn Library, compiler:
 
 /// The identity of a program: draws with the same key share it.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct ProgramKey {
-    pub(super) files: Vec<(Stage, String)>,
-    pub(super) attribute_locations: Vec<(String, u32)>,
-    pub(super) frag_data_locations: Vec<(String, u32)>,
-    pub(super) defines: Vec<(String, String)>,
+struct ProgramKey {
+    files: Vec<(Stage, String)>,
+    attribute_locations: Vec<(String, u32)>,
+    frag_data_locations: Vec<(String, u32)>,
+    defines: Vec<(String, String)>,
 }
 
 /// The settings of a scene for all its draws.
-pub(super) struct Surroundings<'t, 'i> {
-    pub(super) camera: Option<&'t DeTable<'i>>,
-    pub(super) material: Option<&'t Node<'i>>,
-    pub(super) lighting: Lighting,
-    pub(super) framebuffer: Framebuffer,
+struct Surroundings<'t, 'i> {
+    camera: Option<&'t DeTable<'i>>,
+    material: Option<&'t Node<'i>>,
+    lighting: Lighting,
+    framebuffer: Framebuffer,
 }
 
 /// The file that a scene refers to with `<glisten/programs/phong.frag>`.
-pub(super) fn library_file(name: &str) -> Option<&str> {
+fn library_file(name: &str) -> Option<&str> {
     name.strip_prefix("<glisten/programs/")?.strip_suffix('>')
 }
 
 /// The state of loading.
-pub(super) struct Loader<'a> {
+struct Loader<'a> {
     path: &'a str,
     files: &'a dyn FileSource,
-    pub(super) library: &'a dyn Library,
+    library: &'a dyn Library,
     compiler: &'a Compiler,
-    pub(super) reader: Reader,
+    reader: Reader,
     sources: SourceMap,
     programs: Vec<(ProgramKey, Option<Arc<Program>>)>,
     io_error: bool,
@@ -223,7 +237,7 @@ impl Loader<'_> {
     }
 
     /// The contents of a file that the scene refers to, or `None` and a diagnostic at `span`.
-    pub(super) fn bytes(&mut self, name: &str, span: Span) -> Option<(String, Vec<u8>)> {
+    fn bytes(&mut self, name: &str, span: Span) -> Option<(String, Vec<u8>)> {
         let path = beside(self.path, name);
         match self.files.read(&path) {
             Ok(bytes) => Some((path, bytes)),
@@ -242,7 +256,7 @@ impl Loader<'_> {
 
     /// The program of a draw, compiled once for all draws with the same files and bindings. `places` are the spans of
     /// the files' names in the scene.
-    pub(super) fn program(&mut self, key: ProgramKey, places: &[Span]) -> Option<Arc<Program>> {
+    fn program(&mut self, key: ProgramKey, places: &[Span]) -> Option<Arc<Program>> {
         if let Some((_, program)) = self.programs.iter().find(|(known, _)| *known == key) {
             return program.clone();
         }
@@ -300,7 +314,7 @@ impl Loader<'_> {
     }
 
     /// Reports a required key that is missing.
-    pub(super) fn missing_key(&mut self, span: Span, message: &str, help: &str) {
+    fn missing_key(&mut self, span: Span, message: &str, help: &str) {
         self.reader.report(Diagnostic::new(&SCENE_MISSING_KEY, span, message).help(help));
     }
 }

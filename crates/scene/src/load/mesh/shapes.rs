@@ -28,6 +28,18 @@ pub(crate) enum Shape {
     TorusKnot,
 }
 
+impl Shape {
+    /// Segments and rings, if the scene does not say.
+    pub(super) fn default_tessellation(self) -> [u32; 2] {
+        match self {
+            Self::Quad | Self::Plane | Self::Cube => [1, 1],
+            Self::Sphere | Self::Torus => [64, 32],
+            Self::Cylinder | Self::Cone => [64, 1],
+            Self::TorusKnot => [192, 24],
+        }
+    }
+}
+
 /// The vertices and triangles of a shape.
 pub(super) fn build(reader: &mut Reader, table: &DeTable<'_>, shape: Shape) -> Geometry {
     let radius = reader.real(table, "radius", 1.0);
@@ -35,13 +47,7 @@ pub(super) fn build(reader: &mut Reader, table: &DeTable<'_>, shape: Shape) -> G
     let size = reader.real(table, "size", 2.0);
     let height = reader.real(table, "height", 2.0);
     let is_flat = matches!(shape, Shape::Quad | Shape::Plane | Shape::Cube);
-    let (segments, rings) = match shape {
-        Shape::Quad | Shape::Plane | Shape::Cube => (1, 1),
-        Shape::Sphere => (64, 32),
-        Shape::Torus => (64, 32),
-        Shape::Cylinder | Shape::Cone => (64, 1),
-        Shape::TorusKnot => (192, 24),
-    };
+    let [segments, rings] = shape.default_tessellation();
     let turns = reader.reals(table, "turns", [2.0, 3.0]);
     let tube = reader.real(table, "tube", radius / 5.0);
     let least = if is_flat { 1 } else { 3 };

@@ -4,7 +4,7 @@
 //! level before that it covers; for even sizes, the mean of 2, 4 or 8. *Holds:* sums are in f64 and rounded once per
 //! level, as a texture in `rgba32f` stores them. Faces and layers are filtered separately.
 
-use super::model::{Texels, TextureLevel};
+use crate::model::{Texels, TextureLevel};
 use glisten_front::hir::{SamplerDim, SamplerType};
 
 /// The whole chain that starts with `base`. Integers are not averaged: such textures have only one level.

@@ -1,6 +1,6 @@
 //! The names that scene files use for fixed-function state, one row per name.
 
-use super::model::{BlendFactor, Compare, Cull, Filter, Format, Primitive, Wrap};
+use crate::model::{BlendFactor, Compare, Cull, Filter, Format, Primitive, Wrap};
 use glisten_front::hir::{SamplerDim, Scalar};
 
 pub(super) const FORMATS: &[(&str, Format)] = &[

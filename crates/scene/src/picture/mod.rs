@@ -1,6 +1,8 @@
 //! [`Picture`]: the contents of the framebuffer after a draw.
 
-use super::Range;
+mod interval;
+
+pub use interval::Interval;
 
 /// The contents of a framebuffer, top row first, x fastest.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,7 +17,7 @@ pub struct Picture {
     pub covered: Vec<bool>,
     /// For a reference with envelopes: the values that a conforming GPU may draw, for each channel of each
     /// attachment.
-    pub ranges: Option<Vec<Vec<[Range; 4]>>>,
+    pub ranges: Option<Vec<Vec<[Interval; 4]>>>,
     /// For a reference with envelopes: pixels where a discard, a depth test or too many branches are undecided.
     pub undecided: Vec<bool>,
     /// Pixels whose center is within 1/128 pixel of an edge of a primitive that was drawn.

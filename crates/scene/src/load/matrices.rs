@@ -4,8 +4,8 @@
 //! rounded once to f32. *Holds:* eye space is right-handed and looks down -z; clip-space z is in `[-w, w]`, as with
 //! `gluLookAt` and `gluPerspective`.
 
-use super::model::Framebuffer;
 use super::reader::Reader;
+use crate::model::Framebuffer;
 use glam::{DMat3, DMat4, DQuat, DVec3};
 use glisten_front::hir::{Scalar, Type};
 use toml::de::DeTable;

@@ -2,9 +2,9 @@
 
 use super::draw::report_unknown_name;
 use super::mesh::Mesh;
-use super::model::{AttributeData, AttributeValues};
 use super::names::ATTRIBUTE_KINDS;
 use super::reader::{Node, Number, NumberValue, Reader};
+use crate::model::{AttributeData, AttributeValues};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::scenes::{
     SCENE_MISSING_ATTRIBUTE, SCENE_MISSING_KEY, SCENE_WRONG_KIND, SCENE_WRONG_SIZE,

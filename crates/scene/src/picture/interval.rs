@@ -1,10 +1,10 @@
-//! [`Range`]: an interval of possible values of a number.
+//! [`Interval`]: an interval of possible values of a number.
 
 use serde::Serialize;
 
 /// A closed interval of reals, and whether the number may be NaN. Bounds may be infinite.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Range {
+pub struct Interval {
     /// The lower bound.
     pub low: f64,
     /// The upper bound.
@@ -13,7 +13,7 @@ pub struct Range {
     pub may_be_nan: bool,
 }
 
-impl Range {
+impl Interval {
     /// Any value.
     pub const ALL: Self = Self { low: f64::NEG_INFINITY, high: f64::INFINITY, may_be_nan: true };
 
@@ -75,18 +75,18 @@ mod tests {
 
     #[test]
     fn ranges_hold_their_ends_and_nan_only_if_told() {
-        let range = Range::around(1.0, 0.5);
+        let range = Interval::around(1.0, 0.5);
         assert!(range.contains(0.5) && range.contains(1.5) && !range.contains(1.6) && !range.contains(f64::NAN));
-        assert!(Range::ALL.contains(f64::NAN) && Range::ALL.contains(f64::INFINITY));
-        assert_eq!(Range::point(f64::NAN), Range::ALL);
-        assert_eq!(Range::around(f64::INFINITY, f64::INFINITY), Range::ALL);
+        assert!(Interval::ALL.contains(f64::NAN) && Interval::ALL.contains(f64::INFINITY));
+        assert_eq!(Interval::point(f64::NAN), Interval::ALL);
+        assert_eq!(Interval::around(f64::INFINITY, f64::INFINITY), Interval::ALL);
     }
 
     #[test]
     fn room_is_that_of_the_side() {
-        let range = Range { low: 0.0, high: 3.0, may_be_nan: false };
+        let range = Interval { low: 0.0, high: 3.0, may_be_nan: false };
         assert_eq!((range.room(1.0, 0.5), range.room(1.0, 2.0), range.room(1.0, 1.0)), (1.0, 2.0, 2.0));
-        assert_eq!(range.hull(Range::point(-1.0)).width(), 4.0);
-        assert_eq!(Range::point(f64::INFINITY).reach(f64::INFINITY), 0.0);
+        assert_eq!(range.hull(Interval::point(-1.0)).width(), 4.0);
+        assert_eq!(Interval::point(f64::INFINITY).reach(f64::INFINITY), 0.0);
     }
 }

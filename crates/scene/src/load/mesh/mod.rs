@@ -7,9 +7,9 @@
 mod obj;
 mod shapes;
 
-use super::load::Loader;
-use super::model::{AttributeData, AttributeValues};
+use super::Loader;
 use super::reader::Node;
+use crate::model::{AttributeData, AttributeValues};
 use glisten_front::diagnostic::codes::scenes::{SCENE_BAD_ASSET, SCENE_MISSING_KEY, SCENE_WRONG_VALUE};
 use glisten_front::source::Span;
 use shapes::Shape;
@@ -70,8 +70,12 @@ const SHAPES: &[(&str, Shape)] = &[
     ("torus_knot", Shape::TorusKnot),
 ];
 
-/// Loads a mesh. With `conventional`, a role that the scene does not assign goes to the attribute with the role's own
-/// name.
+/// The segments and rings that a mesh of this `shape` has if its table does not say; `None` if there is no such shape.
+pub fn default_tessellation(shape: &str) -> Option<[u32; 2]> {
+    SHAPES.iter().find(|(name, _)| *name == shape).map(|(_, shape)| shape.default_tessellation())
+}
+
+/// `conventional`: a role that the scene does not hand to an attribute goes to the one of the role's own name.
 pub(super) fn load_mesh(loader: &mut Loader<'_>, node: &Node<'_>, conventional: bool) -> Option<Mesh> {
     let table = loader.reader.table(node, "mesh")?;
     let span = loader.reader.span_of(node);

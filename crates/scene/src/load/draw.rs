@@ -2,15 +2,15 @@
 
 use super::attributes::{load_attributes, scalar_of};
 use super::lights::{LIGHT_SPACES, LightSpace};
-use super::load::{Loader, ProgramKey, Surroundings, library_file};
 use super::material::load_material;
 use super::matrices::View;
 use super::mesh::{Mesh, load_mesh};
-use super::model::{AttributeData, BlendFactor, Compare, Cull, Draw, Format, Framebuffer, Primitive, State};
 use super::names::{BLENDS, COMPARES, CULLS, FACTORS, FRONT_FACES, PRIMITIVES, PROVOKING};
 use super::reader::{Node, NumberValue, Reader};
 use super::textures::load_textures;
 use super::uniforms::{Context, load_uniforms};
+use super::{Loader, ProgramKey, Surroundings, library_file};
+use crate::model::{AttributeData, BlendFactor, Compare, Cull, Draw, Format, Framebuffer, Primitive, State};
 use glisten_front::diagnostic::codes::scenes::{
     SCENE_CANNOT_DRAW, SCENE_UNKNOWN_NAME, SCENE_WRONG_SIZE, SCENE_WRONG_TYPE, SCENE_WRONG_VALUE,
 };

@@ -6,9 +6,9 @@
 //! that their ends are exact and match the library's coordinate `lutCoordinate`. Pictures (`checker`, `tile`, `sky`)
 //! contain the color at each texel's center and repeat. The formulas are in `docs/scenes.md`.
 
-use super::load::Loader;
-use super::model::{Texels, TextureLevel, Wrap};
+use super::Loader;
 use super::reader::Node;
+use crate::model::{Texels, TextureLevel, Wrap};
 use glisten_front::diagnostic::codes::scenes::{SCENE_WRONG_KIND, SCENE_WRONG_VALUE};
 use glisten_front::hir::{SamplerDim, SamplerType, Scalar};
 use std::f64::consts::TAU;
