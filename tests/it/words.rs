@@ -65,7 +65,6 @@ static EXCEPT: &[&str] = &[
     "crates/front/src/fold/",
     "crates/reference/src/domain/",
     "crates/reference/src/exec/",
-    "docs/architecture.md",
     "docs/glossary.md",
     "tests/it/words.rs",
 ];

@@ -2,7 +2,7 @@
 //! compiles.
 //!
 //! *In:* a [`Scene`](glisten_scene::Scene). *Out:* a [`Picture`](glisten_scene::picture::Picture), as from
-//! `gpu` and `cpu`.
+//! the GPU runner and the reference.
 //!
 //! ```text
 //!  libEGL ──► egl         a software device, and on it a core context of 3.2 or later for each scene

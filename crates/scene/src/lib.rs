@@ -1,7 +1,9 @@
 //! Scenes and pictures of glisten.
 //!
-//! [`scene`] reads scene files: what to draw, with which programs and which data. [`compare`] contains pictures,
-//! intervals of pixel values, and the figures of the difference between two pictures.
+//! [`load`] reads a scene file (TOML; see `docs/scenes.md`) and its programs. The result is a [`Scene`], in which
+//! everything is resolved: vertex data by attribute, uniform values by root, textures by sampler. The runners draw it
+//! and know nothing of TOML. [`picture`] contains pictures and intervals of pixel values; [`compare`] measures the
+//! difference between two pictures.
 //!
 //! *Holds:* nothing here draws. Semantics are OpenGL's (lower-left origin, last vertex provoking, clip space z in `[-w, w]`).
 //! Files come through a [`FileSource`]; only its implementation [`DiskFiles`] does I/O.
