@@ -11,6 +11,7 @@ use super::guard;
 use super::inputs::{self, Group};
 use super::session::{Session, Unit};
 use crate::library;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 use glisten_emit::{self as emit, Conventions, Target};
 use glisten_front::diagnostic::codes::general::LONE_STAGE;
@@ -34,8 +35,8 @@ pub(super) struct CompileArgs {
     #[arg(short, long, value_name = "DIR", required_unless_present_any = ["check", "emit"])]
     output: Option<PathBuf>,
     /// The target to write (repeatable; default: wgsl and spirv)
-    #[arg(long = "target", value_enum)]
-    targets: Vec<TargetArg>,
+    #[arg(long = "target", value_parser = target_words())]
+    targets: Vec<Target>,
     /// Check everything, but write nothing
     #[arg(long)]
     check: bool,
@@ -70,37 +71,10 @@ enum EmitArg {
     Hir,
 }
 
-/// A target on the command line.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, ValueEnum)]
-enum TargetArg {
-    Wgsl,
-    Spirv,
-    Msl,
-    Hlsl,
-    Glsl,
-}
-
-impl TargetArg {
-    fn target(self) -> Target {
-        match self {
-            Self::Wgsl => Target::Wgsl,
-            Self::Spirv => Target::Spirv,
-            Self::Msl => Target::Msl,
-            Self::Hlsl => Target::Hlsl,
-            Self::Glsl => Target::Glsl,
-        }
-    }
-
-    /// The extension that is appended to the file's name.
-    fn extension(self) -> &'static str {
-        match self {
-            Self::Wgsl => "wgsl",
-            Self::Spirv => "spv",
-            Self::Msl => "metal",
-            Self::Hlsl => "hlsl",
-            Self::Glsl => "glsl",
-        }
-    }
+/// Reads the word of a target.
+fn target_words() -> impl TypedValueParser<Value = Target> {
+    let words = Target::ALL.iter().map(|target| target.word());
+    PossibleValuesParser::new(words).try_map(|word| Target::from_word(&word).ok_or("no such target"))
 }
 
 /// A file to write.
@@ -149,15 +123,15 @@ pub(super) fn run(args: &CompileArgs, console: &Console) -> Outcome {
 /// The outputs and where to write them.
 struct OutputPlan {
     folder: PathBuf,
-    targets: BTreeSet<TargetArg>,
+    targets: BTreeSet<Target>,
     conventions: Conventions,
 }
 
 impl OutputPlan {
     fn new(args: &CompileArgs, groups: &[Group]) -> Result<Self, Failure> {
-        let mut targets: BTreeSet<TargetArg> = args.targets.iter().copied().collect();
+        let mut targets: BTreeSet<Target> = args.targets.iter().copied().collect();
         if targets.is_empty() {
-            targets.extend([TargetArg::Wgsl, TargetArg::Spirv]);
+            targets.extend([Target::Wgsl, Target::Spirv]);
         }
         let folder = args.output.clone().unwrap_or_default();
         let conventions = args.conventions.conventions(args.debug_lines);
@@ -229,7 +203,7 @@ impl OutputPlan {
         for shader in &program.stages {
             let Some(input) = group.inputs.iter().find(|input| input.stage == shader.stage) else { continue };
             for target in &self.targets {
-                match emit::emit_with_sources(program, shader.stage, target.target(), &self.conventions, sources) {
+                match emit::emit_with_sources(program, shader.stage, *target, &self.conventions, sources) {
                     Ok(emitted) => {
                         let name = format!("{}.{}", input.file_name(), target.extension());
                         outputs.push((self.folder.join(name), emitted.into_bytes()));

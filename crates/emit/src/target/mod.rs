@@ -4,8 +4,10 @@
 //! *In:* nothing. *Out:* the terms that lowering, emission and reflection share. *Holds:* none of them is known here.
 
 mod conventions;
+mod language;
 mod textures;
 
-pub use conventions::{ClipZ, Conventions, SpirvEnv, Target, WindowOrigin};
+pub use conventions::{ClipZ, Conventions, SpirvEnv, WindowOrigin};
+pub use language::Target;
 pub use textures::BUFFER_WIDTH;
 pub(crate) use textures::Shape;

@@ -55,16 +55,21 @@ const MAX_SUGGESTIONS: usize = 16;
 
 /// Checks all inputs of `consumer` against the outputs of `producer`.
 pub(super) fn check(ctx: &mut Linker<'_>, producer: &Shader, consumer: &Shader) {
-    let inputs = consumer.globals().filter(|(_, input)| is_interface(input, Storage::In));
     if let Some(problem) = super::per_vertex::check_stages(ctx.types, producer, consumer) {
         ctx.report(problem);
     }
+    check_variables(ctx, producer, consumer, true);
+}
+
+/// Checks the inputs that are declared in `consumer`. If `producer` is not `complete`, it may have more outputs.
+pub(super) fn check_variables(ctx: &mut Linker<'_>, producer: &Shader, consumer: &Shader, complete: bool) {
+    let inputs = consumer.globals().filter(|(_, input)| is_interface(input, Storage::In));
     let outputs = Outputs::new(producer);
     let mut n_lonely = 0;
     for (_, input) in inputs {
         match outputs.partner(input) {
             Some((_, output)) => check_pair(ctx, producer, output, consumer, input),
-            None if input.used => {
+            None if input.used && complete => {
                 n_lonely += 1;
                 no_partner(ctx, producer, consumer, input, n_lonely <= MAX_SUGGESTIONS);
             }

@@ -22,6 +22,7 @@
 //! | `locations` | the allocator of all locations |
 //! | `uniforms`, `samplers` | the variables that are constant during a draw, with locations and bindings |
 //! | `layout` | std140 |
+//! | `partial` | checks between stages with errors |
 
 mod aliasing;
 mod attributes;
@@ -36,6 +37,7 @@ mod locations;
 mod matching;
 mod merge;
 mod outputs;
+mod partial;
 mod per_vertex;
 mod program;
 mod remap;
@@ -46,6 +48,7 @@ pub mod usage;
 mod varyings;
 
 pub use layout::MAX_BLOCK_BYTES;
+pub use partial::{Understood, check_understood};
 pub use program::{
     Attribute, Block, BlockIndex, Interface, Output, Program, RootIndex, SamplerSlot, SlotBinding, UniformLeaf,
     UniformRoot, Varying, VaryingEnd,

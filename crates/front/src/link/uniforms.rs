@@ -46,6 +46,11 @@ pub(super) fn assign(ctx: &mut Linker<'_>, stages: &[Shader], interface: &mut In
     place_blocks(ctx, &blocks, interface);
 }
 
+/// Checks that the declarations of a uniform or block agree in all shaders.
+pub(super) fn check(ctx: &mut Linker<'_>, shaders: &[Shader]) {
+    unite(ctx, shaders);
+}
+
 fn only_samplers(types: &Types, ty: TypeId) -> bool {
     match types.get(ty) {
         Type::Sampler(_) => true,
