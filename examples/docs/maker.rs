@@ -6,7 +6,8 @@
 use super::regions::Maker;
 use glisten::diagnostic::{Severity, codes};
 use glisten::library;
-use glisten_reference::domain::faults;
+use glisten_front::builtin::operations;
+use glisten_reference::domain::{faults, rules};
 use std::fmt::Write;
 use std::path::PathBuf;
 use std::process::Command;
@@ -26,6 +27,9 @@ static REGIONS: &[(&str, Source)] = &[
     ("faults", Source::Tables(known_faults)),
     ("library", Source::Output(&["lib", "list"])),
     ("library-errors", Source::Measured(&["lib", "measure", "--backend", "gpu"])),
+    ("operations", Source::Tables(operations::markdown)),
+    ("pipeline", Source::Tables(pipeline)),
+    ("precision", Source::Tables(operations::precision_markdown)),
     ("programs", Source::Tables(programs)),
 ];
 
@@ -108,6 +112,14 @@ fn diagnostics() -> String {
         let _ = writeln!(text, "| `{}` | {} | {level} | {} |", code.id, code.name, code.section);
     }
     text
+}
+
+fn pipeline() -> String {
+    let mut out = String::from("| step | allowed | source |\n| --- | --- | --- |\n");
+    for step in rules::PIPELINE.iter().chain(rules::OWN) {
+        let _ = writeln!(out, "| {} | {} | {} |", step.operation, step.describe(), step.source);
+    }
+    out
 }
 
 fn known_faults() -> String {

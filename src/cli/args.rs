@@ -8,6 +8,17 @@ use glisten_front::compiler::Options;
 use glisten_front::diagnostic::{Code, Level, Levels, Severity, codes, did_you_mean};
 use std::path::PathBuf;
 
+/// The format of a result. `table` is another name for `human`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(super) enum ResultFormat {
+    /// Text for people
+    #[default]
+    #[value(alias = "table")]
+    Human,
+    /// JSON
+    Json,
+}
+
 /// A format of diagnostics.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(super) enum DiagnosticFormat {

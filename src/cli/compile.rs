@@ -92,9 +92,9 @@ pub(super) fn run(args: &CompileArgs, console: &Console) -> Outcome {
         return Ok(exit);
     }
     for unit in &mut units {
-        warn_of_lone_stage(unit);
+        let warning = lone_stage(unit);
+        session.add(&mut unit.batch, warning);
         refuse_what_is_no_program(unit);
-        session.apply_levels(&mut unit.batch);
     }
     let emitted: Vec<Result<Vec<Output>, Vec<Diagnostic>>> =
         session.pool().install(|| units.par_iter().map(|unit| plan.emit(unit)).collect());
@@ -102,11 +102,10 @@ pub(super) fn run(args: &CompileArgs, console: &Console) -> Outcome {
     for (unit, result) in units.iter_mut().zip(emitted) {
         match result {
             Ok(files) => outputs.extend(files),
-            Err(diagnostics) => unit.batch.diagnostics.extend(diagnostics),
+            Err(diagnostics) => session.add(&mut unit.batch, diagnostics),
         }
         let notes = unit.sound_program().map_or_else(Vec::new, |program| emit::notes(program, &plan.conventions));
-        unit.batch.diagnostics.extend(notes);
-        session.apply_levels(&mut unit.batch);
+        session.add(&mut unit.batch, notes);
     }
     let exit = session.tell_units(&units, false)?;
     if !args.check {
@@ -279,28 +278,26 @@ fn refuse_what_is_no_program(unit: &mut Unit) {
     if unit.program.is_some() {
         return;
     }
-    for diagnostic in unit.batch.diagnostics.iter_mut() {
+    for diagnostic in &mut unit.batch.diagnostics {
         if [&LONE_WITHOUT_MAIN, &LONE_WITHOUT_DEFINITION].contains(&diagnostic.code) {
             diagnostic.severity = Severity::Error;
         }
     }
-    // Counts the errors again.
-    unit.batch.diagnostics.retain(|_| true);
 }
 
-fn warn_of_lone_stage(unit: &mut Unit) {
+/// The warning about a program of a single stage.
+fn lone_stage(unit: &Unit) -> Option<Diagnostic> {
     if !unit.group.is_lone() || unit.program.is_none() {
-        return;
+        return None;
     }
-    let Some((_, file)) = unit.batch.sources.files().next() else { return };
+    let (_, file) = unit.batch.sources.files().next()?;
     let stage = unit.group.inputs.first().map_or("", |input| input.stage.name());
     let message = format!("`{}` is compiled without its partner", file.name());
     let span = Span::new(file.base(), file.base());
-    unit.batch.diagnostics.push(
-        Diagnostic::new(&LONE_STAGE, span, message)
-            .note(format!("locations of varyings and the uniform block are those of the {stage} stage alone"))
-            .help("name all files of a program in one command, or say `--program a.vert,b.frag`"),
-    );
+    let warning = Diagnostic::new(&LONE_STAGE, span, message)
+        .note(format!("locations of varyings and the uniform block are those of the {stage} stage alone"))
+        .help("name all files of a program in one command, or say `--program a.vert,b.frag`");
+    Some(warning)
 }
 
 #[cfg(test)]

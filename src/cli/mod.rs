@@ -30,6 +30,7 @@ mod scenes;
 mod session;
 mod stages;
 mod test;
+mod timed;
 mod verify;
 
 use clap::{Args, Parser, Subcommand};

@@ -86,8 +86,8 @@ impl Read<'_> {
         match error {
             DrawError::Failure(failure) => Err(failure),
             DrawError::Diagnostics(diagnostics) => {
-                self.batch.diagnostics = diagnostics;
-                self.session.apply_levels(&mut self.batch);
+                self.batch.diagnostics.clear();
+                self.session.add(&mut self.batch, diagnostics);
                 Ok(self.session.tell(&[&self.batch], false)?.max(Exit::Content))
             }
         }
@@ -151,8 +151,8 @@ impl SceneArgs {
         let loaded = loaded.map_err(|panic| {
             Failure::new(Exit::Content, format!("internal error: {panic}")).help("please report it with the scene")
         })?;
-        let mut batch = Batch { sources: loaded.sources, diagnostics: loaded.diagnostics.into_iter().collect() };
-        session.apply_levels(&mut batch);
+        let mut batch = Batch { sources: loaded.sources, diagnostics: Vec::new() };
+        session.add(&mut batch, loaded.diagnostics);
         let exit = session.tell(&[&batch], false)?;
         Ok(match loaded.scene {
             Some(scene) if exit == Exit::Ok => Ok(Read { scene, session, batch }),

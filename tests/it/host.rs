@@ -3,11 +3,12 @@
 //!
 //! Needs a Vulkan software adapter.
 
+use crate::drawing;
 use glisten::scene::{self, DiskFiles};
 use glisten_emit::Reflection;
 use glisten_emit::reflection::{Attribute, Binding, Sampler, Uniform};
 use glisten_front::{Compiler, Options};
-use glisten_reference::{LineRule, Precision, RenderOptions};
+use glisten_reference::Precision;
 use glisten_scene::compare::{Judge, Verdict};
 use glisten_scene::picture::Picture;
 use std::path::Path;
@@ -115,10 +116,7 @@ fn reference(app: &App, draw: Draw) -> Picture {
     let defines = if draw.window { vec![("WINDOW".to_owned(), String::new())] } else { Vec::new() };
     let compiler = Compiler::new(Options { defines, ..Options::default() });
     let loaded = scene::load(&path.to_string_lossy(), &DiskFiles, &compiler);
-    let messages: Vec<_> = loaded.diagnostics.iter().map(|found| &found.message).collect();
-    let scene = loaded.scene.unwrap_or_else(|| panic!("{messages:?}\n{text}"));
-    let options = RenderOptions { precision: Precision::Envelope, lines: LineRule::Vulkan, ..RenderOptions::default() };
-    glisten_reference::render(&scene, &options).expect("the reference draws")
+    drawing::reference(&drawing::loaded("host.toml", loaded), Precision::Envelope)
 }
 
 /// Runs `glisten compile`; returns the exit code and, if it is 0, the reflection.
@@ -409,13 +407,8 @@ impl Host {
         }
         let pixels: Vec<[f64; 4]> = rows.concat();
         Picture {
-            width: SIDE,
-            height: SIDE,
             covered: pixels.iter().map(|pixel| pixel[3] != 0.0).collect(),
-            ranges: None,
-            undecided: vec![false; pixels.len()],
-            near_edge: vec![false; pixels.len()],
-            attachments: vec![pixels],
+            ..Picture::of_colors(SIDE, SIDE, pixels)
         }
     }
 

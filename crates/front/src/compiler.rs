@@ -60,12 +60,27 @@ pub struct Compilation {
 pub struct Compiler {
     options: Options,
     includes: Arc<dyn IncludeResolver + Send + Sync>,
+    /// Applied to the diagnostics of each compilation; `None` if the caller applies its own.
+    levels: Option<Levels>,
 }
 
 impl Compiler {
-    /// A compiler that resolves no includes.
+    /// A compiler that resolves no includes. Comments `// glisten: allow(CODE)` are applied to its diagnostics.
     pub fn new(options: Options) -> Self {
-        Self { options, includes: Arc::new(NoIncludes) }
+        Self { options, includes: Arc::new(NoIncludes), levels: Some(Levels::default()) }
+    }
+
+    /// The same compiler, which applies these levels to its diagnostics.
+    #[must_use]
+    pub fn with_levels(self, levels: Levels) -> Self {
+        Self { levels: Some(levels), ..self }
+    }
+
+    /// The same compiler, which reports everything, for a caller that applies levels itself ([`Levels::apply`]): those of
+    /// the file that a diagnostic is in, say.
+    #[must_use]
+    pub fn without_levels(self) -> Self {
+        Self { levels: None, ..self }
     }
 
     /// This compiler with a resolver for `#include`.
@@ -77,7 +92,7 @@ impl Compiler {
     /// This compiler with other options.
     #[must_use]
     pub fn with_options(&self, options: Options) -> Self {
-        Self { options, includes: Arc::clone(&self.includes) }
+        Self { options, ..self.clone() }
     }
 
     /// The resolver for `#include`.
@@ -119,8 +134,9 @@ impl Compiler {
         let shaders: Vec<Option<Understood>> = shaders.collect();
         let shaders: Option<Vec<Understood>> = shaders.into_iter().collect();
         let program = shaders.and_then(|shaders| self.link(name.clone(), types, shaders, &mut diagnostics));
-        let levels = Levels::default();
-        diagnostics.retain(|diagnostic| levels.severity_of(&map, diagnostic).is_some());
+        if let Some(levels) = &self.levels {
+            diagnostics.retain_mut(|diagnostic| levels.apply(&map, diagnostic));
+        }
         Compilation { name, sources: map, program, diagnostics }
     }
 

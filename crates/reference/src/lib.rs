@@ -10,6 +10,7 @@ pub mod exec;
 mod interpolate;
 mod pipeline;
 mod raster;
+#[cfg(any(test, feature = "stability"))]
 pub mod stability;
 mod texture;
 

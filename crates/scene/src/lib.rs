@@ -14,6 +14,7 @@ mod library;
 mod load;
 mod model;
 pub mod picture;
+pub mod values;
 
 pub use files::{DiskFiles, FileError, FileSource, MemoryFiles};
 pub use library::{Library, NoLibrary};

@@ -101,6 +101,41 @@ impl SamplerType {
         list
     }
 
+    /// Coordinates that address a texel, without the layer.
+    pub fn dimensions(self) -> u8 {
+        match self.dim {
+            SamplerDim::D1 | SamplerDim::Buffer => 1,
+            SamplerDim::D2 | SamplerDim::Rect | SamplerDim::Multisample => 2,
+            SamplerDim::D3 | SamplerDim::Cube => 3,
+        }
+    }
+
+    /// The component of a lookup's `P` that is the reference of a shadow sampler: after the layer, but never the second,
+    /// which a 1D shadow leaves unused (§8.7).
+    pub fn reference_component(self) -> u8 {
+        (self.dimensions() + u8::from(self.arrayed)).max(2)
+    }
+
+    /// Whether a texture has levels of detail to choose from: rectangle, buffer and multisample textures have one.
+    pub fn has_levels(self) -> bool {
+        match self.dim {
+            SamplerDim::D1 | SamplerDim::D2 | SamplerDim::D3 | SamplerDim::Cube => true,
+            SamplerDim::Rect | SamplerDim::Buffer | SamplerDim::Multisample => false,
+        }
+    }
+
+    /// Whether texels are filtered or compared: where sampler and texture are apart, such a texture needs a sampler
+    /// object. Integers, buffers and multisample textures are only loaded.
+    pub fn is_filtered(self) -> bool {
+        let one_texel = matches!(self.dim, SamplerDim::Buffer | SamplerDim::Multisample);
+        self.texel == Scalar::Float && !one_texel
+    }
+
+    /// Whether it is a cube whose texels are only loaded, for which targets have no lookup.
+    pub fn is_integer_cube(self) -> bool {
+        self.dim == SamplerDim::Cube && !self.is_filtered()
+    }
+
     const fn same(self, other: Self) -> bool {
         self.texel as u8 == other.texel as u8
             && self.dim as u8 == other.dim as u8

@@ -9,9 +9,7 @@ use super::flatten::parts;
 use super::{Linker, SamplerSlot, SlotBinding};
 use crate::builtin::constants::{MAX_COMBINED_TEXTURE_IMAGE_UNITS, MAX_TEXTURE_IMAGE_UNITS};
 use crate::diagnostic::{Diagnostic, codes};
-use crate::hir::{
-    ArraySize, Global, GlobalId, MatrixLayout, SamplerDim, SamplerType, Scalar, Shader, Stage, Storage, Type, TypeId,
-};
+use crate::hir::{ArraySize, Global, GlobalId, MatrixLayout, Shader, Stage, Storage, Type, TypeId};
 use crate::source::Span;
 
 const GROUP: u32 = 1;
@@ -47,23 +45,13 @@ pub(super) fn assign(ctx: &mut Linker<'_>, stages: &[Shader]) -> Vec<SamplerSlot
     let mut binding = 0;
     for slot in &mut slots {
         slot.texture = SlotBinding { group: GROUP, binding };
-        if has_sampler(ctx.types.get(slot.ty)) {
+        if matches!(ctx.types.get(slot.ty), Type::Sampler(kind) if kind.is_filtered()) {
             binding += 1;
         }
         slot.sampler = SlotBinding { group: GROUP, binding };
         binding += 1;
     }
     slots
-}
-
-/// Whether texels are filtered, which requires a sampler object besides the texture.
-fn has_sampler(ty: Type) -> bool {
-    match ty {
-        Type::Sampler(SamplerType { texel, dim, .. }) => {
-            texel == Scalar::Float && !matches!(dim, SamplerDim::Buffer | SamplerDim::Multisample)
-        }
-        _ => false,
-    }
 }
 
 /// Adds the declaration of a stage. `uniforms` checks that the types agree.

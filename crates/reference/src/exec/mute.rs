@@ -6,7 +6,8 @@
 //! taken off both ends of each result. An input that is muted is exactly its value.
 
 use super::code::{Code, Runs};
-use super::inst::{Composite, Float1, Float2, Float3, Inst};
+use super::inst::{Float2, Inst};
+use glisten_front::builtin::operations::Rule;
 use glisten_front::hir::GlobalId;
 use glisten_front::source::Span;
 
@@ -56,63 +57,20 @@ impl Muted {
     }
 }
 
+/// The name, if the rule of an operation adds freedom of its own.
+fn own_error(rule: &Rule, name: &'static str) -> Option<&'static str> {
+    rule.adds_error().then_some(name)
+}
+
 /// How GLSL writes what an instruction does; `None` for what adds no freedom.
 fn name(inst: &Inst) -> Option<&'static str> {
     Some(match inst {
-        Inst::Float1 { op, .. } => match op {
-            Float1::Neg | Float1::Abs | Float1::Sign | Float1::Floor | Float1::Ceil | Float1::Trunc => return None,
-            Float1::Round => "round",
-            Float1::Fract => "fract",
-            Float1::Sqrt => "sqrt",
-            Float1::Inversesqrt => "inversesqrt",
-            Float1::Exp => "exp",
-            Float1::Log => "log",
-            Float1::Exp2 => "exp2",
-            Float1::Log2 => "log2",
-            Float1::Sin => "sin",
-            Float1::Cos => "cos",
-            Float1::Tan => "tan",
-            Float1::Asin => "asin",
-            Float1::Acos => "acos",
-            Float1::Atan => "atan",
-            Float1::Sinh => "sinh",
-            Float1::Cosh => "cosh",
-            Float1::Tanh => "tanh",
-            Float1::Asinh => "asinh",
-            Float1::Acosh => "acosh",
-            Float1::Atanh => "atanh",
-            Float1::Radians => "radians",
-            Float1::Degrees => "degrees",
-        },
-        Inst::Float2 { op, .. } => match op {
-            Float2::Add => "+",
-            Float2::Sub => "-",
-            Float2::Mul => "*",
-            Float2::Div => "/",
-            Float2::Mod => "mod",
-            Float2::Pow => "pow",
-            Float2::Atan2 => "atan",
-            Float2::Min | Float2::Max | Float2::Step => return None,
-        },
-        Inst::MulAdd { .. } | Inst::SumOfProducts { .. } => "*",
-        Inst::Float3 { op, .. } => match op {
-            Float3::Mix => "mix",
-            Float3::Smoothstep => "smoothstep",
-            Float3::Clamp => return None,
-        },
+        Inst::Float1 { op, .. } => own_error(op.rule(), op.name())?,
+        Inst::Float2 { op, .. } => own_error(op.rule(), op.name())?,
+        Inst::Float3 { op, .. } => own_error(op.rule(), op.name())?,
+        Inst::Composite { op, .. } => op.name(),
+        Inst::MulAdd { .. } | Inst::SumOfProducts { .. } => Float2::Mul.name(),
         Inst::IntToFloat { .. } => "float",
-        Inst::Composite { op, .. } => match op {
-            Composite::Length => "length",
-            Composite::Distance => "distance",
-            Composite::Dot => "dot",
-            Composite::Cross => "cross",
-            Composite::Normalize => "normalize",
-            Composite::Faceforward => "faceforward",
-            Composite::Reflect => "reflect",
-            Composite::Refract => "refract",
-            Composite::Determinant => "determinant",
-            Composite::Inverse => "inverse",
-        },
         Inst::Derivative { .. } => "derivative",
         Inst::Texture { .. } => "texture",
         _ => return None,

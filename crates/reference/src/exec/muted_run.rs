@@ -72,7 +72,7 @@ impl<D: Domain> Machine<D> {
                     self.undecided |= self.texture(call, inner.stage, mask);
                 }
             }
-            _ => self.registers.compute(inst, section),
+            _ => self.registers.compute_apart(inst, section),
         }
     }
 

@@ -1,7 +1,7 @@
 //! [`Observer`]: sees the results of a machine as [`Event`]s.
 
 use super::Mask;
-use super::inst::{Composite, Float1, Float2, Inst};
+use super::inst::{Composite, Float2, Inst};
 use crate::domain::{Domain, Source};
 use glisten_front::hir::Stage;
 use glisten_front::source::Span;
@@ -106,12 +106,11 @@ pub trait Observer<D: Domain>: Send + Debug {
 impl Kind {
     /// Returns `None` for instructions that do not compute floats.
     pub(super) fn of(inst: &Inst) -> Option<Self> {
-        use Float1::{Ceil, Floor, Fract, Round, Sign, Trunc};
         Some(match inst {
             Inst::Float2 { op: Float2::Add | Float2::Sub, .. } => Self::Sum,
             Inst::Composite { op: Composite::Dot, .. } => Self::Dot,
-            Inst::Float1 { op: Sign | Floor | Ceil | Trunc | Round | Fract, .. }
-            | Inst::Float2 { op: Float2::Step | Float2::Mod, .. } => Self::Jump,
+            Inst::Float1 { op, .. } if op.jumps() => Self::Jump,
+            Inst::Float2 { op, .. } if op.jumps() => Self::Jump,
             Inst::Derivative { .. } => Self::Derivative,
             Inst::Float1 { .. }
             | Inst::Float2 { .. }

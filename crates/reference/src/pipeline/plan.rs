@@ -3,7 +3,7 @@
 //! *In:* a linked program. *Out:* for each scalar that is passed on, its source and destination; the built-in
 //! variables that each stage uses.
 
-use glisten_front::builtin::{BuiltinFunction, BuiltinVariable};
+use glisten_front::builtin::BuiltinVariable;
 use glisten_front::hir::{ExprKind, GlobalId, Interpolation, Scalar, Shader, Stage, Stmt, StmtKind};
 use glisten_front::link::Program;
 
@@ -104,16 +104,7 @@ fn find(shader: &Shader, builtin: BuiltinVariable) -> Option<GlobalId> {
 /// Whether the shader takes derivatives anywhere, even if only for a level of detail.
 fn takes_derivatives(shader: &Shader) -> bool {
     shader.exprs.iter().any(|expr| match expr.kind {
-        ExprKind::BuiltinCall(function, _) => matches!(
-            function,
-            BuiltinFunction::DFdx
-                | BuiltinFunction::DFdy
-                | BuiltinFunction::Fwidth
-                | BuiltinFunction::Texture
-                | BuiltinFunction::TextureProj
-                | BuiltinFunction::TextureOffset
-                | BuiltinFunction::TextureProjOffset
-        ),
+        ExprKind::BuiltinCall(function, _) => function.implicit_derivatives(),
         _ => false,
     })
 }

@@ -1,6 +1,5 @@
 //! Level of detail (OpenGL 3.2 §3.8.11).
 
-use super::texel::dimensions;
 use super::{Near, cube};
 use glisten_front::hir::{SamplerDim, SamplerType};
 use glisten_scene::Texture;
@@ -50,7 +49,7 @@ pub(crate) fn level_of_detail(
         SamplerDim::Rect => [1.0; 3],
         _ => [base.width, base.height, base.depth].map(f64::from),
     };
-    let count = dimensions(kind.dim);
+    let count = usize::from(kind.dimensions());
     let scaled = |steps: [f64; 3]| (0..count).map(move |axis| steps[axis] * sizes[axis]);
     let least = scaled(steps.least).fold(0.0, f64::max);
     let most: f64 = scaled(steps.most).sum();
@@ -66,8 +65,8 @@ fn exact(texture: &Texture, kind: SamplerType, at: [f64; 3], gradients: Gradient
         let scaled = match kind.dim {
             SamplerDim::Cube => on_face(at, d).map(|change| change * sizes[0]),
             SamplerDim::Rect => [d[0], d[1], 0.0],
-            dim => {
-                let count = dimensions(dim);
+            SamplerDim::D1 | SamplerDim::D2 | SamplerDim::D3 | SamplerDim::Buffer | SamplerDim::Multisample => {
+                let count = usize::from(kind.dimensions());
                 std::array::from_fn(|axis| if axis < count { d[axis] * sizes[axis] } else { 0.0 })
             }
         };

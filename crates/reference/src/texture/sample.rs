@@ -1,6 +1,6 @@
 //! Filtered texture lookups (OpenGL 3.2 §3.8.11 to §3.8.12, §3.8.16).
 
-use super::texel::{self, dimensions};
+use super::texel;
 use super::{Bits, Near, Sampled, cube, level};
 use crate::domain::rules;
 use glisten_front::hir::{SamplerDim, SamplerType, Scalar};
@@ -161,7 +161,7 @@ fn footprint(texture: &Texture, level: &TextureLevel, request: &Request, linear:
         let slice = there.face as i64;
         return Footprint { axes, count: 2, slice, slices: (slice, slice), wrap: Wrap::ClampToEdge, cube: true };
     }
-    let count = dimensions(kind.dim);
+    let count = usize::from(kind.dimensions());
     for (place, size) in [level.width, level.height, level.depth].into_iter().enumerate().take(count) {
         axes[place] = axis(in_texels(kind, request.at[place], size), request.offset[place], linear);
     }

@@ -34,7 +34,7 @@ pub(super) fn bits(level: &TextureLevel, at: [i64; 3]) -> [u32; 4] {
 
 /// `texelFetch`: coordinates in texels of the level, the layer last.
 pub(crate) fn fetch(texture: &Texture, kind: SamplerType, at: &[i32], level: i32, offset: &[i32]) -> Sampled {
-    let dimensions = dimensions(kind.dim);
+    let dimensions = usize::from(kind.dimensions());
     let mut place = [0i64; 3];
     for (axis, to) in place.iter_mut().enumerate().take(dimensions) {
         let moved = offset.get(axis).copied().unwrap_or(0);
@@ -57,15 +57,6 @@ fn nothing(kind: SamplerType) -> Sampled {
         Sampled::Floats([Near::default(); 4])
     } else {
         Sampled::Bits([Bits::default(); 4])
-    }
-}
-
-/// The number of axes that address a texel, without the layer.
-pub(super) fn dimensions(dim: SamplerDim) -> usize {
-    match dim {
-        SamplerDim::D1 | SamplerDim::Buffer => 1,
-        SamplerDim::D2 | SamplerDim::Rect | SamplerDim::Multisample => 2,
-        SamplerDim::D3 | SamplerDim::Cube => 3,
     }
 }
 

@@ -15,6 +15,7 @@
 //! | `round` | rounding outward |
 //! | `float` | operators, comparisons, conversions, selecting functions |
 //! | `functions` | the functions that have a rule of their own, or inherit one |
+//! | `formula` | rules of the table, evaluated |
 //! | `vector` | sums of products, in any order |
 //! | `ends` | `exp2` and `log2` without calls, only for bounds |
 //! | `block` | the same operations on eight numbers at once |
@@ -23,6 +24,7 @@
 mod block;
 mod ends;
 mod float;
+mod formula;
 mod functions;
 mod integer;
 mod round;
@@ -31,6 +33,8 @@ mod tests;
 mod vector;
 
 pub use block::EnvelopeBlock;
+#[cfg(test)]
+pub(crate) use formula::evaluate;
 pub use integer::EnvelopeInt;
 
 use glisten_scene::picture::Interval;
