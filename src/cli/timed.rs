@@ -1,6 +1,6 @@
-//! The runners of `verify`, each draw with a limit of time and a step of the progress bar.
+//! The runners of `verify`, with a time limit for each draw and a progress bar.
 //!
-//! *In:* scenes. *Out:* pictures, or why there are none.
+//! *In:* scenes. *Out:* pictures, or failures.
 
 use super::exit::{Exit, Failure};
 use super::progress::Progress;
@@ -33,7 +33,7 @@ impl Reference for TimedReference<'_> {
         Ok(picture)
     }
 
-    /// All of them within the time of one draw.
+    /// Draws all of them within the time limit of one draw.
     fn render_all(&self, scene: &Scene, options: &[RenderOptions]) -> Result<Vec<Picture>, verify::Failure> {
         let (scene, options) = (scene.clone(), options.to_vec());
         Ok(self.machine.within_time(move || Ok(ThisThread.render_all(&scene, &options)?))?)
@@ -78,7 +78,7 @@ impl Runner for TimedGpu<'_> {
     }
 }
 
-/// What separates a message from its help in one text.
+/// The separator between a message and its help in one text.
 const HELP: &str = "\nhelp: ";
 
 impl From<DrawError> for verify::Failure {

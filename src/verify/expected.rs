@@ -1,7 +1,7 @@
-//! [`Expected`]: what the reference draws of a scene, and the verdict over a picture of the same scene.
+//! [`Expected`]: the reference's picture of a scene, and the verdict on another picture of it.
 //!
 //! *In:* a scene and [`Options`]. *Out:* the reference's picture; verdicts.
-//! *Holds:* the reference draws once; again with the known faults of drivers admitted only when a picture needs an excuse.
+//! *Holds:* the reference draws once. It draws again with known faults excused only if a picture needs an excuse.
 
 use super::{Failure, Options};
 use crate::scene::Scene;
@@ -10,13 +10,13 @@ use glisten_scene::compare::{Judge, Verdict};
 use glisten_scene::picture::Picture;
 use std::time::Instant;
 
-/// The picture of the reference, which others are judged by. For pictures that no [`Runner`](super::Runner) drew.
+/// The picture of the reference, with which others are compared. For pictures that no [`Runner`](super::Runner) drew.
 pub struct Expected<'a> {
     scene: &'a Scene,
     options: &'a Options<'a>,
     picture: Picture,
     milliseconds: f64,
-    /// The picture with each known fault admitted alone, and with all of them; drawn when it is asked for.
+    /// The picture with each known fault excused alone, and with all of them; drawn on demand.
     admitting: Option<Vec<(&'static str, Picture)>>,
 }
 
@@ -37,15 +37,15 @@ impl<'a> Expected<'a> {
         &self.picture
     }
 
-    /// The reference's picture, and the milliseconds that it took.
+    /// The reference's picture, and its time in milliseconds.
     pub(super) fn into_picture(self) -> (Picture, f64) {
         (self.picture, self.milliseconds)
     }
 
-    /// Judges a picture of the scene.
+    /// Compares a picture of the scene with the reference.
     ///
     /// # Errors
-    /// The reference cannot draw the scene with a fault admitted.
+    /// The reference cannot draw the scene with a fault excused.
     pub fn judge(&mut self, picture: &Picture) -> Result<Verdict, Failure> {
         let Options { judge, excuse_known_faults, .. } = *self.options;
         let verdict = Verdict::new(picture, &self.picture, judge);

@@ -1,4 +1,4 @@
-//! [`Explanations`]: where the bounds of the worst pixels come from.
+//! [`Explanations`]: the origin of the envelopes of the worst pixels.
 //!
 //! *In:* the runs of a verification. *Out:* contributions in their verdicts, and an excerpt for the worst of them.
 //! *Holds:* a pixel that is the worst of several runs is explained once.
@@ -13,9 +13,9 @@ use glisten_reference::Contribution;
 use glisten_reference::domain::faults::Faults;
 use glisten_scene::compare::Contributed;
 
-/// How many contributions to a bound are reported.
+/// The largest number of contributions in a report.
 const MOST: usize = 3;
-/// The smallest share of a bound that is reported.
+/// The smallest share in a report.
 const LEAST_SHARE: f64 = 0.01;
 
 /// The explanations of a scene's pixels.
@@ -30,8 +30,8 @@ impl<'a> Explanations<'a> {
         Self { scene, options, known: Vec::new() }
     }
 
-    /// Adds to each run's worst pixel the origin of its bound; returns the excerpt for the run with the largest error.
-    /// Without the texts, and where no envelope judges, there is nothing to add.
+    /// Adds the origin of the envelope to each run's worst pixel. Returns the excerpt for the run with the largest
+    /// error. Without the texts, or without an envelope, there is nothing to add.
     pub(super) fn add_to(mut self, runs: &mut [Run]) -> Result<Option<Diagnostic>, Failure> {
         let Some(sources) = self.options.sources else { return Ok(None) };
         let (mut excerpt, mut largest) = (None, -1.0);
@@ -49,7 +49,7 @@ impl<'a> Explanations<'a> {
         Ok(excerpt)
     }
 
-    /// The largest contributions to a bound.
+    /// The largest contributions to an envelope.
     fn contributions(&mut self, at: Channel) -> Result<Vec<Contribution>, Failure> {
         if let Some((_, contributions)) = self.known.iter().find(|(known, _)| *known == at) {
             return Ok(contributions.clone());

@@ -1,4 +1,4 @@
-//! The pictures of a verification that failed.
+//! Writes the pictures of a failed verification.
 //!
 //! *In:* pictures by name. *Out:* PNG files in a folder.
 

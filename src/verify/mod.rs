@@ -1,7 +1,7 @@
-//! Judges what runners draw of a scene against the CPU reference and its envelope.
+//! Compares the pictures of runners with the CPU reference and its envelope.
 //!
-//! *In:* a [`Scene`], the [`Runner`]s that draw it, [`Options`]. *Out:* a [`Verification`]: a picture and a [`Verdict`] for
-//! each runner, the origin of the worst pixel's bound, a picture of the differences.
+//! *In:* a [`Scene`], the [`Runner`]s that draw it, [`Options`]. *Out:* a [`Verification`]: a picture and a
+//! [`Verdict`] for each runner, the origin of the worst pixel's envelope, a picture of the differences.
 //!
 //! ```text
 //!  Scene ──► Expected   the reference's picture with its envelope; if need be, again with known faults admitted
@@ -9,7 +9,7 @@
 //!        ──► Verdict    every pixel against the envelope ──► Verification
 //! ```
 //!
-//! A test suite of a renderer calls it like this (`examples/verify.rs` is a whole one):
+//! A test suite of a renderer calls it like this (`examples/verify.rs` is a complete one):
 //!
 //! ```
 //! use glisten::scene::{MemoryFiles, load};
@@ -56,10 +56,10 @@ use glisten_scene::picture::Picture;
 use std::fmt;
 use std::path::PathBuf;
 
-/// How to verify.
+/// Options for verification.
 #[derive(Clone, Copy)]
 pub struct Options<'a> {
-    /// What decides whether a difference is explained: the envelope (the default), or a tolerance.
+    /// The criterion for differences: the envelope (the default), or a tolerance.
     pub judge: Judge,
     /// The rule for lines of the targets: Vulkan's, unless set otherwise.
     pub lines: LineRule,
@@ -67,12 +67,12 @@ pub struct Options<'a> {
     pub excuse_known_faults: bool,
     /// Whether any number of undecided pixels is accepted. Default: no, at most 1 % of the covered pixels.
     pub allow_undecided: bool,
-    /// The texts of the scene (`Loaded::sources`), to say where in them the bound of the worst pixel comes from.
+    /// The texts of the scene (`Loaded::sources`), for the origin of the worst pixel's envelope.
     pub sources: Option<&'a SourceMap>,
-    /// A folder for the pictures of a verification that fails: one of each runner (`spirv.png`), `cpu.png` and
+    /// A folder for the pictures of a failed verification: one of each runner (`spirv.png`), `cpu.png` and
     /// `difference.png`. It is created if it is missing.
     pub failures: Option<&'a std::path::Path>,
-    /// Who draws the reference. Default: this thread.
+    /// The reference. Default: on this thread.
     pub reference: &'a dyn Reference,
 }
 
@@ -91,73 +91,73 @@ impl Default for Options<'_> {
 }
 
 impl Options<'_> {
-    /// How the reference draws the picture that is expected.
+    /// The options with which the reference draws.
     pub fn reference_options(&self, faults: Faults) -> RenderOptions {
         RenderOptions { precision: Precision::Envelope, lines: self.lines, faults, ..RenderOptions::default() }
     }
 }
 
-/// What became of one runner.
+/// The result of one runner.
 #[derive(Clone, Debug)]
 pub struct Run {
     /// The name of the runner.
     pub runner: &'static str,
-    /// What it drew.
+    /// Its picture.
     pub picture: Picture,
-    /// How long it took, in milliseconds.
+    /// Its time in milliseconds.
     pub milliseconds: f64,
-    /// How far that is from the reference.
+    /// The comparison with the reference.
     pub verdict: Verdict,
 }
 
-/// A runner that cannot draw the scene's programs, while another one can.
+/// A runner that cannot draw the scene's programs, although another one can.
 #[derive(Clone, Debug)]
 pub struct Skip {
     /// The name of the runner.
     pub runner: &'static str,
-    /// What the target lacks.
+    /// The features that the target lacks.
     pub diagnostics: Vec<Diagnostic>,
 }
 
 /// The result of a verification.
 #[derive(Clone, Debug)]
 pub struct Verification {
-    /// What the reference drew, with its envelope.
+    /// The reference's picture with its envelope.
     pub reference: Picture,
-    /// How long the reference took, in milliseconds.
+    /// The reference's time in milliseconds.
     pub reference_milliseconds: f64,
-    /// A run for each runner, in the order in which they were given.
+    /// The results of the runners, in the order of the runners.
     pub runs: Vec<Run>,
-    /// Runners that cannot draw the scene's programs; the first one is never among them.
+    /// Runners that cannot draw the scene's programs. The first runner is never among them.
     pub skipped: Vec<Skip>,
-    /// For each pixel the largest difference of all runs, as a share of what is allowed.
+    /// For each pixel, the largest difference of all runs, as a share of the allowed difference.
     pub shares: Vec<f64>,
-    /// Where the bound of the worst pixel comes from, if [`Options::sources`] is given.
+    /// The origin of the worst pixel's envelope, if [`Options::sources`] is set.
     pub note: Option<Diagnostic>,
-    /// The folder with the pictures of a failure, or why they could not be written there.
+    /// The folder with the pictures of a failure, or the reason why they could not be written.
     pub pictures: Option<Result<PathBuf, String>>,
     allow_undecided: bool,
 }
 
 impl Verification {
-    /// Whether every difference of every run is explained.
+    /// Whether all differences of all runs are explained.
     pub fn holds(&self) -> bool {
         self.runs.iter().all(|run| run.verdict.holds(self.allow_undecided))
     }
 
-    /// A picture of [`shares`](Self::shares): gray up to what is allowed, red beyond.
+    /// A picture of [`shares`](Self::shares): gray up to the allowed difference, red above it.
     pub fn difference(&self) -> Picture {
         difference(&self.reference, &self.shares)
     }
 }
 
-/// The picture of `shares` ([`compare::shares`]) in the size of the reference's: gray up to 1, red beyond.
+/// The picture of `shares` ([`compare::shares`]) in the size of the reference's: gray up to 1, red above.
 pub fn difference(reference: &Picture, shares: &[f64]) -> Picture {
     let color = |share: &f64| if *share > 1.0 { [1.0, 0.0, 0.0, 1.0] } else { [*share, *share, *share, 1.0] };
     Picture::of_colors(reference.width, reference.height, shares.iter().map(color).collect())
 }
 
-/// What failed, for the message of a test: a line for each run, and the folder with the pictures.
+/// The failures, as the message of a test: a line for each run, and the folder with the pictures.
 impl fmt::Display for Verification {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for run in &self.runs {
@@ -179,11 +179,11 @@ impl fmt::Display for Verification {
     }
 }
 
-/// Draws a scene by the reference and by each runner, and judges every pixel.
+/// Draws a scene with the reference and with each runner, and compares every pixel.
 ///
 /// # Errors
-/// The reference or a runner cannot draw the scene. A runner after the first one whose target cannot hold the programs is
-/// no error: it is [skipped](Verification::skipped).
+/// The reference or a runner cannot draw the scene. If the target of a runner after the first one cannot represent
+/// the programs, that is not an error: the runner is [skipped](Verification::skipped).
 pub fn verify(scene: &Scene, runners: &[&dyn Runner], options: &Options<'_>) -> Result<Verification, Failure> {
     let mut expected = Expected::new(scene, options)?;
     let mut runs: Vec<Run> = Vec::new();

@@ -1,4 +1,4 @@
-//! [`Runner`]: what draws a scene and is judged. [`Reference`]: what draws the picture that it is judged by.
+//! [`Runner`]: draws a scene to be compared. [`Reference`]: draws the picture with which it is compared.
 //!
 //! *In:* a [`Scene`]. *Out:* a [`Picture`], or a [`Failure`].
 
@@ -9,23 +9,23 @@ use glisten_scene::picture::Picture;
 use std::fmt;
 use std::time::Instant;
 
-/// What a runner drew.
+/// The result of a runner.
 #[derive(Clone, Debug)]
 pub struct Drawn {
     /// The picture, top row first.
     pub picture: Picture,
-    /// The milliseconds that it took.
+    /// The time in milliseconds.
     pub milliseconds: f64,
 }
 
-/// Why there is no picture.
+/// The reason why there is no picture.
 #[derive(Clone, Debug)]
 pub enum Failure {
     /// The programs of the scene cannot be drawn by this runner.
     Diagnostics(Vec<Diagnostic>),
-    /// The machine lacks what the runner needs: a driver, say.
+    /// The machine lacks something that the runner needs, for example a driver.
     Machine(String),
-    /// The draw was refused or did not end.
+    /// The draw was rejected or did not end.
     Refused(String),
 }
 
@@ -51,7 +51,7 @@ impl From<Vec<Diagnostic>> for Failure {
 
 /// Draws scenes.
 pub trait Runner {
-    /// A short name, also of the picture's file after a failure: `spirv`, `wgsl`, `gl`.
+    /// A short name, also for the picture's file after a failure: `spirv`, `wgsl`, `gl`.
     fn name(&self) -> &'static str;
 
     /// Draws a scene.
@@ -61,15 +61,15 @@ pub trait Runner {
     fn draw(&self, scene: &Scene) -> Result<Drawn, Failure>;
 }
 
-/// Draws the pictures that runners are judged by. A host with limits of time or threads of its own implements it.
+/// Draws the pictures with which runners are compared. A host with time limits or threads of its own implements it.
 pub trait Reference {
-    /// [`glisten_reference::render`]
+    /// Draws a scene like [`glisten_reference::render`].
     ///
     /// # Errors
     /// There is no picture.
     fn render(&self, scene: &Scene, options: &RenderOptions) -> Result<Picture, Failure>;
 
-    /// [`render`](Self::render) with several options.
+    /// Draws a scene with several options.
     ///
     /// # Errors
     /// One of the pictures is missing.
@@ -77,7 +77,7 @@ pub trait Reference {
         options.iter().map(|options| self.render(scene, options)).collect()
     }
 
-    /// [`glisten_reference::explain`] for a channel of a pixel.
+    /// Explains a channel of a pixel like [`glisten_reference::explain`].
     ///
     /// # Errors
     /// The scene cannot be drawn.
@@ -95,7 +95,7 @@ pub struct Channel {
     pub channel: u32,
 }
 
-/// The reference on the thread that calls.
+/// The reference on the calling thread.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ThisThread;
 
@@ -110,7 +110,7 @@ impl Reference for ThisThread {
     }
 }
 
-/// The reference as a runner: in f32 a strict GPU without a driver.
+/// The reference as a runner. In f32, it is a strict GPU without a driver.
 #[derive(Clone, Copy, Debug)]
 pub struct Cpu {
     options: RenderOptions,
@@ -149,12 +149,12 @@ pub struct OnGpu<'a> {
 
 #[cfg(feature = "gpu")]
 impl<'a> OnGpu<'a> {
-    /// The emitted code in one form.
+    /// The runner of one form.
     pub fn new(gpu: &'a glisten_gpu::Gpu, via: glisten_gpu::Via) -> Self {
         Self { gpu, via }
     }
 
-    /// Both forms, SPIR-V first.
+    /// The runners of both forms, SPIR-V first.
     pub fn both(gpu: &'a glisten_gpu::Gpu) -> [Self; 2] {
         [glisten_gpu::Via::Spirv, glisten_gpu::Via::Wgsl].map(|via| Self::new(gpu, via))
     }
@@ -183,7 +183,8 @@ impl From<glisten_gpu::Error> for Failure {
     }
 }
 
-/// The sources on an OpenGL driver. Judge it with [`LineRule::OpenGl`] in [`Options::lines`](super::Options::lines).
+/// The original sources on an OpenGL driver. Use it with [`LineRule::OpenGl`] in
+/// [`Options::lines`](super::Options::lines).
 #[cfg(feature = "gl")]
 pub struct OnOpenGl<'a>(pub &'a glisten_gl::Gl);
 

@@ -59,11 +59,11 @@ static MAY_TOUCH_OUTSIDE: &[(&str, &str)] = &[
     ("src/verify/files.rs", "leaves the pictures of a failure in a folder that the host names"),
 ];
 
-fn root() -> &'static Path {
+pub(super) fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-fn rust_files(folder: &str) -> Vec<PathBuf> {
+pub(super) fn rust_files(folder: &str) -> Vec<PathBuf> {
     let mut pending = vec![root().join(folder)];
     let mut files = Vec::new();
     while let Some(folder) = pending.pop() {
@@ -90,11 +90,11 @@ fn sources() -> Vec<PathBuf> {
     files
 }
 
-fn name_of(path: &Path) -> String {
+pub(super) fn name_of(path: &Path) -> String {
     path.strip_prefix(root()).unwrap_or(path).to_string_lossy().replace('\\', "/")
 }
 
-fn text_of(path: &Path) -> String {
+pub(super) fn text_of(path: &Path) -> String {
     fs::read_to_string(path).expect("readable")
 }
 

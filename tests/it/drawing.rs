@@ -1,5 +1,5 @@
-//! What tests that draw share: scenes from files and texts, the reference, the device, and `verify` with pictures of what
-//! fails.
+//! Helpers of the tests that draw: scenes from files and texts, the reference, the device, and `verify` with pictures
+//! of failures.
 
 use crate::support::root;
 use glisten::scene::{DiskFiles, Loaded, MemoryFiles, Scene, load};
@@ -26,7 +26,7 @@ pub(crate) fn loaded(name: &str, loaded: Loaded) -> Scene {
     loaded.scene.unwrap_or_else(|| panic!("{name}: {}", messages.join("; ")))
 }
 
-/// A scene of the package, by its path in it; or of any folder.
+/// A scene of the package by its path in it, or of any folder.
 #[track_caller]
 pub(crate) fn from_disk(path: impl AsRef<Path>) -> Scene {
     let path = root().join(path);
@@ -34,19 +34,19 @@ pub(crate) fn from_disk(path: impl AsRef<Path>) -> Scene {
     loaded(&name, load(&name, &DiskFiles, &compiler()))
 }
 
-/// A scene of texts by name, the scene's own first.
+/// A scene from texts by name, the scene file first.
 #[track_caller]
 pub(crate) fn from_texts<const N: usize>(files: [(&str, &str); N]) -> Scene {
     let name = files.first().map_or("", |file| file.0);
     loaded(name, load(name, &MemoryFiles::new(files), &compiler()))
 }
 
-/// How the reference draws with lines by Vulkan's rule, as a GPU draws them.
+/// Options of the reference with Vulkan's rule for lines, as on a GPU.
 pub(crate) fn as_on_vulkan(precision: Precision, faults: Faults) -> RenderOptions {
     RenderOptions { precision, lines: LineRule::Vulkan, faults, ..RenderOptions::default() }
 }
 
-/// What the reference draws; lines by Vulkan's rule.
+/// The reference's picture, with Vulkan's rule for lines.
 #[track_caller]
 pub(crate) fn reference(scene: &Scene, precision: Precision) -> Picture {
     let drawn = glisten_reference::render(scene, &as_on_vulkan(precision, Faults::NONE));
@@ -65,8 +65,8 @@ pub(crate) fn strict() -> glisten::verify::Options<'static> {
     glisten::verify::Options { excuse_known_faults: false, ..glisten::verify::Options::default() }
 }
 
-/// Verifies a scene by both forms of the emitted code. The pictures of a failure are left in `target/failures/NAME`, which
-/// the message of the result names.
+/// Verifies a scene in both forms of the emitted code. The pictures of a failure are written to
+/// `target/failures/NAME`, which the message names.
 #[cfg(feature = "gpu")]
 #[track_caller]
 pub(crate) fn verified(name: &str, gpu: &Gpu, scene: &Scene, options: &glisten::verify::Options<'_>) -> Verification {
@@ -77,7 +77,7 @@ pub(crate) fn verified(name: &str, gpu: &Gpu, scene: &Scene, options: &glisten::
     verify(scene, &runners, &options).unwrap_or_else(|failure| panic!("{name}: {failure}"))
 }
 
-/// What is wrong with a scene by [`verified`]; `None` if it holds.
+/// The message if [`verified`] fails for a scene; `None` if it holds.
 #[cfg(feature = "gpu")]
 #[track_caller]
 pub(crate) fn complaint(

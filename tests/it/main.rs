@@ -53,3 +53,4 @@ mod shader_test;
 mod snapshots;
 mod support;
 mod witness;
+mod words;

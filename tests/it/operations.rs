@@ -1,8 +1,8 @@
-//! Every row of the table of operations: each overload is typed, run on the reference and lowered to WGSL and SPIR-V, and
-//! external judges accept what is emitted.
+//! Checks every row of the table of operations: each overload is typed, run on the reference and lowered to WGSL and
+//! SPIR-V, and external tools accept the output.
 //!
-//! That rows fold to what is executed, and that each has a rule of precision that the envelope evaluates, is tested in the
-//! crates that do so.
+//! Tests in the respective crates check that each row folds to what is executed, and that each has a rule of
+//! precision that the envelope evaluates.
 
 use crate::emit::Collected;
 use glisten_emit::{Conventions, Target, emit};
@@ -14,11 +14,12 @@ use glisten_front::link::Program;
 use glisten_front::{Compiler, Options, Source};
 use std::fmt::Write;
 
-/// What a target has no form for, whatever the program: the documents name them.
+/// Functions that a target does not support in any program. The documentation names them.
 const REFUSED: &[(&str, &str)] =
     &[("textureSize", "sampler2DMSArray"), ("texelFetch", "sampler2DMSArray"), ("textureGrad", "samplerCube")];
 
-/// An argument: samplers are uniforms, offsets constant, all else comes of a uniform, so that nothing is folded.
+/// An argument: samplers are uniforms, offsets are constant, and all others depend on a uniform, so that nothing is
+/// folded.
 fn argument(ty: TypeId, mode: ParamMode, role: Option<TextureArgument>, index: usize, uniforms: &mut String) -> String {
     let types = Types::basic();
     let name = types.name(ty);
@@ -75,7 +76,7 @@ fn compiled(text: &str) -> Program {
 fn overloads() -> impl Iterator<Item = (&'static Row, Signature)> {
     let operations = BuiltinFunction::ALL.iter().map(|function| function.operation());
     operations
-        // What a geometry stage sends on has no targets.
+        // Functions of geometry stages have no targets.
         .filter(|operation| !matches!(operation.class, Class::Emission(_)))
         .flat_map(|operation| operation.prototypes())
         .flat_map(|row| row.signatures(Stage::Fragment).map(move |signature| (row, signature)))
@@ -107,7 +108,7 @@ fn every_row_is_typed_and_lowered() {
     collected.judge();
 }
 
-/// Compiling for the reference takes apart every call; what it computes is tested beside the executor.
+/// Compiling for the reference expands every call. The executor's own tests check the results.
 #[test]
 #[cfg(feature = "reference")]
 fn every_row_is_executed() {

@@ -95,7 +95,7 @@ impl Compiler {
         Self { options, ..self.clone() }
     }
 
-    /// The way to find what `#include` names.
+    /// The resolver for `#include`.
     pub fn includes(&self) -> Arc<dyn IncludeResolver + Send + Sync> {
         Arc::clone(&self.includes)
     }
@@ -140,8 +140,8 @@ impl Compiler {
         Compilation { name, sources: map, program, diagnostics }
     }
 
-    /// Links the stages. If there are errors, only checks the declarations that are certain against each other: what else
-    /// a shader with errors offers to the others is not what its author means, and linking it would blame them.
+    /// Links the stages. If there are errors, only compares the certain declarations. Other declarations of a shader
+    /// with errors may differ from its author's intention, and linking would report follow-up errors.
     fn link(
         &self,
         name: String,

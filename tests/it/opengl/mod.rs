@@ -158,7 +158,7 @@ fn failures(name: &str) -> PathBuf {
     root().join("target/failures/opengl").join(name)
 }
 
-/// What is wrong with a scene.
+/// The message for a scene with differences.
 fn told(name: &str, verdict: &Verdict) -> String {
     format!("{name}: {verdict:#?}\npictures: {}", failures(name).display())
 }

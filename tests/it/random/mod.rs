@@ -58,7 +58,7 @@ pub(crate) fn program(seed: u64) -> (String, Scene) {
     (fragment, scene)
 }
 
-/// What is wrong with the picture of a scene, and how many pixels could not be judged.
+/// The message for a picture with differences, and the number of undecided pixels.
 fn compare(gpu: &Gpu, seed: u64, scene: &Scene) -> (Option<String>, usize) {
     let options = verify::Options { allow_undecided: true, ..strict() };
     let verification = verified(&format!("random_{seed}"), gpu, scene, &options);

@@ -1,4 +1,4 @@
-//! naga's messages in the words of glisten.
+//! Turns naga's errors into glisten's messages.
 //!
 //! *In:* errors of naga. *Out:* one line, without handles.
 
@@ -14,7 +14,7 @@ pub(super) fn chain(error: &dyn std::error::Error) -> String {
     text
 }
 
-/// A message of naga without its handles (`Expression [12]`, `[3]`), which mean nothing to a user.
+/// Removes handles (`Expression [12]`, `[3]`) from a message of naga, since they mean nothing to a user.
 pub(super) fn without_handles(text: &str) -> String {
     let mut shown = String::with_capacity(text.len());
     let mut rest = text;

@@ -49,7 +49,7 @@ pub fn emit(
     emit_with_sources(program, stage, target, conventions, None)
 }
 
-/// Like [`emit`], with the texts that source lines in SPIR-V refer to ([`Conventions::debug_lines`]).
+/// Emits like [`emit`], with the texts that source lines in SPIR-V refer to ([`Conventions::debug_lines`]).
 ///
 /// # Errors
 /// The same as those of [`emit`].
@@ -93,7 +93,7 @@ fn validate(module: &naga::Module) -> Result<ModuleInfo, Vec<Diagnostic>> {
     })
 }
 
-/// A writer of naga that failed. What stands in for the gaps of its target depends on the target.
+/// The diagnostic for a failed writer. It depends on whether the target has gaps.
 fn failed(target: Target, message: &str) -> Diagnostic {
     let message = format!("the writer of {} failed: {}", target.name(), without_handles(message));
     if targets::has_gaps(target) {

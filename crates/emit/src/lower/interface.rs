@@ -122,7 +122,7 @@ impl Lower<'_> {
         self.facts.used.get(id.index()).copied().unwrap_or(false).then_some(id)
     }
 
-    /// The type of what stands at a location: its one varying's, or a vector that holds all of them.
+    /// The type at a location: that of its one varying, or a vector that contains all of them.
     pub(super) fn location_type(&mut self, location: &VaryingLocation<'_>) -> Try<Handle<naga::Type>> {
         if let [row] = location.rows.as_slice()
             && row.component == 0

@@ -1,4 +1,4 @@
-//! [`Target`]: the languages that glisten writes, one row each.
+//! [`Target`]: the target languages, with one row for each.
 
 /// Declares the targets: `Variant "name" "word" "extension";`
 macro_rules! targets {
@@ -21,7 +21,7 @@ macro_rules! targets {
                 }
             }
 
-            /// The word that names it in options: `wgsl`.
+            /// Its word in options: `wgsl`.
             pub fn word(self) -> &'static str {
                 match self {
                     $(Self::$target => $word,)*
@@ -47,7 +47,7 @@ targets! {
 }
 
 impl Target {
-    /// The target of a word.
+    /// The target with this word.
     pub fn from_word(word: &str) -> Option<Self> {
         Self::ALL.iter().copied().find(|target| target.word() == word)
     }

@@ -12,7 +12,7 @@
 //! * `declare` enters names: variables, structs, blocks, functions, redeclared built-in variables.
 //! * `statement` and `expr` analyze function bodies.
 //! * [`fold`](crate::fold) computes constants.
-//! * `understood` says what others may rely on in a shader with errors.
+//! * `understood` removes uncertain declarations of a shader with errors from its interface.
 //!
 //! *Holds:* one mistake raises one message. Whatever is in error gets the type
 //! [`TypeId::ERROR`](crate::hir::TypeId::ERROR), which is compatible with everything. No traversal recurses along

@@ -1,14 +1,14 @@
-//! Withdraws from the interface of a shader with errors what was not understood.
+//! Removes uncertain declarations from the interface of a shader with errors.
 //!
-//! *In:* a syntax tree, its analyzed shader, and the errors so far. *Out:* whether the shader has errors; if so, each
-//! global that an error may have changed is no longer part of the shader's interface.
+//! *In:* a syntax tree, its analyzed shader, and the errors so far. *Out:* whether the shader has errors. If so,
+//! globals that an error may have changed are no longer part of the shader's interface.
 //!
-//! A declaration is in doubt if an error is in it, or between it and its neighbor; if it mentions a name that a
-//! declaration in doubt declares; or if its type is poisoned or sized by use. An error in the body of a function casts
-//! doubt on no declaration, and an error of the preprocessor on all of them.
+//! A declaration is uncertain if an error is in it, or between it and its neighbor; if it uses a name that an
+//! uncertain declaration declares; or if its type is poisoned or sized by use. An error in the body of a function
+//! makes no declaration uncertain. An error of the preprocessor makes all of them uncertain.
 //!
-//! *Holds:* what remains was read as it is written. A declaration may be missing all the same, because the parser
-//! skipped it, so nobody may conclude anything from its absence.
+//! *Holds:* the remaining declarations were read as they are written. Others may be missing, because the parser
+//! skipped them, so their absence means nothing.
 
 use crate::diagnostic::codes::preprocess::ILLEGAL_CHARACTER;
 use crate::diagnostic::{Diagnostic, Diagnostics};
@@ -19,8 +19,8 @@ use crate::syntax::ast::{Ast, Declaration, DeclarationKind, Ident, TypeBase};
 use crate::syntax::token::Names;
 use rustc_hash::FxHashSet;
 
-/// Withdraws from the interface of `shader` all globals in doubt. Returns whether errors concern the shader: those from
-/// number `first_error` on, and earlier ones in the text that it includes.
+/// Removes all uncertain globals from the interface of `shader`. Returns whether errors concern the shader: those
+/// from number `first_error`, and earlier ones in files that it includes.
 pub fn keep_understood(
     ast: &Ast,
     shader: &mut Shader,
@@ -43,17 +43,17 @@ pub fn keep_understood(
     true
 }
 
-/// The global declarations of a shader with their places.
+/// The global declarations of a shader with their positions.
 struct Text<'a> {
     sources: &'a SourceMap,
     declarations: Vec<(Span, &'a Declaration)>,
     names: &'a Names,
 }
 
-/// What may differ from what the author means.
+/// The declarations whose meaning may differ from the author's intention.
 enum Doubt {
     Everything,
-    /// The text of some declarations, and all names that they mention.
+    /// The spans of these declarations, and all names that they use.
     Some(Vec<Span>, FxHashSet<String>),
 }
 
@@ -95,7 +95,7 @@ impl<'a> Text<'a> {
             .any(|(span, declaration)| matches!(declaration.kind, DeclarationKind::Function(..)) && is_in(at, *span))
     }
 
-    /// Marks the declaration at a span, or those on both sides of it.
+    /// Marks the declaration at a span, or the two around it.
     fn touch(&self, at: Span, doubted: &mut [bool]) {
         let file = self.sources.file_of(at);
         let same_file = |span: Span| self.sources.file_of(span) == file;
@@ -121,7 +121,7 @@ impl<'a> Text<'a> {
         }
     }
 
-    /// Doubts all that mentions a name which a declaration in doubt mentions as its own.
+    /// Marks all declarations that use a name which an uncertain declaration declares.
     fn spread(&self, doubted: &[bool]) -> Doubt {
         let (mut spans, mut names) = (Vec::new(), FxHashSet::default());
         for ((span, declaration), doubted) in self.declarations.iter().zip(doubted) {
@@ -140,7 +140,7 @@ impl<'a> Text<'a> {
     }
 }
 
-/// The names that a declaration gives a meaning to.
+/// The names that a declaration declares.
 fn declared(kind: &DeclarationKind) -> Vec<Ident> {
     match kind {
         DeclarationKind::Variables(variables) => {
@@ -173,7 +173,7 @@ impl Doubt {
     }
 }
 
-/// Whether a type is poisoned, has no size, or contains a struct in doubt.
+/// Whether a type is poisoned, has no size, or contains an uncertain struct.
 fn is_open(types: &Types, ty: TypeId, names: &FxHashSet<String>) -> bool {
     match types.get(ty) {
         Type::Error | Type::Array(_, ArraySize::Unsized) => true,

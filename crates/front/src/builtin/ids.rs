@@ -1,4 +1,4 @@
-//! The identities of built-in variables. Those of functions are made by the table of [`operations`](super::operations).
+//! The identities of built-in variables. The table of [`operations`](super::operations) declares those of functions.
 
 macro_rules! identities {
     ($(#[$doc:meta])* $name:ident { $($variant:ident = $spelling:literal,)* }) => {
@@ -8,7 +8,7 @@ macro_rules! identities {
         pub enum $name { $($variant,)* }
 
         impl $name {
-            /// All of them.
+            /// All built-in variables.
             pub const ALL: &[Self] = &[$(Self::$variant),*];
 
             /// The name in GLSL.
@@ -20,9 +20,9 @@ macro_rules! identities {
 }
 
 identities!(
-    /// A built-in variable (§7.1, §7.2, §7.5). `gl_in` is the block of a geometry shader's inputs, whose members are
-    /// ordinary struct members named `gl_Position`, `gl_PointSize`, `gl_ClipDistance`. `gl_DepthRange` is a loose uniform
-    /// like any other, which link gives the default (0, 1, 1).
+    /// A built-in variable (§7.1, §7.2, §7.5). `gl_in` is the block of a geometry shader's inputs. Its members are
+    /// ordinary struct members named `gl_Position`, `gl_PointSize`, `gl_ClipDistance`. `gl_DepthRange` is an ordinary
+    /// loose uniform. The linker gives it the default (0, 1, 1).
     BuiltinVariable {
         Position = "gl_Position",
         PointSize = "gl_PointSize",

@@ -1,7 +1,7 @@
-//! Built-in functions (§8.1 to §8.6) of constants: computed in f64 by the kernels of the table of operations, rounded once
-//! to f32.
+//! Evaluates built-in functions (§8.1 to §8.6) of constants: computed in f64 by the kernels of the table of
+//! operations, and rounded once to f32.
 //!
-//! *Holds:* a value is, bit for bit, what the reference computes in f32; a test of the reference runs both over all
+//! *Holds:* a value equals the reference's f32 result bit for bit. A test of the reference runs both over all
 //! functions and special values.
 
 use super::operators::{as_float, componentwise};
@@ -64,7 +64,7 @@ impl Arguments<'_> {
         })
     }
 
-    /// Of three arguments, of which some may be scalars beside vectors.
+    /// Applies a function of three arguments, some of which may be scalars combined with vectors.
     fn map3(&self, op: Ternary) -> Option<Scalars> {
         let len = self.operands.iter().map(|operand| operand.scalars.len()).max()?;
         (0..len)
@@ -81,7 +81,7 @@ impl Arguments<'_> {
         as_float(value).map(f64::from)
     }
 
-    /// Whether the first argument is of floats.
+    /// Whether the first argument consists of floats.
     fn of_floats(&self) -> Option<bool> {
         Some(matches!(self.operand(0)?.scalars.first()?, Float(_)))
     }
@@ -204,12 +204,12 @@ fn floats(values: &[f64]) -> Option<Scalars> {
     Some(values.iter().map(|&value| Float(value as f32)).collect())
 }
 
-/// The lesser of two integers.
+/// The smaller of two integers.
 fn least(x: ScalarValue, y: ScalarValue) -> Option<ScalarValue> {
     Some(if less(y, x)? { y } else { x })
 }
 
-/// The greater of two integers.
+/// The larger of two integers.
 fn greatest(x: ScalarValue, y: ScalarValue) -> Option<ScalarValue> {
     Some(if less(x, y)? { y } else { x })
 }
@@ -223,7 +223,7 @@ fn less(x: ScalarValue, y: ScalarValue) -> Option<bool> {
     }
 }
 
-/// From left to right.
+/// The dot product, summed from left to right.
 fn dot(x: &[f64], y: &[f64]) -> f64 {
     x.iter().zip(y).map(|(x, y)| x * y).reduce(|sum, term| sum + term).unwrap_or(0.0)
 }
@@ -233,8 +233,8 @@ fn cross(x: &[f64], y: &[f64]) -> Option<[f64; 3]> {
     Some([x1 * y2 - y1 * x2, x2 * y0 - y2 * x0, x0 * y1 - y0 * x1])
 }
 
-/// By cofactors of the first column; `columns` is square, 1 to 4 wide. The order of the operations is that of the
-/// reference's determinant.
+/// The determinant by cofactors of the first column; `columns` is square, 1 to 4 wide. The order of the operations is
+/// that of the reference.
 fn determinant(columns: &[Vec<f64>]) -> f64 {
     match columns {
         [] => 1.0,
@@ -259,7 +259,7 @@ fn minor(columns: &[Vec<f64>], without_column: usize, without_row: usize) -> Vec
     columns.iter().enumerate().filter(keep_column).map(keep_rows).collect()
 }
 
-/// The adjugate over the determinant, by columns.
+/// The inverse: the adjugate divided by the determinant, by columns.
 fn inverse(columns: &[Vec<f64>]) -> Vec<f64> {
     let size = columns.len();
     let determinant_of_all = determinant(columns);

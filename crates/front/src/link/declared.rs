@@ -1,55 +1,57 @@
-//! Places variables that the text or the host may place: attributes and fragment outputs (OpenGL 3.2 §2.11.3, §3.9.2).
+//! Assigns locations to attributes and fragment outputs, whose locations the text or the host may set (OpenGL 3.2
+//! §2.11.3, §3.9.2).
 //!
-//! *In:* the variables of one interface and its [`Rules`]. *Out:* the location of each that has one.
+//! *In:* the variables of one interface and its [`Rules`]. *Out:* the location of each variable that has one.
 //!
-//! *Holds:* `layout(location)` in the text wins over a binding by name, that over the automatic choice: the lowest free
-//! run, in the order of the declarations, for the active variables first. Inactive ones that find no room are left out.
+//! *Holds:* `layout(location)` in the text takes precedence over a binding by name, and that over automatic
+//! assignment, which takes the lowest free range. Active variables are assigned first, in order of declaration.
+//! Inactive ones that do not fit are omitted.
 
 use super::Linker;
 use super::locations::Locations;
 use crate::diagnostic::{Code, Diagnostic, codes};
 use crate::hir::{Global, GlobalId};
 
-/// A variable to place.
+/// A variable that needs a location.
 pub(super) struct Variable<'a> {
     pub(super) id: GlobalId,
     pub(super) global: &'a Global,
-    /// How many locations it takes.
+    /// The number of locations that it takes.
     pub(super) count: u32,
-    /// Which row of locations it is in: the index of a fragment output, 0 elsewhere.
+    /// Its row of locations: the index of a fragment output, otherwise 0.
     pub(super) row: u32,
-    /// Whether it has to have a location.
+    /// Whether it must have a location.
     pub(super) active: bool,
-    /// The location that is given, then the one that was found.
+    /// The explicit location, later the assigned one.
     pub(super) location: Option<u32>,
 }
 
-/// What is special to an interface.
+/// The properties of one interface.
 pub(super) struct Rules<'a> {
-    /// How many locations each row has.
+    /// The number of locations in each row.
     pub(super) limit: u32,
-    /// How many rows.
+    /// The number of rows.
     pub(super) rows: usize,
-    /// What a location is called: as a thing that is taken, and before its number.
+    /// The words for a location: as a unit that is counted, and before its number.
     pub(super) words: (&'static str, &'static str),
-    /// What is reported where there is no room.
+    /// The code to report if the locations do not suffice.
     pub(super) too_many: &'static Code,
-    /// How to make room.
+    /// How to free locations.
     pub(super) help: Option<&'static str>,
-    /// The host's choices. The last of a name counts.
+    /// The host's bindings. The last one for a name counts.
     pub(super) bindings: &'a [(String, u32)],
 }
 
-/// Two variables that text or bindings put at one location.
+/// Two variables whose explicit locations overlap.
 pub(super) struct Clash {
-    /// The one that was there, and the one that came.
+    /// The earlier one and the later one.
     pub(super) variables: (GlobalId, GlobalId),
     /// The lowest location that they share.
     pub(super) shared: u32,
 }
 
 impl Rules<'_> {
-    /// The location that the text or a binding gives.
+    /// The location that the text or a binding sets.
     pub(super) fn fixed(&self, ctx: &mut Linker<'_>, global: &Global) -> Option<u32> {
         let bound = self.bindings.iter().rev().find(|(name, _)| *name == global.name);
         let bound = bound.map(|&(_, location)| location);
@@ -64,7 +66,7 @@ impl Rules<'_> {
         global.location.or(bound)
     }
 
-    /// Gives each variable its location; `clash` judges those that share one.
+    /// Assigns a location to each variable. `clash` decides about variables that share one.
     pub(super) fn place(
         &self,
         ctx: &mut Linker<'_>,

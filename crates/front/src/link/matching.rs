@@ -61,7 +61,7 @@ pub(super) fn check(ctx: &mut Linker<'_>, producer: &Shader, consumer: &Shader) 
     check_variables(ctx, producer, consumer, true);
 }
 
-/// Checks the inputs that are declared in `consumer`. Without `complete`, `producer` may have outputs that are not there.
+/// Checks the inputs that are declared in `consumer`. If `producer` is not `complete`, it may have more outputs.
 pub(super) fn check_variables(ctx: &mut Linker<'_>, producer: &Shader, consumer: &Shader, complete: bool) {
     let inputs = consumer.globals().filter(|(_, input)| is_interface(input, Storage::In));
     let outputs = Outputs::new(producer);

@@ -11,18 +11,18 @@
 //! | --- | --- |
 //! | `canonical` | gives equal structs of different shaders one type |
 //! | `merge`, `remap`, `geometry` | merge several shaders of one stage into one |
-//! | `compatible` | when two declarations in different shaders have the same type |
-//! | `stages` | which stages form a program; `main`; geometry layouts |
+//! | `compatible` | whether two declarations in different shaders have the same type |
+//! | `stages` | the stages of a program; `main`; geometry layouts |
 //! | `matching` | outputs of one stage against inputs of the next |
-//! | `per_vertex` | `gl_PerVertex` declared anew |
-//! | `varyings` | what the rasterizer interpolates, cut up and placed |
-//! | `clip_distances` | `gl_ClipDistance` where the fragment stage reads it |
-//! | `attributes`, `outputs` | vertex inputs and fragment outputs, placed |
-//! | `declared` | variables that the text or the host may place |
-//! | `locations` | the one allocator of locations |
-//! | `uniforms`, `samplers` | what stays the same over a draw, placed |
+//! | `per_vertex` | redeclarations of `gl_PerVertex` |
+//! | `varyings` | interpolated variables, split and with locations |
+//! | `clip_distances` | `gl_ClipDistance` as an input of the fragment stage |
+//! | `attributes`, `outputs` | vertex inputs and fragment outputs with locations |
+//! | `declared` | variables whose locations the text or the host may set |
+//! | `locations` | the allocator of all locations |
+//! | `uniforms`, `samplers` | the variables that are constant during a draw, with locations and bindings |
 //! | `layout` | std140 |
-//! | `partial` | checks what is understood of stages with errors |
+//! | `partial` | checks between stages with errors |
 
 mod aliasing;
 mod attributes;

@@ -1,7 +1,7 @@
 //! Assigns color numbers to fragment outputs (OpenGL 3.2 §3.9.2, GLSL 1.50 §7.2).
 //!
-//! *In:* the fragment stage. *Out:* its color outputs, placed as [`declared`](super::declared) says. An array takes a
-//! number an element. `gl_FragColor` and `gl_FragData` stand at number 0.
+//! *In:* the fragment stage. *Out:* its color outputs with numbers, assigned as [`declared`](super::declared)
+//! describes. An array takes one number per element. `gl_FragColor` and `gl_FragData` have number 0.
 
 use super::declared::{Clash, Rules, Variable};
 use super::{Linker, Output};
@@ -10,7 +10,7 @@ use crate::builtin::constants::MAX_DRAW_BUFFERS;
 use crate::diagnostic::{Diagnostic, codes};
 use crate::hir::{ArraySize, Global, Shader, Stage, Storage, Type, TypeId, Types};
 
-/// The sources of dual-source blending.
+/// The number of sources in dual-source blending.
 const INDICES: usize = 2;
 
 fn numbers(types: &Types, ty: TypeId) -> u32 {
@@ -66,7 +66,7 @@ fn is_color(global: &Global) -> bool {
     }
 }
 
-/// Two outputs of one number. Of the deprecated ones, [`check_exclusive`] tells.
+/// Reports two outputs with one number. [`check_exclusive`] reports the deprecated ones.
 fn overlap(ctx: &mut Linker<'_>, fragment: &Shader, clash: &Clash) {
     let (other, global) = (fragment.global(clash.variables.0), fragment.global(clash.variables.1));
     if other.builtin.is_some() || global.builtin.is_some() {

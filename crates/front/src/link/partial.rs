@@ -1,9 +1,9 @@
-//! Checks the interfaces of a program that has errors already.
+//! Checks the interfaces of a program that already has errors.
 //!
-//! *In:* analyzed shaders, from which everything in doubt is withdrawn. *Out:* diagnostics: declarations that differ
+//! *In:* analyzed shaders without their uncertain declarations. *Out:* diagnostics about declarations that differ
 //! between stages.
 //!
-//! *Holds:* a stage with errors may declare more than is there. So nothing that is missing in it is reported, and limits
+//! *Holds:* a stage with errors may declare more than is known. So missing declarations are not reported, and limits
 //! are not checked.
 
 use super::canonical::{self, Sizes};
@@ -11,12 +11,12 @@ use super::{Bindings, Linker, matching, stages, uniforms};
 use crate::diagnostic::Diagnostics;
 use crate::hir::{Shader, Stage, Types};
 
-/// A shader as far as it was understood.
+/// A shader without its uncertain declarations.
 #[derive(Clone, Debug)]
 pub struct Understood {
-    /// The shader, without the globals in doubt.
+    /// The shader.
     pub shader: Shader,
-    /// Whether it is free of errors.
+    /// Whether it has no errors.
     pub is_complete: bool,
 }
 
@@ -32,7 +32,7 @@ pub fn check_understood(mut types: Types, shaders: Vec<Understood>, diagnostics:
         rest = others;
         let all = members.iter().all(|(_, complete)| *complete);
         let members: Vec<Shader> = members.into_iter().map(|(shader, _)| shader).collect();
-        // To merge shaders of one stage would blame the others for what one with errors lacks.
+        // Merging shaders of one stage would report that the others lack declarations of the one with errors.
         joined.extend(if all { stages::in_order(&mut types, members, &mut found) } else { members });
         is_complete.resize(joined.len(), all);
     }
@@ -43,7 +43,7 @@ pub fn check_understood(mut types: Types, shaders: Vec<Understood>, diagnostics:
     uniforms::check(&mut ctx, &joined);
 }
 
-/// Checks each shader against those of the next stage that is there.
+/// Checks each shader against those of the next existing stage.
 fn check_neighbors(ctx: &mut Linker<'_>, shaders: &[Shader], is_complete: &[bool]) {
     for (producer, complete) in shaders.iter().zip(is_complete) {
         let later = shaders.iter().filter(|shader| shader.stage > producer.stage);

@@ -1,11 +1,11 @@
 //! Assigns locations to varyings: outputs of the stage before the rasterizer and inputs of the fragment stage, split
 //! into scalars and vectors (columns of matrices, elements of arrays, members of structs and blocks).
 //!
-//! With both stages there, a varying is what both declare; an output that the fragment stage does not declare is no
-//! varying, nor is an input without an output (which nothing reads, or the link failed). Those that are read come first.
-//! Each takes a location of its own while there are enough; else scalars and vectors of equal type and interpolation
-//! share locations. Explicit locations stay. Clip distances that the fragment stage reads come last, except that varyings
-//! which nothing reads leave them room.
+//! If both stages are there, a varying is what both declare. An output that the fragment stage does not declare is
+//! not a varying; nor is an input without an output (nothing reads it, or the link failed). Varyings that are read
+//! come first. Each takes a location of its own while there are enough; after that, scalars and vectors of equal type
+//! and interpolation share locations. Explicit locations are kept. Clip distances that the fragment stage reads come
+//! last, but before varyings that nothing reads if space is short.
 
 use super::clip_distances::ClipDistances;
 use super::compatible::same_type;
@@ -46,7 +46,7 @@ impl<'a> Whole<'a> {
     }
 }
 
-/// All varyings of a program, in the order of their locations, and the clip distances among what is interpolated.
+/// All varyings of a program in order of location, and the interpolated clip distances.
 pub(super) fn assign(
     ctx: &mut Linker<'_>,
     producer: Option<&Shader>,
@@ -231,7 +231,7 @@ fn warn_above_minimum(ctx: &mut Linker<'_>, wholes: &[Whole<'_>], pieces: &[Piec
     }
 }
 
-/// Gives every piece its place, then the clip distances theirs; inactive pieces that find no room are dropped.
+/// Assigns locations to all pieces, then to the clip distances. Inactive pieces that do not fit are dropped.
 fn place(ctx: &mut Linker<'_>, pieces: Vec<Piece>, clip: Option<&ClipDistances<'_>>) -> (Vec<Varying>, Vec<Varying>) {
     let n_clip = clip.map_or(0, ClipDistances::locations);
     let mut room = Room::new(pieces.len() as u32 + n_clip > PORTABLE_LOCATIONS);
@@ -244,7 +244,7 @@ fn place(ctx: &mut Linker<'_>, pieces: Vec<Piece>, clip: Option<&ClipDistances<'
         }
     }
     if room.shared {
-        // Large ones first, so that small ones fill what they leave.
+        // Large ones first, so that small ones fill the gaps.
         free.sort_by_key(|piece| (!piece.varying.active, 4 - piece.size));
     }
     let mut reported = false;
@@ -280,7 +280,7 @@ fn no_room(ctx: &mut Linker<'_>, piece: &Piece) {
     ctx.report(Diagnostic::new(&codes::link::TOO_MANY_VARYINGS, piece.span, message));
 }
 
-/// What stands at a location: how many of its components are taken, and by what kind of varyings.
+/// The contents of a location: how many components are in use, and the kind of its varyings.
 #[derive(Clone, Copy, Default)]
 struct LocationContents {
     used: u8,
@@ -302,7 +302,7 @@ fn kind(piece: &Piece) -> (Scalar, Interpolation, bool) {
     (piece.scalar, piece.varying.interpolation, piece.varying.centroid)
 }
 
-/// The locations of varyings, and whether several of one kind share one.
+/// The locations of varyings, and whether several varyings of one kind share a location.
 struct Room {
     slots: Locations<LocationContents>,
     shared: bool,
@@ -313,13 +313,13 @@ impl Room {
         Self { slots: Locations::new(MAX_LOCATIONS), shared }
     }
 
-    /// Takes all of a location that the text gives.
+    /// Takes the whole of an explicit location.
     fn put_at(&mut self, piece: &Piece, location: u32) -> Option<u32> {
         self.slots.run_mut(location, 1)?.iter_mut().for_each(|slot| slot.fill(piece, 4));
         Some(location)
     }
 
-    /// Finds a location and the first free component in it, if so many locations stay free behind one another.
+    /// Finds a location and its first free component, if `keep` consecutive locations stay free.
     fn put(&mut self, piece: &Piece, keep: u32) -> Option<(u32, u32)> {
         let fitting = |slot: &LocationContents| match slot.kind {
             None => true,
@@ -335,7 +335,7 @@ impl Room {
         Some((location, component))
     }
 
-    /// The first of so many locations above all others.
+    /// The first of `count` locations above all others.
     fn last(&self, count: u32) -> Option<u32> {
         self.slots.above_all(count, LocationContents::is_free)
     }

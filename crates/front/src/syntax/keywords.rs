@@ -40,7 +40,7 @@ impl Keyword {
     }
 }
 
-/// What a reader of a text sees in a word.
+/// The class of a word, for highlighting.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WordClass {
     /// A statement, qualifier or other keyword.
@@ -54,7 +54,8 @@ pub enum WordClass {
 }
 
 impl WordClass {
-    /// The class of a word in a version; `None` for what an author names, and for what is only reserved.
+    /// The class of a word in a version; `None` for names that an author chooses, and for words that are only
+    /// reserved.
     pub fn of(word: &str, version: u16) -> Option<Self> {
         if word.starts_with("gl_") {
             return Some(Self::Builtin);

@@ -106,7 +106,7 @@ fn of_draw(
     Some(contributions)
 }
 
-/// By how much of its width a range shrinks.
+/// The share by which an interval shrinks.
 fn share(whole: Interval, muted: Interval) -> f64 {
     match (whole.width().is_finite(), muted.width().is_finite()) {
         (true, _) if whole.width() > 0.0 => (1.0 - muted.width() / whole.width()).max(0.0),

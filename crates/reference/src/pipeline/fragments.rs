@@ -21,7 +21,7 @@ use glisten_front::hir::{FragCoordLayout, GlobalId, Stage};
 use glisten_scene::{Draw, Framebuffer};
 use pulp::{Simd, WithSimd};
 
-/// What all bins of a draw share.
+/// The data that all bins of a draw share.
 pub(super) struct Shading<'a, D: Domain> {
     pub(super) draw: &'a Draw,
     pub(super) plan: &'a Plan,

@@ -86,7 +86,7 @@ fn compare(function: Compare, new: f64, stored: f64) -> bool {
     }
 }
 
-/// Whether a comparison of depth holds, or fails, whatever both are.
+/// Whether a comparison of depth certainly holds, and whether it certainly fails.
 fn certain(function: Compare, new: Interval, stored: Interval) -> (bool, bool) {
     let below = new.high < stored.low;
     let above = new.low > stored.high;

@@ -238,7 +238,7 @@ impl<D: Domain> Patch<D> {
         }
     }
 
-    /// What a channel of a pixel inside may be.
+    /// The interval of a channel of a pixel inside the patch.
     pub(super) fn range(&mut self, x: i64, y: i64, attachment: usize, channel: usize) -> Interval {
         let mut range = Interval::ALL;
         let place = local(self.area, x, y);

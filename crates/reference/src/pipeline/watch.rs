@@ -20,7 +20,7 @@ pub(super) struct Watch<'a, D: Domain> {
 }
 
 impl<D: Domain> Watch<'_, D> {
-    /// Shows once what the stage computes for all invocations alike.
+    /// Shows once what the stage computes for all invocations.
     pub(super) fn common(&self, code: &Code, draw: &Draw, piece: Piece) {
         if let Some(make) = self.make {
             let mut machine = Machine::with(Purpose::Watching(make()), code, &draw.uniforms, &draw.textures);

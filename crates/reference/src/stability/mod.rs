@@ -57,7 +57,7 @@ pub struct SpanError {
     /// The mean of that number.
     pub mean_lost_bits: f64,
     /// The largest number of leading bits that a sum, difference or dot product canceled.
-    pub cancelled_bits: f64,
+    pub canceled_bits: f64,
     /// The largest factor by which the operands' relative errors grew in the exact result: a lower estimate of the
     /// condition number; 0 if no operand had an error.
     pub condition: f64,
@@ -120,7 +120,7 @@ impl SpanError {
             mean_error: mean(tally.error_sum),
             lost_bits: tally.lost_bits,
             mean_lost_bits: mean(tally.lost_bits_sum),
-            cancelled_bits: tally.cancelled_bits,
+            canceled_bits: tally.canceled_bits,
             condition: tally.condition,
             births: tally.births,
             births_in_both: tally.births_in_both,
@@ -148,10 +148,10 @@ impl SpanError {
         let label = match () {
             () if self.births > 0 => format!("{} of {} results", self.births, self.evaluations),
             () if self.disagreements > 0 => format!("{} of {} results", self.disagreements, self.evaluations),
-            () if self.cancelled_bits >= CAUSE_BITS => {
+            () if self.canceled_bits >= CAUSE_BITS => {
                 format!(
                     "up to {:.0} leading bits cancel; {:.1} bits lost on average",
-                    self.cancelled_bits, self.mean_lost_bits
+                    self.canceled_bits, self.mean_lost_bits
                 )
             }
             () => format!("{:.1} bits lost on average", self.mean_lost_bits),

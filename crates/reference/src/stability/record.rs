@@ -27,7 +27,7 @@ pub(super) struct Tally {
     pub(super) error_sum: f64,
     pub(super) lost_bits: f64,
     pub(super) lost_bits_sum: f64,
-    pub(super) cancelled_bits: f64,
+    pub(super) canceled_bits: f64,
     pub(super) condition: f64,
     pub(super) births: u64,
     pub(super) births_in_both: u64,
@@ -45,7 +45,7 @@ impl Tally {
         self.error_sum += other.error_sum;
         self.lost_bits = self.lost_bits.max(other.lost_bits);
         self.lost_bits_sum += other.lost_bits_sum;
-        self.cancelled_bits = self.cancelled_bits.max(other.cancelled_bits);
+        self.canceled_bits = self.canceled_bits.max(other.canceled_bits);
         self.condition = self.condition.max(other.condition);
         self.births += other.births;
         self.births_in_both += other.births_in_both;
@@ -76,7 +76,7 @@ impl Tally {
         let lost = (error_ulps(result).max(1.0) / brought.max(1.0)).log2().clamp(0.0, SIGNIFICAND);
         self.lost_bits = self.lost_bits.max(lost);
         self.lost_bits_sum += lost;
-        self.cancelled_bits = self.cancelled_bits.max(cancelled(kind, operands, result));
+        self.canceled_bits = self.canceled_bits.max(canceled(kind, operands, result));
         self.condition = self.condition.max(condition(operands, result));
         if kind == Kind::Jump && result.error() >= 0.5 {
             self.disagreements += 1;
@@ -91,7 +91,7 @@ fn error_ulps(number: ShadowFloat) -> f64 {
 }
 
 /// By how many bits the result of a sum is smaller than its largest term, all computed in f32.
-fn cancelled(kind: Kind, operands: &[ShadowFloat], result: ShadowFloat) -> f64 {
+fn canceled(kind: Kind, operands: &[ShadowFloat], result: ShadowFloat) -> f64 {
     let terms: SmallVec<[f64; 4]> = match kind {
         Kind::Sum => operands.iter().map(|operand| f64::from(operand.single)).collect(),
         Kind::Dot => {
@@ -123,7 +123,7 @@ pub(super) struct Collected {
     parts: Mutex<Vec<(Order, Recorder)>>,
 }
 
-/// Whether a tally belongs to a vertex or a fragment stage, and where.
+/// Whether a tally belongs to a vertex or a fragment stage, and its span.
 pub(super) type Place = (Stage, Span);
 
 impl Collected {
@@ -134,6 +134,7 @@ impl Collected {
         let mut all: BTreeMap<Place, Tally> = BTreeMap::new();
         let mut output = 0.0_f64;
         for (order, recorder) in &parts {
+            // Values that are the same for all invocations count with their stage: 0 with 2, 1 with 3.
             let stage = order.piece.stage();
             for (span, tally) in &recorder.tallies {
                 all.entry((stage, *span)).or_default().join(tally);

@@ -57,7 +57,7 @@ fn a_difference_that_cancels_is_named_and_not_what_follows() {
     assert_eq!(found.len(), 1, "{found:?}");
     let (text, span) = &found[0];
     assert_eq!(text, "1.0 - cos(x)");
-    assert!(span.cancelled_bits > 17.0 && span.mean_lost_bits > 10.0, "{span:?}");
+    assert!(span.canceled_bits > 17.0 && span.mean_lost_bits > 10.0, "{span:?}");
     assert!(span.condition > 1e5, "the difference is ill-conditioned: {span:?}");
     assert_eq!(span.added, 0.0, "the difference itself is exact");
     assert_eq!(span.evaluations, 256);

@@ -111,7 +111,7 @@ impl Sampled {
 /// The result of a sampler without a texture.
 pub(crate) const MISSING: [f64; 4] = [0.0, 0.0, 0.0, 1.0];
 
-/// The level in use, limited to those that there are.
+/// The level in use, limited to those that exist.
 fn level(texture: &Texture, index: usize) -> Option<&glisten_scene::TextureLevel> {
     texture.levels.get(index.min(texture.levels.len().saturating_sub(1)))
 }

@@ -87,7 +87,7 @@ struct ProgramKey {
     defines: Vec<(String, String)>,
 }
 
-/// What a scene defines for all its draws.
+/// The settings of a scene for all its draws.
 struct Surroundings<'t, 'i> {
     camera: Option<&'t DeTable<'i>>,
     material: Option<&'t Node<'i>>,

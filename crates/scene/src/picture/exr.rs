@@ -1,13 +1,13 @@
 //! OpenEXR, float32.
 //!
-//! *In:* RGBA numbers, or a file's bytes. *Out:* the other of the two. *Not done here:* deep pictures, layers after the first
-//! one with colors, color spaces.
+//! *In:* RGBA numbers, or a file's bytes. *Out:* the respective other. *Not done here:* deep pictures, layers after
+//! the first one with colors, color spaces.
 
 use super::image::{Image, ImageError, Size};
 use exr::prelude::*;
 use std::io::Cursor;
 
-/// The first bytes of each such file.
+/// The first bytes of every such file.
 pub(super) const MAGIC: &[u8] = &[0x76, 0x2f, 0x31, 0x01];
 
 pub(super) fn write(width: u32, height: u32, pixels: &[[f64; 4]]) -> std::result::Result<Vec<u8>, ImageError> {

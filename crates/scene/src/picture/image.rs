@@ -1,15 +1,15 @@
-//! [`Image`]: a picture file in memory. [`ImageFormat`]: how a file holds a picture.
+//! [`Image`]: a picture file in memory. [`ImageFormat`]: the format of a picture file.
 //!
-//! *In:* the bytes of a PNG, an OpenEXR or a NumPy file; or RGBA numbers. *Out:* the other of the two.
+//! *In:* the bytes of a PNG, an OpenEXR or a NumPy file, or RGBA numbers. *Out:* the respective other.
 //!
-//! *Holds:* `.npy` and `.exr` carry float32 RGBA as the framebuffer holds it; `.png` carries 8 bits, straight alpha, clamped
-//! to [0, 1] and rounded, without gamma. Nothing here touches the file system.
+//! *Holds:* `.npy` and `.exr` contain float32 RGBA as in the framebuffer; `.png` contains 8 bits, straight alpha,
+//! clamped to [0, 1] and rounded, without gamma. Nothing here touches the file system.
 
 use super::{Picture, byte, exr, npy, png};
 use std::fmt;
 use std::path::Path;
 
-/// Why a picture cannot be read or written: one sentence.
+/// The reason why a picture cannot be read or written: one sentence.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ImageError(pub(super) String);
 
@@ -21,19 +21,19 @@ impl fmt::Display for ImageError {
 
 impl std::error::Error for ImageError {}
 
-/// How a file holds a picture.
+/// The format of a picture file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ImageFormat {
     /// NumPy's array file: float32 `[height, width, 4]`.
     Npy,
-    /// Portable Network Graphics: 8 bits a channel, RGBA.
+    /// Portable Network Graphics: 8 bits per channel, RGBA.
     Png,
     /// OpenEXR: float32 RGBA.
     Exr,
 }
 
 impl ImageFormat {
-    /// The format that the ending of a file's name tells; upper and lower case are alike.
+    /// The format for the extension of a file name, in upper or lower case.
     pub fn of_name(name: &Path) -> Option<Self> {
         match name.extension()?.to_str()?.to_ascii_lowercase().as_str() {
             "npy" => Some(Self::Npy),
@@ -43,7 +43,7 @@ impl ImageFormat {
         }
     }
 
-    /// The format that a file's first bytes tell.
+    /// The format for the first bytes of a file.
     pub fn of_bytes(bytes: &[u8]) -> Option<Self> {
         [(npy::MAGIC, Self::Npy), (png::MAGIC, Self::Png), (exr::MAGIC, Self::Exr)]
             .into_iter()
@@ -58,7 +58,7 @@ pub struct Image {
     pub width: u32,
     /// Rows.
     pub height: u32,
-    /// A color for each pixel. Gray is given to red, green and blue; alpha that the file lacks is 1.
+    /// The color of each pixel. Gray is copied to red, green and blue. Missing alpha is 1.
     pub pixels: Vec<[f32; 4]>,
 }
 
@@ -78,7 +78,7 @@ impl Image {
         }
     }
 
-    /// The same rows from the last to the first.
+    /// The picture with its rows in reverse order.
     #[must_use]
     pub fn flipped(mut self) -> Self {
         let width = self.width.max(1) as usize;
@@ -87,7 +87,7 @@ impl Image {
     }
 }
 
-/// How large a picture may be.
+/// The size limit of a picture.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Size {
     max_side: u32,
@@ -95,7 +95,7 @@ pub(super) struct Size {
 }
 
 impl Size {
-    /// Refuses what is larger, before there is memory for it.
+    /// Rejects larger pictures, before memory is allocated for them.
     pub(super) fn check(self, width: usize, height: usize) -> Result<(u32, u32), ImageError> {
         let side = |side: usize| u32::try_from(side).ok().filter(|side| *side <= self.max_side);
         match (side(width), side(height)) {
@@ -125,7 +125,7 @@ impl Picture {
     /// The bytes of a file with one attachment, counted from 0. A NaN is 0 in a PNG ([`n_nans`](Self::n_nans) counts them).
     ///
     /// # Errors
-    /// There is no such attachment, or a side is 0 and the format has no empty picture.
+    /// There is no such attachment, or a side is 0 and the format cannot represent an empty picture.
     pub fn encode(&self, attachment: usize, format: ImageFormat) -> Result<Vec<u8>, ImageError> {
         let pixels = self.attachments.get(attachment).ok_or_else(|| ImageError("no such attachment".to_owned()))?;
         let (width, height) = (self.width, self.height);
@@ -139,7 +139,7 @@ impl Picture {
         }
     }
 
-    /// How many numbers of an attachment are NaN.
+    /// The number of NaNs in an attachment.
     pub fn n_nans(&self, attachment: usize) -> usize {
         self.attachments.get(attachment).map_or(0, |pixels| pixels.iter().flatten().filter(|x| x.is_nan()).count())
     }
@@ -203,7 +203,7 @@ mod tests {
             assert!(Image::read(&bytes, 1, 64).is_err(), "{format:?}: a side is 2");
             assert!(Image::read(&bytes, 16, 1).is_err(), "{format:?}: there are 2 pixels");
             for length in 0..bytes.len() {
-                // A cut file is refused, or (where only a check sum is gone) read; it never panics.
+                // A truncated file is rejected, or read (if only a checksum is missing); it never panics.
                 let _ = Image::read(&bytes[..length], 16, 64);
             }
             assert!(Image::read(&bytes[..bytes.len() / 2], 16, 64).is_err(), "{format:?}: half of it is gone");

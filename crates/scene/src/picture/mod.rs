@@ -1,6 +1,6 @@
 //! [`Picture`]: the contents of the framebuffer after a draw; and picture files.
 //!
-//! *In:* what a runner drew, or the bytes of a file. *Out:* pictures, 8-bit colors, the bytes of a file.
+//! *In:* a runner's results, or the bytes of a file. *Out:* pictures, 8-bit colors, the bytes of a file.
 //!
 //! *Holds:* top row first, x fastest. Nothing here draws or touches the file system.
 

@@ -1,12 +1,12 @@
 //! NumPy's array files (NEP 1), float32 `[height, width, 4]`.
 //!
-//! *In:* RGBA numbers, or a file's bytes. *Out:* the other of the two.
+//! *In:* RGBA numbers, or a file's bytes. *Out:* the respective other.
 
 use super::image::{Image, ImageError, Size};
 
-/// The first bytes of each such file.
+/// The first bytes of every such file.
 pub(super) const MAGIC: &[u8] = b"\x93NUMPY";
-/// The data starts at a multiple of this.
+/// The data begins at a multiple of this offset.
 const ALIGNMENT: usize = 64;
 /// Magic, version and the length of the header's text.
 const PREFIX: usize = MAGIC.len() + 4;
@@ -28,7 +28,7 @@ pub(super) fn write(width: u32, height: u32, pixels: &[[f64; 4]]) -> Vec<u8> {
     bytes
 }
 
-/// Reads what [`write`] or `numpy.save` wrote of a float32 array `[height, width, 4]` in C order.
+/// Reads a float32 array `[height, width, 4]` in C order, from [`write`] or `numpy.save`.
 pub(super) fn read(bytes: &[u8], size: Size) -> Result<Image, ImageError> {
     let damaged = || ImageError("it is not a whole NumPy file".to_owned());
     let [major, _, low, high] = *bytes.get(MAGIC.len()..).and_then(<[u8]>::first_chunk).ok_or_else(damaged)?;

@@ -1,34 +1,34 @@
 //! Portable Network Graphics (ISO/IEC 15948).
 //!
-//! *In:* bytes of RGB or RGBA, or a file's bytes. *Out:* the other of the two.
+//! *In:* bytes of RGB or RGBA, or a file's bytes. *Out:* the respective other.
 
 use super::image::{Image, ImageError, Size};
 use png::{BitDepth, ColorType, Compression, Decoder, Encoder, Filter, Info, Limits, Transformations};
 use std::io::Cursor;
 
-/// The first bytes of each such file.
+/// The first bytes of every such file.
 pub(super) const MAGIC: &[u8] = b"\x89PNG\r\n\x1a\n";
 
-/// What a pixel's bytes are.
+/// The channels of a pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Channels {
     Rgb,
     Rgba,
 }
 
-/// How hard the writer tries to make a small file.
+/// The effort to make a small file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Effort {
-    /// Little: for files that are written often.
+    /// Low: for files that are written often.
     Fast,
-    /// All it can: for files that are kept.
+    /// High: for files that are kept.
     Best,
 }
 
 /// The PNG file of an opaque picture: `width * height` pixels, top row first.
 ///
 /// # Errors
-/// A side is 0, or there is another number of pixels.
+/// A side is 0, or the number of pixels does not match.
 pub fn png_rgb(width: u32, height: u32, pixels: &[[u8; 3]], effort: Effort) -> Result<Vec<u8>, ImageError> {
     write(width, height, pixels.as_flattened(), Channels::Rgb, effort)
 }
@@ -92,7 +92,7 @@ impl From<ImageError> for Failure {
     }
 }
 
-/// More than the largest picture with 16 bits a channel has: `Size` is the limit.
+/// More than the largest picture with 16 bits per channel needs. `Size` is the limit.
 const MAX_BYTES: usize = 1 << 30;
 
 fn decode(bytes: &[u8], size: Size) -> Result<Image, Failure> {
@@ -114,7 +114,7 @@ fn decode(bytes: &[u8], size: Size) -> Result<Image, Failure> {
     Ok(Image { width, height, pixels: colors(&numbers, frame.color_type) })
 }
 
-/// Each pixel as RGBA.
+/// The pixels as RGBA.
 fn colors(numbers: &[f32], color_type: ColorType) -> Vec<[f32; 4]> {
     match color_type {
         // `EXPAND` leaves no palette.

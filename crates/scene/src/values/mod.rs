@@ -1,13 +1,15 @@
 //! Uniform values by name (GLSL 1.50 §4.3.5, OpenGL 3.2 §2.11.4).
 //!
-//! *In:* a linked program. *Out:* [`UniformValues`], flat by root, and the [`LeafShape`] by which a host writes them.
+//! *In:* a linked program. *Out:* [`UniformValues`], flat by root, and the [`LeafShape`] that a host needs to write
+//! them.
 //!
-//! *Holds:* a uniform that nobody sets keeps its initializer, or is 0. Values have the types that the program declares.
+//! *Holds:* a uniform that is not set keeps its initializer, or is 0. Values have the types that the program
+//! declares.
 
 use glisten_front::hir::{ArraySize, Scalar, ScalarValue, Type, TypeId, Types};
 use glisten_front::link::{Program, UniformLeaf};
 
-/// How the values of a leaf follow each other: element by element, column by column, row by row.
+/// The order of the values of a leaf: element by element, column by column, row by row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LeafShape {
     /// The type of each value.
@@ -21,7 +23,7 @@ pub struct LeafShape {
 }
 
 impl LeafShape {
-    /// The shape of a leaf; `None` for what has no values, such as an opaque type.
+    /// The shape of a leaf; `None` if it has no values, such as an opaque type.
     pub fn of(types: &Types, leaf: &UniformLeaf) -> Option<Self> {
         let elements = leaf.array_size.unwrap_or(1);
         let (scalar, columns, rows) = match types.get(leaf.ty) {
@@ -33,12 +35,12 @@ impl LeafShape {
         Some(Self { scalar, columns, rows, elements })
     }
 
-    /// How many values an element has.
+    /// The number of values in an element.
     pub fn n_each(self) -> usize {
         self.columns as usize * self.rows as usize
     }
 
-    /// How many values the leaf has.
+    /// The number of values in the leaf.
     pub fn n_values(self) -> usize {
         self.n_each() * self.elements as usize
     }
@@ -54,7 +56,7 @@ pub fn bits(value: ScalarValue) -> u32 {
     }
 }
 
-/// The values of a leaf among those of the roots; empty if they are not there.
+/// The values of a leaf within those of the roots; empty if they are missing.
 pub fn of_leaf<'a>(roots: &'a [Vec<ScalarValue>], leaf: &UniformLeaf, shape: LeafShape) -> &'a [ScalarValue] {
     let start = leaf.flat_offset as usize;
     let root = roots.get(leaf.root.0 as usize).map_or(&[][..], Vec::as_slice);
@@ -64,12 +66,12 @@ pub fn of_leaf<'a>(roots: &'a [Vec<ScalarValue>], leaf: &UniformLeaf, shape: Lea
 /// The values of all uniforms of a program, flat by root, in the order of the interface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct UniformValues {
-    /// What a [`Draw`](crate::Draw) takes.
+    /// The values for a [`Draw`](crate::Draw).
     pub roots: Vec<Vec<ScalarValue>>,
 }
 
 impl UniformValues {
-    /// The initializers' values, and 0 where there is none.
+    /// The values of the initializers, otherwise 0.
     pub fn initial(program: &Program) -> Self {
         let root = |root: &glisten_front::link::UniformRoot| {
             let mut zero = Vec::new();
@@ -80,8 +82,8 @@ impl UniformValues {
         Self { roots: program.interface.roots.iter().map(root).collect() }
     }
 
-    /// The leaf that a name means, and the element that an index in the name selects: `lights[1].color`, `weights`,
-    /// `weights[2]`. An index past the last element is returned as it is.
+    /// Finds the leaf with a name, and the element that an index in the name selects: `lights[1].color`, `weights`,
+    /// `weights[2]`. An index above the last element is returned unchanged.
     pub fn find<'p>(program: &'p Program, name: &str) -> Option<(&'p UniformLeaf, Option<u32>)> {
         let leaf = |name: &str| program.interface.uniforms.iter().find(|leaf| leaf.name == name);
         if let Some(leaf) = leaf(name) {
@@ -92,7 +94,7 @@ impl UniformValues {
         leaf(array).filter(|leaf| leaf.array_size.is_some()).map(|leaf| (leaf, Some(element)))
     }
 
-    /// Sets values of a leaf from its value number `first` on; `false`, and nothing is set, if there is no room for them.
+    /// Sets values of a leaf from value `first`. Returns `false`, and sets nothing, if they do not fit.
     pub fn set(&mut self, leaf: &UniformLeaf, first: usize, values: &[ScalarValue]) -> bool {
         let start = leaf.flat_offset as usize + first;
         let root = self.roots.get_mut(leaf.root.0 as usize);

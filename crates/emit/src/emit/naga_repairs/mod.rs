@@ -1,7 +1,7 @@
-//! Repairs of what naga writes, and of what it would not survive.
+//! Repairs for gaps of naga: in its output, and for modules that it would not survive.
 //!
-//! *In:* modules before naga writes them, and its output. *Out:* the same with what naga lacks. Each file says what naga
-//! does, and what would make the file superfluous.
+//! *In:* modules before naga writes them, and its output. *Out:* the same with the gaps filled. Each file describes
+//! naga's behavior, and when the file becomes superfluous.
 //!
 //! | file | superfluous once |
 //! | --- | --- |

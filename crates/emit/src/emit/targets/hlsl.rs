@@ -1,4 +1,4 @@
-//! HLSL, of naga's default shader model.
+//! HLSL, with naga's default shader model.
 
 use super::Job;
 use crate::emit::messages::chain;

@@ -1,7 +1,7 @@
-//! One file for each target: how naga writes it, and with which options.
+//! The targets, with one file for each: how naga writes it, and with which options.
 //!
-//! *In:* a validated module. *Out:* the text or the words, or naga's message. *Holds:* every option is set explicitly, so
-//! that an update of naga changes nothing silently.
+//! *In:* a validated module. *Out:* the text or the words, or naga's message. *Holds:* every option is set
+//! explicitly, so that an update of naga changes nothing silently.
 
 mod glsl;
 mod hlsl;
@@ -18,7 +18,7 @@ use naga::Module;
 use naga::proc::{BoundsCheckPolicies, BoundsCheckPolicy};
 use naga::valid::ModuleInfo;
 
-/// What a writer gets.
+/// The input of a writer.
 pub(super) struct Job<'a> {
     pub(super) module: Module,
     pub(super) info: &'a ModuleInfo,
@@ -38,7 +38,7 @@ pub(super) fn write(target: Target, job: Job<'_>) -> Result<Emitted, String> {
     }
 }
 
-/// What a target cannot accept in any module.
+/// The diagnostic for a module that the target cannot accept.
 pub(super) fn limit(target: Target, module: &Module) -> Option<Diagnostic> {
     match target {
         Target::Wgsl => wgsl::limit(module),
@@ -46,8 +46,7 @@ pub(super) fn limit(target: Target, module: &Module) -> Option<Diagnostic> {
     }
 }
 
-/// Whether naga's output is taken as it is. Its writers of these targets have gaps (for example `inverse` in MSL and
-/// HLSL).
+/// Whether naga's writer of this target has gaps (for example `inverse` in MSL and HLSL).
 pub(super) fn has_gaps(target: Target) -> bool {
     match target {
         Target::Wgsl | Target::Spirv => false,

@@ -7,7 +7,7 @@ use glisten_front::diagnostic::Diagnostic;
 use glisten_front::hir::Stage;
 use naga::back::wgsl;
 
-/// Nesting that no parser of WGSL accepts.
+/// The diagnostic for nesting that no parser of WGSL accepts.
 pub(super) fn limit(module: &naga::Module) -> Option<Diagnostic> {
     nesting::too_deep(module)
 }
@@ -19,8 +19,8 @@ pub(super) fn write(mut job: Job<'_>) -> Result<String, String> {
     let text = wgsl::write_string(module, info, wgsl::WriterFlags::empty()).map_err(|error| chain(&error))?;
     let text = names::restored(&text);
     // GLSL allows derivatives in any control flow (§8.8 calls them undefined in some). WGSL rejects them where it
-    // cannot prove that control flow is uniform, unless told otherwise. naga has the directive in its IR but never
-    // writes it.
+    // cannot prove that control flow is uniform, unless a directive disables that. naga has the directive in its IR
+    // but never writes it.
     if *stage == Stage::Fragment && takes_derivatives(module) {
         return Ok(format!("diagnostic(off, derivative_uniformity);\n\n{text}"));
     }

@@ -1,44 +1,45 @@
-//! [`Class`]: how a built-in function is computed, which folding, the executor and lowering match without a wildcard.
+//! [`Class`]: the kind of computation of a built-in function. Folding, the executor and lowering match it without a
+//! wildcard.
 
 use super::{Binary, Composite, Ternary, TextureForm, Unary};
 
-/// How a built-in function is computed.
+/// The kind of computation of a built-in function.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Class {
-    /// One float, component by component.
+    /// A function of one float, component by component.
     Unary(Unary),
-    /// Two floats, component by component; a scalar goes with every component of a vector.
+    /// A function of two floats, component by component. A scalar is combined with every component of a vector.
     Binary(Binary),
-    /// Three floats, likewise.
+    /// A function of three floats, component by component.
     Ternary(Ternary),
-    /// The number and types of the arguments decide by what.
+    /// A function that depends on the number and types of the arguments.
     Numbers(Numbers),
-    /// Whole vectors or square matrices of floats.
+    /// A function of whole vectors or square matrices of floats.
     Composite(Composite),
-    /// Matrices, without a sum.
+    /// A function of matrices without sums.
     Matrix(MatrixFunction),
     /// A comparison of vectors, component by component (§8.6).
     Relation(Relation),
     /// A function of `bvec`s (§8.6).
     Boolean(BooleanFunction),
-    /// Of which kind a float is.
+    /// A test of a float.
     Test(Test),
     /// `modf`, which writes an argument.
     Modf,
-    /// A difference of neighboring fragments (§8.8).
+    /// A difference between neighboring fragments (§8.8).
     Derivative(Derivative),
-    /// Noise of so many components (§8.9).
+    /// Noise with a number of components (§8.9).
     Noise(Noise),
     /// A texture function (§8.7).
     Texture(TextureForm),
-    /// What a geometry shader sends on (§8.10).
+    /// A function that emits from a geometry shader (§8.10).
     Emission(Emission),
 }
 
-/// The functions of numbers that need not be floats, or of one or two arguments.
+/// Functions that accept other numbers than floats, or one or two arguments.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Numbers {
-    /// `atan`: of one argument [`Unary::Atan`], of two [`Binary::Atan2`].
+    /// `atan`: with one argument [`Unary::Atan`], with two [`Binary::Atan2`].
     Atan,
     /// `abs` of floats or `int`s.
     Abs,
@@ -55,7 +56,7 @@ pub enum Numbers {
 }
 
 impl Numbers {
-    /// Whether it jumps where its arguments are floats.
+    /// Whether the function is discontinuous for float arguments.
     pub fn jumps(self) -> bool {
         match self {
             Self::Atan => Unary::Atan.jumps(),
@@ -79,7 +80,7 @@ macro_rules! plain {
 }
 
 plain!(
-    /// Functions of matrices that add nothing up (§8.5).
+    /// Functions of matrices without sums (§8.5).
     MatrixFunction { ComponentProduct, OuterProduct, Transpose }
 );
 plain!(
@@ -103,6 +104,6 @@ plain!(
     Emission { Vertex, Primitive }
 );
 
-/// How many components `noise1` to `noise4` give.
+/// The number of components of `noise1` to `noise4`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Noise(pub u8);

@@ -1,18 +1,19 @@
-//! [`CallCost`]: what a call of a built-in function costs, by the sizes of its result and its first argument.
+//! [`CallCost`]: the cost of a call of a built-in function, depending on the sizes of its result and its first
+//! argument.
 
-/// A count that grows with sizes: `fixed + result * (components of the result) + first * (components of the first
+/// A count that grows with the sizes: `fixed + result * (components of the result) + first * (components of the first
 /// argument)`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Linear {
-    /// Whatever the sizes are.
+    /// The constant part.
     pub fixed: i32,
-    /// For each component of the result.
+    /// The part for each component of the result.
     pub result: i32,
-    /// For each component of the first argument.
+    /// The part for each component of the first argument.
     pub first: i32,
 }
 
-/// Scalar operations of a call.
+/// The number of scalar operations of a call.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct CallCost {
     /// Divisions, roots, exponentials, logarithms, trigonometry.
@@ -26,7 +27,7 @@ pub struct CallCost {
 const NONE: Linear = Linear { fixed: 0, result: 0, first: 0 };
 
 impl Linear {
-    /// For sizes of at least 1.
+    /// The count for sizes of at least 1.
     pub fn at(self, result: u32, first: u32) -> u32 {
         let count = i64::from(self.fixed)
             + i64::from(self.result) * i64::from(result)
@@ -35,12 +36,12 @@ impl Linear {
     }
 }
 
-/// So much arithmetic for each component of the result.
+/// `count` arithmetic operations for each component of the result.
 pub(super) const fn each(count: i32) -> CallCost {
     CallCost { special: NONE, arithmetic: Linear { result: count, ..NONE }, texture: 0 }
 }
 
-/// For each component of the result so many special operations, and so much arithmetic.
+/// For each component of the result, `special` special and `arithmetic` arithmetic operations.
 pub(super) const fn special(special: i32, arithmetic: i32) -> CallCost {
     CallCost {
         special: Linear { result: special, ..NONE },
@@ -49,7 +50,7 @@ pub(super) const fn special(special: i32, arithmetic: i32) -> CallCost {
     }
 }
 
-/// For the whole call so many special operations, and arithmetic by the sizes.
+/// For the whole call, `special` special operations, and arithmetic operations depending on the sizes.
 pub(super) const fn whole(special: i32, fixed: i32, result: i32, first: i32) -> CallCost {
     CallCost { special: Linear { fixed: special, ..NONE }, arithmetic: Linear { fixed, result, first }, texture: 0 }
 }

@@ -1,7 +1,7 @@
-//! [`Formula`]: an expression of other operations, by which a specification says how precise a function is.
+//! [`Formula`]: an expression of other operations, with which a specification defines the precision of a function.
 //!
-//! *In:* the rows of [`precision`](super::precision). *Out:* trees that the reference's envelope evaluates, and their text
-//! as GLSL writes it.
+//! *In:* the rows of [`precision`](super::precision). *Out:* trees that the reference's envelope evaluates, and their
+//! text in GLSL.
 
 use super::{Binary, Unary};
 use std::fmt::{self, Display, Formatter};
@@ -9,7 +9,7 @@ use std::fmt::{self, Display, Formatter};
 /// An expression over the arguments of a function, component by component.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Formula {
-    /// The argument with this number, from 0; of a vector the component that is computed.
+    /// The argument with this index; for a vector, the component that is computed.
     Argument(u8),
     /// A number.
     Constant(f64),
@@ -19,18 +19,18 @@ pub enum Formula {
     Binary(Binary, &'static Formula, &'static Formula),
     /// The sum of the products of all components, in any order.
     Dot(&'static Formula, &'static Formula),
-    /// Another component, so many places on, the first after the last.
+    /// Another component: `n` further, cyclically.
     Next(u8, &'static Formula),
     /// `a < b ? c : d`
     IfLess(&'static [Formula; 4]),
-    /// What either gives.
+    /// The result of either.
     Either(&'static Formula, &'static Formula),
-    /// The first, whose only argument `t` is what the second gives.
+    /// The first formula, whose only argument `t` is the result of the second.
     With(&'static Formula, &'static Formula),
 }
 
 impl Formula {
-    /// Whether two formulas are written the same. Usable in constants, where `==` is not.
+    /// Whether two formulas are written in the same way. It can be used in constants, where `==` cannot.
     pub const fn same(&self, other: &Self) -> bool {
         match (self, other) {
             (Self::Argument(a), Self::Argument(b)) => *a == *b,
@@ -48,12 +48,12 @@ impl Formula {
         }
     }
 
-    /// With these names for the arguments.
+    /// The text with these names for the arguments.
     pub fn text(&self, names: &[&str]) -> String {
         Text { formula: self, names }.to_string()
     }
 
-    /// How tightly the outermost operation binds (§5.1).
+    /// The precedence of the outermost operation (§5.1).
     fn precedence(&self) -> u8 {
         match self {
             Self::IfLess(_) | Self::Either(..) | Self::With(..) => 0,
@@ -75,7 +75,7 @@ impl Text<'_> {
         Text { formula, names: self.names }
     }
 
-    /// An operand, in parentheses where it binds less tightly than `least`.
+    /// Writes an operand, in parentheses if its precedence is below `least`.
     fn operand(&self, f: &mut Formatter<'_>, formula: &Formula, least: u8) -> fmt::Result {
         let text = self.part(formula);
         if formula.precedence() < least { write!(f, "({text})") } else { write!(f, "{text}") }
@@ -118,7 +118,7 @@ impl Display for Text<'_> {
     }
 }
 
-/// Writes a tree: `formula!((+ x (sqrt y)))` in prefix form, with `x`, `y`, `z` for the arguments.
+/// Builds a tree: `formula!((+ x (sqrt y)))` in prefix form, with `x`, `y`, `z` for the arguments.
 macro_rules! formula {
     (x) => { $crate::builtin::operations::Formula::Argument(0) };
     (y) => { $crate::builtin::operations::Formula::Argument(1) };

@@ -1,8 +1,8 @@
-//! The operations on f64 numbers: what folding computes and what the reference's own f64 domain is held to.
+//! The operations on f64 numbers, for constant folding and for checking the reference's f64 domain.
 //!
-//! Defined here where GLSL is not: `min` and `max` drop a NaN where one operand is none (IEEE 754-2008 `minNum`, and what
-//! GPUs do); `sign` of NaN is 0; `pow` of a negative base is NaN (§8.2 leaves it undefined; GPUs compute
-//! `exp2(y * log2(x))`), `pow(0, 0)` is 1; `round` goes to the even neighbor at halves.
+//! These cases are defined here because GLSL leaves them undefined: `min` and `max` drop a NaN if the other operand
+//! is not one (IEEE 754-2008 `minNum`, as on GPUs); `sign` of NaN is 0; `pow` of a negative base is NaN (§8.2; GPUs
+//! compute `exp2(y * log2(x))`), `pow(0, 0)` is 1; `round` goes to the even neighbor at halves.
 
 use std::f64::consts::{LN_2, PI};
 
@@ -24,7 +24,7 @@ pub fn sign(x: f64) -> f64 {
     f64::from(i8::from(x > 0.0) - i8::from(x < 0.0))
 }
 
-/// §8.1. The standard library's loses half of the digits near 1.
+/// §8.1. The standard library's function loses half of the digits near 1.
 #[inline(always)]
 pub fn acosh(x: f64) -> f64 {
     let above = x - 1.0;
@@ -36,7 +36,7 @@ pub fn acosh(x: f64) -> f64 {
     }
 }
 
-/// §8.1. The standard library's loses digits near -1 and not near 1.
+/// §8.1. The standard library's function loses digits near -1, but not near 1.
 #[inline(always)]
 pub fn atanh(x: f64) -> f64 {
     x.abs().atanh().copysign(x)
@@ -48,13 +48,13 @@ pub fn pow(x: f64, y: f64) -> f64 {
     if x < 0.0 { f64::NAN } else { x.powf(y) }
 }
 
-/// `minNum`: a NaN loses.
+/// `minNum`: a NaN is dropped.
 #[inline(always)]
 pub fn min(a: f64, b: f64) -> f64 {
     if a < b || b.is_nan() { a } else { b }
 }
 
-/// `maxNum`: a NaN loses.
+/// `maxNum`: a NaN is dropped.
 #[inline(always)]
 pub fn max(a: f64, b: f64) -> f64 {
     if a > b || b.is_nan() { a } else { b }

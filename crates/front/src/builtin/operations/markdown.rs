@@ -7,7 +7,7 @@ use crate::builtin::{Availability, Stages};
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-/// Every operator on floats and every built-in function, section by section.
+/// All operators on floats and all built-in functions, section by section.
 pub fn markdown() -> String {
     let mut out =
         String::from("### Operators on floats (§5.9)\n\n| operator | may jump | precision |\n| --- | --- | --- |\n");
@@ -27,7 +27,7 @@ pub fn markdown() -> String {
     out
 }
 
-/// Every rule of precision: operation, what is allowed, where that stands.
+/// All rules of precision: operation, allowed error, source.
 pub fn precision_markdown() -> String {
     let mut out = String::from("| operation | allowed | source |\n| --- | --- | --- |\n");
     for rule in RULES {
@@ -167,7 +167,7 @@ impl CallCost {
 }
 
 impl Rule {
-    /// What is allowed, in words.
+    /// The allowed error in words.
     pub fn describe(&self) -> String {
         let formula = |formula: &super::Formula| format!("`{}`", formula.text(self.arguments));
         match self.precision {

@@ -1,11 +1,11 @@
-//! The table of operations: what each operator on floats and each built-in function (GLSL 1.50 §5.9, §8) is, once.
+//! The table of operations: the definition of each operator on floats and each built-in function (GLSL 1.50 §5.9,
+//! §8).
 //!
-//! *In:* nothing. *Out:* the identities [`BuiltinFunction`], [`Unary`], [`Binary`], [`Ternary`] and [`Composite`], and the
-//! facts of each: name, class, cost, precision, whether it jumps, how a texture is looked up.
-//! *Holds:* a fact about an operation stands in its row of [`table`] and nowhere else. Phases that do something with an
-//! operation (folding, execution, lowering) match its [`Class`] without a wildcard, so that a new row does not compile
-//! before each of them knows it. *Not done here:* the prototypes with their versions and stages
-//! ([`functions`](super::functions)), which name the identity that they belong to.
+//! *In:* nothing. *Out:* the identities [`BuiltinFunction`], [`Unary`], [`Binary`], [`Ternary`] and [`Composite`],
+//! and the properties of each: name, class, cost, precision, continuity, texture lookup. *Holds:* a property of an
+//! operation is defined only in its row of [`table`]. Phases that process operations (folding, execution, lowering)
+//! match the [`Class`] without a wildcard, so a new row does not compile until each of them supports it. *Not done
+//! here:* the prototypes with their versions and stages ([`functions`](super::functions)), which name their identity.
 
 mod class;
 mod cost;
@@ -27,15 +27,15 @@ pub use texture::{Lookup, TextureArgument, TextureForm};
 /// The row of a built-in function.
 #[derive(Clone, Copy, Debug)]
 pub struct Operation {
-    /// Which function.
+    /// The identity of the function.
     pub function: BuiltinFunction,
-    /// The name in GLSL; older names of one computation (`texture2D`) stand in the prototypes alone.
+    /// The name in GLSL. Only the prototypes contain older names of a computation (`texture2D`).
     pub name: &'static str,
-    /// How it is computed.
+    /// The kind of computation.
     pub class: Class,
-    /// What a call costs.
+    /// The cost of a call.
     pub cost: CallCost,
-    /// How far a conforming GPU may be from the exact result; `None` for what gives no computed floats.
+    /// The error that a conforming GPU may add; `None` if the result is not computed floats.
     pub rule: Option<&'static Rule>,
 }
 
@@ -51,7 +51,7 @@ impl Operation {
         self.prototypes().next().map_or("", |row| row.section)
     }
 
-    /// Whether a result may jump between neighboring arguments.
+    /// Whether the function is discontinuous.
     pub fn jumps(&self) -> bool {
         match self.class {
             Class::Unary(op) => op.jumps(),
@@ -64,8 +64,9 @@ impl Operation {
         }
     }
 
-    /// Whether a call may look at the neighboring fragments (§8.7, §8.8): derivatives, and texture lookups whose level of
-    /// detail is implicit. Textures with one level need none: [`SamplerType::has_levels`](crate::language::SamplerType).
+    /// Whether a call may read from neighboring fragments (§8.7, §8.8): derivatives, and texture lookups with an
+    /// implicit level of detail. Textures with one level need none:
+    /// [`SamplerType::has_levels`](crate::language::SamplerType).
     pub fn implicit_derivatives(&self) -> bool {
         match self.class {
             Class::Derivative(_) => true,
@@ -87,12 +88,12 @@ impl Operation {
 }
 
 impl BuiltinFunction {
-    /// How it is computed.
+    /// The kind of computation.
     pub fn class(self) -> Class {
         self.operation().class
     }
 
-    /// [`Operation::implicit_derivatives`]
+    /// Whether a call may read from neighboring fragments: see [`Operation::implicit_derivatives`].
     pub fn implicit_derivatives(self) -> bool {
         self.operation().implicit_derivatives()
     }

@@ -1,10 +1,10 @@
-//! How far a conforming GPU may be from the exact result of one operation: typed rules.
+//! Typed rules for the error that a conforming GPU may add to one operation.
 //!
-//! *In:* nothing. *Out:* a constant for each rule, and [`RULES`], all of them in order.
-//! *Holds:* these are the rows of Vulkan's tables "Precision of core SPIR-V Instructions" and "Precision of GLSL.std.450
-//! Instructions" for 32-bit floats (appendix "Vulkan Environment for SPIR-V"), with those of WGSL's table "Accuracy of
-//! Built-in Functions" where they allow more: a GPU is right by either. *Not done here:* what the pipeline around the
-//! shaders may do (the reference's `domain::rules`).
+//! *In:* nothing. *Out:* a constant for each rule, and [`RULES`], all of them in order. *Holds:* these are the rows
+//! of Vulkan's tables "Precision of core SPIR-V Instructions" and "Precision of GLSL.std.450 Instructions" for 32-bit
+//! floats (appendix "Vulkan Environment for SPIR-V"), or those of WGSL's table "Accuracy of Built-in Functions" where
+//! they allow more: a GPU conforms if it follows either. *Not done here:* the rules for the pipeline around the
+//! shaders (the reference's `domain::rules`).
 
 use super::Formula;
 use super::formula::formula;
@@ -15,50 +15,51 @@ use std::f64::consts::PI;
 pub enum Precision {
     /// No error: the exact result of f32 numbers is an f32.
     Exact,
-    /// One of the two f32 neighbors; the number itself where it is an f32.
+    /// One of the two f32 neighbors, or the number itself if it is an f32.
     Correct,
-    /// So many ULPs of f32 at the exact result.
+    /// A number of ULPs of f32 at the exact result.
     Ulps(f64),
-    /// `fixed + slope |x|` ULPs of f32 at the exact result, `x` being the argument.
+    /// `fixed + slope |x|` ULPs of f32 at the exact result, where `x` is the argument.
     UlpsWithArgument {
-        /// At 0.
+        /// The part that does not depend on the argument.
         fixed: f64,
-        /// What each unit of the argument adds.
+        /// The part for each unit of the argument.
         slope: f64,
     },
-    /// ULPs, but inside of a range of arguments at least so much.
+    /// ULPs, or in a range of arguments at least an absolute error.
     UlpsOrWithin {
-        /// So many ULPs of f32 at the exact result.
+        /// The ULPs of f32 at the exact result.
         ulps: f64,
-        /// So much, whatever the result.
+        /// The absolute error.
         error: f64,
-        /// The least argument of the range.
+        /// The lower bound of the range.
         low: f64,
-        /// The greatest.
+        /// The upper bound of the range.
         high: f64,
     },
-    /// So much, whatever the result.
+    /// An absolute error.
     Absolute(f64),
-    /// So much; of larger angles their rounding more; of the largest nothing is known but that the result is one.
+    /// An absolute error. For larger angles, their rounding adds to it; for the largest, the result may be any value
+    /// of the function.
     Angle {
-        /// So much, whatever the result.
+        /// The absolute error.
         error: f64,
-        /// Beyond this the argument is reduced, which loses one ULP of it.
+        /// The angle above which the argument is reduced, which loses one of its ULPs.
         reduced: f64,
-        /// From here on a float has no fraction.
+        /// The angle from which a float has no fraction.
         lost: f64,
     },
-    /// What the formula gives, computed by the rules of its operations, limited to what the function itself can give.
+    /// The error of the formula, computed by the rules of its operations, limited to the range of the function.
     Inherited(&'static Formula),
-    /// The worse of what the formula gives and so much.
+    /// The larger of the formula's error and an absolute error.
     InheritedOr(&'static Formula, f64),
-    /// The nearest integer, a half to either side.
+    /// The nearest integer; from a half, either.
     EitherHalf,
-    /// Exact; where one operand may be NaN, the other or NaN.
+    /// Exact; if one operand may be NaN, the other one or NaN.
     EitherOfNan,
-    /// The difference along either row or column of the quad of fragments.
+    /// The difference along either row or either column of the quad.
     EitherDifference,
-    /// Cofactors of rows and columns, over their sum for the inverse: no specification states a precision.
+    /// Cofactors by rows and columns, divided by their sum for the inverse. No specification states a precision.
     Cofactors,
 }
 
@@ -71,12 +72,12 @@ pub struct Rule {
     pub precision: Precision,
     /// The names of the arguments in the formula.
     pub arguments: &'static [&'static str],
-    /// Where that stands.
+    /// The source of the rule.
     pub source: &'static str,
 }
 
 impl Rule {
-    /// The ULPs of a rule that has them.
+    /// The ULPs, for a rule with ULPs.
     #[inline(always)]
     pub const fn ulps(&self) -> f64 {
         match self.precision {
@@ -95,7 +96,7 @@ impl Rule {
         }
     }
 
-    /// The absolute error of a rule that has one.
+    /// The absolute error, for a rule with one.
     #[inline(always)]
     pub const fn absolute(&self) -> f64 {
         match self.precision {
@@ -104,7 +105,8 @@ impl Rule {
         }
     }
 
-    /// The range of arguments with a precision of their own; for angles where they are reduced, and where nothing is left.
+    /// The range of arguments with a precision of its own; for angles, where they are reduced and where no fraction
+    /// is left.
     pub const fn within(&self) -> (f64, f64) {
         match self.precision {
             UlpsOrWithin { low, high, .. } => (low, high),
@@ -113,7 +115,7 @@ impl Rule {
         }
     }
 
-    /// The formula of a rule that has one.
+    /// The formula, for a rule with one.
     pub const fn formula(&self) -> Option<&'static Formula> {
         match self.precision {
             Inherited(formula) | InheritedOr(formula, _) => Some(formula),
@@ -121,12 +123,12 @@ impl Rule {
         }
     }
 
-    /// Whether the operation may give anything but the exact result.
+    /// Whether the result may differ from the exact one.
     pub const fn adds_error(&self) -> bool {
         !matches!(self.precision, Exact | EitherOfNan)
     }
 
-    /// Whether the rule inherits from this very formula: a kernel that evaluates it in a faster way is right then.
+    /// Whether the rule is inherited from this very formula. Then a kernel may evaluate it in a faster way.
     pub const fn inherits(&self, formula: &Formula) -> bool {
         match self.formula() {
             Some(own) => own.same(formula),
@@ -150,7 +152,7 @@ macro_rules! rules {
 
 use Precision::*;
 
-/// `x` and `root`, the root of `1 - x x`; what is below it is not negative for any sine.
+/// `x` and `root`, the root of `1 - x x`, limited to 0 from below.
 const ROOT: Formula = formula!((Sqrt (Max (- 1.0 (* x x)) 0.0)));
 const SINH_OF_X: Formula = formula!((* (- (Exp x) (Exp (Neg x))) 0.5));
 const COSH_OF_X: Formula = formula!((* (+ (Exp x) (Exp (Neg x))) 0.5));

@@ -1,10 +1,9 @@
-//! The rows: operators on floats and built-in functions, a line each.
+//! The rows for operators on floats and built-in functions, with one line for each.
 //!
-//! *In:* nothing. *Out:* the identities that the rows name, and the facts in them.
-//! *Holds:* a built-in function that is one operation on one, two or three floats, or on whole vectors, gives the
-//! identity of a function and that of the operation by one line. `floats` says that it takes floats alone, `numbers`
-//! that the types of the arguments decide. `jumps` and `smooth` say whether neighboring arguments may give results far
-//! apart.
+//! *In:* nothing. *Out:* the identities that the rows name, and their properties. *Holds:* if a built-in function is
+//! one operation on one, two or three floats, or on whole vectors, one line declares both the identity of the
+//! function and that of the operation. `floats` marks functions that accept only floats, `numbers` those that depend
+//! on the types of the arguments. `jumps` and `smooth` state whether the function is discontinuous.
 
 use super::cost::{LOOKUP, each, special, whole};
 use super::precision::{self, Rule};
@@ -29,8 +28,8 @@ macro_rules! jumps {
     };
 }
 
-/// The identities of the operations on one, two and three floats: `(x)` names the arguments, the second time as they are
-/// handed to the kernel.
+/// Declares the identities of the operations on one, two and three floats. `(x)` names the arguments, the second time
+/// as they are passed to the kernel.
 macro_rules! componentwise {
     ($(#[$doc:meta])* $kind:ident($($x:ident),*) $arguments:tt { $($name:ident $spelling:literal $jumps:ident $rule:ident $kernel:expr;)* }) => {
         $(#[$doc])*
@@ -39,20 +38,20 @@ macro_rules! componentwise {
         pub enum $kind { $($name),* }
 
         impl $kind {
-            /// All of them.
+            /// All operations.
             pub const ALL: &[Self] = &[$(Self::$name),*];
 
-            /// As GLSL writes it.
+            /// The name in GLSL.
             pub const fn name(self) -> &'static str {
                 match self { $(Self::$name => $spelling),* }
             }
 
-            /// Whether a result may jump between neighboring arguments.
+            /// Whether the operation is discontinuous.
             pub const fn jumps(self) -> bool {
                 match self { $(Self::$name => jumps!($jumps)),* }
             }
 
-            /// How far a conforming GPU may be from the exact result.
+            /// The error that a conforming GPU may add.
             pub const fn rule(self) -> &'static Rule {
                 match self { $(Self::$name => &precision::$rule),* }
             }
@@ -95,33 +94,33 @@ macro_rules! operations {
         pub enum Composite { $($c),* }
 
         impl Composite {
-            /// All of them.
+            /// All operations.
             pub const ALL: &[Self] = &[$(Self::$c),*];
 
-            /// As GLSL writes it.
+            /// The name in GLSL.
             pub const fn name(self) -> &'static str {
                 match self { $(Self::$c => $cn),* }
             }
 
-            /// Whether a result may jump between neighboring arguments.
+            /// Whether the operation is discontinuous.
             pub const fn jumps(self) -> bool {
                 match self { $(Self::$c => jumps!($cj)),* }
             }
 
-            /// How far a conforming GPU may be from the exact result.
+            /// The error that a conforming GPU may add.
             pub const fn rule(self) -> &'static Rule {
                 match self { $(Self::$c => &precision::$cr),* }
             }
         }
 
-        /// A built-in function by what it computes; the argument types tell which overload is meant. Older names of one
-        /// computation (`texture2D`, `shadow2D`) share an identity.
+        /// A built-in function. The argument types determine the overload. Older names of one computation
+        /// (`texture2D`, `shadow2D`) share an identity.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
         #[expect(missing_docs, reason = "the names are those of the specification")]
         pub enum BuiltinFunction { $($u,)* $($b,)* $($t,)* $($c,)* $($o,)* }
 
         impl BuiltinFunction {
-            /// All of them.
+            /// All functions.
             pub const ALL: &[Self] = &[$(Self::$u,)* $(Self::$b,)* $(Self::$t,)* $(Self::$c,)* $(Self::$o,)*];
 
             /// The name in GLSL.

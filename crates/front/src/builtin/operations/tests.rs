@@ -15,7 +15,8 @@ fn every_operation_has_prototypes_a_section_and_a_name_of_its_own() {
     }
 }
 
-/// Whatever gives computed floats has a rule: all but textures, whose rules are those of filters, and noise, which is 0.
+/// Every function with computed floats has a rule. Exceptions are textures, for which the rules of filters apply, and
+/// noise, which is 0.
 #[test]
 fn every_operation_that_computes_floats_has_a_rule() {
     for function in BuiltinFunction::ALL {
@@ -31,7 +32,7 @@ fn every_operation_that_computes_floats_has_a_rule() {
     }
 }
 
-/// What a rule names is what refers to it.
+/// The name in a rule is that of the operation that refers to it.
 #[test]
 fn rules_name_the_operations_that_refer_to_them() {
     for function in BuiltinFunction::ALL {

@@ -1,13 +1,13 @@
-//! [`TextureForm`]: what the name of a texture function says of its arguments (GLSL 1.50 §8.7).
+//! [`TextureForm`]: the part of a texture function's name that describes its arguments (GLSL 1.50 §8.7).
 
 use crate::language::{SamplerDim, SamplerType};
 use smallvec::SmallVec;
 
-/// How a texture is looked up.
+/// The kind of a texture lookup.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Lookup {
-    /// The level of detail comes from derivatives where the stage has them (else it is the base level), with a bias or
-    /// none.
+    /// The level of detail comes from derivatives if the stage has them, with or without a bias; otherwise it is the
+    /// base level.
     Implicit,
     /// Explicit level of detail.
     Lod,
@@ -19,10 +19,10 @@ pub enum Lookup {
     Size,
 }
 
-/// What the name of a texture function says.
+/// The properties that the name of a texture function states.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TextureForm {
-    /// How it is looked up.
+    /// The kind of lookup.
     pub lookup: Lookup,
     /// `...Proj`: the coordinate is divided by its last component.
     pub projective: bool,
@@ -30,10 +30,10 @@ pub struct TextureForm {
     pub offset: bool,
 }
 
-/// What an argument of a texture function is.
+/// The role of an argument of a texture function.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TextureArgument {
-    /// Where: `P`, with the layer of an array and the reference of a shadow sampler.
+    /// The coordinate `P`, with the layer of an array and the reference of a shadow sampler.
     Coordinate,
     /// The level of detail.
     Level,
@@ -45,7 +45,7 @@ pub enum TextureArgument {
     GradientY,
     /// The offset in texels.
     Offset,
-    /// What is added to the implicit level of detail; it may be left out.
+    /// The optional offset of the implicit level of detail.
     Bias,
 }
 
@@ -54,7 +54,7 @@ impl TextureForm {
         Self { lookup, projective, offset }
     }
 
-    /// What the arguments after the sampler are, in order.
+    /// The roles of the arguments after the sampler, in order.
     pub fn arguments(self, sampler: SamplerType) -> SmallVec<[TextureArgument; 5]> {
         use TextureArgument::{Bias, Coordinate, GradientX, GradientY, Level, Offset, Sample};
         let mut list = SmallVec::new();
