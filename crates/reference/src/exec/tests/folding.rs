@@ -80,7 +80,7 @@ impl Case {
         match (scalar, singles) {
             (Scalar::Float, true) => FLOATS[(set >> (4 * input)) % 16].to_bits(),
             // Few of the special values at a time, or nothing but NaN is left of a vector.
-            (Scalar::Float, false) if set % 2 == 0 => FLOATS[mixed % 6].to_bits(),
+            (Scalar::Float, false) if set.is_multiple_of(2) => FLOATS[mixed % 6].to_bits(),
             (Scalar::Float, false) => FLOATS[mixed % 16].to_bits(),
             (Scalar::Bool, _) => (mixed & 1) as u32,
             (Scalar::Int | Scalar::Uint, true) => INTS[(set >> (3 * input)) % 8],
@@ -128,7 +128,7 @@ fn assigned(shader: &Shader) -> ExprId {
         },
         _ => None,
     });
-    values.last().expect("`main` assigns")
+    values.next_back().expect("`main` assigns")
 }
 
 fn find<'a>(shader: &'a Shader, name: &str) -> Option<(GlobalId, &'a Global)> {
