@@ -34,6 +34,8 @@ pub mod report;
 pub mod scene;
 #[cfg(feature = "reference")]
 pub mod shader_test;
+#[cfg(feature = "reference")]
+pub mod specialize;
 
 pub use glisten_front::{Compilation, Compiler, Diagnostic, Diagnostics, Options, Program, Source, Stage};
 pub use glisten_front::{diagnostic, lint, source};
