@@ -2,7 +2,7 @@
 //!
 //! *In:* a [`Draw`] and its framebuffer. *Out:* a [`Known`].
 
-use glisten_front::hir::{Scalar, ScalarValue, Stage};
+use glisten_front::hir::{Scalar, ScalarValue};
 use glisten_front::link::UniformLeaf;
 use glisten_scene::scene::{AttributeData, Cull, Draw, Framebuffer, Primitive, Texels, Texture};
 use glisten_specialize::{Input, Known, KnownState, KnownTexture};
@@ -197,9 +197,4 @@ fn channels(texture: &Texture) -> [Input; 4] {
         });
         hull(values)
     })
-}
-
-/// Whether a program can be specialized for a scene: one with a geometry stage is drawn by nobody.
-pub(super) fn is_drawable(draw: &Draw) -> bool {
-    draw.program.stage(Stage::Geometry).is_none()
 }

@@ -4,7 +4,7 @@
 //! data only what that reads.
 //! *Holds:* equal residuals are one program.
 
-use super::known;
+use super::known::{known, leaf_values};
 use glisten_front::hir::{ScalarValue, Stage};
 use glisten_front::link::Program;
 use glisten_front::source::SourceMap;
@@ -30,6 +30,8 @@ pub struct SpecializedDraw {
     pub left_out: Vec<LeftOut>,
     /// The texts that the residual was read back from, for diagnostics about it.
     pub sources: SourceMap,
+    /// Why the program was left as it was, should that ever be.
+    pub fault: Option<String>,
 }
 
 impl SpecializedDraw {
@@ -46,8 +48,8 @@ pub fn specialize_scene(scene: &Scene, sources: &SourceMap, dynamic: &[String]) 
     let mut result = scene.clone();
     result.draws.clear();
     for draw in &scene.draws {
-        let known = known::known(draw, &scene.framebuffer, dynamic);
-        let Residual { stages, program, left_out, sources } =
+        let known = known(draw, &scene.framebuffer, dynamic);
+        let Residual { stages, program, left_out, sources, fault } =
             specialize_with(&draw.program, &known, &Options { sources: Some(sources) });
         let texts: Vec<(Stage, String)> = stages.into_iter().map(|stage| (stage.stage, stage.text)).collect();
         let program = match residuals.iter().find(|(known, other)| *known == texts && alike(other, &program)) {
@@ -59,7 +61,7 @@ pub fn specialize_scene(scene: &Scene, sources: &SourceMap, dynamic: &[String]) 
             }
         };
         result.draws.push(rebound(draw, program, dynamic));
-        draws.push(SpecializedDraw { texts, left_out, sources });
+        draws.push(SpecializedDraw { texts, left_out, sources, fault });
     }
     SpecializedScene { scene: result, draws }
 }
@@ -88,7 +90,7 @@ fn rebound(draw: &Draw, program: Arc<Program>, dynamic: &[String]) -> Draw {
         .collect();
     for leaf in &new.uniforms {
         let Some(known) = old.uniforms.iter().find(|known| known.name == leaf.name) else { continue };
-        let Some(values) = known::leaf_values(draw, known) else { continue };
+        let Some(values) = leaf_values(draw, known) else { continue };
         let len = (program.types.flat_len(leaf.ty) * leaf.array_size.unwrap_or(1)) as usize;
         let start = leaf.flat_offset as usize;
         let slots = uniforms.get_mut(leaf.root.0 as usize).and_then(|root| root.get_mut(start..start + len));

@@ -12,6 +12,9 @@ mod pipeline;
 mod raster;
 pub mod stability;
 mod texture;
+mod work;
+
+pub use work::{Work, work};
 
 use domain::faults::Faults;
 use domain::{Envelope, F32, F64};

@@ -29,6 +29,8 @@ pub struct Residual {
     pub sources: SourceMap,
     /// What was left out, in the order of the original.
     pub left_out: Vec<LeftOut>,
+    /// Why the residual did not read back, a fault of this crate: the program is then as it was.
+    pub fault: Option<String>,
 }
 
 /// A stage of a residual.
@@ -167,14 +169,13 @@ fn assemble(
         .collect();
     let left_out = account::left_out(program, known, options, &walked, &shaders);
     match read_back(program, &stages) {
-        Some((program, sources)) => Residual { stages, program, sources, left_out },
-        // Should it ever not read back, the program is left as it was.
-        None => whole(program, options),
+        Ok((program, sources)) => Residual { stages, program, sources, left_out, fault: None },
+        Err(fault) => Residual { fault: Some(fault), ..whole(program, options) },
     }
 }
 
 /// Compiles the residual, with the locations that a host has bound.
-fn read_back(program: &Program, stages: &[ResidualStage]) -> Option<(Program, SourceMap)> {
+fn read_back(program: &Program, stages: &[ResidualStage]) -> Result<(Program, SourceMap), String> {
     let sources: Vec<Source> = stages
         .iter()
         .map(|stage| Source {
@@ -191,7 +192,17 @@ fn read_back(program: &Program, stages: &[ResidualStage]) -> Option<(Program, So
         ..glisten_front::Options::default()
     };
     let compiled = Compiler::new(options).compile(&sources);
-    compiled.program.map(|program| (program, compiled.sources))
+    let problem = || {
+        let error = compiled.diagnostics.iter().find(|found| found.is_error());
+        let message = error.map_or("no program", |error| error.message.as_str());
+        let line = error.and_then(|error| compiled.sources.location(error.primary.span)).map_or(0, |place| place.line);
+        let texts: Vec<&str> = stages.iter().map(|stage| stage.text.as_str()).collect();
+        format!("line {line}: {message}\n{}", texts.join("\n"))
+    };
+    match compiled.program {
+        Some(program) => Ok((program, compiled.sources)),
+        None => Err(problem()),
+    }
 }
 
 /// The program as it was.
@@ -202,5 +213,5 @@ fn whole(program: &Program, options: &Options<'_>) -> Residual {
         .map(|shader| ResidualStage { stage: shader.stage, text: text::write(&program.types, shader, options.sources) })
         .collect();
     let sources = options.sources.cloned().unwrap_or_default();
-    Residual { stages, program: program.clone(), sources, left_out: Vec::new() }
+    Residual { stages, program: program.clone(), sources, left_out: Vec::new(), fault: None }
 }

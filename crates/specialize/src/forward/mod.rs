@@ -23,7 +23,7 @@ pub(crate) use effects::Effects;
 
 use super::facts::{Fact, Facts};
 use super::known::KnownTexture;
-use glisten_front::hir::{ExprId, ExprKind, FunctionId, GlobalId, LocalId, Shader, Stmt, TypeId, Types, VarRef};
+use glisten_front::hir::{ExprId, ExprKind, FunctionId, GlobalId, LocalId, Shader, Stmt, Storage, TypeId, Types, VarRef};
 use glisten_front::stack::with_stack;
 use glisten_front::source::Span;
 use calls::Variants;
@@ -202,7 +202,15 @@ impl<'a> Forward<'a> {
 
     /// The initializer of a private global runs before `main`.
     fn initialize(&mut self, index: usize) {
-        let Some(initializer) = self.shader.globals.get(index).and_then(|global| global.initializer) else { return };
+        let Some(global) = self.shader.globals.get(index) else { return };
+        let Some(initializer) = global.initializer else { return };
+        if global.storage != Storage::Private {
+            // Of a constant or a uniform the value is known, and says the same.
+            if let Some(global) = self.out.globals.get_mut(index) {
+                global.initializer = None;
+            }
+            return;
+        }
         let value = self.eval(initializer);
         self.store.set(Key(index as u32), std::rc::Rc::new(value.facts.into_vec()));
         if let Some(global) = self.out.globals.get_mut(index) {

@@ -41,6 +41,7 @@ impl Demands {
                 return demands;
             }
         }
+        if std::env::var("SPECIALIZE_DEBUG").is_ok() { eprintln!("fallback"); }
         demands.locals.iter_mut().flatten().for_each(|demand| *demand = Demand::KEEP);
         demands.globals.fill(Demand::KEEP);
         demands.results.fill(Demand::KEEP);
@@ -202,6 +203,9 @@ impl Demands {
         };
         let facts = walked.facts(id);
         let constant = !facts.is_empty() && facts.iter().all(|fact| fact.constant);
+        if constant && demand == Demand::NO_ZERO && facts.iter().all(|fact| !fact.range().has_zero()) {
+            return Demand::NONE;
+        }
         match (constant, transparent) {
             // A driver could compute it from literals, whatever it comes to.
             (true, _) => Demand::KEEP,
