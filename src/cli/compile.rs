@@ -72,7 +72,7 @@ enum EmitArg {
 
 /// A target on the command line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, ValueEnum)]
-enum TargetArg {
+pub(super) enum TargetArg {
     Wgsl,
     Spirv,
     Msl,
@@ -81,7 +81,7 @@ enum TargetArg {
 }
 
 impl TargetArg {
-    fn target(self) -> Target {
+    pub(super) fn target(self) -> Target {
         match self {
             Self::Wgsl => Target::Wgsl,
             Self::Spirv => Target::Spirv,
@@ -92,7 +92,7 @@ impl TargetArg {
     }
 
     /// The extension that is appended to the file's name.
-    fn extension(self) -> &'static str {
+    pub(super) fn extension(self) -> &'static str {
         match self {
             Self::Wgsl => "wgsl",
             Self::Spirv => "spv",

@@ -139,6 +139,11 @@ pub(super) fn told(exit: Exit, text: &str) -> Failure {
 }
 
 impl SceneArgs {
+    /// The arguments for one scene of several.
+    pub(super) fn of(scene: &str, machine: &MachineArgs, sources: &SourceArgs, levels: &LevelArgs) -> Self {
+        Self { scene: scene.to_owned(), machine: machine.clone(), sources: sources.clone(), levels: levels.clone() }
+    }
+
     /// A session that compiles as the arguments say.
     pub(super) fn session<'a>(&self, console: &'a Console) -> Result<Session<'a>, Failure> {
         Session::new(console, &self.sources, &BindingArgs::default(), &self.levels, 0)

@@ -6,9 +6,11 @@
 //! *Holds:* what a scene fixes is what each of its draws fixes: uniforms that are not `dynamic`, textures, attributes that
 //! are the same at all vertices, fixed state. [`glisten_specialize`] does the rest and knows no scenes.
 
+mod account;
 mod known;
 mod residual;
 
 pub use glisten_specialize::{Input, Kind, Known, KnownState, KnownTexture, LeftOut, Residual, specialize};
+pub use account::{Account, DrawAccount, Entry, Figures, account, spirv_instructions};
 pub use known::known;
 pub use residual::{SpecializedDraw, SpecializedScene, specialize_scene};

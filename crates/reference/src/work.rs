@@ -63,8 +63,9 @@ impl Observer<F32> for Counter {
 /// As [`render`](crate::render).
 pub fn work(scene: &Scene, options: &RenderOptions) -> Result<Vec<Work>, Vec<Diagnostic>> {
     let totals = Arc::new(Mutex::new(vec![Work::default(); scene.draws.len()]));
-    let make = || -> Box<dyn Observer<F32>> {
-        Box::new(Counter { operations: 0, lookups: 0, totals: Arc::clone(&totals) })
+    let shared = Arc::clone(&totals);
+    let make = move || -> Box<dyn Observer<F32>> {
+        Box::new(Counter { operations: 0, lookups: 0, totals: Arc::clone(&shared) })
     };
     pipeline::render_watched::<F32>(scene, options, Some(&make))?;
     let totals = totals.lock().unwrap_or_else(PoisonError::into_inner);

@@ -167,9 +167,11 @@ fn assemble(
         .iter()
         .map(|shader| ResidualStage { stage: shader.stage, text: text::write(&types, shader, options.sources) })
         .collect();
-    let left_out = account::left_out(program, known, options, &walked, &shaders);
     match read_back(program, &stages) {
-        Ok((program, sources)) => Residual { stages, program, sources, left_out, fault: None },
+        Ok((left, sources)) => {
+            let left_out = account::left_out(program, known, options, &walked, (&shaders, &left.interface));
+            Residual { stages, program: left, sources, left_out, fault: None }
+        }
         Err(fault) => Residual { fault: Some(fault), ..whole(program, options) },
     }
 }

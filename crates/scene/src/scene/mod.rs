@@ -23,9 +23,12 @@ mod patterns;
 mod reader;
 mod textures;
 mod uniforms;
+mod write;
 
 pub use files::{DiskFiles, FileError, FileSource, MemoryFiles};
 pub use library::{Library, NoLibrary};
+pub use write::{ShaderFiles, write};
+
 pub use load::{Loaded, MAX_ATTACHMENTS, MAX_PIXELS, MAX_SIDE, load};
 pub use model::{
     AttributeData, AttributeValues, BlendFactor, Compare, Cull, Draw, Filter, Format, Framebuffer, Primitive, Scene,

@@ -23,7 +23,11 @@ mod trim;
 mod uses;
 
 use super::settle::Settled;
-use glisten_front::hir::{GlobalId, Shader, Storage, Types};
+use glisten_front::hir::{
+    ArraySize, ConstructKind, ExprId, ExprKind, GlobalId, Scalar, ScalarValue, Shader, Stmt, StmtKind, Storage, Type, TypeId,
+    Types,
+};
+use glisten_front::source::Span;
 
 /// Rounds of pruning a stage: each finds what the one before laid bare. A chain of dead stores goes in one.
 const ROUNDS: usize = 8;
@@ -135,5 +139,46 @@ pub(super) fn finish(types: &mut Types, stages: &mut [(Pruned, Vec<bool>)]) {
     }
     for (pruned, _) in stages.iter_mut() {
         merge::name(&mut pruned.shader);
+        give_results(types, &mut pruned.shader);
     }
+}
+
+/// A function whose `return`s are all gone gave nothing that is defined (GLSL 1.50 §6.1); it must still give something.
+fn give_results(types: &Types, shader: &mut Shader) {
+    for index in 0..shader.functions.len() {
+        let Some(function) = shader.functions.get(index) else { continue };
+        let (ret, span) = (function.ret, function.span);
+        let mut gives = ret == TypeId::VOID;
+        shader.visit_statements(function.body.as_deref().unwrap_or(&[]), &mut |stmt| {
+            gives |= matches!(stmt.kind, StmtKind::Return(_));
+        });
+        if gives {
+            continue;
+        }
+        let zero = zero(types, shader, ret, span);
+        if let Some(body) = shader.functions.get_mut(index).and_then(|function| function.body.as_mut()) {
+            body.push(Stmt { kind: StmtKind::Return(Some(zero)), span });
+        }
+    }
+}
+
+/// 0 of a type.
+fn zero(types: &Types, shader: &mut Shader, ty: TypeId, span: Span) -> ExprId {
+    let (kind, parts): (ConstructKind, Vec<TypeId>) = match types.get(ty) {
+        Type::Struct(id) => (ConstructKind::Struct, types.structure(id).members.iter().map(|member| member.ty).collect()),
+        Type::Array(element, ArraySize::Sized(size)) => (ConstructKind::Array, vec![element; size as usize]),
+        Type::Vector(scalar, _) => (ConstructKind::Splat, vec![TypeId::vector(scalar, 1)]),
+        Type::Matrix(..) => (ConstructKind::Diagonal, vec![TypeId::FLOAT]),
+        other => {
+            let value = match other {
+                Type::Scalar(Scalar::Bool) => ScalarValue::Bool(false),
+                Type::Scalar(Scalar::Int) => ScalarValue::Int(0),
+                Type::Scalar(Scalar::Uint) => ScalarValue::Uint(0),
+                _ => ScalarValue::Float(0.0),
+            };
+            return shader.push(ExprKind::Literal(value), ty, span);
+        }
+    };
+    let parts = parts.into_iter().map(|part| zero(types, shader, part, span)).collect();
+    shader.push(ExprKind::Construct(kind, parts), ty, span)
 }
