@@ -6,6 +6,7 @@ use super::exit::{Exit, Failure};
 use super::guard;
 use super::session::{Batch, Session};
 use crate::scene::{self, DiskFiles, Scene};
+use crate::specialize::specialize_scene;
 use clap::{Args, ValueEnum};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::source::SourceMap;
@@ -76,6 +77,11 @@ pub(super) struct Read<'a> {
 }
 
 impl Read<'_> {
+    /// The scene without what its picture does not need.
+    pub(super) fn specialized(&self) -> Scene {
+        specialize_scene(&self.scene, self.sources(), &[]).scene
+    }
+
     /// The texts of the scene and its shaders.
     pub(super) fn sources(&self) -> &SourceMap {
         &self.batch.sources

@@ -40,6 +40,9 @@ pub(super) struct VerifyArgs {
     /// Excuse no pixel because of known faults of the driver
     #[arg(long)]
     no_known_faults: bool,
+    /// Let the GPU draw with programs of which nothing is left but what the picture needs, and judge it by the original
+    #[arg(long)]
+    specialize: bool,
     /// Write a picture of |difference| / bound: gray up to the bound, red beyond
     #[arg(long, value_name = "FILE")]
     difference: Option<PathBuf>,
@@ -143,7 +146,8 @@ pub(super) fn run(args: &VerifyArgs, console: &Console) -> Outcome {
     let difference = args.difference.as_deref().map(Target::parse).transpose()?;
     let progress = Progress::new(console, vias.len() + 1);
     let scene = Arc::new(read.scene.clone());
-    let compared = compare(args, Arc::clone(&scene), &vias, &progress);
+    let drawn = if args.specialize { Arc::new(read.specialized()) } else { Arc::clone(&scene) };
+    let compared = compare(args, (Arc::clone(&scene), drawn), &vias, &progress);
     let compared = compared.and_then(|compared| explained(args, &scene, read.sources(), compared));
     let Compared { runs, pictures, skipped, shares, note } = match compared {
         Ok(compared) => compared,
@@ -186,7 +190,13 @@ pub(super) fn run(args: &VerifyArgs, console: &Console) -> Outcome {
     Ok(if holds { Exit::Ok } else { Exit::Content })
 }
 
-fn compare(args: &VerifyArgs, scene: Arc<Scene>, vias: &[Via], progress: &Progress) -> Result<Compared, DrawError> {
+/// Compares what the GPU makes of `drawn` with what the reference makes of `scene`.
+fn compare(
+    args: &VerifyArgs,
+    (scene, drawn): (Arc<Scene>, Arc<Scene>),
+    vias: &[Via],
+    progress: &Progress,
+) -> Result<Compared, DrawError> {
     let gpu = Arc::new(args.scene.gpu()?);
     progress.say("the reference");
     let start = Instant::now();
@@ -201,7 +211,7 @@ fn compare(args: &VerifyArgs, scene: Arc<Scene>, vias: &[Via], progress: &Progre
     let mut compared = Compared::default();
     for via in vias {
         progress.say(via.name());
-        let (picture, gpu_ms) = match on_gpu(args, Arc::clone(&gpu), Arc::clone(&scene), *via) {
+        let (picture, gpu_ms) = match on_gpu(args, Arc::clone(&gpu), Arc::clone(&drawn), *via) {
             // With `both`, a limitation of one target (for example, WGSL has no point size) does not keep the other
             // from being judged.
             Err(DrawError::Diagnostics(lack)) if *via == Via::Wgsl && !compared.runs.is_empty() => {
