@@ -110,7 +110,7 @@ pub(super) fn run(args: &SpecializeArgs, console: &Console) -> Outcome {
     files::make_folder(&folder)?;
     let conventions = args.conventions.conventions(false);
     for (stem, texts) in &residuals.by_stem {
-        write_residual(args, &folder, stem, texts, &residuals, &conventions)?;
+        write_residual(args, &folder, stem, texts, &residuals, (&conventions, console))?;
     }
     let mut programs: BTreeMap<String, Vec<String>> = BTreeMap::new();
     for one in &done {
@@ -212,7 +212,7 @@ fn write_residual(
     stem: &str,
     texts: &[(Stage, String)],
     residuals: &Residuals,
-    conventions: &Conventions,
+    (conventions, console): (&Conventions, &Console),
 ) -> Result<(), Failure> {
     let Some(program) = residuals.programs.get(stem) else { return Ok(()) };
     let mut targets: BTreeSet<TargetArg> = args.targets.iter().copied().collect();
@@ -223,12 +223,20 @@ fn write_residual(
         let name = format!("{stem}.{}", if *stage == Stage::Vertex { "vert" } else { "frag" });
         files::write(&folder.join(&name), text.as_bytes())?;
         for target in &targets {
-            let emitted = emit::emit(program, *stage, target.target(), conventions);
-            let emitted = emitted.map_err(|found| {
-                let message = found.first().map_or_else(String::new, |found| found.message.clone());
-                Failure::new(Exit::Content, format!("`{name}` cannot be written as {}: {message}", target.target().name()))
-            })?;
-            files::write(&folder.join(format!("{name}.{}", target.extension())), &emitted.into_bytes())?;
+            match emit::emit(program, *stage, target.target(), conventions) {
+                Ok(emitted) => {
+                    files::write(&folder.join(format!("{name}.{}", target.extension())), &emitted.into_bytes())?;
+                }
+                Err(found) => {
+                    let message = found.first().map_or_else(String::new, |found| found.message.clone());
+                    let message = format!("`{name}` cannot be written as {}: {message}", target.target().name());
+                    // Of the default targets one may lack what the program uses; the scene is written all the same.
+                    if !args.targets.is_empty() {
+                        return Err(Failure::new(Exit::Content, message));
+                    }
+                    console.remark(&format!("warning: {message}"));
+                }
+            }
         }
     }
     let reflection = emit::reflect(program, conventions);

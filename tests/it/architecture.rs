@@ -18,6 +18,7 @@ static CRATES: &[(&str, &[&str], &[&str])] = &[
     ("crates/emit", &["glisten-front"], &["wgpu", "clap", "image", "toml", "rayon"]),
     ("crates/scene", &["glisten-front"], &["naga", "wgpu", "clap"]),
     ("crates/reference", &["glisten-front", "glisten-scene"], &["naga", "wgpu", "clap"]),
+    ("crates/specialize", &["glisten-front"], &["naga", "wgpu", "clap", "image", "toml", "rayon", "tempfile"]),
     ("crates/gpu", &["glisten-front", "glisten-emit", "glisten-scene"], &["clap"]),
     ("crates/gl", &["glisten-front", "glisten-scene"], &["naga", "wgpu", "clap"]),
 ];
@@ -43,7 +44,7 @@ static ORDER: &[(&str, &[&str])] = &[
     ),
     ("crates/emit/src", &["target", "lower", "emit"]),
     ("crates/scene/src", &["compare", "scene"]),
-    ("src", &["library", "scene", "evaluate", "measure", "shader_test", "gallery", "report", "cli", "main"]),
+    ("src", &["library", "scene", "evaluate", "measure", "shader_test", "specialize", "gallery", "report", "cli", "main"]),
 ];
 
 /// What only the command line does.

@@ -103,6 +103,15 @@ impl Account<'_> {
         self.list.push(LeftOut { what, name, file, line, because, span });
     }
 
+    /// The line of the text that a statement begins on.
+    fn line(&self, span: Span) -> String {
+        let line = self.sources.and_then(|sources| {
+            let place = sources.location(span)?;
+            sources.file(place.file).line(place.line).map(str::trim).map(str::to_owned)
+        });
+        line.unwrap_or_else(|| self.text(span))
+    }
+
     /// The first line of the text of a span.
     fn text(&self, span: Span) -> String {
         let text = self.sources.map_or("", |sources| sources.snippet(span));
@@ -115,7 +124,10 @@ impl Account<'_> {
         let mut kept: FxHashSet<Span> = FxHashSet::default();
         for function in &left.functions {
             left.visit_statements(function.body.as_deref().unwrap_or(&[]), &mut |stmt| {
-                kept.insert(stmt.span);
+                // The rounds of a loop that was written out stand where it stood.
+                if !matches!(stmt.kind, StmtKind::Block(_)) {
+                    kept.insert(stmt.span);
+                }
             });
         }
         for function in shader.functions.iter().filter(|function| function.body.is_some()) {
@@ -169,7 +181,7 @@ impl Account<'_> {
                     Some(Reason::Unrolled(rounds)) if inside(body) => format!("it runs {rounds} times, written out"),
                     _ => "nobody reads what it computes".to_owned(),
                 };
-                self.tell(Kind::Loop, self.text(stmt.span), stmt.span, because);
+                self.tell(Kind::Loop, self.line(stmt.span), stmt.span, because);
                 if inside(body) {
                     self.statements(shader, body, kept, walked);
                 }
@@ -194,7 +206,7 @@ impl Account<'_> {
             _ if kept.contains(&stmt.span) => {}
             _ => {
                 let because = "nothing that is drawn hangs on it, or its value is known".to_owned();
-                self.tell(Kind::Statement, self.text(stmt.span), stmt.span, because);
+                self.tell(Kind::Statement, self.line(stmt.span), stmt.span, because);
             }
         }
     }

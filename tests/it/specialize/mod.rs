@@ -1,5 +1,9 @@
 //! Specialized scenes draw the same pictures, byte for byte on the reference in f32.
 
+#[cfg(feature = "gpu")]
+mod random;
+mod rules;
+
 use glisten::Compiler;
 use glisten::scene::{self, DiskFiles, Scene};
 use glisten::source::SourceMap;

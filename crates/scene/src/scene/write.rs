@@ -81,6 +81,8 @@ fn double(value: f64) -> String {
         _ if value.is_nan() => "nan".into(),
         f64::INFINITY => "inf".into(),
         f64::NEG_INFINITY => "-inf".into(),
+        // Loaded as an f32, it has a shorter decimal.
+        _ if f64::from(value as f32) == value => format!("{:?}", value as f32),
         _ => format!("{value:?}"),
     }
 }

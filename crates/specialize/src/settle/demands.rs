@@ -41,7 +41,6 @@ impl Demands {
                 return demands;
             }
         }
-        if std::env::var("SPECIALIZE_DEBUG").is_ok() { eprintln!("fallback"); }
         demands.locals.iter_mut().flatten().for_each(|demand| *demand = Demand::KEEP);
         demands.globals.fill(Demand::KEEP);
         demands.results.fill(Demand::KEEP);
