@@ -87,8 +87,7 @@ pub(super) fn run(args: &GalleryArgs, console: &Console) -> Outcome {
 impl Painter {
     fn draw(&self, args: &GalleryArgs, entry: &Entry) -> Result<Picture, Failure> {
         let scene = entry.supersampled(args.size);
-        let scene =
-            if args.specialize { specialize_scene(&scene, &SourceMap::default(), &[]).scene } else { scene };
+        let scene = if args.specialize { specialize_scene(&scene, &SourceMap::default(), &[]).scene } else { scene };
         let picture = match self {
             Self::Gpu(gpu, via) => gpu.render(&scene, *via).map(|rendered| rendered.picture).map_err(DrawError::from),
             Self::Cpu => {

@@ -60,7 +60,8 @@ pub(super) fn run(args: &ReportArgs, console: &Console) -> Outcome {
     };
     let via: Via = args.via.into();
     let mut steps = Steps { console, progress: Progress::new(console, 1), begun: false };
-    let result = report::run(&args.scene.scene, &DiskFiles, session.compiler(), &gpu, (via, args.specialize), &mut steps);
+    let result =
+        report::run(&args.scene.scene, &DiskFiles, session.compiler(), &gpu, (via, args.specialize), &mut steps);
     drop(steps);
     match result {
         Ok(report) => write(args, console, &report),

@@ -149,11 +149,10 @@ fn specialized(
     check_dynamic(args, &read.scene)?;
     let specialized = specialize_scene(&read.scene, read.sources(), &args.dynamic);
     let mut names = Vec::new();
-    for (draw, (left, done)) in
-        read.scene.draws.iter().zip(specialized.scene.draws.iter().zip(&specialized.draws))
-    {
+    for (draw, (left, done)) in read.scene.draws.iter().zip(specialized.scene.draws.iter().zip(&specialized.draws)) {
         if let Some(fault) = &done.fault {
-            let message = format!("internal error: the residual of `{}` does not read back: {fault}", draw.program.name);
+            let message =
+                format!("internal error: the residual of `{}` does not read back: {fault}", draw.program.name);
             return Err(Failure::new(Exit::Content, message).help("please report it with the scene"));
         }
         let stem = residuals.stem(&left.program, &done.texts);

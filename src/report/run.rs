@@ -6,8 +6,8 @@
 use super::figures::{compare, mark_pareto, spread};
 use super::model::{Adapter, Report, Timing, Truth, Way};
 use super::plan::{Plan, PlannedWay, base_of, plan};
-use crate::specialize::specialize_scene;
 use crate::scene::{self, FileError, FileSource, Loaded, Scene};
+use crate::specialize::specialize_scene;
 use glisten_front::compiler::Compiler;
 use glisten_front::diagnostic::{Diagnostic, Diagnostics};
 use glisten_front::source::SourceMap;

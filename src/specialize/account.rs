@@ -117,11 +117,8 @@ pub fn account(
 fn figures(draw: &Draw, work: Work) -> Figures {
     let interface = &draw.program.interface;
     let given = || draw.attributes.iter().flatten();
-    let blocks: u64 = interface
-        .blocks
-        .iter()
-        .map(|block| u64::from(block.size) * u64::from(block.array_size.unwrap_or(1)))
-        .sum();
+    let blocks: u64 =
+        interface.blocks.iter().map(|block| u64::from(block.size) * u64::from(block.array_size.unwrap_or(1))).sum();
     Figures {
         spirv_instructions: spirv_instructions(&draw.program),
         varyings: interface.varyings.len() as u64,

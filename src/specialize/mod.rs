@@ -10,7 +10,7 @@ mod account;
 mod known;
 mod residual;
 
-pub use glisten_specialize::{Input, Kind, Known, KnownState, KnownTexture, LeftOut, Residual, specialize};
 pub use account::{Account, DrawAccount, Entry, Figures, account, spirv_instructions};
+pub use glisten_specialize::{Input, Kind, Known, KnownState, KnownTexture, LeftOut, Residual, specialize};
 pub use known::known;
 pub use residual::{SpecializedDraw, SpecializedScene, specialize_scene};

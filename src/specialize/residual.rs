@@ -83,11 +83,8 @@ fn rebound(draw: &Draw, program: Arc<Program>, dynamic: &[String]) -> Draw {
         draw.attributes.get(index).cloned().flatten()
     });
     let attributes: Vec<Option<AttributeData>> = attributes.collect();
-    let mut uniforms: Vec<Vec<ScalarValue>> = new
-        .roots
-        .iter()
-        .map(|root| vec![ScalarValue::Float(0.0); program.types.flat_len(root.ty) as usize])
-        .collect();
+    let mut uniforms: Vec<Vec<ScalarValue>> =
+        new.roots.iter().map(|root| vec![ScalarValue::Float(0.0); program.types.flat_len(root.ty) as usize]).collect();
     for leaf in &new.uniforms {
         let Some(known) = old.uniforms.iter().find(|known| known.name == leaf.name) else { continue };
         let Some(values) = leaf_values(draw, known) else { continue };
@@ -113,7 +110,9 @@ fn is_left(program: &Program, name: &str) -> bool {
     let base = name.split(['[', '.']).next().unwrap_or(name);
     let interface = &program.interface;
     let names = interface.uniforms.iter().map(|leaf| &leaf.name);
-    names.chain(interface.samplers.iter().map(|slot| &slot.name)).any(|leaf| leaf.split(['[', '.']).next() == Some(base))
+    names
+        .chain(interface.samplers.iter().map(|slot| &slot.name))
+        .any(|leaf| leaf.split(['[', '.']).next() == Some(base))
 }
 
 /// Of an attribute that has more components than its vector the others are dropped.
@@ -124,7 +123,11 @@ fn without_unused_vertices(draw: Draw) -> Draw {
         if let Some(data) = data
             && data.size > declared
         {
-            *data = AttributeData { size: declared, divisor: data.divisor, values: narrowed(&data.values, data.size, declared) };
+            *data = AttributeData {
+                size: declared,
+                divisor: data.divisor,
+                values: narrowed(&data.values, data.size, declared),
+            };
         }
     }
     draw

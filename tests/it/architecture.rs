@@ -44,7 +44,10 @@ static ORDER: &[(&str, &[&str])] = &[
     ),
     ("crates/emit/src", &["target", "lower", "emit"]),
     ("crates/scene/src", &["compare", "scene"]),
-    ("src", &["library", "scene", "evaluate", "measure", "shader_test", "specialize", "gallery", "report", "cli", "main"]),
+    (
+        "src",
+        &["library", "scene", "evaluate", "measure", "shader_test", "specialize", "gallery", "report", "cli", "main"],
+    ),
 ];
 
 /// What only the command line does.

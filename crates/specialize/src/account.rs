@@ -254,7 +254,8 @@ impl Account<'_> {
             let Some(known) = self.known.uniforms.get(&leaf.name) else { continue };
             let root = self.program.interface.roots.get(leaf.root.0 as usize);
             let member = leaf.name.rsplit_once('.').map_or("", |(_, member)| member);
-            if known.len() <= 4 && text.contains(member) && root.is_some_and(|root| roots.contains(root.name.as_str())) {
+            if known.len() <= 4 && text.contains(member) && root.is_some_and(|root| roots.contains(root.name.as_str()))
+            {
                 values.push(format!("`{}` is {}", leaf.name, written(known)));
             }
         }

@@ -118,7 +118,8 @@ fn varyings(program: &Program, ends: &[Facts], facts: &mut [Vec<Fact>]) {
         let (Some(from), Some(to)) = (varying.from, varying.to) else { continue };
         for scalar in 0..program.types.flat_len(varying.ty) {
             let end = ends.get(from.global.index()).and_then(|facts| facts.get((from.flat_offset + scalar) as usize));
-            let slot = facts.get_mut(to.global.index()).and_then(|cell| cell.get_mut((to.flat_offset + scalar) as usize));
+            let slot =
+                facts.get_mut(to.global.index()).and_then(|cell| cell.get_mut((to.flat_offset + scalar) as usize));
             if let (Some(end), Some(slot)) = (end, slot) {
                 *slot = interpolated(*end, varying.interpolation);
             }

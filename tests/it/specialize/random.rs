@@ -50,8 +50,12 @@ fn random_programs_draw_the_same_bytes() {
         let fragment = text::fragment(seed);
         // What the scene fixes is another part of the block for each seed.
         let names = ["Block.w", "Block.x", "Block.y"];
-        let dynamic: Vec<String> =
-            names.iter().enumerate().filter(|(bit, _)| seed >> bit & 1 == 1).map(|(_, name)| (*name).to_owned()).collect();
+        let dynamic: Vec<String> = names
+            .iter()
+            .enumerate()
+            .filter(|(bit, _)| seed >> bit & 1 == 1)
+            .map(|(_, name)| (*name).to_owned())
+            .collect();
         if fault(&fragment, &dynamic).is_some() {
             let small = shrunk(&fragment, &dynamic);
             let what = fault(&small, &dynamic).unwrap_or_default();

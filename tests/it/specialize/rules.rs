@@ -99,7 +99,12 @@ fn a_varying_that_is_the_same_everywhere_is_known_across_the_stages() {
     let one = Input::Value(ScalarValue::Float(0.5));
     known.attributes.insert("q".into(), vec![one, one, one, one]);
     let residual = specialize(&program, &known);
-    assert!(residual.text(Stage::Fragment).is_some_and(|text| text.contains("vec4(0.5, 0.5, 0.5, 1.0)") || text.contains("vec4(vec3(0.5), 1.0)")), "{residual:?}");
+    assert!(
+        residual
+            .text(Stage::Fragment)
+            .is_some_and(|text| text.contains("vec4(0.5, 0.5, 0.5, 1.0)") || text.contains("vec4(vec3(0.5), 1.0)")),
+        "{residual:?}"
+    );
     assert!(residual.program.interface.varyings.is_empty() && residual.program.interface.attributes.len() == 1);
     assert!(residual.left_out.iter().any(|one| one.what.name() == "varying"));
 }
@@ -126,8 +131,14 @@ fn hostile_programs_come_back_within_a_second() {
         .collect();
     time("calls that double", &format!("{head}{calls}void main() {{ color = vec4(f39(v.x)); }}\n"), &[("u", &[1.5])]);
     let lines: String = (0..10_000).map(|n| format!("    float x{n} = v.x * {n}.5 + u;\n    s += x{n};\n")).collect();
-    time("10,000 lines", &format!("{head}void main() {{\n    float s = 0.0;\n{lines}    color = vec4(s);\n}}\n"), &[("u", &[1.5])]);
-    let branches: String = (0..3_000).map(|n| format!("    if (v.x > {n}.0) {{ s += u; }} else {{ t -= s; }}\n")).collect();
-    let branches = format!("{head}void main() {{\n    float s = 0.0, t = 0.0;\n{branches}    color = vec4(s, t, s, t);\n}}\n");
+    time(
+        "10,000 lines",
+        &format!("{head}void main() {{\n    float s = 0.0;\n{lines}    color = vec4(s);\n}}\n"),
+        &[("u", &[1.5])],
+    );
+    let branches: String =
+        (0..3_000).map(|n| format!("    if (v.x > {n}.0) {{ s += u; }} else {{ t -= s; }}\n")).collect();
+    let branches =
+        format!("{head}void main() {{\n    float s = 0.0, t = 0.0;\n{branches}    color = vec4(s, t, s, t);\n}}\n");
     time("3,000 branches", &branches, &[("u", &[1.5])]);
 }

@@ -4,7 +4,8 @@
 //! *Holds:* every number reads back as the same bits. What is as by default is left out.
 
 use super::model::{
-    AttributeData, AttributeValues, Compare, Cull, Draw, Filter, Format, Scene, State, Texels, Texture, TextureLevel, Wrap,
+    AttributeData, AttributeValues, Compare, Cull, Draw, Filter, Format, Scene, State, Texels, Texture, TextureLevel,
+    Wrap,
 };
 use super::names::{
     BLENDS, COMPARES, CULLS, FACTORS, FILTERS, FORMATS, FRONT_FACES, PRIMITIVES, PROVOKING, TEXTURE_KINDS, WRAPS,
@@ -40,7 +41,8 @@ pub fn write(scene: &Scene, files: &[ShaderFiles]) -> String {
         let _ = writeln!(text, "attachments = {}", framebuffer.attachments);
     }
     for (draw, files) in scene.draws.iter().zip(files) {
-        let _ = write!(text, "\n[[draw]]\nvertex = {}\nfragment = {}\n", quoted(&files.vertex), quoted(&files.fragment));
+        let _ =
+            write!(text, "\n[[draw]]\nvertex = {}\nfragment = {}\n", quoted(&files.vertex), quoted(&files.fragment));
         state(&mut text, &draw.state);
         counts(&mut text, draw);
         if !draw.dynamic.is_empty() {
@@ -198,7 +200,8 @@ fn uniforms(text: &mut String, draw: &Draw) {
         let root = draw.uniforms.get(leaf.root.0 as usize);
         let Some(values) = root.and_then(|root| root.get(start..start + len as usize)) else { continue };
         let values: Vec<String> = values.iter().map(|value| scalar(*value)).collect();
-        let value = if len == 1 && leaf.array_size.is_none() { values.concat() } else { format!("[{}]", values.join(", ")) };
+        let value =
+            if len == 1 && leaf.array_size.is_none() { values.concat() } else { format!("[{}]", values.join(", ")) };
         let _ = writeln!(text, "{} = {value}", quoted(&leaf.name));
     }
 }

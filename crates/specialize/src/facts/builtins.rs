@@ -270,7 +270,8 @@ fn angle(call: &Call<'_>, operands: &[Fact; 3]) -> Fact {
     let [x, y, _] = operands;
     match call.function {
         F::Atan if call.arguments.len() == 2 => {
-            let finite = x.range().is_finite() && y.range().is_finite() && !(x.range().has_zero() && y.range().has_zero());
+            let finite =
+                x.range().is_finite() && y.range().is_finite() && !(x.range().has_zero() && y.range().has_zero());
             Fact::result(What::Float(Range { nan: !finite, ..Range::between(-pi, pi) }), &[*x, *y])
         }
         F::Atan => Fact::result(What::Float(Range { nan: x.range().nan, ..Range::between(-1.58, 1.58) }), &[*x]),

@@ -4,8 +4,8 @@
 //! function, a sum of products that rounds, a subnormal (which may be flushed), what is infinite or NaN, and what GLSL
 //! leaves undefined (division by zero, shifts by 32 or more, floats that no integer holds).
 
-use glisten_front::hir::{BinaryOp, Scalar, ScalarValue, UnaryOp};
 use ScalarValue::{Bool, Float, Int, Uint};
+use glisten_front::hir::{BinaryOp, Scalar, ScalarValue, UnaryOp};
 
 /// Whether no target can see another number in its place.
 pub(super) fn is_plain(value: f32) -> bool {

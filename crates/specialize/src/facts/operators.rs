@@ -176,7 +176,11 @@ pub(super) fn equal_one(scalar: Scalar, left: Fact, right: Fact) -> Option<bool>
 }
 
 /// The linear algebra product (§5.10).
-pub(crate) fn mat_mul(types: &Types, (left, left_ty): (&[Fact], TypeId), (right, right_ty): (&[Fact], TypeId)) -> Facts {
+pub(crate) fn mat_mul(
+    types: &Types,
+    (left, left_ty): (&[Fact], TypeId),
+    (right, right_ty): (&[Fact], TypeId),
+) -> Facts {
     // A vector on the left is a row, one on the right a column.
     let (inner, rows) = match types.get(left_ty) {
         Type::Matrix(columns, rows) => (usize::from(columns), usize::from(rows)),

@@ -133,14 +133,8 @@ impl Range {
 
     /// `a * b`
     pub(crate) fn mul(self, other: Self) -> Self {
-        let undefined =
-            (self.has_zero() && other.may_be_infinite()) || (other.has_zero() && self.may_be_infinite());
-        let corners = [
-            self.low * other.low,
-            self.low * other.high,
-            self.high * other.low,
-            self.high * other.high,
-        ];
+        let undefined = (self.has_zero() && other.may_be_infinite()) || (other.has_zero() && self.may_be_infinite());
+        let corners = [self.low * other.low, self.low * other.high, self.high * other.low, self.high * other.high];
         let range = Self::hull(&corners, 1.0);
         let alike = (self.is_plus() && other.is_plus()) || (self.high < 0.0 && other.high < 0.0);
         range.with(self.nan || other.nan || undefined, !alike)
@@ -161,8 +155,7 @@ impl Range {
             let nan = self.nan || other.nan || huge || self.has_zero() || self.may_be_infinite();
             return Self { low, high: f64::INFINITY, nan, negative_zero: !(self.is_plus() && other.is_plus()) };
         }
-        let corners =
-            [self.low / other.low, self.low / other.high, self.high / other.low, self.high / other.high];
+        let corners = [self.low / other.low, self.low / other.high, self.high / other.low, self.high / other.high];
         let alike = (self.is_plus() && other.is_plus()) || (self.high < 0.0 && other.high < 0.0);
         Self::hull(&corners, 4.0).with(self.nan || other.nan, !alike)
     }
@@ -170,8 +163,8 @@ impl Range {
     fn hull(corners: &[f64], ulps: f64) -> Self {
         // A corner of 0 times infinity is 0 beside the NaN that is told apart.
         let corners = corners.iter().map(|corner| if corner.is_nan() { 0.0 } else { *corner });
-        let (low, high) = corners
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), corner| (low.min(corner), high.max(corner)));
+        let (low, high) =
+            corners.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), corner| (low.min(corner), high.max(corner)));
         Self::rounded(low, high, ulps)
     }
 

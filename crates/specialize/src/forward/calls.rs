@@ -1,9 +1,9 @@
 //! Calls: a function is walked anew for each way in which it is called, as long as that is affordable.
 
-use crate::facts::{self, Fact, Facts, What};
 use super::places::Place;
 use super::store::{Cell, Key};
 use super::{DEEPEST, Forward, Frame, Val, is_in};
+use crate::facts::{self, Fact, Facts, What};
 use glisten_front::hir::{ExprId, ExprKind, FunctionId, LocalKind, ParamMode, ScalarValue, Stmt, Storage, TypeId};
 use glisten_front::source::Span;
 use rustc_hash::FxHashMap;
@@ -77,7 +77,9 @@ impl Forward<'_> {
             }
         };
         self.apply(finished, function, &given);
-        let Some(finished) = self.variants.finished.get(finished) else { return self.give(ExprKind::Error, own, Facts::new()) };
+        let Some(finished) = self.variants.finished.get(finished) else {
+            return self.give(ExprKind::Error, own, Facts::new());
+        };
         let (clone, result) = (finished.clone, finished.result.clone());
         self.give(ExprKind::Call(clone, ids), own, result)
     }
@@ -160,7 +162,8 @@ impl Forward<'_> {
             let len = self.types.flat_len(local.ty);
             let facts = given.get(index).filter(|_| matches!(local.kind, LocalKind::Param(_)));
             let followed = if len > super::FOLLOWED { 0 } else { len as usize };
-            self.store.push((0..followed).map(|scalar| facts.map_or(Fact::ANY, |facts| facts::at(facts, scalar))).collect());
+            self.store
+                .push((0..followed).map(|scalar| facts.map_or(Fact::ANY, |facts| facts::at(facts, scalar))).collect());
         }
         let mark = self.store.mark();
         self.frames.push(Frame { function, base, mark, exits: Vec::new(), result: None });
@@ -181,8 +184,7 @@ impl Forward<'_> {
             self.store.meet(exit, frame.mark);
         }
         let params = 0..self.shader.function(function).param_count as u32;
-        let parameters =
-            params.map(|index| Facts::from_slice(self.store.get(Key(frame.base + index)))).collect();
+        let parameters = params.map(|index| Facts::from_slice(self.store.get(Key(frame.base + index)))).collect();
         let globals = self.store.changes(frame.mark).0.into_iter().filter(|(key, _)| key.0 < frame.base);
         let globals: Vec<(Key, Cell)> =
             globals.filter(|(key, _)| (key.0 as usize) < self.shader.globals.len()).collect();
@@ -246,7 +248,8 @@ impl Forward<'_> {
 }
 
 fn encode(fact: &Fact, bits: &mut Vec<u64>) {
-    let flags = u64::from(fact.constant) | u64::from(fact.bound) << 1 | u64::from(fact.scaled) << 10 | u64::from(fact.up) << 11;
+    let flags =
+        u64::from(fact.constant) | u64::from(fact.bound) << 1 | u64::from(fact.scaled) << 10 | u64::from(fact.up) << 11;
     match fact.what {
         What::Any => bits.push(flags),
         What::Value(value) => {

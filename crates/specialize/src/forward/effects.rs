@@ -42,7 +42,8 @@ impl Effects {
         for (id, _) in shader.functions() {
             for callee in order(shader, id, &done) {
                 let effect = effects.of_function(shader, callee);
-                if let (Some(slot), Some(done)) = (effects.functions.get_mut(callee.index()), done.get_mut(callee.index()))
+                if let (Some(slot), Some(done)) =
+                    (effects.functions.get_mut(callee.index()), done.get_mut(callee.index()))
                 {
                     (*slot, *done) = (effect, true);
                 }

@@ -1,11 +1,11 @@
 //! Expressions: evaluated with what is known, written down as they are.
 
+use super::{Forward, Val};
 use crate::facts::{self, Call, Fact, Facts, What, at};
 use crate::known::Input;
-use super::{Forward, Val};
 use glisten_front::builtin::BuiltinFunction;
 use glisten_front::hir::{
-    BinaryOp, ConstructKind, Expr, ExprId, ExprKind, IncDec, LogicalOp, Scalar, ScalarValue, SamplerDim, Type, TypeId,
+    BinaryOp, ConstructKind, Expr, ExprId, ExprKind, IncDec, LogicalOp, SamplerDim, Scalar, ScalarValue, Type, TypeId,
 };
 use glisten_front::source::Span;
 
@@ -34,7 +34,9 @@ impl Forward<'_> {
         let Expr { kind, ty, span } = self.shader.expr(id).clone();
         let own = (ty, span);
         match kind {
-            ExprKind::Literal(value) => self.give(ExprKind::Literal(value), own, Facts::from_slice(&[Fact::literal(value)])),
+            ExprKind::Literal(value) => {
+                self.give(ExprKind::Literal(value), own, Facts::from_slice(&[Fact::literal(value)]))
+            }
             ExprKind::Convert(a) => {
                 let a = self.eval(a);
                 let to = self.types.scalar_of(ty).unwrap_or(Scalar::Float);
@@ -87,7 +89,8 @@ impl Forward<'_> {
     fn construct(&mut self, kind: ConstructKind, arguments: &[ExprId], own: Own) -> Val {
         let (ids, facts) = self.evaluated(arguments);
         let len = self.types.flat_len(own.0) as usize;
-        let facts = if len > super::FOLLOWED as usize { Facts::new() } else { self.constructed(kind, own.0, &facts, len) };
+        let facts =
+            if len > super::FOLLOWED as usize { Facts::new() } else { self.constructed(kind, own.0, &facts, len) };
         self.give(ExprKind::Construct(kind, ids), own, facts)
     }
 
@@ -96,9 +99,9 @@ impl Forward<'_> {
         match kind {
             ConstructKind::Splat => Facts::from_elem(at(first, 0), len),
             ConstructKind::Compose | ConstructKind::Array | ConstructKind::Struct => {
-                let all = arguments.iter().flat_map(|(facts, ty)| {
-                    (0..self.types.flat_len(*ty) as usize).map(|index| at(facts, index))
-                });
+                let all = arguments
+                    .iter()
+                    .flat_map(|(facts, ty)| (0..self.types.flat_len(*ty) as usize).map(|index| at(facts, index)));
                 all.take(len).collect()
             }
             ConstructKind::Diagonal | ConstructKind::Resize => {
@@ -163,9 +166,7 @@ impl Forward<'_> {
                 self.store.roll_back(mark);
                 self.store.meet(&changes, mark);
                 let fact = match at(&b.facts, 0).truth() {
-                    Some(truth) if truth == decided => {
-                        Fact::of(What::Value(ScalarValue::Bool(truth)), false, true)
-                    }
+                    Some(truth) if truth == decided => Fact::of(What::Value(ScalarValue::Bool(truth)), false, true),
                     _ => Fact::of(What::Any, at(&a.facts, 0).constant && at(&b.facts, 0).constant, true),
                 };
                 self.give(ExprKind::Logical(op, a.id, b.id), own, Facts::from_slice(&[fact]))

@@ -1,8 +1,8 @@
 //! Loops: written out where that pays, else kept.
 
 use super::effects::Assigned;
-use crate::facts::{Fact, What, at};
 use super::{Forward, Jump, Reason, Target};
+use crate::facts::{Fact, What, at};
 use glisten_front::hir::{
     BinaryOp, Condition, ExprId, ExprKind, IncDec, LoopKind, ScalarValue, Stmt, StmtKind, VarRef,
 };
@@ -109,7 +109,8 @@ impl Forward<'_> {
     }
 
     fn keep(&mut self, parts: &Parts<'_>, out: &mut Vec<Stmt>) {
-        let exprs: Vec<ExprId> = parts.condition.map(|condition| condition.expr).into_iter().chain(parts.step).collect();
+        let exprs: Vec<ExprId> =
+            parts.condition.map(|condition| condition.expr).into_iter().chain(parts.step).collect();
         let counter = self.counter(parts);
         let assigned = self.effects.assigned(self.shader, parts.body, &exprs);
         self.forget_assigned(&assigned);
@@ -172,7 +173,9 @@ impl Forward<'_> {
         if parts.kind == LoopKind::DoWhile {
             return None;
         }
-        let ExprKind::Binary(BinaryOp::Less, left, _) = self.shader.expr(parts.condition?.expr).kind else { return None };
+        let ExprKind::Binary(BinaryOp::Less, left, _) = self.shader.expr(parts.condition?.expr).kind else {
+            return None;
+        };
         let ExprKind::Var(VarRef::Local(local)) = self.shader.expr(left).kind else { return None };
         let ExprKind::IncDec(IncDec::PreIncrement | IncDec::PostIncrement, target) = self.shader.expr(parts.step?).kind
         else {

@@ -23,10 +23,12 @@ pub(crate) use effects::Effects;
 
 use super::facts::{Fact, Facts};
 use super::known::KnownTexture;
-use glisten_front::hir::{ExprId, ExprKind, FunctionId, GlobalId, LocalId, Shader, Stmt, Storage, TypeId, Types, VarRef};
-use glisten_front::stack::with_stack;
-use glisten_front::source::Span;
 use calls::Variants;
+use glisten_front::hir::{
+    ExprId, ExprKind, FunctionId, GlobalId, LocalId, Shader, Stmt, Storage, TypeId, Types, VarRef,
+};
+use glisten_front::source::Span;
+use glisten_front::stack::with_stack;
 use rustc_hash::FxHashMap;
 use store::{Changes, Key, Mark, Store};
 

@@ -1,8 +1,8 @@
 //! Variables and their parts: what is known of them, and what an assignment changes.
 
-use crate::facts::{self, Fact, Facts};
 use super::store::Key;
 use super::{Forward, Val};
+use crate::facts::{self, Fact, Facts};
 use glisten_front::hir::{Expr, ExprId, ExprKind, ScalarValue, Type, TypeId};
 use smallvec::SmallVec;
 
@@ -86,7 +86,12 @@ impl Forward<'_> {
         }
     }
 
-    fn element(&mut self, base: ExprId, index: ExprId, own: (TypeId, glisten_front::source::Span)) -> (Val, Option<Place>) {
+    fn element(
+        &mut self,
+        base: ExprId,
+        index: ExprId,
+        own: (TypeId, glisten_front::source::Span),
+    ) -> (Val, Option<Place>) {
         let base_ty = self.shader.expr(base).ty;
         let (base, place) = self.path(base);
         let index = self.eval(index);

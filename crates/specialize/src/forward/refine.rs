@@ -3,8 +3,8 @@
 //! *In:* a condition that was just evaluated. *Out:* narrower facts of locals. *Holds:* a comparison of floats that holds
 //! says that neither is NaN; one that does not hold says nothing, since a NaN may be the reason.
 
-use crate::facts::{Fact, Range, What, at};
 use super::Forward;
+use crate::facts::{Fact, Range, What, at};
 use glisten_front::hir::{BinaryOp, ExprId, ExprKind, LogicalOp, Scalar, ScalarValue, UnaryOp, VarRef};
 
 impl Forward<'_> {

@@ -1,8 +1,8 @@
 //! `if` and `switch`: what is decided goes, what is open stays with each of its ways walked on its own.
 
-use crate::facts::at;
 use super::store::{Changes, Mark};
 use super::{Forward, Jump, Reason, Target};
+use crate::facts::at;
 use glisten_front::hir::{Case, CaseLabel, ExprId, ScalarValue, Stmt, StmtKind};
 use glisten_front::source::Span;
 

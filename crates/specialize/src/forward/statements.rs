@@ -1,7 +1,7 @@
 //! Statements that are no branches and no loops.
 
-use crate::facts::{self, Fact, Facts};
 use super::{Forward, Jump, Target};
+use crate::facts::{self, Fact, Facts};
 use glisten_front::hir::{ExprId, LocalId, Stmt, StmtKind};
 use glisten_front::source::Span;
 use std::rc::Rc;

@@ -5,7 +5,8 @@
 
 use super::uses::{Uses, reached};
 use glisten_front::hir::{
-    Condition, ExprId, ExprKind, Function, FunctionId, GlobalId, LocalId, LocalKind, Shader, Stmt, StmtKind, Types, VarRef,
+    Condition, ExprId, ExprKind, Function, FunctionId, GlobalId, LocalId, LocalKind, Shader, Stmt, StmtKind, Types,
+    VarRef,
 };
 use glisten_front::stack::with_stack;
 use rustc_hash::FxHashMap;
@@ -218,9 +219,10 @@ impl Rebuild<'_> {
             }
             StmtKind::Switch { selector, cases } => {
                 let selector = self.expr(function, *selector);
-                let cases = cases
-                    .iter()
-                    .map(|case| glisten_front::hir::Case { labels: case.labels.clone(), body: self.body(function, &case.body) });
+                let cases = cases.iter().map(|case| glisten_front::hir::Case {
+                    labels: case.labels.clone(),
+                    body: self.body(function, &case.body),
+                });
                 StmtKind::Switch { selector, cases: cases.collect() }
             }
             StmtKind::Loop { kind, condition, step, body } => {

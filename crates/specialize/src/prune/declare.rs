@@ -37,9 +37,9 @@ fn inner(shader: &Shader, kind: &mut StmtKind) -> bool {
             let arms = arms.iter_mut().fold(false, |changed, (_, body)| join(shader, body) | changed);
             join(shader, otherwise) | arms
         }
-        StmtKind::Switch { cases, .. } => {
-            cases.iter_mut().fold(false, |changed, case| case.body.iter_mut().fold(changed, |changed, stmt| inner(shader, &mut stmt.kind) | changed))
-        }
+        StmtKind::Switch { cases, .. } => cases.iter_mut().fold(false, |changed, case| {
+            case.body.iter_mut().fold(changed, |changed, stmt| inner(shader, &mut stmt.kind) | changed)
+        }),
         _ => false,
     }
 }

@@ -32,7 +32,14 @@ fn text(shader: &Shader, id: FunctionId, same: &FxHashMap<FunctionId, FunctionId
     let function = shader.function(id);
     let mut text = format!("{} {:?} ", function.name, function.ret);
     for local in &function.locals {
-        let _ = write!(text, "{:?} {:?} {} {:?};", local.ty, local.kind, local.name, local.value.as_ref().map(|v| &v.scalars));
+        let _ = write!(
+            text,
+            "{:?} {:?} {} {:?};",
+            local.ty,
+            local.kind,
+            local.name,
+            local.value.as_ref().map(|v| &v.scalars)
+        );
     }
     for stmt in function.body.iter().flatten() {
         statement(shader, stmt, same, &mut text);
@@ -92,7 +99,9 @@ fn expr(shader: &Shader, root: ExprId, same: &FxHashMap<FunctionId, FunctionId>,
             ExprKind::Binary(op, ..) => write!(text, "{op:?}"),
             ExprKind::Logical(op, ..) => write!(text, "{op:?}"),
             ExprKind::Assign(op, ..) => write!(text, "assign {op:?}"),
-            ExprKind::Call(callee, list) => write!(text, "call {:?} {}", same.get(callee).unwrap_or(callee), list.len()),
+            ExprKind::Call(callee, list) => {
+                write!(text, "call {:?} {}", same.get(callee).unwrap_or(callee), list.len())
+            }
             ExprKind::BuiltinCall(function, list) => write!(text, "{function:?}{}", list.len()),
             ExprKind::Index(..) => write!(text, "index"),
             ExprKind::Convert(_) => write!(text, "convert"),

@@ -24,8 +24,8 @@ mod uses;
 
 use super::settle::Settled;
 use glisten_front::hir::{
-    ArraySize, ConstructKind, ExprId, ExprKind, GlobalId, Scalar, ScalarValue, Shader, Stmt, StmtKind, Storage, Type, TypeId,
-    Types,
+    ArraySize, ConstructKind, ExprId, ExprKind, GlobalId, Scalar, ScalarValue, Shader, Stmt, StmtKind, Storage, Type,
+    TypeId, Types,
 };
 use glisten_front::source::Span;
 
@@ -165,7 +165,9 @@ fn give_results(types: &Types, shader: &mut Shader) {
 /// 0 of a type.
 fn zero(types: &Types, shader: &mut Shader, ty: TypeId, span: Span) -> ExprId {
     let (kind, parts): (ConstructKind, Vec<TypeId>) = match types.get(ty) {
-        Type::Struct(id) => (ConstructKind::Struct, types.structure(id).members.iter().map(|member| member.ty).collect()),
+        Type::Struct(id) => {
+            (ConstructKind::Struct, types.structure(id).members.iter().map(|member| member.ty).collect())
+        }
         Type::Array(element, ArraySize::Sized(size)) => (ConstructKind::Array, vec![element; size as usize]),
         Type::Vector(scalar, _) => (ConstructKind::Splat, vec![TypeId::vector(scalar, 1)]),
         Type::Matrix(..) => (ConstructKind::Diagonal, vec![TypeId::FLOAT]),

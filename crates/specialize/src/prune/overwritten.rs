@@ -3,8 +3,8 @@
 //! *In:* a body. *Out:* the body without them. *Holds:* only whole locals that nothing else can name are followed; what a
 //! loop reads anywhere is taken to be read at its end and wherever it is left.
 
-use glisten_front::hir::{ExprId, ExprKind, Function, LocalId, ParamMode, Shader, Stmt, StmtKind, VarRef};
 use glisten_front::builtin::BuiltinFunction;
+use glisten_front::hir::{ExprId, ExprKind, Function, LocalId, ParamMode, Shader, Stmt, StmtKind, VarRef};
 use rustc_hash::FxHashSet;
 
 type Live = FxHashSet<LocalId>;

@@ -3,8 +3,8 @@
 //! *In:* a stage and the outputs that somebody reads. *Out:* the same stage, shorter; whether anything went.
 //! *Holds:* bodies are walked from their ends, so that what only a removed statement read goes in the same sweep.
 
-use crate::forward::Effects;
 use super::uses::{Stored, Uses, reached, stored};
+use crate::forward::Effects;
 use glisten_front::builtin::BuiltinFunction;
 use glisten_front::hir::{
     ExprId, ExprKind, FunctionId, GlobalId, ParamMode, Shader, Stmt, StmtKind, Storage, TypeId, Types, UnaryOp, VarRef,
@@ -93,7 +93,8 @@ impl Sweeper<'_> {
                     let body = std::mem::take(&mut case.body);
                     case.body = self.body(body);
                 }
-                let idle = |case: &glisten_front::hir::Case| case.body.iter().all(|stmt| matches!(stmt.kind, StmtKind::Break));
+                let idle =
+                    |case: &glisten_front::hir::Case| case.body.iter().all(|stmt| matches!(stmt.kind, StmtKind::Break));
                 if cases.iter().all(idle) && self.is_pure(selector) {
                     self.forget(selector, None);
                     self.changed = true;

@@ -5,8 +5,8 @@
 //! type for the same name.
 
 use glisten_front::hir::{
-    ArraySize, BinaryOp, ConstructKind, ExprKind, GlobalId, ScalarValue, Shader, Storage, StructId, Type, TypeId, Types,
-    Value, VarRef,
+    ArraySize, BinaryOp, ConstructKind, ExprKind, GlobalId, ScalarValue, Shader, Storage, StructId, Type, TypeId,
+    Types, Value, VarRef,
 };
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeMap;
@@ -207,9 +207,8 @@ fn trim_arrays(types: &mut Types, stages: &mut [Shader]) -> bool {
             let ty = types.array(element, ArraySize::Sized(last));
             global.ty = ty;
             let len = types.flat_len(ty) as usize;
-            global.value = global.value.take().map(|value| {
-                Value { ty, scalars: value.scalars.into_iter().take(len).collect() }
-            });
+            global.value =
+                global.value.take().map(|value| Value { ty, scalars: value.scalars.into_iter().take(len).collect() });
             global.initializer = None;
             changed = true;
             for expr in &mut shader.exprs {

@@ -5,8 +5,8 @@
 
 use glisten_front::builtin::BuiltinFunction;
 use glisten_front::hir::{
-    BinaryOp, ExprId, ExprKind, FunctionId, GlobalId, LocalId, ParamMode, Shader, Stmt, StmtKind, StructId, Type, TypeId,
-    Types, VarRef,
+    BinaryOp, ExprId, ExprKind, FunctionId, GlobalId, LocalId, ParamMode, Shader, Stmt, StmtKind, StructId, Type,
+    TypeId, Types, VarRef,
 };
 use rustc_hash::FxHashMap;
 

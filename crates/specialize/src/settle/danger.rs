@@ -15,9 +15,9 @@
 //! | any, of constants alone | compute it, by other rules | kept unless the result is finite |
 //! | integer division, shifts | refuse or leave undefined | kept where the specification leaves it undefined |
 
+use super::Demand;
 use crate::facts::{Fact, GREATEST, Range, at, spread};
 use crate::forward::Walked;
-use super::Demand;
 use glisten_front::builtin::BuiltinFunction as F;
 use glisten_front::hir::{BinaryOp, ExprId, ExprKind, Scalar, ScalarValue, Types};
 use smallvec::{SmallVec, smallvec};
@@ -43,7 +43,8 @@ pub(super) fn own(types: &Types, walked: &Walked, id: ExprId) -> Own {
         ExprKind::Binary(op, ..) | ExprKind::Assign(Some(op), ..) => {
             let before = walked.before.get(&id).map_or(&[][..], |before| before.as_slice());
             let left = if matches!(expr.kind, ExprKind::Assign(..)) { before } else { facts(0) };
-            let pair = if is_float(0) || is_float(1) { float_pair(*op, left, facts(1)) } else { int_pair(*op, facts(1)) };
+            let pair =
+                if is_float(0) || is_float(1) { float_pair(*op, left, facts(1)) } else { int_pair(*op, facts(1)) };
             demands.copy_from_slice(&pair);
         }
         ExprKind::BuiltinCall(function, _) => builtin(*function, &facts, &mut demands),

@@ -3,10 +3,10 @@
 //! *In:* a walked stage. *Out:* flags, raised until nothing changes. *Holds:* rounds are bounded: should they not settle,
 //! everything is demanded of everything, which is always right.
 
-use crate::forward::Walked;
 use super::{Demand, danger};
-use glisten_front::hir::{BinaryOp, ExprId, ExprKind, FunctionId, ParamMode, Stmt, StmtKind, Types, VarRef};
+use crate::forward::Walked;
 use glisten_front::builtin::BuiltinFunction as F;
+use glisten_front::hir::{BinaryOp, ExprId, ExprKind, FunctionId, ParamMode, Stmt, StmtKind, Types, VarRef};
 use smallvec::SmallVec;
 
 /// After so many rounds everything is demanded.
@@ -125,7 +125,14 @@ impl Demands {
     }
 
     /// What goes through parameters and results.
-    fn call(&mut self, walked: &Walked, function: FunctionId, callee: FunctionId, arguments: &[ExprId], demand: Demand) {
+    fn call(
+        &mut self,
+        walked: &Walked,
+        function: FunctionId,
+        callee: FunctionId,
+        arguments: &[ExprId],
+        demand: Demand,
+    ) {
         if let Some(result) = self.results.get_mut(callee.index()) {
             let both = result.and(demand);
             self.changed |= both != *result;
@@ -196,7 +203,15 @@ impl Demands {
             ExprKind::Binary(op, ..) => transparent_op(Some(*op)),
             ExprKind::BuiltinCall(function, _) => matches!(
                 function,
-                F::Abs | F::Sign | F::Min | F::Max | F::Clamp | F::Mix | F::Transpose | F::MatrixCompMult | F::OuterProduct
+                F::Abs
+                    | F::Sign
+                    | F::Min
+                    | F::Max
+                    | F::Clamp
+                    | F::Mix
+                    | F::Transpose
+                    | F::MatrixCompMult
+                    | F::OuterProduct
             ),
             _ => false,
         };

@@ -66,7 +66,9 @@ fn is(fact: Fact, value: f32) -> bool {
 /// `x + c`
 fn adds_nothing(x: Fact, c: Fact) -> bool {
     let integers = matches!(c.what, What::Value(ScalarValue::Int(0) | ScalarValue::Uint(0)));
-    integers || is(c, -0.0) || (matches!(c.what, What::Value(ScalarValue::Float(_))) && is(c, 0.0) && !x.range().negative_zero)
+    integers
+        || is(c, -0.0)
+        || (matches!(c.what, What::Value(ScalarValue::Float(_))) && is(c, 0.0) && !x.range().negative_zero)
 }
 
 /// `x - c`

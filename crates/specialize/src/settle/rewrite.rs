@@ -3,15 +3,15 @@
 //! *In:* a walked stage and its demands. *Out:* a shader of its own. *Holds:* a uniform that is known and used as a whole
 //! becomes a `const` of its name where that reads better than its numbers; statements that do nothing are gone.
 
-use crate::forward::Walked;
 use super::{Demand, Demands, identities};
+use crate::forward::Walked;
 use glisten_front::hir::{
     Case, Condition, ConstructKind, Expr, ExprId, ExprKind, FunctionId, GlobalId, ScalarValue, Shader, Stmt, StmtKind,
     Storage, Type, TypeId, Types, Value, VarRef,
 };
 use glisten_front::link::SamplerSlot;
-use glisten_front::stack::with_stack;
 use glisten_front::source::Span;
+use glisten_front::stack::with_stack;
 use smallvec::SmallVec;
 
 /// A settled stage.
@@ -150,37 +150,38 @@ impl Writer<'_> {
         }
         let demands = self.demands.of_operands(self.types, self.walked, self.function, id, demand);
         let of = |index: usize| demands.get(index).copied().unwrap_or(Demand::KEEP);
-        let kind = match kind {
-            ExprKind::Var(variable) => return self.variable(id, variable, ty, span),
-            ExprKind::Assign(op, target, value) => return self.assign(id, (op, target, value), of(1), (ty, span)),
-            ExprKind::IncDec(op, target) => ExprKind::IncDec(op, self.place(target)),
-            ExprKind::Literal(_) | ExprKind::Error => kind,
-            ExprKind::Member(base, member) => ExprKind::Member(self.expr(base, of(0)), member),
-            ExprKind::Index(base, index) => {
-                let count = self.elements(base);
-                let base = self.expr(base, of(0));
-                ExprKind::Index(base, self.index(index, count))
-            }
-            ExprKind::Swizzle(base, swizzle) => ExprKind::Swizzle(self.expr(base, of(0)), swizzle),
-            ExprKind::Convert(a) => ExprKind::Convert(self.expr(a, of(0))),
-            ExprKind::Construct(kind, list) => ExprKind::Construct(kind, self.list(&list, &of)),
-            ExprKind::Unary(op, a) => ExprKind::Unary(op, self.expr(a, of(0))),
-            ExprKind::Binary(op, a, b) => ExprKind::Binary(op, self.expr(a, of(0)), self.expr(b, of(1))),
-            ExprKind::Logical(op, a, b) => ExprKind::Logical(op, self.expr(a, of(0)), self.expr(b, of(1))),
-            ExprKind::Ternary(c, a, b) => {
-                ExprKind::Ternary(self.expr(c, of(0)), self.expr(a, of(1)), self.expr(b, of(2)))
-            }
-            ExprKind::Comma(a, b) => ExprKind::Comma(self.expr(a, of(0)), self.expr(b, of(1))),
-            ExprKind::Call(callee, list) => ExprKind::Call(callee, self.arguments(callee, &list, &of)),
-            ExprKind::BuiltinCall(function, list) => {
-                let modf = function == glisten_front::builtin::BuiltinFunction::Modf;
-                let list = list.iter().enumerate();
-                let list = list.map(|(index, argument)| {
-                    if modf && index == 1 { self.place(*argument) } else { self.expr(*argument, of(index)) }
-                });
-                ExprKind::BuiltinCall(function, list.collect())
-            }
-        };
+        let kind =
+            match kind {
+                ExprKind::Var(variable) => return self.variable(id, variable, ty, span),
+                ExprKind::Assign(op, target, value) => return self.assign(id, (op, target, value), of(1), (ty, span)),
+                ExprKind::IncDec(op, target) => ExprKind::IncDec(op, self.place(target)),
+                ExprKind::Literal(_) | ExprKind::Error => kind,
+                ExprKind::Member(base, member) => ExprKind::Member(self.expr(base, of(0)), member),
+                ExprKind::Index(base, index) => {
+                    let count = self.elements(base);
+                    let base = self.expr(base, of(0));
+                    ExprKind::Index(base, self.index(index, count))
+                }
+                ExprKind::Swizzle(base, swizzle) => ExprKind::Swizzle(self.expr(base, of(0)), swizzle),
+                ExprKind::Convert(a) => ExprKind::Convert(self.expr(a, of(0))),
+                ExprKind::Construct(kind, list) => ExprKind::Construct(kind, self.list(&list, &of)),
+                ExprKind::Unary(op, a) => ExprKind::Unary(op, self.expr(a, of(0))),
+                ExprKind::Binary(op, a, b) => ExprKind::Binary(op, self.expr(a, of(0)), self.expr(b, of(1))),
+                ExprKind::Logical(op, a, b) => ExprKind::Logical(op, self.expr(a, of(0)), self.expr(b, of(1))),
+                ExprKind::Ternary(c, a, b) => {
+                    ExprKind::Ternary(self.expr(c, of(0)), self.expr(a, of(1)), self.expr(b, of(2)))
+                }
+                ExprKind::Comma(a, b) => ExprKind::Comma(self.expr(a, of(0)), self.expr(b, of(1))),
+                ExprKind::Call(callee, list) => ExprKind::Call(callee, self.arguments(callee, &list, &of)),
+                ExprKind::BuiltinCall(function, list) => {
+                    let modf = function == glisten_front::builtin::BuiltinFunction::Modf;
+                    let list = list.iter().enumerate();
+                    let list = list.map(|(index, argument)| {
+                        if modf && index == 1 { self.place(*argument) } else { self.expr(*argument, of(index)) }
+                    });
+                    ExprKind::BuiltinCall(function, list.collect())
+                }
+            };
         self.push(kind, ty, span)
     }
 
@@ -329,7 +330,8 @@ impl Writer<'_> {
     /// Values that may be written as numbers.
     fn settled_values(&self, facts: &[super::Fact], demand: Demand) -> Option<SmallVec<[ScalarValue; 4]>> {
         let values = super::facts::values(facts)?;
-        let plain = |value: &ScalarValue| !matches!(value, ScalarValue::Float(value) if !value.is_normal() && *value != 0.0);
+        let plain =
+            |value: &ScalarValue| !matches!(value, ScalarValue::Float(value) if !value.is_normal() && *value != 0.0);
         (values.iter().all(plain) && !demand.hits(facts) && values.len() <= 16).then_some(values)
     }
 

@@ -18,10 +18,8 @@ impl Printer<'_> {
             self.above(statement.span);
         }
         self.bare_statement(statement);
-        let simple = matches!(
-            statement.kind,
-            StmtKind::Expr(_) | StmtKind::Local(..) | StmtKind::Return(_) | StmtKind::Discard
-        );
+        let simple =
+            matches!(statement.kind, StmtKind::Expr(_) | StmtKind::Local(..) | StmtKind::Return(_) | StmtKind::Discard);
         if simple {
             self.behind(statement.span);
         }
