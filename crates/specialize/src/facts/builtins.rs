@@ -266,7 +266,8 @@ fn logarithm(x: Range, f: fn(f64) -> f64) -> Range {
 }
 
 fn angle(call: &Call<'_>, operands: &[Fact; 3]) -> Fact {
-    let pi = 3.142;
+    // A little more than pi.
+    let pi = std::f64::consts::PI + 1e-3;
     let [x, y, _] = operands;
     match call.function {
         F::Atan if call.arguments.len() == 2 => {

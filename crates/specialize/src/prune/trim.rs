@@ -40,11 +40,11 @@ fn trim_members(types: &mut Types, stages: &mut [Shader]) -> bool {
                 ExprKind::Binary(BinaryOp::Equal | BinaryOp::NotEqual, a, _) => {
                     structs_in(types, shader.expr(*a).ty, &mut fixed);
                 }
-                ExprKind::Construct(ConstructKind::Struct, arguments) => {
-                    // What an argument does must be done.
-                    if arguments.iter().any(|argument| has_effects(shader, *argument)) {
-                        structs_in(types, expr.ty, &mut fixed);
-                    }
+                // What an argument does must be done.
+                ExprKind::Construct(ConstructKind::Struct, arguments)
+                    if arguments.iter().any(|argument| has_effects(shader, *argument)) =>
+                {
+                    structs_in(types, expr.ty, &mut fixed);
                 }
                 _ => {}
             }

@@ -206,7 +206,7 @@ fn powers(x: &[Fact], y: &[Fact]) -> Own {
     let mut demands: Own = smallvec![Demand::NONE; 2];
     for index in 0..len {
         let (x, y) = (at(x, index.min(x.len().max(1) - 1)), at(y, index.min(y.len().max(1) - 1)));
-        let base = x.range().low > 0.0 && (!x.range().equal(Range::point(1.0)).is_none() || y.range().is_finite());
+        let base = x.range().low > 0.0 && (x.range().equal(Range::point(1.0)).is_some() || y.range().is_finite());
         let exponent = x.range().low >= 0.0 && y.range().low > 0.0;
         demands[0] = demands[0].and(keep_unless(base));
         demands[1] = demands[1].and(keep_unless(exponent));
