@@ -3,9 +3,13 @@
 use crate::library::Embedded;
 use glisten_front::Compiler;
 
-pub use glisten_scene::scene::*;
+pub use glisten_scene::{
+    AttributeData, AttributeValues, BlendFactor, Compare, Cull, DiskFiles, Draw, FileError, FileSource, Filter, Format,
+    Framebuffer, Library, Loaded, MAX_ATTACHMENTS, MAX_PIXELS, MAX_SIDE, MemoryFiles, NoLibrary, Primitive, Scene,
+    State, Texels, Texture, TextureLevel, Wrap,
+};
 
 /// Loads the scene at `path`, whose draws may name programs of the library.
 pub fn load(path: &str, files: &dyn FileSource, compiler: &Compiler) -> Loaded {
-    glisten_scene::scene::load(path, files, &Embedded, compiler)
+    glisten_scene::load(path, files, &Embedded, compiler)
 }

@@ -13,7 +13,7 @@ use clap::Args;
 use glisten_front::source::SourceMap;
 use glisten_gpu::{Gpu, Via};
 use glisten_reference::{LineRule, Precision, RenderOptions};
-use glisten_scene::compare::Picture;
+use glisten_scene::picture::Picture;
 use std::path::PathBuf;
 
 /// The number of columns of the contact sheet.

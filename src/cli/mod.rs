@@ -31,6 +31,7 @@ mod session;
 mod specialize;
 mod stages;
 mod test;
+mod timed;
 mod verify;
 
 use clap::{Args, Parser, Subcommand};

@@ -3,7 +3,7 @@
 use super::exit::Failure;
 use super::scenes::{DrawError, MachineArgs};
 use crate::scene::Scene;
-use glisten_scene::compare::Picture;
+use glisten_scene::picture::Picture;
 
 #[cfg(feature = "gl")]
 use super::exit::Exit;

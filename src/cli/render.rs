@@ -10,7 +10,7 @@ use super::scenes::{DrawError, SceneArgs, ViaArg};
 use crate::scene::Scene;
 use clap::{Args, ValueEnum};
 use glisten_reference::{LineRule, Precision, RenderOptions};
-use glisten_scene::compare::Picture;
+use glisten_scene::picture::Picture;
 use std::path::PathBuf;
 
 /// Draw a scene

@@ -84,8 +84,8 @@ fn told(mut session: Session<'_>, sources: SourceMap, error: DrawError) -> Outco
     match error {
         DrawError::Failure(failure) => Err(failure),
         DrawError::Diagnostics(diagnostics) => {
-            let mut batch = Batch { sources, diagnostics };
-            session.judge(&mut batch);
+            let mut batch = Batch { sources, diagnostics: Vec::new() };
+            session.add(&mut batch, diagnostics);
             Ok(session.tell(&[&batch], false)?.max(Exit::Content))
         }
     }

@@ -1,4 +1,4 @@
-//! What `render`, `verify` and `report` share: reading a scene with its shaders, and running work with a time limit.
+//! Shared by `render`, `verify` and `report`: reading a scene with its shaders, and running work with a time limit.
 
 use super::args::{BindingArgs, LevelArgs, SourceArgs};
 use super::console::Console;
@@ -64,7 +64,7 @@ impl From<ViaArg> for Via {
 fn parse_seconds(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(seconds) if seconds > 0.0 && seconds <= 1e6 => Ok(seconds),
-        _ => Err(format!("`{text}` is no number of seconds")),
+        _ => Err(format!("`{text}` is not a number of seconds")),
     }
 }
 
@@ -92,8 +92,8 @@ impl Read<'_> {
         match error {
             DrawError::Failure(failure) => Err(failure),
             DrawError::Diagnostics(diagnostics) => {
-                self.batch.diagnostics = diagnostics;
-                self.session.judge(&mut self.batch);
+                self.batch.diagnostics.clear();
+                self.session.add(&mut self.batch, diagnostics);
                 Ok(self.session.tell(&[&self.batch], false)?.max(Exit::Content))
             }
         }
@@ -162,8 +162,8 @@ impl SceneArgs {
         let loaded = loaded.map_err(|panic| {
             Failure::new(Exit::Content, format!("internal error: {panic}")).help("please report it with the scene")
         })?;
-        let mut batch = Batch { sources: loaded.sources, diagnostics: loaded.diagnostics.into_iter().collect() };
-        session.judge(&mut batch);
+        let mut batch = Batch { sources: loaded.sources, diagnostics: Vec::new() };
+        session.add(&mut batch, loaded.diagnostics);
         let exit = session.tell(&[&batch], false)?;
         Ok(match loaded.scene {
             Some(scene) if exit == Exit::Ok => Ok(Read { scene, session, batch }),

@@ -3,7 +3,7 @@
 //! *Holds:* the names of all outputs are known before anything is written; equal residuals are written once.
 
 use super::args::{ConventionArgs, LevelArgs, SourceArgs};
-use super::compile::TargetArg;
+use super::compile::target_words;
 use super::console::Console;
 use super::exit::{Exit, Failure, Outcome};
 use super::files;
@@ -11,10 +11,10 @@ use super::progress::Progress;
 use super::scenes::{DrawError, MachineArgs, Read, SceneArgs};
 use crate::specialize::{Account, SpecializedScene, account, specialize_scene};
 use clap::Args;
-use glisten_emit::{self as emit, Conventions};
+use glisten_emit::{self as emit, Conventions, Target};
 use glisten_front::hir::Stage;
 use glisten_front::link::Program;
-use glisten_scene::scene::{Scene, ShaderFiles, write};
+use glisten_scene::{Scene, ShaderFiles, write};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
@@ -34,8 +34,8 @@ pub(super) struct SpecializeArgs {
     #[arg(long)]
     check: bool,
     /// The target to write (repeatable; default: wgsl and spirv)
-    #[arg(long = "target", value_enum)]
-    targets: Vec<TargetArg>,
+    #[arg(long = "target", value_name = "TARGET", value_parser = target_words())]
+    targets: Vec<Target>,
     #[command(flatten)]
     machine: MachineArgs,
     #[command(flatten)]
@@ -214,21 +214,21 @@ fn write_residual(
     (conventions, console): (&Conventions, &Console),
 ) -> Result<(), Failure> {
     let Some(program) = residuals.programs.get(stem) else { return Ok(()) };
-    let mut targets: BTreeSet<TargetArg> = args.targets.iter().copied().collect();
+    let mut targets: BTreeSet<Target> = args.targets.iter().copied().collect();
     if targets.is_empty() {
-        targets.extend([TargetArg::Wgsl, TargetArg::Spirv]);
+        targets.extend([Target::Wgsl, Target::Spirv]);
     }
     for (stage, text) in texts {
         let name = format!("{stem}.{}", if *stage == Stage::Vertex { "vert" } else { "frag" });
         files::write(&folder.join(&name), text.as_bytes())?;
         for target in &targets {
-            match emit::emit(program, *stage, target.target(), conventions) {
+            match emit::emit(program, *stage, *target, conventions) {
                 Ok(emitted) => {
                     files::write(&folder.join(format!("{name}.{}", target.extension())), &emitted.into_bytes())?;
                 }
                 Err(found) => {
                     let message = found.first().map_or_else(String::new, |found| found.message.clone());
-                    let message = format!("`{name}` cannot be written as {}: {message}", target.target().name());
+                    let message = format!("`{name}` cannot be written as {}: {message}", target.name());
                     // Of the default targets one may lack what the program uses; the scene is written all the same.
                     if !args.targets.is_empty() {
                         return Err(Failure::new(Exit::Content, message));

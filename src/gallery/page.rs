@@ -156,18 +156,10 @@ fn inline_code(text: &str) -> String {
 mod tests {
     use super::*;
     use crate::gallery::entries;
-    use glisten_scene::compare::Picture;
+    use glisten_scene::picture::Picture;
 
     fn tiles(count: usize) -> Vec<Tile> {
-        let picture = Picture {
-            width: 4,
-            height: 4,
-            attachments: vec![vec![[0.5; 4]; 16]],
-            covered: vec![true; 16],
-            ranges: None,
-            undecided: vec![false; 16],
-            near_edge: vec![false; 16],
-        };
+        let picture = Picture::of_colors(4, 4, vec![[0.5; 4]; 16]);
         vec![Tile::new(&picture); count]
     }
 

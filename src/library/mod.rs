@@ -103,7 +103,7 @@ impl IncludeResolver for Embedded {
 }
 
 #[cfg(feature = "reference")]
-impl glisten_scene::scene::Library for Embedded {
+impl glisten_scene::Library for Embedded {
     fn program(&self, name: &str) -> Option<(&'static str, &'static str)> {
         programs().iter().find(|program| program.name == name).map(|program| (program.vertex, program.fragment))
     }

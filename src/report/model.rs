@@ -4,7 +4,7 @@
 //! of the first attachment and the pixels that both pictures cover. Times are milliseconds of GPU time per frame.
 //! Ratios are to the baseline of the same run and have no unit.
 
-use glisten_scene::compare::Picture;
+use glisten_scene::picture::Picture;
 use serde::Serialize;
 
 /// The error against run time of each way to shade a scene.

@@ -153,20 +153,15 @@ mod tests {
     use super::super::figures::{compare, mark_pareto};
     use super::super::model::{Adapter, Spread, Timing};
     use super::*;
-    use glisten_scene::compare::Picture;
+    use glisten_scene::picture::Picture;
 
     fn picture(level: f64) -> Picture {
         let side = 64;
         let inside = |i: usize| ((i % side) as f64 - 32.0).hypot((i / side) as f64 - 32.0) < 26.0;
         let shade = |i: usize| if inside(i) { [level * (i % side) as f64 / 64.0, level, 0.3, 1.0] } else { [0.0; 4] };
         Picture {
-            width: 64,
-            height: 64,
-            attachments: vec![(0..side * side).map(shade).collect()],
             covered: (0..side * side).map(inside).collect(),
-            ranges: None,
-            undecided: vec![false; side * side],
-            near_edge: vec![false; side * side],
+            ..Picture::of_colors(64, 64, (0..side * side).map(shade).collect())
         }
     }
 

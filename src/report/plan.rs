@@ -23,6 +23,7 @@
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::scenes::{SCENE_SYNTAX, SCENE_WRONG_VALUE};
 use glisten_front::source::{SourceMap, Span};
+use glisten_scene::default_tessellation;
 use serde::Deserialize;
 use std::ops::Range;
 use toml::{Table, Value};
@@ -93,8 +94,8 @@ const ROUNDS: u32 = 15;
 const MOST_ROUNDS: u32 = 1000;
 /// How much finer the truth's mesh is than the finest way's, unless `truth_tessellation` is given.
 const TRUTH_FACTOR: u32 = 4;
-/// The tessellation of a mesh whose table does not give it (see `docs/scenes.md`).
-const DEFAULT_TESSELLATION: [u32; 2] = [64, 32];
+/// The coarsest mesh that is compared, in segments and rings, of shapes that have as many by default.
+const COARSEST: [u32; 2] = [3, 2];
 
 /// Reads the plan of the scene file `name`.
 ///
@@ -152,9 +153,14 @@ fn build(scene_name: &str, scene: &Table, report: ReportTable) -> Result<Plan, S
         if truths.iter().any(|truth| truth.model == model) {
             continue;
         }
-        let judge = judge(&ways, &model)?;
+        let truth_way = truth_way(&ways, &model)?;
         let tessellation = finest(&tessellations, report.truth_tessellation);
-        truths.push(PlannedTruth { model, way: judge.name.clone(), tessellation, text: text(judge, tessellation)? });
+        truths.push(PlannedTruth {
+            model,
+            way: truth_way.name.clone(),
+            tessellation,
+            text: text(truth_way, tessellation)?,
+        });
     }
     Ok(Plan { ways: planned, truths, rounds })
 }
@@ -164,11 +170,11 @@ fn model(way: &WayTable) -> String {
 }
 
 /// The way that is the truth of its model: the one that says so, or the only one.
-fn judge<'a>(ways: &'a [WayTable], model_name: &str) -> Result<&'a WayTable, String> {
+fn truth_way<'a>(ways: &'a [WayTable], model_name: &str) -> Result<&'a WayTable, String> {
     let members: Vec<&WayTable> = ways.iter().filter(|way| model(way) == model_name).collect();
     let marked: Vec<&WayTable> = members.iter().copied().filter(|way| way.truth).collect();
     match (&members[..], &marked[..]) {
-        (_, [judge]) => Ok(judge),
+        (_, [truth_way]) => Ok(truth_way),
         ([only], []) => Ok(only),
         (_, []) => Err(format!("no way of the model `{model_name}` has `truth = true`")),
         _ => Err(format!("several ways of the model `{model_name}` have `truth = true`")),
@@ -183,18 +189,25 @@ fn tessellations(report: &ReportTable, draw: &Table) -> Result<Vec<Option<[u32; 
         (Some(_), Some(_)) => Err("`tessellations` is a list of at least one pair of segments and rings".into()),
         (Some(_), None) => Err("`tessellations` wants a draw with a mesh by `shape`".into()),
         (None, None) => Ok(vec![None]),
-        (None, Some(mesh)) => {
-            let count = |key: &str, default: u32| {
-                mesh.get(key).and_then(Value::as_integer).and_then(|n| u32::try_from(n).ok()).unwrap_or(default)
-            };
-            let [segments, rings] =
-                [count("segments", DEFAULT_TESSELLATION[0]), count("rings", DEFAULT_TESSELLATION[1])];
-            Ok([4, 2, 1].map(|part| Some([(segments / part).max(3), (rings / part).max(2)])).to_vec())
-        }
+        (None, Some(mesh)) => Ok(levels(mesh)),
     }
 }
 
-/// The tessellation of the truth: the requested one, or one finer than the finest.
+/// The mesh of the scene at a quarter, at half and at all of its segments and rings, where that makes a difference.
+fn levels(mesh: &Table) -> Vec<Option<[u32; 2]>> {
+    let shape = mesh.get("shape").and_then(Value::as_str).unwrap_or("");
+    // The scene's loader says what is wrong with a shape that there is not.
+    let Some(default) = default_tessellation(shape) else { return vec![None] };
+    let counts = [("segments", 0), ("rings", 1)].map(|(key, index): (&str, usize)| {
+        let written = mesh.get(key).and_then(Value::as_integer).and_then(|count| u32::try_from(count).ok());
+        (written.unwrap_or(default[index]), default[index].min(COARSEST[index]))
+    });
+    let mut levels: Vec<_> = [4, 2, 1].map(|part| Some(counts.map(|(count, least)| (count / part).max(least)))).into();
+    levels.dedup();
+    levels
+}
+
+/// The mesh of the truth: as asked for, or finer than the finest.
 fn finest(tessellations: &[Option<[u32; 2]>], asked: Option<[u32; 2]>) -> Option<[u32; 2]> {
     let finest =
         tessellations.iter().flatten().max_by_key(|[segments, rings]| u64::from(*segments) * u64::from(*rings))?;
@@ -209,7 +222,7 @@ fn scene_text(scene: &Table, draw: usize, way: &WayTable, tessellation: Option<[
         .and_then(Value::as_array_mut)
         .and_then(|draws| draws.get_mut(draw))
         .and_then(Value::as_table_mut)
-        .ok_or("the draw is no table")?;
+        .ok_or("the draw is not a table")?;
     merge(table, &way.set);
     if let Some([segments, rings]) = tessellation
         && let Some(mesh) = table.get_mut("mesh").and_then(Value::as_table_mut)
@@ -260,6 +273,23 @@ mesh = { shape = "sphere", position = "p", radius = 0.1 }
         assert_eq!(levels, [Some([16, 8]), Some([32, 16]), Some([64, 32])]);
         assert_eq!((plan.truths.len(), plan.truths[0].tessellation), (1, Some([256, 128])));
         assert!(plan.ways[0].text.contains("radius = 0.1") && !plan.ways[0].text.contains("report"));
+    }
+
+    #[test]
+    fn each_shape_has_levels_of_its_own() {
+        let levels = |mesh: &str| {
+            let scene = SCENE.replace("shape = \"sphere\"", mesh);
+            let plan = plan("ball", &scene, 0).expect("a plan");
+            plan.ways.iter().filter_map(|way| way.tessellation).collect::<Vec<_>>()
+        };
+        assert_eq!(levels(r#"shape = "torus_knot""#), [[48, 6], [96, 12], [192, 24]]);
+        assert_eq!(levels(r#"shape = "cone""#), [[16, 1], [32, 1], [64, 1]]);
+        assert_eq!(levels(r#"shape = "cone", rings = 8"#), [[16, 2], [32, 4], [64, 8]]);
+        for flat in ["quad", "plane", "cube"] {
+            assert_eq!(levels(&format!("shape = \"{flat}\"")), [[1, 1]], "{flat}");
+        }
+        assert_eq!(levels(r#"shape = "plane", segments = 64, rings = 2"#), [[16, 1], [32, 1], [64, 2]]);
+        assert_eq!(levels(r#"shape = "saddle""#), [[0; 2]; 0]);
     }
 
     #[test]

@@ -13,7 +13,7 @@ use glisten_front::diagnostic::{Diagnostic, Diagnostics};
 use glisten_front::source::SourceMap;
 use glisten_gpu::{Gpu, Prepared, Via};
 use glisten_reference::{Precision, RenderOptions};
-use glisten_scene::compare::Picture;
+use glisten_scene::picture::Picture;
 
 /// Why a report could not be made.
 #[derive(Debug)]

@@ -41,7 +41,7 @@ mod words;
 
 use crate::scene::Scene;
 use glisten_front::compiler::Compiler;
-use glisten_scene::compare::Picture;
+use glisten_scene::picture::Picture;
 
 /// The result of a test.
 #[derive(Clone, Debug, PartialEq, Eq)]

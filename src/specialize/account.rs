@@ -7,7 +7,7 @@ use glisten_emit::{Conventions, Emitted, Target, emit};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::link::Program;
 use glisten_reference::{LineRule, Precision, RenderOptions, Work, work};
-use glisten_scene::scene::{Draw, Scene};
+use glisten_scene::{Draw, Scene};
 use serde::Serialize;
 
 /// The account of a scene.

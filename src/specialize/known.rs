@@ -4,7 +4,7 @@
 
 use glisten_front::hir::{Scalar, ScalarValue};
 use glisten_front::link::UniformLeaf;
-use glisten_scene::scene::{AttributeData, Cull, Draw, Framebuffer, Primitive, Texels, Texture};
+use glisten_scene::{AttributeData, Cull, Draw, Framebuffer, Primitive, Texels, Texture};
 use glisten_specialize::{Input, Known, KnownState, KnownTexture};
 
 /// What a draw fixes. What `dynamic` names, of the draw's own list or of this one, is not fixed: a uniform, an element or a

@@ -8,7 +8,7 @@ use super::known::{known, leaf_values};
 use glisten_front::hir::{ScalarValue, Stage};
 use glisten_front::link::Program;
 use glisten_front::source::SourceMap;
-use glisten_scene::scene::{AttributeData, AttributeValues, Draw, Scene};
+use glisten_scene::{AttributeData, AttributeValues, Draw, Scene};
 use glisten_specialize::{LeftOut, Options, Residual, specialize_with};
 use std::sync::Arc;
 

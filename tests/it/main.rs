@@ -5,6 +5,8 @@ mod architecture;
 mod cli;
 mod codes;
 mod diagnostics;
+#[cfg(feature = "reference")]
+mod drawing;
 mod emit;
 #[cfg(feature = "gpu")]
 mod envelope;
@@ -32,6 +34,7 @@ mod mutation;
 mod mutations;
 #[cfg(feature = "gl")]
 mod opengl;
+mod operations;
 mod print;
 #[cfg(feature = "gpu")]
 mod random;

@@ -9,7 +9,8 @@ use glisten_front::{Compiler, Options};
 use glisten_gpu::{Gpu, Via};
 use glisten_reference::domain::faults::{Faults, KNOWN};
 use glisten_reference::{LineRule, Precision, RenderOptions};
-use glisten_scene::compare::{Judge, Picture, Verdict};
+use glisten_scene::compare::{Judge, Verdict};
+use glisten_scene::picture::Picture;
 
 const VERTEX: &str = "#version 150\nin vec4 p;\nin float id;\nin float size;\nflat out float v;\n\
     void main() { v = id; gl_Position = p; gl_PointSize = size; }\n";

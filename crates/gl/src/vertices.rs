@@ -7,7 +7,7 @@ use super::Error;
 use super::api::Api;
 use glisten_front::hir::{Scalar, Type, TypeId, Types};
 use glisten_front::link::Attribute;
-use glisten_scene::scene::{AttributeData, AttributeValues, Draw};
+use glisten_scene::{AttributeData, AttributeValues, Draw};
 
 /// Binds the vertex data of a draw.
 pub(super) fn bind(api: &Api, draw: &Draw) -> Result<(), Error> {

@@ -6,7 +6,7 @@
 //! rotated until that vertex comes first. *Holds:* winding and primitive numbers are unchanged. So are vertex
 //! indices, and with them `gl_VertexID`.
 
-use glisten_scene::scene::Primitive;
+use glisten_scene::Primitive;
 
 /// The vertex indices of a list, or `None` if drawing `count` vertices in order is the same.
 ///

@@ -7,8 +7,8 @@
 use super::prepare::Prepared;
 use super::states::{color_format, pixel_size};
 use super::{Error, Gpu, Rendered, Via};
-use glisten_scene::compare::Picture;
-use glisten_scene::scene::{Format, Framebuffer, Scene};
+use glisten_scene::picture::Picture;
+use glisten_scene::{Format, Framebuffer, Scene};
 use std::time::Instant;
 
 /// The attachments of a frame.

@@ -1,6 +1,6 @@
 //! Runs emitted code on Vulkan through wgpu.
 //!
-//! *In:* a [`Scene`](glisten_scene::scene::Scene). *Out:* a [`Picture`], and times.
+//! *In:* a [`Scene`](glisten_scene::Scene). *Out:* a [`Picture`], and times.
 //!
 //! ```text
 //!  Scene ──► assembly    vertex numbers: strips, fans and loops made lists, the provoking vertex first
@@ -38,7 +38,7 @@ pub use device::{AdapterFacts, Gpu};
 pub use error::Error;
 pub use prepare::Prepared;
 
-use glisten_scene::compare::Picture;
+use glisten_scene::picture::Picture;
 
 /// The form of the emitted code that runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

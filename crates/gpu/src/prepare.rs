@@ -14,7 +14,7 @@ use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::targets::FEATURE_NOT_IN_TARGET;
 use glisten_front::hir::{Interpolation, SamplerType, Stage, Type};
 use glisten_front::link::{Program, SlotBinding};
-use glisten_scene::scene::{Draw, Format, Framebuffer, Scene, State};
+use glisten_scene::{Draw, Format, Framebuffer, Scene, State};
 use std::sync::Arc;
 use wgpu::util::DeviceExt;
 
@@ -79,6 +79,8 @@ impl Gpu {
     /// # Safety
     /// The driver runs the words as they are, and its behavior is undefined if they are not a valid module: check
     /// them with `spirv-val` first.
+    #[doc(hidden)]
+    #[cfg(feature = "edited-modules")]
     #[expect(unsafe_code, reason = "nothing here can check what `edit` makes")]
     pub unsafe fn prepare_edited(
         &self,
@@ -318,7 +320,7 @@ fn conventions(draw: &Draw) -> Conventions {
 /// Rejects comparisons at explicit levels of detail, which are compiled only for depth textures of one level.
 fn refuse_levels(draw: &Draw) -> Result<(), Error> {
     let deep = draw.textures.iter().flatten().any(|texture| {
-        texture.kind.shadow && texture.levels.len() > 1 && texture.filter == glisten_scene::scene::Filter::Trilinear
+        texture.kind.shadow && texture.levels.len() > 1 && texture.filter == glisten_scene::Filter::Trilinear
     });
     match emit::levels_of_comparisons(&draw.program).next().filter(|_| deep) {
         Some(span) => {
@@ -354,7 +356,7 @@ struct Binding {
     what: What,
 }
 
-/// What is bound.
+/// The kind of a bound resource.
 #[derive(Clone, Copy)]
 enum What {
     Uniforms,

@@ -5,7 +5,7 @@
 
 use super::Gpu;
 use super::textures::extent;
-use glisten_scene::scene::{Texels, Texture};
+use glisten_scene::{Texels, Texture};
 
 const BLIT: &str = "
 @group(0) @binding(0) var source: texture_2d<f32>;

@@ -1,6 +1,6 @@
 //! Tables from OpenGL's fixed-function state to wgpu's.
 
-use glisten_scene::scene::{BlendFactor, Compare, Cull, Filter, Format, Primitive, State, Wrap};
+use glisten_scene::{BlendFactor, Compare, Cull, Filter, Format, Primitive, State, Wrap};
 
 /// The texture format of a color attachment.
 pub(super) fn color_format(format: Format) -> wgpu::TextureFormat {

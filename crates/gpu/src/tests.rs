@@ -11,7 +11,7 @@ use glisten_front::link::{
 };
 use glisten_front::source::Span;
 use glisten_front::syntax::ast::{Profile, Version};
-use glisten_scene::scene::{
+use glisten_scene::{
     AttributeData, AttributeValues, Compare, Cull, Draw, Filter, Format, Framebuffer, Primitive, Scene, State, Texels,
     Texture, TextureLevel, Wrap,
 };

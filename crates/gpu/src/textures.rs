@@ -9,7 +9,7 @@ use super::states::{address_mode, compare, filter_mode};
 use super::{Error, Gpu, shadow_upload};
 use glisten_emit::BUFFER_WIDTH;
 use glisten_front::hir::{SamplerDim, SamplerType, Scalar};
-use glisten_scene::scene::{Compare, Filter, Texels, Texture, TextureLevel, Wrap};
+use glisten_scene::{Compare, Filter, Texels, Texture, TextureLevel, Wrap};
 
 /// The resources of a sampler slot.
 pub(super) struct Bound {

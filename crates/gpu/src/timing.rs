@@ -6,7 +6,7 @@
 
 use super::frame::Attachments;
 use super::{Error, Gpu, Prepared, Via};
-use glisten_scene::scene::Scene;
+use glisten_scene::Scene;
 use std::time::{Duration, Instant};
 
 /// A pair of timestamps.

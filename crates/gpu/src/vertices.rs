@@ -7,7 +7,7 @@
 
 use glisten_front::hir::{Scalar, ScalarValue, Type, TypeId, Types};
 use glisten_front::link::Attribute;
-use glisten_scene::scene::{AttributeData, Draw};
+use glisten_scene::{AttributeData, Draw};
 
 /// One vertex buffer.
 pub(super) struct Rows {
@@ -140,7 +140,7 @@ fn format(scalar: Scalar, height: u32) -> wgpu::VertexFormat {
 mod tests {
     use super::*;
     use glisten_front::hir::GlobalId;
-    use glisten_scene::scene::AttributeValues;
+    use glisten_scene::AttributeValues;
 
     fn attribute(ty: TypeId, location: u32, columns: u32, active: bool) -> Attribute {
         Attribute { name: "a".into(), ty, global: GlobalId::new(0), location, columns, active }

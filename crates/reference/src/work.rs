@@ -9,7 +9,8 @@ use crate::domain::F32;
 use crate::exec::{Event, Kind, Observer, Order, What};
 use crate::{RenderOptions, pipeline};
 use glisten_front::diagnostic::Diagnostic;
-use glisten_scene::scene::Scene;
+use glisten_front::hir::Stage;
+use glisten_scene::Scene;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// What a draw executes.
@@ -47,8 +48,7 @@ impl Observer<F32> for Counter {
     fn finish(self: Box<Self>, order: Order) {
         let mut totals = self.totals.lock().unwrap_or_else(PoisonError::into_inner);
         let Some(work) = totals.get_mut(order.draw) else { return };
-        // 0 and 2 are the vertex stage, 1 and 3 the fragment stage.
-        if order.stage % 2 == 0 {
+        if order.piece.stage() == Stage::Vertex {
             work.vertex_operations += self.operations;
         } else {
             work.fragment_operations += self.operations;

@@ -1,9 +1,24 @@
 //! Scenes and pictures of glisten.
 //!
-//! [`scene`] reads scene files: what is drawn, with which programs and which data. [`compare`] holds pictures, intervals of
-//! what a pixel may be, and figures of how far two pictures are apart.
+//! [`load`] reads a scene file (TOML; see `docs/scenes.md`) and the programs that it names. The result is a [`Scene`], in
+//! which everything is resolved: vertex data by attribute, uniform values by root, textures by sampler. The runners draw it
+//! and know nothing of TOML. [`picture`] is what they draw, [`compare`] says how far two pictures are apart.
 //!
-//! *Holds:* nothing here draws.
+//! *Holds:* nothing here draws. Semantics are OpenGL's (lower-left origin, last vertex provoking, clip space z in `[-w, w]`).
+//! Files come through a [`FileSource`]; only its implementation [`DiskFiles`] does I/O.
 
 pub mod compare;
-pub mod scene;
+mod files;
+mod library;
+mod load;
+mod model;
+pub mod picture;
+pub mod values;
+
+pub use files::{DiskFiles, FileError, FileSource, MemoryFiles};
+pub use library::{Library, NoLibrary};
+pub use load::{Loaded, MAX_ATTACHMENTS, MAX_PIXELS, MAX_SIDE, ShaderFiles, default_tessellation, load, write};
+pub use model::{
+    AttributeData, AttributeValues, BlendFactor, Compare, Cull, Draw, Filter, Format, Framebuffer, Primitive, Scene,
+    State, Texels, Texture, TextureLevel, Wrap,
+};

@@ -4,7 +4,7 @@
 use crate::raster::{Random, SIDE, Vertex, at, scene};
 use glisten::scene::Scene;
 use glisten_reference::{LineRule, Precision, RenderOptions};
-use glisten_scene::compare::Picture;
+use glisten_scene::picture::Picture;
 
 /// The driver's picture and the reference's; `None` without a driver.
 fn both(scene: &Scene) -> Option<[Picture; 2]> {

@@ -9,28 +9,16 @@
 //! evaluated left to right, each where GLSL evaluates it. What a target cannot represent is a diagnostic and never a
 //! wrong result.
 //!
-//!
-//! file
-//! contents
-//!
+//! | file | contents |
 //! | --- | --- |
-//!
-//! `facts`
-//! facts that must be known first
-//!
-//!
-//! `types`, `uniforms`
-//! types of values, types in std140 memory
-//!
+//! | `facts` | facts that must be known first |
+//! | `types`, `uniforms` | types of values, types in std140 memory |
 //! | `interface`, `outputs` | attributes, varyings, colors, built-in variables, the entry point |
 //! | `function` | the state of one function: naga's arenas, emission, names |
 //! | `statements`, `control` | §6 |
 //! | `expressions`, `operators`, `constructors`, `places`, `calls` | §5 |
 //! | `builtins`, `textures`, `texel_loads`, `matrices`, `aggregates` | §8 |
-//!
-//! `constants`
-//! constant values, and how to keep the target from evaluating what is not finite
-//!
+//! | `constants` | constant values, and how to keep the target from evaluating what is not finite |
 
 mod aggregates;
 mod builtins;
@@ -62,7 +50,7 @@ use function::{GlobalSlot, Lowered};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::{general, targets};
 use glisten_front::hir::{FunctionId, GlobalId, Shader, Stage, Types};
-use glisten_front::link::{Interface, Program, Varying};
+use glisten_front::link::{Interface, Program};
 use glisten_front::source::Span;
 use rustc_hash::FxHashMap;
 
@@ -111,8 +99,6 @@ struct Lower<'a> {
     facts: Facts,
     module: naga::Module,
     layouter: naga::proc::Layouter,
-    /// The varyings of the interface, and hidden ones (see [`hidden_varyings`](interface::hidden_varyings)).
-    varyings: Vec<Varying>,
     values: FxHashMap<glisten_front::hir::TypeId, naga::Handle<naga::Type>>,
     hosts: uniforms::Hosts,
     globals: Vec<GlobalSlot>,
@@ -145,7 +131,6 @@ impl<'a> Lower<'a> {
             facts,
             module: naga::Module::default(),
             layouter: naga::proc::Layouter::default(),
-            varyings: interface::hidden_varyings(program),
             values: FxHashMap::default(),
             hosts: uniforms::Hosts::default(),
             globals: vec![GlobalSlot::Unused; shader.globals.len()],

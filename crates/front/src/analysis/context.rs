@@ -22,7 +22,7 @@ use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 use std::cell::Cell;
 
-/// What the analysis knows about an expression besides its type.
+/// Facts about an expression besides its type.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Facts {
     /// The depth of the tree, counted along left operands too.
@@ -87,7 +87,7 @@ pub(super) struct Analyzer<'a> {
     pub(super) n_global_scalars: u32,
     pub(super) n_local_scalars: u32,
     /// The number of globals that need a location or binding.
-    pub(super) n_places: u32,
+    pub(super) n_bound: u32,
     /// How many steps constant evaluation may still take in this shader.
     pub(super) fold_fuel: Cell<u64>,
     /// How many times the analysis searched for a name similar to an unknown one.
@@ -100,7 +100,7 @@ pub(super) struct Analyzer<'a> {
     pub(super) first_member_uses: FxHashMap<(GlobalId, u32), Span>,
     /// For each array without a size, the largest constant index, and its position (§4.1.9).
     pub(super) array_uses: FxHashMap<ArrayKey, (u32, Span)>,
-    /// The same map for the locals of the current function.
+    /// The largest constant indices for the locals of the current function.
     pub(super) local_array_uses: FxHashMap<LocalId, (u32, Span)>,
     /// `layout(...) uniform;`
     pub(super) block_defaults: BlockDefaults,
@@ -155,7 +155,7 @@ impl<'a> Analyzer<'a> {
             member_indices: FxHashMap::default(),
             n_global_scalars: 0,
             n_local_scalars: 0,
-            n_places: 0,
+            n_bound: 0,
             fold_fuel: Cell::new(MAX_FOLD_STEPS),
             n_suggestions: 0,
             block_defaults: BlockDefaults::default(),

@@ -127,7 +127,7 @@ impl Analyzer<'_> {
                 Diagnostic::new(
                     &qualifiers::INVARIANT,
                     span,
-                    "`#pragma STDGL invariant(all)` cannot stand in a fragment shader",
+                    "`#pragma STDGL invariant(all)` is not allowed in a fragment shader",
                 )
                 .help("remove it, or make single inputs `invariant`"),
             );
@@ -162,7 +162,7 @@ impl Analyzer<'_> {
         )
         .here("the second kind of output")
         .label(at(first_id), "the first kind of output")
-        .help("declare an `out` variable for each color, and write those alone");
+        .help("declare an `out` variable for each color, and write only those");
         self.report(finding);
     }
 }

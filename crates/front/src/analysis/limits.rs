@@ -19,7 +19,7 @@ const MAX_UNIFORM_SCALARS: u32 = 1 << 18;
 
 /// The largest number of inputs, outputs, blocks and samplers of a shader. Each needs a location or binding, and no
 /// target has more than a thousand of any kind.
-const MAX_PLACES: u32 = 4096;
+const MAX_BOUND: u32 = 4096;
 
 impl Analyzer<'_> {
     /// Checks that a type is small enough.
@@ -30,12 +30,12 @@ impl Analyzer<'_> {
     /// Checks that a global still fits together with those before it.
     pub(super) fn check_global_size(&mut self, ty: TypeId, storage: Storage, is_block: bool, span: Span) -> bool {
         let limit = if storage == Storage::Uniform { MAX_UNIFORM_SCALARS } else { MAX_SCALARS };
-        let has_place = matches!(storage, Storage::In | Storage::Out) || is_block || self.types.contains_sampler(ty);
-        self.n_places += u32::from(has_place);
-        if has_place && self.n_places > MAX_PLACES {
+        let is_bound = matches!(storage, Storage::In | Storage::Out) || is_block || self.types.contains_sampler(ty);
+        self.n_bound += u32::from(is_bound);
+        if is_bound && self.n_bound > MAX_BOUND {
             self.report(
                 Diagnostic::new(&types::TOO_LARGE, span, "this is too much for any target")
-                    .here(format!("more than {MAX_PLACES} inputs, outputs, blocks and samplers")),
+                    .here(format!("more than {MAX_BOUND} inputs, outputs, blocks and samplers")),
             );
             return false;
         }

@@ -12,6 +12,7 @@
 //! * `declare` enters names: variables, structs, blocks, functions, redeclared built-in variables.
 //! * `statement` and `expr` analyze function bodies.
 //! * [`fold`](crate::fold) computes constants.
+//! * `understood` says what others may rely on in a shader with errors.
 //!
 //! *Holds:* one mistake raises one message. Whatever is in error gets the type
 //! [`TypeId::ERROR`](crate::hir::TypeId::ERROR), which is compatible with everything. No traversal recurses along
@@ -30,6 +31,7 @@ mod recursion;
 mod scope;
 mod statement;
 mod types;
+mod understood;
 mod wording;
 
 #[cfg(test)]
@@ -41,6 +43,8 @@ use crate::source::SourceMap;
 use crate::stack::with_stack;
 use crate::syntax::ast::Ast;
 use context::Analyzer;
+
+pub use understood::keep_understood;
 
 /// Analyzes a syntax tree. `strict` turns what every driver accepts into errors; all stages of a compilation share
 /// `types`.

@@ -157,7 +157,7 @@ impl Analyzer<'_> {
             self.report(Diagnostic::new(
                 &names::UNKNOWN_TYPE,
                 span,
-                format!("`{name}` is no type of this language version"),
+                format!("`{name}` is not a type of this language version"),
             ));
             TypeId::ERROR
         })
@@ -184,7 +184,7 @@ impl Analyzer<'_> {
                 let help = super::expr::foreign::type_name(spelling).or_else(|| near(self));
                 self.report(
                     Diagnostic::new(&names::UNKNOWN_TYPE, name.span, format!("there is no type `{spelling}`"))
-                        .here("not declared before this place")
+                        .here("not declared before this")
                         .maybe_help(help),
                 );
                 TypeId::ERROR

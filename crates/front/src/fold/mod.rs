@@ -6,11 +6,11 @@
 //!
 //! | expression | value |
 //! | --- | --- |
-//! | integer `a / 0`, `a % 0` | `a`, `0` |
+//! | integer `a / 0`, `a % 0` | all bits set, as lavapipe gives |
 //! | the least `int` divided by -1 | itself, remainder 0 |
 //! | shifts by 32 or more | by the lowest five bits |
 //! | `float` to an integer it does not fit | the nearest integer, 0 for NaN |
-//! | built-ins outside their domain | what IEEE arithmetic and C's library functions give |
+//! | built-ins outside their domain | what the [kernels](crate::builtin::operations::kernel) give, as on the reference |
 //!
 //! The walk is a loop: chains of any length need no stack. *Not done here:* saying why something is not constant.
 

@@ -7,53 +7,37 @@
 //! none of them assigns locations of its own. A link reports all its errors, each at the declaration in the later
 //! stage, with the earlier stage's declaration as a secondary label.
 //!
-//!
-//! file
-//! contents
-//!
+//! | file | contents |
 //! | --- | --- |
-//!
-//! `canonical`
-//! gives equal structs of different shaders one type
-//!
-//!
-//! `merge`, `remap`, `geometry`
-//! merge several shaders of one stage into one
-//!
+//! | `canonical` | gives equal structs of different shaders one type |
+//! | `merge`, `remap`, `geometry` | merge several shaders of one stage into one |
 //! | `compatible` | when two declarations in different shaders have the same type |
-//!
-//! `stages`
-//! which stages form a program; `main`; geometry layouts
-//!
+//! | `stages` | which stages form a program; `main`; geometry layouts |
 //! | `matching` | outputs of one stage against inputs of the next |
-//!
-//! `per_vertex`
-//! redeclared `gl_PerVertex`
-//!
-//!
-//! `varyings`
-//! splits varyings and assigns their locations
-//!
-//!
-//! `attributes`, `outputs`
-//! assign locations to vertex inputs and fragment outputs
-//!
-//!
-//! `uniforms`, `samplers`
-//! assign offsets and bindings
-//!
+//! | `per_vertex` | `gl_PerVertex` declared anew |
+//! | `varyings` | what the rasterizer interpolates, cut up and placed |
+//! | `clip_distances` | `gl_ClipDistance` where the fragment stage reads it |
+//! | `attributes`, `outputs` | vertex inputs and fragment outputs, placed |
+//! | `declared` | variables that the text or the host may place |
+//! | `locations` | the one allocator of locations |
+//! | `uniforms`, `samplers` | what stays the same over a draw, placed |
 //! | `layout` | std140 |
+//! | `partial` | checks what is understood of stages with errors |
 
 mod aliasing;
 mod attributes;
 mod canonical;
+mod clip_distances;
 mod compatible;
+mod declared;
 mod flatten;
 mod geometry;
 mod layout;
+mod locations;
 mod matching;
 mod merge;
 mod outputs;
+mod partial;
 mod per_vertex;
 mod program;
 mod remap;
@@ -64,6 +48,7 @@ pub mod usage;
 mod varyings;
 
 pub use layout::MAX_BLOCK_BYTES;
+pub use partial::{Understood, check_understood};
 pub use program::{
     Attribute, Block, BlockIndex, Interface, Output, Program, RootIndex, SamplerSlot, SlotBinding, UniformLeaf,
     UniformRoot, Varying, VaryingEnd,
@@ -74,26 +59,26 @@ use crate::hir::{Shader, Stage, Types};
 use canonical::Sizes;
 
 /// The state that all steps of a link share.
-struct Context<'a> {
+struct Linker<'a> {
     types: &'a Types,
     bindings: Bindings<'a>,
     diagnostics: &'a mut Diagnostics,
     failed: bool,
 }
 
-impl Context<'_> {
+impl Linker<'_> {
     fn report(&mut self, diagnostic: Diagnostic) {
         self.failed |= diagnostic.is_error();
         self.diagnostics.push(diagnostic);
     }
 }
 
-/// What a host binds by name before it links.
+/// The locations that a host binds by name before linking.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Bindings<'a> {
-    /// `glBindAttribLocation`: name and location. The last of a name counts.
+    /// `glBindAttribLocation`: name and location. The last entry for a name counts.
     pub attribute_locations: &'a [(String, u32)],
-    /// `glBindFragDataLocation`: name and color number. The last of a name counts.
+    /// `glBindFragDataLocation`: name and color number. The last entry for a name counts.
     pub frag_data_locations: &'a [(String, u32)],
 }
 
@@ -108,11 +93,11 @@ pub fn link(
     diagnostics: &mut Diagnostics,
 ) -> Option<Program> {
     let lone = shaders.len() < 2;
-    canonical::unify(&mut types, &mut shaders, Sizes::Open);
+    canonical::unify(&mut types, &mut shaders, Sizes::Tentative);
     let mut found = Vec::new();
     let mut stages = stages::in_order(&mut types, shaders, &mut found);
-    canonical::unify(&mut types, &mut stages, Sizes::Settled);
-    let mut ctx = Context { types: &types, bindings, diagnostics, failed: false };
+    canonical::unify(&mut types, &mut stages, Sizes::Final);
+    let mut ctx = Linker { types: &types, bindings, diagnostics, failed: false };
     found.into_iter().for_each(|diagnostic| ctx.report(diagnostic));
     let complete = stages::check(&mut ctx, &stages, lone);
     let interface = interface(&mut ctx, &stages);
@@ -120,7 +105,7 @@ pub fn link(
     (complete && !failed).then_some(Program { name, types, stages, interface })
 }
 
-fn interface(ctx: &mut Context<'_>, stages: &[Shader]) -> Interface {
+fn interface(ctx: &mut Linker<'_>, stages: &[Shader]) -> Interface {
     let of = |stage: Stage| stages.iter().find(|shader| shader.stage == stage);
     let mut interface = Interface::default();
     for pair in stages.windows(2) {
@@ -131,7 +116,8 @@ fn interface(ctx: &mut Context<'_>, stages: &[Shader]) -> Interface {
     if let Some(vertex) = of(Stage::Vertex) {
         interface.attributes = attributes::assign(ctx, vertex);
     }
-    interface.varyings = varyings::assign(ctx, of(Stage::Geometry).or(of(Stage::Vertex)), of(Stage::Fragment));
+    let producer = of(Stage::Geometry).or(of(Stage::Vertex));
+    (interface.varyings, interface.clip_distances) = varyings::assign(ctx, producer, of(Stage::Fragment));
     if let Some(fragment) = of(Stage::Fragment) {
         interface.outputs = outputs::assign(ctx, fragment);
     }

@@ -1,23 +1,17 @@
 //! Assigns color numbers to fragment outputs (OpenGL 3.2 §3.9.2, GLSL 1.50 §7.2).
 //!
-//! `layout(location)` takes precedence over a binding by name, and that over automatic assignment, which takes the
-//! lowest free number. An array takes one number per element. `gl_FragColor` and `gl_FragData` have number 0. Outputs
-//! that nothing writes come last and are omitted if they do not fit.
+//! *In:* the fragment stage. *Out:* its color outputs, placed as [`declared`](super::declared) says. An array takes a
+//! number an element. `gl_FragColor` and `gl_FragData` stand at number 0.
 
-use super::attributes::plural;
-use super::{Context, Output};
+use super::declared::{Clash, Rules, Variable};
+use super::{Linker, Output};
 use crate::builtin::BuiltinVariable;
 use crate::builtin::constants::MAX_DRAW_BUFFERS;
 use crate::diagnostic::{Diagnostic, codes};
-use crate::hir::{ArraySize, Global, GlobalId, Shader, Stage, Storage, Type, TypeId, Types};
+use crate::hir::{ArraySize, Global, Shader, Stage, Storage, Type, TypeId, Types};
 
-struct Candidate<'a> {
-    id: GlobalId,
-    global: &'a Global,
-    numbers: u32,
-    index: u32,
-    location: Option<u32>,
-}
+/// The sources of dual-source blending.
+const INDICES: usize = 2;
 
 fn numbers(types: &Types, ty: TypeId) -> u32 {
     match types.get(ty) {
@@ -27,45 +21,39 @@ fn numbers(types: &Types, ty: TypeId) -> u32 {
 }
 
 /// Assigns numbers to all color outputs of the fragment stage.
-pub(super) fn assign(ctx: &mut Context<'_>, fragment: &Shader) -> Vec<Output> {
+pub(super) fn assign(ctx: &mut Linker<'_>, fragment: &Shader) -> Vec<Output> {
+    let rules = Rules {
+        limit: MAX_DRAW_BUFFERS,
+        rows: INDICES,
+        words: ("color", "number"),
+        too_many: &codes::link::TOO_MANY_OUTPUTS,
+        help: None,
+        bindings: ctx.bindings.frag_data_locations,
+    };
     let outputs = fragment.globals().filter(|(_, global)| global.storage == Storage::Out && is_color(global));
-    let mut candidates: Vec<Candidate<'_>> = outputs
-        .map(|(id, global)| Candidate {
+    let mut variables: Vec<Variable<'_>> = outputs
+        .map(|(id, global)| Variable {
             id,
             global,
-            numbers: numbers(ctx.types, global.ty),
-            index: global.index.unwrap_or(0),
-            location: fixed_location(ctx, global),
+            count: numbers(ctx.types, global.ty),
+            row: global.index.unwrap_or(0),
+            active: global.written,
+            location: if global.builtin.is_some() { Some(0) } else { rules.fixed(ctx, global) },
         })
         .collect();
-    let mut taken: [[Option<GlobalId>; MAX_DRAW_BUFFERS as usize]; 2] = Default::default();
-    for candidate in &candidates {
-        if let Some(location) = candidate.location {
-            place_fixed(ctx, fragment, &mut taken, candidate, location);
-        }
-    }
-    for written in [true, false] {
-        for candidate in candidates.iter_mut().filter(|candidate| candidate.global.written == written) {
-            if candidate.location.is_none() {
-                candidate.location = place_free(&mut taken, candidate);
-                if candidate.location.is_none() && written {
-                    too_many(ctx, candidate);
-                }
-            }
-        }
-    }
-    let mut placed: Vec<Output> = candidates.into_iter().filter_map(output).collect();
+    rules.place(ctx, &mut variables, &mut |ctx, clash| overlap(ctx, fragment, clash));
+    let mut placed: Vec<Output> = variables.into_iter().filter_map(output).collect();
     placed.sort_by_key(|output| (output.location, output.index));
     placed
 }
 
-fn output(candidate: Candidate<'_>) -> Option<Output> {
+fn output(variable: Variable<'_>) -> Option<Output> {
     Some(Output {
-        name: candidate.global.name.clone(),
-        ty: candidate.global.ty,
-        global: candidate.id,
-        location: candidate.location?,
-        index: candidate.index,
+        name: variable.global.name.clone(),
+        ty: variable.global.ty,
+        global: variable.id,
+        location: variable.location?,
+        index: variable.row,
     })
 }
 
@@ -78,73 +66,21 @@ fn is_color(global: &Global) -> bool {
     }
 }
 
-fn fixed_location(ctx: &mut Context<'_>, global: &Global) -> Option<u32> {
-    if global.builtin.is_some() {
-        return Some(0);
-    }
-    let bound = ctx.bindings.frag_data_locations.iter().rev().find(|(name, _)| *name == global.name);
-    let bound = bound.map(|&(_, location)| location);
-    if let (Some(declared), Some(bound)) = (global.location, bound)
-        && declared != bound
-    {
-        let message =
-            format!("`{}` is bound to color {bound}, and its declaration says {declared}, which wins", global.name);
-        ctx.report(Diagnostic::new(&codes::link::BINDING_IGNORED, global.span, message));
-    }
-    global.location.or(bound)
-}
-
-type Taken = [[Option<GlobalId>; MAX_DRAW_BUFFERS as usize]; 2];
-
-fn slots(taken: &mut Taken, index: u32, location: u32, numbers: u32) -> Option<&mut [Option<GlobalId>]> {
-    let end = location.checked_add(numbers)?;
-    taken.get_mut(index as usize)?.get_mut(location as usize..end as usize)
-}
-
-fn place_fixed(ctx: &mut Context<'_>, fragment: &Shader, taken: &mut Taken, candidate: &Candidate<'_>, location: u32) {
-    let Candidate { id, global, numbers, index, .. } = *candidate;
-    let Some(slots) = slots(taken, index, location, numbers) else {
-        let message = format!(
-            "`{}` takes {} from number {location} on, and there are only {MAX_DRAW_BUFFERS}",
-            global.name,
-            plural(numbers, "color")
-        );
-        ctx.report(Diagnostic::new(&codes::link::TOO_MANY_OUTPUTS, global.span, message));
+/// Two outputs of one number. Of the deprecated ones, [`check_exclusive`] tells.
+fn overlap(ctx: &mut Linker<'_>, fragment: &Shader, clash: &Clash) {
+    let (other, global) = (fragment.global(clash.variables.0), fragment.global(clash.variables.1));
+    if other.builtin.is_some() || global.builtin.is_some() {
         return;
-    };
-    let holder = slots.iter().find_map(|&holder| holder);
-    slots.fill(Some(id));
-    let both_builtin = |other: &Global| other.builtin.is_some() || global.builtin.is_some();
-    if let Some(other) = holder.map(|holder| fragment.global(holder)).filter(|other| !both_builtin(other)) {
-        let message = format!("`{}` and `{}` are both color {location}", other.name, global.name);
-        let help = "give one of them another location, or another `index` for dual-source blending";
-        let diagnostic = Diagnostic::new(&codes::link::OUTPUT_OVERLAP, global.span, message);
-        ctx.report(diagnostic.label(other.span, "the other one").help(help));
     }
-}
-
-fn place_free(taken: &mut Taken, candidate: &Candidate<'_>) -> Option<u32> {
-    let last = MAX_DRAW_BUFFERS.checked_sub(candidate.numbers)?;
-    let location = (0..=last).find(|&location| {
-        slots(taken, candidate.index, location, candidate.numbers)
-            .is_some_and(|slots| slots.iter().all(Option::is_none))
-    })?;
-    slots(taken, candidate.index, location, candidate.numbers)?.fill(Some(candidate.id));
-    Some(location)
-}
-
-fn too_many(ctx: &mut Context<'_>, candidate: &Candidate<'_>) {
-    let message = format!(
-        "no room for `{}`, which takes {} of the {MAX_DRAW_BUFFERS}",
-        candidate.global.name,
-        plural(candidate.numbers, "color")
-    );
-    ctx.report(Diagnostic::new(&codes::link::TOO_MANY_OUTPUTS, candidate.global.span, message));
+    let message = format!("`{}` and `{}` are both color {}", other.name, global.name, clash.shared);
+    let help = "give one of them another location, or another `index` for dual-source blending";
+    let diagnostic = Diagnostic::new(&codes::link::OUTPUT_OVERLAP, global.span, message);
+    ctx.report(diagnostic.label(other.span, "the other one").help(help));
 }
 
 /// Checks that `gl_FragColor`, `gl_FragData` and declared outputs exclude each other (§7.2) across the shaders of the
 /// stage. The analysis checks each shader.
-pub(super) fn check_exclusive(ctx: &mut Context<'_>, fragment: &Shader) {
+pub(super) fn check_exclusive(ctx: &mut Linker<'_>, fragment: &Shader) {
     if fragment.stage != Stage::Fragment {
         return;
     }

@@ -15,6 +15,13 @@ pub struct Program {
     pub interface: Interface,
 }
 
+impl Interface {
+    /// Everything that is interpolated, `gl_ClipDistance` last.
+    pub fn interpolated(&self) -> impl Iterator<Item = &Varying> {
+        self.varyings.iter().chain(&self.clip_distances)
+    }
+}
+
 impl Program {
     /// The shader of a stage.
     pub fn stage(&self, stage: Stage) -> Option<&Shader> {
@@ -48,7 +55,9 @@ pub struct Interface {
     pub attributes: Vec<Attribute>,
     /// Varyings, split into scalars and vectors, in order of location.
     pub varyings: Vec<Varying>,
-    /// Fragment outputs, including `gl_FragColor` and `gl_FragData`.
+    /// The elements of `gl_ClipDistance` that the fragment stage reads: varyings that no host names.
+    pub clip_distances: Vec<Varying>,
+    /// Fragment outputs, `gl_FragColor` and `gl_FragData` included.
     pub outputs: Vec<Output>,
     /// Uniform blocks with their bindings, without the block of the loose uniforms.
     pub blocks: Vec<Block>,
@@ -60,7 +69,7 @@ pub struct Interface {
     pub framebuffer_height: Option<u32>,
     /// Uniform variables and blocks as declared, without samplers.
     pub roots: Vec<UniformRoot>,
-    /// The same uniforms, split into scalars, vectors, matrices and arrays of those, under the names that hosts use.
+    /// The uniforms split into scalars, vectors, matrices and arrays of those, under the names that hosts use.
     pub uniforms: Vec<UniformLeaf>,
     /// Samplers, with one entry per element of an array.
     pub samplers: Vec<SamplerSlot>,

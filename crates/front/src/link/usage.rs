@@ -40,3 +40,17 @@ pub(super) fn first_write(shader: &Shader, global: GlobalId) -> Option<Span> {
     }
     first
 }
+
+/// Where a global is first named in the text of the functions that `main` reaches.
+pub(super) fn first_use(shader: &Shader, global: GlobalId) -> Option<Span> {
+    let mut first: Option<Span> = None;
+    for function in shader.functions.iter().filter(|function| function.reachable) {
+        shader.visit_body(function.body.as_deref().unwrap_or(&[]), &mut |expr| {
+            let expr = shader.expr(expr);
+            if matches!(expr.kind, ExprKind::Var(VarRef::Global(named)) if named == global) {
+                first = Some(first.map_or(expr.span, |known| known.min(expr.span)));
+            }
+        });
+    }
+    first
+}

@@ -1,16 +1,19 @@
 //! Assigns locations to varyings: outputs of the stage before the rasterizer and inputs of the fragment stage, split
 //! into scalars and vectors (columns of matrices, elements of arrays, members of structs and blocks).
 //!
-//! If both stages are there, a varying is what both declare. An output that the fragment stage does not declare is
-//! not a varying; nor is an input without an output (nothing reads it, or the link failed). Varyings that are read
-//! come first. Each takes a location of its own while there are enough; after that, scalars and vectors of equal type
-//! and interpolation share locations. Explicit locations are kept.
+//! With both stages there, a varying is what both declare; an output that the fragment stage does not declare is no
+//! varying, nor is an input without an output (which nothing reads, or the link failed). Those that are read come first.
+//! Each takes a location of its own while there are enough; else scalars and vectors of equal type and interpolation
+//! share locations. Explicit locations stay. Clip distances that the fragment stage reads come last, except that varyings
+//! which nothing reads leave them room.
 
-use super::attributes::plural;
+use super::clip_distances::ClipDistances;
 use super::compatible::same_type;
+use super::declared::plural;
 use super::flatten::{join, parts};
+use super::locations::Locations;
 use super::matching::{Outputs, match_name};
-use super::{Context, Varying, VaryingEnd};
+use super::{Linker, Varying, VaryingEnd};
 use crate::diagnostic::{Diagnostic, codes};
 use crate::hir::{
     ArraySize, Global, GlobalId, Interpolation, MatrixLayout, Scalar, Shader, Storage, Type, TypeId, Types,
@@ -43,19 +46,24 @@ impl<'a> Whole<'a> {
     }
 }
 
-/// All varyings of a program, in order of location.
-pub(super) fn assign(ctx: &mut Context<'_>, producer: Option<&Shader>, fragment: Option<&Shader>) -> Vec<Varying> {
+/// All varyings of a program, in the order of their locations, and the clip distances among what is interpolated.
+pub(super) fn assign(
+    ctx: &mut Linker<'_>,
+    producer: Option<&Shader>,
+    fragment: Option<&Shader>,
+) -> (Vec<Varying>, Vec<Varying>) {
     let mut wholes = wholes(ctx.types, producer, fragment);
     wholes.sort_by_key(|whole| !whole.active());
     let mut pieces = Vec::new();
     for whole in &wholes {
         if !fits(ctx, whole) {
-            return Vec::new();
+            return Default::default();
         }
         cut(ctx.types, whole, &mut pieces);
     }
-    warn_above_minimum(ctx, &wholes, &pieces);
-    place(ctx, pieces)
+    let clip = ClipDistances::find(ctx.types, producer, fragment);
+    warn_above_minimum(ctx, &wholes, &pieces, clip.as_ref());
+    place(ctx, pieces, clip.as_ref())
 }
 
 fn wholes<'a>(types: &Types, producer: Option<&'a Shader>, fragment: Option<&'a Shader>) -> Vec<Whole<'a>> {
@@ -88,7 +96,7 @@ fn same_type_or_block(types: &Types, output: &Global, input: &Global) -> bool {
 }
 
 /// Whether a variable alone is within the limits, so that an absurdly large array is not split.
-fn fits(ctx: &mut Context<'_>, whole: &Whole<'_>) -> bool {
+fn fits(ctx: &mut Linker<'_>, whole: &Whole<'_>) -> bool {
     let Some(global) = whole.decisive() else { return true };
     let components = ctx.types.flat_len(global.ty);
     if components <= MAX_LOCATIONS * 4 {
@@ -210,9 +218,10 @@ fn vectors(types: &Types, name: &str, ty: TypeId) -> Vec<(String, TypeId, u32)> 
     }
 }
 
-fn warn_above_minimum(ctx: &mut Context<'_>, wholes: &[Whole<'_>], pieces: &[Piece]) {
+fn warn_above_minimum(ctx: &mut Linker<'_>, wholes: &[Whole<'_>], pieces: &[Piece], clip: Option<&ClipDistances<'_>>) {
     const MINIMUM: u32 = 60;
     let components: u32 = pieces.iter().filter(|piece| piece.varying.active).map(|piece| u32::from(piece.size)).sum();
+    let components = components + clip.map_or(0, ClipDistances::components);
     if components > MINIMUM {
         let span =
             wholes.iter().rev().filter(|whole| whole.active()).find_map(Whole::decisive).map(|global| global.span);
@@ -222,31 +231,28 @@ fn warn_above_minimum(ctx: &mut Context<'_>, wholes: &[Whole<'_>], pieces: &[Pie
     }
 }
 
-/// Assigns locations to all pieces. Inactive ones that do not fit are dropped.
-fn place(ctx: &mut Context<'_>, pieces: Vec<Piece>) -> Vec<Varying> {
-    let shared = pieces.len() > PORTABLE_LOCATIONS as usize;
-    let mut slots: Vec<Slot> = Vec::new();
+/// Gives every piece its place, then the clip distances theirs; inactive pieces that find no room are dropped.
+fn place(ctx: &mut Linker<'_>, pieces: Vec<Piece>, clip: Option<&ClipDistances<'_>>) -> (Vec<Varying>, Vec<Varying>) {
+    let n_clip = clip.map_or(0, ClipDistances::locations);
+    let mut room = Room::new(pieces.len() as u32 + n_clip > PORTABLE_LOCATIONS);
     let (fixed, mut free): (Vec<Piece>, Vec<Piece>) = pieces.into_iter().partition(|piece| piece.fixed.is_some());
     let mut placed = Vec::new();
     for piece in fixed {
-        let location = piece.fixed.unwrap_or(0);
-        if location >= MAX_LOCATIONS {
-            no_room(ctx, &piece);
-            continue;
+        match room.put_at(&piece, piece.fixed.unwrap_or(0)) {
+            Some(location) => placed.push(at(piece, location, 0)),
+            None => no_room(ctx, &piece),
         }
-        let slot = slot_at(&mut slots, location);
-        slot.fill(&piece, 4);
-        placed.push(at(piece, location, 0));
     }
-    if shared {
-        // Large ones first, so that small ones fill the gaps.
+    if room.shared {
+        // Large ones first, so that small ones fill what they leave.
         free.sort_by_key(|piece| (!piece.varying.active, 4 - piece.size));
     }
     let mut reported = false;
     for piece in free {
-        match find_slot(&mut slots, &piece, shared) {
+        let active = piece.varying.active;
+        match room.put(&piece, if active { 0 } else { n_clip }) {
             Some((location, component)) => placed.push(at(piece, location, component)),
-            None if piece.varying.active && !reported => {
+            None if active && !reported => {
                 reported = true;
                 no_room(ctx, &piece);
             }
@@ -254,27 +260,38 @@ fn place(ctx: &mut Context<'_>, pieces: Vec<Piece>) -> Vec<Varying> {
         }
     }
     placed.sort_by_key(|varying| (varying.location, varying.component));
-    placed
+    let clip_distances = clip.filter(|_| !reported).and_then(|clip| {
+        let first = room.last(n_clip);
+        if first.is_none() {
+            ctx.report(clip.no_room(MAX_LOCATIONS));
+        }
+        Some(clip.at(first?))
+    });
+    (placed, clip_distances.unwrap_or_default())
 }
 
 fn at(piece: Piece, location: u32, component: u32) -> Varying {
     Varying { location, component, ..piece.varying }
 }
 
-fn no_room(ctx: &mut Context<'_>, piece: &Piece) {
+fn no_room(ctx: &mut Linker<'_>, piece: &Piece) {
     let message =
         format!("no room for the varying `{}`: there are {}", piece.varying.name, plural(MAX_LOCATIONS, "location"));
     ctx.report(Diagnostic::new(&codes::link::TOO_MANY_VARYINGS, piece.span, message));
 }
 
-/// The contents of a location.
+/// What stands at a location: how many of its components are taken, and by what kind of varyings.
 #[derive(Clone, Copy, Default)]
-struct Slot {
+struct LocationContents {
     used: u8,
     kind: Option<(Scalar, Interpolation, bool)>,
 }
 
-impl Slot {
+impl LocationContents {
+    fn is_free(&self) -> bool {
+        self.kind.is_none()
+    }
+
     fn fill(&mut self, piece: &Piece, used: u8) {
         self.used = used;
         self.kind = Some(kind(piece));
@@ -285,25 +302,41 @@ fn kind(piece: &Piece) -> (Scalar, Interpolation, bool) {
     (piece.scalar, piece.varying.interpolation, piece.varying.centroid)
 }
 
-fn slot_at(slots: &mut Vec<Slot>, location: u32) -> &mut Slot {
-    let index = location as usize;
-    if slots.len() <= index {
-        slots.resize(index + 1, Slot::default());
-    }
-    &mut slots[index]
+/// The locations of varyings, and whether several of one kind share one.
+struct Room {
+    slots: Locations<LocationContents>,
+    shared: bool,
 }
 
-fn find_slot(slots: &mut Vec<Slot>, piece: &Piece, shared: bool) -> Option<(u32, u32)> {
-    let fitting = |slot: &Slot| match slot.kind {
-        None => true,
-        Some(kept) => shared && kept == kind(piece) && slot.used + piece.size <= 4,
-    };
-    let location = slots.iter().position(fitting).unwrap_or(slots.len()) as u32;
-    if location >= MAX_LOCATIONS {
-        return None;
+impl Room {
+    fn new(shared: bool) -> Self {
+        Self { slots: Locations::new(MAX_LOCATIONS), shared }
     }
-    let slot = slot_at(slots, location);
-    let component = u32::from(slot.used);
-    slot.fill(piece, slot.used + piece.size);
-    Some((location, component))
+
+    /// Takes all of a location that the text gives.
+    fn put_at(&mut self, piece: &Piece, location: u32) -> Option<u32> {
+        self.slots.run_mut(location, 1)?.iter_mut().for_each(|slot| slot.fill(piece, 4));
+        Some(location)
+    }
+
+    /// Finds a location and the first free component in it, if so many locations stay free behind one another.
+    fn put(&mut self, piece: &Piece, keep: u32) -> Option<(u32, u32)> {
+        let fitting = |slot: &LocationContents| match slot.kind {
+            None => true,
+            Some(kept) => self.shared && kept == kind(piece) && slot.used + piece.size <= 4,
+        };
+        let location = self.slots.lowest(1, fitting)?;
+        let mut slots = self.slots.clone();
+        let slot = slots.run_mut(location, 1)?.first_mut()?;
+        let component = u32::from(slot.used);
+        slot.fill(piece, slot.used + piece.size);
+        slots.lowest(keep, LocationContents::is_free)?;
+        self.slots = slots;
+        Some((location, component))
+    }
+
+    /// The first of so many locations above all others.
+    fn last(&self, count: u32) -> Option<u32> {
+        self.slots.above_all(count, LocationContents::is_free)
+    }
 }

@@ -17,6 +17,8 @@ pub const WIDTH: usize = 8;
 
 /// What a lane holds.
 pub trait Element: Copy + Default + Debug + Send + Sync + 'static {
+    /// Whether it is one number of the machine: then a loop over lanes is a few vector instructions.
+    const PLAIN: bool = false;
     /// Eight of them.
     type Few: Few<Self>;
 }
@@ -65,9 +67,15 @@ impl<T: Copy + Default + Debug + Send + Sync + 'static> Few<T> for [T; WIDTH] {
 pub type Answers<N> = <<N as Number>::Int as Element>::Few;
 
 /// Eight numbers. Methods without a comment are [`Number`]'s of that name, in each lane.
-pub trait Block<N: Number<Few = Self>>: Few<N> {
+pub trait Block<N: Number>: Few<N> {
     /// Whether the operations are the block's own, not [`Number`]'s lane by lane.
     const OWN: bool = false;
+    /// Runs a loop over blocks, compiled for the vector unit that operations of the block's own are for; nothing where the
+    /// machine has none.
+    #[inline(always)]
+    fn if_vectorized<R>(work: impl FnOnce() -> R) -> Option<R> {
+        Some(work())
+    }
     /// Runs a loop over blocks, compiled for the vector unit that the machine has where that pays.
     #[inline(always)]
     fn vectorized<R>(work: impl FnOnce() -> R) -> R {
@@ -121,6 +129,13 @@ pub trait Block<N: Number<Few = Self>>: Few<N> {
     /// A sum from left to right; with an envelope in any order.
     #[inline(always)]
     fn sum(count: usize, term: impl Fn(usize) -> Self) -> Self {
+        if N::OPEN {
+            let mut out = Self::default();
+            for lane in 0..WIDTH {
+                out.set(lane, N::sum((0..count).map(|place| term(place).get(lane))));
+            }
+            return out;
+        }
         let mut sum = if count == 0 { Self::default() } else { term(0) };
         for place in 1..count {
             sum = sum.add(&term(place));
@@ -257,7 +272,9 @@ pub trait Block<N: Number<Few = Self>>: Few<N> {
     }
 }
 
-impl<N: Number<Few = [N; WIDTH]>> Block<N> for [N; WIDTH] {}
+/// Lane by lane: of each domain without operations on blocks of its own, and of the others where a machine has no unit for
+/// those.
+impl<N: Number> Block<N> for [N; WIDTH] {}
 
 /// An element in each of [`LANES`] lanes, which are counted modulo that.
 #[derive(Clone, Copy, Debug)]
@@ -354,10 +371,15 @@ impl<T: Element> Source<'_, T> {
 }
 
 macro_rules! arrays {
-    ($($element:ty),*) => { $(impl Element for $element { type Few = [Self; WIDTH]; })* };
+    ($($element:ty: $plain:literal),*) => { $(
+        impl Element for $element {
+            const PLAIN: bool = $plain;
+            type Few = [Self; WIDTH];
+        }
+    )* };
 }
 
-arrays!(f64, f32, u32, super::EnvelopeInt, super::ShadowInt);
+arrays!(f64: true, f32: true, u32: true, super::EnvelopeInt: false, super::ShadowInt: false);
 
 impl<const INSIDE: bool> Element for super::Shadowed<INSIDE> {
     type Few = [Self; WIDTH];

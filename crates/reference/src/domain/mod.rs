@@ -26,6 +26,8 @@ mod shadow;
 mod single;
 mod wide;
 
+#[cfg(test)]
+pub(crate) use envelope::evaluate;
 pub use envelope::{EnvelopeBlock, EnvelopeFloat, EnvelopeInt};
 pub use integer::Integer;
 pub use lanes::{Answers, Block, Element, Few, LANES, Lanes, Source, WIDTH};

@@ -1,7 +1,7 @@
 //! [`Number`]: the `float` of a domain, and what each operation of the language does to it.
 
 use super::{Block, Element, Integer};
-use glisten_scene::compare::Range;
+use glisten_scene::picture::Interval;
 
 /// A `float`. Methods without a comment are the operation or built-in function of that name (GLSL 1.50 §5.9, §8.1 to §8.3).
 ///
@@ -24,19 +24,19 @@ pub trait Number: Element<Few: Block<Self>> {
     fn from_f64(value: f64) -> Self;
     /// The nearest, in whose place a GPU may have any in the range; domains without envelopes forget the range.
     #[inline(always)]
-    fn with_range(value: f64, range: Range) -> Self {
+    fn with_range(value: f64, range: Interval) -> Self {
         let _ = range;
         Self::from_f64(value)
     }
     /// An integer with the range of what a GPU may have, which keeps ends that an f32 has no room for.
     #[inline(always)]
-    fn whole(value: f64, range: Range) -> Self {
+    fn whole(value: f64, range: Interval) -> Self {
         Self::with_range(value, range)
     }
     /// The nearest, which a GPU may miss by `error`.
     #[inline(always)]
     fn with_error(value: f64, error: f64) -> Self {
-        Self::with_range(value, Range::around(value, error))
+        Self::with_range(value, Interval::around(value, error))
     }
     /// The value.
     fn value(self) -> f64;
@@ -53,8 +53,8 @@ pub trait Number: Element<Few: Block<Self>> {
     }
     /// What a conforming GPU may have; the value alone in domains without envelopes.
     #[inline(always)]
-    fn range(self) -> Range {
-        Range::point(self.value())
+    fn range(self) -> Interval {
+        Interval::point(self.value())
     }
     /// How far a conforming GPU may be from the value; 0 in domains without envelopes.
     #[inline(always)]
@@ -64,8 +64,8 @@ pub trait Number: Element<Few: Block<Self>> {
     /// What a GPU may have, and as much as `error` to both sides of it.
     #[inline(always)]
     fn widened(self, error: f64) -> Self {
-        let Range { low, high, may_be_nan } = self.range();
-        Self::with_range(self.value(), Range { low: low - error, high: high + error, may_be_nan })
+        let Interval { low, high, may_be_nan } = self.range();
+        Self::with_range(self.value(), Interval { low: low - error, high: high + error, may_be_nan })
     }
     /// What a GPU may have of either, with this one's value.
     #[inline(always)]

@@ -1,10 +1,8 @@
 //! [`Code`]: what a stage compiles to.
 
-use super::compile;
 use super::inst::{Class, Inst, List, Operand, TextureCall};
-use glisten_front::diagnostic::Diagnostic;
 use glisten_front::hir::{GlobalId, Stage};
-use glisten_front::link::{Program, RootIndex};
+use glisten_front::link::RootIndex;
 use glisten_front::source::Span;
 use std::sync::Arc;
 
@@ -23,9 +21,20 @@ pub(super) enum PoolSource {
     Uniform(RootIndex, u32),
 }
 
+/// When a section runs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Runs {
+    /// Once a machine: the preamble.
+    Once,
+    /// For each tile: `main`.
+    #[default]
+    Always,
+}
+
 /// Instructions with their operand lists.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Section {
+    pub(super) runs: Runs,
     pub(super) insts: Vec<Inst>,
     /// The expression or statement that each instruction was made for.
     pub(super) spans: Vec<Span>,
@@ -81,31 +90,5 @@ impl Inner {
     #[inline(always)]
     pub(super) fn words(&self, list: List) -> &[u32] {
         self.words.get(list.start as usize..(list.start + list.len) as usize).unwrap_or(&[])
-    }
-}
-
-impl Code {
-    /// Compiles a stage of a program.
-    ///
-    /// # Errors
-    /// What the executor cannot run: a program without that stage or without `main`, multisample samplers, geometry
-    /// stages, programs past the limits of the compiler.
-    pub fn compile(program: &Program, stage: Stage) -> Result<Self, Vec<Diagnostic>> {
-        compile::compile(program, stage, false).map(|inner| Self { inner: Arc::new(inner) })
-    }
-
-    /// The same with an instruction of its own for each product and sum, so that an observer sees each; the numbers are
-    /// the same.
-    ///
-    /// # Errors
-    /// Those of [`Self::compile`].
-    pub fn compile_apart(program: &Program, stage: Stage) -> Result<Self, Vec<Diagnostic>> {
-        compile::compile(program, stage, true).map(|inner| Self { inner: Arc::new(inner) })
-    }
-
-    /// How many instructions run for a tile if every branch is taken once, and how many were computed once a draw
-    /// instead.
-    pub fn instruction_counts(&self) -> (usize, usize) {
-        (self.inner.main.insts.len(), self.inner.preamble.insts.len())
     }
 }

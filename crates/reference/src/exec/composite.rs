@@ -1,74 +1,82 @@
 //! Built-in functions of whole vectors and matrices (§8.4, §8.5): computed in the domain's wide type, rounded once.
 //!
+//! *In:* registers of the arguments, component by component. *Out:* registers of the results.
+//!
 //! The formulas are those that the specification names. A vector without length normalizes to NaN, a singular matrix
 //! inverts to infinities or NaN: both are undefined in GLSL.
+//!
+//! *Holds:* a formula is compiled once a domain, for any number of components. Three components of plain numbers are
+//! compiled apart: there the loops over components cost more than what is in them.
 
 use super::inst::{Composite, Operand};
-use super::registers::{Filled, Registers};
+use super::registers::{Filled, Register, Registers};
 use crate::domain::{Block, Domain, Element, Few, LANES, Number, Source, WIDTH};
+use smallvec::SmallVec;
+use std::hint::black_box;
 
-type Vector<B, const N: usize> = [B; N];
+/// The most components of a vector.
+const MOST: usize = 4;
+
+/// The components of a vector; those that it lacks are blank.
+type Vector<B> = [B; MOST];
 
 /// What a domain's built-in functions are computed in.
 type Wide<D> = <<D as Domain>::Float as Number>::Wide;
 
-/// Eight lanes of it.
-type WideFew<D> = <Wide<D> as Element>::Few;
+/// Eight lanes, each a number of its own.
+type ByLane<W> = [W; WIDTH];
 
-/// A vector by its components. Unlike the library's `from_fn` it is part of the loop that calls it, and so compiled for
+/// A vector of `size` components. Unlike the library's `from_fn` it is part of the loop that calls it, and so compiled for
 /// the same vector unit.
 #[inline(always)]
-fn each<B: Copy + Default, const N: usize>(component: impl Fn(usize) -> B) -> Vector<B, N> {
-    let mut vector = [B::default(); N];
-    for (k, slot) in vector.iter_mut().enumerate() {
-        *slot = component(k);
+fn each<B: Copy + Default>(size: usize, component: impl Fn(usize) -> B) -> Vector<B> {
+    let mut vector = [B::default(); MOST];
+    for k in 0..size {
+        vector[k % MOST] = component(k);
     }
     vector
 }
 
 /// The same number in all lanes.
 #[inline(always)]
-fn splat<W: Number>(value: f64) -> W::Few {
-    W::Few::splat(W::from_f64(value))
+fn splat<W: Number, B: Block<W>>(value: f64) -> B {
+    B::splat(W::from_f64(value))
 }
 
 #[inline(always)]
-fn dot<W: Number, const N: usize>(a: &Vector<W::Few, N>, b: &Vector<W::Few, N>) -> W::Few {
-    Block::sum(
-        N,
+fn dot<W: Number, B: Block<W>>(size: usize, a: &Vector<B>, b: &Vector<B>) -> B {
+    B::sum(
+        size,
         #[inline(always)]
-        |k| a[k].mul(&b[k]),
+        |k| a[k % MOST].mul(&b[k % MOST]),
     )
 }
 
 /// `dot(a, a)`
 #[inline(always)]
-fn squared<W: Number, const N: usize>(a: &Vector<W::Few, N>) -> W::Few {
-    Block::sum(
-        N,
+fn squared<W: Number, B: Block<W>>(size: usize, a: &Vector<B>) -> B {
+    B::sum(
+        size,
         #[inline(always)]
-        |k| a[k].square(),
+        |k| a[k % MOST].square(),
     )
-}
-
-#[inline(always)]
-fn length<W: Number, const N: usize>(a: &Vector<W::Few, N>) -> W::Few {
-    squared::<W, N>(a).sqrt()
 }
 
 /// A vector over the root of its squared length.
 #[inline(always)]
-fn normalize<W: Number, const N: usize>(a: &Vector<W::Few, N>, squared: &W::Few) -> Vector<W::Few, N> {
-    let scale = squared.inversesqrt();
+fn normalize<W: Number, B: Block<W>>(size: usize, a: &Vector<B>) -> Vector<B> {
+    let scale = squared::<W, B>(size, a).inversesqrt();
     each(
+        size,
         #[inline(always)]
-        |k| a[k].mul(&scale).cosine_at_most(),
+        |k| a[k % MOST].mul(&scale).cosine_at_most(),
     )
 }
 
 #[inline(always)]
-fn cross<W: Number>(a: &Vector<W::Few, 3>, b: &Vector<W::Few, 3>) -> Vector<W::Few, 3> {
+fn cross<W: Number, B: Block<W>>(size: usize, a: &Vector<B>, b: &Vector<B>) -> Vector<B> {
     each(
+        size,
         #[inline(always)]
         |k| {
             let (i, j) = ((k + 1) % 3, (k + 2) % 3);
@@ -79,43 +87,43 @@ fn cross<W: Number>(a: &Vector<W::Few, 3>, b: &Vector<W::Few, 3>) -> Vector<W::F
 
 /// `I - 2 dot(N, I) N`
 #[inline(always)]
-fn reflect<W: Number, const N: usize>(incident: &Vector<W::Few, N>, normal: &Vector<W::Few, N>) -> Vector<W::Few, N> {
-    let twice = dot::<W, N>(normal, incident).mul(&splat::<W>(2.0));
+fn reflect<W: Number, B: Block<W>>(size: usize, incident: &Vector<B>, normal: &Vector<B>) -> Vector<B> {
+    let twice = dot::<W, B>(size, normal, incident).mul(&splat::<W, B>(2.0));
     each(
+        size,
         #[inline(always)]
-        |k| incident[k].sub(&twice.mul(&normal[k])),
+        |k| incident[k % MOST].sub(&twice.mul(&normal[k % MOST])),
     )
 }
 
 /// With `k = 1 - eta eta (1 - dot(N, I)^2)`: 0 if that is negative, else `eta I - (eta dot(N, I) + sqrt(k)) N`.
 #[inline(always)]
-fn refract<W: Number, const N: usize>(
-    incident: &Vector<W::Few, N>,
-    normal: &Vector<W::Few, N>,
-    eta: W::Few,
-) -> Vector<W::Few, N> {
-    let (zero, one) = (splat::<W>(0.0), splat::<W>(1.0));
-    let cosine = dot::<W, N>(normal, incident);
-    let k = one.sub(&eta.mul(&eta).mul(&one.sub(&cosine.mul(&cosine))));
+fn refract<W: Number, B: Block<W>>(size: usize, incident: &Vector<B>, normal: &Vector<B>, eta: &B) -> Vector<B> {
+    let (zero, one) = (splat::<W, B>(0.0), splat::<W, B>(1.0));
+    let cosine = dot::<W, B>(size, normal, incident);
+    let k = one.sub(&eta.mul(eta).mul(&one.sub(&cosine.mul(&cosine))));
     let along = eta.mul(&cosine).add(&k.max(&zero).sqrt());
     let none = k.less(&zero);
     each(
+        size,
         #[inline(always)]
-        |i| Block::select(&none, &zero, &eta.mul(&incident[i]).sub(&along.mul(&normal[i]))),
+        |i| B::select(&none, &zero, &eta.mul(&incident[i % MOST]).sub(&along.mul(&normal[i % MOST]))),
     )
 }
 
 /// `dot(Nref, I) < 0 ? N : -N`
 #[inline(always)]
-fn faceforward<W: Number, const N: usize>(
-    normal: &Vector<W::Few, N>,
-    incident: &Vector<W::Few, N>,
-    reference: &Vector<W::Few, N>,
-) -> Vector<W::Few, N> {
-    let side = dot::<W, N>(reference, incident).less(&splat::<W>(0.0));
+fn faceforward<W: Number, B: Block<W>>(
+    size: usize,
+    normal: &Vector<B>,
+    incident: &Vector<B>,
+    reference: &Vector<B>,
+) -> Vector<B> {
+    let side = dot::<W, B>(size, reference, incident).less(&splat::<W, B>(0.0));
     each(
+        size,
         #[inline(always)]
-        |k| Block::select(&side, &normal[k], &normal[k].neg()),
+        |k| B::select(&side, &normal[k % MOST], &normal[k % MOST].neg()),
     )
 }
 
@@ -127,8 +135,7 @@ fn minor<W: Number>(m: &[W::Few], size: usize, columns: &[usize], rows: &[usize]
         ([first, rest @ ..], _) => {
             let mut sum: Option<W::Few> = None;
             for (k, row) in rows.iter().enumerate() {
-                let others: smallvec::SmallVec<[usize; 4]> =
-                    rows.iter().copied().filter(|other| other != row).collect();
+                let others: SmallVec<[usize; 4]> = rows.iter().copied().filter(|other| other != row).collect();
                 let term = m[first * size + row].mul(&minor::<W>(m, size, rest, &others));
                 sum = Some(match sum {
                     None => term,
@@ -136,25 +143,28 @@ fn minor<W: Number>(m: &[W::Few], size: usize, columns: &[usize], rows: &[usize]
                     Some(sum) => sum.add(&term),
                 });
             }
-            sum.unwrap_or(splat::<W>(1.0))
+            sum.unwrap_or(splat::<W, W::Few>(1.0))
         }
-        _ => splat::<W>(1.0),
+        _ => splat::<W, W::Few>(1.0),
     }
 }
 
+/// Rare enough that it is compiled for no vector unit.
+#[inline(never)]
 fn determinant<W: Number>(m: &[W::Few], size: usize) -> W::Few {
     let all = [0, 1, 2, 3];
     minor::<W>(m, size, &all[..size], &all[..size])
 }
 
 /// Cofactors over the determinant.
+#[inline(never)]
 fn inverse<W: Number>(m: &[W::Few], size: usize) -> [W::Few; 16] {
-    let mut out = [splat::<W>(0.0); 16];
+    let mut out = [splat::<W, W::Few>(0.0); 16];
     let all = [0usize, 1, 2, 3];
     let determinant = determinant::<W>(m, size);
     for column in 0..size {
         for row in 0..size {
-            let without = |gone: usize| -> smallvec::SmallVec<[usize; 4]> {
+            let without = |gone: usize| -> SmallVec<[usize; 4]> {
                 all[..size].iter().copied().filter(|place| *place != gone).collect()
             };
             // The transposed cofactor.
@@ -166,161 +176,181 @@ fn inverse<W: Number>(m: &[W::Few], size: usize) -> [W::Few; 16] {
     out
 }
 
-/// Consecutive arguments as one vector.
+/// A vector of arguments.
 #[inline(always)]
-fn vector<B, const N: usize>(arguments: &[B], place: usize) -> &Vector<B, N> {
-    arguments[place * N..].first_chunk().expect("`by_few` counts the arguments")
+fn vector<B: Copy + Default>(size: usize, number: usize, scalar: &impl Fn(usize) -> B) -> Vector<B> {
+    each(
+        size,
+        #[inline(always)]
+        |k| scalar(number * size + k),
+    )
+}
+
+/// A scalar as a result.
+#[inline(always)]
+fn alone<B: Copy + Default>(scalar: B) -> Vector<B> {
+    [scalar, B::default(), B::default(), B::default()]
+}
+
+/// A function of vectors of `size` components: of the components of its arguments, one after the other.
+#[inline(always)]
+fn of_vectors<W: Number, B: Block<W>>(
+    (op, squares): (Composite, bool),
+    size: usize,
+    scalar: impl Fn(usize) -> B,
+) -> Vector<B> {
+    match op {
+        Composite::Length => alone(squared::<W, B>(size, &vector(size, 0, &scalar)).sqrt()),
+        // One vector twice: its components are squares, which an envelope can make more of.
+        Composite::Dot if squares => alone(squared::<W, B>(size, &vector(size, 0, &scalar))),
+        Composite::Normalize => normalize::<W, B>(size, &vector(size, 0, &scalar)),
+        Composite::Dot => alone(dot::<W, B>(size, &vector(size, 0, &scalar), &vector(size, 1, &scalar))),
+        Composite::Distance => {
+            let gap = each(
+                size,
+                #[inline(always)]
+                |k| scalar(k).sub(&scalar(size + k)),
+            );
+            alone(squared::<W, B>(size, &gap).sqrt())
+        }
+        Composite::Cross => cross::<W, B>(size, &vector(size, 0, &scalar), &vector(size, 1, &scalar)),
+        Composite::Reflect => reflect::<W, B>(size, &vector(size, 0, &scalar), &vector(size, 1, &scalar)),
+        Composite::Refract => {
+            refract::<W, B>(size, &vector(size, 0, &scalar), &vector(size, 1, &scalar), &scalar(2 * size))
+        }
+        Composite::Faceforward => {
+            faceforward::<W, B>(size, &vector(size, 0, &scalar), &vector(size, 1, &scalar), &vector(size, 2, &scalar))
+        }
+        // `composite` has seen to these.
+        Composite::Determinant | Composite::Inverse => Vector::default(),
+    }
+}
+
+/// The arguments of a function.
+struct Arguments<'a, N: Number>(SmallVec<[Source<'a, N>; 12]>);
+
+impl<N: Number> Arguments<'_, N> {
+    /// A block of a component; what is not there is blank.
+    #[inline(always)]
+    fn scalar(&self, place: usize, number: usize) -> <N::Wide as Element>::Few {
+        match self.0.get(number) {
+            Some(source) => source.block(place).widen(),
+            None => Default::default(),
+        }
+    }
+
+    /// The same as numbers lane by lane.
+    #[inline(always)]
+    fn by_lane(&self, place: usize, number: usize) -> ByLane<N::Wide> {
+        let few = self.scalar(place, number);
+        let mut lanes = [N::Wide::default(); WIDTH];
+        for (lane, slot) in lanes.iter_mut().enumerate() {
+            *slot = few.get(lane);
+        }
+        lanes
+    }
+
+    /// All components, of a matrix.
+    fn all(&self, place: usize) -> [<N::Wide as Element>::Few; 16] {
+        let mut all = [Default::default(); 16];
+        for (k, slot) in all.iter_mut().enumerate() {
+            *slot = self.scalar(place, k);
+        }
+        all
+    }
+
+    /// The blocks that are to be computed: one if each argument is one number for all lanes.
+    fn blocks(&self) -> (usize, Filled) {
+        let same = self.0.iter().all(|source| matches!(source, Source::One(_)));
+        if same { (1, Filled::One) } else { (LANES / WIDTH, Filled::Lanes) }
+    }
+}
+
+/// Writes a block of each result.
+#[inline(always)]
+fn write<N: Number>(outs: &mut [Register<N>], place: usize, filled: Filled, found: &[<N::Wide as Element>::Few]) {
+    for (out, found) in outs.iter_mut().zip(found) {
+        out.fill(
+            #[inline(always)]
+            |lanes| {
+                lanes.blocks_mut()[place] = Block::narrow(found);
+                filled
+            },
+        );
+    }
+}
+
+/// A function of vectors, for all lanes.
+fn vectors<N: Number>(op: (Composite, bool), size: usize, arguments: &Arguments<'_, N>, outs: &mut [Register<N>]) {
+    let (blocks, filled) = arguments.blocks();
+    if N::Wide::PLAIN {
+        for place in 0..blocks {
+            let found = if size == 3 {
+                of_vectors::<N::Wide, <N::Wide as Element>::Few>(
+                    op,
+                    3,
+                    #[inline(always)]
+                    |number| arguments.scalar(place, number),
+                )
+            } else {
+                of_vectors::<N::Wide, <N::Wide as Element>::Few>(
+                    op,
+                    black_box(size),
+                    #[inline(always)]
+                    |number| arguments.scalar(place, number),
+                )
+            };
+            write(outs, place, filled, &found);
+        }
+        return;
+    }
+    // The compiler is not told how few components there are, or it would write each loop out as often.
+    let size = black_box(size);
+    let done = <N::Wide as Element>::Few::if_vectorized(
+        #[inline(always)]
+        || {
+            for place in 0..blocks {
+                let found = of_vectors::<N::Wide, <N::Wide as Element>::Few>(
+                    op,
+                    size,
+                    #[inline(always)]
+                    |number| arguments.scalar(place, number),
+                );
+                write(outs, place, filled, &found);
+            }
+        },
+    );
+    if done.is_none() {
+        for place in 0..blocks {
+            let found = of_vectors::<N::Wide, ByLane<N::Wide>>(op, size, |number| arguments.by_lane(place, number));
+            write(outs, place, filled, &found.map(|found| Few::of(&found)));
+        }
+    }
 }
 
 impl<D: Domain> Registers<D> {
     pub(super) fn composite(&mut self, op: Composite, size: u8, results: &[Operand], arguments: &[Operand]) {
-        // Sizes of arrays cannot be computed from `N`: arguments and results a function are counted here.
-        match (op, size) {
-            (Composite::Cross, _) => self.each_few::<6, 3>(
-                results,
-                arguments,
-                #[inline(always)]
-                |a| cross::<Wide<D>>(vector(a, 0), vector(a, 1)),
-            ),
-            (Composite::Determinant, _) => {
-                let size = usize::from(size.min(4));
-                self.each_few::<16, 1>(
-                    results,
-                    arguments,
-                    #[inline(always)]
-                    |a| [determinant::<Wide<D>>(a, size)],
-                );
-            }
-            (Composite::Inverse, _) => {
-                let size = usize::from(size.min(4));
-                self.each_few::<16, 16>(
-                    results,
-                    arguments,
-                    #[inline(always)]
-                    |a| inverse::<Wide<D>>(a, size),
-                );
-            }
-            (_, 1) => self.of_vectors::<1, 2, 3>(op, results, arguments),
-            (_, 2) => self.of_vectors::<2, 4, 6>(op, results, arguments),
-            (_, 3) => self.of_vectors::<3, 6, 9>(op, results, arguments),
-            _ => self.of_vectors::<4, 8, 12>(op, results, arguments),
-        }
-    }
-
-    /// The functions of `N` components, of one, two (`N2` scalars) or three (`N3`) vectors.
-    fn of_vectors<const N: usize, const N2: usize, const N3: usize>(
-        &mut self,
-        op: Composite,
-        results: &[Operand],
-        arguments: &[Operand],
-    ) {
+        let size = usize::from(size).min(MOST);
+        let mut outs: SmallVec<[Register<D::Float>; 16]> = results.iter().map(|_| self.floats.take()).collect();
+        let squares = D::OPEN && arguments.get(..size) == arguments.get(size..);
+        let arguments = Arguments(arguments.iter().map(|operand| self.float(*operand)).collect());
+        let (blocks, filled) = arguments.blocks();
         match op {
-            Composite::Length => self.each_few::<N, 1>(
-                results,
-                arguments,
-                #[inline(always)]
-                |a| [length::<Wide<D>, N>(a)],
-            ),
-            Composite::Normalize => self.each_few::<N, N>(
-                results,
-                arguments,
-                #[inline(always)]
-                |a| normalize::<Wide<D>, N>(a, &squared::<Wide<D>, N>(a)),
-            ),
-            Composite::Dot if D::OPEN && arguments.get(..N) == arguments.get(N..) => {
-                self.each_few::<N, 1>(
-                    results,
-                    arguments,
-                    #[inline(always)]
-                    |a| [squared::<Wide<D>, N>(a)],
-                );
-            }
-            Composite::Dot => self.each_few::<N2, 1>(
-                results,
-                arguments,
-                #[inline(always)]
-                |a| [dot::<Wide<D>, N>(vector(a, 0), vector(a, 1))],
-            ),
-            Composite::Distance => self.each_few::<N2, 1>(
-                results,
-                arguments,
-                #[inline(always)]
-                |a| {
-                    let gap: Vector<_, N> = each(
-                        #[inline(always)]
-                        |k| a[k].sub(&a[N + k]),
-                    );
-                    [length::<Wide<D>, N>(&gap)]
-                },
-            ),
-            Composite::Reflect => {
-                self.each_few::<N2, N>(
-                    results,
-                    arguments,
-                    #[inline(always)]
-                    |a| reflect::<Wide<D>, N>(vector(a, 0), vector(a, 1)),
-                );
-            }
-            Composite::Refract => {
-                // Of the third argument, a float, one scalar is there; the rest is blank.
-                self.each_few::<N3, N>(
-                    results,
-                    arguments,
-                    #[inline(always)]
-                    |a| refract::<Wide<D>, N>(vector(a, 0), vector(a, 1), a[N2]),
-                );
-            }
-            Composite::Faceforward => self.each_few::<N3, N>(
-                results,
-                arguments,
-                #[inline(always)]
-                |a| faceforward::<Wide<D>, N>(vector(a, 0), vector(a, 1), vector(a, 2)),
-            ),
-            // `composite` has seen to these.
-            Composite::Cross | Composite::Determinant | Composite::Inverse => {}
-        }
-    }
-
-    /// Applies a function of at most `A` scalars with at most `R` results to a few lanes at a time.
-    #[inline(always)]
-    fn each_few<const A: usize, const R: usize>(
-        &mut self,
-        results: &[Operand],
-        arguments: &[Operand],
-        f: impl Fn(&[WideFew<D>; A]) -> [WideFew<D>; R],
-    ) {
-        let blank = Source::One(D::Float::default());
-        let mut outs: [_; R] = std::array::from_fn(|_| self.floats.take());
-        let sources: [Source<'_, D::Float>; A] =
-            std::array::from_fn(|k| arguments.get(k).map_or(blank, |operand| self.float(*operand)));
-        let same = sources.iter().all(|source| matches!(source, Source::One(_)));
-        let (blocks, filled) = if same { (1, Filled::One) } else { (LANES / WIDTH, Filled::Lanes) };
-        WideFew::<D>::vectorized(
-            #[inline(always)]
-            || {
+            Composite::Determinant => {
                 for place in 0..blocks {
-                    let few: [WideFew<D>; A] = each(
-                        #[inline(always)]
-                        |k| sources[k].block(place).widen(),
-                    );
-                    let found = f(&few);
-                    for (out, found) in outs.iter_mut().zip(&found).take(results.len()) {
-                        out.fill(
-                            #[inline(always)]
-                            |lanes| {
-                                lanes.blocks_mut()[place] = Block::narrow(found);
-                                filled
-                            },
-                        );
-                    }
+                    write(&mut outs, place, filled, &[determinant::<Wide<D>>(&arguments.all(place), size)]);
                 }
-            },
-        );
-        for (place, out) in outs.into_iter().enumerate() {
-            match results.get(place) {
-                Some(operand) => self.floats.put(*operand, out),
-                None => self.floats.give_back(out),
             }
+            Composite::Inverse => {
+                for place in 0..blocks {
+                    write(&mut outs, place, filled, &inverse::<Wide<D>>(&arguments.all(place), size));
+                }
+            }
+            _ => vectors((op, squares), size, &arguments, &mut outs),
+        }
+        drop(arguments);
+        for (operand, out) in results.iter().zip(outs) {
+            self.floats.put(*operand, out);
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::code::Section;
 use super::inst::{Compare, Derivative, Float1, Float2, Float3, FloatToInt, Inst, Int1, Int2, IntToFloat, Operand};
-use super::registers::{Filled, Registers, blocks1, blocks2, blocks3, copy, map1, map2, map3};
+use super::registers::{Filled, Registers, blocks1, blocks2, blocks3, calls1, calls2, calls3, copy, map1, map2, map3};
 use super::{DFDY_SIGN, LANES};
 use crate::domain::faults::{self, Fault};
 use crate::domain::{Block, Domain, Element, Few, Integer, Lanes, Number, Source};
@@ -59,18 +59,18 @@ fn float1<N: Number>(op: Float1, out: &mut Lanes<N>, a: Source<'_, N>) -> Filled
         Float1::Log => each!(out, a, log),
         Float1::Exp2 => each!(out, a, exp2),
         Float1::Log2 => each!(out, a, log2),
-        Float1::Sin => map1(out, a, N::sin),
-        Float1::Cos => map1(out, a, N::cos),
-        Float1::Tan => map1(out, a, N::tan),
-        Float1::Asin => map1(out, a, N::asin),
-        Float1::Acos => map1(out, a, N::acos),
-        Float1::Atan => map1(out, a, N::atan),
-        Float1::Sinh => map1(out, a, N::sinh),
-        Float1::Cosh => map1(out, a, N::cosh),
-        Float1::Tanh => map1(out, a, N::tanh),
-        Float1::Asinh => map1(out, a, N::asinh),
-        Float1::Acosh => map1(out, a, N::acosh),
-        Float1::Atanh => map1(out, a, N::atanh),
+        Float1::Sin => calls1(out, a, &N::sin),
+        Float1::Cos => calls1(out, a, &N::cos),
+        Float1::Tan => calls1(out, a, &N::tan),
+        Float1::Asin => calls1(out, a, &N::asin),
+        Float1::Acos => calls1(out, a, &N::acos),
+        Float1::Atan => calls1(out, a, &N::atan),
+        Float1::Sinh => calls1(out, a, &N::sinh),
+        Float1::Cosh => calls1(out, a, &N::cosh),
+        Float1::Tanh => calls1(out, a, &N::tanh),
+        Float1::Asinh => calls1(out, a, &N::asinh),
+        Float1::Acosh => calls1(out, a, &N::acosh),
+        Float1::Atanh => calls1(out, a, &N::atanh),
         Float1::Radians => map1(out, a, |x| scaled(x, std::f64::consts::PI / 180.0)),
         Float1::Degrees => map1(out, a, |x| scaled(x, 180.0 / std::f64::consts::PI)),
     }
@@ -87,7 +87,7 @@ fn float2<N: Number>(op: Float2, out: &mut Lanes<N>, a: Source<'_, N>, b: Source
         Float2::Max => each!(out, a, b, max),
         Float2::Mod => map2(out, a, b, N::modulo),
         Float2::Pow => each!(out, a, b, pow),
-        Float2::Atan2 => map2(out, a, b, N::atan2),
+        Float2::Atan2 => calls2(out, a, b, &N::atan2),
         Float2::Step => blocks2(
             out,
             a,
@@ -140,7 +140,6 @@ fn int1<I: Integer>(op: Int1, out: &mut Lanes<I>, a: Source<'_, I>) -> Filled {
     }
 }
 
-#[inline(always)]
 fn int2<I: Integer>(op: Int2, out: &mut Lanes<I>, a: Source<'_, I>, b: Source<'_, I>) -> Filled {
     match op {
         Int2::Add => map2(out, a, b, I::add),
@@ -207,6 +206,12 @@ fn derivative<N: Number>(op: Derivative, out: &mut Lanes<N>, a: Source<'_, N>) {
 }
 
 impl<D: Domain> Registers<D> {
+    /// [`Self::compute`] as a call: where an operation takes far longer than that.
+    #[inline(never)]
+    pub(super) fn compute_apart(&mut self, inst: &Inst, section: &Section) {
+        self.compute(inst, section);
+    }
+
     /// An instruction without effects but on its results.
     #[inline(always)]
     pub(super) fn compute(&mut self, inst: &Inst, section: &Section) {
@@ -311,7 +316,7 @@ fn is_same<D: Domain>(this: &Registers<D>, operands: &[Operand]) -> bool {
 fn sum_of_products<D: Domain>(this: &Registers<D>, pairs: &[Operand], out: &mut Lanes<Float<D>>) -> Filled {
     let same = is_same(this, pairs);
     let count = pairs.len() / 2;
-    <Float<D> as Element>::Few::vectorized(
+    let done = <Float<D> as Element>::Few::if_vectorized(
         #[inline(always)]
         || {
             for (place, out) in out.blocks_mut().iter_mut().enumerate().take(if same { 1 } else { usize::MAX }) {
@@ -327,6 +332,15 @@ fn sum_of_products<D: Domain>(this: &Registers<D>, pairs: &[Operand], out: &mut 
             }
         },
     );
+    if done.is_none() {
+        out.update(|lane, _| {
+            Number::sum(pairs.chunks_exact(2).map(|pair| match pair {
+                [a, b] if D::OPEN && a == b => this.float(*a).at(lane).square(),
+                [a, b] => this.float(*a).at(lane).mul(this.float(*b).at(lane)),
+                _ => constant(0.0),
+            }))
+        });
+    }
     if same { Filled::One } else { Filled::Lanes }
 }
 
@@ -335,7 +349,7 @@ fn select<N: Number>(out: &mut Lanes<N>, c: Source<'_, N::Int>, a: Source<'_, N>
     if let Source::One(c) = c {
         return map2(out, a, b, |a, b| N::select(c, a, b));
     }
-    N::Few::vectorized(
+    let done = N::Few::if_vectorized(
         #[inline(always)]
         || {
             for (place, out) in out.blocks_mut().iter_mut().enumerate() {
@@ -343,5 +357,6 @@ fn select<N: Number>(out: &mut Lanes<N>, c: Source<'_, N::Int>, a: Source<'_, N>
             }
             Filled::Lanes
         },
-    )
+    );
+    done.unwrap_or_else(|| calls3(out, c, a, b, &N::select))
 }

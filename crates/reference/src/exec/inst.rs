@@ -6,6 +6,12 @@
 
 use glisten_front::hir::SamplerType;
 
+// The operations are those of the front's table. Functions of whole vectors and matrices are computed in the domain's
+// wide type and rounded once.
+pub(super) use glisten_front::builtin::operations::{
+    Binary as Float2, Composite, Derivative, Lookup, Ternary as Float3, Unary as Float1,
+};
+
 /// What an instruction reads or writes.
 ///
 /// Compiled code goes through two stages: while it is made, registers are virtual and results of the preamble are
@@ -67,59 +73,6 @@ pub(super) struct List {
 pub(super) type Target = u32;
 /// A saved mask.
 pub(super) type Slot = u32;
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) enum Float1 {
-    Neg,
-    Abs,
-    Sign,
-    Floor,
-    Ceil,
-    Trunc,
-    Round,
-    Fract,
-    Sqrt,
-    Inversesqrt,
-    Exp,
-    Log,
-    Exp2,
-    Log2,
-    Sin,
-    Cos,
-    Tan,
-    Asin,
-    Acos,
-    Atan,
-    Sinh,
-    Cosh,
-    Tanh,
-    Asinh,
-    Acosh,
-    Atanh,
-    Radians,
-    Degrees,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) enum Float2 {
-    Add,
-    Sub,
-    Mul,
-    Div,
-    Min,
-    Max,
-    Mod,
-    Pow,
-    Atan2,
-    Step,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) enum Float3 {
-    Mix,
-    Clamp,
-    Smoothstep,
-}
 
 /// float, float to bool
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -186,44 +139,6 @@ pub(super) enum Int2 {
     MaxUnsigned,
     /// The first limited to 0 ..= the second, as `int`s: an index of one dimension among several.
     ClampIndex,
-}
-
-/// Built-in functions of whole vectors and matrices, computed in the domain's wide type and rounded once.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) enum Composite {
-    Length,
-    Distance,
-    Dot,
-    Cross,
-    Normalize,
-    Faceforward,
-    Reflect,
-    Refract,
-    Determinant,
-    Inverse,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) enum Derivative {
-    X,
-    Y,
-    /// `fwidth`
-    Width,
-}
-
-/// How a texture is looked up.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) enum Lookup {
-    /// Level of detail from derivatives where the stage has them (else the base level), with a bias or none.
-    Implicit,
-    /// Explicit level of detail.
-    Lod,
-    /// Explicit derivatives.
-    Grad,
-    /// One texel.
-    Fetch,
-    /// The sizes of a level.
-    Size,
 }
 
 /// A texture instruction's operands; all are registers.

@@ -8,8 +8,8 @@ use crate::domain::faults::{self, Fault};
 use crate::domain::{Domain, Integer, Number};
 use crate::texture::{self, Bits, Gradients, MISSING, Near, Request, Sampled, Steps};
 use glisten_front::hir::{SamplerDim, Scalar, Stage};
-use glisten_scene::compare::Range;
-use glisten_scene::scene::{Filter, Texture};
+use glisten_scene::picture::Interval;
+use glisten_scene::{Filter, Texture};
 
 impl<D: Domain> Machine<D> {
     /// Runs a texture instruction in these lanes; gives the lanes whose texture is not sure.
@@ -38,7 +38,7 @@ impl<D: Domain> Machine<D> {
             match sampled {
                 Sampled::Floats(values) => {
                     let Near { value, low, high } = values[k % 4];
-                    let range = Range { low, high, may_be_nan: value.is_nan() };
+                    let range = Interval { low, high, may_be_nan: value.is_nan() };
                     self.registers.floats.register(*result).spread().set(lane, D::Float::with_range(value, range));
                 }
                 Sampled::Bits(bits) => {

@@ -11,7 +11,7 @@ use crate::domain::faults::Faults;
 use crate::domain::{Domain, Integer, Lanes, Number};
 use glisten_front::hir::{GlobalId, ScalarValue};
 use glisten_front::source::Span;
-use glisten_scene::scene::Texture;
+use glisten_scene::Texture;
 use std::sync::Arc;
 
 /// How many instructions loops may run in one run of a machine: each time that a loop goes back to its head, the
@@ -45,59 +45,36 @@ pub struct Machine<D: Domain> {
     pub(super) watched: u64,
 }
 
-/// What a machine may do beside running.
+/// What a machine runs for. The purposes exclude each other.
 #[derive(Debug)]
-struct Extras<D: Domain> {
-    faults: Faults,
-    muted: Option<Muted>,
-    observer: Option<Box<dyn Observer<D>>>,
-}
-
-impl<D: Domain> Default for Extras<D> {
-    fn default() -> Self {
-        Self { faults: Faults::NONE, muted: None, observer: None }
-    }
+pub enum Purpose<D: Domain> {
+    /// The results, in whose envelopes faults of a driver are admitted.
+    Results(Faults),
+    /// The share that an operation has in the envelopes: its freedom is left out.
+    Share(Muted),
+    /// An observer, who sees what is computed once, too.
+    Watching(Box<dyn Observer<D>>),
 }
 
 impl<D: Domain> Machine<D> {
     /// A machine for the uniforms (of each root of the interface, flat) and textures (of each sampler slot) of a draw.
     /// What does not depend on the invocation is computed here, once.
     pub fn new(code: &Code, uniforms: &[Vec<ScalarValue>], textures: &[Option<Arc<Texture>>]) -> Self {
-        Self::made(code, uniforms, textures, Extras::default())
+        Self::with(Purpose::Results(Faults::NONE), code, uniforms, textures)
     }
 
-    /// A machine in whose envelopes faults of a driver are admitted.
-    pub fn admitting(
-        faults: Faults,
+    /// The same for a purpose.
+    pub fn with(
+        purpose: Purpose<D>,
         code: &Code,
         uniforms: &[Vec<ScalarValue>],
         textures: &[Option<Arc<Texture>>],
     ) -> Self {
-        Self::made(code, uniforms, textures, Extras { faults, ..Extras::default() })
-    }
-
-    /// A machine in whose envelopes the freedom of some operation is left out.
-    pub fn muting(
-        muted: Option<Muted>,
-        code: &Code,
-        uniforms: &[Vec<ScalarValue>],
-        textures: &[Option<Arc<Texture>>],
-    ) -> Self {
-        Self::made(code, uniforms, textures, Extras { muted, ..Extras::default() })
-    }
-
-    /// A machine with an observer that sees what is computed once, too.
-    pub fn watched(
-        code: &Code,
-        uniforms: &[Vec<ScalarValue>],
-        textures: &[Option<Arc<Texture>>],
-        observer: Box<dyn Observer<D>>,
-    ) -> Self {
-        Self::made(code, uniforms, textures, Extras { observer: Some(observer), ..Extras::default() })
-    }
-
-    fn made(code: &Code, uniforms: &[Vec<ScalarValue>], textures: &[Option<Arc<Texture>>], extras: Extras<D>) -> Self {
-        let Extras { faults, muted, observer } = extras;
+        let (faults, muted, observer) = match purpose {
+            Purpose::Results(faults) => (faults, None, None),
+            Purpose::Share(muted) => (Faults::NONE, Some(muted), None),
+            Purpose::Watching(observer) => (Faults::NONE, None, Some(observer)),
+        };
         let inner = &code.inner;
         let floats = inner.float_pool.iter().map(|source| float_of::<D>(*source, uniforms)).collect();
         let ints = inner.int_pool.iter().map(|source| int_of::<D>(*source, uniforms)).collect();

@@ -43,22 +43,25 @@ mod code;
 mod compile;
 mod composite;
 mod compute;
+mod explore;
 mod inst;
 mod lookup;
 mod machine;
 mod memory;
 mod mute;
+mod muted_run;
 mod observe;
 mod paths;
 mod registers;
 mod run;
+mod show;
 #[cfg(test)]
 mod tests;
 
 pub use code::Code;
-pub use machine::{LOOP_BUDGET, Machine};
+pub use machine::{LOOP_BUDGET, Machine, Purpose};
 pub use mute::{Muted, Operation};
-pub use observe::{Event, Kind, Observer, Order, Values, What};
+pub use observe::{Event, Kind, Observer, Order, Piece, Values, What};
 
 /// How many invocations run at once: a tile of 8x8 pixels (quad by quad), or 64 vertices.
 ///

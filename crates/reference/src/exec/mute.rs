@@ -1,18 +1,15 @@
 //! What the bound of a result comes from: the freedom that one expression's rule adds can be taken away.
 //!
-//! *In:* a machine and what to mute. *Out:* runs in which these instructions carry on what their operands bring and add
-//! nothing of their own.
+//! *In:* the code of a stage. *Out:* its operations, each with what mutes it; [`muted_run`](super::muted_run) then runs
+//! the instructions so that they carry on what their operands bring and add nothing of their own.
 //! *Holds:* what an instruction adds is what its rule gives where the operands are exactly their values; that much is
 //! taken off both ends of each result. An input that is muted is exactly its value.
 
-use super::code::{Code, Inner, Section};
-use super::inst::{Class, Composite, Float1, Float2, Float3, Inst, Operand, Use};
-use super::machine::Machine;
-use super::registers::Register;
-use crate::domain::{Domain, Number};
+use super::code::{Code, Runs};
+use super::inst::{Float2, Inst};
+use glisten_front::builtin::operations::Rule;
 use glisten_front::hir::GlobalId;
 use glisten_front::source::Span;
-use glisten_scene::compare::Range;
 
 /// An operation of the text, and the instructions that it was made into.
 #[derive(Clone, Debug)]
@@ -44,65 +41,36 @@ impl Muted {
     pub fn input(global: GlobalId) -> Self {
         Self { input: Some(global), ..Self::default() }
     }
+
+    /// Whether an instruction is muted.
+    pub(super) fn holds(&self, runs: Runs, place: usize) -> bool {
+        let places = match runs {
+            Runs::Once => &self.preamble,
+            Runs::Always => &self.main,
+        };
+        places.contains(&place)
+    }
+
+    /// The input that is muted.
+    pub(super) fn only_input(&self) -> Option<GlobalId> {
+        self.input
+    }
+}
+
+/// The name, if the rule of an operation adds freedom of its own.
+fn own_error(rule: &Rule, name: &'static str) -> Option<&'static str> {
+    rule.adds_error().then_some(name)
 }
 
 /// How GLSL writes what an instruction does; `None` for what adds no freedom.
 fn name(inst: &Inst) -> Option<&'static str> {
     Some(match inst {
-        Inst::Float1 { op, .. } => match op {
-            Float1::Neg | Float1::Abs | Float1::Sign | Float1::Floor | Float1::Ceil | Float1::Trunc => return None,
-            Float1::Round => "round",
-            Float1::Fract => "fract",
-            Float1::Sqrt => "sqrt",
-            Float1::Inversesqrt => "inversesqrt",
-            Float1::Exp => "exp",
-            Float1::Log => "log",
-            Float1::Exp2 => "exp2",
-            Float1::Log2 => "log2",
-            Float1::Sin => "sin",
-            Float1::Cos => "cos",
-            Float1::Tan => "tan",
-            Float1::Asin => "asin",
-            Float1::Acos => "acos",
-            Float1::Atan => "atan",
-            Float1::Sinh => "sinh",
-            Float1::Cosh => "cosh",
-            Float1::Tanh => "tanh",
-            Float1::Asinh => "asinh",
-            Float1::Acosh => "acosh",
-            Float1::Atanh => "atanh",
-            Float1::Radians => "radians",
-            Float1::Degrees => "degrees",
-        },
-        Inst::Float2 { op, .. } => match op {
-            Float2::Add => "+",
-            Float2::Sub => "-",
-            Float2::Mul => "*",
-            Float2::Div => "/",
-            Float2::Mod => "mod",
-            Float2::Pow => "pow",
-            Float2::Atan2 => "atan",
-            Float2::Min | Float2::Max | Float2::Step => return None,
-        },
-        Inst::MulAdd { .. } | Inst::SumOfProducts { .. } => "*",
-        Inst::Float3 { op, .. } => match op {
-            Float3::Mix => "mix",
-            Float3::Smoothstep => "smoothstep",
-            Float3::Clamp => return None,
-        },
+        Inst::Float1 { op, .. } => own_error(op.rule(), op.name())?,
+        Inst::Float2 { op, .. } => own_error(op.rule(), op.name())?,
+        Inst::Float3 { op, .. } => own_error(op.rule(), op.name())?,
+        Inst::Composite { op, .. } => op.name(),
+        Inst::MulAdd { .. } | Inst::SumOfProducts { .. } => Float2::Mul.name(),
         Inst::IntToFloat { .. } => "float",
-        Inst::Composite { op, .. } => match op {
-            Composite::Length => "length",
-            Composite::Distance => "distance",
-            Composite::Dot => "dot",
-            Composite::Cross => "cross",
-            Composite::Normalize => "normalize",
-            Composite::Faceforward => "faceforward",
-            Composite::Reflect => "reflect",
-            Composite::Refract => "refract",
-            Composite::Determinant => "determinant",
-            Composite::Inverse => "inverse",
-        },
         Inst::Derivative { .. } => "derivative",
         Inst::Texture { .. } => "texture",
         _ => return None,
@@ -129,122 +97,4 @@ impl Code {
         }
         list
     }
-}
-
-/// Registers and numbers for all lanes as they were.
-struct Saved<D: Domain> {
-    registers: Vec<(usize, Register<D::Float>)>,
-    pool: Vec<(usize, D::Float)>,
-}
-
-impl<D: Domain> Machine<D> {
-    /// Whether an instruction of a section adds nothing of its own.
-    pub(super) fn is_muted(&self, section: &Section, place: usize) -> bool {
-        let Some(muted) = &self.muted else { return false };
-        let is_preamble = std::ptr::eq(section, &raw const self.code.inner.preamble);
-        if is_preamble { &muted.preamble } else { &muted.main }.contains(&place)
-    }
-
-    /// Makes a muted input exact.
-    pub(super) fn mute_input(&mut self) {
-        let Some(global) = self.muted.as_ref().and_then(|muted| muted.input) else { return };
-        for port in self.code.inner.inputs.iter().filter(|port| port.global == global && port.class == Class::Float) {
-            if let Some(register) = self.registers.floats.get_mut(port.register) {
-                register.spread().update(|_, number| exactly(number));
-            }
-        }
-    }
-
-    /// Runs an instruction and takes off its results what it adds itself.
-    pub(super) fn run_muted(&mut self, inst: &Inst, section: &Section, inner: &Inner, mask: u64) {
-        let (mut reads, mut writes) = (Vec::new(), Vec::new());
-        let mut note = |class: Class, using: Use, operand: Operand| {
-            if class == Class::Float {
-                if using == Use::Read { &mut reads } else { &mut writes }.push(operand);
-            }
-        };
-        let mut copy = *inst;
-        copy.visit(&mut |class, using, operand| note(class, using, *operand));
-        for (class, using, list) in inst.lists().into_iter().flatten() {
-            section.list(list).iter().for_each(|operand| note(class, using, *operand));
-        }
-        if let Inst::Texture { call } = inst
-            && let Some(call) = inner.textures.get(*call as usize)
-        {
-            call.clone().visit(&mut |class, using, operand| note(class, using, *operand));
-        }
-        let saved = self.make_exact(&reads);
-        self.run_plain(inst, section, inner, mask);
-        let own: Vec<Register<D::Float>> =
-            writes.iter().filter_map(|operand| self.registers.floats.get(operand.number()).cloned()).collect();
-        self.put_back(saved);
-        self.run_plain(inst, section, inner, mask);
-        for (operand, own) in writes.iter().zip(own) {
-            if let Some(register) = self.registers.floats.get_mut(operand.number()) {
-                let own = own.source();
-                register.spread().update(|lane, number| without(number, own.at(lane)));
-            }
-        }
-    }
-
-    fn run_plain(&mut self, inst: &Inst, section: &Section, inner: &Inner, mask: u64) {
-        match inst {
-            Inst::Texture { call } => {
-                if let Some(call) = inner.textures.get(*call as usize) {
-                    self.undecided |= self.texture(call, inner.stage, mask);
-                }
-            }
-            _ => self.registers.compute(inst, section),
-        }
-    }
-
-    fn make_exact(&mut self, operands: &[Operand]) -> Saved<D> {
-        let mut saved = Saved { registers: Vec::new(), pool: Vec::new() };
-        for operand in operands {
-            let number = operand.number();
-            if operand.is_reg() {
-                if let Some(register) = self.registers.floats.get_mut(number) {
-                    saved.registers.push((number, register.clone()));
-                    register.spread().update(|_, number| exactly(number));
-                }
-            } else if let Some(value) = self.registers.floats.pool.get_mut(number) {
-                saved.pool.push((number, *value));
-                *value = exactly(*value);
-            }
-        }
-        saved
-    }
-
-    fn put_back(&mut self, saved: Saved<D>) {
-        // An operand that stands twice was saved twice, the first time as it was.
-        for (number, old) in saved.registers.into_iter().rev() {
-            if let Some(register) = self.registers.floats.get_mut(number) {
-                *register = old;
-            }
-        }
-        for (number, value) in saved.pool.into_iter().rev() {
-            if let Some(slot) = self.registers.floats.pool.get_mut(number) {
-                *slot = value;
-            }
-        }
-    }
-}
-
-fn exactly<N: Number>(number: N) -> N {
-    N::whole(number.value(), Range::point(number.value()))
-}
-
-/// A number without as much freedom as another has about its value.
-fn without<N: Number>(number: N, own: N) -> N {
-    let (range, own_range) = (number.range(), own.range());
-    let off = |distance: f64| if distance.is_finite() { distance.max(0.0) } else { f64::INFINITY };
-    let (below, above) = (off(own.value() - own_range.low), off(own_range.high - own.value()));
-    let value = number.value();
-    let low = (range.low + below).min(value);
-    let high = (range.high - above).max(value);
-    let or_value = |end: f64| if end.is_nan() { value } else { end };
-    N::whole(
-        value,
-        Range { low: or_value(low), high: or_value(high), may_be_nan: range.may_be_nan && !own_range.may_be_nan },
-    )
 }

@@ -1,17 +1,10 @@
-//! [`Observer`]: sees what a machine computes, instruction by instruction.
-//!
-//! *In:* instructions as they run. *Out:* [`Event`]s with the operands and results of the lanes that count.
-//! *Holds:* watching changes nothing. Copies, loads and stores are not shown: they compute nothing. Helper lanes are
-//! never shown.
+//! [`Observer`]: who sees what a machine computes, and the [`Event`]s that it sees.
 
 use super::Mask;
-use super::code::Section;
-use super::inst::{Class, Composite, Float1, Float2, Inst, Lookup, Operand, TextureCall, Use};
-use super::machine::Machine;
+use super::inst::{Composite, Float2, Inst};
 use crate::domain::{Domain, Source};
-use glisten_front::hir::Scalar;
+use glisten_front::hir::Stage;
 use glisten_front::source::Span;
-use smallvec::SmallVec;
 use std::fmt::Debug;
 
 /// A scalar in all lanes: one number each, or one for all.
@@ -24,10 +17,34 @@ pub struct Order {
     pub draw: usize,
     /// The first instance of the group.
     pub instance: u32,
-    /// 0 and 1: what is the same for all vertices and all fragments; 2: vertices; 3: fragments.
-    pub stage: u8,
+    /// What was run.
+    pub piece: Piece,
     /// The batch of vertices, or the bin of the framebuffer.
     pub part: usize,
+}
+
+/// What a machine runs at once, in the order of a drawing.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Piece {
+    /// What is the same for all vertices.
+    #[default]
+    SameForVertices,
+    /// What is the same for all fragments.
+    SameForFragments,
+    /// A batch of vertices.
+    Vertices,
+    /// The fragments of a bin.
+    Fragments,
+}
+
+impl Piece {
+    /// The stage that it counts with.
+    pub fn stage(self) -> Stage {
+        match self {
+            Self::SameForVertices | Self::Vertices => Stage::Vertex,
+            Self::SameForFragments | Self::Fragments => Stage::Fragment,
+        }
+    }
 }
 
 /// What kind of operation gave floats.
@@ -88,13 +105,12 @@ pub trait Observer<D: Domain>: Send + Debug {
 
 impl Kind {
     /// `None` for what computes no floats.
-    fn of(inst: &Inst) -> Option<Self> {
-        use Float1::{Ceil, Floor, Fract, Round, Sign, Trunc};
+    pub(super) fn of(inst: &Inst) -> Option<Self> {
         Some(match inst {
             Inst::Float2 { op: Float2::Add | Float2::Sub, .. } => Self::Sum,
             Inst::Composite { op: Composite::Dot, .. } => Self::Dot,
-            Inst::Float1 { op: Sign | Floor | Ceil | Trunc | Round | Fract, .. }
-            | Inst::Float2 { op: Float2::Step | Float2::Mod, .. } => Self::Jump,
+            Inst::Float1 { op, .. } if op.jumps() => Self::Jump,
+            Inst::Float2 { op, .. } if op.jumps() => Self::Jump,
             Inst::Derivative { .. } => Self::Derivative,
             Inst::Float1 { .. }
             | Inst::Float2 { .. }
@@ -105,89 +121,5 @@ impl Kind {
             | Inst::Composite { .. } => Self::Other,
             _ => return None,
         })
-    }
-}
-
-impl<D: Domain> Machine<D> {
-    /// Lets an observer see all runs from here on.
-    pub fn watch(&mut self, observer: Box<dyn Observer<D>>) {
-        self.observer = Some(observer);
-    }
-
-    /// Tells the observer, if there is one, that this was all.
-    pub fn end_watch(&mut self, order: Order) {
-        if let Some(observer) = self.observer.take() {
-            observer.finish(order);
-        }
-    }
-
-    /// Shows an instruction that was just computed; its operands are still there, as no register is both.
-    pub(super) fn show(&mut self, inst: &Inst, section: &Section, place: usize, mask: u64) {
-        let Some(observer) = &mut self.observer else { return };
-        let registers = &self.registers;
-        let mut operands: SmallVec<[Source<'_, D::Float>; 8]> = SmallVec::new();
-        let mut results: SmallVec<[Source<'_, D::Float>; 4]> = SmallVec::new();
-        let mut answer = None;
-        let mut copy = *inst;
-        copy.visit(&mut |class, using, operand| match (class, using) {
-            (Class::Float, Use::Read) => operands.push(registers.float(*operand)),
-            (Class::Float, Use::Write) => results.push(registers.float(*operand)),
-            (Class::Int, Use::Write) => answer = Some(registers.int(*operand)),
-            (Class::Int, Use::Read) => {}
-        });
-        for (_, using, list) in inst.lists().into_iter().flatten().filter(|(class, ..)| *class == Class::Float) {
-            let values = section.list(list).iter().map(|operand| registers.float(*operand));
-            if using == Use::Read { operands.extend(values) } else { results.extend(values) }
-        }
-        let what = match (Kind::of(inst), inst, answer) {
-            (Some(kind), ..) => What::Floats { kind, operands: &operands, results: &results },
-            (None, Inst::Compare { .. } | Inst::FloatToInt { .. }, Some(answer)) => What::Answer(answer),
-            _ => return,
-        };
-        let span = section.spans.get(place).copied().unwrap_or_default();
-        observer.see(&Event { span, lanes: Mask(mask & self.watched), what });
-    }
-
-    /// Shows a lookup of floats by floats.
-    pub(super) fn show_texture(&mut self, call: &TextureCall, section: &Section, place: usize, mask: u64) {
-        let Some(observer) = &mut self.observer else { return };
-        let texels_are_floats = call.kind.texel == Scalar::Float || call.kind.shadow;
-        if !texels_are_floats || matches!(call.lookup, Lookup::Fetch | Lookup::Size) {
-            return;
-        }
-        let registers = &self.registers;
-        let values = |operand: &Operand| registers.float(*operand);
-        let operands: SmallVec<[Source<'_, D::Float>; 8]> = call.coordinate.iter().map(values).collect();
-        let results: SmallVec<[Source<'_, D::Float>; 4]> = call.results.iter().map(values).collect();
-        let what = What::Floats { kind: Kind::Texture, operands: &operands, results: &results };
-        let span = section.spans.get(place).copied().unwrap_or_default();
-        observer.see(&Event { span, lanes: Mask(mask & self.watched), what });
-    }
-
-    /// Shows the condition of an instruction that is about to run.
-    pub(super) fn show_choice(&mut self, inst: &Inst, section: &Section, place: usize, mask: u64) {
-        let (Inst::Arm { c, .. }
-        | Inst::LoopTest { c, .. }
-        | Inst::CaseMask { selector: c, .. }
-        | Inst::SelectFloat { c, .. }
-        | Inst::SelectInt { c, .. }) = *inst
-        else {
-            return;
-        };
-        let Some(observer) = &mut self.observer else { return };
-        let span = section.spans.get(place).copied().unwrap_or_default();
-        let what = What::Choice(self.registers.int(c));
-        observer.see(&Event { span, lanes: Mask(mask & self.watched), what });
-    }
-
-    /// Shows the float outputs after a run.
-    pub(super) fn show_outputs(&mut self, lanes: u64) {
-        let Some(observer) = &mut self.observer else { return };
-        for port in self.code.inner.outputs.iter().filter(|port| port.class == Class::Float) {
-            if let Some(values) = self.registers.floats.get(port.register) {
-                let what = What::Output(values.source());
-                observer.see(&Event { span: Span::default(), lanes: Mask(lanes), what });
-            }
-        }
     }
 }

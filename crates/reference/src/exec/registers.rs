@@ -137,12 +137,6 @@ impl<T: Element> File<T> {
         self.spares.pop().unwrap_or_else(Register::blank)
     }
 
-    /// Puts a register that is not needed back.
-    #[inline(always)]
-    pub(super) fn give_back(&mut self, spare: Register<T>) {
-        self.spares.push(spare);
-    }
-
     /// Makes a spare register that of the operand.
     #[inline(always)]
     pub(super) fn put(&mut self, dst: Operand, mut spare: Register<T>) {
@@ -179,6 +173,9 @@ pub(super) fn copy<T: Element>(out: &mut Lanes<T>, a: Source<'_, T>) -> Filled {
 /// Applies a function lane by lane.
 #[inline(always)]
 pub(super) fn map1<A: Element, R: Element>(out: &mut Lanes<R>, a: Source<'_, A>, f: impl Fn(A) -> R) -> Filled {
+    if !R::PLAIN {
+        return calls1(out, a, &f);
+    }
     match a {
         Source::Lanes(a) => {
             for (out, a) in out.blocks_mut().iter_mut().zip(a.blocks()) {
@@ -200,6 +197,9 @@ pub(super) fn map2<A: Element, B: Element, R: Element>(
     b: Source<'_, B>,
     f: impl Fn(A, B) -> R,
 ) -> Filled {
+    if !R::PLAIN {
+        return calls2(out, a, b, &f);
+    }
     match (a, b) {
         (Source::Lanes(a), Source::Lanes(b)) => {
             for (out, (a, b)) in out.blocks_mut().iter_mut().zip(a.blocks().iter().zip(b.blocks())) {
@@ -221,28 +221,99 @@ pub(super) fn map3<A: Element, B: Element, C: Element, R: Element>(
     c: Source<'_, C>,
     f: impl Fn(A, B, C) -> R,
 ) -> Filled {
-    match (a, b, c) {
-        (Source::One(a), b, c) => map2(out, b, c, |b, c| f(a, b, c)),
-        (a, Source::One(b), Source::One(c)) => map1(out, a, |a| f(a, b, c)),
-        (a, b, c) => {
-            for (place, out) in out.blocks_mut().iter_mut().enumerate() {
-                let (a, b, c) = (a.block(place), b.block(place), c.block(place));
-                *out = few(|lane| f(a.get(lane), b.get(lane), c.get(lane)));
-            }
+    if !R::PLAIN {
+        return calls3(out, a, b, c, &f);
+    }
+    if let (Source::One(a), Source::One(b), Source::One(c)) = (a, b, c) {
+        out.set(0, f(a, b, c));
+        return Filled::One;
+    }
+    for (place, out) in out.blocks_mut().iter_mut().enumerate() {
+        let (a, b, c) = (a.block(place), b.block(place), c.block(place));
+        *out = few(|lane| f(a.get(lane), b.get(lane), c.get(lane)));
+    }
+    Filled::Lanes
+}
+
+/// Calls a function for each lane: for functions that cost far more than the call, so that they are compiled once.
+#[inline(never)]
+pub(super) fn calls1<A: Element, R: Element>(out: &mut Lanes<R>, a: Source<'_, A>, f: &dyn Fn(A) -> R) -> Filled {
+    match a {
+        Source::Lanes(a) => {
+            out.assign(a.iter().map(f));
             Filled::Lanes
+        }
+        Source::One(a) => {
+            out.set(0, f(a));
+            Filled::One
         }
     }
 }
 
-/// A number for all lanes as a block. What is known to be the same in all lanes the compiler would make branches of where
-/// it makes vectors of what is not, so it is not told.
-#[inline(always)]
-fn spread_out<T: Element>(value: T) -> T::Few {
-    black_box(T::Few::splat(value))
+/// The same for a function of two.
+#[inline(never)]
+pub(super) fn calls2<A: Element, B: Element, R: Element>(
+    out: &mut Lanes<R>,
+    a: Source<'_, A>,
+    b: Source<'_, B>,
+    f: &dyn Fn(A, B) -> R,
+) -> Filled {
+    if let (Source::One(a), Source::One(b)) = (a, b) {
+        out.set(0, f(a, b));
+        return Filled::One;
+    }
+    out.update(|lane, _| f(a.at(lane), b.at(lane)));
+    Filled::Lanes
+}
+
+/// The same for a function of three.
+#[inline(never)]
+pub(super) fn calls3<A: Element, B: Element, C: Element, R: Element>(
+    out: &mut Lanes<R>,
+    a: Source<'_, A>,
+    b: Source<'_, B>,
+    c: Source<'_, C>,
+    f: &dyn Fn(A, B, C) -> R,
+) -> Filled {
+    if let (Source::One(a), Source::One(b), Source::One(c)) = (a, b, c) {
+        out.set(0, f(a, b, c));
+        return Filled::One;
+    }
+    out.update(|lane, _| f(a.at(lane), b.at(lane), c.at(lane)));
+    Filled::Lanes
+}
+
+/// The blocks of an operand in order: of a number for all lanes one block, again and again. A loop over them is compiled
+/// once, whatever its operands are.
+struct Blocks<'a, T: Element> {
+    blocks: &'a [T::Few],
+    /// 0 where all places have the same block.
+    places: usize,
+}
+
+impl<'a, T: Element> Blocks<'a, T> {
+    /// The blocks of an operand; `room` keeps what is the same in all lanes. The compiler would make branches of what it
+    /// knows to be the same, so it is not told.
+    #[inline(always)]
+    fn of(source: Source<'a, T>, room: &'a mut T::Few) -> Self {
+        match source {
+            Source::Lanes(lanes) => Self { blocks: lanes.blocks(), places: usize::MAX },
+            Source::One(value) => {
+                *room = black_box(T::Few::splat(value));
+                Self { blocks: std::slice::from_ref(room), places: 0 }
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn at(&self, place: usize) -> &T::Few {
+        // `of` leaves no place without a block.
+        &self.blocks[place & self.places]
+    }
 }
 
 /// Applies a function to blocks of lanes, or its like for one number: where all operands are one for all lanes, and in each
-/// lane of a domain that has no operations on blocks of its own.
+/// lane of a domain that has no operations on blocks of its own, or on a machine without the vector unit for them.
 #[inline(always)]
 pub(super) fn blocks1<N: Number>(
     out: &mut Lanes<N>,
@@ -250,24 +321,20 @@ pub(super) fn blocks1<N: Number>(
     block: impl Fn(&N::Few) -> N::Few,
     one: impl Fn(N) -> N,
 ) -> Filled {
-    if !N::Few::OWN {
-        return map1(out, a, one);
-    }
-    match a {
-        Source::Lanes(a) => N::Few::vectorized(
+    if let (true, Source::Lanes(a)) = (N::Few::OWN, a) {
+        let done = N::Few::if_vectorized(
             #[inline(always)]
             || {
                 for (out, a) in out.blocks_mut().iter_mut().zip(a.blocks()) {
                     *out = block(a);
                 }
-                Filled::Lanes
             },
-        ),
-        Source::One(a) => {
-            out.set(0, one(a));
-            Filled::One
+        );
+        if done.is_some() {
+            return Filled::Lanes;
         }
     }
+    map1(out, a, one)
 }
 
 #[inline(always)]
@@ -278,39 +345,23 @@ pub(super) fn blocks2<N: Number, R: Element>(
     block: impl Fn(&N::Few, &N::Few) -> R::Few,
     one: impl Fn(N, N) -> R,
 ) -> Filled {
-    if !N::Few::OWN {
-        return map2(out, a, b, one);
+    if N::Few::OWN && !matches!((a, b), (Source::One(_), Source::One(_))) {
+        let done = N::Few::if_vectorized(
+            #[inline(always)]
+            || {
+                let mut rooms = [N::Few::default(); 2];
+                let [a_room, b_room] = &mut rooms;
+                let (a, b) = (Blocks::of(a, a_room), Blocks::of(b, b_room));
+                for (place, out) in out.blocks_mut().iter_mut().enumerate() {
+                    *out = block(a.at(place), b.at(place));
+                }
+            },
+        );
+        if done.is_some() {
+            return Filled::Lanes;
+        }
     }
-    if let (Source::One(a), Source::One(b)) = (a, b) {
-        out.set(0, one(a, b));
-        return Filled::One;
-    }
-    N::Few::vectorized(
-        #[inline(always)]
-        || {
-            match (a, b) {
-                (Source::Lanes(a), Source::Lanes(b)) => {
-                    for (out, (a, b)) in out.blocks_mut().iter_mut().zip(a.blocks().iter().zip(b.blocks())) {
-                        *out = block(a, b);
-                    }
-                }
-                (Source::Lanes(a), Source::One(b)) => {
-                    let b = spread_out(b);
-                    for (out, a) in out.blocks_mut().iter_mut().zip(a.blocks()) {
-                        *out = block(a, &b);
-                    }
-                }
-                (Source::One(a), Source::Lanes(b)) => {
-                    let a = spread_out(a);
-                    for (out, b) in out.blocks_mut().iter_mut().zip(b.blocks()) {
-                        *out = block(&a, b);
-                    }
-                }
-                (Source::One(_), Source::One(_)) => {}
-            }
-            Filled::Lanes
-        },
-    )
+    map2(out, a, b, one)
 }
 
 #[inline(always)]
@@ -320,22 +371,23 @@ pub(super) fn blocks3<N: Number>(
     block: impl Fn(&N::Few, &N::Few, &N::Few) -> N::Few,
     one: impl Fn(N, N, N) -> N,
 ) -> Filled {
-    if !N::Few::OWN {
-        return map3(out, a, b, c, one);
+    if N::Few::OWN && !matches!((a, b, c), (Source::One(_), Source::One(_), Source::One(_))) {
+        let done = N::Few::if_vectorized(
+            #[inline(always)]
+            || {
+                let mut rooms = [N::Few::default(); 3];
+                let [a_room, b_room, c_room] = &mut rooms;
+                let (a, b, c) = (Blocks::of(a, a_room), Blocks::of(b, b_room), Blocks::of(c, c_room));
+                for (place, out) in out.blocks_mut().iter_mut().enumerate() {
+                    *out = block(a.at(place), b.at(place), c.at(place));
+                }
+            },
+        );
+        if done.is_some() {
+            return Filled::Lanes;
+        }
     }
-    if let (Source::One(a), Source::One(b), Source::One(c)) = (a, b, c) {
-        out.set(0, one(a, b, c));
-        return Filled::One;
-    }
-    N::Few::vectorized(
-        #[inline(always)]
-        || {
-            for (place, out) in out.blocks_mut().iter_mut().enumerate() {
-                *out = block(&a.block(place), &b.block(place), &c.block(place));
-            }
-            Filled::Lanes
-        },
-    )
+    map3(out, a, b, c, one)
 }
 
 impl<D: Domain> Registers<D> {

@@ -105,7 +105,11 @@ impl<D: Domain> Machine<D> {
                     }
                 }
                 ref pure => {
-                    self.registers.compute(pure, section);
+                    if D::OPEN {
+                        self.registers.compute_apart(pure, section);
+                    } else {
+                        self.registers.compute(pure, section);
+                    }
                     if watched {
                         self.show(pure, section, place - 1, mask);
                     }

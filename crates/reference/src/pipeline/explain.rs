@@ -1,25 +1,25 @@
-//! What the bound of one pixel comes from.
+//! Explains the bound of one pixel.
 //!
-//! *In:* a scene and a pixel. *Out:* the operations of the fragment stage by how much narrower the pixel's envelope is
-//! without the freedom of their rules.
-//! *Holds:* the last draw that changes the pixel is asked; varyings stand for all that the vertex stage and
-//! interpolation bring.
+//! *In:* a scene and a pixel. *Out:* the operations of the fragment stage, with how much narrower the pixel's
+//! envelope would be if each were exact. *Holds:* only the last draw that changes the pixel is examined; varyings
+//! stand for everything that the vertex stage and interpolation contribute.
 
 use super::fragments::{Shading, draw_bin};
 use super::target::Patch;
 use super::watch::Watch;
 use super::{draw_all, refuse};
 use crate::domain::Envelope;
-use crate::exec::{Code, Machine, Muted};
+use crate::domain::faults::Faults;
+use crate::exec::{Code, Machine, Muted, Purpose};
 use crate::raster::Bounds;
 use crate::{Contribution, RenderOptions};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::scenes::SCENE_CANNOT_DRAW;
 use glisten_front::hir::Stage;
-use glisten_scene::compare::Range;
-use glisten_scene::scene::Scene;
+use glisten_scene::Scene;
+use glisten_scene::picture::Interval;
 
-/// What is called the operation of an input.
+/// The operation's name for an input.
 const INTERPOLATION: &str = "interpolation";
 
 /// A channel of a pixel.
@@ -61,7 +61,7 @@ pub(crate) fn explain(
     Ok(found)
 }
 
-/// Draws over the pixel; if that changes it, the contributions.
+/// Draws over the pixel. If that changes it, returns the contributions.
 fn of_draw(
     shading: &Shading<'_, Envelope>,
     code: &Code,
@@ -74,7 +74,8 @@ fn of_draw(
     let drawn = |muted: Option<Muted>| {
         let mut patch = before.clone();
         let draw = shading.draw;
-        let mut machine = Machine::muting(muted, code, &draw.uniforms, &draw.textures);
+        let purpose = muted.map_or(Purpose::Results(Faults::NONE), Purpose::Share);
+        let mut machine = Machine::with(purpose, code, &draw.uniforms, &draw.textures);
         patch.draw(|bin| draw_bin(shading, bin, &list, &mut machine));
         patch
     };
@@ -106,7 +107,7 @@ fn of_draw(
 }
 
 /// By how much of its width a range shrinks.
-fn share(whole: Range, muted: Range) -> f64 {
+fn share(whole: Interval, muted: Interval) -> f64 {
     match (whole.width().is_finite(), muted.width().is_finite()) {
         (true, _) if whole.width() > 0.0 => (1.0 - muted.width() / whole.width()).max(0.0),
         (false, true) => 1.0,

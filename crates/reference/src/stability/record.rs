@@ -1,20 +1,22 @@
-//! What is noted of each span while a scene is drawn in the shadow domain.
+//! Records the errors of each span while a scene is drawn in the shadow domain.
 //!
 //! *In:* the executor's events. *Out:* a [`Tally`] for each span. *Holds:* tallies of the same events are the same,
-//! whatever threads they ran on: each piece of the drawing has a recorder of its own, and they are joined in order.
+//! whatever threads they ran on: each piece of the drawing has its own recorder, and the recorders are joined in
+//! order.
 
 use crate::domain::{Shadow, ShadowFloat};
 use crate::exec::{Event, Kind, Observer, Order, Values, What};
+use glisten_front::hir::Stage;
 use glisten_front::source::Span;
 use glisten_scene::compare::ulp_f32;
 use smallvec::SmallVec;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// The bits of an f32's significand: nobody can lose more.
+/// The number of bits of an f32's significand, which is the largest possible loss.
 pub(super) const SIGNIFICAND: f64 = 24.0;
 
-/// Figures of one span. Sums are over evaluations: one scalar result in one lane.
+/// The figures of one span. Sums are over evaluations: one scalar result in one lane.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Tally {
     pub(super) evaluations: u64,
@@ -51,7 +53,7 @@ impl Tally {
         self.choices += other.choices;
     }
 
-    /// One scalar result of operands in one lane.
+    /// Records one scalar result of operands in one lane.
     fn note(&mut self, kind: Kind, operands: &[ShadowFloat], result: ShadowFloat) {
         self.evaluations += 1;
         let finite = |number: &ShadowFloat| number.single.is_finite();
@@ -69,7 +71,8 @@ impl Tally {
         self.error = self.error.max(result.error());
         self.error_sum += result.error();
         let brought = operands.iter().copied().map(error_ulps).fold(0.0, f64::max);
-        // Within an ULP nothing is lost. As a ratio: how many ULP an error is, changes at powers of two.
+        // Within an ULP nothing is lost. The loss is a ratio, because the number of ULP of an error jumps at powers
+        // of two.
         let lost = (error_ulps(result).max(1.0) / brought.max(1.0)).log2().clamp(0.0, SIGNIFICAND);
         self.lost_bits = self.lost_bits.max(lost);
         self.lost_bits_sum += lost;
@@ -81,7 +84,7 @@ impl Tally {
     }
 }
 
-/// How far f32 and f64 are apart, in ULP of the larger: 2^24 where nothing is right.
+/// The difference between f32 and f64 in ULP of the larger: 2^24 if no digit is right.
 fn error_ulps(number: ShadowFloat) -> f64 {
     let size = f64::from(number.single).abs().max(number.wide.abs());
     if number.error() == 0.0 || !size.is_finite() { 0.0 } else { number.error() / ulp_f32(size) }
@@ -105,8 +108,8 @@ fn cancelled(kind: Kind, operands: &[ShadowFloat], result: ShadowFloat) -> f64 {
     (largest.log2() - left.log2()).min(SIGNIFICAND)
 }
 
-/// The relative error that the operands' errors make in the exact result, as a multiple of the largest of theirs; 0 if
-/// they bring none.
+/// The relative error that the operands' errors cause in the exact result, as a multiple of the largest of them; 0 if
+/// they have none.
 fn condition(operands: &[ShadowFloat], result: ShadowFloat) -> f64 {
     let relative = |difference: f64, value: f64| if value == 0.0 { 0.0 } else { (difference / value).abs() };
     let brought = operands.iter().map(|operand| relative(operand.error(), operand.wide)).fold(0.0, f64::max);
@@ -121,7 +124,7 @@ pub(super) struct Collected {
 }
 
 /// Whether a tally belongs to a vertex or a fragment stage, and where.
-pub(super) type Place = (u8, Span);
+pub(super) type Place = (Stage, Span);
 
 impl Collected {
     /// The tallies of each stage and span, and the largest error of a fragment stage's output.
@@ -131,12 +134,11 @@ impl Collected {
         let mut all: BTreeMap<Place, Tally> = BTreeMap::new();
         let mut output = 0.0_f64;
         for (order, recorder) in &parts {
-            // What is the same for all invocations counts with the stage: 0 with 2, 1 with 3.
-            let stage = order.stage % 2;
+            let stage = order.piece.stage();
             for (span, tally) in &recorder.tallies {
                 all.entry((stage, *span)).or_default().join(tally);
             }
-            if stage == 1 {
+            if stage == Stage::Fragment {
                 output = output.max(recorder.output);
             }
         }

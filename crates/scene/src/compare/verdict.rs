@@ -9,10 +9,10 @@
 //! the envelope contains them, they are no mismatch. A difference that only a known fault of the driver explains is
 //! counted under the fault's name.
 
-use super::{Picture, Range};
+use crate::picture::{Interval, Picture};
 use serde::Serialize;
 
-/// What decides whether a difference is explained.
+/// The standard by which a difference is explained.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Judge {
     /// The reference's envelope for each channel of each pixel.
@@ -334,16 +334,16 @@ impl Tally<'_> {
         picture.attachments.get(attachment).and_then(|colors| colors.get(pixel)).copied().unwrap_or([0.0; 4])
     }
 
-    fn ranges(picture: &Picture, attachment: usize, pixel: usize) -> [Range; 4] {
+    fn ranges(picture: &Picture, attachment: usize, pixel: usize) -> [Interval; 4] {
         let found = picture.ranges.as_ref().and_then(|ranges| ranges.get(attachment)?.get(pixel)).copied();
-        found.unwrap_or_else(|| Self::color(picture, attachment, pixel).map(Range::point))
+        found.unwrap_or_else(|| Self::color(picture, attachment, pixel).map(Interval::point))
     }
 
     /// The allowed values of each channel.
-    fn allowed(&self, attachment: usize, pixel: usize) -> [Range; 4] {
+    fn allowed(&self, attachment: usize, pixel: usize) -> [Interval; 4] {
         match self.judge {
             Judge::Tolerance(tolerance) => {
-                Self::color(self.cpu, attachment, pixel).map(|value| Range::around(value, tolerance))
+                Self::color(self.cpu, attachment, pixel).map(|value| Interval::around(value, tolerance))
             }
             Judge::Envelope => Self::ranges(self.cpu, attachment, pixel),
         }
@@ -433,16 +433,10 @@ mod tests {
 
     fn picture(values: &[f64]) -> Picture {
         let n = values.len();
+        let around = |value: f64| [value, 0.0, 0.0, 1.0].map(|value| Interval::around(value, 1e-6));
         Picture {
-            width: n as u32,
-            height: 1,
-            attachments: vec![values.iter().map(|&value| [value, 0.0, 0.0, 1.0]).collect()],
-            covered: vec![true; n],
-            ranges: Some(vec![
-                values.iter().map(|&value| [value, 0.0, 0.0, 1.0].map(|value| Range::around(value, 1e-6))).collect(),
-            ]),
-            undecided: vec![false; n],
-            near_edge: vec![false; n],
+            ranges: Some(vec![values.iter().copied().map(around).collect()]),
+            ..Picture::of_colors(n as u32, 1, values.iter().map(|&value| [value, 0.0, 0.0, 1.0]).collect())
         }
     }
 
@@ -493,7 +487,7 @@ mod tests {
         let (gpu, cpu) = (picture(&[0.5, 0.25, f64::NAN]), picture(&[0.5, 0.5, 0.5]));
         let mut wide = cpu.clone();
         for colors in wide.ranges.iter_mut().flatten() {
-            colors.iter_mut().for_each(|color| color[0] = Range { low: 0.2, high: 0.5, may_be_nan: false });
+            colors.iter_mut().for_each(|color| color[0] = Interval { low: 0.2, high: 0.5, may_be_nan: false });
         }
         let verdict = Verdict::admitting(&gpu, &cpu, Judge::Envelope, &[("none", cpu.clone()), ("acos", wide)]);
         assert_eq!((verdict.outside, verdict.finiteness_mismatch), (0, 1), "NaN is in neither");
@@ -504,7 +498,7 @@ mod tests {
     fn numbers_that_are_not_finite_hold_where_the_envelope_has_them() {
         let (gpu, mut cpu) = (picture(&[f64::NAN, f64::INFINITY]), picture(&[0.0, 0.0]));
         for colors in cpu.ranges.iter_mut().flatten() {
-            colors.iter_mut().for_each(|color| color[0] = Range::ALL);
+            colors.iter_mut().for_each(|color| color[0] = Interval::ALL);
         }
         let verdict = Verdict::new(&gpu, &cpu, Judge::Envelope);
         assert_eq!((verdict.non_finite_gpu, verdict.finiteness_mismatch), (2, 0));

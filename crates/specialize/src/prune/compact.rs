@@ -91,7 +91,9 @@ impl Rebuild<'_> {
     fn choose_globals(&mut self, uses: &Uses, keeps: &dyn Fn(GlobalId) -> bool) -> Vec<GlobalId> {
         let mut chosen = Vec::new();
         for (id, global) in self.old.globals() {
-            if uses.global(id).named > 0 || keeps(id) {
+            // An initializer may do something to other globals.
+            let acts = global.initializer.is_some_and(|initializer| !self.does_nothing(initializer));
+            if uses.global(id).named > 0 || keeps(id) || acts {
                 self.globals.insert(id, GlobalId::new(self.new.globals.len()));
                 self.new.globals.push(global.clone());
                 chosen.push(id);

@@ -161,7 +161,7 @@ impl Analyzer<'_> {
             self.report(
                 Diagnostic::new(&types::UNSIZED_ARRAY, at, "an array without a size takes constant indices only")
                     .here("not a constant expression")
-                    .help("declare the array with a size before this place"),
+                    .help("declare the array with a size before this"),
             );
             return false;
         }
@@ -176,7 +176,7 @@ impl Analyzer<'_> {
             let last = size.map_or(String::new(), |size| format!(": the last is {}", size.saturating_sub(1)));
             self.report(
                 Diagnostic::new(&types::INDEX_RANGE, at, format!("a `{name}` has no element {value}"))
-                    .here(format!("outside of its range{last}")),
+                    .here(format!("out of range{last}")),
             );
             return false;
         }
@@ -250,9 +250,9 @@ impl Analyzer<'_> {
             Type::Array(_, ArraySize::Unsized) => {
                 let at = self.span(base);
                 let help = if self.is_geometry_input(base) {
-                    "put `layout(triangles) in;` or another input primitive before this place"
+                    "put `layout(triangles) in;` or another input primitive before this"
                 } else {
-                    "declare the array with a size before this place"
+                    "declare the array with a size before this"
                 };
                 self.report(
                     Diagnostic::new(&types::UNSIZED_ARRAY, at, "the length of an array without a size is not known")

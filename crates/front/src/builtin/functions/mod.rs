@@ -2,8 +2,8 @@
 //!
 //! *In:* a name. *Out:* its rows, and of each row the concrete [`Signature`]s that its placeholders (`genType`, `mat`,
 //! `gsampler2D`) stand for. *Holds:* all placeholders of a row vary together, so a row has one list of signatures.
-//! *Not done here:* overload resolution (`analysis`), evaluation (`analysis::fold`, `cpu`), lowering (`lower`); those
-//! match the [`BuiltinFunction`] of the row without a wildcard.
+//! *Not done here:* overload resolution (`analysis`); what a function computes, which
+//! [`operations`](super::operations) says by the [`BuiltinFunction`] of the row.
 
 mod common;
 mod geometric;
@@ -205,23 +205,6 @@ pub fn named(name: &str) -> &'static [&'static Row] {
 /// Every name once, sorted.
 pub fn names() -> impl Iterator<Item = &'static str> {
     by_name().chunk_by(|a, b| a.name == b.name).filter_map(|rows| rows.first().map(|row| row.name))
-}
-
-impl BuiltinFunction {
-    /// Whether a call may look at the neighboring fragments: derivatives, and texture lookups whose level of detail is
-    /// implicit. (Rectangle, buffer and multisample textures have one level; the sampler's type tells.)
-    pub fn implicit_derivatives(self) -> bool {
-        matches!(
-            self,
-            Self::DFdx
-                | Self::DFdy
-                | Self::Fwidth
-                | Self::Texture
-                | Self::TextureProj
-                | Self::TextureOffset
-                | Self::TextureProjOffset
-        )
-    }
 }
 
 #[cfg(test)]

@@ -14,14 +14,8 @@
 //! | `E07xx` | link |
 //! | `E08xx` | lowering, emission, targets |
 //! | `E09xx` | scenes and running |
-//!
-//! `E0001` to `E0099`
-//! limits, unsupported features, internal errors
-//!
-//!
-//! `W01xx` to `W07xx`
-//! forgiven, or legal but harmful; the hundreds are those of the errors
-//!
+//! | `E0001` to `E0099` | limits, unsupported features, internal errors |
+//! | `W01xx` to `W07xx` | forgiven, or legal but harmful; the hundreds are those of the errors |
 //! | `L0xxx` | lint rules |
 
 use super::Severity;
@@ -42,7 +36,7 @@ pub struct Code {
     pub page: &'static str,
     /// An example that raises the code.
     pub bad: Example,
-    /// The same example, corrected.
+    /// The example, corrected.
     pub good: Example,
 }
 

@@ -4,7 +4,8 @@ use super::round::{down, sum_down, sum_up, ulps_above, ulps_below, up};
 use super::{EnvelopeFloat, EnvelopeInt, ends};
 use crate::domain::rules::{self, FLUSH, ulp};
 use crate::domain::{Integer, Number};
-use glisten_scene::compare::Range;
+use glisten_front::builtin::operations::Precision;
+use glisten_scene::picture::Interval;
 use std::f64::consts::{LN_2, LOG2_E};
 
 /// `minNum`: a NaN loses.
@@ -103,6 +104,9 @@ impl EnvelopeFloat {
 
     /// `min` or `max` where an operand may be NaN: the other one then, or NaN (§8.3 says nothing of it).
     fn with_nan(self, a: Self, b: Self) -> Self {
+        if !matches!(rules::EXTREMUM.precision, Precision::EitherOfNan) {
+            return self;
+        }
         let other =
             |dropped: Self, kept: Self, joined: Self| if dropped.may_be_nan { joined.joined(kept) } else { joined };
         other(b, a, other(a, b, self))
@@ -138,10 +142,10 @@ impl Number for EnvelopeFloat {
         Self { value, low: down(low), high: up(high), may_be_nan: false }
     }
     #[inline(always)]
-    fn with_range(value: f64, range: Range) -> Self {
+    fn with_range(value: f64, range: Interval) -> Self {
         Self::rounded(value, range.low, range.high, range.may_be_nan)
     }
-    fn whole(value: f64, range: Range) -> Self {
+    fn whole(value: f64, range: Interval) -> Self {
         Self { value, low: range.low, high: range.high, may_be_nan: range.may_be_nan }
     }
     #[inline(always)]
@@ -149,7 +153,7 @@ impl Number for EnvelopeFloat {
         self.value
     }
     #[inline(always)]
-    fn range(self) -> Range {
+    fn range(self) -> Interval {
         self.as_range()
     }
     #[inline(always)]
@@ -263,13 +267,7 @@ impl Number for EnvelopeFloat {
     }
     #[inline(always)]
     fn round(self) -> Self {
-        // Halves may go either way (§8.3).
-        Self {
-            value: self.value.round_ties_even(),
-            low: (self.low - 0.5).ceil(),
-            high: (self.high + 0.5).floor(),
-            may_be_nan: self.may_be_nan,
-        }
+        self.rising_by(&rules::ROUND, f64::round_ties_even)
     }
     #[inline(always)]
     fn cosine_at_most(self) -> Self {
@@ -288,15 +286,15 @@ impl Number for EnvelopeFloat {
         Self { value, low: 0.0, high: 1.0, may_be_nan: self.may_be_nan || self.is_infinite_perhaps() }
     }
     fn modulo(self, y: Self) -> Self {
-        let formula = self.sub(y.mul(self.div(y).floor()));
         let value = Number::modulo(self.value, y.value);
+        let formula = Self::by_formula(&rules::MOD, value, &[self, y]);
         if !(y.low > 0.0 || y.high < 0.0) || formula.may_be_nan {
-            return formula.of_value(value);
+            return formula;
         }
         // Between 0 and y, and as far beyond as roundings go on the way.
         let size = self.low.abs().max(self.high.abs()) + y.low.abs().max(y.high.abs());
         let slack = 4.0 * ulp(size);
-        formula.of_value(value).within(y.low.min(0.0) - slack, y.high.max(0.0) + slack)
+        formula.within(y.low.min(0.0) - slack, y.high.max(0.0) + slack)
     }
     #[inline(always)]
     fn min(self, other: Self) -> Self {
@@ -352,8 +350,7 @@ impl Number for EnvelopeFloat {
         self.cosine()
     }
     fn tan(self) -> Self {
-        // Inherited from sin / cos.
-        self.sine().div(self.cosine()).of_value(self.value.tan())
+        Self::by_formula(&rules::TAN, self.value.tan(), &[self])
     }
     fn asin(self) -> Self {
         self.arc_sine()
@@ -368,22 +365,22 @@ impl Number for EnvelopeFloat {
         self.angle(x)
     }
     fn sinh(self) -> Self {
-        self.by_ends(f64::sinh, Self::sinh_formula)
+        self.rising_by(&rules::SINH, f64::sinh)
     }
     fn cosh(self) -> Self {
         self.hyperbolic_cosine()
     }
     fn tanh(self) -> Self {
-        self.hyperbolic_tangent()
+        self.rising_by(&rules::TANH, f64::tanh).within(-1.0, 1.0)
     }
     fn asinh(self) -> Self {
-        self.by_ends(f64::asinh, Self::asinh_formula)
+        self.rising_by(&rules::ASINH, f64::asinh)
     }
     fn acosh(self) -> Self {
-        self.by_ends(Number::acosh, Self::acosh_formula)
+        self.rising_by(&rules::ACOSH, Number::acosh)
     }
     fn atanh(self) -> Self {
-        self.by_ends(Number::atanh, Self::atanh_formula)
+        self.rising_by(&rules::ATANH, Number::atanh)
     }
     #[inline(always)]
     fn less(self, other: Self) -> EnvelopeInt {

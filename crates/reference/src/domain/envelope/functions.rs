@@ -4,24 +4,18 @@
 //! the function rises or falls throughout, and limited to what the function itself can give. Where the exact result is
 //! not defined for some arguments, those may give NaN.
 
+use super::formula::evaluate;
 use super::round::{OUTWARD, ulps_above, ulps_below};
 use super::{EnvelopeFloat, ends};
 use crate::domain::Number;
 use crate::domain::rules::{self, FLUSH, ulp};
+use glisten_front::builtin::operations::Formula;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Beyond this a float has no fraction: of sine and cosine nothing is left.
-const NO_FRACTION: f64 = 8_388_608.0;
 /// What the greatest result of a function may be missed by upward: two ULP of 1.
 const TOP: f64 = 2.4e-7;
 
 impl EnvelopeFloat {
-    /// A rising function with so many ULPs of error.
-    fn rising_ulps(self, value: f64, f: impl Fn(f64) -> f64, n: f64) -> Self {
-        let (low, high) = (f(self.low), f(self.high));
-        Self::rounded(value, ulps_below(low, high, n), ulps_above(low, high, n), self.may_be_nan)
-    }
-
     /// A rising function that inherits its error from a formula: the formula at both ends. Between them its roundings
     /// may be twice as large as there, where a power of two is passed.
     pub(super) fn by_ends(self, f: impl Fn(f64) -> f64, formula: impl Fn(Self) -> Self) -> Self {
@@ -51,7 +45,9 @@ impl EnvelopeFloat {
     }
 
     pub(super) fn square_root(self) -> Self {
-        // Inherited from 1 / inversesqrt.
+        if !const { rules::SQRT.inherits(&rules::kernels::SQRT) } {
+            return self.rising_by(&rules::SQRT, f64::sqrt);
+        }
         let value = self.value.sqrt();
         if self.high < 0.0 {
             return Self::anything(value);
@@ -87,10 +83,11 @@ impl EnvelopeFloat {
         if self.high < 0.0 {
             return Self::anything(value);
         }
-        let near_one = self.high >= 0.5 && self.low <= 2.0;
+        let (from, to) = const { rules::LOG.within() };
+        let near_one = self.high >= from && self.low <= to;
         let error = |result: f64| {
             let outside = rules::LOG.ulps() * ulp(result);
-            let error = if near_one { outside.max(rules::LOG_NEAR_ONE.absolute()) } else { outside };
+            let error = if near_one { outside.max(rules::LOG.absolute()) } else { outside };
             error * OUTWARD
         };
         let least = if self.low < FLUSH { f64::NEG_INFINITY } else { f(self.low) };
@@ -101,8 +98,10 @@ impl EnvelopeFloat {
     }
 
     pub(super) fn power(self, exponent: Self) -> Self {
-        // Inherited from exp2(y * log2(x)).
         let value = Number::pow(self.value, exponent.value);
+        if !const { rules::POW.inherits(&rules::kernels::POW) } {
+            return Self::by_formula(&rules::POW, value, &[self, exponent]);
+        }
         if self.high < 0.0 {
             return Self::anything(value);
         }
@@ -120,7 +119,8 @@ impl EnvelopeFloat {
     /// The extremes of a cosine between two angles.
     fn cosine_hull(low: f64, high: f64) -> (f64, f64) {
         let width = high - low;
-        if width.is_nan() || width >= 2.0 * PI || low.abs().max(high.abs()) >= NO_FRACTION {
+        let (_, lost) = const { rules::SIN.within() };
+        if width.is_nan() || width >= 2.0 * PI || low.abs().max(high.abs()) >= lost {
             return (-1.0, 1.0);
         }
         let (a, b) = (low.cos(), high.cos());
@@ -141,7 +141,8 @@ impl EnvelopeFloat {
     fn wave(self, value: f64, (least, most): (f64, f64)) -> Self {
         let largest = self.low.abs().max(self.high.abs());
         // Beyond pi the argument is reduced, which loses what rounding an f32 of that size loses.
-        let reduced = if largest > PI { ulp(largest) } else { 0.0 };
+        let (reduced_beyond, _) = const { rules::SIN.within() };
+        let reduced = if largest > reduced_beyond { ulp(largest) } else { 0.0 };
         let error = rules::SIN.absolute() + reduced;
         let may_be_nan = self.may_be_nan || largest.is_infinite();
         Self::rounded(value, least - error, most + error, may_be_nan).within(-1.0 - TOP, 1.0 + TOP)
@@ -156,7 +157,7 @@ impl EnvelopeFloat {
     }
 
     pub(super) fn arc_tangent(self) -> Self {
-        self.rising_ulps(self.value.atan(), f64::atan, rules::ATAN.ulps())
+        self.rising_by(&rules::ATAN, f64::atan)
     }
 
     pub(super) fn angle(self, x: Self) -> Self {
@@ -183,16 +184,12 @@ impl EnvelopeFloat {
 
     /// `asin` and `acos` at a point inherit from `atan2` and the root of `1 - x x`; WGSL's table allows an absolute error
     /// beside it.
-    fn arc(self, value: f64, f: impl Fn(f64) -> f64, formula: impl Fn(Self, Self) -> Self, rule: &rules::Rule) -> Self {
+    fn arc(self, value: f64, f: impl Fn(f64) -> f64, rule: &rules::Rule) -> Self {
         if self.low > 1.0 || self.high < -1.0 {
             return Self::anything(value);
         }
         let inside = Self { low: self.low.max(-1.0), high: self.high.min(1.0), ..self };
-        let at = |x: f64| {
-            let x = Self::exact(x);
-            let root = Self::exact(1.0).sub(x.square()).max(Self::exact(0.0)).sqrt();
-            formula(x, root)
-        };
+        let at = |x: f64| Self::by_formula(rule, f(x), &[Self::exact(x)]);
         let (a, b) = (at(inside.low), at(inside.high));
         let (fa, fb) = (f(inside.low), f(inside.high));
         let error = |end: Self, exact: f64| {
@@ -206,60 +203,34 @@ impl EnvelopeFloat {
     }
 
     pub(super) fn arc_sine(self) -> Self {
-        self.arc(self.value.asin(), f64::asin, |x, root| x.angle(root), &rules::ASIN)
+        self.arc(self.value.asin(), f64::asin, &rules::ASIN)
     }
 
     pub(super) fn arc_cosine(self) -> Self {
         let most = ulps_above(PI, PI, rules::ATAN.ulps());
-        self.arc(self.value.acos(), f64::acos, |x, root| root.angle(x), &rules::ACOS)
-            .within(-rules::ACOS.absolute(), most)
-    }
-
-    pub(super) fn sinh_formula(self) -> Self {
-        Number::exp(self).sub(Number::exp(self.neg())).mul(Self::exact(0.5))
-    }
-
-    fn cosh_formula(self) -> Self {
-        Number::exp(self).add(Number::exp(self.neg())).mul(Self::exact(0.5))
+        self.arc(self.value.acos(), f64::acos, &rules::ACOS).within(-rules::ACOS.absolute(), most)
     }
 
     pub(super) fn hyperbolic_cosine(self) -> Self {
         let value = self.value.cosh();
         let size = self.abs();
-        let found = size.by_ends(f64::cosh, Self::cosh_formula);
+        let found = size.rising_by(&rules::COSH, f64::cosh);
         // The sum of a number and its reciprocal, each a little off.
         Self { low: found.low.max(1.0 - 1e-6), ..found.of_value(value) }
-    }
-
-    pub(super) fn hyperbolic_tangent(self) -> Self {
-        // WGSL's table allows an absolute error beside the inherited one.
-        let found = self.by_ends(f64::tanh, |x| x.sinh_formula().div(x.cosh_formula()));
-        let (low, high) = (self.low.tanh() - rules::TANH.absolute(), self.high.tanh() + rules::TANH.absolute());
-        Self { low: found.low.min(low), high: found.high.max(high), ..found }.within(-1.0, 1.0)
-    }
-
-    pub(super) fn asinh_formula(self) -> Self {
-        Number::log(self.add(self.square().add(Self::exact(1.0)).sqrt()))
-    }
-
-    pub(super) fn acosh_formula(self) -> Self {
-        Number::log(self.add(self.square().sub(Self::exact(1.0)).sqrt()))
-    }
-
-    pub(super) fn atanh_formula(self) -> Self {
-        let one = Self::exact(1.0);
-        Number::log(one.add(self).div(one.sub(self))).mul(Self::exact(0.5))
     }
 
     /// `x (1 - a) + y a`, or by the law of distribution `x + (y - x) a`: linear in each, so the extremes are at the
     /// corners; the roundings of the formulas on top.
     pub(super) fn mixed(self, y: Self, a: Self) -> Self {
+        let value = self.value * (1.0 - a.value) + y.value * a.value;
+        if !const { rules::MIX.inherits(&rules::kernels::MIX) } {
+            return Self::by_formula(&rules::MIX, value, &[self, y, a]);
+        }
         let rest = Self::exact(1.0).sub(a);
         let (left, right) = (self.mul(rest), y.mul(a));
         let gap = y.sub(self);
         let step = gap.mul(a);
         let either = left.add(right).joined(self.add(step));
-        let value = self.value * (1.0 - a.value) + y.value * a.value;
         if (a.low == a.high && self.low == self.high && y.low == y.high) || !(either.high - either.low).is_finite() {
             return either.of_value(value);
         }
@@ -282,11 +253,13 @@ impl EnvelopeFloat {
         Self::rounded(value, low, high, either.may_be_nan)
     }
 
-    /// `t t (3 - 2 t)`, which rises between 0 and 1, with `t = clamp((x - edge0) / (edge1 - edge0), 0, 1)`.
+    /// A formula of `t`, which rises between 0 and 1, with `t = clamp((x - edge0) / (edge1 - edge0), 0, 1)`.
     pub(super) fn smooth_step(edge0: Self, edge1: Self, x: Self) -> Self {
-        let t = x.sub(edge0).div(edge1.sub(edge0)).max(Self::exact(0.0)).min(Self::exact(1.0));
-        let three = Self::exact(3.0);
-        let two = Self::exact(2.0);
-        t.by_ends(|t| t * t * (3.0 - 2.0 * t), |t| t.square().mul(three.sub(t.mul(two)))).within(0.0, 1.0 + TOP)
+        let Some(Formula::With(curve, t)) = rules::SMOOTHSTEP.formula() else {
+            let value = Number::smoothstep(edge0.value, edge1.value, x.value);
+            return Self::by_formula(&rules::SMOOTHSTEP, value, &[edge0, edge1, x]);
+        };
+        let t = evaluate(t, &[&[edge0], &[edge1], &[x]], 0);
+        t.by_ends(|t| evaluate(curve, &[&[t]], 0), |t| evaluate(curve, &[&[t]], 0)).within(0.0, 1.0 + TOP)
     }
 }

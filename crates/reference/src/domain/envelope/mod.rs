@@ -15,6 +15,7 @@
 //! | `round` | rounding outward |
 //! | `float` | operators, comparisons, conversions, selecting functions |
 //! | `functions` | the functions that have a row of their own, or inherit one |
+//! | `formula` | rules of the table, evaluated |
 //! | `vector` | sums of products, in any order |
 //! | `ends` | `exp2` and `log2` without calls, for ends alone |
 //! | `block` | the same operations on eight numbers at once |
@@ -23,6 +24,7 @@
 mod block;
 mod ends;
 mod float;
+mod formula;
 mod functions;
 mod integer;
 mod round;
@@ -31,9 +33,11 @@ mod tests;
 mod vector;
 
 pub use block::EnvelopeBlock;
+#[cfg(test)]
+pub(crate) use formula::evaluate;
 pub use integer::EnvelopeInt;
 
-use glisten_scene::compare::Range;
+use glisten_scene::picture::Interval;
 use round::{down, up};
 
 /// A `float` with its envelope.
@@ -99,7 +103,7 @@ impl EnvelopeFloat {
         [Self::exact(self.low), Self::exact(self.high)]
     }
 
-    fn as_range(self) -> Range {
-        Range { low: self.low, high: self.high, may_be_nan: self.may_be_nan }
+    fn as_range(self) -> Interval {
+        Interval { low: self.low, high: self.high, may_be_nan: self.may_be_nan }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::EnvelopeFloat;
 use crate::domain::{Integer, Number};
-use glisten_scene::compare::Range;
+use glisten_scene::picture::Interval;
 
 fn exact(value: f32) -> EnvelopeFloat {
     EnvelopeFloat::from_f64(f64::from(value))
@@ -10,7 +10,7 @@ fn exact(value: f32) -> EnvelopeFloat {
 
 fn between(low: f32, high: f32) -> EnvelopeFloat {
     let middle = f64::from(low) / 2.0 + f64::from(high) / 2.0;
-    EnvelopeFloat::with_range(middle, Range { low: f64::from(low), high: f64::from(high), may_be_nan: false })
+    EnvelopeFloat::with_range(middle, Interval { low: f64::from(low), high: f64::from(high), may_be_nan: false })
 }
 
 /// Numbers that are the same every run.

@@ -19,17 +19,18 @@ mod stmt;
 mod texture;
 mod vars;
 
-use super::code::{Inner, Port};
+use super::code::{Code, Inner, Port, Runs, Section};
 use super::inst::{Class, Operand, Slot};
 use effects::Effects;
 use emit::Emitter;
-use glisten_front::diagnostic::{Code, Diagnostic, codes};
+use glisten_front::diagnostic::{Code as DiagnosticCode, Diagnostic, codes};
 use glisten_front::hir::{ExprId, FunctionId, Scalar, Shader, Stage, Type, TypeId, Types};
 use glisten_front::link::Program;
 use glisten_front::source::Span;
 use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 use std::rc::Rc;
+use std::sync::Arc;
 use vars::{Var, VarId};
 
 /// The most scalars that one value may have.
@@ -85,8 +86,28 @@ struct Compiler<'a> {
     errors: Vec<Diagnostic>,
 }
 
+impl Code {
+    /// Compiles a stage of a program.
+    ///
+    /// # Errors
+    /// What the executor cannot run: a program without that stage or without `main`, multisample samplers, geometry
+    /// stages, programs past the limits of the compiler.
+    pub fn compile(program: &Program, stage: Stage) -> Result<Self, Vec<Diagnostic>> {
+        compile(program, stage, false).map(|inner| Self { inner: Arc::new(inner) })
+    }
+
+    /// The same with an instruction of its own for each product and sum, so that an observer sees each; the numbers are
+    /// the same.
+    ///
+    /// # Errors
+    /// Those of [`Self::compile`].
+    pub fn compile_apart(program: &Program, stage: Stage) -> Result<Self, Vec<Diagnostic>> {
+        compile(program, stage, true).map(|inner| Self { inner: Arc::new(inner) })
+    }
+}
+
 /// Compiles a stage, its operations each `apart` if wanted; the diagnostics if the executor cannot run it.
-pub(super) fn compile(program: &Program, stage: Stage, apart: bool) -> Result<Inner, Vec<Diagnostic>> {
+fn compile(program: &Program, stage: Stage, apart: bool) -> Result<Inner, Vec<Diagnostic>> {
     let missing = |what: &str| {
         let message = format!("`{}` has no {what} for the CPU reference to run", program.name);
         vec![Diagnostic::new(&codes::general::NOT_SUPPORTED_YET, Span::default(), message)]
@@ -144,7 +165,7 @@ impl<'a> Compiler<'a> {
         let [float_pool, int_pool] = pools;
         Ok(Inner {
             stage: self.shader.stage,
-            preamble,
+            preamble: Section { runs: Runs::Once, ..preamble },
             main,
             words,
             textures,
@@ -160,7 +181,7 @@ impl<'a> Compiler<'a> {
     }
 
     /// Notes that the executor cannot run this.
-    fn refuse(&mut self, code: &'static Code, span: Span, what: &str) {
+    fn refuse(&mut self, code: &'static DiagnosticCode, span: Span, what: &str) {
         self.errors.push(Diagnostic::new(code, span, format!("the CPU reference cannot run {what} yet")));
     }
 

@@ -1,7 +1,9 @@
 //! Random well-typed programs: every lane gives what it gives alone, and in f64 what a plain tree walk gives.
 
 mod builtins;
+mod composites;
 mod evaluate;
+mod folding;
 mod generate;
 mod precise;
 mod shadow;

@@ -7,8 +7,8 @@ use glisten_front::compiler::{Compiler, Options, Source};
 use glisten_front::hir::{ScalarValue, Stage};
 use glisten_front::link::Program;
 use glisten_front::source::SourceMap;
-use glisten_scene::compare::Range;
-use glisten_scene::scene::Texture;
+use glisten_scene::Texture;
+use glisten_scene::picture::Interval;
 use std::sync::Arc;
 
 /// Compiles a fragment stage whose output is `vec4 o`.
@@ -225,7 +225,7 @@ fn past_the_cap_a_lane_is_undecided_and_may_hold_anything() {
     let program = compiled(body);
     let machine = ran::<Envelope>(&program, &[], |_, lane| lane as f64);
     assert_eq!(machine.undecided(), Mask(2));
-    assert_eq!(output(&program, &machine)[1][0].range(), Range::ALL);
+    assert_eq!(output(&program, &machine)[1][0].range(), Interval::ALL);
 }
 
 #[test]
@@ -241,8 +241,8 @@ fn more_decisions_than_are_noted_leave_a_lane_undecided_though_each_other_way_en
         let machine = ran::<Envelope>(&program, &[], |_, lane| lane as f64);
         (machine.undecided(), output(&program, &machine)[1][0].range())
     };
-    assert_eq!(run(50), (Mask::NONE, Range { low: -1.0, high: 49.0, may_be_nan: false }));
-    assert_eq!(run(70), (Mask(2), Range::ALL));
+    assert_eq!(run(50), (Mask::NONE, Interval { low: -1.0, high: 49.0, may_be_nan: false }));
+    assert_eq!(run(70), (Mask(2), Interval::ALL));
 }
 
 #[test]

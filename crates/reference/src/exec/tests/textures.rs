@@ -3,8 +3,8 @@
 use super::text::{compiled, output, ran};
 use crate::domain::{Envelope, F64, Number};
 use glisten_front::hir::{SamplerDim, SamplerType, Scalar};
-use glisten_scene::compare::Range;
-use glisten_scene::scene::{Compare, Filter, Texels, Texture, TextureLevel, Wrap};
+use glisten_scene::picture::Interval;
+use glisten_scene::{Compare, Filter, Texels, Texture, TextureLevel, Wrap};
 use std::sync::Arc;
 
 /// Texel k of a level holds (k, 10 + k, level, 1).
@@ -149,7 +149,7 @@ fn bounds_know_edges_between_texels() {
     // a = 0.5: the middle of the edge between texels 0 and 1 is at s = 0.25, a = 1.
     let nearest = found(Filter::Nearest);
     assert_eq!(nearest[0][0].range().width(), 0.0);
-    assert_eq!(nearest[1][0].range(), Range { low: 0.0, high: 1.0, may_be_nan: false }, "both texels and no more");
+    assert_eq!(nearest[1][0].range(), Interval { low: 0.0, high: 1.0, may_be_nan: false }, "both texels and no more");
     let linear = found(Filter::Linear);
     assert!(linear[1][0].error() > 0.003 && linear[1][0].error() < 0.05, "{:?}", linear[1][0]);
 }

@@ -160,7 +160,8 @@ impl Ends {
         };
         let flushed = if self.low < FLUSH { 0.0 } else { self.low };
         let low = greatest(end(flushed, -1.0), 0.0);
-        let fine = (self.low >= 0.0) & (self.high <= MAX);
+        let by_rule = const { rules::SQRT.inherits(&rules::kernels::SQRT) };
+        let fine = by_rule & (self.low >= 0.0) & (self.high <= MAX);
         Self::rounded(low, end(self.high, 1.0)).or_odd(!fine)
     }
 
@@ -182,8 +183,9 @@ impl Ends {
     /// The ends of a logarithm before they are rounded; the least may be infinite.
     #[inline(always)]
     fn logarithm_ends(self, f: impl Fn(f64) -> f64) -> (f64, f64) {
-        let near_one = (self.high >= 0.5) & (self.low <= 2.0);
-        let beside = if near_one { rules::LOG_NEAR_ONE.absolute() } else { 0.0 };
+        let (from, to) = const { rules::LOG.within() };
+        let near_one = (self.high >= from) & (self.low <= to);
+        let beside = if near_one { rules::LOG.absolute() } else { 0.0 };
         let error = |result: f64| greatest(rules::LOG.ulps() * ulp(result), beside) * OUTWARD;
         let positive = |x: f64| if x < FLUSH { FLUSH } else { x };
         let (least, most) = (f(positive(self.low)), f(positive(self.high)));
@@ -208,7 +210,8 @@ impl Ends {
             down(least(least(ll, lh), least(hl, hh)), false),
             up(greatest(greatest(ll, lh), greatest(hl, hh)), false),
         );
-        let fine = (self.low >= 0.0)
+        let fine = const { rules::POW.inherits(&rules::kernels::POW) }
+            & (self.low >= 0.0)
             & (self.high <= MAX)
             & (exponent.low >= FLUSH)
             & (exponent.high <= MAX)
@@ -250,7 +253,7 @@ impl Ends {
         Self {
             low: if points { either.low } else { found.low },
             high: if points { either.high } else { found.high },
-            odd: odd | found.odd | (found.low > found.high),
+            odd: !const { rules::MIX.inherits(&rules::kernels::MIX) } | odd | found.odd | (found.low > found.high),
         }
     }
 }

@@ -45,6 +45,17 @@ impl EnvelopeBlock {
 impl Block<EnvelopeFloat> for EnvelopeBlock {
     const OWN: bool = true;
     #[inline(always)]
+    fn if_vectorized<R>(work: impl FnOnce() -> R) -> Option<R> {
+        match *UNIT {
+            #[cfg(target_arch = "x86_64")]
+            Arch::V3(unit) => Some(unit.vectorize(work)),
+            #[cfg(target_arch = "x86_64")]
+            _ => None,
+            #[cfg(not(target_arch = "x86_64"))]
+            _ => Some(work()),
+        }
+    }
+    #[inline(always)]
     fn vectorized<R>(work: impl FnOnce() -> R) -> R {
         UNIT.dispatch(work)
     }

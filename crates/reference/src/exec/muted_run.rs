@@ -1,0 +1,128 @@
+//! Runs in which some operation adds nothing to the envelopes.
+//!
+//! *In:* a machine with something [`Muted`]. *Out:* the results of its instructions without the freedom
+//! that their own rules give.
+
+use super::code::{Inner, Section};
+use super::inst::{Class, Inst, Operand, Use};
+use super::machine::Machine;
+use super::mute::Muted;
+use super::registers::Register;
+use crate::domain::{Domain, Number};
+use glisten_scene::picture::Interval;
+
+/// Registers and numbers for all lanes as they were.
+struct Saved<D: Domain> {
+    registers: Vec<(usize, Register<D::Float>)>,
+    pool: Vec<(usize, D::Float)>,
+}
+
+impl<D: Domain> Machine<D> {
+    /// Whether an instruction of a section adds nothing of its own.
+    pub(super) fn is_muted(&self, section: &Section, place: usize) -> bool {
+        self.muted.as_ref().is_some_and(|muted| muted.holds(section.runs, place))
+    }
+
+    /// Makes a muted input exact.
+    pub(super) fn mute_input(&mut self) {
+        let Some(global) = self.muted.as_ref().and_then(Muted::only_input) else { return };
+        for port in self.code.inner.inputs.iter().filter(|port| port.global == global && port.class == Class::Float) {
+            if let Some(register) = self.registers.floats.get_mut(port.register) {
+                register.spread().update(|_, number| exactly(number));
+            }
+        }
+    }
+
+    /// Runs an instruction and takes off its results what it adds itself.
+    pub(super) fn run_muted(&mut self, inst: &Inst, section: &Section, inner: &Inner, mask: u64) {
+        let (mut reads, mut writes) = (Vec::new(), Vec::new());
+        let mut note = |class: Class, using: Use, operand: Operand| {
+            if class == Class::Float {
+                if using == Use::Read { &mut reads } else { &mut writes }.push(operand);
+            }
+        };
+        let mut copy = *inst;
+        copy.visit(&mut |class, using, operand| note(class, using, *operand));
+        for (class, using, list) in inst.lists().into_iter().flatten() {
+            section.list(list).iter().for_each(|operand| note(class, using, *operand));
+        }
+        if let Inst::Texture { call } = inst
+            && let Some(call) = inner.textures.get(*call as usize)
+        {
+            call.clone().visit(&mut |class, using, operand| note(class, using, *operand));
+        }
+        let saved = self.make_exact(&reads);
+        self.run_plain(inst, section, inner, mask);
+        let own: Vec<Register<D::Float>> =
+            writes.iter().filter_map(|operand| self.registers.floats.get(operand.number()).cloned()).collect();
+        self.put_back(saved);
+        self.run_plain(inst, section, inner, mask);
+        for (operand, own) in writes.iter().zip(own) {
+            if let Some(register) = self.registers.floats.get_mut(operand.number()) {
+                let own = own.source();
+                register.spread().update(|lane, number| without(number, own.at(lane)));
+            }
+        }
+    }
+
+    fn run_plain(&mut self, inst: &Inst, section: &Section, inner: &Inner, mask: u64) {
+        match inst {
+            Inst::Texture { call } => {
+                if let Some(call) = inner.textures.get(*call as usize) {
+                    self.undecided |= self.texture(call, inner.stage, mask);
+                }
+            }
+            _ => self.registers.compute_apart(inst, section),
+        }
+    }
+
+    fn make_exact(&mut self, operands: &[Operand]) -> Saved<D> {
+        let mut saved = Saved { registers: Vec::new(), pool: Vec::new() };
+        for operand in operands {
+            let number = operand.number();
+            if operand.is_reg() {
+                if let Some(register) = self.registers.floats.get_mut(number) {
+                    saved.registers.push((number, register.clone()));
+                    register.spread().update(|_, number| exactly(number));
+                }
+            } else if let Some(value) = self.registers.floats.pool.get_mut(number) {
+                saved.pool.push((number, *value));
+                *value = exactly(*value);
+            }
+        }
+        saved
+    }
+
+    fn put_back(&mut self, saved: Saved<D>) {
+        // An operand that stands twice was saved twice, the first time as it was.
+        for (number, old) in saved.registers.into_iter().rev() {
+            if let Some(register) = self.registers.floats.get_mut(number) {
+                *register = old;
+            }
+        }
+        for (number, value) in saved.pool.into_iter().rev() {
+            if let Some(slot) = self.registers.floats.pool.get_mut(number) {
+                *slot = value;
+            }
+        }
+    }
+}
+
+fn exactly<N: Number>(number: N) -> N {
+    N::whole(number.value(), Interval::point(number.value()))
+}
+
+/// A number without as much freedom as another has about its value.
+fn without<N: Number>(number: N, own: N) -> N {
+    let (range, own_range) = (number.range(), own.range());
+    let off = |distance: f64| if distance.is_finite() { distance.max(0.0) } else { f64::INFINITY };
+    let (below, above) = (off(own.value() - own_range.low), off(own_range.high - own.value()));
+    let value = number.value();
+    let low = (range.low + below).min(value);
+    let high = (range.high - above).max(value);
+    let or_value = |end: f64| if end.is_nan() { value } else { end };
+    N::whole(
+        value,
+        Interval { low: or_value(low), high: or_value(high), may_be_nan: range.may_be_nan && !own_range.may_be_nan },
+    )
+}

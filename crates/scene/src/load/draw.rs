@@ -1,0 +1,403 @@
+//! Loads a `[[draw]]` table as a [`Draw`].
+
+use super::attributes::{load_attributes, scalar_of};
+use super::lights::{LIGHT_SPACES, LightSpace};
+use super::material::load_material;
+use super::matrices::View;
+use super::mesh::{Mesh, load_mesh};
+use super::names::{BLENDS, CULLS, FRONT_FACES, PRIMITIVES, PROVOKING};
+use super::reader::{Node, NumberValue, Reader};
+use super::textures::load_textures;
+use super::uniforms::{Context, load_uniforms};
+use super::{Loader, ProgramKey, Surroundings, library_file};
+use crate::model::{AttributeData, BlendFactor, Compare, Cull, Draw, Format, Framebuffer, Primitive, State};
+use glisten_front::diagnostic::codes::scenes::{
+    SCENE_CANNOT_DRAW, SCENE_UNKNOWN_NAME, SCENE_WRONG_SIZE, SCENE_WRONG_TYPE, SCENE_WRONG_VALUE,
+};
+use glisten_front::diagnostic::{Diagnostic, did_you_mean};
+use glisten_front::hir::{Scalar, Stage};
+use glisten_front::link::Program;
+use glisten_front::source::Span;
+use std::sync::Arc;
+use toml::de::{DeTable, DeValue};
+
+const KEYS: &[&str] = &[
+    "program",
+    "vertex",
+    "fragment",
+    "defines",
+    "primitive",
+    "cull",
+    "depth_test",
+    "dynamic",
+    "attributes",
+    "attribute_locations",
+    "frag_data_locations",
+    "uniforms",
+    "textures",
+    "vertex_count",
+    "indices",
+    "instances",
+    "front_face",
+    "provoking",
+    "clip_distances",
+    "program_point_size",
+    "depth_write",
+    "depth_func",
+    "blend",
+    "mesh",
+    "camera",
+    "transform",
+    "matrices",
+    "material",
+    "light_space",
+];
+
+/// The largest number of vertices or indices of a draw, and of instances.
+const MAX_COUNT: u32 = 1 << 22;
+
+pub(super) fn load_draw(loader: &mut Loader<'_>, node: &Node<'_>, around: &Surroundings<'_, '_>) -> Option<Draw> {
+    let framebuffer = &around.framebuffer;
+    let table = loader.reader.table(node, "draw")?;
+    loader.reader.check_keys(table, "a draw", KEYS);
+    // The header only, so that an excerpt does not show the whole table.
+    let place = loader.reader.span(node.span());
+    let state = load_state(&mut loader.reader, table);
+    let files = load_files(loader, table, place);
+    let conventional = files.iter().any(|(_, name, _)| library_file(name).is_some());
+    let mesh = table.get("mesh").map(|node| load_mesh(loader, node, conventional));
+    let program = load_program(loader, table, files)?;
+    check_program(&mut loader.reader, &program, framebuffer, place)?;
+    let mesh = match mesh {
+        Some(mesh) => Some(mesh?),
+        None => None,
+    };
+    let view = View::load(&mut loader.reader, table, around.camera, framebuffer);
+    let material = load_material(&mut loader.reader, table, around.material, &program);
+    let attributes = load_attributes(&mut loader.reader, table, &program, mesh.as_ref(), place);
+    let instances = loader.reader.count(table, "instances", 1, 0..=MAX_COUNT);
+    let space = loader.reader.choice_at(table, "light_space", LightSpace::World, LIGHT_SPACES);
+    let context = Context { program: &program, view: &view, lighting: &around.lighting, space, conventional };
+    let uniforms = load_uniforms(&mut loader.reader, table, &context, material.as_ref(), place);
+    let own_material = material.and_then(|(_, node)| node.get_ref().as_table());
+    let textures = load_textures(loader, table, own_material, &program, conventional, place);
+    let dynamic = load_dynamic(&mut loader.reader, table, &program);
+    let (vertex_count, indices) = load_counts(loader, table, mesh.as_ref(), &program, &attributes, instances, place)?;
+    Some(Draw { program, state, vertex_count, indices, instances, attributes, uniforms, textures, dynamic })
+}
+
+fn load_state(reader: &mut Reader, table: &DeTable<'_>) -> State {
+    State {
+        primitive: reader.choice_at(table, "primitive", Primitive::Triangles, PRIMITIVES),
+        cull: reader.choice_at(table, "cull", Cull::None, CULLS),
+        front_ccw: reader.choice_at(table, "front_face", true, FRONT_FACES),
+        provoking_last: reader.choice_at(table, "provoking", true, PROVOKING),
+        depth_test: reader.flag(table, "depth_test", false),
+        depth_write: reader.flag(table, "depth_write", true),
+        depth_func: reader.choice_at(table, "depth_func", Compare::Less, Compare::NAMES),
+        blend: load_blend(reader, table),
+        clip_distances: reader.count(table, "clip_distances", 0, 0..=8),
+        program_point_size: reader.flag(table, "program_point_size", false),
+    }
+}
+
+fn load_blend(reader: &mut Reader, table: &DeTable<'_>) -> Option<(BlendFactor, BlendFactor)> {
+    let node = table.get("blend")?;
+    let Some(pair) = node.get_ref().as_array() else {
+        return reader.choice(node, "blend", BLENDS).flatten();
+    };
+    let mut factors = pair.iter().map(|factor| reader.choice(factor, "blend", BlendFactor::NAMES));
+    match (factors.next(), factors.next(), factors.next()) {
+        (Some(source), Some(destination), None) => source.zip(destination),
+        _ => {
+            drop(factors);
+            reader.wrong_type(node, "blend", "a name or a pair of factors");
+            None
+        }
+    }
+}
+
+/// The shaders of a draw: stage, name, span of the name. Fewer than two if one is missing (reported).
+fn load_files(loader: &mut Loader<'_>, table: &DeTable<'_>, place: Span) -> Vec<(Stage, String, Span)> {
+    let stages = [("vertex", Stage::Vertex), ("fragment", Stage::Fragment)];
+    let Some(node) = table.get("program") else {
+        let mut files = Vec::new();
+        for (key, stage) in stages {
+            let Some(node) = table.get(key) else {
+                let message = format!("a draw names its {key} shader");
+                let help = format!("add `{key} = \"...\"`, relative to the scene file, or `program = \"...\"`");
+                loader.missing_key(place, &message, &help);
+                continue;
+            };
+            if let Some(name) = loader.reader.text(node, key) {
+                files.push((stage, name.to_owned(), loader.reader.span_of(node)));
+            }
+        }
+        return files;
+    };
+    if let Some((key, _)) = stages.iter().find_map(|(key, _)| table.get_key_value(*key)) {
+        let span = loader.reader.span_of(key);
+        let message = format!("a draw with a `program` of the library has no `{}`", key.get_ref());
+        loader.reader.error(&SCENE_WRONG_VALUE, span, message, "leave one of the two out");
+        return Vec::new();
+    }
+    let Some(name) = loader.reader.text(node, "program") else { return Vec::new() };
+    let span = loader.reader.span_of(node);
+    let Some((vertex, fragment)) = loader.library.program(name) else {
+        let near = did_you_mean(name, loader.library.program_names());
+        let help = near.map(|near| format!("did you mean `{near}`?"));
+        let message = format!("the library has no program `{name}`");
+        let diagnostic = Diagnostic::new(&SCENE_WRONG_VALUE, span, message).here("no such program");
+        loader.reader.report(diagnostic.maybe_help(help));
+        return Vec::new();
+    };
+    let file = |name: &str| format!("<glisten/programs/{name}>");
+    vec![(Stage::Vertex, file(vertex), span), (Stage::Fragment, file(fragment), span)]
+}
+
+/// `[draw.defines]`: macros of the draw's program.
+fn load_defines(reader: &mut Reader, table: &DeTable<'_>) -> Vec<(String, String)> {
+    let Some(defines) = reader.table_at(table, "defines") else { return Vec::new() };
+    let mut list = Vec::new();
+    for (name, node) in defines {
+        let macro_name: &str = name.get_ref();
+        let starts_well = macro_name.starts_with(|first: char| first.is_ascii_alphabetic() || first == '_');
+        if !starts_well || !macro_name.chars().all(|letter| letter.is_ascii_alphanumeric() || letter == '_') {
+            let span = reader.span_of(name);
+            reader.wrong_value(span, format!("`{macro_name}` is not a name for a macro"), "not an identifier");
+            continue;
+        }
+        let value = match node.get_ref() {
+            DeValue::String(text) => text.to_string(),
+            DeValue::Integer(number) => number.as_str().replace('_', ""),
+            DeValue::Float(number) => number.as_str().replace('_', ""),
+            DeValue::Boolean(value) => value.to_string(),
+            DeValue::Datetime(_) | DeValue::Array(_) | DeValue::Table(_) => {
+                reader.wrong_type(node, macro_name, "a number or a text");
+                continue;
+            }
+        };
+        if value.contains(['\n', '\r']) {
+            let span = reader.span_of(node);
+            reader.wrong_value(span, "a macro's value is one line".to_owned(), "more than one line");
+            continue;
+        }
+        list.push((macro_name.to_owned(), value));
+    }
+    list
+}
+
+fn load_program(
+    loader: &mut Loader<'_>,
+    table: &DeTable<'_>,
+    files: Vec<(Stage, String, Span)>,
+) -> Option<Arc<Program>> {
+    let attribute_locations = load_locations(&mut loader.reader, table, "attribute_locations");
+    let frag_data_locations = load_locations(&mut loader.reader, table, "frag_data_locations");
+    let defines = load_defines(&mut loader.reader, table);
+    if files.len() < 2 {
+        return None;
+    }
+    let places: Vec<Span> = files.iter().map(|(_, _, span)| *span).collect();
+    let program = loader.program(
+        ProgramKey {
+            files: files.into_iter().map(|(stage, name, _)| (stage, name)).collect(),
+            defines,
+            attribute_locations: attribute_locations.iter().map(|(name, value, _)| (name.clone(), *value)).collect(),
+            frag_data_locations: frag_data_locations.iter().map(|(name, value, _)| (name.clone(), *value)).collect(),
+        },
+        &places,
+    )?;
+    let attributes: Vec<&str> = program.interface.attributes.iter().map(|a| a.name.as_str()).collect();
+    let outputs: Vec<&str> = program.interface.outputs.iter().map(|o| o.name.as_str()).collect();
+    for (what, names, locations) in
+        [("attribute", attributes, attribute_locations), ("output", outputs, frag_data_locations)]
+    {
+        for (name, _, span) in locations {
+            if !names.contains(&name.as_str()) {
+                report_unknown_name(&mut loader.reader, span, what, &name, &names);
+            }
+        }
+    }
+    Some(program)
+}
+
+fn load_locations(reader: &mut Reader, table: &DeTable<'_>, key: &str) -> Vec<(String, u32, Span)> {
+    let Some(locations) = reader.table_at(table, key) else { return Vec::new() };
+    let mut list = Vec::new();
+    for (name, node) in locations {
+        let span = reader.span_of(name);
+        if let Some(location) = reader.integer(node, name.get_ref(), 0..=i64::from(u16::MAX)) {
+            list.push((name.get_ref().to_string(), location as u32, span));
+        }
+    }
+    list
+}
+
+/// Reports a name that the program does not declare, and suggests the most similar one.
+pub(super) fn report_unknown_name(reader: &mut Reader, span: Span, what: &str, name: &str, candidates: &[&str]) {
+    let help = match did_you_mean(name, candidates.iter().copied()) {
+        Some(near) => Some(format!("did you mean `{near}`?")),
+        None if candidates.is_empty() => Some(format!("the program has no {what} at all")),
+        None if candidates.len() <= 12 => Some(format!("the program has {}", super::reader::list(candidates))),
+        None => None,
+    };
+    let message = format!("the program declares no {what} `{name}`");
+    reader.report(Diagnostic::new(&SCENE_UNKNOWN_NAME, span, message).here("not declared").maybe_help(help));
+}
+
+fn check_program(reader: &mut Reader, program: &Program, framebuffer: &Framebuffer, place: Span) -> Option<()> {
+    for output in &program.interface.outputs {
+        if output.location >= framebuffer.attachments {
+            let message = format!(
+                "output `{}` has color number {}, and the framebuffer has {} attachment{}",
+                output.name,
+                output.location,
+                framebuffer.attachments,
+                if framebuffer.attachments == 1 { "" } else { "s" }
+            );
+            let help = format!("write `attachments = {}` under [framebuffer]", output.location + 1);
+            reader.report(Diagnostic::new(&SCENE_CANNOT_DRAW, place, message).help(help));
+            return None;
+        }
+        let holds = match framebuffer.format {
+            Format::Rgba32Sint => Scalar::Int,
+            Format::Rgba32Uint => Scalar::Uint,
+            Format::Rgba32Float | Format::Rgba16Float | Format::Rgba8Unorm => Scalar::Float,
+        };
+        let written = scalar_of(&program.types, output.ty);
+        if written != holds {
+            let message = format!(
+                "output `{}` is {}, and the framebuffer holds {}",
+                output.name,
+                program.types.name(output.ty),
+                holds.name()
+            );
+            let help = "the `format` under [framebuffer] and the type of the output must agree";
+            reader.report(Diagnostic::new(&SCENE_CANNOT_DRAW, place, message).help(help));
+            return None;
+        }
+    }
+    Some(())
+}
+
+fn load_dynamic(reader: &mut Reader, table: &DeTable<'_>, program: &Program) -> Vec<String> {
+    let Some(node) = table.get("dynamic") else { return Vec::new() };
+    let Some(array) = node.get_ref().as_array() else {
+        reader.wrong_type(node, "dynamic", "a list of names of uniforms");
+        return Vec::new();
+    };
+    let interface = &program.interface;
+    let mut candidates: Vec<&str> = interface.uniforms.iter().map(|leaf| leaf.name.as_str()).collect();
+    candidates.extend(interface.roots.iter().map(|root| root.name.as_str()));
+    candidates.extend(interface.samplers.iter().map(|sampler| sampler.name.as_str()));
+    let mut names = Vec::new();
+    for node in array {
+        let Some(name) = reader.text(node, "dynamic") else { continue };
+        let known = candidates.contains(&name) || candidates.contains(&name.trim_end_matches("[0]"));
+        if !known {
+            let span = reader.span_of(node);
+            report_unknown_name(reader, span, "uniform", name, &candidates);
+        }
+        names.push(name.to_owned());
+    }
+    names
+}
+
+/// The number of vertices to draw, and the indices.
+fn load_counts(
+    loader: &mut Loader<'_>,
+    table: &DeTable<'_>,
+    mesh: Option<&Mesh>,
+    program: &Program,
+    attributes: &[Option<AttributeData>],
+    instances: u32,
+    place: Span,
+) -> Option<(u32, Option<Vec<u32>>)> {
+    let rows = check_rows(&mut loader.reader, program, attributes, instances, place)?;
+    let indices = match (mesh, table.get("indices")) {
+        (Some(mesh), None) => Some(mesh.indices.clone()),
+        (Some(_), Some(node)) => {
+            let span = loader.reader.span_of(node);
+            loader.reader.error(&SCENE_WRONG_VALUE, span, "a mesh brings its own indices".into(), "leave these out");
+            return None;
+        }
+        (None, Some(node)) => Some(load_indices(&mut loader.reader, node, rows)?),
+        (None, None) => None,
+    };
+    let available = indices.as_ref().map(|indices| indices.len() as u32).or(rows);
+    let count = match (table.get("vertex_count"), available) {
+        (Some(_), _) => loader.reader.count(table, "vertex_count", 0, 0..=MAX_COUNT),
+        (None, Some(available)) => available,
+        (None, None) => {
+            let help = "add `vertex_count = 3`: no attribute determines the number of vertices";
+            loader.missing_key(place, "a draw without vertex data needs `vertex_count`", help);
+            return None;
+        }
+    };
+    if available.is_some_and(|available| count > available) {
+        let span = table.get("vertex_count").map_or(place, |node| loader.reader.span_of(node));
+        let message = format!("`vertex_count` is {count}, and there is data for {}", available.unwrap_or(0));
+        loader.reader.error(&SCENE_WRONG_SIZE, span, message, "more than there is");
+        return None;
+    }
+    Some((count, indices))
+}
+
+/// The number of vertices for which there is data; the inner `None` if no attribute determines it.
+fn check_rows(
+    reader: &mut Reader,
+    program: &Program,
+    attributes: &[Option<AttributeData>],
+    instances: u32,
+    place: Span,
+) -> Option<Option<u32>> {
+    let mut rows: Option<(u32, &str)> = None;
+    for (attribute, data) in program.interface.attributes.iter().zip(attributes) {
+        let Some(data) = data else { continue };
+        let count = data.values.len() as u32 / data.size.max(1);
+        if data.divisor > 0 {
+            let wanted = instances.div_ceil(data.divisor);
+            if count < wanted {
+                let message = format!("`{}` has data for {count} steps, and {wanted} are drawn", attribute.name);
+                reader.error(&SCENE_WRONG_SIZE, place, message, "too few instances");
+                return None;
+            }
+            continue;
+        }
+        match rows {
+            Some((known, first)) if known != count => {
+                let message = format!(
+                    "`{first}` has data for {known} vertices, `{}` for {count}: all attributes need the same number",
+                    attribute.name
+                );
+                reader.error(&SCENE_WRONG_SIZE, place, message, "in this draw");
+                return None;
+            }
+            Some(_) => {}
+            None => rows = Some((count, &attribute.name)),
+        }
+    }
+    Some(rows.map(|(count, _)| count))
+}
+
+fn load_indices(reader: &mut Reader, node: &Node<'_>, rows: Option<u32>) -> Option<Vec<u32>> {
+    let numbers = reader.numbers(node, "indices")?;
+    let limit = rows.unwrap_or(MAX_COUNT);
+    let mut indices = Vec::with_capacity(numbers.len());
+    for number in numbers {
+        let NumberValue::Int(value, _) = number.value else {
+            reader.error(&SCENE_WRONG_TYPE, number.span, "an index is an integer".into(), "no integer");
+            return None;
+        };
+        match u32::try_from(value) {
+            Ok(index) if index < limit => indices.push(index),
+            _ => {
+                let message = format!("index {value} is past the last vertex, {}", i64::from(limit) - 1);
+                reader.error(&SCENE_WRONG_SIZE, number.span, message, "no such vertex");
+                return None;
+            }
+        }
+    }
+    Some(indices)
+}

@@ -1,0 +1,202 @@
+//! `[camera]`, `[draw.camera]`, `[draw.transform]`: the matrices that `[draw.matrices]` assigns to uniforms by role.
+//!
+//! *In:* the eye, the target and so on, in degrees and world units. *Out:* column-major matrices, computed in f64 and
+//! rounded once to f32. *Holds:* eye space is right-handed and looks down -z; clip-space z is in `[-w, w]`, as with
+//! `gluLookAt` and `gluPerspective`.
+
+use super::reader::Reader;
+use crate::model::Framebuffer;
+use glam::{DMat3, DMat4, DQuat, DVec3};
+use glisten_front::hir::{Scalar, Type};
+use toml::de::DeTable;
+
+/// The role of a uniform that a matrix or position fills.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Role {
+    Model,
+    View,
+    Projection,
+    ModelView,
+    ViewProjection,
+    ModelViewProjection,
+    /// The inverse transpose of the upper left 3x3 of the model-view matrix.
+    Normal,
+    /// The inverse transpose of the upper left 3x3 of the model matrix.
+    ModelNormal,
+    /// The camera's position in world space.
+    Eye,
+}
+
+pub(super) const ROLES: &[(&str, Role)] = &[
+    ("model", Role::Model),
+    ("view", Role::View),
+    ("projection", Role::Projection),
+    ("model_view", Role::ModelView),
+    ("view_projection", Role::ViewProjection),
+    ("model_view_projection", Role::ModelViewProjection),
+    ("normal", Role::Normal),
+    ("model_normal", Role::ModelNormal),
+    ("eye", Role::Eye),
+];
+
+const CAMERA_KEYS: &[&str] = &["eye", "target", "up", "fovy", "aspect", "near", "far", "ortho"];
+const TRANSFORM_KEYS: &[&str] = &["translate", "rotate", "scale"];
+
+/// The model, view and projection of a draw.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct View {
+    model: DMat4,
+    view: DMat4,
+    projection: DMat4,
+    eye: DVec3,
+}
+
+impl View {
+    /// The matrices of a draw: from its own camera, or the scene's, or the identity.
+    pub(super) fn load(
+        reader: &mut Reader,
+        draw: &DeTable<'_>,
+        scene_camera: Option<&DeTable<'_>>,
+        framebuffer: &Framebuffer,
+    ) -> Self {
+        let own = reader.table_at(draw, "camera");
+        let mut view =
+            Self { model: DMat4::IDENTITY, view: DMat4::IDENTITY, projection: DMat4::IDENTITY, eye: DVec3::ZERO };
+        if let Some(camera) = own.or(scene_camera) {
+            view.look(reader, camera, framebuffer);
+        }
+        if let Some(transform) = reader.table_at(draw, "transform") {
+            view.model = load_transform(reader, transform);
+        }
+        view
+    }
+
+    fn look(&mut self, reader: &mut Reader, camera: &DeTable<'_>, framebuffer: &Framebuffer) {
+        reader.check_keys(camera, "a camera", CAMERA_KEYS);
+        self.eye = DVec3::from(reader.reals(camera, "eye", [0.0, 0.0, 3.0]));
+        let target = DVec3::from(reader.reals(camera, "target", [0.0; 3]));
+        let up = DVec3::from(reader.reals(camera, "up", [0.0, 1.0, 0.0]));
+        let aspect = reader.real(camera, "aspect", f64::from(framebuffer.width) / f64::from(framebuffer.height));
+        let near = reader.real(camera, "near", 0.1);
+        let far = reader.real(camera, "far", 100.0);
+        self.view = look_at(self.eye, target, up);
+        self.projection = if camera.contains_key("ortho") {
+            let half_height = reader.real(camera, "ortho", 1.0);
+            orthographic(half_height * aspect, half_height, near, far)
+        } else {
+            perspective(reader.real(camera, "fovy", 45.0).to_radians(), aspect, near, far)
+        };
+    }
+
+    /// The matrix from world space to eye space.
+    pub(super) fn view_matrix(&self) -> DMat4 {
+        self.view
+    }
+
+    /// The type of a role, and its numbers.
+    pub(super) fn matrix(&self, role: Role) -> (Type, Vec<f32>) {
+        let model_view = self.view * self.model;
+        let four = |matrix: DMat4| (Type::Matrix(4, 4), round(&matrix.to_cols_array()));
+        let normal = |matrix: DMat4| {
+            (Type::Matrix(3, 3), round(&DMat3::from_mat4(matrix).inverse().transpose().to_cols_array()))
+        };
+        match role {
+            Role::Model => four(self.model),
+            Role::View => four(self.view),
+            Role::Projection => four(self.projection),
+            Role::ModelView => four(model_view),
+            Role::ViewProjection => four(self.projection * self.view),
+            Role::ModelViewProjection => four(self.projection * model_view),
+            Role::Normal => normal(model_view),
+            Role::ModelNormal => normal(self.model),
+            Role::Eye => (Type::Vector(Scalar::Float, 3), round(&self.eye.to_array())),
+        }
+    }
+}
+
+fn round(numbers: &[f64]) -> Vec<f32> {
+    numbers.iter().map(|&number| number as f32).collect()
+}
+
+/// `gluLookAt`
+fn look_at(eye: DVec3, target: DVec3, up: DVec3) -> DMat4 {
+    let forward = (target - eye).normalize();
+    let side = forward.cross(up).normalize();
+    let up = side.cross(forward);
+    let rotation = DMat3::from_cols(side, up, -forward).transpose();
+    DMat4::from_mat3(rotation) * DMat4::from_translation(-eye)
+}
+
+/// `gluPerspective`, `fovy` in radians.
+fn perspective(fovy: f64, aspect: f64, near: f64, far: f64) -> DMat4 {
+    let f = 1.0 / (fovy / 2.0).tan();
+    DMat4::from_cols_array(&[
+        f / aspect,
+        0.0,
+        0.0,
+        0.0,
+        0.0,
+        f,
+        0.0,
+        0.0,
+        0.0,
+        0.0,
+        (far + near) / (near - far),
+        -1.0,
+        0.0,
+        0.0,
+        2.0 * far * near / (near - far),
+        0.0,
+    ])
+}
+
+/// `glOrtho` of a box around the axis.
+fn orthographic(half_width: f64, half_height: f64, near: f64, far: f64) -> DMat4 {
+    let scale = DVec3::new(1.0 / half_width, 1.0 / half_height, -2.0 / (far - near));
+    let shift = DVec3::new(0.0, 0.0, -(far + near) / (far - near));
+    DMat4::from_translation(shift) * DMat4::from_scale(scale)
+}
+
+/// Scales first, then rotates (degrees about x, then y, then z; or `[degrees, x, y, z]` about an axis), then
+/// translates.
+fn load_transform(reader: &mut Reader, table: &DeTable<'_>) -> DMat4 {
+    reader.check_keys(table, "a transform", TRANSFORM_KEYS);
+    let translate = DVec3::from(reader.reals(table, "translate", [0.0; 3]));
+    let about_axis = table.get("rotate").and_then(|node| node.get_ref().as_array()).is_some_and(|list| list.len() == 4);
+    let rotation = if about_axis {
+        let [degrees, x, y, z] = reader.reals(table, "rotate", [0.0, 0.0, 0.0, 1.0]);
+        DQuat::from_axis_angle(DVec3::new(x, y, z).normalize_or(DVec3::Z), degrees.to_radians())
+    } else {
+        let [x, y, z] = reader.reals(table, "rotate", [0.0; 3]).map(f64::to_radians);
+        DQuat::from_rotation_z(z) * DQuat::from_rotation_y(y) * DQuat::from_rotation_x(x)
+    };
+    let scale = match table.get("scale") {
+        Some(node) if node.get_ref().as_array().is_none() => DVec3::splat(reader.real(table, "scale", 1.0)),
+        _ => DVec3::from(reader.reals(table, "scale", [1.0; 3])),
+    };
+    DMat4::from_translation(translate) * DMat4::from_quat(rotation) * DMat4::from_scale(scale)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DVec4;
+
+    #[test]
+    fn the_camera_sees_its_target_in_the_middle() {
+        let view = look_at(DVec3::new(0.0, 2.0, 5.0), DVec3::new(0.0, 2.0, 0.0), DVec3::Y);
+        let clip = perspective(1.0, 1.5, 0.5, 20.0) * view * DVec4::new(0.0, 2.0, 0.0, 1.0);
+        assert!(clip.x.abs() < 1e-15 && clip.y.abs() < 1e-15);
+        assert!((clip.w - 5.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn near_and_far_are_the_ends_of_clip_space() {
+        let near = perspective(1.0, 1.0, 0.5, 20.0) * DVec4::new(0.0, 0.0, -0.5, 1.0);
+        let far = perspective(1.0, 1.0, 0.5, 20.0) * DVec4::new(0.0, 0.0, -20.0, 1.0);
+        assert!((near.z / near.w + 1.0).abs() < 1e-14);
+        assert!((far.z / far.w - 1.0).abs() < 1e-14);
+        let box_near = orthographic(2.0, 1.0, 0.5, 20.0) * DVec4::new(2.0, -1.0, -0.5, 1.0);
+        assert!((box_near - DVec4::new(1.0, -1.0, -1.0, 1.0)).length() < 1e-14);
+    }
+}

@@ -1,0 +1,322 @@
+//! [`load`]: reads a scene file as a [`Scene`].
+//!
+//! *In:* the path of a scene, a [`FileSource`], a [`Compiler`]. *Out:* [`Loaded`]: the scene, if there are no errors,
+//! and all diagnostics of the scene and of its shaders. *Holds:* all errors of a scene are reported, not only the
+//! first; a scene with an error is not passed on.
+
+mod attributes;
+mod draw;
+mod lights;
+mod material;
+mod matrices;
+mod mesh;
+mod mipmaps;
+mod names;
+mod patterns;
+mod reader;
+mod textures;
+mod uniforms;
+mod write;
+
+use self::draw::load_draw;
+use self::lights::Lighting;
+use self::names::FORMATS;
+use self::reader::{Node, Reader};
+use crate::files::{FileError, FileSource, beside};
+use crate::library::{Library, WithLibrary};
+use crate::model::{Draw, Format, Framebuffer, Scene};
+use glisten_front::compiler::{Compiler, Options, Source};
+use glisten_front::diagnostic::codes::scenes::{
+    SCENE_CANNOT_DRAW, SCENE_FILE_UNREADABLE, SCENE_MISSING_KEY, SCENE_SYNTAX, SCENE_UNUSED_LIGHT, SCENE_WRONG_TYPE,
+    SCENE_WRONG_VALUE,
+};
+use glisten_front::diagnostic::{Diagnostic, Diagnostics, did_you_mean};
+use glisten_front::hir::Stage;
+use glisten_front::link::Program;
+use glisten_front::source::{SourceMap, Span};
+pub use mesh::default_tessellation;
+use std::path::Path;
+use std::sync::Arc;
+use toml::de::DeTable;
+pub use write::{ShaderFiles, write};
+
+/// The largest width and height of a framebuffer in pixels.
+pub const MAX_SIDE: u32 = 16_384;
+/// The largest number of pixels of a framebuffer.
+pub const MAX_PIXELS: u64 = 1 << 26;
+/// The largest number of color attachments (`gl_MaxDrawBuffers`).
+pub const MAX_ATTACHMENTS: u32 = 8;
+
+const KEYS: &[&str] = &["framebuffer", "draw", "camera", "light", "material", "global_ambient", "report", "gallery"];
+
+/// The result of loading a scene.
+#[derive(Clone, Debug)]
+pub struct Loaded {
+    /// The scene, if there are no errors.
+    pub scene: Option<Scene>,
+    /// The scene file and all shaders.
+    pub sources: SourceMap,
+    /// All diagnostics.
+    pub diagnostics: Diagnostics,
+    /// Whether a file is missing, a folder or unreadable: exit code 2 rather than 1.
+    pub io_error: bool,
+}
+
+/// Loads the scene at `path`.
+pub fn load(path: &str, files: &dyn FileSource, library: &dyn Library, compiler: &Compiler) -> Loaded {
+    let mut loader = Loader {
+        path,
+        files,
+        library,
+        compiler,
+        reader: Reader::default(),
+        sources: SourceMap::default(),
+        programs: Vec::new(),
+        io_error: false,
+    };
+    let scene = loader.scene();
+    let Loader { reader, sources, io_error, .. } = loader;
+    let scene = scene.filter(|_| !reader.diagnostics.has_errors());
+    Loaded { scene, sources, diagnostics: reader.diagnostics, io_error }
+}
+
+/// The identity of a program: draws with the same key share it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct ProgramKey {
+    files: Vec<(Stage, String)>,
+    attribute_locations: Vec<(String, u32)>,
+    frag_data_locations: Vec<(String, u32)>,
+    defines: Vec<(String, String)>,
+}
+
+/// What a scene defines for all its draws.
+struct Surroundings<'t, 'i> {
+    camera: Option<&'t DeTable<'i>>,
+    material: Option<&'t Node<'i>>,
+    lighting: Lighting,
+    framebuffer: Framebuffer,
+}
+
+/// The file that a scene refers to with `<glisten/programs/phong.frag>`.
+fn library_file(name: &str) -> Option<&str> {
+    name.strip_prefix("<glisten/programs/")?.strip_suffix('>')
+}
+
+/// The state of loading.
+struct Loader<'a> {
+    path: &'a str,
+    files: &'a dyn FileSource,
+    library: &'a dyn Library,
+    compiler: &'a Compiler,
+    reader: Reader,
+    sources: SourceMap,
+    programs: Vec<(ProgramKey, Option<Arc<Program>>)>,
+    io_error: bool,
+}
+
+impl Loader<'_> {
+    fn scene(&mut self) -> Option<Scene> {
+        let text = self.scene_text()?;
+        let file = self.sources.add(self.path, Arc::clone(&text))?;
+        self.reader.base = self.sources.file(file).base();
+        let (document, errors) = DeTable::parse_recoverable(&text);
+        for error in &errors {
+            let span = error.span().map_or_else(Span::default, |range| self.reader.span(range));
+            self.reader.report(Diagnostic::new(&SCENE_SYNTAX, span, error.message().trim().replace('\n', ", ")));
+        }
+        if !errors.is_empty() {
+            return None;
+        }
+        let table = document.get_ref();
+        if table.is_empty() {
+            let message = format!("`{}` is empty: a scene has a [framebuffer] and a [[draw]] table", self.path);
+            self.reader.report(Diagnostic::new(&SCENE_SYNTAX, self.reader.span(0..text.len()), message));
+            return None;
+        }
+        self.reader.check_keys(table, "a scene", KEYS);
+        let framebuffer = self.framebuffer(table)?;
+        let around = Surroundings {
+            camera: self.reader.table_at(table, "camera"),
+            material: table.get("material"),
+            lighting: Lighting::load(&mut self.reader, table),
+            framebuffer,
+        };
+        let mut draws = Vec::new();
+        let mut complete = true;
+        for node in self.draw_tables(table) {
+            match load_draw(self, node, &around) {
+                Some(draw) => draws.push(draw),
+                None => complete = false,
+            }
+        }
+        if complete {
+            self.warn_unlit(table, &draws);
+        }
+        let name = Path::new(self.path).file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
+        complete.then_some(Scene { name, framebuffer, draws })
+    }
+
+    /// Warns about lights and a material that no program uses.
+    fn warn_unlit(&mut self, table: &DeTable<'_>, draws: &[Draw]) {
+        for (key, root) in [("light", "light"), ("material", "material"), ("global_ambient", "global_ambient")] {
+            let Some((name, _)) = table.get_key_value(key) else { continue };
+            let asked = |draw: &Draw| draw.program.interface.roots.iter().any(|known| known.name == root);
+            if !draws.iter().any(asked) {
+                let span = self.reader.span_of(name);
+                let message = format!("no program of the scene declares a uniform `{root}`");
+                let diagnostic = Diagnostic::new(&SCENE_UNUSED_LIGHT, span, message).here("changes nothing");
+                self.reader
+                    .report(diagnostic.help("`program = \"standard\"` does, and `#include <glisten/scene.glsl>`"));
+            }
+        }
+    }
+
+    fn scene_text(&mut self) -> Option<Arc<str>> {
+        let bytes = match self.files.read(self.path) {
+            Ok(bytes) => bytes,
+            Err(error) => {
+                self.unreadable(self.path, Span::default(), &error);
+                return None;
+            }
+        };
+        match String::from_utf8(bytes) {
+            Ok(text) if text.len() < SourceMap::MAX_BYTES as usize / 2 => Some(text.into()),
+            Ok(_) => {
+                self.not_a_scene("it is larger than any scene may be");
+                None
+            }
+            Err(_) => {
+                self.not_a_scene("its bytes are not UTF-8 text");
+                None
+            }
+        }
+    }
+
+    fn not_a_scene(&mut self, why: &str) {
+        let message = format!("`{}` is not a scene: {why}", self.path);
+        self.reader.report(Diagnostic::new(&SCENE_SYNTAX, Span::default(), message));
+    }
+
+    fn draw_tables<'t, 'i>(&mut self, table: &'t DeTable<'i>) -> Vec<&'t Node<'i>> {
+        let Some(node) = table.get("draw") else { return Vec::new() };
+        if let Some(array) = node.get_ref().as_array() {
+            return array.iter().collect();
+        }
+        let span = self.reader.span_of(node);
+        let diagnostic = Diagnostic::new(&SCENE_WRONG_TYPE, span, "`draw` is a list of tables")
+            .here("a single table")
+            .help("write `[[draw]]` with two brackets");
+        self.reader.report(diagnostic);
+        Vec::new()
+    }
+
+    fn framebuffer(&mut self, table: &DeTable<'_>) -> Option<Framebuffer> {
+        let empty = DeTable::new();
+        let node = table.get("framebuffer");
+        let table = match node {
+            Some(node) => self.reader.table(node, "framebuffer")?,
+            None => &empty,
+        };
+        self.reader.check_keys(table, "`framebuffer`", &["width", "height", "clear", "format", "attachments"]);
+        let width = self.reader.count(table, "width", 128, 1..=MAX_SIDE);
+        let height = self.reader.count(table, "height", 128, 1..=MAX_SIDE);
+        let format = self.reader.choice_at(table, "format", Format::Rgba32Float, FORMATS);
+        let clear = self.clear(table);
+        let attachments = self.reader.count(table, "attachments", 1, 1..=MAX_ATTACHMENTS);
+        if u64::from(width) * u64::from(height) > MAX_PIXELS {
+            let span = node.map_or_else(Span::default, |node| self.reader.span_of(node));
+            let message = format!("a framebuffer has at most {MAX_PIXELS} pixels");
+            self.reader.error(&SCENE_CANNOT_DRAW, span, message, "this is larger");
+            return None;
+        }
+        Some(Framebuffer { width, height, clear, format, attachments })
+    }
+
+    /// The clear color, rounded to `f32` as by `glClearColor`.
+    fn clear(&mut self, table: &DeTable<'_>) -> [f64; 4] {
+        let color = self.reader.reals(table, "clear", [0.0, 0.0, 0.0, 1.0]);
+        color.map(|channel| f64::from(channel as f32))
+    }
+
+    /// The contents of a file that the scene refers to, or `None` and a diagnostic at `span`.
+    fn bytes(&mut self, name: &str, span: Span) -> Option<(String, Vec<u8>)> {
+        let path = beside(self.path, name);
+        match self.files.read(&path) {
+            Ok(bytes) => Some((path, bytes)),
+            Err(error) => {
+                self.unreadable(&path, span, &error);
+                None
+            }
+        }
+    }
+
+    fn unreadable(&mut self, path: &str, span: Span, error: &FileError) {
+        self.io_error = true;
+        let message = format!("cannot read `{path}`: {error}");
+        self.reader.report(Diagnostic::new(&SCENE_FILE_UNREADABLE, span, message));
+    }
+
+    /// The program of a draw, compiled once for all draws with the same files and bindings. `places` are the spans of
+    /// the files' names in the scene.
+    fn program(&mut self, key: ProgramKey, places: &[Span]) -> Option<Arc<Program>> {
+        if let Some((_, program)) = self.programs.iter().find(|(known, _)| *known == key) {
+            return program.clone();
+        }
+        let program = self.compile(&key, places);
+        self.programs.push((key, program.clone()));
+        program
+    }
+
+    fn compile(&mut self, key: &ProgramKey, places: &[Span]) -> Option<Arc<Program>> {
+        let mut shaders = Vec::new();
+        for ((stage, name), &span) in key.files.iter().zip(places) {
+            if let Some((path, text)) = self.shader_text(name, span) {
+                shaders.push(Source { name: path, text, stage: *stage });
+            }
+        }
+        if shaders.len() < key.files.len() {
+            return None;
+        }
+        let defines = [&self.compiler.options().defines[..], &key.defines].concat();
+        let options = Options {
+            attribute_locations: key.attribute_locations.clone(),
+            frag_data_locations: key.frag_data_locations.clone(),
+            defines,
+            ..self.compiler.options().clone()
+        };
+        let sources = std::mem::take(&mut self.sources);
+        let compiler = self.compiler.with_options(options);
+        let of_library = key.files.iter().any(|(_, name)| library_file(name).is_some());
+        let compiler = if of_library {
+            let (own, library) = (compiler.includes(), self.library.includes());
+            compiler.with_includes(WithLibrary { own, library })
+        } else {
+            compiler
+        };
+        let compilation = compiler.compile_into(sources, &shaders);
+        self.sources = compilation.sources;
+        self.reader.diagnostics.extend(compilation.diagnostics);
+        compilation.program.map(Arc::new)
+    }
+
+    /// The text of a shader that the scene refers to: a file, or one from the library.
+    fn shader_text(&mut self, name: &str, span: Span) -> Option<(String, Arc<str>)> {
+        let Some(file) = library_file(name) else {
+            let (path, bytes) = self.bytes(name, span)?;
+            return Some((path, String::from_utf8_lossy(&bytes).into()));
+        };
+        if let Some(text) = self.library.shader(file) {
+            return Some((format!("<glisten>/programs/{file}"), text.into()));
+        }
+        let near = did_you_mean(file, self.library.shader_names());
+        let help = near.map(|near| format!("did you mean `<glisten/programs/{near}>`?"));
+        let message = format!("the library has no shader `{file}`");
+        self.reader.report(Diagnostic::new(&SCENE_WRONG_VALUE, span, message).here("no such shader").maybe_help(help));
+        None
+    }
+
+    /// Reports a required key that is missing.
+    fn missing_key(&mut self, span: Span, message: &str, help: &str) {
+        self.reader.report(Diagnostic::new(&SCENE_MISSING_KEY, span, message).help(help));
+    }
+}

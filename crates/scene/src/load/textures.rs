@@ -1,0 +1,374 @@
+//! Loads `[draw.textures]` as [`Texture`]s.
+
+use super::Loader;
+use super::draw::report_unknown_name;
+use super::material::TEXTURES;
+use super::mipmaps::chain;
+use super::names::{FILTERS, TEXTURE_KINDS, TextureKind, kind_name};
+use super::patterns;
+use super::reader::{Node, Number, NumberValue};
+use crate::model::{Compare, Filter, Texels, Texture, TextureLevel, Wrap};
+use crate::picture::Image;
+use glisten_front::diagnostic::Diagnostic;
+use glisten_front::diagnostic::codes::scenes::{
+    SCENE_BAD_ASSET, SCENE_UNSET_TEXTURE, SCENE_WRONG_KIND, SCENE_WRONG_SIZE, SCENE_WRONG_VALUE,
+};
+use glisten_front::hir::{SamplerDim, SamplerType, Scalar, Type};
+use glisten_front::link::Program;
+use glisten_front::source::Span;
+use std::sync::Arc;
+use toml::de::DeTable;
+
+const KEYS: &[&str] = &[
+    "kind", "integer", "width", "height", "depth", "layers", "values", "filter", "wrap", "mipmaps", "compare", "file",
+    "flip", "pattern",
+];
+
+/// The largest width, height, depth or number of layers.
+const MAX_SIDE: u32 = 8192;
+/// The largest number of texels of a texture's first level.
+const MAX_TEXELS: u64 = 1 << 25;
+
+/// The texture of each sampler slot of the program, in order: the draw's own, or the material's, or, for a sampler of
+/// one of the library's programs (`conventional`), a white one.
+pub(super) fn load_textures(
+    loader: &mut Loader<'_>,
+    draw: &DeTable<'_>,
+    material: Option<&DeTable<'_>>,
+    program: &Program,
+    conventional: bool,
+    place: Span,
+) -> Vec<Option<Arc<Texture>>> {
+    let slots = &program.interface.samplers;
+    let names: Vec<&str> = slots.iter().map(|slot| slot.name.as_str()).collect();
+    let kinds: Vec<SamplerType> = slots
+        .iter()
+        .map(|slot| match program.types.get(slot.ty) {
+            Type::Sampler(kind) => kind,
+            _ => SamplerType { texel: Scalar::Float, dim: SamplerDim::D2, arrayed: false, shadow: false },
+        })
+        .collect();
+    let mut textures: Vec<Option<Arc<Texture>>> = vec![None; slots.len()];
+    let mut given = vec![false; slots.len()];
+    if let Some(table) = loader.reader.table_at(draw, "textures") {
+        for (name, node) in table {
+            let name_text: &str = name.get_ref();
+            let index = slots.iter().position(|slot| {
+                slot.name == name_text || (slot.array_size.is_some() && slot.name == format!("{name_text}[0]"))
+            });
+            let Some(index) = index else {
+                let span = loader.reader.span_of(name);
+                report_unknown_name(&mut loader.reader, span, "sampler", name_text, &names);
+                continue;
+            };
+            if let (Some(flag), Some(slot), Some(&kind)) =
+                (given.get_mut(index), textures.get_mut(index), kinds.get(index))
+            {
+                *flag = true;
+                *slot = load_texture(loader, node, name_text, kind).map(Arc::new);
+            }
+        }
+    }
+    for ((slot, texture), (given, &kind)) in slots.iter().zip(&mut textures).zip(given.iter_mut().zip(&kinds)) {
+        let Some(node) = material.and_then(|material| material.get(slot.name.as_str())) else { continue };
+        if !*given && TEXTURES.contains(&slot.name.as_str()) {
+            *given = true;
+            *texture = load_texture(loader, node, &slot.name, kind).map(Arc::new);
+        }
+    }
+    for (((slot, texture), given), kind) in slots.iter().zip(&mut textures).zip(given).zip(kinds) {
+        if given {
+            continue;
+        }
+        if slot.active && !conventional {
+            let message = format!("sampler `{}` gets no texture: it reads (0, 0, 0, 1) everywhere", slot.name);
+            let diagnostic = Diagnostic::new(&SCENE_UNSET_TEXTURE, place, message).help(format!(
+                "add `{} = {{ width = .., height = .., values = [..] }}` under [draw.textures]",
+                slot.name
+            ));
+            loader.reader.report(diagnostic);
+        }
+        *texture = Some(Arc::new(unset_texture(kind, if conventional { 1 } else { 0 })));
+    }
+    textures
+}
+
+/// A texture with one texel (or one per face) of (level, level, level, 1).
+fn unset_texture(kind: SamplerType, level: u8) -> Texture {
+    let depth = if kind.dim == SamplerDim::Cube { 6 } else { 1 };
+    let texels = match kind.texel {
+        Scalar::Int => Texels::Int(vec![[i32::from(level), i32::from(level), i32::from(level), 1]; depth as usize]),
+        Scalar::Uint => Texels::Uint(vec![[u32::from(level), u32::from(level), u32::from(level), 1]; depth as usize]),
+        Scalar::Float | Scalar::Bool => {
+            Texels::Float(vec![[f32::from(level), f32::from(level), f32::from(level), 1.0]; depth as usize])
+        }
+    };
+    Texture {
+        kind,
+        levels: vec![TextureLevel { width: 1, height: 1, depth, texels }],
+        filter: Filter::Nearest,
+        wrap: Wrap::ClampToEdge,
+        compare: Compare::Lequal,
+    }
+}
+
+fn load_texture(loader: &mut Loader<'_>, node: &Node<'_>, name: &str, kind: SamplerType) -> Option<Texture> {
+    let table = loader.reader.table(node, name)?;
+    let span = loader.reader.span_of(node);
+    let pattern = patterns::find(table);
+    let keys = if table.contains_key("pattern") { [KEYS, patterns::KEYS].concat() } else { KEYS.to_vec() };
+    loader.reader.check_keys(table, "a texture", &keys);
+    check_origin(loader, table)?;
+    if kind.dim == SamplerDim::Multisample {
+        let message = format!("`{name}` is a {}: no scene can bring a multisample texture", kind.name());
+        loader.reader.error(&SCENE_WRONG_VALUE, span, message, "of this kind");
+        return None;
+    }
+    check_kind(loader, table, name, kind)?;
+    let filter = loader.reader.choice_at(table, "filter", Filter::Nearest, FILTERS);
+    let is_rect = kind.dim == SamplerDim::Rect;
+    let default_wrap = if is_rect { Wrap::ClampToEdge } else { pattern.map_or(Wrap::Repeat, |pattern| pattern.wrap()) };
+    let wrap = loader.reader.choice_at(table, "wrap", default_wrap, Wrap::NAMES);
+    let compare = loader.reader.choice_at(table, "compare", Compare::Lequal, Compare::NAMES);
+    let mipmaps = loader.reader.flag(table, "mipmaps", false);
+    check_state(loader, table, name, kind, (filter, wrap, mipmaps))?;
+    let level = match (table.get("file"), table.get("pattern")) {
+        (Some(file), _) => load_image(loader, table, file, name, kind)?,
+        (None, Some(pattern)) => patterns::load(loader, table, pattern, name, kind)?,
+        (None, None) => load_level(loader, table, span, name, kind)?,
+    };
+    let levels = if mipmaps { chain(level, kind) } else { vec![level] };
+    Some(Texture { kind, levels, filter, wrap, compare })
+}
+
+/// Checks that the texels come from exactly one of three origins.
+fn check_origin(loader: &mut Loader<'_>, table: &DeTable<'_>) -> Option<()> {
+    let origins = ["values", "file", "pattern"].map(|key| table.get_key_value(key));
+    let mut given = origins.into_iter().flatten();
+    if let (Some((first, _)), Some((second, _))) = (given.next(), given.next()) {
+        let span = loader.reader.span_of(second);
+        let message = format!("a texture with `{}` has no `{}`", first.get_ref(), second.get_ref());
+        loader.reader.error(&SCENE_WRONG_VALUE, span, message, "leave one of the two out");
+        return None;
+    }
+    Some(())
+}
+
+fn check_kind(loader: &mut Loader<'_>, table: &DeTable<'_>, name: &str, sampler: SamplerType) -> Option<()> {
+    let wanted: TextureKind = (sampler.dim, sampler.arrayed, sampler.shadow);
+    if let Some(node) = table.get("kind") {
+        let kind = loader.reader.choice(node, "kind", TEXTURE_KINDS)?;
+        // `shadow_` may be omitted: the type of the sampler implies it.
+        let agrees = kind == wanted || (kind.0, kind.1, true) == wanted;
+        if !agrees {
+            let span = loader.reader.span(node.span());
+            let message = format!("`{name}` is a {}: its texture is of kind `{}`", sampler.name(), kind_name(wanted));
+            loader.reader.error(&SCENE_WRONG_KIND, span, message, "contradicts the shader");
+            return None;
+        }
+    }
+    let integer = matches!(sampler.texel, Scalar::Int | Scalar::Uint);
+    if let Some(node) = table.get("integer")
+        && loader.reader.flag(table, "integer", integer) != integer
+    {
+        let span = loader.reader.span(node.span());
+        let message = format!("`{name}` is a {}", sampler.name());
+        loader.reader.error(&SCENE_WRONG_KIND, span, message, "contradicts the shader");
+        return None;
+    }
+    Some(())
+}
+
+/// Reports combinations of state that OpenGL calls incomplete (OpenGL 3.2 §3.8.12) or rejects.
+fn check_state(
+    loader: &mut Loader<'_>,
+    table: &DeTable<'_>,
+    name: &str,
+    kind: SamplerType,
+    (filter, wrap, mipmaps): (Filter, Wrap, bool),
+) -> Option<()> {
+    let integer = matches!(kind.texel, Scalar::Int | Scalar::Uint);
+    let unfiltered = matches!(kind.dim, SamplerDim::Rect | SamplerDim::Buffer);
+    let (key, message) = if integer && filter != Filter::Nearest {
+        ("filter", format!("`{name}` holds integers, which cannot be filtered"))
+    } else if kind.dim == SamplerDim::Rect && wrap != Wrap::ClampToEdge {
+        ("wrap", format!("`{name}` is a {}, which can only clamp", kind.name()))
+    } else if mipmaps && (unfiltered || integer) {
+        ("mipmaps", format!("`{name}` is a {}, which has no mipmaps", kind.name()))
+    } else {
+        return Some(());
+    };
+    let span = table.get(key).map_or_else(Span::default, |node| loader.reader.span(node.span()));
+    loader.reader.error(&SCENE_WRONG_VALUE, span, message, "not for this sampler");
+    None
+}
+
+/// The width, height and depth of the first level; the number of `values` determines a size that is omitted.
+fn load_size(
+    loader: &mut Loader<'_>,
+    table: &DeTable<'_>,
+    span: Span,
+    name: &str,
+    kind: SamplerType,
+    values: u32,
+) -> Option<(u32, u32, u32)> {
+    let reader = &mut loader.reader;
+    let mut side = |key: &str, used: bool, default: u32, limit: u32| {
+        if !used && table.get(key).is_some_and(|node| node.get_ref().as_integer().is_none_or(|n| n.as_str() != "1")) {
+            let span = table.get(key).map_or(span, |node| reader.span(node.span()));
+            let message = format!("`{name}` is a {}, which has no `{key}`", kind.name());
+            reader.error(&SCENE_WRONG_VALUE, span, message, "not for this sampler");
+        }
+        if used { reader.count(table, key, default, 1..=limit) } else { 1 }
+    };
+    let flat = matches!(kind.dim, SamplerDim::D1 | SamplerDim::Buffer);
+    let is_cube = kind.dim == SamplerDim::Cube;
+    let limit = if kind.dim == SamplerDim::Buffer { MAX_TEXELS as u32 } else { MAX_SIDE };
+    let layers = side("layers", kind.arrayed, 1, MAX_SIDE);
+    let depth = side("depth", kind.dim == SamplerDim::D3, 1, MAX_SIDE);
+    let alone = flat && !kind.arrayed;
+    let width = side("width", true, if alone { values.max(1) } else { 0 }, limit);
+    let height = side("height", !flat, if is_cube { width } else { 0 }, MAX_SIDE);
+    if width == 0 || height == 0 {
+        let key = if width == 0 { "width" } else { "height" };
+        loader.missing_key(span, &format!("texture `{name}` has no `{key}`"), &format!("add `{key} = ...`"));
+        return None;
+    }
+    if is_cube && width != height {
+        let message = format!("`{name}` is a {}: its faces are square", kind.name());
+        loader.reader.error(&SCENE_WRONG_SIZE, span, message, "width and height differ");
+        return None;
+    }
+    let depth = if is_cube { 6 } else { depth * layers };
+    let texels = u64::from(width) * u64::from(height) * u64::from(depth);
+    if texels > MAX_TEXELS {
+        let message = format!("`{name}` has {texels} texels; at most {MAX_TEXELS} are drawn with");
+        loader.reader.error(&SCENE_WRONG_SIZE, span, message, "too large");
+        return None;
+    }
+    Some((width, height, depth))
+}
+
+fn load_level(
+    loader: &mut Loader<'_>,
+    table: &DeTable<'_>,
+    span: Span,
+    name: &str,
+    kind: SamplerType,
+) -> Option<TextureLevel> {
+    let Some(values) = table.get("values") else {
+        loader.missing_key(
+            span,
+            &format!("texture `{name}` has no `values`"),
+            "add `values = [r, g, b, a, ...]`, `file` or `pattern`",
+        );
+        return None;
+    };
+    let numbers = loader.reader.numbers(values, "values")?;
+    let (width, height, depth) = load_size(loader, table, span, name, kind, numbers.len() as u32 / 4)?;
+    let texels = width as usize * height as usize * depth as usize;
+    let each = match numbers.len() {
+        n if n == texels * 4 => 4,
+        n if n == texels && kind.shadow => 1,
+        n => {
+            let span = loader.reader.span_of(values);
+            let shape = if depth > 1 { format!("{width}x{height}x{depth}") } else { format!("{width}x{height}") };
+            let message = format!("`{name}` is {shape} texels of RGBA, which takes {} numbers, not {n}", texels * 4);
+            loader.reader.error(&SCENE_WRONG_SIZE, span, message, "of another size");
+            return None;
+        }
+    };
+    let texels = load_texels(loader, name, kind, each, &numbers)?;
+    Some(TextureLevel { width, height, depth, texels })
+}
+
+fn load_texels(
+    loader: &mut Loader<'_>,
+    name: &str,
+    kind: SamplerType,
+    each: usize,
+    numbers: &[Number],
+) -> Option<Texels> {
+    let refused = |number: &Number| {
+        matches!(
+            (kind.texel, number.value),
+            (_, NumberValue::Bool(_)) | (Scalar::Int | Scalar::Uint, NumberValue::Float(_))
+        )
+    };
+    let in_range = |number: &Number| match (kind.texel, number.value) {
+        (Scalar::Int, NumberValue::Int(value, _)) => i32::try_from(value).is_ok(),
+        (Scalar::Uint, NumberValue::Int(value, _)) => u32::try_from(value).is_ok(),
+        _ => true,
+    };
+    if let Some(number) = numbers.iter().find(|number| refused(number) || !in_range(number)) {
+        let message = format!("`{name}` is a {}, and this is not a texel of it", kind.name());
+        loader.reader.error(&SCENE_WRONG_KIND, number.span, message, "of another kind");
+        return None;
+    }
+    let int = |number: &Number| match number.value {
+        NumberValue::Int(value, _) => value,
+        NumberValue::Bool(_) | NumberValue::Float(_) => 0,
+    };
+    let float = |number: &Number| match number.value {
+        NumberValue::Int(_, value) | NumberValue::Float(value) => value,
+        NumberValue::Bool(_) => 0.0,
+    };
+    Some(match kind.texel {
+        Scalar::Int => Texels::Int(gather(numbers, each, [0, 0, 0, 1], |number| int(number) as i32)),
+        Scalar::Uint => Texels::Uint(gather(numbers, each, [0, 0, 0, 1], |number| int(number) as u32)),
+        Scalar::Float | Scalar::Bool => Texels::Float(gather(numbers, each, [0.0, 0.0, 0.0, 1.0], float)),
+    })
+}
+
+fn gather<T: Copy>(numbers: &[Number], each: usize, missing: [T; 4], convert: impl Fn(&Number) -> T) -> Vec<[T; 4]> {
+    numbers
+        .chunks(each)
+        .map(|texel| {
+            let mut rgba = missing;
+            for (channel, number) in rgba.iter_mut().zip(texel) {
+                *channel = convert(number);
+            }
+            rgba
+        })
+        .collect()
+}
+
+/// Loads an image file as a level: 8 or 16 bits per channel become numbers in [0, 1], without gamma. The bottom row
+/// is at t = 0, so that the image is upright, unless `flip = false`.
+fn load_image(
+    loader: &mut Loader<'_>,
+    table: &DeTable<'_>,
+    file: &Node<'_>,
+    name: &str,
+    kind: SamplerType,
+) -> Option<TextureLevel> {
+    let span = loader.reader.span_of(file);
+    let path = loader.reader.text(file, "file")?.to_owned();
+    let flip = loader.reader.flag(table, "flip", true);
+    if !matches!(kind.dim, SamplerDim::D1 | SamplerDim::D2 | SamplerDim::Rect)
+        || kind.arrayed
+        || kind.texel != Scalar::Float
+    {
+        let message = format!("`{name}` is a {}: an image file can only be read as 2D of floats", kind.name());
+        loader.reader.error(&SCENE_WRONG_KIND, span, message, "not for this sampler");
+        return None;
+    }
+    let (path, bytes) = loader.bytes(&path, span)?;
+    // A side that no sampler may have is told with the sampler's name, below.
+    let image = match Image::read(&bytes, u32::MAX, MAX_TEXELS) {
+        Ok(image) => image,
+        Err(error) => {
+            let message = format!("`{path}` is not an image that can be read: {error}");
+            loader.reader.error(&SCENE_BAD_ASSET, span, message, "");
+            return None;
+        }
+    };
+    let image = if flip { image.flipped() } else { image };
+    let Image { width, height, pixels } = image;
+    if width > MAX_SIDE || height > MAX_SIDE || (kind.dim == SamplerDim::D1 && height > 1) {
+        let message = format!("`{path}` has {width}x{height} texels, too many for a {}", kind.name());
+        loader.reader.error(&SCENE_WRONG_SIZE, span, message, "too large");
+        return None;
+    }
+    Some(TextureLevel { width, height, depth: 1, texels: Texels::Float(pixels) })
+}

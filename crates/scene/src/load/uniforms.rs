@@ -1,0 +1,327 @@
+//! Loads `[draw.uniforms]` and `[draw.matrices]` as the flat values of each root.
+//!
+//! *Holds:* a uniform that is not listed keeps its initializer, or is 0 (GLSL 1.50 §4.3.5).
+
+use super::draw::report_unknown_name;
+use super::lights::{LightSpace, Lighting, Member};
+use super::material::Material;
+use super::matrices::{ROLES, View};
+use super::reader::{Node, Number, NumberValue, Reader};
+use crate::values::UniformValues;
+use glisten_front::diagnostic::Diagnostic;
+use glisten_front::diagnostic::codes::scenes::{SCENE_UNSET_UNIFORM, SCENE_WRONG_KIND, SCENE_WRONG_SIZE};
+use glisten_front::hir::{Scalar, ScalarValue, Type, Types};
+use glisten_front::link::{Program, UniformLeaf};
+use glisten_front::source::Span;
+use toml::de::DeTable;
+
+/// The values of all roots, while they are being set.
+struct Values<'p> {
+    program: &'p Program,
+    given: UniformValues,
+    set: Vec<Vec<bool>>,
+}
+
+/// The sources of a draw's uniform values besides its own table.
+pub(super) struct Context<'a> {
+    pub(super) program: &'a Program,
+    pub(super) view: &'a View,
+    pub(super) lighting: &'a Lighting,
+    pub(super) space: LightSpace,
+    /// Whether matrices go to uniforms named after their roles, by the convention of the library's programs.
+    pub(super) conventional: bool,
+}
+
+/// The value of each root of the program, in order, flat. The draw's own tables take precedence over the scene's
+/// lights, the material and the library's conventions.
+pub(super) fn load_uniforms(
+    reader: &mut Reader,
+    draw: &DeTable<'_>,
+    context: &Context<'_>,
+    material: Option<&(Material, &Node<'_>)>,
+    place: Span,
+) -> Vec<Vec<ScalarValue>> {
+    let Context { program, view, .. } = *context;
+    let mut values = Values::initial(program);
+    if context.conventional {
+        values.fill_roles(view);
+    }
+    values.fill_lights(reader, context, place);
+    if let Some((material, node)) = material {
+        let span = reader.span_of(node);
+        for (name, value) in material {
+            values.offer(reader, name, *value, span);
+        }
+    }
+    if let Some(table) = reader.table_at(draw, "matrices") {
+        for (name, node) in table {
+            let span = reader.span_of(name);
+            let Some(role) = reader.choice(node, name.get_ref(), ROLES) else { continue };
+            let Some(target) = values.find(reader, name.get_ref(), span) else { continue };
+            let (shape, numbers) = view.matrix(role);
+            if values.program.types.get(target.leaf.ty) != shape
+                || target.element.is_none() && target.leaf.array_size.is_some()
+            {
+                let declared = values.program.types.name(target.leaf.ty);
+                let message = format!("`{}` is declared {declared}, which this role does not fit", target.leaf.name);
+                let span = reader.span_of(node);
+                reader.error(&SCENE_WRONG_KIND, span, message, "of another type");
+                continue;
+            }
+            let scalars: Vec<ScalarValue> = numbers.into_iter().map(ScalarValue::Float).collect();
+            values.store(&target, &scalars);
+        }
+    }
+    if let Some(table) = reader.table_at(draw, "uniforms") {
+        for (name, node) in table {
+            let span = reader.span_of(name);
+            let Some(target) = values.find(reader, name.get_ref(), span) else { continue };
+            let Some(numbers) = reader.numbers(node, name.get_ref()) else { continue };
+            let span = reader.span(node.span());
+            if let Some(scalars) = convert(reader, &program.types, &target, &numbers, span) {
+                values.store(&target, &scalars);
+            }
+        }
+    }
+    values.warn_unset(reader, place);
+    values.given.roots
+}
+
+/// A leaf, or one element of a leaf.
+struct Target<'p> {
+    leaf: &'p UniformLeaf,
+    element: Option<u32>,
+}
+
+impl<'p> Values<'p> {
+    fn initial(program: &'p Program) -> Self {
+        let given = UniformValues::initial(program);
+        let roots = program.interface.roots.iter().zip(&given.roots);
+        let set = roots.map(|(root, values)| vec![root.default.is_some(); values.len()]).collect();
+        Self { program, given, set }
+    }
+
+    /// The uniform that a name in the scene refers to.
+    fn find(&self, reader: &mut Reader, name: &str, span: Span) -> Option<Target<'p>> {
+        let leaves = &self.program.interface.uniforms;
+        if let Some((leaf, element)) = UniformValues::find(self.program, name) {
+            let size = leaf.array_size.unwrap_or(1);
+            if element.is_none_or(|element| element < size) {
+                return Some(Target { leaf, element });
+            }
+            let message = format!("`{}` has {size} elements, so there is no `{name}`", leaf.name);
+            reader.error(&SCENE_WRONG_SIZE, span, message, "past the last element");
+            return None;
+        }
+        let interface = &self.program.interface;
+        if interface.samplers.iter().any(|sampler| sampler.name == name) {
+            let message = format!("`{name}` is a sampler");
+            let diagnostic =
+                Diagnostic::new(&SCENE_WRONG_KIND, span, message).here("no number can be given to it").help(format!(
+                    "give it a texture: `{name} = {{ width = .., height = .., values = [..] }}` under [draw.textures]"
+                ));
+            reader.report(diagnostic);
+            return None;
+        }
+        if interface.attributes.iter().any(|attribute| attribute.name == name) {
+            let diagnostic =
+                Diagnostic::new(&SCENE_WRONG_KIND, span, format!("`{name}` is an attribute, not a uniform"))
+                    .help("put it under [draw.attributes]");
+            reader.report(diagnostic);
+            return None;
+        }
+        let candidates: Vec<&str> = leaves.iter().map(|leaf| leaf.name.as_str()).collect();
+        report_unknown_name(reader, span, "uniform", name, &candidates);
+        None
+    }
+
+    /// Sets the uniforms with the names and types of roles to their matrices.
+    fn fill_roles(&mut self, view: &View) {
+        for (name, role) in ROLES {
+            let (shape, numbers) = view.matrix(*role);
+            let leaf = self.program.interface.uniforms.iter().find(|leaf| leaf.name == *name);
+            if let Some(leaf) =
+                leaf.filter(|leaf| self.program.types.get(leaf.ty) == shape && leaf.array_size.is_none())
+            {
+                let scalars: Vec<ScalarValue> = numbers.into_iter().map(ScalarValue::Float).collect();
+                self.store(&Target { leaf, element: None }, &scalars);
+            }
+        }
+    }
+
+    /// Sets the uniforms `light`, `lights` and `global_ambient` to the scene's lights, as far as the program declares
+    /// them.
+    fn fill_lights(&mut self, reader: &mut Reader, context: &Context<'_>, place: Span) {
+        let Lighting { lights, global_ambient } = context.lighting;
+        let program = self.program;
+        if lights.is_empty() && !context.conventional {
+            return;
+        }
+        let Some(root) = program.interface.roots.iter().position(|root| root.name == "light") else { return };
+        let room = match program.interface.roots.get(root).map(|root| program.types.get(root.ty)) {
+            Some(Type::Array(_, glisten_front::hir::ArraySize::Sized(size))) => size as usize,
+            _ => {
+                let message = "a scene's lights go to a uniform array `light`, and here `light` is none".to_owned();
+                reader.error(&SCENE_WRONG_KIND, place, message, "in this draw");
+                return;
+            }
+        };
+        if let Some(light) = lights.get(room) {
+            let message = format!("the scene has {} lights, and the program takes {room}", lights.len());
+            let help = format!("add `defines = {{ GLISTEN_LIGHTS = {} }}` to the draw", lights.len());
+            reader.report(Diagnostic::new(&SCENE_WRONG_SIZE, light.span, message).here("one too many").help(help));
+            return;
+        }
+        // Lights beyond those of the scene are zero, which needs no warning.
+        if let Some(set) = self.set.get_mut(root) {
+            set.fill(true);
+        }
+        for (index, light) in lights.iter().enumerate() {
+            for (member, value) in light.members(context.space, context.view.view_matrix()) {
+                self.offer(reader, &format!("light[{index}].{member}"), value, light.span);
+            }
+        }
+        self.offer(reader, "lights", Member::Int(lights.len() as i32), place);
+        self.offer(reader, "global_ambient", Member::Vector(*global_ambient), place);
+    }
+
+    /// Sets a leaf to a value, if there is one with this name.
+    fn offer(&mut self, reader: &mut Reader, name: &str, value: Member, span: Span) {
+        let Some(leaf) = self.program.interface.uniforms.iter().find(|leaf| leaf.name == name) else { return };
+        let (shape, scalars) = match value {
+            Member::Int(value) => (Type::Scalar(Scalar::Int), vec![ScalarValue::Int(value)]),
+            Member::Float(value) => (Type::Scalar(Scalar::Float), vec![ScalarValue::Float(value as f32)]),
+            Member::Vector(value) => {
+                (Type::Vector(Scalar::Float, 3), value.map(|value| ScalarValue::Float(value as f32)).to_vec())
+            }
+        };
+        if self.program.types.get(leaf.ty) == shape && leaf.array_size.is_none() {
+            self.store(&Target { leaf, element: None }, &scalars);
+            return;
+        }
+        let message = format!("`{name}` is declared {}", self.program.types.name(leaf.ty));
+        let wanted = match value {
+            Member::Int(_) => "an int",
+            Member::Float(_) => "a float",
+            Member::Vector(_) => "a vec3",
+        };
+        let help = "<glisten/scene.glsl> declares what scenes fill";
+        let here = format!("this gives it {wanted}");
+        reader.report(Diagnostic::new(&SCENE_WRONG_KIND, span, message).here(here).help(help));
+    }
+
+    fn store(&mut self, target: &Target<'_>, scalars: &[ScalarValue]) {
+        let first = (self.program.types.flat_len(target.leaf.ty) * target.element.unwrap_or(0)) as usize;
+        let start = target.leaf.flat_offset as usize + first;
+        if self.given.set(target.leaf, first, scalars)
+            && let Some(set) = self.set.get_mut(target.leaf.root.0 as usize)
+            && let Some(set) = set.get_mut(start..start + scalars.len())
+        {
+            set.fill(true);
+        }
+    }
+
+    /// Warns once for each root with leaves that have no value.
+    fn warn_unset(&self, reader: &mut Reader, place: Span) {
+        for (index, root) in self.program.interface.roots.iter().enumerate() {
+            if !root.active || root.default.is_some() {
+                continue;
+            }
+            let unset: Vec<&UniformLeaf> = self
+                .program
+                .interface
+                .uniforms
+                .iter()
+                .filter(|leaf| leaf.root.0 as usize == index && !self.is_set(leaf))
+                .collect();
+            let Some(first) = unset.first() else { continue };
+            let message = match unset.len() {
+                1 => format!("uniform `{}` gets no value and is 0", first.name),
+                n => format!("uniform `{}` and {} more of `{}` get no value and are 0", first.name, n - 1, root.name),
+            };
+            let declared = root.globals.first().and_then(|&(stage, global)| {
+                self.program.stage(stage).and_then(|shader| shader.globals.get(global.index()))
+            });
+            let mut diagnostic = Diagnostic::new(&SCENE_UNSET_UNIFORM, place, message);
+            if let Some(global) = declared {
+                diagnostic = diagnostic.label(global.span, "declared here");
+            }
+            reader.report(diagnostic.help(format!("add `\"{}\" = ...` under [draw.uniforms]", first.name)));
+        }
+    }
+
+    fn is_set(&self, leaf: &UniformLeaf) -> bool {
+        let len = self.program.types.flat_len(leaf.ty) * leaf.array_size.unwrap_or(1);
+        let start = leaf.flat_offset as usize;
+        self.set
+            .get(leaf.root.0 as usize)
+            .and_then(|set| set.get(start..start + len as usize))
+            .is_none_or(|set| set.iter().all(|&set| set))
+    }
+}
+
+fn convert(
+    reader: &mut Reader,
+    types: &Types,
+    target: &Target<'_>,
+    numbers: &[Number],
+    span: Span,
+) -> Option<Vec<ScalarValue>> {
+    let leaf = target.leaf;
+    let each = types.flat_len(leaf.ty) as usize;
+    let whole = each * leaf.array_size.unwrap_or(1) as usize;
+    let fits = match (leaf.array_size, target.element) {
+        (None, _) | (Some(_), None) => numbers.len() == whole,
+        (Some(_), Some(0)) => numbers.len() == each || numbers.len() == whole,
+        (Some(_), Some(_)) => numbers.len() == each,
+    };
+    if !fits {
+        let declared = types.name(leaf.ty);
+        let message = match leaf.array_size {
+            None => {
+                format!("`{}`, a {declared}, takes {whole} number{}, not {}", leaf.name, plural(whole), numbers.len())
+            }
+            Some(size) => format!(
+                "`{}`, {size} elements of {declared}, takes {whole} numbers (one element {each}), not {}",
+                leaf.name,
+                numbers.len()
+            ),
+        };
+        reader.error(&SCENE_WRONG_SIZE, span, message, "of another size");
+        return None;
+    }
+    let scalar = types.scalar_of(leaf.ty).unwrap_or(Scalar::Float);
+    let mut scalars = Vec::with_capacity(numbers.len());
+    for number in numbers {
+        let Some(value) = scalar_value(scalar, number.value) else {
+            let message = format!("`{}` is declared {}", leaf.name, types.name(leaf.ty));
+            let wanted = match scalar {
+                Scalar::Float => "a number is wanted",
+                Scalar::Bool => "`true` or `false` is wanted",
+                Scalar::Int => "an integer of 32 bits is wanted",
+                Scalar::Uint => "an unsigned integer of 32 bits is wanted",
+            };
+            reader.error(&SCENE_WRONG_KIND, number.span, message, wanted);
+            return None;
+        };
+        scalars.push(value);
+    }
+    Some(scalars)
+}
+
+fn plural(count: usize) -> &'static str {
+    if count == 1 { "" } else { "s" }
+}
+
+fn scalar_value(scalar: Scalar, number: NumberValue) -> Option<ScalarValue> {
+    match (scalar, number) {
+        (Scalar::Float, NumberValue::Float(value) | NumberValue::Int(_, value)) => Some(ScalarValue::Float(value)),
+        (Scalar::Int, NumberValue::Int(value, _)) => i32::try_from(value).ok().map(ScalarValue::Int),
+        (Scalar::Uint, NumberValue::Int(value, _)) => u32::try_from(value).ok().map(ScalarValue::Uint),
+        (Scalar::Bool, NumberValue::Bool(value)) => Some(ScalarValue::Bool(value)),
+        (Scalar::Bool, NumberValue::Int(value, _)) => Some(ScalarValue::Bool(value != 0)),
+        (Scalar::Bool, NumberValue::Float(value)) => Some(ScalarValue::Bool(value != 0.0)),
+        (Scalar::Float | Scalar::Int | Scalar::Uint, NumberValue::Bool(_))
+        | (Scalar::Int | Scalar::Uint, NumberValue::Float(_)) => None,
+    }
+}

@@ -1,0 +1,329 @@
+//! [`Scene`]: a scene with every name resolved.
+//!
+//! *Holds:* indices are below the length of each attribute's data; the values of a root have the length of its type;
+//! a runner can draw a scene without further checks of sizes.
+
+use glisten_front::hir::{SamplerType, ScalarValue};
+use glisten_front::link::Program;
+use std::sync::Arc;
+
+/// Everything that one picture needs.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// The stem of the scene file's name.
+    pub name: String,
+    /// The framebuffer.
+    pub framebuffer: Framebuffer,
+    /// The draws, in order.
+    pub draws: Vec<Draw>,
+}
+
+/// The color attachments, and the depth buffer (cleared to 1).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Framebuffer {
+    /// The width in pixels.
+    pub width: u32,
+    /// The height in pixels.
+    pub height: u32,
+    /// The color that every attachment is cleared to.
+    pub clear: [f64; 4],
+    /// The format of every attachment.
+    pub format: Format,
+    /// The number of color attachments.
+    pub attachments: u32,
+}
+
+/// The format of a color attachment.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum Format {
+    Rgba32Float,
+    Rgba16Float,
+    Rgba8Unorm,
+    Rgba32Sint,
+    Rgba32Uint,
+}
+
+/// How vertices form primitives (OpenGL 3.2 §2.6.1).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum Primitive {
+    Points,
+    Lines,
+    LineStrip,
+    LineLoop,
+    Triangles,
+    TriangleStrip,
+    TriangleFan,
+}
+
+/// Which faces are culled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum Cull {
+    None,
+    Front,
+    Back,
+}
+
+/// Comparison functions of the depth test and of shadow samplers: reference `op` stored.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum Compare {
+    Never,
+    Less,
+    Equal,
+    Lequal,
+    Greater,
+    Notequal,
+    Gequal,
+    Always,
+}
+
+impl Compare {
+    /// The names in scene files.
+    pub const NAMES: &[(&str, Self)] = &[
+        ("never", Self::Never),
+        ("less", Self::Less),
+        ("equal", Self::Equal),
+        ("lequal", Self::Lequal),
+        ("greater", Self::Greater),
+        ("notequal", Self::Notequal),
+        ("gequal", Self::Gequal),
+        ("always", Self::Always),
+    ];
+
+    /// By OpenGL's name: `GL_` and the scene file's name in capitals.
+    pub fn of_opengl(name: &str) -> Option<Self> {
+        of_opengl(name, Self::NAMES)
+    }
+}
+
+/// Blend factors (OpenGL 3.2 table 4.2), without those of a constant color.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum BlendFactor {
+    Zero,
+    One,
+    SrcColor,
+    OneMinusSrcColor,
+    DstColor,
+    OneMinusDstColor,
+    SrcAlpha,
+    OneMinusSrcAlpha,
+    DstAlpha,
+    OneMinusDstAlpha,
+    SrcAlphaSaturate,
+}
+
+impl BlendFactor {
+    /// The names in scene files.
+    pub const NAMES: &[(&str, Self)] = &[
+        ("zero", Self::Zero),
+        ("one", Self::One),
+        ("src_color", Self::SrcColor),
+        ("one_minus_src_color", Self::OneMinusSrcColor),
+        ("dst_color", Self::DstColor),
+        ("one_minus_dst_color", Self::OneMinusDstColor),
+        ("src_alpha", Self::SrcAlpha),
+        ("one_minus_src_alpha", Self::OneMinusSrcAlpha),
+        ("dst_alpha", Self::DstAlpha),
+        ("one_minus_dst_alpha", Self::OneMinusDstAlpha),
+        ("src_alpha_saturate", Self::SrcAlphaSaturate),
+    ];
+
+    /// By OpenGL's name: `GL_` and the scene file's name in capitals.
+    pub fn of_opengl(name: &str) -> Option<Self> {
+        of_opengl(name, Self::NAMES)
+    }
+}
+
+/// The fixed-function state of a draw.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct State {
+    /// The primitive.
+    pub primitive: Primitive,
+    /// Which faces are culled.
+    pub cull: Cull,
+    /// Whether counterclockwise triangles in the window are front faces.
+    pub front_ccw: bool,
+    /// Whether the last vertex is the provoking one (OpenGL's default), or the first.
+    pub provoking_last: bool,
+    /// Whether the depth test is enabled; without it, depth is not written either.
+    pub depth_test: bool,
+    /// Whether a passed test writes depth.
+    pub depth_write: bool,
+    /// The comparison function of the depth test.
+    pub depth_func: Compare,
+    /// The source and destination factors, the same for color and alpha; `None` for no blending.
+    pub blend: Option<(BlendFactor, BlendFactor)>,
+    /// How many clip distances are enabled.
+    pub clip_distances: u32,
+    /// Whether `gl_PointSize` has an effect; otherwise points are one pixel wide.
+    pub program_point_size: bool,
+}
+
+/// One draw call.
+#[derive(Clone, Debug)]
+pub struct Draw {
+    /// The program.
+    pub program: Arc<Program>,
+    /// The fixed-function state.
+    pub state: State,
+    /// The number of vertices to draw, or of entries of `indices`, if there are any.
+    pub vertex_count: u32,
+    /// The vertex indices, each below the length of each attribute's data.
+    pub indices: Option<Vec<u32>>,
+    /// The number of instances.
+    pub instances: u32,
+    /// The data of each of the interface's attributes, in order; `None` for inactive ones without data.
+    pub attributes: Vec<Option<AttributeData>>,
+    /// The value of each of the interface's roots, in order, flat ([`Types::flat_len`](glisten_front::hir::Types::flat_len)).
+    pub uniforms: Vec<Vec<ScalarValue>>,
+    /// The texture of each of the interface's sampler slots, in order.
+    pub textures: Vec<Option<Arc<Texture>>>,
+    /// The uniforms that change from frame to frame.
+    pub dynamic: Vec<String>,
+}
+
+/// The data of one attribute.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AttributeData {
+    /// The number of components per vertex, at most as many as the declared type has; for matrices, those of all
+    /// columns.
+    pub size: u32,
+    /// 0: one row per vertex; n: one row per n instances.
+    pub divisor: u32,
+    /// The numbers.
+    pub values: AttributeValues,
+}
+
+/// The numbers of an attribute.
+#[derive(Clone, Debug, PartialEq)]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum AttributeValues {
+    Float(Vec<f32>),
+    Int(Vec<i32>),
+    Uint(Vec<u32>),
+}
+
+impl AttributeValues {
+    /// The number of values.
+    pub fn len(&self) -> usize {
+        match self {
+            Self::Float(values) => values.len(),
+            Self::Int(values) => values.len(),
+            Self::Uint(values) => values.len(),
+        }
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+}
+
+impl AttributeData {
+    /// Component `component` of column `column` (of columns that are `rows` components high) for a vertex and an
+    /// instance. Missing components come from (0, 0, 0, 1); rows past the end are (0, 0, 0, 1), too.
+    pub fn fetch(&self, vertex: u32, instance: u32, column: u32, rows: u32, component: u32) -> ScalarValue {
+        let row = instance.checked_div(self.divisor).unwrap_or(vertex);
+        let within = column * rows + component;
+        let index = row as usize * self.size as usize + within as usize;
+        let present = within < self.size && index < self.values.len();
+        let missing = u8::from(component == 3);
+        match &self.values {
+            AttributeValues::Float(values) => {
+                ScalarValue::Float(values.get(index).copied().filter(|_| present).unwrap_or(f32::from(missing)))
+            }
+            AttributeValues::Int(values) => {
+                ScalarValue::Int(values.get(index).copied().filter(|_| present).unwrap_or(i32::from(missing)))
+            }
+            AttributeValues::Uint(values) => {
+                ScalarValue::Uint(values.get(index).copied().filter(|_| present).unwrap_or(u32::from(missing)))
+            }
+        }
+    }
+}
+
+/// The filter, the same for magnification and minification.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum Filter {
+    Nearest,
+    Linear,
+    /// Linear within levels and between them.
+    Trilinear,
+}
+
+/// The treatment of coordinates outside `[0, 1]`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum Wrap {
+    Repeat,
+    ClampToEdge,
+    MirroredRepeat,
+}
+
+impl Wrap {
+    /// The names in scene files.
+    pub const NAMES: &[(&str, Self)] = &[
+        ("repeat", Self::Repeat),
+        ("clamp", Self::ClampToEdge),
+        ("clamp_to_edge", Self::ClampToEdge),
+        ("mirrored_repeat", Self::MirroredRepeat),
+        ("mirror", Self::MirroredRepeat),
+    ];
+
+    /// Names that scene files have and OpenGL has not, or has for something else (`GL_CLAMP` is not to the edge).
+    const SHORT: &[&str] = &["clamp", "mirror"];
+
+    /// By OpenGL's name in small letters, without `GL_`.
+    pub fn of_opengl(name: &str) -> Option<Self> {
+        let own = |known: &str| known == name && !Self::SHORT.contains(&known);
+        Self::NAMES.iter().find(|(known, _)| own(known)).map(|row| row.1)
+    }
+}
+
+/// The texels of a level, as RGBA.
+#[derive(Clone, Debug, PartialEq)]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum Texels {
+    Float(Vec<[f32; 4]>),
+    Int(Vec<[i32; 4]>),
+    Uint(Vec<[u32; 4]>),
+}
+
+/// A level of a texture: x fastest, then y (first row at t = 0), then z, layer or face (+X -X +Y -Y +Z -Z).
+#[derive(Clone, Debug, PartialEq)]
+pub struct TextureLevel {
+    /// Texels along s.
+    pub width: u32,
+    /// Texels along t; 1 for one-dimensional textures.
+    pub height: u32,
+    /// Texels along p, or the number of layers, or 6 faces; otherwise 1.
+    pub depth: u32,
+    /// `width * height * depth` texels.
+    pub texels: Texels,
+}
+
+/// A texture and its sampler.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Texture {
+    /// The dimensionality, array, shadow and texel kind, the same as of the sampler that reads it.
+    pub kind: SamplerType,
+    /// The levels, at least one; each is half the size of the one before, rounded down, at least 1.
+    pub levels: Vec<TextureLevel>,
+    /// The filter.
+    pub filter: Filter,
+    /// The wrap mode, the same in all directions.
+    pub wrap: Wrap,
+    /// The comparison function, for shadow samplers.
+    pub compare: Compare,
+}
+
+/// The value whose name stands after `GL_` in capitals.
+fn of_opengl<T: Copy>(name: &str, names: &[(&str, T)]) -> Option<T> {
+    let own = name.strip_prefix("GL_")?;
+    names.iter().find(|(known, _)| known.to_ascii_uppercase() == own).map(|row| row.1)
+}

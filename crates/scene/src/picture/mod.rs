@@ -1,0 +1,73 @@
+//! [`Picture`]: the contents of the framebuffer after a draw; and picture files.
+//!
+//! *In:* what a runner drew, or the bytes of a file. *Out:* pictures, 8-bit colors, the bytes of a file.
+//!
+//! *Holds:* top row first, x fastest. Nothing here draws or touches the file system.
+
+mod eight_bits;
+mod exr;
+mod image;
+mod interval;
+mod npy;
+mod png;
+
+pub use self::png::{Effort, png_rgb};
+pub use eight_bits::{NOT_FINITE, byte, visible_rgb};
+pub use image::{Image, ImageError, ImageFormat};
+pub use interval::Interval;
+
+/// The contents of a framebuffer, top row first, x fastest.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Picture {
+    /// The width in pixels.
+    pub width: u32,
+    /// The height in pixels.
+    pub height: u32,
+    /// The RGBA of every pixel of every color attachment, as stored in the framebuffer's format (integers unchanged).
+    pub attachments: Vec<Vec<[f64; 4]>>,
+    /// Whether a fragment was written to the pixel, after discard and depth test.
+    pub covered: Vec<bool>,
+    /// For a reference with envelopes: the values that a conforming GPU may draw, for each channel of each
+    /// attachment.
+    pub ranges: Option<Vec<Vec<[Interval; 4]>>>,
+    /// For a reference with envelopes: pixels where a discard, a depth test or too many branches are undecided.
+    pub undecided: Vec<bool>,
+    /// Pixels whose center is within 1/128 pixel of an edge of a primitive that was drawn.
+    pub near_edge: Vec<bool>,
+}
+
+impl Picture {
+    /// The number of pixels with a channel, in any attachment, that differs bit by bit when both pictures are rounded
+    /// to f32. All NaNs count as equal.
+    pub fn bit_unequal(&self, other: &Self) -> u64 {
+        let differs = |a: &[f64; 4], b: &[f64; 4]| {
+            a.iter()
+                .zip(b)
+                .map(|(a, b)| (*a as f32, *b as f32))
+                .any(|(a, b)| a.to_bits() != b.to_bits() && !(a.is_nan() && b.is_nan()))
+        };
+        let mut unequal = vec![false; self.covered.len()];
+        for (ours, theirs) in self.attachments.iter().zip(&other.attachments) {
+            for ((unequal, a), b) in unequal.iter_mut().zip(ours).zip(theirs) {
+                *unequal |= differs(a, b);
+            }
+        }
+        unequal.into_iter().filter(|unequal| *unequal).count() as u64
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Picture;
+
+    fn picture(reds: &[f64]) -> Picture {
+        Picture::of_colors(reds.len() as u32, 1, reds.iter().map(|&red| [red, 0.0, 0.0, 1.0]).collect())
+    }
+
+    #[test]
+    fn bits_are_those_of_f32() {
+        let ours = picture(&[0.1, 1.0, f64::NAN, 0.0]);
+        let theirs = picture(&[f64::from(0.1f32), 1.0 + 2e-7, f64::NAN, -0.0]);
+        assert_eq!(ours.bit_unequal(&theirs), 2);
+    }
+}

@@ -1,0 +1,139 @@
+//! The contents of the regions of the documentation, and their sources.
+//!
+//! *In:* a region's name, or a command line of glisten. *Out:* Markdown. *Holds:* [`REGIONS`] has a row for each
+//! name, which says whether its text is the same on every machine. Measured text is generated only on request.
+
+use super::regions::Maker;
+use glisten::diagnostic::{Severity, codes};
+use glisten::library;
+use glisten_front::builtin::operations;
+use glisten_reference::domain::{faults, rules};
+use std::fmt::Write;
+use std::path::PathBuf;
+use std::process::Command;
+
+/// The source of a region.
+enum Source {
+    /// From the tables of the code.
+    Tables(fn() -> String),
+    /// From the output of the program, with these arguments.
+    Output(&'static [&'static str]),
+    /// From the output of the program, which depends on the machine.
+    Measured(&'static [&'static str]),
+}
+
+static REGIONS: &[(&str, Source)] = &[
+    ("codes", Source::Tables(diagnostics)),
+    ("faults", Source::Tables(known_faults)),
+    ("library", Source::Output(&["lib", "list"])),
+    ("library-errors", Source::Measured(&["lib", "measure", "--backend", "gpu"])),
+    ("operations", Source::Tables(operations::markdown)),
+    ("pipeline", Source::Tables(pipeline)),
+    ("precision", Source::Tables(operations::precision_markdown)),
+    ("programs", Source::Tables(programs)),
+];
+
+/// Commands whose output depends on the machine.
+static MEASURED: &[&str] = &["verify", "report", "render", "gallery", "test"];
+
+/// Makes all regions.
+pub(crate) struct Generator {
+    /// The program `glisten`.
+    pub(crate) program: PathBuf,
+    /// The folder of the repository.
+    pub(crate) root: PathBuf,
+    /// Whether measured parts are made, too.
+    pub(crate) measured: bool,
+    /// The number of parts that were made.
+    pub(crate) made: usize,
+    /// The number of parts that were left, because they are measured.
+    pub(crate) left: usize,
+}
+
+impl Generator {
+    fn run(&self, arguments: &[&str]) -> Result<String, String> {
+        let output = Command::new(&self.program)
+            .args(arguments)
+            .current_dir(&self.root)
+            .output()
+            .map_err(|error| format!("{} cannot run: {error}", self.program.display()))?;
+        Ok(String::from_utf8_lossy(&output.stderr).into_owned() + &String::from_utf8_lossy(&output.stdout))
+    }
+
+    fn leave(&mut self) -> Result<Option<String>, String> {
+        self.left += 1;
+        Ok(None)
+    }
+
+    fn make(&mut self, text: String) -> Result<Option<String>, String> {
+        self.made += 1;
+        Ok(Some(text))
+    }
+}
+
+impl Maker for Generator {
+    fn region(&mut self, name: &str) -> Result<Option<String>, String> {
+        let Some((_, source)) = REGIONS.iter().find(|(known, _)| *known == name) else {
+            return Err(format!("nobody makes the region `{name}`"));
+        };
+        match source {
+            Source::Tables(table) => self.make(table()),
+            Source::Output(arguments) => {
+                let text = self.run(arguments)?;
+                self.make(format!("```text\n{}\n```", text.trim_end()))
+            }
+            Source::Measured(_) if !self.measured => self.leave(),
+            Source::Measured(arguments) => {
+                let text = self.run(arguments)?;
+                self.make(text)
+            }
+        }
+    }
+
+    fn output(&mut self, command: &str) -> Result<Option<String>, String> {
+        let arguments: Vec<&str> = command.split_whitespace().skip(1).collect();
+        let measured = arguments.first().is_some_and(|subcommand| MEASURED.contains(subcommand));
+        if measured && !self.measured {
+            return self.leave();
+        }
+        let text = self.run(&arguments)?;
+        self.make(text)
+    }
+}
+
+fn diagnostics() -> String {
+    let mut text = "| code | name | level | section |\n| --- | --- | --- | --- |\n".to_owned();
+    for code in codes::all() {
+        let level = match code.severity {
+            Severity::Error => "error",
+            Severity::Warning => "warning",
+            Severity::Note => "note",
+        };
+        let _ = writeln!(text, "| `{}` | {} | {level} | {} |", code.id, code.name, code.section);
+    }
+    text
+}
+
+fn pipeline() -> String {
+    let mut out = String::from("| step | allowed | source |\n| --- | --- | --- |\n");
+    for step in rules::PIPELINE.iter().chain(rules::OWN) {
+        let _ = writeln!(out, "| {} | {} | {} |", step.operation, step.describe(), step.source);
+    }
+    out
+}
+
+fn known_faults() -> String {
+    let mut text = "| name | broken rule | measured | applies to |\n| --- | --- | --- | --- |\n".to_owned();
+    for fault in faults::KNOWN {
+        let _ = writeln!(text, "| `{}` | {} | {} | {} |", fault.name, fault.rule, fault.measured, fault.applies);
+    }
+    text
+}
+
+fn programs() -> String {
+    let mut text = "| `program` | what it draws |\n| --- | --- |\n".to_owned();
+    for program in library::programs() {
+        let _ = writeln!(text, "| `{}` | {} |", program.name, program.about);
+    }
+    text
+}
