@@ -121,7 +121,7 @@ fn bits_of(value: &ScalarValue) -> u32 {
 /// What is assigned to `o`.
 fn assigned(shader: &Shader) -> ExprId {
     let main = shader.functions.iter().filter_map(|function| function.body.as_ref()).flatten();
-    let values = main.filter_map(|stmt| match stmt.kind {
+    let mut values = main.filter_map(|stmt| match stmt.kind {
         StmtKind::Expr(id) => match shader.expr(id).kind {
             ExprKind::Assign(_, _, value) => Some(value),
             _ => None,
