@@ -41,17 +41,20 @@ impl SpecializedDraw {
     }
 }
 
+/// The text of each stage of a program.
+type StageTexts = Vec<(Stage, String)>;
+
 /// Leaves out of a scene what its picture does not need. `dynamic` is added to what the draws call so.
 pub fn specialize_scene(scene: &Scene, sources: &SourceMap, dynamic: &[String]) -> SpecializedScene {
     let mut draws = Vec::with_capacity(scene.draws.len());
-    let mut residuals: Vec<(Vec<(Stage, String)>, Arc<Program>)> = Vec::new();
+    let mut residuals: Vec<(StageTexts, Arc<Program>)> = Vec::new();
     let mut result = scene.clone();
     result.draws.clear();
     for draw in &scene.draws {
         let known = known(draw, &scene.framebuffer, dynamic);
         let Residual { stages, program, left_out, sources, fault } =
             specialize_with(&draw.program, &known, &Options { sources: Some(sources) });
-        let texts: Vec<(Stage, String)> = stages.into_iter().map(|stage| (stage.stage, stage.text)).collect();
+        let texts: StageTexts = stages.into_iter().map(|stage| (stage.stage, stage.text)).collect();
         let program = match residuals.iter().find(|(known, other)| *known == texts && alike(other, &program)) {
             Some((_, program)) => Arc::clone(program),
             None => {
