@@ -7,7 +7,7 @@
 //! back and none looks ahead. What needs the whole shader comes after it: the sizes of implicitly sized arrays
 //! (`finish`), recursion (`recursion`), and static use (in [`hir`](crate::hir)).
 //!
-//! * `context` holds the state of the traversal, `scope` the names in scope.
+//! * `context` holds the state of the traversal, `scope` the names in scope, `arrays` the elements used.
 //! * `types`, `qualifiers` and `layout` analyze what precedes a name.
 //! * `declare` enters names: variables, structs, blocks, functions, redeclared built-in variables.
 //! * `statement` and `expr` analyze function bodies.
@@ -18,6 +18,7 @@
 //! [`TypeId::ERROR`](crate::hir::TypeId::ERROR), which is compatible with everything. No traversal recurses along
 //! left operands.
 
+mod arrays;
 mod constant;
 mod context;
 mod declare;

@@ -14,6 +14,8 @@ use crate::hir::{
 };
 use crate::source::Span;
 use crate::syntax::ast::{ArrayDim, BlockDecl, Declarator, Ident, MemberDecl, TypeBase};
+use crate::syntax::token::Symbol;
+use rustc_hash::FxHashMap;
 
 /// The properties that the members of a block share.
 struct BlockContext {
@@ -21,6 +23,15 @@ struct BlockContext {
     word: StorageWord,
     word_span: Span,
     matrix: MatrixLayout,
+}
+
+/// The names of blocks.
+#[derive(Debug, Default)]
+pub(in crate::analysis) struct BlockNames {
+    /// All of them, which have no other meaning at global scope (§4.3.7).
+    all: FxHashMap<Symbol, Span>,
+    /// By the interface that they are part of.
+    interfaces: FxHashMap<(Symbol, Storage), Span>,
 }
 
 impl Analyzer<'_> {
@@ -300,11 +311,11 @@ impl Analyzer<'_> {
     fn enter_block_name(&mut self, name: Ident, storage: Storage) {
         let spelling = self.name(name);
         let key = (name.symbol, storage);
-        let taken = match self.block_interfaces.get(&key) {
+        let taken = match self.block_names.interfaces.get(&key) {
             Some(&earlier) => Some(earlier),
             None => self.scopes.find_here(name.symbol).map(|binding| binding.span),
         };
-        self.block_interfaces.entry(key).or_insert(name.span);
+        self.block_names.interfaces.entry(key).or_insert(name.span);
         if let Some(earlier) = taken {
             self.report(
                 Diagnostic::new(&names::REDEFINED, name.span, format!("the block name `{spelling}` is taken"))
@@ -312,7 +323,7 @@ impl Analyzer<'_> {
                     .label(earlier, "first declared here"),
             );
         }
-        self.block_names.entry(name.symbol).or_insert(name.span);
+        self.block_names.all.entry(name.symbol).or_insert(name.span);
     }
 
     /// Checks that a global name is not also the name of a block (§4.3.7).
@@ -320,7 +331,7 @@ impl Analyzer<'_> {
         if !self.scopes.is_global() {
             return true;
         }
-        let Some(&block) = self.block_names.get(&name.symbol) else { return true };
+        let Some(&block) = self.block_names.all.get(&name.symbol) else { return true };
         let spelling = self.name(name);
         self.report(
             Diagnostic::new(&names::BLOCK_NAME, name.span, format!("`{spelling}` is the name of a block"))

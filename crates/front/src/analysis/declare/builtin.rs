@@ -1,6 +1,7 @@
 //! Declares built-in variables (§7.1, §7.2): at their first use, or when they are redeclared, where 1.50 allows that.
 
-use super::super::context::{Analyzer, ArrayKey};
+use super::super::arrays::ArrayKey;
+use super::super::context::Analyzer;
 use super::super::layout::{Layout, LayoutSubject};
 use super::super::qualifiers::{Qualifiers, StorageWord};
 use crate::builtin::variables::{self, Redeclaration, Row};

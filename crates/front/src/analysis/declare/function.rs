@@ -46,7 +46,7 @@ impl Analyzer<'_> {
 
     fn function_body(&mut self, id: FunctionId, header: &FunctionHeader, body: &[Stmt]) {
         let first = self.shader.exprs.len();
-        self.n_local_scalars = 0;
+        self.sizes.begin_function();
         self.body = Some(Body { function: id, loops: 0, switches: 0, returns: false });
         self.scopes.open();
         for (index, param) in header.params.iter().enumerate() {

@@ -1,6 +1,7 @@
 //! Declares variables at global scope (§4.3).
 
-use super::super::context::{Analyzer, ArrayKey};
+use super::super::arrays::ArrayKey;
+use super::super::context::Analyzer;
 use super::super::layout::{Layout, LayoutSubject};
 use super::super::qualifiers::{DeclarationContext, Qualifiers, StorageWord};
 use super::super::scope::Entry;
@@ -292,11 +293,7 @@ impl Analyzer<'_> {
 
     /// Checks that a size covers all elements that were used before.
     pub(in crate::analysis) fn check_resize(&mut self, key: ArrayKey, size: u32, span: Span) {
-        let used = match key {
-            ArrayKey::Local(id) => self.local_array_uses.get(&id),
-            _ => self.array_uses.get(&key),
-        };
-        let Some(&(largest, at)) = used else { return };
+        let Some((largest, at)) = self.array_uses.largest(key) else { return };
         if largest >= size {
             self.report(
                 Diagnostic::new(&types::INDEX_RANGE, at, format!("the array has no element {largest}"))

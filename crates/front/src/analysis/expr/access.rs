@@ -1,6 +1,7 @@
 //! Analyzes access to parts of values: `a.b`, `a.xyz`, `a[i]`, `a.length()` (§5.5 to §5.7).
 
-use super::super::context::{Analyzer, ArrayKey};
+use super::super::arrays::ArrayKey;
+use super::super::context::Analyzer;
 use super::swizzle::{self, Fault};
 use crate::diagnostic::codes::{names, types};
 use crate::diagnostic::{Diagnostic, did_you_mean};
@@ -218,13 +219,7 @@ impl Analyzer<'_> {
             },
             _ => return,
         };
-        let entry = match key {
-            ArrayKey::Local(id) => self.local_array_uses.entry(id).or_insert((index, at)),
-            _ => self.array_uses.entry(key).or_insert((index, at)),
-        };
-        if entry.0 < index {
-            *entry = (index, at);
-        }
+        self.array_uses.note(key, index, at);
     }
 
     /// `a.length()`

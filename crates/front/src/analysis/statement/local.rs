@@ -1,6 +1,7 @@
 //! Analyzes local variables (§4.2, §4.3).
 
-use super::super::context::{Analyzer, ArrayKey};
+use super::super::arrays::ArrayKey;
+use super::super::context::Analyzer;
 use super::super::qualifiers::{DeclarationContext, Qualifiers};
 use super::super::scope::Entry;
 use crate::diagnostic::Diagnostic;
