@@ -60,10 +60,7 @@ static OPENERS: &[&str] =
     &["What ", "Which.", "Likewise", "The same as", "The same of", "The same with", "The same for", "The same in"];
 
 /// Files in progress, and the glossary, which names the phrases to avoid.
-static EXCEPT: &[&str] = &[
-    "docs/glossary.md",
-    "tests/it/words.rs",
-];
+static EXCEPT: &[&str] = &["docs/glossary.md", "tests/it/words.rs"];
 
 /// A comment or a paragraph: the number of its first line, and the text without code.
 struct Passage {
