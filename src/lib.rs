@@ -36,6 +36,8 @@ pub mod scene;
 #[cfg(feature = "reference")]
 pub mod shader_test;
 #[cfg(feature = "reference")]
+pub mod specialize;
+#[cfg(feature = "reference")]
 pub mod verify;
 
 pub use glisten_front::{Compilation, Compiler, Diagnostic, Diagnostics, Options, Program, Source, Stage};

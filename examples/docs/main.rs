@@ -6,6 +6,8 @@
 //! cargo run --release --example docs -- --measured   # the measured parts, too
 //! ```
 
+#![expect(clippy::print_stdout, clippy::print_stderr, reason = "a program for the terminal")]
+
 mod maker;
 mod regions;
 

@@ -72,7 +72,7 @@ enum EmitArg {
 }
 
 /// Reads the word of a target.
-fn target_words() -> impl TypedValueParser<Value = Target> {
+pub(super) fn target_words() -> impl TypedValueParser<Value = Target> {
     let words = Target::ALL.iter().map(|target| target.word());
     PossibleValuesParser::new(words).try_map(|word| Target::from_word(&word).ok_or("no such target"))
 }

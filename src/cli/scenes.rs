@@ -6,6 +6,7 @@ use super::exit::{Exit, Failure};
 use super::guard;
 use super::session::{Batch, Session};
 use crate::scene::{self, DiskFiles, Scene};
+use crate::specialize::specialize_scene;
 use clap::{Args, ValueEnum};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::source::SourceMap;
@@ -76,6 +77,11 @@ pub(super) struct Read<'a> {
 }
 
 impl Read<'_> {
+    /// The scene without what its picture does not need.
+    pub(super) fn specialized(&self) -> Scene {
+        specialize_scene(&self.scene, self.sources(), &[]).scene
+    }
+
     /// The texts of the scene and its shaders.
     pub(super) fn sources(&self) -> &SourceMap {
         &self.batch.sources
@@ -139,6 +145,11 @@ pub(super) fn told(exit: Exit, text: &str) -> Failure {
 }
 
 impl SceneArgs {
+    /// The arguments for one scene of several.
+    pub(super) fn of(scene: &str, machine: &MachineArgs, sources: &SourceArgs, levels: &LevelArgs) -> Self {
+        Self { scene: scene.to_owned(), machine: machine.clone(), sources: sources.clone(), levels: levels.clone() }
+    }
+
     /// A session that compiles as the arguments say.
     pub(super) fn session<'a>(&self, console: &'a Console) -> Result<Session<'a>, Failure> {
         Session::new(console, &self.sources, &BindingArgs::default(), &self.levels, 0)

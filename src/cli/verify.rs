@@ -39,6 +39,9 @@ pub(super) struct VerifyArgs {
     /// Excuse no pixel because of known faults of the driver
     #[arg(long)]
     no_known_faults: bool,
+    /// Let the GPU draw with programs of which nothing is left but what the picture needs, and judge it by the original
+    #[arg(long)]
+    specialize: bool,
     /// Write a picture of |difference| / bound: gray up to the bound, red beyond
     #[arg(long, value_name = "FILE")]
     difference: Option<PathBuf>,
@@ -134,7 +137,9 @@ pub(super) fn run(args: &VerifyArgs, console: &Console) -> Outcome {
     };
     let difference = args.difference.as_deref().map(Target::parse).transpose()?;
     let progress = Progress::new(console, vias.len() + 1);
-    let verification = match compare(args, &read.scene, read.sources(), &vias, &progress) {
+    let drawn = args.specialize.then(|| read.specialized());
+    let scenes = (&read.scene, drawn.as_ref());
+    let verification = match compare(args, scenes, read.sources(), &vias, &progress) {
         Ok(verification) => verification,
         Err(error) => return read.failed(error),
     };
@@ -177,9 +182,26 @@ pub(super) fn run(args: &VerifyArgs, console: &Console) -> Outcome {
     Ok(if holds { Exit::Ok } else { Exit::Content })
 }
 
+/// Draws a scene in the place of another.
+struct Instead<'a> {
+    runner: &'a dyn Runner,
+    scene: Option<&'a Scene>,
+}
+
+impl Runner for Instead<'_> {
+    fn name(&self) -> &'static str {
+        self.runner.name()
+    }
+
+    fn draw(&self, scene: &Scene) -> Result<verify::Drawn, verify::Failure> {
+        self.runner.draw(self.scene.unwrap_or(scene))
+    }
+}
+
+/// Judges what runners make of a scene, or of another one in its place, by the first.
 fn compare(
     args: &VerifyArgs,
-    scene: &Scene,
+    (scene, drawn): (&Scene, Option<&Scene>),
     sources: &SourceMap,
     vias: &[Via],
     progress: &Progress,
@@ -187,6 +209,7 @@ fn compare(
     let machine = &args.scene.machine;
     let gpu = Arc::new(args.scene.gpu()?);
     let runners: Vec<TimedGpu<'_>> = vias.iter().map(|via| TimedGpu::new(&gpu, *via, machine, progress)).collect();
+    let runners: Vec<Instead<'_>> = runners.iter().map(|runner| Instead { runner, scene: drawn }).collect();
     let runners: Vec<&dyn Runner> = runners.iter().map(|runner| runner as &dyn Runner).collect();
     let options = Options {
         judge: args.tolerance.map_or(Judge::Envelope, Judge::Tolerance),

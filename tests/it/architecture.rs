@@ -18,6 +18,7 @@ static CRATES: &[(&str, &[&str], &[&str])] = &[
     ("crates/emit", &["glisten-front"], &["wgpu", "clap", "png", "toml", "rayon"]),
     ("crates/scene", &["glisten-front"], &["naga", "wgpu", "clap"]),
     ("crates/reference", &["glisten-front", "glisten-scene"], &["naga", "wgpu", "clap"]),
+    ("crates/specialize", &["glisten-front"], &["naga", "wgpu", "clap", "png", "toml", "rayon", "tempfile"]),
     ("crates/gpu", &["glisten-front", "glisten-emit", "glisten-scene"], &["clap"]),
     ("crates/gl", &["glisten-front", "glisten-scene"], &["naga", "wgpu", "clap"]),
 ];
@@ -43,7 +44,22 @@ static ORDER: &[(&str, &[&str])] = &[
     ),
     ("crates/emit/src", &["target", "lower", "emit"]),
     ("crates/scene/src", &["picture", "compare", "model", "files", "library", "values", "load"]),
-    ("src", &["library", "scene", "verify", "evaluate", "measure", "shader_test", "gallery", "report", "cli", "main"]),
+    (
+        "src",
+        &[
+            "library",
+            "scene",
+            "verify",
+            "evaluate",
+            "measure",
+            "shader_test",
+            "specialize",
+            "gallery",
+            "report",
+            "cli",
+            "main",
+        ],
+    ),
 ];
 
 /// Only the command line does this.

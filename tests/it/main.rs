@@ -51,6 +51,8 @@ mod scenes;
 #[cfg(feature = "cli")]
 mod shader_test;
 mod snapshots;
+#[cfg(feature = "reference")]
+mod specialize;
 mod support;
 mod witness;
 mod words;

@@ -13,6 +13,9 @@ mod raster;
 #[cfg(any(test, feature = "stability"))]
 pub mod stability;
 mod texture;
+mod work;
+
+pub use work::{Work, work};
 
 use domain::faults::Faults;
 use domain::{Envelope, F32, F64};

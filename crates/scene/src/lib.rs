@@ -18,7 +18,7 @@ pub mod values;
 
 pub use files::{DiskFiles, FileError, FileSource, MemoryFiles};
 pub use library::{Library, NoLibrary};
-pub use load::{Loaded, MAX_ATTACHMENTS, MAX_PIXELS, MAX_SIDE, default_tessellation, load};
+pub use load::{Loaded, MAX_ATTACHMENTS, MAX_PIXELS, MAX_SIDE, ShaderFiles, default_tessellation, load, write};
 pub use model::{
     AttributeData, AttributeValues, BlendFactor, Compare, Cull, Draw, Filter, Format, Framebuffer, Primitive, Scene,
     State, Texels, Texture, TextureLevel, Wrap,

@@ -3,7 +3,7 @@
 //!
 //! Each program draws one point per pixel with its own inputs. `RANDOM_PROGRAMS=first..end` runs other seeds.
 
-mod text;
+pub(crate) mod text;
 
 use crate::drawing::{compiler, strict, verified};
 use crate::emit::Collected;
@@ -25,7 +25,7 @@ pub(crate) fn seeds() -> Range<u64> {
 }
 
 /// A scene that runs the fragment shader once per pixel.
-fn scene(fragment: &str) -> Result<Scene, String> {
+pub(crate) fn scene(fragment: &str) -> Result<Scene, String> {
     let list = |values: Vec<f64>| format!("{values:?}");
     let pixels = || 0..SIDE * SIDE;
     let center = |index: usize| (index as f64 + 0.5) / SIDE as f64 * 2.0 - 1.0;

@@ -84,6 +84,8 @@ pub(super) struct Source<'v, D: Domain> {
     kind: Kind<D>,
     open: Option<Open>,
     quotients: [&'v [D::Float]; 3],
+    /// The values that the quotients are of.
+    values: [&'v [D::Float]; 3],
     /// The values of the provoking vertex.
     flat: &'v [D::Float],
     pub(super) ints: &'v [D::Int],
@@ -150,6 +152,7 @@ impl<'v, D: Domain> Source<'v, D> {
                 slack: Slack::new(&prim.corners, places.map(|p| p.map(|c: D::Float| (c.value(), c.error())))),
             }),
             quotients: corners.map(|vertex| vertices.quotients_of(vertex)),
+            values: corners.map(|vertex| vertices.floats_of(vertex)),
             flat: vertices.floats_of(prim.provoking),
             ints: vertices.ints_of(prim.provoking),
             reciprocals: window.map(|[_, _, _, reciprocal]| reciprocal),
@@ -227,6 +230,10 @@ impl<'v, D: Domain> Source<'v, D> {
         let w = &w[lanes.clone()];
         match (interpolation, &self.open) {
             (Interpolation::Smooth, None) => {
+                if let Some(value) = self.same_at_all(index) {
+                    to.fill(value);
+                    return;
+                }
                 for ((to, weights), w) in to.iter_mut().zip(places.weights(lanes)).zip(w) {
                     *to = perspective(weights, *w, values);
                 }
@@ -239,6 +246,17 @@ impl<'v, D: Domain> Source<'v, D> {
             }
             (Interpolation::Noperspective | Interpolation::Flat, _) => self.in_plane(values, places, lanes, to),
         }
+    }
+}
+
+impl<D: Domain> Source<'_, D> {
+    /// The value of a varying that is the same at all vertices: it is interpolated to that very value, as
+    /// [`linear`] does in the window. Programs compare such values for equality, and what is known of them is a constant.
+    #[inline(always)]
+    fn same_at_all(&self, index: usize) -> Option<D::Float> {
+        let [a, b, c] = self.values.map(|values| values.get(index).copied().unwrap_or_default());
+        let bits = |x: D::Float| (x.value().to_bits(), x.beside().to_bits());
+        (bits(a) == bits(b) && bits(a) == bits(c) && a.value().is_finite()).then_some(a)
     }
 }
 

@@ -16,6 +16,7 @@ mod patterns;
 mod reader;
 mod textures;
 mod uniforms;
+mod write;
 
 use self::draw::load_draw;
 use self::lights::Lighting;
@@ -37,6 +38,7 @@ pub use mesh::default_tessellation;
 use std::path::Path;
 use std::sync::Arc;
 use toml::de::DeTable;
+pub use write::{ShaderFiles, write};
 
 /// The largest width and height of a framebuffer in pixels.
 pub const MAX_SIDE: u32 = 16_384;

@@ -80,7 +80,7 @@ impl Case {
         match (scalar, singles) {
             (Scalar::Float, true) => FLOATS[(set >> (4 * input)) % 16].to_bits(),
             // Only a few special values at a time, or a vector would contain only NaN.
-            (Scalar::Float, false) if set % 2 == 0 => FLOATS[mixed % 6].to_bits(),
+            (Scalar::Float, false) if set.is_multiple_of(2) => FLOATS[mixed % 6].to_bits(),
             (Scalar::Float, false) => FLOATS[mixed % 16].to_bits(),
             (Scalar::Bool, _) => (mixed & 1) as u32,
             (Scalar::Int | Scalar::Uint, true) => INTS[(set >> (3 * input)) % 8],
@@ -121,14 +121,14 @@ fn bits_of(value: &ScalarValue) -> u32 {
 /// The expression that is assigned to `o`.
 fn assigned(shader: &Shader) -> ExprId {
     let main = shader.functions.iter().filter_map(|function| function.body.as_ref()).flatten();
-    let values = main.filter_map(|stmt| match stmt.kind {
+    let mut values = main.filter_map(|stmt| match stmt.kind {
         StmtKind::Expr(id) => match shader.expr(id).kind {
             ExprKind::Assign(_, _, value) => Some(value),
             _ => None,
         },
         _ => None,
     });
-    values.last().expect("`main` assigns")
+    values.next_back().expect("`main` assigns")
 }
 
 fn find<'a>(shader: &'a Shader, name: &str) -> Option<(GlobalId, &'a Global)> {
