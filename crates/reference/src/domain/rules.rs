@@ -1,33 +1,33 @@
-//! How far a conforming GPU may be from the exact result: the rules of operations, and those of the pipeline around them.
+//! The errors that a conforming GPU may add: the rules of operations, and those of the pipeline around them.
 //!
-//! *In:* nothing. *Out:* the rules of operations as the front's table has them, by name, and [`PIPELINE`] and [`OWN`], the
-//! others in order.
+//! *In:* nothing. *Out:* the rules of operations from the front end's table, by name; and [`PIPELINE`] and [`OWN`],
+//! the others in order.
 //!
-//! *Holds:* [`PIPELINE`] are rows of Vulkan and OpenGL, [`OWN`] rules of glisten's own where neither speaks, each with
-//! the measurement that it rests on. A rule of an operation that changes changes what the envelope gives, or does not
-//! compile: see the assertions below. What a driver does wrong is no rule: [`faults`](super::faults).
+//! *Holds:* [`PIPELINE`] contains rules of Vulkan and OpenGL, [`OWN`] glisten's own rules where neither defines one,
+//! each with its measurement. If a rule of an operation changes, the envelope changes, or the crate does not compile:
+//! see the assertions below. Known violations by drivers are not rules: see [`faults`](super::faults).
 
 pub use glisten_front::builtin::operations::precision::*;
 
 /// An error that a step of the pipeline may add.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Allowance {
-    /// So many ULPs of f32.
+    /// A number of ULPs of f32.
     OfUlps(f64),
-    /// So much, whatever the result.
+    /// An absolute error.
     OfSize(f64),
-    /// The hull of the choices named, which the step computes.
+    /// The hull of the named choices, which the step computes.
     Hull(&'static str),
 }
 
-/// A row.
+/// A rule of the pipeline.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Step {
-    /// What is done.
+    /// The operation.
     pub operation: &'static str,
     /// The error.
     pub allowance: Allowance,
-    /// Where that stands; of glisten's own rules what was measured.
+    /// The source of the rule; for glisten's own rules, the measurement.
     pub source: &'static str,
 }
 
@@ -68,8 +68,8 @@ steps! { OWN: "Rules where no specification speaks. `cargo test --test it -- env
     STORE_SLACK = "rounding to 8 bits", OfSize(1.0e-6), "a conversion through 255 x + 0.5 in f32; measured: 2e-8 from the half";
 }
 
-/// The formulas that kernels of this crate evaluate in a faster way than operation by operation. A rule that inherits from
-/// another formula is evaluated by that one.
+/// The formulas that kernels of this crate evaluate in a faster way than operation by operation. A rule that inherits
+/// from another formula is evaluated by that one.
 pub(crate) mod kernels {
     use glisten_front::builtin::operations::{Binary, Formula, Unary};
 
@@ -94,7 +94,7 @@ pub(crate) mod kernels {
     );
 }
 
-// What these rules say is how the envelope rounds, and what the executor computes: it has no number that could be read.
+// The envelope's rounding and the executor's computations implement these rules, which have no number to read.
 const _: () = {
     assert!(matches!(ADD.precision, Precision::Correct), "envelopes round sums outward to f32");
     assert!(matches!(MUL.precision, Precision::Correct), "envelopes round products outward to f32");
@@ -105,20 +105,20 @@ const _: () = {
     assert!(matches!(INVERSE.precision, Precision::Cofactors), "the executor computes cofactors");
 };
 
-/// The least normal f32: what is smaller may be flushed to 0 before or after an operation.
+/// The smallest normal f32. Smaller numbers may be flushed to 0 before or after an operation.
 pub const FLUSH: f64 = 1.175_494_350_822_287_5e-38;
 
-/// One ULP of f32 at `x`: the distance of neighbors in its binade, at least that of the subnormals.
+/// One ULP of f32 at `x`: the distance between neighbors in its binade, at least that of the subnormals.
 #[inline(always)]
 pub fn ulp(x: f64) -> f64 {
     let exponent = (x.to_bits() >> 52) & 0x7ff;
-    // 1023 - 126 is the exponent of the least normal f32; 23 bits stand behind the point.
+    // 1023 - 126 is the exponent of the smallest normal f32, which has 23 fractional bits.
     let clamped = if exponent < 897 { 897 } else { exponent };
     f64::from_bits((clamped - 23) << 52)
 }
 
 impl Step {
-    /// The ULPs of a row that has them.
+    /// The ULPs, for a rule with ULPs.
     #[inline(always)]
     pub const fn ulps(&self) -> f64 {
         match self.allowance {
@@ -127,7 +127,7 @@ impl Step {
         }
     }
 
-    /// What is allowed, in words.
+    /// The allowed error in words.
     pub fn describe(&self) -> String {
         match self.allowance {
             OfUlps(n) => format!("{n} ULP"),
@@ -136,7 +136,7 @@ impl Step {
         }
     }
 
-    /// The absolute error of a row that has one.
+    /// The absolute error, for a rule with one.
     #[inline(always)]
     pub const fn absolute(&self) -> f64 {
         match self.allowance {

@@ -2,11 +2,11 @@
 //!
 //! *In:* registers of the arguments, component by component. *Out:* registers of the results.
 //!
-//! The formulas are those that the specification names. A vector without length normalizes to NaN, a singular matrix
-//! inverts to infinities or NaN: both are undefined in GLSL.
+//! The formulas are those of the specification. A vector without length normalizes to NaN, and the inverse of a
+//! singular matrix has infinities or NaN. GLSL leaves both undefined.
 //!
-//! *Holds:* a formula is compiled once a domain, for any number of components. Three components of plain numbers are
-//! compiled apart: there the loops over components cost more than what is in them.
+//! *Holds:* a formula is compiled once per domain, for any number of components. Three components of plain numbers
+//! are compiled separately, since loops over components would cost more than their bodies.
 
 use super::inst::{Composite, Operand};
 use super::registers::{Filled, Register, Registers};
@@ -14,20 +14,20 @@ use crate::domain::{Block, Domain, Element, Few, LANES, Number, Source, WIDTH};
 use smallvec::SmallVec;
 use std::hint::black_box;
 
-/// The most components of a vector.
+/// The largest number of components of a vector.
 const MOST: usize = 4;
 
-/// The components of a vector; those that it lacks are blank.
+/// The components of a vector. Missing ones are blank.
 type Vector<B> = [B; MOST];
 
-/// What a domain's built-in functions are computed in.
+/// The type in which a domain's built-in functions are computed.
 type Wide<D> = <<D as Domain>::Float as Number>::Wide;
 
-/// Eight lanes, each a number of its own.
+/// Eight lanes with separate numbers.
 type ByLane<W> = [W; WIDTH];
 
-/// A vector of `size` components. Unlike the library's `from_fn` it is part of the loop that calls it, and so compiled for
-/// the same vector unit.
+/// A vector of `size` components. Unlike the standard library's `from_fn`, it is inlined into the calling loop and so
+/// compiled for the same vector unit.
 #[inline(always)]
 fn each<B: Copy + Default>(size: usize, component: impl Fn(usize) -> B) -> Vector<B> {
     let mut vector = [B::default(); MOST];
@@ -37,7 +37,7 @@ fn each<B: Copy + Default>(size: usize, component: impl Fn(usize) -> B) -> Vecto
     vector
 }
 
-/// The same number in all lanes.
+/// A number in all lanes.
 #[inline(always)]
 fn splat<W: Number, B: Block<W>>(value: f64) -> B {
     B::splat(W::from_f64(value))
@@ -127,7 +127,7 @@ fn faceforward<W: Number, B: Block<W>>(
     )
 }
 
-/// The determinant of the columns and rows named, of a matrix of `size` columns.
+/// The determinant of these columns and rows of a matrix with `size` columns.
 fn minor<W: Number>(m: &[W::Few], size: usize, columns: &[usize], rows: &[usize]) -> W::Few {
     match (columns, rows) {
         ([c], [r]) => m[c * size + r],
@@ -149,14 +149,14 @@ fn minor<W: Number>(m: &[W::Few], size: usize, columns: &[usize], rows: &[usize]
     }
 }
 
-/// Rare enough that it is compiled for no vector unit.
+/// Rare, so it is not compiled for a vector unit.
 #[inline(never)]
 fn determinant<W: Number>(m: &[W::Few], size: usize) -> W::Few {
     let all = [0, 1, 2, 3];
     minor::<W>(m, size, &all[..size], &all[..size])
 }
 
-/// Cofactors over the determinant.
+/// The inverse by cofactors and the determinant.
 #[inline(never)]
 fn inverse<W: Number>(m: &[W::Few], size: usize) -> [W::Few; 16] {
     let mut out = [splat::<W, W::Few>(0.0); 16];
@@ -192,7 +192,7 @@ fn alone<B: Copy + Default>(scalar: B) -> Vector<B> {
     [scalar, B::default(), B::default(), B::default()]
 }
 
-/// A function of vectors of `size` components: of the components of its arguments, one after the other.
+/// A function of vectors of `size` components. The components of all arguments follow each other.
 #[inline(always)]
 fn of_vectors<W: Number, B: Block<W>>(
     (op, squares): (Composite, bool),
@@ -201,7 +201,7 @@ fn of_vectors<W: Number, B: Block<W>>(
 ) -> Vector<B> {
     match op {
         Composite::Length => alone(squared::<W, B>(size, &vector(size, 0, &scalar)).sqrt()),
-        // One vector twice: its components are squares, which an envelope can make more of.
+        // The same vector twice: its components are squares, for which an envelope is narrower.
         Composite::Dot if squares => alone(squared::<W, B>(size, &vector(size, 0, &scalar))),
         Composite::Normalize => normalize::<W, B>(size, &vector(size, 0, &scalar)),
         Composite::Dot => alone(dot::<W, B>(size, &vector(size, 0, &scalar), &vector(size, 1, &scalar))),
@@ -221,7 +221,7 @@ fn of_vectors<W: Number, B: Block<W>>(
         Composite::Faceforward => {
             faceforward::<W, B>(size, &vector(size, 0, &scalar), &vector(size, 1, &scalar), &vector(size, 2, &scalar))
         }
-        // `composite` has seen to these.
+        // `composite` has handled these.
         Composite::Determinant | Composite::Inverse => Vector::default(),
     }
 }
@@ -230,7 +230,7 @@ fn of_vectors<W: Number, B: Block<W>>(
 struct Arguments<'a, N: Number>(SmallVec<[Source<'a, N>; 12]>);
 
 impl<N: Number> Arguments<'_, N> {
-    /// A block of a component; what is not there is blank.
+    /// A block of a component. Missing ones are blank.
     #[inline(always)]
     fn scalar(&self, place: usize, number: usize) -> <N::Wide as Element>::Few {
         match self.0.get(number) {
@@ -239,7 +239,7 @@ impl<N: Number> Arguments<'_, N> {
         }
     }
 
-    /// The same as numbers lane by lane.
+    /// The block of a component as separate numbers.
     #[inline(always)]
     fn by_lane(&self, place: usize, number: usize) -> ByLane<N::Wide> {
         let few = self.scalar(place, number);
@@ -250,7 +250,7 @@ impl<N: Number> Arguments<'_, N> {
         lanes
     }
 
-    /// All components, of a matrix.
+    /// All components of a matrix.
     fn all(&self, place: usize) -> [<N::Wide as Element>::Few; 16] {
         let mut all = [Default::default(); 16];
         for (k, slot) in all.iter_mut().enumerate() {
@@ -259,7 +259,7 @@ impl<N: Number> Arguments<'_, N> {
         all
     }
 
-    /// The blocks that are to be computed: one if each argument is one number for all lanes.
+    /// The number of blocks to compute: one if each argument is one number for all lanes.
     fn blocks(&self) -> (usize, Filled) {
         let same = self.0.iter().all(|source| matches!(source, Source::One(_)));
         if same { (1, Filled::One) } else { (LANES / WIDTH, Filled::Lanes) }
@@ -304,7 +304,7 @@ fn vectors<N: Number>(op: (Composite, bool), size: usize, arguments: &Arguments<
         }
         return;
     }
-    // The compiler is not told how few components there are, or it would write each loop out as often.
+    // The number of components is hidden from the compiler, which would otherwise unroll each loop for each number.
     let size = black_box(size);
     let done = <N::Wide as Element>::Few::if_vectorized(
         #[inline(always)]

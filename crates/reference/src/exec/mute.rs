@@ -1,9 +1,9 @@
-//! What the bound of a result comes from: the freedom that one expression's rule adds can be taken away.
+//! Finds the origin of an envelope: the contribution of one expression's rule can be removed.
 //!
-//! *In:* the code of a stage. *Out:* its operations, each with what mutes it; [`muted_run`](super::muted_run) then runs
-//! the instructions so that they carry on what their operands bring and add nothing of their own.
-//! *Holds:* what an instruction adds is what its rule gives where the operands are exactly their values; that much is
-//! taken off both ends of each result. An input that is muted is exactly its value.
+//! *In:* the code of a stage. *Out:* its operations, each with what mutes it. [`muted_run`](super::muted_run) then
+//! runs the instructions so that they propagate the envelopes of their operands and add nothing. *Holds:* an
+//! instruction's own contribution is the envelope that its rule yields for exact operands. It is removed from both
+//! bounds of each result. A muted input is exact.
 
 use super::code::{Code, Runs};
 use super::inst::{Float2, Inst};
@@ -11,17 +11,17 @@ use glisten_front::builtin::operations::Rule;
 use glisten_front::hir::GlobalId;
 use glisten_front::source::Span;
 
-/// An operation of the text, and the instructions that it was made into.
+/// An operation of the text, with its instructions.
 #[derive(Clone, Debug)]
 pub struct Operation {
     /// The expression.
     pub span: Span,
-    /// How GLSL writes it.
+    /// The operation as GLSL writes it.
     pub name: &'static str,
     muted: Muted,
 }
 
-/// What adds no freedom.
+/// The operation or input that adds nothing.
 #[derive(Clone, Debug, Default)]
 pub struct Muted {
     preamble: Vec<usize>,
@@ -51,18 +51,18 @@ impl Muted {
         places.contains(&place)
     }
 
-    /// The input that is muted.
+    /// The muted input.
     pub(super) fn only_input(&self) -> Option<GlobalId> {
         self.input
     }
 }
 
-/// The name, if the rule of an operation adds freedom of its own.
+/// The name, if the rule of an operation adds an error.
 fn own_error(rule: &Rule, name: &'static str) -> Option<&'static str> {
     rule.adds_error().then_some(name)
 }
 
-/// How GLSL writes what an instruction does; `None` for what adds no freedom.
+/// The operation of an instruction as GLSL writes it; `None` if it adds nothing.
 fn name(inst: &Inst) -> Option<&'static str> {
     Some(match inst {
         Inst::Float1 { op, .. } => own_error(op.rule(), op.name())?,
@@ -78,7 +78,7 @@ fn name(inst: &Inst) -> Option<&'static str> {
 }
 
 impl Code {
-    /// The operations of the stage that may add to a bound.
+    /// The operations of the stage that may add to an envelope.
     pub fn operations(&self) -> Vec<Operation> {
         let mut list: Vec<Operation> = Vec::new();
         let sections = [(&self.inner.preamble, true), (&self.inner.main, false)];

@@ -1,16 +1,17 @@
-//! Rules of precision, evaluated over envelopes.
+//! Evaluates rules of precision over envelopes.
 //!
-//! *In:* a [`Rule`] of the front's table and intervals of arguments. *Out:* the interval that the rule allows.
-//! *Holds:* a formula is evaluated operation by operation, each by its own rule. *Not done here:* functions that neither
-//! rise throughout nor inherit from a formula ([`functions`](super::functions)), and the kernels that evaluate the
-//! formulas of the most frequent functions in a faster way: they ask by [`Rule::inherits`] whether the formula is still theirs.
+//! *In:* a [`Rule`] of the front end's table, and intervals of arguments. *Out:* the interval that the rule allows.
+//! *Holds:* a formula is evaluated operation by operation, each by its own rule. *Not done here:* functions that are
+//! not monotonic and do not inherit from a formula ([`functions`](super::functions)), and the kernels that evaluate
+//! the formulas of the most frequent functions in a faster way. These check with [`Rule::inherits`] that the formula
+//! is still theirs.
 
 use super::EnvelopeFloat;
 use super::round::{ulps_above, ulps_below};
 use crate::domain::Number;
 use glisten_front::builtin::operations::{Binary, Formula, Precision, Rule, Unary};
 
-/// The value of a formula at a component of vectors of arguments; scalars go with every component.
+/// The value of a formula at a component of vectors of arguments. Scalars are combined with every component.
 pub(crate) fn evaluate<N: Number>(formula: &Formula, arguments: &[&[N]], component: usize) -> N {
     let of = |part: &Formula| evaluate(part, arguments, component);
     let size = || arguments.iter().map(|argument| argument.len()).max().unwrap_or(1);
@@ -88,7 +89,8 @@ fn binary<N: Number>(op: Binary, x: N, y: N) -> N {
 }
 
 impl EnvelopeFloat {
-    /// What a rule's formula gives, with the exact value; nothing is known where the rule has none.
+    /// The interval of a rule's formula, with the exact value. If the rule has no formula, the result may be
+    /// anything.
     pub(super) fn by_formula(rule: &Rule, value: f64, arguments: &[Self]) -> Self {
         let Some(formula) = rule.formula() else { return Self::anything(value) };
         match arguments {
@@ -99,7 +101,7 @@ impl EnvelopeFloat {
         }
     }
 
-    /// A function that never falls, by its rule.
+    /// A function that never decreases, by its rule.
     pub(super) fn rising_by(self, rule: &Rule, f: impl Fn(f64) -> f64) -> Self {
         let (value, low, high) = (f(self.value), f(self.low), f(self.high));
         let between = |low: f64, high: f64| Self::rounded(value, low, high, self.may_be_nan);
@@ -148,7 +150,7 @@ mod tests {
         of(0.7, 0.71).rising_by(&rule, f64::atan)
     }
 
-    /// Each kind of rule gives another interval, and so does each other number in it.
+    /// Each kind of rule yields another interval, and so does each other number in it.
     #[test]
     fn a_changed_rule_changes_the_result() {
         const X: Formula = Formula::Argument(0);
@@ -179,7 +181,7 @@ mod tests {
         }
     }
 
-    /// Formulas that have a faster kernel: both give intervals of the same numbers, and the kernel is in use.
+    /// For formulas with a faster kernel, both yield intervals of the same numbers, and the kernel is in use.
     #[test]
     fn kernels_evaluate_the_formulas_of_their_rules() {
         assert!(rules::SQRT.inherits(&rules::kernels::SQRT));
@@ -204,7 +206,7 @@ mod tests {
         }
     }
 
-    /// A formula computes what its function is: in f64 it gives the function's own value.
+    /// A formula computes its function: in f64 it yields the function's own value.
     #[test]
     fn formulas_compute_their_functions() {
         let close = |a: f64, b: f64| (a - b).abs() <= 1e-9 * b.abs().max(1.0);

@@ -1,8 +1,8 @@
-//! Functions with a row of their own in the table, and those that inherit one from a formula.
+//! Functions with a rule of their own, and those that inherit one from a formula.
 //!
-//! *Holds:* a function that inherits its precision from a formula is computed by it, at both ends of the argument where
-//! the function rises or falls throughout, and limited to what the function itself can give. Where the exact result is
-//! not defined for some arguments, those may give NaN.
+//! *Holds:* a function that inherits its precision from a formula is computed by it (at both bounds of the argument
+//! if the function is monotonic), and limited to the range of the function. Arguments with an undefined result may
+//! yield NaN.
 
 use super::formula::evaluate;
 use super::round::{OUTWARD, ulps_above, ulps_below};
@@ -12,12 +12,12 @@ use crate::domain::rules::{self, FLUSH, ulp};
 use glisten_front::builtin::operations::Formula;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// What the greatest result of a function may be missed by upward: two ULP of 1.
+/// The largest error above the maximum of a function: two ULP of 1.
 const TOP: f64 = 2.4e-7;
 
 impl EnvelopeFloat {
-    /// A rising function that inherits its error from a formula: the formula at both ends. Between them its roundings
-    /// may be twice as large as there, where a power of two is passed.
+    /// An increasing function that inherits its error from a formula: the formula at both bounds. Between them the
+    /// roundings may be twice as large, if there is a power of two.
     pub(super) fn by_ends(self, f: impl Fn(f64) -> f64, formula: impl Fn(Self) -> Self) -> Self {
         let [low, high] = self.ends().map(formula);
         let more = |end: Self| if self.low == self.high { 0.0 } else { end.high - end.low };
@@ -59,7 +59,7 @@ impl EnvelopeFloat {
             }
             let inner = 1.0 / x.sqrt();
             let root = 1.0 / (inner - sign * first * ulp(inner) * (1.0 + 1e-6));
-            // Twice the ULP below: a power of two may stand just above.
+            // Twice the ULP below, since there may be a power of two just above.
             root + sign * second * ulp(root) * (1.0 + 1e-6)
         };
         let flushed = |x: f64| if x < FLUSH { 0.0 } else { x };
@@ -68,17 +68,18 @@ impl EnvelopeFloat {
         Self::rounded(value, low.max(0.0), high, self.may_be_nan || self.low < 0.0)
     }
 
-    /// With the value, and what the function gives at an end.
+    /// An exponential function, with the exact value and the function for its bounds.
     pub(super) fn exponential(self, value: f64, f: impl Fn(f64) -> f64) -> Self {
         let n = |x: f64| rules::EXP.ulps_at(x);
         let (low, high) = (f(self.low), f(self.high));
         let below = if low == 0.0 { 0.0 } else { ulps_below(low, high, n(self.low)) };
         let above = if high.is_finite() { ulps_above(low, high, n(self.high)) } else { high };
-        // The number of ULPs falls toward 0, but the result rises faster: its ends are those of the interval.
+        // The number of ULPs decreases toward 0, but the result increases faster, so its bounds are at those of the
+        // interval.
         Self::rounded(value, below.max(0.0), above, self.may_be_nan)
     }
 
-    /// Likewise.
+    /// A logarithm, with the exact value and the function for its bounds.
     pub(super) fn logarithm(self, value: f64, f: impl Fn(f64) -> f64) -> Self {
         if self.high < 0.0 {
             return Self::anything(value);
@@ -110,7 +111,7 @@ impl EnvelopeFloat {
             return Self::anything(value);
         }
         let power = product.exponential(value, ends::exp2);
-        // 0^0 is not defined (§8.2).
+        // 0^0 is undefined (§8.2).
         let undefined = self.low <= 0.0 && exponent.low <= 0.0;
         let top = if undefined { power.high.max(1.0) } else { power.high };
         Self { high: top, may_be_nan: power.may_be_nan || undefined, ..power }
@@ -140,7 +141,7 @@ impl EnvelopeFloat {
 
     fn wave(self, value: f64, (least, most): (f64, f64)) -> Self {
         let largest = self.low.abs().max(self.high.abs());
-        // Beyond pi the argument is reduced, which loses what rounding an f32 of that size loses.
+        // Above pi the argument is reduced. That loses as much as rounding an f32 of that size.
         let (reduced_beyond, _) = const { rules::SIN.within() };
         let reduced = if largest > reduced_beyond { ulp(largest) } else { 0.0 };
         let error = rules::SIN.absolute() + reduced;
@@ -169,7 +170,7 @@ impl EnvelopeFloat {
         if over_cut
             || (self.low.is_infinite() || self.high.is_infinite()) && (x.low.is_infinite() || x.high.is_infinite())
         {
-            // The cut along negative x, and the origin, where GLSL leaves it undefined (§8.1).
+            // The branch cut along negative x, and the origin, which GLSL leaves undefined (§8.1).
             let origin = x.high >= 0.0 && over_cut;
             return Self { value, low: -full, high: full, may_be_nan: may_be_nan || origin };
         }
@@ -182,8 +183,8 @@ impl EnvelopeFloat {
         Self::rounded(value, below, above, may_be_nan)
     }
 
-    /// `asin` and `acos` at a point inherit from `atan2` and the root of `1 - x x`; WGSL's table allows an absolute error
-    /// beside it.
+    /// `asin` and `acos` at a point inherit from `atan2` and the root of `1 - x x`. WGSL's table also allows an
+    /// absolute error.
     fn arc(self, value: f64, f: impl Fn(f64) -> f64, rule: &rules::Rule) -> Self {
         if self.low > 1.0 || self.high < -1.0 {
             return Self::anything(value);
@@ -196,7 +197,7 @@ impl EnvelopeFloat {
             let inherited = (exact - end.low).max(end.high - exact);
             if inherited.is_finite() { inherited.max(rule.absolute()) } else { rule.absolute() }
         };
-        // Between the ends a ULP may be twice as large.
+        // Between the bounds a ULP may be twice as large.
         let error = error(a, fa).max(error(b, fb)) * if self.low == self.high { 1.0 } else { 2.0 };
         let may_be_nan = self.may_be_nan || self.low < -1.0 || self.high > 1.0;
         Self::rounded(value, fa.min(fb) - error, fa.max(fb) + error, may_be_nan)
@@ -215,12 +216,12 @@ impl EnvelopeFloat {
         let value = self.value.cosh();
         let size = self.abs();
         let found = size.rising_by(&rules::COSH, f64::cosh);
-        // The sum of a number and its reciprocal, each a little off.
+        // The sum of a number and its reciprocal, both with an error.
         Self { low: found.low.max(1.0 - 1e-6), ..found.of_value(value) }
     }
 
-    /// `x (1 - a) + y a`, or by the law of distribution `x + (y - x) a`: linear in each, so the extremes are at the
-    /// corners; the roundings of the formulas on top.
+    /// `x (1 - a) + y a`, or by distributivity `x + (y - x) a`: linear in each argument, so the extremes are at the
+    /// corners, plus the roundings of the formulas.
     pub(super) fn mixed(self, y: Self, a: Self) -> Self {
         let value = self.value * (1.0 - a.value) + y.value * a.value;
         if !const { rules::MIX.inherits(&rules::kernels::MIX) } {
@@ -253,7 +254,7 @@ impl EnvelopeFloat {
         Self::rounded(value, low, high, either.may_be_nan)
     }
 
-    /// A formula of `t`, which rises between 0 and 1, with `t = clamp((x - edge0) / (edge1 - edge0), 0, 1)`.
+    /// A formula of `t`, which increases between 0 and 1, with `t = clamp((x - edge0) / (edge1 - edge0), 0, 1)`.
     pub(super) fn smooth_step(edge0: Self, edge1: Self, x: Self) -> Self {
         let Some(Formula::With(curve, t)) = rules::SMOOTHSTEP.formula() else {
             let value = Number::smoothstep(edge0.value, edge1.value, x.value);

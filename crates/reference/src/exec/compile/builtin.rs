@@ -1,4 +1,4 @@
-//! Calls of built-in functions (§8), by the class that the table of operations gives them.
+//! Compiles calls of built-in functions (§8), by their class in the table of operations.
 
 use super::super::inst::{
     Class as File, Composite, Derivative, Float1, Float2, Float3, FloatToInt, Inst, Int1, Int2, Operand,
@@ -62,7 +62,7 @@ impl Compiler<'_> {
             Class::Test(Test::Nan) => a.iter().map(|a| self.classify(FloatToInt::IsNan, *a)).collect(),
             Class::Test(Test::Infinite) => a.iter().map(|a| self.classify(FloatToInt::IsInf, *a)).collect(),
             Class::Derivative(op) => self.derivative(op, a),
-            // §8.9 leaves the values open; 0 has the right range and mean.
+            // §8.9 leaves the values open. 0 has the right range and mean.
             Class::Noise(_) => {
                 let zero = self.emit.float(0.0);
                 (0..self.types.flat_len(ty)).map(|_| zero).collect()
@@ -72,12 +72,12 @@ impl Compiler<'_> {
                 Val::new()
             }
             Class::Texture(form) => self.texture_call(form, values, first_ty, ty, span),
-            // It writes an argument, and is compiled before its arguments are.
+            // `modf` writes an argument, and is compiled before its arguments are.
             Class::Modf => Val::new(),
         }
     }
 
-    /// The functions of which the types of the arguments decide by what they are computed.
+    /// The functions that depend on the types of the arguments.
     fn numbers(&mut self, op: Numbers, values: &[Val], types: &[TypeId], scalar: Scalar) -> Val {
         let a: &[Operand] = values.first().map_or(&[], |value| value);
         let b: &[Operand] = values.get(1).map_or(&[], |value| value);
@@ -119,7 +119,7 @@ impl Compiler<'_> {
         self.composite(op, size, &arguments, count)
     }
 
-    /// Component by component; a scalar goes with every component.
+    /// Applies a function component by component. A scalar is combined with every component.
     fn zip(&mut self, a: &[Operand], b: &[Operand], mut f: impl FnMut(&mut Self, Operand, Operand) -> Operand) -> Val {
         (0..a.len().max(b.len()))
             .filter_map(|flat| Some((component(a, flat)?, component(b, flat)?)))
@@ -165,7 +165,7 @@ impl Compiler<'_> {
         })
     }
 
-    /// `mix(x, y, a)`; with a `bvec` for `a` the components of `y` where it is true.
+    /// `mix(x, y, a)`. If `a` is a `bvec`, selects the components of `y` where it is true.
     fn mix(&mut self, values: &[Val], types: &[TypeId]) -> Val {
         let boolean = types.get(2).and_then(|ty| self.types.scalar_of(*ty)) == Some(Scalar::Bool);
         let class = types.first().map_or(File::Float, |ty| self.class(*ty));
@@ -188,7 +188,7 @@ impl Compiler<'_> {
         all.into_iter().collect()
     }
 
-    /// Derivatives exist in fragment stages; of what is the same for all lanes they are 0.
+    /// Derivatives exist in fragment stages. They are 0 for values that are the same in all lanes.
     fn derivative(&mut self, op: Derivative, a: &[Operand]) -> Val {
         a.iter()
             .map(|a| {

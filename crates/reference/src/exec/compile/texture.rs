@@ -1,4 +1,4 @@
-//! Calls of texture functions (§8.7): which argument means what.
+//! Compiles calls of texture functions (§8.7), by the roles of their arguments.
 
 use super::super::inst::{Class, Float2, Inst, Lookup, Operand, TextureCall};
 use super::{Compiler, Val};
@@ -19,7 +19,7 @@ impl Compiler<'_> {
         let (Type::Sampler(kind), Some(slot)) =
             (self.types.get(sampler), values.first().and_then(|value| value.first()).copied())
         else {
-            // The analysis has seen to it that the first argument is a sampler.
+            // The analysis has checked that the first argument is a sampler.
             return Val::new();
         };
         if kind.dim == SamplerDim::Multisample {
@@ -52,7 +52,7 @@ impl Compiler<'_> {
         self.finish(call, ty)
     }
 
-    /// Projection, layer, and the reference of a shadow sampler.
+    /// Compiles the projection, the layer, and the reference of a shadow sampler.
     fn coordinates(&mut self, call: &mut TextureCall, projective: bool, value: &[Operand]) {
         let kind = call.kind;
         let size = usize::from(kind.dimensions()) + usize::from(kind.arrayed);
@@ -65,7 +65,7 @@ impl Compiler<'_> {
         call.reference = reference;
     }
 
-    /// Puts the operands into registers and appends the instruction.
+    /// Moves the operands to registers and appends the instruction.
     fn finish(&mut self, mut call: TextureCall, ty: TypeId) -> Val {
         let emit = &mut self.emit;
         call.visit(&mut |class, _, operand| *operand = emit.in_register(class, *operand));
@@ -82,7 +82,7 @@ impl Compiler<'_> {
         let index = self.emit.textures.len() as u32 - 1;
         self.emit.push(Inst::Texture { call: index });
         if count == 1 && self.types.flat_len(ty) == 4 {
-            // `shadow2D` of older versions: luminance, and alpha 1.
+            // `shadow2D` of older versions: luminance, with alpha 1.
             let (r, one) = (results.first().copied(), self.emit.float(1.0));
             results = r.into_iter().flat_map(|r| [r, r, r, one]).collect();
         }

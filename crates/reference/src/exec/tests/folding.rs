@@ -1,8 +1,8 @@
-//! Every row of the table of operations, and every operator: constant folding gives, bit for bit, what the executor
-//! gives in f32, for special values above all.
+//! Checks for every row of the table of operations, and for every operator, that constant folding yields the
+//! executor's f32 result bit for bit, especially for special values.
 //!
-//! Folding and executor are two programs: one walks expressions in the compiler, the other compiles them to registers.
-//! Both take a NaN's place in `min`, a negative base of `pow` and the like from the same definitions
+//! Folding and executor are two programs: one traverses expressions in the compiler, the other compiles them to
+//! registers. Both must take the cases that GLSL leaves undefined from the same definitions
 //! (`glisten_front::builtin::operations::kernel`), or this test fails.
 
 use crate::domain::{Domain, F32, Integer, Number};
@@ -43,7 +43,7 @@ struct Case {
     ret: TypeId,
 }
 
-/// How a type is handed over between stages: `bool`s as `int`s.
+/// The type that carries a type between stages: `bool`s become `int`s.
 fn carrier(types: &Types, ty: TypeId) -> String {
     match types.scalar_of(ty) {
         Some(Scalar::Bool) => types.name(ty).replace("bvec", "ivec").replace("bool", "int"),
@@ -73,13 +73,13 @@ impl Case {
         compilation.program.unwrap_or_else(|| panic!("{messages:?} in\n{text}"))
     }
 
-    /// The value of an input's scalar in a set: all combinations where all inputs are scalars, else a mixture.
+    /// The value of an input's scalar in a set: all combinations if all inputs are scalars, otherwise a mixture.
     fn scalar(&self, scalar: Scalar, set: usize, input: usize, flat: usize) -> u32 {
         let singles = self.inputs.iter().all(|ty| Types::basic().flat_len(*ty) == 1);
         let mixed = (set * 31 + input * 17 + flat * 7).wrapping_mul(2_654_435_761) >> 7;
         match (scalar, singles) {
             (Scalar::Float, true) => FLOATS[(set >> (4 * input)) % 16].to_bits(),
-            // Few of the special values at a time, or nothing but NaN is left of a vector.
+            // Only a few special values at a time, or a vector would contain only NaN.
             (Scalar::Float, false) if set.is_multiple_of(2) => FLOATS[mixed % 6].to_bits(),
             (Scalar::Float, false) => FLOATS[mixed % 16].to_bits(),
             (Scalar::Bool, _) => (mixed & 1) as u32,
@@ -107,7 +107,7 @@ fn value_of(scalar: Scalar, bits: u32) -> ScalarValue {
     }
 }
 
-/// All NaNs are one.
+/// All NaNs are equal.
 fn bits_of(value: &ScalarValue) -> u32 {
     match value {
         ScalarValue::Float(value) if value.is_nan() => f32::NAN.to_bits(),
@@ -118,7 +118,7 @@ fn bits_of(value: &ScalarValue) -> u32 {
     }
 }
 
-/// What is assigned to `o`.
+/// The expression that is assigned to `o`.
 fn assigned(shader: &Shader) -> ExprId {
     let main = shader.functions.iter().filter_map(|function| function.body.as_ref()).flatten();
     let mut values = main.filter_map(|stmt| match stmt.kind {
@@ -135,7 +135,7 @@ fn find<'a>(shader: &'a Shader, name: &str) -> Option<(GlobalId, &'a Global)> {
     shader.globals().find(|(_, global)| global.name == name)
 }
 
-/// Runs 64 sets of arguments and folds each; `None` if the expression is never constant.
+/// Runs 64 sets of arguments and folds each. Returns `None` if the expression is never constant.
 fn agree(case: &Case, program: &Program, code: &Code, round: usize) -> Option<usize> {
     let shader = program.stage(Stage::Vertex).expect("it was compiled");
     let types = &program.types;
