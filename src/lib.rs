@@ -35,7 +35,6 @@ pub mod report;
 pub mod scene;
 #[cfg(feature = "reference")]
 pub mod shader_test;
-#[cfg(feature = "reference")]
 pub mod specialize;
 #[cfg(feature = "reference")]
 pub mod verify;

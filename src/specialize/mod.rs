@@ -1,16 +1,26 @@
-//! Scenes without what their pictures do not need.
+//! Programs without what a host's values do not need, and scenes without what their pictures do not need.
 //!
-//! *In:* a [`Scene`]. *Out:* a scene that draws the same picture with residual programs and only the data that they read; its
+//! [`specialize`] takes a program and what is [`Known`] of its inputs; it needs no feature. The rest is for scenes:
+//!
+//! *In:* a `Scene`. *Out:* a scene that draws the same picture with residual programs and only the data that they read; its
 //! text in the explicit core; the account of what went and what that saves.
 //!
 //! *Holds:* what a scene fixes is what each of its draws fixes: uniforms that are not `dynamic`, textures, attributes that
 //! are the same at all vertices, fixed state. [`glisten_specialize`] does the rest and knows no scenes.
 
+#[cfg(feature = "reference")]
 mod account;
+#[cfg(feature = "reference")]
 mod known;
+#[cfg(feature = "reference")]
 mod residual;
 
-pub use account::{Account, DrawAccount, Entry, Figures, account, spirv_instructions};
+pub use glisten_front::hir::ScalarValue;
 pub use glisten_specialize::{Input, Kind, Known, KnownState, KnownTexture, LeftOut, Residual, specialize};
+
+#[cfg(feature = "reference")]
+pub use account::{Account, DrawAccount, Entry, Figures, account, spirv_instructions};
+#[cfg(feature = "reference")]
 pub use known::known;
+#[cfg(feature = "reference")]
 pub use residual::{SpecializedDraw, SpecializedScene, specialize_scene};
