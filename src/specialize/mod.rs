@@ -1,6 +1,6 @@
 //! Scenes without what their pictures do not need.
 //!
-//! *In:* a [`Scene`]. *Out:* a scene that draws the same picture with residual programs and only the data that they read; its
+//! *In:* a [`Scene`](glisten_scene::Scene). *Out:* a scene that draws the same picture with residual programs and only the data that they read; its
 //! text in the explicit core; the account of what went and what that saves.
 //!
 //! *Holds:* what a scene fixes is what each of its draws fixes: uniforms that are not `dynamic`, textures, attributes that
