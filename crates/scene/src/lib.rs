@@ -1,6 +1,6 @@
 //! Scenes and pictures of glisten.
 //!
-//! [`load`] reads a scene file (TOML; see `docs/scenes.md`) and its programs. The result is a [`Scene`], in which
+//! [`load()`] reads a scene file (TOML; see `docs/scenes.md`) and its programs. The result is a [`Scene`], in which
 //! everything is resolved: vertex data by attribute, uniform values by root, textures by sampler. The runners draw it
 //! and know nothing of TOML. [`picture`] contains pictures and intervals of pixel values; [`compare`] measures the
 //! difference between two pictures.

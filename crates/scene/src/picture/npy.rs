@@ -28,7 +28,7 @@ pub(super) fn write(width: u32, height: u32, pixels: &[[f64; 4]]) -> Vec<u8> {
     bytes
 }
 
-/// Reads a float32 array `[height, width, 4]` in C order, from [`write`] or `numpy.save`.
+/// Reads a float32 array `[height, width, 4]` in C order, from [`write()`] or `numpy.save`.
 pub(super) fn read(bytes: &[u8], size: Size) -> Result<Image, ImageError> {
     let damaged = || ImageError("it is not a whole NumPy file".to_owned());
     let [major, _, low, high] = *bytes.get(MAGIC.len()..).and_then(<[u8]>::first_chunk).ok_or_else(damaged)?;

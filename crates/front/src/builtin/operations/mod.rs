@@ -3,7 +3,7 @@
 //!
 //! *In:* nothing. *Out:* the identities [`BuiltinFunction`], [`Unary`], [`Binary`], [`Ternary`] and [`Composite`],
 //! and the properties of each: name, class, cost, precision, continuity, texture lookup. *Holds:* a property of an
-//! operation is defined only in its row of [`table`]. Phases that process operations (folding, execution, lowering)
+//! operation is defined only in its row of `table`. Phases that process operations (folding, execution, lowering)
 //! match the [`Class`] without a wildcard, so a new row does not compile until each of them supports it. *Not done
 //! here:* the prototypes with their versions and stages ([`functions`](super::functions)), which name their identity.
 
