@@ -11,7 +11,8 @@ impl Forward<'_> {
     pub(super) fn statements(&mut self, body: &[Stmt]) -> Vec<Stmt> {
         let mut out = Vec::with_capacity(body.len());
         for stmt in body {
-            if !self.store.live {
+            // Once something cannot be written out, whoever tried goes back to before: nothing on the way may try again.
+            if !self.store.live || self.failed {
                 break;
             }
             self.one(stmt, &mut out);
