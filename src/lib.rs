@@ -1,26 +1,27 @@
 //! glisten compiles, checks, draws and measures OpenGL 3.2 era GLSL (`#version 150`).
 //!
 //! ```text
-//!  GLSL 150 text ──► syntax ──► analysis ──► link ──►┬─► lower ──► naga ──► emit     WGSL, SPIR-V, MSL, HLSL, GLSL
-//!                    tokens,    typed        program │                        └────► gpu     wgpu on Vulkan
-//!                    ast        program      facts   ├─► cpu    reference executor and rasterizer
-//!                               (hir)                ├─► gl     the text itself on an OpenGL driver
-//!                                                    └─► lint   rules over hir and link facts
-//!                        gpu picture ─┐
-//!                        cpu picture ─┼─► compare ──► report
-//!                         gl picture ─┘
+//!  GLSL 150 text ──► Compiler ──► Program ──┬─► emit::emit      WGSL, SPIR-V, MSL, HLSL, GLSL
+//!                       │                   ├─► emit::reflect   what a host program needs
+//!                       ▼                   └─► lint::check     what is legal but will hurt
+//!                  Diagnostics
+//!
+//!  scene file ──► scene::load ──► Scene ────┬─► render          Picture, by the CPU reference
+//!                                           ├─► Gpu, Gl         Picture, by a driver
+//!                                           └─► verify::verify  is the picture right?
 //! ```
+//!
+//! [`Compiler`] turns the texts of a program into a [`Program`] and everything that is wrong with them. [`mod@emit`] translates
+//! it. [`library`] has lighting models to include. With the feature `reference`, `scene` loads scenes, `render` draws them, and
+//! `evaluate` calls a single function with many inputs. With `gpu` or `gl`, drivers draw them, too, and `verify` judges the
+//! pictures.
+//!
+//! Without features, this is the compiler core, for build scripts: no GPU, no command line, no I/O.
 
-/// Code for targets and the reflection: what [`glisten_emit`] makes of a program.
-pub mod emit {
-    pub use glisten_emit::{
-        ClipZ, Conventions, Emitted, Reflection, SpirvEnv, Target, WindowOrigin, emit, emit_with_sources, reflect,
-        reflection,
-    };
-}
 pub mod library;
 
 #[cfg(feature = "cli")]
+#[doc(hidden)]
 pub mod cli;
 #[cfg(feature = "reference")]
 pub mod evaluate;
@@ -34,6 +35,10 @@ pub mod report;
 pub mod scene;
 #[cfg(feature = "reference")]
 pub mod shader_test;
+#[cfg(feature = "reference")]
+pub mod specialize;
+#[cfg(feature = "reference")]
+pub mod verify;
 
 pub use glisten_front::{Compilation, Compiler, Diagnostic, Diagnostics, Options, Program, Source, Stage};
 pub use glisten_front::{diagnostic, lint, source};
@@ -45,3 +50,20 @@ pub use glisten_gpu::Gpu;
 pub use glisten_reference::{Precision, RenderOptions, render};
 #[cfg(feature = "reference")]
 pub use glisten_scene::picture::Picture;
+
+/// Translates programs to targets, and reflects what a host needs to know.
+pub mod emit {
+    pub use glisten_emit::{
+        ClipZ, Conventions, Emitted, Reflection, SpirvEnv, Target, WindowOrigin, emit, emit_with_sources, reflect,
+        reflection,
+    };
+}
+
+/// The examples of the README and of the page on the library.
+#[cfg(doctest)]
+mod pages {
+    #[doc = include_str!("../README.md")]
+    struct Readme;
+    #[doc = include_str!("../docs/library.md")]
+    struct Library;
+}

@@ -1,10 +1,12 @@
 //! Writes the generated parts of `README.md` and `docs/*.md`.
 //!
 //! ```sh
-//! cargo run --example docs                        # what is the same on every machine
-//! cargo run --example docs -- --check             # exit code 1 if that is not current
-//! cargo run --release --example docs -- --measured   # what is measured, too
+//! cargo run --example docs                        # the parts that are the same on every machine
+//! cargo run --example docs -- --check             # exit code 1 if those are not current
+//! cargo run --release --example docs -- --measured   # the measured parts, too
 //! ```
+
+#![expect(clippy::print_stdout, clippy::print_stderr, reason = "a program for the terminal")]
 
 mod maker;
 mod regions;
@@ -33,7 +35,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// Remakes all pages. The result is the pages that differ and were not written.
+/// Generates all pages again. Returns the pages that differ and were not written.
 fn run(check: bool, measured: bool) -> Result<Vec<String>, String> {
     let root = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
     let program = program(&root)?;
@@ -54,7 +56,7 @@ fn run(check: bool, measured: bool) -> Result<Vec<String>, String> {
     Ok(stale)
 }
 
-/// Builds the program, and says where it is: beside the folder of the examples.
+/// Builds the program and returns its path, which is next to the folder of the examples.
 fn program(root: &Path) -> Result<PathBuf, String> {
     let own = env::current_exe().map_err(|error| error.to_string())?;
     let folder = own.parent().and_then(Path::parent).ok_or("this program is not in a target folder")?;

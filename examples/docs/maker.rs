@@ -1,17 +1,18 @@
-//! What stands in the regions of the documentation, and what each is made from.
+//! The contents of the regions of the documentation, and their sources.
 //!
-//! *In:* a region's name, or a command line of glisten. *Out:* Markdown. *Holds:* a row of [`REGIONS`] for each name; a row says
-//! whether its text is the same on every machine. Measured text is made only when asked for.
+//! *In:* a region's name, or a command line of glisten. *Out:* Markdown. *Holds:* [`REGIONS`] has a row for each
+//! name, which says whether its text is the same on every machine. Measured text is generated only on request.
 
 use super::regions::Maker;
 use glisten::diagnostic::{Severity, codes};
 use glisten::library;
-use glisten_reference::domain::faults;
+use glisten_front::builtin::operations;
+use glisten_reference::domain::{faults, rules};
 use std::fmt::Write;
 use std::path::PathBuf;
 use std::process::Command;
 
-/// Makes a region.
+/// The source of a region.
 enum Source {
     /// From the tables of the code.
     Tables(fn() -> String),
@@ -26,6 +27,9 @@ static REGIONS: &[(&str, Source)] = &[
     ("faults", Source::Tables(known_faults)),
     ("library", Source::Output(&["lib", "list"])),
     ("library-errors", Source::Measured(&["lib", "measure", "--backend", "gpu"])),
+    ("operations", Source::Tables(operations::markdown)),
+    ("pipeline", Source::Tables(pipeline)),
+    ("precision", Source::Tables(operations::precision_markdown)),
     ("programs", Source::Tables(programs)),
 ];
 
@@ -108,6 +112,14 @@ fn diagnostics() -> String {
         let _ = writeln!(text, "| `{}` | {} | {level} | {} |", code.id, code.name, code.section);
     }
     text
+}
+
+fn pipeline() -> String {
+    let mut out = String::from("| step | allowed | source |\n| --- | --- | --- |\n");
+    for step in rules::PIPELINE.iter().chain(rules::OWN) {
+        let _ = writeln!(out, "| {} | {} | {} |", step.operation, step.describe(), step.source);
+    }
+    out
 }
 
 fn known_faults() -> String {

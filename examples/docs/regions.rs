@@ -1,35 +1,36 @@
-//! The parts of a Markdown page that a command writes.
+//! Finds and replaces the generated parts of a Markdown page.
 //!
-//! *In:* the text of a page, and a way to make each part. *Out:* the page with every part made again. *Holds:* what a person
-//! wrote is not touched.
+//! *In:* the text of a page, and a generator for each part. *Out:* the page with every part generated again. *Holds:*
+//! text that a person wrote is unchanged.
 //!
-//! A part is a *region*, all lines between `<!-- docs: NAME -->` and `<!-- /docs -->`, or the output of a `$ glisten ...` line in a
-//! `console` block. A line `...` in a shown output stands for any lines; such an output stays as it is.
+//! A part is a *region*, all lines between `<!-- docs: NAME -->` and `<!-- /docs -->`, or the output of a `$ glisten
+//! ...` line in a `console` block. A line `...` in a shown output matches any lines; such an output is left
+//! unchanged.
 
 use std::fmt::Write;
 
-/// Makes the parts of pages.
+/// Generates the parts of pages.
 pub(crate) trait Maker {
     /// The lines of a region. `None` leaves the region as it is.
     ///
     /// # Errors
-    /// That nobody knows the name, or why the region cannot be made.
+    /// The name is unknown, or the region cannot be generated.
     fn region(&mut self, name: &str) -> Result<Option<String>, String>;
 
-    /// What a command prints. `None` leaves the output as it is.
+    /// The output of a command. `None` leaves the shown output unchanged.
     ///
     /// # Errors
-    /// Why the command cannot run.
+    /// The command cannot run.
     fn output(&mut self, command: &str) -> Result<Option<String>, String>;
 }
 
 const OPEN: &str = "<!-- docs: ";
 const CLOSE: &str = "<!-- /docs -->";
 
-/// The page with its parts made again.
+/// The page with its parts generated again.
 ///
 /// # Errors
-/// A region without an end, and what the maker says.
+/// A region without an end, or an error of the generator.
 pub(crate) fn remake(page: &str, maker: &mut dyn Maker) -> Result<String, String> {
     let mut made = String::with_capacity(page.len());
     let mut lines = page.lines().peekable();

@@ -8,7 +8,7 @@ in vec3 position;                       // v0
 in vec3 normal;                         // v3
 uniform mat4 model_view_projection;     // c0 to c3: world, view and projection
 uniform float width = 0.02;             // of the rim, in normalized device coordinates (the picture is 2 wide)
-uniform float push = 0.0;               // towards the viewer, likewise
+uniform float push = 0.0;               // towards the viewer, in the same units
 
 void main()
 {

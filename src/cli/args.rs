@@ -8,6 +8,17 @@ use glisten_front::compiler::Options;
 use glisten_front::diagnostic::{Code, Level, Levels, Severity, codes, did_you_mean};
 use std::path::PathBuf;
 
+/// The format of a result. `table` is another name for `human`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(super) enum ResultFormat {
+    /// Text for people
+    #[default]
+    #[value(alias = "table")]
+    Human,
+    /// JSON
+    Json,
+}
+
 /// A format of diagnostics.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(super) enum DiagnosticFormat {
@@ -148,7 +159,7 @@ pub(super) struct BindingArgs {
     frag_data: Vec<(String, u32)>,
 }
 
-/// What the host of the emitted code expects.
+/// The expectations of the host of the emitted code.
 #[derive(Args, Clone, Debug)]
 #[command(next_help_heading = "Conventions")]
 pub(super) struct ConventionArgs {
@@ -223,7 +234,7 @@ fn parse_define(text: &str) -> Result<(String, String), String> {
     let (name, value) = text.split_once('=').unwrap_or((text, "1"));
     let starts_well = name.starts_with(|first: char| first.is_ascii_alphabetic() || first == '_');
     if !starts_well || !name.chars().all(|character| character.is_ascii_alphanumeric() || character == '_') {
-        return Err(format!("`{name}` is no name for a macro"));
+        return Err(format!("`{name}` is not a name for a macro"));
     }
     if value.contains(['\n', '\r']) {
         return Err("a macro's value is one line".to_owned());
@@ -236,7 +247,7 @@ fn parse_binding(text: &str) -> Result<(String, u32), String> {
     if name.is_empty() {
         return Err("the name is missing".to_owned());
     }
-    let number = number.parse().map_err(|_| format!("`{number}` is no number from 0"))?;
+    let number = number.parse().map_err(|_| format!("`{number}` is not a non-negative integer"))?;
     Ok((name.to_owned(), number))
 }
 

@@ -11,6 +11,7 @@ use super::guard;
 use super::inputs::{self, Group};
 use super::session::{Session, Unit};
 use crate::library;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 use glisten_emit::{self as emit, Conventions, Target};
 use glisten_front::diagnostic::codes::general::LONE_STAGE;
@@ -34,8 +35,8 @@ pub(super) struct CompileArgs {
     #[arg(short, long, value_name = "DIR", required_unless_present_any = ["check", "emit"])]
     output: Option<PathBuf>,
     /// The target to write (repeatable; default: wgsl and spirv)
-    #[arg(long = "target", value_enum)]
-    targets: Vec<TargetArg>,
+    #[arg(long = "target", value_parser = target_words())]
+    targets: Vec<Target>,
     /// Check everything, but write nothing
     #[arg(long)]
     check: bool,
@@ -70,37 +71,10 @@ enum EmitArg {
     Hir,
 }
 
-/// A target on the command line.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, ValueEnum)]
-enum TargetArg {
-    Wgsl,
-    Spirv,
-    Msl,
-    Hlsl,
-    Glsl,
-}
-
-impl TargetArg {
-    fn target(self) -> Target {
-        match self {
-            Self::Wgsl => Target::Wgsl,
-            Self::Spirv => Target::Spirv,
-            Self::Msl => Target::Msl,
-            Self::Hlsl => Target::Hlsl,
-            Self::Glsl => Target::Glsl,
-        }
-    }
-
-    /// The extension that is appended to the file's name.
-    fn extension(self) -> &'static str {
-        match self {
-            Self::Wgsl => "wgsl",
-            Self::Spirv => "spv",
-            Self::Msl => "metal",
-            Self::Hlsl => "hlsl",
-            Self::Glsl => "glsl",
-        }
-    }
+/// Reads the word of a target.
+pub(super) fn target_words() -> impl TypedValueParser<Value = Target> {
+    let words = Target::ALL.iter().map(|target| target.word());
+    PossibleValuesParser::new(words).try_map(|word| Target::from_word(&word).ok_or("no such target"))
 }
 
 /// A file to write.
@@ -109,7 +83,7 @@ type Output = (PathBuf, Vec<u8>);
 /// Runs the command.
 pub(super) fn run(args: &CompileArgs, console: &Console) -> Outcome {
     let inputs = inputs::collect(&args.files, &args.programs, false)?;
-    let plan = Plan::new(args, &inputs.groups)?;
+    let plan = OutputPlan::new(args, &inputs.groups)?;
     let mut session = Session::new(console, &args.sources, &args.bindings, &args.levels, args.jobs)?;
     let mut units = session.compile(inputs.groups);
     if let Some(EmitArg::Hir) = args.emit {
@@ -118,9 +92,9 @@ pub(super) fn run(args: &CompileArgs, console: &Console) -> Outcome {
         return Ok(exit);
     }
     for unit in &mut units {
-        warn_of_lone_stage(unit);
+        let warning = lone_stage(unit);
+        session.add(&mut unit.batch, warning);
         refuse_what_is_no_program(unit);
-        session.judge(&mut unit.batch);
     }
     let emitted: Vec<Result<Vec<Output>, Vec<Diagnostic>>> =
         session.pool().install(|| units.par_iter().map(|unit| plan.emit(unit)).collect());
@@ -128,11 +102,10 @@ pub(super) fn run(args: &CompileArgs, console: &Console) -> Outcome {
     for (unit, result) in units.iter_mut().zip(emitted) {
         match result {
             Ok(files) => outputs.extend(files),
-            Err(diagnostics) => unit.batch.diagnostics.extend(diagnostics),
+            Err(diagnostics) => session.add(&mut unit.batch, diagnostics),
         }
         let notes = unit.sound_program().map_or_else(Vec::new, |program| emit::notes(program, &plan.conventions));
-        unit.batch.diagnostics.extend(notes);
-        session.judge(&mut unit.batch);
+        session.add(&mut unit.batch, notes);
     }
     let exit = session.tell_units(&units, false)?;
     if !args.check {
@@ -147,17 +120,17 @@ pub(super) fn run(args: &CompileArgs, console: &Console) -> Outcome {
 }
 
 /// The outputs and where to write them.
-struct Plan {
+struct OutputPlan {
     folder: PathBuf,
-    targets: BTreeSet<TargetArg>,
+    targets: BTreeSet<Target>,
     conventions: Conventions,
 }
 
-impl Plan {
+impl OutputPlan {
     fn new(args: &CompileArgs, groups: &[Group]) -> Result<Self, Failure> {
-        let mut targets: BTreeSet<TargetArg> = args.targets.iter().copied().collect();
+        let mut targets: BTreeSet<Target> = args.targets.iter().copied().collect();
         if targets.is_empty() {
-            targets.extend([TargetArg::Wgsl, TargetArg::Spirv]);
+            targets.extend([Target::Wgsl, Target::Spirv]);
         }
         let folder = args.output.clone().unwrap_or_default();
         let conventions = args.conventions.conventions(args.debug_lines);
@@ -229,7 +202,7 @@ impl Plan {
         for shader in &program.stages {
             let Some(input) = group.inputs.iter().find(|input| input.stage == shader.stage) else { continue };
             for target in &self.targets {
-                match emit::emit_with_sources(program, shader.stage, target.target(), &self.conventions, sources) {
+                match emit::emit_with_sources(program, shader.stage, *target, &self.conventions, sources) {
                     Ok(emitted) => {
                         let name = format!("{}.{}", input.file_name(), target.extension());
                         outputs.push((self.folder.join(name), emitted.into_bytes()));
@@ -305,28 +278,26 @@ fn refuse_what_is_no_program(unit: &mut Unit) {
     if unit.program.is_some() {
         return;
     }
-    for diagnostic in unit.batch.diagnostics.iter_mut() {
+    for diagnostic in &mut unit.batch.diagnostics {
         if [&LONE_WITHOUT_MAIN, &LONE_WITHOUT_DEFINITION].contains(&diagnostic.code) {
             diagnostic.severity = Severity::Error;
         }
     }
-    // Counts the errors again.
-    unit.batch.diagnostics.retain(|_| true);
 }
 
-fn warn_of_lone_stage(unit: &mut Unit) {
+/// The warning about a program of a single stage.
+fn lone_stage(unit: &Unit) -> Option<Diagnostic> {
     if !unit.group.is_lone() || unit.program.is_none() {
-        return;
+        return None;
     }
-    let Some((_, file)) = unit.batch.sources.files().next() else { return };
+    let (_, file) = unit.batch.sources.files().next()?;
     let stage = unit.group.inputs.first().map_or("", |input| input.stage.name());
     let message = format!("`{}` is compiled without its partner", file.name());
     let span = Span::new(file.base(), file.base());
-    unit.batch.diagnostics.push(
-        Diagnostic::new(&LONE_STAGE, span, message)
-            .note(format!("locations of varyings and the uniform block are those of the {stage} stage alone"))
-            .help("name all files of a program in one command, or say `--program a.vert,b.frag`"),
-    );
+    let warning = Diagnostic::new(&LONE_STAGE, span, message)
+        .note(format!("locations of varyings and the uniform block are those of the {stage} stage alone"))
+        .help("name all files of a program in one command, or say `--program a.vert,b.frag`");
+    Some(warning)
 }
 
 #[cfg(test)]

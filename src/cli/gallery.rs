@@ -8,7 +8,9 @@ use super::progress::Progress;
 use super::render::Backend;
 use super::scenes::{DrawError, MachineArgs, ViaArg};
 use crate::gallery::{self, Entry, Tile};
+use crate::specialize::specialize_scene;
 use clap::Args;
+use glisten_front::source::SourceMap;
 use glisten_gpu::{Gpu, Via};
 use glisten_reference::{LineRule, Precision, RenderOptions};
 use glisten_scene::picture::Picture;
@@ -34,6 +36,9 @@ pub(super) struct GalleryArgs {
     /// The form of the code that the GPU runs
     #[arg(long, value_enum, default_value_t)]
     via: ViaArg,
+    /// Draw with programs of which nothing is left but what each picture needs
+    #[arg(long)]
+    specialize: bool,
     /// The width of the pictures in pixels
     #[arg(long, value_name = "PIXELS", default_value_t = 320, value_parser = clap::value_parser!(u32).range(8..=MAX_SIZE))]
     size: u32,
@@ -82,6 +87,7 @@ pub(super) fn run(args: &GalleryArgs, console: &Console) -> Outcome {
 impl Painter {
     fn draw(&self, args: &GalleryArgs, entry: &Entry) -> Result<Picture, Failure> {
         let scene = entry.supersampled(args.size);
+        let scene = if args.specialize { specialize_scene(&scene, &SourceMap::default(), &[]).scene } else { scene };
         let picture = match self {
             Self::Gpu(gpu, via) => gpu.render(&scene, *via).map(|rendered| rendered.picture).map_err(DrawError::from),
             Self::Cpu => {

@@ -22,8 +22,8 @@ impl DiskIncludes {
     }
 
     fn candidates(&self, path: &str, form: IncludeForm, from: &str) -> Vec<PathBuf> {
-        let beside = Path::new(from).parent().unwrap_or(Path::new(""));
-        let own = (form == IncludeForm::Quoted).then(|| beside.to_owned());
+        let folder = Path::new(from).parent().unwrap_or(Path::new(""));
+        let own = (form == IncludeForm::Quoted).then(|| folder.to_owned());
         own.into_iter().chain(self.folders.iter().cloned()).map(|folder| normal(&folder.join(path))).collect()
     }
 }
@@ -93,13 +93,13 @@ mod tests {
         let path = |name: &str| folder.path().join(name);
         fs::create_dir_all(path("lib")).expect("a folder");
         fs::create_dir_all(path("src/sub")).expect("a folder");
-        fs::write(path("src/a.glsl"), "beside").expect("written");
+        fs::write(path("src/a.glsl"), "folder").expect("written");
         fs::write(path("lib/a.glsl"), "library").expect("written");
         let includes = DiskIncludes::new(&[path("lib")]);
         let from = path("src/main.vert").to_string_lossy().into_owned();
         let text = |form, name| includes.resolve(name, form, &from).map(|included| included.text.to_string());
-        assert_eq!(text(IncludeForm::Quoted, "a.glsl").as_deref(), Ok("beside"));
-        assert_eq!(text(IncludeForm::Quoted, "./sub/../a.glsl").as_deref(), Ok("beside"));
+        assert_eq!(text(IncludeForm::Quoted, "a.glsl").as_deref(), Ok("folder"));
+        assert_eq!(text(IncludeForm::Quoted, "./sub/../a.glsl").as_deref(), Ok("folder"));
         assert_eq!(text(IncludeForm::Angled, "a.glsl").as_deref(), Ok("library"));
         assert!(text(IncludeForm::Quoted, "b.glsl").expect_err("there is none").contains("no `"));
         assert!(DiskIncludes::new(&[]).resolve("a.glsl", IncludeForm::Angled, &from).is_err());

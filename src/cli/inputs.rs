@@ -120,7 +120,7 @@ fn input(name: &str, args: &ProgramArgs, alone: bool) -> Result<Input, Failure> 
     let given = args.stage.map(Stage::from);
     if name == STDIN {
         let stage = given.ok_or_else(|| {
-            Failure::usage("standard input has no name that tells its stage").help("add `--stage vertex` or another")
+            Failure::usage("standard input has no name that says its stage").help("add `--stage vertex` or another")
         })?;
         return Ok(Input { name: "<stdin>".to_owned(), path: None, stage });
     }

@@ -1,6 +1,7 @@
 //! `glisten lib`: the library of lighting models as a list, as one page per module, as files, and as a table of its
 //! errors.
 
+use super::args::ResultFormat;
 use super::console::Console;
 use super::exit::{Exit, Failure, Outcome};
 use super::files;
@@ -27,7 +28,7 @@ enum LibCommand {
     List {
         /// The format of the list
         #[arg(long, value_enum, default_value_t)]
-        format: Format,
+        format: ResultFormat,
     },
     /// Show a module: its equation, its functions, their cost and their errors
     Show {
@@ -38,7 +39,7 @@ enum LibCommand {
         source: bool,
         /// The format of the page
         #[arg(long, value_enum, default_value_t)]
-        format: Format,
+        format: ResultFormat,
     },
     /// Write all modules, and the programs made of them, as files that include each other
     Export {
@@ -61,17 +62,8 @@ enum LibCommand {
         adapter: Option<String>,
         /// The format of the table
         #[arg(long, value_enum, default_value_t)]
-        format: Format,
+        format: ResultFormat,
     },
-}
-
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-enum Format {
-    /// Text for people
-    #[default]
-    Table,
-    /// JSON
-    Json,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
@@ -86,8 +78,8 @@ enum Backend {
 /// Runs the command.
 pub(super) fn run(args: &LibArgs, console: &Console) -> Outcome {
     let text = match &args.command {
-        LibCommand::List { format: Format::Table } => list(),
-        LibCommand::List { format: Format::Json } => lines(&entries().iter().map(summary).collect::<Vec<_>>()),
+        LibCommand::List { format: ResultFormat::Human } => list(),
+        LibCommand::List { format: ResultFormat::Json } => lines(&entries().iter().map(summary).collect::<Vec<_>>()),
         LibCommand::Show { name, source, format } => show(&find(name)?, *source, *format)?,
         LibCommand::Export { folder } => return export(folder, console),
         LibCommand::Measure { modules, rows, backend, adapter, format } => {
@@ -175,11 +167,11 @@ fn told(form: &Form, error: &EvaluateError) -> Failure {
         .help("this is a fault of glisten; please report it")
 }
 
-fn show(entry: &Entry, source: bool, format: Format) -> Result<String, Failure> {
+fn show(entry: &Entry, source: bool, format: ResultFormat) -> Result<String, Failure> {
     if source {
         return Ok(entry.module.text.to_owned());
     }
-    if format == Format::Json {
+    if format == ResultFormat::Json {
         let notes = Some(entry.notes.as_str()).filter(|notes| !notes.is_empty());
         return Ok(lines(&Summary { notes, function_entries: Some(&entry.functions), ..summary(entry) }));
     }
@@ -265,14 +257,14 @@ fn from_disk(text: &str) -> String {
 }
 
 /// The figures of a function: in f64, in f32, on the GPU.
-struct Row {
+struct FigureRow {
     form: &'static Form,
     wide: Figures,
     single: Figures,
     gpu: Option<Figures>,
 }
 
-fn measure(names: &[String], rows: usize, gpu: Option<&Gpu>, format: Format) -> Result<String, Failure> {
+fn measure(names: &[String], rows: usize, gpu: Option<&Gpu>, format: ResultFormat) -> Result<String, Failure> {
     let modules = names.iter().map(|name| Ok(find(name)?.header.name)).collect::<Result<Vec<&str>, Failure>>()?;
     let mut measured = Vec::new();
     for form in forms().filter(|form| modules.is_empty() || modules.contains(&form.module)) {
@@ -286,18 +278,23 @@ fn measure(names: &[String], rows: usize, gpu: Option<&Gpu>, format: Format) -> 
                 Some(trial.picture(&rendered.picture))
             }
         };
-        measured.push(Row { form, wide: reference(Precision::F64)?, single: reference(Precision::F32)?, gpu: drawn });
+        measured.push(FigureRow {
+            form,
+            wide: reference(Precision::F64)?,
+            single: reference(Precision::F32)?,
+            gpu: drawn,
+        });
     }
     Ok(match format {
-        Format::Table => table(&measured),
-        Format::Json => lines(&measured.iter().map(RowJson::from).collect::<Vec<_>>()),
+        ResultFormat::Human => table(&measured),
+        ResultFormat::Json => lines(&measured.iter().map(RowJson::from).collect::<Vec<_>>()),
     })
 }
 
 /// The table, which is also Markdown.
-fn table(rows: &[Row]) -> String {
+fn table(rows: &[FigureRow]) -> String {
     let head = ["function", "inputs", "f64 (ULP)", "f32", "GPU"].map(str::to_owned);
-    let cells = |row: &Row| {
+    let cells = |row: &FigureRow| {
         let gpu = row.gpu.map_or("-".to_owned(), |figures| short(figures.error));
         let name = format!("`{}`", row.form.signature);
         [name, row.wide.judged.to_string(), short(row.wide.ulps), short(row.single.error), gpu]
@@ -346,8 +343,8 @@ struct RowJson {
     gpu_non_finite: Option<usize>,
 }
 
-impl From<&Row> for RowJson {
-    fn from(row: &Row) -> Self {
+impl From<&FigureRow> for RowJson {
+    fn from(row: &FigureRow) -> Self {
         Self {
             module: row.form.module,
             function: row.form.signature,

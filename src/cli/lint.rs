@@ -19,7 +19,7 @@ pub(super) struct LintArgs {
     sources: SourceArgs,
     #[command(flatten)]
     levels: LevelArgs,
-    /// The same as --diagnostics
+    /// Another name for --diagnostics
     #[arg(long, value_enum, conflicts_with = "diagnostics")]
     format: Option<DiagnosticFormat>,
     #[command(flatten)]
@@ -40,8 +40,7 @@ pub(super) fn run(args: &LintArgs, console: &Console) -> Outcome {
     let mut units = session.compile(inputs.groups);
     for unit in &mut units {
         if let Some(program) = &unit.program {
-            unit.batch.diagnostics.extend(glisten_front::lint::check(program));
-            session.judge(&mut unit.batch);
+            session.add(&mut unit.batch, glisten_front::lint::check(program));
         }
     }
     session.tell_units(&units, true)

@@ -28,8 +28,10 @@ mod render;
 mod report;
 mod scenes;
 mod session;
+mod specialize;
 mod stages;
 mod test;
+mod timed;
 mod verify;
 
 use clap::{Args, Parser, Subcommand};
@@ -71,6 +73,7 @@ enum Command {
     Explain(explain::ExplainArgs),
     Render(render::RenderArgs),
     Verify(verify::VerifyArgs),
+    Specialize(specialize::SpecializeArgs),
     Report(report::ReportArgs),
     Gallery(gallery::GalleryArgs),
     Test(test::TestArgs),
@@ -110,6 +113,7 @@ fn dispatch(command: &Command, console: &Console) -> Outcome {
         Command::Explain(args) => explain::run(args, console),
         Command::Render(args) => render::run(args, console),
         Command::Verify(args) => verify::run(args, console),
+        Command::Specialize(args) => specialize::run(args, console),
         Command::Report(args) => report::run(args, console),
         Command::Gallery(args) => gallery::run(args, console),
         Command::Test(args) => test::run(args, console),

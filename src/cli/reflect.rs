@@ -1,11 +1,11 @@
 //! `glisten reflect`: what a host needs to know about a program, as a table or as JSON, or what one name is.
 
-use super::args::{BindingArgs, ConventionArgs, LevelArgs, ProgramArgs, SourceArgs};
+use super::args::{BindingArgs, ConventionArgs, LevelArgs, ProgramArgs, ResultFormat, SourceArgs};
 use super::console::Console;
 use super::exit::{Exit, Outcome};
 use super::inputs;
 use super::session::{Session, Unit};
-use clap::{Args, ValueEnum};
+use clap::Args;
 use glisten_emit::reflection::{Found, find, table};
 use glisten_emit::{Conventions, Reflection, reflect};
 use glisten_front::link::Program;
@@ -19,7 +19,7 @@ pub(super) struct ReflectArgs {
     files: Vec<String>,
     /// The format of the reflection
     #[arg(long, value_enum, default_value_t)]
-    format: Format,
+    format: ResultFormat,
     /// Show what a name is, and its location
     #[arg(long, value_name = "NAME")]
     find: Option<String>,
@@ -33,15 +33,6 @@ pub(super) struct ReflectArgs {
     conventions: ConventionArgs,
     #[command(flatten)]
     levels: LevelArgs,
-}
-
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-enum Format {
-    /// Tables for people
-    #[default]
-    Table,
-    /// JSON; for several programs, an object by stem
-    Json,
 }
 
 /// A program with its reflection.
@@ -67,8 +58,8 @@ pub(super) fn run(args: &ReflectArgs, console: &Console) -> Outcome {
     }
     let several = units.len() > 1;
     let text = match args.format {
-        Format::Table => tables(&reflected, several),
-        Format::Json => json(&reflected, several),
+        ResultFormat::Human => tables(&reflected, several),
+        ResultFormat::Json => json(&reflected, several),
     };
     console.output(&text)?;
     Ok(exit)

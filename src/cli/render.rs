@@ -30,6 +30,9 @@ pub(super) struct RenderArgs {
     /// The form of the code that the GPU runs
     #[arg(long, value_enum, default_value_t)]
     via: ViaArg,
+    /// Draw with programs of which nothing is left but what the picture needs
+    #[arg(long)]
+    specialize: bool,
 }
 
 /// The backend that draws a scene.
@@ -74,7 +77,8 @@ pub(super) fn run(args: &RenderArgs, console: &Console) -> Outcome {
     target.check(read.scene.framebuffer.format)?;
     let progress = Progress::new(console, 1);
     progress.say("drawing");
-    let picture = match draw(args, read.scene.clone()) {
+    let scene = if args.specialize { read.specialized() } else { read.scene.clone() };
+    let picture = match draw(args, scene) {
         Ok(picture) => picture,
         Err(error) => return read.failed(error),
     };

@@ -24,6 +24,9 @@ pub(super) struct ReportArgs {
     /// The form of the code that the GPU runs
     #[arg(long, value_enum, default_value_t)]
     via: ViaArg,
+    /// Add each way once more with programs of which nothing is left but what the picture needs
+    #[arg(long)]
+    specialize: bool,
 }
 
 /// Shows the steps of a report as progress.
@@ -57,7 +60,8 @@ pub(super) fn run(args: &ReportArgs, console: &Console) -> Outcome {
     };
     let via: Via = args.via.into();
     let mut steps = Steps { console, progress: Progress::new(console, 1), begun: false };
-    let result = report::run(&args.scene.scene, &DiskFiles, session.compiler(), &gpu, via, &mut steps);
+    let result =
+        report::run(&args.scene.scene, &DiskFiles, session.compiler(), &gpu, (via, args.specialize), &mut steps);
     drop(steps);
     match result {
         Ok(report) => write(args, console, &report),
@@ -80,8 +84,8 @@ fn told(mut session: Session<'_>, sources: SourceMap, error: DrawError) -> Outco
     match error {
         DrawError::Failure(failure) => Err(failure),
         DrawError::Diagnostics(diagnostics) => {
-            let mut batch = Batch { sources, diagnostics };
-            session.judge(&mut batch);
+            let mut batch = Batch { sources, diagnostics: Vec::new() };
+            session.add(&mut batch, diagnostics);
             Ok(session.tell(&[&batch], false)?.max(Exit::Content))
         }
     }

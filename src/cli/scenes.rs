@@ -1,4 +1,4 @@
-//! What `render`, `verify` and `report` share: reading a scene with its shaders, and running work with a time limit.
+//! Shared by `render`, `verify` and `report`: reading a scene with its shaders, and running work with a time limit.
 
 use super::args::{BindingArgs, LevelArgs, SourceArgs};
 use super::console::Console;
@@ -6,6 +6,7 @@ use super::exit::{Exit, Failure};
 use super::guard;
 use super::session::{Batch, Session};
 use crate::scene::{self, DiskFiles, Scene};
+use crate::specialize::specialize_scene;
 use clap::{Args, ValueEnum};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::source::SourceMap;
@@ -63,7 +64,7 @@ impl From<ViaArg> for Via {
 fn parse_seconds(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(seconds) if seconds > 0.0 && seconds <= 1e6 => Ok(seconds),
-        _ => Err(format!("`{text}` is no number of seconds")),
+        _ => Err(format!("`{text}` is not a number of seconds")),
     }
 }
 
@@ -76,6 +77,11 @@ pub(super) struct Read<'a> {
 }
 
 impl Read<'_> {
+    /// The scene without what its picture does not need.
+    pub(super) fn specialized(&self) -> Scene {
+        specialize_scene(&self.scene, self.sources(), &[]).scene
+    }
+
     /// The texts of the scene and its shaders.
     pub(super) fn sources(&self) -> &SourceMap {
         &self.batch.sources
@@ -86,8 +92,8 @@ impl Read<'_> {
         match error {
             DrawError::Failure(failure) => Err(failure),
             DrawError::Diagnostics(diagnostics) => {
-                self.batch.diagnostics = diagnostics;
-                self.session.judge(&mut self.batch);
+                self.batch.diagnostics.clear();
+                self.session.add(&mut self.batch, diagnostics);
                 Ok(self.session.tell(&[&self.batch], false)?.max(Exit::Content))
             }
         }
@@ -139,6 +145,11 @@ pub(super) fn told(exit: Exit, text: &str) -> Failure {
 }
 
 impl SceneArgs {
+    /// The arguments for one scene of several.
+    pub(super) fn of(scene: &str, machine: &MachineArgs, sources: &SourceArgs, levels: &LevelArgs) -> Self {
+        Self { scene: scene.to_owned(), machine: machine.clone(), sources: sources.clone(), levels: levels.clone() }
+    }
+
     /// A session that compiles as the arguments say.
     pub(super) fn session<'a>(&self, console: &'a Console) -> Result<Session<'a>, Failure> {
         Session::new(console, &self.sources, &BindingArgs::default(), &self.levels, 0)
@@ -151,8 +162,8 @@ impl SceneArgs {
         let loaded = loaded.map_err(|panic| {
             Failure::new(Exit::Content, format!("internal error: {panic}")).help("please report it with the scene")
         })?;
-        let mut batch = Batch { sources: loaded.sources, diagnostics: loaded.diagnostics.into_iter().collect() };
-        session.judge(&mut batch);
+        let mut batch = Batch { sources: loaded.sources, diagnostics: Vec::new() };
+        session.add(&mut batch, loaded.diagnostics);
         let exit = session.tell(&[&batch], false)?;
         Ok(match loaded.scene {
             Some(scene) if exit == Exit::Ok => Ok(Read { scene, session, batch }),

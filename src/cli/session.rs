@@ -83,7 +83,7 @@ impl<'a> Session<'a> {
             .map_err(|error| Failure::new(Exit::Machine, format!("the system gives no threads: {error}")))?;
         Ok(Self {
             console,
-            compiler: Compiler::new(sources.options(bindings)).with_includes(DiskIncludes::new(&sources.include_dirs)),
+            compiler: compiler(sources, bindings),
             format: levels.diagnostics,
             configs: Configs::new(levels.levels()?),
             pool,
@@ -122,27 +122,23 @@ impl<'a> Session<'a> {
             for input in &unit.group.inputs {
                 self.configs.levels(&input.name);
             }
-            self.judge(&mut unit.batch);
+            let found = std::mem::take(&mut unit.batch.diagnostics);
+            self.add(&mut unit.batch, found);
             self.dropped += *dropped;
         }
         units.into_iter().map(|(unit, _)| unit).collect()
     }
 
-    /// Applies the levels to a batch and sorts its diagnostics by their position in the text.
-    pub(super) fn judge(&mut self, batch: &mut Batch) {
+    /// Adds diagnostics to a batch by the levels of the files that they are in, and sorts the batch by position in the text.
+    pub(super) fn add(&mut self, batch: &mut Batch, found: impl IntoIterator<Item = Diagnostic>) {
         let sources = &batch.sources;
-        let configs = &mut self.configs;
-        batch.diagnostics.retain_mut(|diagnostic| {
+        for mut diagnostic in found {
             let file = sources.file_of(sources.call_site(diagnostic.primary.span));
             let name = file.or(sources.files().next().map(|(id, _)| id)).map_or("", |id| sources.file(id).name());
-            match configs.levels(name).judge(sources, diagnostic) {
-                Some(severity) => {
-                    diagnostic.severity = severity;
-                    true
-                }
-                None => false,
+            if self.configs.levels(name).apply(sources, &mut diagnostic) {
+                batch.diagnostics.push(diagnostic);
             }
-        });
+        }
         batch.diagnostics.sort_by_key(|diagnostic| sources.call_site(diagnostic.primary.span).start);
     }
 
@@ -185,11 +181,17 @@ impl<'a> Session<'a> {
     }
 }
 
+/// The compiler of the command line. It reports everything: the session applies the levels of each file.
+fn compiler(sources: &SourceArgs, bindings: &BindingArgs) -> Compiler {
+    let includes = DiskIncludes::new(&sources.include_dirs);
+    Compiler::new(sources.options(bindings)).with_includes(includes).without_levels()
+}
+
 /// The diagnostics that have been reported.
 #[derive(Default)]
 struct Told {
     findings: Vec<Finding>,
-    seen: BTreeSet<(write::Place, &'static str, String)>,
+    seen: BTreeSet<(write::Region, &'static str, String)>,
 }
 
 impl Told {
@@ -198,7 +200,7 @@ impl Told {
         let mut fresh = Vec::new();
         for diagnostic in &batch.diagnostics {
             let finding = Finding::new(&batch.sources, diagnostic);
-            if self.seen.insert((finding.place.clone(), finding.code.id, finding.message.clone())) {
+            if self.seen.insert((finding.region.clone(), finding.code.id, finding.message.clone())) {
                 self.findings.push(finding);
                 fresh.push(diagnostic);
             }

@@ -1,5 +1,6 @@
 //! `glisten test`: runs `.shader_test` files on the GPU and with the CPU reference.
 
+use super::args::ResultFormat;
 use super::console::Console;
 use super::exit::{Exit, Failure, Outcome};
 use super::files;
@@ -37,7 +38,7 @@ pub(super) struct TestArgs {
     timeout: u64,
     /// The format of the results
     #[arg(long, value_enum, default_value_t)]
-    format: Format,
+    format: ResultFormat,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
@@ -49,15 +50,6 @@ enum Backend {
     /// Both, one after the other
     #[default]
     Both,
-}
-
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-enum Format {
-    /// One line for each test that did not pass, and a summary
-    #[default]
-    Human,
-    /// One JSON array
-    Json,
 }
 
 /// The result of a test on a backend.
@@ -100,8 +92,8 @@ pub(super) fn run(args: &TestArgs, console: &Console) -> Outcome {
     }
     drop(progress);
     let text = match args.format {
-        Format::Json => serde_json::to_string_pretty(&results).expect("results are always JSON") + "\n",
-        Format::Human => human(&results),
+        ResultFormat::Json => serde_json::to_string_pretty(&results).expect("results are always JSON") + "\n",
+        ResultFormat::Human => human(&results),
     };
     console.output(&text)?;
     let failed = results.iter().any(|result| result.result == "fail");

@@ -1,25 +1,23 @@
 //! `glisten verify`: draws a scene on the GPU and with the CPU reference, and judges each pixel.
 
+use super::args::ResultFormat;
 use super::console::Console;
 use super::exit::{Exit, Outcome};
 use super::files;
 use super::pictures::Target;
 use super::progress::Progress;
 use super::scenes::{DrawError, SceneArgs};
+use super::timed::{TimedGpu, TimedReference};
 use crate::scene::Scene;
+use crate::verify::{self, Options, Runner, Verification, verify};
 use clap::{Args, ValueEnum};
-use glisten_front::diagnostic::codes::scenes::BOUND_EXPLAINED;
-use glisten_front::diagnostic::{Diagnostic, write};
+use glisten_front::diagnostic::write;
 use glisten_front::source::SourceMap;
-use glisten_gpu::{Gpu, Via};
-use glisten_reference::domain::faults::{Faults, KNOWN};
-use glisten_reference::{Contribution, LineRule, Precision, RenderOptions};
-use glisten_scene::compare::{self, Contributed, Judge, Verdict, flip};
-use glisten_scene::picture::Picture;
+use glisten_gpu::Via;
+use glisten_scene::compare::{Judge, Verdict, flip};
 use serde::Serialize;
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::time::Instant;
 
 /// Draw a scene on the GPU and the CPU, and compare the pictures
 #[derive(Args, Debug)]
@@ -31,7 +29,7 @@ pub(super) struct VerifyArgs {
     via: ViaChoice,
     /// The format of the figures
     #[arg(long, value_enum, default_value_t)]
-    format: Format,
+    format: ResultFormat,
     /// Judge by this absolute difference per channel instead of the derived envelope
     #[arg(long, value_name = "X", value_parser = parse_tolerance)]
     tolerance: Option<f64>,
@@ -41,6 +39,9 @@ pub(super) struct VerifyArgs {
     /// Excuse no pixel because of known faults of the driver
     #[arg(long)]
     no_known_faults: bool,
+    /// Let the GPU draw with programs of which nothing is left but what the picture needs, and judge it by the original
+    #[arg(long)]
+    specialize: bool,
     /// Write a picture of |difference| / bound: gray up to the bound, red beyond
     #[arg(long, value_name = "FILE")]
     difference: Option<PathBuf>,
@@ -57,19 +58,10 @@ enum ViaChoice {
     Both,
 }
 
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-enum Format {
-    /// Figures for people
-    #[default]
-    Human,
-    /// One JSON object
-    Json,
-}
-
 fn parse_tolerance(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(tolerance) if tolerance >= 0.0 => Ok(tolerance),
-        _ => Err(format!("`{text}` is no tolerance")),
+        _ => Err(format!("`{text}` is not a tolerance")),
     }
 }
 
@@ -94,27 +86,29 @@ struct Run {
 #[derive(Clone, Debug, Serialize)]
 struct Skip {
     via: &'static str,
-    /// What the target lacks, with a way out.
+    /// The reason: what the target lacks, with a way out.
     reason: String,
 }
 
 impl Skip {
-    fn new(via: Via, diagnostics: &[Diagnostic]) -> Self {
-        let reasons: Vec<&str> = diagnostics.iter().map(|diagnostic| diagnostic.message.as_str()).collect();
-        Self { via: via.name(), reason: reasons.join("; ") }
+    fn new(skip: &verify::Skip) -> Self {
+        let reasons: Vec<&str> = skip.diagnostics.iter().map(|diagnostic| diagnostic.message.as_str()).collect();
+        Self { via: skip.runner, reason: reasons.join("; ") }
     }
 }
 
-/// All comparisons, with their pictures.
-#[derive(Default)]
-struct Compared {
-    runs: Vec<Run>,
-    pictures: Vec<Picture>,
-    skipped: Vec<Skip>,
-    /// For each pixel, the largest difference relative to its bound.
-    shares: Vec<f64>,
-    /// The origin of the worst pixel's bound.
-    note: Option<Diagnostic>,
+impl Run {
+    fn new(run: &verify::Run, verification: &Verification) -> Self {
+        let reference = &verification.reference;
+        Self {
+            via: run.runner,
+            verdict: run.verdict.clone(),
+            flip: flip(reference, &run.picture),
+            bit_unequal: run.picture.bit_unequal(reference),
+            gpu_ms: run.milliseconds,
+            cpu_ms: verification.reference_milliseconds,
+        }
+    }
 }
 
 /// The JSON output: the worse of all runs, and each of them.
@@ -143,32 +137,33 @@ pub(super) fn run(args: &VerifyArgs, console: &Console) -> Outcome {
     };
     let difference = args.difference.as_deref().map(Target::parse).transpose()?;
     let progress = Progress::new(console, vias.len() + 1);
-    let scene = Arc::new(read.scene.clone());
-    let compared = compare(args, Arc::clone(&scene), &vias, &progress);
-    let compared = compared.and_then(|compared| explained(args, &scene, read.sources(), compared));
-    let Compared { runs, pictures, skipped, shares, note } = match compared {
-        Ok(compared) => compared,
+    let drawn = args.specialize.then(|| read.specialized());
+    let scenes = (&read.scene, drawn.as_ref());
+    let verification = match compare(args, scenes, read.sources(), &vias, &progress) {
+        Ok(verification) => verification,
         Err(error) => return read.failed(error),
     };
     drop(progress);
     if let Some(target) = difference {
-        let (files, _) = target.encode(&shown(&read.scene, &shares))?;
+        let (files, _) = target.encode(&verification.difference())?;
         for (path, bytes) in files {
             files::write(&path, &bytes)?;
         }
     }
+    let runs: Vec<Run> = verification.runs.iter().map(|run| Run::new(run, &verification)).collect();
+    let skipped: Vec<Skip> = verification.skipped.iter().map(Skip::new).collect();
     let Some(worse) = worst_of(&runs) else { return Ok(Exit::Ok) };
-    let forms_bit_unequal = match &pictures[..] {
-        [spirv, wgsl] => Some(spirv.bit_unequal(wgsl)),
+    let forms_bit_unequal = match &verification.runs[..] {
+        [spirv, wgsl] => Some(spirv.picture.bit_unequal(&wgsl.picture)),
         _ => None,
     };
-    let holds = runs.iter().all(|run| run.verdict.holds(args.allow_undecided));
+    let holds = verification.holds();
     let text = match args.format {
-        Format::Json => {
+        ResultFormat::Json => {
             let report = Report { worse: &worse, runs: &runs, skipped: &skipped, forms_bit_unequal, holds };
             serde_json::to_string_pretty(&report).expect("figures are always JSON") + "\n"
         }
-        Format::Human => {
+        ResultFormat::Human => {
             let mut text: String = runs.iter().map(|run| human(run, args.allow_undecided)).collect();
             for skip in &skipped {
                 text.push_str(&format!("{}: not run: {}\n", skip.via, skip.reason));
@@ -176,7 +171,7 @@ pub(super) fn run(args: &VerifyArgs, console: &Console) -> Outcome {
             if let Some(count) = forms_bit_unequal {
                 text.push_str(&format!("spirv and wgsl: {count} pixels are not bit-equal\n"));
             }
-            if let Some(note) = &note {
+            if let Some(note) = &verification.note {
                 text.push('\n');
                 text.push_str(&write::human(read.sources(), [note], console.colors_output()));
             }
@@ -187,160 +182,44 @@ pub(super) fn run(args: &VerifyArgs, console: &Console) -> Outcome {
     Ok(if holds { Exit::Ok } else { Exit::Content })
 }
 
-fn compare(args: &VerifyArgs, scene: Arc<Scene>, vias: &[Via], progress: &Progress) -> Result<Compared, DrawError> {
-    let gpu = Arc::new(args.scene.gpu()?);
-    progress.say("the reference");
-    let start = Instant::now();
-    let cpu = args.scene.within_time({
-        let scene = Arc::clone(&scene);
-        move || reference(&scene)
-    })?;
-    let cpu_ms = start.elapsed().as_secs_f64() * 1e3;
-    progress.step();
-    let judge = args.tolerance.map_or(Judge::Envelope, Judge::Tolerance);
-    let mut faults: Option<Vec<(&'static str, Picture)>> = None;
-    let mut compared = Compared::default();
-    for via in vias {
-        progress.say(via.name());
-        let (picture, gpu_ms) = match on_gpu(args, Arc::clone(&gpu), Arc::clone(&scene), *via) {
-            // With `both`, a limitation of one target (for example, WGSL has no point size) does not keep the other
-            // from being judged.
-            Err(DrawError::Diagnostics(lack)) if *via == Via::Wgsl && !compared.runs.is_empty() => {
-                compared.skipped.push(Skip::new(*via, &lack));
-                continue;
-            }
-            other => other?,
-        };
-        let mut verdict = Verdict::new(&picture, &cpu, judge);
-        if judge == Judge::Envelope && verdict.needs_excuse() && !args.no_known_faults {
-            let admitted = match faults.take() {
-                Some(admitted) => admitted,
-                None => args.scene.within_time({
-                    let scene = Arc::clone(&scene);
-                    move || admitting(&scene)
-                })?,
-            };
-            verdict = Verdict::admitting(&picture, &cpu, judge, &admitted);
-            faults = Some(admitted);
-        }
-        let shares = compare::shares(&picture, &cpu, judge);
-        compared.shares.resize(shares.len(), 0.0);
-        compared.shares.iter_mut().zip(shares).for_each(|(most, share)| *most = share.max(*most));
-        let bit_unequal = picture.bit_unequal(&cpu);
-        compared.runs.push(Run { via: via.name(), verdict, flip: flip(&cpu, &picture), bit_unequal, gpu_ms, cpu_ms });
-        compared.pictures.push(picture);
-        progress.step();
-    }
-    Ok(compared)
+/// Draws a scene in the place of another.
+struct Instead<'a> {
+    runner: &'a dyn Runner,
+    scene: Option<&'a Scene>,
 }
 
-/// How many contributions to a bound are reported.
-const TOLD: usize = 3;
-/// The smallest share of a bound that is reported.
-const LEAST_SHARE: f64 = 0.01;
+impl Runner for Instead<'_> {
+    fn name(&self) -> &'static str {
+        self.runner.name()
+    }
 
-/// Adds, for the worst pixel of each run, the origin of its bound.
-fn explained(
+    fn draw(&self, scene: &Scene) -> Result<verify::Drawn, verify::Failure> {
+        self.runner.draw(self.scene.unwrap_or(scene))
+    }
+}
+
+/// Judges what runners make of a scene, or of another one in its place, by the first.
+fn compare(
     args: &VerifyArgs,
-    scene: &Arc<Scene>,
+    (scene, drawn): (&Scene, Option<&Scene>),
     sources: &SourceMap,
-    mut compared: Compared,
-) -> Result<Compared, DrawError> {
-    let mut known: Vec<([u32; 4], Vec<Contribution>)> = Vec::new();
-    let mut largest = -1.0;
-    for run in compared.runs.iter_mut().filter(|run| run.verdict.judged_by == "envelope") {
-        let max_abs = run.verdict.max_abs;
-        let Some(worst) = &mut run.verdict.worst else { continue };
-        let place = [worst.x, worst.y, worst.attachment, worst.channel];
-        let contributions = match known.iter().find(|(known, _)| *known == place) {
-            Some((_, contributions)) => contributions.clone(),
-            None => args.scene.within_time({
-                let scene = Arc::clone(scene);
-                move || {
-                    Ok(glisten_reference::explain(
-                        &scene,
-                        &options(Faults::NONE),
-                        [place[0], place[1]],
-                        place[2] as usize,
-                        place[3] as usize,
-                    )?)
-                }
-            })?,
-        };
-        known.push((place, contributions.clone()));
-        let told: Vec<Contribution> =
-            contributions.into_iter().filter(|one| one.share >= LEAST_SHARE).take(TOLD).collect();
-        worst.contributions = told.iter().filter_map(|one| contributed(sources, one)).collect();
-        if max_abs > largest {
-            largest = max_abs;
-            compared.note = note(&told, place);
-        }
-    }
-    Ok(compared)
-}
-
-fn contributed(sources: &SourceMap, contribution: &Contribution) -> Option<Contributed> {
-    let location = sources.location(sources.call_site(contribution.span))?;
-    Some(Contributed {
-        file: sources.file(location.file).name().to_owned(),
-        line: location.line,
-        column: location.column,
-        end_column: location.end_column,
-        operation: contribution.operation,
-        share: contribution.share,
-    })
-}
-
-/// The contributions as an excerpt.
-fn note(told: &[Contribution], [x, y, _, channel]: [u32; 4]) -> Option<Diagnostic> {
-    let (first, rest) = told.split_first()?;
-    let channel = ["red", "green", "blue", "alpha"].get(channel as usize)?;
-    let message = format!("what the bound of {channel} at pixel ({x}, {y}) comes from");
-    let text = |one: &Contribution| format!("`{}`: {:.0} % of it", one.operation, one.share * 100.0);
-    let note = Diagnostic::new(&BOUND_EXPLAINED, first.span, message).here(text(first));
-    Some(rest.iter().fold(note, |note, one| note.label(one.span, text(one))))
-}
-
-/// The reference with its envelope; lines follow the rule of the target.
-fn reference(scene: &Scene) -> Result<Picture, DrawError> {
-    drawn(scene, Faults::NONE)
-}
-
-fn options(faults: Faults) -> RenderOptions {
-    RenderOptions { precision: Precision::Envelope, lines: LineRule::Vulkan, faults, ..RenderOptions::default() }
-}
-
-fn drawn(scene: &Scene, faults: Faults) -> Result<Picture, DrawError> {
-    Ok(glisten_reference::render(scene, &options(faults))?)
-}
-
-/// The reference pictures with each known fault of the driver excused, and with all of them.
-fn admitting(scene: &Scene) -> Result<Vec<(&'static str, Picture)>, DrawError> {
-    let one = KNOWN.iter().map(|known| (known.name, Faults::only(known.fault)));
-    let all = one.chain([("several", Faults::all())]);
-    all.map(|(name, faults)| Ok((name, drawn(scene, faults)?))).collect()
-}
-
-/// The picture of relative differences: gray up to the bound, red beyond.
-fn shown(scene: &Scene, shares: &[f64]) -> Picture {
-    let color = |share: &f64| if *share > 1.0 { [1.0, 0.0, 0.0, 1.0] } else { [*share, *share, *share, 1.0] };
-    let (width, height) = (scene.framebuffer.width, scene.framebuffer.height);
-    Picture {
-        width,
-        height,
-        attachments: vec![shares.iter().map(color).collect()],
-        covered: vec![true; shares.len()],
-        ranges: None,
-        undecided: Vec::new(),
-        near_edge: Vec::new(),
-    }
-}
-
-fn on_gpu(args: &VerifyArgs, gpu: Arc<Gpu>, scene: Arc<Scene>, via: Via) -> Result<(Picture, f64), DrawError> {
-    args.scene.within_time(move || {
-        let rendered = gpu.render(&scene, via)?;
-        Ok((rendered.picture, rendered.milliseconds))
-    })
+    vias: &[Via],
+    progress: &Progress,
+) -> Result<Verification, DrawError> {
+    let machine = &args.scene.machine;
+    let gpu = Arc::new(args.scene.gpu()?);
+    let runners: Vec<TimedGpu<'_>> = vias.iter().map(|via| TimedGpu::new(&gpu, *via, machine, progress)).collect();
+    let runners: Vec<Instead<'_>> = runners.iter().map(|runner| Instead { runner, scene: drawn }).collect();
+    let runners: Vec<&dyn Runner> = runners.iter().map(|runner| runner as &dyn Runner).collect();
+    let options = Options {
+        judge: args.tolerance.map_or(Judge::Envelope, Judge::Tolerance),
+        excuse_known_faults: !args.no_known_faults,
+        allow_undecided: args.allow_undecided,
+        sources: Some(sources),
+        reference: &TimedReference::new(machine, progress),
+        ..Options::default()
+    };
+    Ok(verify(scene, &runners, &options)?)
 }
 
 fn worst_of(runs: &[Run]) -> Option<Run> {

@@ -136,7 +136,7 @@ impl Evaluator {
     pub fn scene(&self, inputs: &[f32], tables: &[Arc<Texture>]) -> Result<Scene, EvaluateError> {
         let rows = inputs.len().checked_div(self.inputs).unwrap_or(1);
         if rows == 0 || rows * self.inputs != inputs.len() || rows > ROWS_A_LINE * MAX_LINES {
-            let message = format!("{} numbers are no rows of {}", inputs.len(), self.inputs);
+            let message = format!("{} numbers do not form rows of {}", inputs.len(), self.inputs);
             return Err(EvaluateError::new(message));
         }
         if tables.len() != self.tables {

@@ -25,7 +25,7 @@ pub(super) struct Meta {
 }
 
 #[derive(Deserialize)]
-struct File {
+struct EntryFile {
     gallery: Meta,
 }
 
@@ -58,7 +58,7 @@ fn entry(file: &LibraryScene) -> Result<Entry, String> {
         let first = loaded.diagnostics.iter().next().map_or("it does not load", |finding| &finding.message);
         return Err(wrong(first));
     };
-    let File { gallery } = toml::from_str(file.text).map_err(|error| wrong(error.message()))?;
+    let EntryFile { gallery } = toml::from_str(file.text).map_err(|error| wrong(error.message()))?;
     Ok(Entry { name: file.name, text: file.text, meta: gallery, scene })
 }
 

@@ -3,6 +3,8 @@
 //!
 //! *Holds:* without its tags, the HTML is the escaped text: nothing is lost, whatever the text.
 
+use glisten_front::syntax::keywords::WordClass;
+
 /// The language of a text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Language {
@@ -10,34 +12,8 @@ pub(super) enum Language {
     Toml,
 }
 
-const KEYWORDS: &[&str] = &[
-    "break",
-    "case",
-    "centroid",
-    "const",
-    "continue",
-    "default",
-    "discard",
-    "do",
-    "else",
-    "flat",
-    "for",
-    "if",
-    "in",
-    "inout",
-    "layout",
-    "noperspective",
-    "out",
-    "return",
-    "smooth",
-    "struct",
-    "switch",
-    "uniform",
-    "while",
-];
-
-const TYPES: &[&str] = &["void", "bool", "int", "uint", "float", "mat2", "mat3", "mat4", "sampler2D"];
-const VECTORS: &[&str] = &["vec", "ivec", "uvec", "bvec"];
+/// The version that the library and the programs of the gallery are written in.
+const VERSION: u16 = 150;
 
 /// The text with a `<span>` around each token that has a class.
 pub(super) fn html(text: &str, language: Language) -> String {
@@ -84,15 +60,11 @@ fn glsl(rest: &str, first: char, starts_line: bool) -> Token {
 }
 
 fn class_of(word: &str) -> Option<&'static str> {
-    let is_vector = || VECTORS.iter().any(|prefix| matches!(word.strip_prefix(prefix), Some("2" | "3" | "4")));
-    if KEYWORDS.contains(&word) {
-        Some("key")
-    } else if TYPES.contains(&word) || is_vector() {
-        Some("typ")
-    } else if word.starts_with("gl_") {
-        Some("bui")
-    } else {
-        None
+    match WordClass::of(word, VERSION)? {
+        WordClass::Keyword => Some("key"),
+        WordClass::Type => Some("typ"),
+        WordClass::Builtin => Some("bui"),
+        WordClass::Constant => None,
     }
 }
 

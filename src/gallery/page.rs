@@ -159,15 +159,7 @@ mod tests {
     use glisten_scene::picture::Picture;
 
     fn tiles(count: usize) -> Vec<Tile> {
-        let picture = Picture {
-            width: 4,
-            height: 4,
-            attachments: vec![vec![[0.5; 4]; 16]],
-            covered: vec![true; 16],
-            ranges: None,
-            undecided: vec![false; 16],
-            near_edge: vec![false; 16],
-        };
+        let picture = Picture::of_colors(4, 4, vec![[0.5; 4]; 16]);
         vec![Tile::new(&picture); count]
     }
 

@@ -4,11 +4,8 @@
 //! as in `glisten render`. Non-finite colors are magenta.
 
 use super::entry::supersampling;
-use glisten_scene::picture::Picture;
-use image::ImageEncoder;
-use image::codecs::png::{CompressionType, FilterType, PngEncoder};
+use glisten_scene::picture::{Effort, NOT_FINITE, Picture, png_rgb};
 
-const MAGENTA: [f64; 3] = [1.0, 0.0, 1.0];
 /// The background of the sheet.
 const GROUND: [u8; 3] = [24, 25, 30];
 
@@ -29,7 +26,7 @@ impl Tile {
             let sample = samples.get(y as usize * picture.width as usize + x as usize);
             sample
                 .filter(|rgba| rgba.iter().all(|channel| channel.is_finite()))
-                .map_or(MAGENTA, |[r, g, b, _]| [*r, *g, *b].map(|channel| channel.clamp(0.0, 1.0)))
+                .map_or(shown(NOT_FINITE), |[r, g, b, _]| [*r, *g, *b].map(|channel| channel.clamp(0.0, 1.0)))
         };
         let n = supersampling();
         box_filter(picture.width / n, picture.height / n, picture.width, picture.height, color)
@@ -39,7 +36,7 @@ impl Tile {
     fn resized(&self, side: u32) -> Self {
         let color = |x: u32, y: u32| {
             let pixel = self.pixels.get(y as usize * self.width as usize + x as usize);
-            pixel.map_or(MAGENTA, |pixel| pixel.map(|channel| f64::from(channel) / 255.0))
+            shown(pixel.copied().unwrap_or(NOT_FINITE))
         };
         box_filter(side, side, self.width, self.height, color)
     }
@@ -49,18 +46,18 @@ impl Tile {
     /// # Errors
     /// The encoder's message.
     pub fn png(&self) -> Result<Vec<u8>, String> {
-        let mut png = Vec::new();
-        let encoder = PngEncoder::new_with_quality(&mut png, CompressionType::Best, FilterType::Adaptive);
-        encoder
-            .write_image(self.pixels.as_flattened(), self.width, self.height, image::ExtendedColorType::Rgb8)
-            .map_err(|error| error.to_string())?;
-        Ok(png)
+        png_rgb(self.width, self.height, &self.pixels, Effort::Best).map_err(|error| error.to_string())
     }
 
     /// The width and height in pixels.
     pub fn size(&self) -> (u32, u32) {
         (self.width, self.height)
     }
+}
+
+/// Bytes as numbers in [0, 1].
+fn shown(pixel: [u8; 3]) -> [f64; 3] {
+    pixel.map(|channel| f64::from(channel) / 255.0)
 }
 
 /// Scales a picture down: each pixel is the area-weighted mean of the pixels that it covers.
@@ -130,30 +127,18 @@ pub fn contact_sheet(tiles: &[Tile], columns: u32, side: u32, gap: u32) -> Tile 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn picture(width: u32, height: u32, pixels: Vec<[f64; 4]>) -> Picture {
-        let count = pixels.len();
-        Picture {
-            width,
-            height,
-            attachments: vec![pixels],
-            covered: vec![true; count],
-            ranges: None,
-            undecided: vec![false; count],
-            near_edge: vec![false; count],
-        }
-    }
+    use glisten_scene::picture::Image;
 
     #[test]
     fn samples_are_clamped_and_averaged() {
         let row = [[9.0, 0.0, 0.5, 1.0], [0.0, -1.0, 0.5, 1.0]];
-        let tile = Tile::new(&picture(2, 2, [row, row].concat()));
+        let tile = Tile::new(&Picture::of_colors(2, 2, [row, row].concat()));
         assert_eq!((tile.size(), tile.pixels.as_slice()), ((1, 1), &[[128, 0, 128]][..]));
     }
 
     #[test]
     fn what_is_not_finite_is_seen() {
-        let tile = Tile::new(&picture(2, 2, vec![[f64::NAN, 0.0, 0.0, 1.0]; 4]));
+        let tile = Tile::new(&Picture::of_colors(2, 2, vec![[f64::NAN, 0.0, 0.0, 1.0]; 4]));
         assert_eq!(tile.pixels, [[255, 0, 255]]);
     }
 
@@ -186,7 +171,8 @@ mod tests {
     #[test]
     fn a_tile_is_a_png() {
         let tile = Tile { width: 2, height: 1, pixels: vec![[1, 2, 3], [250, 0, 9]] };
-        let read = image::load_from_memory(&tile.png().expect("it encodes")).expect("a PNG").to_rgb8();
-        assert_eq!(read.as_raw(), &[1, 2, 3, 250, 0, 9]);
+        let read = Image::read(&tile.png().expect("it encodes"), 9, 9).expect("a PNG");
+        let bytes: Vec<f32> = read.pixels.iter().flatten().map(|value| (value * 255.0).round()).collect();
+        assert_eq!(bytes, [1.0, 2.0, 3.0, 255.0, 250.0, 0.0, 9.0, 255.0]);
     }
 }

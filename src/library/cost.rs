@@ -6,7 +6,8 @@
 //! without parameters, are folded by every compiler and count nothing. The body of a loop counts once. *Not done
 //! here:* what a driver makes of the code; `glisten report` measures times.
 
-use glisten_front::builtin::BuiltinFunction as F;
+use glisten_front::builtin::BuiltinFunction;
+use glisten_front::builtin::operations::CallCost;
 use glisten_front::hir::{BinaryOp, ExprId, ExprKind, FunctionId, Shader, Stmt, StmtKind, Type, TypeId, Types};
 use serde::Serialize;
 
@@ -196,25 +197,9 @@ fn leaves(body: &[Stmt]) -> bool {
 }
 
 /// The cost of a built-in function that returns `size` components and whose first argument has `first`.
-fn builtin(function: F, size: u32, first: u32) -> Cost {
-    let dot = 2 * first - 1;
-    match function {
-        F::Dot => Cost::arithmetic(dot),
-        F::Length => Cost::special(1, dot),
-        F::Distance => Cost::special(1, dot + first),
-        F::Normalize => Cost::special(1, dot + size),
-        F::Cross => Cost::arithmetic(9),
-        F::Reflect => Cost::arithmetic(dot + 1 + 2 * size),
-        F::Clamp => Cost::arithmetic(2 * size),
-        F::Mix => Cost::arithmetic(3 * size),
-        F::Smoothstep => Cost::special(size, 7 * size),
-        F::Pow => Cost::special(2 * size, size),
-        F::Exp | F::Log => Cost::special(size, size),
-        F::Exp2 | F::Log2 | F::Sqrt | F::Inversesqrt => Cost::special(size, 0),
-        F::Sin | F::Cos | F::Tan | F::Asin | F::Acos | F::Atan => Cost::special(size, 0),
-        F::Texture | F::TextureLod | F::TexelFetch => Cost { texture: 1, ..Cost::default() },
-        _ => Cost::arithmetic(size),
-    }
+fn builtin(function: BuiltinFunction, size: u32, first: u32) -> Cost {
+    let CallCost { special, arithmetic, texture } = function.operation().cost;
+    Cost { special: special.at(size, first), arithmetic: arithmetic.at(size, first), texture, ..Cost::default() }
 }
 
 #[cfg(test)]

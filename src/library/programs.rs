@@ -15,7 +15,7 @@ pub struct LibraryProgram {
     pub vertex: &'static str,
     /// The file of its fragment shader.
     pub fragment: &'static str,
-    /// What it draws, and from which document.
+    /// A description: what it draws, and from which document.
     pub about: &'static str,
 }
 

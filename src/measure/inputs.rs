@@ -4,7 +4,7 @@ use super::vector::{V, add, scale, unit};
 
 /// The kind of values for a parameter, or for a few that belong together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum InputKind {
     /// Any number that a float can represent, including 0.
     Any,
     /// Three such numbers.
@@ -126,7 +126,7 @@ impl Random {
     }
 
     /// A direction about `radians` away from `a`.
-    fn beside(&mut self, a: V, radians: f64) -> V {
+    fn near(&mut self, a: V, radians: f64) -> V {
         unit(add(a, scale(radians, self.direction())))
     }
 
@@ -144,7 +144,7 @@ impl Random {
         let l = self.above(n);
         let mirror = super::vector::sub(scale(2.0 * super::vector::dot(n, l), n), l);
         let radians = self.spread(1e-5, 1.0);
-        [n, l, self.beside(mirror, radians)]
+        [n, l, self.near(mirror, radians)]
     }
 
     fn weights(&mut self) -> V {
@@ -187,64 +187,64 @@ impl Random {
     }
 
     /// Appends the numbers of a kind, before rounding to f32.
-    pub(super) fn fill(&mut self, kind: Kind, to: &mut Vec<f64>) {
+    pub(super) fn fill(&mut self, kind: InputKind, to: &mut Vec<f64>) {
         const NEAR_ONE: f64 = 1.0 - 1.0 / 16_777_216.0;
         match kind {
-            Kind::Any => to.push(self.any()),
-            Kind::Any3 => to.extend([self.any(), self.any(), self.any()]),
-            Kind::Any4 => to.extend([self.any(), self.any(), self.any(), self.any()]),
-            Kind::Unit if self.once_in(8) => to.push(self.pick(&[0.0, 1.0, NEAR_ONE, 0.5, 1e-30])),
-            Kind::Unit => to.push(self.unit()),
-            Kind::Signed => to.push(self.range(-1.5, 1.5)),
-            Kind::Distance01 => to.push(self.spread(1e-12, 1.0)),
-            Kind::Exponent => to.push(self.exponent()),
-            Kind::Size => to.push(self.spread(1.0, 4097.0).floor()),
-            Kind::Direction => to.extend(self.direction()),
-            Kind::Near => {
+            InputKind::Any => to.push(self.any()),
+            InputKind::Any3 => to.extend([self.any(), self.any(), self.any()]),
+            InputKind::Any4 => to.extend([self.any(), self.any(), self.any(), self.any()]),
+            InputKind::Unit if self.once_in(8) => to.push(self.pick(&[0.0, 1.0, NEAR_ONE, 0.5, 1e-30])),
+            InputKind::Unit => to.push(self.unit()),
+            InputKind::Signed => to.push(self.range(-1.5, 1.5)),
+            InputKind::Distance01 => to.push(self.spread(1e-12, 1.0)),
+            InputKind::Exponent => to.push(self.exponent()),
+            InputKind::Size => to.push(self.spread(1.0, 4097.0).floor()),
+            InputKind::Direction => to.extend(self.direction()),
+            InputKind::Near => {
                 let (a, radians) = (self.direction(), self.spread(1e-6, 2.0));
                 to.extend(a);
-                to.extend(self.beside(a, radians));
+                to.extend(self.near(a, radians));
             }
-            Kind::Opposed => {
+            InputKind::Opposed => {
                 let (a, radians) = (self.direction(), self.spread(1e-6, 2.0));
                 to.extend(a);
-                to.extend(self.beside(scale(-1.0, a), radians));
+                to.extend(self.near(scale(-1.0, a), radians));
             }
-            Kind::Lighting => to.extend(self.lighting().into_iter().flatten()),
-            Kind::Color => to.extend(self.positive3(1.0)),
-            Kind::Intensity => to.extend(self.positive3(4.0)),
-            Kind::Gain => to.push(self.range(0.0, 2.0)),
-            Kind::Width if self.once_in(8) => to.push(0.0),
-            Kind::Width => to.push(self.range(0.01, 0.5)),
-            Kind::Distance => to.push(self.range(-30.0, 30.0).exp2()),
-            Kind::Weights => to.extend(self.weights()),
-            Kind::Point => to.extend(self.range3(10.0)),
-            Kind::Vector => to.extend(scale(self.spread(1e-6, 1e6), self.direction())),
-            Kind::Light => self.light(to),
-            Kind::Material => {
+            InputKind::Lighting => to.extend(self.lighting().into_iter().flatten()),
+            InputKind::Color => to.extend(self.positive3(1.0)),
+            InputKind::Intensity => to.extend(self.positive3(4.0)),
+            InputKind::Gain => to.push(self.range(0.0, 2.0)),
+            InputKind::Width if self.once_in(8) => to.push(0.0),
+            InputKind::Width => to.push(self.range(0.01, 0.5)),
+            InputKind::Distance => to.push(self.range(-30.0, 30.0).exp2()),
+            InputKind::Weights => to.extend(self.weights()),
+            InputKind::Point => to.extend(self.range3(10.0)),
+            InputKind::Vector => to.extend(scale(self.spread(1e-6, 1e6), self.direction())),
+            InputKind::Light => self.light(to),
+            InputKind::Material => {
                 (0..3).for_each(|_| to.extend(self.positive3(1.0)));
                 to.push(self.spread(1.0, 1000.0));
                 to.extend(self.positive3(1.0));
             }
-            Kind::Matrix3 => (0..3).for_each(|_| to.extend(self.range3(2.0))),
-            Kind::Matrix4 => (0..16).for_each(|_| to.push(self.range(-2.0, 2.0))),
-            Kind::Clip => {
+            InputKind::Matrix3 => (0..3).for_each(|_| to.extend(self.range3(2.0))),
+            InputKind::Matrix4 => (0..16).for_each(|_| to.push(self.range(-2.0, 2.0))),
+            InputKind::Clip => {
                 to.extend(self.range3(5.0));
                 to.push(self.range(0.1, 10.0));
             }
-            Kind::Four => (0..4).for_each(|_| to.push(self.range(-2.0, 2.0))),
-            Kind::Two => (0..2).for_each(|_| to.push(self.range(-2.0, 2.0))),
-            Kind::Barycentric => {
+            InputKind::Four => (0..4).for_each(|_| to.push(self.range(-2.0, 2.0))),
+            InputKind::Two => (0..2).for_each(|_| to.push(self.range(-2.0, 2.0))),
+            InputKind::Barycentric => {
                 let (u, v) = (self.unit(), self.unit());
                 to.extend(if u + v > 1.0 { [1.0 - u, 1.0 - v] } else { [u, v] });
             }
-            Kind::Depths => (0..3).for_each(|_| to.push(self.spread(1e-3, 1e3))),
-            Kind::SegmentEnd => to.extend([self.range(-2.0, 2.0), self.spread(0.1, 100.0)]),
+            InputKind::Depths => (0..3).for_each(|_| to.push(self.spread(1e-3, 1e3))),
+            InputKind::SegmentEnd => to.extend([self.range(-2.0, 2.0), self.spread(0.1, 100.0)]),
         }
     }
 }
 
-impl Kind {
+impl InputKind {
     /// How many parameters the kind fills, and whether they pass through `normalize` before the call, so that the
     /// reference computes with vectors that are unit vectors to its own precision.
     pub(super) fn params(self) -> (usize, bool) {

@@ -12,7 +12,7 @@ mod forms;
 mod inputs;
 mod vector;
 
-pub use inputs::Kind;
+pub use inputs::InputKind;
 
 use crate::evaluate::{EvaluateError, Evaluator, table};
 use crate::library::Embedded;
@@ -122,7 +122,7 @@ pub struct Form {
     /// The function, in the form that [`signatures`](crate::evaluate::signatures) writes.
     pub signature: &'static str,
     /// The kinds of its parameters, without samplers.
-    pub inputs: &'static [Kind],
+    pub inputs: &'static [InputKind],
     /// The closed form; `None` where the model is undefined.
     answer: fn(&Args<'_>) -> Option<Answer>,
 }
@@ -236,15 +236,15 @@ impl Trial {
     /// The errors of the reference.
     pub fn reference(&self, precision: Precision) -> Result<Figures, EvaluateError> {
         let results = self.evaluator.reference(&self.numbers, &self.tables, precision)?;
-        Ok(self.judge(&results, if precision == Precision::F32 { &SINGLE } else { &DOUBLE }))
+        Ok(self.figures(&results, if precision == Precision::F32 { &SINGLE } else { &DOUBLE }))
     }
 
     /// The figures from a picture of the scene.
     pub fn picture(&self, picture: &glisten_scene::picture::Picture) -> Figures {
-        self.judge(&self.evaluator.read(picture, self.rows), &SINGLE)
+        self.figures(&self.evaluator.read(picture, self.rows), &SINGLE)
     }
 
-    fn judge(&self, results: &[Vec<f64>], rounding: &Rounding) -> Figures {
+    fn figures(&self, results: &[Vec<f64>], rounding: &Rounding) -> Figures {
         let mut figures = Figures::default();
         let width = self.evaluator.inputs();
         for (row, result) in results.iter().enumerate() {

@@ -70,13 +70,8 @@ mod tests {
 
     fn picture(reds: &[f64], covered: &[bool]) -> Picture {
         Picture {
-            width: reds.len() as u32,
-            height: 1,
-            attachments: vec![reds.iter().map(|&red| [red, 0.0, 0.0, 1.0]).collect()],
             covered: covered.to_vec(),
-            ranges: None,
-            undecided: vec![false; reds.len()],
-            near_edge: vec![false; reds.len()],
+            ..Picture::of_colors(reds.len() as u32, 1, reds.iter().map(|&red| [red, 0.0, 0.0, 1.0]).collect())
         }
     }
 

@@ -160,13 +160,8 @@ mod tests {
         let inside = |i: usize| ((i % side) as f64 - 32.0).hypot((i / side) as f64 - 32.0) < 26.0;
         let shade = |i: usize| if inside(i) { [level * (i % side) as f64 / 64.0, level, 0.3, 1.0] } else { [0.0; 4] };
         Picture {
-            width: 64,
-            height: 64,
-            attachments: vec![(0..side * side).map(shade).collect()],
             covered: (0..side * side).map(inside).collect(),
-            ranges: None,
-            undecided: vec![false; side * side],
-            near_edge: vec![false; side * side],
+            ..Picture::of_colors(64, 64, (0..side * side).map(shade).collect())
         }
     }
 

@@ -153,9 +153,14 @@ fn build(scene_name: &str, scene: &Table, report: ReportTable) -> Result<Plan, S
         if truths.iter().any(|truth| truth.model == model) {
             continue;
         }
-        let judge = judge(&ways, &model)?;
+        let truth_way = truth_way(&ways, &model)?;
         let tessellation = finest(&tessellations, report.truth_tessellation);
-        truths.push(PlannedTruth { model, way: judge.name.clone(), tessellation, text: text(judge, tessellation)? });
+        truths.push(PlannedTruth {
+            model,
+            way: truth_way.name.clone(),
+            tessellation,
+            text: text(truth_way, tessellation)?,
+        });
     }
     Ok(Plan { ways: planned, truths, rounds })
 }
@@ -165,11 +170,11 @@ fn model(way: &WayTable) -> String {
 }
 
 /// The way that is the truth of its model: the one that says so, or the only one.
-fn judge<'a>(ways: &'a [WayTable], model_name: &str) -> Result<&'a WayTable, String> {
+fn truth_way<'a>(ways: &'a [WayTable], model_name: &str) -> Result<&'a WayTable, String> {
     let members: Vec<&WayTable> = ways.iter().filter(|way| model(way) == model_name).collect();
     let marked: Vec<&WayTable> = members.iter().copied().filter(|way| way.truth).collect();
     match (&members[..], &marked[..]) {
-        (_, [judge]) => Ok(judge),
+        (_, [truth_way]) => Ok(truth_way),
         ([only], []) => Ok(only),
         (_, []) => Err(format!("no way of the model `{model_name}` has `truth = true`")),
         _ => Err(format!("several ways of the model `{model_name}` have `truth = true`")),
@@ -217,7 +222,7 @@ fn scene_text(scene: &Table, draw: usize, way: &WayTable, tessellation: Option<[
         .and_then(Value::as_array_mut)
         .and_then(|draws| draws.get_mut(draw))
         .and_then(Value::as_table_mut)
-        .ok_or("the draw is no table")?;
+        .ok_or("the draw is not a table")?;
     merge(table, &way.set);
     if let Some([segments, rings]) = tessellation
         && let Some(mesh) = table.get_mut("mesh").and_then(Value::as_table_mut)

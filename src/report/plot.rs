@@ -70,7 +70,7 @@ impl Axis {
 }
 
 /// The position of a way in the plot.
-type Place<'a> = &'a dyn Fn(&Way) -> (f64, f64);
+type Projection<'a> = &'a dyn Fn(&Way) -> (f64, f64);
 
 /// The whole plot.
 pub(super) fn svg(report: &Report) -> String {
@@ -151,7 +151,7 @@ fn power(tick: f64) -> String {
 }
 
 /// The Pareto front from the fastest way to the most exact.
-fn front(svg: &mut String, ways: &[&Way], point: Place<'_>) {
+fn front(svg: &mut String, ways: &[&Way], point: Projection<'_>) {
     let mut best: Vec<(f64, f64)> = ways.iter().filter(|way| way.pareto).map(|way| point(way)).collect();
     best.sort_by(|a, b| a.0.total_cmp(&b.0));
     let path: Vec<String> = best.iter().map(|(x, y)| format!("{x:.1},{y:.1}")).collect();
@@ -161,7 +161,13 @@ fn front(svg: &mut String, ways: &[&Way], point: Place<'_>) {
     }
 }
 
-fn series(svg: &mut String, ways: &[&Way], name: &str, [model, shape]: [usize; 2], (axis, point): (&Axis, Place<'_>)) {
+fn series(
+    svg: &mut String,
+    ways: &[&Way],
+    name: &str,
+    [model, shape]: [usize; 2],
+    (axis, point): (&Axis, Projection<'_>),
+) {
     let members: Vec<&&Way> = ways.iter().filter(|way| way.name == name).collect();
     let path: Vec<String> = members.iter().map(|way| point(way)).map(|(x, y)| format!("{x:.1},{y:.1}")).collect();
     let _ = writeln!(svg, "<polyline class=\"way shape-{shape}\" points=\"{}\"/>", path.join(" "));

@@ -4,9 +4,7 @@
 //! colors are magenta. Differences have a logarithmic scale from [`FLOOR`] to 1; pixels that only one picture covers
 //! are cyan.
 
-use glisten_scene::picture::Picture;
-use image::ImageEncoder;
-use image::codecs::png::PngEncoder;
+use glisten_scene::picture::{Effort, Picture, png_rgb, visible_rgb};
 
 /// The largest difference that is drawn black.
 pub(super) const FLOOR: f64 = 1e-7;
@@ -26,23 +24,17 @@ pub(super) const SCALE: [[u8; 3]; 8] = [
 /// The first attachment as a PNG data URI.
 pub(super) fn color_uri(picture: &Picture) -> String {
     let pixels = picture.attachments.first().map(Vec::as_slice).unwrap_or_default();
-    let bytes = pixels.iter().flat_map(|[r, g, b, _]| {
-        if [r, g, b].iter().all(|channel| channel.is_finite()) {
-            [r, g, b].map(|channel| (channel.clamp(0.0, 1.0) * 255.0).round() as u8)
-        } else {
-            [255, 0, 255]
-        }
-    });
-    data_uri(&bytes.collect::<Vec<u8>>(), picture.width, picture.height)
+    let pixels: Vec<[u8; 3]> = pixels.iter().copied().map(visible_rgb).collect();
+    data_uri(&pixels, picture.width, picture.height)
 }
 
 /// The differences from the truth as a PNG data URI.
 pub(super) fn difference_uri(differences: &[Option<f64>], width: u32, height: u32) -> String {
-    let bytes = differences.iter().flat_map(|difference| match difference {
+    let pixels = differences.iter().map(|difference| match difference {
         Some(difference) => scale_color(*difference),
         None => [0, 200, 220],
     });
-    data_uri(&bytes.collect::<Vec<u8>>(), width, height)
+    data_uri(&pixels.collect::<Vec<_>>(), width, height)
 }
 
 /// The color of a difference.
@@ -55,13 +47,9 @@ fn scale_color(difference: f64) -> [u8; 3] {
     std::array::from_fn(|i| (f64::from(low[i]) * (1.0 - mix) + f64::from(high[i]) * mix).round() as u8)
 }
 
-fn data_uri(rgb: &[u8], width: u32, height: u32) -> String {
-    let mut png = Vec::new();
-    let encoded = PngEncoder::new(&mut png).write_image(rgb, width, height, image::ExtendedColorType::Rgb8);
-    // Writing to memory fails only if the sizes disagree. An empty picture shows that better than no page at all.
-    if encoded.is_err() {
-        png.clear();
-    }
+fn data_uri(pixels: &[[u8; 3]], width: u32, height: u32) -> String {
+    // Writing to memory fails only if the sizes disagree; an empty picture shows that better than no page at all.
+    let png = png_rgb(width, height, pixels, Effort::Fast).unwrap_or_default();
     format!("data:image/png;base64,{}", base64(&png))
 }
 

@@ -7,6 +7,7 @@ use super::figures::{compare, mark_pareto, spread};
 use super::model::{Adapter, Report, Timing, Truth, Way};
 use super::plan::{Plan, PlannedWay, base_of, plan};
 use crate::scene::{self, FileError, FileSource, Loaded, Scene};
+use crate::specialize::specialize_scene;
 use glisten_front::compiler::Compiler;
 use glisten_front::diagnostic::{Diagnostic, Diagnostics};
 use glisten_front::source::SourceMap;
@@ -63,7 +64,7 @@ struct Candidate {
     times: Vec<f64>,
 }
 
-/// Compares the ways of the scene at `path`.
+/// Compares the ways of the scene at `path`; `specialized` adds each of them with residual programs.
 ///
 /// # Errors
 /// [`Error`]; the first way that cannot be drawn ends the report.
@@ -72,12 +73,13 @@ pub fn run(
     files: &dyn FileSource,
     compiler: &Compiler,
     gpu: &Gpu,
-    via: Via,
+    (via, specialized): (Via, bool),
     watcher: &mut dyn Watcher,
 ) -> Result<Report, Error> {
     let whole = load(path, files, compiler)?;
     let plan = read_plan(path, files, &whole)?;
-    watcher.steps(plan.truths.len() + 2 * plan.ways.len() + plan.rounds as usize);
+    let drawn = if specialized { 2 * plan.ways.len() } else { plan.ways.len() };
+    watcher.steps(plan.truths.len() + 2 * drawn + plan.rounds as usize);
     let mut truths = Vec::new();
     for truth in &plan.truths {
         watcher.step(&format!("the truth of {}", truth.model));
@@ -98,6 +100,13 @@ pub fn run(
         let (way, candidate) = draw(planned, &scene, truth, gpu, via, watcher)?;
         ways.push(way);
         candidates.push(candidate);
+        if specialized {
+            let planned = PlannedWay { name: format!("{}, specialized", planned.name), ..planned.clone() };
+            let scene = specialize_scene(&scene, &SourceMap::default(), &[]).scene;
+            let (way, candidate) = draw(&planned, &scene, truth, gpu, via, watcher)?;
+            ways.push(way);
+            candidates.push(candidate);
+        }
     }
     let timing = time(gpu, &plan, &mut ways, &mut candidates, watcher)?;
     mark_pareto(&mut ways);

@@ -74,7 +74,7 @@ pub(super) fn parse(text: &str) -> Result<TestFile, Outcome> {
         }
     }
     if file.commands.is_empty() && file.shaders.is_empty() {
-        return fail(1, "this is no shader test: it has neither a shader nor a [test] section");
+        return fail(1, "this is not a shader test: it has neither a shader nor a [test] section");
     }
     Ok(file)
 }

@@ -115,15 +115,7 @@ mod unit {
     /// Two by two pixels: red at the lower left, NaN at the upper right.
     fn picture() -> Picture {
         let nan = [f64::NAN, 0.0, 0.0, 1.0];
-        Picture {
-            width: 2,
-            height: 2,
-            attachments: vec![vec![[0.0; 4], nan, [1.0, 0.0, 0.0, 1.0], [0.0, 0.5, 0.0, 1.0]]],
-            covered: vec![true; 4],
-            ranges: None,
-            undecided: vec![false; 4],
-            near_edge: vec![false; 4],
-        }
+        Picture::of_colors(2, 2, vec![[0.0; 4], nan, [1.0, 0.0, 0.0, 1.0], [0.0, 0.5, 0.0, 1.0]])
     }
 
     fn check(text: &str) -> Result<(), Outcome> {

@@ -23,11 +23,11 @@ pub(super) fn run(name: &str, text: &str, compiler: &Compiler, painter: &mut dyn
     let setup = require::check(&file.requirements)?;
     let data = vertex_data::parse(&file.vertex_data)?;
     let Some(program) = program::build(name, &file, &setup, compiler)? else { return Ok(()) };
-    let mut session = Session::new(program, data, setup.size);
+    let mut session = TestSession::new(program, data, setup.size);
     commands(&file, &mut session, painter)
 }
 
-fn commands(file: &TestFile, session: &mut Session, painter: &mut dyn Painter) -> Result<(), Outcome> {
+fn commands(file: &TestFile, session: &mut TestSession, painter: &mut dyn Painter) -> Result<(), Outcome> {
     for line in &file.commands {
         session.command(line, painter)?;
     }
@@ -35,7 +35,7 @@ fn commands(file: &TestFile, session: &mut Session, painter: &mut dyn Painter) -
 }
 
 /// The state that commands change.
-struct Session {
+struct TestSession {
     program: Arc<Program>,
     data: VertexData,
     uniforms: Uniforms,
@@ -60,32 +60,7 @@ const TOLERANCE: f64 = 0.01;
 /// The largest number of draws between two clears, all of which each probe paints.
 const MOST_DRAWS: usize = 1024;
 
-const FACTORS: &[(&str, BlendFactor)] = &[
-    ("GL_ZERO", BlendFactor::Zero),
-    ("GL_ONE", BlendFactor::One),
-    ("GL_SRC_COLOR", BlendFactor::SrcColor),
-    ("GL_ONE_MINUS_SRC_COLOR", BlendFactor::OneMinusSrcColor),
-    ("GL_DST_COLOR", BlendFactor::DstColor),
-    ("GL_ONE_MINUS_DST_COLOR", BlendFactor::OneMinusDstColor),
-    ("GL_SRC_ALPHA", BlendFactor::SrcAlpha),
-    ("GL_ONE_MINUS_SRC_ALPHA", BlendFactor::OneMinusSrcAlpha),
-    ("GL_DST_ALPHA", BlendFactor::DstAlpha),
-    ("GL_ONE_MINUS_DST_ALPHA", BlendFactor::OneMinusDstAlpha),
-    ("GL_SRC_ALPHA_SATURATE", BlendFactor::SrcAlphaSaturate),
-];
-
-const COMPARES: &[(&str, Compare)] = &[
-    ("GL_NEVER", Compare::Never),
-    ("GL_LESS", Compare::Less),
-    ("GL_EQUAL", Compare::Equal),
-    ("GL_LEQUAL", Compare::Lequal),
-    ("GL_GREATER", Compare::Greater),
-    ("GL_NOTEQUAL", Compare::Notequal),
-    ("GL_GEQUAL", Compare::Gequal),
-    ("GL_ALWAYS", Compare::Always),
-];
-
-impl Session {
+impl TestSession {
     fn new(program: Arc<Program>, data: VertexData, [width, height]: [u32; 2]) -> Self {
         let state = State {
             primitive: Primitive::TriangleStrip,
@@ -145,11 +120,11 @@ impl Session {
                 Ok(())
             }
             "blend" if words.eat("func") => {
-                self.factors = (lookup(&mut words, FACTORS)?, lookup(&mut words, FACTORS)?);
+                self.factors = (named(&mut words, BlendFactor::of_opengl)?, named(&mut words, BlendFactor::of_opengl)?);
                 Ok(())
             }
             "depthfunc" => {
-                self.state.depth_func = lookup(&mut words, COMPARES)?;
+                self.state.depth_func = named(&mut words, Compare::of_opengl)?;
                 Ok(())
             }
             "polygon" => skip(line.number, "`polygon mode`: WebGPU draws polygons filled"),
@@ -247,7 +222,7 @@ impl Session {
             indices: geometry.indices,
             instances: geometry.instances,
             attributes: geometry.attributes,
-            uniforms: self.uniforms.values.clone(),
+            uniforms: self.uniforms.values.roots.clone(),
             textures,
             dynamic: Vec::new(),
         })
@@ -266,10 +241,10 @@ impl Session {
     }
 }
 
-fn lookup<T: Copy>(words: &mut Words<'_>, table: &[(&str, T)]) -> Result<T, Outcome> {
+fn named<T>(words: &mut Words<'_>, of: impl Fn(&str) -> Option<T>) -> Result<T, Outcome> {
     let name = words.word()?;
-    match table.iter().find(|(known, _)| *known == name) {
-        Some((_, value)) => Ok(*value),
+    match of(name) {
+        Some(value) => Ok(value),
         None => skip(words.line, format_args!("`{name}` is not supported")),
     }
 }

@@ -10,14 +10,14 @@ use std::sync::Arc;
 /// The textures that are bound to units.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Units {
-    units: BTreeMap<u32, Unit>,
+    units: BTreeMap<u32, TextureUnit>,
     /// The unit that `texparameter` refers to: that of the last `texture` command.
     active: u32,
 }
 
 /// A texture with its parameters.
 #[derive(Clone, Debug)]
-struct Unit {
+struct TextureUnit {
     levels: Vec<TextureLevel>,
     filter: Filter,
     wrap: Wrap,
@@ -31,24 +31,13 @@ const WHITE: [f32; 4] = [1.0; 4];
 /// The largest side of a texture that a test may request.
 const LARGEST: u32 = 4096;
 
-const COMPARES: &[(&str, Compare)] = &[
-    ("never", Compare::Never),
-    ("less", Compare::Less),
-    ("equal", Compare::Equal),
-    ("lequal", Compare::Lequal),
-    ("greater", Compare::Greater),
-    ("notequal", Compare::Notequal),
-    ("gequal", Compare::Gequal),
-    ("always", Compare::Always),
-];
-
 impl Units {
     /// Runs a `texture` command such as `texture checkerboard 0 0 (8, 8) (..) (..)`.
     pub(super) fn create(&mut self, words: &mut Words<'_>) -> Result<(), Outcome> {
         let line = words.line;
         let form = words.word()?;
         let number = words.count()?;
-        let unit = self.units.entry(number).or_insert(Unit {
+        let unit = self.units.entry(number).or_insert(TextureUnit {
             levels: Vec::new(),
             filter: Filter::Nearest,
             wrap: Wrap::Repeat,
@@ -105,10 +94,10 @@ impl Units {
             ("min" | "mag", "nearest") => unit.filter = Filter::Nearest,
             ("min" | "mag", "linear") => unit.filter = Filter::Linear,
             ("min", "linear_mipmap_linear") => unit.filter = Filter::Trilinear,
-            ("wrap_s" | "wrap_t" | "wrap_r", "repeat") => unit.wrap = Wrap::Repeat,
-            ("wrap_s" | "wrap_t" | "wrap_r", "clamp_to_edge") => unit.wrap = Wrap::ClampToEdge,
-            ("wrap_s" | "wrap_t" | "wrap_r", "mirrored_repeat") => unit.wrap = Wrap::MirroredRepeat,
-            ("compare_func", function) => match COMPARES.iter().find(|(name, _)| *name == function) {
+            ("wrap_s" | "wrap_t" | "wrap_r", wrap) if Wrap::of_opengl(wrap).is_some() => {
+                unit.wrap = Wrap::of_opengl(wrap).unwrap_or(unit.wrap);
+            }
+            ("compare_func", function) => match Compare::NAMES.iter().find(|(name, _)| *name == function) {
                 Some((_, compare)) => unit.compare = *compare,
                 None => return fail(line, format_args!("`{function}` compares nothing")),
             },

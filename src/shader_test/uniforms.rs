@@ -4,11 +4,12 @@ use super::words::Words;
 use super::{Outcome, fail, skip};
 use glisten_front::hir::{Scalar, ScalarValue};
 use glisten_front::link::{Program, UniformLeaf};
+use glisten_scene::values::{LeafShape, UniformValues};
 
 /// The values of a program's uniforms, flat by root, and the unit of each sampler.
 #[derive(Clone, Debug)]
 pub(super) struct Uniforms {
-    pub(super) values: Vec<Vec<ScalarValue>>,
+    pub(super) values: UniformValues,
     /// The unit of each sampler slot.
     pub(super) units: Vec<u32>,
 }
@@ -16,23 +17,7 @@ pub(super) struct Uniforms {
 impl Uniforms {
     /// The values of the initializers, or 0.
     pub(super) fn new(program: &Program) -> Self {
-        let zeros = |root: &glisten_front::link::UniformRoot| {
-            let mut flat = vec![ScalarValue::Float(0.0); program.types.flat_len(root.ty) as usize];
-            for leaf in program.interface.uniforms.iter().filter(|leaf| roots_match(program, leaf, root)) {
-                let (len, scalar) = extent(program, leaf);
-                let start = leaf.flat_offset as usize;
-                for value in flat.iter_mut().skip(start).take(len as usize) {
-                    *value = number(scalar, 0.0);
-                }
-            }
-            flat
-        };
-        let values = program
-            .interface
-            .roots
-            .iter()
-            .map(|root| root.default.as_ref().map_or_else(|| zeros(root), |value| value.scalars.clone()))
-            .collect();
+        let values = UniformValues::initial(program);
         let units = program.interface.samplers.iter().map(|slot| slot.unit.unwrap_or(0)).collect();
         Self { values, units }
     }
@@ -49,24 +34,21 @@ impl Uniforms {
             return Ok(());
         }
         let Some((leaf, first)) = find(program, name, element) else {
-            // A uniform that a compiler may call inactive has no location, and setting it is no error.
+            // A uniform that a compiler may call inactive has no location, and setting it is not an error.
             return if is_declared(program, name) {
                 Ok(())
             } else {
                 fail(line, format_args!("there is no uniform `{name}`"))
             };
         };
-        let (_, scalar) = extent(program, leaf);
-        let Some(flat) = self.values.get_mut(leaf.root.0 as usize) else { return Ok(()) };
-        let mut place = (leaf.flat_offset + first) as usize;
-        let end = leaf.flat_offset as usize + extent(program, leaf).0 as usize;
+        let Some(shape) = LeafShape::of(&program.types, leaf) else { return Ok(()) };
+        let mut numbers = Vec::new();
         while !words.rest().is_empty() {
-            let value = number(scalar, if scalar.is_integer() { words.integer()? } else { words.number()? });
-            match flat.get_mut(place).filter(|_| place < end) {
-                Some(slot) => *slot = value,
-                None => return fail(line, format_args!("more values than `{name}` holds")),
-            }
-            place += 1;
+            let value = if shape.scalar.is_integer() { words.integer()? } else { words.number()? };
+            numbers.push(number(shape.scalar, value));
+        }
+        if first as usize + numbers.len() > shape.n_values() || !self.values.set(leaf, first as usize, &numbers) {
+            return fail(line, format_args!("more values than `{name}` holds"));
         }
         Ok(())
     }
@@ -88,16 +70,6 @@ impl Uniforms {
         }
         Ok(true)
     }
-}
-
-fn roots_match(program: &Program, leaf: &UniformLeaf, root: &glisten_front::link::UniformRoot) -> bool {
-    program.interface.roots.get(leaf.root.0 as usize).is_some_and(|other| std::ptr::eq(other, root))
-}
-
-/// The number of scalars of a leaf, and their type.
-fn extent(program: &Program, leaf: &UniformLeaf) -> (u32, Scalar) {
-    let scalar = program.types.scalar_of(leaf.ty).unwrap_or(Scalar::Float);
-    (program.types.flat_len(leaf.ty) * leaf.array_size.unwrap_or(1), scalar)
 }
 
 fn number(scalar: Scalar, value: f64) -> ScalarValue {

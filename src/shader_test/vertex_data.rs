@@ -40,7 +40,7 @@ pub(super) fn parse(lines: &[Line]) -> Result<VertexData, Outcome> {
                 let Some(word) = words.next() else { return fail(line.number, "the row is shorter than its header") };
                 match if column.is_integer { parse_integer(word) } else { parse_number(word) } {
                     Some(value) => column.values.push(value),
-                    None => return fail(line.number, format_args!("`{word}` is no number")),
+                    None => return fail(line.number, format_args!("`{word}` is not a number")),
                 }
             }
         }

@@ -53,7 +53,7 @@ impl<'a> Words<'a> {
         // C's functions ignore what follows a number, and some tests end their lines with a semicolon.
         match parse(word.trim_end_matches(';')) {
             Some(number) => Ok(number),
-            None => fail(self.line, format_args!("`{word}` is no number")),
+            None => fail(self.line, format_args!("`{word}` is not a number")),
         }
     }
 
@@ -72,7 +72,7 @@ impl<'a> Words<'a> {
         if number >= 0.0 && number <= f64::from(u32::MAX) && number.fract() == 0.0 {
             Ok(number as u32)
         } else {
-            fail(self.line, format_args!("{number} is no count"))
+            fail(self.line, format_args!("{number} is not a count"))
         }
     }
 }

@@ -245,7 +245,7 @@ fn the_fixtures_of_lowering_are_programs_and_every_target_takes_or_refuses_them(
             let found: Vec<_> = compilation.diagnostics.iter().map(|found| &found.message).collect();
             let program = compilation.program.as_ref().unwrap_or_else(|| panic!("{name}: {found:?}"));
             assert_eq!(program.stages.len(), 2, "{name}");
-            for target in Target::ALL {
+            for &target in Target::ALL {
                 let emitted = emit(program, Stage::Fragment, target, &Conventions::default());
                 for diagnostic in emitted.err().into_iter().flatten() {
                     assert!(REFUSALS.contains(&diagnostic.code.id), "{name}: {}", diagnostic.message);

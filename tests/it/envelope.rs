@@ -5,39 +5,18 @@
 
 #![expect(clippy::print_stdout, reason = "figures of the docs are printed here")]
 
-use crate::gpu::gpu;
-use glisten::scene::{DiskFiles, MemoryFiles, Scene, load};
-use glisten_front::{Compiler, Options};
+use crate::drawing::{as_on_vulkan, compiler, from_disk, gpu, loaded, reference, strict};
+use glisten::scene::{MemoryFiles, Scene, load};
+use glisten::verify::{Expected, Options};
 use glisten_gpu::{Gpu, Via};
-use glisten_reference::domain::faults::{ARC_FUNCTIONS, Faults, KNOWN};
+use glisten_reference::Precision;
+use glisten_reference::domain::faults::{ARC_FUNCTIONS, Faults};
 use glisten_reference::domain::rules;
-use glisten_reference::{LineRule, Precision, RenderOptions};
 use glisten_scene::compare::{Judge, Verdict, shares};
 use glisten_scene::picture::Picture;
 
 fn read(path: &str) -> String {
     std::fs::read_to_string(format!("{}/fixtures/{path}", env!("CARGO_MANIFEST_DIR"))).expect("a fixture")
-}
-
-fn from_disk(name: &str) -> Scene {
-    let path = format!("{}/fixtures/scenes/{name}", env!("CARGO_MANIFEST_DIR"));
-    load(&path, &DiskFiles, &Compiler::new(Options::default())).scene.expect("another test loads it")
-}
-
-fn options(precision: Precision, faults: Faults) -> RenderOptions {
-    RenderOptions { precision, lines: LineRule::Vulkan, faults, ..RenderOptions::default() }
-}
-
-fn reference(scene: &Scene, precision: Precision) -> Picture {
-    glisten_reference::render(scene, &options(precision, Faults::NONE)).expect("the reference draws it")
-}
-
-fn admitting(scene: &Scene) -> Vec<(&'static str, Picture)> {
-    let one = KNOWN.iter().map(|known| (known.name, Faults::only(known.fault)));
-    one.map(|(name, faults)| {
-        (name, glisten_reference::render(scene, &options(Precision::Envelope, faults)).expect("the reference draws it"))
-    })
-    .collect()
 }
 
 /// A square over the window, 64x64, drawn by a fragment shader.
@@ -50,9 +29,7 @@ fn square(fragment: &str, format: &str) -> Scene {
     let vertex = read("scenes/core/nothing.vert");
     let files =
         MemoryFiles::new([("a.toml", text.as_str()), ("nothing.vert", vertex.as_str()), ("a.frag", fragment.as_str())]);
-    let loaded = load("a.toml", &files, &Compiler::new(Options::default()));
-    let messages: Vec<&String> = loaded.diagnostics.iter().map(|diagnostic| &diagnostic.message).collect();
-    loaded.scene.unwrap_or_else(|| panic!("{messages:?}"))
+    loaded("a.toml", load("a.toml", &files, &compiler()))
 }
 
 fn drawn(gpu: &Gpu, scene: &Scene) -> Picture {
@@ -66,10 +43,14 @@ fn known_faults_explain_what_the_strict_envelope_leaves_outside() {
         ("core/mipmaps_implicit.toml", "level_of_detail"),
         ("core/behind_the_eye_noperspective.toml", "clipped_noperspective"),
     ] {
-        let scene = from_disk(name);
-        let (picture, reference) = (drawn(&gpu, &scene), reference(&scene, Precision::Envelope));
-        assert!(!Verdict::new(&picture, &reference, Judge::Envelope).holds(false), "{name} holds without");
-        let verdict = Verdict::admitting(&picture, &reference, Judge::Envelope, &admitting(&scene));
+        let scene = from_disk(format!("fixtures/scenes/{name}"));
+        let picture = drawn(&gpu, &scene);
+        let judged = |options: &Options<'_>| {
+            let mut expected = Expected::new(&scene, options).expect("the reference draws it");
+            expected.judge(&picture).expect("the reference draws it")
+        };
+        assert!(!judged(&strict()).holds(false), "{name} holds without");
+        let verdict = judged(&Options::default());
         assert!(verdict.holds(false), "{name}: {verdict:?}");
         let found: Vec<&str> = verdict.known_faults.iter().map(|count| count.fault).collect();
         assert_eq!(found, [fault], "{name}");
@@ -106,7 +87,7 @@ fn the_envelope_is_not_much_wider_than_what_lavapipe_makes_of_it() {
             (vertex_name.as_str(), vertex.as_str()),
             (fragment_name.as_str(), fragment.as_str()),
         ]);
-        let scene = load("a.toml", &files, &Compiler::new(Options::default())).scene.expect("the scene is right");
+        let scene = loaded("a.toml", load("a.toml", &files, &compiler()));
         let (picture, reference) = (drawn(&gpu, &scene), reference(&scene, Precision::Envelope));
         let verdict = Verdict::new(&picture, &reference, Judge::Envelope);
         let pairs = widths_and_errors(&picture, &reference);
@@ -132,7 +113,7 @@ fn a_bound_is_laid_at_the_expression_that_makes_it() {
     let body = "void main() { float c = 0.5 + 0.5 * place.x; color = vec4(pow(c, 200.0), c, 0, 1); }";
     let scene = square(body, "rgba32float");
     let of = |channel: usize| {
-        let options = options(Precision::Envelope, Faults::NONE);
+        let options = as_on_vulkan(Precision::Envelope, Faults::NONE);
         glisten_reference::explain(&scene, &options, [54, 20], 0, channel).expect("the pixel is drawn")
     };
     let (red, green) = (of(0), of(1));
@@ -142,7 +123,7 @@ fn a_bound_is_laid_at_the_expression_that_makes_it() {
     assert!(share(&red, "pow") > 0.2 && share(&red, "interpolation") > 0.2, "{red:?}");
     assert!(red.windows(2).all(|pair| pair[0].share >= pair[1].share), "{red:?}");
     assert!(green.iter().all(|one| one.operation != "pow" || one.share == 0.0), "{green:?}");
-    let options = options(Precision::Envelope, Faults::NONE);
+    let options = as_on_vulkan(Precision::Envelope, Faults::NONE);
     assert!(glisten_reference::explain(&scene, &options, [64, 10], 0, 1).is_err(), "there is no such pixel");
     assert_eq!(glisten_reference::explain(&scene, &options, [0, 0], 0, 1), Ok(Vec::new()), "nothing is drawn there");
 }
@@ -172,7 +153,7 @@ fn snapping(gpu: &Gpu) -> f64 {
         "#version 150\nin vec2 p;\nin float v;\nout float f;\nvoid main() { f = v; gl_Position = vec4(p, 0, 1); }\n";
     let fragment = "#version 150\nin float f;\nout vec4 color;\nvoid main() { color = vec4(f, 0, 0, 1); }\n";
     let files = MemoryFiles::new([("a.toml", text), ("a.vert", vertex), ("a.frag", fragment)]);
-    let scene = load("a.toml", &files, &Compiler::new(Options::default())).scene.expect("the scene is right");
+    let scene = loaded("a.toml", load("a.toml", &files, &compiler()));
     let (picture, exact) = (drawn(gpu, &scene), reference(&scene, Precision::F64));
     // The slope is one per pixel.
     let pairs = picture.attachments[0].iter().zip(&exact.attachments[0]).zip(&picture.covered);
@@ -195,10 +176,10 @@ fn measured_rules_rest_on_what_the_driver_does() {
     let angle = "float a = (gl_FragCoord.x - 0.5 + 64.0 * (gl_FragCoord.y - 0.5)) * 256.0;";
     for (what, body) in [("sin up to 1e6", "sin(a)"), ("cos up to 1e6", "cos(a)")] {
         let found = error(&gpu, &format!("void main() {{ {angle} color = vec4({body}); }}"), 0);
-        measured(what, found, rules::SIN_BEYOND_PI.absolute(), "");
+        measured(what, found, rules::SIN.absolute(), "");
     }
     for name in ["quad_smooth.toml", "triangle.toml", "core/depth_less.toml"] {
-        let scene = from_disk(name);
+        let scene = from_disk(format!("fixtures/scenes/{name}"));
         let used = shares(&drawn(&gpu, &scene), &reference(&scene, Precision::Envelope), Judge::Envelope);
         let used = used.into_iter().filter(|share| share.is_finite()).fold(0.0, f64::max);
         measured(&format!("varyings of {name}"), used, 1.0, "of what is allowed");
@@ -206,7 +187,7 @@ fn measured_rules_rest_on_what_the_driver_does() {
     // A snapped vertex moves by up to 1/512 pixel.
     measured("varyings follow snapped vertices by", snapping(&gpu), 1e-4, "pixels");
     measured("storing in 8 bits, from the middle", storing(&gpu), rules::STORE_SLACK.absolute(), "");
-    let scene = from_disk("core/texture_linear.toml");
+    let scene = from_disk("fixtures/scenes/core/texture_linear.toml");
     let (picture, exact) = (drawn(&gpu, &scene), reference(&scene, Precision::F64));
     let pairs = picture.attachments[0].iter().flatten().zip(exact.attachments[0].iter().flatten());
     let found = pairs.map(|(gpu, cpu)| (gpu - cpu).abs()).fold(0.0, f64::max);

@@ -1,13 +1,14 @@
 //! The library's programs and scenes, and `glisten gallery` end to end.
 
+use crate::drawing::{complaint, from_texts, strict};
 use glisten::gallery::{Entry, entries};
 use glisten::library::{programs, scenes};
-use glisten::scene::{DiskFiles, MemoryFiles, Scene, load};
+use glisten::scene::{DiskFiles, Scene, load};
 use glisten_front::{Compiler, Options};
-use glisten_gpu::{Gpu, Via};
-use glisten_reference::{LineRule, Precision, RenderOptions};
-use glisten_scene::compare::{Judge, Verdict};
+use glisten_gpu::Gpu;
+use glisten_scene::picture::Image;
 use std::collections::BTreeSet;
+use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
@@ -60,33 +61,22 @@ fn programs_have_no_findings() {
 
 /// Compares the pictures of the GPU and of the reference for a scene, at a size that is fast enough for a test.
 /// Returns what is wrong.
-fn compare(gpu: &Gpu, name: &str, scene: &Scene) -> Vec<String> {
+fn compare(gpu: &Gpu, name: &str, scene: &Scene) -> Option<String> {
     let mut scene = scene.clone();
     (scene.framebuffer.width, scene.framebuffer.height) = (64, 64);
-    let options = RenderOptions { precision: Precision::Envelope, lines: LineRule::Vulkan, ..RenderOptions::default() };
-    let reference = glisten_reference::render(&scene, &options).expect("the reference draws the library's scenes");
-    assert!(reference.covered.contains(&true), "{name}: nothing is drawn");
-    let mut wrong = Vec::new();
-    for via in [Via::Spirv, Via::Wgsl] {
-        let picture = gpu.render(&scene, via).unwrap_or_else(|error| panic!("{name}: {error}")).picture;
-        let verdict = Verdict::new(&picture, &reference, Judge::Envelope);
-        if !verdict.holds(false) {
-            wrong.push(format!("{name} via {}: {verdict:#?}", via.name()));
-        }
-    }
-    wrong
+    complaint(&format!("gallery_{name}"), gpu, &scene, &strict())
 }
 
 #[test]
 fn every_scene_is_the_same_picture_on_both_sides() {
-    let gpu = crate::gpu::gpu();
-    let wrong: Vec<String> = all().iter().flat_map(|entry| compare(&gpu, entry.name, entry.scene())).collect();
+    let gpu = crate::drawing::gpu();
+    let wrong: Vec<String> = all().iter().filter_map(|entry| compare(&gpu, entry.name, entry.scene())).collect();
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
 #[test]
 fn programs_that_shade_each_vertex_are_the_same_picture_on_both_sides() {
-    let gpu = crate::gpu::gpu();
+    let gpu = crate::drawing::gpu();
     let mut wrong = Vec::new();
     for (scene, model) in [
         ("lambert", "lambert"),
@@ -102,11 +92,8 @@ fn programs_that_shade_each_vertex_are_the_same_picture_on_both_sides() {
         let program = format!("program = \"{model}\"");
         assert!(text.contains(&program), "{scene}");
         let text = text.replace(&program, &format!("program = \"{model}_vertex\""));
-        let files = MemoryFiles::new([("a.toml", text.as_str())]);
-        let loaded = load("a.toml", &files, &Compiler::new(Options::default()));
-        let told: Vec<&str> = loaded.diagnostics.iter().map(|finding| finding.message.as_str()).collect();
-        let drawn = loaded.scene.unwrap_or_else(|| panic!("{scene}: {told:?}"));
-        wrong.extend(compare(&gpu, &format!("{scene} at each vertex"), &drawn));
+        let drawn = from_texts([("a.toml", text.as_str())]);
+        wrong.extend(compare(&gpu, &format!("{scene}_at_each_vertex"), &drawn));
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
@@ -120,9 +107,10 @@ fn gallery(folder: &Path, arguments: &[&str]) -> Output {
         .expect("the program runs")
 }
 
-/// The pixels of a PNG file, as RGB.
-fn pixels(path: &Path) -> image::RgbImage {
-    image::open(path).unwrap_or_else(|error| panic!("{}: {error}", path.display())).to_rgb8()
+/// A PNG file.
+fn image(path: &Path) -> Image {
+    let bytes = fs::read(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    Image::read(&bytes, 4096, 1 << 24).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
 #[test]
@@ -133,7 +121,7 @@ fn both_backends_draw_the_whole_gallery() {
         let run = gallery(out, arguments);
         assert_eq!(run.status.code(), Some(0), "{}", String::from_utf8_lossy(&run.stderr));
         assert!(run.stdout.is_empty());
-        let mut files: Vec<String> = std::fs::read_dir(out)
+        let mut files: Vec<String> = fs::read_dir(out)
             .expect("the folder is there")
             .map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned())
             .collect();
@@ -142,7 +130,7 @@ fn both_backends_draw_the_whole_gallery() {
         wanted.extend(["index.html".to_owned(), "gallery.png".to_owned()]);
         wanted.sort();
         assert_eq!(files, wanted, "nothing is missing and nothing is left over");
-        let page = std::fs::read_to_string(out.join("index.html")).expect("the page");
+        let page = fs::read_to_string(out.join("index.html")).expect("the page");
         for attribute in ["src=\"", "href=\""] {
             for target in page.split(attribute).skip(1).filter_map(|rest| rest.split('"').next()) {
                 let there = match target.strip_prefix('#') {
@@ -156,13 +144,12 @@ fn both_backends_draw_the_whole_gallery() {
     }
     for scene in scenes() {
         let name = format!("{}.png", scene.name);
-        let (gpu, cpu) = (pixels(&gpu.join(&name)), pixels(&cpu.join(&name)));
-        assert_eq!((gpu.dimensions(), cpu.dimensions()), ((32, 32), (32, 32)), "{name}");
-        let off =
-            gpu.pixels().zip(cpu.pixels()).filter(|(a, b)| a.0.iter().zip(b.0).any(|(a, b)| a.abs_diff(b) > 1)).count();
+        let (gpu, cpu) = (image(&gpu.join(&name)), image(&cpu.join(&name)));
+        assert_eq!([gpu.width, gpu.height, cpu.width, cpu.height], [32; 4], "{name}");
+        let differs = |(a, b): &(&[f32; 4], &[f32; 4])| a.iter().zip(*b).any(|(a, b)| (a - b).abs() > 1.5 / 255.0);
+        let off = gpu.pixels.iter().zip(&cpu.pixels).filter(differs).count();
         assert!(off <= 5, "{name}: {off} of 1024 pixels differ by more than a level");
-        let first = gpu.get_pixel(0, 0);
-        assert!(gpu.pixels().any(|pixel| pixel != first), "{name} is empty");
+        assert!(gpu.pixels.iter().any(|pixel| *pixel != gpu.pixels[0]), "{name} is empty");
     }
 }
 
@@ -173,15 +160,10 @@ fn the_same_call_gives_the_same_bytes() {
     for out in &outs {
         assert_eq!(gallery(out, &["--size", "16", "-q"]).status.code(), Some(0));
     }
-    for entry in std::fs::read_dir(&outs[0]).expect("the folder is there") {
+    for entry in fs::read_dir(&outs[0]).expect("the folder is there") {
         let path = entry.expect("an entry").path();
         let other = outs[1].join(path.file_name().expect("a name"));
-        assert_eq!(
-            std::fs::read(&path).expect("readable"),
-            std::fs::read(&other).expect("readable"),
-            "{}",
-            path.display()
-        );
+        assert_eq!(fs::read(&path).expect("readable"), fs::read(&other).expect("readable"), "{}", path.display());
     }
 }
 
@@ -189,7 +171,7 @@ fn the_same_call_gives_the_same_bytes() {
 fn wrong_usage_is_told() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let file = folder.path().join("file");
-    std::fs::write(&file, "text").expect("written");
+    fs::write(&file, "text").expect("written");
     let run = gallery(&file, &[]);
     let told = String::from_utf8_lossy(&run.stderr).into_owned();
     assert_eq!(run.status.code(), Some(2), "{told}");

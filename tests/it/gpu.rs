@@ -1,17 +1,12 @@
 //! The GPU compared with the CPU reference on scenes, and the message on a machine without a driver.
 //! These tests need a Vulkan software adapter and fail loudly without one.
 
-use glisten::scene::{self, DiskFiles, MemoryFiles, Scene};
-use glisten_front::{Compiler, Options};
+use crate::drawing::{complaint, from_disk, from_texts, gpu, reference, strict};
+use glisten::scene::Scene;
 use glisten_gpu::{Gpu, Via};
-use glisten_reference::{LineRule, Precision, RenderOptions};
-use glisten_scene::compare::{Judge, Verdict};
+use glisten_reference::Precision;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-
-pub(crate) fn gpu() -> Gpu {
-    Gpu::new(None).expect("these tests need Mesa's Vulkan driver: apt-get install mesa-vulkan-drivers")
-}
 
 fn scene_files() -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/scenes");
@@ -25,37 +20,14 @@ fn scene_files() -> Vec<PathBuf> {
     files
 }
 
-fn compiler() -> Compiler {
-    Compiler::new(Options::default())
-}
-
-fn load(path: &Path) -> Scene {
-    let loaded = scene::load(&path.to_string_lossy(), &DiskFiles, &compiler());
-    let findings: Vec<_> = loaded.diagnostics.iter().map(|finding| finding.message.clone()).collect();
-    loaded.scene.unwrap_or_else(|| panic!("{}: {findings:?}", path.display()))
-}
-
-fn reference(scene: &Scene) -> glisten_scene::picture::Picture {
-    let options = RenderOptions { precision: Precision::Envelope, lines: LineRule::Vulkan, ..RenderOptions::default() };
-    glisten_reference::render(scene, &options).expect("the reference draws every scene of the fixtures")
-}
-
 #[test]
 fn the_textbook_programs_agree_with_the_reference_at_their_full_size() {
     let gpu = gpu();
-    let mut wrong = Vec::new();
-    for path in scene_files() {
-        let scene = load(&path);
-        let reference = reference(&scene);
-        assert!(reference.covered.contains(&true), "{}: nothing is drawn", path.display());
-        for via in [Via::Spirv, Via::Wgsl] {
-            let picture = gpu.render(&scene, via).unwrap_or_else(|error| panic!("{}: {error}", path.display())).picture;
-            let verdict = Verdict::new(&picture, &reference, Judge::Envelope);
-            if !verdict.holds(false) {
-                wrong.push(format!("{} via {}: {verdict:#?}", path.display(), via.name()));
-            }
-        }
-    }
+    let complaints = scene_files().into_iter().filter_map(|path| {
+        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        complaint(&name, &gpu, &from_disk(&path), &strict())
+    });
+    let wrong: Vec<String> = complaints.collect();
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
@@ -77,10 +49,7 @@ fn flat_scene(primitive: &str, vertices: usize, first: usize) -> Scene {
          primitive = \"{primitive}\"\n[draw.attributes]\npv = {{ size = 2, values = {positions} }}\n\
          cv = {{ size = 3, values = {tints} }}\n"
     );
-    let files = MemoryFiles::new([("f.toml", text.as_str()), ("f.vert", VERTEX), ("f.frag", FRAGMENT)]);
-    let loaded = scene::load("f.toml", &files, &compiler());
-    let findings: Vec<_> = loaded.diagnostics.iter().map(|finding| finding.message.clone()).collect();
-    loaded.scene.unwrap_or_else(|| panic!("{findings:?}\n{text}"))
+    from_texts([("f.toml", text.as_str()), ("f.vert", VERTEX), ("f.frag", FRAGMENT)])
 }
 
 #[test]
@@ -95,7 +64,7 @@ fn rotating_a_flat_triangle_changes_its_color_as_opengl_says() {
         let pictures = [
             gpu.render(&scene, Via::Spirv).expect("it draws").picture,
             gpu.render(&scene, Via::Wgsl).expect("it draws").picture,
-            reference(&scene),
+            reference(&scene, Precision::Envelope),
         ];
         for picture in &pictures {
             assert_eq!(picture.attachments[0][center], wanted, "begun at vertex {first}");
@@ -108,7 +77,7 @@ fn strips_and_fans_provoke_by_their_last_vertex_on_both_backends() {
     let gpu = gpu();
     for primitive in ["triangle_strip", "triangle_fan", "line_strip", "line_loop"] {
         let scene = flat_scene(primitive, 4, 0);
-        let reference = reference(&scene);
+        let reference = reference(&scene, Precision::Envelope);
         let picture = gpu.render(&scene, Via::Spirv).expect("it draws").picture;
         let both = |index: &usize| picture.covered[*index] && reference.covered[*index];
         let differing: Vec<usize> = (0..picture.covered.len())

@@ -3,11 +3,12 @@
 //!
 //! Needs a Vulkan software adapter.
 
+use crate::drawing;
 use glisten::scene::{self, DiskFiles};
 use glisten_emit::Reflection;
-use glisten_emit::reflection::{Attribute, Sampler, Slot, Uniform};
+use glisten_emit::reflection::{Attribute, Binding, Sampler, Uniform};
 use glisten_front::{Compiler, Options};
-use glisten_reference::{LineRule, Precision, RenderOptions};
+use glisten_reference::Precision;
 use glisten_scene::compare::{Judge, Verdict};
 use glisten_scene::picture::Picture;
 use std::path::Path;
@@ -115,10 +116,7 @@ fn reference(app: &App, draw: Draw) -> Picture {
     let defines = if draw.window { vec![("WINDOW".to_owned(), String::new())] } else { Vec::new() };
     let compiler = Compiler::new(Options { defines, ..Options::default() });
     let loaded = scene::load(&path.to_string_lossy(), &DiskFiles, &compiler);
-    let messages: Vec<_> = loaded.diagnostics.iter().map(|found| &found.message).collect();
-    let scene = loaded.scene.unwrap_or_else(|| panic!("{messages:?}\n{text}"));
-    let options = RenderOptions { precision: Precision::Envelope, lines: LineRule::Vulkan, ..RenderOptions::default() };
-    glisten_reference::render(&scene, &options).expect("the reference draws")
+    drawing::reference(&drawing::loaded("host.toml", loaded), Precision::Envelope)
 }
 
 /// Runs `glisten compile`; returns the exit code and, if it is 0, the reflection.
@@ -225,18 +223,18 @@ impl Host {
     }
 
     /// The bytes of every uniform buffer.
-    fn buffers(&self, reflection: &Reflection, app: &App) -> Vec<(Slot, wgpu::Buffer)> {
-        let mut buffers: Vec<(Slot, Vec<u8>)> = Vec::new();
+    fn buffers(&self, reflection: &Reflection, app: &App) -> Vec<(Binding, wgpu::Buffer)> {
+        let mut buffers: Vec<(Binding, Vec<u8>)> = Vec::new();
         if let Some(loose) = reflection.loose_block {
-            buffers.push((Slot { group: loose.group, binding: loose.binding }, vec![0; loose.size as usize]));
+            buffers.push((Binding { group: loose.group, binding: loose.binding }, vec![0; loose.size as usize]));
         }
         for block in &reflection.blocks {
             for element in 0..block.array_size.unwrap_or(1) {
-                let slot = Slot { group: block.group, binding: block.binding + element };
+                let slot = Binding { group: block.group, binding: block.binding + element };
                 buffers.push((slot, vec![0; block.size as usize]));
             }
         }
-        let place = |buffers: &mut Vec<(Slot, Vec<u8>)>, slot: Slot, write: &dyn Fn(&mut [u8])| {
+        let place = |buffers: &mut Vec<(Binding, Vec<u8>)>, slot: Binding, write: &dyn Fn(&mut [u8])| {
             let (_, bytes) = buffers.iter_mut().find(|(known, _)| *known == slot).expect("the buffer is reflected");
             write(bytes);
         };
@@ -254,18 +252,18 @@ impl Host {
                     column[2] = 0.5 * column[2] + 0.5 * column[3];
                 }
             }
-            let slot = Slot { group: uniform.group, binding: uniform.binding };
+            let slot = Binding { group: uniform.group, binding: uniform.binding };
             place(&mut buffers, slot, &|bytes| write_uniform(bytes, uniform, &values));
         }
         if let Some(height) = reflection.conventions.framebuffer_height {
-            place(&mut buffers, Slot { group: height.group, binding: height.binding }, &|bytes| {
+            place(&mut buffers, Binding { group: height.group, binding: height.binding }, &|bytes| {
                 bytes[height.offset as usize..][..4].copy_from_slice(&(SIDE as f32).to_ne_bytes());
             });
         }
         for sampler in &reflection.samplers {
             let Some(count) = sampler.texel_count else { continue };
             let (_, [width, ..], _) = app.textures.iter().find(|(name, ..)| *name == sampler.name).expect("given");
-            place(&mut buffers, Slot { group: count.group, binding: count.binding }, &|bytes| {
+            place(&mut buffers, Binding { group: count.group, binding: count.binding }, &|bytes| {
                 bytes[count.offset as usize..][..4].copy_from_slice(&(*width as i32).to_ne_bytes());
             });
         }
@@ -409,13 +407,8 @@ impl Host {
         }
         let pixels: Vec<[f64; 4]> = rows.concat();
         Picture {
-            width: SIDE,
-            height: SIDE,
             covered: pixels.iter().map(|pixel| pixel[3] != 0.0).collect(),
-            ranges: None,
-            undecided: vec![false; pixels.len()],
-            near_edge: vec![false; pixels.len()],
-            attachments: vec![pixels],
+            ..Picture::of_colors(SIDE, SIDE, pixels)
         }
     }
 

@@ -3,7 +3,7 @@
 use glisten_front::diagnostic::Diagnostics;
 use glisten_front::hir::Stage;
 use glisten_front::source::{IncludeForm, IncludeResolver, Included, SourceMap};
-use glisten_front::syntax::{Options, parse};
+use glisten_front::syntax::{ParseOptions, parse};
 use glisten_front::{Compiler, Source};
 use std::fmt::Write as _;
 
@@ -36,7 +36,7 @@ fn codes(text: String) -> Vec<&'static str> {
         let mut sources = SourceMap::default();
         let mut diagnostics = Diagnostics::default();
         let file = sources.add("hostile.vert", text).expect("room for the text");
-        let options = Options { stage: Stage::Vertex, defines: Vec::new(), strict: false };
+        let options = ParseOptions { stage: Stage::Vertex, defines: Vec::new(), strict: false };
         parse(&mut sources, file, &options, &Endless, &mut diagnostics);
         diagnostics.iter().map(|diagnostic| diagnostic.code.id).collect()
     };

@@ -5,6 +5,8 @@ mod architecture;
 mod cli;
 mod codes;
 mod diagnostics;
+#[cfg(feature = "reference")]
+mod drawing;
 mod emit;
 #[cfg(feature = "gpu")]
 mod envelope;
@@ -32,6 +34,7 @@ mod mutation;
 mod mutations;
 #[cfg(feature = "gl")]
 mod opengl;
+mod operations;
 mod print;
 #[cfg(feature = "gpu")]
 mod random;
@@ -48,5 +51,8 @@ mod scenes;
 #[cfg(feature = "cli")]
 mod shader_test;
 mod snapshots;
+#[cfg(feature = "reference")]
+mod specialize;
 mod support;
 mod witness;
+mod words;

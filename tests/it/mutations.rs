@@ -25,7 +25,7 @@ fn planted_faults_are_caught() {
         let loaded = load(path, &DiskFiles, &Compiler::new(Options::default()));
         (name.to_owned(), loaded.scene.expect("another test loads it"))
     });
-    let study = Study::of(&crate::gpu::gpu(), &chosen, Choice { each: Some(3), seed: 7 }, &mut |_, _| {});
+    let study = Study::of(&crate::drawing::gpu(), &chosen, Choice { each: Some(3), seed: 7 }, &mut |_, _| {});
     assert!(study.left_out.is_empty() && study.false_alarms.is_empty(), "{study}");
     let all = study.count(|_| true);
     assert!(all.seen >= 60 && all.refused == 0, "{study}");

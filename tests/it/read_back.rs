@@ -98,7 +98,7 @@ fn scene(declarations: &str) -> (Scene, Vec<Scalar>) {
 
 #[test]
 fn every_scalar_comes_out_of_lavapipe_as_it_went_in() {
-    let gpu = crate::gpu::gpu();
+    let gpu = crate::drawing::gpu();
     let mut runner = proptest::test_runner::TestRunner::deterministic();
     let members = || proptest::collection::vec(member(), 1..8);
     for _ in 0..6 {

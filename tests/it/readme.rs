@@ -74,7 +74,7 @@ fn normal(text: &str) -> String {
     text.lines().map(str::trim_end).collect::<Vec<_>>().join("\n").trim().to_owned()
 }
 
-/// Whether an output is the one shown, in which a line `...` stands for any lines.
+/// Whether an output is the one shown, in which a line `...` matches any lines.
 fn is_as_shown(output: &str, shown: &str) -> bool {
     let (output, shown) = (normal(output), normal(shown));
     match shown.split_once("\n...\n") {

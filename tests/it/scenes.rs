@@ -230,7 +230,7 @@ fn files_that_are_no_scenes() {
     let mut files = MemoryFiles::default();
     files.0.insert("a.toml".into(), vec![0xff, 0xfe, 0x00]);
     let loaded = load("a.toml", &files, &Compiler::new(Options::default()));
-    assert!(told(&loaded)[0].contains("no UTF-8"), "{:?}", told(&loaded));
+    assert!(told(&loaded)[0].contains("not UTF-8"), "{:?}", told(&loaded));
 }
 
 #[test]

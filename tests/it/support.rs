@@ -1,4 +1,4 @@
-//! What several test areas share: compiling texts and files, and resolving includes next to them.
+//! Shared by several test areas: compiling texts and files, and resolving includes next to them.
 
 use glisten_front::diagnostic::Diagnostics;
 use glisten_front::hir::Stage;

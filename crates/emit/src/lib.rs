@@ -1,12 +1,13 @@
-//! The back of glisten: a linked program to WGSL, SPIR-V, MSL, HLSL and GLSL, with the reflection for its host.
+//! The back end of glisten: from a linked program to WGSL, SPIR-V, MSL, HLSL and GLSL, with the reflection for its
+//! host.
 //!
 //! ```text
 //!  program ──► lower ──► naga ──► emit ──► text or binary
 //!     └──────────────► reflection
 //! ```
 //!
-//! *In:* a [`Program`](glisten_front::Program), a [`Target`], the [`Conventions`] of its host. *Out:* [`Emitted`] by
-//! [`emit()`], [`Reflection`] by [`reflect`]. *Holds:* naga's types stay inside.
+//! *In:* a [`Program`](glisten_front::Program), a [`Target`], the [`Conventions`] of its host. *Out:* [`Emitted`]
+//! from [`emit()`], [`Reflection`] from [`reflect`]. *Holds:* no type of naga leaves the crate.
 
 mod emit;
 mod lower;
@@ -15,10 +16,10 @@ mod target;
 pub use emit::{Emitted, Reflection, emit, emit_with_sources, levels_of_comparisons, notes, reflect, reflection};
 pub use target::{BUFFER_WIDTH, ClipZ, Conventions, SpirvEnv, Target, WindowOrigin};
 
-/// Lowers without writing, for a bench of the two parts: how many functions the lowered module has.
+/// Lowers without emitting, for a benchmark of the two parts. Returns how many functions the lowered module has.
 ///
 /// # Errors
-/// What the target cannot hold.
+/// What the target cannot represent.
 #[doc(hidden)]
 pub fn lower_alone(
     program: &glisten_front::Program,

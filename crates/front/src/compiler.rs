@@ -1,10 +1,10 @@
 //! [`Compiler`] turns texts into a [`Program`] and diagnostics. It is the only entry to the front end.
 
-use crate::analysis::analyze;
+use crate::analysis::{analyze, keep_understood};
 use crate::diagnostic::codes::general::TOO_LARGE;
 use crate::diagnostic::{Diagnostic, Diagnostics, Levels};
-use crate::hir::{Shader, Stage, Types};
-use crate::link::{Bindings, Program, link};
+use crate::hir::{Stage, Types};
+use crate::link::{Bindings, Program, Understood, check_understood, link};
 use crate::source::{IncludeResolver, NoIncludes, SourceMap, Span, whole_text};
 use crate::syntax;
 use std::sync::Arc;
@@ -23,7 +23,7 @@ pub struct Options {
 }
 
 impl Options {
-    /// What the linker reads of them.
+    /// The options that the linker uses.
     fn bindings(&self) -> Bindings<'_> {
         let (attribute_locations, frag_data_locations) = (&self.attribute_locations, &self.frag_data_locations);
         Bindings { attribute_locations, frag_data_locations }
@@ -60,27 +60,42 @@ pub struct Compilation {
 pub struct Compiler {
     options: Options,
     includes: Arc<dyn IncludeResolver + Send + Sync>,
+    /// Applied to the diagnostics of each compilation; `None` if the caller applies its own.
+    levels: Option<Levels>,
 }
 
 impl Compiler {
-    /// A compiler that resolves no includes.
+    /// A compiler that resolves no includes. Comments `// glisten: allow(CODE)` are applied to its diagnostics.
     pub fn new(options: Options) -> Self {
-        Self { options, includes: Arc::new(NoIncludes) }
+        Self { options, includes: Arc::new(NoIncludes), levels: Some(Levels::default()) }
     }
 
-    /// The same compiler with a resolver for `#include`.
+    /// The same compiler, which applies these levels to its diagnostics.
+    #[must_use]
+    pub fn with_levels(self, levels: Levels) -> Self {
+        Self { levels: Some(levels), ..self }
+    }
+
+    /// The same compiler, which reports everything, for a caller that applies levels itself ([`Levels::apply`]): those of
+    /// the file that a diagnostic is in, say.
+    #[must_use]
+    pub fn without_levels(self) -> Self {
+        Self { levels: None, ..self }
+    }
+
+    /// This compiler with a resolver for `#include`.
     #[must_use]
     pub fn with_includes(self, includes: impl IncludeResolver + Send + Sync + 'static) -> Self {
         Self { includes: Arc::new(includes), ..self }
     }
 
-    /// The same compiler with other options.
+    /// This compiler with other options.
     #[must_use]
     pub fn with_options(&self, options: Options) -> Self {
-        Self { options, includes: Arc::clone(&self.includes) }
+        Self { options, ..self.clone() }
     }
 
-    /// The way to find what `#include` names.
+    /// The resolver for `#include`.
     pub fn includes(&self) -> Arc<dyn IncludeResolver + Send + Sync> {
         Arc::clone(&self.includes)
     }
@@ -115,19 +130,33 @@ impl Compiler {
     pub fn compile_into(&self, map: SourceMap, sources: &[Source]) -> Compilation {
         let name = sources.first().map_or_else(String::new, |source| stem(&source.name));
         let (mut map, mut diagnostics, mut types) = (map, Diagnostics::default(), Types::new());
-        let mut shaders = Vec::with_capacity(sources.len());
-        for source in sources {
-            shaders.extend(self.shader(source, &mut types, &mut map, &mut diagnostics));
+        let shaders = sources.iter().map(|source| self.shader(source, &mut types, &mut map, &mut diagnostics));
+        let shaders: Vec<Option<Understood>> = shaders.collect();
+        let shaders: Option<Vec<Understood>> = shaders.into_iter().collect();
+        let program = shaders.and_then(|shaders| self.link(name.clone(), types, shaders, &mut diagnostics));
+        if let Some(levels) = &self.levels {
+            diagnostics.retain_mut(|diagnostic| levels.apply(&map, diagnostic));
         }
-        // What a shader with errors offers to the others is not what its author means; linking it would blame them.
-        let program = if diagnostics.has_errors() {
-            None
-        } else {
-            link(name.clone(), types, shaders, self.options.bindings(), &mut diagnostics)
-        };
-        let levels = Levels::default();
-        diagnostics.retain(|diagnostic| levels.judge(&map, diagnostic).is_some());
         Compilation { name, sources: map, program, diagnostics }
+    }
+
+    /// Links the stages. If there are errors, only compares the certain declarations. Other declarations of a shader
+    /// with errors may differ from its author's intention, and linking would report follow-up errors.
+    fn link(
+        &self,
+        name: String,
+        types: Types,
+        shaders: Vec<Understood>,
+        diagnostics: &mut Diagnostics,
+    ) -> Option<Program> {
+        if diagnostics.has_errors() {
+            if !diagnostics.is_full() {
+                check_understood(types, shaders, diagnostics);
+            }
+            return None;
+        }
+        let shaders = shaders.into_iter().map(|understood| understood.shader).collect();
+        link(name, types, shaders, self.options.bindings(), diagnostics)
     }
 
     /// Parses and analyzes one text.
@@ -137,18 +166,19 @@ impl Compiler {
         types: &mut Types,
         map: &mut SourceMap,
         diagnostics: &mut Diagnostics,
-    ) -> Option<Shader> {
+    ) -> Option<Understood> {
         let Some(file) = map.add(source.name.as_str(), Arc::clone(&source.text)) else {
             let message = format!("there is no room for `{}`", source.name);
             diagnostics.push(Diagnostic::new(&TOO_LARGE, Span::default(), message));
             return None;
         };
-        let strict = self.options.strict;
-        let options = syntax::Options { stage: source.stage, defines: self.options.defines.clone(), strict };
+        let (strict, first_error) = (self.options.strict, diagnostics.len());
+        let options = syntax::ParseOptions { stage: source.stage, defines: self.options.defines.clone(), strict };
         let ast = syntax::parse(map, file, &options, &*self.includes, diagnostics);
         let mut shader = analyze(&ast, source.stage, strict, types, map, diagnostics);
         shader.texts.push(whole_text(map, file, ast.version.span, &ast.inclusions, &self.options.defines));
-        Some(shader)
+        let is_complete = !keep_understood(&ast, &mut shader, types, map, diagnostics, first_error);
+        Some(Understood { shader, is_complete })
     }
 }
 

@@ -1,4 +1,4 @@
-//! The front of glisten: GLSL 1.50 text to a checked, linked program, and everything that is wrong with it.
+//! The front end of glisten: from GLSL 1.50 text to a checked, linked program, with all diagnostics.
 //!
 //! ```text
 //!  text ──► syntax ──► analysis ──► link ──► lint
@@ -7,10 +7,11 @@
 //!                      (hir)        interface
 //! ```
 //!
-//! [`Compiler`] is the door. The modules are public for the other crates of glisten; a user takes what `glisten`
-//! re-exports of them.
+//! [`Compiler`] is the entry. The modules are public for the other crates of glisten; users depend on `glisten`,
+//! which re-exports what they need.
 //!
-//! *Holds:* no I/O, no threads, no global state, no code generator: a linter built on this crate depends on nothing else.
+//! *Holds:* no I/O, no threads, no global state, no code generator. A linter that depends on this crate depends on
+//! nothing else.
 
 pub mod analysis;
 pub mod builtin;

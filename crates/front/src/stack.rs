@@ -1,10 +1,10 @@
-//! [`with_stack`]: room for a walk that recurses.
+//! [`with_stack`]: stack space for a recursive traversal.
 //!
-//! *In:* how deep a walk goes. *Out:* what the walk gives. *Holds:* a walk of the depth that the parser allows never
-//! overflows, however small the caller's stack is.
+//! *In:* the depth of a traversal. *Out:* its result. *Holds:* a traversal within the parser's limit never overflows,
+//! however small the caller's stack is.
 
-/// Runs a walk that recurses `depth` levels with enough stack: on the caller's if that is shallow, else on one of its own
-/// on the same thread. A walk may use up to 8 KiB a level.
+/// Runs a traversal that recurses `depth` levels with enough stack: on the caller's stack if that is shallow, else on
+/// a larger stack on the same thread. A traversal may use up to 8 KiB of stack per level.
 pub fn with_stack<R>(depth: u32, walk: impl FnOnce() -> R) -> R {
     const SHALLOW: u32 = 48;
     const BYTES_A_LEVEL: usize = 8 << 10;

@@ -23,7 +23,7 @@ pub(super) struct Size {
 
 /// How texels or pixels are stored, and how they are transferred.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Layout {
+pub(super) struct PixelLayout {
     /// The sized internal format.
     pub(super) internal: u32,
     /// The channels that are transferred.
@@ -200,7 +200,7 @@ impl Api {
         dimensions: Dimensions,
         level: i32,
         size: Size,
-        layout: Layout,
+        layout: PixelLayout,
         bytes: &[u8],
     ) -> bool {
         let texels = size.width as usize * size.height as usize * size.depth as usize;
@@ -208,7 +208,7 @@ impl Api {
             return false;
         }
         let (width, height, depth) = (size.width as i32, size.height as i32, size.depth as i32);
-        let Layout { internal, format, kind, .. } = layout;
+        let PixelLayout { internal, format, kind, .. } = layout;
         let internal = internal as i32;
         let texels = glow::PixelUnpackData::Slice(Some(bytes));
         // SAFETY: the number of bytes was checked; every layout's texels are a multiple of 4 bytes, so rows are not
@@ -228,7 +228,7 @@ impl Api {
     }
 
     /// The pixels of the current read buffer, bottom row first.
-    pub(super) fn read_pixels(&self, width: u32, height: u32, layout: Layout) -> Vec<u8> {
+    pub(super) fn read_pixels(&self, width: u32, height: u32, layout: PixelLayout) -> Vec<u8> {
         let mut bytes = vec![0; width as usize * height as usize * layout.bytes];
         let pixels = glow::PixelPackData::Slice(Some(&mut bytes));
         // SAFETY: there is room for all rows, which are not padded, because the pack alignment is 1.

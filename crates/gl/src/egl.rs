@@ -56,7 +56,7 @@ impl Gl {
         library.initialize(display).map_err(|error| refused("a display does not start", error))?;
         let wanted = [egl::RENDERABLE_TYPE, egl::OPENGL_BIT, egl::SURFACE_TYPE, egl::PBUFFER_BIT, egl::NONE];
         let config = library.choose_first_config(display, &wanted);
-        let config = config.map_err(|error| refused("a display tells no configurations", error))?;
+        let config = config.map_err(|error| refused("a display reports no configurations", error))?;
         let config = config.ok_or_else(|| Error::NoDriver("no display draws with OpenGL".to_owned()))?;
         let context = Context::new(library, display, config)?;
         let api = context.api();

@@ -4,7 +4,7 @@
 //! lowest, a picture's the topmost. Coverage is the stencil that each written fragment sets, never inferred from
 //! colors. `near_edge` and `undecided` are all `false`, because the driver does not report edges.
 
-use super::api::{Api, Layout};
+use super::api::{Api, PixelLayout};
 use super::states::{STENCIL, color_layout, compare, factor, mode};
 use super::{Error, Gl, programs, textures, uniforms, vertices};
 use glisten_front::link::Program;
@@ -139,7 +139,7 @@ fn set_state(api: &Api, state: &State) {
 
 fn picture(api: &Api, framebuffer: &Framebuffer) -> Result<Picture, Error> {
     let Framebuffer { width, height, format, .. } = *framebuffer;
-    let read = |layout: Layout| {
+    let read = |layout: PixelLayout| {
         let bytes = api.read_pixels(width, height, layout);
         let rows: Vec<&[u8]> = bytes.chunks(width as usize * layout.bytes).rev().collect();
         rows.concat()

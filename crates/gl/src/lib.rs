@@ -1,7 +1,8 @@
 //! Draws scenes by OpenGL through EGL, without a window, from the original sources, which the driver's own compiler
 //! compiles.
 //!
-//! *In:* a [`Scene`](glisten_scene::Scene). *Out:* a [`Picture`](glisten_scene::picture::Picture), as from `gpu` and `cpu`.
+//! *In:* a [`Scene`](glisten_scene::Scene). *Out:* a [`Picture`](glisten_scene::picture::Picture), as from
+//! the GPU runner and the reference.
 //!
 //! ```text
 //!  libEGL ──► egl         a software device, and on it a core context of 3.2 or later for each scene

@@ -1,11 +1,11 @@
 //! Tables from a scene's fixed-function state to OpenGL's enumerants.
 
-use super::api::Layout;
+use super::api::PixelLayout;
 use glisten_scene::{BlendFactor, Compare, Format, Primitive, Wrap};
 
 /// How an attachment is stored and read.
-pub(super) fn color_layout(format: Format) -> Layout {
-    let layout = |internal, format, kind, bytes| Layout { internal, format, kind, bytes };
+pub(super) fn color_layout(format: Format) -> PixelLayout {
+    let layout = |internal, format, kind, bytes| PixelLayout { internal, format, kind, bytes };
     match format {
         Format::Rgba32Float => layout(glow::RGBA32F, glow::RGBA, glow::FLOAT, 16),
         Format::Rgba16Float => layout(glow::RGBA16F, glow::RGBA, glow::FLOAT, 16),
@@ -16,8 +16,8 @@ pub(super) fn color_layout(format: Format) -> Layout {
 }
 
 /// How the stencil is stored (next to a 32-bit float depth) and read.
-pub(super) const STENCIL: Layout =
-    Layout { internal: glow::DEPTH32F_STENCIL8, format: glow::STENCIL_INDEX, kind: glow::UNSIGNED_BYTE, bytes: 1 };
+pub(super) const STENCIL: PixelLayout =
+    PixelLayout { internal: glow::DEPTH32F_STENCIL8, format: glow::STENCIL_INDEX, kind: glow::UNSIGNED_BYTE, bytes: 1 };
 
 /// The mode of `glDraw*` for a primitive.
 pub(super) fn mode(primitive: Primitive) -> u32 {

@@ -5,7 +5,7 @@
 //! filtered, since OpenGL would then call them incomplete.
 
 use super::Error;
-use super::api::{Api, Dimensions, Layout, Size};
+use super::api::{Api, Dimensions, PixelLayout, Size};
 use super::states::{compare, wrap};
 use glisten_front::hir::{SamplerDim, SamplerType, Scalar, Type};
 use glisten_scene::{Draw, Filter, Texels, Texture, TextureLevel};
@@ -34,17 +34,20 @@ pub(super) fn bind(api: &Api, linked: glow::Program, draw: &Draw) -> Result<(), 
 }
 
 /// How the texels of a sampler type are stored.
-fn layout(kind: SamplerType) -> Layout {
+fn layout(kind: SamplerType) -> PixelLayout {
     match kind.texel {
-        _ if kind.shadow => {
-            Layout { internal: glow::DEPTH_COMPONENT32F, format: glow::DEPTH_COMPONENT, kind: glow::FLOAT, bytes: 4 }
-        }
-        Scalar::Int => Layout { internal: glow::RGBA32I, format: glow::RGBA_INTEGER, kind: glow::INT, bytes: 16 },
+        _ if kind.shadow => PixelLayout {
+            internal: glow::DEPTH_COMPONENT32F,
+            format: glow::DEPTH_COMPONENT,
+            kind: glow::FLOAT,
+            bytes: 4,
+        },
+        Scalar::Int => PixelLayout { internal: glow::RGBA32I, format: glow::RGBA_INTEGER, kind: glow::INT, bytes: 16 },
         Scalar::Uint => {
-            Layout { internal: glow::RGBA32UI, format: glow::RGBA_INTEGER, kind: glow::UNSIGNED_INT, bytes: 16 }
+            PixelLayout { internal: glow::RGBA32UI, format: glow::RGBA_INTEGER, kind: glow::UNSIGNED_INT, bytes: 16 }
         }
         Scalar::Bool | Scalar::Float => {
-            Layout { internal: glow::RGBA32F, format: glow::RGBA, kind: glow::FLOAT, bytes: 16 }
+            PixelLayout { internal: glow::RGBA32F, format: glow::RGBA, kind: glow::FLOAT, bytes: 16 }
         }
     }
 }

@@ -6,9 +6,10 @@
 
 use super::Error;
 use super::api::Api;
-use glisten_front::hir::{Scalar, ScalarValue, Type};
-use glisten_front::link::{Block, Program, UniformLeaf};
+use glisten_front::hir::{Scalar, ScalarValue};
+use glisten_front::link::{Block, UniformLeaf};
 use glisten_scene::Draw;
+use glisten_scene::values::{LeafShape, bits, of_leaf};
 
 /// Sets all uniforms but samplers. The program must be current.
 pub(super) fn set(api: &Api, linked: glow::Program, draw: &Draw) -> Result<(), Error> {
@@ -17,9 +18,9 @@ pub(super) fn set(api: &Api, linked: glow::Program, draw: &Draw) -> Result<(), E
         let Some(root) = program.interface.roots.get(leaf.root.0 as usize) else { continue };
         if root.block.is_none()
             && let Some(location) = api.get_uniform_location(linked, &leaf.name)
-            && let Some(shape) = Shape::of(program, leaf)
+            && let Some(shape) = LeafShape::of(&program.types, leaf)
         {
-            set_loose(api, &location, shape, values(draw, leaf, shape));
+            set_loose(api, &location, shape, of_leaf(&draw.uniforms, leaf, shape));
         }
     }
     api.check("setting uniforms")?;
@@ -32,36 +33,7 @@ pub(super) fn set(api: &Api, linked: glow::Program, draw: &Draw) -> Result<(), E
     api.check("filling uniform blocks")
 }
 
-/// The type of a leaf.
-#[derive(Clone, Copy)]
-struct Shape {
-    scalar: Scalar,
-    columns: usize,
-    rows: usize,
-    elements: usize,
-}
-
-impl Shape {
-    fn of(program: &Program, leaf: &UniformLeaf) -> Option<Self> {
-        let elements = leaf.array_size.unwrap_or(1) as usize;
-        let (scalar, columns, rows) = match program.types.get(leaf.ty) {
-            Type::Scalar(scalar) => (scalar, 1, 1),
-            Type::Vector(scalar, size) => (scalar, 1, usize::from(size)),
-            Type::Matrix(columns, rows) => (Scalar::Float, usize::from(columns), usize::from(rows)),
-            _ => return None,
-        };
-        Some(Self { scalar, columns, rows, elements })
-    }
-}
-
-/// The leaf's part of the values of its root.
-fn values<'a>(draw: &'a Draw, leaf: &UniformLeaf, shape: Shape) -> &'a [ScalarValue] {
-    let start = leaf.flat_offset as usize;
-    let flat = draw.uniforms.get(leaf.root.0 as usize).map_or(&[][..], Vec::as_slice);
-    flat.get(start..start + shape.elements * shape.columns * shape.rows).unwrap_or(&[])
-}
-
-fn set_loose(api: &Api, location: &glow::UniformLocation, shape: Shape, values: &[ScalarValue]) {
+fn set_loose(api: &Api, location: &glow::UniformLocation, shape: LeafShape, values: &[ScalarValue]) {
     let at = Some(location);
     match shape.scalar {
         Scalar::Float => {
@@ -122,9 +94,9 @@ fn set_block(
     let mut bytes = vec![0; usize::try_from(size).unwrap_or(0).max(16)];
     let leaves = draw.program.interface.uniforms.iter();
     for leaf in leaves.filter(|leaf| leaf.root == block.root && leaf.block_element == element) {
-        let Some(shape) = Shape::of(&draw.program, leaf) else { continue };
-        if let Some(place) = Place::of(api, linked, block, leaf) {
-            place.fill(shape, values(draw, leaf, shape), &mut bytes);
+        let Some(shape) = LeafShape::of(&draw.program.types, leaf) else { continue };
+        if let Some(place) = MemberLayout::of(api, linked, block, leaf) {
+            place.fill(shape, of_leaf(&draw.uniforms, leaf, shape), &mut bytes);
         }
     }
     let buffer = api.create_buffer().map_err(Error::Refused)?;
@@ -136,14 +108,14 @@ fn set_block(
 }
 
 /// The layout of a member in the driver, in bytes.
-struct Place {
+struct MemberLayout {
     offset: usize,
     array_stride: usize,
     matrix_stride: usize,
     row_major: bool,
 }
 
-impl Place {
+impl MemberLayout {
     fn of(api: &Api, linked: glow::Program, block: &Block, leaf: &UniformLeaf) -> Option<Self> {
         // All elements of an array of blocks have the same layout, and OpenGL uses the names of the block's members
         // without an index.
@@ -165,25 +137,16 @@ impl Place {
         })
     }
 
-    fn fill(&self, shape: Shape, values: &[ScalarValue], bytes: &mut [u8]) {
+    fn fill(&self, shape: LeafShape, values: &[ScalarValue], bytes: &mut [u8]) {
         for (number, value) in values.iter().enumerate() {
-            let (row, column) = (number % shape.rows, number / shape.rows % shape.columns);
-            let element = number / (shape.rows * shape.columns);
+            let (rows, columns) = (shape.rows as usize, shape.columns as usize);
+            let (row, column) = (number % rows, number / rows % columns);
+            let element = number / (rows * columns);
             let (line, along) = if self.row_major { (row, column) } else { (column, row) };
             let offset = self.offset + element * self.array_stride + line * self.matrix_stride + along * 4;
-            if let Some(place) = bytes.get_mut(offset..offset + 4) {
-                place.copy_from_slice(&bits(*value).to_ne_bytes());
+            if let Some(layout) = bytes.get_mut(offset..offset + 4) {
+                layout.copy_from_slice(&bits(*value).to_ne_bytes());
             }
         }
-    }
-}
-
-/// The 32 bits of a value in a buffer.
-fn bits(value: ScalarValue) -> u32 {
-    match value {
-        ScalarValue::Bool(value) => u32::from(value),
-        ScalarValue::Int(value) => value.cast_unsigned(),
-        ScalarValue::Uint(value) => value,
-        ScalarValue::Float(value) => value.to_bits(),
     }
 }

@@ -69,7 +69,7 @@ impl Gpu {
         Ok(Self { device, queue, features, limits, timeout: Self::DEFAULT_TIMEOUT, facts, stray })
     }
 
-    /// The same device with another limit for each wait.
+    /// This device with another limit for each wait.
     #[must_use]
     pub fn with_timeout(self, timeout: Duration) -> Self {
         Self { timeout, ..self }

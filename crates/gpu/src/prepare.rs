@@ -79,6 +79,8 @@ impl Gpu {
     /// # Safety
     /// The driver runs the words as they are, and its behavior is undefined if they are not a valid module: check
     /// them with `spirv-val` first.
+    #[doc(hidden)]
+    #[cfg(feature = "edited-modules")]
     #[expect(unsafe_code, reason = "nothing here can check what `edit` makes")]
     pub unsafe fn prepare_edited(
         &self,
@@ -354,7 +356,7 @@ struct Binding {
     what: What,
 }
 
-/// What is bound.
+/// The kind of a bound resource.
 #[derive(Clone, Copy)]
 enum What {
     Uniforms,

@@ -4,8 +4,9 @@
 //! the reflected layout. *Holds:* every byte comes from a [`UniformLeaf`], so nothing here goes beyond what a host
 //! can do with the reflection alone.
 
-use glisten_front::hir::{MatrixLayout, ScalarValue, Type, Types};
+use glisten_front::hir::{MatrixLayout, ScalarValue, Types};
 use glisten_front::link::{Interface, Program, SlotBinding, UniformLeaf};
+use glisten_scene::values::{LeafShape, bits};
 
 /// The bytes of one uniform buffer.
 #[derive(Debug, PartialEq)]
@@ -64,14 +65,9 @@ fn buffers(interface: &Interface) -> Vec<UniformBytes> {
 }
 
 fn pack_leaf(types: &Types, leaf: &UniformLeaf, flat: &[ScalarValue], bytes: &mut [u8]) {
-    let (columns, rows) = match types.get(leaf.ty) {
-        Type::Scalar(_) => (1, 1),
-        Type::Vector(_, size) => (1, u32::from(size)),
-        Type::Matrix(columns, rows) => (u32::from(columns), u32::from(rows)),
-        _ => return,
-    };
+    let Some(LeafShape { columns, rows, elements, .. }) = LeafShape::of(types, leaf) else { return };
     let matrix_stride = leaf.matrix_stride.unwrap_or(16);
-    for element in 0..leaf.array_size.unwrap_or(1) {
+    for element in 0..elements {
         let start = leaf.offset + element * leaf.array_stride.unwrap_or(0);
         for column in 0..columns {
             for row in 0..rows {
@@ -81,19 +77,14 @@ fn pack_leaf(types: &Types, leaf: &UniformLeaf, flat: &[ScalarValue], bytes: &mu
                 };
                 let index = leaf.flat_offset + (element * columns + column) * rows + row;
                 if let Some(value) = flat.get(index as usize) {
-                    put(bytes, (start + if columns == 1 { row * 4 } else { within }) as usize, scalar_bytes(*value));
+                    put(
+                        bytes,
+                        (start + if columns == 1 { row * 4 } else { within }) as usize,
+                        bits(*value).to_ne_bytes(),
+                    );
                 }
             }
         }
-    }
-}
-
-fn scalar_bytes(value: ScalarValue) -> [u8; 4] {
-    match value {
-        ScalarValue::Bool(value) => u32::from(value).to_ne_bytes(),
-        ScalarValue::Int(value) => value.to_ne_bytes(),
-        ScalarValue::Uint(value) => value.to_ne_bytes(),
-        ScalarValue::Float(value) => value.to_ne_bytes(),
     }
 }
 

@@ -1,17 +1,17 @@
-//! Interpolation of what vertices carry, by the equations (102) to (108) of the first source document and (3.5) to (3.7)
-//! of OpenGL 3.2 §3.5.1, over every [`Number`].
+//! Interpolates values of vertices by the equations (102) to (108) of the first source document and (3.5) to (3.7) of
+//! OpenGL 3.2 §3.5.1, over every [`Number`].
 //!
-//! *In:* places in the window, values of vertices. *Out:* the value at a fragment.
+//! *In:* positions in window space, values of vertices. *Out:* the value at a fragment.
 //!
-//! *Holds:* nothing panics. Where the equations are undefined the results are IEEE's, infinite or NaN: a triangle without
-//! area (`x_u y_v - x_v y_u = 0`, which produces no fragments) and `w = 0` (which clipping removes). How far each equation
-//! is from exact arithmetic, up to these limits, its tests bound by a number of roundings.
-//! The names are those of the document: `P` is the fragment, `P0`, `P1`, `P2` the vertices, `u` and `v` the edges from
+//! *Holds:* nothing panics. Where the equations are undefined, the results are those of IEEE arithmetic, infinite or
+//! NaN: for a triangle without area (`x_u y_v - x_v y_u = 0`, which produces no fragments) and for `w = 0` (which
+//! clipping removes). The tests bound the error of each equation by a number of roundings, up to these limits. The
+//! names are those of the document: `P` is the fragment, `P0`, `P1`, `P2` the vertices, `u` and `v` the edges from
 //! `P0` and the coordinates along them, `C0`, `C1`, `C2` the values of the vertices.
 
 use super::domain::Number;
 
-/// A point or vector in the window, in pixels.
+/// A point or vector in window space, in pixels.
 pub(crate) type Vec2<F> = [F; 2];
 
 /// Equation (102): the edges of a triangle from its first vertex, `u = P1 - P0` and `v = P2 - P0`.
@@ -27,7 +27,7 @@ pub(crate) fn point<F: Number>(u: F, v: F, edges: (Vec2<F>, Vec2<F>), p0: Vec2<F
     [along(0), along(1)]
 }
 
-/// A triangle ready for equation (105).
+/// A triangle prepared for equation (105).
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Frame<F> {
     /// `P0`
@@ -67,15 +67,16 @@ pub(crate) fn weights<F: Number>(u: F, v: F) -> [F; 3] {
     [F::from_f64(1.0).sub(u).sub(v), u, v]
 }
 
-/// Equation (106), in its first form: `C = C0 + u (C1 - C0) + v (C2 - C0)`. Linear in the window: `noperspective`, depth.
-/// What is the same at all vertices comes back exactly, as drivers have it: programs compare such values for equality.
+/// Equation (106), in its first form: `C = C0 + u (C1 - C0) + v (C2 - C0)`. It is linear in window space, for
+/// `noperspective` and depth. A value that is equal at all vertices is returned exactly, as drivers do: programs
+/// compare such values for equality.
 #[inline(always)]
 pub(crate) fn linear<F: Number>(weights: [F; 3], c: [F; 3]) -> F {
     c[0].add(weights[1].mul(c[1].sub(c[0]))).add(weights[2].mul(c[2].sub(c[0])))
 }
 
-/// Equation (107): what stands at `t` of the projection of a segment, from the values `a` and `b` and the depths `za` and
-/// `zb` of its ends. (3.6) is the same with `w` for the depth.
+/// Equation (107): the value at `t` of the projection of a segment, from the values `a` and `b` and the depths `za`
+/// and `zb` of its ends. (3.6) is the same equation with `w` as the depth.
 #[cfg(test)]
 pub(crate) fn unproject<F: Number>(t: F, a: F, za: F, b: F, zb: F) -> (F, F) {
     let rest = F::from_f64(1.0).sub(t);
@@ -85,19 +86,19 @@ pub(crate) fn unproject<F: Number>(t: F, a: F, za: F, b: F, zb: F) -> (F, F) {
     (value, depth)
 }
 
-/// Equation (108), its second line: `w = 1 / ((1 - u - v) / w0 + u / w1 + v / w2)`, from the reciprocals of the `w`.
+/// Equation (108), second line: `w = 1 / ((1 - u - v) / w0 + u / w1 + v / w2)`, from the reciprocals of the `w`.
 #[inline(always)]
 pub(crate) fn perspective_w<F: Number>(weights: [F; 3], reciprocals: [F; 3]) -> F {
     F::from_f64(1.0).div(linear(weights, reciprocals))
 }
 
-/// Equation (108), its first line: `C = w ((1 - u - v) C0 / w0 + u C1 / w1 + v C2 / w2)`, from `w` and the quotients.
+/// Equation (108), first line: `C = w ((1 - u - v) C0 / w0 + u C1 / w1 + v C2 / w2)`, from `w` and the quotients.
 #[inline(always)]
 pub(crate) fn perspective<F: Number>(weights: [F; 3], w: F, quotients: [F; 3]) -> F {
     linear(weights, quotients).mul(w)
 }
 
-/// Equation (3.5) of OpenGL 3.2: how far along the segment from `a` to `b` a fragment lies, by projection onto it.
+/// Equation (3.5) of OpenGL 3.2: how far along the segment from `a` to `b` a fragment is, by projection onto it.
 #[inline(always)]
 pub(crate) fn along<F: Number>(p: Vec2<F>, a: Vec2<F>, b: Vec2<F>) -> F {
     let (dx, dy) = (b[0].sub(a[0]), b[1].sub(a[1]));

@@ -2,8 +2,8 @@
 //!
 //! *In:* a [`Scene`]. *Out:* a [`Picture`].
 //!
-//! *Holds:* never sees naga IR, so that a mistake in lowering shows as a difference. Which pixels a primitive covers is
-//! decided in f32 and integers, alike in every number domain; what they hold is computed in the domain.
+//! *Holds:* the crate never sees naga IR, so that a mistake in the lowering shows as a difference. Coverage is
+//! decided in f32 and integers, and is the same in every domain; values are computed in the domain.
 
 pub mod domain;
 pub mod exec;
@@ -13,6 +13,9 @@ mod raster;
 #[cfg(any(test, feature = "stability"))]
 pub mod stability;
 mod texture;
+mod work;
+
+pub use work::{Work, work};
 
 use domain::faults::Faults;
 use domain::{Envelope, F32, F64};
@@ -21,38 +24,38 @@ use glisten_front::source::Span;
 use glisten_scene::Scene;
 use glisten_scene::picture::Picture;
 
-/// What numbers the reference computes with.
+/// The precision of the reference's numbers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Precision {
     /// IEEE f64: the truth.
     #[default]
     F64,
-    /// IEEE f32, one rounding an operation: a strict GPU.
+    /// IEEE f32, with one rounding per operation: a strict GPU.
     F32,
-    /// f64 with the interval of what a conforming GPU may have in its place.
+    /// f64 with the interval of values that a conforming GPU may compute.
     Envelope,
 }
 
-/// Which pixels a line covers, and what becomes of a point whose center lies outside the window.
+/// Which pixels a line covers, and whether a point whose center is outside the window is drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum LineRule {
-    /// The diamond-exit rule (OpenGL 3.2 §3.5.1); such a point is discarded (§2.19).
+    /// The diamond-exit rule (OpenGL 3.2 §3.5.1). Such a point is discarded (§2.19).
     #[default]
     OpenGl,
-    /// A rectangle one pixel wide, as Vulkan draws strict lines; of such a point what reaches into the window is drawn.
+    /// A rectangle one pixel wide, as Vulkan draws strict lines. The part of such a point inside the window is drawn.
     Vulkan,
 }
 
-/// How to draw.
+/// Options for drawing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RenderOptions {
     /// The number domain.
     pub precision: Precision,
-    /// The rule for lines.
+    /// The rule for lines and points.
     pub lines: LineRule,
-    /// Whether pixels near edges are marked ([`Picture::near_edge`]): wanted for a comparison, and it takes time.
+    /// Whether to mark pixels near edges ([`Picture::near_edge`]), which a comparison needs and which takes time.
     pub mark_edges: bool,
-    /// Faults of a driver that envelopes admit beside what the specifications do.
+    /// The faults of a driver that envelopes excuse, in addition to what the specifications allow.
     pub faults: Faults,
 }
 
@@ -65,7 +68,7 @@ impl Default for RenderOptions {
 /// Draws a scene.
 ///
 /// # Errors
-/// What the reference cannot draw: a geometry stage, a multisample sampler, a loop without end.
+/// What the reference does not support: a geometry stage, a multisample sampler, an endless loop.
 pub fn render(scene: &Scene, options: &RenderOptions) -> Result<Picture, Vec<Diagnostic>> {
     match options.precision {
         Precision::F64 => pipeline::render::<F64>(scene, options),
@@ -74,23 +77,23 @@ pub fn render(scene: &Scene, options: &RenderOptions) -> Result<Picture, Vec<Dia
     }
 }
 
-/// What an operation adds to the width of a pixel's envelope.
+/// The contribution of an operation to the width of a pixel's envelope.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contribution {
-    /// The expression; of a varying its declaration.
+    /// The expression; for a varying, its declaration.
     pub span: Span,
-    /// How GLSL writes the operation, or `interpolation`.
+    /// The operation as GLSL writes it, or `interpolation`.
     pub operation: &'static str,
-    /// By how much of its width the envelope is narrower without the freedom that the rule of this operation gives, 0 to 1.
-    /// What several operations share counts under each of them, so shares need not add up to 1.
+    /// The share by which the envelope would be narrower if this operation were exact, 0 to 1. What several
+    /// operations share counts for each of them, so shares need not add up to 1.
     pub share: f64,
 }
 
-/// What the envelope of a channel (0 to 3) of a pixel (column from the left, row from the top) comes from, the largest
-/// contribution first. Costs as many drawings of the pixel as the fragment stage has operations.
+/// The origin of the envelope of a channel (0 to 3) of a pixel (column from the left, row from the top), the largest
+/// contribution first. It draws the pixel as many times as the fragment stage has operations.
 ///
 /// # Errors
-/// As [`render`], and a pixel that there is not.
+/// The errors of [`render`], or a pixel outside the picture.
 pub fn explain(
     scene: &Scene,
     options: &RenderOptions,

@@ -1,8 +1,9 @@
 //! Scenes and pictures of glisten.
 //!
-//! [`load`] reads a scene file (TOML; see `docs/scenes.md`) and the programs that it names. The result is a [`Scene`], in
-//! which everything is resolved: vertex data by attribute, uniform values by root, textures by sampler. The runners draw it
-//! and know nothing of TOML. [`picture`] is what they draw, [`compare`] says how far two pictures are apart.
+//! [`load`] reads a scene file (TOML; see `docs/scenes.md`) and its programs. The result is a [`Scene`], in which
+//! everything is resolved: vertex data by attribute, uniform values by root, textures by sampler. The runners draw it
+//! and know nothing of TOML. [`picture`] contains pictures and intervals of pixel values; [`compare`] measures the
+//! difference between two pictures.
 //!
 //! *Holds:* nothing here draws. Semantics are OpenGL's (lower-left origin, last vertex provoking, clip space z in `[-w, w]`).
 //! Files come through a [`FileSource`]; only its implementation [`DiskFiles`] does I/O.
@@ -13,10 +14,11 @@ mod library;
 mod load;
 mod model;
 pub mod picture;
+pub mod values;
 
 pub use files::{DiskFiles, FileError, FileSource, MemoryFiles};
 pub use library::{Library, NoLibrary};
-pub use load::{Loaded, MAX_ATTACHMENTS, MAX_PIXELS, MAX_SIDE, default_tessellation, load};
+pub use load::{Loaded, MAX_ATTACHMENTS, MAX_PIXELS, MAX_SIDE, ShaderFiles, default_tessellation, load, write};
 pub use model::{
     AttributeData, AttributeValues, BlendFactor, Compare, Cull, Draw, Filter, Format, Framebuffer, Primitive, Scene,
     State, Texels, Texture, TextureLevel, Wrap,

@@ -80,6 +80,25 @@ pub enum Compare {
     Always,
 }
 
+impl Compare {
+    /// The names in scene files.
+    pub const NAMES: &[(&str, Self)] = &[
+        ("never", Self::Never),
+        ("less", Self::Less),
+        ("equal", Self::Equal),
+        ("lequal", Self::Lequal),
+        ("greater", Self::Greater),
+        ("notequal", Self::Notequal),
+        ("gequal", Self::Gequal),
+        ("always", Self::Always),
+    ];
+
+    /// By OpenGL's name: `GL_` and the scene file's name in capitals.
+    pub fn of_opengl(name: &str) -> Option<Self> {
+        of_opengl(name, Self::NAMES)
+    }
+}
+
 /// Blend factors (OpenGL 3.2 table 4.2), without those of a constant color.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[expect(missing_docs, reason = "the names say it")]
@@ -95,6 +114,28 @@ pub enum BlendFactor {
     DstAlpha,
     OneMinusDstAlpha,
     SrcAlphaSaturate,
+}
+
+impl BlendFactor {
+    /// The names in scene files.
+    pub const NAMES: &[(&str, Self)] = &[
+        ("zero", Self::Zero),
+        ("one", Self::One),
+        ("src_color", Self::SrcColor),
+        ("one_minus_src_color", Self::OneMinusSrcColor),
+        ("dst_color", Self::DstColor),
+        ("one_minus_dst_color", Self::OneMinusDstColor),
+        ("src_alpha", Self::SrcAlpha),
+        ("one_minus_src_alpha", Self::OneMinusSrcAlpha),
+        ("dst_alpha", Self::DstAlpha),
+        ("one_minus_dst_alpha", Self::OneMinusDstAlpha),
+        ("src_alpha_saturate", Self::SrcAlphaSaturate),
+    ];
+
+    /// By OpenGL's name: `GL_` and the scene file's name in capitals.
+    pub fn of_opengl(name: &str) -> Option<Self> {
+        of_opengl(name, Self::NAMES)
+    }
 }
 
 /// The fixed-function state of a draw.
@@ -216,13 +257,33 @@ pub enum Filter {
     Trilinear,
 }
 
-/// What is outside `[0, 1]`.
+/// The treatment of coordinates outside `[0, 1]`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub enum Wrap {
     Repeat,
     ClampToEdge,
     MirroredRepeat,
+}
+
+impl Wrap {
+    /// The names in scene files.
+    pub const NAMES: &[(&str, Self)] = &[
+        ("repeat", Self::Repeat),
+        ("clamp", Self::ClampToEdge),
+        ("clamp_to_edge", Self::ClampToEdge),
+        ("mirrored_repeat", Self::MirroredRepeat),
+        ("mirror", Self::MirroredRepeat),
+    ];
+
+    /// Names that scene files have and OpenGL has not, or has for something else (`GL_CLAMP` is not to the edge).
+    const SHORT: &[&str] = &["clamp", "mirror"];
+
+    /// By OpenGL's name in small letters, without `GL_`.
+    pub fn of_opengl(name: &str) -> Option<Self> {
+        let own = |known: &str| known == name && !Self::SHORT.contains(&known);
+        Self::NAMES.iter().find(|(known, _)| own(known)).map(|row| row.1)
+    }
 }
 
 /// The texels of a level, as RGBA.
@@ -260,4 +321,10 @@ pub struct Texture {
     pub wrap: Wrap,
     /// The comparison function, for shadow samplers.
     pub compare: Compare,
+}
+
+/// The value whose name stands after `GL_` in capitals.
+fn of_opengl<T: Copy>(name: &str, names: &[(&str, T)]) -> Option<T> {
+    let own = name.strip_prefix("GL_")?;
+    names.iter().find(|(known, _)| known.to_ascii_uppercase() == own).map(|row| row.1)
 }

@@ -1,6 +1,6 @@
 //! Closed forms of lights and of the sums: (93) to (101).
 
-use super::{Form, Kind, cosine_power, dot, forms, half, norm};
+use super::{Form, InputKind, cosine_power, dot, forms, half, norm};
 use crate::measure::vector::{V, add, mul, scale, sub, unit};
 use crate::measure::{Answer, Args};
 

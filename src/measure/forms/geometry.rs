@@ -1,6 +1,6 @@
 //! Closed forms of normals, outlines and interpolation: §10.2, and the article's `edge`.
 
-use super::{Form, Kind, dot, forms, norm};
+use super::{Form, InputKind, dot, forms, norm};
 use crate::measure::vector::{V, add, scale, unit};
 use crate::measure::{Answer, Args};
 

@@ -1,6 +1,6 @@
 //! Closed forms of `safe` and `lut`.
 
-use super::{Form, Kind, cosine_power, cross, dot, forms, norm};
+use super::{Form, InputKind, cosine_power, cross, dot, forms, norm};
 use crate::measure::{Answer, looked_up, vector};
 
 const MOST: f64 = f32::MAX as f64;

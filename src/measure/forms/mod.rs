@@ -7,7 +7,7 @@ mod models;
 mod naive;
 
 use super::vector::{V, cross, dot, norm};
-use super::{Answer, Form, Kind};
+use super::{Answer, Form, InputKind};
 
 /// All tables.
 pub(super) static ALL: [&[Form]; 5] = [helpers::FORMS, models::FORMS, equations::FORMS, geometry::FORMS, naive::FORMS];
@@ -15,7 +15,7 @@ pub(super) static ALL: [&[Form]; 5] = [helpers::FORMS, models::FORMS, equations:
 /// A table of rows: module, signature, kinds of the inputs, closed form.
 macro_rules! forms {
     ($($module:literal $signature:literal [$($kind:ident),*] $answer:expr;)*) => {
-        &[$(Form { module: $module, signature: $signature, inputs: &[$(Kind::$kind),*], answer: $answer }),*]
+        &[$(Form { module: $module, signature: $signature, inputs: &[$(InputKind::$kind),*], answer: $answer }),*]
     };
 }
 use forms;

@@ -1,6 +1,6 @@
 //! Closed forms of diffuse and specular reflection, the hemisphere and toon shading: (82) to (92), and the article's.
 
-use super::{Form, Kind, cosine_power, cross, dot, forms, half, lit, rational, tinted};
+use super::{Form, InputKind, cosine_power, cross, dot, forms, half, lit, rational, tinted};
 use crate::measure::vector::{V, add, mul, scale, sub};
 use crate::measure::{Answer, Args, looked_up};
 

@@ -2,7 +2,7 @@
 //! elsewhere.
 
 use super::geometry::{barycentric, interpolated, segment};
-use super::{Form, Kind, cosine_power, dot, forms, half, norm};
+use super::{Form, InputKind, cosine_power, dot, forms, half, norm};
 use crate::measure::vector::{add, mul, scale, sub};
 use crate::measure::{Answer, Args};
 

@@ -128,7 +128,7 @@ fn the_library_is_finite_and_right_or_gives_the_choice_that_is_stated() {
 
 #[test]
 fn the_library_is_finite_and_right_on_the_gpu() {
-    let gpu = crate::gpu::gpu();
+    let gpu = crate::drawing::gpu();
     for case in cases() {
         let found = case.drawn(&gpu);
         assert!(found.iter().all(|number| number.is_finite()), "{}: {found:?}", case.title);

@@ -89,7 +89,7 @@ fn every_stable_function_is_finite_for_every_finite_input() {
 
 #[test]
 fn every_stable_function_is_right_and_finite_on_the_gpu() {
-    let gpu = crate::gpu::gpu();
+    let gpu = crate::drawing::gpu();
     let mut wrong = Vec::new();
     for form in forms().filter(|form| is_stable(form)) {
         let ordinary = trial(form);

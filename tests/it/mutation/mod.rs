@@ -30,7 +30,7 @@ use words::{Splice, instructions, spliced};
 /// pictures.
 pub(crate) const SIDE: u32 = 64;
 
-/// What a mutation changes.
+/// The object of a mutation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Kind {
     /// An operation, or the order of its operands.
@@ -63,7 +63,7 @@ impl Kind {
 #[derive(Clone, Debug)]
 struct Mutation {
     kind: Kind,
-    /// What is replaced by what, with the identifier that a disassembler shows.
+    /// A description of the change, with the identifier that a disassembler shows.
     name: String,
     splices: Vec<Splice>,
     /// How many identifiers it adds.

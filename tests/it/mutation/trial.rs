@@ -2,9 +2,9 @@
 
 use super::{Choice, Kind, Mutation, SIDE, mutations};
 use glisten::scene::Scene;
+use glisten::verify::{Expected, Options};
 use glisten_front::hir::Stage;
 use glisten_gpu::{Error, Gpu};
-use glisten_reference::{LineRule, Precision, RenderOptions};
 use glisten_scene::compare::{Judge, Verdict, ulp_f32};
 use glisten_scene::picture::Picture;
 use std::cell::{Cell, RefCell};
@@ -126,9 +126,9 @@ impl<'a> Subject<'a> {
             words
         });
         let plain = plain.map_err(|error| error.to_string())?;
-        let options =
-            RenderOptions { precision: Precision::Envelope, lines: LineRule::Vulkan, ..RenderOptions::default() };
-        let reference = glisten_reference::render(&scene, &options).map_err(|found| format!("{found:?}"))?;
+        let options = Options::default();
+        let expected = Expected::new(&scene, &options).map_err(|failure| failure.to_string())?;
+        let reference = expected.picture().clone();
         if fails(&plain, &reference, OURS) {
             return Err("verify fails it without a fault".to_owned());
         }

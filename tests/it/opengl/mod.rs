@@ -13,16 +13,16 @@ mod coverage;
 #[cfg(feature = "gpu")]
 mod order;
 
+use crate::drawing::{compiler, from_disk, from_texts};
 use crate::emit::missing;
 use crate::support::root;
-use glisten::scene::{DiskFiles, Loaded, MemoryFiles, Scene, load};
+use glisten::scene::Scene;
 use glisten::shader_test::{self, Outcome, Painter};
+use glisten::verify;
 use glisten_front::hir::{ArraySize, Stage, Type};
-use glisten_front::{Compiler, Options};
 use glisten_gl::{Error, Gl};
-use glisten_reference::domain::faults::{Faults, KNOWN};
-use glisten_reference::{LineRule, Precision, RenderOptions};
-use glisten_scene::compare::{Judge, Verdict};
+use glisten_reference::LineRule;
+use glisten_scene::compare::{self, Judge, Verdict};
 use glisten_scene::picture::Picture;
 use std::path::{Path, PathBuf};
 
@@ -114,9 +114,8 @@ fn files_under(folder: &Path, wanted: &str) -> Vec<(String, PathBuf)> {
     files
 }
 
-fn scene(name: &str, loaded: Loaded) -> Scene {
-    let findings: Vec<_> = loaded.diagnostics.iter().map(|finding| finding.message.clone()).collect();
-    let mut scene = loaded.scene.unwrap_or_else(|| panic!("{name}: {findings:?}"));
+/// The scene, at most [`MOST_PIXELS_A_SIDE`] pixels wide and high.
+fn small(mut scene: Scene) -> Scene {
     let shrink = scene.framebuffer.width.max(scene.framebuffer.height).div_ceil(MOST_PIXELS_A_SIDE);
     scene.framebuffer.width /= shrink;
     scene.framebuffer.height /= shrink;
@@ -128,35 +127,40 @@ fn written(vertex: &str, fragment: &str, rest: &str) -> Scene {
     let text = format!(
         "[framebuffer]\nwidth = 16\nheight = 16\n[[draw]]\nvertex = \"a.vert\"\nfragment = \"a.frag\"\n{rest}\n"
     );
-    let files = MemoryFiles::new([("a.toml", text.as_str()), ("a.vert", vertex), ("a.frag", fragment)]);
-    scene("a.toml", load("a.toml", &files, &Compiler::new(Options::default())))
+    small(from_texts([("a.toml", text.as_str()), ("a.vert", vertex), ("a.frag", fragment)]))
 }
 
-fn reference(scene: &Scene, faults: Faults) -> Picture {
-    let options =
-        RenderOptions { precision: Precision::Envelope, lines: LineRule::OpenGl, faults, ..RenderOptions::default() };
-    glisten_reference::render(scene, &options).expect("the reference draws every scene of the fixtures")
+/// Judges a picture as `verify` does, with lines by OpenGL's rule. The pictures of a failure are left in a folder, which
+/// the complaint names.
+fn judged(name: &str, scene: &Scene, mut picture: Picture, exception: Option<&Exception>) -> Verdict {
+    let judge = match exception {
+        Some((_, Expected::Within(tolerance), _)) => Judge::Tolerance(*tolerance),
+        _ => Judge::Envelope,
+    };
+    let options = verify::Options { judge, lines: LineRule::OpenGl, ..verify::Options::default() };
+    let mut expected = verify::Expected::new(scene, &options).expect("the reference draws every scene of the fixtures");
+    close(scene, &mut picture, expected.picture());
+    if let Some((_, Expected::Open(channel), _)) = exception {
+        take_over(&mut picture, expected.picture(), 0, *channel);
+    }
+    let verdict = expected.judge(&picture).expect("the reference draws every scene of the fixtures");
+    if !verdict.holds(false) {
+        let shares = compare::shares(&picture, expected.picture(), judge);
+        let difference = verify::difference(expected.picture(), &shares);
+        let pictures = [("gl", &picture), ("cpu", expected.picture()), ("difference", &difference)];
+        verify::write_pictures(&failures(name), &pictures).expect("the pictures of a failure can be written");
+    }
+    verdict
 }
 
-/// Judges like `verify`: by the strict envelope and, if that fails, with each known fault of the driver excused.
-fn judged(scene: &Scene, mut picture: Picture, exception: Option<&Exception>) -> Verdict {
-    let strict = reference(scene, Faults::NONE);
-    close(scene, &mut picture, &strict);
-    match exception {
-        Some((_, Expected::Open(channel), _)) => take_over(&mut picture, &strict, 0, *channel),
-        Some((_, Expected::Within(tolerance), _)) => {
-            return Verdict::new(&picture, &strict, Judge::Tolerance(*tolerance));
-        }
-        Some((_, Expected::Refused(_), _)) | None => {}
-    }
-    let verdict = Verdict::new(&picture, &strict, Judge::Envelope);
-    if !verdict.needs_excuse() {
-        return verdict;
-    }
-    let one = KNOWN.iter().map(|known| (known.name, Faults::only(known.fault)));
-    let admitted: Vec<(&str, Picture)> =
-        one.chain([("several", Faults::all())]).map(|(name, faults)| (name, reference(scene, faults))).collect();
-    Verdict::admitting(&picture, &strict, Judge::Envelope, &admitted)
+/// The folder for the pictures of a scene on which the two sides differ.
+fn failures(name: &str) -> PathBuf {
+    root().join("target/failures/opengl").join(name)
+}
+
+/// The message for a scene with differences.
+fn told(name: &str, verdict: &Verdict) -> String {
+    format!("{name}: {verdict:#?}\npictures: {}", failures(name).display())
 }
 
 /// Replaces components that an output does not have, which are undefined (OpenGL 3.2, section 3.9.2), by the
@@ -187,7 +191,7 @@ fn take_over(picture: &mut Picture, reference: &Picture, attachment: usize, chan
     }
 }
 
-/// What is wrong with a scene; `None` if everything is as expected.
+/// A complaint about a scene; `None` if everything is as expected.
 fn complaint(gl: &Gl, name: &str, scene: &Scene, excused: &mut u64) -> Option<String> {
     let exception = EXCEPTIONS.iter().find(|(known, ..)| *known == name);
     let picture = match (gl.render(scene), exception) {
@@ -196,7 +200,7 @@ fn complaint(gl: &Gl, name: &str, scene: &Scene, excused: &mut u64) -> Option<St
         (Err(Error::Compile { log, .. }), Some((_, Expected::Refused(part), _))) if log.contains(part) => return None,
         (Err(error), _) => return Some(format!("{name}: {error}")),
     };
-    let verdict = judged(scene, picture, exception);
+    let verdict = judged(name, scene, picture, exception);
     for known in &verdict.known_faults {
         println!("  {name}: {} pixels by the known fault {}", known.pixels, known.fault);
         *excused += known.pixels;
@@ -204,7 +208,7 @@ fn complaint(gl: &Gl, name: &str, scene: &Scene, excused: &mut u64) -> Option<St
     if verdict.covered == 0 && !EMPTY.contains(&name) {
         return Some(format!("{name}: nothing is drawn"));
     }
-    (!verdict.holds(false)).then(|| format!("{name}: {verdict:#?}"))
+    (!verdict.holds(false)).then(|| told(name, &verdict))
 }
 
 #[test]
@@ -216,8 +220,7 @@ fn the_reference_draws_what_opengl_draws() {
     let folder = asked_or("fixtures/scenes");
     let files = files_under(&folder, "toml");
     for (name, path) in &files {
-        let loaded = load(&path.to_string_lossy(), &DiskFiles, &Compiler::new(Options::default()));
-        wrong.extend(complaint(&gl, name, &scene(name, loaded), &mut excused));
+        wrong.extend(complaint(&gl, name, &small(from_disk(path)), &mut excused));
     }
     println!(
         "{} scenes, {} wrong, {excused} pixels by known faults of the driver; exceptions:",
@@ -241,10 +244,11 @@ struct Judged<'a> {
 impl Painter for Judged<'_> {
     fn paint(&mut self, scene: &Scene) -> Result<Picture, Outcome> {
         let picture = self.gl.render(scene).map_err(|error| Outcome::Fail(error.to_string()))?;
-        let verdict = judged(scene, picture.clone(), None);
         self.pictures += 1;
+        let name = format!("shader_test_{}", self.pictures);
+        let verdict = judged(&name, scene, picture.clone(), None);
         if !verdict.holds(true) {
-            self.wrong.push(format!("{verdict:#?}"));
+            self.wrong.push(told(&name, &verdict));
         }
         Ok(picture)
     }
@@ -258,7 +262,7 @@ fn shader_tests_are_drawn_as_opengl_draws_them() {
     let mut skipped = 0;
     for (name, path) in &files {
         let text = std::fs::read_to_string(path).expect("a readable test");
-        match shader_test::run(name, &text, &Compiler::new(Options::default()), &mut painter) {
+        match shader_test::run(name, &text, &compiler(), &mut painter) {
             Outcome::Pass => {}
             Outcome::Fail(reason) => wrong.push(format!("{name}: {reason}")),
             Outcome::Skip(_) => skipped += 1,
@@ -284,14 +288,15 @@ fn random_programs_are_drawn_as_opengl_draws_them() {
     for seed in crate::random::seeds() {
         let (fragment, scene) = crate::random::program(seed);
         let picture = gl.render(&scene).unwrap_or_else(|error| panic!("seed {seed}: {error}\n{fragment}"));
-        let verdict = judged(&scene, picture, None);
+        let name = format!("random_{seed}");
+        let verdict = judged(&name, &scene, picture, None);
         let is_open = scene.draws[0].program.stages.iter().any(order::is_open);
         (all, open) = (all + 1, open + u32::from(is_open));
         match (verdict.holds(true), is_open) {
             (true, _) => {}
             (false, true) => differing += 1,
             (false, false) if MISTAKEN.iter().any(|(known, _)| *known == seed) => {}
-            (false, false) => wrong.push(format!("seed {seed}: {verdict:?}\n{fragment}")),
+            (false, false) => wrong.push(format!("{}\n{fragment}", told(&name, &verdict))),
         }
     }
     println!("{all} random programs; {open} depend on the order of operands, of these {differing} are drawn otherwise");
@@ -308,8 +313,8 @@ const SQUARE: &str =
 #[track_caller]
 fn holds(gl: &Gl, scene: &Scene) -> Picture {
     let picture = gl.render(scene).unwrap_or_else(|error| panic!("{error}"));
-    let verdict = judged(scene, picture.clone(), None);
-    assert!(verdict.covered > 0 && verdict.holds(false), "{verdict:#?}");
+    let verdict = judged("holds", scene, picture.clone(), None);
+    assert!(verdict.covered > 0 && verdict.holds(false), "{}", told("holds", &verdict));
     picture
 }
 

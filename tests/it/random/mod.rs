@@ -3,16 +3,15 @@
 //!
 //! Each program draws one point per pixel with its own inputs. `RANDOM_PROGRAMS=first..end` runs other seeds.
 
-mod text;
+pub(crate) mod text;
 
+use crate::drawing::{compiler, strict, verified};
 use crate::emit::Collected;
 use glisten::scene::{self, MemoryFiles, Scene};
+use glisten::verify;
 use glisten_emit::{Conventions, Target, emit};
 use glisten_front::hir::Stage;
-use glisten_front::{Compiler, Options};
-use glisten_gpu::{Gpu, Via};
-use glisten_reference::{LineRule, Precision, RenderOptions};
-use glisten_scene::compare::{Judge, Verdict};
+use glisten_gpu::Gpu;
 use std::ops::Range;
 
 const VERTEX: &str = "#version 150\nin vec2 place;\nin vec4 av;\nin ivec4 bv;\nflat out vec4 a;\nflat out ivec4 b;\n\
@@ -26,7 +25,7 @@ pub(crate) fn seeds() -> Range<u64> {
 }
 
 /// A scene that runs the fragment shader once per pixel.
-fn scene(fragment: &str) -> Result<Scene, String> {
+pub(crate) fn scene(fragment: &str) -> Result<Scene, String> {
     let list = |values: Vec<f64>| format!("{values:?}");
     let pixels = || 0..SIDE * SIDE;
     let center = |index: usize| (index as f64 + 0.5) / SIDE as f64 * 2.0 - 1.0;
@@ -41,7 +40,7 @@ fn scene(fragment: &str) -> Result<Scene, String> {
         pixels().flat_map(|pixel| (0..4).map(move |k| (pixel * 7 + k * 3) as i32 % 23 - 9)).collect::<Vec<i32>>(),
     );
     let files = MemoryFiles::new([("r.toml", text.as_str()), ("r.vert", VERTEX), ("r.frag", fragment)]);
-    let loaded = scene::load("r.toml", &files, &Compiler::new(Options::default()));
+    let loaded = scene::load("r.toml", &files, &compiler());
     let messages: Vec<_> = loaded
         .diagnostics
         .iter()
@@ -59,34 +58,17 @@ pub(crate) fn program(seed: u64) -> (String, Scene) {
     (fragment, scene)
 }
 
-/// What is wrong with the picture of a scene, and how many pixels could not be judged.
-fn compare(gpu: &Gpu, scene: &Scene) -> (Vec<String>, usize) {
-    let options = RenderOptions { precision: Precision::Envelope, lines: LineRule::Vulkan, ..RenderOptions::default() };
-    let reference = match glisten_reference::render(scene, &options) {
-        Ok(reference) => reference,
-        Err(found) => {
-            let messages: Vec<_> = found.iter().map(|found| &found.message).collect();
-            return (vec![format!("the reference: {messages:?}")], 0);
-        }
-    };
-    let mut wrong = Vec::new();
-    for via in [Via::Spirv, Via::Wgsl] {
-        match gpu.render(scene, via) {
-            Err(error) => wrong.push(format!("via {}: {error}", via.name())),
-            Ok(rendered) => {
-                let verdict = Verdict::new(&rendered.picture, &reference, Judge::Envelope);
-                if !verdict.holds(true) {
-                    wrong.push(format!("via {}: {verdict:?}", via.name()));
-                }
-            }
-        }
-    }
-    (wrong, reference.undecided.iter().filter(|undecided| **undecided).count())
+/// The message for a picture with differences, and the number of undecided pixels.
+fn compare(gpu: &Gpu, seed: u64, scene: &Scene) -> (Option<String>, usize) {
+    let options = verify::Options { allow_undecided: true, ..strict() };
+    let verification = verified(&format!("random_{seed}"), gpu, scene, &options);
+    let open = verification.reference.undecided.iter().filter(|undecided| **undecided).count();
+    ((!verification.holds()).then(|| verification.to_string()), open)
 }
 
 #[test]
 fn random_programs_are_accepted_and_drawn_as_the_reference_draws_them() {
-    let gpu = crate::gpu::gpu();
+    let gpu = crate::drawing::gpu();
     let mut collected = Collected::new();
     let mut wrong = Vec::new();
     let (mut undecided, mut drawn) = (0, 0);
@@ -106,7 +88,7 @@ fn random_programs_are_accepted_and_drawn_as_the_reference_draws_them() {
                 Err(found) => wrong.push(format!("seed {seed} as {}: {}", target.name(), found[0].message)),
             }
         }
-        let (differences, open) = compare(&gpu, &scene);
+        let (differences, open) = compare(&gpu, seed, &scene);
         wrong.extend(differences.into_iter().map(|what| format!("seed {seed} {what}\n{fragment}")));
         (undecided, drawn) = (undecided + open, drawn + SIDE * SIDE);
     }

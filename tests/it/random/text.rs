@@ -91,7 +91,7 @@ fn array(ty: &str) -> Option<(&'static str, usize)> {
 }
 
 /// A random fragment shader.
-pub(super) fn fragment(seed: u64) -> String {
+pub(crate) fn fragment(seed: u64) -> String {
     let mut writer = Writer {
         random: Random::new(seed),
         text: String::new(),

@@ -6,12 +6,11 @@
 //! *Holds:* every module is checked by naga's validator. An error of naga's validator or writers becomes an internal
 //! error at the position in the GLSL text, without naga's handles. The same input gives the same bytes.
 
-mod inline;
-mod lines;
-mod names;
-mod nesting;
+mod messages;
+mod naga_repairs;
 mod notes;
 pub mod reflection;
+mod targets;
 mod write;
 
 pub use notes::{levels_of_comparisons, notes};

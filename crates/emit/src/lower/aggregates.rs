@@ -40,7 +40,7 @@ impl Ctx<'_, '_> {
             Type::Struct(_) | Type::Array(..) => {
                 let helper = self.low.equal_helper(ty)?;
                 let Some(result) = self.call(helper, vec![left, right], true) else {
-                    return Err(self.slip("a comparison without a result"));
+                    return Err(self.internal_error("a comparison without a result"));
                 };
                 Ok(if equal { result } else { self.not(result) })
             }
@@ -109,7 +109,7 @@ impl Ctx<'_, '_> {
         right: Handle<Expression>,
         ty: TypeId,
     ) -> Try<Handle<Expression>> {
-        let Type::Struct(id) = self.low.types.get(ty) else { return Err(self.slip("a struct was expected")) };
+        let Type::Struct(id) = self.low.types.get(ty) else { return Err(self.internal_error("a struct was expected")) };
         let mut result = None;
         for number in 0..self.low.types.structure(id).members.len() as u32 {
             let Some(index) = self.low.member_index(ty, number) else { continue };

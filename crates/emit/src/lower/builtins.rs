@@ -1,118 +1,72 @@
 //! Lowers built-in functions (§8) except texture functions, in terms of naga's functions.
 //!
-//! *Holds:* the match is exhaustive, so a new function does not compile until it is lowered.
+//! *Holds:* the matches over the classes of the table of operations are exhaustive, so a new row does not compile until
+//! it is lowered.
 
 use super::function::Ctx;
 use super::operators::Typed;
 use super::{Try, unsupported};
 use crate::target::WindowOrigin;
 use glisten_front::builtin::BuiltinFunction;
+use glisten_front::builtin::operations::{
+    Binary, BooleanFunction, Class, Composite, Derivative, Emission, MatrixFunction, Numbers, Relation, Ternary, Test,
+    Unary,
+};
 use glisten_front::hir::{BinaryOp, ExprId, Scalar, ScalarValue, TypeId};
 use naga::{BinaryOperator, DerivativeAxis, DerivativeControl, Expression, Handle, MathFunction, UnaryOperator};
 
-/// How a function is lowered.
-enum Rule {
-    /// naga's math function with the same arguments; a scalar among vectors is splatted.
-    Math(MathFunction),
-    /// A component-wise comparison of vectors.
-    Compare(BinaryOperator),
-    /// A derivative.
-    Derivative(DerivativeAxis),
-    /// A lowering of its own.
-    Own,
-    /// A texture function.
-    Texture,
+/// The function of one float in naga; negation, the only operator, is lowered with the operators.
+fn math_function(op: Unary) -> Option<MathFunction> {
+    use MathFunction as M;
+    Some(match op {
+        Unary::Neg => return None,
+        Unary::Radians => M::Radians,
+        Unary::Degrees => M::Degrees,
+        Unary::Sin => M::Sin,
+        Unary::Cos => M::Cos,
+        Unary::Tan => M::Tan,
+        Unary::Asin => M::Asin,
+        Unary::Acos => M::Acos,
+        Unary::Atan => M::Atan,
+        Unary::Sinh => M::Sinh,
+        Unary::Cosh => M::Cosh,
+        Unary::Tanh => M::Tanh,
+        Unary::Asinh => M::Asinh,
+        Unary::Acosh => M::Acosh,
+        Unary::Atanh => M::Atanh,
+        Unary::Exp => M::Exp,
+        Unary::Log => M::Log,
+        Unary::Exp2 => M::Exp2,
+        Unary::Log2 => M::Log2,
+        Unary::Sqrt => M::Sqrt,
+        Unary::Inversesqrt => M::InverseSqrt,
+        Unary::Abs => M::Abs,
+        Unary::Sign => M::Sign,
+        Unary::Floor => M::Floor,
+        Unary::Trunc => M::Trunc,
+        // §8.3 leaves open in which direction `round` rounds a half; naga's rounds it to even.
+        Unary::Round => M::Round,
+        Unary::Ceil => M::Ceil,
+        Unary::Fract => M::Fract,
+    })
 }
 
-fn rule(function: BuiltinFunction) -> Rule {
-    use BuiltinFunction as F;
-    use MathFunction as M;
-    match function {
-        F::Radians => Rule::Math(M::Radians),
-        F::Degrees => Rule::Math(M::Degrees),
-        F::Sin => Rule::Math(M::Sin),
-        F::Cos => Rule::Math(M::Cos),
-        F::Tan => Rule::Math(M::Tan),
-        F::Asin => Rule::Math(M::Asin),
-        F::Acos => Rule::Math(M::Acos),
-        F::Sinh => Rule::Math(M::Sinh),
-        F::Cosh => Rule::Math(M::Cosh),
-        F::Tanh => Rule::Math(M::Tanh),
-        F::Asinh => Rule::Math(M::Asinh),
-        F::Acosh => Rule::Math(M::Acosh),
-        F::Atanh => Rule::Math(M::Atanh),
-        F::Pow => Rule::Math(M::Pow),
-        F::Exp => Rule::Math(M::Exp),
-        F::Log => Rule::Math(M::Log),
-        F::Exp2 => Rule::Math(M::Exp2),
-        F::Log2 => Rule::Math(M::Log2),
-        F::Sqrt => Rule::Math(M::Sqrt),
-        F::Inversesqrt => Rule::Math(M::InverseSqrt),
-        F::Abs => Rule::Math(M::Abs),
-        F::Sign => Rule::Math(M::Sign),
-        F::Floor => Rule::Math(M::Floor),
-        F::Trunc => Rule::Math(M::Trunc),
-        // §8.3 leaves open in which direction `round` rounds a half; naga's rounds it to even.
-        F::Round | F::RoundEven => Rule::Math(M::Round),
-        F::Ceil => Rule::Math(M::Ceil),
-        F::Fract => Rule::Math(M::Fract),
-        F::Min => Rule::Math(M::Min),
-        F::Max => Rule::Math(M::Max),
-        F::Clamp => Rule::Math(M::Clamp),
-        F::Step => Rule::Math(M::Step),
-        F::Length => Rule::Math(M::Length),
-        F::Distance => Rule::Math(M::Distance),
-        F::Cross => Rule::Math(M::Cross),
-        F::Transpose => Rule::Math(M::Transpose),
-        F::Determinant => Rule::Math(M::Determinant),
-        F::Inverse => Rule::Math(M::Inverse),
-        F::LessThan => Rule::Compare(BinaryOperator::Less),
-        F::LessThanEqual => Rule::Compare(BinaryOperator::LessEqual),
-        F::GreaterThan => Rule::Compare(BinaryOperator::Greater),
-        F::GreaterThanEqual => Rule::Compare(BinaryOperator::GreaterEqual),
-        F::Equal => Rule::Compare(BinaryOperator::Equal),
-        F::NotEqual => Rule::Compare(BinaryOperator::NotEqual),
-        F::DFdx => Rule::Derivative(DerivativeAxis::X),
-        F::DFdy => Rule::Derivative(DerivativeAxis::Y),
-        F::Fwidth => Rule::Derivative(DerivativeAxis::Width),
-        F::Atan
-        | F::Mod
-        | F::Modf
-        | F::Mix
-        | F::Smoothstep
-        | F::Isnan
-        | F::Isinf
-        | F::Dot
-        | F::Normalize
-        | F::Faceforward
-        | F::Reflect
-        | F::Refract
-        | F::MatrixCompMult
-        | F::OuterProduct
-        | F::Any
-        | F::All
-        | F::Not
-        | F::Noise1
-        | F::Noise2
-        | F::Noise3
-        | F::Noise4
-        | F::EmitVertex
-        | F::EndPrimitive => Rule::Own,
-        F::TextureSize
-        | F::Texture
-        | F::TextureProj
-        | F::TextureLod
-        | F::TextureOffset
-        | F::TexelFetch
-        | F::TexelFetchOffset
-        | F::TextureProjOffset
-        | F::TextureLodOffset
-        | F::TextureProjLod
-        | F::TextureProjLodOffset
-        | F::TextureGrad
-        | F::TextureGradOffset
-        | F::TextureProjGrad
-        | F::TextureProjGradOffset => Rule::Texture,
+fn relation(op: Relation) -> BinaryOperator {
+    match op {
+        Relation::Less => BinaryOperator::Less,
+        Relation::LessEqual => BinaryOperator::LessEqual,
+        Relation::Greater => BinaryOperator::Greater,
+        Relation::GreaterEqual => BinaryOperator::GreaterEqual,
+        Relation::Equal => BinaryOperator::Equal,
+        Relation::NotEqual => BinaryOperator::NotEqual,
+    }
+}
+
+fn axis(of: Derivative) -> DerivativeAxis {
+    match of {
+        Derivative::X => DerivativeAxis::X,
+        Derivative::Y => DerivativeAxis::Y,
+        Derivative::Width => DerivativeAxis::Width,
     }
 }
 
@@ -124,28 +78,168 @@ impl Ctx<'_, '_> {
         arguments: &[ExprId],
         ty: TypeId,
     ) -> Try<Handle<Expression>> {
-        let rule = rule(function);
-        if matches!(rule, Rule::Texture) {
-            return self.texture_call(function, arguments);
+        let class = function.class();
+        if let Class::Texture(form) = class {
+            return self.texture_call(form, arguments, ty);
         }
-        if function == BuiltinFunction::Modf {
+        if class == Class::Modf {
             return self.modf(arguments);
         }
         let mut values = Vec::with_capacity(arguments.len());
         for argument in arguments {
             values.push((self.value(*argument)?, self.shader.expr(*argument).ty));
         }
-        let Some(&first) = values.first() else {
-            return Err(self.slip("a built-in function without arguments"));
-        };
-        match rule {
-            Rule::Math(fun) => Ok(self.math(fun, &values)),
-            Rule::Compare(op) => match values.get(1) {
-                Some(second) => Ok(self.op(op, first.0, second.0)),
-                None => Err(self.slip("a comparison of one value")),
-            },
-            Rule::Derivative(axis) => Ok(self.derivative(axis, first.0)),
-            Rule::Own | Rule::Texture => self.own(function, &values, ty),
+        match class {
+            Class::Unary(op) => self.unary_function(op, &values),
+            Class::Binary(op) => self.binary_function(op, &values),
+            Class::Ternary(op) => self.ternary_function(op, &values),
+            Class::Numbers(op) => self.numbers(op, &values),
+            Class::Composite(op) => self.composite(op, &values),
+            Class::Matrix(op) => self.matrix_function(op, &values, ty),
+            Class::Relation(op) => {
+                let [a, b] = self.of(&values)?;
+                Ok(self.op(relation(op), a.0, b.0))
+            }
+            Class::Boolean(op) => {
+                let [(a, a_ty)] = self.of(&values)?;
+                let size = self.size_of(a_ty);
+                Ok(match op {
+                    BooleanFunction::Any => self.any(a, size),
+                    BooleanFunction::All => self.all(a, size),
+                    BooleanFunction::Not => self.not(a),
+                })
+            }
+            Class::Test(test) => {
+                let [(a, a_ty)] = self.of(&values)?;
+                let op = match test {
+                    Test::Nan => BinaryOperator::Greater,
+                    Test::Infinite => BinaryOperator::Equal,
+                };
+                Ok(self.bits_beyond_infinity(a, self.size_of(a_ty), op))
+            }
+            Class::Derivative(of) => {
+                let [(a, _)] = self.of(&values)?;
+                Ok(self.derivative(axis(of), a))
+            }
+            // §8.9 allows a constant; hardware of that time and Mesa return 0.
+            Class::Noise(_) => {
+                let ty = self.low.value_type(ty)?;
+                Ok(self.zero(ty))
+            }
+            Class::Emission(Emission::Vertex | Emission::Primitive) => {
+                Err(unsupported(self.here(), format!("`{}`", function.name())))
+            }
+            Class::Texture(_) | Class::Modf => Err(self.internal_error("these are lowered before their arguments")),
+        }
+    }
+
+    /// As many arguments as a function has.
+    fn of<const N: usize>(&self, values: &[Typed]) -> Try<[Typed; N]> {
+        values.try_into().map_err(|_| self.internal_error("a built-in function has too few or too many arguments"))
+    }
+
+    fn unary_function(&mut self, op: Unary, values: &[Typed]) -> Try<Handle<Expression>> {
+        match math_function(op) {
+            Some(function) => Ok(self.math(function, values)),
+            None => Err(self.internal_error("an operator is called as a function")),
+        }
+    }
+
+    fn binary_function(&mut self, op: Binary, values: &[Typed]) -> Try<Handle<Expression>> {
+        match op {
+            Binary::Pow => Ok(self.math(MathFunction::Pow, values)),
+            Binary::Mod => {
+                let [x, y] = self.of(values)?;
+                self.modulo(x, y)
+            }
+            Binary::Min => Ok(self.math(MathFunction::Min, values)),
+            Binary::Max => Ok(self.math(MathFunction::Max, values)),
+            Binary::Step => Ok(self.math(MathFunction::Step, values)),
+            Binary::Atan2 => Ok(self.math(MathFunction::Atan2, values)),
+            Binary::Add | Binary::Sub | Binary::Mul | Binary::Div => {
+                Err(self.internal_error("an operator is called as a function"))
+            }
+        }
+    }
+
+    fn ternary_function(&mut self, op: Ternary, values: &[Typed]) -> Try<Handle<Expression>> {
+        let [a, b, c] = self.of(values)?;
+        match op {
+            Ternary::Clamp => Ok(self.math(MathFunction::Clamp, values)),
+            Ternary::Mix => self.mix(a, b, c),
+            Ternary::Smoothstep => self.smoothstep(a, b, c),
+        }
+    }
+
+    /// naga's functions take integers as well as floats.
+    fn numbers(&mut self, op: Numbers, values: &[Typed]) -> Try<Handle<Expression>> {
+        match op {
+            Numbers::Atan if values.len() == 2 => self.binary_function(Binary::Atan2, values),
+            Numbers::Atan => self.unary_function(Unary::Atan, values),
+            Numbers::Abs => self.unary_function(Unary::Abs, values),
+            Numbers::Sign => self.unary_function(Unary::Sign, values),
+            Numbers::Min => self.binary_function(Binary::Min, values),
+            Numbers::Max => self.binary_function(Binary::Max, values),
+            Numbers::Clamp => self.ternary_function(Ternary::Clamp, values),
+            Numbers::Mix => self.ternary_function(Ternary::Mix, values),
+        }
+    }
+
+    /// naga has no scalar forms of most functions of vectors.
+    fn composite(&mut self, op: Composite, values: &[Typed]) -> Try<Handle<Expression>> {
+        let scalar = values.first().is_some_and(|value| self.size_of(value.1) == 1);
+        match op {
+            Composite::Length => Ok(self.math(MathFunction::Length, values)),
+            Composite::Distance => Ok(self.math(MathFunction::Distance, values)),
+            Composite::Cross => Ok(self.math(MathFunction::Cross, values)),
+            Composite::Determinant => Ok(self.math(MathFunction::Determinant, values)),
+            Composite::Inverse => Ok(self.math(MathFunction::Inverse, values)),
+            Composite::Dot => {
+                let [a, b] = self.of(values)?;
+                Ok(match scalar {
+                    true => self.op(BinaryOperator::Multiply, a.0, b.0),
+                    false => self.math2(MathFunction::Dot, a.0, b.0),
+                })
+            }
+            Composite::Normalize => {
+                let [a] = self.of(values)?;
+                Ok(self.math1(if scalar { MathFunction::Sign } else { MathFunction::Normalize }, a.0))
+            }
+            Composite::Faceforward => {
+                let [n, i, reference] = self.of(values)?;
+                Ok(match scalar {
+                    true => self.faceforward_scalar(n.0, i.0, reference.0),
+                    false => self.math3(MathFunction::FaceForward, n.0, i.0, reference.0),
+                })
+            }
+            Composite::Reflect => {
+                let [i, n] = self.of(values)?;
+                Ok(match scalar {
+                    true => self.reflect_scalar(i.0, n.0),
+                    false => self.math2(MathFunction::Reflect, i.0, n.0),
+                })
+            }
+            Composite::Refract => {
+                let [i, n, eta] = self.of(values)?;
+                Ok(match scalar {
+                    true => self.refract_scalar(i.0, n.0, eta.0),
+                    false => self.math3(MathFunction::Refract, i.0, n.0, eta.0),
+                })
+            }
+        }
+    }
+
+    fn matrix_function(&mut self, op: MatrixFunction, values: &[Typed], ty: TypeId) -> Try<Handle<Expression>> {
+        match op {
+            MatrixFunction::ComponentProduct => {
+                let [a, b] = self.of(values)?;
+                self.component_product(a.0, b.0, a.1)
+            }
+            MatrixFunction::OuterProduct => {
+                let [a, b] = self.of(values)?;
+                self.outer_product(a.0, b.0, ty)
+            }
+            MatrixFunction::Transpose => Ok(self.math(MathFunction::Transpose, values)),
         }
     }
 
@@ -174,42 +268,6 @@ impl Ctx<'_, '_> {
         value
     }
 
-    fn own(&mut self, function: BuiltinFunction, values: &[Typed], ty: TypeId) -> Try<Handle<Expression>> {
-        use BuiltinFunction as F;
-        let (a, a_ty) = values.first().copied().ok_or_else(|| self.slip("an argument is missing"))?;
-        let size = self.size_of(a_ty);
-        match (function, values) {
-            (F::Atan, [_]) => Ok(self.math1(MathFunction::Atan, a)),
-            (F::Atan, _) => Ok(self.math(MathFunction::Atan2, values)),
-            (F::Mod, [_, b]) => self.modulo((a, a_ty), *b),
-            (F::Mix, [_, b, c]) => self.mix((a, a_ty), *b, *c),
-            (F::Smoothstep, [_, b, c]) => self.smoothstep((a, a_ty), *b, *c),
-            (F::Isnan, _) => Ok(self.bits_beyond_infinity(a, size, BinaryOperator::Greater)),
-            (F::Isinf, _) => Ok(self.bits_beyond_infinity(a, size, BinaryOperator::Equal)),
-            (F::Dot, [_, b]) if size == 1 => Ok(self.op(BinaryOperator::Multiply, a, b.0)),
-            (F::Dot, [_, b]) => Ok(self.math2(MathFunction::Dot, a, b.0)),
-            (F::Normalize, _) if size == 1 => Ok(self.math1(MathFunction::Sign, a)),
-            (F::Normalize, _) => Ok(self.math1(MathFunction::Normalize, a)),
-            (F::Faceforward, [_, i, n]) if size == 1 => Ok(self.faceforward_scalar(a, i.0, n.0)),
-            (F::Faceforward, [_, i, n]) => Ok(self.math3(MathFunction::FaceForward, a, i.0, n.0)),
-            (F::Reflect, [_, n]) if size == 1 => Ok(self.reflect_scalar(a, n.0)),
-            (F::Reflect, [_, n]) => Ok(self.math2(MathFunction::Reflect, a, n.0)),
-            (F::Refract, [_, n, eta]) if size == 1 => Ok(self.refract_scalar(a, n.0, eta.0)),
-            (F::Refract, [_, n, eta]) => Ok(self.math3(MathFunction::Refract, a, n.0, eta.0)),
-            (F::MatrixCompMult, [_, b]) => self.component_product(a, b.0, a_ty),
-            (F::OuterProduct, [_, b]) => self.outer_product(a, b.0, ty),
-            (F::Any, _) => Ok(self.any(a, size)),
-            (F::All, _) => Ok(self.all(a, size)),
-            (F::Not, _) => Ok(self.not(a)),
-            // §8.9 allows a constant; hardware of that time and Mesa return 0.
-            (F::Noise1 | F::Noise2 | F::Noise3 | F::Noise4, _) => {
-                let ty = self.low.value_type(ty)?;
-                Ok(self.zero(ty))
-            }
-            _ => Err(unsupported(self.here(), format!("`{}` is not lowered in this form", function.name()))),
-        }
-    }
-
     /// `x - y * floor(x / y)` (§8.3)
     fn modulo(&mut self, x: Typed, y: Typed) -> Try<Handle<Expression>> {
         let quotient = self.binary_values(BinaryOp::Div, x, y)?;
@@ -220,7 +278,7 @@ impl Ctx<'_, '_> {
 
     /// `modf(x, out i)`: both parts have the sign of `x` (§8.3).
     fn modf(&mut self, arguments: &[ExprId]) -> Try<Handle<Expression>> {
-        let [argument, target] = arguments else { return Err(self.slip("`modf` takes two arguments")) };
+        let [argument, target] = arguments else { return Err(self.internal_error("`modf` takes two arguments")) };
         let value = self.value(*argument)?;
         let place = self.target(*target)?;
         let whole = self.math1(MathFunction::Trunc, value);

@@ -4,7 +4,7 @@
 //! non-finite float is therefore read as bits from a private variable, which no target evaluates before the shader
 //! runs.
 
-use super::function::{Ctx, GlobalSlot, Slot};
+use super::function::{Ctx, GlobalSlot, LocalSlot};
 use super::{Lower, Try, for_each_operand, internal};
 use glisten_front::hir::{ArraySize, ExprId, FunctionId, LocalKind, Scalar, ScalarValue, Type, TypeId, Value, VarRef};
 use naga::{AddressSpace, BinaryOperator, Expression, GlobalVariable, Handle, Literal};
@@ -88,17 +88,17 @@ impl Ctx<'_, '_> {
             };
             let variable = self.low.module.global_variables.append(variable, naga::Span::UNDEFINED);
             let pointer = self.global_variable(variable);
-            self.remember(var, GlobalSlot::Private(variable), Slot::Pointer(pointer));
+            self.remember(var, GlobalSlot::Private(variable), LocalSlot::Pointer(pointer));
             return Ok(pointer);
         }
         let constant = naga::Constant { name: Some(name.to_owned()), ty, init };
         let constant = self.low.module.constants.append(constant, naga::Span::UNDEFINED);
         let handle = self.module_constant(constant);
-        self.remember(var, GlobalSlot::Constant(constant), Slot::Value(handle));
+        self.remember(var, GlobalSlot::Constant(constant), LocalSlot::Value(handle));
         Ok(handle)
     }
 
-    fn remember(&mut self, var: VarRef, global: GlobalSlot, local: Slot) {
+    fn remember(&mut self, var: VarRef, global: GlobalSlot, local: LocalSlot) {
         match var {
             VarRef::Global(id) => {
                 if let Some(place) = self.low.globals.get_mut(id.index()) {

@@ -38,14 +38,14 @@ impl Ctx<'_, '_> {
                 let ty = self.low.value_type(ty)?;
                 Ok(self.add(Expression::Compose { ty, components }))
             }
-            (_, None) => Err(self.slip("a constructor without arguments")),
+            (_, None) => Err(self.internal_error("a constructor without arguments")),
         }
     }
 
     /// `mat3(x)`
     fn diagonal(&mut self, value: Handle<Expression>, ty: TypeId) -> Try<Handle<Expression>> {
         let Type::Matrix(columns, rows) = self.low.types.get(ty) else {
-            return Err(self.slip("a matrix was expected"));
+            return Err(self.internal_error("a matrix was expected"));
         };
         let zero = self.float(0.0);
         let column_ty = self.low.vector_type(Scalar::Float, rows);
@@ -63,7 +63,7 @@ impl Ctx<'_, '_> {
         let (Type::Matrix(columns, rows), Type::Matrix(_, from_rows)) =
             (self.low.types.get(ty), self.low.types.get(from))
         else {
-            return Err(self.slip("a matrix was expected"));
+            return Err(self.internal_error("a matrix was expected"));
         };
         if from == ty {
             return Ok(value);
@@ -113,7 +113,7 @@ impl Ctx<'_, '_> {
             let mut parts = Vec::new();
             let mut missing = size;
             while missing > 0 {
-                let Some(piece) = &mut open else { return Err(self.slip("a constructor lacks components")) };
+                let Some(piece) = &mut open else { return Err(self.internal_error("a constructor lacks components")) };
                 let taken = missing.min(piece.size - piece.used);
                 parts.push(self.part(piece, taken));
                 missing -= taken;
@@ -125,7 +125,7 @@ impl Ctx<'_, '_> {
             lines.push(self.join(parts, scalar, size));
         }
         if columns == 1 {
-            return lines.first().copied().ok_or_else(|| self.slip("a constructor without components"));
+            return lines.first().copied().ok_or_else(|| self.internal_error("a constructor without components"));
         }
         let ty = self.low.value_type(ty)?;
         Ok(self.add(Expression::Compose { ty, components: lines }))

@@ -2,7 +2,7 @@
 
 use super::Try;
 use super::facts::is_counted;
-use super::function::{Ctx, Slot};
+use super::function::{Ctx, LocalSlot};
 use glisten_front::hir::{
     Case, CaseLabel, Condition, ExprId, ExprKind, LoopKind, Scalar, ScalarValue, Stmt, StmtKind, TypeId,
 };
@@ -101,7 +101,7 @@ impl Ctx<'_, '_> {
             let name = self.shader.function(self.id).local(local).name.clone();
             let variable = self.variable_of(&name, TypeId::BOOL)?;
             self.store(variable, value);
-            self.set_slot(local, Slot::Pointer(variable));
+            self.set_slot(local, LocalSlot::Pointer(variable));
         }
         let stop = self.not(value);
         self.leave_if(stop);

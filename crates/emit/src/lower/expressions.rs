@@ -162,7 +162,7 @@ impl Ctx<'_, '_> {
             let accept = self.in_block(|ctx| ctx.effect(accept))?;
             let reject = self.in_block(|ctx| ctx.effect(reject))?;
             self.branch(condition, accept, reject);
-            return Err(self.slip("an operand of `?:` has no value"));
+            return Err(self.internal_error("an operand of `?:` has no value"));
         }
         self.chosen(condition, accept, reject, ty)
     }
@@ -261,7 +261,7 @@ impl Ctx<'_, '_> {
         Ok(self.converted(value, from, to))
     }
 
-    /// The same conversion for a value.
+    /// Converts a value component by component.
     pub(super) fn converted(&mut self, value: Handle<Expression>, from: TypeId, to: TypeId) -> Handle<Expression> {
         let (from, to) = (self.low.types.scalar_of(from), self.low.types.scalar_of(to));
         match to {

@@ -9,7 +9,7 @@ use glisten_front::hir::{
     StmtKind, Storage, VarRef,
 };
 
-/// What an expression may do besides yielding a value.
+/// The possible effects of an expression besides yielding a value.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Nature {
     /// Whether it writes, or calls a function of the shader.

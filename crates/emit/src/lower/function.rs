@@ -30,7 +30,7 @@ pub(super) enum GlobalSlot {
 
 /// How a local is represented.
 #[derive(Clone, Debug)]
-pub(super) enum Slot {
+pub(super) enum LocalSlot {
     /// Not represented yet.
     Unset,
     /// Through a pointer: a variable, or an `out` argument.
@@ -57,7 +57,7 @@ pub(super) struct Lowered {
     pub(super) handle: Handle<naga::Function>,
 }
 
-/// The kind of a literal, which tells literals of equal value apart.
+/// The kind of a literal, which distinguishes literals of equal value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 enum Shared {
     Bool(bool),
@@ -82,10 +82,10 @@ pub(super) struct Ctx<'l, 'a> {
     pub(super) out: naga::Function,
     blocks: Vec<Block>,
     open: usize,
-    slots: Vec<Slot>,
+    slots: Vec<LocalSlot>,
     pub(super) param_samplers: FxHashMap<LocalId, Vec<SamplerValue>>,
     /// In the entry point: the globals that no other function uses.
-    pub(super) entry: FxHashMap<GlobalId, Slot>,
+    pub(super) entry: FxHashMap<GlobalId, LocalSlot>,
     /// For each expression: how deep it nests in the text.
     depths: Vec<u8>,
     /// For each expression: whether a target knows its value before the shader runs.
@@ -112,7 +112,7 @@ impl<'l, 'a> Ctx<'l, 'a> {
             out: naga::Function { name: Some(function.name.clone()), ..naga::Function::default() },
             blocks: vec![Block::new()],
             open: 0,
-            slots: vec![Slot::Unset; function.locals.len()],
+            slots: vec![LocalSlot::Unset; function.locals.len()],
             param_samplers: FxHashMap::default(),
             entry: FxHashMap::default(),
             depths: Vec::new(),
@@ -381,12 +381,12 @@ impl<'l, 'a> Ctx<'l, 'a> {
     }
 
     /// The representation of a local.
-    pub(super) fn slot(&self, local: LocalId) -> Slot {
-        self.slots.get(local.index()).cloned().unwrap_or(Slot::Unset)
+    pub(super) fn slot(&self, local: LocalId) -> LocalSlot {
+        self.slots.get(local.index()).cloned().unwrap_or(LocalSlot::Unset)
     }
 
     /// Sets the representation of a local.
-    pub(super) fn set_slot(&mut self, local: LocalId, slot: Slot) {
+    pub(super) fn set_slot(&mut self, local: LocalId, slot: LocalSlot) {
         if let Some(place) = self.slots.get_mut(local.index()) {
             *place = slot;
         }
@@ -422,10 +422,10 @@ impl<'l, 'a> Ctx<'l, 'a> {
                 let space = naga::AddressSpace::Function;
                 let pointer = self.low.insert_type(None, naga::TypeInner::Pointer { base: ty, space });
                 let argument = self.argument(&param.name, pointer, None);
-                self.set_slot(local, Slot::Pointer(argument));
+                self.set_slot(local, LocalSlot::Pointer(argument));
             } else {
                 let argument = self.argument(&param.name, ty, None);
-                self.set_slot(local, Slot::Value(argument));
+                self.set_slot(local, LocalSlot::Value(argument));
             }
         }
         self.copy_written_parameters()
@@ -436,19 +436,19 @@ impl<'l, 'a> Ctx<'l, 'a> {
         let function = self.shader.function(self.id);
         for (index, param) in function.params().iter().enumerate() {
             let local = LocalId::new(index);
-            let Slot::Value(argument) = self.slot(local) else { continue };
+            let LocalSlot::Value(argument) = self.slot(local) else { continue };
             let needs = self.low.facts.function(self.id).and_then(|facts| facts.needs_variable.get(index).copied());
             if needs == Some(true) {
                 let variable = self.variable_of(&param.name, param.ty)?;
                 self.store(variable, argument);
-                self.set_slot(local, Slot::Pointer(variable));
+                self.set_slot(local, LocalSlot::Pointer(variable));
             }
         }
         Ok(())
     }
 
     /// The internal error of an invalid handle.
-    pub(super) fn slip(&self, message: &str) -> Box<glisten_front::diagnostic::Diagnostic> {
+    pub(super) fn internal_error(&self, message: &str) -> Box<glisten_front::diagnostic::Diagnostic> {
         internal(self.here(), message)
     }
 }

@@ -5,7 +5,7 @@
 //! global that other functions use, too, is a private variable of the module.
 
 use super::constants::is_constant;
-use super::function::{Ctx, GlobalSlot, Slot};
+use super::function::{Ctx, GlobalSlot, LocalSlot};
 use super::{Lower, Try, internal, lacking, naga_span, unsupported};
 use crate::target::{Target, WindowOrigin};
 use glisten_front::builtin::BuiltinVariable;
@@ -16,19 +16,19 @@ use naga::{AddressSpace, BinaryOperator, Binding, BuiltIn, Expression, GlobalVar
 use std::collections::BTreeMap;
 
 /// The varyings that share one location.
-pub(super) struct Location<'a> {
+pub(super) struct VaryingLocation<'a> {
     pub(super) location: u32,
     pub(super) rows: Vec<&'a Varying>,
 }
 
 impl<'a> Lower<'a> {
     /// The varyings by location, those alone that `keep` wants, with all that share a location with them.
-    pub(super) fn locations(&self, keep: impl Fn(&Varying) -> bool) -> Vec<Location<'a>> {
-        let mut locations: Vec<Location<'a>> = Vec::new();
+    pub(super) fn locations(&self, keep: impl Fn(&Varying) -> bool) -> Vec<VaryingLocation<'a>> {
+        let mut locations: Vec<VaryingLocation<'a>> = Vec::new();
         for row in self.interface.interpolated() {
             match locations.iter_mut().find(|known| known.location == row.location) {
                 Some(known) => known.rows.push(row),
-                None => locations.push(Location { location: row.location, rows: vec![row] }),
+                None => locations.push(VaryingLocation { location: row.location, rows: vec![row] }),
             }
         }
         locations.retain(|location| location.rows.iter().any(|row| keep(row)));
@@ -122,8 +122,8 @@ impl Lower<'_> {
         self.facts.used.get(id.index()).copied().unwrap_or(false).then_some(id)
     }
 
-    /// The type of what stands at a location: its one varying's, or a vector that holds all of them.
-    pub(super) fn location_type(&mut self, location: &Location<'_>) -> Try<Handle<naga::Type>> {
+    /// The type at a location: that of its one varying, or a vector that contains all of them.
+    pub(super) fn location_type(&mut self, location: &VaryingLocation<'_>) -> Try<Handle<naga::Type>> {
         if let [row] = location.rows.as_slice()
             && row.component == 0
         {
@@ -170,7 +170,7 @@ impl Lower<'_> {
 }
 
 /// naga's binding of a varying. The interpolation is written on both sides of the rasterizer, which must agree.
-pub(super) fn varying_binding(location: &Location<'_>) -> Binding {
+pub(super) fn varying_binding(location: &VaryingLocation<'_>) -> Binding {
     let first = location.rows.first();
     let interpolation = first.map_or(Interpolation::Smooth, |row| row.interpolation);
     let centroid = first.is_some_and(|row| row.centroid);
@@ -202,7 +202,7 @@ pub(super) fn path_name(path: &str) -> String {
 
 /// A scalar or vector that the stage receives, and its index in its variable's flat layout.
 #[derive(Clone, Copy)]
-struct Arrived {
+struct Received {
     global: GlobalId,
     flat: u32,
     value: Handle<Expression>,
@@ -221,7 +221,7 @@ impl Ctx<'_, '_> {
             let value = match global.builtin {
                 Some(builtin) if builtin != BuiltinVariable::ClipDistance => self.builtin_input(builtin, global)?,
                 _ => {
-                    let own: Vec<Arrived> = arrived.iter().filter(|part| part.global == id).copied().collect();
+                    let own: Vec<Received> = arrived.iter().filter(|part| part.global == id).copied().collect();
                     self.assemble(global.ty, 0, &own)?
                 }
             };
@@ -239,14 +239,14 @@ impl Ctx<'_, '_> {
             _ if self.low.facts.indexed.get(id.index()) == Some(&true) => {
                 let variable = self.variable_of(&global.name, global.ty)?;
                 self.store(variable, value);
-                self.entry.insert(id, Slot::Pointer(variable));
+                self.entry.insert(id, LocalSlot::Pointer(variable));
             }
             _ => {
                 if !self.is_named(value) {
                     self.name(value, &global.name);
                     self.flush();
                 }
-                self.entry.insert(id, Slot::Value(value));
+                self.entry.insert(id, LocalSlot::Value(value));
             }
         }
         Ok(())
@@ -255,7 +255,7 @@ impl Ctx<'_, '_> {
     /// Declares one argument per location: matrices by columns, arrays by elements. Attributes that share a location
     /// (OpenGL 3.2 §2.7, legal if no path reads both) share the argument, which has as many components as the longest
     /// of them.
-    fn attributes(&mut self) -> Try<Vec<Arrived>> {
+    fn attributes(&mut self) -> Try<Vec<Received>> {
         let interface = self.low.interface;
         let mut arrived = Vec::new();
         let used = |attribute: &&Attribute| self.low.facts.used.get(attribute.global.index()).copied().unwrap_or(false);
@@ -296,7 +296,7 @@ impl Ctx<'_, '_> {
                     true => value,
                     false => self.first_components(value, size as u8),
                 };
-                arrived.push(Arrived { global: attribute.global, flat: index * size, value });
+                arrived.push(Received { global: attribute.global, flat: index * size, value });
             }
         }
         Ok(arrived)
@@ -308,7 +308,7 @@ impl Ctx<'_, '_> {
         while !matches!(self.low.types.get(leaf), Type::Scalar(_) | Type::Vector(..)) {
             leaf = self.low.element_type(leaf);
             if leaf.is_error() {
-                return Err(self.slip("an attribute of a type that no attribute can have"));
+                return Err(self.internal_error("an attribute of a type that no attribute can have"));
             }
         }
         Ok(leaf)
@@ -320,7 +320,7 @@ impl Ctx<'_, '_> {
         lacking(span, message, format!("bind `{}` to a location of its own", attribute.name))
     }
 
-    fn varyings(&mut self) -> Try<Vec<Arrived>> {
+    fn varyings(&mut self) -> Try<Vec<Received>> {
         let mut arrived = Vec::new();
         let used = &self.low.facts.used;
         let wanted = |row: &Varying| row.to.is_some_and(|end| used.get(end.global.index()).copied().unwrap_or(false));
@@ -345,14 +345,14 @@ impl Ctx<'_, '_> {
                 } else {
                     argument
                 };
-                arrived.push(Arrived { global: end.global, flat: end.flat_offset, value });
+                arrived.push(Received { global: end.global, flat: end.flat_offset, value });
             }
         }
         Ok(arrived)
     }
 
     /// A value of any type, assembled from received scalars and vectors; what was not received is 0.
-    fn assemble(&mut self, ty: TypeId, flat: u32, parts: &[Arrived]) -> Try<Handle<Expression>> {
+    fn assemble(&mut self, ty: TypeId, flat: u32, parts: &[Received]) -> Try<Handle<Expression>> {
         if let Some(part) = parts.iter().find(|part| part.flat == flat)
             && matches!(self.low.types.get(ty), Type::Scalar(_) | Type::Vector(..))
         {
@@ -439,7 +439,7 @@ impl Ctx<'_, '_> {
         let (mut x, mut y, z, w) = (part(0), part(1), part(2), part(3));
         if upside_down {
             let Some((variable, member)) = self.low.framebuffer_height else {
-                return Err(self.slip("the framebuffer's height has no place among the uniforms"));
+                return Err(self.internal_error("the framebuffer's height has no place among the uniforms"));
             };
             let base = self.global_variable(variable);
             let pointer = self.add(Expression::AccessIndex { base, index: member });

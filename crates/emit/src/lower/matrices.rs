@@ -9,7 +9,7 @@ impl Ctx<'_, '_> {
     /// The columns of a matrix, and their type.
     pub(super) fn columns(&mut self, matrix: Handle<Expression>, ty: TypeId) -> Try<(TypeId, Vec<Handle<Expression>>)> {
         let Type::Matrix(columns, _) = self.low.types.get(ty) else {
-            return Err(self.slip("a matrix was expected"));
+            return Err(self.internal_error("a matrix was expected"));
         };
         let columns =
             (0..u32::from(columns)).map(|index| self.add(Expression::AccessIndex { base: matrix, index })).collect();
@@ -58,7 +58,7 @@ impl Ctx<'_, '_> {
         ty: TypeId,
     ) -> Try<Handle<Expression>> {
         let Type::Matrix(columns, _) = self.low.types.get(ty) else {
-            return Err(self.slip("a matrix was expected"));
+            return Err(self.internal_error("a matrix was expected"));
         };
         let mut components = Vec::new();
         for index in 0..u32::from(columns) {

@@ -21,7 +21,7 @@ impl Ctx<'_, '_> {
         self.binary_values(op, left, right)
     }
 
-    /// The same operation on values.
+    /// Lowers the operation on values.
     pub(super) fn binary_values(&mut self, op: BinaryOp, left: Typed, right: Typed) -> Try<Handle<Expression>> {
         match op {
             BinaryOp::Add => self.arithmetic(BinaryOperator::Add, left, right),

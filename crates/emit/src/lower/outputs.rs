@@ -4,7 +4,7 @@
 //! *Holds:* a position is converted to the conventions when it is returned (clip-space z to [0, w], y flipped);
 //! colors have four components, as every color target requires.
 
-use super::function::{Ctx, GlobalSlot, Slot};
+use super::function::{Ctx, GlobalSlot, LocalSlot};
 use super::interface::{path_name, plain_location, varying_binding};
 use super::{Try, lacking};
 use crate::target::{ClipZ, SpirvEnv, Target, WindowOrigin};
@@ -19,12 +19,12 @@ pub(super) struct OutputMember {
     name: String,
     ty: Handle<naga::Type>,
     binding: Binding,
-    source: Source,
+    source: OutputSource,
 }
 
 /// Where the value of a member comes from.
 #[derive(Clone, Debug)]
-enum Source {
+enum OutputSource {
     Position,
     PointSize,
     ClipDistances(GlobalId, u32),
@@ -48,7 +48,7 @@ impl Ctx<'_, '_> {
             if is_entry && global.storage == Storage::Out {
                 self.at(global.span);
                 let variable = self.variable_of(&global.name, global.ty)?;
-                self.entry.insert(id, Slot::Pointer(variable));
+                self.entry.insert(id, LocalSlot::Pointer(variable));
             }
         }
         self.at(shader.function(self.id).span);
@@ -84,7 +84,7 @@ impl Ctx<'_, '_> {
             name: "position".to_owned(),
             ty: vec4,
             binding: Binding::BuiltIn(BuiltIn::Position { invariant }),
-            source: Source::Position,
+            source: OutputSource::Position,
         }];
         let wanted = |row: &Varying| row.from.is_some() || row.to.is_some();
         for location in self.low.locations(wanted) {
@@ -93,7 +93,8 @@ impl Ctx<'_, '_> {
                 [row] if row.component == 0 => path_name(&row.name),
                 _ => format!("packed_{}", location.location),
             };
-            let source = Source::Varyings(location.rows.iter().map(|row| (row.component, row.ty, row.from)).collect());
+            let source =
+                OutputSource::Varyings(location.rows.iter().map(|row| (row.component, row.ty, row.from)).collect());
             members.push(OutputMember { name, ty, binding: varying_binding(&location), source });
         }
         self.clip_distances(&mut members)?;
@@ -116,7 +117,7 @@ impl Ctx<'_, '_> {
             name: "clip_distances".to_owned(),
             ty: self.low.natural_array(float, len),
             binding: Binding::BuiltIn(BuiltIn::ClipDistances),
-            source: Source::ClipDistances(global, len),
+            source: OutputSource::ClipDistances(global, len),
         });
         Ok(())
     }
@@ -141,7 +142,7 @@ impl Ctx<'_, '_> {
             name: "point_size".to_owned(),
             ty: self.low.value_type(TypeId::FLOAT)?,
             binding: Binding::BuiltIn(BuiltIn::PointSize),
-            source: Source::PointSize,
+            source: OutputSource::PointSize,
         });
         Ok(())
     }
@@ -168,7 +169,7 @@ impl Ctx<'_, '_> {
                     name,
                     ty: self.low.vector_type(scalar, 4),
                     binding: plain_location(output.location + element, dual.then_some(output.index)),
-                    source: Source::Color { global: output.global, element: len.map(|_| element), ty },
+                    source: OutputSource::Color { global: output.global, element: len.map(|_| element), ty },
                 });
             }
         }
@@ -177,7 +178,7 @@ impl Ctx<'_, '_> {
                 name: "depth".to_owned(),
                 ty: self.low.value_type(TypeId::FLOAT)?,
                 binding: Binding::BuiltIn(BuiltIn::FragDepth),
-                source: Source::Depth(global),
+                source: OutputSource::Depth(global),
             });
         }
         Ok(members)
@@ -204,21 +205,21 @@ impl Ctx<'_, '_> {
 
     fn output(&mut self, member: &OutputMember) -> Try<Handle<Expression>> {
         match &member.source {
-            Source::Position => self.position(),
-            Source::PointSize => match self.low.builtin_global(BuiltinVariable::PointSize) {
+            OutputSource::Position => self.position(),
+            OutputSource::PointSize => match self.low.builtin_global(BuiltinVariable::PointSize) {
                 Some(global) => self.output_part(global, 0, TypeId::FLOAT),
                 None => Ok(self.float(1.0)),
             },
-            Source::Depth(global) => self.output_part(*global, 0, TypeId::FLOAT),
-            Source::ClipDistances(global, len) => {
+            OutputSource::Depth(global) => self.output_part(*global, 0, TypeId::FLOAT),
+            OutputSource::ClipDistances(global, len) => {
                 let mut components = Vec::new();
                 for index in 0..*len {
                     components.push(self.output_part(*global, index, TypeId::FLOAT)?);
                 }
                 Ok(self.add(Expression::Compose { ty: member.ty, components }))
             }
-            Source::Varyings(rows) => self.varyings_at(rows, member.ty),
-            Source::Color { global, element, ty } => {
+            OutputSource::Varyings(rows) => self.varyings_at(rows, member.ty),
+            OutputSource::Color { global, element, ty } => {
                 let size = self.low.types.flat_len(*ty);
                 let value = self.output_part(*global, element.unwrap_or(0) * size, *ty)?;
                 Ok(self.four_components(value, *ty))
@@ -231,10 +232,10 @@ impl Ctx<'_, '_> {
         match self.low.global_slot(global).clone() {
             GlobalSlot::Private(variable) => Ok(self.global_variable(variable)),
             GlobalSlot::Entry => match self.entry.get(&global) {
-                Some(Slot::Pointer(pointer)) => Ok(*pointer),
-                _ => Err(self.slip("an output has no variable")),
+                Some(LocalSlot::Pointer(pointer)) => Ok(*pointer),
+                _ => Err(self.internal_error("an output has no variable")),
             },
-            _ => Err(self.slip("an output has no place")),
+            _ => Err(self.internal_error("an output has no place")),
         }
     }
 
@@ -263,7 +264,7 @@ impl Ctx<'_, '_> {
                         }
                         rest -= size;
                     }
-                    found.ok_or_else(|| self.slip("a varying outside of its block"))?
+                    found.ok_or_else(|| self.internal_error("a varying outside of its block"))?
                 }
                 _ => break,
             };

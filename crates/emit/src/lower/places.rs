@@ -1,6 +1,6 @@
 //! [`Place`]: what an l-value (§5.8), or a chain of members and elements, denotes.
 
-use super::function::{Ctx, GlobalSlot, Slot};
+use super::function::{Ctx, GlobalSlot, LocalSlot};
 use super::types::vector_size;
 use super::uniforms::{HostId, HostKind};
 use super::{Try, internal};
@@ -70,14 +70,14 @@ impl Ctx<'_, '_> {
                 }
                 GlobalSlot::Private(variable) => return Ok(Place::Pointer(self.global_variable(variable), ty)),
                 GlobalSlot::Constant(constant) => return Ok(Place::Value(self.module_constant(constant), ty)),
-                GlobalSlot::Entry => self.entry.get(&global).cloned().unwrap_or(Slot::Unset),
-                GlobalSlot::Unused => Slot::Unset,
+                GlobalSlot::Entry => self.entry.get(&global).cloned().unwrap_or(LocalSlot::Unset),
+                GlobalSlot::Unused => LocalSlot::Unset,
             },
         };
         match slot {
-            Slot::Pointer(pointer) => Ok(Place::Pointer(pointer, ty)),
-            Slot::Value(value) => Ok(Place::Value(value, ty)),
-            Slot::Unset => self.constant_place(var, ty),
+            LocalSlot::Pointer(pointer) => Ok(Place::Pointer(pointer, ty)),
+            LocalSlot::Value(value) => Ok(Place::Value(value, ty)),
+            LocalSlot::Unset => self.constant_place(var, ty),
         }
     }
 
@@ -129,17 +129,19 @@ impl Ctx<'_, '_> {
                 };
                 match members.get(member as usize).copied().flatten() {
                     Some((index, host)) => Ok(Place::Host(self.add(Expression::AccessIndex { base, index }), host)),
-                    None => Err(self.slip("this member has no place in memory")),
+                    None => Err(self.internal_error("this member has no place in memory")),
                 }
             }
-            Place::Wide(..) | Place::Blocks(..) | Place::Swizzle(..) => Err(self.slip("a struct was expected")),
+            Place::Wide(..) | Place::Blocks(..) | Place::Swizzle(..) => {
+                Err(self.internal_error("a struct was expected"))
+            }
         }
     }
 
     fn member(&mut self, base: Handle<Expression>, ty: TypeId, member: u32) -> Try<Handle<Expression>> {
         match self.low.member_index(ty, member) {
             Some(index) => Ok(self.add(Expression::AccessIndex { base, index })),
-            None => Err(self.slip("this member has no value")),
+            None => Err(self.internal_error("this member has no value")),
         }
     }
 
@@ -154,7 +156,7 @@ impl Ctx<'_, '_> {
                 let index = self.constant_index(index)?;
                 match variables.get(index as usize) {
                     Some(variable) => Ok(Place::Host(self.global_variable(*variable), host)),
-                    None => Err(self.slip("an element of this array of blocks has no binding")),
+                    None => Err(self.internal_error("an element of this array of blocks has no binding")),
                 }
             }
             Place::Host(base, host) => self.host_element(base, host, index),
@@ -274,14 +276,14 @@ impl Ctx<'_, '_> {
                 let value = self.column_of_rows(base, ty, index)?;
                 Ok(Place::Value(value, element))
             }
-            HostKind::Struct(_) => Err(self.slip("an array was expected")),
+            HostKind::Struct(_) => Err(self.internal_error("an array was expected")),
         }
     }
 
     /// A column of a `row_major` matrix: one component from each row.
     fn column_of_rows(&mut self, base: Handle<Expression>, ty: TypeId, index: ExprId) -> Try<Handle<Expression>> {
         let Type::Matrix(columns, rows) = self.low.types.get(ty) else {
-            return Err(self.slip("a matrix was expected"));
+            return Err(self.internal_error("a matrix was expected"));
         };
         let row_ty = TypeId::vector(Scalar::Float, columns);
         let dynamic = match self.literal_index(index) {
@@ -366,7 +368,7 @@ impl Ctx<'_, '_> {
                 let vector = self.load(*pointer);
                 Ok(self.swizzled(vector, *swizzle))
             }
-            Place::Blocks(..) => Err(self.slip("an array of blocks has no value")),
+            Place::Blocks(..) => Err(self.internal_error("an array of blocks has no value")),
         }
     }
 
@@ -375,7 +377,7 @@ impl Ctx<'_, '_> {
         let (scalar, size) = match self.low.types.get(ty) {
             Type::Scalar(scalar) => (scalar, 1),
             Type::Vector(scalar, size) => (scalar, size),
-            _ => return Err(self.slip("only scalars and vectors stand in a `vec4`")),
+            _ => return Err(self.internal_error("only scalars and vectors stand in a `vec4`")),
         };
         let loaded = if size == 1 {
             let component = self.add(Expression::AccessIndex { base: pointer, index: 0 });
@@ -414,7 +416,7 @@ impl Ctx<'_, '_> {
             }
             HostKind::WideRows => {
                 let Type::Matrix(columns, rows) = self.low.types.get(ty) else {
-                    return Err(self.slip("a matrix was expected"));
+                    return Err(self.internal_error("a matrix was expected"));
                 };
                 let transposed = self.low.matrix_type(rows, columns);
                 let lines = self.load_lines(pointer, transposed, u32::from(rows))?;
@@ -494,7 +496,7 @@ impl Ctx<'_, '_> {
                 }
             }
             Place::Host(..) | Place::Wide(..) | Place::Value(..) | Place::Blocks(..) => {
-                return Err(self.slip("this cannot be written to"));
+                return Err(self.internal_error("this cannot be written to"));
             }
         }
         Ok(())

@@ -15,7 +15,7 @@ use super::types::naga_scalar;
 use super::{Lower, Try, internal, lacking, unsupported};
 use crate::target::Target;
 use glisten_front::hir::{
-    ArraySize, ExprId, ExprKind, Local, SamplerDim, SamplerType, Scalar, ScalarValue, Type, TypeId, VarRef,
+    ArraySize, ExprId, ExprKind, Local, SamplerDim, SamplerType, ScalarValue, Type, TypeId, VarRef,
 };
 use glisten_front::source::Span;
 use naga::{AddressSpace, Expression, Handle, ImageClass, ImageDimension, TypeInner};
@@ -30,17 +30,6 @@ pub(super) struct SamplerVariables {
     pub(super) texel_count: Option<(Handle<naga::GlobalVariable>, u32)>,
 }
 
-/// Whether texels of this kind are only loaded, never filtered.
-pub(super) fn only_fetched(ty: SamplerType) -> bool {
-    ty.texel != Scalar::Float || matches!(ty.dim, SamplerDim::Buffer | SamplerDim::Multisample)
-}
-
-/// Whether an array of the faces represents the cube: texels cannot be loaded from a cube, and integer texels are
-/// only loaded.
-pub(super) fn is_integer_cube(ty: SamplerType) -> bool {
-    ty.dim == SamplerDim::Cube && ty.texel != Scalar::Float
-}
-
 /// A sampler in a type: its index in the flat layout, its path, its type.
 pub(super) struct Leaf {
     pub(super) flat: u32,
@@ -51,7 +40,7 @@ pub(super) struct Leaf {
 impl Lower<'_> {
     /// The texture type that represents a sampler type.
     pub(super) fn texture_type(&mut self, ty: SamplerType) -> Handle<naga::Type> {
-        let faces = is_integer_cube(ty);
+        let faces = ty.is_integer_cube();
         let dim = match ty.dim {
             SamplerDim::D3 => ImageDimension::D3,
             SamplerDim::Cube if !faces => ImageDimension::Cube,
@@ -108,7 +97,7 @@ impl Lower<'_> {
             let name = slot.name.replace(['[', '.'], "_").replace(']', "");
             let texture_type = self.texture_type(ty);
             let texture = self.resource(&name, AddressSpace::Handle, slot.texture, texture_type);
-            let sampler = (!only_fetched(ty)).then(|| {
+            let sampler = ty.is_filtered().then(|| {
                 let sampler_type = self.sampler_type(ty);
                 self.resource(&format!("{name}_sampler"), AddressSpace::Handle, slot.sampler, sampler_type)
             });
@@ -153,7 +142,7 @@ impl Ctx<'_, '_> {
             self.low.check_kind(ty, param.span)?;
             let texture_type = self.low.texture_type(ty);
             let texture = self.argument(&leaf.path, texture_type, None);
-            let sampler = (!only_fetched(ty)).then(|| {
+            let sampler = ty.is_filtered().then(|| {
                 let sampler_type = self.low.sampler_type(ty);
                 self.argument(&format!("{}_sampler", leaf.path), sampler_type, None)
             });

@@ -1,7 +1,7 @@
 //! Lowers statements (§6) except loops and switches.
 
 use super::Try;
-use super::function::{Ctx, Slot};
+use super::function::{Ctx, LocalSlot};
 use crate::target::Target;
 use glisten_front::hir::{ExprId, LocalId, LocalKind, Stmt, StmtKind, TypeId};
 use naga::{Block, Expression, Handle, Statement};
@@ -119,23 +119,23 @@ impl Ctx<'_, '_> {
                     self.name(value, &declared.name);
                     self.flush();
                 }
-                self.set_slot(local, Slot::Value(value));
+                self.set_slot(local, LocalSlot::Value(value));
             }
             // A variable's own initial value is set only once, before the function starts.
             Some(value) if literal && self.loops == 0 && !self.in_switch => {
                 let ty = self.low.value_type(declared.ty)?;
                 let variable = self.variable_with(&declared.name, ty, Some(value));
-                self.set_slot(local, Slot::Pointer(variable));
+                self.set_slot(local, LocalSlot::Pointer(variable));
             }
             _ => {
                 let variable = match self.slot(local) {
-                    Slot::Pointer(known) => known,
-                    Slot::Unset | Slot::Value(_) => self.variable_of(&declared.name, declared.ty)?,
+                    LocalSlot::Pointer(known) => known,
+                    LocalSlot::Unset | LocalSlot::Value(_) => self.variable_of(&declared.name, declared.ty)?,
                 };
                 if let Some(value) = value {
                     self.store(variable, value);
                 }
-                self.set_slot(local, Slot::Pointer(variable));
+                self.set_slot(local, LocalSlot::Pointer(variable));
             }
         }
         Ok(())

@@ -7,7 +7,7 @@
 use super::Try;
 use super::function::Ctx;
 use super::lacking;
-use super::textures::{Lookup, dimensions};
+use super::textures::Lookup;
 use glisten_front::hir::{SamplerDim, Scalar};
 use naga::{BinaryOperator, Expression, Handle, ImageQuery, MathFunction, SampleLevel, ScalarKind};
 
@@ -42,7 +42,7 @@ impl Ctx<'_, '_> {
         if matches!(lookup.level, SampleLevel::Gradient { .. }) {
             return Err(lacking(
                 self.here(),
-                format!("`textureGrad` of a `{}`: nothing tells the level of an integer cube", lookup.ty.name()),
+                format!("`textureGrad` of a `{}`: the level of an integer cube cannot be determined", lookup.ty.name()),
                 "use `textureLod`, or a texture of floats",
             ));
         }
@@ -123,7 +123,7 @@ impl Ctx<'_, '_> {
 
     /// log2 of the longer gradient in texels (OpenGL 3.2 §3.8.9, equation 3.17).
     fn gradient_level(&mut self, lookup: &Lookup, x: Handle<Expression>, y: Handle<Expression>) -> Handle<Expression> {
-        let n = dimensions(lookup.ty.dim);
+        let n = lookup.ty.dimensions();
         let zero = self.int(0);
         let size = self.texture_dimensions(lookup.value.texture, Some(zero));
         let size = self.add(Expression::As { expr: size, kind: ScalarKind::Float, convert: Some(4) });
@@ -143,7 +143,7 @@ impl Ctx<'_, '_> {
 
     /// The texel that contains a coordinate, with offset and wrap mode applied.
     fn integer_coordinate(&mut self, lookup: &Lookup, size: Handle<Expression>) -> Handle<Expression> {
-        let n = dimensions(lookup.ty.dim);
+        let n = lookup.ty.dimensions();
         let size = if n == 1 { self.add(Expression::AccessIndex { base: size, index: 0 }) } else { size };
         let rect = lookup.ty.dim == SamplerDim::Rect;
         let scaled = if rect {

@@ -7,25 +7,9 @@
 use super::function::{Ctx, SamplerValue};
 use super::{Try, internal, lacking};
 use crate::target::BUFFER_WIDTH;
-use glisten_front::builtin::BuiltinFunction;
+use glisten_front::builtin::operations::{Lookup as How, TextureArgument as Role, TextureForm};
 use glisten_front::hir::{ExprId, SamplerDim, SamplerType, Scalar, ScalarValue, Swizzle, TypeId};
 use naga::{BinaryOperator, Expression, Handle, MathFunction, SampleLevel};
-
-/// The variant of a function that its name selects.
-#[derive(Clone, Copy, Debug)]
-struct Form {
-    projective: bool,
-    offset: bool,
-    level: Level,
-}
-
-/// How the level of detail is selected.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Level {
-    Implicit,
-    Lod,
-    Gradient,
-}
 
 /// A decomposed lookup.
 pub(super) struct Lookup {
@@ -41,80 +25,56 @@ pub(super) struct Lookup {
     pub(super) offset: Option<Vec<i32>>,
 }
 
-/// The number of coordinates of a dimensionality in GLSL.
-pub(super) fn dimensions(dim: SamplerDim) -> u8 {
-    match dim {
-        SamplerDim::D1 | SamplerDim::Buffer => 1,
-        SamplerDim::D2 | SamplerDim::Rect | SamplerDim::Multisample => 2,
-        SamplerDim::D3 | SamplerDim::Cube => 3,
-    }
-}
-
-fn form(function: BuiltinFunction) -> Option<Form> {
-    use BuiltinFunction as F;
-    let (projective, offset, level) = match function {
-        F::Texture => (false, false, Level::Implicit),
-        F::TextureProj => (true, false, Level::Implicit),
-        F::TextureLod => (false, false, Level::Lod),
-        F::TextureOffset => (false, true, Level::Implicit),
-        F::TextureProjOffset => (true, true, Level::Implicit),
-        F::TextureLodOffset => (false, true, Level::Lod),
-        F::TextureProjLod => (true, false, Level::Lod),
-        F::TextureProjLodOffset => (true, true, Level::Lod),
-        F::TextureGrad => (false, false, Level::Gradient),
-        F::TextureGradOffset => (false, true, Level::Gradient),
-        F::TextureProjGrad => (true, false, Level::Gradient),
-        F::TextureProjGradOffset => (true, true, Level::Gradient),
-        _ => return None,
-    };
-    Some(Form { projective, offset, level })
-}
-
 impl Ctx<'_, '_> {
     /// A call of a texture function.
-    pub(super) fn texture_call(&mut self, function: BuiltinFunction, arguments: &[ExprId]) -> Try<Handle<Expression>> {
+    pub(super) fn texture_call(
+        &mut self,
+        form: TextureForm,
+        arguments: &[ExprId],
+        ret: TypeId,
+    ) -> Try<Handle<Expression>> {
         let Some((sampler, rest)) = arguments.split_first() else {
-            return Err(self.slip("a texture function without a sampler"));
+            return Err(self.internal_error("a texture function without a sampler"));
         };
         let (ty, value) = self.sampler(*sampler)?;
-        match function {
-            BuiltinFunction::TextureSize => self.texture_size(ty, value, rest.first().copied()),
-            BuiltinFunction::TexelFetch => self.texel_fetch(ty, value, rest, false),
-            BuiltinFunction::TexelFetchOffset => self.texel_fetch(ty, value, rest, true),
-            _ => match form(function) {
-                Some(form) => {
-                    let lookup = self.lookup(ty, value, form, rest)?;
-                    if ty.texel == Scalar::Float { self.sample(&lookup) } else { self.integer_lookup(&lookup) }
+        match form.lookup {
+            How::Size => self.texture_size(ty, value, rest.first().copied()),
+            How::Fetch => self.texel_fetch(ty, value, form, rest),
+            How::Implicit | How::Lod | How::Grad => {
+                let lookup = self.lookup(ty, value, form, rest)?;
+                if ty.texel != Scalar::Float {
+                    return self.integer_lookup(&lookup);
                 }
-                None => Err(internal(self.here(), format!("`{}` is no texture function", function.name()))),
-            },
+                let result = self.sample(&lookup)?;
+                if !ty.shadow || self.size_of(ret) == 1 {
+                    return Ok(result);
+                }
+                // `shadow2D` and its like of older versions: luminance, and alpha 1.
+                let one = self.float(1.0);
+                Ok(self.float_vector(vec![result, result, result, one]))
+            }
         }
     }
 
-    /// Decomposes the arguments after the sampler, in order: P, level, offset, bias.
-    fn lookup(&mut self, ty: SamplerType, value: SamplerValue, form: Form, arguments: &[ExprId]) -> Try<Lookup> {
-        let mut arguments = arguments.iter().copied();
-        let mut next = || arguments.next();
-        let missing = || internal(Default::default(), "a texture function lacks an argument");
-        let p = next().ok_or_else(missing)?;
-        let p_size = self.size_of(self.shader.expr(p).ty);
-        let p = self.value(p)?;
-        let mut level = match form.level {
-            Level::Implicit => SampleLevel::Auto,
-            Level::Lod => SampleLevel::Exact(self.value(next().ok_or_else(missing)?)?),
-            Level::Gradient => {
-                let x = self.value(next().ok_or_else(missing)?)?;
-                let y = self.value(next().ok_or_else(missing)?)?;
-                SampleLevel::Gradient { x, y }
+    /// Decomposes the arguments after the sampler, in their order.
+    fn lookup(&mut self, ty: SamplerType, value: SamplerValue, form: TextureForm, arguments: &[ExprId]) -> Try<Lookup> {
+        let (mut p, mut gradient_x, mut offset, mut level) = (None, None, None, SampleLevel::Auto);
+        for (role, &argument) in form.arguments(ty).into_iter().zip(arguments) {
+            match role {
+                Role::Offset => offset = Some(self.constant_offset(argument)?),
+                Role::Coordinate => p = Some((self.value(argument)?, self.size_of(self.shader.expr(argument).ty))),
+                Role::Level => level = SampleLevel::Exact(self.value(argument)?),
+                Role::GradientX => gradient_x = Some(self.value(argument)?),
+                Role::GradientY => {
+                    let y = self.value(argument)?;
+                    let x = gradient_x.ok_or_else(|| self.internal_error("a gradient along y without one along x"))?;
+                    level = SampleLevel::Gradient { x, y };
+                }
+                Role::Bias => level = SampleLevel::Bias(self.value(argument)?),
+                Role::Sample => return Err(self.internal_error("samples are fetched")),
             }
-        };
-        let offset = match form.offset {
-            true => Some(self.constant_offset(next().ok_or_else(missing)?)?),
-            false => None,
-        };
-        if let Some(bias) = next() {
-            level = SampleLevel::Bias(self.value(bias)?);
         }
+        let Some((p, p_size)) = p else { return Err(self.internal_error("a texture function lacks an argument")) };
         if self.is_vertex() && matches!(level, SampleLevel::Auto | SampleLevel::Bias(_)) {
             // Outside the fragment stage, the base level is read (§8.7).
             level = SampleLevel::Zero;
@@ -131,14 +91,13 @@ impl Ctx<'_, '_> {
         p: Handle<Expression>,
         p_size: u8,
     ) -> (Handle<Expression>, Option<Handle<Expression>>, Option<Handle<Expression>>) {
-        let n = dimensions(ty.dim);
+        let n = ty.dimensions();
         let mut component = |index: u8| {
             let index = u32::from(index.min(p_size.saturating_sub(1)));
             self.add(Expression::AccessIndex { base: p, index })
         };
         // The reference value of a 1D shadow is in z, after an unused component; that of a cube is in w.
-        let reference =
-            ty.shadow.then(|| component(if ty.arrayed || n == 3 { n.max(1) + u8::from(ty.arrayed) } else { 2 }));
+        let reference = ty.shadow.then(|| component(ty.reference_component()));
         let layer = ty.arrayed.then(|| component(n));
         let divisor = projective.then(|| component(p_size.saturating_sub(1)));
         let coordinate = if p_size == n { p } else { self.first_components(p, n) };
@@ -276,24 +235,26 @@ impl Ctx<'_, '_> {
         &mut self,
         ty: SamplerType,
         value: SamplerValue,
+        form: TextureForm,
         arguments: &[ExprId],
-        with_offset: bool,
     ) -> Try<Handle<Expression>> {
-        let mut arguments = arguments.iter().copied();
-        let missing = || internal(Default::default(), "a texel fetch lacks an argument");
-        let p = arguments.next().ok_or_else(missing)?;
-        let p_size = self.size_of(self.shader.expr(p).ty);
-        let p = self.value(p)?;
-        let has_levels = !matches!(ty.dim, SamplerDim::Rect | SamplerDim::Buffer | SamplerDim::Multisample);
+        let (mut p, mut index, mut offset) = (None, None, None);
+        for (role, &argument) in form.arguments(ty).into_iter().zip(arguments) {
+            match role {
+                Role::Offset => offset = Some(self.constant_offset(argument)?),
+                Role::Coordinate => p = Some((self.value(argument)?, self.size_of(self.shader.expr(argument).ty))),
+                Role::Level | Role::Sample => index = Some(self.value(argument)?),
+                Role::GradientX | Role::GradientY | Role::Bias => {
+                    return Err(self.internal_error("a texel is fetched without a level of detail"));
+                }
+            }
+        }
+        let Some((p, p_size)) = p else { return Err(self.internal_error("a texel fetch lacks an argument")) };
         let multisampled = ty.dim == SamplerDim::Multisample;
-        let index = match has_levels || multisampled {
-            true => self.value(arguments.next().ok_or_else(missing)?)?,
-            false => self.int(0),
-        };
-        let n = dimensions(ty.dim);
+        let index = index.unwrap_or_else(|| self.int(0));
+        let n = ty.dimensions();
         let mut coordinate = if p_size == n { p } else { self.first_components(p, n) };
-        if with_offset {
-            let offset = self.constant_offset(arguments.next().ok_or_else(missing)?)?;
+        if let Some(offset) = offset {
             let offset = self.int_vector(&offset);
             coordinate = self.op(BinaryOperator::Add, coordinate, offset);
         }
@@ -328,7 +289,9 @@ impl Ctx<'_, '_> {
     /// `textureSize`
     fn texture_size(&mut self, ty: SamplerType, value: SamplerValue, level: Option<ExprId>) -> Try<Handle<Expression>> {
         if ty.dim == SamplerDim::Buffer {
-            return value.texel_count.ok_or_else(|| self.slip("the number of texels has no place among the uniforms"));
+            return value
+                .texel_count
+                .ok_or_else(|| self.internal_error("the number of texels has no place among the uniforms"));
         }
         if ty.dim == SamplerDim::Multisample && ty.arrayed {
             // naga's SPIR-V writer queries a level, which multisampled images do not have.

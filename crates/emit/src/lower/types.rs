@@ -44,7 +44,7 @@ impl Lower<'_> {
             Type::Array(element, ArraySize::Sized(len)) => self.array_type(element, len)?,
             Type::Struct(_) => self.struct_type(ty)?,
             Type::Error | Type::Void | Type::Sampler(_) | Type::Array(_, ArraySize::Unsized) => {
-                return Err(internal(Span::default(), format!("`{}` is no type of values", self.types.name(ty))));
+                return Err(internal(Span::default(), format!("`{}` is not a type of values", self.types.name(ty))));
             }
         };
         self.values.insert(ty, handle);

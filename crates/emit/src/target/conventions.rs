@@ -1,32 +1,5 @@
 //! [`Conventions`]: what the host expects of the emitted code, as chosen by the flags of `glisten compile`.
 
-/// A target language.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-#[expect(missing_docs, reason = "the names say it")]
-pub enum Target {
-    Wgsl,
-    Spirv,
-    Msl,
-    Hlsl,
-    Glsl,
-}
-
-impl Target {
-    /// All targets.
-    pub const ALL: [Self; 5] = [Self::Wgsl, Self::Spirv, Self::Msl, Self::Hlsl, Self::Glsl];
-
-    /// The usual name: `WGSL`.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Wgsl => "WGSL",
-            Self::Spirv => "SPIR-V",
-            Self::Msl => "MSL",
-            Self::Hlsl => "HLSL",
-            Self::Glsl => "GLSL",
-        }
-    }
-}
-
 /// The range of clip-space z to which the target clips.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum ClipZ {
@@ -57,7 +30,7 @@ pub enum SpirvEnv {
     Vulkan,
 }
 
-/// What the host expects.
+/// The expectations of the host.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Conventions {
     /// The range of clip-space z.

@@ -23,12 +23,11 @@ impl Shape {
     /// The texture and sampler of a sampler type.
     pub(crate) fn of(ty: SamplerType) -> Self {
         let multisampled = ty.dim == SamplerDim::Multisample;
-        let fetched = multisampled || ty.dim == SamplerDim::Buffer;
         Self {
             view_dimension: match (ty.dim, ty.arrayed) {
                 (SamplerDim::D3, _) => "3d",
                 // Texels cannot be loaded from a cube, and integer texels are only loaded.
-                (SamplerDim::Cube, false) if ty.texel != Scalar::Float => "2d-array",
+                (SamplerDim::Cube, false) if ty.is_integer_cube() => "2d-array",
                 (SamplerDim::Cube, false) => "cube",
                 (SamplerDim::Cube, true) => "cube-array",
                 (_, false) => "2d",
@@ -38,15 +37,11 @@ impl Shape {
                 Scalar::Int => "sint",
                 Scalar::Uint => "uint",
                 Scalar::Bool | Scalar::Float if ty.shadow => "depth",
-                Scalar::Bool | Scalar::Float if fetched => "unfilterable-float",
+                Scalar::Bool | Scalar::Float if !ty.is_filtered() => "unfilterable-float",
                 Scalar::Bool | Scalar::Float => "float",
             },
             multisampled,
-            sampler_type: match ty.texel {
-                Scalar::Float if ty.shadow => Some("comparison"),
-                Scalar::Float if !fetched => Some("filtering"),
-                _ => None,
-            },
+            sampler_type: ty.is_filtered().then_some(if ty.shadow { "comparison" } else { "filtering" }),
             row_width: (ty.dim == SamplerDim::Buffer).then_some(BUFFER_WIDTH),
         }
     }

@@ -5,8 +5,13 @@
 //! *Holds:* expressions are appended in evaluation order, children before parents; `facts` runs parallel to them.
 //! Every name that cannot be resolved becomes poison after its one message.
 
+use super::arrays::ArrayUses;
+use super::constant::Fuel;
+use super::declare::{BlockNames, GeometryPlaces};
 use super::layout::BlockDefaults;
+use super::limits::Sizes;
 use super::scope::{Entry, Scopes};
+use super::types::KeywordTypes;
 use super::wording::worded;
 use crate::diagnostic::codes::names;
 use crate::diagnostic::{Diagnostic, Diagnostics};
@@ -20,9 +25,8 @@ use crate::syntax::token::Symbol;
 use crate::syntax::warning_of_use;
 use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
-use std::cell::Cell;
 
-/// What the analysis knows about an expression besides its type.
+/// Facts about an expression besides its type.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Facts {
     /// The depth of the tree, counted along left operands too.
@@ -31,9 +35,6 @@ pub(super) struct Facts {
     pub(super) constant: bool,
 }
 
-/// How many scalars the constants of a shader may read and make; it takes some tenths of a second.
-const MAX_FOLD_STEPS: u64 = 1 << 26;
-
 /// The function whose body is being analyzed.
 pub(super) struct Body {
     pub(super) function: FunctionId,
@@ -41,17 +42,6 @@ pub(super) struct Body {
     pub(super) switches: u32,
     /// Whether it contains a `return`, or something broken that may have been one.
     pub(super) returns: bool,
-}
-
-/// An array that may still lack a size.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) enum ArrayKey {
-    /// A global.
-    Global(GlobalId),
-    /// A member of a global that is a block or an array of blocks.
-    Member(GlobalId, u32),
-    /// A local of the current function.
-    Local(LocalId),
 }
 
 /// The types of a function's parameters.
@@ -74,22 +64,17 @@ pub(super) struct Analyzer<'a> {
     /// The current function.
     pub(super) body: Option<Body>,
     /// The type of each type keyword met so far.
-    pub(super) keyword_types: FxHashMap<Symbol, Option<TypeId>>,
+    pub(super) keyword_types: KeywordTypes,
     /// The functions of the shader by name and parameters.
     pub(super) signatures: FxHashMap<(Symbol, Signature), FunctionId>,
-    /// The names of blocks, which have no other meaning at global scope (§4.3.7).
-    pub(super) block_names: FxHashMap<Symbol, Span>,
-    /// The names of blocks with their storage, and their positions.
-    pub(super) block_interfaces: FxHashMap<(Symbol, Storage), Span>,
+    /// The names of blocks.
+    pub(super) block_names: BlockNames,
     /// The indices of the members, for structs with many members.
     pub(super) member_indices: FxHashMap<StructId, FxHashMap<Symbol, u32>>,
-    /// The number of scalars of all globals so far, and of all locals of the current function.
-    pub(super) n_global_scalars: u32,
-    pub(super) n_local_scalars: u32,
-    /// The number of globals that need a location or binding.
-    pub(super) n_places: u32,
-    /// How many steps constant evaluation may still take in this shader.
-    pub(super) fold_fuel: Cell<u64>,
+    /// How large the variables are together.
+    pub(super) sizes: Sizes,
+    /// How long constant evaluation may still take in this shader.
+    pub(super) fuel: Fuel,
     /// How many times the analysis searched for a name similar to an unknown one.
     pub(super) n_suggestions: u32,
     /// The built-in variables that are used or redeclared.
@@ -98,28 +83,16 @@ pub(super) struct Analyzer<'a> {
     pub(super) first_uses: FxHashMap<GlobalId, Span>,
     /// The first use of each member of an input or output block without an instance name.
     pub(super) first_member_uses: FxHashMap<(GlobalId, u32), Span>,
-    /// For each array without a size, the largest constant index, and its position (§4.1.9).
-    pub(super) array_uses: FxHashMap<ArrayKey, (u32, Span)>,
-    /// The same map for the locals of the current function.
-    pub(super) local_array_uses: FxHashMap<LocalId, (u32, Span)>,
+    /// The elements that are used of arrays without a size (§4.1.9).
+    pub(super) array_uses: ArrayUses,
     /// `layout(...) uniform;`
     pub(super) block_defaults: BlockDefaults,
-    /// Where the geometry input layout, or an input array's size, was first fixed.
-    pub(super) geometry_size: Option<(u32, Span)>,
-    /// Where the parts of the geometry layout were first declared.
-    pub(super) geometry_spans: GeometrySpans,
+    /// Where the layouts of a geometry shader were first declared.
+    pub(super) geometry: GeometryPlaces,
     /// The output block `gl_PerVertex`, if it is redeclared.
     pub(super) per_vertex_out: Option<super::declare::PerVertex>,
     /// The first redeclaration of `gl_FragCoord`.
     pub(super) frag_coord_span: Option<Span>,
-}
-
-/// The positions of the first declaration of each of a geometry shader's layouts.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct GeometrySpans {
-    pub(super) input: Span,
-    pub(super) output: Span,
-    pub(super) max_vertices: Span,
 }
 
 impl<'a> Analyzer<'a> {
@@ -143,24 +116,19 @@ impl<'a> Analyzer<'a> {
             scopes: Scopes::default(),
             extensions: Extensions::empty(),
             body: None,
-            keyword_types: FxHashMap::default(),
+            keyword_types: KeywordTypes::default(),
             signatures: FxHashMap::default(),
-            block_names: FxHashMap::default(),
+            block_names: BlockNames::default(),
             builtins: FxHashMap::default(),
             first_uses: FxHashMap::default(),
             first_member_uses: FxHashMap::default(),
-            array_uses: FxHashMap::default(),
-            local_array_uses: FxHashMap::default(),
-            block_interfaces: FxHashMap::default(),
+            array_uses: ArrayUses::default(),
             member_indices: FxHashMap::default(),
-            n_global_scalars: 0,
-            n_local_scalars: 0,
-            n_places: 0,
-            fold_fuel: Cell::new(MAX_FOLD_STEPS),
+            sizes: Sizes::default(),
+            fuel: Fuel::default(),
             n_suggestions: 0,
             block_defaults: BlockDefaults::default(),
-            geometry_size: None,
-            geometry_spans: GeometrySpans::default(),
+            geometry: GeometryPlaces::default(),
             frag_coord_span: None,
             per_vertex_out: None,
         }

@@ -1,7 +1,8 @@
 //! The checks that need the whole shader: sizes of arrays that follow from their uses (§4.1.9), recursion (§6.1),
 //! static use (§3.8), and outputs that exclude each other (§7.2).
 
-use super::context::{Analyzer, ArrayKey};
+use super::arrays::ArrayKey;
+use super::context::Analyzer;
 use crate::builtin::BuiltinVariable;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::qualifiers;
@@ -55,10 +56,7 @@ impl Analyzer<'_> {
 
     /// The array type that covers all elements that are used.
     pub(super) fn sized_by_use(&mut self, key: ArrayKey, element: TypeId, is_clip_distance: bool) -> TypeId {
-        let largest = match key {
-            ArrayKey::Local(id) => self.local_array_uses.get(&id).copied(),
-            _ => self.array_uses.get(&key).copied(),
-        };
+        let largest = self.array_uses.largest(key);
         // An array that is never indexed needs some size to exist; nothing determines which.
         let size = largest.map_or(1, |(index, _)| index.saturating_add(1));
         if let Some((_, span)) = largest.filter(|_| is_clip_distance) {
@@ -82,7 +80,7 @@ impl Analyzer<'_> {
                 }
             }
         }
-        if any || !self.local_array_uses.is_empty() {
+        if any || self.array_uses.any_local() {
             for index in first..self.shader.exprs.len() {
                 let Some(ExprKind::Var(VarRef::Local(id))) = self.shader.exprs.get(index).map(|expr| &expr.kind) else {
                     continue;
@@ -93,7 +91,7 @@ impl Analyzer<'_> {
                 }
             }
         }
-        self.local_array_uses.clear();
+        self.array_uses.end_function();
     }
 
     /// Updates the types of expressions that name such arrays. Children come before their parents.
@@ -127,7 +125,7 @@ impl Analyzer<'_> {
                 Diagnostic::new(
                     &qualifiers::INVARIANT,
                     span,
-                    "`#pragma STDGL invariant(all)` cannot stand in a fragment shader",
+                    "`#pragma STDGL invariant(all)` is not allowed in a fragment shader",
                 )
                 .help("remove it, or make single inputs `invariant`"),
             );
@@ -162,7 +160,7 @@ impl Analyzer<'_> {
         )
         .here("the second kind of output")
         .label(at(first_id), "the first kind of output")
-        .help("declare an `out` variable for each color, and write those alone");
+        .help("declare an `out` variable for each color, and write only those");
         self.report(finding);
     }
 }

@@ -10,7 +10,7 @@ use crate::syntax::ast::{ExprKind as AstExprKind, Extensions, LayoutId, Literal}
 
 /// The declaration that a layout qualifier applies to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum LayoutPlace {
+pub(super) enum LayoutSubject {
     /// An input of a vertex shader.
     VertexInput,
     /// `gl_FragCoord`.
@@ -33,7 +33,7 @@ pub(super) enum LayoutPlace {
     Other(&'static str),
 }
 
-impl LayoutPlace {
+impl LayoutSubject {
     fn name(self) -> &'static str {
         match self {
             Self::VertexInput => "a vertex shader's input",
@@ -50,7 +50,7 @@ impl LayoutPlace {
     }
 }
 
-/// What a layout identifier sets.
+/// The effect of a layout identifier.
 #[derive(Clone, Copy, Debug)]
 enum Effect {
     Location,
@@ -71,18 +71,18 @@ struct Row {
     name: &'static str,
     effect: Effect,
     value: bool,
-    places: &'static [LayoutPlace],
+    subjects: &'static [LayoutSubject],
     extension: Extensions,
     since: u16,
 }
 
-use LayoutPlace::{
+use LayoutSubject::{
     FragCoord, FragmentOutput, GeometryIn, GeometryOut, Sampler, UniformBlock, UniformDefault, UniformMember,
     VertexInput,
 };
 
-const fn row(name: &'static str, effect: Effect, places: &'static [LayoutPlace]) -> Row {
-    Row { name, effect, value: false, places, extension: Extensions::empty(), since: 150 }
+const fn row(name: &'static str, effect: Effect, subjects: &'static [LayoutSubject]) -> Row {
+    Row { name, effect, value: false, subjects, extension: Extensions::empty(), since: 150 }
 }
 
 const fn since(version: u16, extension: Extensions, row: Row) -> Row {
@@ -96,8 +96,8 @@ const fn valued(row: Row) -> Row {
 const LOCATION: Extensions = Extensions::EXPLICIT_ATTRIB_LOCATION;
 const BLOCKS: Extensions = Extensions::UNIFORM_BUFFER_OBJECT;
 const PACK: Extensions = Extensions::SHADING_LANGUAGE_420PACK;
-const BLOCK_PLACES: &[LayoutPlace] = &[UniformBlock, UniformDefault];
-const MATRIX_PLACES: &[LayoutPlace] = &[UniformBlock, UniformDefault, UniformMember];
+const BLOCK_PLACES: &[LayoutSubject] = &[UniformBlock, UniformDefault];
+const MATRIX_PLACES: &[LayoutSubject] = &[UniformBlock, UniformDefault, UniformMember];
 
 static ROWS: &[Row] = &[
     valued(since(330, LOCATION, row("location", Effect::Location, &[VertexInput, FragmentOutput]))),
@@ -163,20 +163,20 @@ pub(super) struct BlockDefaults {
 impl Analyzer<'_> {
     /// Evaluates the layout identifiers of a declaration. Each must be known, enabled, and allowed for this
     /// declaration; later ones override earlier ones.
-    pub(super) fn layout(&mut self, qualifiers: &Qualifiers, place: LayoutPlace) -> Layout {
+    pub(super) fn layout(&mut self, qualifiers: &Qualifiers, subject: LayoutSubject) -> Layout {
         let mut layout = Layout::default();
         for id in &qualifiers.layout {
-            if let Some(row) = self.layout_row(id, place) {
+            if let Some(row) = self.layout_row(id, subject) {
                 let value = if row.value { self.layout_value(id) } else { Some((0, id.name.span)) };
                 if let Some((value, span)) = value {
-                    layout.apply(row.effect, place, value, span);
+                    layout.apply(row.effect, subject, value, span);
                 }
             }
         }
         layout
     }
 
-    fn layout_row(&mut self, id: &LayoutId, place: LayoutPlace) -> Option<&'static Row> {
+    fn layout_row(&mut self, id: &LayoutId, subject: LayoutSubject) -> Option<&'static Row> {
         let spelling = self.name(id.name);
         // In 1.50 the identifiers are not case-sensitive.
         let Some(row) = ROWS.iter().find(|row| row.name.eq_ignore_ascii_case(spelling)) else {
@@ -195,16 +195,16 @@ impl Analyzer<'_> {
             );
             return None;
         }
-        if !row.places.contains(&place) {
-            let places: Vec<_> = row.places.iter().map(|place| place.name()).collect();
+        if !row.subjects.contains(&subject) {
+            let subjects: Vec<_> = row.subjects.iter().map(|subject| subject.name()).collect();
             self.report(
                 Diagnostic::new(
                     &qualifiers::LAYOUT_PLACE,
                     id.name.span,
-                    format!("`{spelling}` may not stand before {}", place.name()),
+                    format!("`{spelling}` is not allowed before {}", subject.name()),
                 )
                 .here("not allowed here")
-                .help(format!("it belongs before {}", places.join(" or "))),
+                .help(format!("it belongs before {}", subjects.join(" or "))),
             );
             return None;
         }
@@ -243,7 +243,7 @@ impl Analyzer<'_> {
 }
 
 impl Layout {
-    fn apply(&mut self, effect: Effect, place: LayoutPlace, value: u32, span: Span) {
+    fn apply(&mut self, effect: Effect, subject: LayoutSubject, value: u32, span: Span) {
         match effect {
             Effect::Location => self.location = Some((value, span)),
             Effect::Index => self.index = Some((value, span)),
@@ -254,7 +254,7 @@ impl Layout {
             Effect::Matrix(layout) => self.matrix = Some(layout),
             Effect::In(primitive) => self.inputs.push((primitive, span)),
             Effect::Out(primitive) => self.outputs.push((primitive, span)),
-            Effect::Points if place == GeometryIn => self.inputs.push((PrimitiveIn::Points, span)),
+            Effect::Points if subject == GeometryIn => self.inputs.push((PrimitiveIn::Points, span)),
             Effect::Points => self.outputs.push((PrimitiveOut::Points, span)),
             Effect::MaxVertices => self.max_vertices = Some((value, span)),
         }
@@ -267,7 +267,7 @@ fn unknown(spelling: &str, span: Span) -> Diagnostic {
         Some((_, version)) => Some(format!("`{spelling}` came with GLSL {version}")),
         None => did_you_mean(spelling, ROWS.iter().map(|row| row.name)).map(|near| format!("did you mean `{near}`?")),
     };
-    Diagnostic::new(&qualifiers::UNKNOWN_LAYOUT, span, format!("`{spelling}` is no layout identifier"))
+    Diagnostic::new(&qualifiers::UNKNOWN_LAYOUT, span, format!("`{spelling}` is not a layout identifier"))
         .here("not known in this version")
         .maybe_help(help)
 }

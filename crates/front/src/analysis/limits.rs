@@ -19,7 +19,25 @@ const MAX_UNIFORM_SCALARS: u32 = 1 << 18;
 
 /// The largest number of inputs, outputs, blocks and samplers of a shader. Each needs a location or binding, and no
 /// target has more than a thousand of any kind.
-const MAX_PLACES: u32 = 4096;
+const MAX_BOUND: u32 = 4096;
+
+/// How large the variables are together.
+#[derive(Debug, Default)]
+pub(super) struct Sizes {
+    /// The scalars of all globals so far.
+    globals: u32,
+    /// The scalars of all locals of the current function.
+    locals: u32,
+    /// The number of globals that need a location or binding.
+    places: u32,
+}
+
+impl Sizes {
+    /// Begins a function, which has no locals yet.
+    pub(super) fn begin_function(&mut self) {
+        self.locals = 0;
+    }
+}
 
 impl Analyzer<'_> {
     /// Checks that a type is small enough.
@@ -31,22 +49,22 @@ impl Analyzer<'_> {
     pub(super) fn check_global_size(&mut self, ty: TypeId, storage: Storage, is_block: bool, span: Span) -> bool {
         let limit = if storage == Storage::Uniform { MAX_UNIFORM_SCALARS } else { MAX_SCALARS };
         let has_place = matches!(storage, Storage::In | Storage::Out) || is_block || self.types.contains_sampler(ty);
-        self.n_places += u32::from(has_place);
-        if has_place && self.n_places > MAX_PLACES {
+        self.sizes.places += u32::from(has_place);
+        if has_place && self.sizes.places > MAX_BOUND {
             self.report(
                 Diagnostic::new(&types::TOO_LARGE, span, "this is too much for any target")
-                    .here(format!("more than {MAX_PLACES} inputs, outputs, blocks and samplers")),
+                    .here(format!("more than {MAX_BOUND} inputs, outputs, blocks and samplers")),
             );
             return false;
         }
-        self.n_global_scalars = self.n_global_scalars.saturating_add(self.types.flat_len(ty));
-        self.check_scalars(self.n_global_scalars, limit, span)
+        self.sizes.globals = self.sizes.globals.saturating_add(self.types.flat_len(ty));
+        self.check_scalars(self.sizes.globals, limit, span)
     }
 
     /// Checks that a local still fits together with those before it.
     pub(super) fn check_local_size(&mut self, ty: TypeId, span: Span) -> bool {
-        self.n_local_scalars = self.n_local_scalars.saturating_add(self.types.flat_len(ty));
-        self.check_scalars(self.n_local_scalars, MAX_SCALARS, span)
+        self.sizes.locals = self.sizes.locals.saturating_add(self.types.flat_len(ty));
+        self.check_scalars(self.sizes.locals, MAX_SCALARS, span)
     }
 
     fn check_scalars(&mut self, scalars: u32, limit: u32, span: Span) -> bool {

@@ -7,16 +7,18 @@
 //! back and none looks ahead. What needs the whole shader comes after it: the sizes of implicitly sized arrays
 //! (`finish`), recursion (`recursion`), and static use (in [`hir`](crate::hir)).
 //!
-//! * `context` holds the state of the traversal, `scope` the names in scope.
+//! * `context` holds the state of the traversal, `scope` the names in scope, `arrays` the elements used.
 //! * `types`, `qualifiers` and `layout` analyze what precedes a name.
 //! * `declare` enters names: variables, structs, blocks, functions, redeclared built-in variables.
 //! * `statement` and `expr` analyze function bodies.
 //! * [`fold`](crate::fold) computes constants.
+//! * `understood` removes uncertain declarations of a shader with errors from its interface.
 //!
 //! *Holds:* one mistake raises one message. Whatever is in error gets the type
 //! [`TypeId::ERROR`](crate::hir::TypeId::ERROR), which is compatible with everything. No traversal recurses along
 //! left operands.
 
+mod arrays;
 mod constant;
 mod context;
 mod declare;
@@ -30,6 +32,7 @@ mod recursion;
 mod scope;
 mod statement;
 mod types;
+mod understood;
 mod wording;
 
 #[cfg(test)]
@@ -41,6 +44,8 @@ use crate::source::SourceMap;
 use crate::stack::with_stack;
 use crate::syntax::ast::Ast;
 use context::Analyzer;
+
+pub use understood::keep_understood;
 
 /// Analyzes a syntax tree. `strict` turns what every driver accepts into errors; all stages of a compilation share
 /// `types`.

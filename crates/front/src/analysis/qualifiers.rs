@@ -50,7 +50,7 @@ pub(super) struct Qualifiers {
 
 /// The kind of declaration that a list of qualifiers belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Place {
+pub(super) enum DeclarationContext {
     /// A variable at global scope.
     Global,
     /// A local variable.
@@ -87,21 +87,21 @@ struct ClassRow {
     what: &'static str,
     /// The rank in the order of §4.7. `layout` has none, but comes before storage.
     rank: u8,
-    places: &'static [Place],
+    contexts: &'static [DeclarationContext],
 }
 
-use Place::{Alone, Block, BlockMember, Global, Local, Parameter, Return, StructMember};
+use DeclarationContext::{Alone, Block, BlockMember, Global, Local, Parameter, Return, StructMember};
 
 #[rustfmt::skip]
 static CLASSES: &[ClassRow] = &[
-    ClassRow { class: Class::Layout, what: "a layout qualifier", rank: 0, places: &[Global, Block, BlockMember, Alone] },
-    ClassRow { class: Class::Invariant, what: "`invariant`", rank: 1, places: &[Global, BlockMember, Alone] },
-    ClassRow { class: Class::Interpolation, what: "an interpolation qualifier", rank: 2, places: &[Global, BlockMember] },
-    ClassRow { class: Class::Centroid, what: "`centroid`", rank: 3, places: &[Global, BlockMember] },
-    ClassRow { class: Class::Const, what: "`const`", rank: 4, places: &[Global, Local, Parameter] },
-    ClassRow { class: Class::Storage, what: "a storage qualifier", rank: 5, places: &[Global, Parameter, BlockMember, Block, Alone] },
-    ClassRow { class: Class::Precision, what: "a precision qualifier", rank: 6, places: &[Global, Local, Parameter, Return, StructMember, BlockMember] },
-    ClassRow { class: Class::Precise, what: "`precise`", rank: 0, places: &[] },
+    ClassRow { class: Class::Layout, what: "a layout qualifier", rank: 0, contexts: &[Global, Block, BlockMember, Alone] },
+    ClassRow { class: Class::Invariant, what: "`invariant`", rank: 1, contexts: &[Global, BlockMember, Alone] },
+    ClassRow { class: Class::Interpolation, what: "an interpolation qualifier", rank: 2, contexts: &[Global, BlockMember] },
+    ClassRow { class: Class::Centroid, what: "`centroid`", rank: 3, contexts: &[Global, BlockMember] },
+    ClassRow { class: Class::Const, what: "`const`", rank: 4, contexts: &[Global, Local, Parameter] },
+    ClassRow { class: Class::Storage, what: "a storage qualifier", rank: 5, contexts: &[Global, Parameter, BlockMember, Block, Alone] },
+    ClassRow { class: Class::Precision, what: "a precision qualifier", rank: 6, contexts: &[Global, Local, Parameter, Return, StructMember, BlockMember] },
+    ClassRow { class: Class::Precise, what: "`precise`", rank: 0, contexts: &[] },
 ];
 
 fn class_of(kind: &QualifierKind) -> Class {
@@ -126,7 +126,7 @@ fn row_of(class: Class) -> Option<&'static ClassRow> {
     CLASSES.iter().find(|row| row.class == class)
 }
 
-impl Place {
+impl DeclarationContext {
     fn name(self) -> &'static str {
         match self {
             Self::Global => "a global variable",
@@ -143,12 +143,12 @@ impl Place {
 
 impl Analyzer<'_> {
     /// Checks a list of qualifiers: none twice, each allowed here, in the order of §4.7.
-    pub(super) fn qualifiers(&mut self, list: &[Qualifier], place: Place) -> Qualifiers {
+    pub(super) fn qualifiers(&mut self, list: &[Qualifier], context: DeclarationContext) -> Qualifiers {
         let mut record = Qualifiers::default();
         let mut last: Option<(u8, &Qualifier)> = None;
         for qualifier in list {
             let Some(row) = row_of(class_of(&qualifier.kind)) else { continue };
-            if !self.check_place(qualifier, row, place) {
+            if !self.check_context(qualifier, row, context) {
                 continue;
             }
             self.check_order(qualifier, row, &mut last);
@@ -157,16 +157,16 @@ impl Analyzer<'_> {
         record
     }
 
-    fn check_place(&mut self, qualifier: &Qualifier, row: &ClassRow, place: Place) -> bool {
-        if row.places.contains(&place) {
+    fn check_context(&mut self, qualifier: &Qualifier, row: &ClassRow, context: DeclarationContext) -> bool {
+        if row.contexts.contains(&context) {
             return true;
         }
-        let (what, place_name) = (row.what, place.name());
+        let (what, context_name) = (row.what, context.name());
         self.report(
             Diagnostic::new(
                 &qualifiers::MISPLACED,
                 qualifier.span,
-                format!("{what} may not stand before {place_name}"),
+                format!("{what} is not allowed before {context_name}"),
             )
             .here("not allowed here")
             .help("remove it"),
@@ -182,7 +182,7 @@ impl Analyzer<'_> {
             if wrong && !self.allows_420pack(qualifier.span) {
                 let what = row.what;
                 self.report(
-                    Diagnostic::new(&qualifiers::ORDER, qualifier.span, format!("{what} stands too late"))
+                    Diagnostic::new(&qualifiers::ORDER, qualifier.span, format!("{what} comes too late"))
                         .here("must come earlier")
                         .label(other.span, "before this")
                         .help(
@@ -253,7 +253,7 @@ impl Analyzer<'_> {
 
     fn repeated(&mut self, code: &'static Code, first: Span, second: Span, what: &str) {
         self.report(
-            Diagnostic::new(code, second, format!("{what} stands twice in one declaration"))
+            Diagnostic::new(code, second, format!("{what} occurs twice in one declaration"))
                 .here("one too many")
                 .label(first, "the first one"),
         );

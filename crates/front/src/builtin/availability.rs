@@ -1,7 +1,7 @@
-//! [`Availability`]: for which language and stage a built-in exists.
+//! [`Availability`]: the languages and stages in which a built-in exists.
 //!
-//! *In:* the version, profile and extensions that hold at a place in a text, and its stage. *Out:* yes or no. Nothing
-//! else in glisten compares version numbers.
+//! *In:* the version, profile and extensions at a position in a text, and its stage. *Out:* yes or no. Nothing else
+//! in glisten compares version numbers.
 
 use crate::language::Stage;
 use crate::language::{Extensions, Profile, Version};
@@ -20,7 +20,7 @@ bitflags::bitflags! {
 }
 
 impl Stages {
-    /// Whether the stage is among them.
+    /// Whether the set contains the stage.
     pub fn has(self, stage: Stage) -> bool {
         self.contains(match stage {
             Stage::Vertex => Self::VERTEX,
@@ -30,21 +30,21 @@ impl Stages {
     }
 }
 
-/// For which language and stage a built-in exists.
+/// The languages and stages in which a built-in exists.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Availability {
-    /// The first version that has it without an extension; `u16::MAX` if none has.
+    /// The first version that has it without an extension; `u16::MAX` if there is none.
     pub since: u16,
-    /// Any one of these brings it to older versions.
+    /// Extensions, each of which adds it to older versions.
     pub extensions: Extensions,
     /// Whether the core profile lacks it.
     pub compatibility_only: bool,
-    /// Where it may be named.
+    /// The stages in which it may be named.
     pub stages: Stages,
 }
 
 impl Availability {
-    /// In every stage from a version on.
+    /// In every stage, from a version.
     pub const fn since(version: u16) -> Self {
         Self { since: version, extensions: Extensions::empty(), compatibility_only: false, stages: Stages::all() }
     }
@@ -54,25 +54,25 @@ impl Availability {
         Self { since: u16::MAX, extensions, compatibility_only: false, stages: Stages::all() }
     }
 
-    /// The same for some stages alone.
+    /// Restricts it to some stages.
     #[must_use]
     pub const fn stages(self, stages: Stages) -> Self {
         Self { stages, ..self }
     }
 
-    /// The same, and in older versions by an extension.
+    /// Adds it to older versions with an extension.
     #[must_use]
     pub const fn or(self, extensions: Extensions) -> Self {
         Self { extensions, ..self }
     }
 
-    /// Whether a text of this language has it, in whatever stage.
+    /// Whether it exists in this language, in any stage.
     pub fn in_language(self, version: Version, extensions: Extensions) -> bool {
         let profile = !self.compatibility_only || version.profile == Profile::Compatibility;
         profile && (version.number >= self.since || self.extensions.intersects(extensions))
     }
 
-    /// Whether a text of this language and stage has it.
+    /// Whether it exists in this language and stage.
     pub fn holds(self, version: Version, extensions: Extensions, stage: Stage) -> bool {
         self.stages.has(stage) && self.in_language(version, extensions)
     }

@@ -1,4 +1,4 @@
-//! The built-in constants (GLSL 1.50 §7.4), each with the least value that an implementation may have.
+//! The built-in constants (GLSL 1.50 §7.4), each with the smallest value that an implementation may have.
 
 use super::Availability;
 use crate::language::{Extensions, Version};
@@ -8,11 +8,11 @@ use crate::language::{Extensions, Version};
 pub struct Constant {
     /// `gl_MaxVertexAttribs`
     pub name: &'static str,
-    /// The least value that §7.4 allows; glisten's own, too.
+    /// The smallest value that §7.4 allows, which is also glisten's.
     pub value: i32,
-    /// Where it exists.
+    /// The languages in which it exists.
     pub availability: Availability,
-    /// Where the value is stated.
+    /// The section that defines the value.
     pub section: &'static str,
 }
 
@@ -53,7 +53,7 @@ pub const MAX_CLIP_DISTANCES: u32 = 8;
 /// `max_vertices` of a geometry shader.
 pub const MAX_GEOMETRY_OUTPUT_VERTICES: u32 = 256;
 
-/// All of them.
+/// All constants.
 pub static CONSTANTS: &[Constant] = &[
     row("gl_MaxVertexAttribs", MAX_VERTEX_ATTRIBS as i32, 110),
     row("gl_MaxVertexUniformComponents", MAX_UNIFORM_COMPONENTS as i32, 110),
@@ -81,7 +81,7 @@ pub static CONSTANTS: &[Constant] = &[
     pack420("gl_MaxProgramTexelOffset", 7),
 ];
 
-/// The constant of a name in a language.
+/// The constant with a name in a language.
 pub fn named(name: &str, version: Version, extensions: Extensions) -> Option<&'static Constant> {
     CONSTANTS.iter().find(|row| row.name == name && row.availability.in_language(version, extensions))
 }

@@ -1,13 +1,16 @@
-//! What the language has built in, as tables: functions (GLSL 1.50 §8), variables and constants (§7).
+//! The built-in names of the language as tables: functions (GLSL 1.50 §8), variables and constants (§7).
 //!
-//! *In:* nothing. *Out:* the identities [`BuiltinFunction`] and [`BuiltinVariable`], which every phase matches without
-//! a wildcard, and the tables that say for which versions, profiles, stages and types each exists.
+//! *In:* nothing. *Out:* the identities [`BuiltinFunction`] and [`BuiltinVariable`], which every phase matches
+//! without a wildcard; tables with the versions, profiles, stages and types in which each exists; and the definition
+//! of each operation ([`operations`]).
 
 mod availability;
 pub mod constants;
 pub mod functions;
 mod ids;
+pub mod operations;
 pub mod variables;
 
 pub use availability::{Availability, Stages};
-pub use ids::{BuiltinFunction, BuiltinVariable};
+pub use ids::BuiltinVariable;
+pub use operations::BuiltinFunction;

@@ -1,7 +1,7 @@
-//! The built-in variables (GLSL 1.50 §7.1, §7.2, §7.5) as a table: one [`Row`] a variable and direction.
+//! The built-in variables (GLSL 1.50 §7.1, §7.2, §7.5) as a table, with one [`Row`] for each variable and direction.
 //!
-//! *In:* a name, a language and a stage. *Out:* the variable's identity, storage and type. *Not done here:* the sizes of
-//! `gl_ClipDistance` and `gl_in`, which redeclaration, use or the input primitive give.
+//! *In:* a name, a language and a stage. *Out:* the variable's identity, storage and type. *Not done here:* the sizes
+//! of `gl_ClipDistance` and `gl_in`, which follow from redeclarations, uses or the input primitive.
 
 use super::{Availability, BuiltinVariable, Stages, constants};
 use crate::language::{
@@ -18,27 +18,27 @@ pub enum VariableType {
     UnsizedFloats,
     /// `vec4[n]` (`gl_FragData`).
     Vec4s(u32),
-    /// The struct behind `in gl_PerVertex { .. } gl_in[]`, in an unsized array.
+    /// The struct of `in gl_PerVertex { .. } gl_in[]`, in an unsized array.
     PerVertexArray,
     /// `struct gl_DepthRangeParameters { float near, far, diff; }`
     DepthRange,
 }
 
-/// What a shader may declare anew.
+/// The properties that a redeclaration may change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Redeclaration {
-    /// Nothing; `invariant` apart, where the variable is an output or a fragment input.
+    /// None. `invariant` is still allowed if the variable is an output or a fragment input.
     No,
-    /// With a size.
+    /// The size.
     Size,
-    /// With layout qualifiers.
+    /// The layout qualifiers.
     Layout,
 }
 
 /// A built-in variable in one direction.
 #[derive(Clone, Copy, Debug)]
 pub struct Row {
-    /// Which.
+    /// The identity of the variable.
     pub variable: BuiltinVariable,
     /// Its name in GLSL.
     pub name: &'static str,
@@ -46,9 +46,9 @@ pub struct Row {
     pub storage: Storage,
     /// Its type.
     pub ty: VariableType,
-    /// Where it exists.
+    /// The languages and stages in which it exists.
     pub availability: Availability,
-    /// What a shader may declare anew.
+    /// The properties that a redeclaration may change.
     pub redeclaration: Redeclaration,
     /// Whether it is a member of `gl_PerVertex`, which ARB_separate_shader_objects and 1.50 let a shader redeclare.
     pub per_vertex: bool,
@@ -93,7 +93,7 @@ impl Row {
         Self { deprecated: true, ..self }
     }
 
-    /// The type, built anew for the two that are structs.
+    /// The type. The two structs are created at each call.
     pub fn make_type(&self, types: &mut Types) -> TypeId {
         match self.ty {
             VariableType::Plain(ty) => ty,
@@ -145,7 +145,7 @@ const INSTANCING: Availability = Availability::extension(Extensions::DRAW_INSTAN
 use BuiltinVariable as V;
 use Storage::{In, Out, Uniform};
 
-/// All of them.
+/// All variables.
 pub static VARIABLES: &[Row] = &[
     Row::new(V::Position, "gl_Position", Out, VEC4).at(110, WRITERS).per_vertex(),
     Row::new(V::PointSize, "gl_PointSize", Out, FLOAT).at(110, WRITERS).per_vertex(),
@@ -181,7 +181,7 @@ pub static VARIABLES: &[Row] = &[
     Row { section: "§7.5", ..Row::new(V::DepthRange, "gl_DepthRange", Uniform, VariableType::DepthRange) },
 ];
 
-/// The variable of a name in a language and stage.
+/// The variable with a name in a language and stage.
 pub fn named(name: &str, version: Version, extensions: Extensions, stage: Stage) -> Option<&'static Row> {
     in_stage(version, extensions, stage).find(|row| row.name == name)
 }
@@ -191,7 +191,7 @@ pub fn in_stage(version: Version, extensions: Extensions, stage: Stage) -> impl 
     VARIABLES.iter().filter(move |row| row.availability.holds(version, extensions, stage))
 }
 
-/// The stages that have a variable of this name, for the message about one that lacks it.
+/// The stages that have a variable with this name, for the message in a stage that lacks it.
 pub fn stages_with(name: &str) -> impl Iterator<Item = Stage> {
     Stage::ALL
         .into_iter()

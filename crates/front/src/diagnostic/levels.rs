@@ -10,7 +10,7 @@ use super::{Code, Diagnostic, Severity, codes};
 use crate::source::SourceMap;
 use std::collections::BTreeMap;
 
-/// What happens to a warning.
+/// The treatment of a warning.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Level {
     /// It is dropped.
@@ -52,8 +52,16 @@ impl Levels {
         Self { by_code, deny_warnings: self.deny_warnings || base.deny_warnings }
     }
 
+    /// Gives a diagnostic its severity under these levels; `false` if it is to be dropped. The only place where levels and
+    /// comments in the text are applied.
+    pub fn apply(&self, sources: &SourceMap, diagnostic: &mut Diagnostic) -> bool {
+        let severity = self.severity(sources, diagnostic);
+        diagnostic.severity = severity.unwrap_or(diagnostic.severity);
+        severity.is_some()
+    }
+
     /// The severity of a diagnostic under these levels, or `None` if it is dropped.
-    pub fn judge(&self, sources: &SourceMap, diagnostic: &Diagnostic) -> Option<Severity> {
+    fn severity(&self, sources: &SourceMap, diagnostic: &Diagnostic) -> Option<Severity> {
         if diagnostic.severity == Severity::Error {
             return Some(Severity::Error);
         }
@@ -116,14 +124,14 @@ mod tests {
     fn a_code_beats_deny_warnings_and_errors_stay() {
         let (sources, warning) = warning_on_line("int x;\n", 1);
         let mut levels = Levels::default();
-        assert_eq!(levels.judge(&sources, &warning), Some(Severity::Warning));
+        assert_eq!(levels.severity(&sources, &warning), Some(Severity::Warning));
         levels.deny_warnings();
-        assert_eq!(levels.judge(&sources, &warning), Some(Severity::Error));
+        assert_eq!(levels.severity(&sources, &warning), Some(Severity::Error));
         levels.set(&LONE_STAGE, Level::Warn);
-        assert_eq!(levels.judge(&sources, &warning), Some(Severity::Warning));
+        assert_eq!(levels.severity(&sources, &warning), Some(Severity::Warning));
         levels.set(&TOO_DEEP, Level::Allow);
         let error = Diagnostic::new(&TOO_DEEP, warning.primary.span, "deep");
-        assert_eq!(levels.judge(&sources, &error), Some(Severity::Error));
+        assert_eq!(levels.severity(&sources, &error), Some(Severity::Error));
     }
 
     #[test]
@@ -136,7 +144,7 @@ mod tests {
             ("int x; // glisten: allow(W0001\n", 1, false),
         ] {
             let (sources, warning) = warning_on_line(text, line);
-            assert_eq!(Levels::default().judge(&sources, &warning).is_none(), dropped, "{text}");
+            assert_eq!(Levels::default().severity(&sources, &warning).is_none(), dropped, "{text}");
         }
     }
 }

@@ -63,7 +63,7 @@ pub struct Diagnostic {
     pub secondary: Vec<Label>,
     /// Facts that need no span.
     pub notes: Vec<String>,
-    /// What to do about it.
+    /// Advice: what to do about it.
     pub help: Option<String>,
     /// The line number that a `#line` directive gave to the primary span, if there is one.
     pub presented_line: Option<u32>,

@@ -54,11 +54,6 @@ impl Diagnostics {
         self.list.iter()
     }
 
-    /// All diagnostics, to change severities by the user's levels.
-    pub fn iter_mut(&mut self) -> std::slice::IterMut<'_, Diagnostic> {
-        self.list.iter_mut()
-    }
-
     /// The number of diagnostics kept.
     pub fn len(&self) -> usize {
         self.list.len()
@@ -69,10 +64,9 @@ impl Diagnostics {
         self.list.is_empty()
     }
 
-    /// Keeps the diagnostics for which `keep` returns true, and counts the errors again (`severity` may have
-    /// changed).
-    pub fn retain(&mut self, keep: impl FnMut(&Diagnostic) -> bool) {
-        self.list.retain(keep);
+    /// Keeps the diagnostics that `keep` wants, which may change their severity, and counts the errors again.
+    pub fn retain_mut(&mut self, keep: impl FnMut(&mut Diagnostic) -> bool) {
+        self.list.retain_mut(keep);
         self.errors = self.list.iter().filter(|diagnostic| diagnostic.severity == Severity::Error).count();
     }
 

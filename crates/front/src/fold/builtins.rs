@@ -1,113 +1,42 @@
-//! Built-in functions (§8.1 to §8.6) of constants: computed in f64, rounded once to f32.
+//! Evaluates built-in functions (§8.1 to §8.6) of constants: computed in f64 by the kernels of the table of
+//! operations, and rounded once to f32.
+//!
+//! *Holds:* a value equals the reference's f32 result bit for bit. A test of the reference runs both over all
+//! functions and special values.
 
 use super::operators::{as_float, componentwise};
 use super::{Held, Operand, Scalars};
-use crate::builtin::BuiltinFunction as F;
+use crate::builtin::BuiltinFunction;
+use crate::builtin::operations::{
+    Binary, BooleanFunction, Class, Composite, MatrixFunction, Numbers, Relation, Ternary, Test, Unary,
+};
 use crate::hir::{ScalarValue, Type, TypeId, Types};
 use ScalarValue::{Bool, Float, Int, Uint};
 
 /// The value of a call with constant arguments; `None` for functions that are never constant.
-pub(super) fn call(types: &Types, function: F, ty: TypeId, operands: &[Operand<'_>]) -> Option<Scalars> {
+pub(super) fn call(types: &Types, function: BuiltinFunction, ty: TypeId, operands: &[Operand<'_>]) -> Option<Scalars> {
     let arguments = Arguments { types, operands };
-    match function {
-        F::Radians => arguments.map(f64::to_radians),
-        F::Degrees => arguments.map(f64::to_degrees),
-        F::Sin => arguments.map(f64::sin),
-        F::Cos => arguments.map(f64::cos),
-        F::Tan => arguments.map(f64::tan),
-        F::Asin => arguments.map(f64::asin),
-        F::Acos => arguments.map(f64::acos),
-        F::Atan if operands.len() == 2 => arguments.map2(f64::atan2),
-        F::Atan => arguments.map(f64::atan),
-        F::Sinh => arguments.map(f64::sinh),
-        F::Cosh => arguments.map(f64::cosh),
-        F::Tanh => arguments.map(f64::tanh),
-        F::Asinh => arguments.map(f64::asinh),
-        F::Acosh => arguments.map(f64::acosh),
-        F::Atanh => arguments.map(f64::atanh),
-        F::Pow => arguments.map2(f64::powf),
-        F::Exp => arguments.map(f64::exp),
-        F::Log => arguments.map(f64::ln),
-        F::Exp2 => arguments.map(f64::exp2),
-        F::Log2 => arguments.map(f64::log2),
-        F::Sqrt => arguments.map(f64::sqrt),
-        F::Inversesqrt => arguments.map(|x| 1.0 / x.sqrt()),
-        F::Abs => arguments.each(abs),
-        F::Sign => arguments.each(sign),
-        F::Floor => arguments.map(f64::floor),
-        F::Trunc => arguments.map(f64::trunc),
-        F::Round | F::RoundEven => arguments.map(f64::round_ties_even),
-        F::Ceil => arguments.map(f64::ceil),
-        F::Fract => arguments.map(|x| x - x.floor()),
-        F::Mod => arguments.map2(|x, y| x - y * (x / y).floor()),
-        F::Min => arguments.pick(0, 1, |x, y| less(y, x)),
-        F::Max => arguments.pick(0, 1, less),
-        F::Clamp => arguments.clamp(),
-        F::Mix => arguments.mix(),
-        F::Step => arguments.map2(|edge, x| if x < edge { 0.0 } else { 1.0 }),
-        F::Smoothstep => arguments.map3(smoothstep),
-        F::Isnan => arguments.each(|x| Some(Bool(as_float(&x)?.is_nan()))),
-        F::Isinf => arguments.each(|x| Some(Bool(as_float(&x)?.is_infinite()))),
-        F::Length => float(norm(&arguments.vector(0)?)),
-        F::Distance => float(norm(&difference(&arguments.vector(0)?, &arguments.vector(1)?))),
-        F::Dot => float(dot(&arguments.vector(0)?, &arguments.vector(1)?)),
-        F::Cross => floats(&cross(&arguments.vector(0)?, &arguments.vector(1)?)?),
-        F::Normalize => {
-            let x = arguments.vector(0)?;
-            let length = norm(&x);
-            floats(&x.iter().map(|component| component / length).collect::<Vec<_>>())
-        }
-        F::Faceforward => {
-            let flip = dot(&arguments.vector(2)?, &arguments.vector(1)?) < 0.0;
-            let sign = if flip { 1.0 } else { -1.0 };
-            floats(&arguments.vector(0)?.iter().map(|n| sign * n).collect::<Vec<_>>())
-        }
-        F::Reflect => {
-            let (incident, normal) = (arguments.vector(0)?, arguments.vector(1)?);
-            let twice = 2.0 * dot(&normal, &incident);
-            floats(&incident.iter().zip(&normal).map(|(i, n)| i - twice * n).collect::<Vec<_>>())
-        }
-        F::Refract => arguments.refract(),
-        F::MatrixCompMult => arguments.map2(|x, y| x * y),
-        F::OuterProduct => {
+    match function.class() {
+        Class::Unary(op) => arguments.map(op),
+        Class::Binary(op) => arguments.map2(op),
+        Class::Ternary(op) => arguments.map3(op),
+        Class::Numbers(op) => arguments.numbers(op),
+        Class::Composite(op) => arguments.composite(op),
+        Class::Matrix(MatrixFunction::ComponentProduct) => arguments.map2(Binary::Mul),
+        Class::Matrix(MatrixFunction::OuterProduct) => {
             let (column, row) = (arguments.vector(0)?, arguments.vector(1)?);
             floats(&row.iter().flat_map(|r| column.iter().map(move |c| c * r)).collect::<Vec<_>>())
         }
-        F::Transpose => arguments.transpose(),
-        F::Determinant => float(determinant(&arguments.square(0)?)),
-        F::Inverse => floats(&inverse(&arguments.square(0)?)),
-        F::LessThan => arguments.compare(less),
-        F::LessThanEqual => arguments.compare(|x, y| Some(less(x, y)? || x == y)),
-        F::GreaterThan => arguments.compare(|x, y| less(y, x)),
-        F::GreaterThanEqual => arguments.compare(|x, y| Some(less(y, x)? || x == y)),
-        F::Equal => arguments.compare(|x, y| Some(x == y)),
-        F::NotEqual => arguments.compare(|x, y| Some(x != y)),
-        F::Any => one(Bool(operands.first()?.scalars.contains(&Bool(true)))),
-        F::All => one(Bool(!operands.first()?.scalars.contains(&Bool(false)))),
-        F::Not => arguments.each(|x| if let Bool(x) = x { Some(Bool(!x)) } else { None }),
-        F::DFdx | F::DFdy | F::Fwidth => Some(Scalars::from_elem(Float(0.0), types.flat_len(ty) as usize)),
-        F::Modf
-        | F::TextureSize
-        | F::Texture
-        | F::TextureProj
-        | F::TextureLod
-        | F::TextureOffset
-        | F::TexelFetch
-        | F::TexelFetchOffset
-        | F::TextureProjOffset
-        | F::TextureLodOffset
-        | F::TextureProjLod
-        | F::TextureProjLodOffset
-        | F::TextureGrad
-        | F::TextureGradOffset
-        | F::TextureProjGrad
-        | F::TextureProjGradOffset
-        | F::Noise1
-        | F::Noise2
-        | F::Noise3
-        | F::Noise4
-        | F::EmitVertex
-        | F::EndPrimitive => None,
+        Class::Matrix(MatrixFunction::Transpose) => arguments.transpose(),
+        Class::Relation(op) => arguments.relation(op),
+        Class::Boolean(BooleanFunction::Any) => one(Bool(operands.first()?.scalars.contains(&Bool(true)))),
+        Class::Boolean(BooleanFunction::All) => one(Bool(!operands.first()?.scalars.contains(&Bool(false)))),
+        Class::Boolean(BooleanFunction::Not) => arguments.each(|x| if let Bool(x) = x { Some(Bool(!x)) } else { None }),
+        Class::Test(Test::Nan) => arguments.each(|x| Some(Bool(as_float(&x)?.is_nan()))),
+        Class::Test(Test::Infinite) => arguments.each(|x| Some(Bool(as_float(&x)?.is_infinite()))),
+        // Zero in a constant expression (§4.3.3).
+        Class::Derivative(_) => Some(Scalars::from_elem(Float(0.0), types.flat_len(ty) as usize)),
+        Class::Modf | Class::Noise(_) | Class::Texture(_) | Class::Emission(_) => None,
     }
 }
 
@@ -125,22 +54,22 @@ impl Arguments<'_> {
         self.operand(0)?.scalars.iter().map(|&scalar| f(scalar)).collect()
     }
 
-    fn map(&self, f: impl Fn(f64) -> f64) -> Option<Scalars> {
-        self.each(|x| Some(Float(f(f64::from(as_float(&x)?)) as f32)))
+    fn map(&self, op: Unary) -> Option<Scalars> {
+        self.each(|x| Some(Float(op.of(f64::from(as_float(&x)?)) as f32)))
     }
 
-    fn map2(&self, f: impl Fn(f64, f64) -> f64) -> Option<Scalars> {
+    fn map2(&self, op: Binary) -> Option<Scalars> {
         componentwise(self.operand(0)?, self.operand(1)?, |x, y| {
-            Some(Float(f(f64::from(as_float(&x)?), f64::from(as_float(&y)?)) as f32))
+            Some(Float(op.of(f64::from(as_float(&x)?), f64::from(as_float(&y)?)) as f32))
         })
     }
 
-    /// Of three arguments, of which some may be scalars beside vectors.
-    fn map3(&self, f: impl Fn(f64, f64, f64) -> f64) -> Option<Scalars> {
+    /// Applies a function of three arguments, some of which may be scalars combined with vectors.
+    fn map3(&self, op: Ternary) -> Option<Scalars> {
         let len = self.operands.iter().map(|operand| operand.scalars.len()).max()?;
         (0..len)
             .map(|index| {
-                let value = f(self.component(0, index)?, self.component(1, index)?, self.component(2, index)?);
+                let value = op.of(self.component(0, index)?, self.component(1, index)?, self.component(2, index)?);
                 Some(Float(value as f32))
             })
             .collect()
@@ -152,29 +81,84 @@ impl Arguments<'_> {
         as_float(value).map(f64::from)
     }
 
-    /// `y` where `second(x, y)` holds, else `x`.
-    fn pick(&self, x: usize, y: usize, second: impl Fn(ScalarValue, ScalarValue) -> Option<bool>) -> Option<Scalars> {
-        componentwise(self.operand(x)?, self.operand(y)?, |x, y| Some(if second(x, y)? { y } else { x }))
+    /// Whether the first argument consists of floats.
+    fn of_floats(&self) -> Option<bool> {
+        Some(matches!(self.operand(0)?.scalars.first()?, Float(_)))
     }
 
-    /// `min(max(x, minVal), maxVal)`
-    fn clamp(&self) -> Option<Scalars> {
-        let above = Operand { ty: self.operand(0)?.ty, scalars: Held::Own(self.pick(0, 1, less)?) };
-        componentwise(&above, self.operand(2)?, |x, y| Some(if less(y, x)? { y } else { x }))
+    fn numbers(&self, op: Numbers) -> Option<Scalars> {
+        let floats = self.of_floats()?;
+        match op {
+            Numbers::Atan if self.operands.len() == 2 => self.map2(Binary::Atan2),
+            Numbers::Atan => self.map(Unary::Atan),
+            Numbers::Abs if floats => self.map(Unary::Abs),
+            Numbers::Abs => self.each(|x| if let Int(x) = x { Some(Int(x.wrapping_abs())) } else { None }),
+            Numbers::Sign if floats => self.map(Unary::Sign),
+            Numbers::Sign => self.each(|x| if let Int(x) = x { Some(Int(x.signum())) } else { None }),
+            Numbers::Min if floats => self.map2(Binary::Min),
+            Numbers::Min => componentwise(self.operand(0)?, self.operand(1)?, least),
+            Numbers::Max if floats => self.map2(Binary::Max),
+            Numbers::Max => componentwise(self.operand(0)?, self.operand(1)?, greatest),
+            Numbers::Clamp if floats => self.map3(Ternary::Clamp),
+            Numbers::Clamp => {
+                let raised = componentwise(self.operand(0)?, self.operand(1)?, greatest)?;
+                let raised = Operand { ty: self.operand(0)?.ty, scalars: Held::Own(raised) };
+                componentwise(&raised, self.operand(2)?, least)
+            }
+            Numbers::Mix => self.mix(),
+        }
     }
 
     fn mix(&self) -> Option<Scalars> {
         let chooses = matches!(self.operand(2)?.scalars.first(), Some(Bool(_)));
         if !chooses {
-            return self.map3(|x, y, a| x * (1.0 - a) + y * a);
+            return self.map3(Ternary::Mix);
         }
         let (x, y, a) = (self.operand(0)?, self.operand(1)?, self.operand(2)?);
         let pairs = x.scalars.iter().zip(&*y.scalars);
         Some(pairs.zip(&*a.scalars).map(|((x, y), a)| if *a == Bool(true) { *y } else { *x }).collect())
     }
 
-    fn compare(&self, f: impl Fn(ScalarValue, ScalarValue) -> Option<bool>) -> Option<Scalars> {
-        componentwise(self.operand(0)?, self.operand(1)?, |x, y| f(x, y).map(Bool))
+    fn relation(&self, op: Relation) -> Option<Scalars> {
+        componentwise(self.operand(0)?, self.operand(1)?, |x, y| {
+            Some(Bool(match op {
+                Relation::Less => less(x, y)?,
+                Relation::LessEqual => less(x, y)? || x == y,
+                Relation::Greater => less(y, x)?,
+                Relation::GreaterEqual => less(y, x)? || x == y,
+                Relation::Equal => x == y,
+                Relation::NotEqual => x != y,
+            }))
+        })
+    }
+
+    fn composite(&self, op: Composite) -> Option<Scalars> {
+        let x = self.vector(0)?;
+        match op {
+            Composite::Length => float(dot(&x, &x).sqrt()),
+            Composite::Distance => {
+                let gap: Vec<f64> = x.iter().zip(&self.vector(1)?).map(|(x, y)| x - y).collect();
+                float(dot(&gap, &gap).sqrt())
+            }
+            Composite::Dot => float(dot(&x, &self.vector(1)?)),
+            Composite::Cross => floats(&cross(&x, &self.vector(1)?)?),
+            Composite::Normalize => {
+                let scale = Unary::Inversesqrt.of(dot(&x, &x));
+                floats(&x.iter().map(|component| component * scale).collect::<Vec<_>>())
+            }
+            Composite::Faceforward => {
+                let keeps = dot(&self.vector(2)?, &self.vector(1)?) < 0.0;
+                floats(&x.iter().map(|n| if keeps { *n } else { -n }).collect::<Vec<_>>())
+            }
+            Composite::Reflect => {
+                let normal = self.vector(1)?;
+                let twice = dot(&normal, &x) * 2.0;
+                floats(&x.iter().zip(&normal).map(|(i, n)| i - twice * n).collect::<Vec<_>>())
+            }
+            Composite::Refract => self.refract(),
+            Composite::Determinant => float(determinant(&self.square(0)?)),
+            Composite::Inverse => floats(&inverse(&self.square(0)?)),
+        }
     }
 
     fn vector(&self, index: usize) -> Option<Vec<f64>> {
@@ -188,7 +172,7 @@ impl Arguments<'_> {
         if k < 0.0 {
             return floats(&vec![0.0; incident.len()]);
         }
-        let along = eta * cosine + k.sqrt();
+        let along = eta * cosine + Binary::Max.of(k, 0.0).sqrt();
         floats(&incident.iter().zip(&normal).map(|(i, n)| eta * i - along * n).collect::<Vec<_>>())
     }
 
@@ -220,20 +204,14 @@ fn floats(values: &[f64]) -> Option<Scalars> {
     Some(values.iter().map(|&value| Float(value as f32)).collect())
 }
 
-fn abs(value: ScalarValue) -> Option<ScalarValue> {
-    match value {
-        Int(x) => Some(Int(x.wrapping_abs())),
-        Float(x) => Some(Float(x.abs())),
-        Bool(_) | Uint(_) => None,
-    }
+/// The smaller of two integers.
+fn least(x: ScalarValue, y: ScalarValue) -> Option<ScalarValue> {
+    Some(if less(y, x)? { y } else { x })
 }
 
-fn sign(value: ScalarValue) -> Option<ScalarValue> {
-    match value {
-        Int(x) => Some(Int(x.signum())),
-        Float(x) => Some(Float(f32::from(i8::from(x > 0.0) - i8::from(x < 0.0)))),
-        Bool(_) | Uint(_) => None,
-    }
+/// The larger of two integers.
+fn greatest(x: ScalarValue, y: ScalarValue) -> Option<ScalarValue> {
+    Some(if less(x, y)? { y } else { x })
 }
 
 fn less(x: ScalarValue, y: ScalarValue) -> Option<bool> {
@@ -245,21 +223,9 @@ fn less(x: ScalarValue, y: ScalarValue) -> Option<bool> {
     }
 }
 
-fn smoothstep(edge0: f64, edge1: f64, x: f64) -> f64 {
-    let t = ((x - edge0) / (edge1 - edge0)).clamp(0.0, 1.0);
-    t * t * (3.0 - 2.0 * t)
-}
-
+/// The dot product, summed from left to right.
 fn dot(x: &[f64], y: &[f64]) -> f64 {
-    x.iter().zip(y).map(|(x, y)| x * y).sum()
-}
-
-fn norm(x: &[f64]) -> f64 {
-    dot(x, x).sqrt()
-}
-
-fn difference(x: &[f64], y: &[f64]) -> Vec<f64> {
-    x.iter().zip(y).map(|(x, y)| x - y).collect()
+    x.iter().zip(y).map(|(x, y)| x * y).reduce(|sum, term| sum + term).unwrap_or(0.0)
 }
 
 fn cross(x: &[f64], y: &[f64]) -> Option<[f64; 3]> {
@@ -267,16 +233,19 @@ fn cross(x: &[f64], y: &[f64]) -> Option<[f64; 3]> {
     Some([x1 * y2 - y1 * x2, x2 * y0 - y2 * x0, x0 * y1 - y0 * x1])
 }
 
-/// By cofactors of the first column; `columns` is square, 1 to 4 wide.
+/// The determinant by cofactors of the first column; `columns` is square, 1 to 4 wide. The order of the operations is
+/// that of the reference.
 fn determinant(columns: &[Vec<f64>]) -> f64 {
     match columns {
         [] => 1.0,
+        [only] => only.first().copied().unwrap_or(1.0),
+        [first, second] => match (first.as_slice(), second.as_slice()) {
+            ([a, b], [c, d]) => a * d - c * b,
+            _ => f64::NAN,
+        },
         [first, ..] => {
-            let terms = first.iter().enumerate().map(|(row, value)| {
-                let sign = if row % 2 == 0 { 1.0 } else { -1.0 };
-                sign * value * determinant(&minor(columns, 0, row))
-            });
-            terms.sum()
+            let term = |row: usize| first.get(row).copied().unwrap_or(f64::NAN) * determinant(&minor(columns, 0, row));
+            (1..first.len()).fold(term(0), |sum, row| if row % 2 == 1 { sum - term(row) } else { sum + term(row) })
         }
     }
 }
@@ -290,15 +259,16 @@ fn minor(columns: &[Vec<f64>], without_column: usize, without_row: usize) -> Vec
     columns.iter().enumerate().filter(keep_column).map(keep_rows).collect()
 }
 
-/// The adjugate over the determinant, by columns.
+/// The inverse: the adjugate divided by the determinant, by columns.
 fn inverse(columns: &[Vec<f64>]) -> Vec<f64> {
     let size = columns.len();
     let determinant_of_all = determinant(columns);
     let mut result = Vec::with_capacity(size * size);
     for column in 0..size {
         for row in 0..size {
-            let sign = if (column + row) % 2 == 0 { 1.0 } else { -1.0 };
-            result.push(sign * determinant(&minor(columns, row, column)) / determinant_of_all);
+            let cofactor = determinant(&minor(columns, row, column));
+            let signed = if (column + row) % 2 == 1 { -cofactor } else { cofactor };
+            result.push(signed / determinant_of_all);
         }
     }
     result

@@ -1,4 +1,4 @@
-//! Constructors (§5.4) of constants, in the normal forms of [`ConstructKind`].
+//! Evaluates constructors (§5.4) of constants, in the normal forms of [`ConstructKind`].
 
 use super::{Operand, Scalars};
 use crate::hir::{ConstructKind, ScalarValue, Type, TypeId, Types};

@@ -1,18 +1,21 @@
-//! Exact evaluation of constant expressions (GLSL 1.50 §4.3.3).
+//! Evaluates constant expressions exactly (GLSL 1.50 §4.3.3).
 //!
-//! *In:* an expression of the typed program. *Out:* its value, or `None` if it is not constant. *Holds:* integers wrap
-//! at 32 bits; each operator on floats rounds once to f32, each built-in function is computed in f64 and rounded once,
-//! so the value is the same on every machine. What the specification leaves undefined is defined here:
+//! *In:* an expression of the typed program. *Out:* its value, or `None` if it is not constant. *Holds:* integers
+//! wrap at 32 bits; each operator on floats rounds once to f32; each built-in function is computed in f64 and rounded
+//! once. So the value is the same on every machine. These cases are defined here because the specification leaves
+//! them undefined:
 //!
 //! | expression | value |
 //! | --- | --- |
-//! | integer `a / 0`, `a % 0` | `a`, `0` |
-//! | the least `int` divided by -1 | itself, remainder 0 |
-//! | shifts by 32 or more | by the lowest five bits |
-//! | `float` to an integer it does not fit | the nearest integer, 0 for NaN |
-//! | built-ins outside their domain | what IEEE arithmetic and C's library functions give |
+//! | integer `a / 0`, `a % 0` | all bits set, as on lavapipe |
+//! | the smallest `int` divided by -1 | itself, remainder 0 |
+//! | shifts by 32 or more | shifts by the lowest five bits |
+//! | `float` to an integer type that cannot represent it | the nearest integer, 0 for NaN |
+//! | built-in functions outside their domain | the result of the [kernels](crate::builtin::operations::kernel), as on
+//! the reference |
 //!
-//! The walk is a loop: chains of any length need no stack. *Not done here:* saying why something is not constant.
+//! The traversal is a loop, so chains of any length need no stack. *Not done here:* explaining why something is not
+//! constant.
 
 mod builtins;
 mod construct;
@@ -25,7 +28,7 @@ use std::cell::Cell;
 /// The scalars of a value in flat order.
 type Scalars = SmallVec<[ScalarValue; 4]>;
 
-/// What an evaluation knows.
+/// The inputs of an evaluation.
 struct Context<'a> {
     shader: &'a Shader,
     types: &'a Types,
@@ -37,10 +40,10 @@ enum Task {
     Apply(ExprId),
 }
 
-/// The scalars of a value under way.
+/// The scalars of an intermediate value.
 enum Held<'a> {
     Own(Scalars),
-    /// Those of a variable: an array of which one element is taken is not copied for it.
+    /// The scalars of a variable. An array is not copied to select one element.
     Lent(&'a [ScalarValue]),
 }
 
@@ -55,14 +58,14 @@ impl std::ops::Deref for Held<'_> {
     }
 }
 
-/// A value under way, with its type.
+/// An intermediate value with its type.
 struct Operand<'a> {
     ty: TypeId,
     scalars: Held<'a>,
 }
 
-/// The value of an expression if it is constant. `variables` gives the values of variables that count as constant beside
-/// global constants, which know their own: local constants, or what a specialization fixes.
+/// The value of an expression if it is constant. `variables` contains the values of variables that count as constant
+/// besides global constants: local constants, or those that a specialization fixes.
 pub fn evaluate<'a>(
     shader: &'a Shader,
     types: &'a Types,
@@ -72,7 +75,8 @@ pub fn evaluate<'a>(
     evaluate_within(shader, types, expr, variables, &Cell::new(u64::MAX))
 }
 
-/// The same with as many steps as `fuel` has left, about one a scalar read or made; `None` when they are spent.
+/// Evaluates like [`evaluate`], with at most `fuel` steps (about one per scalar read or written). Returns `None` if
+/// they do not suffice.
 pub(super) fn evaluate_within<'a>(
     shader: &'a Shader,
     types: &'a Types,
@@ -121,7 +125,7 @@ fn burn(fuel: &Cell<u64>, steps: u64) -> Option<()> {
     left.map(|_| ())
 }
 
-/// The steps of one operation: an element is taken without looking at the others, a member behind those before it.
+/// The steps of one operation. Selecting an element does not read the others; a member is read after those before it.
 fn cost(kind: &ExprKind, operands: &[Operand<'_>]) -> u64 {
     match kind {
         ExprKind::Index(..) | ExprKind::Swizzle(..) => 1,

@@ -1,10 +1,10 @@
-//! Conversions (§4.1.10, §5.4.1) and operators (§5.9) on constant scalars, vectors and matrices.
+//! Evaluates conversions (§4.1.10, §5.4.1) and operators (§5.9) on constant scalars, vectors and matrices.
 
 use super::{Operand, Scalars};
 use crate::hir::{BinaryOp, LogicalOp, Scalar, ScalarValue, Type, Types, UnaryOp};
 use ScalarValue::{Bool, Float, Int, Uint};
 
-/// A scalar as another scalar type. Between `int` and `uint` the bits stay.
+/// Converts a scalar to another scalar type. Between `int` and `uint` the bits are unchanged.
 pub(super) fn convert(value: ScalarValue, to: Scalar) -> ScalarValue {
     match (to, value) {
         (Scalar::Bool, Bool(a)) => Bool(a),
@@ -56,7 +56,7 @@ pub(super) fn binary(types: &Types, op: BinaryOp, left: &Operand<'_>, right: &Op
     }
 }
 
-/// Applies `f` to pairs of components; a scalar stands beside every component of the other operand.
+/// Applies `f` to pairs of components. A scalar is combined with every component of the other operand.
 pub(super) fn componentwise(
     left: &Operand<'_>,
     right: &Operand<'_>,
@@ -69,7 +69,7 @@ pub(super) fn componentwise(
     (0..len).map(|index| f(pick(&left.scalars, index)?, pick(&right.scalars, index)?)).collect()
 }
 
-/// As `==` has it: NaN differs from itself, -0 equals 0.
+/// Equality by `==`: NaN differs from itself, -0 equals 0.
 fn equal(left: &Operand<'_>, right: &Operand<'_>) -> bool {
     left.scalars.len() == right.scalars.len() && left.scalars.iter().zip(&*right.scalars).all(|(a, b)| a == b)
 }
@@ -106,8 +106,8 @@ fn int(op: BinaryOp, a: i32, b: i32) -> Option<ScalarValue> {
         BinaryOp::Add => Int(a.wrapping_add(b)),
         BinaryOp::Sub => Int(a.wrapping_sub(b)),
         BinaryOp::Mul => Int(a.wrapping_mul(b)),
-        BinaryOp::Div => Int(if b == 0 { a } else { a.wrapping_div(b) }),
-        BinaryOp::Rem => Int(if b == 0 { 0 } else { a.wrapping_rem(b) }),
+        BinaryOp::Div => Int(if b == 0 { -1 } else { a.wrapping_div(b) }),
+        BinaryOp::Rem => Int(if b == 0 { -1 } else { a.wrapping_rem(b) }),
         BinaryOp::Shl => Int(a.wrapping_shl(b as u32)),
         BinaryOp::Shr => Int(a.wrapping_shr(b as u32)),
         BinaryOp::BitAnd => Int(a & b),
@@ -126,8 +126,8 @@ fn uint(op: BinaryOp, a: u32, b: u32) -> Option<ScalarValue> {
         BinaryOp::Add => Uint(a.wrapping_add(b)),
         BinaryOp::Sub => Uint(a.wrapping_sub(b)),
         BinaryOp::Mul => Uint(a.wrapping_mul(b)),
-        BinaryOp::Div => Uint(a.checked_div(b).unwrap_or(a)),
-        BinaryOp::Rem => Uint(a.checked_rem(b).unwrap_or(0)),
+        BinaryOp::Div => Uint(a.checked_div(b).unwrap_or(u32::MAX)),
+        BinaryOp::Rem => Uint(a.checked_rem(b).unwrap_or(u32::MAX)),
         BinaryOp::Shl => Uint(a.wrapping_shl(b)),
         BinaryOp::Shr => Uint(a.wrapping_shr(b)),
         BinaryOp::BitAnd => Uint(a & b),
@@ -141,8 +141,8 @@ fn uint(op: BinaryOp, a: u32, b: u32) -> Option<ScalarValue> {
     })
 }
 
-/// Linear-algebraic multiplication: a vector on the left is a row, on the right a column. Products are added from the
-/// first on, each operation rounded.
+/// Linear-algebraic multiplication: a vector on the left is a row, on the right a column. Products are added in
+/// order, with each operation rounded.
 fn mat_mul(types: &Types, left: &Operand<'_>, right: &Operand<'_>) -> Option<Scalars> {
     let (inner, rows) = match types.get(left.ty) {
         Type::Matrix(columns, rows) => (columns, rows),
@@ -170,7 +170,7 @@ fn mat_mul(types: &Types, left: &Operand<'_>, right: &Operand<'_>) -> Option<Sca
     Some(result)
 }
 
-/// The number in a `float`.
+/// The number of a `float`.
 pub(super) fn as_float(value: &ScalarValue) -> Option<f32> {
     match value {
         Float(value) => Some(*value),

@@ -22,7 +22,7 @@ pub use crate::language::{
     StructId, StructType, Type, TypeId, Types,
 };
 pub use expr::{BinaryOp, ConstructKind, Expr, ExprId, ExprKind, IncDec, LogicalOp, Swizzle, UnaryOp, VarRef};
-pub use print::print;
+pub use print::{Notes, print, print_with};
 pub use shader::{
     BlockInfo, BlockLayout, FragCoordLayout, Function, FunctionId, GeometryLayout, Global, GlobalId, Local, LocalId,
     LocalKind, PerVertexOut, PrimitiveIn, PrimitiveOut, Shader,

@@ -1,7 +1,7 @@
-//! The vocabulary of the language: what every phase names.
+//! The vocabulary of the language, which all phases share.
 //!
-//! *In:* nothing but [`source`](crate::source). *Out:* stages, versions, types and operators. *Holds:* no phase is known
-//! here, so that tables of built-ins, the syntax tree and the typed program can all be written in these terms.
+//! *In:* nothing but [`source`](crate::source). *Out:* stages, versions, types and operators. *Holds:* no phase is
+//! known here, so that the tables of built-ins, the syntax tree and the typed program can all use these terms.
 
 mod operators;
 mod stage;

@@ -1,6 +1,6 @@
-//! Operators that the tree and the typed program share.
+//! The operators that the syntax tree and the typed program share.
 
-/// `++` and `--`, before or behind.
+/// `++` and `--`, prefix and postfix.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum IncDec {
     /// `++a`

@@ -1,4 +1,4 @@
-//! [`Stage`], and where a variable lives and how a parameter is passed in any of them.
+//! [`Stage`], and how variables are stored, interpolated and passed in each of them.
 
 /// A stage of the pipeline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -29,9 +29,9 @@ pub enum Interpolation {
     /// Perspective-correct.
     #[default]
     Smooth,
-    /// Linear in the window.
+    /// Linear in window space.
     Noperspective,
-    /// The provoking vertex's value.
+    /// The value at the provoking vertex.
     Flat,
 }
 
@@ -46,7 +46,7 @@ impl Interpolation {
     }
 }
 
-/// Where a global lives (§4.3).
+/// The storage of a global (§4.3).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Storage {
     /// `const`

@@ -101,6 +101,41 @@ impl SamplerType {
         list
     }
 
+    /// Coordinates that address a texel, without the layer.
+    pub fn dimensions(self) -> u8 {
+        match self.dim {
+            SamplerDim::D1 | SamplerDim::Buffer => 1,
+            SamplerDim::D2 | SamplerDim::Rect | SamplerDim::Multisample => 2,
+            SamplerDim::D3 | SamplerDim::Cube => 3,
+        }
+    }
+
+    /// The component of a lookup's `P` that is the reference of a shadow sampler: after the layer, but never the second,
+    /// which a 1D shadow leaves unused (§8.7).
+    pub fn reference_component(self) -> u8 {
+        (self.dimensions() + u8::from(self.arrayed)).max(2)
+    }
+
+    /// Whether a texture has levels of detail to choose from: rectangle, buffer and multisample textures have one.
+    pub fn has_levels(self) -> bool {
+        match self.dim {
+            SamplerDim::D1 | SamplerDim::D2 | SamplerDim::D3 | SamplerDim::Cube => true,
+            SamplerDim::Rect | SamplerDim::Buffer | SamplerDim::Multisample => false,
+        }
+    }
+
+    /// Whether texels are filtered or compared: where sampler and texture are apart, such a texture needs a sampler
+    /// object. Integers, buffers and multisample textures are only loaded.
+    pub fn is_filtered(self) -> bool {
+        let one_texel = matches!(self.dim, SamplerDim::Buffer | SamplerDim::Multisample);
+        self.texel == Scalar::Float && !one_texel
+    }
+
+    /// Whether it is a cube whose texels are only loaded, for which targets have no lookup.
+    pub fn is_integer_cube(self) -> bool {
+        self.dim == SamplerDim::Cube && !self.is_filtered()
+    }
+
     const fn same(self, other: Self) -> bool {
         self.texel as u8 == other.texel as u8
             && self.dim as u8 == other.dim as u8
@@ -212,12 +247,12 @@ pub struct Types {
     ids: FxHashMap<Type, TypeId>,
     structs: Vec<StructType>,
     /// A summary of each struct's contents, so that nested structs are not traversed again and again.
-    shapes: Vec<Option<Shape>>,
+    summaries: Vec<Option<TypeSummary>>,
 }
 
 /// A summary of a type's contents.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Shape {
+pub(crate) struct TypeSummary {
     /// [`Types::flat_len`]
     flat_len: u32,
     /// Whether it contains a sampler.
@@ -228,7 +263,7 @@ pub(crate) struct Shape {
     pub(crate) depth: u32,
 }
 
-impl Shape {
+impl TypeSummary {
     fn scalar(scalar: Scalar, flat_len: u32) -> Self {
         Self { flat_len, scalars: 1 << scalar as u8, ..Self::default() }
     }
@@ -330,7 +365,8 @@ impl TypeId {
 impl Types {
     /// A table of the basic types.
     pub fn new() -> Self {
-        let mut types = Self { types: Vec::new(), ids: FxHashMap::default(), structs: Vec::new(), shapes: Vec::new() };
+        let mut types =
+            Self { types: Vec::new(), ids: FxHashMap::default(), structs: Vec::new(), summaries: Vec::new() };
         types.intern(Type::Error);
         types.intern(Type::Void);
         for scalar in Scalar::ALL {
@@ -379,7 +415,7 @@ impl Types {
     /// Adds a struct and returns its type.
     pub fn add_struct(&mut self, declaration: StructType) -> TypeId {
         let id = StructId(self.structs.len() as u32);
-        self.shapes.push(Some(self.shape_of_members(&declaration)));
+        self.summaries.push(Some(self.summary_of_members(&declaration)));
         self.structs.push(declaration);
         self.intern(Type::Struct(id))
     }
@@ -392,7 +428,7 @@ impl Types {
 
     /// The struct of a handle, to complete it.
     pub fn structure_mut(&mut self, id: StructId) -> &mut StructType {
-        self.shapes[id.0 as usize] = None;
+        self.summaries[id.0 as usize] = None;
         &mut self.structs[id.0 as usize]
     }
 
@@ -413,33 +449,33 @@ impl Types {
     /// The number of scalars of a value in flat layout: members in order, elements in order, matrices by columns.
     /// Samplers count as one. The number saturates; unsized arrays count 0.
     pub fn flat_len(&self, id: TypeId) -> u32 {
-        self.shape(id).flat_len
+        self.summary(id).flat_len
     }
 
     /// The summary of a type's contents, without traversing them.
-    pub(crate) fn shape(&self, id: TypeId) -> Shape {
+    pub(crate) fn summary(&self, id: TypeId) -> TypeSummary {
         match self.get(id) {
-            Type::Error | Type::Void => Shape::default(),
-            Type::Scalar(scalar) => Shape::scalar(scalar, 1),
-            Type::Sampler(_) => Shape { flat_len: 1, sampler: true, ..Shape::default() },
-            Type::Vector(scalar, size) => Shape::scalar(scalar, u32::from(size)),
-            Type::Matrix(columns, rows) => Shape::scalar(Scalar::Float, u32::from(columns) * u32::from(rows)),
+            Type::Error | Type::Void => TypeSummary::default(),
+            Type::Scalar(scalar) => TypeSummary::scalar(scalar, 1),
+            Type::Sampler(_) => TypeSummary { flat_len: 1, sampler: true, ..TypeSummary::default() },
+            Type::Vector(scalar, size) => TypeSummary::scalar(scalar, u32::from(size)),
+            Type::Matrix(columns, rows) => TypeSummary::scalar(Scalar::Float, u32::from(columns) * u32::from(rows)),
             Type::Struct(id) => {
-                let known = self.shapes.get(id.0 as usize).copied().flatten();
-                known.unwrap_or_else(|| self.shape_of_members(self.structure(id)))
+                let known = self.summaries.get(id.0 as usize).copied().flatten();
+                known.unwrap_or_else(|| self.summary_of_members(self.structure(id)))
             }
             Type::Array(element, size) => {
-                let shape = self.shape(element);
+                let summary = self.summary(element);
                 let size = if let ArraySize::Sized(size) = size { size } else { 0 };
-                Shape { flat_len: shape.flat_len.saturating_mul(size), ..shape }
+                TypeSummary { flat_len: summary.flat_len.saturating_mul(size), ..summary }
             }
         }
     }
 
-    fn shape_of_members(&self, declaration: &StructType) -> Shape {
-        let shapes = declaration.members.iter().map(|member| self.shape(member.ty));
-        let shape = shapes.fold(Shape::default(), Shape::and);
-        Shape { depth: shape.depth + 1, ..shape }
+    fn summary_of_members(&self, declaration: &StructType) -> TypeSummary {
+        let summaries = declaration.members.iter().map(|member| self.summary(member.ty));
+        let summary = summaries.fold(TypeSummary::default(), TypeSummary::and);
+        TypeSummary { depth: summary.depth + 1, ..summary }
     }
 
     /// The type that indexing selects: an array's element, a matrix's column, a vector's component.
@@ -454,7 +490,7 @@ impl Types {
 
     /// Whether the type contains a sampler.
     pub fn contains_sampler(&self, id: TypeId) -> bool {
-        self.shape(id).sampler
+        self.summary(id).sampler
     }
 
     /// The spelling in GLSL: `vec4`, `mat2x3`, `Light[2]`.

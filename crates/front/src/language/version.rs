@@ -21,11 +21,11 @@ pub struct Version {
     pub number: u16,
     /// The profile.
     pub profile: Profile,
-    /// The `#version` line, or nowhere if there is none (the language is then 1.10 by §3.3).
+    /// The `#version` line; unknown if there is none (the language is then 1.10 by §3.3).
     pub span: Span,
 }
 
-/// What an `#extension` line asks for (§3.3).
+/// The behavior that an `#extension` line asks for (§3.3).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Behavior {
     /// Off.
@@ -39,7 +39,7 @@ pub enum Behavior {
 }
 
 bitflags::bitflags! {
-    /// The implemented extensions that are on at a place in the text.
+    /// The implemented extensions that are enabled at a place in the text.
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
     pub struct Extensions: u32 {
         /// `GL_ARB_explicit_attrib_location`
@@ -56,7 +56,7 @@ bitflags::bitflags! {
         const INCLUDE = 1 << 5;
         /// `GL_ARB_separate_shader_objects`
         const SEPARATE_SHADER_OBJECTS = 1 << 6;
-        /// Those whose uses are warned of, each above its own bit.
+        /// For each extension, a second bit: its uses are warned about.
         const WARNED = 0x7f << Self::WARN_SHIFT;
     }
 }
@@ -64,18 +64,18 @@ bitflags::bitflags! {
 impl Extensions {
     const WARN_SHIFT: u32 = 8;
 
-    /// Those that a source may turn on.
+    /// The extensions that a source may enable.
     pub fn implemented() -> Self {
         Self::all().difference(Self::WARNED)
     }
 
-    /// Sets whether the uses of `extensions` are warned of (`#extension NAME : warn`, §3.3).
+    /// Sets whether uses of `extensions` are warned about (`#extension NAME : warn`, §3.3).
     pub(crate) fn set_warned(&mut self, extensions: Self, warned: bool) {
         self.set(Self::from_bits_truncate(extensions.bits() << Self::WARN_SHIFT), warned);
     }
 
-    /// What brings a use that any of `bringing` allows, if the use is to be warned of: it is not where one of those that
-    /// are on is on without a warning.
+    /// The extensions to name in a warning, for a feature that any of `bringing` provides. `None` if one of them is
+    /// enabled without a warning.
     pub fn to_warn_of(self, bringing: Self) -> Option<Self> {
         let on = self.intersection(bringing).difference(Self::WARNED);
         let warned = Self::from_bits_truncate(self.bits() >> Self::WARN_SHIFT);

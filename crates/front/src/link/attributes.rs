@@ -1,10 +1,10 @@
 //! Assigns locations to vertex attributes (OpenGL 3.2 §2.11.3).
 //!
-//! *In:* the vertex stage. *Out:* its inputs, placed as [`declared`](super::declared) says. A matrix takes a location a
-//! column, an array one an element. Inputs may share locations if no path reads both.
+//! *In:* the vertex stage. *Out:* its inputs with locations, assigned as [`declared`](super::declared) describes. A
+//! matrix takes one location per column, an array one per element. Inputs may share locations if no path reads both.
 
 use super::declared::{Clash, Rules, Variable};
-use super::{Attribute, Context};
+use super::{Attribute, Linker};
 use crate::builtin::constants::MAX_VERTEX_ATTRIBS;
 use crate::diagnostic::{Diagnostic, codes};
 use crate::hir::{ArraySize, Shader, Storage, Type, TypeId, Types};
@@ -25,11 +25,11 @@ fn columns_of_element(types: &Types, ty: TypeId) -> u32 {
     }
 }
 
-/// How many attributes that share a location are told apart by a walk over the shader.
+/// How many attributes that share a location are examined by a traversal of the shader.
 const MAX_ALIASED: u32 = 64;
 
-/// Places all inputs of the vertex stage.
-pub(super) fn assign(ctx: &mut Context<'_>, vertex: &Shader) -> Vec<Attribute> {
+/// Assigns locations to all inputs of the vertex stage.
+pub(super) fn assign(ctx: &mut Linker<'_>, vertex: &Shader) -> Vec<Attribute> {
     let rules = Rules {
         limit: MAX_VERTEX_ATTRIBS,
         rows: 1,
@@ -72,7 +72,7 @@ fn attribute(variable: Variable<'_>) -> Option<Attribute> {
     })
 }
 
-fn aliased(ctx: &mut Context<'_>, vertex: &Shader, clash: &Clash) {
+fn aliased(ctx: &mut Linker<'_>, vertex: &Shader, clash: &Clash) {
     let Clash { variables: (first, second), shared: location } = *clash;
     let (other, global) = (vertex.global(first), vertex.global(second));
     let both = super::aliasing::path_reads_both(vertex, first, second);

@@ -7,7 +7,7 @@
 use crate::hir::{Interpolation, MatrixLayout, Shader, StructId, Type, TypeId, Types, Value};
 use rustc_hash::FxHashMap;
 
-/// What identifies a struct.
+/// The identity of a struct.
 #[derive(PartialEq, Eq, Hash)]
 struct Key {
     name: String,
@@ -22,9 +22,9 @@ type MemberKey = (String, TypeId, MatrixLayout, Option<Interpolation>, [bool; 3]
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Sizes {
     /// They may: an array in a block that takes its size from its uses differs from one that its declaration sizes.
-    Open,
+    Tentative,
     /// All sizes are final.
-    Settled,
+    Final,
 }
 
 struct Unifier<'a> {
@@ -74,7 +74,7 @@ impl Unifier<'_> {
         let members = structure.members.clone();
         let members = members.into_iter().map(|member| {
             let ty = self.canonical(member.ty);
-            let implicit = member.implicitly_sized && self.sizes == Sizes::Open;
+            let implicit = member.implicitly_sized && self.sizes == Sizes::Tentative;
             let flags = [member.centroid, member.invariant, implicit];
             (member.name, ty, member.matrix_layout, member.interpolation, flags)
         });

@@ -1,7 +1,7 @@
-//! `gl_ClipDistance` on its way to the fragment stage (GLSL 1.50 §7.2).
+//! Passes `gl_ClipDistance` to the fragment stage (GLSL 1.50 §7.2).
 //!
-//! *In:* the stages around the rasterizer. *Out:* a varying for each element that the fragment stage reads. No target
-//! hands the built-in variable to that stage by itself, so that it takes locations as other varyings do.
+//! *In:* the stages before and after the rasterizer. *Out:* a varying for each element that the fragment stage reads.
+//! No target passes the built-in variable to that stage, so it takes locations as other varyings do.
 
 use super::declared::plural;
 use super::{Varying, VaryingEnd};
@@ -19,24 +19,24 @@ pub(super) struct ClipDistances<'a> {
 }
 
 impl<'a> ClipDistances<'a> {
-    /// `None` if the fragment stage reads none.
+    /// Returns `None` if the fragment stage reads none.
     pub(super) fn find(types: &Types, producer: Option<&Shader>, fragment: Option<&'a Shader>) -> Option<Self> {
         let (fragment, (reader, len)) = (fragment?, used(types, fragment?)?);
         let writer = producer.and_then(|producer| used(types, producer));
         Some(Self { fragment, reader, len, writer })
     }
 
-    /// How many scalars they are.
+    /// The number of scalars.
     pub(super) fn components(&self) -> u32 {
         self.len
     }
 
-    /// How many locations they take, four to each.
+    /// The number of locations, with four scalars in each.
     pub(super) fn locations(&self) -> u32 {
         self.len.div_ceil(4)
     }
 
-    /// The varyings from a location on.
+    /// The varyings, from location `first` on.
     pub(super) fn at(&self, first: u32) -> Vec<Varying> {
         let end = |global: GlobalId, index: u32| VaryingEnd { global, flat_offset: index };
         let varying = |index: u32| Varying {
@@ -53,7 +53,7 @@ impl<'a> ClipDistances<'a> {
         (0..self.len).map(varying).collect()
     }
 
-    /// What is reported if they find no room.
+    /// The diagnostic if they do not fit.
     pub(super) fn no_room(&self, limit: u32) -> Diagnostic {
         let (taken, all) = (plural(self.locations(), "location"), plural(limit, "location"));
         let message = format!("no room for `gl_ClipDistance`, which takes {taken}: there are {all}");
@@ -64,7 +64,7 @@ impl<'a> ClipDistances<'a> {
     }
 }
 
-/// `gl_ClipDistance` of a stage that uses it, and its size.
+/// `gl_ClipDistance` of a stage that uses it, and its length.
 fn used(types: &Types, shader: &Shader) -> Option<(GlobalId, u32)> {
     let mut globals = shader.globals();
     let (id, global) = globals.find(|(_, global)| global.builtin == Some(BuiltinVariable::ClipDistance))?;

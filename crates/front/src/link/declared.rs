@@ -1,56 +1,58 @@
-//! Places variables that the text or the host may place: attributes and fragment outputs (OpenGL 3.2 §2.11.3, §3.9.2).
+//! Assigns locations to attributes and fragment outputs, whose locations the text or the host may set (OpenGL 3.2
+//! §2.11.3, §3.9.2).
 //!
-//! *In:* the variables of one interface and its [`Rules`]. *Out:* the location of each that has one.
+//! *In:* the variables of one interface and its [`Rules`]. *Out:* the location of each variable that has one.
 //!
-//! *Holds:* `layout(location)` in the text wins over a binding by name, that over the automatic choice: the lowest free
-//! run, in the order of the declarations, for the active variables first. Inactive ones that find no room are left out.
+//! *Holds:* `layout(location)` in the text takes precedence over a binding by name, and that over automatic
+//! assignment, which takes the lowest free range. Active variables are assigned first, in order of declaration.
+//! Inactive ones that do not fit are omitted.
 
-use super::Context;
+use super::Linker;
 use super::locations::Locations;
 use crate::diagnostic::{Code, Diagnostic, codes};
 use crate::hir::{Global, GlobalId};
 
-/// A variable to place.
+/// A variable that needs a location.
 pub(super) struct Variable<'a> {
     pub(super) id: GlobalId,
     pub(super) global: &'a Global,
-    /// How many locations it takes.
+    /// The number of locations that it takes.
     pub(super) count: u32,
-    /// Which row of locations it is in: the index of a fragment output, 0 elsewhere.
+    /// Its row of locations: the index of a fragment output, otherwise 0.
     pub(super) row: u32,
-    /// Whether it has to have a location.
+    /// Whether it must have a location.
     pub(super) active: bool,
-    /// The location that is given, then the one that was found.
+    /// The explicit location, later the assigned one.
     pub(super) location: Option<u32>,
 }
 
-/// What is special to an interface.
+/// The properties of one interface.
 pub(super) struct Rules<'a> {
-    /// How many locations each row has.
+    /// The number of locations in each row.
     pub(super) limit: u32,
-    /// How many rows.
+    /// The number of rows.
     pub(super) rows: usize,
-    /// What a location is called: as a thing that is taken, and before its number.
+    /// The words for a location: as a unit that is counted, and before its number.
     pub(super) words: (&'static str, &'static str),
-    /// What is reported where there is no room.
+    /// The code to report if the locations do not suffice.
     pub(super) too_many: &'static Code,
-    /// How to make room.
+    /// How to free locations.
     pub(super) help: Option<&'static str>,
-    /// The host's choices. The last of a name counts.
+    /// The host's bindings. The last one for a name counts.
     pub(super) bindings: &'a [(String, u32)],
 }
 
-/// Two variables that text or bindings put at one location.
+/// Two variables whose explicit locations overlap.
 pub(super) struct Clash {
-    /// The one that was there, and the one that came.
+    /// The earlier one and the later one.
     pub(super) variables: (GlobalId, GlobalId),
     /// The lowest location that they share.
     pub(super) shared: u32,
 }
 
 impl Rules<'_> {
-    /// The location that the text or a binding gives.
-    pub(super) fn fixed(&self, ctx: &mut Context<'_>, global: &Global) -> Option<u32> {
+    /// The location that the text or a binding sets.
+    pub(super) fn fixed(&self, ctx: &mut Linker<'_>, global: &Global) -> Option<u32> {
         let bound = self.bindings.iter().rev().find(|(name, _)| *name == global.name);
         let bound = bound.map(|&(_, location)| location);
         if let (Some(declared), Some(bound)) = (global.location, bound)
@@ -64,12 +66,12 @@ impl Rules<'_> {
         global.location.or(bound)
     }
 
-    /// Gives each variable its location; `clash` judges those that share one.
+    /// Assigns a location to each variable. `clash` decides about variables that share one.
     pub(super) fn place(
         &self,
-        ctx: &mut Context<'_>,
+        ctx: &mut Linker<'_>,
         variables: &mut [Variable<'_>],
-        clash: &mut dyn FnMut(&mut Context<'_>, &Clash),
+        clash: &mut dyn FnMut(&mut Linker<'_>, &Clash),
     ) {
         let mut rows = vec![Locations::new(self.limit); self.rows];
         for variable in variables.iter() {
@@ -93,7 +95,7 @@ impl Rules<'_> {
 
     fn place_fixed(
         &self,
-        ctx: &mut Context<'_>,
+        ctx: &mut Linker<'_>,
         rows: &mut [Locations<Option<GlobalId>>],
         variable: &Variable<'_>,
         first: u32,
@@ -107,7 +109,7 @@ impl Rules<'_> {
         held.map(|(holder, shared)| Clash { variables: (holder, variable.id), shared })
     }
 
-    fn beyond_the_limit(&self, ctx: &mut Context<'_>, variable: &Variable<'_>, first: u32) {
+    fn beyond_the_limit(&self, ctx: &mut Linker<'_>, variable: &Variable<'_>, first: u32) {
         let Variable { global, count, .. } = variable;
         let (noun, number) = self.words;
         let (name, taken, limit) = (&global.name, plural(*count, noun), self.limit);
@@ -115,7 +117,7 @@ impl Rules<'_> {
         ctx.report(Diagnostic::new(self.too_many, global.span, message));
     }
 
-    fn no_room(&self, ctx: &mut Context<'_>, variable: &Variable<'_>) {
+    fn no_room(&self, ctx: &mut Linker<'_>, variable: &Variable<'_>) {
         let (name, taken) = (&variable.global.name, plural(variable.count, self.words.0));
         let message = format!("no room for `{name}`, which takes {taken} of the {}", self.limit);
         let diagnostic = Diagnostic::new(self.too_many, variable.global.span, message);

@@ -1,40 +1,41 @@
-//! The one allocator of locations: of attributes, varyings, clip distances and fragment outputs.
+//! The allocator of all locations: those of attributes, varyings, clip distances and fragment outputs.
 //!
-//! *In:* how many locations there are. *Out:* which are free, and what has been put at each.
+//! *In:* the number of locations. *Out:* which are free, and the contents of each.
 //!
-//! *Holds:* no location at or above the limit is ever given.
+//! *Holds:* a location at or above the limit is never assigned.
 
 use std::ops::Range;
 
-/// The locations below a limit, each with what stands there.
+/// The locations below a limit, each with its contents.
 #[derive(Clone)]
 pub(super) struct Locations<T> {
     slots: Vec<T>,
 }
 
 impl<T: Clone + Default> Locations<T> {
-    /// So many locations, each as it is by default.
+    /// `limit` locations with default contents.
     pub(super) fn new(limit: u32) -> Self {
         Self { slots: vec![T::default(); limit as usize] }
     }
 
-    /// `count` locations from `first` on; `None` if the last of them is above the limit.
+    /// `count` locations from `first`, or `None` if the last of them is above the limit.
     pub(super) fn run(&self, first: u32, count: u32) -> Option<&[T]> {
         self.slots.get(range(first, count)?)
     }
 
-    /// The same to write to.
+    /// Returns the same locations mutably.
     pub(super) fn run_mut(&mut self, first: u32, count: u32) -> Option<&mut [T]> {
         self.slots.get_mut(range(first, count)?)
     }
 
-    /// The lowest run of `count` locations that all fit.
+    /// The lowest range of `count` locations that all fit.
     pub(super) fn lowest(&self, count: u32, fits: impl Fn(&T) -> bool) -> Option<u32> {
         let last = (self.slots.len() as u32).checked_sub(count)?;
         (0..=last).find(|&first| self.run(first, count).is_some_and(|run| run.iter().all(&fits)))
     }
 
-    /// The run of `count` locations above all that do not fit; the lowest that fits if there is no room above.
+    /// The range of `count` locations above all that do not fit. If that is above the limit: the lowest range that
+    /// fits.
     pub(super) fn above_all(&self, count: u32, fits: impl Fn(&T) -> bool) -> Option<u32> {
         let first = self.slots.iter().rposition(|slot| !fits(slot)).map_or(0, |last| last as u32 + 1);
         self.run(first, count).map(|_| first).or_else(|| self.lowest(count, fits))

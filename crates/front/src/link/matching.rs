@@ -4,7 +4,7 @@
 //! declaration in only one stage is superfluous and legal, unless the later stage reads it. The inputs of a geometry
 //! shader are arrays of what the vertex shader writes.
 
-use super::Context;
+use super::Linker;
 use super::compatible::{MemberDifference, block_parts, compare_members, same_type};
 use crate::diagnostic::{Diagnostic, codes, did_you_mean};
 use crate::hir::{ArraySize, Global, GlobalId, Shader, Stage, Storage, Type, TypeId, Types};
@@ -54,17 +54,22 @@ impl<'a> Outputs<'a> {
 const MAX_SUGGESTIONS: usize = 16;
 
 /// Checks all inputs of `consumer` against the outputs of `producer`.
-pub(super) fn check(ctx: &mut Context<'_>, producer: &Shader, consumer: &Shader) {
-    let inputs = consumer.globals().filter(|(_, input)| is_interface(input, Storage::In));
+pub(super) fn check(ctx: &mut Linker<'_>, producer: &Shader, consumer: &Shader) {
     if let Some(problem) = super::per_vertex::check_stages(ctx.types, producer, consumer) {
         ctx.report(problem);
     }
+    check_variables(ctx, producer, consumer, true);
+}
+
+/// Checks the inputs that are declared in `consumer`. If `producer` is not `complete`, it may have more outputs.
+pub(super) fn check_variables(ctx: &mut Linker<'_>, producer: &Shader, consumer: &Shader, complete: bool) {
+    let inputs = consumer.globals().filter(|(_, input)| is_interface(input, Storage::In));
     let outputs = Outputs::new(producer);
     let mut n_lonely = 0;
     for (_, input) in inputs {
         match outputs.partner(input) {
             Some((_, output)) => check_pair(ctx, producer, output, consumer, input),
-            None if input.used => {
+            None if input.used && complete => {
                 n_lonely += 1;
                 no_partner(ctx, producer, consumer, input, n_lonely <= MAX_SUGGESTIONS);
             }
@@ -73,7 +78,7 @@ pub(super) fn check(ctx: &mut Context<'_>, producer: &Shader, consumer: &Shader)
     }
 }
 
-fn no_partner(ctx: &mut Context<'_>, producer: &Shader, consumer: &Shader, input: &Global, suggest: bool) {
+fn no_partner(ctx: &mut Linker<'_>, producer: &Shader, consumer: &Shader, input: &Global, suggest: bool) {
     let outputs: Vec<&Global> = producer.globals.iter().filter(|output| is_interface(output, Storage::Out)).collect();
     let (name, stage) = (match_name(input), producer.stage.name());
     let kind = if input.block.is_some() { "block" } else { "input" };
@@ -141,7 +146,7 @@ fn interpolation_prefix(global: &Global) -> String {
     if global.interpolation_written { format!("{} ", global.interpolation.name()) } else { String::new() }
 }
 
-fn check_pair(ctx: &mut Context<'_>, producer: &Shader, output: &Global, consumer: &Shader, input: &Global) {
+fn check_pair(ctx: &mut Linker<'_>, producer: &Shader, output: &Global, consumer: &Shader, input: &Global) {
     let pair = Pair { producer: producer.stage, output, consumer: consumer.stage, input };
     if input.block.is_some() {
         check_block(ctx, &pair);
@@ -161,7 +166,7 @@ struct Pair<'a> {
 impl Pair<'_> {
     fn report(
         &self,
-        ctx: &mut Context<'_>,
+        ctx: &mut Linker<'_>,
         code: &'static crate::diagnostic::Code,
         what: &str,
         theirs: String,
@@ -188,7 +193,7 @@ fn per_vertex(types: &Types, consumer: Stage, ty: TypeId) -> Option<TypeId> {
     }
 }
 
-fn check_type(ctx: &mut Context<'_>, pair: &Pair<'_>) {
+fn check_type(ctx: &mut Linker<'_>, pair: &Pair<'_>) {
     let types = ctx.types;
     let matches =
         per_vertex(types, pair.consumer, pair.input.ty).is_some_and(|input| same_type(types, input, pair.output.ty));
@@ -205,7 +210,7 @@ fn check_type(ctx: &mut Context<'_>, pair: &Pair<'_>) {
     }
 }
 
-fn check_block(ctx: &mut Context<'_>, pair: &Pair<'_>) {
+fn check_block(ctx: &mut Linker<'_>, pair: &Pair<'_>) {
     let types = ctx.types;
     let (Some((output, output_size)), Some((input, input_size))) =
         (block_parts(types, pair.output.ty), block_parts(types, pair.input.ty))
@@ -274,7 +279,7 @@ fn member_qualifiers(member: &crate::hir::Member) -> String {
 
 /// "The type and presence of the interpolation qualifiers and storage qualifiers and invariant qualifiers … must
 /// match" (§4.3.9): `smooth` and no qualifier differ, too.
-fn check_qualifiers(ctx: &mut Context<'_>, pair: &Pair<'_>) {
+fn check_qualifiers(ctx: &mut Linker<'_>, pair: &Pair<'_>) {
     let Pair { output, input, .. } = pair;
     let interpolation = |global: &Global| global.interpolation_written.then_some(global.interpolation);
     if input.block.is_none() && interpolation(output) != interpolation(input) {

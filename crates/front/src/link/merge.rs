@@ -52,7 +52,7 @@ fn check_frag_coord(shaders: &[Shader], found: &mut Vec<Diagnostic>) {
     }
 }
 
-/// What identifies a global: for a built-in variable which one it is, for all others the name. Blocks of one name are
+/// The identity of a global: for a built-in variable which one it is, for all others the name. Blocks of one name are
 /// different if one is `in` and the other `out`: "a block name is allowed to have different definitions in different
 /// interfaces" (§4.3.7).
 #[derive(PartialEq, Eq, Hash)]
@@ -70,7 +70,7 @@ fn global_key(global: &Global) -> GlobalKey {
     }
 }
 
-/// What identifies a function.
+/// The identity of a function.
 type FunctionKey = (String, Vec<TypeId>);
 
 fn function_key(function: &Function) -> FunctionKey {
@@ -250,14 +250,14 @@ fn global_problem(types: &Types, known: &Global, other: &Global) -> Option<Diagn
 
 /// The size of an array as one shader declares it.
 #[derive(Clone, Copy)]
-struct Extent {
+struct ArrayExtent {
     element: TypeId,
     size: Option<u32>,
     /// Whether the size follows only from the uses.
     implicit: bool,
 }
 
-impl Extent {
+impl ArrayExtent {
     fn new(types: &Types, ty: TypeId, implicit: bool) -> Option<Self> {
         match types.get(ty) {
             Type::Array(element, ArraySize::Sized(size)) => Some(Self { element, size: Some(size), implicit }),
@@ -294,8 +294,10 @@ fn types_agree(types: &Types, known: &Global, other: &Global) -> bool {
     if known.ty == other.ty {
         return true;
     }
-    let arrays =
-        (Extent::new(types, known.ty, known.implicitly_sized), Extent::new(types, other.ty, other.implicitly_sized));
+    let arrays = (
+        ArrayExtent::new(types, known.ty, known.implicitly_sized),
+        ArrayExtent::new(types, other.ty, other.implicitly_sized),
+    );
     let (a, b) = match arrays {
         (Some(a), Some(b)) if a.fits(b) => (a.element, b.element),
         (None, None) => (known.ty, other.ty),
@@ -312,7 +314,7 @@ fn blocks_agree(types: &Types, a: TypeId, b: TypeId) -> bool {
 
 fn members_agree(types: &Types, a: &Member, b: &Member) -> bool {
     let qualifiers = |member: &Member| (member.interpolation, member.centroid, member.invariant, member.matrix_layout);
-    let sizes = (Extent::new(types, a.ty, a.implicitly_sized), Extent::new(types, b.ty, b.implicitly_sized));
+    let sizes = (ArrayExtent::new(types, a.ty, a.implicitly_sized), ArrayExtent::new(types, b.ty, b.implicitly_sized));
     let same_type = match sizes {
         (Some(a), Some(b)) => a.element == b.element && a.fits(b),
         _ => a.ty == b.ty,
@@ -322,8 +324,8 @@ fn members_agree(types: &Types, a: &Member, b: &Member) -> bool {
 
 /// The type of a variable that two shaders declare, and whether its size follows only from uses.
 fn united_type(types: &mut Types, known: &Global, other: &Global) -> (TypeId, bool) {
-    let known_array = Extent::new(types, known.ty, known.implicitly_sized);
-    let other_array = Extent::new(types, other.ty, other.implicitly_sized);
+    let known_array = ArrayExtent::new(types, known.ty, known.implicitly_sized);
+    let other_array = ArrayExtent::new(types, other.ty, other.implicitly_sized);
     let (Some(a), Some(b)) = (known_array, other_array) else {
         return (united_block(types, known.ty, other.ty), known.implicitly_sized);
     };
@@ -342,8 +344,8 @@ fn united_block(types: &mut Types, known: TypeId, other: TypeId) -> TypeId {
     let others = types.structure(b).members.clone();
     for (member, other) in united.members.iter_mut().zip(&others) {
         let arrays = (
-            Extent::new(types, member.ty, member.implicitly_sized),
-            Extent::new(types, other.ty, other.implicitly_sized),
+            ArrayExtent::new(types, member.ty, member.implicitly_sized),
+            ArrayExtent::new(types, other.ty, other.implicitly_sized),
         );
         if let (Some(a), Some(b)) = arrays {
             let (size, implicit) = a.united(b);

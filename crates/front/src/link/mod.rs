@@ -11,17 +11,18 @@
 //! | --- | --- |
 //! | `canonical` | gives equal structs of different shaders one type |
 //! | `merge`, `remap`, `geometry` | merge several shaders of one stage into one |
-//! | `compatible` | when two declarations in different shaders have the same type |
-//! | `stages` | which stages form a program; `main`; geometry layouts |
+//! | `compatible` | whether two declarations in different shaders have the same type |
+//! | `stages` | the stages of a program; `main`; geometry layouts |
 //! | `matching` | outputs of one stage against inputs of the next |
-//! | `per_vertex` | `gl_PerVertex` declared anew |
-//! | `varyings` | what the rasterizer interpolates, cut up and placed |
-//! | `clip_distances` | `gl_ClipDistance` where the fragment stage reads it |
-//! | `attributes`, `outputs` | vertex inputs and fragment outputs, placed |
-//! | `declared` | variables that the text or the host may place |
-//! | `locations` | the one allocator of locations |
-//! | `uniforms`, `samplers` | what stays the same over a draw, placed |
+//! | `per_vertex` | redeclarations of `gl_PerVertex` |
+//! | `varyings` | interpolated variables, split and with locations |
+//! | `clip_distances` | `gl_ClipDistance` as an input of the fragment stage |
+//! | `attributes`, `outputs` | vertex inputs and fragment outputs with locations |
+//! | `declared` | variables whose locations the text or the host may set |
+//! | `locations` | the allocator of all locations |
+//! | `uniforms`, `samplers` | the variables that are constant during a draw, with locations and bindings |
 //! | `layout` | std140 |
+//! | `partial` | checks between stages with errors |
 
 mod aliasing;
 mod attributes;
@@ -36,6 +37,7 @@ mod locations;
 mod matching;
 mod merge;
 mod outputs;
+mod partial;
 mod per_vertex;
 mod program;
 mod remap;
@@ -46,6 +48,7 @@ pub mod usage;
 mod varyings;
 
 pub use layout::MAX_BLOCK_BYTES;
+pub use partial::{Understood, check_understood};
 pub use program::{
     Attribute, Block, BlockIndex, Interface, Output, Program, RootIndex, SamplerSlot, SlotBinding, UniformLeaf,
     UniformRoot, Varying, VaryingEnd,
@@ -56,26 +59,26 @@ use crate::hir::{Shader, Stage, Types};
 use canonical::Sizes;
 
 /// The state that all steps of a link share.
-struct Context<'a> {
+struct Linker<'a> {
     types: &'a Types,
     bindings: Bindings<'a>,
     diagnostics: &'a mut Diagnostics,
     failed: bool,
 }
 
-impl Context<'_> {
+impl Linker<'_> {
     fn report(&mut self, diagnostic: Diagnostic) {
         self.failed |= diagnostic.is_error();
         self.diagnostics.push(diagnostic);
     }
 }
 
-/// What a host binds by name before it links.
+/// The locations that a host binds by name before linking.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Bindings<'a> {
-    /// `glBindAttribLocation`: name and location. The last of a name counts.
+    /// `glBindAttribLocation`: name and location. The last entry for a name counts.
     pub attribute_locations: &'a [(String, u32)],
-    /// `glBindFragDataLocation`: name and color number. The last of a name counts.
+    /// `glBindFragDataLocation`: name and color number. The last entry for a name counts.
     pub frag_data_locations: &'a [(String, u32)],
 }
 
@@ -90,11 +93,11 @@ pub fn link(
     diagnostics: &mut Diagnostics,
 ) -> Option<Program> {
     let lone = shaders.len() < 2;
-    canonical::unify(&mut types, &mut shaders, Sizes::Open);
+    canonical::unify(&mut types, &mut shaders, Sizes::Tentative);
     let mut found = Vec::new();
     let mut stages = stages::in_order(&mut types, shaders, &mut found);
-    canonical::unify(&mut types, &mut stages, Sizes::Settled);
-    let mut ctx = Context { types: &types, bindings, diagnostics, failed: false };
+    canonical::unify(&mut types, &mut stages, Sizes::Final);
+    let mut ctx = Linker { types: &types, bindings, diagnostics, failed: false };
     found.into_iter().for_each(|diagnostic| ctx.report(diagnostic));
     let complete = stages::check(&mut ctx, &stages, lone);
     let interface = interface(&mut ctx, &stages);
@@ -102,7 +105,7 @@ pub fn link(
     (complete && !failed).then_some(Program { name, types, stages, interface })
 }
 
-fn interface(ctx: &mut Context<'_>, stages: &[Shader]) -> Interface {
+fn interface(ctx: &mut Linker<'_>, stages: &[Shader]) -> Interface {
     let of = |stage: Stage| stages.iter().find(|shader| shader.stage == stage);
     let mut interface = Interface::default();
     for pair in stages.windows(2) {

@@ -1,16 +1,16 @@
 //! Assigns color numbers to fragment outputs (OpenGL 3.2 §3.9.2, GLSL 1.50 §7.2).
 //!
-//! *In:* the fragment stage. *Out:* its color outputs, placed as [`declared`](super::declared) says. An array takes a
-//! number an element. `gl_FragColor` and `gl_FragData` stand at number 0.
+//! *In:* the fragment stage. *Out:* its color outputs with numbers, assigned as [`declared`](super::declared)
+//! describes. An array takes one number per element. `gl_FragColor` and `gl_FragData` have number 0.
 
 use super::declared::{Clash, Rules, Variable};
-use super::{Context, Output};
+use super::{Linker, Output};
 use crate::builtin::BuiltinVariable;
 use crate::builtin::constants::MAX_DRAW_BUFFERS;
 use crate::diagnostic::{Diagnostic, codes};
 use crate::hir::{ArraySize, Global, Shader, Stage, Storage, Type, TypeId, Types};
 
-/// The sources of dual-source blending.
+/// The number of sources in dual-source blending.
 const INDICES: usize = 2;
 
 fn numbers(types: &Types, ty: TypeId) -> u32 {
@@ -21,7 +21,7 @@ fn numbers(types: &Types, ty: TypeId) -> u32 {
 }
 
 /// Assigns numbers to all color outputs of the fragment stage.
-pub(super) fn assign(ctx: &mut Context<'_>, fragment: &Shader) -> Vec<Output> {
+pub(super) fn assign(ctx: &mut Linker<'_>, fragment: &Shader) -> Vec<Output> {
     let rules = Rules {
         limit: MAX_DRAW_BUFFERS,
         rows: INDICES,
@@ -66,8 +66,8 @@ fn is_color(global: &Global) -> bool {
     }
 }
 
-/// Two outputs of one number. Of the deprecated ones, [`check_exclusive`] tells.
-fn overlap(ctx: &mut Context<'_>, fragment: &Shader, clash: &Clash) {
+/// Reports two outputs with one number. [`check_exclusive`] reports the deprecated ones.
+fn overlap(ctx: &mut Linker<'_>, fragment: &Shader, clash: &Clash) {
     let (other, global) = (fragment.global(clash.variables.0), fragment.global(clash.variables.1));
     if other.builtin.is_some() || global.builtin.is_some() {
         return;
@@ -80,7 +80,7 @@ fn overlap(ctx: &mut Context<'_>, fragment: &Shader, clash: &Clash) {
 
 /// Checks that `gl_FragColor`, `gl_FragData` and declared outputs exclude each other (§7.2) across the shaders of the
 /// stage. The analysis checks each shader.
-pub(super) fn check_exclusive(ctx: &mut Context<'_>, fragment: &Shader) {
+pub(super) fn check_exclusive(ctx: &mut Linker<'_>, fragment: &Shader) {
     if fragment.stage != Stage::Fragment {
         return;
     }

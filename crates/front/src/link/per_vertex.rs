@@ -7,7 +7,7 @@ use crate::diagnostic::{Diagnostic, codes};
 use crate::hir::{Global, Shader, Storage, Type, Types};
 use crate::source::Span;
 
-/// What a shader says about a `gl_PerVertex` block that it uses.
+/// A shader's side of a `gl_PerVertex` block that it uses.
 struct Side<'a> {
     shader: &'a Shader,
     /// The members, if the block is redeclared; `None` for the predefined block.

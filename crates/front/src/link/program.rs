@@ -69,7 +69,7 @@ pub struct Interface {
     pub framebuffer_height: Option<u32>,
     /// Uniform variables and blocks as declared, without samplers.
     pub roots: Vec<UniformRoot>,
-    /// The same uniforms, split into scalars, vectors, matrices and arrays of those, under the names that hosts use.
+    /// The uniforms split into scalars, vectors, matrices and arrays of those, under the names that hosts use.
     pub uniforms: Vec<UniformLeaf>,
     /// Samplers, with one entry per element of an array.
     pub samplers: Vec<SamplerSlot>,

@@ -6,12 +6,10 @@
 use super::compatible::same_type;
 use super::declared::plural;
 use super::flatten::parts;
-use super::{Context, SamplerSlot, SlotBinding};
+use super::{Linker, SamplerSlot, SlotBinding};
 use crate::builtin::constants::{MAX_COMBINED_TEXTURE_IMAGE_UNITS, MAX_TEXTURE_IMAGE_UNITS};
 use crate::diagnostic::{Diagnostic, codes};
-use crate::hir::{
-    ArraySize, Global, GlobalId, MatrixLayout, SamplerDim, SamplerType, Scalar, Shader, Stage, Storage, Type, TypeId,
-};
+use crate::hir::{ArraySize, Global, GlobalId, MatrixLayout, Shader, Stage, Storage, Type, TypeId};
 use crate::source::Span;
 
 const GROUP: u32 = 1;
@@ -27,7 +25,7 @@ struct Variable<'a> {
 }
 
 /// Assigns bindings to all samplers of a program.
-pub(super) fn assign(ctx: &mut Context<'_>, stages: &[Shader]) -> Vec<SamplerSlot> {
+pub(super) fn assign(ctx: &mut Linker<'_>, stages: &[Shader]) -> Vec<SamplerSlot> {
     let mut variables: Vec<Variable<'_>> = Vec::new();
     for shader in stages {
         for (id, global) in shader.globals() {
@@ -47,7 +45,7 @@ pub(super) fn assign(ctx: &mut Context<'_>, stages: &[Shader]) -> Vec<SamplerSlo
     let mut binding = 0;
     for slot in &mut slots {
         slot.texture = SlotBinding { group: GROUP, binding };
-        if has_sampler(ctx.types.get(slot.ty)) {
+        if matches!(ctx.types.get(slot.ty), Type::Sampler(kind) if kind.is_filtered()) {
             binding += 1;
         }
         slot.sampler = SlotBinding { group: GROUP, binding };
@@ -56,18 +54,8 @@ pub(super) fn assign(ctx: &mut Context<'_>, stages: &[Shader]) -> Vec<SamplerSlo
     slots
 }
 
-/// Whether texels are filtered, which requires a sampler object besides the texture.
-fn has_sampler(ty: Type) -> bool {
-    match ty {
-        Type::Sampler(SamplerType { texel, dim, .. }) => {
-            texel == Scalar::Float && !matches!(dim, SamplerDim::Buffer | SamplerDim::Multisample)
-        }
-        _ => false,
-    }
-}
-
 /// Adds the declaration of a stage. `uniforms` checks that the types agree.
-fn merge<'a>(ctx: &Context<'_>, variables: &mut Vec<Variable<'a>>, stage: Stage, id: GlobalId, global: &'a Global) {
+fn merge<'a>(ctx: &Linker<'_>, variables: &mut Vec<Variable<'a>>, stage: Stage, id: GlobalId, global: &'a Global) {
     let known = variables
         .iter_mut()
         .find(|known| known.global.name == global.name && same_type(ctx.types, known.global.ty, global.ty));
@@ -85,7 +73,7 @@ fn merge<'a>(ctx: &Context<'_>, variables: &mut Vec<Variable<'a>>, stage: Stage,
 }
 
 /// Adds one entry per element. Returns false if there are absurdly many.
-fn cut(ctx: &mut Context<'_>, variable: &Variable<'_>, slots: &mut Vec<SamplerSlot>) -> bool {
+fn cut(ctx: &mut Linker<'_>, variable: &Variable<'_>, slots: &mut Vec<SamplerSlot>) -> bool {
     let Global { name, ty, span, .. } = variable.global;
     if slots.len() + ctx.types.flat_len(*ty) as usize > MAX_SLOTS {
         let message = format!("`{name}` holds more samplers than any target can bind");
@@ -133,7 +121,7 @@ fn slot(
     }
 }
 
-fn warn_above_minimum(ctx: &mut Context<'_>, stages: &[Shader], slots: &[SamplerSlot]) {
+fn warn_above_minimum(ctx: &mut Linker<'_>, stages: &[Shader], slots: &[SamplerSlot]) {
     let in_stage = |slot: &SamplerSlot, shader: &Shader| {
         slot.globals.iter().any(|&(stage, id)| stage == shader.stage && shader.global(id).used)
     };
@@ -147,7 +135,7 @@ fn warn_above_minimum(ctx: &mut Context<'_>, stages: &[Shader], slots: &[Sampler
     above(ctx, active, MAX_COMBINED_TEXTURE_IMAGE_UNITS, Span::default(), "the program");
 }
 
-fn above(ctx: &mut Context<'_>, count: usize, minimum: u32, span: Span, whose: &str) {
+fn above(ctx: &mut Linker<'_>, count: usize, minimum: u32, span: Span, whose: &str) {
     if count > minimum as usize {
         let message =
             format!("{whose} reads {}, and an implementation may have only {minimum}", plural(count as u32, "sampler"));

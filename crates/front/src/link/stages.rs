@@ -1,6 +1,6 @@
 //! Which stages form a program, and what each must have (OpenGL 3.2 §2.11.2, §2.12; GLSL 1.50 §4.3.8, §6.1).
 
-use super::{Context, merge};
+use super::{Linker, merge};
 use crate::diagnostic::{Diagnostic, codes};
 use crate::hir::{FunctionId, Shader, Stage, Types};
 
@@ -19,7 +19,7 @@ pub(super) fn in_order(types: &mut Types, shaders: Vec<Shader>, found: &mut Vec<
 }
 
 /// Checks that the stages can run. What only a program must have is a warning instead of an error in a single shader.
-pub(super) fn check(ctx: &mut Context<'_>, stages: &[Shader], lone: bool) -> bool {
+pub(super) fn check(ctx: &mut Linker<'_>, stages: &[Shader], lone: bool) -> bool {
     let mut complete = !stages.is_empty();
     for shader in stages {
         if shader.main.is_none() {
@@ -45,7 +45,7 @@ pub(super) fn check(ctx: &mut Context<'_>, stages: &[Shader], lone: bool) -> boo
 }
 
 /// Checks that every called function is defined in some shader of the stage (§6.1).
-fn functions_are_defined(ctx: &mut Context<'_>, shader: &Shader, lone: bool) -> bool {
+fn functions_are_defined(ctx: &mut Linker<'_>, shader: &Shader, lone: bool) -> bool {
     let code = if lone { &codes::link::LONE_WITHOUT_DEFINITION } else { &codes::link::UNDEFINED_FUNCTION };
     let undefined = shader.functions.iter().filter(|function| function.reachable && function.body.is_none());
     let mut complete = true;
@@ -58,7 +58,7 @@ fn functions_are_defined(ctx: &mut Context<'_>, shader: &Shader, lone: bool) -> 
 }
 
 /// Reports recursion through functions of different shaders (§6.1). The analysis finds recursion within one shader.
-fn check_recursion(ctx: &mut Context<'_>, shader: &Shader) {
+fn check_recursion(ctx: &mut Linker<'_>, shader: &Shader) {
     let Some(main) = shader.main else { return };
     let order = shader.callees_first(main);
     let mut place = vec![usize::MAX; shader.functions.len()];
@@ -80,7 +80,7 @@ fn check_recursion(ctx: &mut Context<'_>, shader: &Shader) {
     }
 }
 
-fn missing_main(ctx: &mut Context<'_>, shader: &Shader, lone: bool) {
+fn missing_main(ctx: &mut Linker<'_>, shader: &Shader, lone: bool) {
     let code = if lone { &codes::link::LONE_WITHOUT_MAIN } else { &codes::link::MISSING_MAIN };
     let message = format!("the {} stage has no `main`", shader.stage.name());
     let names = shader.functions.iter().map(|function| function.name.as_str());
@@ -96,7 +96,7 @@ pub(super) fn anchor(shader: &Shader) -> crate::source::Span {
     [shader.version.span].into_iter().chain(functions).chain(globals).find(|span| span.is_known()).unwrap_or_default()
 }
 
-fn geometry_layout(ctx: &mut Context<'_>, shader: &Shader, lone: bool) {
+fn geometry_layout(ctx: &mut Linker<'_>, shader: &Shader, lone: bool) {
     let layout = &shader.geometry;
     let missing = [
         (layout.input.is_none(), "the input primitive", "layout(triangles) in;"),

@@ -8,7 +8,7 @@
 use super::compatible::{MemberDifference, block_parts, compare_members, same_type, same_value};
 use super::flatten::{join, parts};
 use super::layout::{self, MAX_BLOCK_BYTES, array_stride, extent, round_up, struct_members};
-use super::{Block, BlockIndex, Context, Interface, RootIndex, SlotBinding, UniformLeaf, UniformRoot};
+use super::{Block, BlockIndex, Interface, Linker, RootIndex, SlotBinding, UniformLeaf, UniformRoot};
 use crate::builtin::{BuiltinFunction, BuiltinVariable};
 use crate::diagnostic::{Diagnostic, codes};
 use crate::hir::{
@@ -36,7 +36,7 @@ impl Shared<'_> {
 }
 
 /// Assigns offsets and bindings to all uniforms but samplers.
-pub(super) fn assign(ctx: &mut Context<'_>, stages: &[Shader], interface: &mut Interface) {
+pub(super) fn assign(ctx: &mut Linker<'_>, stages: &[Shader], interface: &mut Interface) {
     let mut all = unite(ctx, stages);
     all.sort_by_key(|shared| !shared.active);
     let types = ctx.types;
@@ -44,6 +44,11 @@ pub(super) fn assign(ctx: &mut Context<'_>, stages: &[Shader], interface: &mut I
     let loose: Vec<_> = loose.into_iter().filter(|shared| !only_samplers(types, shared.global.ty)).collect();
     place_loose(ctx, &loose, stages, interface);
     place_blocks(ctx, &blocks, interface);
+}
+
+/// Checks that the declarations of a uniform or block agree in all shaders.
+pub(super) fn check(ctx: &mut Linker<'_>, shaders: &[Shader]) {
+    unite(ctx, shaders);
 }
 
 fn only_samplers(types: &Types, ty: TypeId) -> bool {
@@ -80,14 +85,14 @@ fn asks_for_texels(types: &Types, stages: &[Shader]) -> bool {
 }
 
 /// One entry per name, in order of first declaration.
-fn unite<'a>(ctx: &mut Context<'_>, stages: &'a [Shader]) -> Vec<Shared<'a>> {
+fn unite<'a>(ctx: &mut Linker<'_>, stages: &'a [Shader]) -> Vec<Shared<'a>> {
     let mut all: Vec<Shared<'a>> = Vec::new();
-    let mut places: FxHashMap<(bool, &'a str), usize> = FxHashMap::default();
+    let mut indices: FxHashMap<(bool, &'a str), usize> = FxHashMap::default();
     for shader in stages {
         for (id, global) in shader.globals().filter(|(_, global)| is_shared(global)) {
             let name = super::matching::match_name(global);
-            let place = *places.entry((global.block.is_some(), name)).or_insert(all.len());
-            match all.get_mut(place) {
+            let index = *indices.entry((global.block.is_some(), name)).or_insert(all.len());
+            match all.get_mut(index) {
                 Some(known) => {
                     check_same(ctx, known, shader.stage, global);
                     known.globals.push((shader.stage, id));
@@ -118,7 +123,7 @@ fn is_shared(global: &Global) -> bool {
     global.storage == Storage::Uniform && builtin
 }
 
-fn check_same(ctx: &mut Context<'_>, known: &Shared<'_>, stage: Stage, global: &Global) {
+fn check_same(ctx: &mut Linker<'_>, known: &Shared<'_>, stage: Stage, global: &Global) {
     let types = ctx.types;
     if known.is_block() {
         check_same_block(ctx, known, stage, global);
@@ -155,7 +160,7 @@ fn different_bindings(a: &Global, b: &Global) -> Option<(String, String)> {
     (ours != theirs).then(|| (format!("binding {ours}"), format!("binding {theirs}")))
 }
 
-fn check_same_block(ctx: &mut Context<'_>, known: &Shared<'_>, stage: Stage, global: &Global) {
+fn check_same_block(ctx: &mut Linker<'_>, known: &Shared<'_>, stage: Stage, global: &Global) {
     let types = ctx.types;
     let (Some(ours), Some(theirs)) = (&global.block, &known.global.block) else { return };
     let (Some((our_members, our_size)), Some((their_members, their_size))) =
@@ -232,7 +237,7 @@ fn order_word(order: MatrixLayout) -> &'static str {
     }
 }
 
-fn place_loose(ctx: &mut Context<'_>, loose: &[&Shared<'_>], stages: &[Shader], interface: &mut Interface) {
+fn place_loose(ctx: &mut Linker<'_>, loose: &[&Shared<'_>], stages: &[Shader], interface: &mut Interface) {
     let types = ctx.types;
     let slot = SlotBinding { group: GROUP, binding: 0 };
     let mut end = 0;
@@ -259,8 +264,8 @@ fn place_loose(ctx: &mut Context<'_>, loose: &[&Shared<'_>], stages: &[Shader], 
             default: default_value(types, shared),
             active: shared.active,
         });
-        let place = Place { root, slot, block_element: 0, flat_offset: 0, active: shared.active };
-        leaves(types, &place, &shared.global.name, shared.global.ty, offset, order, &mut interface.uniforms);
+        let context = RootContext { root, slot, block_element: 0, flat_offset: 0, active: shared.active };
+        leaves(types, &context, &shared.global.name, shared.global.ty, offset, order, &mut interface.uniforms);
     }
     end = round_up(end, 4);
     if reads_frag_coord(stages) {
@@ -289,7 +294,7 @@ fn default_value(types: &Types, shared: &Shared<'_>) -> Option<Value> {
     Some(Value { ty: shared.global.ty, scalars: value.scalars.clone() })
 }
 
-fn too_large(ctx: &mut Context<'_>, shared: &Shared<'_>, bytes: u32) {
+fn too_large(ctx: &mut Linker<'_>, shared: &Shared<'_>, bytes: u32) {
     let what = if shared.is_block() { "the uniform block" } else { "the loose uniforms up to" };
     let message = format!(
         "{what} `{}` take{} {bytes} bytes, and a uniform buffer has at most {MAX_BLOCK_BYTES}",
@@ -299,8 +304,8 @@ fn too_large(ctx: &mut Context<'_>, shared: &Shared<'_>, bytes: u32) {
     ctx.report(Diagnostic::new(&codes::link::TOO_MUCH_UNIFORM_STORAGE, shared.global.span, message));
 }
 
-/// What the leaves of one root have in common.
-struct Place {
+/// The common properties of the leaves of one root.
+struct RootContext {
     root: RootIndex,
     slot: SlotBinding,
     block_element: u32,
@@ -311,7 +316,7 @@ struct Place {
 /// Adds the leaves of a value at a byte offset.
 fn leaves(
     types: &Types,
-    place: &Place,
+    context: &RootContext,
     name: &str,
     ty: TypeId,
     offset: u32,
@@ -331,20 +336,20 @@ fn leaves(
             name: part.name,
             ty: element,
             array_size,
-            root: place.root,
-            block_element: place.block_element,
-            flat_offset: place.flat_offset + part.flat_offset,
-            slot: place.slot,
+            root: context.root,
+            block_element: context.block_element,
+            flat_offset: context.flat_offset + part.flat_offset,
+            slot: context.slot,
             offset: offset + layout::byte_offset(types, ty, part.flat_offset, order),
             array_stride: array_size.map(|_| array_stride(types, element, order)),
             matrix_stride: is_matrix.then(layout::matrix_stride),
             matrix_layout: if is_matrix { part.matrix_layout } else { MatrixLayout::ColumnMajor },
-            active: place.active,
+            active: context.active,
         });
     }
 }
 
-fn place_blocks(ctx: &mut Context<'_>, blocks: &[&Shared<'_>], interface: &mut Interface) {
+fn place_blocks(ctx: &mut Linker<'_>, blocks: &[&Shared<'_>], interface: &mut Interface) {
     let types = ctx.types;
     let mut binding = u32::from(interface.loose.is_some());
     for shared in blocks {
@@ -382,9 +387,9 @@ fn place_blocks(ctx: &mut Context<'_>, blocks: &[&Shared<'_>], interface: &mut I
             };
             let mut flat_offset = element * element_len;
             for (member, placed) in types.structure(id).members.iter().zip(&members) {
-                let place = Place { root, slot, block_element: element, flat_offset, active: shared.active };
+                let context = RootContext { root, slot, block_element: element, flat_offset, active: shared.active };
                 let name = join(&prefix, &member.name);
-                leaves(types, &place, &name, member.ty, placed.offset, placed.layout, &mut interface.uniforms);
+                leaves(types, &context, &name, member.ty, placed.offset, placed.layout, &mut interface.uniforms);
                 flat_offset += types.flat_len(member.ty);
             }
         }

@@ -1,11 +1,11 @@
 //! Assigns locations to varyings: outputs of the stage before the rasterizer and inputs of the fragment stage, split
 //! into scalars and vectors (columns of matrices, elements of arrays, members of structs and blocks).
 //!
-//! With both stages there, a varying is what both declare; an output that the fragment stage does not declare is no
-//! varying, nor is an input without an output (which nothing reads, or the link failed). Those that are read come first.
-//! Each takes a location of its own while there are enough; else scalars and vectors of equal type and interpolation
-//! share locations. Explicit locations stay. Clip distances that the fragment stage reads come last, except that varyings
-//! which nothing reads leave them room.
+//! If both stages are there, a varying is what both declare. An output that the fragment stage does not declare is
+//! not a varying; nor is an input without an output (nothing reads it, or the link failed). Varyings that are read
+//! come first. Each takes a location of its own while there are enough; after that, scalars and vectors of equal type
+//! and interpolation share locations. Explicit locations are kept. Clip distances that the fragment stage reads come
+//! last, but before varyings that nothing reads if space is short.
 
 use super::clip_distances::ClipDistances;
 use super::compatible::same_type;
@@ -13,7 +13,7 @@ use super::declared::plural;
 use super::flatten::{join, parts};
 use super::locations::Locations;
 use super::matching::{Outputs, match_name};
-use super::{Context, Varying, VaryingEnd};
+use super::{Linker, Varying, VaryingEnd};
 use crate::diagnostic::{Diagnostic, codes};
 use crate::hir::{
     ArraySize, Global, GlobalId, Interpolation, MatrixLayout, Scalar, Shader, Storage, Type, TypeId, Types,
@@ -46,9 +46,9 @@ impl<'a> Whole<'a> {
     }
 }
 
-/// All varyings of a program, in the order of their locations, and the clip distances among what is interpolated.
+/// All varyings of a program in order of location, and the interpolated clip distances.
 pub(super) fn assign(
-    ctx: &mut Context<'_>,
+    ctx: &mut Linker<'_>,
     producer: Option<&Shader>,
     fragment: Option<&Shader>,
 ) -> (Vec<Varying>, Vec<Varying>) {
@@ -96,7 +96,7 @@ fn same_type_or_block(types: &Types, output: &Global, input: &Global) -> bool {
 }
 
 /// Whether a variable alone is within the limits, so that an absurdly large array is not split.
-fn fits(ctx: &mut Context<'_>, whole: &Whole<'_>) -> bool {
+fn fits(ctx: &mut Linker<'_>, whole: &Whole<'_>) -> bool {
     let Some(global) = whole.decisive() else { return true };
     let components = ctx.types.flat_len(global.ty);
     if components <= MAX_LOCATIONS * 4 {
@@ -218,7 +218,7 @@ fn vectors(types: &Types, name: &str, ty: TypeId) -> Vec<(String, TypeId, u32)> 
     }
 }
 
-fn warn_above_minimum(ctx: &mut Context<'_>, wholes: &[Whole<'_>], pieces: &[Piece], clip: Option<&ClipDistances<'_>>) {
+fn warn_above_minimum(ctx: &mut Linker<'_>, wholes: &[Whole<'_>], pieces: &[Piece], clip: Option<&ClipDistances<'_>>) {
     const MINIMUM: u32 = 60;
     let components: u32 = pieces.iter().filter(|piece| piece.varying.active).map(|piece| u32::from(piece.size)).sum();
     let components = components + clip.map_or(0, ClipDistances::components);
@@ -231,8 +231,8 @@ fn warn_above_minimum(ctx: &mut Context<'_>, wholes: &[Whole<'_>], pieces: &[Pie
     }
 }
 
-/// Gives every piece its place, then the clip distances theirs; inactive pieces that find no room are dropped.
-fn place(ctx: &mut Context<'_>, pieces: Vec<Piece>, clip: Option<&ClipDistances<'_>>) -> (Vec<Varying>, Vec<Varying>) {
+/// Assigns locations to all pieces, then to the clip distances. Inactive pieces that do not fit are dropped.
+fn place(ctx: &mut Linker<'_>, pieces: Vec<Piece>, clip: Option<&ClipDistances<'_>>) -> (Vec<Varying>, Vec<Varying>) {
     let n_clip = clip.map_or(0, ClipDistances::locations);
     let mut room = Room::new(pieces.len() as u32 + n_clip > PORTABLE_LOCATIONS);
     let (fixed, mut free): (Vec<Piece>, Vec<Piece>) = pieces.into_iter().partition(|piece| piece.fixed.is_some());
@@ -244,7 +244,7 @@ fn place(ctx: &mut Context<'_>, pieces: Vec<Piece>, clip: Option<&ClipDistances<
         }
     }
     if room.shared {
-        // Large ones first, so that small ones fill what they leave.
+        // Large ones first, so that small ones fill the gaps.
         free.sort_by_key(|piece| (!piece.varying.active, 4 - piece.size));
     }
     let mut reported = false;
@@ -274,20 +274,20 @@ fn at(piece: Piece, location: u32, component: u32) -> Varying {
     Varying { location, component, ..piece.varying }
 }
 
-fn no_room(ctx: &mut Context<'_>, piece: &Piece) {
+fn no_room(ctx: &mut Linker<'_>, piece: &Piece) {
     let message =
         format!("no room for the varying `{}`: there are {}", piece.varying.name, plural(MAX_LOCATIONS, "location"));
     ctx.report(Diagnostic::new(&codes::link::TOO_MANY_VARYINGS, piece.span, message));
 }
 
-/// What stands at a location: how many of its components are taken, and by what kind of varyings.
+/// The contents of a location: how many components are in use, and the kind of its varyings.
 #[derive(Clone, Copy, Default)]
-struct Slot {
+struct LocationContents {
     used: u8,
     kind: Option<(Scalar, Interpolation, bool)>,
 }
 
-impl Slot {
+impl LocationContents {
     fn is_free(&self) -> bool {
         self.kind.is_none()
     }
@@ -302,9 +302,9 @@ fn kind(piece: &Piece) -> (Scalar, Interpolation, bool) {
     (piece.scalar, piece.varying.interpolation, piece.varying.centroid)
 }
 
-/// The locations of varyings, and whether several of one kind share one.
+/// The locations of varyings, and whether several varyings of one kind share a location.
 struct Room {
-    slots: Locations<Slot>,
+    slots: Locations<LocationContents>,
     shared: bool,
 }
 
@@ -313,15 +313,15 @@ impl Room {
         Self { slots: Locations::new(MAX_LOCATIONS), shared }
     }
 
-    /// Takes all of a location that the text gives.
+    /// Takes the whole of an explicit location.
     fn put_at(&mut self, piece: &Piece, location: u32) -> Option<u32> {
         self.slots.run_mut(location, 1)?.iter_mut().for_each(|slot| slot.fill(piece, 4));
         Some(location)
     }
 
-    /// Finds a location and the first free component in it, if so many locations stay free behind one another.
+    /// Finds a location and its first free component, if `keep` consecutive locations stay free.
     fn put(&mut self, piece: &Piece, keep: u32) -> Option<(u32, u32)> {
-        let fitting = |slot: &Slot| match slot.kind {
+        let fitting = |slot: &LocationContents| match slot.kind {
             None => true,
             Some(kept) => self.shared && kept == kind(piece) && slot.used + piece.size <= 4,
         };
@@ -330,13 +330,13 @@ impl Room {
         let slot = slots.run_mut(location, 1)?.first_mut()?;
         let component = u32::from(slot.used);
         slot.fill(piece, slot.used + piece.size);
-        slots.lowest(keep, Slot::is_free)?;
+        slots.lowest(keep, LocationContents::is_free)?;
         self.slots = slots;
         Some((location, component))
     }
 
-    /// The first of so many locations above all others.
+    /// The first of `count` locations above all others.
     fn last(&self, count: u32) -> Option<u32> {
-        self.slots.above_all(count, Slot::is_free)
+        self.slots.above_all(count, LocationContents::is_free)
     }
 }

@@ -9,7 +9,7 @@ use crate::hir::{ExprId, ExprKind, FunctionId, ParamMode, Shader, Stmt, StmtKind
 use crate::link::usage::written_by;
 
 /// A call of a built-in function in divergent control flow.
-pub(super) struct Place {
+pub(super) struct DivergentCall {
     pub(super) expr: ExprId,
     /// The divergent condition, if it is in the same function.
     pub(super) condition: Option<ExprId>,
@@ -26,7 +26,7 @@ struct Divergence<'a> {
     /// Whether a function is called in divergent control flow.
     called: Vec<bool>,
     changed: bool,
-    places: Option<Vec<Place>>,
+    calls: Option<Vec<DivergentCall>>,
     function: FunctionId,
 }
 
@@ -44,7 +44,7 @@ impl Flow {
 }
 
 /// All calls of built-in functions in divergent control flow.
-pub(super) fn divergent_calls(shader: &Shader) -> Vec<Place> {
+pub(super) fn divergent_calls(shader: &Shader) -> Vec<DivergentCall> {
     let Some(main) = shader.main else { return Vec::new() };
     let order = shader.callees_first(main);
     let mut walk = Divergence {
@@ -54,7 +54,7 @@ pub(super) fn divergent_calls(shader: &Shader) -> Vec<Place> {
         returns: vec![false; shader.functions.len()],
         called: vec![false; shader.functions.len()],
         changed: true,
-        places: None,
+        calls: None,
         function: main,
     };
     for _ in 0..MAX_ROUNDS {
@@ -62,9 +62,9 @@ pub(super) fn divergent_calls(shader: &Shader) -> Vec<Place> {
         // Callers first, for what they pass; then callees first, for what they return.
         order.iter().rev().chain(&order).for_each(|&id| walk.function(id));
         if !walk.changed {
-            walk.places = Some(Vec::new());
+            walk.calls = Some(Vec::new());
             order.iter().for_each(|&id| walk.function(id));
-            return walk.places.unwrap_or_default();
+            return walk.calls.unwrap_or_default();
         }
     }
     Vec::new()
@@ -242,8 +242,8 @@ impl Divergence<'_> {
                         self.taint(variable);
                     }
                 });
-                if let (Flow::Divergent(condition), Some(places)) = (flow, &mut self.places) {
-                    places.push(Place { expr: id, condition });
+                if let (Flow::Divergent(condition), Some(calls)) = (flow, &mut self.calls) {
+                    calls.push(DivergentCall { expr: id, condition });
                 }
             }
             ExprKind::IncDec(_, target) if flow.is_divergent() => {

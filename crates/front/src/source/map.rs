@@ -136,7 +136,7 @@ impl SourceMap {
     /// of its own.
     pub const MAX_BYTES: u32 = 1 << 30;
 
-    /// The name of the text that holds the macros defined from outside. It is no file's name.
+    /// The name of the text that contains the macros defined from outside. It is not the name of a file.
     pub const COMMAND_LINE: &'static str = "<command line>";
 
     /// Adds a text. Returns `None` if the map has no room for it ([`Self::MAX_BYTES`]).

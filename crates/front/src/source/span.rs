@@ -27,7 +27,7 @@ impl ExpansionId {
 /// A half-open range `start..end` of global byte offsets in a [`SourceMap`](super::SourceMap), at the place where the
 /// text was *written*, together with the macro use that put the text where it is.
 ///
-/// Offset 0 belongs to no file. `Span::default()` means "nowhere" and is shown without an excerpt.
+/// Offset 0 belongs to no file. `Span::default()` is unknown and is shown without an excerpt.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Span {
     /// First byte.

@@ -463,6 +463,6 @@ pub enum SwitchItem {
 pub enum Condition {
     /// An expression.
     Expr(ExprId),
-    /// `bool b = f()`: declared anew in each iteration.
+    /// `bool b = f()`: declared again in each iteration.
     Declaration(Box<VariableDecl>),
 }

@@ -40,6 +40,35 @@ impl Keyword {
     }
 }
 
+/// The class of a word, for highlighting.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum WordClass {
+    /// A statement, qualifier or other keyword.
+    Keyword,
+    /// The name of a type.
+    Type,
+    /// `true` or `false`.
+    Constant,
+    /// A name that begins with `gl_`.
+    Builtin,
+}
+
+impl WordClass {
+    /// The class of a word in a version; `None` for names that an author chooses, and for words that are only
+    /// reserved.
+    pub fn of(word: &str, version: u16) -> Option<Self> {
+        if word.starts_with("gl_") {
+            return Some(Self::Builtin);
+        }
+        match TABLE.iter().find(|row| row.spelling == word)?.kind_in(version) {
+            Type | Void => Some(Self::Type),
+            True | False => Some(Self::Constant),
+            Ident | Reserved => None,
+            _ => Some(Self::Keyword),
+        }
+    }
+}
+
 /// The token kind of each word of the table in a version, by symbol.
 pub(super) fn kinds_in(version: u16) -> Vec<TokenKind> {
     TABLE.iter().map(|row| row.kind_in(version)).collect()

@@ -1,7 +1,7 @@
-//! What the text of the specification forbids and every driver accepts in silence. glisten warns and cites the
-//! section; with `strict` it reports an error. All cases are rows of one table, each with its reason.
+//! The cases that the text of the specification forbids and every driver silently accepts. glisten warns and cites
+//! the section; with `strict` it reports an error. All cases are rows of one table, each with its reason.
 
-use super::token::Session;
+use super::token::ParseSession;
 use crate::diagnostic::codes::{preprocess, syntax};
 use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::source::Span;
@@ -36,7 +36,7 @@ pub(super) static LATE_EXTENSION: Kindness = Kindness {
 /// `#endif NAME`
 pub(super) static EXTRA_TEXT: Kindness = Kindness {
     code: &preprocess::EXTRA_TEXT,
-    reason: "every driver ignores it, and many sources repeat the name behind `#endif`",
+    reason: "every driver ignores it, and many sources repeat the name after `#endif`",
 };
 /// `#include` without its extension.
 pub(super) static INCLUDE_WITHOUT_EXTENSION: Kindness = Kindness {
@@ -45,7 +45,7 @@ pub(super) static INCLUDE_WITHOUT_EXTENSION: Kindness = Kindness {
 };
 /// `#pragma optimize(off)` inside a function.
 pub(super) static PRAGMA_IN_FUNCTION: Kindness =
-    Kindness { code: &preprocess::PRAGMA_IN_FUNCTION, reason: "no driver looks where such a pragma stands" };
+    Kindness { code: &preprocess::PRAGMA_IN_FUNCTION, reason: "no driver checks where such a pragma is" };
 /// U+FEFF before the text.
 pub(super) static BYTE_ORDER_MARK: Kindness = Kindness {
     code: &preprocess::BYTE_ORDER_MARK,
@@ -75,7 +75,7 @@ impl Kindness {
     }
 
     /// Reports one occurrence.
-    pub(super) fn report(&self, session: &mut Session<'_>, strict: bool, span: Span, message: impl Into<String>) {
+    pub(super) fn report(&self, session: &mut ParseSession<'_>, strict: bool, span: Span, message: impl Into<String>) {
         let diagnostic = self.diagnostic(strict, span, message);
         session.report(diagnostic);
     }

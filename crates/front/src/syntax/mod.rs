@@ -26,11 +26,11 @@ use ast::{Ast, Profile, Version};
 use parser::Parser;
 use preprocessor::Preprocessor;
 pub(crate) use preprocessor::extension::warning_of_use;
-use token::{Names, Session};
+use token::{Names, ParseSession};
 
-/// Options of a parse.
+/// ParseOptions of a parse.
 #[derive(Clone, Debug)]
-pub struct Options {
+pub struct ParseOptions {
     /// The stage.
     pub stage: Stage,
     /// Macros defined before the first line: name (with parameters, if it has any) and replacement text.
@@ -43,11 +43,11 @@ pub struct Options {
 pub fn parse(
     sources: &mut SourceMap,
     file: FileId,
-    options: &Options,
+    options: &ParseOptions,
     includes: &(dyn IncludeResolver + Sync),
     diagnostics: &mut Diagnostics,
 ) -> Ast {
-    let mut session = Session { sources, diagnostics, names: Names::with_keywords() };
+    let mut session = ParseSession { sources, diagnostics, names: Names::with_keywords() };
     let mut preprocessor = Preprocessor::new(&mut session, file, &options.defines, options.strict, includes);
     let mut ast = Parser::new(&mut preprocessor, &mut session, empty_tree(), options.strict).translation_unit();
     let outcome = preprocessor.finish();

@@ -307,7 +307,7 @@ impl Token {
         Extensions::from_bits_truncate(u32::from(self.extensions))
     }
 
-    /// The same token with these extensions enabled.
+    /// This token with these extensions enabled.
     #[must_use]
     pub fn with_extensions(self, extensions: Extensions) -> Self {
         Self { extensions: extensions.bits() as u16, ..self }
@@ -320,7 +320,7 @@ impl Token {
 }
 
 /// The state that all steps of a parse share.
-pub struct Session<'a> {
+pub struct ParseSession<'a> {
     /// The texts.
     pub sources: &'a mut SourceMap,
     /// Where diagnostics go.
@@ -329,7 +329,7 @@ pub struct Session<'a> {
     pub names: Names,
 }
 
-impl Session<'_> {
+impl ParseSession<'_> {
     /// Reports a diagnostic.
     pub fn report(&mut self, diagnostic: Diagnostic) {
         self.diagnostics.push(diagnostic);
@@ -350,7 +350,7 @@ impl Session<'_> {
 /// A source of tokens for the parser: the preprocessor, or a test.
 pub trait TokenSource: Send {
     /// The next token; after the last, [`TokenKind::Eof`] forever.
-    fn next(&mut self, session: &mut Session<'_>) -> Token;
+    fn next(&mut self, session: &mut ParseSession<'_>) -> Token;
 }
 
 #[cfg(test)]

@@ -1,37 +1,38 @@
-//! Where a driver is known to break its own specification.
+//! The cases in which a driver is known to violate its specification.
 //!
-//! *In:* nothing. *Out:* [`KNOWN`], a row each, and [`Faults`], the set of those that an envelope admits.
+//! *In:* nothing. *Out:* [`KNOWN`], with a row for each fault, and [`Faults`], the set of those that an envelope
+//! excuses.
 //!
-//! *Holds:* the strict envelope admits none. `verify` admits them only for pixels that the strict envelope leaves
-//! outside, counts these apart, and can be told not to.
+//! *Holds:* the strict envelope excuses none. `verify` excuses them only for pixels that are outside the strict
+//! envelope, counts these pixels separately, and has an option against it.
 
-/// A way in which a driver is wrong.
+/// A known fault of a driver.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Fault {
-    /// `asin` and `acos` by a short polynomial.
+    /// It computes `asin` and `acos` with a short polynomial.
     ArcFunctions,
-    /// The level of detail by a crude logarithm.
+    /// It computes the level of detail with an imprecise logarithm.
     LevelOfDetail,
-    /// `noperspective` varyings of triangles that are clipped along an edge of one x.
+    /// It computes `noperspective` varyings incorrectly for triangles that are clipped along an edge of constant x.
     ClippedNoperspective,
 }
 
 /// A row of [`KNOWN`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct KnownFault {
-    /// Which one.
+    /// The fault.
     pub fault: Fault,
     /// Its name in reports.
     pub name: &'static str,
-    /// The rule that is broken.
+    /// The rule that it breaks.
     pub rule: &'static str,
-    /// How far the driver was found to go, and what the wider envelope admits.
+    /// The largest measured error, and what the wider envelope excuses.
     pub measured: &'static str,
-    /// Where it applies.
+    /// The cases to which it applies.
     pub applies: &'static str,
 }
 
-/// All known faults, of Mesa 22.3.6's llvmpipe and lavapipe.
+/// All known faults of Mesa 22.3.6's llvmpipe and lavapipe.
 pub static KNOWN: &[KnownFault] = &[
     KnownFault {
         fault: Fault::ArcFunctions,
@@ -61,15 +62,15 @@ pub static KNOWN: &[KnownFault] = &[
 pub struct Faults(u8);
 
 impl Faults {
-    /// The strict envelope.
+    /// No faults: the strict envelope.
     pub const NONE: Self = Self(0);
 
-    /// All that are known.
+    /// All known faults.
     pub fn all() -> Self {
         KNOWN.iter().fold(Self::NONE, |set, known| set.with(known.fault))
     }
 
-    /// This one alone.
+    /// Only this fault.
     pub fn only(fault: Fault) -> Self {
         Self::NONE.with(fault)
     }
@@ -78,14 +79,14 @@ impl Faults {
         Self(self.0 | 1 << fault as u8)
     }
 
-    /// Whether the fault is admitted.
+    /// Whether the fault is excused.
     #[inline(always)]
     pub fn admits(self, fault: Fault) -> bool {
         self.0 >> fault as u8 & 1 == 1
     }
 }
 
-/// How far `asin` and `acos` may be off where that is admitted.
+/// The largest excused error of `asin` and `acos`.
 pub const ARC_FUNCTIONS: f64 = 4.0e-4;
-/// How far, in levels, a level of detail.
+/// The largest excused error of a level of detail, in levels.
 pub const LEVEL_OF_DETAIL: f64 = 0.05;

@@ -2,27 +2,27 @@
 
 use super::{Element, WIDTH};
 
-/// 32 bits that are an `int` in two's complement, a `uint`, or a `bool` as 0 or 1; arithmetic wraps (GLSL 1.50 §4.1.3).
+/// 32 bits: an `int` in two's complement, a `uint`, or a `bool` as 0 or 1. Arithmetic wraps (GLSL 1.50 §4.1.3).
 ///
-/// Defined here where GLSL is not: division by zero gives all bits set, so does the remainder; the least `int` divided by
-/// -1 wraps; shift counts are taken modulo 32.
+/// These cases are defined here because GLSL leaves them undefined: division by zero, and its remainder, have all
+/// bits set; the smallest `int` divided by -1 wraps; shift counts are taken modulo 32.
 pub trait Integer: Element<Few = [Self; WIDTH]> {
     /// Exactly these bits.
     fn from_bits(bits: u32) -> Self;
-    /// The bits, those of the most likely value where they are not sure.
+    /// The bits; for an inexact integer, those of the most likely value.
     fn bits(self) -> u32;
-    /// The bits that are carried beside them, in domains that follow two values.
+    /// The bits of the second value, in domains that compute two values.
     #[inline(always)]
     fn beside(self) -> u32 {
         self.bits()
     }
-    /// Bits and those beside them; domains that carry one forget the second.
+    /// The bits of both values; domains with one value ignore the second.
     #[inline(always)]
     fn paired(bits: u32, beside: u32) -> Self {
         let _ = beside;
         Self::from_bits(bits)
     }
-    /// These bits, or those of another `int` between both ends; only domains with envelopes keep the choice.
+    /// These bits, or those of another `int` within the bounds. Domains without envelopes ignore the bounds.
     fn with_choices(bits: u32, low: i32, high: i32) -> Self {
         let _ = (low, high);
         Self::from_bits(bits)
@@ -32,7 +32,7 @@ pub trait Integer: Element<Few = [Self; WIDTH]> {
     fn choices(self) -> (i32, i32) {
         (self.bits() as i32, self.bits() as i32)
     }
-    /// The choices of both, with this one's bits.
+    /// The hull of both, with this one's bits.
     #[inline(always)]
     fn joined(self, other: Self) -> Self {
         let _ = other;
@@ -42,9 +42,9 @@ pub trait Integer: Element<Few = [Self; WIDTH]> {
     fn sure(self) -> bool {
         true
     }
-    /// A function of one.
+    /// A function of one operand.
     fn lift1(self, f: impl Fn(u32) -> u32) -> Self;
-    /// A function of two.
+    /// A function of two operands.
     fn lift2(self, other: Self, f: impl Fn(u32, u32) -> u32) -> Self;
 
     /// 0 or 1.
@@ -67,7 +67,7 @@ pub trait Integer: Element<Few = [Self; WIDTH]> {
     fn neg(self) -> Self {
         self.lift1(u32::wrapping_neg)
     }
-    /// `min(max(a, 0), last)` of `int`s: an index limited into range.
+    /// `min(max(a, 0), last)` of `int`s: an index clamped into range.
     #[inline(always)]
     fn clamp_index(self, last: Self) -> Self {
         self.lift2(last, |a, last| (a as i32).min(last as i32).max(0) as u32)
@@ -92,7 +92,7 @@ pub trait Integer: Element<Few = [Self; WIDTH]> {
     fn div_signed(self, other: Self) -> Self {
         self.lift2(other, |a, b| if b == 0 { u32::MAX } else { (a as i32).wrapping_div(b as i32) as u32 })
     }
-    /// `a % b` of `int`s; the sign is the dividend's.
+    /// `a % b` of `int`s, with the sign of the dividend.
     #[inline(always)]
     fn rem_signed(self, other: Self) -> Self {
         self.lift2(other, |a, b| if b == 0 { u32::MAX } else { (a as i32).wrapping_rem(b as i32) as u32 })
@@ -162,7 +162,7 @@ pub trait Integer: Element<Few = [Self; WIDTH]> {
     fn less_equal_unsigned(self, other: Self) -> Self {
         self.lift2(other, |a, b| u32::from(a <= b))
     }
-    /// `c ? a : b` with `c` this.
+    /// `c ? a : b`, where `c` is this.
     #[inline(always)]
     fn select(self, yes: Self, no: Self) -> Self {
         if self.is_true() { yes } else { no }

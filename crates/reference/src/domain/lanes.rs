@@ -1,39 +1,39 @@
-//! [`Lanes`]: a number in each of 64 lanes, kept in blocks of eight, and what can be done to a block at once.
+//! [`Lanes`]: a number in each of 64 lanes, in blocks of eight, with operations on a whole block.
 //!
-//! *In:* what the executor's registers hold. *Out:* the same operations as [`Number`]'s, on eight lanes.
+//! *In:* the contents of the executor's registers. *Out:* the operations of [`Number`] on eight lanes.
 //!
-//! *Holds:* an operation on a block gives in each lane what [`Number`]'s gives. A domain whose numbers are one machine
-//! number each keeps them in an array and says no more: the compiler makes vectors of the loops. One whose numbers have
-//! parts keeps each part by itself ([`Element::Few`]) and brings operations of its own.
+//! *Holds:* an operation on a block yields the result of [`Number`]'s in each lane. A domain whose numbers are single
+//! machine numbers stores them in an array, and the compiler vectorizes the loops. A domain whose numbers have parts
+//! stores each part separately ([`Element::Few`]) and defines its own operations.
 
 use super::Number;
 use std::fmt::Debug;
 
-/// How many lanes there are.
+/// The number of lanes.
 pub const LANES: usize = 64;
 
-/// How many lanes a block has: enough for every vector unit.
+/// The number of lanes in a block, which is enough for every vector unit.
 pub const WIDTH: usize = 8;
 
-/// What a lane holds.
+/// The value in a lane.
 pub trait Element: Copy + Default + Debug + Send + Sync + 'static {
-    /// Whether it is one number of the machine: then a loop over lanes is a few vector instructions.
+    /// Whether it is a single machine number. Then a loop over lanes is a few vector instructions.
     const PLAIN: bool = false;
-    /// Eight of them.
+    /// Eight elements.
     type Few: Few<Self>;
 }
 
 /// Eight elements. Lanes are counted modulo [`WIDTH`].
 pub trait Few<T>: Copy + Default + Debug + Send + Sync + 'static {
-    /// The same in all lanes.
+    /// One value in all lanes.
     fn splat(value: T) -> Self;
-    /// One in each lane.
+    /// One value for each lane.
     fn of(elements: &[T; WIDTH]) -> Self;
-    /// What a lane holds.
+    /// The value in a lane.
     fn get(&self, lane: usize) -> T;
-    /// Changes it.
+    /// Sets the value in a lane.
     fn set(&mut self, lane: usize, value: T);
-    /// With the lanes of the other that the mask names.
+    /// The block with the lanes in the mask replaced by those of `by`.
     #[inline(always)]
     fn replaced(&self, by: &Self, mask: u8) -> Self {
         let mut out = *self;
@@ -63,25 +63,25 @@ impl<T: Copy + Default + Debug + Send + Sync + 'static> Few<T> for [T; WIDTH] {
     }
 }
 
-/// What comparing two blocks gives.
+/// The result of comparing two blocks.
 pub type Answers<N> = <<N as Number>::Int as Element>::Few;
 
 /// Eight numbers. Methods without a comment are [`Number`]'s of that name, in each lane.
 pub trait Block<N: Number>: Few<N> {
-    /// Whether the operations are the block's own, not [`Number`]'s lane by lane.
+    /// Whether the operations are the block's own, instead of [`Number`]'s lane by lane.
     const OWN: bool = false;
-    /// Runs a loop over blocks, compiled for the vector unit that operations of the block's own are for; nothing where the
+    /// Runs a loop over blocks, compiled for the vector unit of the block's own operations. Returns `None` if the
     /// machine has none.
     #[inline(always)]
     fn if_vectorized<R>(work: impl FnOnce() -> R) -> Option<R> {
         Some(work())
     }
-    /// Runs a loop over blocks, compiled for the vector unit that the machine has where that pays.
+    /// Runs a loop over blocks, compiled for the machine's vector unit if that is faster.
     #[inline(always)]
     fn vectorized<R>(work: impl FnOnce() -> R) -> R {
         work()
     }
-    /// A function in each lane.
+    /// Applies a function in each lane.
     #[inline(always)]
     fn map(&self, f: impl Fn(N) -> N) -> Self {
         let mut out = Self::default();
@@ -90,7 +90,7 @@ pub trait Block<N: Number>: Few<N> {
         }
         out
     }
-    /// A function of two in each lane.
+    /// Applies a function of two operands in each lane.
     #[inline(always)]
     fn zip(&self, other: &Self, f: impl Fn(N, N) -> N) -> Self {
         let mut out = Self::default();
@@ -108,7 +108,7 @@ pub trait Block<N: Number>: Few<N> {
         }
         out
     }
-    /// To compute a built-in function in.
+    /// The block in the type for built-in functions.
     #[inline(always)]
     fn widen(&self) -> <N::Wide as Element>::Few {
         let mut out = <N::Wide as Element>::Few::default();
@@ -117,7 +117,7 @@ pub trait Block<N: Number>: Few<N> {
         }
         out
     }
-    /// The one rounding at a built-in function's end.
+    /// The single rounding at the end of a built-in function.
     #[inline(always)]
     fn narrow(wide: &<N::Wide as Element>::Few) -> Self {
         let mut out = Self::default();
@@ -126,7 +126,7 @@ pub trait Block<N: Number>: Few<N> {
         }
         out
     }
-    /// A sum from left to right; with an envelope in any order.
+    /// A sum, from left to right; with an envelope, in any order.
     #[inline(always)]
     fn sum(count: usize, term: impl Fn(usize) -> Self) -> Self {
         if N::OPEN {
@@ -272,36 +272,36 @@ pub trait Block<N: Number>: Few<N> {
     }
 }
 
-/// Lane by lane: of each domain without operations on blocks of its own, and of the others where a machine has no unit for
-/// those.
+/// The operations lane by lane: for domains without block operations, and for the others on machines without a
+/// suitable vector unit.
 impl<N: Number> Block<N> for [N; WIDTH] {}
 
-/// An element in each of [`LANES`] lanes, which are counted modulo that.
+/// An element in each of [`LANES`] lanes. Lane numbers are taken modulo that.
 #[derive(Clone, Copy, Debug)]
 pub struct Lanes<T: Element>([T::Few; LANES / WIDTH]);
 
 impl<T: Element> Lanes<T> {
-    /// The same in all lanes.
+    /// One value in all lanes.
     #[inline(always)]
     pub fn splat(value: T) -> Self {
         Self([T::Few::splat(value); LANES / WIDTH])
     }
-    /// What a lane holds.
+    /// The value in a lane.
     #[inline(always)]
     pub fn get(&self, lane: usize) -> T {
         self.0[lane / WIDTH % (LANES / WIDTH)].get(lane)
     }
-    /// Changes it.
+    /// Sets the value in a lane.
     #[inline(always)]
     pub fn set(&mut self, lane: usize, value: T) {
         self.0[lane / WIDTH % (LANES / WIDTH)].set(lane, value);
     }
-    /// What all lanes hold, in order.
+    /// The values of all lanes, in order.
     #[inline(always)]
     pub fn iter(&self) -> impl Iterator<Item = T> {
         (0..LANES).map(|lane| self.get(lane))
     }
-    /// Changes all lanes to these.
+    /// Sets all lanes.
     #[inline(always)]
     pub fn load(&mut self, elements: &[T; LANES]) {
         let (chunks, _) = elements.as_chunks();
@@ -309,14 +309,14 @@ impl<T: Element> Lanes<T> {
             *block = T::Few::of(chunk);
         }
     }
-    /// Changes the first lanes, one for each element.
+    /// Sets the first lanes, one for each element.
     #[inline(always)]
     pub fn assign(&mut self, elements: impl IntoIterator<Item = T>) {
         for (lane, element) in (0..LANES).zip(elements) {
             self.set(lane, element);
         }
     }
-    /// Changes all lanes.
+    /// Replaces the value in each lane.
     #[inline(always)]
     pub fn update(&mut self, f: impl Fn(usize, T) -> T) {
         for lane in 0..LANES {
@@ -328,7 +328,7 @@ impl<T: Element> Lanes<T> {
     pub fn blocks(&self) -> &[T::Few; LANES / WIDTH] {
         &self.0
     }
-    /// The blocks, to be changed.
+    /// The blocks, mutable.
     #[inline(always)]
     pub fn blocks_mut(&mut self) -> &mut [T::Few; LANES / WIDTH] {
         &mut self.0
@@ -351,7 +351,7 @@ pub enum Source<'a, T: Element> {
 }
 
 impl<T: Element> Source<'_, T> {
-    /// The number in a lane; lanes are counted modulo [`LANES`].
+    /// The number in a lane. Lane numbers are taken modulo [`LANES`].
     #[inline(always)]
     pub fn at(&self, lane: usize) -> T {
         match self {

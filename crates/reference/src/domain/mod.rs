@@ -1,20 +1,20 @@
-//! Number domains: what a `float` and an `int` are while a shader runs on the CPU.
+//! Domains: the representations of `float` and `int` while a shader runs on the CPU.
 //!
 //! *In:* f32 values of literals, uniforms and attributes. *Out:* the results of each operation of GLSL 1.50 (§5, §8).
-//! One executor serves every domain; a domain says only what one number is and what one operation does to it.
+//! One executor serves every domain; a domain only defines what one number is and what one operation does.
 //!
 //! | domain | a `float` is | an operation |
 //! | --- | --- | --- |
-//! | [`F64`] | an f64 | is f64's: the reference |
+//! | [`F64`] | an f64 | f64's: the reference |
 //! | [`F32`] | an f32 | rounds once; a built-in function is computed in f64 and rounded once: a strict GPU |
-//! | [`Envelope`] | an f64 and the interval of what a GPU may have instead | gives the hull of what [`rules`] allow |
-//! | [`Shadow`] | an f32 and an f64 side by side | is done in both: what f32 adds is seen |
+//! | [`Envelope`] | an f64 and the interval of a GPU's values | yields the hull of what [`rules`] allow |
+//! | [`Shadow`] | an f32 and an f64 side by side | is done in both, which shows the error of f32 |
 //!
-//! Registers keep numbers in [`Lanes`], blocks of eight; a domain may bring operations on [`Block`]s of its own.
+//! Registers store numbers in [`Lanes`], blocks of eight; a domain may define its own operations on [`Block`]s.
 //!
 //! *Holds:* every operation is total: nothing panics, whatever the bits. What GLSL leaves undefined is defined here,
-//! beside the operation. Comparisons give [`Integer`]s, so that a domain may leave an answer open
-//! ([`Integer::sure`]); the executor asks only where the answer decides what runs.
+//! in the documentation of the operation. Comparisons yield [`Integer`]s, so that a domain may leave a condition
+//! undecided ([`Integer::sure`]); the executor asks only where the condition determines what runs.
 
 mod envelope;
 pub mod faults;
@@ -26,6 +26,8 @@ mod shadow;
 mod single;
 mod wide;
 
+#[cfg(test)]
+pub(crate) use envelope::evaluate;
 pub use envelope::{EnvelopeBlock, EnvelopeFloat, EnvelopeInt};
 pub use integer::Integer;
 pub use lanes::{Answers, Block, Element, Few, LANES, Lanes, Source, WIDTH};
@@ -40,7 +42,7 @@ pub trait Domain: Copy + Send + Sync + std::fmt::Debug + 'static {
     type Int: Integer;
     /// `f64`, `f32`, `envelope`
     const NAME: &'static str;
-    /// Whether answers may be open: more than one may be a conforming GPU's.
+    /// Whether conditions may be undecided, because conforming GPUs may disagree.
     const OPEN: bool = <Self::Float as Number>::OPEN;
 }
 
@@ -48,11 +50,11 @@ pub trait Domain: Copy + Send + Sync + std::fmt::Debug + 'static {
 #[derive(Clone, Copy, Debug)]
 pub struct F64;
 
-/// A strict GPU: IEEE f32, one rounding an operation or built-in function.
+/// A strict GPU: IEEE f32, with one rounding per operation or built-in function.
 #[derive(Clone, Copy, Debug)]
 pub struct F32;
 
-/// f64 with the interval of what a conforming f32 GPU may have in its place.
+/// f64 with the interval of values that a conforming f32 GPU may have.
 #[derive(Clone, Copy, Debug)]
 pub struct Envelope;
 

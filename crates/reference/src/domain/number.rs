@@ -1,81 +1,81 @@
-//! [`Number`]: the `float` of a domain, and what each operation of the language does to it.
+//! [`Number`]: the `float` of a domain, with each operation of the language.
 
 use super::{Block, Element, Integer};
 use glisten_scene::picture::Interval;
 
 /// A `float`. Methods without a comment are the operation or built-in function of that name (GLSL 1.50 §5.9, §8.1 to §8.3).
 ///
-/// Defined here where GLSL is not: `min` and `max` drop a NaN where one operand is none (IEEE 754-2008 `minNum`, and what
-/// GPUs do); `sign` of NaN is 0; `pow` of a negative base is NaN, `pow(0, 0)` is 1; conversions to integers saturate and
-/// take NaN to 0; `round` goes to the even neighbor at halves.
+/// These cases are defined here because GLSL leaves them undefined: `min` and `max` drop a NaN if the other operand
+/// is not one (IEEE 754-2008 `minNum`, as on GPUs); `sign` of NaN is 0; `pow` of a negative base is NaN, `pow(0, 0)`
+/// is 1; conversions to integers saturate and convert NaN to 0; `round` goes to the even neighbor at halves.
 pub trait Number: Element<Few: Block<Self>> {
-    /// What comparisons give.
+    /// The result type of comparisons.
     type Int: Integer;
-    /// What built-in functions are computed in before they are rounded to this.
+    /// The type in which built-in functions are computed before rounding.
     type Wide: Number<Int = Self::Int>;
 
-    /// Whether a number stands for several that a conforming GPU may have.
+    /// Whether a number may represent several values of conforming GPUs.
     const OPEN: bool = false;
-    /// Whether a second value is carried beside the first: what leaves the domain's arithmetic, a texture's coordinates,
-    /// is followed for both.
+    /// Whether there is a second value. Values that leave the domain's arithmetic, such as a texture's coordinates,
+    /// are then followed for both.
     const PAIRED: bool = false;
 
-    /// The nearest.
+    /// The nearest number.
     fn from_f64(value: f64) -> Self;
-    /// The nearest, in whose place a GPU may have any in the range; domains without envelopes forget the range.
+    /// The nearest number, with the interval of a GPU's values; domains without envelopes ignore the interval.
     #[inline(always)]
     fn with_range(value: f64, range: Interval) -> Self {
         let _ = range;
         Self::from_f64(value)
     }
-    /// An integer with the range of what a GPU may have, which keeps ends that an f32 has no room for.
+    /// An integer with the interval of a GPU's values, whose bounds need not be f32 numbers.
     #[inline(always)]
     fn whole(value: f64, range: Interval) -> Self {
         Self::with_range(value, range)
     }
-    /// The nearest, which a GPU may miss by `error`.
+    /// The nearest number, from which a GPU's may differ by `error`.
     #[inline(always)]
     fn with_error(value: f64, error: f64) -> Self {
         Self::with_range(value, Interval::around(value, error))
     }
     /// The value.
     fn value(self) -> f64;
-    /// The value that is carried beside it.
+    /// The second value.
     #[inline(always)]
     fn beside(self) -> f64 {
         self.value()
     }
-    /// The nearest of two values; domains that carry one forget the second.
+    /// The nearest numbers to two values; domains with one value ignore the second.
     #[inline(always)]
     fn paired(value: f64, beside: f64) -> Self {
         let _ = beside;
         Self::from_f64(value)
     }
-    /// What a conforming GPU may have; the value alone in domains without envelopes.
+    /// The interval of a conforming GPU's values; only the value in domains without envelopes.
     #[inline(always)]
     fn range(self) -> Interval {
         Interval::point(self.value())
     }
-    /// How far a conforming GPU may be from the value; 0 in domains without envelopes.
+    /// The largest difference of a conforming GPU from the value; 0 in domains without envelopes.
     #[inline(always)]
     fn error(self) -> f64 {
         if Self::OPEN { self.range().reach(self.value()) } else { 0.0 }
     }
-    /// What a GPU may have, and as much as `error` to both sides of it.
+    /// The interval widened by `error` on both sides.
     #[inline(always)]
     fn widened(self, error: f64) -> Self {
         let Interval { low, high, may_be_nan } = self.range();
         Self::with_range(self.value(), Interval { low: low - error, high: high + error, may_be_nan })
     }
-    /// What a GPU may have of either, with this one's value.
+    /// The hull of both, with this one's value.
     #[inline(always)]
     fn joined(self, other: Self) -> Self {
         let _ = other;
         self
     }
-    /// To compute a built-in function in.
+    /// The number in the type for built-in functions.
     fn widen(self) -> Self::Wide;
-    /// The one rounding at a built-in function's end.
+    /// The single rounding at the end of a built-in function.
     fn narrow(wide: Self::Wide) -> Self;
 
     /// `a + b`
@@ -89,7 +89,7 @@ pub trait Number: Element<Few: Block<Self>> {
     fn square(self) -> Self {
         self.mul(self)
     }
-    /// A sum, from left to right; with an envelope in any order.
+    /// A sum, from left to right; with an envelope, in any order.
     #[inline(always)]
     fn sum(terms: impl Iterator<Item = Self> + Clone) -> Self {
         terms.reduce(Self::add).unwrap_or_default()
@@ -110,7 +110,7 @@ pub trait Number: Element<Few: Block<Self>> {
     fn trunc(self) -> Self;
     /// `round` and `roundEven`, §8.3
     fn round(self) -> Self;
-    /// The same, being a component of a unit vector: no farther from 0 than 1, but for the ULPs that normalizing leaves.
+    /// The number as a component of a unit vector: at most 1, apart from the ULPs that normalizing may add.
     #[inline(always)]
     fn cosine_at_most(self) -> Self {
         self
@@ -171,7 +171,7 @@ pub trait Number: Element<Few: Block<Self>> {
     fn acos(self) -> Self;
     /// `atan(a)`, §8.1
     fn atan(self) -> Self;
-    /// `atan(y, x)` with `y` this, §8.1
+    /// `atan(y, x)`, where `y` is this (§8.1).
     fn atan2(self, x: Self) -> Self;
     /// §8.1
     fn sinh(self) -> Self;
@@ -202,8 +202,8 @@ pub trait Number: Element<Few: Block<Self>> {
     fn from_int(value: Self::Int) -> Self;
     /// `float(uint)`
     fn from_uint(value: Self::Int) -> Self;
-    /// `int(float)`: toward zero.
+    /// `int(float)`, rounding toward zero.
     fn to_int(self) -> Self::Int;
-    /// `uint(float)`: toward zero.
+    /// `uint(float)`, rounding toward zero.
     fn to_uint(self) -> Self::Int;
 }

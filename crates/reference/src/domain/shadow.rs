@@ -1,38 +1,38 @@
-//! The shadow domain: an f32 and an f64 side by side, so that the error of f32 arithmetic can be laid at the door of each
-//! operation.
+//! The shadow domain: an f32 and an f64 side by side, so that the error of f32 arithmetic can be attributed to
+//! operations.
 //!
-//! *In:* f32 values. *Out:* of each operation three results: on the f32 operands in f32, on the f32 operands in f64, on
-//! the f64 operands in f64. The first two differ by what the operation adds, the last two by what it makes of the error
-//! that its operands bring.
+//! *In:* f32 values. *Out:* three results for each operation: on the f32 operands in f32, on the f32 operands in f64,
+//! on the f64 operands in f64. The first two differ by the error that the operation adds, the last two by what it
+//! makes of its operands' errors.
 //!
-//! *Holds:* both sides run the same path, the f64's: conditions and indices are its answers, and an [`Integer`] that is
-//! not [sure](Integer::sure) is one on which the two disagree. Built-in functions that are formulas (`normalize`, `mix`,
-//! `pow` as `exp2(y log2(x))`) round each step of the formula in f32, as GPUs do; the others round once. Numbers too
-//! small for a normal f32 are kept, not flushed to 0.
+//! *Holds:* both sides take the path of f64, whose results decide conditions and indices. An [`Integer`] that is not
+//! [sure](Integer::sure) is one on which the two disagree. Built-in functions that are formulas (`normalize`, `mix`,
+//! `pow` as `exp2(y log2(x))`) round each step in f32, as GPUs do; the others round once. Subnormal f32 numbers are
+//! kept, not flushed to 0.
 
 use super::{Integer, Number};
 
 /// A `float`.
 pub type ShadowFloat = Shadowed<false>;
 
-/// A number in both precisions. `INSIDE` a built-in function the exact result goes on from step to step; outside each
-/// operation begins anew from its f32 operands.
+/// A number in both precisions. `INSIDE` a built-in function, the exact result continues from step to step; outside,
+/// each operation starts again from its f32 operands.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Shadowed<const INSIDE: bool> {
-    /// What f32 arithmetic gives.
+    /// The result of f32 arithmetic.
     pub single: f32,
-    /// The last operation's result in f64, on operands that f32 arithmetic gave.
+    /// The last operation's result in f64 on the operands of f32 arithmetic.
     pub exact: f64,
-    /// What f64 arithmetic gives.
+    /// The result of f64 arithmetic.
     pub wide: f64,
 }
 
 /// An `int`, `uint` or `bool`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ShadowInt {
-    /// The bits that follow from f64 arithmetic; they decide.
+    /// The bits that follow from f64 arithmetic, which decide.
     pub bits: u32,
-    /// Those that follow from f32 arithmetic.
+    /// The bits that follow from f32 arithmetic.
     pub single: u32,
 }
 
@@ -61,12 +61,13 @@ impl Integer for ShadowInt {
 }
 
 impl<const INSIDE: bool> Shadowed<INSIDE> {
-    /// What the last operation added: the distance of its f32 result from the exact one on the same operands.
+    /// The error that the last operation added: the difference between its f32 result and the exact one on the same
+    /// operands.
     pub fn added(self) -> f64 {
         (f64::from(self.single) - self.exact).abs()
     }
 
-    /// How far f32 arithmetic is from f64 arithmetic by now.
+    /// The total difference between f32 and f64 arithmetic.
     pub fn error(self) -> f64 {
         (f64::from(self.single) - self.wide).abs()
     }
@@ -86,7 +87,7 @@ impl<const INSIDE: bool> Shadowed<INSIDE> {
     }
 }
 
-/// `exp2(y log2(x))`, each step rounded: what Vulkan's precision rules make of `pow`.
+/// `exp2(y log2(x))` with each step rounded, as Vulkan's precision rules define `pow`.
 fn pow_by_steps(base: f32, exponent: f32) -> f32 {
     Number::exp2(exponent * Number::log2(base))
 }

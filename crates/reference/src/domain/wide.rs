@@ -2,7 +2,7 @@
 
 use super::Number;
 
-/// `minNum` and `maxNum` for every IEEE type: a NaN loses.
+/// `minNum` and `maxNum` for every IEEE type: a NaN is dropped.
 macro_rules! extremum {
     ($a:expr, $b:expr, $op:tt) => {{
         let (a, b) = ($a, $b);
@@ -168,7 +168,7 @@ impl Number for f64 {
     }
     #[inline(always)]
     fn atanh(self) -> Self {
-        // The standard library's loses digits near -1 and not near 1.
+        // The standard library's loses digits near -1, but not near 1.
         Self::atanh(self.abs()).copysign(self)
     }
     #[inline(always)]

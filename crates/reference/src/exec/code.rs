@@ -1,4 +1,4 @@
-//! [`Code`]: what a stage compiles to.
+//! [`Code`]: the compiled form of a stage.
 
 use super::inst::{Class, Inst, List, Operand, TextureCall};
 use glisten_front::hir::{GlobalId, Stage};
@@ -12,10 +12,10 @@ pub struct Code {
     pub(super) inner: Arc<Inner>,
 }
 
-/// Where a number for all lanes comes from.
+/// The source of a number for all lanes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum PoolSource {
-    /// The bits of an f32, or of an int.
+    /// The bits of an f32 or of an int.
     Constant(u32),
     /// A scalar in a root's flat layout.
     Uniform(RootIndex, u32),
@@ -24,7 +24,7 @@ pub(super) enum PoolSource {
 /// When a section runs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Runs {
-    /// Once a machine: the preamble.
+    /// Once per machine: the preamble.
     Once,
     /// For each tile: `main`.
     #[default]
@@ -36,7 +36,7 @@ pub(super) enum Runs {
 pub(super) struct Section {
     pub(super) runs: Runs,
     pub(super) insts: Vec<Inst>,
-    /// The expression or statement that each instruction was made for.
+    /// The expression or statement of each instruction.
     pub(super) spans: Vec<Span>,
     pub(super) lists: Vec<Operand>,
 }
@@ -53,20 +53,20 @@ pub(super) struct Port {
 #[derive(Clone, Debug)]
 pub(super) struct Inner {
     pub(super) stage: Stage,
-    /// Runs once a machine. Register `k` holds result `k`, which then follows the sources in the pool.
+    /// Runs once per machine. Register `k` contains result `k`, which then follows the sources in the pool.
     pub(super) preamble: Section,
-    /// Runs once a tile.
+    /// Runs once per tile.
     pub(super) main: Section,
     /// Labels and mask slots.
     pub(super) words: Vec<u32>,
     pub(super) textures: Vec<TextureCall>,
     pub(super) float_pool: Vec<PoolSource>,
     pub(super) int_pool: Vec<PoolSource>,
-    /// Results of the preamble, floats and ints.
+    /// The number of results of the preamble, floats and ints.
     pub(super) preamble_results: [usize; 2],
-    /// Registers of `main`, floats and ints.
+    /// The number of registers of `main`, floats and ints.
     pub(super) registers: [usize; 2],
-    /// Registers that hold one number of the pool in all lanes.
+    /// Registers that contain one number of the pool in all lanes.
     pub(super) splats: Vec<(Class, usize, Operand)>,
     pub(super) inputs: Vec<Port>,
     pub(super) outputs: Vec<Port>,

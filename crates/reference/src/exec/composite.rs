@@ -2,11 +2,11 @@
 //!
 //! *In:* registers of the arguments, component by component. *Out:* registers of the results.
 //!
-//! The formulas are those that the specification names. A vector without length normalizes to NaN, a singular matrix
-//! inverts to infinities or NaN: both are undefined in GLSL.
+//! The formulas are those of the specification. A vector without length normalizes to NaN, and the inverse of a
+//! singular matrix has infinities or NaN. GLSL leaves both undefined.
 //!
-//! *Holds:* a formula is compiled once a domain, for any number of components. Three components of plain numbers are
-//! compiled apart: there the loops over components cost more than what is in them.
+//! *Holds:* a formula is compiled once per domain, for any number of components. Three components of plain numbers
+//! are compiled separately, since loops over components would cost more than their bodies.
 
 use super::inst::{Composite, Operand};
 use super::registers::{Filled, Register, Registers};
@@ -14,20 +14,20 @@ use crate::domain::{Block, Domain, Element, Few, LANES, Number, Source, WIDTH};
 use smallvec::SmallVec;
 use std::hint::black_box;
 
-/// The most components of a vector.
+/// The largest number of components of a vector.
 const MOST: usize = 4;
 
-/// The components of a vector, with room for `C`; those that it lacks are blank.
+/// The components of a vector, at most `C`. Missing ones are blank.
 type Vector<B, const C: usize> = [B; C];
 
-/// What a domain's built-in functions are computed in.
+/// The type in which a domain's built-in functions are computed.
 type Wide<D> = <<D as Domain>::Float as Number>::Wide;
 
-/// Eight lanes, each a number of its own.
+/// Eight lanes with separate numbers.
 type ByLane<W> = [W; WIDTH];
 
-/// A vector of `size` components. Unlike the library's `from_fn` it is part of the loop that calls it, and so compiled for
-/// the same vector unit.
+/// A vector of `size` components. Unlike the standard library's `from_fn`, it is inlined into the calling loop and so
+/// compiled for the same vector unit.
 #[inline(always)]
 fn each<B: Copy + Default, const C: usize>(size: usize, component: impl Fn(usize) -> B) -> Vector<B, C> {
     let mut vector = [B::default(); C];
@@ -37,7 +37,7 @@ fn each<B: Copy + Default, const C: usize>(size: usize, component: impl Fn(usize
     vector
 }
 
-/// The same number in all lanes.
+/// A number in all lanes.
 #[inline(always)]
 fn splat<W: Number, B: Block<W>>(value: f64) -> B {
     B::splat(W::from_f64(value))
@@ -136,7 +136,7 @@ fn faceforward<W: Number, B: Block<W>, const C: usize>(
     )
 }
 
-/// The determinant of the columns and rows named, of a matrix of `size` columns.
+/// The determinant of these columns and rows of a matrix with `size` columns.
 fn minor<W: Number>(m: &[W::Few], size: usize, columns: &[usize], rows: &[usize]) -> W::Few {
     match (columns, rows) {
         ([c], [r]) => m[c * size + r],
@@ -158,14 +158,14 @@ fn minor<W: Number>(m: &[W::Few], size: usize, columns: &[usize], rows: &[usize]
     }
 }
 
-/// Rare enough that it is compiled for no vector unit.
+/// Rare, so it is not compiled for a vector unit.
 #[inline(never)]
 fn determinant<W: Number>(m: &[W::Few], size: usize) -> W::Few {
     let all = [0, 1, 2, 3];
     minor::<W>(m, size, &all[..size], &all[..size])
 }
 
-/// Cofactors over the determinant.
+/// The inverse by cofactors and the determinant.
 #[inline(never)]
 fn inverse<W: Number>(m: &[W::Few], size: usize) -> [W::Few; 16] {
     let mut out = [splat::<W, W::Few>(0.0); 16];
@@ -185,8 +185,8 @@ fn inverse<W: Number>(m: &[W::Few], size: usize) -> [W::Few; 16] {
     out
 }
 
-/// A function of vectors of `size` components: `scalar` gives the components of its arguments, one after the other, and
-/// `result` takes those of its result.
+/// A function of vectors of `size` components. `scalar` returns the components of all arguments, which follow each other;
+/// `result` takes the components of the result.
 #[inline(always)]
 fn of_vectors<W: Number, B: Block<W>, const C: usize>(
     (op, squares): (Composite, bool),
@@ -197,7 +197,7 @@ fn of_vectors<W: Number, B: Block<W>, const C: usize>(
     let a: Vector<B, C> = vector(size, 0, &scalar);
     let found = match op {
         Composite::Length => return result(0, &squared::<W, B, C>(size, &a).sqrt()),
-        // One vector twice: its components are squares, which an envelope can make more of.
+        // The same vector twice: its components are squares, for which an envelope is narrower.
         Composite::Dot if squares => return result(0, &squared::<W, B, C>(size, &a)),
         Composite::Dot => return result(0, &dot::<W, B, C>(size, &a, &vector(size, 1, &scalar))),
         Composite::Distance => {
@@ -215,7 +215,7 @@ fn of_vectors<W: Number, B: Block<W>, const C: usize>(
         Composite::Faceforward => {
             faceforward::<W, B, C>(size, &a, &vector(size, 1, &scalar), &vector(size, 2, &scalar))
         }
-        // `composite` has seen to these.
+        // `composite` has handled these.
         Composite::Determinant | Composite::Inverse => return,
     };
     for k in 0..size {
@@ -233,7 +233,7 @@ fn vector<B: Copy + Default, const C: usize>(size: usize, number: usize, scalar:
     )
 }
 
-/// A block of an argument; what is not there is blank.
+/// A block of an argument. Missing ones are blank.
 #[inline(always)]
 fn scalar<N: Number>(arguments: &[Source<'_, N>], place: usize, number: usize) -> <N::Wide as Element>::Few {
     match arguments.get(number) {
@@ -242,7 +242,7 @@ fn scalar<N: Number>(arguments: &[Source<'_, N>], place: usize, number: usize) -
     }
 }
 
-/// The same as numbers lane by lane.
+/// The block of an argument as separate numbers.
 #[inline(always)]
 fn by_lane<N: Number>(arguments: &[Source<'_, N>], place: usize, number: usize) -> ByLane<N::Wide> {
     let few = scalar(arguments, place, number);
@@ -253,7 +253,7 @@ fn by_lane<N: Number>(arguments: &[Source<'_, N>], place: usize, number: usize) 
     lanes
 }
 
-/// All blocks of the arguments, of matrices.
+/// All components of a matrix.
 fn all<N: Number>(arguments: &[Source<'_, N>], place: usize) -> [<N::Wide as Element>::Few; 16] {
     let mut all = [Default::default(); 16];
     for (k, slot) in all.iter_mut().enumerate() {
@@ -262,7 +262,7 @@ fn all<N: Number>(arguments: &[Source<'_, N>], place: usize) -> [<N::Wide as Ele
     all
 }
 
-/// The blocks that are to be computed: one if each argument is one number for all lanes.
+/// The number of blocks to compute: one if each argument is one number for all lanes.
 fn blocks<N: Number>(arguments: &[Source<'_, N>]) -> (usize, Filled) {
     let same = arguments.iter().all(|source| matches!(source, Source::One(_)));
     if same { (1, Filled::One) } else { (LANES / WIDTH, Filled::Lanes) }
@@ -308,7 +308,7 @@ fn loops<N: Number, const C: usize>(
     }
 }
 
-/// The same without blocks, where a machine has no unit for the domain's own.
+/// The same lane by lane, for a machine without the vector unit.
 fn loops_by_lane<N: Number>(op: (Composite, bool), size: usize, arguments: &[Source<'_, N>], outs: &mut [Register<N>]) {
     let (blocks, filled) = blocks(arguments);
     for place in 0..blocks {
@@ -325,7 +325,7 @@ fn vectors<N: Number>(op: (Composite, bool), size: usize, arguments: &[Source<'_
     if N::Wide::PLAIN && size == 3 {
         return loops::<N, 3>(op, 3, arguments, outs);
     }
-    // The compiler is not told how few components there are, or it would write each loop out as often.
+    // The number of components is hidden from the compiler, which would otherwise unroll each loop for each number.
     let size = black_box(size);
     let done = <N::Wide as Element>::Few::if_vectorized(
         #[inline(always)]
@@ -375,7 +375,7 @@ mod tests {
     use super::*;
     use crate::domain::{EnvelopeBlock, EnvelopeFloat};
 
-    /// Components of vectors, some of them without length, opposite or of different sizes; each lane has its own.
+    /// Components of vectors that differ in each lane; some are 0, and some are not exact.
     fn component(number: usize) -> ByLane<EnvelopeFloat> {
         let mut lanes = [EnvelopeFloat::default(); WIDTH];
         for (lane, slot) in lanes.iter_mut().enumerate() {
@@ -416,7 +416,7 @@ mod tests {
         }
     }
 
-    /// Equal, NaN being itself; zeros have no sign.
+    /// Whether two numbers are equal. NaN equals itself, and zeros have no sign.
     fn same(a: EnvelopeFloat, b: EnvelopeFloat) -> bool {
         let equal = |a: f64, b: f64| a == b || a.is_nan() && b.is_nan();
         equal(a.value, b.value) && equal(a.low, b.low) && equal(a.high, b.high) && a.may_be_nan == b.may_be_nan

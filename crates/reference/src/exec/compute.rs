@@ -1,4 +1,4 @@
-//! Arithmetic: one loop over the lanes an instruction.
+//! Arithmetic, with one loop over the lanes for each instruction.
 
 use super::code::Section;
 use super::inst::{Compare, Derivative, Float1, Float2, Float3, FloatToInt, Inst, Int1, Int2, IntToFloat, Operand};
@@ -14,13 +14,13 @@ fn constant<N: Number>(value: f64) -> N {
     N::from_f64(value)
 }
 
-/// A product with what is no float, rounded once.
+/// A product with a factor that is not an f32, rounded once.
 #[inline(always)]
 fn scaled<N: Number>(x: N, factor: f64) -> N {
     N::narrow(x.widen().mul(constant(factor)))
 }
 
-/// An operation that has a form for blocks.
+/// An operation with a form for blocks.
 macro_rules! each {
     ($out:expr, $a:expr, $operation:ident) => {
         blocks1(
@@ -169,13 +169,13 @@ fn int2<I: Integer>(op: Int2, out: &mut Lanes<I>, a: Source<'_, I>, b: Source<'_
     }
 }
 
-/// A GPU may take one difference for the whole quad: each may be the other, too.
+/// A GPU may use one difference for the whole quad, so each may also be the other.
 #[inline(always)]
 fn either<N: Number>(a: N, b: N) -> (N, N) {
     (a.joined(b), b.joined(a))
 }
 
-/// Whatever the number is within its interval, it equals itself, if it is one.
+/// A number is equal to itself, wherever it is in its interval, unless it is NaN.
 fn compare_with_itself<N: Number>(op: Compare, out: &mut Lanes<N::Int>, a: Source<'_, N>) -> Filled {
     match op {
         Compare::Less => map1(out, a, |_| N::Int::from_bool(false)),
@@ -184,7 +184,7 @@ fn compare_with_itself<N: Number>(op: Compare, out: &mut Lanes<N::Int>, a: Sourc
     }
 }
 
-/// Differences in quads: each row and column of a quad by itself.
+/// Differences in quads, separately for each row and column.
 fn derivative<N: Number>(op: Derivative, out: &mut Lanes<N>, a: Source<'_, N>) {
     let up = |upper: N, lower: N| if DFDY_SIGN < 0.0 { upper.sub(lower) } else { lower.sub(upper) };
     for quad in (0..LANES).step_by(4) {
@@ -206,13 +206,13 @@ fn derivative<N: Number>(op: Derivative, out: &mut Lanes<N>, a: Source<'_, N>) {
 }
 
 impl<D: Domain> Registers<D> {
-    /// [`Self::compute`] as a call: where an operation takes far longer than that.
+    /// [`Self::compute`] as a call, for operations that take far longer than the call.
     #[inline(never)]
     pub(super) fn compute_apart(&mut self, inst: &Inst, section: &Section) {
         self.compute(inst, section);
     }
 
-    /// An instruction without effects but on its results.
+    /// An instruction whose only effects are its results.
     #[inline(always)]
     pub(super) fn compute(&mut self, inst: &Inst, section: &Section) {
         match *inst {
@@ -223,7 +223,7 @@ impl<D: Domain> Registers<D> {
                 }
                 filled
             }),
-            // One number twice is a square, which an envelope can make more of.
+            // A number times itself is a square, for which an envelope is narrower.
             Inst::Float2 { op: Float2::Mul, dst, a, b } if D::OPEN && a == b => {
                 self.write_float(dst, |this, out| {
                     blocks1(
@@ -295,19 +295,19 @@ impl<D: Domain> Registers<D> {
                 self.composite(op, size, section.list(results), section.list(arguments));
             }
             Inst::Derivative { op, dst, a } => self.write_float(dst, |this, out| {
-                // Infinity and envelopes have differences other than 0, even where all lanes are alike.
+                // Infinity and envelopes have differences other than 0, even if all lanes are equal.
                 derivative(op, out, this.float(a));
                 Filled::Lanes
             }),
             Inst::MoveFloat { dst, a } => self.write_float(dst, |this, out| copy(out, this.float(a))),
             Inst::MoveInt { dst, a } => self.write_int(dst, |this, out| copy(out, this.int(a))),
-            // The rest is `execute`'s.
+            // `execute` handles the rest.
             _ => {}
         }
     }
 }
 
-/// Whether a number in all lanes comes of these.
+/// Whether the result is one number for all lanes.
 #[inline(always)]
 fn is_same<D: Domain>(this: &Registers<D>, operands: &[Operand]) -> bool {
     operands.iter().all(|operand| matches!(this.float(*operand), Source::One(_)))

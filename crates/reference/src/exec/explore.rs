@@ -1,8 +1,9 @@
-//! Runs every way that lanes can go where conditions are open, and joins the results.
+//! Runs every path that lanes may take where conditions are uncertain, and joins the results.
 //!
-//! *In:* a machine after its first run, in which each open condition followed the value and was noted. *Out:* its
-//! outputs joined over all other ways, which lanes may or may not be discarded, and which stay undecided.
-//! *Holds:* a group of lanes runs [`MAX_WAYS`] times at most; past that its outputs are anything and it is undecided.
+//! *In:* a machine after its first run, in which each uncertain condition followed the value and was recorded. *Out:*
+//! its outputs joined over all other paths, the lanes that may or may not be discarded, and the lanes that remain
+//! undecided. *Holds:* a group of lanes runs at most [`MAX_WAYS`] times. After that its outputs may be anything, and
+//! it is undecided.
 
 use super::inst::Class;
 use super::machine::Machine;
@@ -12,27 +13,27 @@ use super::{LANES, Mask};
 use crate::domain::{Domain, Integer, Number};
 use glisten_scene::picture::Interval;
 
-/// The most ways of one group.
+/// The largest number of paths of one group.
 const MAX_WAYS: usize = 64;
 
 /// Registers of some ports, floats and ints.
 type Files<D> = (Vec<Register<<D as Domain>::Float>>, Vec<Register<<D as Domain>::Int>>);
 
-/// What the first run left, to be joined with the others.
+/// The results of the first run, to be joined with those of the others.
 struct Joined<D: Domain> {
     floats: Vec<Register<D::Float>>,
     ints: Vec<Register<D::Int>>,
     /// Lanes that the first run discarded.
     first: u64,
-    /// Lanes that some way discards.
+    /// Lanes that some path discards.
     discarded: u64,
-    /// Lanes that some way keeps: their outputs mean something.
+    /// Lanes that some path keeps. Their outputs have a meaning.
     kept: u64,
     undecided: u64,
 }
 
 impl<D: Domain> Machine<D> {
-    /// Runs every other way of the groups of these lanes that met an open condition.
+    /// Runs all other paths of the groups of these lanes that met an uncertain condition.
     pub(super) fn explore(&mut self, lanes: u64) {
         if !self.paths.any || self.budget_exceeded {
             return;
@@ -54,7 +55,7 @@ impl<D: Domain> Machine<D> {
             }
         }
         while !ways.is_empty() {
-            // The latest first: depth first, so that the list stays short.
+            // The latest first (depth first), so that the list stays short.
             let batch = ways.split_off(ways.len().saturating_sub(LANES / group));
             self.paths.clear();
             self.paths.any = true;
@@ -77,7 +78,7 @@ impl<D: Domain> Machine<D> {
                 }
             }
             ways.retain(|(number, _)| joined.undecided >> (number * group) & members == 0);
-            // A way that does not end is one that the bound of loops leaves open.
+            // A path without an end is one that an uncertain loop bound permits.
             self.budget_exceeded = false;
         }
         self.paths.clear();
@@ -115,7 +116,7 @@ impl<D: Domain> Machine<D> {
         )
     }
 
-    /// Puts the inputs of a group's lanes, as they were, into other lanes.
+    /// Copies the original inputs of a group's lanes into other lanes.
     fn move_group(&mut self, inputs: &Files<D>, from: usize, to: usize, group: usize) {
         let code = std::sync::Arc::clone(&self.code.inner);
         let of = |class: Class| code.inputs.iter().filter(move |port| port.class == class);
@@ -135,7 +136,7 @@ impl<D: Domain> Machine<D> {
         self.move_group(inputs, 0, 0, LANES);
     }
 
-    /// Leaves the joined outcome as that of the run.
+    /// Stores the joined outcome as that of the run.
     fn leave(&mut self, mut joined: Joined<D>) {
         let code = std::sync::Arc::clone(&self.code.inner);
         let of = |class: Class| code.outputs.iter().filter(move |port| port.class == class);
@@ -164,7 +165,7 @@ impl<D: Domain> Machine<D> {
 }
 
 impl<D: Domain> Joined<D> {
-    /// Joins what a way left in the lanes from `at` on to the group's lanes from `from` on.
+    /// Joins the results of a path in the lanes from `at` with those of the group's lanes from `from`.
     fn add(&mut self, machine: &Machine<D>, from: usize, at: usize, group: usize) {
         let inner = &machine.code.inner;
         let of = |class: Class| inner.outputs.iter().filter(move |port| port.class == class);
@@ -174,7 +175,7 @@ impl<D: Domain> Joined<D> {
                 self.discarded |= 1 << from;
                 continue;
             }
-            // Where nothing was kept so far there is nothing to join.
+            // If nothing was kept so far, there is nothing to join.
             let fresh = self.kept >> from & 1 == 0;
             self.kept |= 1 << from;
             for (port, register) in of(Class::Float).zip(&mut self.floats) {

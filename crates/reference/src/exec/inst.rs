@@ -1,15 +1,21 @@
 //! The instruction set of the register machine.
 //!
-//! A register is one scalar in 64 lanes, of the float or of the int file; aggregates are their scalars in flat order
-//! ([`Types::flat_len`](glisten_front::hir::Types::flat_len)). A [`Operand`] may also be one number for all lanes. Arithmetic
-//! writes all lanes, active or not: it is total, so only stores to variables look at the mask.
+//! A register is one scalar in 64 lanes, in the float or the int file. Aggregates are their scalars in flat order
+//! ([`Types::flat_len`](glisten_front::hir::Types::flat_len)). An [`Operand`] may also be one number for all lanes.
+//! Arithmetic writes all lanes, active or not: it is total, so only stores to variables are masked.
 
 use glisten_front::hir::SamplerType;
 
-/// What an instruction reads or writes.
+// The operations are those of the front end's table. Functions of whole vectors and matrices are computed in the
+// domain's wide type and rounded once.
+pub(super) use glisten_front::builtin::operations::{
+    Binary as Float2, Composite, Derivative, Lookup, Ternary as Float3, Unary as Float1,
+};
+
+/// An operand of an instruction.
 ///
-/// Compiled code goes through two stages: while it is made, registers are virtual and results of the preamble are
-/// numbered apart; [`alloc`](super::compile) then turns both into places of a [`Machine`](super::Machine).
+/// Compiled code has two phases. During compilation, registers are virtual, and results of the preamble have separate
+/// numbers. Then [`alloc`](super::compile) converts both to indices in a [`Machine`](super::Machine).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(super) struct Operand(u32);
 
@@ -34,7 +40,7 @@ impl Operand {
     pub(super) fn is_reg(self) -> bool {
         self.0 & POOL == 0
     }
-    /// Whether it is one number for all lanes.
+    /// Whether the operand is one number for all lanes.
     #[inline(always)]
     pub(super) fn is_scalar(self) -> bool {
         !self.is_reg()
@@ -42,84 +48,31 @@ impl Operand {
     pub(super) fn is_preamble(self) -> bool {
         self.0 & PREAMBLE == PREAMBLE
     }
-    /// The place in its file.
+    /// The index in its file.
     #[inline(always)]
     pub(super) fn number(self) -> usize {
         (self.0 & NUMBER) as usize
     }
 }
 
-/// The file that a register is in.
+/// The file of a register.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(super) enum Class {
     Float,
     Int,
 }
 
-/// A run of operands in [`Inner::lists`](super::code::Inner).
+/// A range of operands in [`Inner::lists`](super::code::Inner).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) struct List {
     pub(super) start: u32,
     pub(super) len: u32,
 }
 
-/// A place in the instructions.
+/// An index into the instructions.
 pub(super) type Target = u32;
 /// A saved mask.
 pub(super) type Slot = u32;
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) enum Float1 {
-    Neg,
-    Abs,
-    Sign,
-    Floor,
-    Ceil,
-    Trunc,
-    Round,
-    Fract,
-    Sqrt,
-    Inversesqrt,
-    Exp,
-    Log,
-    Exp2,
-    Log2,
-    Sin,
-    Cos,
-    Tan,
-    Asin,
-    Acos,
-    Atan,
-    Sinh,
-    Cosh,
-    Tanh,
-    Asinh,
-    Acosh,
-    Atanh,
-    Radians,
-    Degrees,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) enum Float2 {
-    Add,
-    Sub,
-    Mul,
-    Div,
-    Min,
-    Max,
-    Mod,
-    Pow,
-    Atan2,
-    Step,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) enum Float3 {
-    Mix,
-    Clamp,
-    Smoothstep,
-}
 
 /// float, float to bool
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -184,66 +137,28 @@ pub(super) enum Int2 {
     MinUnsigned,
     MaxSigned,
     MaxUnsigned,
-    /// The first limited to 0 ..= the second, as `int`s: an index of one dimension among several.
+    /// The first operand clamped to 0 ..= the second, as `int`s: an index of one of several dimensions.
     ClampIndex,
 }
 
-/// Built-in functions of whole vectors and matrices, computed in the domain's wide type and rounded once.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) enum Composite {
-    Length,
-    Distance,
-    Dot,
-    Cross,
-    Normalize,
-    Faceforward,
-    Reflect,
-    Refract,
-    Determinant,
-    Inverse,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) enum Derivative {
-    X,
-    Y,
-    /// `fwidth`
-    Width,
-}
-
-/// How a texture is looked up.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) enum Lookup {
-    /// Level of detail from derivatives where the stage has them (else the base level), with a bias or none.
-    Implicit,
-    /// Explicit level of detail.
-    Lod,
-    /// Explicit derivatives.
-    Grad,
-    /// One texel.
-    Fetch,
-    /// The sizes of a level.
-    Size,
-}
-
-/// A texture instruction's operands; all are registers.
+/// The operands of a texture instruction, all of which are registers.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct TextureCall {
     pub(super) lookup: Lookup,
     pub(super) kind: SamplerType,
     /// An int: the number of the sampler slot.
     pub(super) sampler: Operand,
-    /// Floats (ints for `Fetch`), projection done, layer last.
+    /// Floats (ints for `Fetch`), after projection, with the layer last.
     pub(super) coordinate: Vec<Operand>,
     /// The reference of a shadow sampler.
     pub(super) reference: Option<Operand>,
-    /// Bias or level: a float, or an int for `Fetch` and `Size`.
+    /// The bias or level: a float, or an int for `Fetch` and `Size`.
     pub(super) level: Option<Operand>,
     pub(super) dx: Vec<Operand>,
     pub(super) dy: Vec<Operand>,
     /// Ints.
     pub(super) offset: Vec<Operand>,
-    /// Results: floats or ints by the sampler's texel (ints for `Size`).
+    /// The results: floats or ints, depending on the sampler's texels (ints for `Size`).
     pub(super) results: Vec<Operand>,
 }
 
@@ -334,7 +249,7 @@ pub(super) enum Inst {
     Texture {
         call: u32,
     },
-    /// The element of a table that the index means, limited into range.
+    /// Loads the element of a table at an index, which is clamped.
     LoadFloat {
         dst: Operand,
         table: List,
@@ -345,7 +260,7 @@ pub(super) enum Inst {
         table: List,
         index: Operand,
     },
-    /// All lanes.
+    /// Copies all lanes.
     MoveFloat {
         dst: Operand,
         a: Operand,
@@ -354,7 +269,7 @@ pub(super) enum Inst {
         dst: Operand,
         a: Operand,
     },
-    /// Active lanes.
+    /// Copies the active lanes.
     StoreFloat {
         dst: Operand,
         a: Operand,
@@ -363,7 +278,7 @@ pub(super) enum Inst {
         dst: Operand,
         a: Operand,
     },
-    /// Active lanes, into the register of a table that the index means, limited into range.
+    /// Copies the active lanes to the register of a table at an index, which is clamped.
     StoreIndexedFloat {
         table: List,
         index: Operand,
@@ -378,52 +293,53 @@ pub(super) enum Inst {
     Save {
         slot: Slot,
     },
-    /// The lanes where `c` holds go on, the others wait in `rest`; to `next` if none goes on.
+    /// The lanes where `c` is true continue, the others wait in `rest`. Jumps to `next` if no lane continues.
     Arm {
         c: Operand,
         rest: Slot,
         next: Target,
     },
-    /// The waiting lanes go on; to `end` if there is none.
+    /// The waiting lanes continue. Jumps to `end` if there is none.
     Rest {
         rest: Slot,
         end: Target,
     },
-    /// The saved lanes go on, but those that have left.
+    /// The saved lanes continue, except those that have left.
     Join {
         slot: Slot,
     },
-    /// The active lanes leave all these saved masks; none goes on.
+    /// The active lanes leave all these saved masks. No lane continues.
     Leave {
         slots: List,
     },
     Discard,
-    /// The lanes where `c` holds stay in the loop; to `exit` if none does.
+    /// The lanes where `c` is true stay in the loop. Jumps to `exit` if there is none.
     LoopTest {
         c: Operand,
         active: Slot,
         exit: Target,
     },
-    /// The lanes that are still in the loop go on, those that continued too; to `exit` if there is none.
+    /// The lanes that are still in the loop continue, including those after a `continue`. Jumps to `exit` if there is
+    /// none.
     LoopNext {
         active: Slot,
         exit: Target,
     },
-    /// Back to the head, if the budget allows; else to `exit`.
+    /// Jumps back to the head if the budget allows, otherwise to `exit`.
     LoopBack {
         head: Target,
         exit: Target,
     },
-    /// Takes the lanes out of `rest` whose selector is among the labels, into `slot`.
+    /// Moves the lanes of `rest` whose selector is among the labels to `slot`.
     CaseMask {
         selector: Operand,
         labels: List,
         rest: Slot,
         slot: Slot,
     },
-    /// No lane goes on: before the first case.
+    /// Deactivates all lanes: before the first case.
     Idle,
-    /// The lanes of `slot` join; to `next` if none is active then.
+    /// Activates the lanes of `slot`, too. Jumps to `next` if no lane is active then.
     Case {
         slot: Slot,
         next: Target,
@@ -438,7 +354,7 @@ pub(super) enum Use {
 }
 
 impl Inst {
-    /// Shows every operand that stands in the instruction itself.
+    /// Visits all operands that the instruction contains directly.
     pub(super) fn visit(&mut self, f: &mut dyn FnMut(Class, Use, &mut Operand)) {
         use Class::{Float, Int};
         use Use::{Read, Write};
@@ -533,7 +449,7 @@ impl Inst {
         }
     }
 
-    /// The lists of operands that it reads and writes.
+    /// The lists of operands that the instruction reads and writes.
     pub(super) fn lists(&self) -> [Option<(Class, Use, List)>; 2] {
         match *self {
             Self::SumOfProducts { list, .. } => [Some((Class::Float, Use::Read, list)), None],
@@ -563,7 +479,7 @@ impl Inst {
 }
 
 impl TextureCall {
-    /// Shows every operand.
+    /// Visits all operands.
     pub(super) fn visit(&mut self, f: &mut dyn FnMut(Class, Use, &mut Operand)) {
         use glisten_front::hir::Scalar;
         let by_integer = |integer: bool| if integer { Class::Int } else { Class::Float };

@@ -1,4 +1,4 @@
-//! Texture instructions: operands of lanes and quads to lookups, one lane at a time.
+//! Runs texture instructions: turns operands of lanes and quads into lookups, one lane at a time.
 
 use super::inst::{Lookup, Operand, TextureCall};
 use super::machine::Machine;
@@ -12,7 +12,7 @@ use glisten_scene::picture::Interval;
 use glisten_scene::{Filter, Texture};
 
 impl<D: Domain> Machine<D> {
-    /// Runs a texture instruction in these lanes; gives the lanes whose texture is not sure.
+    /// Runs a texture instruction in these lanes. Returns the lanes whose texture is uncertain.
     pub(super) fn texture(&mut self, call: &TextureCall, stage: Stage, mask: u64) -> u64 {
         let mut undecided = 0;
         for lane in Mask(mask).lanes() {
@@ -51,7 +51,7 @@ impl<D: Domain> Machine<D> {
 }
 
 impl<D: Domain> Machine<D> {
-    /// What the coordinates give, and what those beside them give.
+    /// Stores the result for the coordinates and that for the second values of the coordinates.
     fn put_pair(&mut self, call: &TextureCall, lane: usize, sampled: Sampled, beside: Sampled) {
         for (k, result) in call.results.iter().enumerate() {
             match (sampled, beside) {
@@ -69,7 +69,7 @@ impl<D: Domain> Machine<D> {
                         .spread()
                         .set(lane, D::Int::paired(a[k % 4].bits, b[k % 4].bits));
                 }
-                // One instruction gives one kind.
+                // An instruction yields only one kind.
                 _ => {}
             }
         }
@@ -89,7 +89,7 @@ struct At<'a, D: Domain> {
     registers: &'a Registers<D>,
     call: &'a TextureCall,
     lane: usize,
-    /// Whether the values beside the values are meant.
+    /// Whether to use the second values.
     beside: bool,
 }
 
@@ -137,7 +137,7 @@ impl<D: Domain> At<'_, D> {
         if level.is_none_or(Integer::sure) { sizes } else { sizes.unknown() }
     }
 
-    /// A texel. Where the coordinates are open, the hull of those they may name, if these are few.
+    /// Reads a texel. If the coordinates are uncertain: the hull of those that they may select, if these are few.
     fn fetch(&self, texture: &Texture) -> Sampled {
         const MOST: i64 = 64;
         let offset = self.ints(&self.call.offset);
@@ -208,7 +208,7 @@ impl<D: Domain> At<'_, D> {
         Near { value: lambda.value + given.value, low: lambda.low + given.low, high: lambda.high + given.high }
     }
 
-    /// The derivatives that were given.
+    /// The explicit derivatives.
     fn given_steps(&self) -> Steps {
         let mut steps = Steps::default();
         for operands in [&self.call.dx, &self.call.dy] {
@@ -225,7 +225,7 @@ impl<D: Domain> At<'_, D> {
         Near { value: b.value - a.value, low: b.low - a.high, high: b.high - a.low }
     }
 
-    /// The differences of the coordinates in the lane's quad, by either row and column.
+    /// The differences of the coordinates in the lane's quad, for both rows and both columns.
     fn quad_steps(&self) -> Steps {
         let mut steps = Steps::default();
         for (axis, operand) in self.call.coordinate.iter().enumerate().take(3) {
@@ -238,7 +238,7 @@ impl<D: Domain> At<'_, D> {
         steps
     }
 
-    /// Differences of the coordinates in the lane's quad.
+    /// The differences of the coordinates in the lane's quad.
     fn quad_gradients(&self) -> Gradients {
         let row = self.lane & 2;
         let column = self.lane & 1;

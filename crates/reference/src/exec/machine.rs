@@ -14,9 +14,10 @@ use glisten_front::source::Span;
 use glisten_scene::Texture;
 use std::sync::Arc;
 
-/// How many instructions loops may run in one run of a machine: each time that a loop goes back to its head, the
-/// instructions between count, those of all lanes as one. Past it every loop is left, and [`Machine::budget_exceeded`]
-/// says so. 65,536 rounds of a body of 256 instructions; [`Machine::limit_loops`] changes it.
+/// The number of instructions that loops may run in one run of a machine. Each time a loop goes back to its head, the
+/// instructions between count once for all lanes. Above it, all loops are left, and [`Machine::budget_exceeded`]
+/// returns true. It suffices for 65,536 iterations of a body of 256 instructions. [`Machine::limit_loops`] changes
+/// it.
 pub const LOOP_BUDGET: u64 = 1 << 24;
 
 /// The registers of one thread for one draw. Reusable: run it tile after tile.
@@ -31,39 +32,39 @@ pub struct Machine<D: Domain> {
     /// Lanes that may or may not be discarded.
     pub(super) perhaps_discarded: u64,
     pub(super) paths: Paths,
-    /// What adds nothing to envelopes.
+    /// The operation or input that adds nothing to envelopes.
     pub(super) muted: Option<Muted>,
-    /// For a run.
+    /// The budget of each run.
     pub(super) loop_budget: u64,
-    /// What is left in this run.
+    /// The rest for this run.
     pub(super) budget: u64,
     pub(super) budget_exceeded: bool,
-    /// The loop that went past it.
+    /// The loop that exceeded it.
     pub(super) runaway: Span,
     pub(super) observer: Option<Box<dyn Observer<D>>>,
     /// The lanes that an observer is shown.
     pub(super) watched: u64,
 }
 
-/// What a machine runs for. The purposes exclude each other.
+/// The purpose of a machine. The purposes exclude each other.
 #[derive(Debug)]
 pub enum Purpose<D: Domain> {
-    /// The results, in whose envelopes faults of a driver are admitted.
+    /// Results. Their envelopes allow these faults of drivers.
     Results(Faults),
-    /// The share that an operation has in the envelopes: its freedom is left out.
+    /// The share of an operation in the envelopes: its own contribution is left out.
     Share(Muted),
-    /// An observer, who sees what is computed once, too.
+    /// An observer, which also sees the preamble.
     Watching(Box<dyn Observer<D>>),
 }
 
 impl<D: Domain> Machine<D> {
-    /// A machine for the uniforms (of each root of the interface, flat) and textures (of each sampler slot) of a draw.
-    /// What does not depend on the invocation is computed here, once.
+    /// Creates a machine for the uniforms (of each root of the interface, flat) and textures (of each sampler slot)
+    /// of a draw, and runs the preamble.
     pub fn new(code: &Code, uniforms: &[Vec<ScalarValue>], textures: &[Option<Arc<Texture>>]) -> Self {
         Self::with(Purpose::Results(Faults::NONE), code, uniforms, textures)
     }
 
-    /// The same for a purpose.
+    /// Creates a machine for a purpose.
     pub fn with(
         purpose: Purpose<D>,
         code: &Code,
@@ -113,21 +114,22 @@ impl<D: Domain> Machine<D> {
         (port.class == class).then_some(port.register)
     }
 
-    /// The lanes of a `float` in an input's flat layout ([`Types::flat_len`](glisten_front::hir::Types::flat_len)), to fill
-    /// before a run; they keep their values between runs. `None` if the stage does not read it or it is no float.
+    /// The lanes of a `float` in an input's flat layout ([`Types::flat_len`](glisten_front::hir::Types::flat_len)),
+    /// to be set before a run. They keep their values between runs. `None` if the stage does not read it or it is not
+    /// a float.
     pub fn float_input(&mut self, global: GlobalId, flat: u32) -> Option<&mut Lanes<D::Float>> {
         let register = Self::port(&self.code.inner.inputs, Class::Float, global, flat)?;
         self.registers.floats.get_mut(register).map(Register::spread)
     }
 
-    /// Likewise of an `int`, `uint` or `bool`.
+    /// The lanes of an `int`, `uint` or `bool` in an input's flat layout.
     pub fn int_input(&mut self, global: GlobalId, flat: u32) -> Option<&mut Lanes<D::Int>> {
         let register = Self::port(&self.code.inner.inputs, Class::Int, global, flat)?;
         self.registers.ints.get_mut(register).map(Register::spread)
     }
 
-    /// Runs `main` on the lanes of both masks. Helper lanes run for the derivatives of their quads; what they do has no
-    /// other effect. The other lanes hold anything afterwards.
+    /// Runs `main` on the lanes of both masks. Helper lanes run for the derivatives of their quads and have no other
+    /// effect. The other lanes are undefined after the run.
     pub fn run(&mut self, live: Mask, helpers: Mask) {
         let code = Arc::clone(&self.code.inner);
         let inner: &Inner = &code;
@@ -135,7 +137,7 @@ impl<D: Domain> Machine<D> {
         self.undecided = 0;
         self.perhaps_discarded = 0;
         self.paths.clear();
-        // Once a machine has run away it is likely to do so again: then it shall be soon.
+        // A machine that has exceeded its budget is likely to do so again. Then it should end soon.
         self.budget = if self.budget_exceeded { self.loop_budget >> 6 } else { self.loop_budget };
         self.watched = live.0;
         self.mute_input();
@@ -149,7 +151,7 @@ impl<D: Domain> Machine<D> {
         self.undecided &= live.0;
     }
 
-    /// Runs `main` alone, and gives each lane of the outputs its own number.
+    /// Runs only `main`, and spreads outputs, so that each lane has its own number.
     pub(super) fn run_main(&mut self, inner: &Inner, mask: u64) {
         self.execute(&inner.main, inner, mask);
         for port in &inner.outputs {
@@ -157,14 +159,14 @@ impl<D: Domain> Machine<D> {
         }
     }
 
-    /// The lanes of a `float` in an output's flat layout after a run; 0 where the shader wrote nothing. `None` if the
-    /// stage never writes it or it is no float.
+    /// The lanes of a `float` in an output's flat layout after a run. It is 0 where the shader wrote nothing. `None`
+    /// if the stage never writes it or it is not a float.
     pub fn float_output(&self, global: GlobalId, flat: u32) -> Option<&Lanes<D::Float>> {
         let register = Self::port(&self.code.inner.outputs, Class::Float, global, flat)?;
         self.registers.floats.get(register)?.lanes()
     }
 
-    /// Likewise of an `int`, `uint` or `bool`.
+    /// The lanes of an `int`, `uint` or `bool` in an output's flat layout.
     pub fn int_output(&self, global: GlobalId, flat: u32) -> Option<&Lanes<D::Int>> {
         let register = Self::port(&self.code.inner.outputs, Class::Int, global, flat)?;
         self.registers.ints.get(register)?.lanes()
@@ -175,24 +177,24 @@ impl<D: Domain> Machine<D> {
         Mask(self.discarded)
     }
 
-    /// The lanes that the last run may or may not have discarded, by which way open conditions go; what
-    /// [`Self::discarded`] says of them follows the value. Always empty in domains without envelopes.
+    /// The lanes that the last run may or may not have discarded, depending on uncertain conditions.
+    /// [`Self::discarded`] follows the value. Always empty in domains without envelopes.
     pub fn perhaps_discarded(&self) -> Mask {
         Mask(self.perhaps_discarded)
     }
 
-    /// The lanes of the last run that can go more ways than are run, or look up they cannot know which texture. Always
-    /// empty in domains without envelopes.
+    /// The lanes of the last run that have more paths than are run, or whose texture is uncertain. Always empty in
+    /// domains without envelopes.
     pub fn undecided(&self) -> Mask {
         Mask(self.undecided)
     }
 
-    /// The loop that went past [`LOOP_BUDGET`] in any run since the machine was made.
+    /// The loop that exceeded [`LOOP_BUDGET`] in any run of this machine.
     pub fn endless_loop(&self) -> Option<Span> {
         self.budget_exceeded.then_some(self.runaway)
     }
 
-    /// Whether any run since the machine was made went past [`LOOP_BUDGET`].
+    /// Whether any run of this machine exceeded [`LOOP_BUDGET`].
     pub fn budget_exceeded(&self) -> bool {
         self.budget_exceeded
     }
@@ -202,7 +204,7 @@ fn uniform(uniforms: &[Vec<ScalarValue>], root: u32, flat: u32) -> Option<Scalar
     uniforms.get(root as usize)?.get(flat as usize).copied()
 }
 
-/// A uniform that is not given is 0.
+/// A uniform without a value is 0.
 fn float_of<D: Domain>(source: PoolSource, uniforms: &[Vec<ScalarValue>]) -> D::Float {
     let value = match source {
         PoolSource::Constant(bits) => f32::from_bits(bits),

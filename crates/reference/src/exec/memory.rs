@@ -1,10 +1,10 @@
-//! Stores under a mask, and tables of registers that an index picks from.
+//! Stores under a mask, and tables of registers that an index selects from.
 
 use super::inst::Operand;
 use super::registers::{File, Filled, Register, Registers, copy};
 use crate::domain::{Domain, Element, Few, Integer, LANES, Lanes, Number, Source, WIDTH};
 
-/// The place in a table of `len` that an index means: limited into range as an `int`.
+/// The index into a table of `len` elements, clamped as an `int`.
 #[inline(always)]
 fn limit(bits: u32, len: usize) -> usize {
     (bits as i32).max(0).min(len as i32 - 1).max(0) as usize
@@ -20,7 +20,7 @@ fn store<T: Element>(register: &mut Register<T>, a: Source<'_, T>, mask: u64, al
     }
 }
 
-/// The element for each lane; fast where all lanes mean the same.
+/// The element for each lane, with a fast path if all lanes select the same.
 #[inline(always)]
 fn load<T: Element, I: Integer>(out: &mut Lanes<T>, file: &File<T>, table: &[Operand], index: Source<'_, I>) -> Filled {
     let Some(first) = table.get(limit(index.at(0).bits(), table.len())) else { return Filled::Lanes };
@@ -39,13 +39,13 @@ fn load<T: Element, I: Integer>(out: &mut Lanes<T>, file: &File<T>, table: &[Ope
     Filled::Lanes
 }
 
-/// The places that an index may mean, the likely one first.
+/// The possible indices, and first the likely one.
 fn places<I: Integer>(index: I, len: usize) -> (usize, std::ops::RangeInclusive<usize>) {
     let (low, high) = index.choices();
     (limit(index.bits(), len), limit(low as u32, len)..=limit(high as u32, len))
 }
 
-/// The elements that an open index may mean, joined to the one that it most likely means.
+/// Joins the elements that an undecided index may select to the one that it most likely selects.
 fn join_others<T: Element, I: Integer>(
     out: &mut Lanes<T>,
     filled: Filled,
@@ -71,7 +71,7 @@ fn join_others<T: Element, I: Integer>(
     Filled::Lanes
 }
 
-/// Stores into the elements that each active lane's index may mean.
+/// Stores into the elements that each active lane's index may select.
 fn store_indexed<T: Element, I: Integer>(
     file: &mut File<T>,
     table: &[Operand],
@@ -99,7 +99,7 @@ fn store_indexed<T: Element, I: Integer>(
 
 impl<D: Domain> Registers<D> {
     pub(super) fn store_float(&mut self, dst: Operand, a: Operand, mask: u64, all: bool) {
-        // `a` is another register: the compiler drops stores of a variable to itself.
+        // `a` is a different register, since the compiler removes stores of a variable to itself.
         let mut own = self.floats.take();
         std::mem::swap(self.floats.register(dst), &mut own);
         store(&mut own, self.float(a), mask, all);
@@ -141,7 +141,7 @@ impl<D: Domain> Registers<D> {
         store_indexed(&mut self.floats, table, self.ints.source(index), a, mask, Number::joined);
     }
 
-    /// Each register of the table may be the index or the value, so both are read before anything is written.
+    /// A register of the table may also be the index or the value, so both are read before anything is written.
     pub(super) fn store_indexed_int(&mut self, table: &[Operand], index: Operand, a: Operand, mask: u64) {
         let mut indices = Lanes::<D::Int>::default();
         indices.update(|lane, _| self.int(index).at(lane));

@@ -1,7 +1,7 @@
-//! The executor: a stage's HIR compiled to register code that runs 64 lanes at once.
+//! The executor: compiles a stage's HIR to register code that runs 64 lanes at once.
 //!
-//! *In:* a linked [`Program`](glisten_front::link::Program). *Out:* [`Code`], instructions for one stage that no domain is part
-//! of, and [`Machine`]s that run it in a [`Domain`](super::domain::Domain), one a thread.
+//! *In:* a linked [`Program`](glisten_front::link::Program). *Out:* [`Code`], the instructions of one stage,
+//! independent of the domain, and [`Machine`]s that run it in a [`Domain`](super::domain::Domain), one per thread.
 //!
 //! ```text
 //! let code = Code::compile(&program, Stage::Fragment)?;
@@ -13,31 +13,32 @@
 //!
 //! # How it runs
 //!
-//! Calls are inlined; what hangs on constants and uniforms alone runs once a draw (the preamble); each other scalar is a
-//! register of 64 lanes. Arithmetic ignores the mask: it is total, so inactive lanes may compute anything. Lanes part at
-//! branches by masks, and a block whose mask is empty is jumped over. Nothing is copied but where lanes part: see
-//! `compile`.
+//! Calls are inlined. What depends only on constants and uniforms runs once per draw (the preamble); each other
+//! scalar is a register of 64 lanes. Arithmetic ignores the mask: it is total, so inactive lanes may compute
+//! anything. Lanes diverge at branches through masks, and a block with an empty mask is skipped. Values are copied
+//! only where lanes diverge: see `compile`.
 //!
-//! # Where the time goes
+//! # Performance
 //!
-//! `cargo bench --bench exec` times a tile of the Blinn-Phong sphere and the whole sphere in each domain. In a sampled
-//! profile of the sphere in f64 a quarter is `pow`, a call for each lane; a quarter the loop over instructions with its
-//! additions and products; a sixth `normalize` and the other built-ins of vectors; a quarter the pipeline around.
-//! In the envelope a quarter is `normalize` (three roots and three quotients a lane, two of each for the ends), the rest
-//! spread over products and sums: an operation is some forty vector instructions on blocks of eight lanes
-//! ([`Block`](super::domain::Block)), compiled for AVX2 where that is there.
-//! Lessons: what is the same in all lanes is computed once (the counter of a loop over lights, and what it picks from
-//! uniforms); built-ins of vectors must not keep room for 16 arguments whatever they have; joining products with sums and
-//! reading uniforms as single numbers keep the working set in the first-level cache; the closures of the loops over lanes
-//! must be inlined, so glisten is compiled as one unit in release (a quarter of the time).
-//! What is to be compiled for AVX2 must be inlined, too: closures may be, the library's `array::from_fn` is not, and a
-//! function's name in a closure's place is not. A block whose address anybody has taken is not made a vector of: what is
-//! done once more takes copies.
-//! Refuted: the whole loop over instructions compiled for AVX2. Not all of it is inlined, and it takes a third longer; in
-//! f64 `pow` is a call anyway, and the rest waits for the cache.
+//! `cargo bench --bench exec` times a tile of the Blinn-Phong sphere and the whole sphere in each domain. In a
+//! sampled profile of the sphere in f64, a quarter is `pow`, with a call for each lane; a quarter the loop over
+//! instructions with its additions and products; a sixth `normalize` and the other built-in functions of vectors; and
+//! a quarter the surrounding pipeline. In the envelope, a quarter is `normalize` (three roots and three quotients per
+//! lane, two of each for the bounds), and the rest is spread over products and sums: an operation is some forty
+//! vector instructions on blocks of eight lanes ([`Block`](super::domain::Block)), compiled for AVX2 if that is
+//! available.
+//! Lessons: values that are the same in all lanes are computed once (the counter of a loop over lights, and the
+//! uniforms that it selects). Built-in functions of vectors must not reserve room for 16 arguments. Combining
+//! products with sums, and reading uniforms as single numbers, keep the working set in the first-level cache. The
+//! closures of the loops over lanes must be inlined, so this crate has one codegen unit in release builds (a quarter
+//! of the time). Code for AVX2 must be inlined, too: closures can be; the standard library's `array::from_fn`, and a
+//! function passed by name, are not. The compiler does not vectorize a block whose address has been taken, so lanes
+//! that are computed again work on copies.
+//! Refuted: compiling the whole loop over instructions for AVX2. Not all of it is inlined, and it takes a third
+//! longer; in f64, `pow` is a call anyway, and the rest waits for the cache.
 //!
-//! *Holds:* a run never panics and always ends, whatever the program does: indices are clamped into range, integer
-//! division by zero is defined ([`Integer`](super::domain::Integer)), loops stop at [`LOOP_BUDGET`].
+//! *Holds:* a run never panics and always ends, for every program: indices are clamped, integer division by zero is
+//! defined ([`Integer`](super::domain::Integer)), and loops end at [`LOOP_BUDGET`].
 
 mod code;
 mod compile;
@@ -63,14 +64,14 @@ pub use machine::{LOOP_BUDGET, Machine, Purpose};
 pub use mute::{Muted, Operation};
 pub use observe::{Event, Kind, Observer, Order, Piece, Values, What};
 
-/// How many invocations run at once: a tile of 8x8 pixels (quad by quad), or 64 vertices.
+/// The number of invocations that run at once: a tile of 8x8 pixels (quad by quad), or 64 vertices.
 ///
 /// Lanes `4q` to `4q + 3` are a quad: x0y0, x1y0, x0y1, x1y1, where y0 is the row *above* y1 in the picture (rows of a
 /// picture are stored top row first). OpenGL's y points up, so `dFdy` is the value at y0 minus that at y1:
 /// [`DFDY_SIGN`].
 pub const LANES: usize = super::domain::LANES;
 
-/// What `value(y1) - value(y0)` is multiplied by to give `dFdy`: see [`LANES`].
+/// The factor from `value(y1) - value(y0)` to `dFdy`: see [`LANES`].
 pub const DFDY_SIGN: f64 = -1.0;
 
 /// A set of lanes: bit `i` is lane `i`.
@@ -78,9 +79,9 @@ pub const DFDY_SIGN: f64 = -1.0;
 pub struct Mask(pub u64);
 
 impl Mask {
-    /// No lane.
+    /// No lanes.
     pub const NONE: Self = Self(0);
-    /// Every lane.
+    /// All lanes.
     pub const ALL: Self = Self(u64::MAX);
 
     /// The first `count` lanes.
@@ -88,17 +89,17 @@ impl Mask {
         Self(if count >= LANES { u64::MAX } else { (1 << count) - 1 })
     }
 
-    /// Whether the lane is in it.
+    /// Whether the set contains the lane.
     pub fn contains(self, lane: usize) -> bool {
         lane < LANES && self.0 >> lane & 1 == 1
     }
 
-    /// Whether no lane is in it.
+    /// Whether the set is empty.
     pub fn is_empty(self) -> bool {
         self.0 == 0
     }
 
-    /// The lanes in it, in order.
+    /// The lanes of the set, in ascending order.
     pub fn lanes(self) -> impl Iterator<Item = usize> {
         let mut rest = self.0;
         std::iter::from_fn(move || {

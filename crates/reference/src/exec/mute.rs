@@ -1,26 +1,27 @@
-//! What the bound of a result comes from: the freedom that one expression's rule adds can be taken away.
+//! Finds the origin of an envelope: the contribution of one expression's rule can be removed.
 //!
-//! *In:* the code of a stage. *Out:* its operations, each with what mutes it; [`muted_run`](super::muted_run) then runs
-//! the instructions so that they carry on what their operands bring and add nothing of their own.
-//! *Holds:* what an instruction adds is what its rule gives where the operands are exactly their values; that much is
-//! taken off both ends of each result. An input that is muted is exactly its value.
+//! *In:* the code of a stage. *Out:* its operations, each with what mutes it. [`muted_run`](super::muted_run) then
+//! runs the instructions so that they propagate the envelopes of their operands and add nothing. *Holds:* an
+//! instruction's own contribution is the envelope that its rule yields for exact operands. It is removed from both
+//! bounds of each result. A muted input is exact.
 
 use super::code::{Code, Runs};
-use super::inst::{Composite, Float1, Float2, Float3, Inst};
+use super::inst::{Float2, Inst};
+use glisten_front::builtin::operations::Rule;
 use glisten_front::hir::GlobalId;
 use glisten_front::source::Span;
 
-/// An operation of the text, and the instructions that it was made into.
+/// An operation of the text, with its instructions.
 #[derive(Clone, Debug)]
 pub struct Operation {
     /// The expression.
     pub span: Span,
-    /// How GLSL writes it.
+    /// The operation as GLSL writes it.
     pub name: &'static str,
     muted: Muted,
 }
 
-/// What adds no freedom.
+/// The operation or input that adds nothing.
 #[derive(Clone, Debug, Default)]
 pub struct Muted {
     preamble: Vec<usize>,
@@ -50,69 +51,26 @@ impl Muted {
         places.contains(&place)
     }
 
-    /// The input that is muted.
+    /// The muted input.
     pub(super) fn only_input(&self) -> Option<GlobalId> {
         self.input
     }
 }
 
-/// How GLSL writes what an instruction does; `None` for what adds no freedom.
+/// The name, if the rule of an operation adds an error.
+fn own_error(rule: &Rule, name: &'static str) -> Option<&'static str> {
+    rule.adds_error().then_some(name)
+}
+
+/// The operation of an instruction as GLSL writes it; `None` if it adds nothing.
 fn name(inst: &Inst) -> Option<&'static str> {
     Some(match inst {
-        Inst::Float1 { op, .. } => match op {
-            Float1::Neg | Float1::Abs | Float1::Sign | Float1::Floor | Float1::Ceil | Float1::Trunc => return None,
-            Float1::Round => "round",
-            Float1::Fract => "fract",
-            Float1::Sqrt => "sqrt",
-            Float1::Inversesqrt => "inversesqrt",
-            Float1::Exp => "exp",
-            Float1::Log => "log",
-            Float1::Exp2 => "exp2",
-            Float1::Log2 => "log2",
-            Float1::Sin => "sin",
-            Float1::Cos => "cos",
-            Float1::Tan => "tan",
-            Float1::Asin => "asin",
-            Float1::Acos => "acos",
-            Float1::Atan => "atan",
-            Float1::Sinh => "sinh",
-            Float1::Cosh => "cosh",
-            Float1::Tanh => "tanh",
-            Float1::Asinh => "asinh",
-            Float1::Acosh => "acosh",
-            Float1::Atanh => "atanh",
-            Float1::Radians => "radians",
-            Float1::Degrees => "degrees",
-        },
-        Inst::Float2 { op, .. } => match op {
-            Float2::Add => "+",
-            Float2::Sub => "-",
-            Float2::Mul => "*",
-            Float2::Div => "/",
-            Float2::Mod => "mod",
-            Float2::Pow => "pow",
-            Float2::Atan2 => "atan",
-            Float2::Min | Float2::Max | Float2::Step => return None,
-        },
-        Inst::MulAdd { .. } | Inst::SumOfProducts { .. } => "*",
-        Inst::Float3 { op, .. } => match op {
-            Float3::Mix => "mix",
-            Float3::Smoothstep => "smoothstep",
-            Float3::Clamp => return None,
-        },
+        Inst::Float1 { op, .. } => own_error(op.rule(), op.name())?,
+        Inst::Float2 { op, .. } => own_error(op.rule(), op.name())?,
+        Inst::Float3 { op, .. } => own_error(op.rule(), op.name())?,
+        Inst::Composite { op, .. } => op.name(),
+        Inst::MulAdd { .. } | Inst::SumOfProducts { .. } => Float2::Mul.name(),
         Inst::IntToFloat { .. } => "float",
-        Inst::Composite { op, .. } => match op {
-            Composite::Length => "length",
-            Composite::Distance => "distance",
-            Composite::Dot => "dot",
-            Composite::Cross => "cross",
-            Composite::Normalize => "normalize",
-            Composite::Faceforward => "faceforward",
-            Composite::Reflect => "reflect",
-            Composite::Refract => "refract",
-            Composite::Determinant => "determinant",
-            Composite::Inverse => "inverse",
-        },
         Inst::Derivative { .. } => "derivative",
         Inst::Texture { .. } => "texture",
         _ => return None,
@@ -120,7 +78,7 @@ fn name(inst: &Inst) -> Option<&'static str> {
 }
 
 impl Code {
-    /// The operations of the stage that may add to a bound.
+    /// The operations of the stage that may add to an envelope.
     pub fn operations(&self) -> Vec<Operation> {
         let mut list: Vec<Operation> = Vec::new();
         let sections = [(&self.inner.preamble, true), (&self.inner.main, false)];

@@ -1,7 +1,7 @@
-//! Runs in which some operation adds nothing to the envelopes.
+//! Runs in which one operation adds nothing to the envelopes.
 //!
-//! *In:* a machine with something [`Muted`]. *Out:* the results of its instructions without the freedom
-//! that their own rules give.
+//! *In:* a machine with [`Muted`] operations. *Out:* the results of its instructions without the contribution of
+//! their own rules.
 
 use super::code::{Inner, Section};
 use super::inst::{Class, Inst, Operand, Use};
@@ -11,14 +11,14 @@ use super::registers::Register;
 use crate::domain::{Domain, Number};
 use glisten_scene::picture::Interval;
 
-/// Registers and numbers for all lanes as they were.
+/// Saved registers and numbers for all lanes.
 struct Saved<D: Domain> {
     registers: Vec<(usize, Register<D::Float>)>,
     pool: Vec<(usize, D::Float)>,
 }
 
 impl<D: Domain> Machine<D> {
-    /// Whether an instruction of a section adds nothing of its own.
+    /// Whether an instruction of a section is muted.
     pub(super) fn is_muted(&self, section: &Section, place: usize) -> bool {
         self.muted.as_ref().is_some_and(|muted| muted.holds(section.runs, place))
     }
@@ -33,7 +33,7 @@ impl<D: Domain> Machine<D> {
         }
     }
 
-    /// Runs an instruction and takes off its results what it adds itself.
+    /// Runs an instruction and removes its own contribution from its results.
     pub(super) fn run_muted(&mut self, inst: &Inst, section: &Section, inner: &Inner, mask: u64) {
         let (mut reads, mut writes) = (Vec::new(), Vec::new());
         let mut note = |class: Class, using: Use, operand: Operand| {
@@ -94,7 +94,7 @@ impl<D: Domain> Machine<D> {
     }
 
     fn put_back(&mut self, saved: Saved<D>) {
-        // An operand that stands twice was saved twice, the first time as it was.
+        // An operand that occurs twice was saved twice. The first copy is the original.
         for (number, old) in saved.registers.into_iter().rev() {
             if let Some(register) = self.registers.floats.get_mut(number) {
                 *register = old;
@@ -112,7 +112,7 @@ fn exactly<N: Number>(number: N) -> N {
     N::whole(number.value(), Interval::point(number.value()))
 }
 
-/// A number without as much freedom as another has about its value.
+/// A number whose envelope is narrower by that of `own` around its value.
 fn without<N: Number>(number: N, own: N) -> N {
     let (range, own_range) = (number.range(), own.range());
     let off = |distance: f64| if distance.is_finite() { distance.max(0.0) } else { f64::INFINITY };

@@ -1,35 +1,35 @@
-//! [`Observer`]: who sees what a machine computes, and the [`Event`]s that it sees.
+//! [`Observer`]: sees the results of a machine as [`Event`]s.
 
 use super::Mask;
-use super::inst::{Composite, Float1, Float2, Inst};
+use super::inst::{Composite, Float2, Inst};
 use crate::domain::{Domain, Source};
 use glisten_front::hir::Stage;
 use glisten_front::source::Span;
 use std::fmt::Debug;
 
-/// A scalar in all lanes: one number each, or one for all.
+/// A scalar in all lanes: one number per lane, or one for all.
 pub type Values<'a, T> = Source<'a, T>;
 
-/// Where a piece of a run stands among all pieces of a drawing, whichever thread ran it.
+/// The position of a piece of a run among all pieces of a drawing, regardless of the thread.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Order {
     /// The draw of the scene.
     pub draw: usize,
     /// The first instance of the group.
     pub instance: u32,
-    /// What was run.
+    /// The kind of piece.
     pub piece: Piece,
     /// The batch of vertices, or the bin of the framebuffer.
     pub part: usize,
 }
 
-/// What a machine runs at once, in the order of a drawing.
+/// A unit of work of a machine, in the order of a drawing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Piece {
-    /// What is the same for all vertices.
+    /// The computations that are the same for all vertices.
     #[default]
     SameForVertices,
-    /// What is the same for all fragments.
+    /// The computations that are the same for all fragments.
     SameForFragments,
     /// A batch of vertices.
     Vertices,
@@ -38,7 +38,7 @@ pub enum Piece {
 }
 
 impl Piece {
-    /// The stage that it counts with.
+    /// The stage to which it belongs.
     pub fn stage(self) -> Stage {
         match self {
             Self::SameForVertices | Self::Vertices => Stage::Vertex,
@@ -47,71 +47,70 @@ impl Piece {
     }
 }
 
-/// What kind of operation gave floats.
+/// The kind of an operation that yields floats.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// `a + b`, `a - b`
     Sum,
     /// `dot(a, b)`; the operands are those of `a`, then those of `b`.
     Dot,
-    /// A function that jumps: `floor`, `sign`, `step`, `fract`, `mod` and their like.
+    /// A discontinuous function: `floor`, `sign`, `step`, `fract`, `mod` and similar ones.
     Jump,
-    /// A difference of neighboring lanes.
+    /// A difference between neighboring lanes.
     Derivative,
-    /// A texture's texels, from coordinates.
+    /// Texels of a texture, from coordinates.
     Texture,
     /// Anything else.
     Other,
 }
 
-/// What happened.
+/// The content of an event.
 #[derive(Debug)]
 pub enum What<'a, D: Domain> {
     /// Floats were computed.
     Floats {
-        /// By what.
+        /// The kind of operation.
         kind: Kind,
-        /// From these; of conversions from integers nothing is shown.
+        /// The operands. Those of conversions from integers are not shown.
         operands: &'a [Values<'a, D::Float>],
-        /// One, or the components of a vector or matrix.
+        /// One result, or the components of a vector or matrix.
         results: &'a [Values<'a, D::Float>],
     },
     /// A comparison of floats, a classification or a conversion to an integer was made.
     Answer(Values<'a, D::Int>),
-    /// Lanes part, or one of two values is taken, by this condition or selector.
+    /// Lanes diverge, or one of two values is selected, by this condition or selector.
     Choice(Values<'a, D::Int>),
-    /// The stage has ended with this in an output.
+    /// The stage has ended with this value in an output.
     Output(Values<'a, D::Float>),
 }
 
-/// Something that happened in some lanes.
+/// An event in some lanes.
 #[derive(Debug)]
 pub struct Event<'a, D: Domain> {
     /// The expression or statement.
     pub span: Span,
     /// The lanes.
     pub lanes: Mask,
-    /// What.
+    /// The content.
     pub what: What<'a, D>,
 }
 
-/// Sees what a machine computes.
+/// Receives the events of a machine.
 pub trait Observer<D: Domain>: Send + Debug {
-    /// Something happened.
+    /// Receives an event.
     fn see(&mut self, event: &Event<'_, D>);
-    /// A piece of the drawing has ended.
+    /// Called at the end of a piece of the drawing.
     fn finish(self: Box<Self>, order: Order);
 }
 
 impl Kind {
-    /// `None` for what computes no floats.
+    /// Returns `None` for instructions that do not compute floats.
     pub(super) fn of(inst: &Inst) -> Option<Self> {
-        use Float1::{Ceil, Floor, Fract, Round, Sign, Trunc};
         Some(match inst {
             Inst::Float2 { op: Float2::Add | Float2::Sub, .. } => Self::Sum,
             Inst::Composite { op: Composite::Dot, .. } => Self::Dot,
-            Inst::Float1 { op: Sign | Floor | Ceil | Trunc | Round | Fract, .. }
-            | Inst::Float2 { op: Float2::Step | Float2::Mod, .. } => Self::Jump,
+            Inst::Float1 { op, .. } if op.jumps() => Self::Jump,
+            Inst::Float2 { op, .. } if op.jumps() => Self::Jump,
             Inst::Derivative { .. } => Self::Derivative,
             Inst::Float1 { .. }
             | Inst::Float2 { .. }

@@ -1,31 +1,32 @@
-//! The ways that lanes can go where conditions are open: which decisions a run follows, and which it met.
+//! The paths that lanes may take where conditions are uncertain: the decisions that a run follows, and those that it
+//! met.
 //!
-//! *In:* open conditions, as instructions meet them. *Out:* the outcome that the run follows, and the ways that part from
-//! it. [`explore`](super::explore) runs them.
+//! *In:* uncertain conditions, as instructions meet them. *Out:* the outcome that the run follows, and the paths that
+//! branch off. [`explore`](super::explore) runs them.
 //!
-//! Lanes that derivatives couple decide together: a quad is one group; where no derivatives are taken, a lane is one. A
-//! run has room for as many groups as fit into its lanes, each with its own decisions to follow.
+//! Lanes that derivatives couple decide together: a quad is one group. Without derivatives, a lane is one. A run has
+//! as many groups as fit into its lanes, each with its own decisions.
 
 use super::inst::{Inst, Lookup};
 use super::{LANES, Mask};
 
-/// The most decisions along a way.
+/// The largest number of decisions along a path.
 pub(super) const MAX_DECISIONS: u8 = 60;
 
-/// The decisions of one group along one way: bit `k` is the outcome of the `k`th.
+/// The decisions of one group along one path: bit `k` is the outcome of decision `k`.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Way {
     outcomes: u64,
-    /// How many are given; the others follow the value.
+    /// The number of given decisions. The others follow the value.
     given: u8,
-    /// How many were met.
+    /// The number of decisions that were met.
     pub(super) met: u8,
 }
 
-/// The ways that a run follows and has found.
+/// The paths that a run follows, and those that it found.
 #[derive(Clone, Debug)]
 pub(super) struct Paths {
-    /// Lanes that decide together.
+    /// The number of lanes that decide together.
     pub(super) group: usize,
     pub(super) ways: [Way; LANES],
     /// Whether any decision was met.
@@ -45,7 +46,7 @@ impl Paths {
         }
     }
 
-    /// The outcomes for these lanes: given ones first, then the value's.
+    /// The outcomes for these lanes: the given ones first, then those of the value.
     pub(super) fn decide(&mut self, truth: u64, open: u64) -> u64 {
         self.any = true;
         let mut decided = truth;
@@ -71,7 +72,7 @@ impl Paths {
 }
 
 impl Way {
-    /// The ways that part from this one at a decision that was not given.
+    /// The paths that branch off from this one at decisions that were not given.
     pub(super) fn others(self) -> impl Iterator<Item = Self> {
         (self.given..self.met.min(MAX_DECISIONS)).map(move |place| {
             let kept = self.outcomes & ((1u64 << place) - 1);
@@ -81,7 +82,7 @@ impl Way {
     }
 }
 
-/// Whether lanes of a quad read each other.
+/// Whether lanes of a quad read from each other.
 pub(super) fn couples(section: &super::code::Section, inner: &super::code::Inner) -> bool {
     section.insts.iter().any(|inst| match inst {
         Inst::Derivative { .. } => true,

@@ -1,23 +1,23 @@
-//! [`Registers`]: a file of floats and one of ints, and the loops over lanes.
+//! [`Registers`]: a file of floats and one of ints, with loops over lanes.
 //!
-//! A register is a box: an instruction writes into a spare one and swaps it in, so that operands and result never
-//! overlap and nothing is copied. A register whose lanes are all alike keeps one number: what is computed from such
-//! registers is computed once. The counter of a loop over lights is one, and so is all that it picks from uniforms.
+//! A register is a box. An instruction writes to a spare one and swaps it in, so that operands and result never
+//! overlap and nothing is copied. A register whose lanes are all equal stores one number, and computations on such
+//! registers are done once. Examples are the counter of a loop over lights, and all uniforms that it selects.
 
 use super::inst::{Class, Operand};
 use crate::domain::faults::Faults;
 use crate::domain::{Block, Domain, Element, Few, Lanes, Number, Source, WIDTH};
 use std::hint::black_box;
 
-/// The most results of one instruction: a `mat4`.
+/// The largest number of results of one instruction: a `mat4`.
 const SPARES: usize = 16;
 
-/// What an instruction has written.
+/// The lanes that an instruction has written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Filled {
     /// Each lane.
     Lanes,
-    /// The first lane, which stands for all.
+    /// Only the first lane, which represents all.
     One,
 }
 
@@ -40,7 +40,7 @@ pub(super) struct File<T: Element> {
 pub(super) struct Registers<D: Domain> {
     pub(super) floats: File<D::Float>,
     pub(super) ints: File<D::Int>,
-    /// Faults of a driver that are admitted.
+    /// The faults of a driver that are excused.
     pub(super) faults: Faults,
 }
 
@@ -57,12 +57,12 @@ impl<T: Element> Register<T> {
         }
     }
 
-    /// Its lanes, where each has its own number.
+    /// The lanes, if each has its own number.
     pub(super) fn lanes(&self) -> Option<&Lanes<T>> {
         (self.filled == Filled::Lanes).then_some(&self.lanes)
     }
 
-    /// Its lanes, each with its own number from here on.
+    /// The lanes, after giving each its own number.
     #[inline(always)]
     pub(super) fn spread(&mut self) -> &mut Lanes<T> {
         if self.filled == Filled::One {
@@ -72,7 +72,7 @@ impl<T: Element> Register<T> {
         &mut self.lanes
     }
 
-    /// Takes some lanes of another register.
+    /// Copies some lanes of another register.
     pub(super) fn copy_lanes(&mut self, other: &Self, from: usize, to: usize, count: usize) {
         let other = other.source();
         let lanes = self.spread();
@@ -81,7 +81,7 @@ impl<T: Element> Register<T> {
         }
     }
 
-    /// Lets `fill` write it.
+    /// Writes the register with `fill`.
     #[inline(always)]
     pub(super) fn fill(&mut self, fill: impl FnOnce(&mut Lanes<T>) -> Filled) {
         self.filled = fill(&mut self.lanes);
@@ -94,7 +94,7 @@ impl<T: Element> File<T> {
         Self { registers: blank(count), pool, spares: blank(SPARES) }
     }
 
-    /// Appends the preamble's results to the pool and makes room for the registers of `main`.
+    /// Appends the preamble's results to the pool and allocates the registers of `main`.
     fn finish_preamble(&mut self, count: usize) {
         self.pool.extend(self.registers.iter().map(|register| register.lanes.get(0)));
         self.registers.resize_with(count, Register::blank);
@@ -102,12 +102,12 @@ impl<T: Element> File<T> {
 
     #[inline(always)]
     pub(super) fn source(&self, operand: Operand) -> Source<'_, T> {
-        // The compiler hands out every number that code names; see `alloc`.
+        // The compiler assigns every number in the code; see `alloc`.
         let number = operand.number();
         if operand.is_reg() { self.registers[number].source() } else { Source::One(self.pool[number]) }
     }
 
-    /// The register of an operand that is one.
+    /// The register of a register operand.
     #[inline(always)]
     pub(super) fn register(&mut self, operand: Operand) -> &mut Register<T> {
         &mut self.registers[operand.number()]
@@ -118,7 +118,7 @@ impl<T: Element> File<T> {
         self.registers.get(number)
     }
 
-    /// Likewise to be changed.
+    /// The mutable register with a number.
     pub(super) fn get_mut(&mut self, number: usize) -> Option<&mut Register<T>> {
         self.registers.get_mut(number)
     }
@@ -131,13 +131,13 @@ impl<T: Element> File<T> {
         });
     }
 
-    /// A register to write into before it is [swapped in](Self::put).
+    /// A spare register to write to before it is [swapped in](Self::put).
     #[inline(always)]
     pub(super) fn take(&mut self) -> Register<T> {
         self.spares.pop().unwrap_or_else(Register::blank)
     }
 
-    /// Makes a spare register that of the operand.
+    /// Makes a spare register the operand's.
     #[inline(always)]
     pub(super) fn put(&mut self, dst: Operand, mut spare: Register<T>) {
         std::mem::swap(&mut self.registers[dst.number()], &mut spare);
@@ -145,7 +145,7 @@ impl<T: Element> File<T> {
     }
 }
 
-/// Eight lanes of a function.
+/// Eight results of a function.
 #[inline(always)]
 fn few<R: Element>(f: impl Fn(usize) -> R) -> R::Few {
     let mut out = R::Few::default();
@@ -212,7 +212,7 @@ pub(super) fn map2<A: Element, B: Element, R: Element>(
     }
 }
 
-/// For functions that cost far more than telling the kinds of operands apart.
+/// For functions that cost far more than distinguishing the kinds of operands.
 #[inline(always)]
 pub(super) fn map3<A: Element, B: Element, C: Element, R: Element>(
     out: &mut Lanes<R>,
@@ -237,7 +237,7 @@ pub(super) fn map3<A: Element, B: Element, C: Element, R: Element>(
     }
 }
 
-/// Calls a function for each lane: for functions that cost far more than the call, so that they are compiled once.
+/// Calls a function for each lane. For functions that cost far more than the call, so that they are compiled once.
 #[inline(never)]
 pub(super) fn calls1<A: Element, R: Element>(out: &mut Lanes<R>, a: Source<'_, A>, f: &dyn Fn(A) -> R) -> Filled {
     match a {
@@ -252,7 +252,7 @@ pub(super) fn calls1<A: Element, R: Element>(out: &mut Lanes<R>, a: Source<'_, A
     }
 }
 
-/// The same for a function of two.
+/// Calls a function of two operands for each lane.
 #[inline(never)]
 pub(super) fn calls2<A: Element, B: Element, R: Element>(
     out: &mut Lanes<R>,
@@ -268,7 +268,7 @@ pub(super) fn calls2<A: Element, B: Element, R: Element>(
     Filled::Lanes
 }
 
-/// The same for a function of three.
+/// Calls a function of three operands for each lane.
 #[inline(never)]
 pub(super) fn calls3<A: Element, B: Element, C: Element, R: Element>(
     out: &mut Lanes<R>,
@@ -285,17 +285,17 @@ pub(super) fn calls3<A: Element, B: Element, C: Element, R: Element>(
     Filled::Lanes
 }
 
-/// The blocks of an operand in order: of a number for all lanes one block, again and again. A loop over them is compiled
-/// once, whatever its operands are.
+/// The blocks of an operand in order; for one number for all lanes, the same block repeatedly. So a loop over them is
+/// compiled once for all kinds of operands.
 struct Blocks<'a, T: Element> {
     blocks: &'a [T::Few],
-    /// 0 where all places have the same block.
+    /// 0 if all indices have the same block.
     places: usize,
 }
 
 impl<'a, T: Element> Blocks<'a, T> {
-    /// The blocks of an operand; `room` keeps what is the same in all lanes. The compiler would make branches of what it
-    /// knows to be the same, so it is not told.
+    /// The blocks of an operand. `room` stores a number for all lanes. The compiler would branch if it knew that the
+    /// blocks are equal, so this is hidden from it.
     #[inline(always)]
     fn of(source: Source<'a, T>, room: &'a mut T::Few) -> Self {
         match source {
@@ -309,13 +309,13 @@ impl<'a, T: Element> Blocks<'a, T> {
 
     #[inline(always)]
     fn at(&self, place: usize) -> &T::Few {
-        // `of` leaves no place without a block.
+        // `of` provides a block for every index.
         &self.blocks[place & self.places]
     }
 }
 
-/// Applies a function to blocks of lanes, or its like for one number: where all operands are one for all lanes, and in each
-/// lane of a domain that has no operations on blocks of its own, or on a machine without the vector unit for them.
+/// Applies a function to blocks of lanes, or its scalar form to single numbers: if all operands are one number for
+/// all lanes, and in each lane for domains without block operations or machines without a suitable vector unit.
 #[inline(always)]
 pub(super) fn blocks1<N: Number>(
     out: &mut Lanes<N>,
@@ -398,7 +398,7 @@ impl<D: Domain> Registers<D> {
         Self { floats: File::new(floats, float_pool), ints: File::new(ints, int_pool), faults }
     }
 
-    /// Appends the preamble's results to the pools and makes room for the registers of `main`.
+    /// Appends the preamble's results to the pools and allocates the registers of `main`.
     pub(super) fn finish_preamble(&mut self, count: [usize; 2]) {
         let [floats, ints] = count;
         self.floats.finish_preamble(floats);
@@ -430,7 +430,7 @@ impl<D: Domain> Registers<D> {
         self.ints.source(operand)
     }
 
-    /// Lets `fill` write a float register, whatever it reads.
+    /// Writes a float register with `fill`, which may read any register.
     #[inline(always)]
     pub(super) fn write_float(&mut self, dst: Operand, fill: impl FnOnce(&Self, &mut Lanes<D::Float>) -> Filled) {
         let mut spare = self.floats.take();
@@ -438,7 +438,7 @@ impl<D: Domain> Registers<D> {
         self.floats.put(dst, spare);
     }
 
-    /// Likewise of an int register.
+    /// Writes an int register with `fill`, which may read any register.
     #[inline(always)]
     pub(super) fn write_int(&mut self, dst: Operand, fill: impl FnOnce(&Self, &mut Lanes<D::Int>) -> Filled) {
         let mut spare = self.ints.take();

@@ -1,4 +1,4 @@
-//! The loop over instructions: masks and jumps.
+//! Runs instructions: masks and jumps.
 
 use super::LANES;
 use super::code::{Inner, Section};
@@ -7,7 +7,7 @@ use super::machine::Machine;
 use crate::domain::{Domain, Integer, Lanes, Source};
 
 impl<D: Domain> Machine<D> {
-    /// Runs a section from its start, with these lanes.
+    /// Runs a section from its start with these lanes.
     pub(super) fn execute(&mut self, section: &Section, inner: &Inner, start: u64) {
         let mut mask = start;
         let mut place = 0;
@@ -118,7 +118,7 @@ impl<D: Domain> Machine<D> {
         }
     }
 
-    /// The lanes of `mask` where the condition holds. Where the answer is open it is decided by the lane's path.
+    /// The lanes of `mask` where the condition is true. If a lane's condition is uncertain, its path decides.
     fn truth(&mut self, condition: Operand, mask: u64) -> u64 {
         let (truth, open) = match self.registers.int(condition) {
             Source::One(value) => (if value.is_true() { u64::MAX } else { 0 }, if value.sure() { 0 } else { u64::MAX }),
@@ -147,7 +147,7 @@ impl<D: Domain> Machine<D> {
     }
 }
 
-/// The lanes that are true, and those that are not sure.
+/// The lanes that are true, and those that are uncertain.
 #[inline(always)]
 pub(super) fn bits_where<I: Integer>(lanes: &Lanes<I>) -> (u64, u64) {
     let (mut truth, mut unsure) = (0u64, 0u64);

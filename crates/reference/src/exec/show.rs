@@ -1,7 +1,7 @@
-//! Shows an observer what a machine computes.
+//! Shows an observer the results of a machine.
 //!
-//! *In:* instructions as they run. *Out:* [`Event`]s with the operands and results of the lanes that count.
-//! *Holds:* watching changes nothing. Copies, loads and stores are not shown: they compute nothing. Helper lanes are
+//! *In:* instructions as they run. *Out:* [`Event`]s with the operands and results of the active lanes. *Holds:*
+//! observing changes nothing. Copies, loads and stores are not shown, since they compute nothing. Helper lanes are
 //! never shown.
 
 use super::Mask;
@@ -15,19 +15,20 @@ use glisten_front::source::Span;
 use smallvec::SmallVec;
 
 impl<D: Domain> Machine<D> {
-    /// Lets an observer see all runs from here on.
+    /// Lets an observer see all later runs.
     pub fn watch(&mut self, observer: Box<dyn Observer<D>>) {
         self.observer = Some(observer);
     }
 
-    /// Tells the observer, if there is one, that this was all.
+    /// Informs the observer, if there is one, that the piece has ended.
     pub fn end_watch(&mut self, order: Order) {
         if let Some(observer) = self.observer.take() {
             observer.finish(order);
         }
     }
 
-    /// Shows an instruction that was just computed; its operands are still there, as no register is both.
+    /// Shows an instruction that has just run. Its operands still exist, since no register is both operand and
+    /// result.
     pub(super) fn show(&mut self, inst: &Inst, section: &Section, place: usize, mask: u64) {
         let Some(observer) = &mut self.observer else { return };
         let registers = &self.registers;
@@ -54,7 +55,7 @@ impl<D: Domain> Machine<D> {
         observer.see(&Event { span, lanes: Mask(mask & self.watched), what });
     }
 
-    /// Shows a lookup of floats by floats.
+    /// Shows a lookup of floats by float coordinates.
     pub(super) fn show_texture(&mut self, call: &TextureCall, section: &Section, place: usize, mask: u64) {
         let Some(observer) = &mut self.observer else { return };
         let texels_are_floats = call.kind.texel == Scalar::Float || call.kind.shadow;
@@ -70,7 +71,7 @@ impl<D: Domain> Machine<D> {
         observer.see(&Event { span, lanes: Mask(mask & self.watched), what });
     }
 
-    /// Shows the condition of an instruction that is about to run.
+    /// Shows the condition of an instruction before it runs.
     pub(super) fn show_choice(&mut self, inst: &Inst, section: &Section, place: usize, mask: u64) {
         let (Inst::Arm { c, .. }
         | Inst::LoopTest { c, .. }

@@ -1,11 +1,11 @@
-//! Equations (102) to (108) against fractions of integers.
+//! Tests equations (102) to (108) against fractions of integers.
 //!
-//! Each bound is a number of roundings of the equation's terms: what grows in slivers and at small `w` is the condition
-//! of the question, told apart from the error of the answer.
+//! Each bound is a number of roundings of the equation's terms. In slivers and at small `w`, the condition number of
+//! the problem grows; the tests separate it from the error of the result.
 
 use super::*;
 
-/// Numbers that are the same every run.
+/// Random numbers from a seed, the same in every run.
 fn numbers(seed: u64) -> impl FnMut(i64, i64) -> i64 {
     let mut state = seed;
     move |low, high| {
@@ -14,7 +14,7 @@ fn numbers(seed: u64) -> impl FnMut(i64, i64) -> i64 {
     }
 }
 
-/// A fraction; its value comes within two roundings.
+/// A fraction; its conversion to f64 has at most two roundings.
 #[derive(Clone, Copy, Debug)]
 struct Ratio {
     n: i128,
@@ -27,7 +27,7 @@ impl Ratio {
     }
 }
 
-/// Places in units of 2^-16 pixel: finer than any grid that a rasterizer snaps to.
+/// Positions are in units of 2^-16 pixel, finer than any grid to which a rasterizer snaps.
 const UNIT: f64 = 65536.0;
 
 type Place = [i64; 2];
@@ -41,7 +41,7 @@ fn cross(a: Place, b: Place) -> i128 {
     i128::from(a[0]) * i128::from(b[1]) - i128::from(b[0]) * i128::from(a[1])
 }
 
-/// The same with absolute values: what the rounding of its products and difference is in proportion to.
+/// The sum of the absolute values instead: the rounding of the products and the difference is proportional to it.
 fn size(a: Place, b: Place) -> f64 {
     (a[0] as f64 * b[1] as f64).abs() + (b[0] as f64 * a[1] as f64).abs()
 }
@@ -50,19 +50,19 @@ fn minus(a: Place, b: Place) -> Place {
     [a[0] - b[0], a[1] - b[1]]
 }
 
-/// A triangle and a point of it.
+/// A triangle and a point in it.
 struct Case {
     corners: [Place; 3],
     p: Place,
 }
 
 impl Case {
-    /// From half the window to less than a thousandth of a pixel across, none without area; `width` is in units.
+    /// From half the window to less than a thousandth of a pixel across, never without area; `width` is in units.
     fn random(next: &mut impl FnMut(i64, i64) -> i64, width: i64) -> Option<Self> {
         let mut corner = || [next(0, 1 << 25), next(0, 1 << 25)];
         let (a, b) = (corner(), corner());
         let along = next(0, 64);
-        // Aside of the way from a to b.
+        // Off the line from a to b.
         let c = [0, 1].map(|axis| a[axis] + (b[axis] - a[axis]) * along / 64 + next(-width, width));
         let k = [next(1, 9), next(1, 9), next(1, 9)];
         let corners = [a, b, c];
@@ -87,19 +87,19 @@ impl Case {
         [self.determinant() - first - second, first, second]
     }
 
-    /// How far (105) may be off by a few roundings, for each coordinate: of its numerator and of the determinant.
+    /// How far each coordinate of (105) may be off by a few roundings of its numerator and of the determinant.
     fn slack(&self, rounding: f64) -> [f64; 2] {
         let ((u, v), x) = (self.edges(), minus(self.p, self.corners[0]));
         let determinant = (self.determinant() as f64).abs();
         let [_, first, second] = self.weights().map(|n| (n as f64 / determinant).abs());
-        // A place in single precision is rounded, too: half a unit of the last place of its coordinate.
+        // A position in single precision is rounded, too: by half a unit in the last place of its coordinate.
         let places = 2.0 * rounding * 33_554_432.0;
         let lost = |a: Place, b: Place| {
             4.0 * rounding * size(a, b) + places * (a[0].abs() + a[1].abs() + b[0].abs() + b[1].abs()) as f64
         };
         let area = lost(u, v) / determinant;
         if area > 0.25 {
-            // The determinant itself is lost.
+            // The determinant has no correct digits.
             return [f64::INFINITY; 2];
         }
         [(first, lost(x, v)), (second, lost(u, x))]
@@ -145,7 +145,7 @@ fn equations_103_and_104_give_the_point_back() {
     }
 }
 
-/// The largest error of (105), absolute and as a part of what its roundings allow.
+/// The largest error of (105), absolute and relative to what its roundings allow.
 fn worst_105<F: Number>(width: i64, rounding: f64) -> (f64, f64) {
     let mut next = numbers(105);
     let mut worst = (0.0_f64, 0.0_f64);
@@ -153,7 +153,7 @@ fn worst_105<F: Number>(width: i64, rounding: f64) -> (f64, f64) {
         let [_, u, v] = case.weights().map(|n| Ratio { n, d: case.determinant() }.value());
         let (found_u, found_v) = case.coordinates::<F>();
         for ((found, exact), slack) in [(found_u, u), (found_v, v)].into_iter().zip(case.slack(rounding)) {
-            // A determinant that rounds to 0 has no finite answer; its slack is infinite.
+            // A determinant that rounds to 0 has no finite result; its slack is infinite.
             let error = if found.is_finite() { (found - exact).abs() } else { f64::MAX };
             worst = (worst.0.max(error), worst.1.max(if slack.is_finite() { error / slack } else { 0.0 }));
         }
@@ -166,7 +166,7 @@ fn equation_105_loses_no_more_than_its_roundings_down_to_slivers() {
     for width in WIDTHS {
         let (error, share) = worst_105::<f64>(width, f64::EPSILON / 2.0);
         assert!(share <= 1.0, "f64, {width}: {error}, {share} of what is allowed");
-        // On this grid the products are exact in f64: the division's rounding is all, in the thinnest sliver too.
+        // On this grid the products are exact in f64, so only the division rounds, even in the thinnest sliver.
         assert!(error <= 4.0 * f64::EPSILON, "f64, {width}: {error}");
         let (error, share) = worst_105::<f32>(width, f64::from(f32::EPSILON) / 2.0);
         assert!(share <= 1.0, "f32, {width}: {error}, {share} of what is allowed");
@@ -196,10 +196,10 @@ impl Depth {
     }
 }
 
-/// `w` and `C` of (108), (106) if all `w` are 1, and the terms of `C` by their absolute values.
+/// `w` and `C` of (108), or of (106) if all `w` are 1, and the sum of the absolute values of the terms of `C`.
 fn exact_108(case: &Case, c: [i64; 3], w: [Depth; 3]) -> (f64, f64, f64) {
     let most = w.iter().map(|w| w.exponent).max().unwrap_or(0);
-    // Times all factors and 2^most, so that everything is whole.
+    // Times all factors and 2^most, so that everything is an integer.
     let factors: i128 = w.iter().map(|w| i128::from(w.factor)).product();
     let reciprocal = |i: usize| (factors / i128::from(w[i].factor)) << (most - w[i].exponent);
     let b = case.weights();
@@ -211,7 +211,7 @@ fn exact_108(case: &Case, c: [i64; 3], w: [Depth; 3]) -> (f64, f64, f64) {
     (depth, Ratio { n: above, d: below }.value(), Ratio { n: terms, d: below * sign }.value())
 }
 
-/// (105) to (108) as the rasterizer puts them together: `w` and `C`.
+/// (105) to (108), combined as in the rasterizer: `w` and `C`.
 fn computed<F: Number>(case: &Case, c: [i64; 3], w: [f64; 3]) -> (f64, f64) {
     let frame = Frame::<F>::new(pixels(case.corners[0]), pixels(case.corners[1]), pixels(case.corners[2]));
     let (u, v) = frame.coordinates(pixels(case.p));
@@ -239,7 +239,7 @@ fn equation_106_is_exact_but_for_its_roundings() {
         let rise = |i: usize| (c[i] - c[0]).abs() as f64;
         let terms = c[0].abs() as f64 + u.abs() * rise(1) + v.abs() * rise(2);
         assert!((found - exact).abs() <= 4.0 * f64::EPSILON * terms, "{found} for {exact}");
-        // What is the same everywhere stays the same.
+        // A constant value remains exactly constant.
         assert_eq!(linear(weights(u, v), [c[0] as f64; 3]), c[0] as f64);
     }
 }
@@ -251,7 +251,7 @@ fn equation_107_is_exact_but_for_its_roundings() {
         let (t, a, b) = (next(0, 64), next(-1000, 1000), next(-1000, 1000));
         let (za, zb) = (next(1, 1 << 20), next(1, 1 << 20));
         let shift = next(-40, 40) as i32;
-        // Both depths times a power of two change nothing but the depth.
+        // Multiplying both depths by a power of two changes only the depth.
         let scale = 2.0_f64.powi(shift);
         let (value, depth) = unproject(t as f64 / 64.0, a as f64, za as f64 * scale, b as f64, zb as f64 * scale);
         let below = i128::from((64 - t) * zb + t * za);
@@ -276,7 +276,8 @@ fn equation_108_is_exact_but_for_its_roundings_from_large_w_to_small() {
             let w = [(); 3].map(|()| Depth { factor: next(1, 9), exponent: next(-spread, spread) as i32 / 2 });
             let (depth, exact, terms) = exact_108(&case, c, w);
             let (found_depth, found) = computed::<f64>(&case, c, w.map(Depth::value));
-            // The sum is formed from differences to the first vertex: they may be larger than the sum's own terms.
+            // The sum consists of differences from the first vertex, which may be larger than the terms of the sum
+            // itself.
             let b = case.weights().map(|n| (n as f64 / case.determinant() as f64).abs());
             let reciprocals = w.map(|w| 1.0 / w.value());
             let largest = reciprocals[0] + b[1] * reciprocals[1] + b[2] * reciprocals[2];
@@ -300,7 +301,7 @@ fn a_vertex_near_the_eye_draws_everything_to_itself() {
         assert!((found_depth / depth - 1.0).abs() <= 8.0 * f64::EPSILON);
         assert!((exact - 5.0).abs() <= 40.0 * 2.0_f64.powi(exponent));
     }
-    // At w = 0 the equation says nothing, and no finite value is made up.
+    // At w = 0 the equation is undefined, and no finite value is invented.
     let (_, value) = computed::<f64>(&case, [5, -7, 11], [0.0, 1.0, 1.0]);
     assert!(value.is_nan());
 }

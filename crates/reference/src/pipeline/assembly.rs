@@ -1,7 +1,7 @@
-//! Vertices into primitives (OpenGL 3.2 §2.6.1, table 2.12), clipped and with their pixels.
+//! Primitive assembly (OpenGL 3.2 §2.6.1, table 2.12): primitives from vertices, clipped, with their pixels.
 //!
-//! *In:* shaded vertices, the order of a draw. *Out:* [`Prim`]s in order.
-//! *Holds:* culling and facing go by the sign of the snapped area (§3.6.1).
+//! *In:* shaded vertices, and their order in a draw. *Out:* [`Prim`]s in order. *Holds:* culling and facing depend on
+//! the sign of the snapped area (§3.6.1).
 
 use super::clip::SIDES;
 use super::vertices::Vertices;
@@ -11,10 +11,10 @@ use crate::raster::{Fixed, Shape, line, point, triangle};
 use glisten_front::hir::Interpolation;
 use glisten_scene::{Cull, Primitive, State};
 
-/// What the values of a primitive's fragments are interpolated from.
+/// The vertices between which the values of a primitive's fragments are interpolated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Corners {
-    /// One vertex for all.
+    /// One vertex for all fragments.
     Point(u32),
     /// A segment.
     Line([u32; 2]),
@@ -27,22 +27,23 @@ pub(super) enum Corners {
 pub(super) struct Prim {
     pub(super) shape: Shape,
     pub(super) corners: Corners,
-    /// The vertex whose values `flat` varyings have.
+    /// The vertex whose values `flat` varyings take.
     pub(super) provoking: u32,
     /// `gl_FrontFacing`
     pub(super) front: bool,
     /// `gl_PrimitiveID`
     pub(super) id: u32,
-    /// Whether a branch of a vertex may go either way.
+    /// Whether a branch in the vertex stage is undecided for one of its vertices.
     pub(super) undecided: bool,
 }
 
-/// Where each primitive's vertices stand in the order of the draw, and which provokes.
+/// The positions of a primitive's vertices in the order of the draw, and its provoking vertex.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Assembled {
     Point(u32),
     Line([u32; 2]),
-    /// The corners and which of them provokes by the first-vertex convention; by the other it is the last.
+    /// The corners, and the index of the provoking one by the first-vertex convention; by the other convention it is
+    /// the last.
     Triangle([u32; 3], usize),
 }
 
@@ -65,15 +66,15 @@ fn assemble(primitive: Primitive, count: u32) -> Vec<Assembled> {
     }
 }
 
-/// The primitives of one instance. `order` names the shaded vertices in the order of the draw.
+/// The primitives of one instance. `order` lists the shaded vertices in the order of the draw.
 pub(super) fn primitives<D: Domain>(
     vertices: &mut Vertices<D>,
     order: &[u32],
     state: &State,
     lines: LineRule,
 ) -> Vec<Prim> {
-    // Where nothing is flat, the runner leaves the provoking vertex where WebGPU has it. The pixels of a clipped primitive
-    // hang on which vertex comes first, if only by rounding.
+    // If nothing is flat, the runner does not move the provoking vertex from where WebGPU has it. The pixels of a
+    // clipped primitive depend on which vertex comes first, if only by rounding.
     let is_flat = vertices.int_count > 0 || vertices.interpolations.contains(&Interpolation::Flat);
     let last_first = is_flat && state.provoking_last;
     let assembled = assemble(state.primitive, order.len() as u32);
@@ -108,7 +109,7 @@ fn is_undecided<D: Domain>(vertices: &Vertices<D>, corners: &[u32]) -> bool {
 }
 
 fn point_prim<D: Domain>(vertices: &Vertices<D>, vertex: u32, id: u32, rule: LineRule) -> Option<Prim> {
-    // OpenGL discards a point whose center lies outside (§2.19); Vulkan may draw what of it reaches into the window.
+    // OpenGL discards a point whose center is outside (§2.19); Vulkan may draw the part inside the window.
     let counted = match rule {
         LineRule::OpenGl => u32::MAX,
         LineRule::Vulkan => !SIDES,
@@ -196,7 +197,7 @@ mod tests {
 
     #[test]
     fn table_2_12() {
-        // Numbered from 0: first-vertex convention, then last-vertex convention.
+        // Vertex indices from 0: first-vertex convention, then last-vertex convention.
         let rows: [(Primitive, u32, &[u32], &[u32]); 7] = [
             (Primitive::Points, 3, &[0, 1, 2], &[0, 1, 2]),
             (Primitive::Lines, 5, &[0, 2], &[1, 3]),

@@ -1,10 +1,9 @@
-//! [`Batch`]: fragments that wait to be shaded together.
+//! [`Batch`]: fragments that are shaded together.
 //!
 //! *In:* pixels of one primitive after another. *Out:* lanes for the executor, and which run of them belongs to which
-//! primitive.
-//! *Holds:* lanes are in the order of the primitives. Pixels come in as *candidates* behind the others; what is
-//! interpolated for every program is found for a primitive's candidates at once, they are tested, and only those that pass
-//! stay.
+//! primitive. *Holds:* lanes are in the order of the primitives. New pixels are *candidates* after the other lanes.
+//! Values that every program needs are computed for all candidates of a primitive at once; then they are tested, and
+//! only those that pass remain.
 
 use super::assembly::Prim;
 use super::source::{Fragments, Source};
@@ -14,7 +13,7 @@ use crate::exec::{LANES, Mask};
 use pulp::{Simd, WithSimd};
 use std::ops::Range;
 
-/// The lanes of a primitive begin here.
+/// The lanes of a primitive, from its first one on.
 #[derive(Debug)]
 pub(super) struct Run<'v, D: Domain> {
     pub(super) source: Source<'v, D>,
@@ -24,16 +23,16 @@ pub(super) struct Run<'v, D: Domain> {
     start: usize,
 }
 
-/// Fragments that wait.
+/// The fragments of a batch.
 pub(super) struct Batch<'v, D: Domain> {
     pub(super) fragments: Fragments<D>,
-    /// The lanes to be shaded; helper lanes of quads are not among them.
+    /// The lanes to shade, without helper lanes of quads.
     pub(super) live: u64,
-    /// What is known of them so far.
+    /// The results of their tests so far.
     pub(super) tests: Tests,
     runs: Vec<Run<'v, D>>,
     count: usize,
-    /// Where the candidates begin.
+    /// The index of the first candidate.
     settled: usize,
     /// The upper left pixel of the bin.
     corner: [i32; 2],
@@ -46,9 +45,9 @@ impl<'v, D: Domain> Batch<'v, D> {
         Self { fragments, live: 0, tests, runs: Vec::new(), count: 0, settled: 0, corner }
     }
 
-    /// What comes next belongs to this primitive.
+    /// Begins the pixels of a primitive.
     pub(super) fn begin(&mut self, prim: &Prim, source: Source<'v, D>) {
-        // Of the one before nothing may be left.
+        // The previous primitive may have no lanes left.
         self.runs.pop_if(|run| run.start == self.count);
         let Prim { front, id, undecided, .. } = *prim;
         self.runs.push(Run { source, front, id, undecided, start: self.count });
@@ -58,8 +57,8 @@ impl<'v, D: Domain> Batch<'v, D> {
         self.count == LANES
     }
 
-    /// Adds pixels of a row as long as there is room; `set` has bit `i` for the `i`th from `first` on. Gives those back
-    /// that are left.
+    /// Adds pixels of a row while there is room; bit `i` of `set` is the `i`th pixel from `first` on. Returns the
+    /// pixels that did not fit.
     #[inline(always)]
     pub(super) fn add_row(&mut self, first: u32, set: u64) -> u64 {
         let mut rest = set;
@@ -76,8 +75,7 @@ impl<'v, D: Domain> Batch<'v, D> {
         rest
     }
 
-    /// Adds a quad, of which some pixels are covered; `row` is the distance of the lower pixels from the upper. There must be
-    /// room.
+    /// Adds a quad with the given covered pixels; `row` is the distance between its rows. There must be room.
     #[inline(always)]
     pub(super) fn add_quad(&mut self, first: u32, row: u32, covered: u32) {
         let lanes = self.fragments.pixels.iter_mut().skip(self.count);
@@ -88,7 +86,7 @@ impl<'v, D: Domain> Batch<'v, D> {
         self.count += 4;
     }
 
-    /// Finds the candidates' weights and depth. Gives what is known of them; `None` if there are none.
+    /// Computes the candidates' weights and depth. Returns the state of their tests; `None` if there are none.
     pub(super) fn locate(&mut self) -> Option<Tests> {
         let lanes = self.settled..self.count;
         let run = self.runs.last().filter(|_| !lanes.is_empty())?;
@@ -99,7 +97,8 @@ impl<'v, D: Domain> Batch<'v, D> {
         Some(Tests { passes: covered, open })
     }
 
-    /// Keeps the candidates that some GPU draws; where whole quads are kept (`COUNT` is 4), all of those with such a one.
+    /// Keeps the candidates that some conforming GPU draws; if whole quads are kept (`COUNT` is 4), all candidates of
+    /// a quad with such a one.
     pub(super) fn keep<const COUNT: usize>(&mut self, tests: Tests) {
         let (start, end) = (self.settled, self.count);
         let (before, possible) = (Mask::first(start).0, tests.possible());
@@ -140,7 +139,7 @@ impl<'v, D: Domain> Batch<'v, D> {
         self.runs.iter().zip(ends).map(|(run, end)| (run, run.start..end))
     }
 
-    /// Finds what (108) needs beside the weights.
+    /// Computes what (108) needs besides the weights.
     #[inline(always)]
     pub(super) fn find_w(&mut self) {
         let ends = self.runs.iter().skip(1).map(|run| run.start).chain([self.count]);
@@ -149,7 +148,7 @@ impl<'v, D: Domain> Batch<'v, D> {
         }
     }
 
-    /// Empties it. The last primitive may go on.
+    /// Empties the batch. The last primitive may continue.
     pub(super) fn clear(&mut self) {
         self.runs.drain(..self.runs.len().saturating_sub(1));
         if let Some(last) = self.runs.first_mut() {
@@ -160,7 +159,7 @@ impl<'v, D: Domain> Batch<'v, D> {
     }
 }
 
-/// To be compiled for wide vectors.
+/// A loop to compile for wide vectors.
 struct Locate<'a, 'v, D: Domain> {
     source: &'a Source<'v, D>,
     fragments: &'a mut Fragments<D>,
@@ -189,7 +188,7 @@ mod tests {
         batch.keep::<1>(Tests { passes: 0b001, open: 0b100 });
         assert_eq!(batch.fragments.pixels[..2], [40, 43]);
         assert_eq!((batch.live, batch.tests), (0b11, Tests { passes: 0b01, open: 0b10 }));
-        // Behind what stayed, of which nothing more is asked.
+        // After the lanes that remained, which need nothing more.
         assert_eq!(batch.add_row(64, 0b11), 0);
         batch.keep::<1>(Tests { passes: 0b1000, open: 0 });
         assert_eq!(batch.fragments.pixels[..3], [40, 43, 65]);

@@ -1,12 +1,14 @@
-//! Clipping in homogeneous coordinates (OpenGL 3.2 §2.19).
+//! Clips primitives in homogeneous coordinates (OpenGL 3.2 §2.19).
 //!
-//! *In:* shaded vertices. *Out:* the vertices of what is left of a primitive, new ones added behind the others.
+//! *In:* shaded vertices. *Out:* the vertices of the remaining part of a primitive, with new ones added after the
+//! others.
 //!
-//! *Holds:* which planes cut, and the order of cuts and vertices, follow from the f32 positions, and are those of Mesa's
-//! vertex pipeline: x, y, near, far, then the clip distances, polygon by polygon. Where an edge is cut is computed in each
-//! domain from its own positions. After this `w > 0`, so equation (108) holds everywhere. Varyings of new vertices: `smooth`
-//! ones by the `t` of the cut (§2.19.1), `noperspective` ones by the `t` that is linear in the window,
-//! `t w_in / w`, which is right also where a driver derives it from a difference of coordinates that may be 0.
+//! *Holds:* the f32 positions determine which planes cut, and the order of cuts and vertices, which are those of
+//! Mesa's vertex pipeline: x, y, near, far, then the clip distances, polygon by polygon. The position of a cut on an
+//! edge is computed in each domain from its own positions. Afterwards `w > 0`, so equation (108) is valid everywhere.
+//! Varyings of new vertices: `smooth` ones by the `t` of the cut (§2.19.1), `noperspective` ones by the `t` that is
+//! linear in window space, `t w_in / w`. That is also correct where a driver derives it from a difference of
+//! coordinates that may be 0.
 
 use super::vertices::Vertices;
 use crate::domain::faults::Fault;
@@ -16,13 +18,13 @@ use smallvec::SmallVec;
 
 /// The six planes of the view volume.
 const VOLUME: usize = 6;
-/// Those of them that are sides of the window, as a mask.
+/// The planes that are sides of the window, as a mask.
 pub(super) const SIDES: u32 = 0b1111;
 
-/// The corners of what is left of a triangle.
+/// The corners of the remaining part of a triangle.
 pub(super) type Polygon = SmallVec<[u32; 12]>;
 
-/// How far along an edge a plane cuts it: in the domain, by the f32 positions in f32, and by them in f64.
+/// How far along an edge a plane cuts it: in the domain, from the f32 positions in f32, and from them in f64.
 #[derive(Clone, Copy, Debug)]
 struct Cut<F> {
     t: F,
@@ -34,7 +36,7 @@ impl<D: Domain> Vertices<D> {
     /// The distance of a vertex from a plane in f32, in the order of operations of a dot product with the plane.
     fn distance32(&self, vertex: u32, plane: usize) -> f32 {
         let [x, y, z, w] = self.clip32.get(vertex as usize).copied().unwrap_or_default();
-        // Depth is clipped as the target does it, where z is in [0, w].
+        // Depth is clipped as in the target, where z is in [0, w].
         let halved = (z + w) * 0.5;
         match plane {
             0 => w - x,
@@ -50,7 +52,7 @@ impl<D: Domain> Vertices<D> {
         }
     }
 
-    /// The same in f64, up to a factor.
+    /// The distance in f64, up to a factor.
     fn distance64(&self, vertex: u32, plane: usize) -> f64 {
         let [x, y, z, w] = self.clip32.get(vertex as usize).copied().unwrap_or_default().map(f64::from);
         match plane {
@@ -80,12 +82,12 @@ impl<D: Domain> Vertices<D> {
         }
     }
 
-    /// The planes that a vertex is outside of; `None` if a coordinate is not finite.
+    /// The planes that a vertex is outside; `None` if a coordinate is not finite.
     pub(super) fn outside(&self, vertex: u32) -> Option<u32> {
         self.outside.get(vertex as usize).copied().flatten()
     }
 
-    /// The same, computed.
+    /// Computes the planes that a vertex is outside.
     pub(super) fn find_outside(&self, vertex: u32) -> Option<u32> {
         let clip = self.clip32.get(vertex as usize)?;
         if !clip.iter().all(|value| value.is_finite()) {
@@ -102,7 +104,7 @@ impl<D: Domain> Vertices<D> {
         Some(mask)
     }
 
-    /// Adds the vertex at `t` of the way from `from` to `to`: `from + t (to - from)`.
+    /// Adds the vertex at `t` between `from` and `to`: `from + t (to - from)`.
     fn add_between(&mut self, from: u32, to: u32, cut: Cut<D::Float>) -> u32 {
         let Cut { t, single: t32, .. } = cut;
         let id = self.clip.len() as u32;
@@ -133,7 +135,7 @@ impl<D: Domain> Vertices<D> {
                         value
                     }
                 }
-                // Taken from the provoking vertex, never from here.
+                // It is taken from the provoking vertex, never from here.
                 Interpolation::Flat => x,
             });
         }
@@ -144,8 +146,8 @@ impl<D: Domain> Vertices<D> {
         id
     }
 
-    /// The f32 position of a cut. Where an end lies so far out that f32 leaves no digits for it, by the number that f64
-    /// gives: there drivers draw anything or nothing.
+    /// The f32 position of a cut. If an end is so far out that f32 has no digits left for the cut, the position
+    /// computed in f64: there, drivers draw anything or nothing.
     fn cut32(&self, from: usize, to: usize, cut: Cut<D::Float>) -> [f32; 4] {
         const FAR: f32 = 16384.0;
         let (a, b) = (self.clip32[from], self.clip32[to]);
@@ -158,8 +160,8 @@ impl<D: Domain> Vertices<D> {
         std::array::from_fn(|i| (a[i] + cut.double * (b[i] - a[i])) as f32)
     }
 
-    /// How far off a driver may be that, as Mesa 22.3, derives the way along an edge in the window from the difference of
-    /// its ends' x alone: beyond all bounds where that is 0.
+    /// How far off a driver may be that, like Mesa 22.3, derives the position along an edge in window space only from
+    /// the difference of its ends' x: infinitely, if that is 0.
     fn lost_in_window(&self, from: usize, to: usize) -> f64 {
         const ROUNDINGS: f64 = 8.0 * 5.960_464_477_539_063e-8;
         let x = |vertex: usize| f64::from(self.clip32[vertex][0]) / f64::from(self.clip32[vertex][3]);
@@ -167,7 +169,7 @@ impl<D: Domain> Vertices<D> {
         ROUNDINGS * from.abs().max(to.abs()) / (from - to).abs()
     }
 
-    /// Where the edge from `from`, which is outside, to `to` crosses a plane.
+    /// The cut of the edge from `from`, which is outside, to `to` by a plane.
     fn crossing(&self, from: u32, to: u32, plane: usize) -> Cut<D::Float> {
         let (outside, inside) = (self.distance32(from, plane), self.distance32(to, plane));
         let single = outside / (outside - inside);
@@ -179,7 +181,7 @@ impl<D: Domain> Vertices<D> {
         Cut { t: if usable { t } else { D::Float::from_f64(f64::from(single)) }, single, double }
     }
 
-    /// What is left of a triangle: the corners of a convex polygon, none if nothing is.
+    /// The remaining part of a triangle: the corners of a convex polygon, or none.
     pub(super) fn clip_triangle(&mut self, corners: [u32; 3]) -> Polygon {
         let [Some(a), Some(b), Some(c)] = corners.map(|vertex| self.outside(vertex)) else { return Polygon::new() };
         let mut polygon = Polygon::from_slice(&corners);
@@ -199,7 +201,7 @@ impl<D: Domain> Vertices<D> {
                     left.push(vertex);
                 }
                 if (distance < 0.0) != (next_distance < 0.0) {
-                    // The cut is measured from the vertex outside, whichever way the edge runs.
+                    // The cut is measured from the vertex outside, whatever the direction of the edge.
                     let (outside, inside) = if distance < 0.0 { (vertex, next) } else { (next, vertex) };
                     let cut = self.crossing(outside, inside, plane);
                     left.push(self.add_between(outside, inside, cut));
@@ -213,7 +215,7 @@ impl<D: Domain> Vertices<D> {
         polygon
     }
 
-    /// What is left of a line.
+    /// The remaining part of a line.
     pub(super) fn clip_line(&mut self, [from, to]: [u32; 2]) -> Option<[u32; 2]> {
         let (a, b) = (self.outside(from)?, self.outside(to)?);
         if a & b != 0 {
@@ -222,7 +224,7 @@ impl<D: Domain> Vertices<D> {
         if a | b == 0 {
             return Some([from, to]);
         }
-        // From each end, the farthest of the cuts of the planes that this end is outside of.
+        // From each end, the farthest cut by a plane that this end is outside of.
         let mut start = Cut { t: D::Float::default(), single: 0.0, double: 0.0 };
         let mut end = start;
         for plane in (0..VOLUME + self.distance_count).filter(|plane| (a | b) >> plane & 1 == 1) {

@@ -1,9 +1,8 @@
-//! What the bound of one pixel comes from.
+//! Explains the bound of one pixel.
 //!
-//! *In:* a scene and a pixel. *Out:* the operations of the fragment stage by how much narrower the pixel's envelope is
-//! without the freedom of their rules.
-//! *Holds:* the last draw that changes the pixel is asked; varyings stand for all that the vertex stage and
-//! interpolation bring.
+//! *In:* a scene and a pixel. *Out:* the operations of the fragment stage, with how much narrower the pixel's
+//! envelope would be if each were exact. *Holds:* only the last draw that changes the pixel is examined; varyings
+//! stand for everything that the vertex stage and interpolation contribute.
 
 use super::fragments::{Shading, draw_bin};
 use super::target::Patch;
@@ -20,7 +19,7 @@ use glisten_front::hir::Stage;
 use glisten_scene::Scene;
 use glisten_scene::picture::Interval;
 
-/// What is called the operation of an input.
+/// The operation's name for an input.
 const INTERPOLATION: &str = "interpolation";
 
 /// A channel of a pixel.
@@ -62,7 +61,7 @@ pub(crate) fn explain(
     Ok(found)
 }
 
-/// Draws over the pixel; if that changes it, the contributions.
+/// Draws over the pixel. If that changes it, returns the contributions.
 fn of_draw(
     shading: &Shading<'_, Envelope>,
     code: &Code,
@@ -107,7 +106,7 @@ fn of_draw(
     Some(contributions)
 }
 
-/// By how much of its width a range shrinks.
+/// The share by which an interval shrinks.
 fn share(whole: Interval, muted: Interval) -> f64 {
     match (whole.width().is_finite(), muted.width().is_finite()) {
         (true, _) if whole.width() > 0.0 => (1.0 - muted.width() / whole.width()).max(0.0),

@@ -1,11 +1,11 @@
-//! The fragment stage: primitives over a bin, shaded 64 fragments at a time.
+//! The fragment stage: shades the primitives over a bin, 64 fragments at a time.
 //!
 //! *In:* the primitives that touch a bin, in order. *Out:* the bin, drawn.
 //!
-//! *Holds:* fragments of several primitives share a batch, so that small triangles do not leave lanes idle; where
-//! derivatives are taken whole quads are batched, with helper lanes, else single fragments. Within a batch lanes are in
-//! the order of the primitives, and so are the writes. A fragment is tested against depth before it is shaded where that
-//! cannot be seen: the shader neither discards nor writes depth.
+//! *Holds:* fragments of several primitives share a batch, so that small triangles do not leave lanes idle. If
+//! derivatives are taken, batches consist of whole quads, with helper lanes; otherwise of single fragments. Within a
+//! batch, lanes are in the order of the primitives, and so are the writes. A fragment is tested against depth before
+//! shading if that makes no visible difference: if the shader neither discards nor writes depth.
 
 use super::assembly::Prim;
 use super::batch::{Batch, Run};
@@ -21,7 +21,7 @@ use glisten_front::hir::{FragCoordLayout, GlobalId, Stage};
 use glisten_scene::{Draw, Framebuffer};
 use pulp::{Simd, WithSimd};
 
-/// What all bins of a draw share.
+/// The data that all bins of a draw share.
 pub(super) struct Shading<'a, D: Domain> {
     pub(super) draw: &'a Draw,
     pub(super) plan: &'a Plan,
@@ -33,7 +33,7 @@ pub(super) struct Shading<'a, D: Domain> {
     pub(super) faults: Faults,
 }
 
-/// Draws the primitives `list` names over a bin.
+/// Draws the primitives of `list` over a bin.
 pub(super) fn draw_bin<D: Domain>(
     shading: &Shading<'_, D>,
     bin: &mut Bin<'_, D>,
@@ -76,7 +76,7 @@ impl<D: Domain> Shading<'_, D> {
         Machine::with(Purpose::Results(self.faults), code, &self.draw.uniforms, &self.draw.textures)
     }
 
-    /// Keeps of the batch's candidates those that pass the depth test, where that comes first, and shades when the batch is
+    /// Keeps the batch's candidates that pass the depth test, if that comes first, and shades the batch when it is
     /// full.
     fn settle(&self, bin: &mut Bin<'_, D>, batch: &mut Batch<'_, D>, machine: &mut Machine<D>) {
         let Some(before) = batch.locate() else { return };
@@ -95,9 +95,9 @@ impl<D: Domain> Shading<'_, D> {
         }
     }
 
-    /// Shades what waits and writes it.
+    /// Shades the fragments of the batch and writes the results.
     fn flush(&self, bin: &mut Bin<'_, D>, batch: &mut Batch<'_, D>, machine: &mut Machine<D>) {
-        // Behind an endless loop nothing more is drawn: the picture will be refused.
+        // After an endless loop nothing more is drawn: the picture will be rejected.
         if batch.live != 0 && !machine.budget_exceeded() {
             pulp::Arch::new().dispatch(Interpolate { plan: self.plan, batch, machine });
             self.fill_fixed(batch, machine);
@@ -111,7 +111,7 @@ impl<D: Domain> Shading<'_, D> {
     fn fill_fixed(&self, batch: &Batch<'_, D>, machine: &mut Machine<D>) {
         let fragments = &batch.fragments;
         if let Some(id) = self.plan.frag_coord {
-            // gl_FragCoord.xy by the shader's layout (GLSL 1.50 §4.3.8.1).
+            // The layout of the shader determines gl_FragCoord.xy (GLSL 1.50 §4.3.8.1).
             let layout =
                 self.draw.program.stage(Stage::Fragment).map_or_else(FragCoordLayout::default, |s| s.frag_coord);
             let center = if layout.pixel_center_integer { -0.5 } else { 0.0 };
@@ -142,7 +142,7 @@ impl<D: Domain> Shading<'_, D> {
         }
     }
 
-    /// What follows the fragment stage: late depth test, blending, storing.
+    /// Everything after the fragment stage: late depth test, blending, storing.
     fn write_lanes(&self, bin: &mut Bin<'_, D>, batch: &Batch<'_, D>, machine: &Machine<D>) {
         let state = &self.draw.state;
         let pixels = &batch.fragments.pixels;
@@ -176,7 +176,7 @@ fn fill_float<D: Domain>(machine: &mut Machine<D>, (id, flat): (GlobalId, u32), 
     }
 }
 
-/// Fills an `int` input with what each primitive has, if the stage reads it.
+/// Fills an `int` input with each primitive's value, if the stage reads it.
 fn fill_int<D: Domain>(
     machine: &mut Machine<D>,
     (id, flat): (GlobalId, u32),
@@ -190,7 +190,7 @@ fn fill_int<D: Domain>(
     }
 }
 
-/// Fills in the varyings: to be compiled for wide vectors.
+/// Fills in the varyings, in loops to compile for wide vectors.
 struct Interpolate<'a, 'v, D: Domain> {
     plan: &'a Plan,
     batch: &'a mut Batch<'v, D>,

@@ -1,4 +1,4 @@
-//! A scene drawn in one number domain.
+//! Draws a scene in one domain.
 //!
 //! ```text
 //!  Draw ──► vertices    64 vertices at a time, positions in the domain and in f32
@@ -9,18 +9,17 @@
 //!       ──► target      late depth test, blending (store), into the rows of the picture (surface)
 //! ```
 //!
-//! *In:* a [`Scene`]. *Out:* a [`Picture`].
-//! *Holds:* the picture does not depend on the number of threads: within a bin everything happens in the order of the
-//! primitives.
+//! *In:* a [`Scene`]. *Out:* a [`Picture`]. *Holds:* the picture does not depend on the number of threads: within a
+//! bin everything happens in the order of the primitives.
 //!
-//! # What keeps it cheap
+//! # Performance
 //!
-//! `cargo bench --bench scaling` prints what a drawing takes without its program. What belongs to a primitive is computed
-//! once for it, and what belongs to a fragment in loops over its lanes. Coverage, weights and varyings are compiled for
-//! wide vectors, too (`pulp`), a primitive or a batch a call: for one fragment the call costs more than it gains.
-//! Varyings are found for fragments that passed the depth test, and written where the executor reads them; colors are
-//! written where the picture has them. Memory is touched once where it can be: new pages cost more than what is drawn
-//! on them.
+//! `cargo bench --bench scaling` prints the cost of a drawing without its shaders. Values that belong to a primitive
+//! are computed once for it, and values that belong to fragments in loops over lanes. Coverage, weights and varyings
+//! are also compiled for wide vectors (`pulp`), with one call per primitive or batch: for a single fragment, the call
+//! costs more than it gains. Varyings are computed only for fragments that passed the depth test, and written where
+//! the executor reads them; colors are written directly to the picture. Memory is touched once if possible: new pages
+//! cost more than what is drawn on them.
 
 mod assembly;
 mod batch;
@@ -61,7 +60,8 @@ use vertices::{Invocation, shade};
 pub(super) use watch::MakeObserver;
 use watch::Watch;
 
-/// Vertices that are shaded before their primitives are drawn: instances beyond that are drawn in several goes.
+/// The number of vertices that are shaded before their primitives are drawn. Instances beyond that are drawn in
+/// several passes.
 const MAX_INVOCATIONS: usize = 1 << 20;
 
 /// Draws a scene in a domain.
@@ -69,7 +69,7 @@ pub(super) fn render<D: Domain>(scene: &Scene, options: &RenderOptions) -> Resul
     render_watched::<D>(scene, options, None)
 }
 
-/// The same; what is computed on the way is shown to observers.
+/// Draws a scene, and shows observers what is computed.
 pub(super) fn render_watched<D: Domain>(
     scene: &Scene,
     options: &RenderOptions,
@@ -87,7 +87,7 @@ pub(super) fn render_watched<D: Domain>(
     Ok(surface.picture::<D>(marks))
 }
 
-/// What is done with the primitives of an instance.
+/// The action on the primitives of an instance.
 type Paint<'p, D> = dyn FnMut(&Shading<'_, D>, &Code, &OnceLock<Span>, &Watch<'_, D>) + 'p;
 
 fn draw_all<D: Domain>(
@@ -160,7 +160,7 @@ fn never_ends(place: Span) -> Diagnostic {
     told.here(budget).help("a loop needs a condition that turns false, a `break` or a `return`")
 }
 
-/// The vertices of a draw without repetition, and for each position of the draw its place among them.
+/// The distinct vertices of a draw, and for each position in the draw the index of its vertex.
 fn unique_vertices(draw: &Draw) -> (Vec<u32>, Vec<u32>) {
     let Some(indices) = &draw.indices else {
         let all: Vec<u32> = (0..draw.vertex_count).collect();
@@ -169,7 +169,7 @@ fn unique_vertices(draw: &Draw) -> (Vec<u32>, Vec<u32>) {
     let used = indices.get(..draw.vertex_count as usize).unwrap_or(indices);
     let most = used.iter().copied().max().unwrap_or(0) as usize;
     if most < 4 * used.len() {
-        // A table of all vertices: the place of each that is used.
+        // A table of all vertices, with the index of each that is used.
         let mut places = vec![u32::MAX; most + 1];
         for &index in used {
             places[index as usize] = 0;
@@ -225,11 +225,11 @@ impl Bins {
     }
 }
 
-/// Calls `visit` once with each bin that a shape may touch.
+/// Calls `visit` once for each bin that a shape may touch.
 fn touched<D: Domain>(shape: &Shape, target: &Target<'_, D>, mut visit: impl FnMut(usize)) {
     let bin_at = |column: i64, row: i64| (row * target.columns + column) as usize;
     if let Shape::Pixels(pixels) = shape {
-        // Along the pixels, not over the rectangle around them: of a diagonal that is many times as much.
+        // It follows the pixels, not the rectangle around them: for a diagonal, that is many times as large.
         let mut seen: SmallVec<[usize; 32]> = SmallVec::new();
         for &(x, y) in pixels {
             let (column, row) = (x.div_euclid(BIN), y.div_euclid(BIN));

@@ -1,6 +1,6 @@
-//! Colors: from the fragment stage's outputs to the attachments.
+//! Writes colors from the fragment stage's outputs to the attachments.
 //!
-//! *In:* a program. *Out:* for each of its outputs the attachment it goes to, and its channels after a run.
+//! *In:* a program. *Out:* for each of its outputs, its attachment, and its channels after a run.
 
 use crate::domain::{Domain, Integer, Lanes, Number};
 use crate::exec::Machine;
@@ -9,7 +9,7 @@ use glisten_front::hir::{GlobalId, Scalar, Stage, Type};
 use glisten_scene::Draw;
 use glisten_scene::picture::Interval;
 
-/// Where a color comes from and goes to.
+/// The source and the destination of a color.
 #[derive(Clone, Debug)]
 pub(super) struct OutputPlan {
     pub(super) attachment: usize,
@@ -46,7 +46,7 @@ pub(super) fn output_plans(draw: &Draw, attachments: u32) -> Vec<OutputPlan> {
 }
 
 impl OutputPlan {
-    /// Where the channels come from; components that the output lacks are (0, 0, 0, 1).
+    /// The sources of the channels; components that the output lacks come from (0, 0, 0, 1).
     pub(super) fn channels<'m, D: Domain>(&self, machine: &'m Machine<D>) -> [Channel<'m, D>; 4] {
         std::array::from_fn(|channel| {
             let flat = self.first + channel as u32;
@@ -65,7 +65,7 @@ impl OutputPlan {
     }
 }
 
-/// Where a channel of a color comes from.
+/// The source of a channel of a color.
 #[derive(Clone, Copy)]
 pub(super) enum Channel<'m, D: Domain> {
     Float(&'m Lanes<D::Float>),
@@ -87,7 +87,7 @@ impl<D: Domain> Channel<'_, D> {
     }
 }
 
-/// An integer in an attachment of integers, which keeps all its bits: the floats of some domains have fewer.
+/// An integer for an attachment of integers, with all its bits: the floats of some domains have fewer.
 fn whole<D: Domain>(bits: D::Int, value: impl Fn(u32) -> f64) -> D::Float {
     let likely = value(bits.bits());
     if !D::OPEN {

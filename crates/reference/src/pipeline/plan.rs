@@ -1,16 +1,16 @@
-//! What goes from the vertex stage to the fragment stage, worked out once for a draw.
+//! Plans the data flow from the vertex stage to the fragment stage, once for each draw.
 //!
-//! *In:* a linked program. *Out:* for each scalar that is handed on, where it comes from and goes to; the built-in
-//! variables that each stage names.
+//! *In:* a linked program. *Out:* for each scalar that is passed on, its source and destination; the built-in
+//! variables that each stage uses.
 
-use glisten_front::builtin::{BuiltinFunction, BuiltinVariable};
+use glisten_front::builtin::BuiltinVariable;
 use glisten_front::hir::{ExprKind, GlobalId, Interpolation, Scalar, Shader, Stage, Stmt, StmtKind};
 use glisten_front::link::Program;
 
 /// A scalar in a variable's flat layout.
 pub(super) type Place = (GlobalId, u32);
 
-/// A `float` that is handed on.
+/// A `float` that is passed on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct FloatVarying {
     pub(super) from: Place,
@@ -18,14 +18,14 @@ pub(super) struct FloatVarying {
     pub(super) interpolation: Interpolation,
 }
 
-/// An `int` or `uint` that is handed on, always flat.
+/// An `int` or `uint` that is passed on, always flat.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct IntVarying {
     pub(super) from: Place,
     pub(super) to: Place,
 }
 
-/// What a draw's stages have to do with each other and with the fixed parts of the pipeline.
+/// How a draw's stages are connected to each other and to the fixed-function parts of the pipeline.
 #[derive(Clone, Debug)]
 pub(super) struct Plan {
     pub(super) floats: Vec<FloatVarying>,
@@ -42,11 +42,11 @@ pub(super) struct Plan {
     pub(super) front_facing: Option<GlobalId>,
     pub(super) point_coord: Option<GlobalId>,
     pub(super) primitive_id: Option<GlobalId>,
-    /// Output of the fragment stage, if it is written.
+    /// The output of the fragment stage, if it is written.
     pub(super) frag_depth: Option<GlobalId>,
-    /// Whether the fragment stage's quads must be whole.
+    /// Whether the fragment stage needs whole quads.
     pub(super) needs_quads: bool,
-    /// Whether fragments may be tested against depth before they are shaded.
+    /// Whether fragments may be tested against depth before shading.
     pub(super) early_depth: bool,
 }
 
@@ -101,24 +101,15 @@ fn find(shader: &Shader, builtin: BuiltinVariable) -> Option<GlobalId> {
     shader.globals().find(|(_, global)| global.builtin == Some(builtin)).map(|(id, _)| id)
 }
 
-/// Whether a derivative is taken anywhere in the shader, if only for a level of detail.
+/// Whether the shader takes derivatives anywhere, even if only for a level of detail.
 fn takes_derivatives(shader: &Shader) -> bool {
     shader.exprs.iter().any(|expr| match expr.kind {
-        ExprKind::BuiltinCall(function, _) => matches!(
-            function,
-            BuiltinFunction::DFdx
-                | BuiltinFunction::DFdy
-                | BuiltinFunction::Fwidth
-                | BuiltinFunction::Texture
-                | BuiltinFunction::TextureProj
-                | BuiltinFunction::TextureOffset
-                | BuiltinFunction::TextureProjOffset
-        ),
+        ExprKind::BuiltinCall(function, _) => function.implicit_derivatives(),
         _ => false,
     })
 }
 
-/// Whether a `discard` stands in a function that `main` can reach.
+/// Whether a function that `main` can reach contains a `discard`.
 fn discards(shader: &Shader) -> bool {
     let reachable = shader.functions.iter().filter(|function| function.reachable);
     let mut rest: Vec<&Stmt> = reachable.filter_map(|function| function.body.as_ref()).flatten().collect();

@@ -1,8 +1,8 @@
-//! How far an f32 GPU goes astray where it interpolates: the interval around equation (106).
+//! The error of an f32 GPU in interpolation: the interval around equation (106).
 //!
-//! *In:* the values of a primitive's vertices. *Out:* at each fragment the value of f64, with the error that a GPU may add.
-//! *Holds:* what belongs to the primitive is computed once for it ([`Slack`]), what belongs to one of its values once for
-//! that ([`Plane`]); a fragment costs a few products.
+//! *In:* the values of a primitive's vertices. *Out:* for each fragment the f64 value, with the error that a GPU may
+//! make. *Holds:* quantities of the primitive are computed once for it ([`Slack`]), those of one of its values once
+//! for that ([`Plane`]); a fragment costs a few products.
 
 use super::assembly::Corners;
 use crate::domain::{Number, rules};
@@ -12,24 +12,24 @@ use crate::interpolate::{linear, weights};
 /// An ULP of f32 at 1.
 const ULP: f64 = 1.0 / (1 << 23) as f64;
 
-/// How an f32 GPU that evaluates plane equations `a + b x + c y` from the corner of the window goes astray: each of its
-/// roundings costs up to half an ULP of the largest term, and a vertex that is off moves the plane by its slope.
+/// The error of an f32 GPU that evaluates plane equations `a + b x + c y` from the corner of the window. Each of its
+/// roundings costs up to half an ULP of the largest term, and an error of a vertex moves the plane by its slope.
 ///
-/// The terms are the slopes, as sums of the absolute values of their parts, times the distance from the corner.
+/// The terms are the slopes (sums of the absolute values of their parts) times the distance from the corner.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Slack {
-    /// What differences of values along the first edge and the second give as slope in x.
+    /// The slopes in x for unit differences along the first and the second edge.
     x: [f64; 2],
-    /// Likewise in y.
+    /// The slopes in y for unit differences along the first and the second edge.
     y: [f64; 2],
-    /// How far the vertices may be off in x and y.
+    /// The largest error of the vertices in x and y.
     off: [f64; 2],
-    /// Where the first vertex is.
+    /// The position of the first vertex.
     origin: [f64; 2],
 }
 
 impl Slack {
-    /// Of a primitive with its vertices here; of each coordinate how far it may be off, too.
+    /// The slack of a primitive with these vertex positions, each coordinate with its largest error.
     pub(super) fn new(corners: &Corners, places: [[(f64, f64); 2]; 3]) -> Self {
         let value = |corner: usize, axis: usize| places[corner][axis].0;
         let edge = |corner: usize| [0, 1].map(|axis| value(corner, axis) - value(0, axis));
@@ -54,15 +54,15 @@ impl Slack {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Plane {
     values: [f64; 3],
-    /// How far the vertices' values may be off.
+    /// The largest errors of the vertices' values.
     errors: [f64; 3],
-    /// The slopes' sizes in x and y.
+    /// The absolute slopes in x and y.
     sizes: [f64; 2],
-    /// Where the first vertex is, without sign.
+    /// The absolute position of the first vertex.
     origin: [f64; 2],
-    /// The largest of the values, without sign.
+    /// The largest absolute value.
     largest: f64,
-    /// How far the value moves with vertices that are off.
+    /// How far the value moves with the errors of the vertices.
     moved: f64,
 }
 
@@ -82,7 +82,7 @@ impl Plane {
         }
     }
 
-    /// Fills in the value at fragments, by the weights of the second vertex and the third, x and y.
+    /// Fills in the value at fragments, from the weights of the second and the third vertex, and x and y.
     #[inline(always)]
     pub(super) fn fill<F: Number>(&self, places: [&[f64]; 4], to: &mut [F]) {
         let [u, v, x, y] = places;
@@ -91,13 +91,13 @@ impl Plane {
         for ((((found, u), v), x), y) in found.zip(u).zip(v).zip(x).zip(y) {
             (*found.0, *found.1) = self.at(weights(*u, *v), [*x, *y]);
         }
-        // Apart, because of the two only the first is done for several fragments in one instruction.
+        // Two loops, because the compiler vectorizes only the first.
         for ((to, value), error) in to.iter_mut().zip(values).zip(errors) {
             *to = F::with_error(value, error);
         }
     }
 
-    /// The value at a fragment and how far a GPU's may be from it.
+    /// The value at a fragment, and the largest error of a GPU.
     #[inline(always)]
     fn at(&self, weights: [f64; 3], [x, y]: [f64; 2]) -> (f64, f64) {
         let value = linear(weights, self.values);

@@ -1,12 +1,12 @@
-//! [`Source`]: what a primitive's fragments are interpolated from.
+//! [`Source`]: the primitive from which fragments are interpolated.
 //!
-//! *In:* a primitive and its vertices, and where its fragments are. *Out:* for each of them the weights of the vertices,
-//! depth, `1/w` and varyings, many fragments at a time ([`Fragments`]).
-//! *Holds:* the equations are those of [`interpolate`](crate::interpolate). A segment has the weights `1 - t`, `t`
-//! and 0, by which (108) and (106) are OpenGL's (3.6) and (3.7); a point has the weights 1, 0, 0.
+//! *In:* a primitive and its vertices, and the positions of its fragments. *Out:* for each fragment the weights of
+//! the vertices, depth, `1/w` and varyings, many fragments at a time ([`Fragments`]). *Holds:* the equations are
+//! those of [`interpolate`](crate::interpolate). A segment has the weights `1 - t`, `t` and 0, with which (108) and
+//! (106) are OpenGL's (3.6) and (3.7); a point has the weights 1, 0, 0.
 //!
-//! In a domain with envelopes the value is that of f64, and the interval is of our own making, for no specification has
-//! one ([`Slack`]).
+//! In a domain with envelopes, the value is that of f64. The interval is defined by glisten ([`Slack`]), since no
+//! specification defines one.
 
 use super::assembly::{Corners, Prim};
 use super::slack::{Plane, Slack};
@@ -18,7 +18,7 @@ use crate::interpolate::{Frame, Vec2, along, linear, perspective, perspective_w,
 use glisten_front::hir::Interpolation;
 use std::ops::Range;
 
-/// Where fragments are, lane by lane.
+/// The positions of fragments, lane by lane.
 #[derive(Debug)]
 pub(super) struct Places<D: Domain> {
     /// Window x and y of their centers, in picture rows.
@@ -26,8 +26,8 @@ pub(super) struct Places<D: Domain> {
     pub(super) y: [f64; LANES],
     /// The weights of the second and the third vertex.
     weights: [[D::Float; LANES]; 2],
-    /// The same by the values alone, in a domain with envelopes: what the vertices' places may be off is counted once, by
-    /// [`Slack`].
+    /// The weights from the values alone, in a domain with envelopes: [`Slack`] already accounts for errors of the
+    /// vertices' positions.
     plain: [[f64; LANES]; 2],
 }
 
@@ -40,17 +40,17 @@ impl<D: Domain> Places<D> {
     }
 }
 
-/// Fragments, lane by lane: their pixels and what is interpolated for every program.
+/// Fragments, lane by lane: their pixels, and the values that every program needs.
 #[derive(Debug)]
 pub(super) struct Fragments<D: Domain> {
-    /// The places of their pixels in the bin.
+    /// The indices of their pixels in the bin.
     pub(super) pixels: [u32; LANES],
     pub(super) places: Places<D>,
     /// Window z.
     pub(super) z: [D::Float; LANES],
     /// `gl_FragCoord.w`
     pub(super) reciprocal: [D::Float; LANES],
-    /// Its reciprocal.
+    /// The reciprocal of that.
     w: [D::Float; LANES],
 }
 
@@ -61,7 +61,7 @@ impl<D: Domain> Fragments<D> {
         Self { pixels: [0; LANES], places, z: blank, reciprocal: blank, w: blank }
     }
 
-    /// Takes what is known of `COUNT` fragments to other lanes.
+    /// Moves the values of `COUNT` fragments to other lanes.
     #[inline(always)]
     pub(super) fn shift<const COUNT: usize>(&mut self, from: usize, to: usize) {
         let from = from..from + COUNT;
@@ -78,13 +78,15 @@ impl<D: Domain> Fragments<D> {
     }
 }
 
-/// A primitive ready to be interpolated.
+/// A primitive prepared for interpolation.
 #[derive(Debug)]
 pub(super) struct Source<'v, D: Domain> {
     kind: Kind<D>,
     open: Option<Open>,
     quotients: [&'v [D::Float]; 3],
-    /// Of the provoking vertex.
+    /// The values that the quotients are of.
+    values: [&'v [D::Float]; 3],
+    /// The values of the provoking vertex.
     flat: &'v [D::Float],
     pub(super) ints: &'v [D::Int],
     reciprocals: [D::Float; 3],
@@ -92,7 +94,7 @@ pub(super) struct Source<'v, D: Domain> {
     pub(super) point: Option<Sprite<D>>,
 }
 
-/// The primitive by the values alone, and how far a GPU may be off.
+/// The primitive by its values alone, and the largest error of a GPU.
 #[derive(Debug)]
 struct Open {
     kind: Kind<F64>,
@@ -106,8 +108,8 @@ enum Kind<D: Domain> {
     Triangle(Frame<D::Float>),
 }
 
-/// How far a driver's size of a point may be from the one that is asked for: half of the granularity that it has for them
-/// (OpenGL 3.2 §3.4.1), here of 1/256 pixel, the one of window positions.
+/// How far a driver's point size may be from the requested size: half of its granularity (OpenGL 3.2 §3.4.1), here
+/// 1/256 pixel, as for window positions.
 const POINT_SIZE_ERROR: f64 = 0.5 / 256.0;
 
 /// The square of a point, for `gl_PointCoord`.
@@ -118,7 +120,7 @@ pub(super) struct Sprite<D: Domain> {
 }
 
 impl<D: Domain> Sprite<D> {
-    /// Equations (3.3) and (3.4) with the origin at the upper left, which is OpenGL's default, in picture rows.
+    /// Equations (3.3) and (3.4), with the origin at the upper left, which is OpenGL's default, in picture rows.
     pub(super) fn coordinates(&self, x: f64, y: f64) -> [D::Float; 2] {
         let half = D::Float::from_f64(0.5);
         let along = |p: f64, center: D::Float| {
@@ -150,6 +152,7 @@ impl<'v, D: Domain> Source<'v, D> {
                 slack: Slack::new(&prim.corners, places.map(|p| p.map(|c: D::Float| (c.value(), c.error())))),
             }),
             quotients: corners.map(|vertex| vertices.quotients_of(vertex)),
+            values: corners.map(|vertex| vertices.floats_of(vertex)),
             flat: vertices.floats_of(prim.provoking),
             ints: vertices.ints_of(prim.provoking),
             reciprocals: window.map(|[_, _, _, reciprocal]| reciprocal),
@@ -158,7 +161,7 @@ impl<'v, D: Domain> Source<'v, D> {
         }
     }
 
-    /// Finds weights and depth of the fragments in some lanes, in a bin with this corner.
+    /// Computes the weights and depth of the fragments in some lanes, in a bin with this corner.
     #[inline(always)]
     pub(super) fn locate(&self, fragments: &mut Fragments<D>, [x0, y0]: [i32; 2], lanes: Range<usize>) {
         let Fragments { pixels, places, z, .. } = fragments;
@@ -175,7 +178,7 @@ impl<'v, D: Domain> Source<'v, D> {
         self.in_plane(self.z, places, lanes.clone(), &mut z[lanes]);
     }
 
-    /// Finds `gl_FragCoord.w` of fragments that are located, and its reciprocal.
+    /// Computes `gl_FragCoord.w` of fragments whose weights are known, and its reciprocal.
     #[inline(always)]
     pub(super) fn find_w(&self, fragments: &mut Fragments<D>, lanes: Range<usize>) {
         let Fragments { places, reciprocal, w, .. } = fragments;
@@ -209,7 +212,7 @@ impl<'v, D: Domain> Source<'v, D> {
         }
     }
 
-    /// A varying's scalar at the fragments in some lanes, whose `w` is found.
+    /// A scalar of a varying at the fragments in some lanes, whose `w` is known.
     #[inline(always)]
     pub(super) fn varying(
         &self,
@@ -227,6 +230,10 @@ impl<'v, D: Domain> Source<'v, D> {
         let w = &w[lanes.clone()];
         match (interpolation, &self.open) {
             (Interpolation::Smooth, None) => {
+                if let Some(value) = self.same_at_all(index) {
+                    to.fill(value);
+                    return;
+                }
                 for ((to, weights), w) in to.iter_mut().zip(places.weights(lanes)).zip(w) {
                     *to = perspective(weights, *w, values);
                 }
@@ -242,6 +249,17 @@ impl<'v, D: Domain> Source<'v, D> {
     }
 }
 
+impl<D: Domain> Source<'_, D> {
+    /// The value of a varying that is the same at all vertices: it is interpolated to that very value, as
+    /// [`linear`] does in the window. Programs compare such values for equality, and what is known of them is a constant.
+    #[inline(always)]
+    fn same_at_all(&self, index: usize) -> Option<D::Float> {
+        let [a, b, c] = self.values.map(|values| values.get(index).copied().unwrap_or_default());
+        let bits = |x: D::Float| (x.value().to_bits(), x.beside().to_bits());
+        (bits(a) == bits(b) && bits(a) == bits(c) && a.value().is_finite()).then_some(a)
+    }
+}
+
 impl<D: Domain> Kind<D> {
     fn of(corners: &Corners, places: [Vec2<D::Float>; 3]) -> Self {
         match corners {
@@ -251,7 +269,7 @@ impl<D: Domain> Kind<D> {
         }
     }
 
-    /// The weights of the second vertex and the third at places.
+    /// The weights of the second and the third vertex at these positions.
     #[inline(always)]
     fn weights(&self, x: &[f64], y: &[f64], [second, third]: [&mut [D::Float]; 2]) {
         let places = x.iter().zip(y).map(|(x, y)| [D::Float::from_f64(*x), D::Float::from_f64(*y)]);

@@ -1,23 +1,23 @@
-//! What becomes of one fragment at its pixel: depth test, blending, rounding to the format (OpenGL 3.2 §4.1).
+//! Writes one fragment to its pixel: depth test, blending, rounding to the format (OpenGL 3.2 §4.1).
 //!
-//! *In:* depth and color of a fragment and what the pixel holds. *Out:* what it holds then.
-//! *Holds:* where a conforming GPU may decide either way, the pixel holds the hull of both.
+//! *In:* the depth and color of a fragment, and the contents of the pixel. *Out:* the new contents. *Holds:* if a
+//! conforming GPU may decide either way, the pixel contains the hull of both.
 
 use crate::domain::{Domain, Number, rules};
 use glisten_scene::picture::Interval;
 use glisten_scene::{BlendFactor, Compare, Format, State};
 use half::f16;
 
-/// What becomes of a fragment.
+/// The result of testing a fragment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Test {
-    /// Whether it is drawn by the values.
+    /// Whether the values pass, so that the fragment is drawn.
     pub(super) passes: bool,
-    /// Whether a conforming GPU may decide otherwise.
+    /// Whether a conforming GPU may decide differently.
     pub(super) open: bool,
 }
 
-/// The depth test (§4.1.5) of a fragment that came so far, and the write where it passes.
+/// Runs the depth test (§4.1.5) of a fragment that passed all earlier tests, and writes depth if it passes.
 #[inline(always)]
 pub(super) fn depth_test<D: Domain>(slot: &mut D::Float, z: D::Float, state: &State, before: Test) -> Test {
     let stored = *slot;
@@ -39,7 +39,7 @@ pub(super) fn depth_test<D: Domain>(slot: &mut D::Float, z: D::Float, state: &St
     test
 }
 
-/// A color blended into what a pixel holds, as the format stores it.
+/// A color blended with the contents of a pixel, in the attachment's format.
 pub(super) fn stored<D: Domain>(
     color: [D::Float; 4],
     old: [D::Float; 4],
@@ -63,7 +63,7 @@ pub(super) fn stored<D: Domain>(
     }
 }
 
-/// Whether colors are stored as they are.
+/// Whether the format stores colors unchanged.
 pub(super) fn keeps(format: Format) -> bool {
     matches!(format, Format::Rgba32Float | Format::Rgba32Sint | Format::Rgba32Uint)
 }
@@ -86,7 +86,7 @@ fn compare(function: Compare, new: f64, stored: f64) -> bool {
     }
 }
 
-/// Whether a comparison of depth holds, or fails, whatever both are.
+/// Whether a comparison of depth certainly holds, and whether it certainly fails.
 fn certain(function: Compare, new: Interval, stored: Interval) -> (bool, bool) {
     let below = new.high < stored.low;
     let above = new.low > stored.high;
@@ -117,7 +117,7 @@ fn store_depth<D: Domain>(z: D::Float) -> D::Float {
     D::Float::with_range(stored, Interval { low: low.clamp(0.0, 1.0), high: high.clamp(0.0, 1.0), may_be_nan })
 }
 
-/// A fixed-point attachment's source is clamped before blending (§4.1.7).
+/// Clamps the source color of a fixed-point attachment before blending (§4.1.7).
 fn clamped<D: Domain>(color: [D::Float; 4], format: Format) -> [D::Float; 4] {
     if format != Format::Rgba8Unorm {
         return color;
@@ -125,8 +125,8 @@ fn clamped<D: Domain>(color: [D::Float; 4], format: Format) -> [D::Float; 4] {
     color.map(|channel| channel.max(D::Float::default()).min(D::Float::from_f64(1.0)))
 }
 
-/// A number and the step of 1/255 nearest to it: blending in an 8-bit attachment may be computed in as many bits as that
-/// has (§4.1.7), which rounds the source, the factors and the products, or in floats.
+/// A number, joined with the nearest step of 1/255: blending in an 8-bit attachment may use only as many bits as the
+/// attachment has (§4.1.7), which rounds the source, the factors and the products, or may use floats.
 fn in_steps<D: Domain>(value: D::Float) -> D::Float {
     let Interval { low, high, may_be_nan } = value.range();
     let slack = rules::STORE_SLACK.absolute();
@@ -146,7 +146,7 @@ fn blended<D: Domain>(
     let (s, d) = (by(source_factor), by(destination_factor));
     std::array::from_fn(|i| {
         let part = |weight: D::Float, value: D::Float, name: BlendFactor| match name {
-            // Nothing times infinity is nothing, where the factor is not computed.
+            // A factor that is not computed yields 0, even with infinity.
             BlendFactor::Zero => D::Float::default(),
             BlendFactor::One => value,
             _ => round(weight.mul(value)),
@@ -178,8 +178,8 @@ fn factor<D: Domain>(name: BlendFactor, source: [D::Float; 4], destination: [D::
     }
 }
 
-/// A channel as the format stores it (§2.1.5, §4.1.7); with an envelope from the least to the greatest step that a number
-/// inside may be stored at.
+/// A channel as the format stores it (§2.1.5, §4.1.7). With an envelope, it covers all steps at which a number inside
+/// may be stored.
 pub(super) fn store<D: Domain>(value: D::Float, format: Format) -> D::Float {
     let convert: fn(f64) -> f64 = match format {
         Format::Rgba32Float | Format::Rgba32Sint | Format::Rgba32Uint => return value,
@@ -194,7 +194,7 @@ pub(super) fn store<D: Domain>(value: D::Float, format: Format) -> D::Float {
     if low == high && convert(low) == low {
         return D::Float::from_f64(stored);
     }
-    // A step of 8 bits is no f32: its ends are rounded outward once more.
+    // A step of 8 bits is not an f32: its bounds are rounded outward once more.
     let range = match format {
         Format::Rgba8Unorm => {
             let slack = rules::STORE_SLACK.absolute();
@@ -206,7 +206,7 @@ pub(super) fn store<D: Domain>(value: D::Float, format: Format) -> D::Float {
     D::Float::with_range(stored, range)
 }
 
-/// The greatest half float not above a number.
+/// The largest half-precision float not above a number.
 fn half_below(x: f64) -> f64 {
     let near = f16::from_f64(x);
     let value = f64::from(near);

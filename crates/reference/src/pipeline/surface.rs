@@ -1,8 +1,8 @@
-//! [`Surface`]: the colors of the picture that is being drawn.
+//! [`Surface`]: the colors of the picture during drawing.
 //!
-//! *In:* a framebuffer. *Out:* the [`Picture`].
-//! *Holds:* each pixel stands where it stands in the picture, so that nothing is copied at the end; bins own pieces of the
-//! rows. A number of a domain with envelopes is kept as its value and its range, of which the same number can be made.
+//! *In:* a framebuffer. *Out:* the [`Picture`]. *Holds:* each pixel has its final position in memory, so that nothing
+//! is copied at the end; bins own pieces of the rows. A number of a domain with envelopes is stored as its value and
+//! its interval, from which the same number can be restored.
 
 use super::store::store;
 use super::target::BIN;
@@ -11,14 +11,14 @@ use glisten_scene::Framebuffer;
 use glisten_scene::picture::{Interval, Picture};
 use rayon::prelude::*;
 
-/// What the attachments hold.
+/// The contents of the attachments.
 #[derive(Clone, Debug)]
 pub(super) struct Surface {
     pub(super) framebuffer: Framebuffer,
     pub(super) attachments: Vec<Attachment>,
 }
 
-/// What one holds, row by row.
+/// The contents of an attachment, row by row.
 #[derive(Clone, Debug)]
 pub(super) struct Attachment {
     colors: Vec<[f64; 4]>,
@@ -26,7 +26,7 @@ pub(super) struct Attachment {
     ranges: Vec<[Interval; 4]>,
 }
 
-/// What was drawn to, row by row.
+/// Which pixels were drawn to, row by row.
 #[derive(Debug)]
 pub(super) struct Marks {
     pub(super) covered: Vec<bool>,
@@ -49,7 +49,7 @@ pub(super) struct Pixel<'p> {
 }
 
 impl Surface {
-    /// A cleared one for a domain.
+    /// A cleared surface for a domain.
     pub(super) fn new<D: Domain>(framebuffer: Framebuffer) -> Self {
         let count = framebuffer.width as usize * framebuffer.height as usize;
         let clear = framebuffer.clear.map(|value| store::<D>(D::Float::from_f64(value), framebuffer.format));
@@ -60,7 +60,7 @@ impl Surface {
         Self { framebuffer, attachments: (0..framebuffer.attachments).map(|_| cleared()).collect() }
     }
 
-    /// The picture that was drawn.
+    /// The finished picture.
     pub(super) fn picture<D: Domain>(self, marks: Marks) -> Picture {
         let (colors, ranges) = self.attachments.into_iter().map(|held| (held.colors, held.ranges)).unzip();
         Picture {
@@ -75,7 +75,7 @@ impl Surface {
     }
 }
 
-/// The same in all pixels: written by all threads, because memory that is new takes longer to get than to fill.
+/// A vector with equal elements, written by all threads, because new memory takes longer to map than to fill.
 fn filled<T: Copy + Send + Sync>(count: usize, value: T) -> Vec<T> {
     (0..count).into_par_iter().with_min_len(1 << 12).map(|_| value).collect()
 }
@@ -115,7 +115,7 @@ fn deal<'s, T>(
 }
 
 impl Piece<'_> {
-    /// A pixel by its place in the bin.
+    /// A pixel by its index in the bin.
     #[inline(always)]
     pub(super) fn pixel(&mut self, place: u32) -> Option<Pixel<'_>> {
         let (row, column) = ((place / BIN as u32) as usize, (place % BIN as u32) as usize);

@@ -1,9 +1,9 @@
-//! What is drawn to: colors, depth, coverage, cut into square bins that threads own (OpenGL 3.2 §4.1, §4.2).
+//! The framebuffer: colors, depth and coverage, divided into square bins that threads own (OpenGL 3.2 §4.1, §4.2).
 //!
-//! *In:* fragments after shading. *Out:* what their pixels hold.
-//! *Holds:* a value is stored as the attachment's format stores it, except that `rgba32float` keeps the domain's own
-//! precision: the reference is not rounded to f32. Depth is stored as f32, as the format has it. Colors are written where
-//! the picture has them ([`Surface`]); the rest is a bin's own and there only once something is drawn.
+//! *In:* fragments after shading. *Out:* the contents of their pixels. *Holds:* a value is stored in the attachment's
+//! format, except that `rgba32float` keeps the precision of the domain: the reference is not rounded to f32. Depth is
+//! stored as f32, in its format. Colors are written directly to the picture ([`Surface`]); everything else belongs to
+//! the bin and is allocated when something is drawn.
 
 use super::store::{Test, depth_test, is_integer, keeps, stored};
 use super::surface::{Marks, Piece, Surface};
@@ -14,20 +14,20 @@ use glisten_scene::picture::Interval;
 use glisten_scene::{BlendFactor, Format, Framebuffer, State};
 use smallvec::SmallVec;
 
-/// Pixels along a side of a bin; even, so that quads lie within one.
+/// The side of a bin in pixels; it is even, so that quads are within one bin.
 pub(super) const BIN: i64 = 32;
 
-/// What becomes of the fragments of a batch, as sets of lanes.
+/// The test results of the fragments of a batch, as sets of lanes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Tests {
-    /// Those that are drawn by the values.
+    /// Those whose values pass.
     pub(super) passes: u64,
-    /// Those where a conforming GPU may decide otherwise.
+    /// Those for which a conforming GPU may decide differently.
     pub(super) open: u64,
 }
 
 impl Tests {
-    /// Those that some GPU draws.
+    /// Those that some conforming GPU draws.
     pub(super) fn possible(self) -> u64 {
         self.passes | self.open
     }
@@ -38,7 +38,7 @@ impl Tests {
     }
 }
 
-/// The framebuffer, cut into bins.
+/// The framebuffer, divided into bins.
 #[derive(Debug)]
 pub(super) struct Target<'s, D: Domain> {
     framebuffer: Framebuffer,
@@ -50,34 +50,34 @@ pub(super) struct Target<'s, D: Domain> {
 /// A bin's part of the framebuffer.
 #[derive(Debug)]
 pub(super) struct Bin<'s, D: Domain> {
-    /// Its pixels; at the right and lower rim it has fewer than elsewhere.
+    /// The pixels of the bin; at the right and lower border it has fewer than elsewhere.
     pub(super) area: Bounds,
     format: Format,
     attachments: SmallVec<[Piece<'s>; 1]>,
-    /// None as long as nothing is drawn.
+    /// `None` as long as nothing is drawn.
     pixels: Option<Pixels<D>>,
 }
 
-/// What is known of a bin's pixels beside their colors, row by row of [`BIN`].
+/// The state of a bin's pixels besides their colors, row by row of [`BIN`].
 #[derive(Clone, Debug)]
 struct Pixels<D: Domain> {
-    /// Empty before the first test.
+    /// Empty before the first depth test.
     depth: Vec<D::Float>,
     covered: Vec<bool>,
-    /// Empty if none is.
+    /// Empty if no pixel is near an edge.
     near_edge: Vec<bool>,
-    /// Whether a fragment that shows is drawn at all, or what it holds, is left open. Empty in domains without envelopes.
+    /// Whether it is undecided if a visible fragment is drawn, or which one. Empty in domains without envelopes.
     undecided: Vec<bool>,
 }
 
-/// The place of a pixel in its bin.
+/// The index of a pixel in its bin.
 #[inline(always)]
 pub(super) fn local(area: Bounds, x: i64, y: i64) -> u32 {
     ((y - area.y0) * BIN + (x - area.x0)) as u32
 }
 
 impl<'s, D: Domain> Target<'s, D> {
-    /// A framebuffer over what its attachments hold.
+    /// A framebuffer with these attachments.
     pub(super) fn new(surface: &'s mut Surface) -> Self {
         let framebuffer = surface.framebuffer;
         let (width, height) = (i64::from(framebuffer.width), i64::from(framebuffer.height));
@@ -97,7 +97,7 @@ impl<'s, D: Domain> Target<'s, D> {
         Self { framebuffer, columns, rows, bins }
     }
 
-    /// What was drawn to.
+    /// Which pixels were drawn to.
     pub(super) fn into_marks(self) -> Marks {
         Marks {
             covered: self.gathered(|pixels| &pixels.covered),
@@ -142,7 +142,7 @@ impl<D: Domain> Bin<'_, D> {
         near_edge[place] = true;
     }
 
-    /// The depth test (§4.1.5) of fragments that came so far, and the write where it passes.
+    /// Runs the depth test (§4.1.5) of fragments that passed all earlier tests, and writes depth where it passes.
     pub(super) fn depth_tests(
         &mut self,
         places: &[u32; LANES],
@@ -167,8 +167,8 @@ impl<D: Domain> Bin<'_, D> {
         after
     }
 
-    /// Notes that fragments are written to pixels, or may be. One that certainly is, and hides what was there, settles what
-    /// was open.
+    /// Records that fragments are written to pixels, or may be. A fragment that certainly is, and that hides the
+    /// previous contents, resolves what was undecided.
     pub(super) fn cover(&mut self, places: &[u32; LANES], tests: Tests, undecided: u64, blends: bool) {
         let pixels = self.pixels();
         for lane in Mask(tests.passes).lanes() {
@@ -213,7 +213,7 @@ impl<D: Domain> Bin<'_, D> {
     }
 }
 
-/// A part of a picture that is drawn alone, and may be drawn again from where it was.
+/// A part of a picture that is drawn alone, and can be drawn again from its previous state.
 #[derive(Clone, Debug)]
 pub(super) struct Patch<D: Domain> {
     pub(super) area: Bounds,
@@ -222,13 +222,13 @@ pub(super) struct Patch<D: Domain> {
 }
 
 impl<D: Domain> Patch<D> {
-    /// No more than a bin's size, cleared.
+    /// A cleared patch, at most as large as a bin.
     pub(super) fn new(framebuffer: Framebuffer, area: Bounds) -> Self {
         let (width, height) = ((area.x1 - area.x0) as u32, (area.y1 - area.y0) as u32);
         Self { area, surface: Surface::new::<D>(Framebuffer { width, height, ..framebuffer }), pixels: None }
     }
 
-    /// Draws to it.
+    /// Draws on the patch.
     pub(super) fn draw(&mut self, draw: impl FnOnce(&mut Bin<'_, D>)) {
         if let Some(bin) = Target::<D>::new(&mut self.surface).bins.first_mut() {
             bin.area = self.area;
@@ -238,7 +238,7 @@ impl<D: Domain> Patch<D> {
         }
     }
 
-    /// What a channel of a pixel inside may be.
+    /// The interval of a channel of a pixel inside the patch.
     pub(super) fn range(&mut self, x: i64, y: i64, attachment: usize, channel: usize) -> Interval {
         let mut range = Interval::ALL;
         let place = local(self.area, x, y);

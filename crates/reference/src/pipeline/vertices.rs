@@ -1,8 +1,8 @@
 //! The vertex stage: vertex data in, shaded vertices out.
 //!
-//! *In:* a draw and its compiled vertex stage. *Out:* [`Vertices`]: positions, clip distances and varyings of every vertex
-//! of every instance, in the draw's number domain, and positions once more in f32, by which coverage is decided.
-//! *Holds:* a vertex that several indices name is shaded once. The order does not depend on threads.
+//! *In:* a draw and its compiled vertex stage. *Out:* [`Vertices`]: positions, clip distances and varyings of every
+//! vertex of every instance, in the draw's domain, and positions also in f32, which decide coverage. *Holds:* a
+//! vertex that several indices refer to is shaded once. The order does not depend on threads.
 
 use super::plan::Plan;
 use super::watch::Watch;
@@ -20,39 +20,39 @@ use std::sync::OnceLock;
 pub(super) struct Vertices<D: Domain> {
     /// `gl_Position`
     pub(super) clip: Vec<[D::Float; 4]>,
-    /// The same computed in f32.
+    /// `gl_Position`, computed in f32.
     pub(super) clip32: Vec<[f32; 4]>,
     /// Window x and y (picture rows, y down) and z, and 1/w.
     pub(super) window: Vec<[D::Float; 4]>,
     /// Window x, y and z of `clip32`, in the order of operations of Mesa's software drivers.
     pub(super) window32: Vec<[f32; 3]>,
-    /// The planes of the view volume, and beyond them the clip distances, that the vertex is outside of; see `clip`.
+    /// The planes of the view volume that the vertex is outside, followed by those of the clip distances; see `clip`.
     pub(super) outside: Vec<Option<u32>>,
     /// `gl_PointSize`
     pub(super) size: Vec<f32>,
-    /// Enabled clip distances, so many a vertex.
+    /// The enabled clip distances, `distance_count` for each vertex.
     pub(super) distances: Vec<D::Float>,
-    /// Likewise in f32.
+    /// The enabled clip distances in f32.
     pub(super) distances32: Vec<f32>,
-    /// How many clip distances are enabled.
+    /// The number of enabled clip distances.
     pub(super) distance_count: usize,
-    /// Varyings as written, so many a vertex.
+    /// The varyings as written, `float_count` for each vertex.
     pub(super) floats: Vec<D::Float>,
-    /// Smooth varyings divided by w, others as written: what (108) and (106) interpolate.
+    /// Smooth varyings divided by w, others as written: the values that (108) and (106) interpolate.
     pub(super) quotients: Vec<D::Float>,
-    /// How many.
+    /// The number of scalars.
     pub(super) float_count: usize,
-    /// Integer varyings, so many a vertex.
+    /// Integer varyings, `int_count` for each vertex.
     pub(super) ints: Vec<D::Int>,
-    /// How many.
+    /// The number of integers.
     pub(super) int_count: usize,
-    /// Whether a branch on the way may go either way.
+    /// Whether a branch in the vertex stage was undecided.
     pub(super) undecided: Vec<bool>,
-    /// How each varying is interpolated.
+    /// The interpolation of each varying.
     pub(super) interpolations: Vec<Interpolation>,
-    /// Width and height of the window in pixels.
+    /// The width and height of the window in pixels.
     pub(super) viewport: [f32; 2],
-    /// Faults of a driver that are admitted.
+    /// The faults of a driver that are excused.
     pub(super) faults: Faults,
 }
 
@@ -63,7 +63,7 @@ impl<D: Domain> Vertices<D> {
         self.floats.get(start..start + self.float_count).unwrap_or(&[])
     }
 
-    /// What is interpolated of a vertex.
+    /// The interpolated values of a vertex.
     pub(super) fn quotients_of(&self, vertex: u32) -> &[D::Float] {
         let start = vertex as usize * self.float_count;
         self.quotients.get(start..start + self.float_count).unwrap_or(&[])
@@ -96,8 +96,8 @@ impl<D: Domain> Vertices<D> {
     }
 }
 
-/// OpenGL's window position in f32 as Mesa's vertex pipeline computes it: the reciprocal of w, a product, and a product
-/// and sum with the viewport. Rows count from the top, as Vulkan's.
+/// OpenGL's window position in f32, in the order of operations of Mesa's vertex pipeline: the reciprocal of w, a
+/// product, and a product and sum with the viewport. Rows count from the top, as in Vulkan.
 fn window32(clip: [f32; 4], viewport: [f32; 2]) -> [f32; 3] {
     let reciprocal = 1.0 / clip[3];
     let (half_width, half_height) = (viewport[0] * 0.5, viewport[1] * 0.5);
@@ -171,7 +171,7 @@ pub(super) fn shade<D: Domain>(
     vertices
 }
 
-/// Clip distances that are both enabled and written.
+/// The number of clip distances that are both enabled and written.
 fn distance_count(draw: &Draw, plan: &Plan) -> usize {
     let written = plan.clip_distance.and_then(|id| {
         let shader = draw.program.stage(glisten_front::hir::Stage::Vertex)?;
@@ -260,7 +260,7 @@ fn shade_chunk<D: Domain>(
     chunk
 }
 
-/// Whether a position may be anywhere else: a branch on the way may go either way and takes it along.
+/// Whether a position may be anywhere else: it depends on an undecided branch.
 fn may_jump<D: Domain>(clip: [D::Float; 4]) -> bool {
     const FAR: f64 = 1.0 / 256.0;
     D::OPEN && clip.iter().any(|value| value.error() > FAR * clip[3].value().abs())
@@ -301,7 +301,8 @@ fn fill_inputs<D: Domain>(draw: &Draw, plan: &Plan, lanes: &[Invocation], machin
     }
 }
 
-/// The components of a column of an attribute: of a vector all, of a matrix a column's, of an array an element's.
+/// The number of components of a column of an attribute: all of a vector, those of a matrix's column, those of an
+/// array's element.
 fn column_len(types: &Types, ty: TypeId) -> u32 {
     match types.get(ty) {
         Type::Vector(_, size) => u32::from(size),

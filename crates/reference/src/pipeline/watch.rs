@@ -1,6 +1,6 @@
-//! [`Watch`]: gives machines their observers.
+//! [`Watch`]: attaches observers to machines.
 //!
-//! *In:* what makes observers, if anything does. *Out:* machines that are watched, each for one piece of the drawing.
+//! *In:* a factory of observers, if there is one. *Out:* observed machines, each for one piece of the drawing.
 
 use crate::domain::Domain;
 use crate::exec::{Code, Machine, Observer, Order, Piece, Purpose};
@@ -9,18 +9,18 @@ use glisten_scene::Draw;
 /// Makes an observer for a piece of the drawing.
 pub(crate) type MakeObserver<D> = dyn Fn() -> Box<dyn Observer<D>> + Sync;
 
-/// Who watches a draw.
+/// The observers of a draw.
 #[derive(Clone, Copy)]
 pub(super) struct Watch<'a, D: Domain> {
     pub(super) make: Option<&'a MakeObserver<D>>,
     pub(super) draw: usize,
     pub(super) instance: u32,
-    /// Whether each operation of the text shall have instructions of its own.
+    /// Whether each operation of the text needs instructions of its own.
     pub(super) apart: bool,
 }
 
 impl<D: Domain> Watch<'_, D> {
-    /// Shows once what the stage computes for all invocations alike.
+    /// Shows once what the stage computes for all invocations.
     pub(super) fn common(&self, code: &Code, draw: &Draw, piece: Piece) {
         if let Some(make) = self.make {
             let mut machine = Machine::with(Purpose::Watching(make()), code, &draw.uniforms, &draw.textures);

@@ -1,8 +1,8 @@
 //! Lines one pixel wide, by both rules.
 //!
-//! [`diamond_exit`] is OpenGL's (OpenGL 3.2 §3.5.1), decided exactly, the perturbation of the end points included.
-//! [`rectangle`] is Vulkan's for strict lines: the pixels of a rectangle one pixel wide around the segment, its corners
-//! snapped as Mesa's software drivers snap them.
+//! [`diamond_exit`] is OpenGL's rule (OpenGL 3.2 §3.5.1), decided exactly, including the perturbation of the end
+//! points. [`rectangle`] is Vulkan's rule for strict lines: the pixels of a rectangle one pixel wide around the
+//! segment, whose corners are snapped as by Mesa's software drivers.
 
 use super::{Edge, Fixed, ONE, Shape, triangle};
 use std::cmp::Ordering;
@@ -29,7 +29,7 @@ pub(crate) fn rectangle(from: [f32; 2], to: [f32; 2]) -> Option<Shape> {
     Some(triangle::convex(&corners, &[Edge::new(a, b), Edge::new(b, c), Edge::new(c, d), Edge::new(d, a)]))
 }
 
-/// A number `c + a e + b e^2` with an `e` that is as small as may be: compared from the front.
+/// A number `c + a e + b e^2` with an arbitrarily small `e`, compared lexicographically.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Perturbed(i128, i128, i128);
 
@@ -55,17 +55,17 @@ struct Turned {
 }
 
 impl Turned {
-    /// The perturbed end point: OpenGL moves it by `(-e, -e^2)`, and y points down here.
+    /// The perturbed end point: OpenGL moves it by `(-e, -e^2)`; here, y points down.
     fn new(p: Fixed) -> Self {
         let (x, y) = (i128::from(p.x), i128::from(p.y));
         Self { sum: Perturbed(x + y, -1, 1), difference: Perturbed(x - y, -1, -1) }
     }
 }
 
-/// Half the width of a diamond in the turned coordinates.
+/// Half the width of a diamond in the rotated coordinates.
 const HALF: i128 = ONE as i128 / 2;
 
-/// The fragments that a segment from `from` to `to` produces: those whose diamond it meets, but for one that holds its
+/// The fragments of a segment from `from` to `to`: those whose diamond it intersects, except one that contains its
 /// end.
 pub(crate) fn diamond_exit(from: Fixed, to: Fixed) -> Shape {
     let mut pixels = Vec::new();
@@ -74,7 +74,7 @@ pub(crate) fn diamond_exit(from: Fixed, to: Fixed) -> Shape {
     let (start, end, delta) = if is_x_major { (from.x, to.x, dx) } else { (from.y, to.y, dy) };
     let (low, high) = (start.min(end).div_euclid(ONE) - 1, start.max(end).div_euclid(ONE) + 1);
     for major in low..=high {
-        // The minor coordinate at the middle of this column, or at the nearer end of the segment.
+        // The minor coordinate at the center of this column, or at the nearer end of the segment.
         let at = (major * ONE).clamp(start.min(end), start.max(end));
         let minor = match (delta, is_x_major) {
             (0, true) => from.y,
@@ -96,7 +96,7 @@ pub(crate) fn diamond_exit(from: Fixed, to: Fixed) -> Shape {
     Shape::Pixels(pixels)
 }
 
-/// Whether the segment meets the open diamond around a pixel's center and does not end in it.
+/// Whether the segment intersects the open diamond around a pixel's center and does not end in it.
 fn produces(from: Turned, to: Turned, x: i64, y: i64) -> bool {
     let (x, y) = (i128::from(x * ONE), i128::from(y * ONE));
     let axes = [(from.sum, to.sum, x + y), (from.difference, to.difference, x - y)];
@@ -109,7 +109,7 @@ fn is_inside(value: Perturbed, center: i128) -> bool {
     offset < Perturbed(HALF, 0, 0) && offset > Perturbed(-HALF, 0, 0)
 }
 
-/// A bound on how far along the segment the diamond reaches: a fraction with a positive denominator.
+/// A bound on the part of the segment inside the diamond: a fraction with a positive denominator.
 #[derive(Clone, Copy)]
 struct Along(Perturbed, i128);
 
@@ -171,7 +171,7 @@ mod tests {
         assert!(pixels(&diamond_exit(fixed(3.5, 3.5), fixed(3.5, 3.5))).is_empty());
     }
 
-    /// The rule as it is written, with an `e` that is small enough for coordinates of 1/256.
+    /// The rule as written, with an `e` that is small enough for coordinates of 1/256.
     fn transcribed(from: Fixed, to: Fixed) -> Vec<(i64, i64)> {
         let e = 1e-5;
         let moved = |p: Fixed| (p.x as f64 / 256.0 - e, p.y as f64 / 256.0 + e * e);
@@ -180,7 +180,8 @@ mod tests {
         let mut found = Vec::new();
         for y in -1..18 {
             for x in -1..18 {
-                // The distance to the center, in the diamond's norm, is convex along the segment: search its minimum.
+                // The distance to the center, in the diamond's norm, is convex along the segment: search for its
+                // minimum.
                 let norm = |t: f64| {
                     let (px, py) = (a.0 + (b.0 - a.0) * t, a.1 + (b.1 - a.1) * t);
                     (px - x as f64).abs() + (py - y as f64).abs()
@@ -209,7 +210,7 @@ mod tests {
             ((state >> 33) % 4096) as i64
         };
         for round in 0..400 {
-            // Every other line between centers and half centers, where the perturbation decides.
+            // Every other line runs between centers and half centers, where the perturbation decides.
             let grid = if round % 2 == 0 { 1 } else { 128 };
             let mut point = || Fixed { x: next() / grid * grid, y: next() / grid * grid };
             let (from, to) = (point(), point());

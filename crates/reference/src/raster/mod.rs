@@ -1,14 +1,15 @@
-//! Which fragments a primitive produces (OpenGL 3.2 §3.4 to §3.6).
+//! Rasterization: which fragments a primitive produces (OpenGL 3.2 §3.4 to §3.6).
 //!
-//! *In:* window positions in f32. *Out:* a [`Shape`] in integers: the pixels that it covers can be asked for a
+//! *In:* window positions in f32. *Out:* a [`Shape`] in integers, which reports the pixels that it covers for one
 //! rectangle at a time.
 //!
-//! *Holds:* coverage is a matter of 1/256 pixel, decided in integers without rounding, and so is the same in every number
-//! domain. Rows are those of the picture, the top row first, and the top-left rule is meant in them: a pixel whose
-//! center lies on a top or a left edge is covered, on another edge not, so that pixels along a shared edge are drawn
-//! once. Positions are snapped as Mesa's software drivers do: `(x - 0.5) * 256`, rounded to the nearest, half to even.
+//! *Holds:* coverage is decided in units of 1/256 pixel, in integers without rounding, and so is the same in every
+//! domain. Rows are those of the picture, the top row first, and the top-left rule refers to them: a pixel whose
+//! center is on a top or left edge is covered, on another edge it is not, so that pixels along a shared edge are
+//! drawn once. Positions are snapped as by Mesa's software drivers: `(x - 0.5) * 256`, rounded to nearest, half to
+//! even.
 //!
-//! *Not done here:* what the fragments carry ([`interpolate`](super::interpolate)), clipping.
+//! *Not done here:* the fragments' values ([`interpolate`](super::interpolate)), clipping.
 
 pub(crate) mod line;
 pub(crate) mod point;
@@ -16,13 +17,13 @@ pub(crate) mod triangle;
 
 use pulp::{Simd, WithSimd};
 
-/// Units of the fixed grid in a pixel.
+/// Units of the fixed-point grid in a pixel.
 pub(crate) const ONE: i64 = 256;
 
-/// Half the band around an edge, in units of the grid, within which `near_edge` is marked: 1/128 pixel.
+/// Half the width of the band around an edge within which `near_edge` is marked, in units of the grid: 1/128 pixel.
 const NEAR: f64 = 2.0;
 
-/// A window position in units of the grid; pixel centers lie at multiples of [`ONE`].
+/// A window position in units of the grid; pixel centers are at multiples of [`ONE`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Fixed {
     pub(crate) x: i64,
@@ -30,8 +31,8 @@ pub(crate) struct Fixed {
 }
 
 impl Fixed {
-    /// Snaps a window position in pixels. Coordinates that are not finite, or further out than 2^21 pixels, give `None`: products of
-    /// differences fit 64 bits.
+    /// Snaps a window position in pixels. Returns `None` for coordinates that are not finite or further out than 2^21
+    /// pixels, so that products of differences fit 64 bits.
     pub(crate) fn snap(x: f32, y: f32) -> Option<Self> {
         let snap = |value: f32| {
             let scaled = (value - 0.5) * ONE as f32;
@@ -51,7 +52,7 @@ pub(crate) struct Bounds {
 }
 
 impl Bounds {
-    /// What two rectangles share; may be empty.
+    /// The intersection of two rectangles; may be empty.
     pub(crate) fn intersect(self, other: Self) -> Self {
         Self {
             x0: self.x0.max(other.x0),
@@ -65,21 +66,21 @@ impl Bounds {
 /// A half plane of pixels: those where `value(x, y) >= 0`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Edge {
-    /// The value at pixel (0, 0), with the fill rule in it.
+    /// The value at pixel (0, 0), including the fill rule.
     pub(crate) origin: i64,
-    /// What a pixel to the right adds.
+    /// The increment for the next pixel to the right.
     pub(crate) step_x: i64,
-    /// What a pixel further down adds.
+    /// The increment for the next pixel down.
     pub(crate) step_y: i64,
-    /// Up to this distance from 0 the pixel's center is near the edge.
+    /// A pixel's center is near the edge if the absolute value is at most this.
     pub(crate) near: i64,
 }
 
 impl Edge {
-    /// The half plane to the right of the way from `from` to `to`, as seen in the picture.
+    /// The half plane to the right of the direction from `from` to `to`, as seen in the picture.
     pub(crate) fn new(from: Fixed, to: Fixed) -> Self {
         let (dx, dy) = (to.x - from.x, to.y - from.y);
-        // The inside lies below a top edge, which runs right, and right of a left edge, which runs up.
+        // The inside is below a top edge, which runs right, and right of a left edge, which runs up.
         let is_top_or_left = dy < 0 || (dy == 0 && dx > 0);
         let exact = dy * from.x - dx * from.y;
         Self {
@@ -109,11 +110,11 @@ impl Edge {
 pub(crate) enum Shape {
     /// The pixels inside `bounds` and all of the edges, of which there may be none.
     Convex {
-        /// As tight as may be.
+        /// The bounds, as tight as possible.
         bounds: Bounds,
-        /// At most four.
+        /// The edges, at most four.
         edges: [Edge; 4],
-        /// How many of them.
+        /// The number of edges.
         count: usize,
     },
     /// These pixels, in order.
@@ -121,7 +122,7 @@ pub(crate) enum Shape {
 }
 
 impl Shape {
-    /// A rectangle that holds all of its pixels, and those near its edges.
+    /// A rectangle that contains all of its pixels, and those near its edges.
     pub(crate) fn bounds(&self) -> Bounds {
         match self {
             Self::Convex { bounds, .. } => *bounds,
@@ -137,7 +138,7 @@ impl Shape {
         }
     }
 
-    /// Whether it may cover a pixel of `area`, or mark one as near an edge.
+    /// Whether it may cover a pixel of `area`, or have one near an edge.
     pub(crate) fn may_touch(&self, area: Bounds) -> bool {
         match self {
             Self::Convex { edges, count, .. } => {
@@ -149,8 +150,8 @@ impl Shape {
         }
     }
 
-    /// Calls `emit` with the covered pixels of `area`, each once, some of a row at a time: the row, a column, and the set of
-    /// pixels there (bit `i` is the `i`th to the right).
+    /// Calls `emit` with the covered pixels of `area`, each once, several of a row at a time: the row, a column, and
+    /// the set of pixels from there (bit `i` is the `i`th to the right).
     #[inline(always)]
     pub(crate) fn rows(&self, area: Bounds, mut emit: impl FnMut(i64, i64, u64)) {
         match self {
@@ -171,9 +172,9 @@ impl Shape {
         }
     }
 
-    /// Calls `emit` with each quad of 2x2 pixels (whose corner is even) that holds a covered pixel of `area`: its upper left
-    /// pixel and which are covered (bit 0 upper left, 1 upper right, 2 lower left, 3 lower right). Each quad of a convex
-    /// shape comes once.
+    /// Calls `emit` with each quad of 2x2 pixels (whose corner is even) that contains a covered pixel of `area`: its
+    /// upper left pixel, and which pixels are covered (bit 0 upper left, 1 upper right, 2 lower left, 3 lower right).
+    /// A convex shape reports each quad once.
     #[inline(always)]
     pub(crate) fn quads(&self, area: Bounds, mut emit: impl FnMut(i64, i64, u32)) {
         match self {
@@ -204,7 +205,7 @@ impl Shape {
         }
     }
 
-    /// Calls `mark` with each pixel of `area` whose center lies within 1/128 pixel of an edge.
+    /// Calls `mark` with each pixel of `area` whose center is within 1/128 pixel of an edge.
     pub(crate) fn near_edges(&self, area: Bounds, mut mark: impl FnMut(i64, i64)) {
         if let Self::Convex { bounds, edges, count } = self {
             mark_near(edges.get(..*count).unwrap_or(&[]), bounds.intersect(area), &mut mark);
@@ -217,8 +218,8 @@ const WIDTH: usize = 64;
 /// The height of a block; even.
 const HEIGHT: usize = 32;
 
-/// Calls `emit` with the pixels of `area` that none of the edges leaves out, block by block: the upper left pixel of the
-/// block, and the set of pixels of each of its rows.
+/// Calls `emit` with the pixels of `area` inside all edges, block by block: the upper left pixel of the block, and
+/// the set of pixels in each of its rows.
 #[inline(always)]
 fn blocks(edges: &[Edge; 4], count: usize, area: Bounds, mut emit: impl FnMut(i64, i64, &[u64])) {
     let mut rows = [0; HEIGHT];
@@ -235,7 +236,7 @@ fn blocks(edges: &[Edge; 4], count: usize, area: Bounds, mut emit: impl FnMut(i6
     }
 }
 
-/// Finds the covered pixels of a block: to be compiled for wide vectors. Edges that there are not leave out none.
+/// Computes the covered pixels of a block, in a loop to compile for wide vectors. `EDGES` edges are tested.
 struct Block<'r, const EDGES: usize> {
     edges: [Edge; EDGES],
     block: Bounds,
@@ -247,7 +248,7 @@ impl<const EDGES: usize> WithSimd for Block<'_, EDGES> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        /// Pixels that are decided together.
+        /// The number of pixels that are decided together.
         const LANES: usize = 4;
         let Self { edges, block, rows } = self;
         let width = (block.x1 - block.x0) as usize;
@@ -260,7 +261,7 @@ impl<const EDGES: usize> WithSimd for Block<'_, EDGES> {
             let mut covered = [0; LANES];
             let mut bits = [1_u64, 2, 4, 8];
             for _ in 0..width.div_ceil(LANES) {
-                // The sign stays where an edge leaves the pixel out.
+                // The sign bit stays set if an edge excludes the pixel.
                 let mut signs = [0_i64; LANES];
                 for (values, edge) in values.iter_mut().zip(&edges) {
                     for lane in 0..LANES {

@@ -1,4 +1,4 @@
-//! Points (OpenGL 3.2 §3.4.1): the pixels whose centers lie inside a square.
+//! Points (OpenGL 3.2 §3.4.1): the pixels whose centers are inside a square.
 
 use super::{Bounds, Edge, ONE, Shape};
 
@@ -7,7 +7,8 @@ pub(crate) const MAX_SIZE: f32 = 255.0;
 
 /// The pixels of a point of `size` pixels at a window position; `None` if the position is not finite.
 ///
-/// Snapped as Mesa's drivers do: the size to 1/256 pixel, at least one pixel; the position rounded half away from zero.
+/// It is snapped as by Mesa's drivers: the size to 1/256 pixel, at least one pixel; the position is rounded half away
+/// from zero.
 pub(crate) fn shape(x: f32, y: f32, size: f32) -> Option<Shape> {
     let snap = |value: f32| {
         let scaled = value * ONE as f32;
@@ -37,7 +38,7 @@ mod tests {
         assert_eq!(bounds(3.5, 4.5, 1.0), Bounds { x0: 3, x1: 4, y0: 4, y1: 5 });
         assert_eq!(bounds(4.0, 4.0, 4.0), Bounds { x0: 2, x1: 6, y0: 2, y1: 6 });
         assert_eq!(bounds(4.0, 4.0, 0.0), bounds(4.0, 4.0, 1.0));
-        // A center on the left edge of the square is in, on the right edge out.
+        // A center on the left edge of the square is inside, on the right edge outside.
         assert_eq!(bounds(4.0, 4.0, 1.0), Bounds { x0: 3, x1: 4, y0: 3, y1: 4 });
     }
 

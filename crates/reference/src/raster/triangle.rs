@@ -2,7 +2,7 @@
 
 use super::{Bounds, Edge, Fixed, ONE, Shape};
 
-/// Twice the signed area in units of the grid squared: positive if the way around is clockwise in the picture.
+/// Twice the signed area in units of the grid squared: positive if the corners are clockwise in the picture.
 pub(crate) fn doubled_area(corners: [Fixed; 3]) -> i64 {
     let [a, b, c] = corners;
     (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x)
@@ -104,7 +104,7 @@ mod tests {
 
     #[test]
     fn coverage_is_that_of_a_direct_transcription() {
-        // Inside by exact signs, ties by the side of the edge.
+        // Inside by exact signs; ties are decided by the kind of the edge.
         let triangle = [(1.5, 1.5), (12.5, 3.5), (4.5, 14.5)];
         let counts = count(&[triangle]);
         for y in 0..16 {

@@ -1,17 +1,18 @@
-//! Which operations of a program lose precision in f32: root causes, not every line behind them.
+//! Finds the operations of a program that lose precision in f32: the root causes, not every expression after them.
 //!
-//! *In:* a [`Scene`]. *Out:* a [`Trace`]: for each expression what its f32 arithmetic does to the truth, worst first.
+//! *In:* a [`Scene`]. *Out:* a [`Trace`]: for each expression the effect of its f32 arithmetic, worst first.
 //!
-//! The scene is drawn in the [shadow domain](super::domain::ShadowFloat), f32 and f64 side by side. Of each operation
-//! three results are known: in f32 on f32 operands (a), in f64 on the same operands (b), in f64 on f64 operands (c).
-//! `a - b` is what the operation adds, `b - c` what it makes of the errors that its operands bring, `a - c` the error by
-//! now. An operation is a cause if its result has lost bits that its operands still had: by its own rounding (`pow` of a
-//! large exponent), or by turning a small relative error into a large one (`1.0 - cos(x)`).
+//! The scene is drawn in the [shadow domain](super::domain::ShadowFloat), f32 and f64 side by side. For each
+//! operation three results are known: in f32 on f32 operands (a), in f64 on the same operands (b), in f64 on f64
+//! operands (c). `a - b` is the error that the operation adds, `b - c` what it makes of its operands' errors, `a - c`
+//! the total error. An operation is a cause if its result has lost bits that its operands still had: by its own
+//! rounding (`pow` with a large exponent), or by turning a small relative error into a large one (`1.0 - cos(x)`).
 //!
-//! *Holds:* both sides run the path of f64. The figures do not depend on threads. Helper invocations are not counted.
+//! *Holds:* both sides take the path of f64. The figures do not depend on threads. Helper invocations are not
+//! counted.
 //!
-//! *Not done here:* denormals are not flushed; a GPU's own formulas for `sin` and its like, and its weights of linear
-//! filtering, are not modeled: they round once.
+//! *Not done here:* subnormal numbers are not flushed. A GPU's own formulas for `sin` and so on, and its weights of
+//! linear filtering, are not modeled: they round once.
 
 mod record;
 #[cfg(test)]
@@ -28,65 +29,65 @@ use glisten_scene::picture::Picture;
 use record::{Collected, Recorder, Tally};
 use std::sync::Arc;
 
-/// How many bits more than its operands a result must have lost for its expression to be called a cause: three operands
-/// with half an ULP each and as many roundings stay below.
+/// An expression is a cause if its result has lost this many bits more than its operands. Three operands with half an
+/// ULP each and as many roundings stay below.
 pub const CAUSE_BITS: f64 = 3.0;
 
-/// What f32 arithmetic did in one expression, in all lanes that evaluated it; a vector counts once for each component.
-/// Errors are over results that are finite on both sides.
+/// The effect of f32 arithmetic in one expression, over all lanes that evaluated it; a vector counts once for each
+/// component. Errors are over results that are finite on both sides.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SpanError {
     /// The expression.
     pub span: Span,
-    /// Whose it is.
+    /// The stage of the expression.
     pub stage: Stage,
-    /// Scalar results.
+    /// The number of scalar results.
     pub evaluations: u64,
-    /// The largest error that the operation itself added: the distance of its f32 result from the exact result on the
-    /// same operands.
+    /// The largest error that the operation itself added: the difference between its f32 result and the exact result
+    /// on the same operands.
     pub added: f64,
-    /// The same in ULP of the exact result; half a ULP is rounding.
+    /// That error in ULP of the exact result; half an ULP is rounding.
     pub added_ulps: f64,
-    /// The largest distance of f32 from f64 by now, the operands' errors included.
+    /// The largest difference between f32 and f64, including the operands' errors.
     pub error: f64,
-    /// Its mean.
+    /// The mean of that difference.
     pub mean_error: f64,
-    /// The most bits, of 24, that a result has lost and its operands had not.
+    /// The largest number of bits, of 24, that a result has lost and its operands had not.
     pub lost_bits: f64,
-    /// Their mean.
+    /// The mean of that number.
     pub mean_lost_bits: f64,
-    /// The most leading bits that a sum, difference or dot product canceled.
-    pub cancelled_bits: f64,
-    /// The largest factor by which operands' relative errors grew in the exact result: an estimate of the condition
-    /// number from below; 0 where no operand brought an error.
+    /// The largest number of leading bits that a sum, difference or dot product canceled.
+    pub canceled_bits: f64,
+    /// The largest factor by which the operands' relative errors grew in the exact result: a lower estimate of the
+    /// condition number; 0 if no operand had an error.
     pub condition: f64,
-    /// Results that are infinite or NaN in f32 though all operands were finite.
+    /// The number of results that are infinite or NaN in f32 although all operands were finite.
     pub births: u64,
-    /// Those of them that are infinite or NaN in f64, too: the model's own, not f32's.
+    /// The number of those that are also infinite or NaN in f64: the model causes them, not f32.
     pub births_in_both: u64,
-    /// Comparisons, conversions to integers and jumps (`floor`, `step`) on which f32 and f64 disagree.
+    /// The number of comparisons, conversions to integers and jumps (`floor`, `step`) on which f32 and f64 disagree.
     pub disagreements: u64,
-    /// Branches and selections that f32 alone would take the other way.
+    /// The number of branches and selections that f32 alone would decide differently.
     pub choices: u64,
 }
 
-/// What a drawing tells of a program's stability.
+/// The stability of a program, as a drawing shows it.
 #[derive(Clone, Debug)]
 pub struct Trace {
-    /// Every expression that was evaluated: causes first, then by what they lose.
+    /// Every expression that was evaluated: causes first, then by their loss.
     pub spans: Vec<SpanError>,
-    /// The largest distance of f32 from f64 in what the fragment stages put out.
+    /// The largest difference between f32 and f64 in the outputs of the fragment stages.
     pub output_error: f64,
     /// The picture, in f64.
     pub picture: Picture,
 }
 
-/// Draws a scene in f32 and f64 side by side. The options' precision is of no account.
+/// Draws a scene in f32 and f64 side by side. The precision in the options is ignored.
 ///
-/// Costs many times what the same picture costs in f64: it looks at every result in every lane.
+/// It takes many times as long as the same picture in f64, because it examines every result in every lane.
 ///
 /// # Errors
-/// Those of [`cpu::render`](super::render).
+/// The errors of [`cpu::render`](super::render).
 pub fn trace(scene: &Scene, options: &RenderOptions) -> Result<Trace, Vec<Diagnostic>> {
     let collected = Arc::new(Collected::default());
     let shared = Arc::clone(&collected);
@@ -97,7 +98,7 @@ pub fn trace(scene: &Scene, options: &RenderOptions) -> Result<Trace, Vec<Diagno
         .filter(|((_, span), _)| span.is_known())
         .map(|((stage, span), tally)| SpanError::new(stage, span, &tally))
         .collect();
-    // Stable: equals stay in the order of the text.
+    // The sort is stable: equal entries stay in source order.
     spans.sort_by(|a, b| {
         let key = |span: &SpanError| (span.is_cause(), span.births > 0);
         let bits = b.mean_lost_bits.total_cmp(&a.mean_lost_bits);
@@ -119,7 +120,7 @@ impl SpanError {
             mean_error: mean(tally.error_sum),
             lost_bits: tally.lost_bits,
             mean_lost_bits: mean(tally.lost_bits_sum),
-            cancelled_bits: tally.cancelled_bits,
+            canceled_bits: tally.canceled_bits,
             condition: tally.condition,
             births: tally.births,
             births_in_both: tally.births_in_both,
@@ -128,13 +129,13 @@ impl SpanError {
         }
     }
 
-    /// Whether precision is lost here, rather than before: bits that the operands had, a number that is none, or an
-    /// answer on which f32 and f64 disagree.
+    /// Whether precision is lost here rather than earlier: bits that the operands had, a result that is not a number,
+    /// or a decision on which f32 and f64 disagree.
     pub fn is_cause(&self) -> bool {
         self.lost_bits >= CAUSE_BITS || self.births > 0 || self.disagreements > 0
     }
 
-    /// It as a finding that any writer can show.
+    /// The error as a diagnostic that any writer can show.
     pub fn diagnostic(&self) -> Diagnostic {
         let message = match (self.births, self.disagreements) {
             (1.., _) if self.births == self.births_in_both => {
@@ -147,10 +148,10 @@ impl SpanError {
         let label = match () {
             () if self.births > 0 => format!("{} of {} results", self.births, self.evaluations),
             () if self.disagreements > 0 => format!("{} of {} results", self.disagreements, self.evaluations),
-            () if self.cancelled_bits >= CAUSE_BITS => {
+            () if self.canceled_bits >= CAUSE_BITS => {
                 format!(
                     "up to {:.0} leading bits cancel; {:.1} bits lost on average",
-                    self.cancelled_bits, self.mean_lost_bits
+                    self.canceled_bits, self.mean_lost_bits
                 )
             }
             () => format!("{:.1} bits lost on average", self.mean_lost_bits),

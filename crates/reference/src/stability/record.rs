@@ -1,7 +1,8 @@
-//! What is noted of each span while a scene is drawn in the shadow domain.
+//! Records the errors of each span while a scene is drawn in the shadow domain.
 //!
 //! *In:* the executor's events. *Out:* a [`Tally`] for each span. *Holds:* tallies of the same events are the same,
-//! whatever threads they ran on: each piece of the drawing has a recorder of its own, and they are joined in order.
+//! whatever threads they ran on: each piece of the drawing has its own recorder, and the recorders are joined in
+//! order.
 
 use crate::domain::{Shadow, ShadowFloat};
 use crate::exec::{Event, Kind, Observer, Order, Values, What};
@@ -12,10 +13,10 @@ use smallvec::SmallVec;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// The bits of an f32's significand: nobody can lose more.
+/// The number of bits of an f32's significand, which is the largest possible loss.
 pub(super) const SIGNIFICAND: f64 = 24.0;
 
-/// Figures of one span. Sums are over evaluations: one scalar result in one lane.
+/// The figures of one span. Sums are over evaluations: one scalar result in one lane.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Tally {
     pub(super) evaluations: u64,
@@ -26,7 +27,7 @@ pub(super) struct Tally {
     pub(super) error_sum: f64,
     pub(super) lost_bits: f64,
     pub(super) lost_bits_sum: f64,
-    pub(super) cancelled_bits: f64,
+    pub(super) canceled_bits: f64,
     pub(super) condition: f64,
     pub(super) births: u64,
     pub(super) births_in_both: u64,
@@ -44,7 +45,7 @@ impl Tally {
         self.error_sum += other.error_sum;
         self.lost_bits = self.lost_bits.max(other.lost_bits);
         self.lost_bits_sum += other.lost_bits_sum;
-        self.cancelled_bits = self.cancelled_bits.max(other.cancelled_bits);
+        self.canceled_bits = self.canceled_bits.max(other.canceled_bits);
         self.condition = self.condition.max(other.condition);
         self.births += other.births;
         self.births_in_both += other.births_in_both;
@@ -52,7 +53,7 @@ impl Tally {
         self.choices += other.choices;
     }
 
-    /// One scalar result of operands in one lane.
+    /// Records one scalar result of operands in one lane.
     fn note(&mut self, kind: Kind, operands: &[ShadowFloat], result: ShadowFloat) {
         self.evaluations += 1;
         let finite = |number: &ShadowFloat| number.single.is_finite();
@@ -70,11 +71,12 @@ impl Tally {
         self.error = self.error.max(result.error());
         self.error_sum += result.error();
         let brought = operands.iter().copied().map(error_ulps).fold(0.0, f64::max);
-        // Within an ULP nothing is lost. As a ratio: how many ULP an error is, changes at powers of two.
+        // Within an ULP nothing is lost. The loss is a ratio, because the number of ULP of an error jumps at powers
+        // of two.
         let lost = (error_ulps(result).max(1.0) / brought.max(1.0)).log2().clamp(0.0, SIGNIFICAND);
         self.lost_bits = self.lost_bits.max(lost);
         self.lost_bits_sum += lost;
-        self.cancelled_bits = self.cancelled_bits.max(cancelled(kind, operands, result));
+        self.canceled_bits = self.canceled_bits.max(canceled(kind, operands, result));
         self.condition = self.condition.max(condition(operands, result));
         if kind == Kind::Jump && result.error() >= 0.5 {
             self.disagreements += 1;
@@ -82,14 +84,14 @@ impl Tally {
     }
 }
 
-/// How far f32 and f64 are apart, in ULP of the larger: 2^24 where nothing is right.
+/// The difference between f32 and f64 in ULP of the larger: 2^24 if no digit is right.
 fn error_ulps(number: ShadowFloat) -> f64 {
     let size = f64::from(number.single).abs().max(number.wide.abs());
     if number.error() == 0.0 || !size.is_finite() { 0.0 } else { number.error() / ulp_f32(size) }
 }
 
 /// By how many bits the result of a sum is smaller than its largest term, all computed in f32.
-fn cancelled(kind: Kind, operands: &[ShadowFloat], result: ShadowFloat) -> f64 {
+fn canceled(kind: Kind, operands: &[ShadowFloat], result: ShadowFloat) -> f64 {
     let terms: SmallVec<[f64; 4]> = match kind {
         Kind::Sum => operands.iter().map(|operand| f64::from(operand.single)).collect(),
         Kind::Dot => {
@@ -106,8 +108,8 @@ fn cancelled(kind: Kind, operands: &[ShadowFloat], result: ShadowFloat) -> f64 {
     (largest.log2() - left.log2()).min(SIGNIFICAND)
 }
 
-/// The relative error that the operands' errors make in the exact result, as a multiple of the largest of theirs; 0 if
-/// they bring none.
+/// The relative error that the operands' errors cause in the exact result, as a multiple of the largest of them; 0 if
+/// they have none.
 fn condition(operands: &[ShadowFloat], result: ShadowFloat) -> f64 {
     let relative = |difference: f64, value: f64| if value == 0.0 { 0.0 } else { (difference / value).abs() };
     let brought = operands.iter().map(|operand| relative(operand.error(), operand.wide)).fold(0.0, f64::max);
@@ -121,7 +123,7 @@ pub(super) struct Collected {
     parts: Mutex<Vec<(Order, Recorder)>>,
 }
 
-/// Whether a tally belongs to a vertex or a fragment stage, and where.
+/// Whether a tally belongs to a vertex or a fragment stage, and its span.
 pub(super) type Place = (Stage, Span);
 
 impl Collected {
@@ -132,6 +134,7 @@ impl Collected {
         let mut all: BTreeMap<Place, Tally> = BTreeMap::new();
         let mut output = 0.0_f64;
         for (order, recorder) in &parts {
+            // Values that are the same for all invocations count with their stage: 0 with 2, 1 with 3.
             let stage = order.piece.stage();
             for (span, tally) in &recorder.tallies {
                 all.entry((stage, *span)).or_default().join(tally);

@@ -1,4 +1,4 @@
-//! Known cases: each is laid at the door of the right expression.
+//! Known cases: each is attributed to the right expression.
 
 use super::{SpanError, Trace, trace};
 use crate::RenderOptions;
@@ -9,7 +9,8 @@ use glisten_scene::{MemoryFiles, NoLibrary, load};
 const VERTEX: &str =
     "#version 150\nin vec2 p;\nout vec2 at;\nvoid main() { at = p; gl_Position = vec4(p, 0.0, 1.0); }\n";
 
-/// A program that fills a picture of 16x16 pixels, `at` going from -1 to 1 both ways; its fragment stage's body.
+/// A program that fills a picture of 16x16 pixels, in which `at` goes from -1 to 1 both ways, with this body of the
+/// fragment stage.
 fn traced(body: &str) -> (Trace, SourceMap) {
     traced_with(body, "")
 }
@@ -27,7 +28,7 @@ fn traced_with(body: &str, more: &str) -> (Trace, SourceMap) {
     (trace(&scene, &options).unwrap_or_else(|found| panic!("{found:?}")), loaded.sources)
 }
 
-/// The causes' texts with their figures, worst first.
+/// The texts of the causes with their figures, worst first.
 fn causes(body: &str) -> Vec<(String, SpanError)> {
     let (trace, sources) = traced(body);
     let causes = trace.spans.iter().filter(|span| span.is_cause());
@@ -56,7 +57,7 @@ fn a_difference_that_cancels_is_named_and_not_what_follows() {
     assert_eq!(found.len(), 1, "{found:?}");
     let (text, span) = &found[0];
     assert_eq!(text, "1.0 - cos(x)");
-    assert!(span.cancelled_bits > 17.0 && span.mean_lost_bits > 10.0, "{span:?}");
+    assert!(span.canceled_bits > 17.0 && span.mean_lost_bits > 10.0, "{span:?}");
     assert!(span.condition > 1e5, "the difference is ill-conditioned: {span:?}");
     assert_eq!(span.added, 0.0, "the difference itself is exact");
     assert_eq!(span.evaluations, 256);
@@ -126,7 +127,7 @@ fn what_is_the_same_everywhere_counts_once() {
 
 #[test]
 fn a_texel_that_f32_misses_is_laid_at_the_lookup() {
-    // In f64 left of the middle; in f32 on it, and so in the right texel.
+    // In f64 the coordinate is left of the middle; in f32 it is on it, and so in the right texel.
     let body = "uniform sampler2D tex; void main() { o = texture(tex, vec2(0.5 - 1e-9 * (at.x + 2.0), 0.5)) * 3.0; }";
     let texture = "[draw.textures]\ntex = { width = 2, height = 1, values = [0.25, 0, 0, 1, 0.75, 0, 0, 1] }\n";
     let (trace, sources) = traced_with(body, texture);

@@ -1,17 +1,17 @@
-//! Cube maps: direction to face and back (OpenGL 3.2 §3.8.9, table 3.21).
+//! Cube maps: from direction to face and back (OpenGL 3.2 §3.8.9, table 3.21).
 
-/// A face and what the table calls s_c, t_c and m_a for a direction.
+/// A face, and the table's s_c, t_c and m_a for a direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct OnFace {
     /// +X -X +Y -Y +Z -Z
     pub(super) face: usize,
     pub(super) sc: f64,
     pub(super) tc: f64,
-    /// Its absolute value.
+    /// The absolute value.
     pub(super) ma: f64,
 }
 
-/// The linear forms of the table: (s_c, t_c, m_a) of a vector, for a face.
+/// The linear forms of the table for a face: (s_c, t_c, m_a) of a vector.
 pub(super) fn forms(face: usize, r: [f64; 3]) -> [f64; 3] {
     let [x, y, z] = r;
     match face {
@@ -24,7 +24,7 @@ pub(super) fn forms(face: usize, r: [f64; 3]) -> [f64; 3] {
     }
 }
 
-/// The face that a direction meets; its longest axis, z before y before x where equal.
+/// The face that a direction hits: that of its longest axis, where z precedes y, and y precedes x, if they are equal.
 pub(super) fn face_of(r: [f64; 3]) -> OnFace {
     let [x, y, z] = r.map(f64::abs);
     let axis = if z >= x && z >= y {
@@ -39,7 +39,7 @@ pub(super) fn face_of(r: [f64; 3]) -> OnFace {
     OnFace { face, sc, tc, ma: ma.abs() }
 }
 
-/// The direction of a point of a face's plane at distance 1.
+/// The direction to a point of a face's plane at distance 1.
 fn direction(face: usize, sc: f64, tc: f64) -> [f64; 3] {
     match face {
         0 => [1.0, -tc, -sc],
@@ -51,8 +51,8 @@ fn direction(face: usize, sc: f64, tc: f64) -> [f64; 3] {
     }
 }
 
-/// The texel that stands at (x, y) of a face of `size` texels, where one of both may be one past an edge: then it is the
-/// neighboring face's. `None` past a corner, where there is none.
+/// The texel at (x, y) of a face of `size` texels. If one coordinate is one past an edge, it belongs to the
+/// neighboring face. `None` past a corner, where there is no texel.
 pub(super) fn across(face: usize, x: i64, y: i64, size: u32) -> Option<(usize, i64, i64)> {
     let n = i64::from(size);
     let (out_x, out_y) = (x < 0 || x >= n, y < 0 || y >= n);

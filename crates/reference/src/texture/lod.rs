@@ -1,18 +1,17 @@
 //! Level of detail (OpenGL 3.2 §3.8.11).
 
-use super::texel::dimensions;
 use super::{Near, cube};
 use glisten_front::hir::{SamplerDim, SamplerType};
 use glisten_scene::Texture;
 
-/// The change of the coordinates from pixel to pixel.
+/// The change of the coordinates from one pixel to the next.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Gradients {
     pub(crate) dx: [f64; 3],
     pub(crate) dy: [f64; 3],
 }
 
-/// The least and the greatest size of the change along each axis of the texture, in either direction of the window.
+/// The smallest and the largest change along each axis of the texture, in either direction of the window.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Steps {
     pub(crate) least: [f64; 3],
@@ -20,19 +19,19 @@ pub(crate) struct Steps {
 }
 
 impl Steps {
-    /// Takes in the change of one coordinate to a neighbor.
+    /// Adds the change of one coordinate to a neighboring pixel.
     pub(crate) fn add(&mut self, axis: usize, change: Near) {
         let least = if change.low <= 0.0 && change.high >= 0.0 { 0.0 } else { change.low.abs().min(change.high.abs()) };
         if let (Some(low), Some(high)) = (self.least.get_mut(axis), self.most.get_mut(axis)) {
-            // Which of both directions is the longer one is known where the intervals are apart.
+            // If the intervals are disjoint, it is known which of both directions is the longer one.
             *low = low.max(least);
             *high = high.max(change.low.abs()).max(change.high.abs());
         }
     }
 }
 
-/// The level of detail, and what a GPU may have in its place: the scale factor may be anything from the longest step along
-/// one axis to the sum of these (conditions 1 and 2 of §3.8.11). Of a cube the steps are not told apart by axis.
+/// The level of detail, and the interval for a GPU: the scale factor may be anything from the longest step along one
+/// axis to the sum of these (conditions 1 and 2 of §3.8.11). For a cube, the steps are not separated by axis.
 pub(crate) fn level_of_detail(
     texture: &Texture,
     kind: SamplerType,
@@ -50,15 +49,15 @@ pub(crate) fn level_of_detail(
         SamplerDim::Rect => [1.0; 3],
         _ => [base.width, base.height, base.depth].map(f64::from),
     };
-    let count = dimensions(kind.dim);
+    let count = usize::from(kind.dimensions());
     let scaled = |steps: [f64; 3]| (0..count).map(move |axis| steps[axis] * sizes[axis]);
     let least = scaled(steps.least).fold(0.0, f64::max);
     let most: f64 = scaled(steps.most).sum();
     Near { value, low: value.min(least.log2()), high: value.max(most.log2()) }
 }
 
-/// `log2(rho)`, rho being the longer of the two steps in texels of the base level (equation 3.21 and the one below it).
-/// Minus infinity where nothing changes.
+/// `log2(rho)`, where rho is the longer of the two steps in texels of the base level (equation 3.21 and the one below
+/// it). Minus infinity if nothing changes.
 fn exact(texture: &Texture, kind: SamplerType, at: [f64; 3], gradients: Gradients) -> f64 {
     let Some(base) = texture.levels.first() else { return f64::NEG_INFINITY };
     let sizes = [base.width, base.height, base.depth].map(f64::from);
@@ -66,8 +65,8 @@ fn exact(texture: &Texture, kind: SamplerType, at: [f64; 3], gradients: Gradient
         let scaled = match kind.dim {
             SamplerDim::Cube => on_face(at, d).map(|change| change * sizes[0]),
             SamplerDim::Rect => [d[0], d[1], 0.0],
-            dim => {
-                let count = dimensions(dim);
+            SamplerDim::D1 | SamplerDim::D2 | SamplerDim::D3 | SamplerDim::Buffer | SamplerDim::Multisample => {
+                let count = usize::from(kind.dimensions());
                 std::array::from_fn(|axis| if axis < count { d[axis] * sizes[axis] } else { 0.0 })
             }
         };
@@ -76,7 +75,7 @@ fn exact(texture: &Texture, kind: SamplerType, at: [f64; 3], gradients: Gradient
     step(gradients.dx).max(step(gradients.dy)).log2()
 }
 
-/// How s and t of the face that a direction meets change with the direction.
+/// How s and t of the face that a direction hits change with the direction.
 fn on_face(at: [f64; 3], d: [f64; 3]) -> [f64; 3] {
     let there = cube::face_of(at);
     let [dsc, dtc, dma] = cube::forms(there.face, d);

@@ -1,11 +1,12 @@
-//! Textures, by OpenGL 3.2 §3.8: wrap modes, filters, mipmaps, level of detail, cubes without seams, shadow comparison.
+//! Textures by OpenGL 3.2 §3.8: wrap modes, filters, mipmaps, level of detail, seamless cubes, shadow comparison.
 //!
-//! *In:* a [`Texture`] and coordinates with their intervals, as f64: every domain's coordinates are exact there. *Out:*
-//! the filtered value with the interval of what a GPU may give. The domain rounds once.
+//! *In:* a [`Texture`] and coordinates with their intervals, as f64, in which every domain's coordinates are exact.
+//! *Out:* the filtered value with the interval of a GPU's results. The domain rounds once.
 //!
-//! *Holds:* no coordinate panics. Defined here where OpenGL is not: a coordinate that is not finite counts as 0; a fetch
-//! outside the texture gives 0 in all components; a missing texture gives (0, 0, 0, 1), as an incomplete one does
-//! (§3.8.14); where two axes of a cube's direction are equally long, z goes before y before x.
+//! *Holds:* no coordinate panics. These cases are defined here because OpenGL leaves them undefined: a coordinate
+//! that is not finite counts as 0; a fetch outside the texture returns 0 in all components; a missing texture returns
+//! (0, 0, 0, 1), like an incomplete one (§3.8.14); if two axes of a cube's direction are equally long, z precedes y,
+//! and y precedes x.
 //!
 //! The interval is the hull of all texels that a coordinate's interval touches
 //! ([`rules::NEAREST`](super::domain::rules::NEAREST)), with the precision of filter weights
@@ -23,7 +24,7 @@ pub(crate) use texel::{fetch, size};
 
 use glisten_scene::Texture;
 
-/// A number and the interval of what a GPU may have in its place.
+/// A number, and the interval of values that a GPU may have.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Near {
     pub(crate) value: f64,
@@ -36,17 +37,17 @@ impl Near {
         Self { value, low: value, high: value }
     }
 
-    /// Anything, with this as the value.
+    /// Any number, with this as the value.
     pub(crate) fn anything(value: f64) -> Self {
         Self { value, low: f64::NEG_INFINITY, high: f64::INFINITY }
     }
 
-    /// As much as `error` more to both sides.
+    /// The interval widened by `error` on both sides.
     pub(crate) fn widened(self, error: f64) -> Self {
         Self { value: self.value, low: self.low - error, high: self.high + error }
     }
 
-    /// A rising function of it.
+    /// The image under an increasing function.
     pub(crate) fn map(self, f: impl Fn(f64) -> f64) -> Self {
         Self { value: f(self.value), low: f(self.low), high: f(self.high) }
     }
@@ -56,21 +57,21 @@ impl Near {
         Self { value: self.value, low: self.low.min(other.low), high: self.high.max(other.high) }
     }
 
-    /// The farthest that it may be from its value.
+    /// The largest distance from its value.
     pub(crate) fn error(self) -> f64 {
         (self.value - self.low).max(self.high - self.value)
     }
 }
 
-/// What a lookup gives.
+/// The result of a lookup.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Sampled {
     Floats([Near; 4]),
-    /// The bits of an integer texture, and the `int`s between which a GPU's may be.
+    /// The bits of an integer texture, with the interval of `int`s for a GPU.
     Bits([Bits; 4]),
 }
 
-/// Bits and the interval of `int`s that a GPU may have in their place.
+/// Bits, and the interval of `int`s that a GPU may have.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Bits {
     pub(crate) bits: u32,
@@ -98,7 +99,7 @@ impl Sampled {
         }
     }
 
-    /// Nothing is known but the likely result.
+    /// The result with its likely value, where everything is possible.
     pub(crate) fn unknown(self) -> Self {
         match self {
             Self::Floats(values) => Self::Floats(values.map(|near| Near::anything(near.value))),
@@ -107,10 +108,10 @@ impl Sampled {
     }
 }
 
-/// Of a sampler without a texture.
+/// The result of a sampler without a texture.
 pub(crate) const MISSING: [f64; 4] = [0.0, 0.0, 0.0, 1.0];
 
-/// The level in use, limited to those that there are.
+/// The level in use, limited to those that exist.
 fn level(texture: &Texture, index: usize) -> Option<&glisten_scene::TextureLevel> {
     texture.levels.get(index.min(texture.levels.len().saturating_sub(1)))
 }

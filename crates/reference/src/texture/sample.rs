@@ -1,6 +1,6 @@
-//! Filtered lookups (OpenGL 3.2 §3.8.11 to §3.8.12, §3.8.16).
+//! Filtered texture lookups (OpenGL 3.2 §3.8.11 to §3.8.12, §3.8.16).
 
-use super::texel::{self, dimensions};
+use super::texel;
 use super::{Bits, Near, Sampled, cube, level};
 use crate::domain::rules;
 use glisten_front::hir::{SamplerDim, SamplerType, Scalar};
@@ -13,18 +13,18 @@ pub(crate) struct Request {
     /// s, t, r, as far as the texture has them.
     pub(crate) at: [Near; 3],
     pub(crate) layer: Near,
-    /// Of a shadow sampler.
+    /// The reference value of a shadow sampler.
     pub(crate) reference: Near,
-    /// The level of detail, bias included.
+    /// The level of detail, including the bias.
     pub(crate) level: Near,
-    /// In texels.
+    /// The offset in texels.
     pub(crate) offset: [i32; 3],
-    /// Whether intervals are wanted.
+    /// Whether intervals are needed.
     pub(crate) bounded: bool,
 }
 
-/// One axis of a lookup in a level: the texels left and right, the weight of the right one, how far a GPU's place may
-/// be off, in texels, and the texels that it may touch.
+/// One axis of a lookup in a level: the texels left and right, the weight of the right one, the largest error of a
+/// GPU's position in texels, and the texels that it may touch.
 #[derive(Clone, Copy, Debug, Default)]
 struct Axis {
     first: i64,
@@ -43,7 +43,7 @@ pub(crate) fn sample(texture: &Texture, request: &Request) -> Sampled {
         }
     }
     if request.kind.texel != Scalar::Float {
-        // Integers are not filtered (§3.8.14): nearest, in the base level.
+        // Integers are not filtered (§3.8.14): the nearest texel of the base level.
         let Some(base) = level(texture, 0) else { return Sampled::Bits([Bits::default(); 4]) };
         return Sampled::Bits(nearest_bits(texture, base, &request));
     }
@@ -55,8 +55,8 @@ pub(crate) fn sample(texture: &Texture, request: &Request) -> Sampled {
     Sampled::Floats(floats)
 }
 
-/// Linear between levels; magnified, the base level. What a GPU may give is the hull over the levels of detail that it may
-/// have, linear between whole ones.
+/// Linear between levels; for magnification, the base level. The interval is the hull over the possible levels of
+/// detail, linear between whole ones.
 fn trilinear(texture: &Texture, request: &Request) -> [Near; 4] {
     let last = texture.levels.len().saturating_sub(1) as f64;
     let limited = |lambda: f64| if lambda.is_nan() { 0.0 } else { lambda.clamp(0.0, last) };
@@ -90,7 +90,7 @@ fn between(texture: &Texture, request: &Request, lambda: f64) -> [Near; 4] {
     })
 }
 
-/// The layer: nearest, limited to those that there are.
+/// The layer: the nearest one, limited to those that exist.
 fn layers(level: &TextureLevel, at: Near) -> (i64, (i64, i64)) {
     let pick = |value: f64| (index((value + 0.5).floor())).clamp(0, i64::from(level.depth.max(1)) - 1);
     (pick(at.value), (pick(at.low), pick(at.high)))
@@ -118,7 +118,7 @@ fn wrapped(wrap: Wrap, index: i64, size: u32) -> i64 {
     }
 }
 
-/// An index from a float; far ones stay far.
+/// An integer index from a float; far ones remain far.
 fn index(value: f64) -> i64 {
     const FAR: f64 = 4.0e18;
     value.clamp(-FAR, FAR) as i64
@@ -161,7 +161,7 @@ fn footprint(texture: &Texture, level: &TextureLevel, request: &Request, linear:
         let slice = there.face as i64;
         return Footprint { axes, count: 2, slice, slices: (slice, slice), wrap: Wrap::ClampToEdge, cube: true };
     }
-    let count = dimensions(kind.dim);
+    let count = usize::from(kind.dimensions());
     for (place, size) in [level.width, level.height, level.depth].into_iter().enumerate().take(count) {
         axes[place] = axis(in_texels(kind, request.at[place], size), request.offset[place], linear);
     }
@@ -171,12 +171,12 @@ fn footprint(texture: &Texture, level: &TextureLevel, request: &Request, linear:
 }
 
 impl Footprint {
-    /// The place of a texel by unwrapped indices; `None` past a cube's corner.
+    /// The index of a texel from unwrapped indices; `None` past a cube's corner.
     fn place(&self, level: &TextureLevel, at: [i64; 3]) -> Option<[i64; 3]> {
         self.place_in(level, at, self.slice)
     }
 
-    /// The same in another layer.
+    /// The index of a texel in another layer.
     fn place_in(&self, level: &TextureLevel, at: [i64; 3], slice: i64) -> Option<[i64; 3]> {
         if self.cube {
             let (face, x, y) = cube::across(slice as usize, at[0], at[1], level.width)?;
@@ -190,7 +190,7 @@ impl Footprint {
         Some(place)
     }
 
-    /// Shows every texel that it may touch; false if these are too many.
+    /// Shows every texel that it may touch. Returns false if there are too many.
     fn each_touched(&self, level: &TextureLevel, mut show: impl FnMut([i64; 3])) -> bool {
         const MOST: i64 = 4096;
         let sizes = [level.width, level.height, level.depth].map(i64::from);
@@ -201,7 +201,7 @@ impl Footprint {
             let clamped = self.wrap == Wrap::ClampToEdge && !self.cube;
             let limit = |at: i64| if clamped { at.clamp(-1, sizes[axis]) } else { at };
             let (low, high) = (limit(low), limit(high));
-            // Twice round, as mirrored textures repeat, is all there is.
+            // Two periods are everything there is, since mirrored textures repeat after two.
             *range = (low, high.min(low.saturating_add(2 * sizes[axis])));
             total = total.saturating_mul(range.1 - range.0 + 1);
         }
@@ -240,7 +240,7 @@ fn nearest_bits(texture: &Texture, level: &TextureLevel, request: &Request) -> [
     result
 }
 
-/// The footprint of a nearest lookup; on a cube within its face.
+/// The footprint of a nearest lookup; in a cube it stays within its face.
 fn nearest(texture: &Texture, level: &TextureLevel, request: &Request) -> Footprint {
     let mut footprint = footprint(texture, level, request, false);
     if footprint.cube {
@@ -250,14 +250,14 @@ fn nearest(texture: &Texture, level: &TextureLevel, request: &Request) -> Footpr
     footprint
 }
 
-/// A texel, or what comparing it gives.
+/// A texel, or the result of comparing it.
 fn value(level: &TextureLevel, place: [i64; 3], texture: &Texture, request: &Request) -> [Near; 4] {
     let texel = texel::floats(level, place);
     if !request.kind.shadow {
         return texel.map(Near::exact);
     }
     let passed = compare(texture.compare, request.reference.value, texel[0]);
-    // Both sides reach the comparison in f32.
+    // Both sides are rounded to f32 before the comparison.
     let slack = rules::ulp(texel[0]);
     let open = request.bounded
         && (request.reference.low - slack..=request.reference.high + slack).contains(&texel[0])
@@ -312,7 +312,7 @@ fn blend(texture: &Texture, level: &TextureLevel, request: &Request, footprint: 
             Some(place) => {
                 let texel = value(level, place, texture, request);
                 *kept = Some(texel);
-                // A texel of weight 0 does not count, not even a NaN.
+                // A texel of weight 0 does not count, even if it is a NaN.
                 if weight != 0.0 {
                     add(&mut sum, weight, &texel);
                 }
@@ -321,14 +321,14 @@ fn blend(texture: &Texture, level: &TextureLevel, request: &Request, footprint: 
         }
     }
     if missing > 0.0 {
-        // At a cube's corner three texels meet: the fourth is their mean.
+        // Three texels meet at a cube's corner: the fourth is their mean.
         present.iter().flatten().for_each(|texel| add(&mut sum, missing / 3.0, texel));
     }
     sum
 }
 
-/// What a GPU may give for where the footprint may be: of a nearest lookup any texel that it touches, of a linear one no
-/// more than the range of these times how far the weights may be off, and its own roundings.
+/// The interval of a GPU's results for the possible positions of the footprint: for a nearest lookup, all texels that
+/// it touches; for a linear one, at most the spread of these times the error of the weights, plus its own roundings.
 fn limited(
     texture: &Texture,
     level: &TextureLevel,
@@ -355,7 +355,7 @@ fn limited(
         }
         let spread = if high[k] > low[k] { (high[k] - low[k]) * off.min(1.0) } else { 0.0 };
         let rounded = rules::FILTER_SUM.ulps() * rules::ulp(low[k].abs().max(high[k].abs()));
-        // A mean of texels lies between them.
+        // A mean of texels is between them.
         let (least, most) = (low[k].min(near.low) - rounded, high[k].max(near.high) + rounded);
         Near {
             value: near.value,

@@ -1,10 +1,10 @@
-//! Texels by integer coordinates.
+//! Accesses texels by integer coordinates.
 
 use super::{Bits, Near, Sampled};
 use glisten_front::hir::{SamplerDim, SamplerType};
 use glisten_scene::{Texels, Texture, TextureLevel};
 
-/// The place of a texel in its level; `None` outside.
+/// The index of a texel in its level; `None` outside.
 pub(super) fn place(level: &TextureLevel, at: [i64; 3]) -> Option<usize> {
     let inside = |k: i64, count: u32| (0..i64::from(count)).contains(&k);
     let [x, y, z] = at;
@@ -12,7 +12,7 @@ pub(super) fn place(level: &TextureLevel, at: [i64; 3]) -> Option<usize> {
     all.then(|| ((z as usize * level.height as usize) + y as usize) * level.width as usize + x as usize)
 }
 
-/// A texel as floats; outside (0, 0, 0, 0).
+/// A texel as floats; (0, 0, 0, 0) outside.
 pub(super) fn floats(level: &TextureLevel, at: [i64; 3]) -> [f64; 4] {
     let Some(place) = place(level, at) else { return [0.0; 4] };
     match &level.texels {
@@ -22,7 +22,7 @@ pub(super) fn floats(level: &TextureLevel, at: [i64; 3]) -> [f64; 4] {
     }
 }
 
-/// A texel's bits as integers; outside 0.
+/// A texel's bits as integers; 0 outside.
 pub(super) fn bits(level: &TextureLevel, at: [i64; 3]) -> [u32; 4] {
     let Some(place) = place(level, at) else { return [0; 4] };
     match &level.texels {
@@ -34,7 +34,7 @@ pub(super) fn bits(level: &TextureLevel, at: [i64; 3]) -> [u32; 4] {
 
 /// `texelFetch`: coordinates in texels of the level, the layer last.
 pub(crate) fn fetch(texture: &Texture, kind: SamplerType, at: &[i32], level: i32, offset: &[i32]) -> Sampled {
-    let dimensions = dimensions(kind.dim);
+    let dimensions = usize::from(kind.dimensions());
     let mut place = [0i64; 3];
     for (axis, to) in place.iter_mut().enumerate().take(dimensions) {
         let moved = offset.get(axis).copied().unwrap_or(0);
@@ -60,16 +60,7 @@ fn nothing(kind: SamplerType) -> Sampled {
     }
 }
 
-/// Axes that address a texel, without the layer.
-pub(super) fn dimensions(dim: SamplerDim) -> usize {
-    match dim {
-        SamplerDim::D1 | SamplerDim::Buffer => 1,
-        SamplerDim::D2 | SamplerDim::Rect | SamplerDim::Multisample => 2,
-        SamplerDim::D3 | SamplerDim::Cube => 3,
-    }
-}
-
-/// `textureSize`: the sizes of a level, the number of layers last; 0 past the last level.
+/// `textureSize`: the size of a level, with the number of layers last; 0 past the last level.
 pub(crate) fn size(texture: &Texture, kind: SamplerType, level: i32) -> [u32; 3] {
     let found = usize::try_from(level).ok().and_then(|level| texture.levels.get(level));
     let Some(level) = found else { return [0; 3] };

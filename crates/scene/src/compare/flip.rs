@@ -1,6 +1,6 @@
 //! FLIP: how much of a difference a person sees when flipping between two pictures.
 
-use crate::picture::Picture;
+use crate::picture::{Picture, byte};
 
 /// The mean FLIP error of the first attachment of two pictures of the same size, 0 (the same) to 1, at the default
 /// viewing distance. Colors are clamped to [0, 1]; non-finite colors are black.
@@ -15,8 +15,4 @@ pub fn flip(reference: &Picture, test: &Picture) -> f64 {
 fn rgb8(picture: &Picture) -> Vec<u8> {
     let colors = picture.attachments.first().map_or(&[][..], Vec::as_slice);
     colors.iter().flat_map(|color| [color[0], color[1], color[2]]).map(byte).collect()
-}
-
-fn byte(value: f64) -> u8 {
-    (255.0 * value.clamp(0.0, 1.0)).round() as u8
 }

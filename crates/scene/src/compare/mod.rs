@@ -1,6 +1,6 @@
-//! How far two pictures are apart.
+//! The differences between two pictures.
 //!
-//! *In:* two [`Picture`](crate::picture::Picture)s. *Out:* error figures.
+//! *In:* two [`Picture`](crate::picture::Picture)s of the same scene. *Out:* error figures and a [`Verdict`].
 
 #[cfg(feature = "flip")]
 mod flip;

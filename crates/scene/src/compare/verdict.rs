@@ -12,7 +12,7 @@
 use crate::picture::{Interval, Picture};
 use serde::Serialize;
 
-/// What decides whether a difference is explained.
+/// The standard by which a difference is explained.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Judge {
     /// The reference's envelope for each channel of each pixel.
@@ -433,16 +433,10 @@ mod tests {
 
     fn picture(values: &[f64]) -> Picture {
         let n = values.len();
+        let around = |value: f64| [value, 0.0, 0.0, 1.0].map(|value| Interval::around(value, 1e-6));
         Picture {
-            width: n as u32,
-            height: 1,
-            attachments: vec![values.iter().map(|&value| [value, 0.0, 0.0, 1.0]).collect()],
-            covered: vec![true; n],
-            ranges: Some(vec![
-                values.iter().map(|&value| [value, 0.0, 0.0, 1.0].map(|value| Interval::around(value, 1e-6))).collect(),
-            ]),
-            undecided: vec![false; n],
-            near_edge: vec![false; n],
+            ranges: Some(vec![values.iter().copied().map(around).collect()]),
+            ..Picture::of_colors(n as u32, 1, values.iter().map(|&value| [value, 0.0, 0.0, 1.0]).collect())
         }
     }
 

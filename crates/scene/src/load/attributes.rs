@@ -151,7 +151,7 @@ fn load_attribute(reader: &mut Reader, types: &Types, attribute: &Attribute, nod
     let numbers = reader.numbers(values_node, "values")?;
     if numbers.len() % size as usize != 0 {
         let span = reader.span_of(values_node);
-        let message = format!("`{name}` has {} numbers, which is no multiple of its size, {size}", numbers.len());
+        let message = format!("`{name}` has {} numbers, which is not a multiple of its size, {size}", numbers.len());
         reader.error(&SCENE_WRONG_SIZE, span, message, "a vertex is incomplete");
         return None;
     }

@@ -5,7 +5,7 @@ use super::lights::{LIGHT_SPACES, LightSpace};
 use super::material::load_material;
 use super::matrices::View;
 use super::mesh::{Mesh, load_mesh};
-use super::names::{BLENDS, COMPARES, CULLS, FACTORS, FRONT_FACES, PRIMITIVES, PROVOKING};
+use super::names::{BLENDS, CULLS, FRONT_FACES, PRIMITIVES, PROVOKING};
 use super::reader::{Node, NumberValue, Reader};
 use super::textures::load_textures;
 use super::uniforms::{Context, load_uniforms};
@@ -94,7 +94,7 @@ fn load_state(reader: &mut Reader, table: &DeTable<'_>) -> State {
         provoking_last: reader.choice_at(table, "provoking", true, PROVOKING),
         depth_test: reader.flag(table, "depth_test", false),
         depth_write: reader.flag(table, "depth_write", true),
-        depth_func: reader.choice_at(table, "depth_func", Compare::Less, COMPARES),
+        depth_func: reader.choice_at(table, "depth_func", Compare::Less, Compare::NAMES),
         blend: load_blend(reader, table),
         clip_distances: reader.count(table, "clip_distances", 0, 0..=8),
         program_point_size: reader.flag(table, "program_point_size", false),
@@ -106,7 +106,7 @@ fn load_blend(reader: &mut Reader, table: &DeTable<'_>) -> Option<(BlendFactor, 
     let Some(pair) = node.get_ref().as_array() else {
         return reader.choice(node, "blend", BLENDS).flatten();
     };
-    let mut factors = pair.iter().map(|factor| reader.choice(factor, "blend", FACTORS));
+    let mut factors = pair.iter().map(|factor| reader.choice(factor, "blend", BlendFactor::NAMES));
     match (factors.next(), factors.next(), factors.next()) {
         (Some(source), Some(destination), None) => source.zip(destination),
         _ => {
@@ -164,7 +164,7 @@ fn load_defines(reader: &mut Reader, table: &DeTable<'_>) -> Vec<(String, String
         let starts_well = macro_name.starts_with(|first: char| first.is_ascii_alphabetic() || first == '_');
         if !starts_well || !macro_name.chars().all(|letter| letter.is_ascii_alphanumeric() || letter == '_') {
             let span = reader.span_of(name);
-            reader.wrong_value(span, format!("`{macro_name}` is no name for a macro"), "not an identifier");
+            reader.wrong_value(span, format!("`{macro_name}` is not a name for a macro"), "not an identifier");
             continue;
         }
         let value = match node.get_ref() {
@@ -330,7 +330,7 @@ fn load_counts(
         (Some(_), _) => loader.reader.count(table, "vertex_count", 0, 0..=MAX_COUNT),
         (None, Some(available)) => available,
         (None, None) => {
-            let help = "add `vertex_count = 3`: no attribute tells how many vertices there are";
+            let help = "add `vertex_count = 3`: no attribute determines the number of vertices";
             loader.missing_key(place, "a draw without vertex data needs `vertex_count`", help);
             return None;
         }

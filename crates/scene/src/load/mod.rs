@@ -16,6 +16,7 @@ mod patterns;
 mod reader;
 mod textures;
 mod uniforms;
+mod write;
 
 use self::draw::load_draw;
 use self::lights::Lighting;
@@ -37,6 +38,7 @@ pub use mesh::default_tessellation;
 use std::path::Path;
 use std::sync::Arc;
 use toml::de::DeTable;
+pub use write::{ShaderFiles, write};
 
 /// The largest width and height of a framebuffer in pixels.
 pub const MAX_SIDE: u32 = 16_384;
@@ -78,7 +80,7 @@ pub fn load(path: &str, files: &dyn FileSource, library: &dyn Library, compiler:
     Loaded { scene, sources, diagnostics: reader.diagnostics, io_error }
 }
 
-/// What identifies a program: draws with the same key share it.
+/// The identity of a program: draws with the same key share it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct ProgramKey {
     files: Vec<(Stage, String)>,
@@ -87,7 +89,7 @@ struct ProgramKey {
     defines: Vec<(String, String)>,
 }
 
-/// What a scene defines for all its draws.
+/// The settings of a scene for all its draws.
 struct Surroundings<'t, 'i> {
     camera: Option<&'t DeTable<'i>>,
     material: Option<&'t Node<'i>>,
@@ -184,14 +186,14 @@ impl Loader<'_> {
                 None
             }
             Err(_) => {
-                self.not_a_scene("its bytes are no UTF-8 text");
+                self.not_a_scene("its bytes are not UTF-8 text");
                 None
             }
         }
     }
 
     fn not_a_scene(&mut self, why: &str) {
-        let message = format!("`{}` is no scene: {why}", self.path);
+        let message = format!("`{}` is not a scene: {why}", self.path);
         self.reader.report(Diagnostic::new(&SCENE_SYNTAX, Span::default(), message));
     }
 

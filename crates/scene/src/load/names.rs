@@ -1,6 +1,6 @@
 //! The names that scene files use for fixed-function state, one row per name.
 
-use crate::model::{BlendFactor, Compare, Cull, Filter, Format, Primitive, Wrap};
+use crate::model::{BlendFactor, Cull, Filter, Format, Primitive};
 use glisten_front::hir::{SamplerDim, Scalar};
 
 pub(super) const FORMATS: &[(&str, Format)] = &[
@@ -29,17 +29,6 @@ pub(super) const FRONT_FACES: &[(&str, bool)] = &[("ccw", true), ("cw", false)];
 /// Whether the last vertex is the provoking one.
 pub(super) const PROVOKING: &[(&str, bool)] = &[("last", true), ("first", false)];
 
-pub(super) const COMPARES: &[(&str, Compare)] = &[
-    ("never", Compare::Never),
-    ("less", Compare::Less),
-    ("equal", Compare::Equal),
-    ("lequal", Compare::Lequal),
-    ("greater", Compare::Greater),
-    ("notequal", Compare::Notequal),
-    ("gequal", Compare::Gequal),
-    ("always", Compare::Always),
-];
-
 pub(super) const BLENDS: &[(&str, Option<(BlendFactor, BlendFactor)>)] = &[
     ("none", None),
     ("alpha", Some((BlendFactor::SrcAlpha, BlendFactor::OneMinusSrcAlpha))),
@@ -47,30 +36,8 @@ pub(super) const BLENDS: &[(&str, Option<(BlendFactor, BlendFactor)>)] = &[
     ("multiply", Some((BlendFactor::DstColor, BlendFactor::Zero))),
 ];
 
-pub(super) const FACTORS: &[(&str, BlendFactor)] = &[
-    ("zero", BlendFactor::Zero),
-    ("one", BlendFactor::One),
-    ("src_color", BlendFactor::SrcColor),
-    ("one_minus_src_color", BlendFactor::OneMinusSrcColor),
-    ("dst_color", BlendFactor::DstColor),
-    ("one_minus_dst_color", BlendFactor::OneMinusDstColor),
-    ("src_alpha", BlendFactor::SrcAlpha),
-    ("one_minus_src_alpha", BlendFactor::OneMinusSrcAlpha),
-    ("dst_alpha", BlendFactor::DstAlpha),
-    ("one_minus_dst_alpha", BlendFactor::OneMinusDstAlpha),
-    ("src_alpha_saturate", BlendFactor::SrcAlphaSaturate),
-];
-
 pub(super) const FILTERS: &[(&str, Filter)] =
     &[("nearest", Filter::Nearest), ("linear", Filter::Linear), ("trilinear", Filter::Trilinear)];
-
-pub(super) const WRAPS: &[(&str, Wrap)] = &[
-    ("repeat", Wrap::Repeat),
-    ("clamp", Wrap::ClampToEdge),
-    ("clamp_to_edge", Wrap::ClampToEdge),
-    ("mirrored_repeat", Wrap::MirroredRepeat),
-    ("mirror", Wrap::MirroredRepeat),
-];
 
 pub(super) const ATTRIBUTE_KINDS: &[(&str, Scalar)] =
     &[("float", Scalar::Float), ("int", Scalar::Int), ("uint", Scalar::Uint)];

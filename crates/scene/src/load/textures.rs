@@ -4,10 +4,11 @@ use super::Loader;
 use super::draw::report_unknown_name;
 use super::material::TEXTURES;
 use super::mipmaps::chain;
-use super::names::{COMPARES, FILTERS, TEXTURE_KINDS, TextureKind, WRAPS, kind_name};
+use super::names::{FILTERS, TEXTURE_KINDS, TextureKind, kind_name};
 use super::patterns;
 use super::reader::{Node, Number, NumberValue};
 use crate::model::{Compare, Filter, Texels, Texture, TextureLevel, Wrap};
+use crate::picture::Image;
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::scenes::{
     SCENE_BAD_ASSET, SCENE_UNSET_TEXTURE, SCENE_WRONG_KIND, SCENE_WRONG_SIZE, SCENE_WRONG_VALUE,
@@ -127,8 +128,8 @@ fn load_texture(loader: &mut Loader<'_>, node: &Node<'_>, name: &str, kind: Samp
     let filter = loader.reader.choice_at(table, "filter", Filter::Nearest, FILTERS);
     let is_rect = kind.dim == SamplerDim::Rect;
     let default_wrap = if is_rect { Wrap::ClampToEdge } else { pattern.map_or(Wrap::Repeat, |pattern| pattern.wrap()) };
-    let wrap = loader.reader.choice_at(table, "wrap", default_wrap, WRAPS);
-    let compare = loader.reader.choice_at(table, "compare", Compare::Lequal, COMPARES);
+    let wrap = loader.reader.choice_at(table, "wrap", default_wrap, Wrap::NAMES);
+    let compare = loader.reader.choice_at(table, "compare", Compare::Lequal, Compare::NAMES);
     let mipmaps = loader.reader.flag(table, "mipmaps", false);
     check_state(loader, table, name, kind, (filter, wrap, mipmaps))?;
     let level = match (table.get("file"), table.get("pattern")) {
@@ -300,7 +301,7 @@ fn load_texels(
         _ => true,
     };
     if let Some(number) = numbers.iter().find(|number| refused(number) || !in_range(number)) {
-        let message = format!("`{name}` is a {}, and this is no texel of it", kind.name());
+        let message = format!("`{name}` is a {}, and this is not a texel of it", kind.name());
         loader.reader.error(&SCENE_WRONG_KIND, number.span, message, "of another kind");
         return None;
     }
@@ -353,26 +354,21 @@ fn load_image(
         return None;
     }
     let (path, bytes) = loader.bytes(&path, span)?;
-    let image = match image::load_from_memory(&bytes) {
+    // A side that no sampler may have is told with the sampler's name, below.
+    let image = match Image::read(&bytes, u32::MAX, MAX_TEXELS) {
         Ok(image) => image,
         Err(error) => {
-            let message = format!("`{path}` is no image that can be read: {error}");
+            let message = format!("`{path}` is not an image that can be read: {error}");
             loader.reader.error(&SCENE_BAD_ASSET, span, message, "");
             return None;
         }
     };
-    let image = if flip { image.flipv() } else { image }.into_rgba32f();
-    let texels = u64::from(image.width()) * u64::from(image.height());
-    if texels > MAX_TEXELS
-        || image.width() > MAX_SIDE
-        || image.height() > MAX_SIDE
-        || (kind.dim == SamplerDim::D1 && image.height() > 1)
-    {
-        let message =
-            format!("`{path}` has {}x{} texels, too many for a {}", image.width(), image.height(), kind.name());
+    let image = if flip { image.flipped() } else { image };
+    let Image { width, height, pixels } = image;
+    if width > MAX_SIDE || height > MAX_SIDE || (kind.dim == SamplerDim::D1 && height > 1) {
+        let message = format!("`{path}` has {width}x{height} texels, too many for a {}", kind.name());
         loader.reader.error(&SCENE_WRONG_SIZE, span, message, "too large");
         return None;
     }
-    let texels = Texels::Float(image.pixels().map(|pixel| pixel.0).collect());
-    Some(TextureLevel { width: image.width(), height: image.height(), depth: 1, texels })
+    Some(TextureLevel { width, height, depth: 1, texels: Texels::Float(pixels) })
 }

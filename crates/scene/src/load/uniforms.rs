@@ -7,9 +7,10 @@ use super::lights::{LightSpace, Lighting, Member};
 use super::material::Material;
 use super::matrices::{ROLES, View};
 use super::reader::{Node, Number, NumberValue, Reader};
+use crate::values::UniformValues;
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::scenes::{SCENE_UNSET_UNIFORM, SCENE_WRONG_KIND, SCENE_WRONG_SIZE};
-use glisten_front::hir::{Scalar, ScalarValue, Type, TypeId, Types};
+use glisten_front::hir::{Scalar, ScalarValue, Type, Types};
 use glisten_front::link::{Program, UniformLeaf};
 use glisten_front::source::Span;
 use toml::de::DeTable;
@@ -17,7 +18,7 @@ use toml::de::DeTable;
 /// The values of all roots, while they are being set.
 struct Values<'p> {
     program: &'p Program,
-    roots: Vec<Vec<ScalarValue>>,
+    given: UniformValues,
     set: Vec<Vec<bool>>,
 }
 
@@ -83,7 +84,7 @@ pub(super) fn load_uniforms(
         }
     }
     values.warn_unset(reader, place);
-    values.roots
+    values.given.roots
 }
 
 /// A leaf, or one element of a leaf.
@@ -94,34 +95,21 @@ struct Target<'p> {
 
 impl<'p> Values<'p> {
     fn initial(program: &'p Program) -> Self {
-        let mut roots = Vec::new();
-        let mut set = Vec::new();
-        for root in &program.interface.roots {
-            let mut flat = Vec::new();
-            zeros(&program.types, root.ty, &mut flat);
-            set.push(vec![root.default.is_some(); flat.len()]);
-            roots.push(match &root.default {
-                Some(value) if value.scalars.len() == flat.len() => value.scalars.clone(),
-                _ => flat,
-            });
-        }
-        Self { program, roots, set }
+        let given = UniformValues::initial(program);
+        let roots = program.interface.roots.iter().zip(&given.roots);
+        let set = roots.map(|(root, values)| vec![root.default.is_some(); values.len()]).collect();
+        Self { program, given, set }
     }
 
     /// The uniform that a name in the scene refers to.
     fn find(&self, reader: &mut Reader, name: &str, span: Span) -> Option<Target<'p>> {
         let leaves = &self.program.interface.uniforms;
-        if let Some(leaf) = leaves.iter().find(|leaf| leaf.name == name) {
-            return Some(Target { leaf, element: None });
-        }
-        if let Some((base, element)) = split_index(name)
-            && let Some(leaf) = leaves.iter().find(|leaf| leaf.name == base)
-            && let Some(size) = leaf.array_size
-        {
-            if element < size {
-                return Some(Target { leaf, element: Some(element) });
+        if let Some((leaf, element)) = UniformValues::find(self.program, name) {
+            let size = leaf.array_size.unwrap_or(1);
+            if element.is_none_or(|element| element < size) {
+                return Some(Target { leaf, element });
             }
-            let message = format!("`{base}` has {size} elements, so there is no `{name}`");
+            let message = format!("`{}` has {size} elements, so there is no `{name}`", leaf.name);
             reader.error(&SCENE_WRONG_SIZE, span, message, "past the last element");
             return None;
         }
@@ -223,13 +211,12 @@ impl<'p> Values<'p> {
     }
 
     fn store(&mut self, target: &Target<'_>, scalars: &[ScalarValue]) {
-        let root = target.leaf.root.0 as usize;
-        let step = self.program.types.flat_len(target.leaf.ty);
-        let start = (target.leaf.flat_offset + step * target.element.unwrap_or(0)) as usize;
-        let range = start..start + scalars.len();
-        let (Some(values), Some(set)) = (self.roots.get_mut(root), self.set.get_mut(root)) else { return };
-        if let (Some(values), Some(set)) = (values.get_mut(range.clone()), set.get_mut(range)) {
-            values.copy_from_slice(scalars);
+        let first = (self.program.types.flat_len(target.leaf.ty) * target.element.unwrap_or(0)) as usize;
+        let start = target.leaf.flat_offset as usize + first;
+        if self.given.set(target.leaf, first, scalars)
+            && let Some(set) = self.set.get_mut(target.leaf.root.0 as usize)
+            && let Some(set) = set.get_mut(start..start + scalars.len())
+        {
             set.fill(true);
         }
     }
@@ -271,38 +258,6 @@ impl<'p> Values<'p> {
             .and_then(|set| set.get(start..start + len as usize))
             .is_none_or(|set| set.iter().all(|&set| set))
     }
-}
-
-fn zeros(types: &Types, ty: TypeId, into: &mut Vec<ScalarValue>) {
-    match types.get(ty) {
-        Type::Scalar(scalar) | Type::Vector(scalar, _) => {
-            let zero = match scalar {
-                Scalar::Bool => ScalarValue::Bool(false),
-                Scalar::Int => ScalarValue::Int(0),
-                Scalar::Uint => ScalarValue::Uint(0),
-                Scalar::Float => ScalarValue::Float(0.0),
-            };
-            into.extend(std::iter::repeat_n(zero, types.flat_len(ty) as usize));
-        }
-        Type::Matrix(..) => into.extend(std::iter::repeat_n(ScalarValue::Float(0.0), types.flat_len(ty) as usize)),
-        Type::Sampler(_) => into.push(ScalarValue::Int(0)),
-        Type::Struct(id) => {
-            for member in &types.structure(id).members {
-                zeros(types, member.ty, into);
-            }
-        }
-        Type::Array(element, glisten_front::hir::ArraySize::Sized(size)) => {
-            for _ in 0..size {
-                zeros(types, element, into);
-            }
-        }
-        Type::Error | Type::Void | Type::Array(..) => {}
-    }
-}
-
-fn split_index(name: &str) -> Option<(&str, u32)> {
-    let (base, index) = name.strip_suffix(']')?.rsplit_once('[')?;
-    Some((base, index.parse().ok()?))
 }
 
 fn convert(

@@ -1,7 +1,19 @@
-//! [`Picture`]: the contents of the framebuffer after a draw.
+//! [`Picture`]: the contents of the framebuffer after a draw; and picture files.
+//!
+//! *In:* a runner's results, or the bytes of a file. *Out:* pictures, 8-bit colors, the bytes of a file.
+//!
+//! *Holds:* top row first, x fastest. Nothing here draws or touches the file system.
 
+mod eight_bits;
+mod exr;
+mod image;
 mod interval;
+mod npy;
+mod png;
 
+pub use self::png::{Effort, png_rgb};
+pub use eight_bits::{NOT_FINITE, byte, visible_rgb};
+pub use image::{Image, ImageError, ImageFormat};
 pub use interval::Interval;
 
 /// The contents of a framebuffer, top row first, x fastest.
@@ -49,15 +61,7 @@ mod tests {
     use super::Picture;
 
     fn picture(reds: &[f64]) -> Picture {
-        Picture {
-            width: reds.len() as u32,
-            height: 1,
-            attachments: vec![reds.iter().map(|&red| [red, 0.0, 0.0, 1.0]).collect()],
-            covered: vec![true; reds.len()],
-            ranges: None,
-            undecided: vec![false; reds.len()],
-            near_edge: vec![false; reds.len()],
-        }
+        Picture::of_colors(reds.len() as u32, 1, reds.iter().map(|&red| [red, 0.0, 0.0, 1.0]).collect())
     }
 
     #[test]

@@ -3,7 +3,7 @@
 //! OpenGL hosts look up attributes, uniforms and outputs with different functions. The wrong function silently
 //! returns -1, so the answer says which kind a name is.
 
-use super::{Reflection, Slot};
+use super::{Binding, Reflection};
 use glisten_front::diagnostic::did_you_mean;
 use glisten_front::hir::Storage;
 use glisten_front::link::Program;
@@ -75,7 +75,7 @@ fn exact(reflection: &Reflection, name: &str) -> Vec<String> {
         lines.push(format!("`{name}` is a uniform: {}{array} at {place}, offset {}{active}", row.ty, row.offset));
     }
     for row in reflection.samplers.iter().filter(|row| row.name == name) {
-        let Slot { group, binding } = row.texture;
+        let Binding { group, binding } = row.texture;
         let sampler = if row.sampler == row.texture {
             String::new()
         } else {

@@ -105,14 +105,14 @@ pub struct Output {
 
 /// A bind group and a binding in it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Slot {
+pub struct Binding {
     /// The group.
     pub group: u32,
     /// The binding; in each group, bindings count from 0 without gaps.
     pub binding: u32,
 }
 
-impl From<SlotBinding> for Slot {
+impl From<SlotBinding> for Binding {
     fn from(slot: SlotBinding) -> Self {
         Self { group: slot.group, binding: slot.binding }
     }
@@ -192,9 +192,9 @@ pub struct Sampler {
     /// The size of the array that it belongs to, if it is an element.
     pub array_size: Option<u32>,
     /// The binding of the texture.
-    pub texture: Slot,
+    pub texture: Binding,
     /// The binding of the sampler; the same as `texture` where the kind has none (integer, buffer, multisample).
-    pub sampler: Slot,
+    pub sampler: Binding,
     /// The view dimension, in WebGPU's terms: `2d`, `2d-array`, `3d`, `cube`.
     #[serde(default)]
     pub view_dimension: String,

@@ -3,8 +3,8 @@
 //! *In:* a block's declaration. *Out:* a global of a block type, and names for its members or its instance.
 
 use super::super::context::Analyzer;
-use super::super::layout::{Layout, LayoutPlace};
-use super::super::qualifiers::{Place, Qualifiers, StorageWord};
+use super::super::layout::{Layout, LayoutSubject};
+use super::super::qualifiers::{DeclarationContext, Qualifiers, StorageWord};
 use super::super::scope::Entry;
 use super::structure::MemberList;
 use crate::diagnostic::Diagnostic;
@@ -14,19 +14,30 @@ use crate::hir::{
 };
 use crate::source::Span;
 use crate::syntax::ast::{ArrayDim, BlockDecl, Declarator, Ident, MemberDecl, TypeBase};
+use crate::syntax::token::Symbol;
+use rustc_hash::FxHashMap;
 
 /// The properties that the members of a block share.
-struct Frame {
+struct BlockContext {
     storage: Storage,
     word: StorageWord,
     word_span: Span,
     matrix: MatrixLayout,
 }
 
+/// The names of blocks.
+#[derive(Debug, Default)]
+pub(in crate::analysis) struct BlockNames {
+    /// All of them, which have no other meaning at global scope (§4.3.7).
+    all: FxHashMap<Symbol, Span>,
+    /// By the interface that they are part of.
+    interfaces: FxHashMap<(Symbol, Storage), Span>,
+}
+
 impl Analyzer<'_> {
     /// `uniform B { .. } b[2];`
     pub(in crate::analysis) fn block(&mut self, block: &BlockDecl) {
-        let record = self.qualifiers(&block.qualifiers, Place::Block);
+        let record = self.qualifiers(&block.qualifiers, DeclarationContext::Block);
         let Some((word, word_span)) = record.storage else {
             self.report(
                 Diagnostic::new(&qualifiers::BLOCK, block.name.span, "a block must be `in`, `out` or `uniform`")
@@ -45,14 +56,15 @@ impl Analyzer<'_> {
             return;
         }
         let is_uniform = storage == Storage::Uniform;
-        let place = if is_uniform { LayoutPlace::UniformBlock } else { LayoutPlace::Other("an input or output block") };
-        let layout = self.layout(&record, place);
+        let subject =
+            if is_uniform { LayoutSubject::UniformBlock } else { LayoutSubject::Other("an input or output block") };
+        let layout = self.layout(&record, subject);
         let good_name = self.check_name(block.name);
         if good_name {
             self.enter_block_name(block.name, storage);
         }
         let matrix = layout.matrix.unwrap_or(self.block_defaults.matrix);
-        let members = self.block_members(block, &Frame { storage, word, word_span, matrix });
+        let members = self.block_members(block, &BlockContext { storage, word, word_span, matrix });
         if members.is_empty() {
             self.report(
                 Diagnostic::new(&qualifiers::BLOCK, block.name.span, "a block must have a member").here("empty"),
@@ -100,36 +112,36 @@ impl Analyzer<'_> {
         None
     }
 
-    fn block_members(&mut self, block: &BlockDecl, frame: &Frame) -> MemberList {
+    fn block_members(&mut self, block: &BlockDecl, context: &BlockContext) -> MemberList {
         let mut members = MemberList::default();
         for row in &block.members {
-            let record = self.qualifiers(&row.qualifiers, Place::BlockMember);
-            self.check_member_storage(&record, frame);
-            let place = if frame.storage == Storage::Uniform {
-                LayoutPlace::UniformMember
+            let record = self.qualifiers(&row.qualifiers, DeclarationContext::BlockMember);
+            self.check_member_storage(&record, context);
+            let subject = if context.storage == Storage::Uniform {
+                LayoutSubject::UniformMember
             } else {
-                LayoutPlace::Other("a member of an input or output block")
+                LayoutSubject::Other("a member of an input or output block")
             };
-            let layout = self.layout(&record, place);
+            let layout = self.layout(&record, subject);
             let base = self.block_member_base(row);
             self.check_precision(record.precision, base);
             for declarator in &row.declarators {
                 self.no_member_initializer(declarator);
                 let ty = self.with_array(base, &declarator.array);
-                let ty = self.check_member_type(ty, row, &record, frame, declarator.name.span);
-                let matrix = layout.matrix.unwrap_or(frame.matrix);
-                let member = self.block_member(declarator, ty, &record, matrix, frame.storage);
+                let ty = self.check_member_type(ty, row, &record, context, declarator.name.span);
+                let matrix = layout.matrix.unwrap_or(context.matrix);
+                let member = self.block_member(declarator, ty, &record, matrix, context.storage);
                 self.add_member(&mut members, declarator.name, member);
             }
         }
         members
     }
 
-    fn check_member_storage(&mut self, record: &Qualifiers, frame: &Frame) {
+    fn check_member_storage(&mut self, record: &Qualifiers, context: &BlockContext) {
         if let Some((word, span)) = record.storage
-            && word != frame.word
+            && word != context.word
         {
-            let (member, block) = (word.spelling(), frame.word.spelling());
+            let (member, block) = (word.spelling(), context.word.spelling());
             self.report(
                 Diagnostic::new(
                     &qualifiers::BLOCK,
@@ -137,11 +149,11 @@ impl Analyzer<'_> {
                     format!("a member cannot be `{member}` in an `{block}` block"),
                 )
                 .here("another storage than the block")
-                .label(frame.word_span, format!("the block is `{block}`"))
+                .label(context.word_span, format!("the block is `{block}`"))
                 .help("remove it"),
             );
         }
-        if frame.storage == Storage::Uniform || (self.stage == Stage::Vertex && frame.storage == Storage::In) {
+        if context.storage == Storage::Uniform || (self.stage == Stage::Vertex && context.storage == Storage::In) {
             self.no_interpolation(record, "a member of a uniform block");
         }
     }
@@ -149,7 +161,7 @@ impl Analyzer<'_> {
     fn block_member_base(&mut self, row: &MemberDecl) -> TypeId {
         if let TypeBase::Struct(_) = &row.ty.base {
             self.report(
-                Diagnostic::new(&types::STRUCT, row.ty.span, "a struct cannot be declared inside of a struct or block")
+                Diagnostic::new(&types::STRUCT, row.ty.span, "a struct cannot be declared inside a struct or block")
                     .here("declare it before"),
             );
             return TypeId::ERROR;
@@ -162,7 +174,7 @@ impl Analyzer<'_> {
         ty: TypeId,
         row: &MemberDecl,
         record: &Qualifiers,
-        frame: &Frame,
+        context: &BlockContext,
         name: Span,
     ) -> TypeId {
         let span = row.ty.span;
@@ -170,8 +182,8 @@ impl Analyzer<'_> {
             Some((&types::VOID_VALUE, "a member cannot be `void`"))
         } else if self.types.contains_sampler(ty) {
             Some((&types::SAMPLER, "a sampler cannot be in a block"))
-        } else if frame.storage != Storage::Uniform && self.types.shape(ty).holds(&[Scalar::Bool]) {
-            Some((&qualifiers::INTERFACE_TYPE, "booleans do not cross stages"))
+        } else if context.storage != Storage::Uniform && self.types.summary(ty).holds(&[Scalar::Bool]) {
+            Some((&qualifiers::INTERFACE_TYPE, "booleans cannot pass between stages"))
         } else {
             None
         };
@@ -180,14 +192,14 @@ impl Analyzer<'_> {
             return TypeId::ERROR;
         }
         let flat = matches!(record.interpolation, Some((Interpolation::Flat, _)));
-        let arrives = self.stage == Stage::Fragment && frame.storage == Storage::In;
-        if arrives && !flat && self.types.shape(ty).holds(&[Scalar::Int, Scalar::Uint]) {
+        let arrives = self.stage == Stage::Fragment && context.storage == Storage::In;
+        if arrives && !flat && self.types.summary(ty).holds(&[Scalar::Int, Scalar::Uint]) {
             let type_name = self.type_name(ty);
             self.report(
                 Diagnostic::new(
                     &qualifiers::INTEGER_NOT_FLAT,
                     span,
-                    format!("a `{type_name}` that comes into a fragment shader must be `flat`"),
+                    format!("a `{type_name}` input of a fragment shader must be `flat`"),
                 )
                 .here("integers are not interpolated")
                 .label(name, "declared here")
@@ -299,11 +311,11 @@ impl Analyzer<'_> {
     fn enter_block_name(&mut self, name: Ident, storage: Storage) {
         let spelling = self.name(name);
         let key = (name.symbol, storage);
-        let taken = match self.block_interfaces.get(&key) {
+        let taken = match self.block_names.interfaces.get(&key) {
             Some(&earlier) => Some(earlier),
             None => self.scopes.find_here(name.symbol).map(|binding| binding.span),
         };
-        self.block_interfaces.entry(key).or_insert(name.span);
+        self.block_names.interfaces.entry(key).or_insert(name.span);
         if let Some(earlier) = taken {
             self.report(
                 Diagnostic::new(&names::REDEFINED, name.span, format!("the block name `{spelling}` is taken"))
@@ -311,7 +323,7 @@ impl Analyzer<'_> {
                     .label(earlier, "first declared here"),
             );
         }
-        self.block_names.entry(name.symbol).or_insert(name.span);
+        self.block_names.all.entry(name.symbol).or_insert(name.span);
     }
 
     /// Checks that a global name is not also the name of a block (§4.3.7).
@@ -319,7 +331,7 @@ impl Analyzer<'_> {
         if !self.scopes.is_global() {
             return true;
         }
-        let Some(&block) = self.block_names.get(&name.symbol) else { return true };
+        let Some(&block) = self.block_names.all.get(&name.symbol) else { return true };
         let spelling = self.name(name);
         self.report(
             Diagnostic::new(&names::BLOCK_NAME, name.span, format!("`{spelling}` is the name of a block"))

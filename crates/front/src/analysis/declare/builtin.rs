@@ -1,7 +1,8 @@
 //! Declares built-in variables (§7.1, §7.2): at their first use, or when they are redeclared, where 1.50 allows that.
 
-use super::super::context::{Analyzer, ArrayKey};
-use super::super::layout::{Layout, LayoutPlace};
+use super::super::arrays::ArrayKey;
+use super::super::context::Analyzer;
+use super::super::layout::{Layout, LayoutSubject};
 use super::super::qualifiers::{Qualifiers, StorageWord};
 use crate::builtin::variables::{self, Redeclaration, Row};
 use crate::builtin::{BuiltinVariable, constants};
@@ -149,7 +150,7 @@ impl Analyzer<'_> {
     /// `layout(origin_upper_left) in vec4 gl_FragCoord;` (§4.3.8.1)
     fn redeclare_frag_coord(&mut self, row: &Row, declarator: &Declarator, ty: TypeId, record: &Qualifiers) {
         let span = declarator.name.span;
-        let layout = self.layout(record, LayoutPlace::FragCoord);
+        let layout = self.layout(record, LayoutSubject::FragCoord);
         if self.same_storage(row, span, record).is_none() {
             return;
         }

@@ -1,7 +1,7 @@
 //! Declares functions (§6.1): prototypes and definitions.
 
 use super::super::context::{Analyzer, Body, Signature};
-use super::super::qualifiers::{Place, StorageWord};
+use super::super::qualifiers::{DeclarationContext, StorageWord};
 use super::super::scope::Entry;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::{names, statements, types};
@@ -46,7 +46,7 @@ impl Analyzer<'_> {
 
     fn function_body(&mut self, id: FunctionId, header: &FunctionHeader, body: &[Stmt]) {
         let first = self.shader.exprs.len();
-        self.n_local_scalars = 0;
+        self.sizes.begin_function();
         self.body = Some(Body { function: id, loops: 0, switches: 0, returns: false });
         self.scopes.open();
         for (index, param) in header.params.iter().enumerate() {
@@ -150,7 +150,7 @@ impl Analyzer<'_> {
     }
 
     fn header(&mut self, header: &FunctionHeader) -> Function {
-        let record = self.qualifiers(&header.qualifiers, Place::Return);
+        let record = self.qualifiers(&header.qualifiers, DeclarationContext::Return);
         let ret = self.return_type(header);
         self.check_precision(record.precision, ret);
         let locals: Vec<Local> = header.params.iter().map(|param| self.parameter(param)).collect();
@@ -204,7 +204,7 @@ impl Analyzer<'_> {
     }
 
     fn parameter(&mut self, param: &ParamDecl) -> Local {
-        let record = self.qualifiers(&param.qualifiers, Place::Parameter);
+        let record = self.qualifiers(&param.qualifiers, DeclarationContext::Parameter);
         let mode = match (record.storage, record.constant) {
             (None | Some((StorageWord::In, _)), None) => ParamMode::In,
             (None | Some((StorageWord::In, _)), Some(_)) => ParamMode::ConstIn,
@@ -216,7 +216,7 @@ impl Analyzer<'_> {
                 if word == StorageWord::Out { ParamMode::Out } else { ParamMode::Inout }
             }
             (Some((word, span)), _) => {
-                let message = format!("`{}` may not stand before a parameter", word.spelling());
+                let message = format!("`{}` is not allowed before a parameter", word.spelling());
                 self.misplaced(span, message, "parameters are `in`, `out` or `inout`");
                 ParamMode::In
             }

@@ -65,7 +65,7 @@ impl Analyzer<'_> {
         match storage {
             Storage::In | Storage::Out => self.check_border(ty, storage, record, ty_span, name),
             Storage::Const | Storage::Private | Storage::Uniform => {
-                self.no_interpolation(record, "a variable that does not cross stages");
+                self.no_interpolation(record, "a variable that does not pass between stages");
                 ty
             }
         }
@@ -111,7 +111,7 @@ impl Analyzer<'_> {
             self.report(
                 Diagnostic::new(&qualifiers::GEOMETRY_INPUT, name, "an input of a geometry shader must be an array")
                     .here("one element for each vertex of the primitive")
-                    .help("write `[]` behind the name"),
+                    .help("write `[]` after the name"),
             );
             return TypeId::ERROR;
         }
@@ -125,14 +125,14 @@ impl Analyzer<'_> {
         if self.stage == Stage::Fragment
             && storage == Storage::In
             && !flat
-            && self.types.shape(ty).holds(&[Scalar::Int, Scalar::Uint])
+            && self.types.summary(ty).holds(&[Scalar::Int, Scalar::Uint])
         {
             let type_name = self.type_name(ty);
             self.report(
                 Diagnostic::new(
                     &qualifiers::INTEGER_NOT_FLAT,
                     ty_span,
-                    format!("a `{type_name}` that comes into a fragment shader must be `flat`"),
+                    format!("a `{type_name}` input of a fragment shader must be `flat`"),
                 )
                 .here("integers are not interpolated")
                 .label(name, "declared here")
@@ -143,12 +143,12 @@ impl Analyzer<'_> {
 
     fn cannot_cross(&self, ty: TypeId, border: &Border) -> Option<&'static str> {
         let inner = self.element_of(ty);
-        if self.types.shape(ty).holds(&[Scalar::Bool]) {
-            return Some("booleans do not cross stages; use an integer");
+        if self.types.summary(ty).holds(&[Scalar::Bool]) {
+            return Some("booleans cannot pass between stages; use an integer");
         }
         match self.types.get(inner) {
-            Type::Struct(_) if !border.structs => Some("a struct cannot stand here; declare its members one by one"),
-            Type::Matrix(..) if !border.matrices => Some("a matrix cannot stand here; declare its columns"),
+            Type::Struct(_) if !border.structs => Some("a struct is not allowed here; declare its members one by one"),
+            Type::Matrix(..) if !border.matrices => Some("a matrix is not allowed here; declare its columns"),
             _ if border.storage == Storage::Out
                 && self.stage == Stage::Fragment
                 && matches!(self.types.get(ty), Type::Array(_, ArraySize::Unsized)) =>
@@ -174,7 +174,7 @@ impl Analyzer<'_> {
         let is_output = matches!(record.storage, Some((StorageWord::Out, _)));
         let invariant = record.invariant.filter(|_| !is_output).map(|span| ("invariant", span));
         for (word, span) in interpolation.into_iter().chain(centroid).chain(invariant) {
-            self.misplaced(span, format!("`{word}` may not stand before {what}"), "remove it");
+            self.misplaced(span, format!("`{word}` is not allowed before {what}"), "remove it");
         }
     }
 }

@@ -16,4 +16,6 @@ mod requalify;
 mod structure;
 mod variable;
 
+pub(super) use block::BlockNames;
+pub(super) use geometry::GeometryPlaces;
 pub(super) use per_vertex::PerVertex;

@@ -5,7 +5,7 @@
 //! without an instance name for the output. Members that it omits can no longer be used.
 
 use super::super::context::Analyzer;
-use super::super::qualifiers::Place;
+use super::super::qualifiers::DeclarationContext;
 use crate::builtin::BuiltinVariable;
 use crate::builtin::variables::{self, Row, VARIABLES};
 use crate::diagnostic::Diagnostic;
@@ -74,7 +74,7 @@ impl Analyzer<'_> {
         };
         let name = row.name;
         self.report(
-            Diagnostic::new(&names::PER_VERTEX, span, format!("`{name}` is declared again beside `gl_PerVertex`"))
+            Diagnostic::new(&names::PER_VERTEX, span, format!("`{name}` is redeclared outside `gl_PerVertex`"))
                 .here("give it its size in the block")
                 .label(block.span, "the block is declared again here"),
         );
@@ -124,7 +124,7 @@ impl Analyzer<'_> {
     fn per_vertex_members(&mut self, block: &BlockDecl) -> Vec<Member> {
         let mut members: Vec<Member> = Vec::new();
         for row in &block.members {
-            let record = self.qualifiers(&row.qualifiers, Place::BlockMember);
+            let record = self.qualifiers(&row.qualifiers, DeclarationContext::BlockMember);
             let base = self.type_spec(&row.ty);
             for declarator in &row.declarators {
                 self.no_member_initializer(declarator);

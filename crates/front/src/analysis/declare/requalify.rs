@@ -1,8 +1,8 @@
 //! Declarations without a type: `invariant a, b;` (§4.6.1), `layout(..) uniform;`, `layout(..) in;` (§4.3.8).
 
 use super::super::context::Analyzer;
-use super::super::layout::{BlockDefaults, LayoutPlace};
-use super::super::qualifiers::{Place, Qualifiers, StorageWord};
+use super::super::layout::{BlockDefaults, LayoutSubject};
+use super::super::qualifiers::{DeclarationContext, Qualifiers, StorageWord};
 use super::super::scope::Entry;
 use crate::builtin::variables;
 use crate::diagnostic::Diagnostic;
@@ -14,7 +14,7 @@ use crate::syntax::ast::{Ident, Qualifier};
 impl Analyzer<'_> {
     /// Applies qualifiers to earlier declarations, or sets defaults for later ones.
     pub(in crate::analysis) fn requalify(&mut self, list: &[Qualifier], idents: &[Ident], span: Span) {
-        let record = self.qualifiers(list, Place::Alone);
+        let record = self.qualifiers(list, DeclarationContext::Alone);
         if idents.is_empty() {
             self.default_layout(&record, span);
             return;
@@ -96,7 +96,7 @@ impl Analyzer<'_> {
             Some(_) => {
                 self.report(
                     Diagnostic::new(&names::NOT_A_VARIABLE, name.span, format!("`{spelling}` is not a variable"))
-                        .here("a variable is wanted here"),
+                        .here("a variable is required here"),
                 );
                 None
             }
@@ -116,18 +116,18 @@ impl Analyzer<'_> {
     fn default_layout(&mut self, record: &Qualifiers, span: Span) {
         match record.storage {
             Some((StorageWord::Uniform, _)) => {
-                let layout = self.layout(record, LayoutPlace::UniformDefault);
+                let layout = self.layout(record, LayoutSubject::UniformDefault);
                 self.block_defaults = BlockDefaults {
                     layout: layout.block.unwrap_or(self.block_defaults.layout),
                     matrix: layout.matrix.unwrap_or(self.block_defaults.matrix),
                 };
             }
             Some((StorageWord::In, _)) if self.stage == Stage::Geometry => {
-                let layout = self.layout(record, LayoutPlace::GeometryIn);
+                let layout = self.layout(record, LayoutSubject::GeometryIn);
                 self.geometry_input_layout(&layout, span);
             }
             Some((StorageWord::Out, _)) if self.stage == Stage::Geometry => {
-                let layout = self.layout(record, LayoutPlace::GeometryOut);
+                let layout = self.layout(record, LayoutSubject::GeometryOut);
                 self.geometry_output_layout(&layout);
             }
             Some((word @ (StorageWord::In | StorageWord::Out), at)) => {

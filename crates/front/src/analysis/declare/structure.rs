@@ -1,7 +1,7 @@
 //! Declares structs (§4.1.8).
 
 use super::super::context::Analyzer;
-use super::super::qualifiers::Place;
+use super::super::qualifiers::DeclarationContext;
 use super::super::scope::Entry;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::{general, names, types};
@@ -39,7 +39,7 @@ impl Analyzer<'_> {
         let good_name = spec.name.is_none_or(|name| self.check_name(name));
         let mut members = MemberList::default();
         for row in &spec.members {
-            let record = self.qualifiers(&row.qualifiers, Place::StructMember);
+            let record = self.qualifiers(&row.qualifiers, DeclarationContext::StructMember);
             let base = self.member_base(row);
             self.check_precision(record.precision, base);
             for declarator in &row.declarators {
@@ -72,7 +72,7 @@ impl Analyzer<'_> {
         if let TypeBase::Struct(inner) = &row.ty.base {
             let at = inner.name.map_or(row.ty.span, |name| name.span);
             self.report(
-                Diagnostic::new(&types::STRUCT, at, "a struct cannot be declared inside of a struct or block")
+                Diagnostic::new(&types::STRUCT, at, "a struct cannot be declared inside a struct or block")
                     .here("declare it before"),
             );
             return TypeId::ERROR;
@@ -123,7 +123,7 @@ impl Analyzer<'_> {
         if let Some(earlier) = list.members.get(taken as usize) {
             let spelling = &member.name;
             self.report(
-                Diagnostic::new(&names::REDEFINED, name.span, format!("the member `{spelling}` is there twice"))
+                Diagnostic::new(&names::REDEFINED, name.span, format!("the member `{spelling}` is declared twice"))
                     .here("declared again here")
                     .label(earlier.span, "first declared here"),
             );
@@ -140,7 +140,7 @@ impl Analyzer<'_> {
         if let (true, Type::Struct(id)) = (many, self.types.get(ty)) {
             self.member_indices.insert(id, list.indices);
         }
-        if self.types.shape(ty).depth > MAX_DEPTH {
+        if self.types.summary(ty).depth > MAX_DEPTH {
             self.report(
                 Diagnostic::new(&general::TOO_DEEP, span, format!("structs nest more than {MAX_DEPTH} levels deep"))
                     .here("one level too many"),

@@ -1,8 +1,9 @@
 //! Declares variables at global scope (§4.3).
 
-use super::super::context::{Analyzer, ArrayKey};
-use super::super::layout::{Layout, LayoutPlace};
-use super::super::qualifiers::{Place, Qualifiers, StorageWord};
+use super::super::arrays::ArrayKey;
+use super::super::context::Analyzer;
+use super::super::layout::{Layout, LayoutSubject};
+use super::super::qualifiers::{DeclarationContext, Qualifiers, StorageWord};
 use super::super::scope::Entry;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::{qualifiers, syntax, types};
@@ -19,7 +20,7 @@ pub(in crate::analysis) struct Initial {
 impl Analyzer<'_> {
     /// `uniform mat4 m, n;`, `struct S {..} s;`
     pub(in crate::analysis) fn global_variables(&mut self, declaration: &VariableDecl, _: Span) {
-        let record = self.qualifiers(&declaration.qualifiers, Place::Global);
+        let record = self.qualifiers(&declaration.qualifiers, DeclarationContext::Global);
         if declaration.declarators.is_empty() && self.lacks_type(&declaration.ty) {
             return;
         }
@@ -27,7 +28,7 @@ impl Analyzer<'_> {
         self.check_precision(record.precision, base);
         let storage = self.global_storage(&record);
         if declaration.declarators.is_empty() {
-            self.layout(&record, self.layout_place(storage, base));
+            self.layout(&record, self.layout_subject(storage, base));
         }
         for declarator in &declaration.declarators {
             let ty = self.with_array(base, &declarator.array);
@@ -101,7 +102,7 @@ impl Analyzer<'_> {
     ) {
         let name = declarator.name;
         let named_well = self.check_name(name) && self.check_block_name(name);
-        let layout = self.layout(record, self.layout_place(storage, ty));
+        let layout = self.layout(record, self.layout_subject(storage, ty));
         self.check_index_location(&layout);
         let ty = self.check_global_type(ty, storage, record, ty_span, name.span);
         let fits = self.check_global_size(ty, storage, false, name.span);
@@ -167,22 +168,22 @@ impl Analyzer<'_> {
     fn check_index_location(&mut self, layout: &Layout) {
         let (Some((index, span)), None) = (layout.index, layout.location) else { return };
         self.report(
-            Diagnostic::new(&qualifiers::LAYOUT_VALUE, span, "`index` needs a `location` beside it")
+            Diagnostic::new(&qualifiers::LAYOUT_VALUE, span, "`index` needs a `location`")
                 .here("no location given")
                 .help(format!("write `location = 0, index = {index}`")),
         );
     }
 
-    fn layout_place(&self, storage: Storage, ty: TypeId) -> LayoutPlace {
+    fn layout_subject(&self, storage: Storage, ty: TypeId) -> LayoutSubject {
         match (storage, self.stage) {
-            (Storage::In, Stage::Vertex) => LayoutPlace::VertexInput,
-            (Storage::In, _) => LayoutPlace::Other("an input variable"),
-            (Storage::Out, Stage::Fragment) => LayoutPlace::FragmentOutput,
-            (Storage::Out, _) => LayoutPlace::Other("an output variable"),
-            (Storage::Uniform, _) if self.types.contains_sampler(ty) => LayoutPlace::Sampler,
-            (Storage::Uniform, _) => LayoutPlace::Other("a uniform outside of a block"),
-            (Storage::Const, _) => LayoutPlace::Other("a constant"),
-            (Storage::Private, _) => LayoutPlace::Other("a variable without a storage qualifier"),
+            (Storage::In, Stage::Vertex) => LayoutSubject::VertexInput,
+            (Storage::In, _) => LayoutSubject::Other("an input variable"),
+            (Storage::Out, Stage::Fragment) => LayoutSubject::FragmentOutput,
+            (Storage::Out, _) => LayoutSubject::Other("an output variable"),
+            (Storage::Uniform, _) if self.types.contains_sampler(ty) => LayoutSubject::Sampler,
+            (Storage::Uniform, _) => LayoutSubject::Other("a uniform outside a block"),
+            (Storage::Const, _) => LayoutSubject::Other("a constant"),
+            (Storage::Private, _) => LayoutSubject::Other("a variable without a storage qualifier"),
         }
     }
 
@@ -292,11 +293,7 @@ impl Analyzer<'_> {
 
     /// Checks that a size covers all elements that were used before.
     pub(in crate::analysis) fn check_resize(&mut self, key: ArrayKey, size: u32, span: Span) {
-        let used = match key {
-            ArrayKey::Local(id) => self.local_array_uses.get(&id),
-            _ => self.array_uses.get(&key),
-        };
-        let Some(&(largest, at)) = used else { return };
+        let Some((largest, at)) = self.array_uses.largest(key) else { return };
         if largest >= size {
             self.report(
                 Diagnostic::new(&types::INDEX_RANGE, at, format!("the array has no element {largest}"))

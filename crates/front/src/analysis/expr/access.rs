@@ -1,6 +1,7 @@
 //! Analyzes access to parts of values: `a.b`, `a.xyz`, `a[i]`, `a.length()` (§5.5 to §5.7).
 
-use super::super::context::{Analyzer, ArrayKey};
+use super::super::arrays::ArrayKey;
+use super::super::context::Analyzer;
 use super::swizzle::{self, Fault};
 use crate::diagnostic::codes::{names, types};
 use crate::diagnostic::{Diagnostic, did_you_mean};
@@ -161,7 +162,7 @@ impl Analyzer<'_> {
             self.report(
                 Diagnostic::new(&types::UNSIZED_ARRAY, at, "an array without a size takes constant indices only")
                     .here("not a constant expression")
-                    .help("declare the array with a size before this place"),
+                    .help("declare the array with a size before this"),
             );
             return false;
         }
@@ -176,7 +177,7 @@ impl Analyzer<'_> {
             let last = size.map_or(String::new(), |size| format!(": the last is {}", size.saturating_sub(1)));
             self.report(
                 Diagnostic::new(&types::INDEX_RANGE, at, format!("a `{name}` has no element {value}"))
-                    .here(format!("outside of its range{last}")),
+                    .here(format!("out of range{last}")),
             );
             return false;
         }
@@ -218,13 +219,7 @@ impl Analyzer<'_> {
             },
             _ => return,
         };
-        let entry = match key {
-            ArrayKey::Local(id) => self.local_array_uses.entry(id).or_insert((index, at)),
-            _ => self.array_uses.entry(key).or_insert((index, at)),
-        };
-        if entry.0 < index {
-            *entry = (index, at);
-        }
+        self.array_uses.note(key, index, at);
     }
 
     /// `a.length()`
@@ -250,9 +245,9 @@ impl Analyzer<'_> {
             Type::Array(_, ArraySize::Unsized) => {
                 let at = self.span(base);
                 let help = if self.is_geometry_input(base) {
-                    "put `layout(triangles) in;` or another input primitive before this place"
+                    "put `layout(triangles) in;` or another input primitive before this"
                 } else {
-                    "declare the array with a size before this place"
+                    "declare the array with a size before this"
                 };
                 self.report(
                     Diagnostic::new(&types::UNSIZED_ARRAY, at, "the length of an array without a size is not known")

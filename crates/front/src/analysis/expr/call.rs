@@ -70,7 +70,7 @@ impl Analyzer<'_> {
         let help = super::foreign::function(spelling).or_else(|| near(self));
         self.report(
             Diagnostic::new(&names::UNKNOWN_FUNCTION, name.span, format!("there is no function `{spelling}`"))
-                .here("not declared before this place")
+                .here("not declared before this")
                 .maybe_help(help),
         );
         false

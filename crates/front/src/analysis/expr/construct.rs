@@ -36,7 +36,7 @@ impl Analyzer<'_> {
                 let name = self.type_name(ty);
                 self.report(
                     Diagnostic::new(&types::CONSTRUCTOR, head, format!("`{name}` has no constructor"))
-                        .here("no value of this type can be made"),
+                        .here("no value of this type can be constructed"),
                 );
                 self.poison(span)
             }
@@ -47,7 +47,7 @@ impl Analyzer<'_> {
     fn construct_scalar(&mut self, ty: TypeId, scalar: Scalar, arguments: &[ExprId], head: Span, span: Span) -> ExprId {
         let name = self.type_name(ty);
         let &[argument] = arguments else {
-            let message = format!("`{name}` is made of one argument, not {}", arguments.len());
+            let message = format!("`{name}` takes one argument, not {}", arguments.len());
             self.report(Diagnostic::new(&types::CONSTRUCTOR, self.past(arguments, 1, head), message));
             return self.poison(span);
         };
@@ -146,8 +146,8 @@ impl Analyzer<'_> {
                 let span = self.past(arguments, index, head);
                 self.report(
                     Diagnostic::new(&types::CONSTRUCTOR, span, format!("too many arguments for `{name}`"))
-                        .here("not used any more")
-                        .label(head, format!("the {wanted} components are full before it")),
+                        .here("not used")
+                        .label(head, format!("the {wanted} components are complete before it")),
                 );
                 return false;
             }
@@ -155,7 +155,7 @@ impl Analyzer<'_> {
         }
         if have < wanted {
             let components = if have == 1 { "component" } else { "components" };
-            let message = format!("`{name}` is made of {wanted} components, and here are {have}");
+            let message = format!("`{name}` needs {wanted} components, not {have}");
             self.report(Diagnostic::new(&types::CONSTRUCTOR, head, message).here(format!("{have} {components} given")));
             return false;
         }
@@ -187,7 +187,7 @@ impl Analyzer<'_> {
         if let ArraySize::Sized(size) = size
             && size != given
         {
-            let message = format!("an array of {size} elements is made of {size} arguments, not {given}");
+            let message = format!("an array of {size} elements takes {size} arguments, not {given}");
             let at = self.past(&arguments, size as usize, head);
             self.report(Diagnostic::new(&types::CONSTRUCTOR, at, message).here(format!("{given} given")));
             return self.poison(span);
@@ -215,7 +215,7 @@ impl Analyzer<'_> {
             self.types.structure(id).members.iter().map(|member| (member.name.clone(), member.ty)).collect();
         let (name, declared) = (self.type_name(ty), self.types.structure(id).span);
         if members.len() != arguments.len() {
-            let message = format!("`{name}` has {} members, and here are {} arguments", members.len(), arguments.len());
+            let message = format!("`{name}` takes {} arguments, not {}", members.len(), arguments.len());
             let at = self.past(&arguments, members.len(), head);
             self.report(Diagnostic::new(&types::CONSTRUCTOR, at, message).label(declared, "declared here"));
             return self.poison(span);

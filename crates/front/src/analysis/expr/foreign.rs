@@ -21,7 +21,7 @@ static FUNCTIONS: &[(&str, &str)] = &[
     ("tex2D", "write `texture(s, p)`"),
     ("texCUBE", "write `texture(s, p)`"),
     ("tex2Dlod", "write `textureLod(s, p.xy, p.w)`"),
-    ("printf", "a shader writes to its outputs alone"),
+    ("printf", "a shader can only write to its outputs"),
 ];
 
 /// Types of HLSL and C.
@@ -47,7 +47,7 @@ static LATER: &[(&str, u16)] = &[
     ("barrier", 400), ("memoryBarrier", 420),
 ];
 
-/// What to write instead of a function that does not exist.
+/// The replacement for a function that does not exist.
 pub(super) fn function(name: &str) -> Option<String> {
     let foreign = FUNCTIONS.iter().find(|row| row.0 == name).map(|row| row.1.to_owned());
     foreign.or_else(|| {
@@ -56,7 +56,7 @@ pub(super) fn function(name: &str) -> Option<String> {
     })
 }
 
-/// What to write instead of a type that does not exist.
+/// The replacement for a type that does not exist.
 pub(in crate::analysis) fn type_name(name: &str) -> Option<String> {
     TYPES.iter().find(|row| row.0 == name).map(|row| format!("write `{}`", row.1))
 }

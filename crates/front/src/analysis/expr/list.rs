@@ -53,7 +53,7 @@ impl Analyzer<'_> {
             Type::Scalar(_) | Type::Void | Type::Sampler(_) => {
                 let name = self.type_name(ty);
                 self.report(
-                    Diagnostic::new(&types::LIST, span, format!("a `{name}` is not made from a list"))
+                    Diagnostic::new(&types::LIST, span, format!("a `{name}` cannot be initialized by a list"))
                         .here("remove the braces"),
                 );
                 self.poison(span)

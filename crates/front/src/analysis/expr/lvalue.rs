@@ -49,7 +49,7 @@ impl Analyzer<'_> {
 
     fn refusal(&self, id: ExprId) -> Option<Refusal> {
         if self.types.contains_sampler(self.ty(id)) {
-            let why = "a sampler is set by the application alone".to_owned();
+            let why = "only the application can set a sampler".to_owned();
             return Some(Refusal { at: self.span(id), why, declared: None });
         }
         let mut at = id;

@@ -154,7 +154,7 @@ impl Analyzer<'_> {
         let help = self.nearest_variable(spelling).map(|near| format!("did you mean `{near}`?"));
         self.report(
             Diagnostic::new(&names::UNDECLARED, name.span, format!("`{spelling}` is not declared"))
-                .here("not known at this place")
+                .here("not known here")
                 .maybe_help(help),
         );
     }
@@ -183,7 +183,7 @@ impl Analyzer<'_> {
         let spelling = self.name(name);
         self.report(
             Diagnostic::new(&names::NOT_A_VARIABLE, name.span, format!("`{spelling}` is {what}, not a variable"))
-                .here("a value is wanted here")
+                .here("a value is required here")
                 .label(declared, "declared here"),
         );
         self.poison(name.span)

@@ -152,8 +152,7 @@ impl Analyzer<'_> {
         Some(Typed { left, right, operator, ty })
     }
 
-    /// `% & ^
-    /// ` on integers of the same signedness.
+    /// `% & ^ |` on integers of the same signedness.
     fn integers(&mut self, operator: BinaryOp, (left, right): (ExprId, ExprId)) -> Option<Typed> {
         let (a, b) = (self.ty(left), self.ty(right));
         let kind = self.types.scalar_of(a)?;
@@ -299,7 +298,7 @@ impl Analyzer<'_> {
         let vectors = kinds.iter().any(|(ty, _)| matches!(ty, Type::Vector(..)));
         match (spelling, kinds) {
             ("<" | ">" | "<=" | ">=", _) if vectors => {
-                Some("compare vectors with `lessThan`, `greaterThan` and their like".into())
+                Some("compare vectors with `lessThan`, `greaterThan` and so on".into())
             }
             ("%", _) => Some("`%` is for integers; use `mod(a, b)` for floats".into()),
             ("&" | "|" | "^", [(_, Some(Scalar::Bool)), (_, Some(Scalar::Bool))]) => {

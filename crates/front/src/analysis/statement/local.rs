@@ -1,7 +1,8 @@
 //! Analyzes local variables (§4.2, §4.3).
 
-use super::super::context::{Analyzer, ArrayKey};
-use super::super::qualifiers::{Place, Qualifiers};
+use super::super::arrays::ArrayKey;
+use super::super::context::Analyzer;
+use super::super::qualifiers::{DeclarationContext, Qualifiers};
 use super::super::scope::Entry;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::{qualifiers, types};
@@ -13,7 +14,7 @@ use crate::syntax::ast::{Declarator, VariableDecl};
 impl Analyzer<'_> {
     /// `vec3 a = b, c;` inside a function.
     pub(super) fn local_variables(&mut self, declaration: &VariableDecl, out: &mut Vec<Stmt>) {
-        let record = self.qualifiers(&declaration.qualifiers, Place::Local);
+        let record = self.qualifiers(&declaration.qualifiers, DeclarationContext::Local);
         let base = self.type_spec(&declaration.ty);
         self.check_precision(record.precision, base);
         for declarator in &declaration.declarators {
@@ -130,9 +131,9 @@ impl Analyzer<'_> {
         (ty, Some(expr), value)
     }
 
-    /// `while (bool b = f())`: declares the variable anew in each iteration.
+    /// `while (bool b = f())`: declares the variable again in each iteration.
     pub(super) fn condition_variable(&mut self, declaration: &VariableDecl) -> Condition {
-        let record = self.qualifiers(&declaration.qualifiers, Place::Local);
+        let record = self.qualifiers(&declaration.qualifiers, DeclarationContext::Local);
         let base = self.type_spec(&declaration.ty);
         let Some(declarator) = declaration.declarators.first() else {
             return Condition { local: None, expr: self.poison(declaration.ty.span) };

@@ -84,7 +84,7 @@ impl Analyzer<'_> {
             }
             S::Broken(names) => return self.enter_broken(names),
             S::Empty => return,
-            // A declaration of nothing, `S;`. Only the meaning of the name tells it from an expression (§9).
+            // A declaration of nothing, `S;`. Only the meaning of the name distinguishes it from an expression (§9).
             S::Expr(expr) if self.is_struct_name(*expr) => return,
             S::Expr(expr) => StmtKind::Expr(self.expr(*expr)),
             S::Variables(declaration) => return self.local_variables(declaration, out),

@@ -84,7 +84,7 @@ impl Analyzer<'_> {
             self.report(
                 Diagnostic::new(&statements::EMPTY_CASE, span, "a label at the end of a `switch` without a statement")
                     .here("nothing follows")
-                    .help("write `break;` behind it"),
+                    .help("write `break;` after it"),
             );
         }
         cases

@@ -1,4 +1,4 @@
-//! Angle, trigonometry, exponential and common functions (GLSL 1.50 §8.1 to §8.3): component by component.
+//! Angle, trigonometry, exponential and common functions (GLSL 1.50 §8.1 to §8.3), which work component by component.
 
 use super::{BuiltinFunction, Effect, Parameter, Row, matcher, rows};
 

@@ -1,23 +1,23 @@
-//! [`Matcher`]: the types that a parameter of a built-in function takes, and the names for them that the table uses.
+//! [`Matcher`]: the types that a parameter of a built-in function accepts, and their names in the table.
 
 #![expect(non_upper_case_globals, reason = "the constants are spelled as the specification's placeholders")]
 
 use crate::language::{ParamMode, SamplerDim, SamplerType, Scalar, TypeId};
 
-/// The types that a parameter takes. All placeholders of one row vary together.
+/// The types that a parameter accepts. All placeholders of one row vary together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Matcher {
     /// One type.
     Fixed(TypeId),
-    /// `genType` and its like: the scalar and the vectors of two to four components.
+    /// `genType` and similar: the scalar and the vectors of two to four components.
     Gen(Scalar),
     /// `out genType`.
     OutGen(Scalar),
-    /// `vec` and its like: the vectors of two to four components.
+    /// `vec` and similar: the vectors of two to four components.
     Vec(Scalar),
     /// `mat`: all nine matrices.
     Mat,
-    /// `gsampler2D` and its like: float, `int` and `uint` texels.
+    /// `gsampler2D` and similar: float, `int` and `uint` texels.
     GSampler(SamplerDim, bool),
     /// `gvec4`: the texel of a `gsampler`.
     GVec4,
@@ -26,7 +26,7 @@ pub enum Matcher {
 }
 
 impl Matcher {
-    /// How many types it stands for.
+    /// The number of types.
     pub(super) fn choices(self) -> u8 {
         match self {
             Self::Fixed(_) | Self::OptionalBias => 1,
@@ -36,7 +36,7 @@ impl Matcher {
         }
     }
 
-    /// The type with this number.
+    /// The type with this index.
     pub(super) fn choose(self, choice: u8) -> TypeId {
         let texel = match choice {
             0 => Scalar::Float,
@@ -62,7 +62,7 @@ impl Matcher {
         }
     }
 
-    /// As the specification spells it.
+    /// The spelling of the specification.
     pub fn spelling(self) -> String {
         let prefix = |scalar: Scalar| match scalar {
             Scalar::Bool => "B",

@@ -1,9 +1,9 @@
-//! The built-in functions (GLSL 1.50 §8) as a table: one [`Row`] an overload as the specification prints it.
+//! The built-in functions (GLSL 1.50 §8) as a table, with one [`Row`] for each overload of the specification.
 //!
-//! *In:* a name. *Out:* its rows, and of each row the concrete [`Signature`]s that its placeholders (`genType`, `mat`,
-//! `gsampler2D`) stand for. *Holds:* all placeholders of a row vary together, so a row has one list of signatures.
-//! *Not done here:* overload resolution (`analysis`), evaluation (`analysis::fold`, `cpu`), lowering (`lower`); those
-//! match the [`BuiltinFunction`] of the row without a wildcard.
+//! *In:* a name. *Out:* its rows, and for each row the concrete [`Signature`]s of its placeholders (`genType`, `mat`,
+//! `gsampler2D`). *Holds:* all placeholders of a row vary together, so a row has one list of signatures. *Not done
+//! here:* overload resolution (`analysis`), and the computation of a function, which
+//! [`operations`](super::operations) defines by the [`BuiltinFunction`] of the row.
 
 mod common;
 mod geometric;
@@ -17,16 +17,16 @@ use super::{Availability, BuiltinFunction};
 use crate::language::{ParamMode, Stage, TypeId, Types};
 use std::sync::OnceLock;
 
-/// What a call does besides giving a value.
+/// The effect of a call besides its value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Effect {
     /// Nothing.
     None,
     /// It writes an argument (`modf`).
     WritesArgument,
-    /// It looks at the neighboring fragments (§8.8).
+    /// It reads from neighboring fragments (§8.8).
     Derivative,
-    /// It reads a texture, whose level of detail may hang on the neighboring fragments (§8.7).
+    /// It reads a texture, whose level of detail may depend on the neighboring fragments (§8.7).
     Texture,
     /// It emits a vertex or ends a primitive (§8.10).
     Emits,
@@ -35,36 +35,36 @@ pub enum Effect {
 /// A parameter of a [`Row`].
 #[derive(Clone, Copy, Debug)]
 pub struct Parameter {
-    /// The name that the specification gives it.
+    /// Its name in the specification.
     pub name: &'static str,
-    /// The types that it takes.
+    /// The types that it accepts.
     pub matcher: Matcher,
 }
 
-/// One overload as the specification prints it.
+/// An overload, as the specification prints it.
 #[derive(Clone, Copy, Debug)]
 pub struct Row {
-    /// What it computes.
+    /// The identity of the function.
     pub function: BuiltinFunction,
-    /// The name in GLSL; older names of a computation have rows of their own.
+    /// The name in GLSL. Older names of a computation have separate rows.
     pub name: &'static str,
-    /// The result.
+    /// The result type.
     pub ret: Matcher,
     /// The parameters.
     pub params: &'static [Parameter],
-    /// Where it exists.
+    /// The languages and stages in which it exists.
     pub availability: Availability,
     /// The section of GLSL 1.50.
     pub section: &'static str,
-    /// Whether it may stand in a constant expression (§4.3.3).
+    /// Whether it is allowed in a constant expression (§4.3.3).
     pub constant: bool,
-    /// What it does besides.
+    /// Its effect besides the result.
     pub effect: Effect,
     /// Whether the specification calls it deprecated.
     pub deprecated: bool,
 }
 
-/// The most parameters that a built-in function has.
+/// The largest number of parameters of a built-in function.
 pub const MAX_PARAMS: usize = 5;
 
 /// A concrete overload.
@@ -72,19 +72,19 @@ pub const MAX_PARAMS: usize = 5;
 pub struct Signature {
     params: [(TypeId, ParamMode); MAX_PARAMS],
     n_params: u8,
-    /// The result's type.
+    /// The type of the result.
     pub ret: TypeId,
 }
 
 impl Signature {
-    /// The parameters' types and modes.
+    /// The types and modes of the parameters.
     pub fn params(&self) -> &[(TypeId, ParamMode)] {
         self.params.get(..usize::from(self.n_params)).unwrap_or(&[])
     }
 }
 
 impl Row {
-    /// What a row is like unless it says otherwise.
+    /// The default columns of a row.
     const fn base(section: &'static str, version: u16) -> Self {
         Self {
             function: BuiltinFunction::Radians,
@@ -107,8 +107,8 @@ impl Row {
         Self { availability, ..self }
     }
 
-    /// The concrete overloads in a stage, cheap to iterate: nothing is allocated. The optional `bias` gives each of them
-    /// a second time, in fragment shaders alone.
+    /// The concrete overloads in a stage. Iterating allocates nothing. In fragment shaders, the optional `bias`
+    /// yields each of them a second time.
     pub fn signatures(&'static self, stage: Stage) -> impl Iterator<Item = Signature> {
         let optional = self.params.last().is_some_and(|param| param.matcher == Matcher::OptionalBias);
         let n_required = self.params.len() - usize::from(optional);
@@ -117,7 +117,7 @@ impl Row {
             .flat_map(move |n_params| (0..self.choices()).map(move |choice| self.signature(choice, n_params)))
     }
 
-    /// How many types the placeholders stand for.
+    /// The number of types of the placeholders.
     fn choices(&self) -> u8 {
         let params = self.params.iter().map(|param| param.matcher);
         params.chain([self.ret]).map(Matcher::choices).max().unwrap_or(1)
@@ -131,7 +131,7 @@ impl Row {
         Signature { params, n_params: n_params as u8, ret: self.ret.choose(choice) }
     }
 
-    /// As the specification prints it: `gvec4 texture(gsampler2D sampler, vec2 P [, float bias])`.
+    /// The prototype as the specification prints it: `gvec4 texture(gsampler2D sampler, vec2 P [, float bias])`.
     pub fn prototype(&self) -> String {
         let mut text = format!("{} {}(", self.ret.spelling(), self.name);
         for (index, param) in self.params.iter().enumerate() {
@@ -147,7 +147,7 @@ impl Row {
 }
 
 impl Signature {
-    /// As it would be declared: `vec4 texture(sampler2D, vec2)`.
+    /// The overload as a declaration: `vec4 texture(sampler2D, vec2)`.
     pub fn describe(&self, name: &str, types: &Types) -> String {
         let params: Vec<String> = self
             .params()
@@ -161,8 +161,8 @@ impl Signature {
     }
 }
 
-/// Turns lines in the manner of the specification into [`Row`]s: `BASE Identity: genType sin(genType angle);`, where the
-/// base is a constant row that gives all columns but the signature.
+/// Converts lines in the style of the specification to [`Row`]s: `BASE Identity: genType sin(genType angle);`, where
+/// the base is a constant row that contains all other columns.
 macro_rules! rows {
     ($($base:ident $function:ident: $ret:ident $name:ident($($ty:ident $param:ident),*);)*) => {
         &[$(Row {
@@ -183,7 +183,7 @@ pub fn all() -> impl Iterator<Item = &'static Row> {
     TABLES.iter().flat_map(|table| table.iter())
 }
 
-/// All rows sorted by name; rows of one name keep the specification's order.
+/// All rows, sorted by name. Rows with one name keep the specification's order.
 fn by_name() -> &'static [&'static Row] {
     static SORTED: OnceLock<Vec<&'static Row>> = OnceLock::new();
     SORTED.get_or_init(|| {
@@ -193,7 +193,7 @@ fn by_name() -> &'static [&'static Row] {
     })
 }
 
-/// The rows of a name, whatever the version and stage; none for a name that no version has.
+/// The rows with a name, in any version and stage; none if no version has the name.
 pub fn named(name: &str) -> &'static [&'static Row] {
     let rows = by_name();
     let start = rows.partition_point(|row| row.name < name);
@@ -202,26 +202,9 @@ pub fn named(name: &str) -> &'static [&'static Row] {
     rest.get(..len).unwrap_or(&[])
 }
 
-/// Every name once, sorted.
+/// Every name once, in sorted order.
 pub fn names() -> impl Iterator<Item = &'static str> {
     by_name().chunk_by(|a, b| a.name == b.name).filter_map(|rows| rows.first().map(|row| row.name))
-}
-
-impl BuiltinFunction {
-    /// Whether a call may look at the neighboring fragments: derivatives, and texture lookups whose level of detail is
-    /// implicit. (Rectangle, buffer and multisample textures have one level; the sampler's type tells.)
-    pub fn implicit_derivatives(self) -> bool {
-        matches!(
-            self,
-            Self::DFdx
-                | Self::DFdy
-                | Self::Fwidth
-                | Self::Texture
-                | Self::TextureProj
-                | Self::TextureOffset
-                | Self::TextureProjOffset
-        )
-    }
 }
 
 #[cfg(test)]

@@ -20,7 +20,7 @@ fn every_function_has_a_row_and_every_row_a_signature() {
     }
 }
 
-/// The prototypes in each section of GLSL 1.50, counted by hand in its text.
+/// The number of prototypes in each section of GLSL 1.50, counted by hand in its text.
 #[test]
 fn the_table_has_the_specifications_count_of_prototypes() {
     let count = |section: &str| all().filter(|row| row.section == section && !row.deprecated).count();
@@ -30,7 +30,7 @@ fn the_table_has_the_specifications_count_of_prototypes() {
     assert_eq!(count("§8.4"), 8);
     assert_eq!(count("§8.5"), 25);
     assert_eq!(count("§8.6"), 23);
-    // One less than the text: see the module `texture`.
+    // One fewer than in the text: see the module `texture`.
     assert_eq!(count("§8.7"), 149);
     assert_eq!(count("§8.8"), 3);
     assert_eq!(count("§8.9"), 4);

@@ -1,7 +1,7 @@
 //! Texture lookup functions (GLSL 1.50 §8.7).
 //!
-//! Two slips of the 1.50 text are mended as its successors do: the offsets of some `textureProjGradOffset` rows are
-//! integers, and there is no `textureGradOffset` of a cube, since texel offsets do not apply to cube maps.
+//! Two errors of the 1.50 text are corrected as in later versions: the offsets of some `textureProjGradOffset` rows
+//! are integers, and there is no `textureGradOffset` of a cube, since texel offsets do not apply to cube maps.
 
 use super::{BuiltinFunction, Effect, Parameter, Row, matcher, rows};
 
@@ -25,7 +25,8 @@ pub(super) static ROWS: &[Row] = rows! {
     T130 TextureSize: ivec3 textureSize(sampler2DArrayShadow sampler, int lod);
     T140 TextureSize: int textureSize(gsamplerBuffer sampler);
     T150 TextureSize: ivec2 textureSize(gsampler2DMS sampler);
-    // 1.50 prints `ivec2` here, against what it says of arrays before the table; later versions and all drivers have `ivec3`.
+    // 1.50 prints `ivec2` here, which contradicts its rule for arrays before the table. Later versions and all
+    // drivers have `ivec3`.
     T150 TextureSize: ivec3 textureSize(gsampler2DMSArray sampler);
 
     T130 Texture: gvec4 texture(gsampler1D sampler, float P, optional bias);

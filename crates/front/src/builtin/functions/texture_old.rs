@@ -1,7 +1,7 @@
 //! Deprecated names of texture lookup functions (end of GLSL 1.50 §8.7, and ARB_texture_rectangle).
 //!
-//! They share the identities of the functions that replace them. The `shadow` names give a `vec4` where their successors
-//! give the `float` d: (d, 0, 0, 1), since the core profile has no DEPTH_TEXTURE_MODE that would say otherwise.
+//! They share the identities of the functions that replace them. The `shadow` names return a `vec4` where their
+//! successors return the `float` d: (d, 0, 0, 1), since the core profile has no DEPTH_TEXTURE_MODE to change that.
 
 use super::{Availability, BuiltinFunction, Effect, Parameter, Row, matcher, rows};
 use crate::language::Extensions;

@@ -4,42 +4,45 @@ use super::Example::{Fragment, None, Text, Vertex};
 
 codes! {
     NOT_SUPPORTED_YET = "E0001" "not-supported-yet" Error ""
-        "The source uses a construct that glisten knows of and cannot carry yet. The message names it. Nothing is \
-         translated rather than translated wrongly."
+        "The source uses a construct that glisten knows but does not support yet. The message names it. glisten \
+         translates nothing rather than translating it incorrectly."
         bad None, good None;
     INTERNAL = "E0002" "internal-error" Error ""
-        "glisten contradicted itself. This is a fault of glisten and not of the source; please report it with the source."
+        "glisten contradicted itself. This is a bug in glisten and not in the source; please report it with the \
+         source."
         bad None, good None;
     TOO_DEEP = "E0003" "nesting-too-deep" Error ""
-        "Expressions, blocks and types may be nested 256 levels deep. Long chains (`a + b + c`, `else if`) are not \
-         nesting and may be far longer."
+        "Expressions, blocks and types may nest 256 levels deep. Long chains (`a + b + c`, `else if`) do not count \
+         as nesting and may be far longer."
         bad None, good Fragment("out vec4 c; void main() { c = vec4(((1.0))); }");
     TOO_LARGE = "E0004" "source-too-large" Error ""
         "A source may have 8 MiB after its includes."
         bad None, good None;
     FILE_NOT_FOUND = "E0010" "file-not-found" Error ""
-        "A file that the command line, a scene or an include names does not exist. Paths on the command line count from \
-         the current folder, paths in a scene from the folder of the scene file."
+        "A file that the command line, a scene or an include names does not exist. Paths on the command line are \
+         relative to the current folder, paths in a scene to the folder of the scene file."
         bad Text("glisten lint fong.vert"), good Text("glisten lint phong.vert");
     FILE_UNREADABLE = "E0011" "file-unreadable" Error ""
-        "A file exists and the system does not let it be read; the message says what the system answered."
+        "A file exists, but the system does not let it be read. The message contains the system's reason."
         bad None, good None;
     FILE_IS_FOLDER = "E0012" "file-is-folder" Error ""
-        "A folder stands where a file should. Of all commands only `lint` scans folders."
+        "The path is a folder, but a file is required. Only `lint` searches folders."
         bad Text("glisten compile shaders/ -o out"), good Text("glisten compile shaders/phong.vert shaders/phong.frag -o out");
     EMPTY_SOURCE = "E0013" "empty-source" Error "GLSL 1.50 §3.3"
-        "The file holds nothing, or nothing but white space. A shader has at least a `#version` line and a `main`; an \
-         empty file is most often a save or a download that failed."
+        "The file is empty or contains only white space. A shader has at least a `#version` line and a `main`. An \
+         empty file is most often the result of a failed save or download."
         bad None, good Vertex("void main() { gl_Position = vec4(0.0); }");
     BINARY_SOURCE = "E0014" "binary-source" Error "GLSL 1.50 §3.1"
-        "The file is not text: it holds NUL bytes or mostly bytes that no text has. Compiled SPIR-V, a picture, or text \
-         in UTF-16 looks like that. Single bytes that are not UTF-8 are forgiven, and are legal in comments alone."
+        "The file is not text: it contains NUL bytes, or mostly bytes that do not occur in text. Compiled SPIR-V, \
+         images and UTF-16 text look like that. Single bytes that are not UTF-8 are forgiven, and are legal in \
+         comments."
         bad None, good Vertex("void main() { gl_Position = vec4(0.0); }");
     BAD_CONFIG = "E0015" "bad-configuration" Error ""
-        "A `glisten.toml` is not TOML, or holds a key or a code that glisten does not know."
+        "A `glisten.toml` is not TOML, or contains a key or a code that glisten does not know."
         bad Text("[lint]\nalow = [\"L0001\"]"), good Text("[lint]\nallow = [\"L0001\"]");
     LONE_STAGE = "W0001" "lone-stage" Warning "OpenGL 3.2 §2.11"
-        "A stage is compiled without its partner. Locations of varyings, the uniform block and bindings are then those of \
-         this stage alone, and will not fit another stage that is compiled alone, too. Give both files in one command."
+        "A stage is compiled without its partner. The locations of varyings, the uniform block and the bindings are \
+         then those of this stage alone. They do not fit another stage that is compiled alone, too. Give both files \
+         in one command."
         bad Text("glisten compile phong.vert -o out"), good Text("glisten compile phong.vert phong.frag -o out");
 }

@@ -5,8 +5,8 @@ use crate::language::Stage;
 
 codes! {
     MISSING_MAIN = "E0701" "missing-main" Error "GLSL 1.50 §6.1"
-        "Every stage of a program needs a function `main` without parameters and result; it may be defined in any one of \
-         the shaders of the stage."
+        "Every stage of a program needs a function `main` without parameters or a result. It may be defined in any \
+         one of the shaders of the stage."
         bad Program(
             "out float x; void mian() { x = 1.0; gl_Position = vec4(0.0); }",
             "in float x; out vec4 c; void main() { c = vec4(x); }"),
@@ -14,8 +14,8 @@ codes! {
             "out float x; void main() { x = 1.0; gl_Position = vec4(0.0); }",
             "in float x; out vec4 c; void main() { c = vec4(x); }");
     NO_MATCHING_OUTPUT = "E0702" "no-matching-output" Error "GLSL 1.50 §4.3.4"
-        "An input that a stage reads must be an output of the stage before it, of the same name; blocks are matched by \
-         their block names. An input that is declared and never read needs no partner."
+        "An input that a stage reads must be an output of the previous stage with the same name; blocks match by \
+         their block names. An input that is declared but never read needs no partner."
         bad Program(
             "out vec4 color; void main() { color = vec4(1.0); gl_Position = vec4(0.0); }",
             "in vec4 colour; out vec4 c; void main() { c = colour; }"),
@@ -32,8 +32,8 @@ codes! {
             "out vec4 v; void main() { v = vec4(1.0); gl_Position = vec4(0.0); }",
             "in vec4 v; out vec4 c; void main() { c = v; }");
     INTERPOLATION_MISMATCH = "E0704" "interpolation-mismatch" Error "GLSL 1.50 §4.3.9"
-        "The interpolation qualifiers of an output and of the input that it feeds must be the same, and be there on both \
-         sides or on neither. Some compilers let a difference pass and take what the fragment stage says."
+        "The interpolation qualifiers of an output and of the input that it feeds must be the same, and must be on \
+         both sides or on neither. Some compilers accept a difference and use the qualifier of the fragment stage."
         bad Program(
             "out vec4 v; void main() { v = vec4(1.0); gl_Position = vec4(0.0); }",
             "flat in vec4 v; out vec4 c; void main() { c = v; }"),
@@ -41,7 +41,7 @@ codes! {
             "flat out vec4 v; void main() { v = vec4(1.0); gl_Position = vec4(0.0); }",
             "flat in vec4 v; out vec4 c; void main() { c = v; }");
     QUALIFIER_MISMATCH = "E0705" "qualifier-mismatch" Error "GLSL 1.50 §4.3.9"
-        "`centroid` and `invariant` must be there on both sides of an interface between stages, or on neither."
+        "`centroid` and `invariant` must be on both sides of an interface between stages, or on neither."
         bad Program(
             "centroid out vec4 v; void main() { v = vec4(1.0); gl_Position = vec4(0.0); }",
             "in vec4 v; out vec4 c; void main() { c = v; }"),
@@ -49,8 +49,8 @@ codes! {
             "centroid out vec4 v; void main() { v = vec4(1.0); gl_Position = vec4(0.0); }",
             "centroid in vec4 v; out vec4 c; void main() { c = v; }");
     INTERFACE_BLOCK_MISMATCH = "E0706" "interface-block-mismatch" Error "GLSL 1.50 §4.3.7"
-        "An output block and the input block of the same block name must have the same members: as many, in the same \
-         order, with the same names, types and qualifiers; and the same array size. Instance names may differ."
+        "An output block and the input block of the same block name must have the same number of members in the \
+         same order, with the same names, types and qualifiers, and the same array size. Instance names may differ."
         bad Program(
             "out B { vec4 a; vec4 b; } o; void main() { o.a = o.b = vec4(1.0); gl_Position = vec4(0.0); }",
             "in B { vec4 b; vec4 a; } i; out vec4 c; void main() { c = i.a; }"),
@@ -58,7 +58,8 @@ codes! {
             "out B { vec4 a; vec4 b; } o; void main() { o.a = o.b = vec4(1.0); gl_Position = vec4(0.0); }",
             "in B { vec4 a; vec4 b; } i; out vec4 c; void main() { c = i.a; }");
     UNIFORM_TYPE_MISMATCH = "E0707" "uniform-type-mismatch" Error "GLSL 1.50 §4.3.5"
-        "All shaders of a program share one name space of uniforms: a name has the same type wherever it is declared."
+        "All shaders of a program share one name space of uniforms: a name must have the same type wherever it is \
+         declared."
         bad Program(
             "uniform vec3 u; void main() { gl_Position = vec4(u, 1.0); }",
             "uniform vec4 u; out vec4 c; void main() { c = u; }"),
@@ -83,20 +84,20 @@ codes! {
             "layout(std140) uniform B { vec4 a; }; void main() { gl_Position = a; }",
             "layout(std140) uniform B { vec4 a; }; out vec4 c; void main() { c = a; }");
     TOO_MANY_ATTRIBUTES = "E0710" "too-many-attributes" Error "OpenGL 3.2 §2.11.3"
-        "There are 16 attribute locations. A scalar or vector takes one, a matrix one a column, an array as many as its \
-         elements; attributes that nothing reads take none."
+        "There are 16 attribute locations. A scalar or vector takes one, a matrix one for each column, an array as \
+         many as its elements. Attributes that nothing reads take none."
         bad Vertex("in mat4 m[4]; in vec4 v; void main() { gl_Position = m[0] * m[1] * m[2] * m[3] * v; }"),
         good Vertex("in mat4 m[3]; in vec4 v; void main() { gl_Position = m[0] * m[1] * m[2] * v; }");
     ATTRIBUTE_ALIASING = "E0711" "attribute-aliasing" Error "OpenGL 3.2 §2.11.3"
-        "Two attributes stand at the same location, and one run of the shader may read both. Only one of them can have \
-         its own data."
+        "Two attributes have the same location, and one execution of the shader may read both. Only one of them can \
+         have its own data."
         bad Vertex("#extension GL_ARB_explicit_attrib_location : enable\nlayout(location = 1) in vec4 a;\n\
                     layout(location = 1) in vec4 b; void main() { gl_Position = a + b; }"),
         good Vertex("#extension GL_ARB_explicit_attrib_location : enable\nlayout(location = 1) in vec4 a;\n\
                      layout(location = 2) in vec4 b; void main() { gl_Position = a + b; }");
     OUTPUT_CONFLICT = "E0712" "output-conflict" Error "GLSL 1.50 §7.2"
-        "A fragment stage writes `gl_FragColor`, or elements of `gl_FragData`, or outputs of its own, and never two kinds \
-         of these, in whichever of its shaders."
+        "A fragment stage writes either `gl_FragColor`, or elements of `gl_FragData`, or its own outputs. It must \
+         not write two of these, even in different shaders of the stage."
         bad Shaders(&[
             (Stage::Fragment, "void tint(); void main() { tint(); gl_FragColor = vec4(1.0); }"),
             (Stage::Fragment, "out vec4 c; void tint() { c = vec4(0.5); }"),
@@ -112,12 +113,12 @@ codes! {
         good Fragment("#extension GL_ARB_explicit_attrib_location : enable\nlayout(location = 0) out vec4 a;\n\
                        layout(location = 1) out vec4 b; void main() { a = b = vec4(1.0); }");
     TOO_MANY_OUTPUTS = "E0714" "too-many-outputs" Error "OpenGL 3.2 §3.9.2"
-        "There are eight color numbers, from 0 to 7. An array of outputs takes one an element."
+        "There are eight color numbers, from 0 to 7. An array of outputs takes one for each element."
         bad Fragment("out vec4 a[6]; out vec4 b[3]; void main() { a[0] = b[0] = vec4(1.0); }"),
         good Fragment("out vec4 a[6]; out vec4 b[2]; void main() { a[0] = b[0] = vec4(1.0); }");
     TOO_MANY_VARYINGS = "E0715" "too-many-varyings" Error "GLSL 1.50 §7.4"
-        "What goes from the vertices to the fragments takes more than 32 locations of four components, even when scalars \
-         and vectors share them. No target carries more."
+        "The varyings take more than 32 locations of four components, even when scalars and vectors share \
+         locations. No target has more."
         bad Program(
             "out vec4 v[40]; void main() { v[0] = vec4(1.0); gl_Position = vec4(0.0); }",
             "in vec4 v[40]; out vec4 c; void main() { c = v[0]; }"),
@@ -125,19 +126,20 @@ codes! {
             "out vec4 v[4]; void main() { v[0] = vec4(1.0); gl_Position = vec4(0.0); }",
             "in vec4 v[4]; out vec4 c; void main() { c = v[0]; }");
     TOO_MANY_SAMPLERS = "E0716" "too-many-samplers" Error "GLSL 1.50 §7.4"
-        "The program declares more than a thousand samplers, elements of arrays counted one by one."
+        "The program declares more than a thousand samplers, counting each element of an array."
         bad Fragment("uniform sampler2D t[2000]; out vec4 c; void main() { c = texture(t[0], vec2(0.0)); }"),
         good Fragment("uniform sampler2D t[2]; out vec4 c; void main() { c = texture(t[0], vec2(0.0)); }");
     TOO_MUCH_UNIFORM_STORAGE = "E0717" "too-much-uniform-storage" Error "OpenGL 3.2 §2.11.4"
-        "A uniform block, or all loose uniforms together, take more than 64 KiB, the most that a target is bound to hold."
+        "A uniform block, or all loose uniforms together, take more than 64 KiB, which is the largest size that \
+         every target supports."
         bad Fragment("uniform vec4 u[5000]; out vec4 c; void main() { c = u[0]; }"),
         good Fragment("uniform vec4 u[50]; out vec4 c; void main() { c = u[0]; }");
     TOO_MANY_BLOCKS = "E0718" "too-many-uniform-blocks" Error "OpenGL 3.2 §2.11.4"
-        "An array of uniform blocks takes a buffer an element, more than any target can bind."
+        "An array of uniform blocks takes one buffer for each element, which is more than any target can bind."
         bad Fragment("uniform B { vec4 a; } b[100]; out vec4 c; void main() { c = b[0].a; }"),
         good Fragment("uniform B { vec4 a; } b[3]; out vec4 c; void main() { c = b[0].a; }");
     MISSING_STAGE = "E0719" "missing-stage" Error "OpenGL 3.2 §2.12"
-        "A geometry shader works on what a vertex shader writes, so a program that has the one needs the other."
+        "A geometry shader processes the output of a vertex shader, so a program that has one needs the other."
         bad Shaders(&[
             (Stage::Geometry, "layout(points) in; layout(points, max_vertices = 1) out; void main() { gl_Position = vec4(0.0); EmitVertex(); }"),
             (Stage::Fragment, "out vec4 c; void main() { c = vec4(1.0); }"),
@@ -148,8 +150,8 @@ codes! {
             (Stage::Fragment, "out vec4 c; void main() { c = vec4(1.0); }"),
         ]);
     MISSING_GEOMETRY_LAYOUT = "E0720" "missing-geometry-layout" Error "GLSL 1.50 §4.3.8"
-        "Some shader of the geometry stage must declare the input primitive, the output primitive and the largest number \
-         of vertices."
+        "Some shader of the geometry stage must declare the input primitive, the output primitive and the largest \
+         number of vertices."
         bad Shaders(&[
             (Stage::Vertex, "void main() { gl_Position = vec4(0.0); }"),
             (Stage::Geometry, "layout(points) in; void main() { }"),
@@ -159,8 +161,8 @@ codes! {
             (Stage::Geometry, "layout(points) in; layout(points, max_vertices = 1) out; void main() { gl_Position = vec4(0.0); EmitVertex(); }"),
         ]);
     SHARED_GLOBAL_MISMATCH = "E0721" "shared-global-mismatch" Error "GLSL 1.50 §4.2.6"
-        "Global variables of one name in shaders of one stage are one variable: they must agree in type, qualifiers and \
-         initializer. An array without a size in one shader takes its size from another."
+        "Global variables with the same name in shaders of one stage are one variable: they must agree in type, \
+         qualifiers and initializer. An array without a size in one shader takes its size from another."
         bad Shaders(&[
             (Stage::Fragment, "float scale; void g(); out vec4 c; void main() { scale = 1.0; g(); c = vec4(scale); }"),
             (Stage::Fragment, "int scale; void g() { scale += 1; }"),
@@ -170,7 +172,7 @@ codes! {
             (Stage::Fragment, "float scale; void g() { scale += 1.0; }"),
         ]);
     DUPLICATE_DEFINITION = "E0722" "duplicate-definition" Error "GLSL 1.50 §6.1"
-        "A function may be defined in one shader of a stage alone; the others declare it with a prototype."
+        "A function must be defined in only one shader of a stage; the others declare it with a prototype."
         bad Shaders(&[
             (Stage::Fragment, "float f() { return 1.0; } out vec4 c; void main() { c = vec4(f()); }"),
             (Stage::Fragment, "float f() { return 2.0; }"),
@@ -180,8 +182,8 @@ codes! {
             (Stage::Fragment, "float f() { return 2.0; }"),
         ]);
     FUNCTION_MISMATCH = "E0723" "function-mismatch" Error "GLSL 1.50 §6.1"
-        "A function that several shaders of a stage declare must have the same result and parameter qualifiers in all of \
-         them."
+        "A function that several shaders of a stage declare must have the same return type and parameter qualifiers \
+         in all of them."
         bad Shaders(&[
             (Stage::Fragment, "float f(); out vec4 c; void main() { c = vec4(f()); }"),
             (Stage::Fragment, "int f() { return 2; }"),
@@ -191,7 +193,7 @@ codes! {
             (Stage::Fragment, "float f() { return 2.0; }"),
         ]);
     UNDEFINED_FUNCTION = "E0724" "undefined-function" Error "GLSL 1.50 §6.1"
-        "A function is called, and no shader of its stage defines it."
+        "A function is called, but no shader of its stage defines it."
         bad Program(
             "float f(); void main() { gl_Position = vec4(f()); }",
             "out vec4 c; void main() { c = vec4(1.0); }"),
@@ -212,8 +214,8 @@ codes! {
             (Stage::Geometry, "layout(points) in;"),
         ]);
     GEOMETRY_INPUT_SIZE = "E0726" "geometry-inputs-disagree" Error "GLSL 1.50 §4.3.8.1"
-        "The inputs of a geometry stage are arrays with an element for each vertex of the input primitive, which some \
-         shader of the stage declares; other sizes and indices contradict it."
+        "The inputs of a geometry stage are arrays with one element for each vertex of the input primitive, which \
+         some shader of the stage declares. Other sizes and indices contradict it."
         bad Shaders(&[
             (Stage::Vertex, "void main() { gl_Position = vec4(0.0); }"),
             (Stage::Geometry, "layout(triangles) in; layout(points, max_vertices = 1) out; void emit(); void main() { emit(); }"),
@@ -246,25 +248,27 @@ codes! {
             (Stage::Vertex, "void f() { }"),
         ]);
     BINDING_IGNORED = "W0701" "binding-ignored" Warning "ARB_explicit_attrib_location"
-        "A location was bound by name, and the declaration in the text gives another, which wins. The host program that \
-         binds by name will send its data elsewhere than it thinks."
+        "A location was bound by name, but the declaration in the text gives another one, which takes precedence. A \
+         host that relies on its binding sends its data to the wrong location."
         bad None, good Text("glisten compile --bind-attrib position=0 lit.vert -o out");
     LONE_WITHOUT_MAIN = "W0702" "lone-shader-without-main" Warning "GLSL 1.50 §6.1"
-        "The shader has no `main`. That is legal for one of several shaders of a stage; alone it does nothing."
+        "The shader has no `main`. That is legal for one of several shaders of a stage, but the shader alone does \
+         nothing."
         bad Vertex("float twice(float x) { return 2.0 * x; }"),
         good Vertex("void main() { gl_Position = vec4(0.0); }");
     LONE_WITHOUT_LAYOUT = "W0703" "lone-shader-without-layout" Warning "GLSL 1.50 §4.3.8"
-        "The geometry shader lacks a layout declaration that some shader of its stage must have. Alone it cannot be linked."
+        "The geometry shader lacks a layout declaration that some shader of its stage must have. It cannot be \
+         linked alone."
         bad Geometry("void main() { }"),
         good Geometry("layout(points) in; layout(points, max_vertices = 1) out; void main() { }");
     LONE_WITHOUT_DEFINITION = "W0707" "lone-shader-without-definition" Warning "GLSL 1.50 §6.1"
-        "The shader calls a function that it only declares. Another shader of its stage may define it; alone it cannot be \
-         linked."
+        "The shader calls a function that it only declares. Another shader of its stage may define it; the shader \
+         cannot be linked alone."
         bad Vertex("float f(); void main() { gl_Position = vec4(f()); }"),
         good Vertex("float f() { return 1.0; } void main() { gl_Position = vec4(f()); }");
     ATTRIBUTE_ALIASING_UNUSED = "W0704" "attribute-aliasing-on-separate-paths" Warning "OpenGL 3.2 §2.11.3"
-        "Two attributes stand at the same location. That is legal as long as no run of the shader reads both, which holds \
-         here."
+        "Two attributes have the same location. That is legal as long as no execution of the shader reads both, \
+         which is the case here."
         bad Vertex("#extension GL_ARB_explicit_attrib_location : enable\nlayout(location = 1) in vec4 a;\n\
                     layout(location = 1) in vec4 b; uniform bool u;\n\
                     void main() { if (u) gl_Position = a; else gl_Position = b; }"),
@@ -272,8 +276,8 @@ codes! {
                      layout(location = 2) in vec4 b; uniform bool u;\n\
                      void main() { if (u) gl_Position = a; else gl_Position = b; }");
     VARYINGS_ABOVE_MINIMUM = "W0705" "varyings-above-minimum" Warning "GLSL 1.50 §7.4"
-        "What goes from the vertices to the fragments has more components than gl_MaxVaryingComponents need be, 60. Many \
-         implementations take more; some do not."
+        "The varyings have more components than the smallest value that gl_MaxVaryingComponents may have, 60. Many \
+         implementations support more; some do not."
         bad Program(
             "out vec4 v[16]; void main() { v[0] = vec4(1.0); gl_Position = vec4(0.0); }",
             "in vec4 v[16]; out vec4 c; void main() { c = v[0]; }"),
@@ -281,7 +285,7 @@ codes! {
             "out vec4 v[15]; void main() { v[0] = vec4(1.0); gl_Position = vec4(0.0); }",
             "in vec4 v[15]; out vec4 c; void main() { c = v[0]; }");
     SAMPLERS_ABOVE_MINIMUM = "W0706" "samplers-above-minimum" Warning "GLSL 1.50 §7.4"
-        "A stage reads more samplers than the 16 that every implementation has, or a program more than 48."
+        "A stage reads more samplers than the 16 that every implementation supports, or a program more than 48."
         bad Fragment("uniform sampler2D t[17]; out vec4 c; void main() { c = texture(t[0], vec2(0.0)); }"),
         good Fragment("uniform sampler2D t[16]; out vec4 c; void main() { c = texture(t[0], vec2(0.0)); }");
 }

@@ -36,7 +36,7 @@ pub struct Code {
     pub page: &'static str,
     /// An example that raises the code.
     pub bad: Example,
-    /// The same example, corrected.
+    /// The example, corrected.
     pub good: Example,
 }
 

@@ -8,40 +8,42 @@ codes! {
         bad Vertex("uniform in vec4 a; void main() { gl_Position = a; }"),
         good Vertex("in vec4 a; void main() { gl_Position = a; }");
     ORDER = "E0602" "qualifier-order" Error "GLSL 1.50 §4.7"
-        "Before GLSL 4.20 qualifiers stand in a fixed order: layout, `invariant`, interpolation, `centroid`, storage, \
-         precision; before a parameter `const`, then `in`, `out` or `inout`, then precision. \
-         GL_ARB_shading_language_420pack lifts the rule."
+        "Before GLSL 4.20, qualifiers must be in a fixed order: layout, `invariant`, interpolation, `centroid`, \
+         storage, precision; for a parameter `const`, then `in`, `out` or `inout`, then precision. \
+         GL_ARB_shading_language_420pack lifts this rule."
         bad Fragment("in flat vec4 a; out vec4 c; void main() { c = a; }"),
         good Fragment("flat in vec4 a; out vec4 c; void main() { c = a; }");
     MISPLACED = "E0603" "misplaced-qualifier" Error "GLSL 1.50 §4.3 to §4.6"
-        "The qualifier says nothing about what it stands before: interpolation belongs to what crosses stages and is \
-         interpolated, `in` and `out` to globals and parameters, local variables are at most `const`."
+        "The qualifier does not apply to this declaration. Interpolation qualifiers belong to what is interpolated \
+         between stages, `in` and `out` to globals and parameters; a local variable can only be `const`."
         bad Vertex("flat in vec4 a; void main() { gl_Position = a; }"),
         good Vertex("in vec4 a; void main() { gl_Position = a; }");
     UNKNOWN_LAYOUT = "E0604" "unknown-layout" Error "GLSL 1.50 §4.3.8"
-        "No layout identifier of that name is in this version. Upper and lower case do not matter in 1.50."
+        "This version has no layout identifier of this name. In 1.50, layout identifiers are not case-sensitive."
         bad Fragment("layout(upper_left) in vec4 gl_FragCoord; out vec4 c; void main() { c = gl_FragCoord; }"),
         good Fragment("layout(origin_upper_left) in vec4 gl_FragCoord; out vec4 c; void main() { c = gl_FragCoord; }");
     LAYOUT_PLACE = "E0605" "misplaced-layout" Error "GLSL 1.50 §4.3.8"
-        "Each layout identifier belongs to one kind of declaration: locations to vertex inputs and fragment outputs, \
-         std140 and its like to uniform blocks, primitives to `in` and `out` alone in a geometry shader."
+        "Each layout identifier belongs to one kind of declaration: locations to vertex inputs and fragment \
+         outputs, std140 and the other block layouts to uniform blocks, primitives to `in` and `out` on their own \
+         in a geometry shader."
         bad Vertex("layout(std140) uniform vec4 a; void main() { gl_Position = a; }"),
         good Vertex("layout(std140) uniform B { vec4 a; }; void main() { gl_Position = a; }");
     LAYOUT_VALUE = "E0606" "layout-value" Error "GLSL 1.50 §4.3.8"
-        "Some layout identifiers have a value, an integer literal that is not negative; the others have none."
+        "Some layout identifiers take a value, a non-negative integer literal; the others take none."
         bad Geometry("layout(points) in; layout(points, max_vertices) out; void main() {}"),
         good Geometry("layout(points) in; layout(points, max_vertices = 1) out; void main() {}");
     INTERFACE_TYPE = "E0607" "bad-interface-type" Error "GLSL 1.50 §4.3.4, §4.3.6"
-        "Not every type crosses the border of a stage: booleans never, structs neither into a vertex shader nor out of a \
-         fragment shader, matrices not out of a fragment shader."
+        "Not every type can cross the interface of a stage: booleans never can, structs can neither enter a vertex \
+         shader nor leave a fragment shader, and matrices cannot leave a fragment shader."
         bad Vertex("in bool b; void main() { gl_Position = vec4(b); }"),
         good Vertex("in int b; void main() { gl_Position = vec4(b != 0); }");
     INTEGER_NOT_FLAT = "E0608" "integer-not-flat" Error "GLSL 1.50 §4.3.4"
-        "Integers are not interpolated, so a fragment shader's input that is or holds an integer must say `flat`."
+        "Integers are not interpolated, so an input of a fragment shader that is or contains an integer must be \
+         `flat`."
         bad Fragment("in ivec2 i; out vec4 c; void main() { c = vec4(i, i); }"),
         good Fragment("flat in ivec2 i; out vec4 c; void main() { c = vec4(i, i); }");
     CONST_WITHOUT_VALUE = "E0609" "const-without-value" Error "GLSL 1.50 §4.3.2"
-        "A constant can never be written, so it must be given its value where it is declared."
+        "A constant can never be written, so its declaration must give it a value."
         bad Vertex("const float a; void main() { gl_Position = vec4(a); }"),
         good Vertex("const float a = 1.0; void main() { gl_Position = vec4(a); }");
     NO_INITIALIZER = "E0610" "initializer-not-allowed" Error "GLSL 1.50 §4.3"
@@ -50,18 +52,18 @@ codes! {
         bad Vertex("in vec4 a = vec4(0.0); void main() { gl_Position = a; }"),
         good Vertex("uniform vec4 a = vec4(0.0); void main() { gl_Position = a; }");
     BLOCK = "E0611" "bad-block" Error "GLSL 1.50 §4.3.7"
-        "A block is `in`, `out` or `uniform`, and its members are no other. A vertex shader has no input blocks and a \
-         fragment shader no output blocks."
+        "A block is `in`, `out` or `uniform`, and its members cannot differ from that. A vertex shader has no input \
+         blocks and a fragment shader no output blocks."
         bad Vertex("in B { vec4 a; }; void main() { gl_Position = a; }"),
         good Vertex("uniform B { vec4 a; }; void main() { gl_Position = a; }");
     GEOMETRY_INPUT = "E0612" "bad-geometry-input" Error "GLSL 1.50 §4.3.4, §4.3.8.1"
-        "A geometry shader sees all vertices of a primitive, so its inputs are arrays. Their sizes, where they are given, \
-         and that of the input primitive must be the same."
+        "A geometry shader sees all vertices of a primitive, so its inputs are arrays. Their sizes, if they are \
+         given, and that of the input primitive must be the same."
         bad Geometry("layout(points) in; layout(points, max_vertices = 1) out; in vec4 a; void main() {}"),
         good Geometry("layout(points) in; layout(points, max_vertices = 1) out; in vec4 a[]; void main() {}");
     GEOMETRY_LAYOUT = "E0613" "geometry-layout-contradiction" Error "GLSL 1.50 §4.3.8.1, §4.3.8.2"
-        "A geometry shader takes one kind of primitive, makes one kind, and emits at most one number of vertices, no more \
-         than gl_MaxGeometryOutputVertices. It may say so more than once, but not differently."
+        "A geometry shader has one input primitive, one output primitive, and one largest number of emitted \
+         vertices, which is at most gl_MaxGeometryOutputVertices. Repeated declarations must agree."
         bad Geometry("layout(points) in; layout(lines) in; layout(points, max_vertices = 1) out; void main() {}"),
         good Geometry("layout(points) in; layout(points) in; layout(points, max_vertices = 1) out; void main() {}");
     FRAG_COORD = "E0614" "frag-coord-contradiction" Error "GLSL 1.50 §4.3.8.1"
@@ -71,17 +73,17 @@ codes! {
         good Fragment("layout(origin_upper_left) in vec4 gl_FragCoord; layout(origin_upper_left) in vec4 gl_FragCoord; \
             out vec4 c; void main() { c = gl_FragCoord; }");
     OUTPUTS_EXCLUDE = "E0615" "outputs-exclude-each-other" Error "GLSL 1.50 §7.2"
-        "A fragment shader writes `gl_FragColor`, or `gl_FragData`, or outputs that it declares, but not two of these \
-         kinds."
+        "A fragment shader writes either `gl_FragColor`, or `gl_FragData`, or the outputs that it declares, but not \
+         two of these."
         bad Fragment("out vec4 c; void main() { c = vec4(0.0); gl_FragColor = vec4(1.0); }"),
         good Fragment("out vec4 c; void main() { c = vec4(0.0); }");
     INVARIANT = "E0616" "not-invariant" Error "GLSL 1.50 §4.6.1"
-        "Only what leaves a shader can be invariant, and what comes into a fragment shader from such an output."
+        "Only outputs of a shader can be invariant, and inputs of a fragment shader that such an output feeds."
         bad Vertex("uniform vec4 a; invariant a; void main() { gl_Position = a; }"),
         good Vertex("out vec4 a; invariant a; void main() { a = vec4(0.0); gl_Position = a; }");
     NEEDS_EXTENSION = "E0617" "needs-extension" Error "GLSL 1.50 §3.3"
-        "The construct is not in this version of the language; an extension that glisten knows brings it, if the source \
-         turns it on."
+        "This version of the language does not have the construct. An extension that glisten knows provides it, if \
+         the source enables the extension."
         bad Vertex("layout(location = 1) in vec4 a; void main() { gl_Position = a; }"),
         good Vertex("#extension GL_ARB_explicit_attrib_location : enable\nlayout(location = 1) in vec4 a; \
             void main() { gl_Position = a; }");

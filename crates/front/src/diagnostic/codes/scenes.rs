@@ -11,66 +11,67 @@ codes! {
         "The scene is not TOML: an empty or binary file, a missing bracket or quote, a key given twice."
         bad Text("[framebuffer\nwidth = 128"), good Text("[framebuffer]\nwidth = 128");
     SCENE_UNKNOWN_KEY = "E0903" "unknown-scene-key" Error ""
-        "The scene has a key that means nothing there. It would be ignored silently otherwise, and a misspelled key \
-         would draw a different picture."
+        "The scene has an unknown key. If it were silently ignored, a misspelled key would draw a different \
+         picture."
         bad Text("[framebuffer]\nwidht = 128"), good Text("[framebuffer]\nwidth = 128");
     SCENE_WRONG_TYPE = "E0904" "wrong-scene-value-type" Error ""
-        "A key of the scene has a value of another type than it wants: text instead of a number, one number instead of a \
-         list, a fraction for an integer."
+        "A key of the scene has a value of the wrong type: text instead of a number, one number instead of a list, \
+         a fraction instead of an integer."
         bad Text("[framebuffer]\nwidth = \"128\""), good Text("[framebuffer]\nwidth = 128");
     SCENE_WRONG_VALUE = "E0905" "wrong-scene-value" Error ""
-        "A key of the scene has a value of the right type that is not among the values it may have: an unknown name of a \
-         primitive, a factor or a format, a number out of range."
+        "A key of the scene has a value of the right type that is not allowed: an unknown primitive, factor or \
+         format, or a number out of range."
         bad Text("[[draw]]\nprimitive = \"quads\""), good Text("[[draw]]\nprimitive = \"triangles\"");
     SCENE_MISSING_KEY = "E0906" "missing-scene-key" Error ""
-        "The scene leaves out a key that has no default, or a number that nothing else tells, such as how many vertices \
-         a draw without attributes has."
+        "The scene lacks a key that has no default, or a number that nothing else determines, such as the number of \
+         vertices of a draw without attributes."
         bad Text("[[draw]]\nfragment = \"a.frag\""), good Text("[[draw]]\nvertex = \"a.vert\"\nfragment = \"a.frag\"");
     SCENE_UNKNOWN_NAME = "E0907" "undeclared-scene-name" Error ""
-        "The scene gives a value to an attribute, uniform or sampler that the program does not declare. A name that is \
-         declared and not used is accepted."
+        "The scene sets an attribute, uniform or sampler that the program does not declare. A name that is declared \
+         but not used is accepted."
         bad Text("[draw.uniforms]\nmodel_viev = [..]"), good Text("[draw.uniforms]\nmodel_view = [..]");
     SCENE_WRONG_SIZE = "E0908" "wrong-scene-data-size" Error ""
-        "A list in the scene has more or fewer numbers than what it is given to takes: vertex data that is no multiple of \
-         its size, a matrix with 12 numbers for 16, texels that do not fill the texture, an index past the last vertex."
+        "A list in the scene has the wrong number of elements: vertex data that is not a multiple of its size, a \
+         matrix with 12 numbers instead of 16, texels that do not fill the texture, an index past the last vertex."
         bad Text("mc = [1, 0, 0]  # a mat4"), good Text("mc = [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]");
     SCENE_MISSING_ATTRIBUTE = "E0909" "attribute-without-data" Error "OpenGL 3.2 §2.8"
-        "The vertex shader reads an attribute for which the scene brings no data."
+        "The vertex shader reads an attribute for which the scene has no data."
         bad Text("[draw.attributes]  # and the shader reads `pv`"), good Text("[draw.attributes]\npv = { size = 3, values = [..] }");
     SCENE_WRONG_KIND = "E0910" "contradicting-scene-kind" Error "OpenGL 3.2 §2.7"
-        "A `kind` or `integer` in the scene contradicts the declaration in the shader: float data for an `ivec2` input, a \
-         2D texture for a `samplerCube`, a fraction for an `int` uniform."
+        "A `kind` or `integer` in the scene contradicts the declaration in the shader: float data for an `ivec2` \
+         input, a 2D texture for a `samplerCube`, a fraction for an `int` uniform."
         bad Text("i = { size = 1, kind = \"float\", values = [1] }  # in int i;"), good Text("i = { size = 1, values = [1] }");
     SCENE_BAD_ASSET = "E0911" "unreadable-mesh-or-image" Error ""
-        "A mesh or image that the scene names was read and is not of the form that it should be."
+        "A mesh or image that the scene names was read, but its format is not as expected."
         bad None, good None;
     SCENE_CANNOT_DRAW = "E0912" "undrawable-scene" Error "OpenGL 3.2 §2.11"
-        "The scene asks for a drawing that cannot be: a program without a vertex stage, more color outputs than \
-         attachments, a framebuffer past the limit."
+        "The scene describes an impossible draw: a program without a vertex stage, more color outputs than \
+         attachments, or a framebuffer past the limit."
         bad None, good None;
     SCENE_LOOP_BUDGET = "E0913" "endless-loop" Error ""
-        "While the CPU reference drew the scene, loops ran more than 16,777,216 instructions for 64 invocations together. \
-         The reference leaves them there rather than hang; a picture is not made."
+        "While the CPU reference drew the scene, loops ran more than 16,777,216 instructions for 64 invocations \
+         together. The reference gives up rather than hang, and makes no picture."
         bad Text("while (true) {}"), good Text("for (int i = 0; i < 100; ++i) {}");
     SCENE_UNSET_UNIFORM = "W0901" "uniform-without-value" Warning "GLSL 1.50 §4.3.5"
         "The program reads a uniform that has no initializer and that the scene does not list. It is 0, as in OpenGL."
         bad Text("[draw.uniforms]  # and the shader reads `shininess`"), good Text("[draw.uniforms]\nshininess = 32");
     SCENE_UNSET_TEXTURE = "W0902" "sampler-without-texture" Warning "OpenGL 3.2 §3.8.15"
-        "The program reads a sampler for which the scene brings no texture. Every texel reads as (0, 0, 0, 1), as of an \
-         incomplete texture in OpenGL."
+        "The program reads a sampler for which the scene has no texture. Every texel reads as (0, 0, 0, 1), as with \
+         an incomplete texture in OpenGL."
         bad Text("[draw.textures]  # and the shader reads `tex`"), good Text("[draw.textures]\ntex = { width = 1, height = 1, values = [1, 1, 1, 1] }");
     BOUND_EXPLAINED = "W0905" "bound-explained" Note "Vulkan, Precision of SPIR-V Instructions"
-        "`verify` names what the bound of the worst pixel comes from: the operations without whose freedom of rounding the \
-         envelope there would be narrowest. A GPU may be off that much; where the bound is wider than one likes, these \
-         are the expressions to write otherwise."
+        "`verify` names the operations that contribute most to the bound of the worst pixel: if one of them were \
+         exact, the envelope there would be narrower. A GPU may be off by that much. If the bound is wider than you \
+         like, rewrite these expressions."
         bad Text("float s = pow(c, 1000.0);"), good Text("float s = c * c;");
     PRECISION_LOST = "W0903" "precision-loss" Note "GLSL 1.50 §4.1.4"
-        "Drawn in f32 and f64 side by side, the scene shows that this expression loses bits that its operands still had, \
-         is not a finite number, or is answered otherwise in f32: a difference of nearly equal numbers, a power with a \
-         large exponent, a vector too short to normalize. What uses the result inherits the error and is not named."
+        "Drawing the scene in f32 and f64 side by side shows that this expression loses bits that its operands \
+         still had, is not a finite number, or has another outcome in f32. Typical causes are a difference of \
+         nearly equal numbers, a power with a large exponent, and a vector too short to normalize. Expressions that \
+         only inherit the error are not reported."
         bad Text("float c = 1.0 - cos(x);  // x is small"), good Text("float s = sin(0.5 * x); float c = 2.0 * s * s;");
     SCENE_UNUSED_LIGHT = "W0904" "lights-without-program" Warning ""
-        "The scene has lights, a material or a global ambient light, and none of its programs declares the uniforms that they \
-         fill: `light`, `lights`, `material`, `global_ambient` of `<glisten/scene.glsl>`."
+        "The scene has lights, a material or a global ambient light, but none of its programs declares the uniforms \
+         for them: `light`, `lights`, `material`, `global_ambient` of `<glisten/scene.glsl>`."
         bad Text("[[light]]  # and all draws have `program = \"decal\"`"), good Text("[[light]]\nkind = \"directional\"\ntowards = [0, 1, 0]\n[[draw]]\nprogram = \"standard\"");
 }

@@ -4,7 +4,7 @@ use super::Example::{Fragment, Vertex};
 
 codes! {
     UNEXPECTED_TOKEN = "E0201" "unexpected-token" Error "GLSL 1.50 §9"
-        "The grammar wants something else at this place. The message says what was expected and what was found."
+        "The grammar requires something else here. The message says what was expected and what was found."
         bad Fragment("out vec4 c; void main() { c = vec4(1.0) + ; }"),
         good Fragment("out vec4 c; void main() { c = vec4(1.0) + 1.0; }");
     MISSING_SEMICOLON = "E0202" "missing-semicolon" Error "GLSL 1.50 §9"
@@ -21,11 +21,11 @@ codes! {
         bad Fragment("out vec4 c; void main() { float smooth = 1.0; c = vec4(1.0); }"),
         good Fragment("out vec4 c; void main() { float smoothed = 1.0; c = vec4(smoothed); }");
     UNCLOSED_DELIMITER = "E0205" "unclosed-delimiter" Error "GLSL 1.50 §9"
-        "A bracket or brace is opened and never closed."
+        "A bracket or brace is opened but never closed."
         bad Vertex("void main() {\n    gl_Position = vec4(1.0);\n"),
         good Vertex("void main() {\n    gl_Position = vec4(1.0);\n}");
     STRAY_DELIMITER = "E0206" "stray-delimiter" Error "GLSL 1.50 §9"
-        "A bracket or brace is closed that was never opened."
+        "A bracket or brace is closed but was never opened."
         bad Vertex("void main() { gl_Position = vec4(1.0); } }"), good Vertex("void main() { gl_Position = vec4(1.0); }");
     MALFORMED_NUMBER = "E0207" "malformed-number" Error "GLSL 1.50 §4.1.3, §4.1.4"
         "Integers are decimal, octal after a leading 0, or hexadecimal after 0x, and may end in `u`. Floats have a point \
@@ -36,14 +36,15 @@ codes! {
         bad Fragment("out vec4 c; void main() { uint a = 4294967296u; c = vec4(a); }"),
         good Fragment("out vec4 c; void main() { uint a = 4294967295u; c = vec4(a); }");
     NESTED_FUNCTION = "E0209" "function-inside-function" Error "GLSL 1.50 §6.1"
-        "Functions are defined at global scope alone. Where the text did not mean to nest, a `}` is missing above."
+        "Functions can be defined only at global scope. If the function was not meant to be nested, a `}` is \
+         missing above."
         bad Vertex("void main() { float f() { return 1.0; } }"), good Vertex("float f() { return 1.0; } void main() { f(); }");
     STRAY_CASE = "E0210" "stray-case-label" Error "GLSL 1.50 §6.2"
-        "`case` and `default` stand directly inside the braces of a `switch`."
+        "`case` and `default` must be directly inside the braces of a `switch`."
         bad Vertex("void main() { case 1: gl_Position = vec4(1.0); }"),
         good Vertex("void main() { switch (1) { case 1: gl_Position = vec4(1.0); } }");
     MISSING_TYPE = "E0211" "missing-type" Error "GLSL 1.50 §4"
-        "A declaration names its type, and statements stand inside functions alone."
+        "A declaration must name its type, and statements must be inside functions."
         bad Vertex("uniform float a;\nb = 2.0;\nvoid main() {}"), good Vertex("uniform float a;\nfloat b = 2.0;\nvoid main() {}");
     MEMBER_INITIALIZER = "E0212" "member-initializer" Error "GLSL 1.50 §4.1.8, §4.3.7"
         "Members of structs and blocks have no initializers of their own."
@@ -60,8 +61,8 @@ codes! {
         "The grammar has no empty declaration: a `;` at global scope belongs to nothing."
         bad Vertex("float f() { return 1.0; };\nvoid main() { f(); }"), good Vertex("float f() { return 1.0; }\nvoid main() { f(); }");
     LITERAL_WRAPS = "W0202" "literal-out-of-range" Warning "GLSL 1.50 §4.1.3, §4.1.4"
-        "The literal does not fit its type: a decimal integer past 2147483648 becomes negative, and a float past \
-         3.4e38 becomes infinite. Compilers take both."
+        "The literal does not fit its type: a decimal integer above 2147483648 becomes negative, and a float above \
+         3.4e38 becomes infinite. Compilers accept both."
         bad Fragment("out vec4 c; void main() { c = vec4(3000000000); }"),
         good Fragment("out vec4 c; void main() { c = vec4(3000000000u); }");
 }

@@ -4,9 +4,9 @@ use super::Example::{Geometry, None, Vertex};
 
 codes! {
     STAGE_NOT_IN_TARGET = "E0801" "stage-not-in-target" Error ""
-        "WebGPU has no geometry stage, and glisten emits for no other one. A geometry shader is parsed, validated and \
-         linked; it has to be taken apart by hand into a vertex shader that computes each emitted vertex from the \
-         primitive's vertices (pulled by `gl_VertexID`), or run by a host that takes GLSL."
+        "WebGPU has no geometry stage, and glisten does not emit one for any target. A geometry shader is parsed, \
+         validated and linked. To run it, rewrite it by hand as a vertex shader that computes each emitted vertex \
+         from the primitive's vertices (pulled by `gl_VertexID`), or use a host that accepts GLSL."
         bad Geometry("layout(points) in; layout(points, max_vertices = 1) out; void main() { EmitVertex(); }"),
         good Vertex("void main() { gl_Position = vec4(0.0); }");
     FEATURE_NOT_IN_TARGET = "E0802" "feature-not-in-target" Error ""
@@ -14,19 +14,20 @@ codes! {
          picture. The message names the feature, the target, and a way out."
         bad None, good None;
     NESTING_TOO_DEEP_FOR_TARGET = "E0803" "nesting-too-deep-for-target" Error ""
-        "Statements nest deeper in the emitted text than the target's readers take: Tint reads 127 levels of WGSL, where \
-         an `if` or a loop takes two and a `switch` three. Move the inner statements into a function of their own, or \
-         compile for SPIR-V, which nests as deep as the parser of glisten does (256)."
+        "Statements in the emitted text nest deeper than parsers of the target language accept: Tint accepts 127 \
+         levels of WGSL, where an `if` or a loop takes two and a `switch` three. Move the inner statements into a \
+         function of their own, or compile for SPIR-V, which nests as deep as glisten's parser does (256)."
         bad None, good None;
     POINT_SIZE_DROPPED = "W0801" "point-size-dropped" Note "GLSL 1.50 §7.1"
-        "`gl_PointSize` counts only where the program enables PROGRAM_POINT_SIZE. Without `--program-point-size` \
-         the write is dropped and points are one pixel wide, as in OpenGL without that enable."
+        "`gl_PointSize` has an effect only if the program enables PROGRAM_POINT_SIZE. Without \
+         `--program-point-size` the write is dropped and points are one pixel wide, as in OpenGL when it is \
+         disabled."
         bad Vertex("void main() { gl_Position = vec4(0.0); gl_PointSize = 2.0; }"),
         good Vertex("void main() { gl_Position = vec4(0.0); }");
     COMPARISON_LEVEL_DROPPED = "W0802" "comparison-level-dropped" Warning "GLSL 1.50 §8.7"
-        "No target compares depth in a level of detail that the shader names or shifts: WGSL and naga's SPIR-V compare in \
-         the implicit level and in the base level alone. A lookup with a bias is compiled without it, one with a level or \
-         gradients reads the base level. The picture is the same where the depth texture has one level, as shadow maps \
-         have; `glisten render` and `glisten verify` refuse a scene in which it has more."
+        "No target compares depth at an explicit or biased level of detail: WGSL and naga's SPIR-V compare only in \
+         the implicit level and in the base level. A lookup with a bias is compiled without it; one with a level or \
+         gradients reads the base level. The picture is the same if the depth texture has one level, as shadow maps \
+         have; `glisten render` and `glisten verify` reject a scene in which it has more."
         bad None, good None;
 }

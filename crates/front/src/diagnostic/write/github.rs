@@ -14,23 +14,23 @@ fn line(finding: &Finding) -> String {
         Severity::Warning => "warning",
         Severity::Error => "error",
     };
-    let place = &finding.place;
+    let region = &finding.region;
     let mut message = finding.message.clone();
     if let Some(help) = &finding.help {
         message.push_str("\nhelp: ");
         message.push_str(help);
     }
     // GitHub accepts columns only for annotations within one line.
-    let columns = if place.line == place.end_line {
-        format!(",col={},endColumn={}", place.column, place.end_column)
+    let columns = if region.line == region.end_line {
+        format!(",col={},endColumn={}", region.column, region.end_column)
     } else {
         String::new()
     };
     format!(
         "::{command} file={},line={},endLine={}{columns},title={}::{}\n",
-        property(&place.file),
-        place.line,
-        place.end_line,
+        property(&region.file),
+        region.line,
+        region.end_line,
         property(&format!("{} {}", finding.code.id, finding.code.name)),
         data(&message),
     )

@@ -47,9 +47,9 @@ fn one(sources: &SourceMap, diagnostic: &Diagnostic, color: bool) -> String {
         .with_labels(shown)
         .with_notes(notes(sources, diagnostic, located));
     emit(&excerpts, &rendered, color).unwrap_or_else(|_| {
-        let place = Finding::new(sources, diagnostic).place;
+        let region = Finding::new(sources, diagnostic).region;
         let head = format!("{}[{}]: {message}", diagnostic.severity, diagnostic.code);
-        format!("{head}\n  --> {}:{}:{}\n\n", place.file, place.line, place.column)
+        format!("{head}\n  --> {}:{}:{}\n\n", region.file, region.line, region.column)
     })
 }
 
@@ -85,9 +85,9 @@ fn notes(sources: &SourceMap, diagnostic: &Diagnostic, located: bool) -> Vec<Str
         notes.push(format!("see {}", diagnostic.code.section));
     }
     if !located && sources.files().next().is_some() {
-        let place = Finding::new(sources, diagnostic).place;
-        if !diagnostic.message.contains(&place.file) {
-            notes.push(format!("in {}", clean(&place.file)));
+        let region = Finding::new(sources, diagnostic).region;
+        if !diagnostic.message.contains(&region.file) {
+            notes.push(format!("in {}", clean(&region.file)));
         }
     }
     notes
@@ -133,7 +133,7 @@ struct Excerpts<'a> {
 }
 
 impl Excerpts<'_> {
-    /// Adds a label at `span`, unless that is nowhere or in an empty text. Of several lines, marks the first.
+    /// Adds a label at `span`, unless that is unknown or in an empty text. Of several lines, marks the first.
     fn label(&mut self, span: Span, message: &str, primary: bool) -> Option<codespan::Label<Excerpt>> {
         let at = self.sources.location(span)?;
         let file = self.sources.file(at.file);

@@ -2,12 +2,12 @@
 //!
 //! *Holds:* keys are only ever added. Lines and columns count from 1; `end_column` is exclusive.
 
-use super::{Finding, Place};
+use super::{Finding, Region};
 use serde::Serialize;
 
-/// The keys of a place.
+/// The keys of a region.
 #[derive(Serialize)]
-struct JsonPlace<'a> {
+struct JsonRegion<'a> {
     file: &'a str,
     line: u32,
     column: u32,
@@ -18,14 +18,14 @@ struct JsonPlace<'a> {
 #[derive(Serialize)]
 struct JsonLabel<'a> {
     #[serde(flatten)]
-    place: JsonPlace<'a>,
+    region: JsonRegion<'a>,
     message: &'a str,
 }
 
 #[derive(Serialize)]
 struct JsonFinding<'a> {
     #[serde(flatten)]
-    place: JsonPlace<'a>,
+    region: JsonRegion<'a>,
     severity: String,
     code: &'a str,
     name: &'a str,
@@ -37,14 +37,14 @@ struct JsonFinding<'a> {
     presented_line: Option<u32>,
 }
 
-impl<'a> From<&'a Place> for JsonPlace<'a> {
-    fn from(place: &'a Place) -> Self {
+impl<'a> From<&'a Region> for JsonRegion<'a> {
+    fn from(region: &'a Region) -> Self {
         Self {
-            file: &place.file,
-            line: place.line,
-            column: place.column,
-            end_line: place.end_line,
-            end_column: place.end_column,
+            file: &region.file,
+            line: region.line,
+            column: region.column,
+            end_line: region.end_line,
+            end_column: region.end_column,
         }
     }
 }
@@ -60,14 +60,14 @@ pub fn json(findings: &[Finding]) -> String {
 fn row(finding: &Finding) -> JsonFinding<'_> {
     let labels = finding.labels.iter();
     JsonFinding {
-        place: JsonPlace::from(&finding.place),
+        region: JsonRegion::from(&finding.region),
         severity: finding.severity.to_string(),
         code: finding.code.id,
         name: finding.code.name,
         message: &finding.message,
         help: finding.help.as_deref(),
         labels: labels
-            .map(|label| JsonLabel { place: JsonPlace::from(&label.place), message: &label.message })
+            .map(|label| JsonLabel { region: JsonRegion::from(&label.region), message: &label.message })
             .collect(),
         notes: &finding.notes,
         section: Some(finding.code.section).filter(|section| !section.is_empty()),

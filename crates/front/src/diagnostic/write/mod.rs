@@ -4,7 +4,7 @@
 //! [`json()`], [`sarif()`] and [`github()`] convert. A [`Finding`] no longer needs its source map, so the findings of
 //! many programs can be joined, sorted and deduplicated.
 //!
-//! *Holds:* places are those of the text on disk, whatever `#line` says. The place of text from a macro is the use of
+//! *Holds:* regions are those of the text on disk, whatever `#line` says. The region of text from a macro is the use of
 //! the macro; the text in the macro's body becomes a label.
 
 mod github;
@@ -23,7 +23,7 @@ use crate::source::{SourceMap, Span};
 /// A range of text for people. Lines and columns count from 1, columns in Unicode scalar values (a tab is one); the
 /// end is exclusive.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Place {
+pub struct Region {
     /// The name of the file as the user wrote it.
     pub file: String,
     /// First line.
@@ -36,20 +36,20 @@ pub struct Place {
     pub end_column: u32,
 }
 
-/// A place with a message about it.
+/// A region with a message about it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FindingLabel {
-    /// The place.
-    pub place: Place,
+    /// The region.
+    pub region: Region,
     /// The message.
     pub message: String,
 }
 
-/// A diagnostic with resolved places.
+/// A diagnostic with resolved regions.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Finding {
-    /// The primary place; for a diagnostic without a span, the start of the first text.
-    pub place: Place,
+    /// The primary region; for a diagnostic without a span, the start of the first text.
+    pub region: Region,
     /// The severity.
     pub severity: Severity,
     /// The code.
@@ -60,9 +60,9 @@ pub struct Finding {
     pub help: Option<String>,
     /// The primary label's message, if it adds to the message, and the secondary labels.
     pub labels: Vec<FindingLabel>,
-    /// Facts that need no place.
+    /// Facts that need no region.
     pub notes: Vec<String>,
-    /// The line number that a `#line` directive gave to the place.
+    /// The line number that a `#line` directive gave to the region.
     pub presented_line: Option<u32>,
 }
 
@@ -72,10 +72,10 @@ impl Finding {
         let outer = sources.call_site(diagnostic.primary.span);
         let labels = labels(sources, diagnostic)
             .into_iter()
-            .map(|label| FindingLabel { place: place(sources, label.span), message: label.message })
+            .map(|label| FindingLabel { region: region(sources, label.span), message: label.message })
             .collect();
         Self {
-            place: place(sources, outer),
+            region: region(sources, outer),
             severity: diagnostic.severity,
             code: diagnostic.code,
             message: diagnostic.message.clone(),
@@ -126,16 +126,16 @@ fn labels(sources: &SourceMap, diagnostic: &Diagnostic) -> Vec<Label> {
     labels
 }
 
-fn place(sources: &SourceMap, span: Span) -> Place {
+fn region(sources: &SourceMap, span: Span) -> Region {
     match sources.location(span) {
-        Some(at) => Place {
+        Some(at) => Region {
             file: sources.file(at.file).name().to_owned(),
             line: at.line,
             column: at.column,
             end_line: at.end_line,
             end_column: at.end_column,
         },
-        None => Place {
+        None => Region {
             file: sources.files().next().map(|(_, file)| file.name().to_owned()).unwrap_or_default(),
             line: 1,
             column: 1,

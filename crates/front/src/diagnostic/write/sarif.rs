@@ -3,7 +3,7 @@
 //! *Holds:* there is one run; `rules` lists the codes that occur, in order of identifier, with their pages. Columns
 //! count Unicode code points (`columnKind`); the end is exclusive.
 
-use super::{Finding, Place};
+use super::{Finding, Region};
 use crate::diagnostic::{Code, Severity};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -66,7 +66,7 @@ fn result(finding: &Finding, rule_index: Option<usize>) -> Value {
         .labels
         .iter()
         .map(|label| {
-            let mut location = location(&label.place);
+            let mut location = location(&label.region);
             if let Some(map) = location.as_object_mut() {
                 map.insert("message".to_owned(), json!({ "text": label.message }));
             }
@@ -77,7 +77,7 @@ fn result(finding: &Finding, rule_index: Option<usize>) -> Value {
         "ruleId": finding.code.id,
         "level": level(finding.severity),
         "message": { "text": text },
-        "locations": [location(&finding.place)],
+        "locations": [location(&finding.region)],
         "relatedLocations": related,
     });
     if let (Some(index), Some(map)) = (rule_index, result.as_object_mut()) {
@@ -86,14 +86,14 @@ fn result(finding: &Finding, rule_index: Option<usize>) -> Value {
     result
 }
 
-fn location(place: &Place) -> Value {
+fn location(region: &Region) -> Value {
     json!({ "physicalLocation": {
-        "artifactLocation": { "uri": uri(&place.file) },
+        "artifactLocation": { "uri": uri(&region.file) },
         "region": {
-            "startLine": place.line,
-            "startColumn": place.column,
-            "endLine": place.end_line,
-            "endColumn": place.end_column,
+            "startLine": region.line,
+            "startColumn": region.column,
+            "endLine": region.end_line,
+            "endColumn": region.end_column,
         },
     }})
 }

@@ -44,8 +44,8 @@ fn a_macro_is_shown_at_its_use_with_its_body_as_a_label() {
     let x = Span { expansion, ..span_of(text, base, "x") };
     let diagnostic = Diagnostic::new(&NOT_SUPPORTED_YET, x, "`x` is unknown");
     let finding = Finding::new(&sources, &diagnostic);
-    assert_eq!((finding.place.line, finding.place.column, finding.place.end_column), (2, 11, 12));
-    assert_eq!((finding.labels[0].place.line, finding.labels[0].place.column), (1, 16));
+    assert_eq!((finding.region.line, finding.region.column, finding.region.end_column), (2, 11, 12));
+    assert_eq!((finding.labels[0].region.line, finding.labels[0].region.column), (1, 16));
     assert!(finding.labels[0].message.contains("`M`"));
     let shown = human(&sources, [&diagnostic], false);
     assert!(shown.contains("a b.vert:2:11"), "{shown}");
@@ -116,5 +116,5 @@ fn a_place_that_is_nowhere_or_at_the_end_is_no_trouble() {
     let (sources, base) = source(text);
     let end = Diagnostic::new(&TOO_DEEP, Span::new(base + 3, base + 3), "expected `;`");
     assert!(human(&sources, [&end], false).contains(":1:4"));
-    assert_eq!(findings(&SourceMap::default(), [&nowhere])[0].place.line, 1);
+    assert_eq!(findings(&SourceMap::default(), [&nowhere])[0].region.line, 1);
 }

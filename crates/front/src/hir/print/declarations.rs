@@ -49,10 +49,13 @@ impl Printer<'_> {
         for id in self.names.structs().to_vec() {
             self.blank();
             let types = self.types;
+            self.above(types.structure(id).span);
             self.line(&format!("struct {} {{", self.names.structure(id)));
             self.indent += 1;
             for member in &types.structure(id).members {
+                self.above(member.span);
                 self.line(&format!("{} {};", self.type_name(member.ty), member.name));
+                self.behind(member.span);
             }
             self.indent -= 1;
             self.line("};");
@@ -85,10 +88,14 @@ impl Printer<'_> {
         for (id, global) in shader.globals() {
             if global.builtin.is_some() {
                 self.builtin(global);
-            } else if global.block.is_some() {
+                continue;
+            }
+            self.above(global.span);
+            if global.block.is_some() {
                 self.block(id, global);
             } else {
                 self.variable(id, global);
+                self.behind(global.span);
             }
         }
     }
@@ -175,7 +182,9 @@ impl Printer<'_> {
         self.indent += 1;
         for member in &types.structure(id).members {
             let line = format!("{}{} {};", member_qualifiers(member, storage), self.type_name(member.ty), member.name);
+            self.above(member.span);
             self.line(&line);
+            self.behind(member.span);
         }
         self.indent -= 1;
     }

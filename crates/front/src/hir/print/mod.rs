@@ -9,16 +9,31 @@
 mod declarations;
 mod expressions;
 mod names;
+mod scoped;
 mod statements;
 
 use super::{Function, FunctionId, Shader, Type, TypeId, Types};
+use crate::source::Span;
 use names::NameTable;
+
+/// Comments for what is printed, by its span.
+pub trait Notes {
+    /// The lines of comment above it, as they are written.
+    fn above(&self, span: Span) -> Vec<String>;
+    /// The comment behind it on its last line.
+    fn behind(&self, span: Span) -> Option<String>;
+}
 
 /// Prints a shader.
 pub fn print(types: &Types, shader: &Shader) -> String {
+    print_with(types, shader, None)
+}
+
+/// Prints a shader with comments, and with names that are given again in scopes apart, as people do.
+pub fn print_with(types: &Types, shader: &Shader, notes: Option<&dyn Notes>) -> String {
     shader.on_stack(|| {
-        let names = NameTable::new(types, shader);
-        let mut printer = Printer { types, shader, names, function: None, text: String::new(), indent: 0 };
+        let names = NameTable::new(types, shader, notes.is_some());
+        let mut printer = Printer { types, shader, names, notes, function: None, text: String::new(), indent: 0 };
         printer.shader();
         printer.text
     })
@@ -29,6 +44,7 @@ struct Printer<'a> {
     types: &'a Types,
     shader: &'a Shader,
     names: NameTable,
+    notes: Option<&'a dyn Notes>,
     /// The current function.
     function: Option<FunctionId>,
     text: String,
@@ -52,6 +68,25 @@ impl Printer<'_> {
         }
         self.text.push_str(line);
         self.text.push('\n');
+    }
+
+    /// Prints the comment above something.
+    fn above(&mut self, span: Span) {
+        for line in self.notes.map_or_else(Vec::new, |notes| notes.above(span)) {
+            self.line(&line);
+        }
+    }
+
+    /// Prints the comment behind something on its line, which was just printed.
+    fn behind(&mut self, span: Span) {
+        if let Some(comment) = self.notes.and_then(|notes| notes.behind(span))
+            && self.text.ends_with('\n')
+        {
+            self.text.pop();
+            self.text.push_str("  ");
+            self.text.push_str(&comment);
+            self.text.push('\n');
+        }
     }
 
     fn blank(&mut self) {
@@ -96,6 +131,7 @@ impl Printer<'_> {
         let function = shader.function(id);
         self.function = Some(id);
         self.blank();
+        self.above(function.span);
         let head = self.function_head(id, function);
         match &function.body {
             None => self.line(&format!("{head};")),

@@ -33,7 +33,7 @@ impl Taken {
 }
 
 impl NameTable {
-    pub(super) fn new(types: &Types, shader: &Shader) -> Self {
+    pub(super) fn new(types: &Types, shader: &Shader, scoped: bool) -> Self {
         let mut taken = Taken::default();
         let globals: Vec<String> = shader.globals.iter().map(|global| global_name(types, &mut taken, global)).collect();
         let functions = function_names(shader, &mut taken);
@@ -48,6 +48,11 @@ impl NameTable {
         }
         let mut table = Self { structs, struct_order, globals, functions, locals: Vec::new() };
         for function in &shader.functions {
+            if scoped {
+                let names = super::scoped::local_names(&table, types, shader, function);
+                table.locals.push(names);
+                continue;
+            }
             let mut names = Taken::default();
             let locals = function.locals.iter().map(|local| table.local_name(&taken, &mut names, &local.name));
             let locals = locals.collect();
@@ -114,7 +119,7 @@ fn global_name(types: &Types, taken: &mut Taken, global: &crate::hir::Global) ->
     }
 }
 
-fn members(types: &Types, ty: TypeId) -> Vec<String> {
+pub(super) fn members(types: &Types, ty: TypeId) -> Vec<String> {
     match types.get(ty) {
         Type::Struct(id) => types.structure(id).members.iter().map(|member| member.name.clone()).collect(),
         _ => Vec::new(),

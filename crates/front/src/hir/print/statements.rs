@@ -14,6 +14,18 @@ impl Printer<'_> {
     }
 
     fn statement(&mut self, statement: &Stmt) {
+        if !matches!(statement.kind, StmtKind::Block(_)) {
+            self.above(statement.span);
+        }
+        self.bare_statement(statement);
+        let simple =
+            matches!(statement.kind, StmtKind::Expr(_) | StmtKind::Local(..) | StmtKind::Return(_) | StmtKind::Discard);
+        if simple {
+            self.behind(statement.span);
+        }
+    }
+
+    fn bare_statement(&mut self, statement: &Stmt) {
         match &statement.kind {
             StmtKind::Expr(expr) => {
                 let expr = self.expr(*expr);

@@ -2,13 +2,13 @@
 //! §8.8).
 
 use super::super::Findings;
-use super::super::divergence::{self, Place};
-use crate::hir::{ExprKind, SamplerDim, SamplerType, Shader, Stage, Type, Types};
+use super::super::divergence::{self, DivergentCall};
+use crate::hir::{ExprKind, Shader, Stage, Type, Types};
 use crate::link::Program;
 
 pub(super) fn check(program: &Program, findings: &mut Findings<'_>) {
     let Some(fragment) = program.stage(Stage::Fragment) else { return };
-    for Place { expr, condition } in divergence::divergent_calls(fragment) {
+    for DivergentCall { expr, condition } in divergence::divergent_calls(fragment) {
         let ExprKind::BuiltinCall(function, arguments) = &fragment.expr(expr).kind else { continue };
         if !function.implicit_derivatives() || has_one_level(&program.types, fragment, arguments) {
             continue;
@@ -23,11 +23,8 @@ pub(super) fn check(program: &Program, findings: &mut Findings<'_>) {
     }
 }
 
-/// Whether the texture has only one level (rectangle, buffer and multisample textures), so that no level is selected.
+/// Whether the texture has only one level, so that no level is selected.
 fn has_one_level(types: &Types, shader: &Shader, arguments: &[crate::hir::ExprId]) -> bool {
     let sampler = arguments.first().map(|&first| types.get(shader.expr(first).ty));
-    matches!(
-        sampler,
-        Some(Type::Sampler(SamplerType { dim: SamplerDim::Rect | SamplerDim::Buffer | SamplerDim::Multisample, .. }))
-    )
+    matches!(sampler, Some(Type::Sampler(kind)) if !kind.has_levels())
 }

@@ -29,7 +29,7 @@ fn examine(body: &[Stmt], findings: &mut Findings<'_>) {
         let [statement, next] = pair else { continue };
         // Some people end every case of a switch with a `break`, even after a `return`.
         if let Some(word) = word(statement).filter(|_| !matches!(next.kind, StmtKind::Break)) {
-            let message = format!("nothing behind this `{word}` is ever reached");
+            let message = format!("nothing after this `{word}` is ever reached");
             let finding = findings.at(next.span, message);
             findings.push(finding.label(statement.span, "control leaves here"));
             return;

@@ -23,7 +23,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         let kind = match self.kind() {
             TokenKind::Semicolon => {
                 let span = self.bump().span;
-                let message = "a `;` stands alone at global scope";
+                let message = "a lone `;` at global scope";
                 let diagnostic = kind::STRAY_SEMICOLON.diagnostic(self.strict, span, message).help("leave it out");
                 self.session.report(diagnostic);
                 Ok(DeclarationKind::Empty)
@@ -115,7 +115,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
             TokenKind::LeftParen => (
                 format!("expected a declaration, found `{name}(`"),
                 format!(
-                    "a function begins with its return type: write `void {name}(..)`; a call stands inside a function"
+                    "a function begins with its return type: write `void {name}(..)`; a call must be inside a function"
                 ),
             ),
             TokenKind::Comma => {
@@ -181,7 +181,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         let mut qualifiers = self.qualifiers()?;
         let one = if qualifiers.len() == 1 { qualifiers.pop() } else { None };
         let Some(qualifier) = one else {
-            return Err(self.unexpected("`lowp`, `mediump` or `highp` behind `precision`"));
+            return Err(self.unexpected("`lowp`, `mediump` or `highp` after `precision`"));
         };
         let ty = self.type_specifier()?;
         Ok(DeclarationKind::Precision { qualifier, ty })
@@ -201,7 +201,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         if qualifiers.is_empty() {
             let message = format!("the block `{}` has no storage qualifier", self.session.names.spelling(name.symbol));
             let diagnostic = Diagnostic::new(&codes::MISSING_BLOCK_QUALIFIER, name.span, message)
-                .here("neither `uniform`, `in` nor `out` stands before it");
+                .here("there is no `uniform`, `in` or `out` before it");
             self.session.report(diagnostic);
         }
         let members = self.member_list()?;

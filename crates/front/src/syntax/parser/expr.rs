@@ -293,7 +293,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         let Some(name) = name else {
             let span = self.current.span;
             let diagnostic = Diagnostic::new(&codes::UNEXPECTED_TOKEN, span, "only names and types can be called")
-                .here("these brackets call what stands before them")
+                .here("these parentheses call what precedes them")
                 .label(self.expr(base).span, "this is neither");
             return Err(self.report_found(diagnostic));
         };
@@ -348,7 +348,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         if self.kind() == TokenKind::LeftBrace {
             let diagnostic =
                 Diagnostic::new(&codes::UNEXPECTED_TOKEN, self.current.span, "expected an expression, found `{`")
-                    .here("a list stands behind `=` alone")
+                    .here("a list is only allowed after `=`")
                     .help("write a constructor, such as `float[](1.0, 2.0)`");
             return self.report_found(diagnostic);
         }
@@ -372,7 +372,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         let span = self.since(token.span);
         if self.kind() != TokenKind::LeftParen {
             let name = self.session.spelling(token).to_owned();
-            return Err(self.unexpected(&format!("`(` behind the type `{name}`")));
+            return Err(self.unexpected(&format!("`(` after the type `{name}`")));
         }
         let ty = TypeSpec { base: TypeBase::Keyword(token.symbol()), array, span };
         let arguments = self.arguments()?;
@@ -387,7 +387,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
             let name = self.session.spelling(self.current).to_owned();
             let span = self.current.span;
             let diagnostic =
-                Diagnostic::new(&codes::UNEXPECTED_TOKEN, span, format!("`({name})` is no cast: GLSL has none"))
+                Diagnostic::new(&codes::UNEXPECTED_TOKEN, span, format!("`({name})` is not a cast: GLSL has none"))
                     .help(format!("write `{name}(..)` around the value"));
             return Err(self.report_found(diagnostic));
         }

@@ -20,7 +20,7 @@ mod types;
 
 use super::ast::{Ast, BinaryOp, ExprId, Ident};
 use super::keywords::{NEVER, TABLE};
-use super::token::{Session, Token, TokenKind, TokenSource};
+use super::token::{ParseSession, Token, TokenKind, TokenSource};
 use crate::diagnostic::codes::{general, syntax as codes};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
@@ -51,7 +51,7 @@ struct Mark {
 /// The state of a parse.
 pub(super) struct Parser<'p, 's, T: TokenSource> {
     source: &'p mut T,
-    session: &'p mut Session<'s>,
+    session: &'p mut ParseSession<'s>,
     ast: Ast,
     current: Token,
     ahead: VecDeque<Token>,
@@ -86,7 +86,7 @@ pub(super) struct Parser<'p, 's, T: TokenSource> {
 
 impl<'p, 's, T: TokenSource> Parser<'p, 's, T> {
     /// A parser that reads from `source` into `ast`.
-    pub(super) fn new(source: &'p mut T, session: &'p mut Session<'s>, ast: Ast, strict: bool) -> Self {
+    pub(super) fn new(source: &'p mut T, session: &'p mut ParseSession<'s>, ast: Ast, strict: bool) -> Self {
         let current = source.next(session);
         Self {
             source,
@@ -206,12 +206,12 @@ impl<'p, 's, T: TokenSource> Parser<'p, 's, T> {
         }
         let forgotten = self.current.starts_line() || matches!(self.kind(), TokenKind::RightBrace | TokenKind::Eof);
         if !forgotten {
-            return Err(self.unexpected(&format!("`;` behind {what}")));
+            return Err(self.unexpected(&format!("`;` after {what}")));
         }
         let diagnostic = Diagnostic::new(
             &codes::MISSING_SEMICOLON,
             self.previous.span.after(),
-            format!("`;` is missing behind {what}"),
+            format!("`;` is missing after {what}"),
         )
         .here("expected `;`")
         .help("write `;` here");

@@ -73,7 +73,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
             }
             TokenKind::Ident if self.is_misspelled_else_if() => {
                 let name = self.session.spelling(self.current).to_owned();
-                let message = format!("`{name}` is no keyword of GLSL");
+                let message = format!("`{name}` is not a keyword of GLSL");
                 let diagnostic = Diagnostic::new(&codes::UNEXPECTED_TOKEN, self.current.span, message)
                     .here("expected a statement")
                     .help("write `else if`");
@@ -118,7 +118,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
             DeclarationKind::Prototype(header) => StmtKind::Prototype(header),
             DeclarationKind::Block(_) => {
                 let span = self.since(start);
-                self.report(&codes::UNEXPECTED_TOKEN, span, "an interface block stands at global scope alone");
+                self.report(&codes::UNEXPECTED_TOKEN, span, "an interface block is only allowed at global scope");
                 StmtKind::Error
             }
             DeclarationKind::Error
@@ -147,7 +147,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         let diagnostic = Diagnostic::new(&codes::NESTED_FUNCTION, name.span, message)
             .here("functions stand at global scope alone")
             .label(self.function_brace, "the function around it begins here")
-            .help("if this is no nested function, a `}` is missing above");
+            .help("if this is not a nested function, a `}` is missing above");
         self.session.report(diagnostic);
         self.leaving_function = true;
         self.assumed_brace = true;
@@ -157,7 +157,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
     fn stray_case(&mut self) -> Reported {
         let token = self.bump();
         let name = token.kind.spelling();
-        let message = format!("`{name}` stands outside the braces of a `switch`");
+        let message = format!("`{name}` is outside the braces of a `switch`");
         self.report(&codes::STRAY_CASE, token.span, message);
         while !matches!(
             self.kind(),
@@ -218,7 +218,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         self.bump();
         let selector = self.condition_in_parens()?;
         if self.kind() != TokenKind::LeftBrace {
-            return Err(self.unexpected("`{` behind the `switch`"));
+            return Err(self.unexpected("`{` after the `switch`"));
         }
         let opening = self.bump();
         let mut body = Vec::new();
@@ -264,7 +264,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
             let init = this.for_init()?;
             let condition = if this.kind() == TokenKind::Semicolon { None } else { Some(this.condition()?) };
             if this.eat(TokenKind::Semicolon).is_none() {
-                return Err(this.unexpected("`;` behind the condition of the `for`"));
+                return Err(this.unexpected("`;` after the condition of the `for`"));
             }
             let step = if this.kind() == TokenKind::RightParen { None } else { Some(this.expression()?) };
             Ok((init, condition, step))
@@ -286,7 +286,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
             StmtKind::Expr(self.expression()?)
         };
         if self.eat(TokenKind::Semicolon).is_none() {
-            return Err(self.unexpected("`;` behind the first part of the `for`"));
+            return Err(self.unexpected("`;` after the first part of the `for`"));
         }
         Ok(Stmt { kind, span: self.since(start) })
     }
@@ -330,7 +330,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
             let diagnostic = Diagnostic::new(
                 &codes::UNEXPECTED_TOKEN,
                 self.current.span,
-                format!("expected `while` behind the body of the `do`, found {found}"),
+                format!("expected `while` after the body of the `do`, found {found}"),
             )
             .label(opening.span, "the `do`");
             return Err(self.report_found(diagnostic));

@@ -1,18 +1,19 @@
-//! Tests of the parser, with trees printed as nested lists: operators bind as in §5.1, and declarations are told from
+//! Tests of the parser, with trees printed as nested lists: operators bind as in §5.1, and declarations are
+//! distinguished from expressions.
 //! expressions.
 
 use crate::diagnostic::Diagnostics;
 use crate::language::Stage;
 use crate::source::{NoIncludes, SourceMap};
 use crate::syntax::ast::{Ast, DeclarationKind, ExprId, ExprKind, IncDec, Literal, Stmt, StmtKind, TypeBase, UnaryOp};
-use crate::syntax::{Options, parse};
+use crate::syntax::{ParseOptions, parse};
 
 fn tree(body: &str) -> (Ast, Vec<String>) {
     let mut sources = SourceMap::default();
     let mut diagnostics = Diagnostics::default();
     let text = format!("#version 150\nvoid main() {{ {body} }}");
     let file = sources.add("test.vert", text).expect("room");
-    let options = Options { stage: Stage::Vertex, defines: Vec::new(), strict: false };
+    let options = ParseOptions { stage: Stage::Vertex, defines: Vec::new(), strict: false };
     let ast = parse(&mut sources, file, &options, &NoIncludes, &mut diagnostics);
     let messages = diagnostics.iter().map(|diagnostic| diagnostic.message.clone()).collect();
     (ast, messages)
@@ -168,9 +169,9 @@ fn every_mistake_is_reported_once() {
         [
             "expected an expression, found `;`",
             "`(` is not closed",
-            "expected `;` behind the declaration, found `f`",
+            "expected `;` after the declaration, found `f`",
             "`(` is not closed",
-            "expected `;` behind the expression, found `l`",
+            "expected `;` after the expression, found `l`",
         ]
     );
     assert!(matches!(body(&ast).last(), Some(Stmt { kind: StmtKind::Expr(_), .. })));

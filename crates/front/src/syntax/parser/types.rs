@@ -63,7 +63,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
                 list.push(Qualifier { kind, span: self.since(start) });
             } else if self.is_reserved_qualifier() {
                 let token = self.current;
-                let message = format!("the reserved word `{}` is no qualifier", self.session.spelling(token));
+                let message = format!("the reserved word `{}` is not a qualifier", self.session.spelling(token));
                 self.report(&codes::RESERVED_WORD, token.span, message);
                 self.bump();
             } else if self.is_unknown_qualifier() {
@@ -88,9 +88,12 @@ impl<T: TokenSource> Parser<'_, '_, T> {
     fn unknown_qualifier(&mut self) {
         let token = self.bump();
         let name = self.session.spelling(token).to_owned();
-        let diagnostic =
-            Diagnostic::new(&codes::UNEXPECTED_TOKEN, token.span, format!("`{name}` is no qualifier in this version"))
-                .here("expected a qualifier or a type");
+        let diagnostic = Diagnostic::new(
+            &codes::UNEXPECTED_TOKEN,
+            token.span,
+            format!("`{name}` is not a qualifier in this version"),
+        )
+        .here("expected a qualifier or a type");
         let since = LATER_QUALIFIERS.iter().find(|row| row.0 == name).map(|row| row.1);
         let help = since.map(|since| format!("`{name}` came with GLSL {}.{:02}", since / 100, since % 100));
         self.session.report(diagnostic.maybe_help(help));
@@ -164,7 +167,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         let diagnostic = Diagnostic::new(
             &codes::RESERVED_WORD,
             token.span,
-            format!("the reserved word `{name}` is no type in this version"),
+            format!("the reserved word `{name}` is not a type in this version"),
         )
         .here("reserved for later versions")
         .maybe_help(help.map(str::to_owned));

@@ -1,7 +1,7 @@
 //! Evaluates the expressions of `#if` and `#elif` (GLSL 1.50 §3.3), with C++'s 64-bit integers.
 
 use super::define::Macro;
-use super::{Preprocessor, Session, Span, Token, TokenKind, codes, kind};
+use super::{ParseSession, Preprocessor, Span, Token, TokenKind, codes, kind};
 use crate::diagnostic::{Code, Diagnostic, did_you_mean};
 
 /// How deep parentheses and unary operators may nest in an `#if`.
@@ -73,7 +73,7 @@ struct Evaluator<'t> {
 
 impl Preprocessor<'_> {
     /// Reads and evaluates the rest of an `#if` or `#elif` line. Returns false if it is malformed.
-    pub(super) fn condition(&mut self, session: &mut Session<'_>, directive: Span) -> bool {
+    pub(super) fn condition(&mut self, session: &mut ParseSession<'_>, directive: Span) -> bool {
         let mut line = Vec::new();
         self.rest_of_line(session, &mut line);
         let end = line.last().map_or(directive, |token| token.span).after();
@@ -84,7 +84,7 @@ impl Preprocessor<'_> {
         if tokens.is_empty() {
             if !self.stopped {
                 let diagnostic = Diagnostic::new(&codes::MALFORMED_CONDITION, directive, "the condition is empty")
-                    .here("an expression belongs behind this");
+                    .here("an expression must follow this");
                 session.report(diagnostic);
             }
             return false;
@@ -96,7 +96,7 @@ impl Preprocessor<'_> {
     }
 
     /// The constant expressions of a `#line`, one after the other; `None` after an error.
-    pub(super) fn line_numbers(&self, session: &mut Session<'_>, tokens: &[Token], end: Span) -> Option<Vec<i64>> {
+    pub(super) fn line_numbers(&self, session: &mut ParseSession<'_>, tokens: &[Token], end: Span) -> Option<Vec<i64>> {
         let mut evaluator = self.evaluator(tokens, end, Purpose::Line);
         let mut numbers = Vec::new();
         while evaluator.peek().is_some() && numbers.len() < 2 {
@@ -114,9 +114,9 @@ impl Preprocessor<'_> {
     }
 
     /// Expands the macros of the line and replaces `defined`.
-    fn expand_condition(&mut self, session: &mut Session<'_>, line: Vec<Token>) -> Option<Vec<Token>> {
+    fn expand_condition(&mut self, session: &mut ParseSession<'_>, line: Vec<Token>) -> Option<Vec<Token>> {
         let floor = self.contexts.len();
-        self.contexts.push(super::expand::Context::barrier(line));
+        self.contexts.push(super::expand::TokenRun::barrier(line));
         let mut tokens = Vec::new();
         let mut result = Some(());
         while !self.stopped && result.is_some() {
@@ -136,7 +136,7 @@ impl Preprocessor<'_> {
     }
 
     /// `defined NAME` or `defined(NAME)`, as a number.
-    fn defined(&mut self, session: &mut Session<'_>, operator: Token) -> Option<Token> {
+    fn defined(&mut self, session: &mut ParseSession<'_>, operator: Token) -> Option<Token> {
         let mut token = self.next_unexpanded(session, true);
         let bracket = token.kind == TokenKind::LeftParen;
         if bracket {
@@ -162,7 +162,7 @@ impl Evaluator<'_> {
         self.tokens.get(self.next).copied()
     }
 
-    fn fail<T>(&self, session: &mut Session<'_>, token: Option<Token>, message: &str) -> Result<T, Malformed> {
+    fn fail<T>(&self, session: &mut ParseSession<'_>, token: Option<Token>, message: &str) -> Result<T, Malformed> {
         let span = token.map_or(self.end, |token| token.span);
         let found = token.map_or("the line ends here".to_owned(), |token| {
             format!("found `{}`", session.sources.snippet(token.span))
@@ -175,19 +175,21 @@ impl Evaluator<'_> {
         Err(Malformed)
     }
 
-    fn whole(&mut self, session: &mut Session<'_>) -> Result<i64, Malformed> {
+    fn whole(&mut self, session: &mut ParseSession<'_>) -> Result<i64, Malformed> {
         let value = self.binary(session, 1)?;
         match self.peek() {
             None => Ok(value),
-            Some(token) if token.kind == TokenKind::LeftParen => {
-                self.fail(session, Some(token), "a condition cannot call: what stands before the bracket is no macro")
-            }
+            Some(token) if token.kind == TokenKind::LeftParen => self.fail(
+                session,
+                Some(token),
+                "a condition cannot call: the name before the parenthesis is not a macro",
+            ),
             other => self.fail(session, other, "expected an operator in the condition"),
         }
     }
 
     /// Operands joined by operators that bind at least as strongly as `least`.
-    fn binary(&mut self, session: &mut Session<'_>, least: u8) -> Result<i64, Malformed> {
+    fn binary(&mut self, session: &mut ParseSession<'_>, least: u8) -> Result<i64, Malformed> {
         let mut left = self.unary(session)?;
         while let Some(operator) = self.peek() {
             let Some(strength) = precedence(operator.kind).filter(|&strength| strength >= least) else { break };
@@ -202,7 +204,7 @@ impl Evaluator<'_> {
         Ok(left)
     }
 
-    fn apply(&self, session: &mut Session<'_>, operator: Token, a: i64, b: i64) -> Result<i64, Malformed> {
+    fn apply(&self, session: &mut ParseSession<'_>, operator: Token, a: i64, b: i64) -> Result<i64, Malformed> {
         use TokenKind::*;
         if matches!(operator.kind, Slash | Percent) && b == 0 {
             if self.unevaluated == 0 {
@@ -236,7 +238,7 @@ impl Evaluator<'_> {
         })
     }
 
-    fn unary(&mut self, session: &mut Session<'_>) -> Result<i64, Malformed> {
+    fn unary(&mut self, session: &mut ParseSession<'_>) -> Result<i64, Malformed> {
         let Some(token) = self.peek() else {
             return self.fail(session, None, &format!("expected an operand in {}", self.purpose.name()));
         };
@@ -262,9 +264,9 @@ impl Evaluator<'_> {
 
     fn nested(
         &mut self,
-        session: &mut Session<'_>,
+        session: &mut ParseSession<'_>,
         token: Token,
-        inner: impl FnOnce(&mut Self, &mut Session<'_>) -> Result<i64, Malformed>,
+        inner: impl FnOnce(&mut Self, &mut ParseSession<'_>) -> Result<i64, Malformed>,
     ) -> Result<i64, Malformed> {
         if self.nesting >= MAX_NESTING {
             let message = format!("{} nests more than {MAX_NESTING} levels deep", self.purpose.name());
@@ -277,7 +279,7 @@ impl Evaluator<'_> {
         value
     }
 
-    fn number(&self, session: &mut Session<'_>, token: Token) -> Result<i64, Malformed> {
+    fn number(&self, session: &mut ParseSession<'_>, token: Token) -> Result<i64, Malformed> {
         let text = session.spelling(token);
         let digits = text.trim_end_matches(['u', 'U', 'l', 'L']);
         let (radix, digits) = match digits.strip_prefix("0x").or_else(|| digits.strip_prefix("0X")) {
@@ -292,13 +294,13 @@ impl Evaluator<'_> {
     }
 
     /// Handles a name that is not a macro.
-    fn undefined(&self, session: &mut Session<'_>, token: Token) -> Result<i64, Malformed> {
+    fn undefined(&self, session: &mut ParseSession<'_>, token: Token) -> Result<i64, Malformed> {
         let name = session.spelling(token).to_owned();
         if self.purpose == Purpose::Line {
-            return self.fail(session, Some(token), &format!("`{name}` is no number"));
+            return self.fail(session, Some(token), &format!("`{name}` is not a number"));
         }
         if self.peek().is_some_and(|next| next.kind == TokenKind::LeftParen) {
-            return self.fail(session, Some(token), &format!("`{name}` is no macro with arguments"));
+            return self.fail(session, Some(token), &format!("`{name}` is not a macro with arguments"));
         }
         if self.unevaluated == 0 {
             let names = self.macros.iter().map(|definition| &*definition.name);

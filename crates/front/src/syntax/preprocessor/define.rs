@@ -1,6 +1,6 @@
 //! Macros: `#define`, `#undef`, and the predefined ones (GLSL 1.50 §3.3).
 
-use super::{Preprocessor, Session, Span, Symbol, Token, TokenFlags, TokenKind, codes, extension, kind, version};
+use super::{ParseSession, Preprocessor, Span, Symbol, Token, TokenFlags, TokenKind, codes, extension, kind, version};
 use crate::diagnostic::Diagnostic;
 use crate::source::SourceMap;
 use std::sync::Arc;
@@ -8,7 +8,7 @@ use std::sync::Arc;
 /// The largest number of parameters of a macro.
 const MAX_PARAMS: usize = 256;
 
-/// What a macro expands to.
+/// The expansion of a macro.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Meaning {
     /// Its body.
@@ -41,7 +41,7 @@ impl Macro {
     }
 
     /// Whether two definitions are the same by C's rule: equal tokens, with white space between the same ones.
-    fn same(&self, other: &Self, session: &Session<'_>) -> bool {
+    fn same(&self, other: &Self, session: &ParseSession<'_>) -> bool {
         let spaced = |token: &Token, first: bool| !first && token.flags.contains(TokenFlags::SPACE);
         let text = |token: &Token| match token.kind {
             TokenKind::Unknown => session.sources.snippet(token.span).to_owned(),
@@ -60,7 +60,7 @@ impl Macro {
 
 impl Preprocessor<'_> {
     /// Defines the macros that every shader of the version has.
-    pub(super) fn define_predefined(&mut self, session: &mut Session<'_>) {
+    pub(super) fn define_predefined(&mut self, session: &mut ParseSession<'_>) {
         let number = version::NEWEST_SUPPORTED.to_string();
         let plain = [("__VERSION__", number.as_str()), ("GL_core_profile", "1")];
         for (name, value) in plain {
@@ -73,7 +73,7 @@ impl Preprocessor<'_> {
         }
     }
 
-    fn predefine(&mut self, session: &mut Session<'_>, name: &str, value: &str, meaning: Meaning) {
+    fn predefine(&mut self, session: &mut ParseSession<'_>, name: &str, value: &str, meaning: Meaning) {
         let mut token = Token::new(TokenKind::Number, Span::default());
         token.payload = session.names.intern(value).bits();
         let symbol = session.names.intern(name);
@@ -95,7 +95,7 @@ impl Preprocessor<'_> {
     }
 
     /// Processes the definitions of the command line as a text of their own, so that errors in them have a position.
-    pub(super) fn define_from_outside(&mut self, session: &mut Session<'_>, defines: &[(String, String)]) {
+    pub(super) fn define_from_outside(&mut self, session: &mut ParseSession<'_>, defines: &[(String, String)]) {
         if defines.is_empty() {
             return;
         }
@@ -114,7 +114,7 @@ impl Preprocessor<'_> {
     }
 
     /// `#define NAME body`, `#define NAME(a, b) body`
-    pub(super) fn define(&mut self, session: &mut Session<'_>) {
+    pub(super) fn define(&mut self, session: &mut ParseSession<'_>) {
         let Some(name) = self.macro_name(session, "#define") else { return };
         let first = self.line_token(session);
         let mut tokens = Vec::new();
@@ -141,14 +141,14 @@ impl Preprocessor<'_> {
     }
 
     /// `#undef NAME`
-    pub(super) fn undef(&mut self, session: &mut Session<'_>) {
+    pub(super) fn undef(&mut self, session: &mut ParseSession<'_>) {
         let Some(name) = self.macro_name(session, "#undef") else { return };
         self.word(name.symbol()).definition = 0;
         self.expect_line_end(session, "#undef");
     }
 
     /// The name after `#define` or `#undef`, if it may be defined or undefined.
-    fn macro_name(&mut self, session: &mut Session<'_>, directive: &str) -> Option<Token> {
+    fn macro_name(&mut self, session: &mut ParseSession<'_>, directive: &str) -> Option<Token> {
         let token = self.line_token(session);
         if token.kind != TokenKind::Word {
             self.malformed(session, token, &format!("`{directive}` needs the name of a macro"));
@@ -160,7 +160,7 @@ impl Preprocessor<'_> {
         if predefined || name.starts_with("GL_") || name == "defined" {
             let (verb, why) = match (directive, predefined) {
                 ("#undef", true) => ("undefined", "it is predefined"),
-                (_, true) => ("defined anew", "it is predefined"),
+                (_, true) => ("redefined", "it is predefined"),
                 ("#undef", false) => ("undefined", "it is reserved"),
                 (_, false) => ("defined", "it is reserved"),
             };
@@ -181,7 +181,7 @@ impl Preprocessor<'_> {
     }
 
     /// The parameters up to the `)`; `None` after an error.
-    fn parameters(&mut self, session: &mut Session<'_>, name: Token, opening: Token) -> Option<Vec<Symbol>> {
+    fn parameters(&mut self, session: &mut ParseSession<'_>, name: Token, opening: Token) -> Option<Vec<Symbol>> {
         let mut params: Vec<Symbol> = Vec::new();
         loop {
             let token = self.line_token(session);
@@ -218,7 +218,7 @@ impl Preprocessor<'_> {
 
     fn malformed_parameters(
         &mut self,
-        session: &mut Session<'_>,
+        session: &mut ParseSession<'_>,
         name: Token,
         opening: Token,
         found: Token,
@@ -238,7 +238,12 @@ impl Preprocessor<'_> {
     }
 
     /// Marks the parameters in a body and checks its `##`. Returns whether the body pastes, or `None` after an error.
-    fn check_body(&mut self, session: &mut Session<'_>, params: Option<&[Symbol]>, body: &mut [Token]) -> Option<bool> {
+    fn check_body(
+        &mut self,
+        session: &mut ParseSession<'_>,
+        params: Option<&[Symbol]>,
+        body: &mut [Token],
+    ) -> Option<bool> {
         let mut pastes = false;
         let last = body.len().wrapping_sub(1);
         for (index, token) in body.iter_mut().enumerate() {
@@ -256,9 +261,12 @@ impl Preprocessor<'_> {
                 }
                 TokenKind::HashHash => pastes = true,
                 TokenKind::Hash => {
-                    let diagnostic =
-                        Diagnostic::new(&codes::MISPLACED_HASH, token.span, "`#` is no operator in a macro of GLSL")
-                            .help("there are no strings; `##` joins two tokens");
+                    let diagnostic = Diagnostic::new(
+                        &codes::MISPLACED_HASH,
+                        token.span,
+                        "`#` is not an operator in a macro of GLSL",
+                    )
+                    .help("there are no strings; `##` joins two tokens");
                     session.report(diagnostic);
                     return None;
                 }
@@ -268,7 +276,7 @@ impl Preprocessor<'_> {
         Some(pastes)
     }
 
-    fn check_redefinition(&mut self, session: &mut Session<'_>, name: Token, new: &Macro) {
+    fn check_redefinition(&mut self, session: &mut ParseSession<'_>, name: Token, new: &Macro) {
         let Some(old) = self.macro_of(name.symbol()).and_then(|index| self.macros.get(index)) else { return };
         if old.span == new.span || old.same(new, session) {
             return;

@@ -1,6 +1,6 @@
 //! Directives by name, conditional groups, `#line`, `#error` and `#pragma` (GLSL 1.50 §3.3).
 
-use super::{Extensions, Mode, Preprocessor, Session, Span, Token, TokenKind, codes, kind};
+use super::{Extensions, Mode, ParseSession, Preprocessor, Span, Token, TokenKind, codes, kind};
 use crate::diagnostic::{Diagnostic, did_you_mean};
 
 /// An open conditional group.
@@ -14,7 +14,7 @@ pub(super) struct Conditional {
 }
 
 impl Conditional {
-    pub(super) fn report_unterminated(self, session: &mut Session<'_>) {
+    pub(super) fn report_unterminated(self, session: &mut ParseSession<'_>) {
         let message = format!("the `{}` has no `#endif`", self.name);
         let diagnostic = Diagnostic::new(&codes::UNTERMINATED_CONDITIONAL, self.opening, message)
             .here("opened here and never closed");
@@ -65,11 +65,11 @@ fn directive_named(name: &str) -> Option<Directive> {
 
 impl Preprocessor<'_> {
     /// Runs the directive whose `#` was just read.
-    pub(super) fn directive(&mut self, session: &mut Session<'_>, hash: Token) {
+    pub(super) fn directive(&mut self, session: &mut ParseSession<'_>, hash: Token) {
         let token = self.line_token(session);
         let span = session.sources.join(hash.span, token.span);
         if self.in_arguments && token.kind == TokenKind::Word {
-            let message = "a directive stands in the arguments of a macro's use";
+            let message = "a directive in the arguments of a macro use";
             kind::DIRECTIVE_IN_ARGUMENTS.report(session, self.strict, span, message);
         }
         let directive = match token.kind {
@@ -103,7 +103,7 @@ impl Preprocessor<'_> {
         }
     }
 
-    fn unknown_directive(&mut self, session: &mut Session<'_>, token: Token, span: Span) {
+    fn unknown_directive(&mut self, session: &mut ParseSession<'_>, token: Token, span: Span) {
         let name = session.sources.snippet(token.span).to_owned();
         let near = did_you_mean(&name, DIRECTIVES.iter().map(|row| row.0));
         let diagnostic = Diagnostic::new(&codes::UNKNOWN_DIRECTIVE, span, format!("there is no directive `#{name}`"))
@@ -113,7 +113,7 @@ impl Preprocessor<'_> {
     }
 
     /// The next token of the directive's line, without macro expansion.
-    pub(super) fn line_token(&mut self, session: &mut Session<'_>) -> Token {
+    pub(super) fn line_token(&mut self, session: &mut ParseSession<'_>) -> Token {
         let Some(frame) = self.frames.last_mut() else { return Token::new(TokenKind::Eof, Span::default()) };
         let token = frame.lexer.next(Mode::Directive, &mut session.names, &mut self.trivia);
         if !self.trivia.is_empty() {
@@ -123,7 +123,7 @@ impl Preprocessor<'_> {
     }
 
     /// The rest of the directive's line.
-    pub(super) fn rest_of_line(&mut self, session: &mut Session<'_>, tokens: &mut Vec<Token>) {
+    pub(super) fn rest_of_line(&mut self, session: &mut ParseSession<'_>, tokens: &mut Vec<Token>) {
         loop {
             let token = self.line_token(session);
             if matches!(token.kind, TokenKind::Newline | TokenKind::Eof) {
@@ -133,7 +133,7 @@ impl Preprocessor<'_> {
         }
     }
 
-    pub(super) fn skip_line(&mut self, session: &mut Session<'_>) {
+    pub(super) fn skip_line(&mut self, session: &mut ParseSession<'_>) {
         if let Some(frame) = self.frames.last_mut() {
             frame.lexer.skip_line(&mut session.names, &mut self.trivia);
         }
@@ -141,14 +141,14 @@ impl Preprocessor<'_> {
     }
 
     /// Skips the rest of the line after `token`, which may itself be the line end.
-    pub(super) fn end_line(&mut self, session: &mut Session<'_>, token: Token) {
+    pub(super) fn end_line(&mut self, session: &mut ParseSession<'_>, token: Token) {
         if !matches!(token.kind, TokenKind::Newline | TokenKind::Eof) {
             self.skip_line(session);
         }
     }
 
     /// Reports a directive that makes no sense at `token`, and skips its line.
-    pub(super) fn malformed(&mut self, session: &mut Session<'_>, token: Token, message: &str) {
+    pub(super) fn malformed(&mut self, session: &mut ParseSession<'_>, token: Token, message: &str) {
         let here = match token.kind {
             TokenKind::Newline | TokenKind::Eof => "the line ends here".to_owned(),
             _ => format!("found `{}`", session.sources.snippet(token.span)),
@@ -158,12 +158,12 @@ impl Preprocessor<'_> {
     }
 
     /// Reports text after a complete directive.
-    pub(super) fn expect_line_end(&mut self, session: &mut Session<'_>, directive: &str) {
+    pub(super) fn expect_line_end(&mut self, session: &mut ParseSession<'_>, directive: &str) {
         let token = self.line_token(session);
         if matches!(token.kind, TokenKind::Newline | TokenKind::Eof) {
             return;
         }
-        let message = format!("something stands behind the complete `{directive}`");
+        let message = format!("there is text after the complete `{directive}`");
         kind::EXTRA_TEXT.report(session, self.strict, token.span, message);
         self.skip_line(session);
     }
@@ -174,14 +174,14 @@ impl Preprocessor<'_> {
         }
     }
 
-    fn if_directive(&mut self, session: &mut Session<'_>, span: Span) {
+    fn if_directive(&mut self, session: &mut ParseSession<'_>, span: Span) {
         self.open(span, "#if");
         if !self.condition(session, span) {
             self.skip_groups(session);
         }
     }
 
-    fn ifdef(&mut self, session: &mut Session<'_>, span: Span, name: &'static str, wanted: bool) {
+    fn ifdef(&mut self, session: &mut ParseSession<'_>, span: Span, name: &'static str, wanted: bool) {
         self.open(span, name);
         let token = self.line_token(session);
         if token.kind != TokenKind::Word {
@@ -196,7 +196,7 @@ impl Preprocessor<'_> {
     }
 
     /// Handles `#elif` or `#else` after a group that was taken.
-    fn end_group(&mut self, session: &mut Session<'_>, span: Span, name: &'static str) {
+    fn end_group(&mut self, session: &mut ParseSession<'_>, span: Span, name: &'static str) {
         if self.check_order(session, span, name) {
             if name == "#else" {
                 self.expect_line_end(session, name);
@@ -210,17 +210,16 @@ impl Preprocessor<'_> {
     }
 
     /// Whether `#elif` or `#else` is allowed here; records an `#else`.
-    fn check_order(&mut self, session: &mut Session<'_>, span: Span, name: &'static str) -> bool {
+    fn check_order(&mut self, session: &mut ParseSession<'_>, span: Span, name: &'static str) -> bool {
         let open = self.frames.last_mut().and_then(|frame| frame.conditionals.last_mut());
         let Some(open) = open else {
             self.stray(session, span, name);
             return false;
         };
         if let Some(first) = open.else_at {
-            let diagnostic =
-                Diagnostic::new(&codes::STRAY_CONDITIONAL, span, format!("`{name}` stands behind an `#else`"))
-                    .label(first, "only `#endif` may follow this")
-                    .label(open.opening, "the group begins here");
+            let diagnostic = Diagnostic::new(&codes::STRAY_CONDITIONAL, span, format!("`{name}` after an `#else`"))
+                .label(first, "only `#endif` may follow this")
+                .label(open.opening, "the group begins here");
             session.report(diagnostic);
         } else if name == "#else" {
             open.else_at = Some(span);
@@ -228,13 +227,13 @@ impl Preprocessor<'_> {
         true
     }
 
-    fn stray(&mut self, session: &mut Session<'_>, span: Span, name: &str) {
+    fn stray(&mut self, session: &mut ParseSession<'_>, span: Span, name: &str) {
         let diagnostic = Diagnostic::new(&codes::STRAY_CONDITIONAL, span, format!("`{name}` has no `#if` before it"))
             .here("no group is open in this file");
         session.report(diagnostic);
     }
 
-    fn endif(&mut self, session: &mut Session<'_>, span: Span) {
+    fn endif(&mut self, session: &mut ParseSession<'_>, span: Span) {
         if self.frames.last_mut().and_then(|frame| frame.conditionals.pop()).is_none() {
             self.stray(session, span, "#endif");
         }
@@ -242,7 +241,7 @@ impl Preprocessor<'_> {
     }
 
     /// Skips groups of the innermost conditional until one is to be taken or the conditional ends.
-    fn skip_groups(&mut self, session: &mut Session<'_>) {
+    fn skip_groups(&mut self, session: &mut ParseSession<'_>) {
         while let Some((span, directive)) = self.skip_group(session) {
             match directive {
                 Directive::Endif => return self.endif(session, span),
@@ -276,7 +275,7 @@ impl Preprocessor<'_> {
     }
 
     /// Skips everything up to the `#endif` of the innermost conditional.
-    fn skip_to_endif(&mut self, session: &mut Session<'_>) {
+    fn skip_to_endif(&mut self, session: &mut ParseSession<'_>) {
         while let Some((span, directive)) = self.skip_group(session) {
             match directive {
                 Directive::Endif => return self.endif(session, span),
@@ -293,7 +292,7 @@ impl Preprocessor<'_> {
     }
 
     /// Skips to the next `#elif`, `#else` or `#endif` of the innermost conditional, and reads its name.
-    fn skip_group(&mut self, session: &mut Session<'_>) -> Option<(Span, Directive)> {
+    fn skip_group(&mut self, session: &mut ParseSession<'_>) -> Option<(Span, Directive)> {
         let mut depth = 0_usize;
         loop {
             // Skipped text need only consist of lines: continuations and `glisten:` comments in it mean nothing.
@@ -319,7 +318,7 @@ impl Preprocessor<'_> {
     }
 
     /// `#error text`
-    fn error_directive(&mut self, session: &mut Session<'_>, span: Span) {
+    fn error_directive(&mut self, session: &mut ParseSession<'_>, span: Span) {
         let mut tokens = Vec::new();
         self.rest_of_line(session, &mut tokens);
         let rest = match tokens.as_slice() {
@@ -333,7 +332,7 @@ impl Preprocessor<'_> {
     }
 
     /// `#pragma`: its macros are not expanded, and unknown pragmas are ignored.
-    fn pragma(&mut self, session: &mut Session<'_>, directive: Span) {
+    fn pragma(&mut self, session: &mut ParseSession<'_>, directive: Span) {
         let mut tokens = Vec::new();
         self.rest_of_line(session, &mut tokens);
         let text: Vec<&str> = tokens.iter().map(|token| session.sources.snippet(token.span)).collect();
@@ -345,7 +344,7 @@ impl Preprocessor<'_> {
             }
             [name @ ("optimize" | "debug"), "(", "on" | "off", ")"] => {
                 if self.in_function {
-                    let message = format!("`#pragma {name}` stands inside of a function");
+                    let message = format!("`#pragma {name}` inside a function");
                     let end = tokens.last().map_or(directive, |token| token.span);
                     let span = session.sources.join(directive, end);
                     let diagnostic = kind::PRAGMA_IN_FUNCTION.diagnostic(self.strict, span, message);
@@ -368,7 +367,7 @@ impl Preprocessor<'_> {
     }
 
     /// `#line line`, `#line line source-string-number`, macros expanded; both are constant expressions.
-    fn line(&mut self, session: &mut Session<'_>, span: Span) {
+    fn line(&mut self, session: &mut ParseSession<'_>, span: Span) {
         let mut tokens = Vec::new();
         self.rest_of_line(session, &mut tokens);
         let end = tokens.last().map_or(span, |token| token.span).after();

@@ -1,7 +1,7 @@
 //! Macro expansion by the rules of C++, on an explicit stack (GLSL 1.50 §3.3).
 
 use super::define::Meaning;
-use super::{Mode, Preprocessor, Session, Span, Token, TokenFlags, TokenKind, codes};
+use super::{Mode, ParseSession, Preprocessor, Span, Token, TokenFlags, TokenKind, codes};
 use crate::diagnostic::Diagnostic;
 use crate::source::{Expansion, ExpansionId};
 use crate::syntax::lexer::Lexer;
@@ -18,7 +18,7 @@ const STEPS_A_BYTE: usize = 2;
 const PASTED_A_STEP: usize = 4;
 
 /// Tokens that are read before the rest of the files.
-enum Run {
+enum RunTokens {
     /// The body of a macro as defined; each token gets this expansion.
     Body(Arc<[Token]>, ExpansionId),
     /// Tokens that have their positions already.
@@ -26,27 +26,27 @@ enum Run {
 }
 
 /// A run of tokens, and how much of it has been read.
-pub(super) struct Context {
-    run: Run,
+pub(super) struct TokenRun {
+    run: RunTokens,
     next: usize,
     definition: Option<usize>,
     barrier: bool,
 }
 
-impl Context {
+impl TokenRun {
     /// Tokens after which nothing else is read until they are removed.
     pub(super) fn barrier(tokens: Vec<Token>) -> Self {
-        Self { run: Run::List(tokens), next: 0, definition: None, barrier: true }
+        Self { run: RunTokens::List(tokens), next: 0, definition: None, barrier: true }
     }
 
     fn list(tokens: Vec<Token>, definition: Option<usize>) -> Self {
-        Self { run: Run::List(tokens), next: 0, definition, barrier: false }
+        Self { run: RunTokens::List(tokens), next: 0, definition, barrier: false }
     }
 
     pub(super) fn next(&mut self) -> Option<Token> {
         let token = match &self.run {
-            Run::Body(body, expansion) => body.get(self.next).map(|token| placed(*token, *expansion)),
-            Run::List(tokens) => tokens.get(self.next).copied(),
+            RunTokens::Body(body, expansion) => body.get(self.next).map(|token| placed(*token, *expansion)),
+            RunTokens::List(tokens) => tokens.get(self.next).copied(),
         };
         self.next += 1;
         token
@@ -70,7 +70,7 @@ fn placed(mut token: Token, expansion: ExpansionId) -> Token {
 
 impl Preprocessor<'_> {
     /// The next token, after macro expansion.
-    pub(super) fn next_expanded(&mut self, session: &mut Session<'_>) -> Token {
+    pub(super) fn next_expanded(&mut self, session: &mut ParseSession<'_>) -> Token {
         loop {
             let token = self.next_unexpanded(session, false);
             if token.kind != TokenKind::Word || token.flags.contains(TokenFlags::NO_EXPAND) {
@@ -88,12 +88,12 @@ impl Preprocessor<'_> {
 
     /// Begins the expansion of a macro use. Returns false if it is not a use (a function-like macro without
     /// arguments).
-    fn expand(&mut self, session: &mut Session<'_>, name: Token, index: usize) -> bool {
+    fn expand(&mut self, session: &mut ParseSession<'_>, name: Token, index: usize) -> bool {
         let Some(definition) = self.macros.get(index) else { return false };
         let function_like = definition.params.is_some();
         if definition.meaning != Meaning::Body {
             let number = self.magic_number(session, definition.meaning, name.span);
-            self.contexts.push(Context::list(vec![self.number_token(session, number, name)], None));
+            self.contexts.push(TokenRun::list(vec![self.number_token(session, number, name)], None));
             return true;
         }
         if !function_like && !definition.pastes {
@@ -102,7 +102,7 @@ impl Preprocessor<'_> {
             self.spend(session, body.len(), span);
             self.push(
                 session,
-                Context { run: Run::Body(body, id), next: 0, definition: Some(index), barrier: false },
+                TokenRun { run: RunTokens::Body(body, id), next: 0, definition: Some(index), barrier: false },
                 span,
             );
             return true;
@@ -121,11 +121,11 @@ impl Preprocessor<'_> {
         let Some(arguments) = self.check_argument_count(session, index, arguments, call) else { return true };
         let id = self.note_expansion(session, index, call);
         let tokens = self.substitute(session, index, &arguments, id);
-        self.push(session, Context::list(tokens, Some(index)), call);
+        self.push(session, TokenRun::list(tokens, Some(index)), call);
         true
     }
 
-    fn push(&mut self, session: &mut Session<'_>, context: Context, span: Span) {
+    fn push(&mut self, session: &mut ParseSession<'_>, context: TokenRun, span: Span) {
         if let Some(definition) = context.definition.and_then(|index| self.macros.get_mut(index)) {
             definition.disabled = true;
         }
@@ -137,14 +137,14 @@ impl Preprocessor<'_> {
         }
     }
 
-    fn note_expansion(&mut self, session: &mut Session<'_>, index: usize, call: Span) -> ExpansionId {
+    fn note_expansion(&mut self, session: &mut ParseSession<'_>, index: usize, call: Span) -> ExpansionId {
         let Some(definition) = self.macros.get(index) else { return ExpansionId::NONE };
         let expansion = Expansion { name: definition.name.clone(), call, definition: definition.span };
         session.sources.add_expansion(expansion)
     }
 
     /// Charges tokens to the budget.
-    fn spend(&mut self, session: &mut Session<'_>, tokens: usize, span: Span) {
+    fn spend(&mut self, session: &mut ParseSession<'_>, tokens: usize, span: Span) {
         self.steps += tokens + 1;
         if self.steps > STEPS + STEPS_A_BYTE * self.bytes && !self.stopped {
             let message =
@@ -156,7 +156,7 @@ impl Preprocessor<'_> {
         }
     }
 
-    fn magic_number(&self, session: &Session<'_>, meaning: Meaning, span: Span) -> u32 {
+    fn magic_number(&self, session: &ParseSession<'_>, meaning: Meaning, span: Span) -> u32 {
         let site = session.sources.call_site(span);
         match meaning {
             Meaning::Line => session.sources.presented_line(site).or_else(|| session.sources.line(site)).unwrap_or(0),
@@ -164,19 +164,19 @@ impl Preprocessor<'_> {
         }
     }
 
-    fn number_token(&self, session: &mut Session<'_>, number: u32, at: Token) -> Token {
+    fn number_token(&self, session: &mut ParseSession<'_>, number: u32, at: Token) -> Token {
         let mut token = Token { kind: TokenKind::Number, ..at };
         token.payload = session.names.intern(&number.to_string()).bits();
         token
     }
 
     /// Reads `(` if it is next.
-    fn take_opening(&mut self, session: &mut Session<'_>) -> Option<Token> {
+    fn take_opening(&mut self, session: &mut ParseSession<'_>) -> Option<Token> {
         let token = self.next_unexpanded(session, true);
         match token.kind {
             TokenKind::LeftParen => return Some(token),
             TokenKind::Eof => {}
-            _ => self.contexts.push(Context::list(vec![token], None)),
+            _ => self.contexts.push(TokenRun::list(vec![token], None)),
         }
         None
     }
@@ -184,7 +184,7 @@ impl Preprocessor<'_> {
     /// The arguments after `(`, and the position of the `)`.
     fn arguments(
         &mut self,
-        session: &mut Session<'_>,
+        session: &mut ParseSession<'_>,
         name: Token,
         opening: Token,
         index: usize,
@@ -217,7 +217,7 @@ impl Preprocessor<'_> {
 
     /// Reports a macro use whose `)` is missing. In a directive the rest of the line is lost; in the text, the rest
     /// of the file.
-    fn unterminated_call(&mut self, session: &mut Session<'_>, name: Token, opening: Token, index: usize) {
+    fn unterminated_call(&mut self, session: &mut ParseSession<'_>, name: Token, opening: Token, index: usize) {
         if self.stopped {
             return;
         }
@@ -226,7 +226,7 @@ impl Preprocessor<'_> {
         let diagnostic = Diagnostic::new(&codes::UNTERMINATED_MACRO_CALL, name.span, message)
             .label(opening.span, "this bracket is never closed");
         session.report(diagnostic);
-        if self.contexts.iter().any(Context::is_barrier) {
+        if self.contexts.iter().any(TokenRun::is_barrier) {
             self.broken_line = true;
         } else {
             self.stop();
@@ -235,7 +235,7 @@ impl Preprocessor<'_> {
 
     fn check_argument_count(
         &mut self,
-        session: &mut Session<'_>,
+        session: &mut ParseSession<'_>,
         index: usize,
         mut arguments: Vec<Vec<Token>>,
         call: Span,
@@ -255,14 +255,14 @@ impl Preprocessor<'_> {
         session.report(diagnostic);
         // A number replaces the use, so that the parser sees no hole.
         let zero = self.number_token(session, 0, Token::new(TokenKind::Number, call));
-        self.contexts.push(Context::list(vec![zero], None));
+        self.contexts.push(TokenRun::list(vec![zero], None));
         None
     }
 
     /// The body with its parameters replaced by arguments and its `##` applied.
     fn substitute(
         &mut self,
-        session: &mut Session<'_>,
+        session: &mut ParseSession<'_>,
         index: usize,
         arguments: &[Vec<Token>],
         id: ExpansionId,
@@ -304,7 +304,7 @@ impl Preprocessor<'_> {
     #[expect(clippy::too_many_arguments, reason = "the state of one substitution, used nowhere else")]
     fn operand(
         &mut self,
-        session: &mut Session<'_>,
+        session: &mut ParseSession<'_>,
         token: Token,
         arguments: &[Vec<Token>],
         expanded: &mut [Option<Vec<Token>>],
@@ -338,7 +338,7 @@ impl Preprocessor<'_> {
     }
 
     /// An argument after the expansion of its own macros.
-    fn expand_argument(&mut self, session: &mut Session<'_>, argument: &[Token]) -> Vec<Token> {
+    fn expand_argument(&mut self, session: &mut ParseSession<'_>, argument: &[Token]) -> Vec<Token> {
         let has_macro =
             argument.iter().any(|token| token.kind == TokenKind::Word && self.macro_of(token.symbol()).is_some());
         if !has_macro {
@@ -359,9 +359,9 @@ impl Preprocessor<'_> {
     }
 
     /// A list of tokens after macro expansion, on its own.
-    pub(super) fn expand_all(&mut self, session: &mut Session<'_>, list: Vec<Token>) -> Vec<Token> {
+    pub(super) fn expand_all(&mut self, session: &mut ParseSession<'_>, list: Vec<Token>) -> Vec<Token> {
         let floor = self.contexts.len();
-        self.contexts.push(Context::barrier(list));
+        self.contexts.push(TokenRun::barrier(list));
         let mut tokens = Vec::new();
         while !self.stopped {
             let token = self.next_expanded(session);
@@ -377,7 +377,7 @@ impl Preprocessor<'_> {
     }
 
     /// Joins the token at `boundary` with the one before it.
-    fn paste(&mut self, session: &mut Session<'_>, tokens: &mut Vec<Token>, boundary: usize, id: ExpansionId) {
+    fn paste(&mut self, session: &mut ParseSession<'_>, tokens: &mut Vec<Token>, boundary: usize, id: ExpansionId) {
         let (Some(&left), Some(&right)) = (boundary.checked_sub(1).and_then(|at| tokens.get(at)), tokens.get(boundary))
         else {
             return;
@@ -393,7 +393,7 @@ impl Preprocessor<'_> {
         let rest = lexer.next(Mode::Text, &mut session.names, &mut trivia);
         if rest.kind != TokenKind::Eof || !trivia.is_empty() || joined.kind == TokenKind::Unknown {
             let message = format!(
-                "`##` joins `{}` and `{}` to `{text}`, which is no token",
+                "`##` joins `{}` and `{}` to `{text}`, which is not a token",
                 written(session, left),
                 written(session, right)
             );
@@ -418,7 +418,7 @@ fn space_as(parameter: Token, first: Option<&mut Token>) {
 }
 
 /// The text of a token.
-pub(super) fn written(session: &Session<'_>, token: Token) -> String {
+pub(super) fn written(session: &ParseSession<'_>, token: Token) -> String {
     match token.kind {
         TokenKind::Word | TokenKind::Number | TokenKind::Invalid => session.spelling(token).to_owned(),
         TokenKind::Unknown => session.sources.snippet(token.span).to_owned(),

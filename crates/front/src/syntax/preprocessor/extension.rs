@@ -1,6 +1,6 @@
 //! `#extension` (GLSL 1.50 §3.3), and the table of known extensions.
 
-use super::{Behavior, Extensions, Preprocessor, Session, Span, Token, TokenKind, codes, kind};
+use super::{Behavior, Extensions, ParseSession, Preprocessor, Span, Token, TokenKind, codes, kind};
 use crate::diagnostic::{Diagnostic, did_you_mean};
 use std::sync::LazyLock;
 
@@ -51,7 +51,7 @@ pub(crate) fn warning_of_use(on: Extensions, bringing: Extensions, span: Span) -
     let name = row.map_or("an extension", |row| row.name);
     let message = format!("this is not in the language without `{name}`");
     let diagnostic = Diagnostic::new(&codes::EXTENSION_USED, span, message).here("a use of the extension");
-    Some(diagnostic.note("`#extension` asks to be warned of each use"))
+    Some(diagnostic.note("`#extension` requests a warning for each use"))
 }
 
 /// The behaviors by name.
@@ -64,14 +64,14 @@ static BEHAVIORS: &[(&str, Behavior)] = &[
 
 impl Preprocessor<'_> {
     /// `#extension name : behavior`, without macro expansion.
-    pub(super) fn extension(&mut self, session: &mut Session<'_>, directive: Span) {
+    pub(super) fn extension(&mut self, session: &mut ParseSession<'_>, directive: Span) {
         let name = self.line_token(session);
         if name.kind != TokenKind::Word {
             return self.malformed(session, name, "`#extension` needs the name of an extension or `all`");
         }
         let colon = self.line_token(session);
         if colon.kind != TokenKind::Colon {
-            return self.malformed(session, colon, "`#extension` needs `:` and a behavior behind the name");
+            return self.malformed(session, colon, "`#extension` needs `:` and a behavior after the name");
         }
         let behavior = self.line_token(session);
         let spelled =
@@ -84,7 +84,7 @@ impl Preprocessor<'_> {
         let span = session.sources.join(directive, behavior.span);
         if let Some(first) = self.first_token {
             let diagnostic = kind::LATE_EXTENSION
-                .diagnostic(self.strict, span, "`#extension` stands behind the first token")
+                .diagnostic(self.strict, span, "`#extension` after the first token")
                 .label(first, "the first token");
             session.report(diagnostic);
         }
@@ -96,7 +96,14 @@ impl Preprocessor<'_> {
         }
     }
 
-    fn set_behavior(&mut self, session: &mut Session<'_>, token: Token, name: &str, behavior: Behavior, span: Span) {
+    fn set_behavior(
+        &mut self,
+        session: &mut ParseSession<'_>,
+        token: Token,
+        name: &str,
+        behavior: Behavior,
+        span: Span,
+    ) {
         if name == "all" {
             return self.set_all(session, token, behavior);
         }
@@ -131,12 +138,12 @@ impl Preprocessor<'_> {
         session.report(Diagnostic::new(code, token.span, message).here(here).maybe_help(help));
     }
 
-    fn set_all(&mut self, session: &mut Session<'_>, token: Token, behavior: Behavior) {
+    fn set_all(&mut self, session: &mut ParseSession<'_>, token: Token, behavior: Behavior) {
         match behavior {
             Behavior::Disable => self.extensions = Extensions::empty(),
             Behavior::Warn => self.extensions = Extensions::all(),
             Behavior::Enable | Behavior::Require => {
-                let message = "`all` extensions can be disabled or warned of alone";
+                let message = "`all` extensions can only be disabled or warned about";
                 let diagnostic = Diagnostic::new(&codes::EXTENSION_FOR_ALL, token.span, message)
                     .help("name each extension that the source uses");
                 session.report(diagnostic);

@@ -1,14 +1,14 @@
-//! Turns preprocessing tokens into tokens: tells keywords from names, converts numbers to values, and reports and
-//! drops what is not a token (GLSL 1.50 §3.1, §3.6, §4.1).
+//! Turns preprocessing tokens into tokens: distinguishes keywords from names, converts numbers to values, and reports
+//! and drops what is not a token (GLSL 1.50 §3.1, §3.6, §4.1).
 
-use super::{Preprocessor, Session, Span, Token, TokenKind, codes, kind};
+use super::{ParseSession, Preprocessor, Span, Token, TokenKind, codes, kind};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::syntax;
 use crate::syntax::number::{self, Doubt, Malformed, Numeral};
 
 impl Preprocessor<'_> {
     /// The token as the parser sees it; `None` if it is dropped.
-    pub(super) fn finish_token(&mut self, session: &mut Session<'_>, mut token: Token) -> Option<Token> {
+    pub(super) fn finish_token(&mut self, session: &mut ParseSession<'_>, mut token: Token) -> Option<Token> {
         match token.kind {
             TokenKind::Word => {
                 let word = self.word(token.symbol());
@@ -25,7 +25,7 @@ impl Preprocessor<'_> {
                 token.kind = illegal_character(session, token.span)?;
             }
             TokenKind::Hash | TokenKind::HashHash => {
-                let message = format!("`{}` stands where no directive can be", token.kind.spelling());
+                let message = format!("`{}` where no directive can be", token.kind.spelling());
                 let diagnostic = Diagnostic::new(&codes::MISPLACED_HASH, token.span, message)
                     .here("neither first on its line nor an operator");
                 session.report(diagnostic);
@@ -54,7 +54,7 @@ impl Preprocessor<'_> {
 
 impl Preprocessor<'_> {
     /// Warns, once, about a reserved name.
-    fn check_word(&self, session: &mut Session<'_>, token: Token) {
+    fn check_word(&self, session: &mut ParseSession<'_>, token: Token) {
         let name = session.spelling(token);
         if name.contains("__") {
             let message = format!("the name `{name}` is reserved: it holds two underscores in a row");
@@ -63,7 +63,7 @@ impl Preprocessor<'_> {
     }
 }
 
-fn number(session: &mut Session<'_>, token: &mut Token) {
+fn number(session: &mut ParseSession<'_>, token: &mut Token) {
     match number::read(session.spelling(*token)) {
         Ok(Numeral { kind, bits, doubt }) => {
             if let Some(doubt) = doubt {
@@ -100,22 +100,22 @@ fn malformed_number(text: &str, malformed: Malformed, span: Span) -> Diagnostic 
         }
         Malformed::OctalDigit => wrong(format!("`{text}` is octal because of its leading 0 and cannot hold 8 or 9"))
             .help(format!("write `{}` for the decimal number", text.trim_start_matches('0'))),
-        Malformed::NoDigits => wrong(format!("`{text}` has no digits behind its prefix")),
+        Malformed::NoDigits => wrong(format!("`{text}` has no digits after its prefix")),
         Malformed::NoExponent => wrong(format!("`{text}` has no digits in its exponent")),
         Malformed::Suffix(at) => {
             let (number, suffix) = text.split_at_checked(at).unwrap_or((text, ""));
             let help = match suffix {
                 "f" | "F" => Some(format!("write `{number}.0f` or `{number}.0`")),
-                "lf" | "LF" => Some("doubles belong to GLSL 4.00; leave the suffix out".to_owned()),
+                "lf" | "LF" => Some("doubles belong to GLSL 4.00; omit the suffix".to_owned()),
                 _ => None,
             };
-            wrong(format!("`{suffix}` is no suffix of a number")).here(format!("in `{text}`")).maybe_help(help)
+            wrong(format!("`{suffix}` is not a suffix of a number")).here(format!("in `{text}`")).maybe_help(help)
         }
     }
 }
 
 /// Reports the first character of a token that GLSL does not have.
-fn invalid_token(session: &mut Session<'_>, token: Token) {
+fn invalid_token(session: &mut ParseSession<'_>, token: Token) {
     let text = session.spelling(token);
     if text.starts_with('"') {
         let diagnostic = Diagnostic::new(&codes::ILLEGAL_CHARACTER, token.span, "a string, and GLSL has none");
@@ -149,20 +149,22 @@ static LOOK_ALIKES: &[(char, TokenKind)] = &[
 ];
 
 /// Reports a character. Returns the token that it resembles, if any.
-fn illegal_character(session: &mut Session<'_>, span: Span) -> Option<TokenKind> {
+fn illegal_character(session: &mut ParseSession<'_>, span: Span) -> Option<TokenKind> {
     let character = session.sources.snippet(span).chars().next().unwrap_or(char::REPLACEMENT_CHARACTER);
     let (message, help) = match character {
         char::REPLACEMENT_CHARACTER => ("the source is not UTF-8 here".to_owned(), None),
-        '"' | '\'' => (format!("`{character}` is no character of GLSL"), Some("there are no strings in GLSL")),
-        '\\' => ("`\\` is no character of GLSL".to_owned(), Some("a backslash may stand at the end of a line alone")),
-        '\u{feff}' => ("a byte order mark stands inside the source".to_owned(), None),
-        _ if character.is_control() => {
-            (format!("the control character {:#04x} is no character of GLSL", character as u32), None)
+        '"' | '\'' => (format!("`{character}` is not a character of GLSL"), Some("there are no strings in GLSL")),
+        '\\' => {
+            ("`\\` is not a character of GLSL".to_owned(), Some("a backslash is only allowed at the end of a line"))
         }
-        _ if character.is_ascii() => (format!("`{character}` is no character of GLSL"), None),
+        '\u{feff}' => ("a byte order mark inside the source".to_owned(), None),
+        _ if character.is_control() => {
+            (format!("the control character {:#04x} is not a character of GLSL", character as u32), None)
+        }
+        _ if character.is_ascii() => (format!("`{character}` is not a character of GLSL"), None),
         _ => (
-            format!("`{character}` (U+{:04X}) is no character of GLSL", character as u32),
-            Some("outside of comments the language is ASCII"),
+            format!("`{character}` (U+{:04X}) is not a character of GLSL", character as u32),
+            Some("outside comments, the language is ASCII"),
         ),
     };
     let meant = LOOK_ALIKES.iter().find(|row| row.0 == character).map(|row| row.1);

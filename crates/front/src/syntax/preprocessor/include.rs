@@ -1,6 +1,6 @@
 //! `#include` (ARB_shading_language_include, GL_GOOGLE_include_directive).
 
-use super::{Extensions, FileId, Preprocessor, Session, Span, TokenFlags, TokenKind, codes, extension, kind};
+use super::{Extensions, FileId, ParseSession, Preprocessor, Span, TokenFlags, TokenKind, codes, extension, kind};
 use crate::diagnostic::{Diagnostic, codes::general};
 use crate::source::{IncludeForm, Included, Inclusion};
 
@@ -17,7 +17,7 @@ struct Header {
 
 impl Preprocessor<'_> {
     /// `#include "x"`, `#include <x>`, or macros that expand to one of them.
-    pub(super) fn include(&mut self, session: &mut Session<'_>, directive: Span) {
+    pub(super) fn include(&mut self, session: &mut ParseSession<'_>, directive: Span) {
         let plain = self.frames.last_mut().and_then(|frame| frame.lexer.header_name());
         let header = match plain {
             Some(span) => {
@@ -32,7 +32,7 @@ impl Preprocessor<'_> {
         let whole = session.sources.join(directive, header.span);
         if !self.extensions.contains(Extensions::INCLUDE) {
             let diagnostic = kind::INCLUDE_WITHOUT_EXTENSION
-                .diagnostic(self.strict, whole, "`#include` without the extension that brings it")
+                .diagnostic(self.strict, whole, "`#include` without the extension that provides it")
                 .help("write `#extension GL_ARB_shading_language_include : require` before it");
             session.report(diagnostic);
         } else if let Some(warning) = extension::warning_of_use(self.extensions, Extensions::INCLUDE, whole) {
@@ -55,7 +55,7 @@ impl Preprocessor<'_> {
     }
 
     /// The name that the macros of an `#include` line expand to; `None` after an error.
-    fn expanded_header(&mut self, session: &mut Session<'_>, directive: Span) -> Option<Header> {
+    fn expanded_header(&mut self, session: &mut ParseSession<'_>, directive: Span) -> Option<Header> {
         let mut line = Vec::new();
         self.rest_of_line(session, &mut line);
         let span = match (line.first(), line.last()) {
@@ -81,7 +81,7 @@ impl Preprocessor<'_> {
             _ => None,
         };
         if header.is_none_or(str::is_empty) {
-            let found = if text.is_empty() { "nothing stands here".to_owned() } else { format!("found `{text}`") };
+            let found = if text.is_empty() { "nothing is here".to_owned() } else { format!("found `{text}`") };
             let message = "`#include` needs a name in quotes or angle brackets";
             session.report(Diagnostic::new(&codes::MALFORMED_DIRECTIVE, span, message).here(found));
             return None;
@@ -90,7 +90,7 @@ impl Preprocessor<'_> {
     }
 
     /// The file of an include; each is resolved and loaded once.
-    fn find_include(&mut self, session: &mut Session<'_>, header: &Header) -> Option<FileId> {
+    fn find_include(&mut self, session: &mut ParseSession<'_>, header: &Header) -> Option<FileId> {
         let from = self.frames.last()?.file;
         let Header { text: quoted, span: header } = header;
         let form = if quoted.starts_with('"') { IncludeForm::Quoted } else { IncludeForm::Angled };
@@ -118,7 +118,7 @@ impl Preprocessor<'_> {
 }
 
 /// The file in the map, where another include or stage may have put it, so that its errors are reported once.
-fn load(session: &mut Session<'_>, included: Included) -> Option<FileId> {
+fn load(session: &mut ParseSession<'_>, included: Included) -> Option<FileId> {
     let known = session.sources.files().find(|(_, file)| file.name() == included.name && *file.text() == included.text);
     match known.map(|(id, _)| id) {
         Some(id) => Some(id),

@@ -2,7 +2,7 @@
 //!
 //! *In:* the main file, macros defined from outside, and a resolver for `#include`. *Out:* tokens through
 //! [`TokenSource`], each with the position where it was written and the macro use that put it where it is; at the
-//! end, an [`Outcome`].
+//! end, an [`PreprocessorOutcome`].
 //!
 //! Tokens come from a stack of files, and before those from a stack of macro bodies that are being read. Both stacks
 //! are on the heap. A macro is disabled while its body is on the stack, and its name found there is marked so that it
@@ -26,20 +26,20 @@ use super::ast::{Allow, Behavior, Extensions, Profile, Version};
 use super::keywords;
 use super::kind;
 use super::lexer::{Lexer, Mode, Trivia};
-use super::token::{Session, Symbol, Token, TokenFlags, TokenKind, TokenSource};
+use super::token::{ParseSession, Symbol, Token, TokenFlags, TokenKind, TokenSource};
 use crate::diagnostic::codes::preprocess as codes;
 use crate::diagnostic::{Diagnostic, codes::general};
 use crate::source::{FileId, IncludeForm, IncludeResolver, Inclusion, Span};
 use define::Macro;
-use expand::Context;
+use expand::TokenRun;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// The largest total size of all texts of a shader in bytes, with includes counted each time: 8 MiB.
 pub(super) const MAX_BYTES: usize = 8 << 20;
 
-/// What is known after the last token has been read.
+/// The outcome after the last token has been read.
 #[derive(Debug)]
-pub(super) struct Outcome {
+pub(super) struct PreprocessorOutcome {
     pub(super) version: Version,
     /// Whether the parser understands the language.
     pub(super) supported: bool,
@@ -50,7 +50,7 @@ pub(super) struct Outcome {
 }
 
 /// A file that is being read.
-struct Frame {
+struct FileFrame {
     file: FileId,
     lexer: Lexer,
     /// The value of `__FILE__` here: the depth of the include, or what `#line` said.
@@ -58,7 +58,7 @@ struct Frame {
     conditionals: Vec<directive::Conditional>,
 }
 
-/// What is known about a word.
+/// Facts about a word.
 #[derive(Clone, Copy)]
 struct Word {
     /// The number of its macro + 1, or 0.
@@ -72,8 +72,8 @@ struct Word {
 pub(super) struct Preprocessor<'a> {
     includes: &'a (dyn IncludeResolver + Sync + 'a),
     strict: bool,
-    frames: Vec<Frame>,
-    contexts: Vec<Context>,
+    frames: Vec<FileFrame>,
+    contexts: Vec<TokenRun>,
     macros: Vec<Macro>,
     words: Vec<Word>,
     kinds: Vec<TokenKind>,
@@ -101,13 +101,13 @@ pub(super) struct Preprocessor<'a> {
     broken_line: bool,
     once: FxHashSet<FileId>,
     resolved: FxHashMap<(FileId, IncludeForm, String), FileId>,
-    outcome: Outcome,
+    outcome: PreprocessorOutcome,
 }
 
 impl<'a> Preprocessor<'a> {
     /// A preprocessor that will read `file`, with `defines` defined before its first line.
     pub(super) fn new(
-        session: &mut Session<'_>,
+        session: &mut ParseSession<'_>,
         file: FileId,
         defines: &[(String, String)],
         strict: bool,
@@ -138,7 +138,7 @@ impl<'a> Preprocessor<'a> {
             broken_line: false,
             once: FxHashSet::default(),
             resolved: FxHashMap::default(),
-            outcome: Outcome {
+            outcome: PreprocessorOutcome {
                 version: Version { number: version::NEWEST_SUPPORTED, profile: Profile::Core, span: Span::default() },
                 supported: true,
                 invariant_all: None,
@@ -155,7 +155,7 @@ impl<'a> Preprocessor<'a> {
     }
 
     /// The outcome, after the parser has read the last token.
-    pub(super) fn finish(mut self) -> Outcome {
+    pub(super) fn finish(mut self) -> PreprocessorOutcome {
         self.outcome.version = self.version;
         self.outcome
     }
@@ -171,7 +171,7 @@ impl<'a> Preprocessor<'a> {
     }
 
     /// Begins to read a file, unless that exceeds the limit of bytes.
-    fn enter(&mut self, session: &mut Session<'_>, file: FileId, include: Span) {
+    fn enter(&mut self, session: &mut ParseSession<'_>, file: FileId, include: Span) {
         let source = session.sources.file(file);
         self.bytes += source.text().len();
         if self.bytes > MAX_BYTES {
@@ -184,7 +184,7 @@ impl<'a> Preprocessor<'a> {
         if source.text().starts_with('\u{feff}') {
             let span = Span::new(source.base(), source.base() + '\u{feff}'.len_utf8() as u32);
             let diagnostic = kind::BYTE_ORDER_MARK
-                .diagnostic(self.strict, span, "a byte order mark stands before the text")
+                .diagnostic(self.strict, span, "a byte order mark before the text")
                 .help("save the file as UTF-8 without a byte order mark");
             session.report(diagnostic);
         }
@@ -192,11 +192,11 @@ impl<'a> Preprocessor<'a> {
         let mut lexer = Lexer::new(source.text().clone(), source.base());
         lexer.joins_comments = self.joins_lines();
         let number = self.frames.len() as u32;
-        self.frames.push(Frame { file, lexer, number, conditionals: Vec::new() });
+        self.frames.push(FileFrame { file, lexer, number, conditionals: Vec::new() });
     }
 
     /// Reports a file that is not text with one error instead of one for each byte.
-    fn check_is_text(&mut self, session: &mut Session<'_>, file: FileId) {
+    fn check_is_text(&mut self, session: &mut ParseSession<'_>, file: FileId) {
         let source = session.sources.file(file);
         let (mut odd, mut all) = (0, 0);
         for character in source.text().chars().take(1024) {
@@ -207,7 +207,7 @@ impl<'a> Preprocessor<'a> {
         if odd * 8 > all {
             let span = Span::new(source.base(), source.base());
             let diagnostic = Diagnostic::new(&general::BINARY_SOURCE, span, "the source is not text")
-                .here(format!("{odd} of the first {all} characters are no text"));
+                .here(format!("{odd} of the first {all} characters are not text"));
             session.report(diagnostic);
             self.stop();
         }
@@ -218,7 +218,7 @@ impl<'a> Preprocessor<'a> {
         self.version.number >= 420 || self.extensions.contains(Extensions::SHADING_LANGUAGE_420PACK)
     }
 
-    /// What is known about a word.
+    /// Facts about a word.
     fn word(&mut self, symbol: Symbol) -> &mut Word {
         let index = symbol.index();
         if index >= self.words.len() {
@@ -241,7 +241,7 @@ impl<'a> Preprocessor<'a> {
 
     /// The next token of the topmost file, after directives. With `collecting`, it does not go past the end of an
     /// included file: a macro use must be complete within one file.
-    fn next_from_file(&mut self, session: &mut Session<'_>, collecting: bool) -> Token {
+    fn next_from_file(&mut self, session: &mut ParseSession<'_>, collecting: bool) -> Token {
         loop {
             if self.stopped {
                 return self.end(Span::default());
@@ -265,7 +265,7 @@ impl<'a> Preprocessor<'a> {
     }
 
     /// Leaves a file at its end. Returns false if it is the main file.
-    fn leave(&mut self, session: &mut Session<'_>) -> bool {
+    fn leave(&mut self, session: &mut ParseSession<'_>) -> bool {
         let Some(frame) = self.frames.last_mut() else { return false };
         for conditional in frame.conditionals.drain(..) {
             conditional.report_unterminated(session);
@@ -278,14 +278,14 @@ impl<'a> Preprocessor<'a> {
     }
 
     /// Handles what the lexer recorded while skipping.
-    fn note_trivia(&mut self, session: &mut Session<'_>) {
+    fn note_trivia(&mut self, session: &mut ParseSession<'_>) {
         let mut trivia = std::mem::take(&mut self.trivia);
         for item in trivia.drain(..) {
             match item {
                 Trivia::Pragma(span) => self.comment_pragma(session, span),
                 Trivia::Continuation(span, in_comment) if !self.joins_lines() => {
                     let message = if in_comment {
-                        "a comment ends in `\\`; compilers differ on whether it goes on in the next line"
+                        "a comment ends in `\\`; compilers differ on whether it continues on the next line"
                     } else {
                         "the lines are joined by `\\`"
                     };
@@ -304,7 +304,7 @@ impl<'a> Preprocessor<'a> {
                 Trivia::Unterminated(span) => {
                     let message = "the comment has no end";
                     let diagnostic = Diagnostic::new(&codes::UNTERMINATED_COMMENT, span, message)
-                        .here("`/*` without a `*/` behind it");
+                        .here("`/*` without a `*/` after it");
                     session.report(diagnostic);
                 }
             }
@@ -313,7 +313,7 @@ impl<'a> Preprocessor<'a> {
     }
 
     /// `// glisten: allow(CODE, ...)`
-    fn comment_pragma(&mut self, session: &mut Session<'_>, span: Span) {
+    fn comment_pragma(&mut self, session: &mut ParseSession<'_>, span: Span) {
         let text = session.sources.snippet(span);
         let words = text.split_once("glisten:").map_or("", |(_, words)| words.trim());
         let list = words.strip_prefix("allow").map(str::trim_start);
@@ -339,7 +339,7 @@ impl<'a> Preprocessor<'a> {
     }
 
     /// The next token, without macro expansion.
-    fn next_unexpanded(&mut self, session: &mut Session<'_>, collecting: bool) -> Token {
+    fn next_unexpanded(&mut self, session: &mut ParseSession<'_>, collecting: bool) -> Token {
         while let Some(context) = self.contexts.last_mut() {
             if let Some(mut token) = context.next() {
                 if token.kind == TokenKind::Word {
@@ -368,7 +368,7 @@ impl<'a> Preprocessor<'a> {
 }
 
 impl TokenSource for Preprocessor<'_> {
-    fn next(&mut self, session: &mut Session<'_>) -> Token {
+    fn next(&mut self, session: &mut ParseSession<'_>) -> Token {
         loop {
             if self.stopped {
                 return self.end(Span::default());

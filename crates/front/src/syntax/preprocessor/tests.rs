@@ -3,7 +3,7 @@
 use super::Preprocessor;
 use crate::diagnostic::Diagnostics;
 use crate::source::{IncludeForm, IncludeResolver, Included, SourceMap};
-use crate::syntax::token::{Names, Session, TokenKind, TokenSource};
+use crate::syntax::token::{Names, ParseSession, TokenKind, TokenSource};
 
 /// Files by name.
 struct Files(&'static [(&'static str, &'static str)]);
@@ -19,7 +19,8 @@ fn run(text: &str, files: &'static [(&'static str, &'static str)]) -> (String, V
     let mut sources = SourceMap::default();
     let mut diagnostics = Diagnostics::default();
     let file = sources.add("main", format!("#version 150\n{text}")).expect("room");
-    let mut session = Session { sources: &mut sources, diagnostics: &mut diagnostics, names: Names::with_keywords() };
+    let mut session =
+        ParseSession { sources: &mut sources, diagnostics: &mut diagnostics, names: Names::with_keywords() };
     let files = Files(files);
     let defines = [("FROM".to_owned(), "outside".to_owned())];
     let mut preprocessor = Preprocessor::new(&mut session, file, &defines, false, &files);
@@ -151,7 +152,8 @@ fn a_use_of_a_macro_is_traced() {
     let mut diagnostics = Diagnostics::default();
     let text = "#version 150\n#define ONE 1\n#define TWO ONE + x\nTWO";
     let file = sources.add("main", text).expect("room");
-    let mut session = Session { sources: &mut sources, diagnostics: &mut diagnostics, names: Names::with_keywords() };
+    let mut session =
+        ParseSession { sources: &mut sources, diagnostics: &mut diagnostics, names: Names::with_keywords() };
     let mut preprocessor = Preprocessor::new(&mut session, file, &[], false, &Files(&[]));
     let token = preprocessor.next(&mut session);
     assert_eq!(session.sources.snippet(token.span), "1");

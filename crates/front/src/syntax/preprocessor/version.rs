@@ -1,6 +1,6 @@
 //! `#version`, and the end of the main file, where the lack of one is known (GLSL 1.50 §3.3).
 
-use super::{Preprocessor, Profile, Session, Span, Token, TokenKind, Version, codes, keywords, kind};
+use super::{ParseSession, Preprocessor, Profile, Span, Token, TokenKind, Version, codes, keywords, kind};
 use crate::diagnostic::{Diagnostic, codes::general};
 
 /// The newest version that glisten compiles; it also reads texts without a version.
@@ -45,7 +45,7 @@ const HELP: &str = "write `#version 150`";
 
 impl Preprocessor<'_> {
     /// `#version number profile`, without macro expansion.
-    pub(super) fn version(&mut self, session: &mut Session<'_>, directive: Span) {
+    pub(super) fn version(&mut self, session: &mut ParseSession<'_>, directive: Span) {
         let number = self.line_token(session);
         let parsed: Option<u16> =
             if number.kind == TokenKind::Number { session.spelling(number).parse().ok() } else { None };
@@ -77,20 +77,15 @@ impl Preprocessor<'_> {
         );
     }
 
-    fn end_line_with_extra(&mut self, session: &mut Session<'_>, token: Token) {
+    fn end_line_with_extra(&mut self, session: &mut ParseSession<'_>, token: Token) {
         if !matches!(token.kind, TokenKind::Newline | TokenKind::Eof) {
-            kind::EXTRA_TEXT.report(
-                session,
-                self.strict,
-                token.span,
-                "something stands behind the complete `#version`",
-            );
+            kind::EXTRA_TEXT.report(session, self.strict, token.span, "there is text after the complete `#version`");
             self.skip_line(session);
         }
     }
 
     /// Whether the directive is valid here: it is the first, and no token comes before it.
-    fn check_place(&mut self, session: &mut Session<'_>, span: Span) -> bool {
+    fn check_place(&mut self, session: &mut ParseSession<'_>, span: Span) -> bool {
         let late = |message: &str, first: Span, label: &str| {
             Diagnostic::new(&codes::LATE_VERSION, span, message).label(first, label).help("make it the first line")
         };
@@ -99,10 +94,10 @@ impl Preprocessor<'_> {
             return false;
         }
         if let Some(first) = self.first_token {
-            session.report(late("`#version` does not come first", first, "this stands before it"));
+            session.report(late("`#version` does not come first", first, "this comes before it"));
         } else if let Some(first) = self.before_version {
             let diagnostic = kind::BEFORE_VERSION
-                .diagnostic(self.strict, first, "a directive stands before `#version`")
+                .diagnostic(self.strict, first, "a directive before `#version`")
                 .label(span, "this must come first");
             session.report(diagnostic);
         }
@@ -111,7 +106,7 @@ impl Preprocessor<'_> {
 
     fn set_version(
         &mut self,
-        session: &mut Session<'_>,
+        session: &mut ParseSession<'_>,
         mut version: Version,
         named: &str,
         number: Span,
@@ -164,7 +159,7 @@ impl Preprocessor<'_> {
     }
 
     /// Sets the keywords and `__VERSION__` of the version.
-    fn apply_version(&mut self, session: &mut Session<'_>) {
+    fn apply_version(&mut self, session: &mut ParseSession<'_>) {
         if self.version.number == NEWEST_SUPPORTED {
             return;
         }
@@ -181,7 +176,7 @@ impl Preprocessor<'_> {
     }
 
     /// Handles the end of the main file.
-    pub(super) fn at_end(&mut self, session: &mut Session<'_>) {
+    pub(super) fn at_end(&mut self, session: &mut ParseSession<'_>) {
         if self.version_seen || self.stopped {
             return;
         }

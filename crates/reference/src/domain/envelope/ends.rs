@@ -1,11 +1,11 @@
-//! Powers of two and logarithms for the ends of envelopes: without calls, so that they run on vector units.
+//! Powers of two and logarithms for the bounds of envelopes, without calls, so that they run on vector units.
 //!
-//! *Holds:* both miss the exact result by less than 1e-13 of it. That is less than what [`OUTWARD`] adds to the
-//! three ULP or more of their rules, so that ends made of them are sound; no digit of a `value` comes from here.
+//! *Holds:* the relative error of both is below 1e-13. That is less than [`OUTWARD`] adds to the three ULP or more of
+//! their rules, so bounds computed with them are sound. No digit of a `value` comes from here.
 //!
 //! [`OUTWARD`]: super::round::OUTWARD
 
-/// By how much of itself a result may be wrong.
+/// The largest relative error.
 #[cfg(test)]
 const MISSED: f64 = 1e-13;
 
@@ -15,7 +15,7 @@ const ONE: u64 = 1023 << 52;
 /// `log2` of a normal f64 that is greater than 0, or of infinity.
 #[inline(always)]
 pub(super) fn log2(x: f64) -> f64 {
-    // 2^52, whose last bits hold what is put there.
+    // 2^52: its lowest bits contain the integer that replaces them.
     const WHOLE: f64 = 4_503_599_627_370_496.0;
     // 2 / (ln(2) (2 k + 1))
     const SERIES: [f64; 8] = [
@@ -33,7 +33,7 @@ pub(super) fn log2(x: f64) -> f64 {
     let mantissa = f64::from_bits(bits & MANTISSA | ONE);
     let upper = mantissa > std::f64::consts::SQRT_2;
     let (exponent, m) = if upper { (exponent + 1.0, mantissa * 0.5) } else { (exponent, mantissa) };
-    // log2(m) = 2 / ln(2) artanh((m - 1) / (m + 1)), and that is 0.17 at most.
+    // log2(m) = 2 / ln(2) artanh((m - 1) / (m + 1)), whose argument is 0.17 at most.
     let t = (m - 1.0) / (m + 1.0);
     let square = t * t;
     let [c0, c1, c2, c3, c4, c5, c6, c7] = SERIES;
@@ -46,7 +46,7 @@ pub(super) fn log2(x: f64) -> f64 {
 /// `2^x`: 0 below -1000, infinity from 1024 on.
 #[inline(always)]
 pub(super) fn exp2(x: f64) -> f64 {
-    // 1.5 * 2^52: what is added to it is rounded to an integer, which its last bits hold.
+    // 1.5 * 2^52: adding it rounds to an integer, which is then in its lowest bits.
     const ROUND: f64 = 6_755_399_441_055_744.0;
     // ln(2)^k / k!
     const SERIES: [f64; 12] = [

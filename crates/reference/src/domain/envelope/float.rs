@@ -4,10 +4,11 @@ use super::round::{down, sum_down, sum_up, ulps_above, ulps_below, up};
 use super::{EnvelopeFloat, EnvelopeInt, ends};
 use crate::domain::rules::{self, FLUSH, ulp};
 use crate::domain::{Integer, Number};
+use glisten_front::builtin::operations::Precision;
 use glisten_scene::picture::Interval;
 use std::f64::consts::{LN_2, LOG2_E};
 
-/// `minNum`: a NaN loses.
+/// `minNum`: a NaN is dropped.
 #[inline(always)]
 pub(super) fn least(a: f64, b: f64) -> f64 {
     if b < a { b } else { a }
@@ -18,7 +19,7 @@ pub(super) fn greatest(a: f64, b: f64) -> f64 {
     if b > a { b } else { a }
 }
 
-/// Whether a number is 2^n for an n from -126 to 126, or the negative of such.
+/// Whether a number is 2^n, for an n from -126 to 126, or the negative of that.
 #[inline(always)]
 pub(super) fn is_power_of_two(value: f64) -> bool {
     const MANTISSA: u64 = (1 << 52) - 1;
@@ -26,11 +27,11 @@ pub(super) fn is_power_of_two(value: f64) -> bool {
 }
 
 impl EnvelopeFloat {
-    /// The most that a component of a unit vector may be: two ULP of the inverse root, one of the product, and those of
-    /// the sum below the root.
+    /// The largest component of a unit vector: two ULP of the inverse root, one of the product, and those of the sum
+    /// inside the root.
     pub(super) const COSINE: f64 = 1.0 + 6.0 / (1 << 23) as f64;
 
-    /// Whether 0 is inside.
+    /// Whether the interval contains 0.
     #[inline(always)]
     fn holds_zero(self) -> bool {
         self.low <= 0.0 && self.high >= 0.0
@@ -40,7 +41,7 @@ impl EnvelopeFloat {
         self.low == f64::NEG_INFINITY || self.high == f64::INFINITY
     }
 
-    /// A sum with an infinite end.
+    /// A sum with an infinite bound.
     #[cold]
     fn infinite_sum(self, other: Self) -> Self {
         let end = |a: f64, b: f64, instead: f64| if (a + b).is_nan() { instead } else { a + b };
@@ -53,13 +54,13 @@ impl EnvelopeFloat {
         }
     }
 
-    /// A product with an infinite end.
+    /// A product with an infinite bound.
     #[cold]
     fn infinite_product(self, other: Self) -> Self {
         let value = self.value * other.value;
         let nan = |a: Self, b: Self| a.holds_zero() && b.is_infinite_perhaps();
         let may_be_nan = self.may_be_nan || other.may_be_nan || nan(self, other) || nan(other, self);
-        // Of an infinite end times 0, where 0 is exact or an end, nothing but 0 comes of the finite numbers.
+        // Infinity times 0, where 0 is exact or a bound: the finite numbers yield only 0.
         let of = |a: f64, b: f64| if a == 0.0 || b == 0.0 { 0.0 } else { a * b };
         let corners =
             [of(self.low, other.low), of(self.low, other.high), of(self.high, other.low), of(self.high, other.high)];
@@ -68,7 +69,7 @@ impl EnvelopeFloat {
         Self::rounded(value, low, high, may_be_nan)
     }
 
-    /// A quotient by what may be 0.
+    /// A quotient whose divisor may be 0.
     fn over_zero(self, other: Self) -> Self {
         let value = self.value / other.value;
         let may_be_nan = self.may_be_nan
@@ -81,13 +82,13 @@ impl EnvelopeFloat {
         Self { value, low: f64::NEG_INFINITY, high: f64::INFINITY, may_be_nan }
     }
 
-    /// A function without rounding that never falls.
+    /// A function without rounding that never decreases.
     #[inline(always)]
     fn rising(self, f: impl Fn(f64) -> f64) -> Self {
         Self { value: f(self.value), low: f(self.low), high: f(self.high), may_be_nan: self.may_be_nan }
     }
 
-    /// Sure if every pair gives the same answer.
+    /// A decided answer if every pair yields the same.
     #[inline(always)]
     fn answered(self, other: Self, always: bool, never: bool, answer: bool) -> EnvelopeInt {
         if !(self.may_be_nan || other.may_be_nan) {
@@ -101,8 +102,11 @@ impl EnvelopeFloat {
         EnvelopeInt::open(answer)
     }
 
-    /// `min` or `max` where an operand may be NaN: the other one then, or NaN (§8.3 says nothing of it).
+    /// `min` or `max` if an operand may be NaN: then the result is the other one, or NaN (§8.3 does not define it).
     fn with_nan(self, a: Self, b: Self) -> Self {
+        if !matches!(rules::EXTREMUM.precision, Precision::EitherOfNan) {
+            return self;
+        }
         let other =
             |dropped: Self, kept: Self, joined: Self| if dropped.may_be_nan { joined.joined(kept) } else { joined };
         other(b, a, other(a, b, self))
@@ -184,7 +188,7 @@ impl Number for EnvelopeFloat {
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
         if self.low >= 0.0 && other.low >= 0.0 {
-            // Most products of shaders: of what is not negative.
+            // Most products in shaders have operands that are not negative.
             let (low, high) = (self.low * other.low, self.high * other.high);
             if high.is_finite() {
                 let may_be_nan = self.may_be_nan | other.may_be_nan;
@@ -217,7 +221,7 @@ impl Number for EnvelopeFloat {
         }
         let value = self.value / other.value;
         if other.low == other.high && is_power_of_two(other.low) {
-            // The reciprocal is a float, so that every way to divide is one correctly rounded multiplication.
+            // The reciprocal is an f32, so every way to divide is one correctly rounded multiplication.
             let quotient = self.mul(Self::exact(1.0 / other.low));
             return Self { may_be_nan: quotient.may_be_nan | other.may_be_nan, ..quotient.of_value(value) };
         }
@@ -225,7 +229,7 @@ impl Number for EnvelopeFloat {
         let (hl, hh) = (self.high / other.low, self.high / other.high);
         let (low, high) = (least(least(ll, lh), least(hl, hh)), greatest(greatest(ll, lh), greatest(hl, hh)));
         let sizes = (other.low.abs().min(other.high.abs()), other.low.abs().max(other.high.abs()));
-        // Outside these the specification promises nothing.
+        // Outside this range the specification promises nothing.
         if !(sizes.0 >= FLUSH && sizes.1 <= 1.0 / FLUSH && (ll + lh + hl + hh).is_finite()) {
             return Self { may_be_nan: true, ..Self::anything(value) };
         }
@@ -263,13 +267,7 @@ impl Number for EnvelopeFloat {
     }
     #[inline(always)]
     fn round(self) -> Self {
-        // Halves may go either way (§8.3).
-        Self {
-            value: self.value.round_ties_even(),
-            low: (self.low - 0.5).ceil(),
-            high: (self.high + 0.5).floor(),
-            may_be_nan: self.may_be_nan,
-        }
+        self.rising_by(&rules::ROUND, f64::round_ties_even)
     }
     #[inline(always)]
     fn cosine_at_most(self) -> Self {
@@ -288,15 +286,15 @@ impl Number for EnvelopeFloat {
         Self { value, low: 0.0, high: 1.0, may_be_nan: self.may_be_nan || self.is_infinite_perhaps() }
     }
     fn modulo(self, y: Self) -> Self {
-        let formula = self.sub(y.mul(self.div(y).floor()));
         let value = Number::modulo(self.value, y.value);
+        let formula = Self::by_formula(&rules::MOD, value, &[self, y]);
         if !(y.low > 0.0 || y.high < 0.0) || formula.may_be_nan {
-            return formula.of_value(value);
+            return formula;
         }
-        // Between 0 and y, and as far beyond as roundings go on the way.
+        // Between 0 and y, widened by the roundings on the way.
         let size = self.low.abs().max(self.high.abs()) + y.low.abs().max(y.high.abs());
         let slack = 4.0 * ulp(size);
-        formula.of_value(value).within(y.low.min(0.0) - slack, y.high.max(0.0) + slack)
+        formula.within(y.low.min(0.0) - slack, y.high.max(0.0) + slack)
     }
     #[inline(always)]
     fn min(self, other: Self) -> Self {
@@ -352,8 +350,7 @@ impl Number for EnvelopeFloat {
         self.cosine()
     }
     fn tan(self) -> Self {
-        // Inherited from sin / cos.
-        self.sine().div(self.cosine()).of_value(self.value.tan())
+        Self::by_formula(&rules::TAN, self.value.tan(), &[self])
     }
     fn asin(self) -> Self {
         self.arc_sine()
@@ -368,22 +365,22 @@ impl Number for EnvelopeFloat {
         self.angle(x)
     }
     fn sinh(self) -> Self {
-        self.by_ends(f64::sinh, Self::sinh_formula)
+        self.rising_by(&rules::SINH, f64::sinh)
     }
     fn cosh(self) -> Self {
         self.hyperbolic_cosine()
     }
     fn tanh(self) -> Self {
-        self.hyperbolic_tangent()
+        self.rising_by(&rules::TANH, f64::tanh).within(-1.0, 1.0)
     }
     fn asinh(self) -> Self {
-        self.by_ends(f64::asinh, Self::asinh_formula)
+        self.rising_by(&rules::ASINH, f64::asinh)
     }
     fn acosh(self) -> Self {
-        self.by_ends(Number::acosh, Self::acosh_formula)
+        self.rising_by(&rules::ACOSH, Number::acosh)
     }
     fn atanh(self) -> Self {
-        self.by_ends(Number::atanh, Self::atanh_formula)
+        self.rising_by(&rules::ATANH, Number::atanh)
     }
     #[inline(always)]
     fn less(self, other: Self) -> EnvelopeInt {

@@ -1,29 +1,23 @@
-//! Functions with a row of their own in the table, and those that inherit one from a formula.
+//! Functions with a rule of their own, and those that inherit one from a formula.
 //!
-//! *Holds:* a function that inherits its precision from a formula is computed by it, at both ends of the argument where
-//! the function rises or falls throughout, and limited to what the function itself can give. Where the exact result is
-//! not defined for some arguments, those may give NaN.
+//! *Holds:* a function that inherits its precision from a formula is computed by it (at both bounds of the argument
+//! if the function is monotonic), and limited to the range of the function. Arguments with an undefined result may
+//! yield NaN.
 
+use super::formula::evaluate;
 use super::round::{OUTWARD, ulps_above, ulps_below};
 use super::{EnvelopeFloat, ends};
 use crate::domain::Number;
 use crate::domain::rules::{self, FLUSH, ulp};
+use glisten_front::builtin::operations::Formula;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Beyond this a float has no fraction: of sine and cosine nothing is left.
-const NO_FRACTION: f64 = 8_388_608.0;
-/// What the greatest result of a function may be missed by upward: two ULP of 1.
+/// The largest error above the maximum of a function: two ULP of 1.
 const TOP: f64 = 2.4e-7;
 
 impl EnvelopeFloat {
-    /// A rising function with so many ULPs of error.
-    fn rising_ulps(self, value: f64, f: impl Fn(f64) -> f64, n: f64) -> Self {
-        let (low, high) = (f(self.low), f(self.high));
-        Self::rounded(value, ulps_below(low, high, n), ulps_above(low, high, n), self.may_be_nan)
-    }
-
-    /// A rising function that inherits its error from a formula: the formula at both ends. Between them its roundings
-    /// may be twice as large as there, where a power of two is passed.
+    /// An increasing function that inherits its error from a formula: the formula at both bounds. Between them the
+    /// roundings may be twice as large, if there is a power of two.
     pub(super) fn by_ends(self, f: impl Fn(f64) -> f64, formula: impl Fn(Self) -> Self) -> Self {
         let [low, high] = self.ends().map(formula);
         let more = |end: Self| if self.low == self.high { 0.0 } else { end.high - end.low };
@@ -51,7 +45,9 @@ impl EnvelopeFloat {
     }
 
     pub(super) fn square_root(self) -> Self {
-        // Inherited from 1 / inversesqrt.
+        if !const { rules::SQRT.inherits(&rules::kernels::SQRT) } {
+            return self.rising_by(&rules::SQRT, f64::sqrt);
+        }
         let value = self.value.sqrt();
         if self.high < 0.0 {
             return Self::anything(value);
@@ -63,7 +59,7 @@ impl EnvelopeFloat {
             }
             let inner = 1.0 / x.sqrt();
             let root = 1.0 / (inner - sign * first * ulp(inner) * (1.0 + 1e-6));
-            // Twice the ULP below: a power of two may stand just above.
+            // Twice the ULP below, since there may be a power of two just above.
             root + sign * second * ulp(root) * (1.0 + 1e-6)
         };
         let flushed = |x: f64| if x < FLUSH { 0.0 } else { x };
@@ -72,25 +68,27 @@ impl EnvelopeFloat {
         Self::rounded(value, low.max(0.0), high, self.may_be_nan || self.low < 0.0)
     }
 
-    /// With the value, and what the function gives at an end.
+    /// An exponential function, with the exact value and the function for its bounds.
     pub(super) fn exponential(self, value: f64, f: impl Fn(f64) -> f64) -> Self {
         let n = |x: f64| rules::EXP.ulps_at(x);
         let (low, high) = (f(self.low), f(self.high));
         let below = if low == 0.0 { 0.0 } else { ulps_below(low, high, n(self.low)) };
         let above = if high.is_finite() { ulps_above(low, high, n(self.high)) } else { high };
-        // The number of ULPs falls toward 0, but the result rises faster: its ends are those of the interval.
+        // The number of ULPs decreases toward 0, but the result increases faster, so its bounds are at those of the
+        // interval.
         Self::rounded(value, below.max(0.0), above, self.may_be_nan)
     }
 
-    /// Likewise.
+    /// A logarithm, with the exact value and the function for its bounds.
     pub(super) fn logarithm(self, value: f64, f: impl Fn(f64) -> f64) -> Self {
         if self.high < 0.0 {
             return Self::anything(value);
         }
-        let near_one = self.high >= 0.5 && self.low <= 2.0;
+        let (from, to) = const { rules::LOG.within() };
+        let near_one = self.high >= from && self.low <= to;
         let error = |result: f64| {
             let outside = rules::LOG.ulps() * ulp(result);
-            let error = if near_one { outside.max(rules::LOG_NEAR_ONE.absolute()) } else { outside };
+            let error = if near_one { outside.max(rules::LOG.absolute()) } else { outside };
             error * OUTWARD
         };
         let least = if self.low < FLUSH { f64::NEG_INFINITY } else { f(self.low) };
@@ -101,8 +99,10 @@ impl EnvelopeFloat {
     }
 
     pub(super) fn power(self, exponent: Self) -> Self {
-        // Inherited from exp2(y * log2(x)).
         let value = Number::pow(self.value, exponent.value);
+        if !const { rules::POW.inherits(&rules::kernels::POW) } {
+            return Self::by_formula(&rules::POW, value, &[self, exponent]);
+        }
         if self.high < 0.0 {
             return Self::anything(value);
         }
@@ -111,7 +111,7 @@ impl EnvelopeFloat {
             return Self::anything(value);
         }
         let power = product.exponential(value, ends::exp2);
-        // 0^0 is not defined (§8.2).
+        // 0^0 is undefined (§8.2).
         let undefined = self.low <= 0.0 && exponent.low <= 0.0;
         let top = if undefined { power.high.max(1.0) } else { power.high };
         Self { high: top, may_be_nan: power.may_be_nan || undefined, ..power }
@@ -120,7 +120,8 @@ impl EnvelopeFloat {
     /// The extremes of a cosine between two angles.
     fn cosine_hull(low: f64, high: f64) -> (f64, f64) {
         let width = high - low;
-        if width.is_nan() || width >= 2.0 * PI || low.abs().max(high.abs()) >= NO_FRACTION {
+        let (_, lost) = const { rules::SIN.within() };
+        if width.is_nan() || width >= 2.0 * PI || low.abs().max(high.abs()) >= lost {
             return (-1.0, 1.0);
         }
         let (a, b) = (low.cos(), high.cos());
@@ -140,8 +141,9 @@ impl EnvelopeFloat {
 
     fn wave(self, value: f64, (least, most): (f64, f64)) -> Self {
         let largest = self.low.abs().max(self.high.abs());
-        // Beyond pi the argument is reduced, which loses what rounding an f32 of that size loses.
-        let reduced = if largest > PI { ulp(largest) } else { 0.0 };
+        // Above pi the argument is reduced. That loses as much as rounding an f32 of that size.
+        let (reduced_beyond, _) = const { rules::SIN.within() };
+        let reduced = if largest > reduced_beyond { ulp(largest) } else { 0.0 };
         let error = rules::SIN.absolute() + reduced;
         let may_be_nan = self.may_be_nan || largest.is_infinite();
         Self::rounded(value, least - error, most + error, may_be_nan).within(-1.0 - TOP, 1.0 + TOP)
@@ -156,7 +158,7 @@ impl EnvelopeFloat {
     }
 
     pub(super) fn arc_tangent(self) -> Self {
-        self.rising_ulps(self.value.atan(), f64::atan, rules::ATAN.ulps())
+        self.rising_by(&rules::ATAN, f64::atan)
     }
 
     pub(super) fn angle(self, x: Self) -> Self {
@@ -168,7 +170,7 @@ impl EnvelopeFloat {
         if over_cut
             || (self.low.is_infinite() || self.high.is_infinite()) && (x.low.is_infinite() || x.high.is_infinite())
         {
-            // The cut along negative x, and the origin, where GLSL leaves it undefined (§8.1).
+            // The branch cut along negative x, and the origin, which GLSL leaves undefined (§8.1).
             let origin = x.high >= 0.0 && over_cut;
             return Self { value, low: -full, high: full, may_be_nan: may_be_nan || origin };
         }
@@ -181,85 +183,55 @@ impl EnvelopeFloat {
         Self::rounded(value, below, above, may_be_nan)
     }
 
-    /// `asin` and `acos` at a point inherit from `atan2` and the root of `1 - x x`; WGSL's table allows an absolute error
-    /// beside it.
-    fn arc(self, value: f64, f: impl Fn(f64) -> f64, formula: impl Fn(Self, Self) -> Self, rule: &rules::Rule) -> Self {
+    /// `asin` and `acos` at a point inherit from `atan2` and the root of `1 - x x`. WGSL's table also allows an
+    /// absolute error.
+    fn arc(self, value: f64, f: impl Fn(f64) -> f64, rule: &rules::Rule) -> Self {
         if self.low > 1.0 || self.high < -1.0 {
             return Self::anything(value);
         }
         let inside = Self { low: self.low.max(-1.0), high: self.high.min(1.0), ..self };
-        let at = |x: f64| {
-            let x = Self::exact(x);
-            let root = Self::exact(1.0).sub(x.square()).max(Self::exact(0.0)).sqrt();
-            formula(x, root)
-        };
+        let at = |x: f64| Self::by_formula(rule, f(x), &[Self::exact(x)]);
         let (a, b) = (at(inside.low), at(inside.high));
         let (fa, fb) = (f(inside.low), f(inside.high));
         let error = |end: Self, exact: f64| {
             let inherited = (exact - end.low).max(end.high - exact);
             if inherited.is_finite() { inherited.max(rule.absolute()) } else { rule.absolute() }
         };
-        // Between the ends a ULP may be twice as large.
+        // Between the bounds a ULP may be twice as large.
         let error = error(a, fa).max(error(b, fb)) * if self.low == self.high { 1.0 } else { 2.0 };
         let may_be_nan = self.may_be_nan || self.low < -1.0 || self.high > 1.0;
         Self::rounded(value, fa.min(fb) - error, fa.max(fb) + error, may_be_nan)
     }
 
     pub(super) fn arc_sine(self) -> Self {
-        self.arc(self.value.asin(), f64::asin, |x, root| x.angle(root), &rules::ASIN)
+        self.arc(self.value.asin(), f64::asin, &rules::ASIN)
     }
 
     pub(super) fn arc_cosine(self) -> Self {
         let most = ulps_above(PI, PI, rules::ATAN.ulps());
-        self.arc(self.value.acos(), f64::acos, |x, root| root.angle(x), &rules::ACOS)
-            .within(-rules::ACOS.absolute(), most)
-    }
-
-    pub(super) fn sinh_formula(self) -> Self {
-        Number::exp(self).sub(Number::exp(self.neg())).mul(Self::exact(0.5))
-    }
-
-    fn cosh_formula(self) -> Self {
-        Number::exp(self).add(Number::exp(self.neg())).mul(Self::exact(0.5))
+        self.arc(self.value.acos(), f64::acos, &rules::ACOS).within(-rules::ACOS.absolute(), most)
     }
 
     pub(super) fn hyperbolic_cosine(self) -> Self {
         let value = self.value.cosh();
         let size = self.abs();
-        let found = size.by_ends(f64::cosh, Self::cosh_formula);
-        // The sum of a number and its reciprocal, each a little off.
+        let found = size.rising_by(&rules::COSH, f64::cosh);
+        // The sum of a number and its reciprocal, both with an error.
         Self { low: found.low.max(1.0 - 1e-6), ..found.of_value(value) }
     }
 
-    pub(super) fn hyperbolic_tangent(self) -> Self {
-        // WGSL's table allows an absolute error beside the inherited one.
-        let found = self.by_ends(f64::tanh, |x| x.sinh_formula().div(x.cosh_formula()));
-        let (low, high) = (self.low.tanh() - rules::TANH.absolute(), self.high.tanh() + rules::TANH.absolute());
-        Self { low: found.low.min(low), high: found.high.max(high), ..found }.within(-1.0, 1.0)
-    }
-
-    pub(super) fn asinh_formula(self) -> Self {
-        Number::log(self.add(self.square().add(Self::exact(1.0)).sqrt()))
-    }
-
-    pub(super) fn acosh_formula(self) -> Self {
-        Number::log(self.add(self.square().sub(Self::exact(1.0)).sqrt()))
-    }
-
-    pub(super) fn atanh_formula(self) -> Self {
-        let one = Self::exact(1.0);
-        Number::log(one.add(self).div(one.sub(self))).mul(Self::exact(0.5))
-    }
-
-    /// `x (1 - a) + y a`, or by the law of distribution `x + (y - x) a`: linear in each, so the extremes are at the
-    /// corners; the roundings of the formulas on top.
+    /// `x (1 - a) + y a`, or by distributivity `x + (y - x) a`: linear in each argument, so the extremes are at the
+    /// corners, plus the roundings of the formulas.
     pub(super) fn mixed(self, y: Self, a: Self) -> Self {
+        let value = self.value * (1.0 - a.value) + y.value * a.value;
+        if !const { rules::MIX.inherits(&rules::kernels::MIX) } {
+            return Self::by_formula(&rules::MIX, value, &[self, y, a]);
+        }
         let rest = Self::exact(1.0).sub(a);
         let (left, right) = (self.mul(rest), y.mul(a));
         let gap = y.sub(self);
         let step = gap.mul(a);
         let either = left.add(right).joined(self.add(step));
-        let value = self.value * (1.0 - a.value) + y.value * a.value;
         if (a.low == a.high && self.low == self.high && y.low == y.high) || !(either.high - either.low).is_finite() {
             return either.of_value(value);
         }
@@ -282,11 +254,13 @@ impl EnvelopeFloat {
         Self::rounded(value, low, high, either.may_be_nan)
     }
 
-    /// `t t (3 - 2 t)`, which rises between 0 and 1, with `t = clamp((x - edge0) / (edge1 - edge0), 0, 1)`.
+    /// A formula of `t`, which increases between 0 and 1, with `t = clamp((x - edge0) / (edge1 - edge0), 0, 1)`.
     pub(super) fn smooth_step(edge0: Self, edge1: Self, x: Self) -> Self {
-        let t = x.sub(edge0).div(edge1.sub(edge0)).max(Self::exact(0.0)).min(Self::exact(1.0));
-        let three = Self::exact(3.0);
-        let two = Self::exact(2.0);
-        t.by_ends(|t| t * t * (3.0 - 2.0 * t), |t| t.square().mul(three.sub(t.mul(two)))).within(0.0, 1.0 + TOP)
+        let Some(Formula::With(curve, t)) = rules::SMOOTHSTEP.formula() else {
+            let value = Number::smoothstep(edge0.value, edge1.value, x.value);
+            return Self::by_formula(&rules::SMOOTHSTEP, value, &[edge0, edge1, x]);
+        };
+        let t = evaluate(t, &[&[edge0], &[edge1], &[x]], 0);
+        t.by_ends(|t| evaluate(curve, &[&[t]], 0), |t| evaluate(curve, &[&[t]], 0)).within(0.0, 1.0 + TOP)
     }
 }

@@ -1,27 +1,27 @@
-//! [`EnvelopeInt`]: an `int`, `uint` or `bool` that may be one of several.
+//! [`EnvelopeInt`]: an `int`, `uint` or `bool` that may have one of several values.
 //!
-//! *Holds:* the interval is one of `int`s; of a `uint` beyond 2^31 that is not sure nothing is known. Operations on few
-//! choices try them all, so that `bool`s and short intervals keep what can be known; sums, products and comparisons of
-//! longer ones go by their ends; of the rest nothing is known.
+//! *Holds:* the interval is one of `int`s; an inexact `uint` above 2^31 may be anything. Operations on few choices
+//! try all of them, so that `bool`s and short intervals stay precise. Sums, products and comparisons of longer
+//! intervals are computed from their bounds; the results of all other operations may be anything.
 
 use crate::domain::Integer;
 
-/// The most pairs of choices that are tried one by one.
+/// The largest number of pairs of choices that are tried one by one.
 const TRIED: i64 = 64;
 
-/// Bits with the interval of what a conforming GPU may have.
+/// Bits, with the interval of values that a conforming GPU may have.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct EnvelopeInt {
-    /// What exact arithmetic gives.
+    /// The result of exact arithmetic.
     pub bits: u32,
-    /// The least, as an `int`.
+    /// The lower bound, as an `int`.
     pub low: i32,
-    /// The greatest, as an `int`.
+    /// The upper bound, as an `int`.
     pub high: i32,
 }
 
 impl EnvelopeInt {
-    /// An answer that is open.
+    /// An undecided condition.
     #[inline(always)]
     pub(super) fn open(answer: bool) -> Self {
         Self { bits: u32::from(answer), low: 0, high: 1 }
@@ -31,7 +31,7 @@ impl EnvelopeInt {
         Self { bits, low: i32::MIN, high: i32::MAX }
     }
 
-    /// An interval of wide integers; unknown where they do not fit.
+    /// An interval of wide integers; unknown if they do not fit.
     fn of_wide(bits: u32, low: i64, high: i64) -> Self {
         match (i32::try_from(low), i32::try_from(high)) {
             (Ok(low), Ok(high)) => Self { bits, low, high },
@@ -69,7 +69,7 @@ impl EnvelopeInt {
         Self::hull(bits, pairs.map(|(a, b)| f(a as u32, b as u32)))
     }
 
-    /// By the corners of the box, for what is monotonic in each.
+    /// Computes from the corners of the box, for functions that are monotonic in each operand.
     fn by_corners(self, other: Self, bits: u32, f: impl Fn(i64, i64) -> i64) -> Self {
         let corners = [(self.low, other.low), (self.low, other.high), (self.high, other.low), (self.high, other.high)]
             .map(|(a, b)| f(i64::from(a), i64::from(b)));
@@ -77,7 +77,7 @@ impl EnvelopeInt {
         Self::of_wide(bits, low, high)
     }
 
-    /// Whether an `int` comparison is a `uint` comparison, too.
+    /// Whether an `int` comparison gives the same result as a `uint` comparison.
     fn is_small(self) -> bool {
         self.low >= 0
     }

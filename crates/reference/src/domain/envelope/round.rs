@@ -3,13 +3,13 @@
 use crate::domain::rules::{FLUSH, ulp};
 
 pub(super) const MAX: f64 = f32::MAX as f64;
-/// The bits of an f64 that an f32 lacks.
+/// The bits that an f64 has and an f32 lacks.
 pub(super) const BELOW: u64 = (1 << 29) - 1;
-/// Makes a number of ULPs cover the roundings of f64 on the way.
+/// Widens a number of ULPs to cover the intermediate roundings of f64.
 pub(super) const OUTWARD: f64 = 1.0 + 1.0 / (1u64 << 20) as f64;
 
-/// The greatest f32 not above a number. A number below the normal ones may be flushed: 0 then, if that is lower.
-/// Minus infinity past the range below; past it above the greatest f32, which a GPU may return instead of infinity.
+/// The largest f32 not above a number. A number below the normal ones may be flushed: it is 0, if that is lower. It
+/// is minus infinity below the range, and above it the largest f32, which a GPU may return instead of infinity.
 #[inline(always)]
 pub(super) fn down(x: f64) -> f64 {
     let size = x.abs();
@@ -33,29 +33,29 @@ fn down_at_ends(x: f64) -> f64 {
     }
 }
 
-/// Likewise upward.
+/// The smallest f32 not below a number, with the same rules.
 #[inline(always)]
 pub(super) fn up(x: f64) -> f64 {
     -down(-x)
 }
 
-/// `a + b` of two f32 numbers, not above the exact sum after [`down`]: where the lesser summand is lost in f64, too,
-/// the sum is moved by a little.
+/// `a + b` of two f32 numbers, not above the exact sum after [`down`]: if f64, too, loses the smaller operand, the
+/// sum is moved by a little.
 #[inline(always)]
 pub(super) fn sum_down(a: f64, b: f64) -> f64 {
     let sum = a + b;
     if (sum == a && b < 0.0) || (sum == b && a < 0.0) { sum.next_down() } else { sum }
 }
 
-/// Likewise not below.
+/// `a + b` of two f32 numbers, not below the exact sum after [`up`].
 #[inline(always)]
 pub(super) fn sum_up(a: f64, b: f64) -> f64 {
     let sum = a + b;
     if (sum == a && b > 0.0) || (sum == b && a > 0.0) { sum.next_up() } else { sum }
 }
 
-/// What lies `n` ULP or less below any number from `low` to `high`. The ULP doubles where a power of two is passed, so
-/// it is taken at the greatest number that could reach below the others.
+/// The lower bound of the numbers at most `n` ULP below any number from `low` to `high`. The ULP doubles at each
+/// power of two, so it is taken at the largest number that could reach below the others.
 #[inline(always)]
 pub(super) fn ulps_below(low: f64, high: f64, n: f64) -> f64 {
     let reached = low + 2.0 * n * ulp(low);
@@ -64,7 +64,7 @@ pub(super) fn ulps_below(low: f64, high: f64, n: f64) -> f64 {
     low - n * OUTWARD * ulp(at)
 }
 
-/// Likewise above.
+/// The upper bound of the numbers at most `n` ULP above any number from `low` to `high`.
 #[inline(always)]
 pub(super) fn ulps_above(low: f64, high: f64, n: f64) -> f64 {
     -ulps_below(-high, -low, n)

@@ -1,4 +1,4 @@
-//! Values against envelopes, function by function.
+//! Compares values with envelopes, function by function.
 
 use super::EnvelopeFloat;
 use crate::domain::{Integer, Number};
@@ -13,7 +13,7 @@ fn between(low: f32, high: f32) -> EnvelopeFloat {
     EnvelopeFloat::with_range(middle, Interval { low: f64::from(low), high: f64::from(high), may_be_nan: false })
 }
 
-/// Numbers that are the same every run.
+/// Random numbers from a seed, the same in every run.
 struct Random(u64);
 
 impl Random {
@@ -22,10 +22,10 @@ impl Random {
         (self.0 >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    /// Of any size that shaders have, now and then a whole number.
+    /// A number of any size that occurs in shaders, sometimes a whole number.
     fn number(&mut self) -> f32 {
         let sign = if self.unit() < 0.3 { -1.0 } else { 1.0 };
-        // The sign of a zero may be ignored (Vulkan, Precision and Operation): there is no -0.
+        // The sign of a zero may be ignored (Vulkan, Precision and Operation), so there is no -0.
         match (self.unit() * 4.0) as u32 {
             0 => (sign * (self.unit() * 9.0).floor()) as f32 + 0.0,
             1 => (sign * self.unit()) as f32,
@@ -34,7 +34,7 @@ impl Random {
         }
     }
 
-    /// An interval of that, often a point or a few ULPs wide.
+    /// An interval of such numbers, often a point or a few ULPs wide.
     fn interval(&mut self) -> (f32, f32) {
         let a = self.number();
         let b = match (self.unit() * 3.0) as u32 {
@@ -103,7 +103,7 @@ macro_rules! binary {
 
 const BINARY: &[Binary] = binary!(add, sub, mul, div, min, max, modulo, pow, atan2);
 
-/// Where the exact result is not defined anything goes, and a driver's f32 may be infinite where f64 is not.
+/// If the exact result is undefined, anything is allowed; and a driver's f32 may be infinite where f64 is not.
 #[track_caller]
 fn assert_holds(name: &str, found: EnvelopeFloat, values: [f64; 2], of: &dyn std::fmt::Debug) {
     assert!(found.low <= found.high, "{name} {of:?}: {found:?}");

@@ -6,7 +6,8 @@ use crate::domain::Number;
 use crate::domain::rules::ulp;
 
 impl EnvelopeFloat {
-    /// The exact sum, and a rounding for each addition, each as large as the largest partial sum of any order allows.
+    /// The exact sum, plus one rounding for each addition, each as large as the largest partial sum of any order
+    /// allows.
     #[inline(always)]
     pub(super) fn summed(terms: impl Iterator<Item = Self> + Clone) -> Self {
         let (mut value, mut low, mut high) = (0.0, 0.0, 0.0);
@@ -30,16 +31,16 @@ impl EnvelopeFloat {
         Self::rounded(value, low - roundings, high + roundings, may_be_nan)
     }
 
-    /// Whether a term is a number of so few digits that it may add up without rounding.
+    /// Whether a term has so few digits that it may add up without rounding.
     #[inline(always)]
     pub(super) fn is_plain(low: f64, high: f64) -> bool {
-        /// 1.5 * 2^52: what is added to it is rounded to an integer.
+        /// 1.5 * 2^52: adding it rounds to an integer.
         const ROUND: f64 = 6_755_399_441_055_744.0;
         let steps = low * GRID;
         (low == high) & ((steps + ROUND) - ROUND == steps)
     }
 
-    /// What the additions may be off together: nothing where every partial sum is an f32, or there is but one summand.
+    /// The total error of the additions: none if every partial sum is an f32, or if there is only one term.
     #[inline(always)]
     pub(super) fn roundings_of_sum(count: f64, plain: bool, size: f64) -> f64 {
         let exact = (count <= 1.0) | (plain & (size < PLAIN));

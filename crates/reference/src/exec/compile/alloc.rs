@@ -1,22 +1,22 @@
-//! Virtual registers to registers: a linear scan, so that the working set stays in the first-level cache (a register of
-//! 64 f64 has 512 bytes).
+//! Allocates registers for virtual registers with a linear scan, so that the working set fits the first-level cache
+//! (a register of 64 f64 has 512 bytes).
 //!
-//! A register is live from its first to its last occurrence in the order of the instructions; one that lives when a loop
-//! begins and occurs inside it lives to the loop's end. Inputs, outputs and splats keep theirs for ever.
+//! A register is live from its first to its last occurrence in instruction order. A register that is live when a loop
+//! begins and occurs inside it is live to the loop's end. Inputs, outputs and splats keep their registers forever.
 
 use super::super::code::{Port, Section};
 use super::super::inst::{Class, Inst, Operand};
 use super::emit::Emitter;
 
-/// The registers of one file.
+/// The registers of one class.
 struct File {
-    /// First and last occurrence of each virtual register.
+    /// The first and last occurrence of each virtual register.
     spans: Vec<Option<(u32, u32)>>,
     places: Vec<Option<u32>>,
     count: u32,
 }
 
-/// What [`allocate`] gives: registers in use, floats and ints.
+/// Allocates registers. Returns the number of registers in use, of floats and of ints.
 pub(super) fn allocate(emitter: &mut Emitter, ports: &mut [Port]) -> [usize; 2] {
     let mut files = [Class::Float, Class::Int].map(|class| File {
         spans: vec![None; emitter.register_count(class)],
@@ -71,7 +71,7 @@ impl File {
     }
 }
 
-/// Loops as the places of their heads and back edges, outer ones first.
+/// The loops as the indices of their heads and back edges, outer ones first.
 fn loops(insts: &[Inst]) -> Vec<(u32, u32)> {
     let mut loops: Vec<(u32, u32)> = (insts.iter().enumerate())
         .filter_map(|(place, inst)| match inst {
@@ -145,7 +145,7 @@ fn rename(emitter: &mut Emitter, files: &[File; 2]) {
     }
 }
 
-/// A list may be shared by instructions, never by the two files.
+/// Several instructions may share a list, but the two classes never do.
 fn rename_section(section: &mut Section, rename: &dyn Fn(Class, &mut Operand)) {
     let mut done = vec![false; section.lists.len()];
     for inst in &mut section.insts {

@@ -1,127 +1,125 @@
-//! Calls of built-in functions (§8).
+//! Compiles calls of built-in functions (§8), by their class in the table of operations.
 
-use super::super::inst::{Class, Composite, Derivative, Float1, Float2, Float3, FloatToInt, Inst, Int1, Int2, Operand};
+use super::super::inst::{
+    Class as File, Composite, Derivative, Float1, Float2, Float3, FloatToInt, Inst, Int1, Int2, Operand,
+};
 use super::expr::component;
 use super::{Compiler, Val};
-use glisten_front::builtin::BuiltinFunction as F;
+use glisten_front::builtin::BuiltinFunction;
+use glisten_front::builtin::operations::{BooleanFunction, Class, Emission, MatrixFunction, Numbers, Relation, Test};
 use glisten_front::diagnostic::codes;
 use glisten_front::hir::{BinaryOp, ExprId, Scalar, Stage, Type, TypeId};
 use glisten_front::source::Span;
 
-/// What a function of one float is computed by, component by component.
-fn float_function(function: F) -> Option<Float1> {
-    Some(match function {
-        F::Radians => Float1::Radians,
-        F::Degrees => Float1::Degrees,
-        F::Sin => Float1::Sin,
-        F::Cos => Float1::Cos,
-        F::Tan => Float1::Tan,
-        F::Asin => Float1::Asin,
-        F::Acos => Float1::Acos,
-        F::Sinh => Float1::Sinh,
-        F::Cosh => Float1::Cosh,
-        F::Tanh => Float1::Tanh,
-        F::Asinh => Float1::Asinh,
-        F::Acosh => Float1::Acosh,
-        F::Atanh => Float1::Atanh,
-        F::Exp => Float1::Exp,
-        F::Log => Float1::Log,
-        F::Exp2 => Float1::Exp2,
-        F::Log2 => Float1::Log2,
-        F::Sqrt => Float1::Sqrt,
-        F::Inversesqrt => Float1::Inversesqrt,
-        F::Floor => Float1::Floor,
-        F::Trunc => Float1::Trunc,
-        F::Round | F::RoundEven => Float1::Round,
-        F::Ceil => Float1::Ceil,
-        F::Fract => Float1::Fract,
-        _ => return None,
-    })
+fn relation(op: Relation) -> BinaryOp {
+    match op {
+        Relation::Less => BinaryOp::Less,
+        Relation::LessEqual => BinaryOp::LessEqual,
+        Relation::Greater => BinaryOp::Greater,
+        Relation::GreaterEqual => BinaryOp::GreaterEqual,
+        Relation::Equal => BinaryOp::Equal,
+        Relation::NotEqual => BinaryOp::NotEqual,
+    }
 }
 
 impl Compiler<'_> {
-    pub(super) fn builtin_call(&mut self, function: F, arguments: &[ExprId], ty: TypeId, span: Span) -> Val {
-        if function == F::Modf {
+    pub(super) fn builtin_call(
+        &mut self,
+        function: BuiltinFunction,
+        arguments: &[ExprId],
+        ty: TypeId,
+        span: Span,
+    ) -> Val {
+        if function.class() == Class::Modf {
             return self.modf(arguments);
         }
         let values = self.in_order(arguments);
         let types: Vec<TypeId> = arguments.iter().map(|argument| self.ty(*argument)).collect();
-        self.apply(function, &values, &types, ty, span)
+        self.apply(function.class(), &values, &types, ty, span)
     }
 
     /// A function of evaluated arguments.
-    fn apply(&mut self, function: F, values: &[Val], types: &[TypeId], ty: TypeId, span: Span) -> Val {
+    fn apply(&mut self, class: Class, values: &[Val], types: &[TypeId], ty: TypeId, span: Span) -> Val {
         let a: &[Operand] = values.first().map_or(&[], |value| value);
         let b: &[Operand] = values.get(1).map_or(&[], |value| value);
         let first_ty = types.first().copied().unwrap_or(TypeId::ERROR);
         let scalar = self.types.scalar_of(first_ty).unwrap_or(Scalar::Float);
-        if let Some(op) = float_function(function) {
-            return a.iter().map(|a| self.float1(op, *a)).collect();
-        }
-        match function {
-            F::Atan if values.len() == 2 => self.zip(a, b, |this, a, b| this.float2(Float2::Atan2, a, b)),
-            F::Atan => a.iter().map(|a| self.float1(Float1::Atan, *a)).collect(),
-            F::Pow => self.zip(a, b, |this, a, b| this.float2(Float2::Pow, a, b)),
-            F::Mod => self.zip(a, b, |this, a, b| this.float2(Float2::Mod, a, b)),
-            F::Step => self.zip(a, b, |this, a, b| this.float2(Float2::Step, a, b)),
-            F::Abs | F::Sign => a.iter().map(|a| self.abs_or_sign(function, scalar, *a)).collect(),
-            F::Min | F::Max => self.zip(a, b, |this, a, b| this.extremum(function == F::Min, scalar, a, b)),
-            F::Clamp => self.clamp(values, scalar),
-            F::Mix => self.mix(values, types),
-            F::Smoothstep => self.zip3(values, |this, a, b, c| this.float3(Float3::Smoothstep, a, b, c)),
-            F::Isnan => a.iter().map(|a| self.classify(FloatToInt::IsNan, *a)).collect(),
-            F::Isinf => a.iter().map(|a| self.classify(FloatToInt::IsInf, *a)).collect(),
-            F::Length if a.len() == 1 => a.iter().map(|a| self.float1(Float1::Abs, *a)).collect(),
-            F::Length => self.composite(Composite::Length, a.len(), &[a], 1),
-            F::Distance => self.composite(Composite::Distance, a.len(), &[a, b], 1),
-            F::Dot => self.composite(Composite::Dot, a.len(), &[a, b], 1),
-            F::Cross => self.composite(Composite::Cross, 3, &[a, b], 3),
-            F::Normalize => self.composite(Composite::Normalize, a.len(), &[a], a.len()),
-            F::Faceforward | F::Refract => {
-                let op = if function == F::Refract { Composite::Refract } else { Composite::Faceforward };
-                let c: &[Operand] = values.get(2).map_or(&[], |value| value);
-                self.composite(op, a.len(), &[a, b, c], a.len())
+        match class {
+            Class::Unary(op) => a.iter().map(|a| self.float1(op, *a)).collect(),
+            Class::Binary(op) => self.zip(a, b, |this, a, b| this.float2(op, a, b)),
+            Class::Ternary(op) => self.zip3(values, |this, a, b, c| this.float3(op, a, b, c)),
+            Class::Numbers(op) => self.numbers(op, values, types, scalar),
+            Class::Composite(op) => self.composite_function(op, values, first_ty),
+            Class::Matrix(MatrixFunction::ComponentProduct) => {
+                self.zip(a, b, |this, a, b| this.float2(Float2::Mul, a, b))
             }
-            F::Reflect => self.composite(Composite::Reflect, a.len(), &[a, b], a.len()),
-            F::MatrixCompMult => self.zip(a, b, |this, a, b| this.float2(Float2::Mul, a, b)),
-            F::OuterProduct => self.outer_product(a, b),
-            F::Transpose => self.transpose(a, first_ty),
-            F::Determinant | F::Inverse => {
-                let size = match self.types.get(first_ty) {
-                    Type::Matrix(columns, _) => usize::from(columns),
-                    _ => 2,
-                };
-                match function {
-                    F::Determinant => self.composite(Composite::Determinant, size, &[a], 1),
-                    _ => self.composite(Composite::Inverse, size, &[a], size * size),
-                }
-            }
-            F::LessThan => self.relation(BinaryOp::Less, a, b, scalar),
-            F::LessThanEqual => self.relation(BinaryOp::LessEqual, a, b, scalar),
-            F::GreaterThan => self.relation(BinaryOp::Greater, a, b, scalar),
-            F::GreaterThanEqual => self.relation(BinaryOp::GreaterEqual, a, b, scalar),
-            F::Equal => self.relation(BinaryOp::Equal, a, b, scalar),
-            F::NotEqual => self.relation(BinaryOp::NotEqual, a, b, scalar),
-            F::Any => self.fold(Int2::Or, a),
-            F::All => self.fold(Int2::And, a),
-            F::Not => a.iter().map(|a| self.int1(Int1::Not, *a)).collect(),
-            F::DFdx => self.derivative(Derivative::X, a),
-            F::DFdy => self.derivative(Derivative::Y, a),
-            F::Fwidth => self.derivative(Derivative::Width, a),
-            // §8.9 leaves the values open; 0 has the right range and mean.
-            F::Noise1 | F::Noise2 | F::Noise3 | F::Noise4 => {
+            Class::Matrix(MatrixFunction::OuterProduct) => self.outer_product(a, b),
+            Class::Matrix(MatrixFunction::Transpose) => self.transpose(a, first_ty),
+            Class::Relation(op) => self.zip(a, b, |this, a, b| this.arithmetic(relation(op), a, b, Some(scalar))),
+            Class::Boolean(BooleanFunction::Any) => self.fold(Int2::Or, a),
+            Class::Boolean(BooleanFunction::All) => self.fold(Int2::And, a),
+            Class::Boolean(BooleanFunction::Not) => a.iter().map(|a| self.int1(Int1::Not, *a)).collect(),
+            Class::Test(Test::Nan) => a.iter().map(|a| self.classify(FloatToInt::IsNan, *a)).collect(),
+            Class::Test(Test::Infinite) => a.iter().map(|a| self.classify(FloatToInt::IsInf, *a)).collect(),
+            Class::Derivative(op) => self.derivative(op, a),
+            // §8.9 leaves the values open. 0 has the right range and mean.
+            Class::Noise(_) => {
                 let zero = self.emit.float(0.0);
                 (0..self.types.flat_len(ty)).map(|_| zero).collect()
             }
-            F::EmitVertex | F::EndPrimitive => {
+            Class::Emission(Emission::Vertex | Emission::Primitive) => {
                 self.refuse(&codes::general::NOT_SUPPORTED_YET, span, "geometry stages");
                 Val::new()
             }
-            _ => self.texture_call(function, values, first_ty, ty, span),
+            Class::Texture(form) => self.texture_call(form, values, first_ty, ty, span),
+            // `modf` writes an argument, and is compiled before its arguments are.
+            Class::Modf => Val::new(),
         }
     }
 
-    /// Component by component; a scalar goes with every component.
+    /// The functions that depend on the types of the arguments.
+    fn numbers(&mut self, op: Numbers, values: &[Val], types: &[TypeId], scalar: Scalar) -> Val {
+        let a: &[Operand] = values.first().map_or(&[], |value| value);
+        let b: &[Operand] = values.get(1).map_or(&[], |value| value);
+        let floats = scalar == Scalar::Float;
+        match op {
+            Numbers::Atan if values.len() == 2 => self.zip(a, b, |this, a, b| this.float2(Float2::Atan2, a, b)),
+            Numbers::Atan => a.iter().map(|a| self.float1(Float1::Atan, *a)).collect(),
+            Numbers::Abs if floats => a.iter().map(|a| self.float1(Float1::Abs, *a)).collect(),
+            Numbers::Abs => a.iter().map(|a| self.int1(Int1::Abs, *a)).collect(),
+            Numbers::Sign if floats => a.iter().map(|a| self.float1(Float1::Sign, *a)).collect(),
+            Numbers::Sign => a.iter().map(|a| self.int1(Int1::Sign, *a)).collect(),
+            Numbers::Min => self.zip(a, b, |this, a, b| this.extremum(true, scalar, a, b)),
+            Numbers::Max => self.zip(a, b, |this, a, b| this.extremum(false, scalar, a, b)),
+            Numbers::Clamp => self.clamp(values, scalar),
+            Numbers::Mix => self.mix(values, types),
+        }
+    }
+
+    /// The functions of whole vectors and matrices.
+    fn composite_function(&mut self, op: Composite, values: &[Val], first_ty: TypeId) -> Val {
+        let a: &[Operand] = values.first().map_or(&[], |value| value);
+        if op == Composite::Length && a.len() == 1 {
+            return a.iter().map(|a| self.float1(Float1::Abs, *a)).collect();
+        }
+        let matrix = match self.types.get(first_ty) {
+            Type::Matrix(columns, _) => usize::from(columns),
+            _ => 2,
+        };
+        let (size, count) = match op {
+            Composite::Length | Composite::Distance | Composite::Dot => (a.len(), 1),
+            Composite::Cross => (3, 3),
+            Composite::Normalize | Composite::Faceforward | Composite::Reflect | Composite::Refract => {
+                (a.len(), a.len())
+            }
+            Composite::Determinant => (matrix, 1),
+            Composite::Inverse => (matrix, matrix * matrix),
+        };
+        let arguments: Vec<&[Operand]> = values.iter().map(|value| &value[..]).collect();
+        self.composite(op, size, &arguments, count)
+    }
+
+    /// Applies a function component by component. A scalar is combined with every component.
     fn zip(&mut self, a: &[Operand], b: &[Operand], mut f: impl FnMut(&mut Self, Operand, Operand) -> Operand) -> Val {
         (0..a.len().max(b.len()))
             .filter_map(|flat| Some((component(a, flat)?, component(b, flat)?)))
@@ -138,20 +136,11 @@ impl Compiler<'_> {
     }
 
     fn float3(&mut self, op: Float3, a: Operand, b: Operand, c: Operand) -> Operand {
-        self.emit.pure(Class::Float, &[a, b, c], |dst| Inst::Float3 { op, dst, a, b, c })
+        self.emit.pure(File::Float, &[a, b, c], |dst| Inst::Float3 { op, dst, a, b, c })
     }
 
     fn classify(&mut self, op: FloatToInt, a: Operand) -> Operand {
-        self.emit.pure(Class::Int, &[a], |dst| Inst::FloatToInt { op, dst, a })
-    }
-
-    fn abs_or_sign(&mut self, function: F, scalar: Scalar, a: Operand) -> Operand {
-        match (function == F::Abs, scalar == Scalar::Float) {
-            (true, true) => self.float1(Float1::Abs, a),
-            (false, true) => self.float1(Float1::Sign, a),
-            (true, false) => self.int1(Int1::Abs, a),
-            (false, false) => self.int1(Int1::Sign, a),
-        }
+        self.emit.pure(File::Int, &[a], |dst| Inst::FloatToInt { op, dst, a })
     }
 
     fn extremum(&mut self, least: bool, scalar: Scalar, a: Operand, b: Operand) -> Operand {
@@ -176,20 +165,16 @@ impl Compiler<'_> {
         })
     }
 
-    /// `mix(x, y, a)`; with a `bvec` for `a` the components of `y` where it is true.
+    /// `mix(x, y, a)`. If `a` is a `bvec`, selects the components of `y` where it is true.
     fn mix(&mut self, values: &[Val], types: &[TypeId]) -> Val {
         let boolean = types.get(2).and_then(|ty| self.types.scalar_of(*ty)) == Some(Scalar::Bool);
-        let class = types.first().map_or(Class::Float, |ty| self.class(*ty));
+        let class = types.first().map_or(File::Float, |ty| self.class(*ty));
         self.zip3(
             values,
             |this, x, y, a| {
                 if boolean { this.select(class, a, y, x) } else { this.float3(Float3::Mix, x, y, a) }
             },
         )
-    }
-
-    fn relation(&mut self, op: BinaryOp, a: &[Operand], b: &[Operand], scalar: Scalar) -> Val {
-        self.zip(a, b, |this, a, b| this.arithmetic(op, a, b, Some(scalar)))
     }
 
     fn fold(&mut self, op: Int2, a: &[Operand]) -> Val {
@@ -203,14 +188,14 @@ impl Compiler<'_> {
         all.into_iter().collect()
     }
 
-    /// Derivatives exist in fragment stages; of what is the same for all lanes they are 0.
+    /// Derivatives exist in fragment stages. They are 0 for values that are the same in all lanes.
     fn derivative(&mut self, op: Derivative, a: &[Operand]) -> Val {
         a.iter()
             .map(|a| {
                 if a.is_scalar() || self.shader.stage != Stage::Fragment {
                     return self.emit.float(0.0);
                 }
-                self.emit.pure(Class::Float, &[*a], |dst| Inst::Derivative { op, dst, a: *a })
+                self.emit.pure(File::Float, &[*a], |dst| Inst::Derivative { op, dst, a: *a })
             })
             .collect()
     }
@@ -220,13 +205,13 @@ impl Compiler<'_> {
         let mut flat: Vec<Operand> = arguments.concat();
         let hoisted = flat.iter().all(|operand| operand.is_scalar());
         if !hoisted {
-            flat.iter_mut().for_each(|operand| *operand = self.emit.in_register(Class::Float, *operand));
+            flat.iter_mut().for_each(|operand| *operand = self.emit.in_register(File::Float, *operand));
         }
         let results: Val = (0..count)
-            .map(|_| if hoisted { self.emit.preamble_result(Class::Float) } else { self.emit.temp(Class::Float) })
+            .map(|_| if hoisted { self.emit.preamble_result(File::Float) } else { self.emit.temp(File::Float) })
             .collect();
-        let arguments = self.emit.list(Class::Float, &flat, hoisted);
-        let list = self.emit.list(Class::Float, &results, hoisted);
+        let arguments = self.emit.list(File::Float, &flat, hoisted);
+        let list = self.emit.list(File::Float, &results, hoisted);
         let span = self.emit.span;
         let inst = Inst::Composite { op, size: size as u8, results: list, arguments };
         if hoisted {

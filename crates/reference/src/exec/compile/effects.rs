@@ -5,19 +5,19 @@ use glisten_front::hir::{
 };
 use std::collections::BTreeSet;
 
-/// What a construct assigns to.
+/// The variables that a construct assigns.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Assigned {
     pub(super) globals: BTreeSet<GlobalId>,
-    /// Of the function that the construct stands in.
+    /// The locals of the function that contains the construct.
     pub(super) locals: BTreeSet<LocalId>,
 }
 
 /// Facts about a shader's expressions and functions.
 pub(super) struct Effects {
-    /// For each expression whether it assigns, or calls a function of the shader.
+    /// For each expression, whether it assigns or calls a function of the shader.
     exprs: Vec<bool>,
-    /// For each function the globals that it or what it calls assigns to.
+    /// For each function, the globals that it or its callees assign.
     functions: Vec<Option<BTreeSet<GlobalId>>>,
 }
 
@@ -27,7 +27,7 @@ impl Effects {
         for expr in &shader.exprs {
             let mut has = matches!(expr.kind, ExprKind::Assign(..) | ExprKind::IncDec(..) | ExprKind::Call(..))
                 || matches!(expr.kind, ExprKind::BuiltinCall(glisten_front::builtin::BuiltinFunction::Modf, _));
-            // Children stand before their parents.
+            // Children come before their parents.
             each_child(&expr.kind, &mut |child| has |= exprs.get(child.index()).copied().unwrap_or(true));
             exprs.push(has);
         }
@@ -38,7 +38,7 @@ impl Effects {
         effects
     }
 
-    /// Whether evaluating it may change a variable.
+    /// Whether evaluating the expression may change a variable.
     pub(super) fn has(&self, expr: ExprId) -> bool {
         self.exprs.get(expr.index()).copied().unwrap_or(true)
     }
@@ -48,7 +48,7 @@ impl Effects {
             return known.clone();
         }
         if let Some(entry) = self.functions.get_mut(id.index()) {
-            // Were there recursion (there is none behind the analysis), it would end here.
+            // Recursion, which the analysis excludes, would end here.
             *entry = Some(BTreeSet::new());
         }
         let mut assigned = Assigned::default();
@@ -61,7 +61,7 @@ impl Effects {
         assigned.globals
     }
 
-    /// Adds what the statements assign to.
+    /// Adds the variables that the statements assign.
     pub(super) fn stmts(&mut self, shader: &Shader, stmts: &[Stmt], assigned: &mut Assigned) {
         for stmt in stmts {
             match &stmt.kind {
@@ -100,7 +100,7 @@ impl Effects {
         }
     }
 
-    /// Adds what the expression assigns to.
+    /// Adds the variables that the expression assigns.
     pub(super) fn expr(&mut self, shader: &Shader, expr: ExprId, assigned: &mut Assigned) {
         let mut rest = vec![expr];
         while let Some(expr) = rest.pop() {
@@ -121,7 +121,7 @@ impl Effects {
                     assigned.globals.extend(globals);
                 }
                 ExprKind::BuiltinCall(_, arguments) => {
-                    // `modf`: the second argument goes out.
+                    // `modf`: the second argument is an output.
                     arguments.get(1).iter().for_each(|out| root(shader, **out, assigned));
                 }
                 _ => {}
@@ -131,7 +131,7 @@ impl Effects {
     }
 }
 
-/// The variable behind an l-value.
+/// The variable of an l-value.
 fn root(shader: &Shader, place: ExprId, assigned: &mut Assigned) {
     let mut place = place;
     loop {
@@ -157,7 +157,7 @@ fn root(shader: &Shader, place: ExprId, assigned: &mut Assigned) {
     }
 }
 
-/// Shows the direct children.
+/// Calls `f` with each direct child.
 fn each_child(kind: &ExprKind, f: &mut dyn FnMut(ExprId)) {
     kind.children().into_iter().for_each(f);
 }

@@ -7,29 +7,29 @@ use glisten_front::link::RootIndex;
 use glisten_front::source::Span;
 use rustc_hash::FxHashMap;
 
-/// Instructions of one stage in the making.
+/// The instructions of one stage during compilation.
 #[derive(Default)]
 pub(super) struct Emitter {
     pub(super) main: Section,
     pub(super) preamble: Section,
-    /// Whether products and sums stay instructions of their own.
+    /// Whether products and sums remain separate instructions.
     pub(super) apart: bool,
-    /// What instructions are being made for.
+    /// The span for new instructions.
     pub(super) span: Span,
     pub(super) words: Vec<u32>,
     pub(super) textures: Vec<TextureCall>,
     pub(super) pools: [Vec<PoolSource>; 2],
     pub(super) preamble_results: [u32; 2],
     pub(super) mask_slots: u32,
-    /// Registers whose value in all lanes is one number.
+    /// Registers with the same value in all lanes.
     pub(super) splats: Vec<(Class, Operand, Operand)>,
-    /// For each virtual register whether it is a variable's, written more than once.
+    /// For each virtual register, whether it is the home of a variable, which is written more than once.
     homes: [Vec<bool>; 2],
     interned: [FxHashMap<PoolSource, Operand>; 2],
     splatted: FxHashMap<(Class, Operand), Operand>,
     main_lists: FxHashMap<(Class, Vec<Operand>), List>,
     preamble_lists: FxHashMap<(Class, Vec<Operand>), List>,
-    /// Preamble instructions by what they compute (`dst` blanked).
+    /// Preamble instructions by what they compute (with `dst` blanked).
     computed: FxHashMap<Inst, Operand>,
 }
 
@@ -49,7 +49,7 @@ impl Emitter {
         Operand::reg(homes.len() as u32 - 1)
     }
 
-    /// A register of a variable.
+    /// A register for a variable.
     pub(super) fn home(&mut self, class: Class) -> Operand {
         let homes = &mut self.homes[class as usize];
         homes.push(true);
@@ -85,7 +85,7 @@ impl Emitter {
         self.source(class, PoolSource::Uniform(root, flat))
     }
 
-    /// The constant that an int operand is.
+    /// The value of an int operand, if it is constant.
     pub(super) fn known_int(&self, operand: Operand) -> Option<u32> {
         if operand.is_reg() || operand.is_preamble() {
             return None;
@@ -100,7 +100,7 @@ impl Emitter {
         self.main.push(inst, self.span);
     }
 
-    /// The place of the next instruction.
+    /// The index of the next instruction.
     pub(super) fn here(&self) -> Target {
         self.main.insts.len() as Target
     }
@@ -111,7 +111,7 @@ impl Emitter {
         self.here() - 1
     }
 
-    /// Lets the jump go to the next instruction.
+    /// Sets the target of a jump to the next instruction.
     pub(super) fn land(&mut self, jump: Target) {
         let here = self.here();
         if let Some(target) = self.main.insts.get_mut(jump as usize).and_then(Inst::target_mut) {
@@ -146,7 +146,8 @@ impl Emitter {
         list
     }
 
-    /// Emits a pure instruction with one result, into the preamble if all it reads is the same for every lane.
+    /// Emits a pure instruction with one result, into the preamble if everything that it reads is the same in all
+    /// lanes.
     pub(super) fn pure(&mut self, class: Class, reads: &[Operand], make: impl Fn(Operand) -> Inst) -> Operand {
         if !reads.iter().all(|operand| operand.is_scalar()) {
             let dst = self.temp(class);
@@ -193,7 +194,7 @@ impl Emitter {
         dst
     }
 
-    /// All lanes.
+    /// Copies all lanes.
     pub(super) fn copy(&mut self, class: Class, dst: Operand, a: Operand) {
         self.push(match class {
             Class::Float => Inst::MoveFloat { dst, a },
@@ -201,7 +202,7 @@ impl Emitter {
         });
     }
 
-    /// Active lanes.
+    /// Stores the active lanes.
     pub(super) fn store(&mut self, class: Class, dst: Operand, a: Operand) {
         self.push(match class {
             Class::Float => Inst::StoreFloat { dst, a },

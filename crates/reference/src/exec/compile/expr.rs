@@ -1,4 +1,4 @@
-//! Expressions (§5).
+//! Compiles expressions (§5).
 
 use super::super::inst::{Class, Compare, Float1, Float2, FloatToInt, Inst, Int1, Int2, IntToFloat, Operand};
 use super::effects::Assigned;
@@ -9,7 +9,7 @@ use glisten_front::hir::{
 };
 
 impl Compiler<'_> {
-    /// Evaluates an expression in the active lanes; effects of inactive ones do not happen.
+    /// Evaluates an expression in the active lanes, without effects in inactive ones.
     pub(super) fn expr(&mut self, id: ExprId) -> Val {
         let shader = self.shader;
         let expr = shader.expr(id);
@@ -51,7 +51,7 @@ impl Compiler<'_> {
         }
     }
 
-    /// One scalar, of an expression that has one.
+    /// The scalar of an expression that has one.
     pub(super) fn scalar(&mut self, id: ExprId) -> Operand {
         let value = self.expr(id);
         match value.first() {
@@ -60,13 +60,13 @@ impl Compiler<'_> {
         }
     }
 
-    /// Copies what a later store may change.
+    /// Copies operands that a later store may change.
     pub(super) fn keep_all(&mut self, expr: ExprId, value: Val) -> Val {
         let classes = self.classes(self.ty(expr));
         value.iter().zip(classes.iter()).map(|(operand, class)| self.emit.keep(*class, *operand)).collect()
     }
 
-    /// Evaluates from left to right; effects of a later one do not change an earlier one's value.
+    /// Evaluates from left to right, so that the effects of a later expression do not change an earlier one's value.
     pub(super) fn in_order(&mut self, exprs: &[ExprId]) -> Vec<Val> {
         let last_effect = exprs.iter().rposition(|expr| self.effects.has(*expr)).unwrap_or(0);
         let mut values = Vec::with_capacity(exprs.len());
@@ -195,7 +195,7 @@ impl Compiler<'_> {
         self.binary(op, &left, self.ty(a), &right, self.ty(b), ty)
     }
 
-    /// `left op right`, of these types, giving `ty`.
+    /// `left op right` with these types and the result type `ty`.
     pub(super) fn binary(
         &mut self,
         op: BinaryOp,
@@ -300,7 +300,7 @@ impl Compiler<'_> {
         self.read_all(result)
     }
 
-    /// Assigns the value of `expr` to `result` in the lanes where `condition` holds.
+    /// Assigns the value of `expr` to `result` in the lanes where `condition` is true.
     fn when(&mut self, condition: Operand, expr: ExprId, result: super::vars::VarId) {
         let mut assigned = Assigned::default();
         self.effects.expr(self.shader, expr, &mut assigned);
@@ -363,7 +363,7 @@ impl Compiler<'_> {
     }
 }
 
-/// The component of a vector or matrix; of a scalar always the one.
+/// The component of a vector or matrix, or the scalar itself.
 pub(super) fn component(value: &[Operand], flat: usize) -> Option<Operand> {
     if value.len() == 1 { value.first().copied() } else { value.get(flat).copied() }
 }

@@ -1,9 +1,10 @@
-//! Joins a product with the sum that alone needs it: one pass over the lanes instead of two, with both roundings kept.
+//! Combines a product with the sum that alone uses it: one pass over the lanes instead of two, with both roundings
+//! preserved.
 
 use super::super::inst::{Class, Float2, Inst, Operand, Target, Use};
 use super::emit::Emitter;
 
-/// A product that may be moved down to its only use.
+/// A product that may be moved to its only use.
 #[derive(Clone, Copy)]
 struct Product {
     place: usize,
@@ -12,7 +13,7 @@ struct Product {
     b: Operand,
 }
 
-/// How far back a product may stand.
+/// How far before the sum a product may be.
 const WINDOW: usize = 16;
 
 /// Replaces `t = a * b; ...; d = t + c` by `d = a * b + c` in `main`.
@@ -41,7 +42,7 @@ pub(super) fn fuse(emitter: &mut Emitter) {
                     }
                 }
             }
-            // Past a place where lanes part or meet the product might not run as often as the sum.
+            // Beyond an instruction where lanes diverge or join, the product might not run as often as the sum.
             _ if is_control(&inst) => open.clear(),
             _ => {}
         }
@@ -81,7 +82,7 @@ fn count_reads(emitter: &mut Emitter) -> Vec<u32> {
     uses
 }
 
-/// Takes instructions out and moves the targets of jumps along.
+/// Removes instructions and adjusts the targets of jumps.
 fn remove(emitter: &mut Emitter, gone: &[bool]) {
     let mut moved: Vec<Target> = Vec::with_capacity(gone.len() + 1);
     let mut next = 0;

@@ -1,4 +1,5 @@
-//! Products of matrices and vectors (§5.10), and the matrix functions of §8.5 that only move or multiply components.
+//! Compiles products of matrices and vectors (§5.10), and the matrix functions of §8.5 that only move or multiply
+//! components.
 
 use super::super::inst::{Class, Float2, Inst, Operand};
 use super::{Compiler, Val};
@@ -23,7 +24,7 @@ impl Compiler<'_> {
 
     /// The linear algebra product.
     pub(super) fn mat_mul(&mut self, left: &[Operand], left_ty: TypeId, right: &[Operand], right_ty: TypeId) -> Val {
-        // A vector on the left is a row, one on the right a column.
+        // A vector on the left is a row, one on the right is a column.
         let (inner, rows) = match self.types.get(left_ty) {
             Type::Matrix(columns, rows) => (usize::from(columns), usize::from(rows)),
             _ => (left.len(), 1),

@@ -1,11 +1,11 @@
-//! HIR to instructions.
+//! Compiles HIR to instructions.
 //!
-//! Functions are inlined (GLSL has no recursion). Each scalar of a variable is either a value that was computed (nothing
-//! is copied then) or stands in its *home* register. Code between two places where lanes part or meet is a *region*:
-//! inside the region that a variable was declared in, an assignment only notes the new value; before a construct whose
-//! parts assign to it under a narrower mask, the variable goes to its home, where stores look at the mask.
+//! Functions are inlined (GLSL has no recursion). Each scalar of a variable is either a computed value (which is not
+//! copied) or is in its *home* register. The code between two points where lanes diverge or join is a *region*.
+//! Inside the region that declares a variable, an assignment only records the new value. Before a construct whose
+//! parts assign to the variable under a narrower mask, the variable moves to its home, where stores are masked.
 //!
-//! What depends on constants and uniforms alone goes into the preamble ([`Emitter::pure`]).
+//! What depends only on constants and uniforms goes into the preamble ([`Emitter::pure`]).
 
 mod alloc;
 mod builtin;
@@ -33,17 +33,17 @@ use std::rc::Rc;
 use std::sync::Arc;
 use vars::{Var, VarId};
 
-/// The most scalars that one value may have.
+/// The largest number of scalars in one value.
 const MAX_SCALARS: u32 = 1 << 20;
-/// The most instructions of a stage, all calls inlined.
+/// The largest number of instructions of a stage, with all calls inlined.
 const MAX_INSTRUCTIONS: usize = 1 << 20;
 
-/// The scalars of a value in flat order.
+/// The scalars of a value, in flat order.
 type Val = SmallVec<[Operand; 4]>;
 
-/// What encloses the code that is being made, as far as leaving it goes.
+/// A construct around the current code, as far as leaving it matters.
 enum Scope {
-    /// Lanes wait in the slot for the end of a selection.
+    /// Lanes wait in the slot until the selection ends.
     Arms {
         join: Slot,
     },
@@ -58,7 +58,7 @@ enum Scope {
     Function,
 }
 
-/// The function that is being inlined.
+/// An inlined function.
 struct Frame {
     function: FunctionId,
     locals: Vec<Option<VarId>>,
@@ -80,7 +80,8 @@ struct Compiler<'a> {
     scopes: Vec<Scope>,
     region: u32,
     regions: u32,
-    /// Whether lanes have left a function that will go on without them: what outlives it is stored by mask.
+    /// Whether lanes have left a function that continues without them: variables that outlive it are stored with a
+    /// mask.
     parted: bool,
     classes: FxHashMap<TypeId, Rc<[Class]>>,
     errors: Vec<Diagnostic>,
@@ -90,14 +91,14 @@ impl Code {
     /// Compiles a stage of a program.
     ///
     /// # Errors
-    /// What the executor cannot run: a program without that stage or without `main`, multisample samplers, geometry
-    /// stages, programs past the limits of the compiler.
+    /// Returns diagnostics if the executor does not support something: a program without that stage or without
+    /// `main`, multisample samplers, geometry stages, programs above the limits of the compiler.
     pub fn compile(program: &Program, stage: Stage) -> Result<Self, Vec<Diagnostic>> {
         compile(program, stage, false).map(|inner| Self { inner: Arc::new(inner) })
     }
 
-    /// The same with an instruction of its own for each product and sum, so that an observer sees each; the numbers are
-    /// the same.
+    /// Compiles each product and sum to an instruction of its own, so that an observer sees each. The numbers are the
+    /// same.
     ///
     /// # Errors
     /// Those of [`Self::compile`].
@@ -106,7 +107,8 @@ impl Code {
     }
 }
 
-/// Compiles a stage, its operations each `apart` if wanted; the diagnostics if the executor cannot run it.
+/// Compiles a stage; with `apart`, each operation separately. Returns diagnostics if the executor does not support
+/// it.
 fn compile(program: &Program, stage: Stage, apart: bool) -> Result<Inner, Vec<Diagnostic>> {
     let missing = |what: &str| {
         let message = format!("`{}` has no {what} for the CPU reference to run", program.name);
@@ -180,7 +182,7 @@ impl<'a> Compiler<'a> {
         })
     }
 
-    /// Notes that the executor cannot run this.
+    /// Records that the executor does not support something.
     fn refuse(&mut self, code: &'static DiagnosticCode, span: Span, what: &str) {
         self.errors.push(Diagnostic::new(code, span, format!("the CPU reference cannot run {what} yet")));
     }
@@ -189,7 +191,7 @@ impl<'a> Compiler<'a> {
         self.shader.expr(expr).ty
     }
 
-    /// The file of each scalar of a type, in flat order. Samplers are ints: the numbers of their slots.
+    /// The class of each scalar of a type, in flat order. Samplers are ints: the numbers of their slots.
     fn classes(&mut self, ty: TypeId) -> Rc<[Class]> {
         if let Some(classes) = self.classes.get(&ty) {
             return Rc::clone(classes);
@@ -205,7 +207,7 @@ impl<'a> Compiler<'a> {
         classes
     }
 
-    /// The file of the scalars of a scalar, vector or matrix.
+    /// The class of the scalars of a scalar, vector or matrix.
     fn class(&self, ty: TypeId) -> Class {
         match self.types.scalar_of(ty) {
             Some(Scalar::Float) => Class::Float,
@@ -213,7 +215,7 @@ impl<'a> Compiler<'a> {
         }
     }
 
-    /// Runs `body` in a region of its own.
+    /// Runs `body` in a new region.
     fn in_region<R>(&mut self, body: impl FnOnce(&mut Self) -> R) -> R {
         self.regions += 1;
         let outer = std::mem::replace(&mut self.region, self.regions);
@@ -222,7 +224,7 @@ impl<'a> Compiler<'a> {
         result
     }
 
-    /// Runs `body`; what it emits, but for expressions and statements in it, stands for this text.
+    /// Runs `body`; the instructions that it emits have this span, except those of expressions and statements inside.
     fn at<R>(&mut self, span: Span, body: impl FnOnce(&mut Self) -> R) -> R {
         let outer = std::mem::replace(&mut self.emit.span, span);
         let result = body(self);

@@ -1,7 +1,8 @@
-//! Paths: `a`, `a.b[i].xy`, as r-values and l-values (§5.5 to §5.8).
+//! Compiles paths: `a`, `a.b[i].xy`, as r-values and l-values (§5.5 to §5.8).
 //!
-//! Indices that are known pick scalars here; the others become one index into a table of all scalars that may be meant.
-//! Each index is limited into its range by itself, as an `int`: below 0 is the first element, past the end the last.
+//! Known indices select scalars at compile time. The others become one index into a table of all scalars that may be
+//! selected. Each index is clamped into its range on its own, as an `int`: below 0 selects the first element, past
+//! the end the last.
 
 use super::super::inst::{Class, Inst, Int2, Operand};
 use super::vars::VarId;
@@ -9,17 +10,17 @@ use super::{Compiler, Val};
 use glisten_front::hir::{ExprId, ExprKind, Swizzle, Type, TypeId};
 use smallvec::SmallVec;
 
-/// What a path starts from.
+/// The base of a path.
 enum Base {
     Var(VarId),
-    /// An r-value without a place.
+    /// An r-value that is not a variable.
     Value(Val),
 }
 
-/// An index that is not known.
+/// An index that is not known at compile time.
 struct Dynamic {
     index: Operand,
-    /// Scalars from element to element.
+    /// The number of scalars between elements.
     stride: u32,
     count: u32,
 }
@@ -35,7 +36,7 @@ pub(super) struct Path {
 }
 
 impl Compiler<'_> {
-    /// Evaluates the indices of a path, and its base if that has no place.
+    /// Evaluates the indices of a path, and its base if that is not a variable.
     pub(super) fn path(&mut self, expr: ExprId) -> Path {
         // From the outside in, then from the base out, so that indices are evaluated left to right.
         let shader = self.shader;
@@ -85,7 +86,7 @@ impl Compiler<'_> {
                 path.ty = element;
             }
             ExprKind::Swizzle(_, swizzle) => {
-                // A swizzle of a swizzle picks from what that one picked.
+                // A swizzle of a swizzle selects from the components of the first.
                 path.swizzle = Some(match path.swizzle {
                     None => swizzle,
                     Some(inner) => compose(inner, swizzle),
@@ -97,7 +98,7 @@ impl Compiler<'_> {
 
     fn index(&mut self, path: &mut Path, index: Operand, stride: u32, count: u32) {
         if let Some(swizzle) = path.swizzle.take() {
-            // A component of a swizzle: look the component up, then the vector.
+            // A component of a swizzle: look up the component, then select it from the vector.
             let components: Val =
                 swizzle.as_slice().iter().map(|component| self.emit.int(u32::from(*component))).collect();
             let table: Vec<Operand> = components.to_vec();
@@ -114,7 +115,7 @@ impl Compiler<'_> {
         }
     }
 
-    /// Looks a table up.
+    /// Looks up a table element.
     fn load(&mut self, class: Class, table: &[Operand], index: Operand) -> Operand {
         if let Some(bits) = self.emit.known_int(index) {
             let known = (bits as i32).clamp(0, table.len() as i32 - 1) as usize;
@@ -129,7 +130,7 @@ impl Compiler<'_> {
         })
     }
 
-    /// The scalars that the path picks, before its swizzle, relative to the base: for no unknown index one offset each.
+    /// The number of scalars that the path selects, before its swizzle.
     fn width(&self, path: &Path) -> u32 {
         self.types.flat_len(path.ty)
     }
@@ -170,7 +171,7 @@ impl Compiler<'_> {
         }
     }
 
-    /// The value.
+    /// The value of the path.
     pub(super) fn read_path(&mut self, path: &Path) -> Val {
         let components = self.components(path);
         if path.dynamic.is_empty() {
@@ -190,7 +191,7 @@ impl Compiler<'_> {
             .collect()
     }
 
-    /// Assigns to the part, in the active lanes.
+    /// Assigns to the path, in the active lanes.
     pub(super) fn write_path(&mut self, path: &Path, value: &[Operand]) {
         let Base::Var(var) = path.base else { return };
         let components = self.components(path);
@@ -245,7 +246,7 @@ fn compose(inner: Swizzle, outer: Swizzle) -> Swizzle {
     Swizzle { len: outer.len, components }
 }
 
-/// Where the part starts for each combination of the dynamic indices, the last one fastest.
+/// The offset of the path for each combination of the dynamic indices, the last one fastest.
 fn offsets(path: &Path) -> Vec<u32> {
     let mut offsets = vec![path.offset];
     for dynamic in &path.dynamic {

@@ -1,4 +1,4 @@
-//! Statements and calls (§6).
+//! Compiles statements and calls (§6).
 
 use super::super::inst::{Class, Inst, Operand, Slot, Target};
 use super::effects::Assigned;
@@ -12,7 +12,7 @@ use glisten_front::hir::{
 };
 use glisten_front::source::Span;
 
-/// Where a jump may lead out of nested constructs.
+/// The destination of a jump out of nested constructs.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Exit {
     Break,
@@ -21,7 +21,7 @@ enum Exit {
 }
 
 impl Compiler<'_> {
-    /// Makes statements; false if no lane comes out at their end.
+    /// Compiles statements. Returns false if no lane reaches their end.
     fn stmts(&mut self, stmts: &[Stmt]) -> bool {
         for stmt in stmts {
             if self.full() {
@@ -48,7 +48,7 @@ impl Compiler<'_> {
             StmtKind::Continue => self.leave(Exit::Continue),
             StmtKind::Return(value) => {
                 self.give(*value);
-                // At the end of a function that is not left earlier no lane parts from the others.
+                // At the end of a function that cannot be left earlier, all lanes are still together.
                 if self.frames.last().is_some_and(|frame| frame.parts) {
                     self.leave(Exit::Return);
                 }
@@ -69,7 +69,7 @@ impl Compiler<'_> {
             (_, Some(init)) => Some(self.expr(init)),
             (_, None) => None,
         };
-        // Declared behind its initializer, which may name an outer variable of the same name.
+        // It is declared after its initializer, which may use an outer variable of the same name.
         let var = self.declare(facts.ty, false);
         self.bind(local, var);
         if let Some(value) = value {
@@ -88,7 +88,7 @@ impl Compiler<'_> {
         self.settle_assigned(&assigned);
     }
 
-    /// Makes nested statements in a region of their own.
+    /// Compiles nested statements in a region of their own.
     fn nested(&mut self, scope: Scope, stmts: &[Stmt]) {
         self.scopes.push(scope);
         self.in_region(|this| {
@@ -158,7 +158,7 @@ impl Compiler<'_> {
         self.in_region(|this| {
             for (case, slot) in cases.iter().zip(slots) {
                 if case.labels.contains(&CaseLabel::Default) {
-                    // What no label took.
+                    // The lanes that no label took.
                     this.emit.push(Inst::Case { slot: rest, next: 0 });
                     let here = this.emit.here();
                     this.emit.land(here - 1);
@@ -214,7 +214,7 @@ impl Compiler<'_> {
         Some(self.at(span, |this| this.emit.jump(Inst::LoopTest { c, active, exit: 0 })))
     }
 
-    /// The active lanes leave the constructs around.
+    /// The active lanes leave the constructs around them.
     fn leave(&mut self, exit: Exit) {
         let mut slots = Vec::new();
         for scope in self.scopes.iter().rev() {
@@ -235,7 +235,7 @@ impl Compiler<'_> {
         self.emit.push(Inst::Leave { slots });
     }
 
-    /// Sets the function's result.
+    /// Sets the result of the function.
     fn give(&mut self, value: Option<ExprId>) {
         let Some(value) = value else { return };
         let value = self.expr(value);
@@ -282,7 +282,7 @@ impl Compiler<'_> {
         returns(before) || (returns(last) && !last.iter().all(|stmt| matches!(stmt.kind, StmtKind::Return(_))))
     }
 
-    /// Makes a function's body here; gives its result and the final values of its `out` and `inout` parameters.
+    /// Inlines a function. Returns its result and the final values of its `out` and `inout` parameters.
     pub(super) fn inline(&mut self, function: FunctionId, arguments: Vec<Val>, span: Span) -> (Val, Vec<Val>) {
         let shader = self.shader;
         let callee = shader.function(function);
@@ -291,7 +291,7 @@ impl Compiler<'_> {
             return (Val::new(), Vec::new());
         };
         if self.frames.len() > shader.functions.len() || self.full() {
-            // Deeper than there are functions: recursion.
+            // Deeper than the number of functions: recursion.
             return (Val::new(), Vec::new());
         }
         let parts = Self::parts(callee);
@@ -307,7 +307,7 @@ impl Compiler<'_> {
             }
             self.bind(LocalId::new(index), var);
             if let Some(value) = arguments.get(index).filter(|_| mode != ParamMode::Out) {
-                // Not a store of the callee: every lane has it.
+                // Not a store of the callee: it applies to every lane.
                 let parted = std::mem::replace(&mut self.parted, false);
                 self.assign_all(var, value);
                 self.parted = parted;
@@ -321,7 +321,7 @@ impl Compiler<'_> {
         let join = self.emit.slot();
         if parts {
             self.emit.push(Inst::Save { slot: join });
-            // Lanes that return here and those that go on give their results at different places.
+            // Lanes that return here and lanes that continue compute their results at different places.
             for flat in 0..self.classes(callee.ret).len() {
                 self.settle(result, flat);
             }
@@ -340,7 +340,7 @@ impl Compiler<'_> {
     }
 }
 
-/// Whether a `return` stands anywhere among them.
+/// Whether there is a `return` anywhere among them.
 fn returns(stmts: &[Stmt]) -> bool {
     stmts.iter().any(|stmt| match &stmt.kind {
         StmtKind::Return(_) => true,

@@ -1,4 +1,4 @@
-//! Variables: the values or homes of their scalars.
+//! Variables during compilation: the values or homes of their scalars.
 
 use super::super::code::Port;
 use super::super::inst::{Class, Operand};
@@ -8,26 +8,26 @@ use glisten_front::hir::{Global, GlobalId, LocalId, ScalarValue, Stage, Storage,
 use glisten_front::link::RootIndex;
 use std::rc::Rc;
 
-/// A variable of [`Compiler::vars`].
+/// The index of a variable in [`Compiler::vars`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct VarId(pub(super) usize);
 
-/// A variable of the code that is being made.
+/// A variable during compilation.
 pub(super) struct Var {
     pub(super) classes: Rc<[Class]>,
-    /// What each scalar is now; 0 where nothing was assigned.
+    /// The current value of each scalar; `None`, which is 0, if nothing was assigned.
     values: Vec<Option<Operand>>,
     homes: Vec<Option<Operand>>,
-    /// The region that it was declared in.
+    /// The region that declares it.
     region: u32,
     /// Whether lanes that leave a function early still need it.
     outlives: bool,
-    /// Whether it was ever assigned to.
+    /// Whether it was ever assigned.
     written: bool,
 }
 
 impl Compiler<'_> {
-    /// A variable declared here and now.
+    /// Declares a variable in the current region.
     pub(super) fn declare(&mut self, ty: TypeId, outlives: bool) -> VarId {
         let classes = self.classes(ty);
         let count = classes.len();
@@ -42,7 +42,7 @@ impl Compiler<'_> {
         VarId(self.vars.len() - 1)
     }
 
-    /// The variables of all globals, with their initial values.
+    /// Declares all globals, with their initial values.
     pub(super) fn declare_globals(&mut self) {
         let shader = self.shader;
         for (id, global) in shader.globals() {
@@ -53,7 +53,7 @@ impl Compiler<'_> {
             let values = match global.storage {
                 Storage::Const => global.value.as_ref().map(|value| self.constant(value)),
                 Storage::Uniform => Some(self.uniform(id, global)),
-                // Registers are handed out as they are read.
+                // Registers are assigned when they are first read.
                 Storage::In => None,
                 Storage::Private | Storage::Out => None,
             };
@@ -91,7 +91,7 @@ impl Compiler<'_> {
         }
     }
 
-    /// The pool's places of a uniform's scalars; samplers are the numbers of their slots.
+    /// The pool indices of a uniform's scalars; for samplers, the numbers of their slots.
     fn uniform(&mut self, id: GlobalId, global: &Global) -> Val {
         let end = (self.shader.stage, id);
         let interface = &self.program.interface;
@@ -137,7 +137,7 @@ impl Compiler<'_> {
         }
     }
 
-    /// One scalar as it is now.
+    /// The current value of one scalar.
     pub(super) fn read(&mut self, var: VarId, flat: usize) -> Operand {
         let Some(known) = self.vars.get(var.0).and_then(|var| var.values.get(flat).copied()) else {
             return self.emit.zero(Class::Float);
@@ -145,7 +145,8 @@ impl Compiler<'_> {
         known.unwrap_or_else(|| self.first_read(var, flat))
     }
 
-    /// Of an input: a register that the caller fills. Of anything else: 0, as nothing was assigned.
+    /// The first read: for an input, a register that the caller fills; for anything else 0, since nothing was
+    /// assigned.
     fn first_read(&mut self, var: VarId, flat: usize) -> Operand {
         let Some(class) = self.vars.get(var.0).and_then(|var| var.classes.get(flat).copied()) else {
             return self.emit.zero(Class::Float);
@@ -162,7 +163,7 @@ impl Compiler<'_> {
         register
     }
 
-    /// All scalars as they are now.
+    /// The current values of all scalars.
     pub(super) fn read_all(&mut self, var: VarId) -> Val {
         let count = self.vars.get(var.0).map_or(0, |var| var.classes.len());
         (0..count).map(|flat| self.read(var, flat)).collect()
@@ -184,7 +185,7 @@ impl Compiler<'_> {
         })
     }
 
-    /// Puts one scalar into its home, and gives that.
+    /// Moves one scalar to its home, and returns that.
     pub(super) fn settle(&mut self, var: VarId, flat: usize) -> Operand {
         let value = self.read(var, flat);
         let home = self.home(var, flat);
@@ -198,7 +199,7 @@ impl Compiler<'_> {
         home
     }
 
-    /// Puts what a construct assigns to into homes, before lanes part.
+    /// Moves the scalars that a construct assigns to their homes, before lanes diverge.
     pub(super) fn settle_assigned(&mut self, assigned: &Assigned) {
         let locals = assigned.locals.iter().filter_map(|local| self.local_var(*local)).collect::<Vec<_>>();
         let globals = assigned.globals.iter().filter_map(|global| self.global_var(*global)).collect::<Vec<_>>();
@@ -234,14 +235,14 @@ impl Compiler<'_> {
         }
     }
 
-    /// Notes a store through an index.
+    /// Records a store through an index.
     pub(super) fn mark_written(&mut self, var: VarId) {
         if let Some(var) = self.vars.get_mut(var.0) {
             var.written = true;
         }
     }
 
-    /// Puts every output into a register that stays.
+    /// Moves every output to a register that persists.
     pub(super) fn settle_outputs(&mut self) -> Vec<Port> {
         let mut ports = Vec::new();
         for (global, facts) in self.shader.globals() {

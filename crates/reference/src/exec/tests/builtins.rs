@@ -42,7 +42,7 @@ fn input(name: &str, lane: usize) -> f64 {
     if name == "a" { argument(lane) } else { second(lane) }
 }
 
-/// Checks `o.x` of a program of `a` and `b`: f64 to a few roundings, f32 to the one at the end.
+/// Checks `o.x` of a program of `a` and `b`: f64 to a few roundings, f32 to the single one at the end.
 fn check(expression: &str, expected: impl Fn(f64, f64) -> f64) {
     let body = format!("in float a, b; void main() {{ o = vec4({expression}) + 0.0 * 0.0; }}");
     let (wide, single) = (run_in::<F64>(&body, input), run_in::<F32>(&body, input));

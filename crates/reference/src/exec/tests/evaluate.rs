@@ -1,5 +1,5 @@
-//! A plain walk over the HIR, one lane at a time in f64: what the register code is judged by. It knows the constructs that
-//! `generate` makes, and shares no code with the executor.
+//! A plain tree walk over the HIR, one lane at a time in f64, against which the register code is checked. It knows
+//! the constructs that `generate` makes, and shares no code with the executor.
 
 use super::generate::Generated;
 use glisten_front::builtin::BuiltinFunction as F;
@@ -46,10 +46,10 @@ struct Walk<'a> {
     gone: bool,
 }
 
-/// Variable, scalars that it means.
+/// A variable and its scalars.
 type Place = (VarRef, Vec<usize>);
 
-/// The outputs' scalars; `None` if the lane is discarded.
+/// The scalars of the outputs; `None` if the lane is discarded.
 pub(super) fn run(program: &Generated, input: impl Fn(GlobalId, u32, Scalar) -> Cell) -> Option<Vec<Cell>> {
     let shader = &program.program.stages[0];
     let types = &program.program.types;
@@ -102,7 +102,7 @@ impl Walk<'_> {
         }
     }
 
-    /// Runs a function on the arguments; gives the final values of its parameters.
+    /// Runs a function on the arguments. Returns the final values of its parameters.
     fn call(&mut self, id: FunctionId, arguments: Vec<Vec<Cell>>) -> Vec<Vec<Cell>> {
         let function = self.shader.function(id);
         let mut locals: Vec<Vec<Cell>> = function.locals.iter().map(|local| self.blank(local.ty)).collect();
@@ -204,7 +204,7 @@ impl Walk<'_> {
         self.expr(expr)[0].int() != 0
     }
 
-    /// The place of an l-value; its indices are evaluated.
+    /// The place of an l-value. Its indices are evaluated.
     fn place(&mut self, expr: ExprId) -> Place {
         match self.shader.expr(expr).kind {
             ExprKind::Var(var) => (var, (0..self.variable(var).len()).collect()),

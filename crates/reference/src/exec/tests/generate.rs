@@ -1,5 +1,5 @@
-//! Random well-typed fragment stages, built as HIR. All choices come from bytes; when they run out, the simplest is taken,
-//! so that fewer bytes are a smaller program.
+//! Random well-typed fragment stages, built as HIR. All choices come from bytes. When they run out, the simplest
+//! choice is made, so fewer bytes make a smaller program.
 
 use glisten_front::builtin::BuiltinFunction as F;
 use glisten_front::hir::{
@@ -11,7 +11,7 @@ use glisten_front::link::{Interface, Program, UniformRoot};
 use glisten_front::source::Span;
 use glisten_front::syntax::ast::{Profile, Version};
 
-/// The bytes that choices come from.
+/// The source of bytes for choices.
 pub(super) struct Source<'a> {
     bytes: &'a [u8],
 }
@@ -289,7 +289,7 @@ impl Generator<'_, '_> {
         StmtKind::Switch { selector, cases }
     }
 
-    /// A loop of at most a few rounds, by a counter that nothing else assigns to.
+    /// A loop with few iterations, whose counter nothing else assigns.
     fn iteration(&mut self, depth: usize) -> StmtKind {
         let counter = self.new_local(TypeId::INT);
         let zero = self.int(0);
@@ -549,7 +549,7 @@ fn stmt(kind: StmtKind) -> Stmt {
     Stmt { kind, span: Span::default() }
 }
 
-/// The functions for a message: statements with their expressions' numbers, and the expressions.
+/// The functions as text for a message: the statements with the numbers of their expressions, and the expressions.
 pub(super) fn text(generated: &Generated) -> String {
     let shader = &generated.program.stages[0];
     let mut text = String::new();

@@ -1,7 +1,9 @@
-//! Random well-typed programs: every lane gives what it gives alone, and in f64 what a plain tree walk gives.
+//! Random well-typed programs: every lane yields what it yields alone, and in f64 what a plain tree walk yields.
 
 mod builtins;
+mod composites;
 mod evaluate;
+mod folding;
 mod generate;
 mod precise;
 mod shadow;
@@ -51,7 +53,7 @@ fn outputs<D: Domain>(machine: &Machine<D>, program: &Generated, lane: usize) ->
     Some(ports.map(|(id, flat)| one(id, flat)).collect())
 }
 
-/// All NaNs are one, and so are both zeros: `-0` and `0` are equal in GLSL and may differ by evaluation order.
+/// Makes all NaNs equal, and both zeros: `-0` and `0` are equal in GLSL and may differ by evaluation order.
 fn canonical(value: f64) -> u64 {
     if value.is_nan() { f64::NAN.to_bits() } else { (value + 0.0).to_bits() }
 }
@@ -95,8 +97,8 @@ fn walk_agrees(program: &Generated) {
     }
 }
 
-/// The reference and a strict GPU lie within the envelope, in every lane that is decided: for numbers that add up
-/// exactly, and for some that do not. `PROPTEST_CASES=20000 cargo test --lib -- envelope` tries more programs.
+/// The reference and a strict GPU are within the envelope, in every decided lane: for numbers whose sums are exact,
+/// and for some others. `PROPTEST_CASES=20000 cargo test -p glisten-reference envelope` tries more programs.
 fn envelope_holds(program: &Generated) {
     envelope_holds_for(program, |value| value);
     envelope_holds_for(program, |value| value * 0.337 + 0.011);

@@ -1,4 +1,4 @@
-//! The shadow domain, and code whose operations stay apart, on random programs.
+//! The shadow domain, and code with separate operations, on random programs.
 
 use super::generate::{self, Generated, Source};
 use super::{fill, outputs};

@@ -27,7 +27,7 @@ fn compiled_with_sources(body: &str) -> (Program, SourceMap) {
     (compilation.program.unwrap_or_else(|| panic!("{messages:?} in {body}")), compilation.sources)
 }
 
-/// A machine for it, its inputs filled by name and lane (the components of a vector one apart), after a run.
+/// A machine for the program after a run, with inputs by name and lane (the components of a vector differ by one).
 pub(super) fn ran<D: Domain>(
     program: &Program,
     textures: &[Option<Arc<Texture>>],
@@ -129,7 +129,7 @@ fn an_endless_loop_ends_and_is_reported() {
 
 #[test]
 fn derivatives_are_differences_in_quads_with_y_up() {
-    // a = 10 x + 100 row, x and row counted in the quad, the upper row first.
+    // a = 10 x + 100 row; x and row count within the quad, the upper row first.
     let body = "in float a; void main() { o = vec4(dFdx(a * a), dFdy(a), fwidth(a), dFdx(3.0)); }";
     let lanes = run_in::<F64>(body, |_, lane| [0.0, 10.0, 100.0, 110.0][lane % 4]);
     assert_eq!(lanes[0], [100.0, -100.0, 110.0, 0.0]);
@@ -203,7 +203,7 @@ fn quads_decide_together_where_derivatives_are_taken() {
     let body = "in float a; void main() { float b = a / 3.0 * 3.0 < 1.0 ? 0.0 : 1.0; \
                 if (a / 3.0 * 3.0 < 1.0) b = 2.0; else b = 3.0; o = vec4(dFdx(b)); }";
     let lanes = reds(body, |_, lane| lane as f64);
-    // Lane 0 has 2, lane 1 has 2 or 3; lanes 2 and 3 have 3: the difference of their row is 0.
+    // Lane 0 has 2, lane 1 has 2 or 3; lanes 2 and 3 have 3, so the difference in their row is 0.
     assert_eq!(lanes[0], (0.0, 1.0));
     assert_eq!(lanes[4], (0.0, 0.0));
 }
@@ -271,7 +271,7 @@ fn a_number_compared_with_itself_leaves_nothing_open() {
     let body = "in float a; void main() { float b = a / 3.0; float n = float(b < b) + 2.0 * float(b <= b) \
                 + 4.0 * float(b == b) + 8.0 * float(b != b); o = vec4(n, 0, 0, 0); }";
     assert_eq!(reds(body, |_, lane| lane as f64)[5], (6.0, 6.0));
-    // Where it may be no number, it may be unequal.
+    // If it may be NaN, it may be unequal.
     let undefined =
         "in float a; void main() { float b = sqrt(a / 3.0 * 3.0 - 1.0); o = vec4(float(b == b), 0, 0, 0); }";
     let lanes = reds(undefined, |_, lane| lane as f64);

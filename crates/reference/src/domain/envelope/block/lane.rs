@@ -1,25 +1,26 @@
-//! What an operation does to the ends of one lane, without branches: compiled to vectors where it stands in a loop.
+//! The operations on the bounds of one lane, without branches, so that loops over lanes compile to vector
+//! instructions.
 //!
-//! *In:* ends of operands. *Out:* the ends that the operation of [`EnvelopeFloat`] gives, or that
-//! the lane is odd: then that operation has to be asked.
+//! *In:* the bounds of operands. *Out:* the bounds of [`EnvelopeFloat`]'s operation, or *odd* if only that operation
+//! can compute them.
 //!
-//! *Holds:* what is not odd is the same, but for the sign of a zero.
+//! *Holds:* both agree in lanes that are not odd, except for the sign of a zero.
 
 use crate::domain::envelope::float::{greatest, is_power_of_two, least};
 use crate::domain::envelope::round::{BELOW, MAX, OUTWARD, ulps_above, ulps_below};
 use crate::domain::envelope::{EnvelopeFloat, ends};
 use crate::domain::rules::{self, FLUSH, ulp};
 
-/// The ends of a lane.
+/// The bounds of a lane.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Ends {
     pub(super) low: f64,
     pub(super) high: f64,
-    /// Whether they mean nothing.
+    /// Whether the bounds mean nothing.
     pub(super) odd: bool,
 }
 
-/// [`down`](super::super::round::down) of a number up to [`MAX`], moved down first if that number is `lost` on the way.
+/// [`down`](super::super::round::down) of a number up to [`MAX`], moved down first if digits were `lost`.
 #[inline(always)]
 fn down(x: f64, lost: bool) -> f64 {
     let step = u64::from(lost);
@@ -40,7 +41,7 @@ impl Ends {
         Self { low, high, odd: false }
     }
 
-    /// Rounded outward.
+    /// The bounds rounded outward.
     #[inline(always)]
     pub(super) fn rounded(low: f64, high: f64) -> Self {
         // A NaN is odd, too.
@@ -73,7 +74,7 @@ impl Ends {
         let (low, high) = (self.low + other.low, self.high + other.high);
         let low_lost = ((low == self.low) & (other.low < 0.0)) | ((low == other.low) & (self.low < 0.0));
         let high_lost = ((high == self.high) & (other.high > 0.0)) | ((high == other.high) & (self.high > 0.0));
-        // What is lost may leave the greatest f32, too.
+        // After lost digits, the largest f32 may be exceeded, too.
         let fine = (low.abs() < MAX) & (high.abs() < MAX);
         Self { low: down(low, low_lost), high: up(high, high_lost), odd: !fine }
     }
@@ -128,7 +129,7 @@ impl Ends {
         Self::of(greatest(self.low, other.low), greatest(self.high, other.high))
     }
 
-    /// A function without rounding that never falls.
+    /// A function without rounding that never decreases.
     #[inline(always)]
     pub(super) fn rising(self, f: impl Fn(f64) -> f64) -> Self {
         Self::of(f(self.low), f(self.high))
@@ -160,7 +161,8 @@ impl Ends {
         };
         let flushed = if self.low < FLUSH { 0.0 } else { self.low };
         let low = greatest(end(flushed, -1.0), 0.0);
-        let fine = (self.low >= 0.0) & (self.high <= MAX);
+        let by_rule = const { rules::SQRT.inherits(&rules::kernels::SQRT) };
+        let fine = by_rule & (self.low >= 0.0) & (self.high <= MAX);
         Self::rounded(low, end(self.high, 1.0)).or_odd(!fine)
     }
 
@@ -170,7 +172,7 @@ impl Ends {
         Self::of(greatest(self.low, -EnvelopeFloat::COSINE), least(self.high, EnvelopeFloat::COSINE)).or_odd(!finite)
     }
 
-    /// With what the function gives at an end.
+    /// An exponential function, with the function for its bounds.
     #[inline(always)]
     pub(super) fn exponential(self, f: impl Fn(f64) -> f64) -> Self {
         let n = |x: f64| rules::EXP.ulps_at(x);
@@ -179,11 +181,12 @@ impl Ends {
         Self::rounded(greatest(below, 0.0), ulps_above(low, high, n(self.high)))
     }
 
-    /// The ends of a logarithm before they are rounded; the least may be infinite.
+    /// The bounds of a logarithm before rounding. The lower one may be infinite.
     #[inline(always)]
     fn logarithm_ends(self, f: impl Fn(f64) -> f64) -> (f64, f64) {
-        let near_one = (self.high >= 0.5) & (self.low <= 2.0);
-        let beside = if near_one { rules::LOG_NEAR_ONE.absolute() } else { 0.0 };
+        let (from, to) = const { rules::LOG.within() };
+        let near_one = (self.high >= from) & (self.low <= to);
+        let beside = if near_one { rules::LOG.absolute() } else { 0.0 };
         let error = |result: f64| greatest(rules::LOG.ulps() * ulp(result), beside) * OUTWARD;
         let positive = |x: f64| if x < FLUSH { FLUSH } else { x };
         let (least, most) = (f(positive(self.low)), f(positive(self.high)));
@@ -200,7 +203,7 @@ impl Ends {
     #[inline(always)]
     pub(super) fn power(self, exponent: Self) -> Self {
         let (low, high) = self.logarithm_ends(ends::log2);
-        // The least may be infinite, and stays so by rounding and by a factor above 0.
+        // The lower bound may be infinite. Rounding, and a factor above 0, leave it unchanged.
         let (low, high) = (down(low, false), up(high, false));
         let (ll, lh) = (exponent.low * low, exponent.low * high);
         let (hl, hh) = (exponent.high * low, exponent.high * high);
@@ -208,7 +211,8 @@ impl Ends {
             down(least(least(ll, lh), least(hl, hh)), false),
             up(greatest(greatest(ll, lh), greatest(hl, hh)), false),
         );
-        let fine = (self.low >= 0.0)
+        let fine = const { rules::POW.inherits(&rules::kernels::POW) }
+            & (self.low >= 0.0)
             & (self.high <= MAX)
             & (exponent.low >= FLUSH)
             & (exponent.high <= MAX)
@@ -250,7 +254,7 @@ impl Ends {
         Self {
             low: if points { either.low } else { found.low },
             high: if points { either.high } else { found.high },
-            odd: odd | found.odd | (found.low > found.high),
+            odd: !const { rules::MIX.inherits(&rules::kernels::MIX) } | odd | found.odd | (found.low > found.high),
         }
     }
 }

@@ -1,15 +1,16 @@
-//! [`EnvelopeBlock`]: eight numbers, each part of them side by side, so that an operation is a few vector instructions.
+//! [`EnvelopeBlock`]: eight numbers, with each of their parts side by side, so that an operation is a few vector
+//! instructions.
 //!
-//! *In:* operands of eight lanes. *Out:* what [`EnvelopeFloat`]'s operation gives in each.
+//! *In:* operands of eight lanes. *Out:* the result of [`EnvelopeFloat`]'s operation in each lane.
 //!
-//! *Holds:* the scalar operation is the definition. Nearly all lanes are computed together without branches; a lane that
-//! a rule treats apart (infinite ends, a NaN that may be dropped, a divisor that holds 0) is *odd*, and done once more
-//! by the scalar operation. Both give the same, but for the sign of a zero.
+//! *Holds:* the scalar operation is the definition. Nearly all lanes are computed together without branches. A lane
+//! that needs special treatment by a rule (infinite bounds, a NaN that may be dropped, a divisor that contains 0) is
+//! *odd*, and the scalar operation computes it again. Both have the same result, except for the sign of a zero.
 //!
-//! | file | holds |
+//! | file | contents |
 //! | --- | --- |
-//! | `lane` | the operations on one lane's ends, without branches |
-//! | `operations` | those on blocks |
+//! | `lane` | the operations on one lane's bounds, without branches |
+//! | `operations` | the operations on blocks |
 //! | `sum` | sums of products, in any order |
 
 mod lane;
@@ -23,7 +24,7 @@ use crate::domain::{Element, Few, WIDTH};
 use lane::Ends;
 use std::hint::black_box;
 
-/// A number in each of eight lanes; vectors of four never cross a line of the cache.
+/// A number in each of eight lanes. Vectors of four never cross a cache line.
 #[repr(align(32))]
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct EnvelopeBlock {
@@ -34,7 +35,7 @@ pub struct EnvelopeBlock {
     nan: u8,
 }
 
-/// Lanes that are not 0 are odd.
+/// The odd lanes are those that are not 0.
 type Odd = [u64; WIDTH];
 
 impl Element for EnvelopeFloat {
@@ -104,7 +105,7 @@ impl EnvelopeBlock {
         Ends::of(self.low[lane], self.high[lane])
     }
 
-    /// Writes the ends of all lanes, and does those once more that are odd, or that `apart` names.
+    /// Writes the bounds of all lanes, and computes those again that are odd or in `apart`.
     #[inline(always)]
     fn fill(&mut self, ends: impl Fn(usize) -> Ends, apart: u8, exact: impl Fn(usize) -> EnvelopeFloat) {
         let (mut low, mut high, mut odd) = ([0.0; WIDTH], [0.0; WIDTH], [0; WIDTH]);
@@ -119,7 +120,7 @@ impl EnvelopeBlock {
         self.low = low;
         self.high = high;
         if any != 0 {
-            // Copies, so that the compiler knows that nobody else reads or writes what the loop does.
+            // These are copies, so that the compiler knows that nothing else reads or writes what the loop does.
             *self = black_box(*self).redone(black_box(odd), apart, exact);
         }
     }
@@ -157,7 +158,7 @@ impl EnvelopeBlock {
         out
     }
 
-    /// Applies a function of two; `apart` names the lanes that may drop a NaN.
+    /// Applies a function of two operands; `apart` contains the lanes that may drop a NaN.
     #[inline(always)]
     fn by_both(
         &self,

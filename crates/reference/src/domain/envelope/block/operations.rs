@@ -9,14 +9,14 @@ use pulp::Arch;
 use std::f64::consts::{LN_2, LOG2_E};
 use std::sync::LazyLock;
 
-/// Answers for the lanes of a block.
+/// The answers for the lanes of a block.
 pub(super) type Answers = [EnvelopeInt; WIDTH];
 
-/// The vector unit that there is.
+/// The vector unit of this machine.
 static UNIT: LazyLock<Arch> = LazyLock::new(Arch::new);
 
 impl EnvelopeBlock {
-    /// A comparison by when it is true of all pairs, and when of none.
+    /// A comparison, given the lanes where it is true of all pairs, and those where it is true of none.
     #[inline(always)]
     fn answered(
         &self,
@@ -237,7 +237,7 @@ impl Block<EnvelopeFloat> for EnvelopeBlock {
     }
     #[inline(always)]
     fn cosine_at_most(&self) -> Self {
-        // Ends that are infinite leave all as it was.
+        // Infinite bounds leave everything unchanged.
         self.by_parts(
             #[inline(always)]
             |value| value,

@@ -6,7 +6,7 @@ use crate::domain::envelope::EnvelopeFloat;
 use crate::domain::envelope::float::{greatest, least};
 use crate::domain::{Few, WIDTH};
 
-/// A sum that grows term by term: what [`EnvelopeFloat::summed`] keeps on its way.
+/// A sum in progress, with the state that [`EnvelopeFloat::summed`] keeps.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Sum {
     value: [f64; WIDTH],
@@ -14,9 +14,9 @@ pub(super) struct Sum {
     high: [f64; WIDTH],
     deepest: [f64; WIDTH],
     highest: [f64; WIDTH],
-    /// Terms that are not 0.
+    /// The number of terms that are not 0.
     count: [f64; WIDTH],
-    /// 0 where all terms are numbers of few digits.
+    /// 0 if all terms are numbers of few digits.
     uneven: [u64; WIDTH],
     nan: u8,
 }
@@ -37,7 +37,7 @@ impl Sum {
         self.nan |= term.nan;
     }
 
-    /// The sum of so many terms.
+    /// The sum of `count` terms.
     #[inline(always)]
     pub(super) fn of(count: usize, term: impl Fn(usize) -> EnvelopeBlock) -> EnvelopeBlock {
         let mut sum = Self::default();
@@ -56,7 +56,7 @@ impl Sum {
         out
     }
 
-    /// The ends of the sum in a lane.
+    /// The bounds of the sum in a lane.
     #[inline(always)]
     fn ends(&self, lane: usize) -> Ends {
         let size = greatest(self.highest[lane], -self.deepest[lane]);

@@ -1,4 +1,4 @@
-//! Blocks against the scalar operations, lane by lane.
+//! Compares blocks with the scalar operations, lane by lane.
 
 use super::EnvelopeBlock;
 use super::operations::Answers;
@@ -6,7 +6,7 @@ use crate::domain::envelope::{EnvelopeFloat, EnvelopeInt};
 use crate::domain::rules::FLUSH;
 use crate::domain::{Block, Few, Integer, Number, WIDTH};
 
-/// Numbers that are the same every run.
+/// Random numbers from a seed, the same in every run.
 struct Random(u64);
 
 impl Random {
@@ -19,7 +19,7 @@ impl Random {
         (self.unit() * count as f64) as usize
     }
 
-    /// An f32 of any size, often one that rules treat apart.
+    /// An f32 of any size, often one that needs special treatment by a rule.
     fn end(&mut self) -> f64 {
         const APART: [f64; 16] = [
             0.0,
@@ -74,7 +74,7 @@ impl Random {
 
     fn block(&mut self) -> EnvelopeBlock {
         let mut block = EnvelopeBlock::default();
-        // Whole blocks of lanes that are not odd are the case that counts.
+        // Whole blocks of lanes that are not odd are the important case.
         let tame = self.below(2) == 0;
         for lane in 0..WIDTH {
             let mut number = self.number();
@@ -95,7 +95,7 @@ impl Random {
     }
 }
 
-/// The same ends, and the same value with the sign of a zero.
+/// Whether the bounds are equal, and the values too, including the sign of a zero.
 fn same(a: EnvelopeFloat, b: EnvelopeFloat) -> bool {
     let values = a.value.to_bits() == b.value.to_bits() || a.value.is_nan() && b.value.is_nan();
     values && a.low == b.low && a.high == b.high && a.may_be_nan == b.may_be_nan

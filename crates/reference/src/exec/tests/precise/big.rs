@@ -1,10 +1,10 @@
-//! Numbers of 320 bits, to judge f64 by.
+//! Numbers of 320 bits, for checking f64.
 
 use astro_float_num::{BigFloat, Consts, RoundingMode, Sign};
 use std::cell::RefCell;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// Enough that the rounding of a few operations cannot be seen in f64, even where sums cancel.
+/// So many bits that the rounding of a few operations is invisible in f64, even if sums cancel.
 const BITS: usize = 320;
 const TO_EVEN: RoundingMode = RoundingMode::ToEven;
 
@@ -12,7 +12,7 @@ thread_local! {
     static CONSTANTS: RefCell<Consts> = RefCell::new(Consts::new().expect("memory"));
 }
 
-/// A number, perhaps infinite or none.
+/// A number, which may be infinite or NaN.
 #[derive(Clone, Debug)]
 pub(super) struct Big(BigFloat);
 
@@ -20,17 +20,17 @@ pub(super) struct Big(BigFloat);
 type Function = fn(&BigFloat, usize, RoundingMode, &mut Consts) -> BigFloat;
 
 impl Big {
-    /// Exactly this.
+    /// Exactly this value.
     pub(super) fn of(value: f64) -> Self {
         Self(BigFloat::from_f64(value, BITS))
     }
 
-    /// A function of this.
+    /// A function of this number.
     pub(super) fn map(&self, function: Function) -> Self {
         CONSTANTS.with_borrow_mut(|constants| Self(function(&self.0, BITS, TO_EVEN, constants)))
     }
 
-    /// `self` to the power `exponent`, of a positive number: the crate's own does not come to an end where the result
+    /// `self` to the power `exponent`, for positive `self`. The crate's own function does not terminate if the result
     /// is exact.
     pub(super) fn pow(&self, exponent: &Self) -> Self {
         (&self.map(BigFloat::ln) * exponent).map(BigFloat::exp)
@@ -61,7 +61,7 @@ impl Big {
         self.0.is_zero()
     }
 
-    /// As f64, to a few of its roundings.
+    /// The value as f64, to a few of its roundings.
     pub(super) fn approx(&self) -> f64 {
         if self.0.is_nan() {
             return f64::NAN;
@@ -72,7 +72,7 @@ impl Big {
         }
         let Some((words, _, given, exponent, _)) = self.0.as_raw_parts() else { return f64::NAN };
         debug_assert_eq!(given == Sign::Neg, sign < 0.0);
-        // The number is 0.mantissa times 2^exponent, the last word the highest.
+        // The number is 0.mantissa times 2^exponent, with the most significant word last.
         let top = words.last().map_or(0.0, |word| *word as f64 / 2.0_f64.powi(64));
         // In two steps, so that neither overflows alone.
         let half = exponent.clamp(-3000, 3000) / 2;

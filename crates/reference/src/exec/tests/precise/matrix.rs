@@ -1,9 +1,9 @@
-//! Determinants by permutations and inverses by elimination: not the executor's formulas.
+//! Determinants by permutations and inverses by elimination, which are not the executor's formulas.
 
 use super::big::Big;
 use super::oracle::{Want, near_sum};
 
-/// The side of a square matrix of so many scalars.
+/// The side of a square matrix with `count` scalars.
 fn side(count: usize) -> usize {
     match count {
         4 => 2,
@@ -22,7 +22,7 @@ fn permutations(n: usize) -> Vec<(Vec<usize>, f64)> {
         for place in 0..n {
             let mut longer = shorter.clone();
             longer.insert(place, n - 1);
-            // The last one moves over what stands behind it.
+            // The last one moves before the `n - 1 - place` others.
             all.push((longer, if (n - 1 - place) % 2 == 1 { -sign } else { sign }));
         }
     }
@@ -47,9 +47,9 @@ pub(super) fn determinant(m: &[f64]) -> Want {
     near_sum(value, terms, 12.0)
 }
 
-/// Gauss's and Jordan's elimination with the largest pivot.
+/// Gauss-Jordan elimination with the largest pivot.
 fn eliminate(m: &[f64], n: usize) -> Option<Vec<Big>> {
-    // Rows of the matrix, the unit matrix behind it.
+    // The rows of the matrix, followed by those of the identity matrix.
     let mut rows: Vec<Vec<Big>> = (0..n)
         .map(|row| {
             let left = (0..n).map(|column| Big::of(m[column * n + row]));
@@ -81,10 +81,10 @@ pub(super) fn inverse(m: &[f64]) -> Vec<Want> {
     let n = side(m.len());
     let (determinant, terms) = leibniz(m, n);
     let determinant = determinant.approx().abs();
-    // Where the determinant is lost in its rounding, so is the inverse.
+    // If the determinant is lost in its rounding, so is the inverse.
     let well = determinant > terms * 1e-10;
     let Some(inverse) = eliminate(m, n).filter(|_| well) else { return vec![Want::Anything; n * n] };
-    // What elimination itself leaves of a 0.
+    // The error that elimination itself leaves in place of a 0.
     let noise = inverse.iter().map(|value| value.approx().abs()).fold(0.0, f64::max) * 1e-60;
     let wants = inverse.into_iter().enumerate().map(|(k, value)| {
         let (column, row) = (k / n, k % n);

@@ -1,6 +1,7 @@
-//! Every overload of every built-in function, in f64 and f32, on random and on edge inputs, against numbers of 320 bits.
+//! Checks every overload of every built-in function, in f64 and f32, on random inputs and edge cases, against numbers
+//! of 320 bits.
 //!
-//! What functions give for infinities and NaN stands in [`super::builtins`].
+//! [`super::builtins`] checks the results for infinities and NaN.
 
 mod big;
 mod matrix;
@@ -16,7 +17,7 @@ use glisten_front::hir::{Scalar, Stage, TypeId, Types};
 use glisten_front::link::Program;
 use oracle::{Argument, Want, expected};
 
-/// Numbers that are the same every run.
+/// A deterministic random number generator.
 struct Random(u64);
 
 impl Random {
@@ -37,7 +38,7 @@ impl Random {
         if self.bits() & 1 == 0 { 1.0 } else { -1.0 }
     }
 
-    /// Edges, numbers about 1, halves, and all sizes.
+    /// Edge cases, numbers around 1, halves, and numbers of all sizes.
     fn float(&mut self) -> f64 {
         const EDGES: [f64; 16] = [
             0.0,
@@ -80,7 +81,7 @@ impl Random {
     }
 }
 
-/// How a type is handed over between stages: `bool`s as `int`s.
+/// The type that carries a type between stages: `bool`s become `int`s.
 fn carrier(types: &Types, ty: TypeId) -> String {
     match types.scalar_of(ty) {
         Some(Scalar::Bool) => types.name(ty).replace("bvec", "ivec").replace("bool", "int"),
@@ -113,13 +114,13 @@ fn program(name: &str, signature: &Signature, is_modf: bool) -> Program {
     compilation.program.unwrap_or_else(|| panic!("{messages:?} in\n{text}"))
 }
 
-/// Half the distance between the f32 around a value.
+/// Half the distance between the two f32 around a value.
 fn half_step(value: f64) -> f64 {
     let exponent = value.abs().log2().floor().max(-126.0);
     2.0_f64.powf(exponent - 24.0)
 }
 
-/// Whether f64, or f32 by one rounding, may give `found`.
+/// Whether f64, or f32 with one rounding, may yield `found`.
 fn holds(want: &Want, found: f64, is_single: bool) -> bool {
     match want {
         Want::Anything => true,
@@ -135,7 +136,7 @@ fn holds(want: &Want, found: f64, is_single: bool) -> bool {
                 let may_turn = *slack > size.abs();
                 return (found.signum() == size.signum() || may_turn) && size.abs() + slack >= most * (1.0 - 1e-9);
             }
-            // The rounding of the tie itself may go either way by what f64 is off.
+            // A tie may be rounded either way, depending on the error of f64.
             let rounding =
                 if is_single { half_step(size) } else { size.abs() * f64::EPSILON / 2.0 + f64::MIN_POSITIVE };
             (&Big::of(found) - value).approx().abs() <= rounding + slack
@@ -158,7 +159,7 @@ impl Check {
         Self { function, told: signature.describe(name, &Types::new()), signature, program, code }
     }
 
-    /// 64 sets of arguments; each a few times like the one before, so that equal ones occur.
+    /// 64 sets of arguments, each a few times similar to the one before, so that equal ones occur.
     fn arguments(&self, random: &mut Random) -> Vec<Vec<Argument>> {
         let types = &self.program.types;
         (0..LANES)
@@ -236,7 +237,7 @@ fn every_overload_agrees_with_numbers_of_320_bits() {
         }
         for signature in row.signatures(Stage::Fragment) {
             let check = Check::new(row.function, row.name, signature);
-            // The components of vectors are computed alike.
+            // The components of vectors are computed in the same way.
             let rounds = if Types::new().flat_len(signature.ret) == 1 { 4 } else { 1 };
             for _ in 0..rounds {
                 let mut lanes = check.arguments(&mut random);

@@ -1,6 +1,7 @@
-//! What each built-in function gives, by formulas of its own in numbers of 320 bits.
+//! The expected result of each built-in function, by independent formulas in numbers of 320 bits.
 //!
-//! *Holds:* the `match` over functions has no wildcard: a new built-in does not compile until it is named here.
+//! *Holds:* the `match` over functions has no wildcard, so a new built-in function does not compile until it is named
+//! here.
 
 use super::big::Big;
 use super::matrix;
@@ -16,28 +17,28 @@ pub(super) struct Argument {
     pub(super) bits: Vec<u32>,
 }
 
-/// What a scalar of the result must be.
+/// The expectation for a scalar of the result.
 #[derive(Clone, Debug)]
 pub(super) enum Want {
-    /// The value, and how far f64 may be from it.
+    /// The value, and the largest error of f64.
     Near(Big, f64),
-    /// This number; all NaNs are one.
+    /// This number; all NaNs are equal.
     Exactly(f64),
     /// These bits of an `int`, `uint` or `bool`.
     Bits(u32),
-    /// GLSL leaves it open, or f64 cannot tell.
+    /// GLSL leaves the result open, or f64 cannot determine it.
     Anything,
 }
 
 const EPSILON: f64 = f64::EPSILON;
 
-/// A value that f64 comes within so many of its roundings to.
+/// A value, with f64's error as a number of its roundings.
 fn near(value: Big, roundings: f64) -> Want {
     let slack = value.approx().abs() * roundings * EPSILON;
     within(value, slack)
 }
 
-/// A sum that cancels: the terms' absolute values add up to `terms`.
+/// A sum that cancels. The absolute values of the terms add up to `terms`.
 pub(super) fn near_sum(value: Big, terms: f64, roundings: f64) -> Want {
     within(value, terms * roundings * EPSILON)
 }
@@ -49,7 +50,7 @@ fn within(value: Big, slack: f64) -> Want {
     }
 }
 
-/// Argument `index` as numbers; a scalar goes with every component.
+/// Argument `index` as numbers. A scalar is combined with every component.
 struct Floats<'a>(&'a [Argument]);
 
 impl Floats<'_> {
@@ -65,8 +66,8 @@ impl Floats<'_> {
     }
 }
 
-/// The scalars of the result, of `modf` those of the whole part behind them; `None` of what is no function of its arguments
-/// alone.
+/// The expected scalars of the result; for `modf`, followed by those of the whole part. `None` if the function does
+/// not depend only on its arguments.
 pub(super) fn expected(function: F, arguments: &[Argument], count: usize) -> Option<Vec<Want>> {
     let a = Floats(arguments);
     let each = |f: &dyn Fn(usize) -> Want| Some((0..count).map(f).collect());
@@ -174,11 +175,11 @@ pub(super) fn expected(function: F, arguments: &[Argument], count: usize) -> Opt
         F::Any => Some(vec![Want::Bits(u32::from(arguments[0].bits.contains(&1)))]),
         F::All => Some(vec![Want::Bits(u32::from(!arguments[0].bits.contains(&0)))]),
         F::Not => each(&|k| Want::Bits(1 - arguments[0].bits[k])),
-        // §8.9 asks for -1 to 1 alone; it is 0 here.
+        // §8.9 requires only the range -1 to 1; here it is 0.
         F::Noise1 | F::Noise2 | F::Noise3 | F::Noise4 => each(&|_| Want::Exactly(0.0)),
-        // They look at other lanes: `text::derivatives_are_differences_in_quads_with_y_up`.
+        // These read other lanes: `text::derivatives_are_differences_in_quads_with_y_up`.
         F::DFdx | F::DFdy | F::Fwidth => None,
-        // `super::textures` and the scenes look at them.
+        // `super::textures` and the scenes check these.
         F::TextureSize
         | F::Texture
         | F::TextureProj
@@ -194,17 +195,17 @@ pub(super) fn expected(function: F, arguments: &[Argument], count: usize) -> Opt
         | F::TextureGradOffset
         | F::TextureProjGrad
         | F::TextureProjGradOffset => None,
-        // Geometry stages are refused.
+        // Geometry stages are not supported.
         F::EmitVertex | F::EndPrimitive => None,
     }
 }
 
-/// NaN outside of the domain.
+/// NaN outside the domain.
 fn inside(there: bool, value: impl FnOnce() -> Want) -> Want {
     if there { value() } else { Want::Exactly(f64::NAN) }
 }
 
-/// To the base 2, or natural if that is 1.
+/// The logarithm to the base 2, or the natural one if `base` is 1.
 fn logarithm(x: f64, base: f64) -> Want {
     if x == 0.0 {
         return Want::Exactly(f64::NEG_INFINITY);
@@ -260,7 +261,7 @@ fn modulo(x: f64, y: f64) -> Want {
     let rest = (&quotient - &steps).approx();
     let open = quotient.approx().abs().max(1.0) * EPSILON;
     if rest < open || rest > 1.0 - open {
-        // In f64 the quotient may fall on the other side of the whole number.
+        // In f64 the quotient may be on the other side of the whole number.
         return if rest == 0.0 && quotient.approx().abs() < 1e15 { Want::Exactly(0.0) } else { Want::Anything };
     }
     let value = &big_x - &(&big_y * &steps);
@@ -279,7 +280,7 @@ fn smoothstep(low: f64, high: f64, x: f64) -> Want {
     }
 }
 
-/// An integer as its type means it.
+/// An integer as its type defines it.
 fn integer(arguments: &[Argument], argument: usize, component: usize, scalar: Scalar) -> i64 {
     let bits = &arguments[argument].bits;
     let bits = if bits.len() == 1 { bits[0] } else { bits[component] };
@@ -353,7 +354,7 @@ fn refract(a: &Floats<'_>, component: usize) -> Want {
     let d = dot(&a.vector(1), &a.vector(0));
     let squared = &eta * &eta;
     let k = &one - &(&squared * &(&one - &(&d * &d)));
-    // How far f64's d and k may be off.
+    // The largest errors of f64's d and k.
     let d_off = 4.0 * EPSILON * dot_size(a, 1, 0);
     let (eta_size, d_size) = (eta.approx().abs(), d.approx().abs());
     let k_off = 8.0 * EPSILON * (1.0 + eta_size * eta_size * (1.0 + d_size * d_size))

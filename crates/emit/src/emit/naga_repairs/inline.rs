@@ -1,7 +1,7 @@
 //! Removes unneeded names from emitted text: a load that needs no name is written where it is used.
 //!
 //! naga's text writers name every load (`let _e7 = color;`), because a statement between the load and its use might
-//! change the value. Usually none does.
+//! change the value. Usually none does. Superfluous once naga names only loads that a store may overtake.
 //!
 //! *In:* a validated module. *Out:* the same module without the `Emit`s of such loads. The writers spell out an
 //! expression without an `Emit` at its use. The result is only for the text writers, since naga's validator requires
@@ -14,7 +14,7 @@ use crate::lower::for_each_operand;
 use naga::{Block, Expression, Function, Handle, Range, Statement};
 
 /// Removes the `Emit`s of loads that need no name.
-pub(super) fn inline_loads(module: &mut naga::Module) {
+pub(in crate::emit) fn inline_loads(module: &mut naga::Module) {
     for (_, function) in module.functions.iter_mut() {
         inline_in(function);
     }

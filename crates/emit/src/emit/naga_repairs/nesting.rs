@@ -1,5 +1,8 @@
 //! Limits how deep statements nest, before anything recurses over them.
 //!
+//! naga's validator and writers recurse over nested blocks without a limit. The larger stack is superfluous once they
+//! have one; the limit of WGSL's parsers stays.
+//!
 //! *In:* a lowered module. *Out:* whether it needs a larger stack, and the diagnostic for nesting that no WGSL parser
 //! accepts.
 
@@ -29,7 +32,7 @@ fn inner(statement: &Statement, mut visit: impl FnMut(&Block, u32)) {
 }
 
 /// Whether blocks nest deeper than `limit`.
-pub(super) fn is_nested(module: &Module, limit: u32) -> bool {
+pub(in crate::emit) fn is_nested(module: &Module, limit: u32) -> bool {
     fn deeper(block: &Block, limit: u32) -> bool {
         let Some(limit) = limit.checked_sub(1) else { return true };
         block.iter().any(|statement| {
@@ -47,12 +50,12 @@ fn bodies(module: &Module) -> impl Iterator<Item = &Block> {
 }
 
 /// The diagnostic for the first statement that is nested too deeply for WGSL.
-pub(super) fn too_deep(module: &Module) -> Option<Diagnostic> {
+pub(in crate::emit) fn too_deep(module: &Module) -> Option<Diagnostic> {
     let span = bodies(module).find_map(|body| beyond(body, 1))?;
     let place = span.to_range().map_or(Span::default(), |range| Span::new(range.start as u32, range.end as u32));
     let message = format!("statements nest deeper than the {WGSL_LEVELS} levels that Tint reads of WGSL");
     let help = "move the inner statements into a function of their own, or compile for SPIR-V (`--target spirv`)";
-    Some(Diagnostic::new(&NESTING_TOO_DEEP_FOR_TARGET, place, message).here("this stands too deep").help(help))
+    Some(Diagnostic::new(&NESTING_TOO_DEEP_FOR_TARGET, place, message).here("nested too deeply here").help(help))
 }
 
 /// The first statement of a block at `level` that is nested too deeply. Does not descend below the limit.

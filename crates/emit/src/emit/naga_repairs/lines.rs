@@ -1,7 +1,8 @@
 //! Source lines in SPIR-V (`-g`), including those of included files.
 //!
 //! naga counts lines in one text with one name. It gets all files concatenated, at their global offsets. Afterwards,
-//! every `OpLine` is mapped back to its file, and each file gets its own `OpString` and `OpSource`.
+//! every `OpLine` is mapped back to its file, and each file gets its own `OpString` and `OpSource`. Superfluous once
+//! naga's `spv::DebugInfo` holds several files.
 //!
 //! *In:* the texts, and the SPIR-V words that naga wrote. *Out:* the words with the lines of the files on disk.
 
@@ -22,7 +23,7 @@ const BOUND: usize = 3;
 const CHUNK: usize = 200_000;
 
 /// A file within the text in which naga counts lines.
-struct File {
+struct LineFile {
     name: String,
     text: Arc<str>,
     /// The line of the whole text at which the file begins, counted from 0.
@@ -31,16 +32,16 @@ struct File {
 }
 
 /// All files as one text.
-pub(super) struct SourceLines {
-    files: Vec<File>,
+pub(in crate::emit) struct SourceLines {
+    files: Vec<LineFile>,
     /// The file of the entry point; naga writes its name.
     main: usize,
-    pub(super) text: String,
+    pub(in crate::emit) text: String,
 }
 
 impl SourceLines {
     /// The texts that a module comes from; `None` if nothing in it has a position.
-    pub(super) fn of(module: &naga::Module, sources: &SourceMap) -> Option<Self> {
+    pub(in crate::emit) fn of(module: &naga::Module, sources: &SourceMap) -> Option<Self> {
         let entry = module.entry_points.first()?;
         let (_, span) = entry.function.body.span_iter().find(|(_, span)| span.is_defined())?;
         let range = span.to_range()?;
@@ -55,7 +56,7 @@ impl SourceLines {
             if id == of_entry {
                 main = files.len();
             }
-            files.push(File { name: file.name().to_owned(), text: file.text().clone(), first_line, id: 0 });
+            files.push(LineFile { name: file.name().to_owned(), text: file.text().clone(), first_line, id: 0 });
             text.push_str(file.text());
         }
         text.push_str("\n\n");
@@ -63,12 +64,12 @@ impl SourceLines {
     }
 
     /// The name that naga is to write.
-    pub(super) fn name(&self) -> &str {
+    pub(in crate::emit) fn name(&self) -> &str {
         self.files.get(self.main).map_or("", |file| file.name.as_str())
     }
 
     /// Maps every line back to its file.
-    pub(super) fn led_back(mut self, words: &[u32]) -> Vec<u32> {
+    pub(in crate::emit) fn led_back(mut self, words: &[u32]) -> Vec<u32> {
         let Some(own) = instructions(words).find(|found| found[0] & 0xffff == OP_STRING).map(|found| found[1]) else {
             return words.to_vec();
         };

@@ -2,7 +2,8 @@
 //!
 //! naga makes names unique in the whole module, so that a second function's `x` becomes `x_1`. It appends an
 //! underscore to names that end in a digit, and calls unnamed values `_e12`. WGSL has scopes: a local name need only
-//! differ from the other names that its function uses.
+//! differ from the other names that its function uses. Superfluous once naga's namer (`naga::proc::Namer`) follows the
+//! scopes of the language that it writes.
 //!
 //! *In:* WGSL as naga writes it (ASCII identifiers, no comments, a function's closing brace in column 0). *Out:* the
 //! same program. *Holds:* a name is changed only if nothing else in the same function (for names of the module: in
@@ -22,7 +23,7 @@ struct Word<'t> {
 }
 
 /// The text with names as close to the source's as scopes allow.
-pub(super) fn restored(text: &str) -> String {
+pub(in crate::emit) fn restored(text: &str) -> String {
     let words = words(text);
     let module = names_of_module(&words);
     let mut renamed: Vec<(Range<usize>, String)> = Vec::new();

@@ -1,0 +1,16 @@
+//! Repairs for gaps of naga: in its output, and for modules that it would not survive.
+//!
+//! *In:* modules before naga writes them, and its output. *Out:* the same with the gaps filled. Each file describes
+//! naga's behavior, and when the file becomes superfluous.
+//!
+//! | file | superfluous once |
+//! | --- | --- |
+//! | `inline` | naga's text writers name only the loads that need a name |
+//! | `names` | naga's namer follows the scopes of WGSL |
+//! | `nesting` | naga's validator and writers limit how deep they recurse |
+//! | `lines` | naga's SPIR-V writer accepts several source files |
+
+pub(super) mod inline;
+pub(super) mod lines;
+pub(super) mod names;
+pub(super) mod nesting;

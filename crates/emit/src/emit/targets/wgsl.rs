@@ -1,0 +1,43 @@
+//! WGSL, with the names of the source.
+
+use super::Job;
+use crate::emit::messages::chain;
+use crate::emit::naga_repairs::{inline, names, nesting};
+use glisten_front::diagnostic::Diagnostic;
+use glisten_front::hir::Stage;
+use naga::back::wgsl;
+
+/// The diagnostic for nesting that no parser of WGSL accepts.
+pub(super) fn limit(module: &naga::Module) -> Option<Diagnostic> {
+    nesting::too_deep(module)
+}
+
+/// Writes WGSL.
+pub(super) fn write(mut job: Job<'_>) -> Result<String, String> {
+    inline::inline_loads(&mut job.module);
+    let Job { module, info, stage, .. } = &job;
+    let text = wgsl::write_string(module, info, wgsl::WriterFlags::empty()).map_err(|error| chain(&error))?;
+    let text = names::restored(&text);
+    // GLSL allows derivatives in any control flow (§8.8 calls them undefined in some). WGSL rejects them where it
+    // cannot prove that control flow is uniform, unless a directive disables that. naga has the directive in its IR
+    // but never writes it.
+    if *stage == Stage::Fragment && takes_derivatives(module) {
+        return Ok(format!("diagnostic(off, derivative_uniformity);\n\n{text}"));
+    }
+    Ok(text)
+}
+
+/// Whether the module takes any derivatives, explicit or implicit.
+fn takes_derivatives(module: &naga::Module) -> bool {
+    let takes = |function: &naga::Function| {
+        function.expressions.iter().any(|(_, expression)| match expression {
+            naga::Expression::Derivative { .. } => true,
+            naga::Expression::ImageSample { level, .. } => {
+                matches!(level, naga::SampleLevel::Auto | naga::SampleLevel::Bias(_))
+            }
+            _ => false,
+        })
+    };
+    module.functions.iter().any(|(_, function)| takes(function))
+        || module.entry_points.iter().any(|entry| takes(&entry.function))
+}

@@ -1,0 +1,54 @@
+//! [`Target`]: the target languages, with one row for each.
+
+/// Declares the targets: `Variant "name" "word" "extension";`
+macro_rules! targets {
+    ($($target:ident $name:literal $word:literal $extension:literal;)*) => {
+        /// A target language.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+        #[expect(missing_docs, reason = "the names say it")]
+        pub enum Target {
+            $($target,)*
+        }
+
+        impl Target {
+            /// All targets.
+            pub const ALL: &[Self] = &[$(Self::$target),*];
+
+            /// The usual name: `WGSL`.
+            pub fn name(self) -> &'static str {
+                match self {
+                    $(Self::$target => $name,)*
+                }
+            }
+
+            /// Its word in options: `wgsl`.
+            pub fn word(self) -> &'static str {
+                match self {
+                    $(Self::$target => $word,)*
+                }
+            }
+
+            /// The extension of its files: `wgsl`.
+            pub fn extension(self) -> &'static str {
+                match self {
+                    $(Self::$target => $extension,)*
+                }
+            }
+        }
+    };
+}
+
+targets! {
+    Wgsl "WGSL" "wgsl" "wgsl";
+    Spirv "SPIR-V" "spirv" "spv";
+    Msl "MSL" "msl" "metal";
+    Hlsl "HLSL" "hlsl" "hlsl";
+    Glsl "GLSL" "glsl" "glsl";
+}
+
+impl Target {
+    /// The target with this word.
+    pub fn from_word(word: &str) -> Option<Self> {
+        Self::ALL.iter().copied().find(|target| target.word() == word)
+    }
+}

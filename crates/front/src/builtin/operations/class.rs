@@ -1,0 +1,109 @@
+//! [`Class`]: the kind of computation of a built-in function. Folding, the executor and lowering match it without a
+//! wildcard.
+
+use super::{Binary, Composite, Ternary, TextureForm, Unary};
+
+/// The kind of computation of a built-in function.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Class {
+    /// A function of one float, component by component.
+    Unary(Unary),
+    /// A function of two floats, component by component. A scalar is combined with every component of a vector.
+    Binary(Binary),
+    /// A function of three floats, component by component.
+    Ternary(Ternary),
+    /// A function that depends on the number and types of the arguments.
+    Numbers(Numbers),
+    /// A function of whole vectors or square matrices of floats.
+    Composite(Composite),
+    /// A function of matrices without sums.
+    Matrix(MatrixFunction),
+    /// A comparison of vectors, component by component (§8.6).
+    Relation(Relation),
+    /// A function of `bvec`s (§8.6).
+    Boolean(BooleanFunction),
+    /// A test of a float.
+    Test(Test),
+    /// `modf`, which writes an argument.
+    Modf,
+    /// A difference between neighboring fragments (§8.8).
+    Derivative(Derivative),
+    /// Noise with a number of components (§8.9).
+    Noise(Noise),
+    /// A texture function (§8.7).
+    Texture(TextureForm),
+    /// A function that emits from a geometry shader (§8.10).
+    Emission(Emission),
+}
+
+/// Functions that accept other numbers than floats, or one or two arguments.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Numbers {
+    /// `atan`: with one argument [`Unary::Atan`], with two [`Binary::Atan2`].
+    Atan,
+    /// `abs` of floats or `int`s.
+    Abs,
+    /// `sign` of floats or `int`s.
+    Sign,
+    /// `min` of floats or integers.
+    Min,
+    /// `max` of floats or integers.
+    Max,
+    /// `clamp` of floats or integers.
+    Clamp,
+    /// `mix` by a float, or a selection by a `bool`.
+    Mix,
+}
+
+impl Numbers {
+    /// Whether the function is discontinuous for float arguments.
+    pub fn jumps(self) -> bool {
+        match self {
+            Self::Atan => Unary::Atan.jumps(),
+            Self::Abs => Unary::Abs.jumps(),
+            Self::Sign => Unary::Sign.jumps(),
+            Self::Min => Binary::Min.jumps(),
+            Self::Max => Binary::Max.jumps(),
+            Self::Clamp => Ternary::Clamp.jumps(),
+            Self::Mix => Ternary::Mix.jumps(),
+        }
+    }
+}
+
+macro_rules! plain {
+    ($(#[$doc:meta])* $name:ident { $($variant:ident),* $(,)? }) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        #[expect(missing_docs, reason = "the names are those of the specification")]
+        pub enum $name { $($variant),* }
+    };
+}
+
+plain!(
+    /// Functions of matrices without sums (§8.5).
+    MatrixFunction { ComponentProduct, OuterProduct, Transpose }
+);
+plain!(
+    /// Comparisons, by operator.
+    Relation { Less, LessEqual, Greater, GreaterEqual, Equal, NotEqual }
+);
+plain!(
+    /// `any`, `all`, `not`
+    BooleanFunction { Any, All, Not }
+);
+plain!(
+    /// `isnan`, `isinf`
+    Test { Nan, Infinite }
+);
+plain!(
+    /// `dFdx`, `dFdy`, `fwidth`
+    Derivative { X, Y, Width }
+);
+plain!(
+    /// `EmitVertex`, `EndPrimitive`
+    Emission { Vertex, Primitive }
+);
+
+/// The number of components of `noise1` to `noise4`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Noise(pub u8);

@@ -1,0 +1,103 @@
+//! The table of operations: the definition of each operator on floats and each built-in function (GLSL 1.50 §5.9,
+//! §8).
+//!
+//! *In:* nothing. *Out:* the identities [`BuiltinFunction`], [`Unary`], [`Binary`], [`Ternary`] and [`Composite`],
+//! and the properties of each: name, class, cost, precision, continuity, texture lookup. *Holds:* a property of an
+//! operation is defined only in its row of [`table`]. Phases that process operations (folding, execution, lowering)
+//! match the [`Class`] without a wildcard, so a new row does not compile until each of them supports it. *Not done
+//! here:* the prototypes with their versions and stages ([`functions`](super::functions)), which name their identity.
+
+mod class;
+mod cost;
+mod formula;
+pub mod kernel;
+mod markdown;
+pub mod precision;
+mod table;
+mod texture;
+
+pub use class::{BooleanFunction, Class, Derivative, Emission, MatrixFunction, Noise, Numbers, Relation, Test};
+pub use cost::{CallCost, Linear};
+pub use formula::Formula;
+pub use markdown::{markdown, precision_markdown};
+pub use precision::{Precision, Rule};
+pub use table::{Binary, BuiltinFunction, Composite, Ternary, Unary};
+pub use texture::{Lookup, TextureArgument, TextureForm};
+
+/// The row of a built-in function.
+#[derive(Clone, Copy, Debug)]
+pub struct Operation {
+    /// The identity of the function.
+    pub function: BuiltinFunction,
+    /// The name in GLSL. Only the prototypes contain older names of a computation (`texture2D`).
+    pub name: &'static str,
+    /// The kind of computation.
+    pub class: Class,
+    /// The cost of a call.
+    pub cost: CallCost,
+    /// The error that a conforming GPU may add; `None` if the result is not computed floats.
+    pub rule: Option<&'static Rule>,
+}
+
+impl Operation {
+    /// The prototypes, in the order of the specification.
+    pub fn prototypes(&self) -> impl Iterator<Item = &'static super::functions::Row> + use<> {
+        let function = self.function;
+        super::functions::all().filter(move |row| row.function == function)
+    }
+
+    /// The section of GLSL 1.50.
+    pub fn section(&self) -> &'static str {
+        self.prototypes().next().map_or("", |row| row.section)
+    }
+
+    /// Whether the function is discontinuous.
+    pub fn jumps(&self) -> bool {
+        match self.class {
+            Class::Unary(op) => op.jumps(),
+            Class::Binary(op) => op.jumps(),
+            Class::Ternary(op) => op.jumps(),
+            Class::Composite(op) => op.jumps(),
+            Class::Numbers(op) => op.jumps(),
+            Class::Relation(_) | Class::Boolean(_) | Class::Test(_) | Class::Modf => true,
+            Class::Matrix(_) | Class::Derivative(_) | Class::Noise(_) | Class::Texture(_) | Class::Emission(_) => false,
+        }
+    }
+
+    /// Whether a call may read from neighboring fragments (§8.7, §8.8): derivatives, and texture lookups with an
+    /// implicit level of detail. Textures with one level need none:
+    /// [`SamplerType::has_levels`](crate::language::SamplerType).
+    pub fn implicit_derivatives(&self) -> bool {
+        match self.class {
+            Class::Derivative(_) => true,
+            Class::Texture(form) => form.lookup == Lookup::Implicit,
+            Class::Unary(_)
+            | Class::Binary(_)
+            | Class::Ternary(_)
+            | Class::Composite(_)
+            | Class::Numbers(_)
+            | Class::Matrix(_)
+            | Class::Relation(_)
+            | Class::Boolean(_)
+            | Class::Test(_)
+            | Class::Modf
+            | Class::Noise(_)
+            | Class::Emission(_) => false,
+        }
+    }
+}
+
+impl BuiltinFunction {
+    /// The kind of computation.
+    pub fn class(self) -> Class {
+        self.operation().class
+    }
+
+    /// Whether a call may read from neighboring fragments: see [`Operation::implicit_derivatives`].
+    pub fn implicit_derivatives(self) -> bool {
+        self.operation().implicit_derivatives()
+    }
+}
+
+#[cfg(test)]
+mod tests;

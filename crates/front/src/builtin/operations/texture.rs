@@ -1,0 +1,80 @@
+//! [`TextureForm`]: the part of a texture function's name that describes its arguments (GLSL 1.50 §8.7).
+
+use crate::language::{SamplerDim, SamplerType};
+use smallvec::SmallVec;
+
+/// The kind of a texture lookup.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Lookup {
+    /// The level of detail comes from derivatives if the stage has them, with or without a bias; otherwise it is the
+    /// base level.
+    Implicit,
+    /// Explicit level of detail.
+    Lod,
+    /// Explicit derivatives.
+    Grad,
+    /// One texel.
+    Fetch,
+    /// The sizes of a level.
+    Size,
+}
+
+/// The properties that the name of a texture function states.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TextureForm {
+    /// The kind of lookup.
+    pub lookup: Lookup,
+    /// `...Proj`: the coordinate is divided by its last component.
+    pub projective: bool,
+    /// `...Offset`: an offset in texels.
+    pub offset: bool,
+}
+
+/// The role of an argument of a texture function.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TextureArgument {
+    /// The coordinate `P`, with the layer of an array and the reference of a shadow sampler.
+    Coordinate,
+    /// The level of detail.
+    Level,
+    /// The number of the sample.
+    Sample,
+    /// The derivative along x.
+    GradientX,
+    /// The derivative along y.
+    GradientY,
+    /// The offset in texels.
+    Offset,
+    /// The optional offset of the implicit level of detail.
+    Bias,
+}
+
+impl TextureForm {
+    pub(super) const fn new(lookup: Lookup, projective: bool, offset: bool) -> Self {
+        Self { lookup, projective, offset }
+    }
+
+    /// The roles of the arguments after the sampler, in order.
+    pub fn arguments(self, sampler: SamplerType) -> SmallVec<[TextureArgument; 5]> {
+        use TextureArgument::{Bias, Coordinate, GradientX, GradientY, Level, Offset, Sample};
+        let mut list = SmallVec::new();
+        if self.lookup != Lookup::Size {
+            list.push(Coordinate);
+        }
+        match self.lookup {
+            Lookup::Implicit => {}
+            Lookup::Lod => list.push(Level),
+            Lookup::Grad => list.extend([GradientX, GradientY]),
+            Lookup::Fetch if sampler.dim == SamplerDim::Multisample => list.push(Sample),
+            Lookup::Fetch | Lookup::Size if sampler.has_levels() => list.push(Level),
+            Lookup::Fetch | Lookup::Size => {}
+        }
+        if self.offset {
+            list.push(Offset);
+        }
+        if self.lookup == Lookup::Implicit {
+            list.push(Bias);
+        }
+        list
+    }
+}

@@ -1,0 +1,73 @@
+//! [`work`]: how many operations a picture takes.
+//!
+//! *In:* a scene. *Out:* for each draw the operations that its stages execute, counted while the reference draws in f32.
+//! *Holds:* the same on every machine and with any number of threads. An operation is one scalar result in one
+//! invocation that counts: of arithmetic on floats, of a built-in function, of a comparison, of a lookup. Copies, masks and
+//! arithmetic on integers are none, neither are helper invocations.
+
+use crate::domain::F32;
+use crate::exec::{Event, Kind, Observer, Order, What};
+use crate::{RenderOptions, pipeline};
+use glisten_front::diagnostic::Diagnostic;
+use glisten_front::hir::Stage;
+use glisten_scene::Scene;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// What a draw executes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Work {
+    /// Operations of the vertex stage.
+    pub vertex_operations: u64,
+    /// Operations of the fragment stage.
+    pub fragment_operations: u64,
+    /// Texture lookups of both.
+    pub texture_lookups: u64,
+}
+
+/// Counts for one piece of the drawing.
+#[derive(Debug)]
+struct Counter {
+    operations: u64,
+    lookups: u64,
+    totals: Arc<Mutex<Vec<Work>>>,
+}
+
+impl Observer<F32> for Counter {
+    fn see(&mut self, event: &Event<'_, F32>) {
+        let lanes = u64::from(event.lanes.0.count_ones());
+        match event.what {
+            What::Floats { kind, results, .. } => {
+                self.operations += lanes * results.len() as u64;
+                self.lookups += if kind == Kind::Texture { lanes } else { 0 };
+            }
+            What::Answer(_) => self.operations += lanes,
+            What::Choice(_) | What::Output(_) => {}
+        }
+    }
+
+    fn finish(self: Box<Self>, order: Order) {
+        let mut totals = self.totals.lock().unwrap_or_else(PoisonError::into_inner);
+        let Some(work) = totals.get_mut(order.draw) else { return };
+        if order.piece.stage() == Stage::Vertex {
+            work.vertex_operations += self.operations;
+        } else {
+            work.fragment_operations += self.operations;
+        }
+        work.texture_lookups += self.lookups;
+    }
+}
+
+/// Counts what each draw of a scene executes.
+///
+/// # Errors
+/// As [`render`](crate::render).
+pub fn work(scene: &Scene, options: &RenderOptions) -> Result<Vec<Work>, Vec<Diagnostic>> {
+    let totals = Arc::new(Mutex::new(vec![Work::default(); scene.draws.len()]));
+    let shared = Arc::clone(&totals);
+    let make = move || -> Box<dyn Observer<F32>> {
+        Box::new(Counter { operations: 0, lookups: 0, totals: Arc::clone(&shared) })
+    };
+    pipeline::render_watched::<F32>(scene, options, Some(&make))?;
+    let totals = totals.lock().unwrap_or_else(PoisonError::into_inner);
+    Ok(totals.clone())
+}

@@ -1,0 +1,262 @@
+//! Writes a scene in the explicit core: no meshes, cameras or names of the library.
+//!
+//! *In:* a [`Scene`], and the file names of each draw's shaders. *Out:* TOML that loads as the same scene.
+//! *Holds:* every number reads back as the same bits. What is as by default is left out.
+
+use super::names::{BLENDS, CULLS, FILTERS, FORMATS, FRONT_FACES, PRIMITIVES, PROVOKING, TEXTURE_KINDS};
+use crate::model::{
+    AttributeData, AttributeValues, BlendFactor, Compare, Cull, Draw, Filter, Format, Scene, State, Texels, Texture,
+    TextureLevel, Wrap,
+};
+use glisten_front::hir::{SamplerDim, ScalarValue};
+use std::fmt::Write;
+
+/// The file names of a draw's shaders, relative to the scene's file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ShaderFiles {
+    /// The vertex shader.
+    pub vertex: String,
+    /// The fragment shader.
+    pub fragment: String,
+}
+
+/// Writes a scene whose draws have these shaders.
+pub fn write(scene: &Scene, files: &[ShaderFiles]) -> String {
+    let mut text = String::new();
+    let framebuffer = &scene.framebuffer;
+    let clear: Vec<String> = framebuffer.clear.iter().map(|value| double(*value)).collect();
+    let _ = write!(
+        text,
+        "[framebuffer]\nwidth = {}\nheight = {}\nclear = [{}]\n",
+        framebuffer.width,
+        framebuffer.height,
+        clear.join(", ")
+    );
+    if framebuffer.format != Format::Rgba32Float {
+        let _ = writeln!(text, "format = {}", quoted(name_of(FORMATS, framebuffer.format)));
+    }
+    if framebuffer.attachments != 1 {
+        let _ = writeln!(text, "attachments = {}", framebuffer.attachments);
+    }
+    for (draw, files) in scene.draws.iter().zip(files) {
+        let _ =
+            write!(text, "\n[[draw]]\nvertex = {}\nfragment = {}\n", quoted(&files.vertex), quoted(&files.fragment));
+        state(&mut text, &draw.state);
+        counts(&mut text, draw);
+        if !draw.dynamic.is_empty() {
+            let names: Vec<String> = draw.dynamic.iter().map(|name| quoted(name)).collect();
+            let _ = writeln!(text, "dynamic = [{}]", names.join(", "));
+        }
+        attributes(&mut text, draw);
+        colors(&mut text, draw);
+        uniforms(&mut text, draw);
+        textures(&mut text, draw);
+    }
+    text
+}
+
+fn name_of<T: PartialEq>(names: &[(&'static str, T)], value: T) -> &'static str {
+    names.iter().find(|(_, known)| *known == value).map_or("", |(name, _)| name)
+}
+
+/// A string of TOML, which takes JSON's escapes.
+fn quoted(text: &str) -> String {
+    let mut out = String::from("\"");
+    for character in text.chars() {
+        match character {
+            '"' => out.push_str("\\\""),
+            '\\' => out.push_str("\\\\"),
+            control if control.is_control() => {
+                let _ = write!(out, "\\u{:04x}", u32::from(control));
+            }
+            other => out.push(other),
+        }
+    }
+    out.push('"');
+    out
+}
+
+fn double(value: f64) -> String {
+    match value {
+        _ if value.is_nan() => "nan".into(),
+        f64::INFINITY => "inf".into(),
+        f64::NEG_INFINITY => "-inf".into(),
+        // Loaded as an f32, it has a shorter decimal.
+        _ if f64::from(value as f32) == value => format!("{:?}", value as f32),
+        _ => format!("{value:?}"),
+    }
+}
+
+/// The shortest decimal that reads back as the same f32.
+fn single(value: f32) -> String {
+    match value {
+        _ if value.is_nan() => "nan".into(),
+        f32::INFINITY => "inf".into(),
+        f32::NEG_INFINITY => "-inf".into(),
+        _ => format!("{value:?}"),
+    }
+}
+
+fn scalar(value: ScalarValue) -> String {
+    match value {
+        ScalarValue::Bool(value) => value.to_string(),
+        ScalarValue::Int(value) => value.to_string(),
+        ScalarValue::Uint(value) => value.to_string(),
+        ScalarValue::Float(value) => single(value),
+    }
+}
+
+fn state(text: &mut String, state: &State) {
+    let _ = writeln!(text, "primitive = {}", quoted(name_of(PRIMITIVES, state.primitive)));
+    let mut flag = |key: &str, value: bool, default: bool| {
+        if value != default {
+            let _ = writeln!(text, "{key} = {value}");
+        }
+    };
+    flag("depth_test", state.depth_test, false);
+    flag("depth_write", state.depth_write, true);
+    flag("program_point_size", state.program_point_size, false);
+    let mut name = |key: &str, differs: bool, value: &str| {
+        if differs {
+            let _ = writeln!(text, "{key} = {}", quoted(value));
+        }
+    };
+    name("cull", state.cull != Cull::None, name_of(CULLS, state.cull));
+    name("front_face", !state.front_ccw, name_of(FRONT_FACES, state.front_ccw));
+    name("provoking", !state.provoking_last, name_of(PROVOKING, state.provoking_last));
+    name("depth_func", state.depth_func != Compare::Less, name_of(Compare::NAMES, state.depth_func));
+    if let Some((source, destination)) = state.blend {
+        let named = BLENDS.iter().find(|(_, factors)| *factors == state.blend);
+        let value = match named {
+            Some((name, _)) => quoted(name),
+            None => format!(
+                "[{}, {}]",
+                quoted(name_of(BlendFactor::NAMES, source)),
+                quoted(name_of(BlendFactor::NAMES, destination))
+            ),
+        };
+        let _ = writeln!(text, "blend = {value}");
+    }
+    if state.clip_distances > 0 {
+        let _ = writeln!(text, "clip_distances = {}", state.clip_distances);
+    }
+}
+
+fn counts(text: &mut String, draw: &Draw) {
+    match &draw.indices {
+        Some(indices) => {
+            let list: Vec<String> = indices.iter().map(u32::to_string).collect();
+            let _ = writeln!(text, "indices = [{}]", list.join(", "));
+        }
+        None => {
+            let _ = writeln!(text, "vertex_count = {}", draw.vertex_count);
+        }
+    }
+    if draw.instances != 1 {
+        let _ = writeln!(text, "instances = {}", draw.instances);
+    }
+}
+
+fn attributes(text: &mut String, draw: &Draw) {
+    let data = draw.program.interface.attributes.iter().zip(&draw.attributes);
+    let given: Vec<(&str, &AttributeData)> =
+        data.filter_map(|(attribute, data)| Some((attribute.name.as_str(), data.as_ref()?))).collect();
+    if given.is_empty() {
+        return;
+    }
+    text.push_str("[draw.attributes]\n");
+    for (name, data) in given {
+        let values: Vec<String> = match &data.values {
+            AttributeValues::Float(values) => values.iter().map(|value| single(*value)).collect(),
+            AttributeValues::Int(values) => values.iter().map(i32::to_string).collect(),
+            AttributeValues::Uint(values) => values.iter().map(u32::to_string).collect(),
+        };
+        let divisor = if data.divisor > 0 { format!("divisor = {}, ", data.divisor) } else { String::new() };
+        let _ = writeln!(text, "{name} = {{ size = {}, {divisor}values = [{}] }}", data.size, values.join(", "));
+    }
+}
+
+/// The color numbers of outputs, where they are not one alone at 0.
+fn colors(text: &mut String, draw: &Draw) {
+    let outputs = &draw.program.interface.outputs;
+    let plain = outputs.len() < 2 && outputs.iter().all(|output| output.location == 0);
+    let named: Vec<_> = outputs.iter().filter(|output| !output.name.starts_with("gl_") && output.index == 0).collect();
+    if plain || named.is_empty() {
+        return;
+    }
+    text.push_str("[draw.frag_data_locations]\n");
+    for output in named {
+        let _ = writeln!(text, "{} = {}", output.name, output.location);
+    }
+}
+
+fn uniforms(text: &mut String, draw: &Draw) {
+    let interface = &draw.program.interface;
+    if interface.uniforms.is_empty() {
+        return;
+    }
+    text.push_str("[draw.uniforms]\n");
+    for leaf in &interface.uniforms {
+        let len = draw.program.types.flat_len(leaf.ty) * leaf.array_size.unwrap_or(1);
+        let start = leaf.flat_offset as usize;
+        let root = draw.uniforms.get(leaf.root.0 as usize);
+        let Some(values) = root.and_then(|root| root.get(start..start + len as usize)) else { continue };
+        let values: Vec<String> = values.iter().map(|value| scalar(*value)).collect();
+        let value =
+            if len == 1 && leaf.array_size.is_none() { values.concat() } else { format!("[{}]", values.join(", ")) };
+        let _ = writeln!(text, "{} = {value}", quoted(&leaf.name));
+    }
+}
+
+fn textures(text: &mut String, draw: &Draw) {
+    let slots = draw.program.interface.samplers.iter().zip(&draw.textures);
+    let given: Vec<(&str, &Texture)> =
+        slots.filter_map(|(slot, texture)| Some((slot.name.as_str(), texture.as_deref()?))).collect();
+    if given.is_empty() {
+        return;
+    }
+    text.push_str("[draw.textures]\n");
+    for (name, texture) in given {
+        let Some(level) = texture.levels.first() else { continue };
+        let _ = writeln!(text, "{} = {{ {}values = [{}] }}", quoted(name), texture_keys(texture, level), texels(level));
+    }
+}
+
+fn texture_keys(texture: &Texture, level: &TextureLevel) -> String {
+    let kind = texture.kind;
+    let mut keys = String::new();
+    let _ = write!(keys, "kind = {}, ", quoted(name_of(TEXTURE_KINDS, (kind.dim, kind.arrayed, kind.shadow))));
+    let _ = write!(keys, "width = {}, ", level.width);
+    if !matches!(kind.dim, SamplerDim::D1 | SamplerDim::Buffer) {
+        let _ = write!(keys, "height = {}, ", level.height);
+    }
+    if kind.dim == SamplerDim::D3 {
+        let _ = write!(keys, "depth = {}, ", level.depth);
+    }
+    if kind.arrayed {
+        let _ = write!(keys, "layers = {}, ", level.depth);
+    }
+    if texture.filter != Filter::Nearest {
+        let _ = write!(keys, "filter = {}, ", quoted(name_of(FILTERS, texture.filter)));
+    }
+    let default = if kind.dim == SamplerDim::Rect { Wrap::ClampToEdge } else { Wrap::Repeat };
+    if texture.wrap != default {
+        let _ = write!(keys, "wrap = {}, ", quoted(name_of(Wrap::NAMES, texture.wrap)));
+    }
+    if kind.shadow {
+        let _ = write!(keys, "compare = {}, ", quoted(name_of(Compare::NAMES, texture.compare)));
+    }
+    if texture.levels.len() > 1 {
+        keys.push_str("mipmaps = true, ");
+    }
+    keys
+}
+
+fn texels(level: &TextureLevel) -> String {
+    let values: Vec<String> = match &level.texels {
+        Texels::Float(texels) => texels.iter().flatten().map(|value| single(*value)).collect(),
+        Texels::Int(texels) => texels.iter().flatten().map(i32::to_string).collect(),
+        Texels::Uint(texels) => texels.iter().flatten().map(u32::to_string).collect(),
+    };
+    values.join(", ")
+}

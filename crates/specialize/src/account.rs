@@ -1,0 +1,344 @@
+//! [`LeftOut`]: what went, where it stood, and what decided it.
+//!
+//! *In:* the original, the residual, and what the forward walk decided. *Out:* a list in the order of the original.
+//! *Holds:* a statement is left out if no copy of it is anywhere in the residual; what stands in something that was left out
+//! is not told of again.
+
+use crate::forward::{Reason, Walked};
+use crate::known::Known;
+use crate::residual::Options;
+use glisten_front::Program;
+use glisten_front::hir::{ExprId, ExprKind, ScalarValue, Shader, Stage, Stmt, StmtKind, VarRef};
+use glisten_front::link::{Interface, UniformLeaf};
+use glisten_front::source::{SourceMap, Span};
+use rustc_hash::FxHashSet;
+use std::collections::BTreeSet;
+
+/// What something was.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum Kind {
+    Branch,
+    Loop,
+    Function,
+    Statement,
+    Varying,
+    Attribute,
+    Uniform,
+    Block,
+    Texture,
+    Output,
+}
+
+impl Kind {
+    /// `branch`, `loop` and so on.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Branch => "branch",
+            Self::Loop => "loop",
+            Self::Function => "function",
+            Self::Statement => "statement",
+            Self::Varying => "varying",
+            Self::Attribute => "attribute",
+            Self::Uniform => "uniform",
+            Self::Block => "block",
+            Self::Texture => "texture",
+            Self::Output => "output",
+        }
+    }
+}
+
+/// Something that was left out.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LeftOut {
+    /// What it was.
+    pub what: Kind,
+    /// Its name; of a branch its condition, of a loop or a statement its first line.
+    pub name: String,
+    /// The file that it stood in.
+    pub file: String,
+    /// The line, from 1.
+    pub line: u32,
+    /// What decided it.
+    pub because: String,
+    /// Where it stood, in the original's texts.
+    pub span: Span,
+}
+
+/// What was left out of a program: `shaders` are the residual's stages, whose spans are the original's, `residual` is the
+/// interface of the residual.
+pub(crate) fn left_out(
+    program: &Program,
+    known: &Known,
+    options: &Options<'_>,
+    walked: &[(Stage, Walked)],
+    (shaders, residual): (&[Shader], &Interface),
+) -> Vec<LeftOut> {
+    let mut account = Account { program, known, sources: options.sources, list: Vec::new() };
+    for shader in &program.stages {
+        let left = shaders.iter().find(|left| left.stage == shader.stage);
+        let stage = walked.iter().find(|(stage, _)| *stage == shader.stage);
+        if let (Some(left), Some((_, walked))) = (left, stage) {
+            account.functions(shader, left, walked);
+        }
+    }
+    account.interface(residual);
+    account.list
+}
+
+struct Account<'a> {
+    program: &'a Program,
+    known: &'a Known,
+    sources: Option<&'a SourceMap>,
+    list: Vec<LeftOut>,
+}
+
+impl Account<'_> {
+    fn tell(&mut self, what: Kind, name: String, span: Span, because: String) {
+        let place = self.sources.and_then(|sources| {
+            let place = sources.location(span)?;
+            Some((sources.file(place.file).name().to_owned(), place.line))
+        });
+        let (file, line) = place.unwrap_or_default();
+        self.list.push(LeftOut { what, name, file, line, because, span });
+    }
+
+    /// The line of the text that a statement begins on.
+    fn line(&self, span: Span) -> String {
+        let line = self.sources.and_then(|sources| {
+            let place = sources.location(span)?;
+            sources.file(place.file).line(place.line).map(str::trim).map(str::to_owned)
+        });
+        line.unwrap_or_else(|| self.text(span))
+    }
+
+    /// The first line of the text of a span.
+    fn text(&self, span: Span) -> String {
+        let text = self.sources.map_or("", |sources| sources.snippet(span));
+        let line = text.lines().next().unwrap_or("").trim();
+        if line.chars().count() > 80 { line.chars().take(77).chain("...".chars()).collect() } else { line.to_owned() }
+    }
+
+    fn functions(&mut self, shader: &Shader, left: &Shader, walked: &Walked) {
+        let names: FxHashSet<Span> = left.functions.iter().map(|function| function.span).collect();
+        let mut kept: FxHashSet<Span> = FxHashSet::default();
+        for function in &left.functions {
+            left.visit_statements(function.body.as_deref().unwrap_or(&[]), &mut |stmt| {
+                // The rounds of a loop that was written out stand where it stood.
+                if !matches!(stmt.kind, StmtKind::Block(_)) {
+                    kept.insert(stmt.span);
+                }
+            });
+        }
+        for function in shader.functions.iter().filter(|function| function.body.is_some()) {
+            if names.contains(&function.span) {
+                let body = function.body.as_deref().unwrap_or(&[]);
+                self.statements(shader, body, &kept, walked);
+            } else {
+                let because = if !function.reachable {
+                    "`main` never calls it".to_owned()
+                } else {
+                    "no call of it is left".to_owned()
+                };
+                self.tell(Kind::Function, function.name.clone(), function.span, because);
+            }
+        }
+    }
+
+    fn statements(&mut self, shader: &Shader, body: &[Stmt], kept: &FxHashSet<Span>, walked: &Walked) {
+        for stmt in body {
+            self.statement(shader, stmt, kept, walked);
+        }
+    }
+
+    fn statement(&mut self, shader: &Shader, stmt: &Stmt, kept: &FxHashSet<Span>, walked: &Walked) {
+        let inside = |bodies: &[Stmt]| {
+            let mut any = false;
+            shader.visit_statements(bodies, &mut |stmt| any |= kept.contains(&stmt.span));
+            any
+        };
+        match &stmt.kind {
+            StmtKind::If { arms, otherwise } => {
+                for (condition, body) in arms {
+                    self.branch(shader, *condition, body, inside(body), kept, walked);
+                }
+                if !otherwise.is_empty() {
+                    let last = arms.last().map(|(condition, _)| *condition);
+                    if inside(otherwise) {
+                        self.statements(shader, otherwise, kept, walked);
+                    } else if let Some(condition) = last {
+                        let name = format!("else of `{}`", self.text(shader.expr(condition).span));
+                        let because = self.because(shader, condition, walked);
+                        let span = otherwise.first().map_or(stmt.span, |first| first.span);
+                        self.tell(Kind::Branch, name, span, because);
+                    }
+                }
+            }
+            StmtKind::Loop { body, .. } if !kept.contains(&stmt.span) || !inside(body) => {
+                let because = match walked.reasons.get(&stmt.span) {
+                    Some(Reason::Unrolled(0)) => "it never runs".to_owned(),
+                    Some(Reason::Unrolled(1)) => "it runs once".to_owned(),
+                    Some(Reason::Unrolled(rounds)) if inside(body) => format!("it runs {rounds} times, written out"),
+                    _ => "nobody reads what it computes".to_owned(),
+                };
+                self.tell(Kind::Loop, self.line(stmt.span), stmt.span, because);
+                if inside(body) {
+                    self.statements(shader, body, kept, walked);
+                }
+            }
+            StmtKind::Switch { selector, cases } => {
+                let because = self.because(shader, *selector, walked);
+                for case in cases.iter().filter(|case| !case.body.is_empty()) {
+                    if inside(&case.body) {
+                        self.statements(shader, &case.body, kept, walked);
+                    } else if case.body.iter().any(|stmt| !matches!(stmt.kind, StmtKind::Break)) {
+                        let span = case.body.first().map_or(stmt.span, |first| first.span);
+                        let name = format!("case: {}", self.text(span));
+                        self.tell(Kind::Branch, name, span, because.clone());
+                    }
+                }
+            }
+            StmtKind::Block(body) | StmtKind::Loop { body, .. } => self.statements(shader, body, kept, walked),
+            StmtKind::Break | StmtKind::Continue | StmtKind::Return(None) => {}
+            StmtKind::Local(local, None) => {
+                let _ = local;
+            }
+            _ if kept.contains(&stmt.span) => {}
+            _ => {
+                let because = "nothing that is drawn hangs on it, or its value is known".to_owned();
+                self.tell(Kind::Statement, self.line(stmt.span), stmt.span, because);
+            }
+        }
+    }
+
+    fn branch(
+        &mut self,
+        shader: &Shader,
+        condition: ExprId,
+        body: &[Stmt],
+        inside: bool,
+        kept: &FxHashSet<Span>,
+        walked: &Walked,
+    ) {
+        if inside {
+            self.statements(shader, body, kept, walked);
+            return;
+        }
+        let span = shader.expr(condition).span;
+        let because = self.because(shader, condition, walked);
+        self.tell(Kind::Branch, self.text(span), span, because);
+    }
+
+    /// What is known of what a condition names.
+    fn because(&self, shader: &Shader, condition: ExprId, walked: &Walked) -> String {
+        let decided = match walked.reasons.get(&shader.expr(condition).span) {
+            Some(Reason::Condition(_, truth)) => format!("`{}` is {truth}", self.text(shader.expr(condition).span)),
+            Some(Reason::Selector(_)) => format!("`{}` is known", self.text(shader.expr(condition).span)),
+            _ => return "nobody reads what it computes".to_owned(),
+        };
+        let values = self.values(shader, condition);
+        if values.is_empty() { decided } else { format!("{decided}: {}", values.join(", ")) }
+    }
+
+    /// The uniforms and attributes that an expression names, with their values.
+    fn values(&self, shader: &Shader, root: ExprId) -> Vec<String> {
+        let mut roots: BTreeSet<&str> = BTreeSet::new();
+        shader.visit_expr(root, &mut |expr| {
+            if let ExprKind::Var(VarRef::Global(id)) = shader.expr(expr).kind {
+                roots.insert(shader.global(id).name.as_str());
+            }
+        });
+        let mut values = Vec::new();
+        let text = self.sources.map_or("", |sources| sources.snippet(shader.expr(root).span));
+        for leaf in &self.program.interface.uniforms {
+            let Some(known) = self.known.uniforms.get(&leaf.name) else { continue };
+            let root = self.program.interface.roots.get(leaf.root.0 as usize);
+            let member = leaf.name.rsplit_once('.').map_or("", |(_, member)| member);
+            if known.len() <= 4 && text.contains(member) && root.is_some_and(|root| roots.contains(root.name.as_str()))
+            {
+                values.push(format!("`{}` is {}", leaf.name, written(known)));
+            }
+        }
+        values.truncate(3);
+        values
+    }
+
+    /// What is declared at the borders of the stages and is there no more.
+    fn interface(&mut self, left: &Interface) {
+        let program = self.program;
+        let own = &program.interface;
+        let place = |stage: Stage, id: glisten_front::hir::GlobalId| {
+            let shader = program.stage(stage);
+            shader.and_then(|shader| shader.globals.get(id.index())).map_or_else(Span::default, |global| global.span)
+        };
+        for attribute in own.attributes.iter().filter(|one| left.attributes.iter().all(|kept| kept.name != one.name)) {
+            let because = match self.known.attributes.get(&attribute.name) {
+                _ if !attribute.active => "the vertex stage never reads it",
+                Some(inputs) if inputs.iter().all(|input| matches!(input, crate::known::Input::Value(_))) => {
+                    "it is the same at all vertices"
+                }
+                _ => "nothing that is drawn hangs on it",
+            };
+            self.tell(Kind::Attribute, attribute.name.clone(), place(Stage::Vertex, attribute.global), because.into());
+        }
+        let mut told: BTreeSet<String> = BTreeSet::new();
+        for varying in own.varyings.iter().filter(|one| left.varyings.iter().all(|kept| kept.name != one.name)) {
+            let end = varying.to.map(|to| (Stage::Fragment, to)).or(varying.from.map(|from| (Stage::Vertex, from)));
+            let Some((stage, end)) = end else { continue };
+            let because = if varying.active {
+                "the fragment stage no longer reads it"
+            } else {
+                "the fragment stage never reads it"
+            };
+            if told.insert(varying.name.clone()) {
+                self.tell(Kind::Varying, varying.name.clone(), place(stage, end.global), because.into());
+            }
+        }
+        for output in own.outputs.iter().filter(|one| left.outputs.iter().all(|kept| kept.name != one.name)) {
+            let because = "no attachment takes it".to_owned();
+            self.tell(Kind::Output, output.name.clone(), place(Stage::Fragment, output.global), because);
+        }
+        for block in own.blocks.iter().filter(|one| left.blocks.iter().all(|kept| kept.name != one.name)) {
+            let root = own.roots.get(block.root.0 as usize).and_then(|root| root.globals.first());
+            let span = root.map_or_else(Span::default, |(stage, id)| place(*stage, *id));
+            self.tell(Kind::Block, block.name.clone(), span, "no stage reads it any more".into());
+        }
+        for leaf in own.uniforms.iter().filter(|one| left.uniforms.iter().all(|kept| kept.name != one.name)) {
+            let root = own.roots.get(leaf.root.0 as usize).and_then(|root| root.globals.first());
+            let span = root.map_or_else(Span::default, |(stage, id)| place(*stage, *id));
+            let because = self.of_uniform(leaf);
+            self.tell(Kind::Uniform, leaf.name.clone(), span, because);
+        }
+        for slot in own.samplers.iter().filter(|one| left.samplers.iter().all(|kept| kept.name != one.name)) {
+            let span = slot.globals.first().map_or_else(Span::default, |(stage, id)| place(*stage, *id));
+            let one_color = self.known.textures.get(&slot.name).is_some_and(|texture| {
+                texture.channels.iter().all(|channel| matches!(channel, crate::known::Input::Value(_)))
+            });
+            let because = if one_color { "it has one color" } else { "no lookup of it is left" };
+            self.tell(Kind::Texture, slot.name.clone(), span, because.into());
+        }
+    }
+
+    fn of_uniform(&self, leaf: &UniformLeaf) -> String {
+        match self.known.uniforms.get(&leaf.name) {
+            _ if !leaf.active => "no stage reads it".into(),
+            Some(values) if values.len() <= 4 => format!("it is {}", written(values)),
+            Some(_) => "its value is known".into(),
+            None => "nothing that is drawn hangs on it".into(),
+        }
+    }
+}
+
+/// A value in few words.
+fn written(values: &[ScalarValue]) -> String {
+    let each: Vec<String> = values
+        .iter()
+        .map(|value| match value {
+            ScalarValue::Bool(value) => value.to_string(),
+            ScalarValue::Int(value) => value.to_string(),
+            ScalarValue::Uint(value) => value.to_string(),
+            ScalarValue::Float(value) => format!("{value:?}"),
+        })
+        .collect();
+    if each.len() == 1 { each.concat() } else { format!("({})", each.join(", ")) }
+}

@@ -1,0 +1,386 @@
+//! Built-in functions (§8) on facts.
+//!
+//! *In:* the facts of the arguments. *Out:* those of the result; empty where nothing is known. Textures are not among
+//! them: what they hold is the scene's.
+
+use super::operators::{equal_one, sum_of_products};
+use super::{Fact, Facts, Range, What, at, exact};
+use glisten_front::builtin::BuiltinFunction as F;
+use glisten_front::hir::{BinaryOp, Scalar, ScalarValue, Type, TypeId, Types, UnaryOp};
+
+/// A call.
+pub(crate) struct Call<'a> {
+    /// The types of the program.
+    pub(crate) types: &'a Types,
+    /// The function.
+    pub(crate) function: F,
+    /// The facts and the type of each argument.
+    pub(crate) arguments: &'a [(Facts, TypeId)],
+    /// The type of the result.
+    pub(crate) ty: TypeId,
+    /// Whether the first two arguments are one and the same.
+    pub(crate) twice: bool,
+}
+
+/// The facts of a call's result.
+pub(crate) fn builtin(call: &Call<'_>) -> Facts {
+    let len = call.types.flat_len(call.ty) as usize;
+    let each = |f: &dyn Fn(&[Fact; 3]) -> Fact| -> Facts {
+        (0..len).map(|index| f(&[call.operand(0, index), call.operand(1, index), call.operand(2, index)])).collect()
+    };
+    match call.function {
+        F::Abs | F::Sign | F::Floor | F::Ceil | F::Trunc | F::Fract | F::Round | F::RoundEven => {
+            each(&|[x, ..]| one(call.function, call.scalar(), *x))
+        }
+        F::Min | F::Max => each(&|[x, y, _]| extremum(call.function == F::Min, call.scalar(), *x, *y)),
+        F::Clamp => each(&|[x, low, high]| {
+            let above = extremum(false, call.scalar(), *x, *low);
+            extremum(true, call.scalar(), above, *high)
+        }),
+        F::Step => each(&|[edge, x, _]| step(*edge, *x)),
+        F::Mix => each(&|operands| mix(call, operands)),
+        F::Smoothstep => each(&|operands| ranged(operands, Range::between(0.0, 1.0 + 1e-5))),
+        F::Sqrt | F::Inversesqrt | F::Exp | F::Exp2 | F::Log | F::Log2 | F::Sin | F::Cos | F::Radians | F::Degrees => {
+            each(&|[x, ..]| function(call.function, *x))
+        }
+        F::Asin | F::Acos | F::Atan => each(&|operands| angle(call, operands)),
+        F::Pow => each(&|[x, y, _]| pow(*x, *y)),
+        F::Mod => each(&|[x, y, _]| modulo(*x, *y)),
+        F::Dot => Facts::from_elem(dot(call), 1),
+        F::Length | F::Distance => Facts::from_elem(length(call), 1),
+        F::Normalize => normalize(call, len),
+        F::Cross => cross(call),
+        F::MatrixCompMult => each(&|[x, y, _]| product(*x, *y)),
+        F::OuterProduct => outer_product(call),
+        F::Transpose => transpose(call),
+        F::Isnan | F::Isinf => each(&|[x, ..]| {
+            let range = x.range();
+            let sure = if call.function == F::Isnan { !range.nan } else { range.is_bounded() };
+            Fact::result(if sure { truth(false) } else { What::Any }, &[*x])
+        }),
+        F::LessThan | F::LessThanEqual | F::GreaterThan | F::GreaterThanEqual => each(&|[x, y, _]| {
+            let op = match call.function {
+                F::LessThan => BinaryOp::Less,
+                F::LessThanEqual => BinaryOp::LessEqual,
+                F::GreaterThan => BinaryOp::Greater,
+                _ => BinaryOp::GreaterEqual,
+            };
+            at(&super::binary(op, call.scalar(), 1, &[*x], &[*y]), 0)
+        }),
+        F::Equal | F::NotEqual => each(&|[x, y, _]| {
+            let equal = equal_one(call.scalar(), *x, *y).map(|equal| equal == (call.function == F::Equal));
+            Fact::result(equal.map_or(What::Any, truth), &[*x, *y])
+        }),
+        F::Not => super::unary(UnaryOp::Not, call.all(0)),
+        F::Any | F::All => Facts::from_elem(quantified(call.function == F::All, call.all(0)), 1),
+        _ => constant_alone(call, len),
+    }
+}
+
+impl Call<'_> {
+    fn all(&self, argument: usize) -> &[Fact] {
+        self.arguments.get(argument).map_or(&[], |(facts, _)| facts)
+    }
+
+    /// A component of an argument; a scalar stands beside every component.
+    fn operand(&self, argument: usize, index: usize) -> Fact {
+        match self.arguments.get(argument) {
+            Some((facts, ty)) if self.types.flat_len(*ty) == 1 => at(facts, 0),
+            Some((facts, _)) => at(facts, index),
+            // There is none: it changes nothing.
+            None => Fact { constant: true, ..Fact::ANY },
+        }
+    }
+
+    fn scalar(&self) -> Scalar {
+        self.arguments.first().and_then(|(_, ty)| self.types.scalar_of(*ty)).unwrap_or(Scalar::Float)
+    }
+
+    fn pairs(&self) -> Vec<(Fact, Fact)> {
+        let len = self.arguments.first().map_or(0, |(_, ty)| self.types.flat_len(*ty) as usize);
+        (0..len).map(|index| (at(self.all(0), index), at(self.all(1), index))).collect()
+    }
+}
+
+fn truth(value: bool) -> What {
+    What::Value(ScalarValue::Bool(value))
+}
+
+/// Nothing is known but whether all arguments are constant.
+fn constant_alone(call: &Call<'_>, len: usize) -> Facts {
+    let operands: Facts = call.arguments.iter().flat_map(|(facts, _)| facts.iter().copied()).collect();
+    let complete = call.arguments.iter().all(|(facts, _)| !facts.is_empty());
+    if !complete || len > 16 {
+        return Facts::new();
+    }
+    let derivative = matches!(call.function, F::DFdx | F::DFdy | F::Fwidth);
+    let fact = Fact::result(What::Any, &operands);
+    Facts::from_elem(Fact { constant: fact.constant && !derivative, ..fact }, len)
+}
+
+fn known(fact: Fact) -> Option<f32> {
+    match fact.what {
+        What::Value(ScalarValue::Float(value)) if exact::is_plain(value) => Some(value),
+        _ => None,
+    }
+}
+
+/// The result of a function whose result lies in a range whenever its arguments are finite.
+fn ranged(operands: &[Fact; 3], range: Range) -> Fact {
+    let finite = operands.iter().all(|operand| operand.range().is_finite());
+    Fact::result(What::Float(Range { nan: !finite, ..range }), operands)
+}
+
+fn one(function: F, scalar: Scalar, x: Fact) -> Fact {
+    let what = match (x.what, scalar) {
+        (What::Value(ScalarValue::Int(value)), _) => match function {
+            F::Abs if value > i32::MIN => What::Value(ScalarValue::Int(value.abs())),
+            F::Sign => What::Value(ScalarValue::Int(value.signum())),
+            _ => What::Any,
+        },
+        (_, Scalar::Float) => float_one(function, x),
+        (_, Scalar::Int) if function == F::Sign => What::Int(-1, 1),
+        (What::Int(low, high), _) if function == F::Abs && low > i32::MIN => {
+            let least = if low <= 0 && high >= 0 { 0 } else { low.abs().min(high.abs()) };
+            What::Int(least, low.abs().max(high.abs()))
+        }
+        _ => What::Any,
+    };
+    Fact::result(what, &[x])
+}
+
+fn float_one(function: F, x: Fact) -> What {
+    let value = known(x).and_then(|x| {
+        Some(match function {
+            F::Abs => x.abs(),
+            F::Sign if x == 0.0 => 0.0,
+            F::Sign => x.signum(),
+            F::Floor => x.floor(),
+            F::Ceil => x.ceil(),
+            F::Trunc => x.trunc(),
+            F::Fract => x - x.floor(),
+            // A half may go either way.
+            F::Round | F::RoundEven if (x - x.trunc()).abs() != 0.5 => x.round(),
+            _ => return None,
+        })
+    });
+    // What rounds to -0 may be 0 elsewhere.
+    if let Some(value) = value.filter(|value| exact::is_plain(*value) && !(*value == 0.0 && value.is_sign_negative())) {
+        return What::Value(ScalarValue::Float(value));
+    }
+    let range = x.range();
+    What::Float(match function {
+        F::Abs => range.abs(),
+        F::Sign => Range { nan: range.nan, ..Range::between(-1.0, 1.0) },
+        F::Floor => range.growing(f64::floor, 0.0, 0.0),
+        F::Ceil => range.growing(f64::ceil, 0.0, 0.0),
+        F::Trunc => range.growing(f64::trunc, 0.0, 0.0),
+        F::Fract => Range { nan: !range.is_finite(), ..Range::between(0.0, 1.0) },
+        _ => Range { low: range.low.floor(), high: range.high.ceil(), nan: range.nan, negative_zero: true },
+    })
+}
+
+fn extremum(least: bool, scalar: Scalar, x: Fact, y: Fact) -> Fact {
+    let what = match scalar {
+        Scalar::Float => match (known(x), known(y)) {
+            // Of 0 and -0 either may come back.
+            (Some(a), Some(b)) if a != b || a.to_bits() == b.to_bits() => {
+                What::Value(ScalarValue::Float(if least { a.min(b) } else { a.max(b) }))
+            }
+            _ if least => What::Float(x.range().min(y.range())),
+            _ => What::Float(x.range().max(y.range())),
+        },
+        Scalar::Int | Scalar::Uint => {
+            let (a, b) = (x.integers(scalar), y.integers(scalar));
+            let (low, high) = if least { (a.0.min(b.0), a.1.min(b.1)) } else { (a.0.max(b.0), a.1.max(b.1)) };
+            match scalar {
+                Scalar::Int if low == high => What::Value(ScalarValue::Int(low as i32)),
+                Scalar::Int => What::Int(low as i32, high as i32),
+                _ if low == high => What::Value(ScalarValue::Uint(low as u32)),
+                _ => What::Uint(low as u32, high as u32),
+            }
+        }
+        Scalar::Bool => What::Any,
+    };
+    // A value that only one operand leaves open hangs on that one as well.
+    Fact::result(what, &[x, y])
+}
+
+fn step(edge: Fact, x: Fact) -> Fact {
+    let what = match x.range().less(edge.range()) {
+        Some(below) => What::Value(ScalarValue::Float(if below { 0.0 } else { 1.0 })),
+        None => What::Float(Range { negative_zero: false, ..Range::between(0.0, 1.0) }),
+    };
+    Fact::result(what, &[edge, x])
+}
+
+fn mix(call: &Call<'_>, [x, y, a]: &[Fact; 3]) -> Fact {
+    let boolean = call.arguments.get(2).and_then(|(_, ty)| call.types.scalar_of(*ty)) == Some(Scalar::Bool);
+    if boolean {
+        return match a.truth() {
+            Some(true) => Fact { constant: y.constant && a.constant, bound: y.bound || a.bound, ..*y },
+            Some(false) => Fact { constant: x.constant && a.constant, bound: x.bound || a.bound, ..*x },
+            None => Fact { constant: false, ..x.join(*y) },
+        };
+    }
+    let (from, to, weight) = (x.range(), y.range(), a.range());
+    let rest = Range::point(1.0).sub(weight);
+    let sum = from.mul(rest).add(to.mul(weight));
+    let other = from.add(to.sub(from).mul(weight));
+    Fact::result(What::Float(sum.join(other)), &[*x, *y, *a])
+}
+
+fn function(function: F, x: Fact) -> Fact {
+    let range = x.range();
+    let what = match function {
+        F::Sqrt => range.growing(|x| if x < 0.0 { f64::NAN } else { x.sqrt() }, 8.0, 0.0).at_least(0.0),
+        F::Inversesqrt if range.low > 0.0 => {
+            let inverse = |x: f64| 1.0 / x.sqrt();
+            Range::between(inverse(range.high) * (1.0 - 1e-6), inverse(range.low) * (1.0 + 1e-6))
+        }
+        F::Inversesqrt => Range { low: 0.0, ..Range::ANY },
+        F::Exp => exponential(range, f64::exp),
+        F::Exp2 => exponential(range, f64::exp2),
+        F::Log => logarithm(range, f64::ln),
+        F::Log2 => logarithm(range, f64::log2),
+        F::Sin | F::Cos => Range { nan: !range.is_finite(), ..Range::between(-1.001, 1.001) },
+        F::Radians => range.mul(Range::between(0.017_453_29, 0.017_453_3)),
+        _ => range.mul(Range::between(57.295_7, 57.295_8)),
+    };
+    let what = Range { nan: what.nan || range.nan, ..what };
+    // Only a root keeps the sign of a zero.
+    Fact::result(What::Float(Range { negative_zero: what.negative_zero && what.has_zero(), ..what }), &[x])
+}
+
+fn exponential(x: Range, f: fn(f64) -> f64) -> Range {
+    let slack = 16.0 + 8.0 * x.magnitude().min(1e6);
+    Range { negative_zero: false, ..x.growing(f, slack, 0.0).at_least(0.0) }
+}
+
+fn logarithm(x: Range, f: fn(f64) -> f64) -> Range {
+    if x.low <= 0.0 {
+        let high = if x.high > 0.0 { f(x.high) * 1.001 + 1e-3 } else { f64::INFINITY };
+        return Range { low: f64::NEG_INFINITY, high, nan: x.nan || x.low < 0.0, negative_zero: true };
+    }
+    x.growing(f, 16.0, 1e-6)
+}
+
+fn angle(call: &Call<'_>, operands: &[Fact; 3]) -> Fact {
+    // A little more than pi.
+    let pi = std::f64::consts::PI + 1e-3;
+    let [x, y, _] = operands;
+    match call.function {
+        F::Atan if call.arguments.len() == 2 => {
+            let finite =
+                x.range().is_finite() && y.range().is_finite() && !(x.range().has_zero() && y.range().has_zero());
+            Fact::result(What::Float(Range { nan: !finite, ..Range::between(-pi, pi) }), &[*x, *y])
+        }
+        F::Atan => Fact::result(What::Float(Range { nan: x.range().nan, ..Range::between(-1.58, 1.58) }), &[*x]),
+        _ => {
+            let range = x.range();
+            let inside = !range.nan && range.low >= -1.0 && range.high <= 1.0;
+            Fact::result(What::Float(Range { nan: !inside, ..Range::between(-pi, pi) }), &[*x])
+        }
+    }
+}
+
+/// `exp2(y * log2(x))`
+fn pow(x: Fact, y: Fact) -> Fact {
+    let (base, exponent) = (x.range(), y.range());
+    let what = match () {
+        () if base.low < 0.0 || exponent.nan => Range::ANY,
+        () if exponent.low > 0.0 && exponent.is_bounded() && base.high <= 1.0 => {
+            // Near 1 a logarithm may miss by 2^-21.
+            Range::between(0.0, (exponent.high * 1e-6).exp2() * (1.0 + 1e-5))
+        }
+        () if exponent.low > 0.0 && exponent.is_bounded() => {
+            let high = base.high.max(1.0).powf(exponent.high) * (1.0 + exponent.high * 1e-5 + 1e-3);
+            let high = if high.is_finite() && high < super::GREATEST { high } else { f64::INFINITY };
+            Range { negative_zero: false, ..Range::between(0.0, high) }
+        }
+        () => Range { low: 0.0, ..Range::ANY },
+    };
+    let nan = what.nan || base.nan;
+    Fact::result(What::Float(Range { nan, ..what }), &[x, y])
+}
+
+fn modulo(x: Fact, y: Fact) -> Fact {
+    let (dividend, divisor) = (x.range(), y.range());
+    let what = if dividend.is_finite() && divisor.is_finite() && !divisor.has_zero() {
+        let reach = divisor.magnitude() + dividend.magnitude() * 1e-6;
+        Range::between(-reach, reach)
+    } else {
+        Range::ANY
+    };
+    Fact::result(What::Float(what), &[x, y])
+}
+
+fn product(x: Fact, y: Fact) -> Fact {
+    at(&super::binary(BinaryOp::Mul, Scalar::Float, 1, &[x], &[y]), 0)
+}
+
+fn dot(call: &Call<'_>) -> Fact {
+    let pairs = call.pairs();
+    let fact = sum_of_products(&pairs);
+    if call.twice && fact.value().is_none() {
+        let terms: Vec<Range> = pairs.iter().map(|(x, _)| x.range().square()).collect();
+        return Fact { what: What::Float(Range { negative_zero: false, ..Range::sum(&terms) }), ..fact };
+    }
+    fact
+}
+
+fn length(call: &Call<'_>) -> Fact {
+    let pairs = call.pairs();
+    let distance = call.function == F::Distance;
+    let terms: Vec<Range> = pairs
+        .iter()
+        .map(|(x, y)| if distance { x.range().sub(y.range()).square() } else { x.range().square() })
+        .collect();
+    let sum = Range::sum(&terms);
+    let root = sum.growing(f64::sqrt, 16.0, 0.0).at_least(0.0);
+    let operands: Facts = call.arguments.iter().flat_map(|(facts, _)| facts.iter().copied()).collect();
+    Fact::result(What::Float(Range { nan: sum.nan, negative_zero: false, ..root }), &operands)
+}
+
+fn normalize(call: &Call<'_>, len: usize) -> Facts {
+    let facts = call.all(0);
+    let terms: Vec<Range> = (0..len).map(|index| at(facts, index).range().square()).collect();
+    let square = Range::sum(&terms);
+    let defined = square.is_finite() && square.low > 1e-30 && square.high < 1e30;
+    let range = if defined { Range::between(-1.001, 1.001) } else { Range::ANY };
+    (0..len).map(|_| Fact::result(What::Float(range), if facts.is_empty() { &[Fact::ANY] } else { facts })).collect()
+}
+
+fn cross(call: &Call<'_>) -> Facts {
+    let (a, b) = (call.all(0), call.all(1));
+    let minus = |fact: Fact| at(&super::unary(UnaryOp::Negate, &[fact]), 0);
+    let component = |i: usize, j: usize| {
+        let fact = sum_of_products(&[(at(a, i), at(b, j)), (minus(at(a, j)), at(b, i))]);
+        Fact { what: What::Float(Range { negative_zero: true, ..fact.range() }), ..fact }
+    };
+    Facts::from_slice(&[component(1, 2), component(2, 0), component(0, 1)])
+}
+
+fn outer_product(call: &Call<'_>) -> Facts {
+    let (column, row) = (call.all(0), call.all(1));
+    row.iter().flat_map(|b| column.iter().map(move |a| product(*a, *b))).collect()
+}
+
+fn transpose(call: &Call<'_>) -> Facts {
+    let Type::Matrix(columns, rows) = call.types.get(call.ty) else { return Facts::new() };
+    let (columns, rows) = (usize::from(columns), usize::from(rows));
+    let facts = call.all(0);
+    (0..columns).flat_map(|column| (0..rows).map(move |row| at(facts, row * columns + column))).collect()
+}
+
+fn quantified(all: bool, facts: &[Fact]) -> Fact {
+    let decisive = facts.iter().find(|fact| fact.truth() == Some(!all));
+    let open = facts.is_empty() || facts.iter().any(|fact| fact.truth().is_none());
+    let what = match decisive {
+        Some(_) => truth(!all),
+        None if open => What::Any,
+        None => truth(all),
+    };
+    let operands = if facts.is_empty() { &[Fact::ANY] } else { facts };
+    Fact::result(what, operands)
+}

@@ -1,0 +1,61 @@
+//! [`Known`]: what a host fixes of a program, by the names of its reflection.
+//!
+//! *In:* values that stay the same for as long as a residual program is used. *Out:* nothing is computed here.
+//! *Holds:* what is not named is not known. A value says what every draw with the residual has; a range says where all
+//! values of all draws lie.
+
+use glisten_front::hir::ScalarValue;
+use std::collections::BTreeMap;
+
+/// What is fixed.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Known {
+    /// Uniforms, named as in the reflection (`light[1].position`, `Block.member`): the scalars of the leaf, the elements of
+    /// an array one after the other, matrices by columns.
+    pub uniforms: BTreeMap<String, Vec<ScalarValue>>,
+    /// Attributes: a scalar each of the declared type.
+    pub attributes: BTreeMap<String, Vec<Input>>,
+    /// Textures, by sampler.
+    pub textures: BTreeMap<String, KnownTexture>,
+    /// Fixed state.
+    pub state: KnownState,
+}
+
+/// What is fixed of a scalar that comes from outside.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Input {
+    /// It is always this.
+    Value(ScalarValue),
+    /// It is a finite `float` between two numbers, both included.
+    Between(f32, f32),
+    /// Nothing.
+    Open,
+}
+
+/// What is fixed of a texture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct KnownTexture {
+    /// Width, height and depth or layers of each level, as `textureSize` gives them; empty if they are not fixed.
+    pub sizes: Vec<[u32; 3]>,
+    /// What each channel of a lookup can be, filtered as it is. [`Input::Value`] is for textures of one color.
+    pub channels: [Input; 4],
+}
+
+/// Fixed state. The default fixes nothing.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct KnownState {
+    /// Whether primitives are points whose size the program sets; without it `gl_PointSize` is nobody's.
+    pub point_size: Option<bool>,
+    /// How many clip distances are enabled.
+    pub clip_distances: Option<u32>,
+    /// What `gl_FrontFacing` is, where culling or the primitive decides it.
+    pub front_facing: Option<bool>,
+    /// How many color attachments there are: outputs beyond are nobody's.
+    pub attachments: Option<u32>,
+    /// Width and height of the framebuffer in pixels.
+    pub framebuffer: Option<[u32; 2]>,
+    /// `gl_VertexID` is below this.
+    pub vertices: Option<u32>,
+    /// `gl_InstanceID` is below this.
+    pub instances: Option<u32>,
+}

@@ -1,0 +1,244 @@
+//! Rebuilds a stage of what is left: functions that `main` reaches, parameters and locals that are named, expressions that
+//! stand somewhere, children before parents.
+//!
+//! *In:* a stage and the globals that stay. *Out:* a stage with new handles.
+
+use super::uses::{Uses, reached};
+use glisten_front::hir::{
+    Condition, ExprId, ExprKind, Function, FunctionId, GlobalId, LocalId, LocalKind, Shader, Stmt, StmtKind, Types,
+    VarRef,
+};
+use glisten_front::stack::with_stack;
+use rustc_hash::FxHashMap;
+
+/// Calls `f` with each operand of an expression.
+pub(super) fn for_each_child(kind: &mut ExprKind, f: &mut dyn FnMut(&mut ExprId)) {
+    match kind {
+        ExprKind::Error | ExprKind::Literal(_) | ExprKind::Var(_) => {}
+        ExprKind::Member(a, _)
+        | ExprKind::Swizzle(a, _)
+        | ExprKind::Convert(a)
+        | ExprKind::Unary(_, a)
+        | ExprKind::IncDec(_, a) => f(a),
+        ExprKind::Index(a, b)
+        | ExprKind::Binary(_, a, b)
+        | ExprKind::Logical(_, a, b)
+        | ExprKind::Assign(_, a, b)
+        | ExprKind::Comma(a, b) => {
+            f(a);
+            f(b);
+        }
+        ExprKind::Ternary(a, b, c) => {
+            f(a);
+            f(b);
+            f(c);
+        }
+        ExprKind::Construct(_, list) | ExprKind::Call(_, list) | ExprKind::BuiltinCall(_, list) => {
+            list.iter_mut().for_each(f);
+        }
+    }
+}
+
+struct Rebuild<'a> {
+    old: &'a Shader,
+    new: Shader,
+    functions: FxHashMap<FunctionId, FunctionId>,
+    globals: FxHashMap<GlobalId, GlobalId>,
+    /// For each function of the old stage its locals' new handles; parameters that are not read have none.
+    locals: FxHashMap<FunctionId, Vec<Option<LocalId>>>,
+    /// The arguments of all calls, by callee.
+    calls: FxHashMap<FunctionId, Vec<&'a [ExprId]>>,
+}
+
+fn calls(shader: &Shader) -> FxHashMap<FunctionId, Vec<&[ExprId]>> {
+    let mut calls: FxHashMap<FunctionId, Vec<&[ExprId]>> = FxHashMap::default();
+    for expr in &shader.exprs {
+        if let ExprKind::Call(callee, arguments) = &expr.kind {
+            calls.entry(*callee).or_default().push(arguments);
+        }
+    }
+    calls
+}
+
+/// Rebuilds a stage. `keeps` says which globals stay though nobody names them. `origins` follows the functions.
+pub(super) fn compact(
+    types: &Types,
+    shader: &Shader,
+    keeps: &(dyn Fn(GlobalId) -> bool + Sync),
+    origins: &mut Vec<FunctionId>,
+) -> (Shader, Vec<GlobalId>) {
+    let known = std::mem::take(origins);
+    let (new, globals, from) = with_stack(shader.expr_depth.saturating_add(1024), || {
+        let uses = Uses::of(types, shader);
+        let mut rebuild = Rebuild {
+            old: shader,
+            new: Shader { exprs: Vec::new(), globals: Vec::new(), functions: Vec::new(), ..shader.clone() },
+            functions: FxHashMap::default(),
+            globals: FxHashMap::default(),
+            locals: FxHashMap::default(),
+            calls: calls(shader),
+        };
+        let globals = rebuild.choose_globals(&uses, keeps);
+        let from = rebuild.choose_functions(&uses);
+        rebuild.bodies(&globals, &from);
+        (rebuild.new, globals, from)
+    });
+    *origins = from.iter().filter_map(|id| known.get(id.index()).copied()).collect();
+    (new, globals)
+}
+
+impl Rebuild<'_> {
+    fn choose_globals(&mut self, uses: &Uses, keeps: &dyn Fn(GlobalId) -> bool) -> Vec<GlobalId> {
+        let mut chosen = Vec::new();
+        for (id, global) in self.old.globals() {
+            // An initializer may do something to other globals.
+            let acts = global.initializer.is_some_and(|initializer| !self.does_nothing(initializer));
+            if uses.global(id).named > 0 || keeps(id) || acts {
+                self.globals.insert(id, GlobalId::new(self.new.globals.len()));
+                self.new.globals.push(global.clone());
+                chosen.push(id);
+            }
+        }
+        chosen
+    }
+
+    fn choose_functions(&mut self, uses: &Uses) -> Vec<FunctionId> {
+        let from = reached(self.old);
+        for id in &from {
+            self.functions.insert(*id, FunctionId::new(self.new.functions.len()));
+            let function = self.old.function(*id);
+            let mut places = vec![None; function.locals.len()];
+            let mut new = Function { locals: Vec::new(), body: None, ..function.clone() };
+            new.param_count = 0;
+            for (index, local) in function.locals.iter().enumerate() {
+                let is_param = matches!(local.kind, LocalKind::Param(_));
+                let drops = is_param && self.is_droppable(*id, index, uses);
+                if drops {
+                    continue;
+                }
+                if let Some(place) = places.get_mut(index) {
+                    *place = Some(LocalId::new(new.locals.len()));
+                }
+                new.param_count += usize::from(is_param);
+                new.locals.push(local.clone());
+            }
+            self.locals.insert(*id, places);
+            self.new.functions.push(new);
+        }
+        self.new.main = self.old.main.and_then(|main| self.functions.get(&main).copied());
+        from
+    }
+
+    /// Whether a parameter only takes a value that nobody reads, and all arguments for it do nothing.
+    fn is_droppable(&self, function: FunctionId, index: usize, uses: &Uses) -> bool {
+        let only_in = crate::forward::is_in(self.old.function(function).param_mode(index));
+        if !only_in || uses.local(function, LocalId::new(index)).named > 0 {
+            return false;
+        }
+        let calls = self.calls.get(&function);
+        calls.into_iter().flatten().all(|arguments| arguments.get(index).is_some_and(|id| self.does_nothing(*id)))
+    }
+
+    fn does_nothing(&self, root: ExprId) -> bool {
+        let mut nothing = true;
+        self.old.visit_expr(root, &mut |expr| {
+            nothing &= !matches!(
+                self.old.expr(expr).kind,
+                ExprKind::Assign(..)
+                    | ExprKind::IncDec(..)
+                    | ExprKind::Call(..)
+                    | ExprKind::BuiltinCall(glisten_front::builtin::BuiltinFunction::Modf, _)
+            );
+        });
+        nothing
+    }
+
+    fn bodies(&mut self, globals: &[GlobalId], functions: &[FunctionId]) {
+        let old = self.old;
+        for (place, id) in globals.iter().enumerate() {
+            let initializer = old.global(*id).initializer.map(|initializer| self.expr(FunctionId::new(0), initializer));
+            if let Some(global) = self.new.globals.get_mut(place) {
+                global.initializer = initializer;
+            }
+        }
+        for (place, id) in functions.iter().enumerate() {
+            let Some(body) = &old.function(*id).body else { continue };
+            let body = self.body(*id, body);
+            if let Some(function) = self.new.functions.get_mut(place) {
+                function.body = Some(body);
+            }
+        }
+    }
+
+    fn local(&self, function: FunctionId, local: LocalId) -> LocalId {
+        let places = self.locals.get(&function);
+        places.and_then(|places| places.get(local.index()).copied().flatten()).unwrap_or(LocalId::new(0))
+    }
+
+    fn expr(&mut self, function: FunctionId, id: ExprId) -> ExprId {
+        let expr = self.old.expr(id).clone();
+        let mut kind = expr.kind;
+        match &mut kind {
+            ExprKind::Var(VarRef::Global(global)) => {
+                if let Some(new) = self.globals.get(global) {
+                    *global = *new;
+                }
+            }
+            ExprKind::Var(VarRef::Local(local)) => *local = self.local(function, *local),
+            ExprKind::Call(callee, arguments) => {
+                if let Some(places) = self.locals.get(callee) {
+                    let mut index = 0;
+                    arguments.retain(|_| {
+                        index += 1;
+                        places.get(index - 1).copied().flatten().is_some()
+                    });
+                }
+                if let Some(new) = self.functions.get(callee) {
+                    *callee = *new;
+                }
+            }
+            _ => {}
+        }
+        for_each_child(&mut kind, &mut |child| *child = self.expr(function, *child));
+        self.new.push(kind, expr.ty, expr.span)
+    }
+
+    fn body(&mut self, function: FunctionId, body: &[Stmt]) -> Vec<Stmt> {
+        body.iter().map(|stmt| Stmt { kind: self.statement(function, &stmt.kind), span: stmt.span }).collect()
+    }
+
+    fn statement(&mut self, function: FunctionId, kind: &StmtKind) -> StmtKind {
+        match kind {
+            StmtKind::Expr(expr) => StmtKind::Expr(self.expr(function, *expr)),
+            StmtKind::Local(local, initializer) => {
+                let initializer = initializer.map(|initializer| self.expr(function, initializer));
+                StmtKind::Local(self.local(function, *local), initializer)
+            }
+            StmtKind::Block(body) => StmtKind::Block(self.body(function, body)),
+            StmtKind::If { arms, otherwise } => {
+                let arms = arms.iter().map(|(c, body)| (self.expr(function, *c), self.body(function, body))).collect();
+                StmtKind::If { arms, otherwise: self.body(function, otherwise) }
+            }
+            StmtKind::Switch { selector, cases } => {
+                let selector = self.expr(function, *selector);
+                let cases = cases.iter().map(|case| glisten_front::hir::Case {
+                    labels: case.labels.clone(),
+                    body: self.body(function, &case.body),
+                });
+                StmtKind::Switch { selector, cases: cases.collect() }
+            }
+            StmtKind::Loop { kind, condition, step, body } => {
+                let condition = condition.as_ref().map(|condition| Condition {
+                    local: condition.local.map(|local| self.local(function, local)),
+                    expr: self.expr(function, condition.expr),
+                });
+                let step = step.map(|step| self.expr(function, step));
+                StmtKind::Loop { kind: *kind, condition, step, body: self.body(function, body) }
+            }
+            StmtKind::Return(value) => StmtKind::Return(value.map(|value| self.expr(function, value))),
+            StmtKind::Break => StmtKind::Break,
+            StmtKind::Continue => StmtKind::Continue,
+            StmtKind::Discard => StmtKind::Discard,
+        }
+    }
+}

@@ -1,0 +1,114 @@
+//! Functions of which nothing but one short expression is left go where they are called.
+//!
+//! *In:* a stage. *Out:* the stage; whether anything went. *Holds:* arguments are without effects, and each stands for a
+//! parameter that is used at most once, or is as short as a name or a number.
+
+use glisten_front::hir::{Expr, ExprId, ExprKind, FunctionId, Shader, Stmt, StmtKind, VarRef};
+
+/// A function may be so many expressions long to be written where it is called from several places.
+const SHORT: usize = 5;
+
+/// A function that is one expression.
+struct Small {
+    result: ExprId,
+    params: usize,
+    /// How often each parameter is used.
+    uses: Vec<u32>,
+    length: usize,
+}
+
+/// Writes short functions where they are called.
+pub(super) fn inline(shader: &mut Shader) -> bool {
+    let mut calls = vec![0u32; shader.functions.len()];
+    for expr in &shader.exprs {
+        if let ExprKind::Call(callee, _) = expr.kind
+            && let Some(calls) = calls.get_mut(callee.index())
+        {
+            *calls += 1;
+        }
+    }
+    let mut changed = false;
+    // Children precede their parents, and what is inserted stands behind: an expression is looked at once.
+    for index in 0..shader.exprs.len() {
+        let Some(Expr { kind: ExprKind::Call(callee, arguments), .. }) = shader.exprs.get(index) else { continue };
+        let (callee, arguments) = (*callee, arguments.clone());
+        let Some(small) = small(shader, callee) else { continue };
+        let once = calls.get(callee.index()).copied().unwrap_or(0) <= 1;
+        if small.length > if once { 4 * SHORT } else { SHORT } || !fits(shader, &small, &arguments) {
+            continue;
+        }
+        let inserted = substitute(shader, small.result, &arguments);
+        let Expr { kind, .. } = shader.expr(inserted).clone();
+        if let Some(expr) = shader.exprs.get_mut(index) {
+            expr.kind = kind;
+            changed = true;
+        }
+    }
+    changed
+}
+
+fn small(shader: &Shader, callee: FunctionId) -> Option<Small> {
+    let function = shader.functions.get(callee.index())?;
+    let [Stmt { kind: StmtKind::Return(Some(result)), .. }] = function.body.as_deref()? else { return None };
+    let in_only = (0..function.param_count).all(|index| crate::forward::is_in(function.param_mode(index)));
+    let mut uses = vec![0u32; function.param_count];
+    let (mut length, mut plain) = (0, in_only);
+    shader.visit_expr(*result, &mut |expr| {
+        length += 1;
+        match shader.expr(expr).kind {
+            ExprKind::Var(VarRef::Local(local)) => match uses.get_mut(local.index()) {
+                Some(uses) => *uses += 1,
+                None => plain = false,
+            },
+            ExprKind::Call(..) | ExprKind::Assign(..) | ExprKind::IncDec(..) => plain = false,
+            _ => {}
+        }
+    });
+    plain.then_some(Small { result: *result, params: function.param_count, uses, length })
+}
+
+fn fits(shader: &Shader, small: &Small, arguments: &[ExprId]) -> bool {
+    // What is given back as it is may do anything: nothing else is evaluated.
+    if arguments.len() == 1 && small.params == 1 && small.length == 1 && small.uses == [1] {
+        return true;
+    }
+    arguments.len() == small.params
+        && arguments.iter().zip(&small.uses).all(|(argument, uses)| {
+            let mut plain = true;
+            shader.visit_expr(*argument, &mut |expr| {
+                plain &= !matches!(
+                    shader.expr(expr).kind,
+                    ExprKind::Call(..)
+                        | ExprKind::Assign(..)
+                        | ExprKind::IncDec(..)
+                        | ExprKind::BuiltinCall(glisten_front::builtin::BuiltinFunction::Modf, _)
+                );
+            });
+            let short = matches!(shader.expr(*argument).kind, ExprKind::Var(_) | ExprKind::Literal(_));
+            plain && (*uses <= 1 || short)
+        })
+}
+
+/// The expression with arguments in the place of parameters, behind all others.
+fn substitute(shader: &mut Shader, root: ExprId, arguments: &[ExprId]) -> ExprId {
+    let mut order = Vec::new();
+    shader.visit_expr(root, &mut |expr| order.push(expr));
+    let mut places = rustc_hash::FxHashMap::default();
+    for id in order.into_iter().rev() {
+        if let ExprKind::Var(VarRef::Local(local)) = shader.expr(id).kind
+            && let Some(argument) = arguments.get(local.index())
+        {
+            places.insert(id, *argument);
+            continue;
+        }
+        let Expr { mut kind, ty, span } = shader.expr(id).clone();
+        super::compact::for_each_child(&mut kind, &mut |child| {
+            if let Some(place) = places.get(child) {
+                *child = *place;
+            }
+        });
+        let copy = shader.push(kind, ty, span);
+        places.insert(id, copy);
+    }
+    places.get(&root).copied().unwrap_or(root)
+}

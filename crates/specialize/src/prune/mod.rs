@@ -1,0 +1,186 @@
+//! Pruning: what reaches no output goes, across the stages.
+//!
+//! *In:* settled stages. *Out:* stages in which everything that is written is wanted by somebody.
+//!
+//! | file | what goes |
+//! | --- | --- |
+//! | `uses` | counts who reads what |
+//! | `sweep` | stores that nobody reads, statements without effect |
+//! | `overwritten` | stores that are overwritten first |
+//! | `declare` | declarations apart from their values |
+//! | `inline` | functions that are one short expression |
+//! | `trim` | members of structs, ends of uniform arrays |
+//! | `merge` | clones that came out alike |
+//! | `compact` | what nothing names: functions, parameters, locals, globals |
+
+mod compact;
+mod declare;
+mod inline;
+mod merge;
+mod overwritten;
+mod sweep;
+mod trim;
+mod uses;
+
+use super::settle::Settled;
+use glisten_front::hir::{
+    ArraySize, ConstructKind, ExprId, ExprKind, GlobalId, Scalar, ScalarValue, Shader, Stmt, StmtKind, Storage, Type,
+    TypeId, Types,
+};
+use glisten_front::source::Span;
+
+/// Rounds of pruning a stage: each finds what the one before laid bare. A chain of dead stores goes in one.
+const ROUNDS: usize = 8;
+
+/// A pruned stage.
+pub(super) struct Pruned {
+    /// What is left.
+    pub(super) shader: Shader,
+    /// For each global of it the one of the original.
+    pub(super) globals: Vec<GlobalId>,
+    /// For each function of it the one of the original.
+    pub(super) origins: Vec<glisten_front::hir::FunctionId>,
+}
+
+/// Prunes a stage. `live` says for each global of the original whether somebody reads it when the stage has ended.
+pub(super) fn prune(types: &Types, settled: Settled, live: &[bool]) -> Pruned {
+    let globals = (0..settled.shader.globals.len()).map(GlobalId::new).collect();
+    let mut pruned = Pruned { shader: settled.shader, globals, origins: settled.origins };
+    pruned.again(types, live);
+    pruned
+}
+
+impl Pruned {
+    /// Prunes what was laid bare by others.
+    pub(super) fn again(&mut self, types: &Types, live: &[bool]) {
+        for _ in 0..ROUNDS {
+            let own: Vec<bool> =
+                self.globals.iter().map(|global| live.get(global.index()).copied().unwrap_or(true)).collect();
+            let mut changed = sweep::sweep(types, &mut self.shader, &own);
+            changed |= self.overwritten();
+            changed |= inline::inline(&mut self.shader);
+            merge::merge(&mut self.shader);
+            changed |= self.compact(types, &own);
+            if !changed {
+                break;
+            }
+        }
+        for index in 0..self.shader.functions.len() {
+            let body = self.shader.functions.get_mut(index).and_then(|function| function.body.take());
+            if let Some(mut body) = body {
+                declare::join(&self.shader, &mut body);
+                if let Some(function) = self.shader.functions.get_mut(index) {
+                    function.body = Some(body);
+                }
+            }
+        }
+    }
+
+    fn overwritten(&mut self) -> bool {
+        let mut changed = false;
+        for index in 0..self.shader.functions.len() {
+            let Some(function) = self.shader.functions.get_mut(index) else { continue };
+            let Some(body) = function.body.take() else { continue };
+            let declared = function.clone();
+            let (body, removed) = overwritten::remove(&self.shader, &declared, body);
+            changed |= removed;
+            if let Some(function) = self.shader.functions.get_mut(index) {
+                function.body = Some(body);
+            }
+        }
+        changed
+    }
+
+    fn compact(&mut self, types: &Types, live: &[bool]) -> bool {
+        let before = (self.shader.globals.len(), self.shader.functions.len(), self.parameters());
+        let keeps = |id: GlobalId| {
+            let global = self.shader.global(id);
+            // An output that is never written is undefined where it is read, and stays to be so.
+            let output = global.storage == Storage::Out && live.get(id.index()).copied().unwrap_or(true);
+            output && global.builtin.is_none()
+        };
+        let (mut shader, chosen) = compact::compact(types, &self.shader, &keeps, &mut self.origins);
+        for (global, old) in shader.globals.iter_mut().zip(&chosen) {
+            if global.storage == Storage::Out
+                && global.builtin.is_none()
+                && global.block.is_none()
+                && !live.get(old.index()).copied().unwrap_or(true)
+            {
+                // Nobody outside reads it any more.
+                global.storage = Storage::Private;
+                (global.interpolation_written, global.centroid, global.invariant) = (false, false, false);
+                (global.location, global.index) = (None, None);
+            }
+        }
+        self.globals = chosen.iter().filter_map(|id| self.globals.get(id.index()).copied()).collect();
+        self.shader = shader;
+        before != (self.shader.globals.len(), self.shader.functions.len(), self.parameters())
+    }
+
+    fn parameters(&self) -> usize {
+        self.shader.functions.iter().map(|function| function.param_count).sum()
+    }
+}
+
+/// Trims the types that the stages share, then gives functions their names.
+pub(super) fn finish(types: &mut Types, stages: &mut [(Pruned, Vec<bool>)]) {
+    for _ in 0..3 {
+        let mut shaders: Vec<Shader> = stages.iter().map(|(pruned, _)| pruned.shader.clone()).collect();
+        let changed = trim::trim(types, &mut shaders);
+        for ((pruned, live), shader) in stages.iter_mut().zip(shaders) {
+            pruned.shader = shader;
+            if changed {
+                pruned.again(types, live);
+            }
+        }
+        if !changed {
+            break;
+        }
+    }
+    for (pruned, _) in stages.iter_mut() {
+        merge::name(&mut pruned.shader);
+        give_results(types, &mut pruned.shader);
+    }
+}
+
+/// A function whose `return`s are all gone gave nothing that is defined (GLSL 1.50 §6.1); it must still give something.
+fn give_results(types: &Types, shader: &mut Shader) {
+    for index in 0..shader.functions.len() {
+        let Some(function) = shader.functions.get(index) else { continue };
+        let (ret, span) = (function.ret, function.span);
+        let mut gives = ret == TypeId::VOID;
+        shader.visit_statements(function.body.as_deref().unwrap_or(&[]), &mut |stmt| {
+            gives |= matches!(stmt.kind, StmtKind::Return(_));
+        });
+        if gives {
+            continue;
+        }
+        let zero = zero(types, shader, ret, span);
+        if let Some(body) = shader.functions.get_mut(index).and_then(|function| function.body.as_mut()) {
+            body.push(Stmt { kind: StmtKind::Return(Some(zero)), span });
+        }
+    }
+}
+
+/// 0 of a type.
+fn zero(types: &Types, shader: &mut Shader, ty: TypeId, span: Span) -> ExprId {
+    let (kind, parts): (ConstructKind, Vec<TypeId>) = match types.get(ty) {
+        Type::Struct(id) => {
+            (ConstructKind::Struct, types.structure(id).members.iter().map(|member| member.ty).collect())
+        }
+        Type::Array(element, ArraySize::Sized(size)) => (ConstructKind::Array, vec![element; size as usize]),
+        Type::Vector(scalar, _) => (ConstructKind::Splat, vec![TypeId::vector(scalar, 1)]),
+        Type::Matrix(..) => (ConstructKind::Diagonal, vec![TypeId::FLOAT]),
+        other => {
+            let value = match other {
+                Type::Scalar(Scalar::Bool) => ScalarValue::Bool(false),
+                Type::Scalar(Scalar::Int) => ScalarValue::Int(0),
+                Type::Scalar(Scalar::Uint) => ScalarValue::Uint(0),
+                _ => ScalarValue::Float(0.0),
+            };
+            return shader.push(ExprKind::Literal(value), ty, span);
+        }
+    };
+    let parts = parts.into_iter().map(|part| zero(types, shader, part, span)).collect();
+    shader.push(ExprKind::Construct(kind, parts), ty, span)
+}

@@ -1,0 +1,313 @@
+//! Sweeps a stage: stores that nobody reads, statements without effect and empty constructs go.
+//!
+//! *In:* a stage and the outputs that somebody reads. *Out:* the same stage, shorter; whether anything went.
+//! *Holds:* bodies are walked from their ends, so that what only a removed statement read goes in the same sweep.
+
+use super::uses::{Stored, Uses, reached, stored};
+use crate::forward::Effects;
+use glisten_front::builtin::BuiltinFunction;
+use glisten_front::hir::{
+    ExprId, ExprKind, FunctionId, GlobalId, ParamMode, Shader, Stmt, StmtKind, Storage, TypeId, Types, UnaryOp, VarRef,
+};
+
+/// Sweeps a stage once. `live` says for each global whether somebody reads it when the stage has ended.
+pub(super) fn sweep(types: &Types, shader: &mut Shader, live: &[bool]) -> bool {
+    let uses = Uses::of(types, shader);
+    let effects = Effects::of(shader);
+    let functions = reached(shader);
+    let mut sweeper = Sweeper { types, shader, live, uses, effects, changed: false };
+    for id in functions {
+        sweeper.uses.function = id;
+        let body = sweeper.shader.functions.get_mut(id.index()).and_then(|function| function.body.take());
+        if let Some(body) = body {
+            let mut body = sweeper.body(body);
+            if matches!(body.last(), Some(Stmt { kind: StmtKind::Return(None), .. })) {
+                body.pop();
+                sweeper.changed = true;
+            }
+            if let Some(function) = sweeper.shader.functions.get_mut(id.index()) {
+                function.body = Some(body);
+            }
+        }
+    }
+    sweeper.changed
+}
+
+struct Sweeper<'a> {
+    types: &'a Types,
+    shader: &'a mut Shader,
+    live: &'a [bool],
+    uses: Uses,
+    effects: Effects,
+    changed: bool,
+}
+
+impl Sweeper<'_> {
+    fn body(&mut self, body: Vec<Stmt>) -> Vec<Stmt> {
+        let mut out: Vec<Stmt> = Vec::with_capacity(body.len());
+        for stmt in body.into_iter().rev() {
+            self.statement(stmt, &mut out);
+        }
+        out.reverse();
+        out
+    }
+
+    /// Puts what is left of a statement behind `out`, which runs backwards.
+    fn statement(&mut self, stmt: Stmt, out: &mut Vec<Stmt>) {
+        let Stmt { kind, span } = stmt;
+        match kind {
+            StmtKind::Expr(expr) => self.effect(expr, span, out),
+            StmtKind::Local(local, initializer) => {
+                let count = self.uses.get(VarRef::Local(local));
+                let initializer = match initializer {
+                    Some(expr) if count.reads <= 0 && self.is_pure(expr) => {
+                        self.forget(expr, Some(Stored { variable: VarRef::Local(local), member: None }));
+                        None
+                    }
+                    initializer => initializer,
+                };
+                let count = self.uses.get(VarRef::Local(local));
+                match initializer {
+                    None if count.named <= 0 => self.changed = true,
+                    Some(expr) if count.named <= 0 => {
+                        // Its value is nobody's, and it does something.
+                        self.changed = true;
+                        self.effect(expr, span, out);
+                    }
+                    initializer => out.push(Stmt { kind: StmtKind::Local(local, initializer), span }),
+                }
+            }
+            StmtKind::Block(body) => {
+                let body = self.body(body);
+                if body.iter().any(|stmt| matches!(stmt.kind, StmtKind::Local(..))) {
+                    out.push(Stmt { kind: StmtKind::Block(body), span });
+                } else {
+                    self.changed = true;
+                    out.extend(body.into_iter().rev());
+                }
+            }
+            StmtKind::If { arms, otherwise } => self.selection(arms, otherwise, span, out),
+            StmtKind::Switch { selector, cases } => {
+                let mut cases = cases;
+                for case in cases.iter_mut().rev() {
+                    let body = std::mem::take(&mut case.body);
+                    case.body = self.body(body);
+                }
+                let idle =
+                    |case: &glisten_front::hir::Case| case.body.iter().all(|stmt| matches!(stmt.kind, StmtKind::Break));
+                if cases.iter().all(idle) && self.is_pure(selector) {
+                    self.forget(selector, None);
+                    self.changed = true;
+                } else {
+                    out.push(Stmt { kind: StmtKind::Switch { selector, cases }, span });
+                }
+            }
+            StmtKind::Loop { kind, condition, step, body } => {
+                let body = self.body(body);
+                let whole = StmtKind::Loop { kind, condition, step, body };
+                if self.is_idle(&whole) {
+                    self.uses.body(self.types, self.shader, &[Stmt { kind: whole, span }], -1);
+                    self.changed = true;
+                } else {
+                    out.push(Stmt { kind: whole, span });
+                }
+            }
+            kind => out.push(Stmt { kind, span }),
+        }
+    }
+
+    /// An expression for its effects alone.
+    fn effect(&mut self, expr: ExprId, span: glisten_front::source::Span, out: &mut Vec<Stmt>) {
+        let keep = Stmt { kind: StmtKind::Expr(expr), span };
+        match self.shader.expr(expr).kind.clone() {
+            _ if self.is_pure(expr) => {
+                self.forget_effect(expr);
+                self.changed = true;
+            }
+            ExprKind::Assign(_, target, value) if self.is_dead(target) && self.has_pure_indices(target) => {
+                self.changed = true;
+                if self.is_pure(value) {
+                    self.forget_effect(expr);
+                } else {
+                    // The target is no longer named; what the value does stays.
+                    self.forget_effect(expr);
+                    self.uses.value(self.types, self.shader, value, 1, None);
+                    self.effect(value, span, out);
+                }
+            }
+            ExprKind::IncDec(_, target) if self.is_dead(target) && self.has_pure_indices(target) => {
+                self.forget_effect(expr);
+                self.changed = true;
+            }
+            ExprKind::Comma(left, right) => {
+                self.effect(right, span, out);
+                self.effect(left, span, out);
+                self.changed = true;
+            }
+            ExprKind::Call(callee, arguments) if self.is_idle_call(callee, &arguments) => {
+                self.forget_effect(expr);
+                self.changed = true;
+            }
+            _ => out.push(keep),
+        }
+    }
+
+    fn selection(
+        &mut self,
+        arms: Vec<(ExprId, Vec<Stmt>)>,
+        otherwise: Vec<Stmt>,
+        span: glisten_front::source::Span,
+        out: &mut Vec<Stmt>,
+    ) {
+        let mut otherwise = self.body(otherwise);
+        let mut arms: Vec<(ExprId, Vec<Stmt>)> =
+            arms.into_iter().rev().map(|(condition, body)| (condition, self.body(body))).collect();
+        arms.reverse();
+        while otherwise.is_empty()
+            && let Some((condition, body)) = arms.last()
+            && body.is_empty()
+            && self.is_pure(*condition)
+        {
+            let condition = *condition;
+            self.forget(condition, None);
+            arms.pop();
+            self.changed = true;
+        }
+        if let [(condition, body)] = arms.as_mut_slice()
+            && body.is_empty()
+            && !otherwise.is_empty()
+        {
+            let (ty, place) = (TypeId::BOOL, self.shader.expr(*condition).span);
+            *condition = match self.shader.expr(*condition).kind {
+                ExprKind::Unary(UnaryOp::Not, inner) => inner,
+                _ => self.shader.push(ExprKind::Unary(UnaryOp::Not, *condition), ty, place),
+            };
+            *body = std::mem::take(&mut otherwise);
+            self.changed = true;
+        }
+        match arms.first() {
+            None => out.extend(otherwise.into_iter().rev()),
+            Some((condition, body)) if arms.len() == 1 && body.is_empty() && otherwise.is_empty() => {
+                let condition = *condition;
+                self.changed = true;
+                self.effect(condition, span, out);
+            }
+            Some(_) => out.push(Stmt { kind: StmtKind::If { arms, otherwise }, span }),
+        }
+    }
+
+    /// Takes an expression out of the counts.
+    fn forget(&mut self, expr: ExprId, within: Option<Stored>) {
+        self.uses.value(self.types, self.shader, expr, -1, within);
+    }
+
+    /// The same for an expression that stood alone.
+    fn forget_effect(&mut self, expr: ExprId) {
+        self.uses.effect(self.types, self.shader, expr, -1);
+    }
+
+    /// Whether evaluating it changes nothing that anybody sees.
+    fn is_pure(&self, root: ExprId) -> bool {
+        let mut pure = true;
+        self.shader.visit_expr(root, &mut |expr| {
+            pure &= match &self.shader.expr(expr).kind {
+                ExprKind::Assign(..) | ExprKind::IncDec(..) => false,
+                ExprKind::Call(callee, arguments) => self.is_idle_call(*callee, arguments),
+                ExprKind::BuiltinCall(function, _) => !matches!(
+                    function,
+                    BuiltinFunction::Modf | BuiltinFunction::EmitVertex | BuiltinFunction::EndPrimitive
+                ),
+                _ => true,
+            };
+        });
+        pure
+    }
+
+    /// Whether a call does nothing but give a value.
+    fn is_idle_call(&self, callee: FunctionId, arguments: &[ExprId]) -> bool {
+        let effect = self.effects.function(callee);
+        let writes = effect.writes.iter().any(|global| !self.is_unread(VarRef::Global(*global)));
+        let function = self.shader.function(callee);
+        let gives = arguments.iter().enumerate().any(|(index, argument)| {
+            matches!(function.param_mode(index), ParamMode::Out | ParamMode::Inout) && !self.is_dead(*argument)
+        });
+        !effect.ends && !writes && !gives
+    }
+
+    fn is_unread(&self, variable: VarRef) -> bool {
+        let live = match variable {
+            VarRef::Global(id) => self.is_live(id),
+            VarRef::Local(id) => {
+                let function = self.shader.function(self.uses.function);
+                matches!(function.param_mode(id.index()), ParamMode::Out | ParamMode::Inout)
+                    && id.index() < function.param_count
+            }
+        };
+        !live && self.uses.get(variable).reads <= 0
+    }
+
+    fn is_live(&self, id: GlobalId) -> bool {
+        self.live.get(id.index()).copied().unwrap_or(true)
+    }
+
+    /// Whether nobody reads what is stored there.
+    fn is_dead(&self, target: ExprId) -> bool {
+        let Some(Stored { variable, member }) = stored(self.types, self.shader, target) else { return false };
+        if self.is_unread(variable) {
+            return true;
+        }
+        let own = match variable {
+            VarRef::Local(_) => true,
+            VarRef::Global(id) => self.shader.global(id).storage == Storage::Private,
+        };
+        // A struct that a call gives or takes is one of its type: nobody reads the member of any of them.
+        own && member.is_some_and(|member| self.uses.members.get(&member).copied().unwrap_or(0) <= 0)
+    }
+
+    fn has_pure_indices(&self, target: ExprId) -> bool {
+        let mut at = target;
+        loop {
+            match &self.shader.expr(at).kind {
+                ExprKind::Index(base, index) => {
+                    if !self.is_pure(*index) {
+                        return false;
+                    }
+                    at = *base;
+                }
+                ExprKind::Member(base, _) | ExprKind::Swizzle(base, _) => at = *base,
+                _ => return true,
+            }
+        }
+    }
+
+    /// Whether a loop changes nothing but locals that nobody else reads.
+    fn is_idle(&self, whole: &StmtKind) -> bool {
+        let body = [Stmt { kind: whole.clone(), span: glisten_front::source::Span::default() }];
+        let mut idle = true;
+        self.shader.visit_statements(&body, &mut |stmt| {
+            idle &= !matches!(stmt.kind, StmtKind::Return(_) | StmtKind::Discard);
+        });
+        self.shader.visit_body(&body, &mut |expr| {
+            idle &= match &self.shader.expr(expr).kind {
+                ExprKind::Call(callee, arguments) => self.is_idle_call(*callee, arguments),
+                ExprKind::BuiltinCall(BuiltinFunction::Modf, _) => false,
+                _ => true,
+            };
+        });
+        if !idle {
+            return false;
+        }
+        let assigned = self.effects.assigned(self.shader, &body, &[]);
+        let mut outside = self.uses.clone();
+        outside.body(self.types, self.shader, &body, -1);
+        let unread = |variable| match variable {
+            VarRef::Global(id) => !self.is_live(id) && outside.get(variable).reads <= 0,
+            VarRef::Local(id) => {
+                let is_parameter = id.index() < self.shader.function(self.uses.function).param_count;
+                !is_parameter && outside.get(variable).reads <= 0
+            }
+        };
+        assigned.locals.iter().all(|local| unread(VarRef::Local(*local)))
+            && assigned.globals.iter().all(|global| unread(VarRef::Global(*global)))
+    }
+}

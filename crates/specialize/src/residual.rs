@@ -1,0 +1,219 @@
+//! [`specialize`]: the phases in their order, over all stages.
+
+use crate::account::{self, LeftOut};
+use crate::forward::{self, Walked};
+use crate::known::Known;
+use crate::prune::{self, Pruned};
+use crate::settle::{self, Demand, Demands};
+use crate::{inputs, text};
+use glisten_front::builtin::BuiltinVariable;
+use glisten_front::hir::{GlobalId, Shader, Stage, Storage};
+use glisten_front::source::SourceMap;
+use glisten_front::{Compiler, Program, Source};
+
+/// What a specialization may be told.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Options<'a> {
+    /// The texts that the program was compiled from: comments are kept, and the account names files and lines.
+    pub sources: Option<&'a SourceMap>,
+}
+
+/// A program of which nothing is left but what is needed.
+#[derive(Clone, Debug)]
+pub struct Residual {
+    /// The stages in the order of the pipeline.
+    pub stages: Vec<ResidualStage>,
+    /// The residual, read back and linked.
+    pub program: Program,
+    /// The texts that it was read back from.
+    pub sources: SourceMap,
+    /// What was left out, in the order of the original.
+    pub left_out: Vec<LeftOut>,
+    /// Why the residual did not read back, a fault of this crate: the program is then as it was.
+    pub fault: Option<String>,
+}
+
+/// A stage of a residual.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ResidualStage {
+    /// Which.
+    pub stage: Stage,
+    /// GLSL 1.50.
+    pub text: String,
+}
+
+impl Residual {
+    /// The text of a stage.
+    pub fn text(&self, stage: Stage) -> Option<&str> {
+        self.stages.iter().find(|residual| residual.stage == stage).map(|residual| residual.text.as_str())
+    }
+
+    /// Whether anything was left out.
+    pub fn is_smaller(&self) -> bool {
+        !self.left_out.is_empty()
+    }
+}
+
+/// Leaves out of a program what is not needed when this is known.
+pub fn specialize(program: &Program, known: &Known) -> Residual {
+    specialize_with(program, known, &Options::default())
+}
+
+/// The same with the texts at hand.
+pub fn specialize_with(program: &Program, known: &Known, options: &Options<'_>) -> Residual {
+    let textures = inputs::textures(program, known);
+    let (vertex, fragment) = (program.stage(Stage::Vertex), program.stage(Stage::Fragment));
+    let whole = program.stage(Stage::Geometry).is_none();
+    let walk = |shader: &Shader, ends: Option<&Walked>| {
+        let ends = ends.filter(|_| whole).map(|walked| walked.ends.as_slice());
+        forward::walk(&program.types, shader, inputs::inputs(program, shader, known, ends), &textures)
+    };
+    let vertex = vertex.map(|shader| (shader, walk(shader, None)));
+    let fragment = fragment.map(|shader| (shader, walk(shader, vertex.as_ref().map(|(_, walked)| walked))));
+    let mut walked: Vec<(Stage, Walked)> = Vec::new();
+    let mut pruned: Vec<(Pruned, Vec<bool>)> = Vec::new();
+    // The fragment stage first: what it reads is what the vertex stage must write.
+    let mut wanted = None;
+    if let Some((shader, stage)) = fragment {
+        let live = live_colors(shader, program, known);
+        let demands = vec![Demand::NONE; shader.globals.len()];
+        let (result, demands) = settled(program, &stage, demands, &live);
+        wanted = Some((demands, result.globals.clone(), result.shader.clone()));
+        pruned.push((result, live));
+        walked.push((Stage::Fragment, stage));
+    }
+    if let Some((shader, stage)) = vertex {
+        let wanted = wanted.as_ref().filter(|_| whole);
+        let live = live_varyings(shader, program, known, wanted.map(|(_, globals, _)| globals.as_slice()));
+        let mut demands = vec![Demand::NONE; shader.globals.len()];
+        if let Some((of_fragment, ..)) = wanted {
+            hand_on(program, of_fragment, &mut demands);
+        }
+        let (result, _) = settled(program, &stage, demands, &live);
+        pruned.push((result, live));
+        walked.push((Stage::Vertex, stage));
+    }
+    assemble(program, known, options, walked, pruned)
+}
+
+fn settled(program: &Program, stage: &Walked, globals: Vec<Demand>, live: &[bool]) -> (Pruned, Demands) {
+    let demands = Demands::of(&program.types, stage, globals);
+    let settled = settle::settle(&program.types, stage, &demands, &program.interface.samplers);
+    (prune::prune(&program.types, settled, live), demands)
+}
+
+/// What the fragment stage demands of a varying it demands of the output.
+fn hand_on(program: &Program, of_fragment: &Demands, demands: &mut [Demand]) {
+    for varying in &program.interface.varyings {
+        let (Some(from), Some(to)) = (varying.from, varying.to) else { continue };
+        let demand = of_fragment.globals.get(to.global.index()).copied().unwrap_or(Demand::KEEP);
+        if let Some(slot) = demands.get_mut(from.global.index()) {
+            *slot = slot.and(demand);
+        }
+    }
+}
+
+/// Which globals of the fragment stage somebody reads at its end.
+fn live_colors(shader: &Shader, program: &Program, known: &Known) -> Vec<bool> {
+    let attached = |id: GlobalId| {
+        let output = program.interface.outputs.iter().find(|output| output.global == id);
+        match (output, known.state.attachments) {
+            (Some(output), Some(attachments)) => output.location < attachments,
+            _ => true,
+        }
+    };
+    shader.globals().map(|(id, global)| global.storage == Storage::Out && attached(id)).collect()
+}
+
+/// Which globals of the vertex stage somebody reads at its end; `wanted` are the fragment stage's globals that are left.
+fn live_varyings(shader: &Shader, program: &Program, known: &Known, wanted: Option<&[GlobalId]>) -> Vec<bool> {
+    let read = |id: GlobalId| match wanted {
+        None => true,
+        Some(wanted) => program.interface.varyings.iter().any(|varying| {
+            let to = varying.to.is_some_and(|to| wanted.contains(&to.global));
+            to && varying.from.is_some_and(|from| from.global == id)
+        }),
+    };
+    let clipped = |builtin: BuiltinVariable| {
+        let fragment = program.stage(Stage::Fragment);
+        fragment.is_some_and(|shader| shader.globals.iter().any(|global| global.builtin == Some(builtin)))
+    };
+    let live = |(id, global): (GlobalId, &glisten_front::hir::Global)| match global.builtin {
+        _ if global.storage != Storage::Out => false,
+        Some(BuiltinVariable::PointSize) => known.state.point_size != Some(false),
+        Some(BuiltinVariable::ClipDistance) => {
+            known.state.clip_distances != Some(0) || clipped(BuiltinVariable::ClipDistance)
+        }
+        Some(_) => true,
+        None => read(id),
+    };
+    shader.globals().map(live).collect()
+}
+
+/// The stages as text, read back.
+fn assemble(
+    program: &Program,
+    known: &Known,
+    options: &Options<'_>,
+    walked: Vec<(Stage, Walked)>,
+    mut pruned: Vec<(Pruned, Vec<bool>)>,
+) -> Residual {
+    let mut types = program.types.clone();
+    prune::finish(&mut types, &mut pruned);
+    let mut shaders: Vec<Shader> = pruned.iter().map(|(pruned, _)| pruned.shader.clone()).collect();
+    shaders.extend(program.stage(Stage::Geometry).cloned());
+    shaders.sort_by_key(|shader| shader.stage);
+    let stages: Vec<ResidualStage> = shaders
+        .iter()
+        .map(|shader| ResidualStage { stage: shader.stage, text: text::write(&types, shader, options.sources) })
+        .collect();
+    match read_back(program, &stages) {
+        Ok((left, sources)) => {
+            let left_out = account::left_out(program, known, options, &walked, (&shaders, &left.interface));
+            Residual { stages, program: left, sources, left_out, fault: None }
+        }
+        Err(fault) => Residual { fault: Some(fault), ..whole(program, options) },
+    }
+}
+
+/// Compiles the residual, with the locations that a host has bound.
+fn read_back(program: &Program, stages: &[ResidualStage]) -> Result<(Program, SourceMap), String> {
+    let sources: Vec<Source> = stages
+        .iter()
+        .map(|stage| Source {
+            name: format!("{}.{}", program.name, text::extension(stage.stage)),
+            text: stage.text.as_str().into(),
+            stage: stage.stage,
+        })
+        .collect();
+    let attributes = &program.interface.attributes;
+    let outputs = &program.interface.outputs;
+    let options = glisten_front::Options {
+        attribute_locations: attributes.iter().map(|one| (one.name.clone(), one.location)).collect(),
+        frag_data_locations: outputs.iter().map(|one| (one.name.clone(), one.location)).collect(),
+        ..glisten_front::Options::default()
+    };
+    let compiled = Compiler::new(options).compile(&sources);
+    let problem = || {
+        let error = compiled.diagnostics.iter().find(|found| found.is_error());
+        let message = error.map_or("no program", |error| error.message.as_str());
+        let line = error.and_then(|error| compiled.sources.location(error.primary.span)).map_or(0, |place| place.line);
+        let texts: Vec<&str> = stages.iter().map(|stage| stage.text.as_str()).collect();
+        format!("line {line}: {message}\n{}", texts.join("\n"))
+    };
+    match compiled.program {
+        Some(program) => Ok((program, compiled.sources)),
+        None => Err(problem()),
+    }
+}
+
+/// The program as it was.
+fn whole(program: &Program, options: &Options<'_>) -> Residual {
+    let stages = program
+        .stages
+        .iter()
+        .map(|shader| ResidualStage { stage: shader.stage, text: text::write(&program.types, shader, options.sources) })
+        .collect();
+    let sources = options.sources.cloned().unwrap_or_default();
+    Residual { stages, program: program.clone(), sources, left_out: Vec::new(), fault: None }
+}

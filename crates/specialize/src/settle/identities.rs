@@ -1,0 +1,113 @@
+//! Operations that give one of their operands back, bit for bit.
+//!
+//! *In:* an operation with the facts of its operands. *Out:* the operand that it gives back, if it is sure.
+//! *Holds:* signs of zeros and NaNs come out alike: `x + 0.0` is `x` only where `x` is not -0, `max(x, 0.0)` only where `x`
+//! is neither NaN nor below.
+
+use crate::facts::{Fact, GREATEST, What, at, spread};
+use crate::forward::Walked;
+use glisten_front::builtin::BuiltinFunction as F;
+use glisten_front::hir::{BinaryOp, ExprId, ExprKind, ScalarValue};
+
+/// The number of the operand that an operation gives back.
+pub(super) fn operand(walked: &Walked, id: ExprId) -> Option<usize> {
+    let expr = walked.shader.expr(id);
+    let children = expr.kind.children();
+    let facts = |index: usize| children.get(index).map_or(&[][..], |child| walked.facts(*child));
+    let typed = |index: usize| children.get(index).is_some_and(|child| walked.shader.expr(*child).ty == expr.ty);
+    let pure = |index: usize| {
+        children.get(index).is_some_and(|child| walked.notes.get(child.index()).is_some_and(|note| note.pure))
+    };
+    let gives = |kept: usize, other: usize, test: &dyn Fn(Fact, Fact) -> bool| {
+        (typed(kept) && pure(other) && holds(facts(kept), facts(other), test)).then_some(kept)
+    };
+    match &expr.kind {
+        ExprKind::Binary(op, ..) => match op {
+            BinaryOp::Mul => gives(0, 1, &|_, c| is(c, 1.0)).or_else(|| gives(1, 0, &|_, c| is(c, 1.0))),
+            BinaryOp::Div => gives(0, 1, &|_, c| is(c, 1.0)),
+            BinaryOp::Add => gives(0, 1, &adds_nothing).or_else(|| gives(1, 0, &adds_nothing)),
+            BinaryOp::Sub => gives(0, 1, &takes_nothing),
+            _ => None,
+        },
+        ExprKind::BuiltinCall(F::Max, _) => gives(0, 1, &is_above).or_else(|| gives(1, 0, &is_above)),
+        ExprKind::BuiltinCall(F::Min, _) => gives(0, 1, &is_below).or_else(|| gives(1, 0, &is_below)),
+        ExprKind::BuiltinCall(F::Clamp, _) => {
+            gives(0, 1, &is_above).filter(|_| pure(2) && holds(facts(0), facts(2), &is_below))
+        }
+        ExprKind::BuiltinCall(F::Mix, _) => mixed(&facts).filter(|kept| typed(*kept) && (0..3).all(pure)),
+        _ => None,
+    }
+}
+
+/// Whether `t = 0 op v` is `t = v`, from what is known of `t` before.
+pub(super) fn starts(op: BinaryOp, before: &[Fact], value: &[Fact]) -> bool {
+    match op {
+        BinaryOp::Add => holds(value, before, &adds_nothing),
+        BinaryOp::Mul => holds(value, before, &|_, c| is(c, 1.0)),
+        _ => false,
+    }
+}
+
+fn holds(kept: &[Fact], other: &[Fact], test: &dyn Fn(Fact, Fact) -> bool) -> bool {
+    let len = kept.len().max(other.len());
+    !other.is_empty()
+        && (0..len).all(|index| test(if kept.is_empty() { Fact::ANY } else { at(kept, index) }, spread(other, index)))
+}
+
+fn is(fact: Fact, value: f32) -> bool {
+    match fact.value() {
+        Some(ScalarValue::Float(known)) => known.to_bits() == value.to_bits(),
+        Some(ScalarValue::Int(known)) => known as f32 == value,
+        Some(ScalarValue::Uint(known)) => known as f32 == value,
+        Some(ScalarValue::Bool(_)) | None => false,
+    }
+}
+
+/// `x + c`
+fn adds_nothing(x: Fact, c: Fact) -> bool {
+    let integers = matches!(c.what, What::Value(ScalarValue::Int(0) | ScalarValue::Uint(0)));
+    integers
+        || is(c, -0.0)
+        || (matches!(c.what, What::Value(ScalarValue::Float(_))) && is(c, 0.0) && !x.range().negative_zero)
+}
+
+/// `x - c`
+fn takes_nothing(_: Fact, c: Fact) -> bool {
+    matches!(c.what, What::Value(ScalarValue::Int(0) | ScalarValue::Uint(0)))
+        || matches!(c.what, What::Value(ScalarValue::Float(value)) if value.to_bits() == 0)
+}
+
+/// `max(x, c)`
+fn is_above(x: Fact, c: Fact) -> bool {
+    let (range, limit) = (x.range(), c.range());
+    let floats = matches!(c.what, What::Value(ScalarValue::Float(_)) | What::Float(_));
+    floats && !range.nan && !limit.nan && range.low >= limit.high && !(range.negative_zero && limit.has_zero())
+}
+
+/// `min(x, c)`
+fn is_below(x: Fact, c: Fact) -> bool {
+    let (range, limit) = (x.range(), c.range());
+    let floats = matches!(c.what, What::Value(ScalarValue::Float(_)) | What::Float(_));
+    let zero = limit.has_zero() && (range.negative_zero || limit.negative_zero);
+    floats && !range.nan && !limit.nan && range.high <= limit.low && !zero
+}
+
+/// `mix(a, b, 0.0)` and `mix(a, b, 1.0)` of moderate numbers.
+fn mixed<'w>(facts: &dyn Fn(usize) -> &'w [Fact]) -> Option<usize> {
+    let moderate = |facts: &[Fact]| {
+        let small = |fact: &Fact| {
+            let range = fact.range();
+            range.is_finite() && !range.negative_zero && range.magnitude() < GREATEST / 4.0
+        };
+        !facts.is_empty() && facts.iter().all(small)
+    };
+    if !moderate(facts(0)) || !moderate(facts(1)) {
+        return None;
+    }
+    let all = |value: f32| !facts(2).is_empty() && facts(2).iter().all(|fact| is(*fact, value) && !is_integer(*fact));
+    if all(0.0) { Some(0) } else { all(1.0).then_some(1) }
+}
+
+fn is_integer(fact: Fact) -> bool {
+    matches!(fact.value(), Some(ScalarValue::Int(_) | ScalarValue::Uint(_) | ScalarValue::Bool(_)))
+}

@@ -1,0 +1,73 @@
+//! Settling: what is known is written as a literal, unless a driver might then gain or lose a NaN or an infinity.
+//!
+//! *In:* a walked stage. *Out:* the stage with literals in place of what is known, and identities gone (`x * 1.0`).
+//!
+//! A driver may fold a literal more freely than a uniform: `x * 0.0` to 0, `mix(a, b, 1.0)` to `b`, `(x + a) + b` to
+//! `x + (a + b)`. So each operation makes a [`Demand`] on its operands, and a known operand that a demand hits stays what
+//! it was, down to the uniform, attribute or texture that it comes from; a variable hands the demand on to what is stored
+//! in it. Literals of the source are literals in any case.
+
+mod danger;
+mod demands;
+mod identities;
+mod rewrite;
+
+pub(super) use demands::Demands;
+pub(super) use rewrite::{Settled, settle};
+
+use super::facts::{self, Fact};
+use super::forward::Walked;
+use glisten_front::hir::{ExprId, ScalarValue};
+
+/// What must not become a literal.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Demand(u8);
+
+impl Demand {
+    /// Anything may.
+    pub(super) const NONE: Self = Self(0);
+    /// No 0.
+    pub(super) const NO_ZERO: Self = Self(1);
+    /// Nothing at all.
+    pub(super) const KEEP: Self = Self(3);
+
+    /// Both.
+    pub(super) fn and(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+
+    /// Whether anything is demanded.
+    pub(super) fn is_some(self) -> bool {
+        self != Self::NONE
+    }
+
+    /// Whether a value with these facts must stay what it was.
+    pub(super) fn hits(self, facts: &[Fact]) -> bool {
+        if !facts.iter().any(|fact| fact.bound) {
+            return false;
+        }
+        match self {
+            Self::NONE => false,
+            Self::NO_ZERO => facts.iter().any(|fact| matches!(fact.value(), Some(ScalarValue::Float(0.0)))),
+            _ => true,
+        }
+    }
+}
+
+impl Walked {
+    /// What is known of an expression.
+    pub(super) fn facts(&self, id: ExprId) -> &[Fact] {
+        self.notes.get(id.index()).map_or(&[], |note| &note.facts)
+    }
+
+    /// The values of an expression that are all known, if nothing speaks against writing them instead of it.
+    pub(super) fn literal(&self, id: ExprId, demand: Demand) -> Option<smallvec::SmallVec<[ScalarValue; 4]>> {
+        let note = self.notes.get(id.index())?;
+        let values = facts::values(&note.facts)?;
+        let plain = |value: &ScalarValue| match value {
+            ScalarValue::Float(value) => value.is_normal() || *value == 0.0,
+            ScalarValue::Bool(_) | ScalarValue::Int(_) | ScalarValue::Uint(_) => true,
+        };
+        (note.pure && note.basic && values.iter().all(plain) && !demand.hits(&note.facts)).then_some(values)
+    }
+}

@@ -1,0 +1,105 @@
+//! The runners of `verify`, with a time limit for each draw and a progress bar.
+//!
+//! *In:* scenes. *Out:* pictures, or failures.
+
+use super::exit::{Exit, Failure};
+use super::progress::Progress;
+use super::scenes::{DrawError, MachineArgs, told};
+use crate::scene::Scene;
+use crate::verify::{self, Channel, Drawn, OnGpu, Reference, Runner, ThisThread};
+use glisten_gpu::{Gpu, Via};
+use glisten_reference::{Contribution, RenderOptions};
+use glisten_scene::picture::Picture;
+use std::sync::Arc;
+
+/// The reference.
+pub(super) struct TimedReference<'a> {
+    machine: &'a MachineArgs,
+    progress: &'a Progress,
+}
+
+impl<'a> TimedReference<'a> {
+    pub(super) fn new(machine: &'a MachineArgs, progress: &'a Progress) -> Self {
+        Self { machine, progress }
+    }
+}
+
+impl Reference for TimedReference<'_> {
+    fn render(&self, scene: &Scene, options: &RenderOptions) -> Result<Picture, verify::Failure> {
+        self.progress.say("the reference");
+        let (scene, options) = (scene.clone(), *options);
+        let picture = self.machine.within_time(move || Ok(ThisThread.render(&scene, &options)?))?;
+        self.progress.step();
+        Ok(picture)
+    }
+
+    /// Draws all of them within the time limit of one draw.
+    fn render_all(&self, scene: &Scene, options: &[RenderOptions]) -> Result<Vec<Picture>, verify::Failure> {
+        let (scene, options) = (scene.clone(), options.to_vec());
+        Ok(self.machine.within_time(move || Ok(ThisThread.render_all(&scene, &options)?))?)
+    }
+
+    fn explain(
+        &self,
+        scene: &Scene,
+        options: &RenderOptions,
+        at: Channel,
+    ) -> Result<Vec<Contribution>, verify::Failure> {
+        let (scene, options) = (scene.clone(), *options);
+        Ok(self.machine.within_time(move || Ok(ThisThread.explain(&scene, &options, at)?))?)
+    }
+}
+
+/// A form of the emitted code on a GPU.
+pub(super) struct TimedGpu<'a> {
+    gpu: Arc<Gpu>,
+    via: Via,
+    machine: &'a MachineArgs,
+    progress: &'a Progress,
+}
+
+impl<'a> TimedGpu<'a> {
+    pub(super) fn new(gpu: &Arc<Gpu>, via: Via, machine: &'a MachineArgs, progress: &'a Progress) -> Self {
+        Self { gpu: Arc::clone(gpu), via, machine, progress }
+    }
+}
+
+impl Runner for TimedGpu<'_> {
+    fn name(&self) -> &'static str {
+        self.via.name()
+    }
+
+    fn draw(&self, scene: &Scene) -> Result<Drawn, verify::Failure> {
+        self.progress.say(self.name());
+        let (gpu, via, scene) = (Arc::clone(&self.gpu), self.via, scene.clone());
+        let drawn = self.machine.within_time(move || Ok(OnGpu::new(&gpu, via).draw(&scene)?))?;
+        self.progress.step();
+        Ok(drawn)
+    }
+}
+
+/// The separator between a message and its help in one text.
+const HELP: &str = "\nhelp: ";
+
+impl From<DrawError> for verify::Failure {
+    fn from(error: DrawError) -> Self {
+        match error {
+            DrawError::Diagnostics(diagnostics) => Self::Diagnostics(diagnostics),
+            DrawError::Failure(Failure::Told { exit, message, help }) => {
+                let text = help.map_or(message.clone(), |help| format!("{message}{HELP}{help}"));
+                if exit == Exit::Machine { Self::Machine(text) } else { Self::Refused(text) }
+            }
+            DrawError::Failure(Failure::OutputClosed) => Self::Refused("the output was closed".to_owned()),
+        }
+    }
+}
+
+impl From<verify::Failure> for DrawError {
+    fn from(failure: verify::Failure) -> Self {
+        match failure {
+            verify::Failure::Diagnostics(diagnostics) => Self::Diagnostics(diagnostics),
+            verify::Failure::Machine(text) => Self::Failure(told(Exit::Machine, &text)),
+            verify::Failure::Refused(text) => Self::Failure(told(Exit::Content, &text)),
+        }
+    }
+}

@@ -1,0 +1,158 @@
+//! The account of a specialized scene: what went, and the work before and after.
+//!
+//! *In:* a scene and what is left of it. *Out:* [`Account`], which is JSON as the contract says.
+
+use super::residual::SpecializedScene;
+use glisten_emit::{Conventions, Emitted, Target, emit};
+use glisten_front::diagnostic::Diagnostic;
+use glisten_front::link::Program;
+use glisten_reference::{LineRule, Precision, RenderOptions, Work, work};
+use glisten_scene::{Draw, Scene};
+use serde::Serialize;
+
+/// The account of a scene.
+#[derive(Clone, Debug, Serialize)]
+pub struct Account {
+    /// The scene's file.
+    pub scene: String,
+    /// Its draws, in order.
+    pub draws: Vec<DrawAccount>,
+}
+
+/// The account of a draw.
+#[derive(Clone, Debug, Serialize)]
+pub struct DrawAccount {
+    /// The original's vertex shader.
+    pub vertex: String,
+    /// The original's fragment shader.
+    pub fragment: String,
+    /// The stem of the residual's files.
+    pub residual: String,
+    /// What was left out.
+    pub left_out: Vec<Entry>,
+    /// The work of the original.
+    pub before: Figures,
+    /// The work of the residual.
+    pub after: Figures,
+}
+
+/// Something that was left out.
+#[derive(Clone, Debug, Serialize)]
+pub struct Entry {
+    /// `branch`, `loop`, `function` and so on.
+    pub what: &'static str,
+    /// Its name; of a branch its condition.
+    pub name: String,
+    /// The file that it stood in.
+    pub file: String,
+    /// The line.
+    pub line: u32,
+    /// What decided it.
+    pub because: String,
+}
+
+/// The work of a draw.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Figures {
+    /// Instructions in the function bodies of both stages as emitted.
+    pub spirv_instructions: u64,
+    /// Scalars and vectors that are interpolated.
+    pub varyings: u64,
+    /// Vertex attributes with data.
+    pub attributes: u64,
+    /// Bytes of their data.
+    pub attribute_bytes: u64,
+    /// Bytes of uniform blocks, that of the loose uniforms included.
+    pub uniform_bytes: u64,
+    /// Textures.
+    pub textures: u64,
+    /// Operations that the vertex stage executes for the picture.
+    pub vertex_operations: u64,
+    /// Operations that the fragment stage executes for the picture.
+    pub fragment_operations: u64,
+}
+
+/// The account of a scene. `names` are the files of each draw's original shaders and the stem of its residual's.
+///
+/// # Errors
+/// What the reference or the emission cannot do.
+pub fn account(
+    name: &str,
+    scene: &Scene,
+    specialized: &SpecializedScene,
+    names: &[[String; 3]],
+) -> Result<Account, Vec<Diagnostic>> {
+    let options = RenderOptions {
+        precision: Precision::F32,
+        lines: LineRule::OpenGl,
+        mark_edges: false,
+        ..RenderOptions::default()
+    };
+    let (before, after) = (work(scene, &options)?, work(&specialized.scene, &options)?);
+    let mut draws = Vec::with_capacity(scene.draws.len());
+    for (index, ([vertex, fragment, residual], done)) in names.iter().zip(&specialized.draws).enumerate() {
+        let figures = |scene: &Scene, work: &[Work]| {
+            let draw = scene.draws.get(index);
+            draw.map_or_else(Figures::default, |draw| figures(draw, work.get(index).copied().unwrap_or_default()))
+        };
+        let left_out = done.left_out.iter().map(|one| Entry {
+            what: one.what.name(),
+            name: one.name.clone(),
+            file: one.file.clone(),
+            line: one.line,
+            because: one.because.clone(),
+        });
+        draws.push(DrawAccount {
+            vertex: vertex.clone(),
+            fragment: fragment.clone(),
+            residual: residual.clone(),
+            left_out: left_out.collect(),
+            before: figures(scene, &before),
+            after: figures(&specialized.scene, &after),
+        });
+    }
+    Ok(Account { scene: name.to_owned(), draws })
+}
+
+fn figures(draw: &Draw, work: Work) -> Figures {
+    let interface = &draw.program.interface;
+    let given = || draw.attributes.iter().flatten();
+    let blocks: u64 =
+        interface.blocks.iter().map(|block| u64::from(block.size) * u64::from(block.array_size.unwrap_or(1))).sum();
+    Figures {
+        spirv_instructions: spirv_instructions(&draw.program),
+        varyings: interface.varyings.len() as u64,
+        attributes: given().count() as u64,
+        attribute_bytes: given().map(|data| data.values.len() as u64 * 4).sum(),
+        uniform_bytes: interface.loose.map_or(0, |(_, size)| u64::from(size)) + blocks,
+        textures: draw.textures.iter().flatten().count() as u64,
+        vertex_operations: work.vertex_operations,
+        fragment_operations: work.fragment_operations,
+    }
+}
+
+/// Instructions between `OpFunction` and `OpFunctionEnd` of both stages.
+pub fn spirv_instructions(program: &Program) -> u64 {
+    let stages = program.stages.iter();
+    stages
+        .map(|shader| match emit(program, shader.stage, Target::Spirv, &Conventions::default()) {
+            Ok(Emitted::Words(words)) => in_bodies(&words),
+            Ok(_) | Err(_) => 0,
+        })
+        .sum()
+}
+
+fn in_bodies(words: &[u32]) -> u64 {
+    const HEADER: usize = 5;
+    const FUNCTION: u32 = 54;
+    const FUNCTION_END: u32 = 56;
+    let (mut at, mut inside, mut count) = (HEADER, false, 0);
+    while let Some(word) = words.get(at) {
+        let (length, opcode) = ((word >> 16).max(1) as usize, word & 0xffff);
+        inside |= opcode == FUNCTION;
+        count += u64::from(inside);
+        inside &= opcode != FUNCTION_END;
+        at += length;
+    }
+    count
+}

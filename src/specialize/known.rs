@@ -1,0 +1,200 @@
+//! What a draw fixes of its program.
+//!
+//! *In:* a [`Draw`] and its framebuffer. *Out:* a [`Known`].
+
+use glisten_front::hir::{Scalar, ScalarValue};
+use glisten_front::link::UniformLeaf;
+use glisten_scene::{AttributeData, Cull, Draw, Framebuffer, Primitive, Texels, Texture};
+use glisten_specialize::{Input, Known, KnownState, KnownTexture};
+
+/// What a draw fixes. What `dynamic` names, of the draw's own list or of this one, is not fixed: a uniform, an element or a
+/// member of it, a sampler.
+pub fn known(draw: &Draw, framebuffer: &Framebuffer, dynamic: &[String]) -> Known {
+    let names: Vec<&str> = draw.dynamic.iter().chain(dynamic).map(String::as_str).collect();
+    let mut known = Known { state: state(draw, framebuffer), ..Known::default() };
+    let interface = &draw.program.interface;
+    for leaf in &interface.uniforms {
+        if is_dynamic(&names, leaf) {
+            continue;
+        }
+        if let Some(values) = leaf_values(draw, leaf) {
+            known.uniforms.insert(leaf.name.clone(), values.to_vec());
+        }
+    }
+    for (attribute, data) in interface.attributes.iter().zip(&draw.attributes) {
+        let rows = rows(draw, attribute.columns, draw.program.types.flat_len(attribute.ty));
+        let inputs = attribute_inputs(draw, data.as_ref(), rows, attribute.ty);
+        known.attributes.insert(attribute.name.clone(), inputs);
+    }
+    for (slot, texture) in interface.samplers.iter().zip(&draw.textures) {
+        if let Some(texture) = texture
+            && !names.iter().any(|name| names_it(name, &slot.name))
+        {
+            known.textures.insert(slot.name.clone(), known_texture(texture));
+        }
+    }
+    known
+}
+
+/// Whether a name of `dynamic` is this uniform or what it is part of.
+fn names_it(name: &str, leaf: &str) -> bool {
+    let name = name.strip_suffix("[0]").filter(|base| *base == leaf).unwrap_or(name);
+    leaf.strip_prefix(name).is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
+}
+
+fn is_dynamic(names: &[&str], leaf: &UniformLeaf) -> bool {
+    let elements = leaf.array_size.is_some();
+    // An element of an array of numbers is named, too: then all of it changes.
+    let part = |name: &str| elements && name.strip_prefix(leaf.name.as_str()).is_some_and(|rest| rest.starts_with('['));
+    names.iter().any(|name| names_it(name, &leaf.name) || part(name))
+}
+
+/// The scalars of a uniform in a draw.
+pub(super) fn leaf_values<'d>(draw: &'d Draw, leaf: &UniformLeaf) -> Option<&'d [ScalarValue]> {
+    let len = draw.program.types.flat_len(leaf.ty) * leaf.array_size.unwrap_or(1);
+    let start = leaf.flat_offset as usize;
+    draw.uniforms.get(leaf.root.0 as usize)?.get(start..start + len as usize)
+}
+
+/// Rows of a column of an attribute.
+fn rows(draw: &Draw, columns: u32, scalars: u32) -> u32 {
+    let _ = draw;
+    scalars / columns.max(1)
+}
+
+fn state(draw: &Draw, framebuffer: &Framebuffer) -> KnownState {
+    let points = draw.state.primitive == Primitive::Points;
+    let flat = matches!(
+        draw.state.primitive,
+        Primitive::Points | Primitive::Lines | Primitive::LineStrip | Primitive::LineLoop
+    );
+    let front_facing = match draw.state.cull {
+        // Points and lines face the front (OpenGL 3.2 §3.9.2).
+        _ if flat => Some(true),
+        Cull::None => None,
+        Cull::Front => Some(false),
+        Cull::Back => Some(true),
+    };
+    let vertices = match &draw.indices {
+        Some(indices) => indices.iter().copied().max().map(|last| last.saturating_add(1)),
+        None => Some(draw.vertex_count),
+    };
+    KnownState {
+        point_size: Some(points && draw.state.program_point_size),
+        clip_distances: Some(draw.state.clip_distances),
+        front_facing,
+        attachments: Some(framebuffer.attachments),
+        framebuffer: Some([framebuffer.width, framebuffer.height]),
+        vertices,
+        instances: Some(draw.instances),
+    }
+}
+
+/// What is fixed of each scalar of an attribute: one value at all vertices and instances that are drawn, or a range.
+fn attribute_inputs(
+    draw: &Draw,
+    data: Option<&AttributeData>,
+    rows: u32,
+    ty: glisten_front::hir::TypeId,
+) -> Vec<Input> {
+    let types = &draw.program.types;
+    let len = types.flat_len(ty);
+    let Some(data) = data else {
+        return (0..len).map(|_| Input::Open).collect();
+    };
+    let rows = rows.max(1);
+    let vertices = Vertices::of(draw, data);
+    (0..len).map(|scalar| one_input(data, &vertices, scalar / rows, rows, scalar % rows)).collect()
+}
+
+/// The rows of data that a draw reads.
+enum Vertices {
+    /// A row a vertex.
+    Each(Vec<u32>),
+    /// A row every few instances.
+    Instances(u32),
+}
+
+impl Vertices {
+    fn of(draw: &Draw, data: &AttributeData) -> Self {
+        if data.divisor > 0 {
+            return Self::Instances(draw.instances);
+        }
+        Self::Each(match &draw.indices {
+            Some(indices) => {
+                let mut used = indices.clone();
+                used.sort_unstable();
+                used.dedup();
+                used
+            }
+            None => (0..draw.vertex_count).collect(),
+        })
+    }
+}
+
+fn one_input(data: &AttributeData, vertices: &Vertices, column: u32, rows: u32, row: u32) -> Input {
+    let values: Box<dyn Iterator<Item = ScalarValue>> = match vertices {
+        Vertices::Each(list) => Box::new(list.iter().map(move |vertex| data.fetch(*vertex, 0, column, rows, row))),
+        Vertices::Instances(count) => Box::new((0..*count).map(move |one| data.fetch(0, one, column, rows, row))),
+    };
+    hull(values)
+}
+
+/// One value, or the range of several; open where one of them is not finite.
+fn hull(mut values: impl Iterator<Item = ScalarValue>) -> Input {
+    let Some(first) = values.next() else { return Input::Open };
+    let (mut same, mut low, mut high) = (true, f32::INFINITY, f32::NEG_INFINITY);
+    let mut finite = true;
+    for value in std::iter::once(first).chain(values) {
+        match (value, first) {
+            (ScalarValue::Float(value), ScalarValue::Float(first)) => {
+                same &= value.to_bits() == first.to_bits();
+                finite &= value.is_finite();
+                (low, high) = (low.min(value), high.max(value));
+            }
+            _ => same &= value == first,
+        }
+    }
+    match first {
+        _ if same && finite => Input::Value(first),
+        ScalarValue::Float(_) if finite => Input::Between(low, high),
+        _ if same && first.scalar() != Scalar::Float => Input::Value(first),
+        _ => Input::Open,
+    }
+}
+
+fn known_texture(texture: &Texture) -> KnownTexture {
+    let kind = texture.kind;
+    let sizes = texture
+        .levels
+        .iter()
+        .map(|level| {
+            use glisten_front::hir::SamplerDim::{Buffer, Cube, D1, D2, D3, Multisample, Rect};
+            match (kind.dim, kind.arrayed) {
+                (D1, true) => Some([level.width, level.depth.max(level.height), 1]),
+                (D2, true) => Some([level.width, level.height, level.depth]),
+                (D1, false) => Some([level.width, 1, 1]),
+                (D2 | Cube | Rect, _) => Some([level.width, level.height, 1]),
+                (D3, _) => Some([level.width, level.height, level.depth]),
+                // How many samples or rows stand behind the numbers is the target's.
+                (Buffer | Multisample, _) => None,
+            }
+        })
+        .collect::<Option<Vec<_>>>();
+    // What a comparison gives hangs on the reference.
+    let channels = if kind.shadow { [Input::Between(0.0, 1.0); 4] } else { channels(texture) };
+    KnownTexture { sizes: sizes.unwrap_or_default(), channels }
+}
+
+fn channels(texture: &Texture) -> [Input; 4] {
+    [0, 1, 2, 3].map(|channel| {
+        let values = texture.levels.iter().flat_map(move |level| -> Box<dyn Iterator<Item = ScalarValue>> {
+            match &level.texels {
+                Texels::Float(texels) => Box::new(texels.iter().map(move |texel| ScalarValue::Float(texel[channel]))),
+                Texels::Int(texels) => Box::new(texels.iter().map(move |texel| ScalarValue::Int(texel[channel]))),
+                Texels::Uint(texels) => Box::new(texels.iter().map(move |texel| ScalarValue::Uint(texel[channel]))),
+            }
+        });
+        hull(values)
+    })
+}

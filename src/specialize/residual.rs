@@ -1,0 +1,148 @@
+//! A scene with residual programs.
+//!
+//! *In:* a scene and the texts of its programs. *Out:* the scene that is left: for each draw the residual program, and of its
+//! data only what that reads.
+//! *Holds:* equal residuals are one program.
+
+use super::known::{known, leaf_values};
+use glisten_front::hir::{ScalarValue, Stage};
+use glisten_front::link::Program;
+use glisten_front::source::SourceMap;
+use glisten_scene::{AttributeData, AttributeValues, Draw, Scene};
+use glisten_specialize::{LeftOut, Options, Residual, specialize_with};
+use std::sync::Arc;
+
+/// A scene of residual programs.
+#[derive(Clone, Debug)]
+pub struct SpecializedScene {
+    /// The scene.
+    pub scene: Scene,
+    /// What became of each draw's program.
+    pub draws: Vec<SpecializedDraw>,
+}
+
+/// What became of a draw's program.
+#[derive(Clone, Debug)]
+pub struct SpecializedDraw {
+    /// The residual's texts, by stage.
+    pub texts: Vec<(Stage, String)>,
+    /// What was left out.
+    pub left_out: Vec<LeftOut>,
+    /// The texts that the residual was read back from, for diagnostics about it.
+    pub sources: SourceMap,
+    /// Why the program was left as it was, should that ever be.
+    pub fault: Option<String>,
+}
+
+impl SpecializedDraw {
+    /// The text of a stage.
+    pub fn text(&self, stage: Stage) -> &str {
+        self.texts.iter().find(|(of, _)| *of == stage).map_or("", |(_, text)| text)
+    }
+}
+
+/// The text of each stage of a program.
+type StageTexts = Vec<(Stage, String)>;
+
+/// Leaves out of a scene what its picture does not need. `dynamic` is added to what the draws call so.
+pub fn specialize_scene(scene: &Scene, sources: &SourceMap, dynamic: &[String]) -> SpecializedScene {
+    let mut draws = Vec::with_capacity(scene.draws.len());
+    let mut residuals: Vec<(StageTexts, Arc<Program>)> = Vec::new();
+    let mut result = scene.clone();
+    result.draws.clear();
+    for draw in &scene.draws {
+        let known = known(draw, &scene.framebuffer, dynamic);
+        let Residual { stages, program, left_out, sources, fault } =
+            specialize_with(&draw.program, &known, &Options { sources: Some(sources) });
+        let texts: StageTexts = stages.into_iter().map(|stage| (stage.stage, stage.text)).collect();
+        let program = match residuals.iter().find(|(known, other)| *known == texts && alike(other, &program)) {
+            Some((_, program)) => Arc::clone(program),
+            None => {
+                let program = Arc::new(program);
+                residuals.push((texts.clone(), Arc::clone(&program)));
+                program
+            }
+        };
+        result.draws.push(rebound(draw, program, dynamic));
+        draws.push(SpecializedDraw { texts, left_out, sources, fault });
+    }
+    SpecializedScene { scene: result, draws }
+}
+
+/// Whether two programs of one text have the same locations.
+fn alike(a: &Program, b: &Program) -> bool {
+    let places = |program: &Program| -> Vec<(String, u32)> {
+        let attributes = program.interface.attributes.iter().map(|one| (one.name.clone(), one.location));
+        attributes.chain(program.interface.outputs.iter().map(|one| (one.name.clone(), one.location))).collect()
+    };
+    places(a) == places(b)
+}
+
+/// The draw with another program, whose inputs are found by their names.
+fn rebound(draw: &Draw, program: Arc<Program>, dynamic: &[String]) -> Draw {
+    let (old, new) = (&draw.program.interface, &program.interface);
+    let attributes = new.attributes.iter().map(|attribute| {
+        let index = old.attributes.iter().position(|known| known.name == attribute.name)?;
+        draw.attributes.get(index).cloned().flatten()
+    });
+    let attributes: Vec<Option<AttributeData>> = attributes.collect();
+    let mut uniforms: Vec<Vec<ScalarValue>> =
+        new.roots.iter().map(|root| vec![ScalarValue::Float(0.0); program.types.flat_len(root.ty) as usize]).collect();
+    for leaf in &new.uniforms {
+        let Some(known) = old.uniforms.iter().find(|known| known.name == leaf.name) else { continue };
+        let Some(values) = leaf_values(draw, known) else { continue };
+        let len = (program.types.flat_len(leaf.ty) * leaf.array_size.unwrap_or(1)) as usize;
+        let start = leaf.flat_offset as usize;
+        let slots = uniforms.get_mut(leaf.root.0 as usize).and_then(|root| root.get_mut(start..start + len));
+        slots.into_iter().flatten().zip(values).for_each(|(slot, value)| *slot = *value);
+    }
+    let textures = new.samplers.iter().map(|slot| {
+        let index = old.samplers.iter().position(|known| known.name == slot.name)?;
+        draw.textures.get(index).cloned().flatten()
+    });
+    let textures = textures.collect();
+    let mut names: Vec<String> = draw.dynamic.clone();
+    names.extend(dynamic.iter().filter(|name| !draw.dynamic.contains(name)).cloned());
+    names.retain(|name| is_left(&program, name));
+    let drawn = Draw { attributes, uniforms, textures, dynamic: names, program, ..draw.clone() };
+    without_unused_vertices(drawn)
+}
+
+/// Whether a program still has what a name of `dynamic` names.
+fn is_left(program: &Program, name: &str) -> bool {
+    let base = name.split(['[', '.']).next().unwrap_or(name);
+    let interface = &program.interface;
+    let names = interface.uniforms.iter().map(|leaf| &leaf.name);
+    names
+        .chain(interface.samplers.iter().map(|slot| &slot.name))
+        .any(|leaf| leaf.split(['[', '.']).next() == Some(base))
+}
+
+/// Of an attribute that has more components than its vector the others are dropped.
+fn without_unused_vertices(draw: Draw) -> Draw {
+    let mut draw = draw;
+    for (attribute, data) in draw.program.interface.attributes.iter().zip(&mut draw.attributes) {
+        let declared = draw.program.types.flat_len(attribute.ty);
+        if let Some(data) = data
+            && data.size > declared
+        {
+            *data = AttributeData {
+                size: declared,
+                divisor: data.divisor,
+                values: narrowed(&data.values, data.size, declared),
+            };
+        }
+    }
+    draw
+}
+
+fn narrowed(values: &AttributeValues, size: u32, declared: u32) -> AttributeValues {
+    fn rows<T: Copy>(values: &[T], size: u32, declared: u32) -> Vec<T> {
+        values.chunks(size.max(1) as usize).flat_map(|row| row.iter().copied().take(declared as usize)).collect()
+    }
+    match values {
+        AttributeValues::Float(values) => AttributeValues::Float(rows(values, size, declared)),
+        AttributeValues::Int(values) => AttributeValues::Int(rows(values, size, declared)),
+        AttributeValues::Uint(values) => AttributeValues::Uint(rows(values, size, declared)),
+    }
+}

@@ -1,0 +1,71 @@
+//! [`Expected`]: the reference's picture of a scene, and the verdict on another picture of it.
+//!
+//! *In:* a scene and [`Options`]. *Out:* the reference's picture; verdicts.
+//! *Holds:* the reference draws once. It draws again with known faults excused only if a picture needs an excuse.
+
+use super::{Failure, Options};
+use crate::scene::Scene;
+use glisten_reference::domain::faults::{Faults, KNOWN};
+use glisten_scene::compare::{Judge, Verdict};
+use glisten_scene::picture::Picture;
+use std::time::Instant;
+
+/// The picture of the reference, with which others are compared. For pictures that no [`Runner`](super::Runner) drew.
+pub struct Expected<'a> {
+    scene: &'a Scene,
+    options: &'a Options<'a>,
+    picture: Picture,
+    milliseconds: f64,
+    /// The picture with each known fault excused alone, and with all of them; drawn on demand.
+    admitting: Option<Vec<(&'static str, Picture)>>,
+}
+
+impl<'a> Expected<'a> {
+    /// Draws the scene by the reference.
+    ///
+    /// # Errors
+    /// The reference cannot draw it.
+    pub fn new(scene: &'a Scene, options: &'a Options<'a>) -> Result<Self, Failure> {
+        let start = Instant::now();
+        let picture = options.reference.render(scene, &options.reference_options(Faults::NONE))?;
+        let milliseconds = start.elapsed().as_secs_f64() * 1e3;
+        Ok(Self { scene, options, picture, milliseconds, admitting: None })
+    }
+
+    /// The reference's picture with its envelope.
+    pub fn picture(&self) -> &Picture {
+        &self.picture
+    }
+
+    /// The reference's picture, and its time in milliseconds.
+    pub(super) fn into_picture(self) -> (Picture, f64) {
+        (self.picture, self.milliseconds)
+    }
+
+    /// Compares a picture of the scene with the reference.
+    ///
+    /// # Errors
+    /// The reference cannot draw the scene with a fault excused.
+    pub fn judge(&mut self, picture: &Picture) -> Result<Verdict, Failure> {
+        let Options { judge, excuse_known_faults, .. } = *self.options;
+        let verdict = Verdict::new(picture, &self.picture, judge);
+        if judge != Judge::Envelope || !verdict.needs_excuse() || !excuse_known_faults {
+            return Ok(verdict);
+        }
+        let admitting = match self.admitting.take() {
+            Some(admitting) => admitting,
+            None => self.admitting()?,
+        };
+        let verdict = Verdict::admitting(picture, &self.picture, judge, &admitting);
+        self.admitting = Some(admitting);
+        Ok(verdict)
+    }
+
+    fn admitting(&self) -> Result<Vec<(&'static str, Picture)>, Failure> {
+        let one = KNOWN.iter().map(|known| (known.name, Faults::only(known.fault)));
+        let named = one.chain([("several", Faults::all())]);
+        let (names, options): (Vec<_>, Vec<_>) =
+            named.map(|(name, faults)| (name, self.options.reference_options(faults))).unzip();
+        Ok(names.into_iter().zip(self.options.reference.render_all(self.scene, &options)?).collect())
+    }
+}

@@ -1,0 +1,229 @@
+//! Compares the pictures of runners with the CPU reference and its envelope.
+//!
+//! *In:* a [`Scene`], the [`Runner`]s that draw it, [`Options`]. *Out:* a [`Verification`]: a picture and a
+//! [`Verdict`] for each runner, the origin of the worst pixel's envelope, a picture of the differences.
+//!
+//! ```text
+//!  Scene ──► Expected   the reference's picture with its envelope; if need be, again with known faults admitted
+//!        ──► Runner     SPIR-V or WGSL on a GPU, the sources on OpenGL, the reference in another precision
+//!        ──► Verdict    every pixel against the envelope ──► Verification
+//! ```
+//!
+//! A test suite of a renderer calls it like this (`examples/verify.rs` is a complete one):
+//!
+//! ```
+//! use glisten::scene::{MemoryFiles, load};
+//! use glisten::verify::{Cpu, Options, Runner, verify};
+//! use glisten::{Compiler, Precision};
+//!
+//! let files = MemoryFiles::new([
+//!     ("a.toml", "[framebuffer]\nwidth = 8\nheight = 8\n[[draw]]\nvertex = \"a.vert\"\nfragment = \"a.frag\"\n\
+//!                 primitive = \"triangles\"\nvertex_count = 3\n"),
+//!     ("a.vert", "#version 150\nvoid main() { gl_Position = vec4(gl_VertexID % 2 * 4 - 1, gl_VertexID / 2 * 4 - 1, 0, 1); }"),
+//!     ("a.frag", "#version 150\nout vec4 color;\nvoid main() { color = vec4(sin(gl_FragCoord.x), 0, 0, 1); }"),
+//! ]);
+//! let scene = load("a.toml", &files, &Compiler::new(Default::default())).scene.expect("the scene is valid");
+//! // `OnGpu` and `OnOpenGl` are the runners of real drivers.
+//! let runner = Cpu::new(Precision::F32);
+//! let verification = verify(&scene, &[&runner as &dyn Runner], &Options::default()).expect("it can be drawn");
+//! assert!(verification.holds(), "{verification}");
+//! ```
+//!
+//! *Holds:* a difference is excused by a known fault of a driver only if the specifications do not explain it, and it is
+//! counted under the fault's name. Files are written only to [`Options::failures`], and only if the verification fails.
+
+mod expected;
+mod explain;
+mod files;
+mod runner;
+
+pub use expected::Expected;
+pub use files::write_pictures;
+#[cfg(feature = "gpu")]
+pub use runner::OnGpu;
+#[cfg(feature = "gl")]
+pub use runner::OnOpenGl;
+pub use runner::{Channel, Cpu, Drawn, Failure, Reference, Runner, ThisThread};
+
+use crate::scene::Scene;
+use explain::Explanations;
+use glisten_front::diagnostic::Diagnostic;
+use glisten_front::source::SourceMap;
+use glisten_reference::domain::faults::Faults;
+use glisten_reference::{LineRule, Precision, RenderOptions};
+use glisten_scene::compare::{self, Judge, Verdict};
+use glisten_scene::picture::Picture;
+use std::fmt;
+use std::path::PathBuf;
+
+/// Options for verification.
+#[derive(Clone, Copy)]
+pub struct Options<'a> {
+    /// The criterion for differences: the envelope (the default), or a tolerance.
+    pub judge: Judge,
+    /// The rule for lines of the targets: Vulkan's, unless set otherwise.
+    pub lines: LineRule,
+    /// Whether the known faults of drivers are excused. Default: yes.
+    pub excuse_known_faults: bool,
+    /// Whether any number of undecided pixels is accepted. Default: no, at most 1 % of the covered pixels.
+    pub allow_undecided: bool,
+    /// The texts of the scene (`Loaded::sources`), for the origin of the worst pixel's envelope.
+    pub sources: Option<&'a SourceMap>,
+    /// A folder for the pictures of a failed verification: one of each runner (`spirv.png`), `cpu.png` and
+    /// `difference.png`. It is created if it is missing.
+    pub failures: Option<&'a std::path::Path>,
+    /// The reference. Default: on this thread.
+    pub reference: &'a dyn Reference,
+}
+
+impl Default for Options<'_> {
+    fn default() -> Self {
+        Self {
+            judge: Judge::Envelope,
+            lines: LineRule::Vulkan,
+            excuse_known_faults: true,
+            allow_undecided: false,
+            sources: None,
+            failures: None,
+            reference: &ThisThread,
+        }
+    }
+}
+
+impl Options<'_> {
+    /// The options with which the reference draws.
+    pub fn reference_options(&self, faults: Faults) -> RenderOptions {
+        RenderOptions { precision: Precision::Envelope, lines: self.lines, faults, ..RenderOptions::default() }
+    }
+}
+
+/// The result of one runner.
+#[derive(Clone, Debug)]
+pub struct Run {
+    /// The name of the runner.
+    pub runner: &'static str,
+    /// Its picture.
+    pub picture: Picture,
+    /// Its time in milliseconds.
+    pub milliseconds: f64,
+    /// The comparison with the reference.
+    pub verdict: Verdict,
+}
+
+/// A runner that cannot draw the scene's programs, although another one can.
+#[derive(Clone, Debug)]
+pub struct Skip {
+    /// The name of the runner.
+    pub runner: &'static str,
+    /// The features that the target lacks.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+/// The result of a verification.
+#[derive(Clone, Debug)]
+pub struct Verification {
+    /// The reference's picture with its envelope.
+    pub reference: Picture,
+    /// The reference's time in milliseconds.
+    pub reference_milliseconds: f64,
+    /// The results of the runners, in the order of the runners.
+    pub runs: Vec<Run>,
+    /// Runners that cannot draw the scene's programs. The first runner is never among them.
+    pub skipped: Vec<Skip>,
+    /// For each pixel, the largest difference of all runs, as a share of the allowed difference.
+    pub shares: Vec<f64>,
+    /// The origin of the worst pixel's envelope, if [`Options::sources`] is set.
+    pub note: Option<Diagnostic>,
+    /// The folder with the pictures of a failure, or the reason why they could not be written.
+    pub pictures: Option<Result<PathBuf, String>>,
+    allow_undecided: bool,
+}
+
+impl Verification {
+    /// Whether all differences of all runs are explained.
+    pub fn holds(&self) -> bool {
+        self.runs.iter().all(|run| run.verdict.holds(self.allow_undecided))
+    }
+
+    /// A picture of [`shares`](Self::shares): gray up to the allowed difference, red above it.
+    pub fn difference(&self) -> Picture {
+        difference(&self.reference, &self.shares)
+    }
+}
+
+/// The picture of `shares` ([`compare::shares`]) in the size of the reference's: gray up to 1, red above.
+pub fn difference(reference: &Picture, shares: &[f64]) -> Picture {
+    let color = |share: &f64| if *share > 1.0 { [1.0, 0.0, 0.0, 1.0] } else { [*share, *share, *share, 1.0] };
+    Picture::of_colors(reference.width, reference.height, shares.iter().map(color).collect())
+}
+
+/// The failures, as the message of a test: a line for each run, and the folder with the pictures.
+impl fmt::Display for Verification {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for run in &self.runs {
+            let verdict = &run.verdict;
+            let mark = if verdict.holds(self.allow_undecided) { "holds" } else { "DOES NOT HOLD" };
+            write!(f, "{}: {mark}: {} of {} pixels covered, ", run.runner, verdict.covered, verdict.pixels)?;
+            write!(f, "{} outside, {} with another coverage, ", verdict.outside, verdict.coverage_mismatch)?;
+            write!(f, "{} not finite on one side, ", verdict.finiteness_mismatch)?;
+            writeln!(f, "{} undecided; largest error {:.3e}", verdict.undecided, verdict.max_abs)?;
+            if let Some(worst) = &verdict.worst {
+                writeln!(f, "  worst: {worst:?}")?;
+            }
+        }
+        match &self.pictures {
+            Some(Ok(folder)) => writeln!(f, "pictures: {}", folder.display()),
+            Some(Err(why)) => writeln!(f, "the pictures could not be written: {why}"),
+            None => Ok(()),
+        }
+    }
+}
+
+/// Draws a scene with the reference and with each runner, and compares every pixel.
+///
+/// # Errors
+/// The reference or a runner cannot draw the scene. If the target of a runner after the first one cannot represent
+/// the programs, that is not an error: the runner is [skipped](Verification::skipped).
+pub fn verify(scene: &Scene, runners: &[&dyn Runner], options: &Options<'_>) -> Result<Verification, Failure> {
+    let mut expected = Expected::new(scene, options)?;
+    let mut runs: Vec<Run> = Vec::new();
+    let mut skipped = Vec::new();
+    for runner in runners {
+        let Drawn { picture, milliseconds } = match runner.draw(scene) {
+            Err(Failure::Diagnostics(diagnostics)) if !runs.is_empty() => {
+                skipped.push(Skip { runner: runner.name(), diagnostics });
+                continue;
+            }
+            drawn => drawn?,
+        };
+        let verdict = expected.judge(&picture)?;
+        runs.push(Run { runner: runner.name(), picture, milliseconds, verdict });
+    }
+    let mut shares = vec![0.0; expected.picture().covered.len()];
+    for run in &runs {
+        let these = compare::shares(&run.picture, expected.picture(), options.judge);
+        shares.iter_mut().zip(these).for_each(|(most, share): (&mut f64, f64)| *most = share.max(*most));
+    }
+    let note = Explanations::new(scene, options).add_to(&mut runs)?;
+    let (reference, reference_milliseconds) = expected.into_picture();
+    let allow_undecided = options.allow_undecided;
+    let mut verification = Verification {
+        reference,
+        reference_milliseconds,
+        runs,
+        skipped,
+        shares,
+        note,
+        pictures: None,
+        allow_undecided,
+    };
+    if let Some(folder) = options.failures.filter(|_| !verification.holds()) {
+        let difference = verification.difference();
+        let mut pictures: Vec<(&str, &Picture)> =
+            verification.runs.iter().map(|run| (run.runner, &run.picture)).collect();
+        pictures.extend([("cpu", &verification.reference), ("difference", &difference)]);
+        let written = write_pictures(folder, &pictures);
+        verification.pictures = Some(written);
+    }
+    Ok(verification)
+}

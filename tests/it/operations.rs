@@ -1,0 +1,121 @@
+//! Checks every row of the table of operations: each overload is typed, run on the reference and lowered to WGSL and
+//! SPIR-V, and external tools accept the output.
+//!
+//! Tests in the respective crates check that each row folds to what is executed, and that each has a rule of
+//! precision that the envelope evaluates.
+
+use crate::emit::Collected;
+use glisten_emit::{Conventions, Target, emit};
+use glisten_front::builtin::BuiltinFunction;
+use glisten_front::builtin::functions::{Row, Signature};
+use glisten_front::builtin::operations::{Class, TextureArgument};
+use glisten_front::hir::{ParamMode, Stage, Type, TypeId, Types};
+use glisten_front::link::Program;
+use glisten_front::{Compiler, Options, Source};
+use std::fmt::Write;
+
+/// Functions that a target does not support in any program. The documentation names them.
+const REFUSED: &[(&str, &str)] =
+    &[("textureSize", "sampler2DMSArray"), ("texelFetch", "sampler2DMSArray"), ("textureGrad", "samplerCube")];
+
+/// An argument: samplers are uniforms, offsets are constant, and all others depend on a uniform, so that nothing is
+/// folded.
+fn argument(ty: TypeId, mode: ParamMode, role: Option<TextureArgument>, index: usize, uniforms: &mut String) -> String {
+    let types = Types::basic();
+    let name = types.name(ty);
+    if matches!(types.get(ty), Type::Sampler(_)) {
+        let _ = writeln!(uniforms, "uniform {name} s{index};");
+        return format!("s{index}");
+    }
+    match (mode, role) {
+        (ParamMode::In, Some(TextureArgument::Offset)) => format!("{name}(1)"),
+        (ParamMode::In, _) => format!("{name}(x)"),
+        _ => format!("out{index}"),
+    }
+}
+
+/// A fragment stage that calls one overload.
+fn text(row: &Row, signature: &Signature) -> String {
+    let types = Types::basic();
+    let sampler = signature.params().first().and_then(|param| match types.get(param.0) {
+        Type::Sampler(kind) => Some(kind),
+        _ => None,
+    });
+    let roles: Vec<TextureArgument> = match (row.function.class(), sampler) {
+        (Class::Texture(form), Some(kind)) => form.arguments(kind).into_iter().collect(),
+        _ => Vec::new(),
+    };
+    let (mut uniforms, mut locals) = (String::from("uniform float x;\n"), String::new());
+    let mut arguments = Vec::new();
+    for (index, &(ty, mode)) in signature.params().iter().enumerate() {
+        let role = index.checked_sub(1).and_then(|place| roles.get(place)).copied();
+        let text = argument(ty, mode, role, index, &mut uniforms);
+        if mode != ParamMode::In {
+            let _ = write!(locals, "{} {text}; ", types.name(ty));
+        }
+        arguments.push(text);
+    }
+    let ret = types.name(signature.ret);
+    let extension =
+        if row.section == "ARB_texture_rectangle" { "#extension GL_ARB_texture_rectangle : enable\n" } else { "" };
+    format!(
+        "#version 150\n{extension}{uniforms}out vec4 o;\nvoid main() {{ {locals}{ret} r = {}({}); o = vec4(r == r); }}\n",
+        row.name,
+        arguments.join(", ")
+    )
+}
+
+fn compiled(text: &str) -> Program {
+    let source = Source { name: "row.frag".into(), text: text.into(), stage: Stage::Fragment };
+    let compilation = Compiler::new(Options::default()).compile(&[source]);
+    let messages: Vec<String> = compilation.diagnostics.iter().map(|found| found.message.clone()).collect();
+    compilation.program.unwrap_or_else(|| panic!("{messages:?} in\n{text}"))
+}
+
+/// Each overload of each row, in fragment stages.
+fn overloads() -> impl Iterator<Item = (&'static Row, Signature)> {
+    let operations = BuiltinFunction::ALL.iter().map(|function| function.operation());
+    operations
+        // Functions of geometry stages have no targets.
+        .filter(|operation| !matches!(operation.class, Class::Emission(_)))
+        .flat_map(|operation| operation.prototypes())
+        .flat_map(|row| row.signatures(Stage::Fragment).map(move |signature| (row, signature)))
+}
+
+#[test]
+fn every_row_is_typed_and_lowered() {
+    let mut collected = Collected::new();
+    let (mut count, mut failures) = (0, Vec::new());
+    for (row, signature) in overloads() {
+        let text = text(row, &signature);
+        let program = compiled(&text);
+        let told = signature.describe(row.name, Types::basic());
+        for target in [Target::Wgsl, Target::Spirv] {
+            match emit(&program, Stage::Fragment, target, &Conventions::default()) {
+                Ok(emitted) => collected.add(&told, emitted),
+                Err(diagnostics) => {
+                    let refused = REFUSED.iter().any(|(name, kind)| row.name == *name && told.contains(kind));
+                    if !refused {
+                        failures.push(format!("{told} as {}: {}", target.name(), diagnostics[0].message));
+                    }
+                }
+            }
+        }
+        count += 1;
+    }
+    assert!(count > 450, "only {count} overloads");
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
+    collected.judge();
+}
+
+/// Compiling for the reference expands every call. The executor's own tests check the results.
+#[test]
+#[cfg(feature = "reference")]
+fn every_row_is_executed() {
+    for (row, signature) in overloads() {
+        let text = text(row, &signature);
+        let multisampled = signature.params().first().is_some_and(|param| Types::basic().name(param.0).contains("MS"));
+        let code = glisten_reference::exec::Code::compile(&compiled(&text), Stage::Fragment);
+        assert_eq!(code.is_ok(), !multisampled, "{}", signature.describe(row.name, Types::basic()));
+    }
+}

@@ -1,0 +1,84 @@
+//! Specialized scenes draw the same pictures, byte for byte on the reference in f32.
+
+#[cfg(feature = "gpu")]
+mod random;
+mod rules;
+
+use glisten::Compiler;
+use glisten::scene::{self, DiskFiles, Scene};
+use glisten::source::SourceMap;
+use glisten::specialize::{SpecializedScene, specialize_scene};
+use glisten_reference::{LineRule, Precision, RenderOptions, render};
+use std::path::{Path, PathBuf};
+
+/// All scenes of a folder and the folders in it.
+pub(crate) fn scene_files() -> Vec<PathBuf> {
+    let mut files = Vec::new();
+    for folder in ["fixtures/scenes", "fixtures/scenes/core", "shader_lib/scenes"] {
+        let folder = crate::support::root().join(folder);
+        for entry in std::fs::read_dir(folder).expect("a folder of scenes").filter_map(Result::ok) {
+            if entry.path().extension().is_some_and(|extension| extension == "toml") {
+                files.push(entry.path());
+            }
+        }
+    }
+    files.sort();
+    files
+}
+
+fn load(path: &Path) -> Option<(Scene, SourceMap)> {
+    let loaded = scene::load(&path.to_string_lossy(), &DiskFiles, &Compiler::new(glisten::Options::default()));
+    loaded.scene.map(|scene| (scene, loaded.sources))
+}
+
+/// The bits of a scene's picture in f32.
+pub(crate) fn bits(scene: &Scene) -> Result<Vec<u64>, String> {
+    let options = RenderOptions {
+        precision: Precision::F32,
+        lines: LineRule::OpenGl,
+        mark_edges: false,
+        ..RenderOptions::default()
+    };
+    let picture = render(scene, &options).map_err(|found| format!("{:?}", found.first().map(|one| &one.message)))?;
+    Ok(picture.attachments.iter().flatten().flatten().map(|value| value.to_bits()).collect())
+}
+
+/// How a specialized scene's picture differs.
+pub(crate) fn difference(scene: &Scene, specialized: &SpecializedScene) -> Option<String> {
+    let (before, after) = match (bits(scene), bits(&specialized.scene)) {
+        (Ok(before), Ok(after)) => (before, after),
+        (Err(_), Err(_)) => return None,
+        (before, after) => return Some(format!("{:?} and {:?}", before.err(), after.err())),
+    };
+    let differing = before.iter().zip(&after).filter(|(a, b)| a != b).count();
+    (differing > 0 || before.len() != after.len()).then(|| {
+        let texts: Vec<String> = specialized
+            .draws
+            .iter()
+            .flat_map(|draw| draw.texts.iter().map(|(stage, text)| format!("// {}\n{text}", stage.name())))
+            .collect();
+        format!("{differing} of {} numbers differ\n{}", before.len(), texts.join("\n"))
+    })
+}
+
+#[test]
+fn scenes_draw_the_same_bytes() {
+    let only = std::env::var("SPECIALIZE_SCENE").ok();
+    let mut wrong = Vec::new();
+    for path in scene_files() {
+        if only.as_ref().is_some_and(|only| !path.ends_with(only)) {
+            continue;
+        }
+        let Some((scene, sources)) = load(&path) else { continue };
+        let specialized = specialize_scene(&scene, &sources, &[]);
+        if only.is_some() {
+            for (stage, text) in specialized.draws.iter().flat_map(|draw| &draw.texts) {
+                println!("// {}\n{text}", stage.name());
+            }
+        }
+        let faults = specialized.draws.iter().filter_map(|draw| draw.fault.as_ref());
+        wrong.extend(faults.map(|fault| format!("{}: {fault}", path.display())));
+        wrong.extend(difference(&scene, &specialized).map(|what| format!("{}: {what}", path.display())));
+    }
+    assert!(wrong.is_empty(), "{} scenes:\n{}", wrong.len(), wrong.join("\n"));
+}

@@ -1,0 +1,144 @@
+//! What stays and what goes, by small programs: NaN, infinities, signed zeros, derivatives, effects.
+
+use glisten_front::hir::{ScalarValue, Stage};
+use glisten_front::{Compiler, Options, Source};
+use glisten_specialize::{Input, Known, Residual, specialize};
+use std::time::{Duration, Instant};
+
+const VERTEX: &str = "#version 150\nin vec4 p;\nin vec4 q;\nout vec4 v;\nvoid main() { v = q; gl_Position = p; }\n";
+
+fn residual(fragment: &str, known: &[(&str, &[f32])]) -> Residual {
+    let source = |name: &str, text: &str, stage| Source { name: name.into(), text: text.into(), stage };
+    let sources = [source("a.vert", VERTEX, Stage::Vertex), source("a.frag", fragment, Stage::Fragment)];
+    let compiled = Compiler::new(Options::default()).compile(&sources);
+    let messages: Vec<_> = compiled.diagnostics.iter().map(|found| found.message.clone()).collect();
+    let program = compiled.program.unwrap_or_else(|| panic!("{messages:?}\n{fragment}"));
+    let mut values = Known::default();
+    for (name, numbers) in known {
+        values.uniforms.insert((*name).into(), numbers.iter().map(|value| ScalarValue::Float(*value)).collect());
+    }
+    let residual = specialize(&program, &values);
+    assert!(residual.fault.is_none(), "{:?}", residual.fault);
+    residual
+}
+
+/// The fragment stage of `color = EXPRESSION` with uniforms `u` and `w`, and the unknown `v`.
+fn of(expression: &str, u: f32, w: f32) -> String {
+    let fragment = format!(
+        "#version 150\nin vec4 v;\nuniform float u;\nuniform float w;\nout vec4 color;\n\
+         void main() {{ color = vec4({expression}); }}\n"
+    );
+    residual(&fragment, &[("u", &[u]), ("w", &[w])]).text(Stage::Fragment).expect("a stage").to_owned()
+}
+
+#[test]
+fn a_literal_must_not_free_the_driver() {
+    // Expression, values of u and w, and the uniforms that stay.
+    let cases: &[(&str, f32, f32, &[&str])] = &[
+        // A driver may drop what is multiplied by a literal 0.
+        ("v.x * u", 0.0, 0.0, &["u"]),
+        ("v.x * u", 0.5, 0.0, &[]),
+        ("dot(v.xy, vec2(u, w))", 0.0, 1.0, &["u", "w"]),
+        ("dot(v.xy, vec2(u, w))", 2.0, 1.0, &[]),
+        ("mix(v.x, v.y, u)", 1.0, 0.0, &["u"]),
+        ("pow(v.x, u)", 2.0, 0.0, &["u"]),
+        ("pow(abs(v.x), u)", 2.0, 0.0, &[]),
+        ("u / v.x", 0.0, 0.0, &["u"]),
+        ("v.x / u", 0.0, 0.0, &["u"]),
+        ("v.x / u", 4.0, 0.0, &[]),
+        // Constants that may be joined: beyond the greatest float one way, within it the other.
+        ("(v.x * u) * w", 1e30, 1e-30, &["w"]),
+        ("(v.x * u) * w", 0.5, 0.25, &[]),
+        ("(v.x + u) + w", 3e38, -3e38, &["u", "w"]),
+        ("(v.x + u) + w", 3.0, -2.0, &[]),
+        // What is bounded may be multiplied by anything.
+        ("clamp(gl_FragCoord.x, 0.0, 1.0) * u", 0.5, 0.0, &[]),
+        ("1.0 / u", 0.0, 0.0, &["u"]),
+        ("sqrt(u)", -1.0, 0.0, &["u"]),
+        ("sqrt(u)", 2.0, 0.0, &[]),
+    ];
+    for (expression, u, w, stays) in cases {
+        let text = of(expression, *u, *w);
+        for name in ["u", "w"] {
+            let declared = text.contains(&format!("uniform float {name};"));
+            assert_eq!(declared, stays.contains(&name), "`{name}` in `{expression}` by {u}, {w}:\n{text}");
+        }
+    }
+}
+
+#[test]
+fn only_what_every_target_computes_alike_is_folded() {
+    assert!(of("v.x + u * w", 0.25, 8.0).contains("v.x + 2.0"));
+    assert!(of("v.x + u / w", 1.0, 3.0).contains("1.0 / 3.0"));
+    assert!(of("v.x + sin(u)", 1.0, 3.0).contains("sin(1.0)"));
+    // x + 0.0 is no x where x may be -0, x - 0.0 is.
+    assert!(of("v.x + u", 0.0, 0.0).contains("v.x + 0.0"));
+    assert!(!of("v.x - u", 0.0, 0.0).contains("0.0"));
+    assert!(!of("v.x * u", 1.0, 0.0).contains("1.0"));
+}
+
+#[test]
+fn a_decided_branch_goes_and_its_effects_stay() {
+    let fragment = "#version 150\nin vec4 v;\nuniform float u;\nout vec4 color;\nfloat count = 0.0;\n\
+        bool more() { count += v.x; return true; }\n\
+        void main() { if (more() && u > 1.0) discard; color = u < 1.0 ? vec4(count) : vec4(0.0, 0.0, 0.0, v.y); }\n";
+    let text = residual(fragment, &[("u", &[0.5])]).text(Stage::Fragment).expect("a stage").to_owned();
+    assert!(text.contains("count") && text.contains("more()") && !text.contains("discard"), "{text}");
+    let text = residual(fragment, &[("u", &[2.0])]).text(Stage::Fragment).expect("a stage").to_owned();
+    assert!(text.contains("discard"), "{text}");
+}
+
+#[test]
+fn a_varying_that_is_the_same_everywhere_is_known_across_the_stages() {
+    let fragment = "#version 150\nin vec4 v;\nout vec4 color;\n\
+        void main() { if (v.w > 2.0) discard; color = vec4(v.xyz, 1.0); }\n";
+    let source = |name: &str, text: &str, stage| Source { name: name.into(), text: text.into(), stage };
+    let sources = [source("a.vert", VERTEX, Stage::Vertex), source("a.frag", fragment, Stage::Fragment)];
+    let program = Compiler::new(Options::default()).compile(&sources).program.expect("a program");
+    let mut known = Known::default();
+    let one = Input::Value(ScalarValue::Float(0.5));
+    known.attributes.insert("q".into(), vec![one, one, one, one]);
+    let residual = specialize(&program, &known);
+    assert!(
+        residual
+            .text(Stage::Fragment)
+            .is_some_and(|text| text.contains("vec4(0.5, 0.5, 0.5, 1.0)") || text.contains("vec4(vec3(0.5), 1.0)")),
+        "{residual:?}"
+    );
+    assert!(residual.program.interface.varyings.is_empty() && residual.program.interface.attributes.len() == 1);
+    assert!(residual.left_out.iter().any(|one| one.what.name() == "varying"));
+}
+
+#[test]
+fn hostile_programs_come_back_within_a_second() {
+    let time = |what: &str, fragment: &str, known: &[(&str, &[f32])]| {
+        let start = Instant::now();
+        residual(fragment, known);
+        // Ten times as much in a build without optimization on a machine that does other things.
+        assert!(start.elapsed() < Duration::from_secs(10), "{what}: {:?}", start.elapsed());
+    };
+    let head = "#version 150\nin vec4 v;\nuniform float u;\nout vec4 color;\n";
+    let endless = format!(
+        "{head}void main() {{ float s = 0.0; for (int i = 0; i < 2147483647; ++i) {{ s += u; if (s > v.x) break; }} \
+         for (int i = 0; i < 1000; ++i) for (int j = 0; j < 1000; ++j) for (int k = 0; k < 1000; ++k) s *= u; color = vec4(s); }}\n"
+    );
+    time("a loop to 2^31", &endless, &[("u", &[1.5])]);
+    let calls: String = (0..40)
+        .map(|n| {
+            let next = if n == 0 { "x * u".to_owned() } else { format!("f{}(x) + f{}(x + u)", n - 1, n - 1) };
+            format!("float f{n}(float x) {{ return {next}; }}\n")
+        })
+        .collect();
+    time("calls that double", &format!("{head}{calls}void main() {{ color = vec4(f39(v.x)); }}\n"), &[("u", &[1.5])]);
+    let lines: String = (0..10_000).map(|n| format!("    float x{n} = v.x * {n}.5 + u;\n    s += x{n};\n")).collect();
+    time(
+        "10,000 lines",
+        &format!("{head}void main() {{\n    float s = 0.0;\n{lines}    color = vec4(s);\n}}\n"),
+        &[("u", &[1.5])],
+    );
+    let branches: String =
+        (0..3_000).map(|n| format!("    if (v.x > {n}.0) {{ s += u; }} else {{ t -= s; }}\n")).collect();
+    let branches =
+        format!("{head}void main() {{\n    float s = 0.0, t = 0.0;\n{branches}    color = vec4(s, t, s, t);\n}}\n");
+    time("3,000 branches", &branches, &[("u", &[1.5])]);
+}
