@@ -226,6 +226,7 @@ impl AttributeValues {
 impl AttributeData {
     /// Component `component` of column `column` (of columns that are `rows` components high) for a vertex and an
     /// instance. Missing components come from (0, 0, 0, 1); rows past the end are (0, 0, 0, 1), too.
+    #[inline]
     pub fn fetch(&self, vertex: u32, instance: u32, column: u32, rows: u32, component: u32) -> ScalarValue {
         let row = instance.checked_div(self.divisor).unwrap_or(vertex);
         let within = column * rows + component;

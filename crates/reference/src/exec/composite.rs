@@ -17,8 +17,8 @@ use std::hint::black_box;
 /// The largest number of components of a vector.
 const MOST: usize = 4;
 
-/// The components of a vector. Missing ones are blank.
-type Vector<B> = [B; MOST];
+/// The components of a vector, at most `C`. Missing ones are blank.
+type Vector<B, const C: usize> = [B; C];
 
 /// The type in which a domain's built-in functions are computed.
 type Wide<D> = <<D as Domain>::Float as Number>::Wide;
@@ -29,10 +29,10 @@ type ByLane<W> = [W; WIDTH];
 /// A vector of `size` components. Unlike the standard library's `from_fn`, it is inlined into the calling loop and so
 /// compiled for the same vector unit.
 #[inline(always)]
-fn each<B: Copy + Default>(size: usize, component: impl Fn(usize) -> B) -> Vector<B> {
-    let mut vector = [B::default(); MOST];
+fn each<B: Copy + Default, const C: usize>(size: usize, component: impl Fn(usize) -> B) -> Vector<B, C> {
+    let mut vector = [B::default(); C];
     for k in 0..size {
-        vector[k % MOST] = component(k);
+        vector[k % C] = component(k);
     }
     vector
 }
@@ -44,42 +44,42 @@ fn splat<W: Number, B: Block<W>>(value: f64) -> B {
 }
 
 #[inline(always)]
-fn dot<W: Number, B: Block<W>>(size: usize, a: &Vector<B>, b: &Vector<B>) -> B {
+fn dot<W: Number, B: Block<W>, const C: usize>(size: usize, a: &Vector<B, C>, b: &Vector<B, C>) -> B {
     B::sum(
         size,
         #[inline(always)]
-        |k| a[k % MOST].mul(&b[k % MOST]),
+        |k| a[k % C].mul(&b[k % C]),
     )
 }
 
 /// `dot(a, a)`
 #[inline(always)]
-fn squared<W: Number, B: Block<W>>(size: usize, a: &Vector<B>) -> B {
+fn squared<W: Number, B: Block<W>, const C: usize>(size: usize, a: &Vector<B, C>) -> B {
     B::sum(
         size,
         #[inline(always)]
-        |k| a[k % MOST].square(),
+        |k| a[k % C].square(),
     )
 }
 
 /// A vector over the root of its squared length.
 #[inline(always)]
-fn normalize<W: Number, B: Block<W>>(size: usize, a: &Vector<B>) -> Vector<B> {
-    let scale = squared::<W, B>(size, a).inversesqrt();
+fn normalize<W: Number, B: Block<W>, const C: usize>(size: usize, a: &Vector<B, C>) -> Vector<B, C> {
+    let scale = squared::<W, B, C>(size, a).inversesqrt();
     each(
         size,
         #[inline(always)]
-        |k| a[k % MOST].mul(&scale).cosine_at_most(),
+        |k| a[k % C].mul(&scale).cosine_at_most(),
     )
 }
 
 #[inline(always)]
-fn cross<W: Number, B: Block<W>>(size: usize, a: &Vector<B>, b: &Vector<B>) -> Vector<B> {
+fn cross<W: Number, B: Block<W>, const C: usize>(size: usize, a: &Vector<B, C>, b: &Vector<B, C>) -> Vector<B, C> {
     each(
         size,
         #[inline(always)]
         |k| {
-            let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+            let (i, j) = ((k + 1) % 3 % C, (k + 2) % 3 % C);
             a[i].mul(&b[j]).sub(&b[i].mul(&a[j]))
         },
     )
@@ -87,43 +87,52 @@ fn cross<W: Number, B: Block<W>>(size: usize, a: &Vector<B>, b: &Vector<B>) -> V
 
 /// `I - 2 dot(N, I) N`
 #[inline(always)]
-fn reflect<W: Number, B: Block<W>>(size: usize, incident: &Vector<B>, normal: &Vector<B>) -> Vector<B> {
-    let twice = dot::<W, B>(size, normal, incident).mul(&splat::<W, B>(2.0));
+fn reflect<W: Number, B: Block<W>, const C: usize>(
+    size: usize,
+    incident: &Vector<B, C>,
+    normal: &Vector<B, C>,
+) -> Vector<B, C> {
+    let twice = dot::<W, B, C>(size, normal, incident).mul(&splat::<W, B>(2.0));
     each(
         size,
         #[inline(always)]
-        |k| incident[k % MOST].sub(&twice.mul(&normal[k % MOST])),
+        |k| incident[k % C].sub(&twice.mul(&normal[k % C])),
     )
 }
 
 /// With `k = 1 - eta eta (1 - dot(N, I)^2)`: 0 if that is negative, else `eta I - (eta dot(N, I) + sqrt(k)) N`.
 #[inline(always)]
-fn refract<W: Number, B: Block<W>>(size: usize, incident: &Vector<B>, normal: &Vector<B>, eta: &B) -> Vector<B> {
+fn refract<W: Number, B: Block<W>, const C: usize>(
+    size: usize,
+    incident: &Vector<B, C>,
+    normal: &Vector<B, C>,
+    eta: &B,
+) -> Vector<B, C> {
     let (zero, one) = (splat::<W, B>(0.0), splat::<W, B>(1.0));
-    let cosine = dot::<W, B>(size, normal, incident);
+    let cosine = dot::<W, B, C>(size, normal, incident);
     let k = one.sub(&eta.mul(eta).mul(&one.sub(&cosine.mul(&cosine))));
     let along = eta.mul(&cosine).add(&k.max(&zero).sqrt());
     let none = k.less(&zero);
     each(
         size,
         #[inline(always)]
-        |i| B::select(&none, &zero, &eta.mul(&incident[i % MOST]).sub(&along.mul(&normal[i % MOST]))),
+        |i| B::select(&none, &zero, &eta.mul(&incident[i % C]).sub(&along.mul(&normal[i % C]))),
     )
 }
 
 /// `dot(Nref, I) < 0 ? N : -N`
 #[inline(always)]
-fn faceforward<W: Number, B: Block<W>>(
+fn faceforward<W: Number, B: Block<W>, const C: usize>(
     size: usize,
-    normal: &Vector<B>,
-    incident: &Vector<B>,
-    reference: &Vector<B>,
-) -> Vector<B> {
-    let side = dot::<W, B>(size, reference, incident).less(&splat::<W, B>(0.0));
+    normal: &Vector<B, C>,
+    incident: &Vector<B, C>,
+    reference: &Vector<B, C>,
+) -> Vector<B, C> {
+    let side = dot::<W, B, C>(size, reference, incident).less(&splat::<W, B>(0.0));
     each(
         size,
         #[inline(always)]
-        |k| B::select(&side, &normal[k % MOST], &normal[k % MOST].neg()),
+        |k| B::select(&side, &normal[k % C], &normal[k % C].neg()),
     )
 }
 
@@ -176,9 +185,47 @@ fn inverse<W: Number>(m: &[W::Few], size: usize) -> [W::Few; 16] {
     out
 }
 
+/// A function of vectors of `size` components. `scalar` returns the components of all arguments, which follow each other;
+/// `result` takes the components of the result.
+#[inline(always)]
+fn of_vectors<W: Number, B: Block<W>, const C: usize>(
+    (op, squares): (Composite, bool),
+    size: usize,
+    scalar: impl Fn(usize) -> B,
+    mut result: impl FnMut(usize, &B),
+) {
+    let a: Vector<B, C> = vector(size, 0, &scalar);
+    let found = match op {
+        Composite::Length => return result(0, &squared::<W, B, C>(size, &a).sqrt()),
+        // The same vector twice: its components are squares, for which an envelope is narrower.
+        Composite::Dot if squares => return result(0, &squared::<W, B, C>(size, &a)),
+        Composite::Dot => return result(0, &dot::<W, B, C>(size, &a, &vector(size, 1, &scalar))),
+        Composite::Distance => {
+            let gap = each(
+                size,
+                #[inline(always)]
+                |k| a[k % C].sub(&scalar(size + k)),
+            );
+            return result(0, &squared::<W, B, C>(size, &gap).sqrt());
+        }
+        Composite::Normalize => normalize::<W, B, C>(size, &a),
+        Composite::Cross => cross::<W, B, C>(size, &a, &vector(size, 1, &scalar)),
+        Composite::Reflect => reflect::<W, B, C>(size, &a, &vector(size, 1, &scalar)),
+        Composite::Refract => refract::<W, B, C>(size, &a, &vector(size, 1, &scalar), &scalar(2 * size)),
+        Composite::Faceforward => {
+            faceforward::<W, B, C>(size, &a, &vector(size, 1, &scalar), &vector(size, 2, &scalar))
+        }
+        // `composite` has handled these.
+        Composite::Determinant | Composite::Inverse => return,
+    };
+    for k in 0..size {
+        result(k, &found[k % C]);
+    }
+}
+
 /// A vector of arguments.
 #[inline(always)]
-fn vector<B: Copy + Default>(size: usize, number: usize, scalar: &impl Fn(usize) -> B) -> Vector<B> {
+fn vector<B: Copy + Default, const C: usize>(size: usize, number: usize, scalar: &impl Fn(usize) -> B) -> Vector<B, C> {
     each(
         size,
         #[inline(always)]
@@ -186,94 +233,54 @@ fn vector<B: Copy + Default>(size: usize, number: usize, scalar: &impl Fn(usize)
     )
 }
 
-/// A scalar as a result.
+/// A block of an argument. Missing ones are blank.
 #[inline(always)]
-fn alone<B: Copy + Default>(scalar: B) -> Vector<B> {
-    [scalar, B::default(), B::default(), B::default()]
-}
-
-/// A function of vectors of `size` components. The components of all arguments follow each other.
-#[inline(always)]
-fn of_vectors<W: Number, B: Block<W>>(
-    (op, squares): (Composite, bool),
-    size: usize,
-    scalar: impl Fn(usize) -> B,
-) -> Vector<B> {
-    match op {
-        Composite::Length => alone(squared::<W, B>(size, &vector(size, 0, &scalar)).sqrt()),
-        // The same vector twice: its components are squares, for which an envelope is narrower.
-        Composite::Dot if squares => alone(squared::<W, B>(size, &vector(size, 0, &scalar))),
-        Composite::Normalize => normalize::<W, B>(size, &vector(size, 0, &scalar)),
-        Composite::Dot => alone(dot::<W, B>(size, &vector(size, 0, &scalar), &vector(size, 1, &scalar))),
-        Composite::Distance => {
-            let gap = each(
-                size,
-                #[inline(always)]
-                |k| scalar(k).sub(&scalar(size + k)),
-            );
-            alone(squared::<W, B>(size, &gap).sqrt())
-        }
-        Composite::Cross => cross::<W, B>(size, &vector(size, 0, &scalar), &vector(size, 1, &scalar)),
-        Composite::Reflect => reflect::<W, B>(size, &vector(size, 0, &scalar), &vector(size, 1, &scalar)),
-        Composite::Refract => {
-            refract::<W, B>(size, &vector(size, 0, &scalar), &vector(size, 1, &scalar), &scalar(2 * size))
-        }
-        Composite::Faceforward => {
-            faceforward::<W, B>(size, &vector(size, 0, &scalar), &vector(size, 1, &scalar), &vector(size, 2, &scalar))
-        }
-        // `composite` has handled these.
-        Composite::Determinant | Composite::Inverse => Vector::default(),
+fn scalar<N: Number>(arguments: &[Source<'_, N>], place: usize, number: usize) -> <N::Wide as Element>::Few {
+    match arguments.get(number) {
+        Some(source) => source.block(place).widen(),
+        None => Default::default(),
     }
 }
 
-/// The arguments of a function.
-struct Arguments<'a, N: Number>(SmallVec<[Source<'a, N>; 12]>);
-
-impl<N: Number> Arguments<'_, N> {
-    /// A block of a component. Missing ones are blank.
-    #[inline(always)]
-    fn scalar(&self, place: usize, number: usize) -> <N::Wide as Element>::Few {
-        match self.0.get(number) {
-            Some(source) => source.block(place).widen(),
-            None => Default::default(),
-        }
+/// The block of an argument as separate numbers.
+#[inline(always)]
+fn by_lane<N: Number>(arguments: &[Source<'_, N>], place: usize, number: usize) -> ByLane<N::Wide> {
+    let few = scalar(arguments, place, number);
+    let mut lanes = [N::Wide::default(); WIDTH];
+    for (lane, slot) in lanes.iter_mut().enumerate() {
+        *slot = few.get(lane);
     }
-
-    /// The block of a component as separate numbers.
-    #[inline(always)]
-    fn by_lane(&self, place: usize, number: usize) -> ByLane<N::Wide> {
-        let few = self.scalar(place, number);
-        let mut lanes = [N::Wide::default(); WIDTH];
-        for (lane, slot) in lanes.iter_mut().enumerate() {
-            *slot = few.get(lane);
-        }
-        lanes
-    }
-
-    /// All components of a matrix.
-    fn all(&self, place: usize) -> [<N::Wide as Element>::Few; 16] {
-        let mut all = [Default::default(); 16];
-        for (k, slot) in all.iter_mut().enumerate() {
-            *slot = self.scalar(place, k);
-        }
-        all
-    }
-
-    /// The number of blocks to compute: one if each argument is one number for all lanes.
-    fn blocks(&self) -> (usize, Filled) {
-        let same = self.0.iter().all(|source| matches!(source, Source::One(_)));
-        if same { (1, Filled::One) } else { (LANES / WIDTH, Filled::Lanes) }
-    }
+    lanes
 }
 
-/// Writes a block of each result.
+/// All components of a matrix.
+fn all<N: Number>(arguments: &[Source<'_, N>], place: usize) -> [<N::Wide as Element>::Few; 16] {
+    let mut all = [Default::default(); 16];
+    for (k, slot) in all.iter_mut().enumerate() {
+        *slot = scalar(arguments, place, k);
+    }
+    all
+}
+
+/// The number of blocks to compute: one if each argument is one number for all lanes.
+fn blocks<N: Number>(arguments: &[Source<'_, N>]) -> (usize, Filled) {
+    let same = arguments.iter().all(|source| matches!(source, Source::One(_)));
+    if same { (1, Filled::One) } else { (LANES / WIDTH, Filled::Lanes) }
+}
+
+/// Writes a block of a result.
 #[inline(always)]
-fn write<N: Number>(outs: &mut [Register<N>], place: usize, filled: Filled, found: &[<N::Wide as Element>::Few]) {
-    for (out, found) in outs.iter_mut().zip(found) {
+fn write<N: Number>(
+    outs: &mut [Register<N>],
+    number: usize,
+    (place, filled): (usize, Filled),
+    found: &<N::Wide as Element>::Few,
+) {
+    if let Some(out) = outs.get_mut(number) {
         out.fill(
             #[inline(always)]
             |lanes| {
-                lanes.blocks_mut()[place] = Block::narrow(found);
+                lanes.blocks_mut()[place % (LANES / WIDTH)] = Block::narrow(found);
                 filled
             },
         );
@@ -281,76 +288,137 @@ fn write<N: Number>(outs: &mut [Register<N>], place: usize, filled: Filled, foun
 }
 
 /// A function of vectors, for all lanes.
-fn vectors<N: Number>(op: (Composite, bool), size: usize, arguments: &Arguments<'_, N>, outs: &mut [Register<N>]) {
-    let (blocks, filled) = arguments.blocks();
-    if N::Wide::PLAIN {
-        for place in 0..blocks {
-            let found = if size == 3 {
-                of_vectors::<N::Wide, <N::Wide as Element>::Few>(
-                    op,
-                    3,
-                    #[inline(always)]
-                    |number| arguments.scalar(place, number),
-                )
-            } else {
-                of_vectors::<N::Wide, <N::Wide as Element>::Few>(
-                    op,
-                    black_box(size),
-                    #[inline(always)]
-                    |number| arguments.scalar(place, number),
-                )
-            };
-            write(outs, place, filled, &found);
-        }
-        return;
+#[inline(always)]
+fn loops<N: Number, const C: usize>(
+    op: (Composite, bool),
+    size: usize,
+    arguments: &[Source<'_, N>],
+    outs: &mut [Register<N>],
+) {
+    let (blocks, filled) = blocks(arguments);
+    for place in 0..blocks {
+        of_vectors::<N::Wide, <N::Wide as Element>::Few, C>(
+            op,
+            size,
+            #[inline(always)]
+            |number| scalar(arguments, place, number),
+            #[inline(always)]
+            |number, found| write(outs, number, (place, filled), found),
+        );
+    }
+}
+
+/// The same lane by lane, for a machine without the vector unit.
+fn loops_by_lane<N: Number>(op: (Composite, bool), size: usize, arguments: &[Source<'_, N>], outs: &mut [Register<N>]) {
+    let (blocks, filled) = blocks(arguments);
+    for place in 0..blocks {
+        of_vectors::<N::Wide, ByLane<N::Wide>, MOST>(
+            op,
+            size,
+            |number| by_lane(arguments, place, number),
+            |number, found| write(outs, number, (place, filled), &Few::of(found)),
+        );
+    }
+}
+
+fn vectors<N: Number>(op: (Composite, bool), size: usize, arguments: &[Source<'_, N>], outs: &mut [Register<N>]) {
+    if N::Wide::PLAIN && size == 3 {
+        return loops::<N, 3>(op, 3, arguments, outs);
     }
     // The number of components is hidden from the compiler, which would otherwise unroll each loop for each number.
     let size = black_box(size);
     let done = <N::Wide as Element>::Few::if_vectorized(
         #[inline(always)]
-        || {
-            for place in 0..blocks {
-                let found = of_vectors::<N::Wide, <N::Wide as Element>::Few>(
-                    op,
-                    size,
-                    #[inline(always)]
-                    |number| arguments.scalar(place, number),
-                );
-                write(outs, place, filled, &found);
-            }
-        },
+        || loops::<N, MOST>(op, size, arguments, outs),
     );
     if done.is_none() {
-        for place in 0..blocks {
-            let found = of_vectors::<N::Wide, ByLane<N::Wide>>(op, size, |number| arguments.by_lane(place, number));
-            write(outs, place, filled, &found.map(|found| Few::of(&found)));
-        }
+        loops_by_lane(op, size, arguments, outs);
     }
 }
 
 impl<D: Domain> Registers<D> {
-    pub(super) fn composite(&mut self, op: Composite, size: u8, results: &[Operand], arguments: &[Operand]) {
+    pub(super) fn composite(&mut self, op: Composite, size: u8, results: &[Operand], operands: &[Operand]) {
         let size = usize::from(size).min(MOST);
-        let mut outs: SmallVec<[Register<D::Float>; 16]> = results.iter().map(|_| self.floats.take()).collect();
-        let squares = D::OPEN && arguments.get(..size) == arguments.get(size..);
-        let arguments = Arguments(arguments.iter().map(|operand| self.float(*operand)).collect());
-        let (blocks, filled) = arguments.blocks();
+        let mut outs: SmallVec<[Register<D::Float>; 16]> = SmallVec::new();
+        outs.extend(results.iter().map(|_| self.floats.take()));
+        let mut arguments: SmallVec<[Source<'_, D::Float>; 12]> = SmallVec::new();
+        arguments.extend(operands.iter().map(|operand| self.float(*operand)));
+        let (blocks, filled) = blocks(&arguments);
         match op {
             Composite::Determinant => {
                 for place in 0..blocks {
-                    write(&mut outs, place, filled, &[determinant::<Wide<D>>(&arguments.all(place), size)]);
+                    let found = determinant::<Wide<D>>(&all(&arguments, place), size);
+                    write(&mut outs, 0, (place, filled), &found);
                 }
             }
             Composite::Inverse => {
                 for place in 0..blocks {
-                    write(&mut outs, place, filled, &inverse::<Wide<D>>(&arguments.all(place), size));
+                    for (number, found) in inverse::<Wide<D>>(&all(&arguments, place), size).iter().enumerate() {
+                        write(&mut outs, number, (place, filled), found);
+                    }
                 }
             }
-            _ => vectors((op, squares), size, &arguments, &mut outs),
+            _ => {
+                let squares = D::OPEN && operands.get(..size) == operands.get(size..);
+                vectors((op, squares), size, &arguments, &mut outs);
+            }
         }
         drop(arguments);
-        for (operand, out) in results.iter().zip(outs) {
+        for (operand, out) in results.iter().zip(outs.drain(..)) {
             self.floats.put(*operand, out);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::domain::{EnvelopeBlock, EnvelopeFloat};
+
+    /// Components of vectors that differ in each lane; some are 0, and some are not exact.
+    fn component(number: usize) -> ByLane<EnvelopeFloat> {
+        let mut lanes = [EnvelopeFloat::default(); WIDTH];
+        for (lane, slot) in lanes.iter_mut().enumerate() {
+            let value = ((number * 7 + lane * 3) % 11) as f64 - 5.0;
+            *slot = EnvelopeFloat::with_error(value * 0.3, if lane % 2 == 0 { 0.0 } else { 1e-6 });
+        }
+        lanes
+    }
+
+    #[test]
+    fn a_machine_without_the_vector_unit_gives_the_same() {
+        use Composite::{Cross, Distance, Dot, Faceforward, Length, Normalize, Reflect, Refract};
+        for op in [Length, Distance, Dot, Cross, Normalize, Faceforward, Reflect, Refract] {
+            for size in if op == Cross { 3..=3 } else { 1..=MOST } {
+                for squares in [false, true] {
+                    let (mut by_lane, mut by_block) = (Vec::new(), Vec::new());
+                    of_vectors::<EnvelopeFloat, ByLane<EnvelopeFloat>, MOST>(
+                        (op, squares),
+                        size,
+                        component,
+                        |_, few| {
+                            by_lane.push(*few);
+                        },
+                    );
+                    let block = |number: usize| EnvelopeBlock::of(&component(number));
+                    of_vectors::<EnvelopeFloat, EnvelopeBlock, MOST>((op, squares), size, block, |_, few| {
+                        by_block.push(*few);
+                    });
+                    assert_eq!(by_lane.len(), by_block.len());
+                    for (by_lane, by_block) in by_lane.iter().zip(&by_block) {
+                        for lane in 0..WIDTH {
+                            let (a, b) = (by_lane.get(lane), by_block.get(lane));
+                            assert!(same(a, b), "{op:?} of {size}, lane {lane}: {a:?}, {b:?}");
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// Whether two numbers are equal. NaN equals itself, and zeros have no sign.
+    fn same(a: EnvelopeFloat, b: EnvelopeFloat) -> bool {
+        let equal = |a: f64, b: f64| a == b || a.is_nan() && b.is_nan();
+        equal(a.value, b.value) && equal(a.low, b.low) && equal(a.high, b.high) && a.may_be_nan == b.may_be_nan
     }
 }

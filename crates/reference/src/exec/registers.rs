@@ -224,15 +224,17 @@ pub(super) fn map3<A: Element, B: Element, C: Element, R: Element>(
     if !R::PLAIN {
         return calls3(out, a, b, c, &f);
     }
-    if let (Source::One(a), Source::One(b), Source::One(c)) = (a, b, c) {
-        out.set(0, f(a, b, c));
-        return Filled::One;
+    match (a, b, c) {
+        (Source::One(a), b, c) => map2(out, b, c, |b, c| f(a, b, c)),
+        (a, Source::One(b), Source::One(c)) => map1(out, a, |a| f(a, b, c)),
+        (a, b, c) => {
+            for (place, out) in out.blocks_mut().iter_mut().enumerate() {
+                let (a, b, c) = (a.block(place), b.block(place), c.block(place));
+                *out = few(|lane| f(a.get(lane), b.get(lane), c.get(lane)));
+            }
+            Filled::Lanes
+        }
     }
-    for (place, out) in out.blocks_mut().iter_mut().enumerate() {
-        let (a, b, c) = (a.block(place), b.block(place), c.block(place));
-        *out = few(|lane| f(a.get(lane), b.get(lane), c.get(lane)));
-    }
-    Filled::Lanes
 }
 
 /// Calls a function for each lane. For functions that cost far more than the call, so that they are compiled once.
