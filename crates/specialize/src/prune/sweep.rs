@@ -144,10 +144,7 @@ impl Sweeper<'_> {
                 self.effect(left, span, out);
                 self.changed = true;
             }
-            ExprKind::Call(callee, arguments) if self.is_idle_call(callee, &arguments) => {
-                self.forget_effect(expr);
-                self.changed = true;
-            }
+            // A call that gives a value alone was seen above, unless its arguments do something.
             _ => out.push(keep),
         }
     }
