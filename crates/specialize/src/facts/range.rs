@@ -272,7 +272,7 @@ mod tests {
         let unit = Range::between(-1.0, 1.0);
         assert!(unit.square().is_plus());
         assert!(!unit.mul(unit).is_plus());
-        assert_eq!(Range::point(0.0).add(Range::between(-0.0, 1.0)).negative_zero, false);
+        assert!(!Range::point(0.0).add(Range::between(-0.0, 1.0)).negative_zero);
     }
 
     #[test]
