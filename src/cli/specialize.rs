@@ -2,14 +2,14 @@
 //!
 //! *Holds:* the names of all outputs are known before anything is written; equal residuals are written once.
 
-use super::args::{ConventionArgs, LevelArgs, SourceArgs};
+use super::args::{ContractArgs, ConventionArgs, LevelArgs, SourceArgs};
 use super::compile::target_words;
 use super::console::Console;
 use super::exit::{Exit, Failure, Outcome};
 use super::files;
 use super::progress::Progress;
 use super::scenes::{DrawError, MachineArgs, Read, SceneArgs};
-use crate::specialize::{Account, SpecializedScene, account, specialize_scene};
+use crate::specialize::{Account, PictureError, SpecializedScene, account, specialize_scene_by};
 use clap::Args;
 use glisten_emit::{self as emit, Conventions, Target};
 use glisten_front::hir::Stage;
@@ -33,6 +33,8 @@ pub(super) struct SpecializeArgs {
     /// Write nothing, and tell whether anything can be left out
     #[arg(long)]
     check: bool,
+    #[command(flatten)]
+    contract: ContractArgs,
     /// The target to write (repeatable; default: wgsl and spirv)
     #[arg(long = "target", value_name = "TARGET", value_parser = target_words())]
     targets: Vec<Target>,
@@ -147,7 +149,8 @@ fn specialized(
     residuals: &mut Residuals,
 ) -> Result<Result<Done, Exit>, Failure> {
     check_dynamic(args, &read.scene)?;
-    let specialized = specialize_scene(&read.scene, read.sources(), &args.dynamic);
+    let contract = args.contract.contract();
+    let specialized = specialize_scene_by(contract, &read.scene, read.sources(), &args.dynamic);
     let mut names = Vec::new();
     for (draw, (left, done)) in read.scene.draws.iter().zip(specialized.scene.draws.iter().zip(&specialized.draws)) {
         if let Some(fault) = &done.fault {
@@ -286,6 +289,36 @@ fn table(account: &Account) -> String {
             before.vertex_operations + before.fragment_operations,
             after.vertex_operations + after.fragment_operations,
         ));
+        let of = format!("{}: {}", account.scene, draw.residual);
+        if let Some(moves) = &draw.move_to_vertex {
+            for moved in &moves.moved {
+                let place = format!("{}:{}", moved.file, moved.line);
+                text.push_str(&format!("{of}: `{}` moved to the vertex stage, from {place}\n", moved.name));
+            }
+        }
+        // Both contracts are measured together: the picture is one.
+        let error = draw.fast_math.or_else(|| draw.move_to_vertex.as_ref().map(|moves| moves.error));
+        if let Some(error) = error.filter(|_| account.draws.len() > 1) {
+            text.push_str(&error_line(&of, &error));
+        }
+    }
+    if let Some(error) = account.fast_math.or(account.move_to_vertex) {
+        text.push_str(&error_line(&account.scene, &error));
     }
     text
+}
+
+/// The error that the residual makes.
+fn error_line(of: &str, error: &PictureError) -> String {
+    let mut line = format!(
+        "{of}: max error {:.3e}, RMSE {:.3e}; to the truth {:.3e} -> {:.3e}",
+        error.max_abs, error.rmse, error.original.max_abs, error.residual.max_abs,
+    );
+    for (count, what) in [(error.non_finite, "no longer finite, or not before"), (error.coverage_mismatch, "covered by one alone")] {
+        if count > 0 {
+            line.push_str(&format!("; {count} pixels {what}"));
+        }
+    }
+    line.push('\n');
+    line
 }
