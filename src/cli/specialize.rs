@@ -9,11 +9,14 @@ use super::exit::{Exit, Failure, Outcome};
 use super::files;
 use super::progress::Progress;
 use super::scenes::{DrawError, MachineArgs, Read, SceneArgs};
-use crate::specialize::{Account, PictureError, SpecializedScene, account, specialize_scene_by};
+use crate::account::{PAGE, SceneOnPage, page};
+use crate::specialize::{Account, PictureError, Pictures, SpecializedScene, account, pictures, specialize_scene_by};
 use clap::Args;
 use glisten_emit::{self as emit, Conventions, Target};
 use glisten_front::hir::Stage;
 use glisten_front::link::Program;
+use glisten_front::source::SourceMap;
+use glisten_reference::Precision;
 use glisten_scene::{Scene, ShaderFiles, write};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -55,6 +58,8 @@ struct Done {
     /// The original.
     scene: Scene,
     specialized: SpecializedScene,
+    /// The texts of the original.
+    sources: SourceMap,
     /// For each draw the files of the original's shaders and the stem of the residual.
     names: Vec<[String; 3]>,
 }
@@ -115,12 +120,14 @@ pub(super) fn run(args: &SpecializeArgs, console: &Console) -> Outcome {
         write_residual(args, &folder, stem, texts, &residuals, (&conventions, console))?;
     }
     let mut programs: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    let mut drawn = Vec::new();
     for one in &done {
-        exit = exit.max(write_scene(args, &folder, one, console)?);
+        drawn.push(write_scene(args, &folder, one, console)?);
         programs.insert(one.name.clone(), one.names.iter().map(|[_, _, stem]| stem.clone()).collect());
     }
     let json = serde_json::to_string_pretty(&programs).expect("names are always JSON") + "\n";
     files::write(&folder.join("programs.json"), json.as_bytes())?;
+    write_page(&folder, &done, &drawn)?;
     console.remark(&format!("wrote {}", folder.display()));
     Ok(exit)
 }
@@ -167,7 +174,7 @@ fn specialized(
         };
         names.push([file(Stage::Vertex), file(Stage::Fragment), stem]);
     }
-    Ok(Ok(Done { name: stem(name), scene: read.scene.clone(), specialized, names }))
+    Ok(Ok(Done { name: stem(name), scene: read.scene.clone(), specialized, sources: read.sources().clone(), names }))
 }
 
 /// A name of `--dynamic` that no program of a scene has is a mistake.
@@ -246,7 +253,13 @@ fn write_residual(
     files::write(&folder.join(format!("{stem}.json")), json.as_bytes())
 }
 
-fn write_scene(args: &SpecializeArgs, folder: &Path, one: &Done, console: &Console) -> Outcome {
+/// Writes a scene and its account, which comes back with the pictures.
+fn write_scene(
+    args: &SpecializeArgs,
+    folder: &Path,
+    one: &Done,
+    console: &Console,
+) -> Result<(Account, Pictures), Failure> {
     let shaders: Vec<ShaderFiles> = one
         .names
         .iter()
@@ -256,15 +269,18 @@ fn write_scene(args: &SpecializeArgs, folder: &Path, one: &Done, console: &Conso
     files::write(&folder.join(format!("{}.toml", one.name)), text.as_bytes())?;
     let (name, scene) = (one.name.clone(), one.scene.clone());
     let (specialized, names) = (one.specialized.clone(), one.names.clone());
-    let counted = args.machine.within_time(move || Ok(account(&name, &scene, &specialized, &names)?));
+    let counted = args.machine.within_time(move || {
+        let drawn = pictures(&scene, &specialized.scene, Precision::F32)?;
+        Ok((account(&name, &scene, &specialized, &names)?, drawn))
+    });
     match counted {
-        Ok(account) => {
+        Ok((account, pictures)) => {
             let json = serde_json::to_string_pretty(&account).expect("an account is always JSON") + "\n";
             files::write(&folder.join(format!("{}.account.json", one.name)), json.as_bytes())?;
             if !console.is_quiet() {
                 console.output(&table(&account))?;
             }
-            Ok(Exit::Ok)
+            Ok((account, pictures))
         }
         Err(DrawError::Failure(failure)) => Err(failure),
         Err(DrawError::Diagnostics(found)) => {
@@ -272,6 +288,23 @@ fn write_scene(args: &SpecializeArgs, folder: &Path, one: &Done, console: &Conso
             Err(Failure::new(Exit::Content, format!("`{}` cannot be drawn: {message}", one.name)))
         }
     }
+}
+
+/// Writes the page of all scenes.
+fn write_page(folder: &Path, done: &[Done], drawn: &[(Account, Pictures)]) -> Result<(), Failure> {
+    let scenes: Vec<SceneOnPage<'_>> = done
+        .iter()
+        .zip(drawn)
+        .map(|(one, (account, pictures))| SceneOnPage {
+            account,
+            scene: &one.scene,
+            sources: &one.sources,
+            specialized: &one.specialized,
+            pictures,
+        })
+        .collect();
+    let page = page(&scenes).map_err(|message| Failure::new(Exit::Content, format!("internal error: {message}")))?;
+    files::write(&folder.join(PAGE), page.as_bytes())
 }
 
 /// The work before and after, a line a draw.

@@ -49,9 +49,12 @@ struct Apart {
 }
 
 /// The pictures of a scene and of what is left of it.
-pub(super) struct Pictures {
-    pub(super) original: Picture,
-    pub(super) residual: Picture,
+#[derive(Clone, Debug)]
+pub struct Pictures {
+    /// The picture of the original.
+    pub original: Picture,
+    /// The picture of the residual.
+    pub residual: Picture,
 }
 
 /// Options for a picture in a precision.
@@ -63,7 +66,7 @@ pub(super) fn options(precision: Precision) -> RenderOptions {
 ///
 /// # Errors
 /// What the reference cannot do.
-pub(super) fn pictures(original: &Scene, residual: &Scene, precision: Precision) -> Result<Pictures, Vec<Diagnostic>> {
+pub fn pictures(original: &Scene, residual: &Scene, precision: Precision) -> Result<Pictures, Vec<Diagnostic>> {
     let options = options(precision);
     Ok(Pictures { original: render(original, &options)?, residual: render(residual, &options)? })
 }

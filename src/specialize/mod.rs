@@ -27,7 +27,7 @@ pub use glisten_specialize::Options as SpecializeOptions;
 #[cfg(feature = "reference")]
 pub use account::{Account, DrawAccount, Entry, Figures, Moves, MovedEntry, account, spirv_instructions};
 #[cfg(feature = "reference")]
-pub use error::{Distance, PictureError, picture_error};
+pub use error::{Distance, PictureError, Pictures, picture_error, pictures};
 #[cfg(feature = "reference")]
 pub use known::known;
 #[cfg(feature = "reference")]

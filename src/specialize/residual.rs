@@ -7,7 +7,7 @@
 use super::known::{known, leaf_values};
 use glisten_front::hir::{ScalarValue, Stage};
 use glisten_front::link::Program;
-use glisten_front::source::SourceMap;
+use glisten_front::source::{SourceMap, Span};
 use glisten_scene::{AttributeData, AttributeValues, Draw, Scene};
 use glisten_specialize::{LeftOut, Moved, Options, Residual, specialize_with};
 use std::sync::Arc;
@@ -44,6 +44,8 @@ pub struct SpecializedScene {
 pub struct SpecializedDraw {
     /// The residual's texts, by stage.
     pub texts: Vec<(Stage, String)>,
+    /// For each line of each text the place in the original that it comes from.
+    pub lines: Vec<(Stage, Vec<Span>)>,
     /// What was left out.
     pub left_out: Vec<LeftOut>,
     /// What moved to the vertex stage.
@@ -58,6 +60,11 @@ impl SpecializedDraw {
     /// The text of a stage.
     pub fn text(&self, stage: Stage) -> &str {
         self.texts.iter().find(|(of, _)| *of == stage).map_or("", |(_, text)| text)
+    }
+
+    /// The places in the original that the lines of a stage's text come from.
+    pub fn places(&self, stage: Stage) -> &[Span] {
+        self.lines.iter().find(|(of, _)| *of == stage).map_or(&[], |(_, lines)| lines)
     }
 }
 
@@ -85,6 +92,7 @@ pub fn specialize_scene_by(
         let known = known(draw, &scene.framebuffer, dynamic);
         let Residual { stages, program, left_out, moved, sources, fault } =
             specialize_with(&draw.program, &known, &options);
+        let lines = stages.iter().map(|stage| (stage.stage, stage.lines.clone())).collect();
         let texts: StageTexts = stages.into_iter().map(|stage| (stage.stage, stage.text)).collect();
         let program = match residuals.iter().find(|(known, other)| *known == texts && alike(other, &program)) {
             Some((_, program)) => Arc::clone(program),
@@ -95,7 +103,7 @@ pub fn specialize_scene_by(
             }
         };
         result.draws.push(rebound(draw, program, dynamic));
-        draws.push(SpecializedDraw { texts, left_out, moved, sources, fault });
+        draws.push(SpecializedDraw { texts, lines, left_out, moved, sources, fault });
     }
     SpecializedScene { contract, scene: result, draws }
 }

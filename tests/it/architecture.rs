@@ -56,6 +56,7 @@ static ORDER: &[(&str, &[&str])] = &[
             "specialize",
             "gallery",
             "report",
+            "account",
             "cli",
             "main",
         ],

@@ -7,7 +7,7 @@ use crate::prune::{self, Pruned};
 use crate::settle::{self, Demand, Demands, Settled};
 use crate::{fast, inputs, motion, text};
 use glisten_front::builtin::BuiltinVariable;
-use glisten_front::hir::{GlobalId, Shader, Stage, Storage};
+use glisten_front::hir::{GlobalId, Shader, Stage, Storage, Types};
 use glisten_front::source::{SourceMap, Span};
 use glisten_front::{Compiler, Program, Source};
 
@@ -62,6 +62,15 @@ pub struct ResidualStage {
     pub stage: Stage,
     /// GLSL 1.50.
     pub text: String,
+    /// For each line of the text the place in the original that it comes from; unknown for closing braces and their like.
+    pub lines: Vec<Span>,
+}
+
+impl ResidualStage {
+    fn of(types: &Types, shader: &Shader, sources: Option<&SourceMap>) -> Self {
+        let (text, lines) = text::write(types, shader, sources);
+        Self { stage: shader.stage, text, lines }
+    }
 }
 
 impl Residual {
@@ -123,12 +132,8 @@ pub fn specialize_with(program: &Program, known: &Known, options: &Options<'_>) 
         pruned.push((prune::prune(&program.types, settled, &live), live));
         walked.push((Stage::Vertex, stage));
     }
-    let residual = assemble(program, known, options, walked, pruned);
-    if residual.fault.is_some() {
-        return residual;
-    }
-    let moved = moved.into_iter().map(|one| described(one, options.sources)).collect();
-    Residual { moved, ..residual }
+    let moved: Vec<Moved> = moved.into_iter().map(|one| described(one, options.sources)).collect();
+    assemble(program, known, options, walked, pruned, moved)
 }
 
 /// A move with its text and place.
@@ -207,6 +212,7 @@ fn assemble(
     options: &Options<'_>,
     walked: Vec<(Stage, Walked)>,
     mut pruned: Vec<(Pruned, Vec<bool>)>,
+    moved: Vec<Moved>,
 ) -> Residual {
     let mut types = program.types.clone();
     prune::finish(&mut types, &mut pruned);
@@ -215,12 +221,12 @@ fn assemble(
     shaders.sort_by_key(|shader| shader.stage);
     let stages: Vec<ResidualStage> = shaders
         .iter()
-        .map(|shader| ResidualStage { stage: shader.stage, text: text::write(&types, shader, options.sources) })
+        .map(|shader| ResidualStage::of(&types, shader, options.sources))
         .collect();
     match read_back(program, &stages) {
         Ok((left, sources)) => {
-            let left_out = account::left_out(program, known, options, &walked, (&shaders, &left.interface));
-            Residual { stages, program: left, sources, left_out, moved: Vec::new(), fault: None }
+            let left_out = account::left_out(program, known, options, &walked, &moved, (&shaders, &left.interface));
+            Residual { stages, program: left, sources, left_out, moved, fault: None }
         }
         Err(fault) => Residual { fault: Some(fault), ..whole(program, options) },
     }
@@ -262,7 +268,7 @@ fn whole(program: &Program, options: &Options<'_>) -> Residual {
     let stages = program
         .stages
         .iter()
-        .map(|shader| ResidualStage { stage: shader.stage, text: text::write(&program.types, shader, options.sources) })
+        .map(|shader| ResidualStage::of(&program.types, shader, options.sources))
         .collect();
     let sources = options.sources.cloned().unwrap_or_default();
     Residual { stages, program: program.clone(), sources, left_out: Vec::new(), moved: Vec::new(), fault: None }

@@ -35,18 +35,22 @@ pub(super) struct Affine {
     nodes: u32,
 }
 
-/// The locals that are names for one expression: assigned where they are declared and nowhere else.
-pub(super) type Names = FxHashMap<(FunctionId, LocalId), ExprId>;
+/// A local of a function.
+pub(super) type LocalName = (FunctionId, LocalId);
+
+/// The locals that are names for one expression, and the function that it is in: locals that are assigned where they are
+/// declared and nowhere else, parameters that are never assigned of functions that are called from one place.
+pub(super) type Names = FxHashMap<LocalName, (FunctionId, ExprId)>;
 
 /// Those of a stage.
 pub(super) fn names(shader: &Shader) -> Names {
-    let mut names = Names::default();
+    let mut names = arguments(shader);
     for (id, function) in shader.functions() {
         let body = function.body.as_deref().unwrap_or(&[]);
         let mut several: FxHashSet<LocalId> = FxHashSet::default();
         let mut see = |stmt: &Stmt| match &stmt.kind {
             StmtKind::Local(local, Some(value)) if function.local(*local).kind == LocalKind::Variable => {
-                if names.insert((id, *local), *value).is_some() {
+                if names.insert((id, *local), (id, *value)).is_some() {
                     several.insert(*local);
                 }
             }
@@ -68,6 +72,29 @@ pub(super) fn names(shader: &Shader) -> Names {
     names
 }
 
+/// The arguments of functions that are called from one place.
+fn arguments(shader: &Shader) -> Names {
+    let mut calls: FxHashMap<FunctionId, Vec<(FunctionId, ExprId)>> = FxHashMap::default();
+    for (id, function) in shader.functions() {
+        shader.visit_body(function.body.as_deref().unwrap_or(&[]), &mut |expr| {
+            if let ExprKind::Call(callee, _) = shader.expr(expr).kind {
+                calls.entry(callee).or_default().push((id, expr));
+            }
+        });
+    }
+    let mut names = Names::default();
+    for (callee, function) in shader.functions() {
+        let Some([(caller, call)]) = calls.get(&callee).map(Vec::as_slice) else { continue };
+        let ExprKind::Call(_, arguments) = &shader.expr(*call).kind else { continue };
+        for (index, argument) in arguments.iter().enumerate().take(function.param_count) {
+            if crate::forward::is_in(function.param_mode(index)) {
+                names.insert((callee, LocalId::new(index)), (*caller, *argument));
+            }
+        }
+    }
+    names
+}
+
 /// The degrees of a stage's expressions, by their numbers.
 pub(super) struct Degrees<'a> {
     types: &'a Types,
@@ -81,7 +108,10 @@ impl<'a> Degrees<'a> {
     /// Those of all expressions that the functions' bodies have.
     pub(super) fn of(types: &'a Types, shader: &'a Shader, links: &'a Links, names: &'a Names) -> Self {
         let mut degrees = Self { types, shader, links, names, known: vec![None; shader.exprs.len()] };
-        for (id, function) in shader.functions() {
+        // Callers first: an argument is known before what is done with it.
+        let functions = shader.main.map(|main| shader.callees_first(main)).unwrap_or_default();
+        for id in functions.into_iter().rev() {
+            let function = shader.function(id);
             let mut order = Vec::new();
             shader.visit_body(function.body.as_deref().unwrap_or(&[]), &mut |expr| order.push(expr));
             // Operands have smaller numbers; so has what a local was declared with.
@@ -107,7 +137,7 @@ impl<'a> Degrees<'a> {
         match &expr.kind {
             ExprKind::Literal(_) => leaf(None),
             ExprKind::Var(VarRef::Local(local)) => {
-                let affine = self.get(*self.names.get(&(function, *local))?)?;
+                let affine = self.get(self.names.get(&(function, *local))?.1)?;
                 Some(Affine { operations: 0, ..affine })
             }
             ExprKind::Var(VarRef::Global(global)) => match self.shader.global(*global).storage {

@@ -123,9 +123,9 @@ pub(super) fn apply(
         fragment.shader.globals.push(Global { storage: Storage::In, ..global });
         // No global of the original is behind it.
         fragment.globals.push(GlobalId::new(u32::MAX as usize));
-        for (function, id, local) in &candidate.places {
+        for (_, id, local) in &candidate.places {
             replace(&mut fragment.shader, *id, input);
-            if let Some(local) = local {
+            if let Some((function, local)) = local {
                 replace_local(&mut fragment.shader, *function, *local, input);
             }
         }
@@ -172,8 +172,8 @@ fn replace_local(shader: &mut Shader, function: FunctionId, local: LocalId, inpu
 
 /// A name that says where the value comes from.
 fn name(types: &Types, candidate: &Candidate, fragment: &Shader, vertex: &Shader, moved: &[Move]) -> String {
-    let local = candidate.places.iter().find_map(|(function, _, local)| {
-        local.map(|local| fragment.function(*function).local(local).name.clone())
+    let local = candidate.places.iter().find_map(|(_, _, local)| {
+        local.map(|(function, local)| fragment.function(function).local(local).name.clone())
     });
     let varying = candidate.base.map(|id| fragment.global(id).name.clone());
     let wanted = local.or_else(|| varying.map(|name| format!("{name}_affine"))).unwrap_or_else(|| "affine".into());
@@ -212,8 +212,11 @@ impl Copy<'_> {
         let Expr { mut kind, ty, span } = self.from.expr(id).clone();
         match &mut kind {
             ExprKind::Var(VarRef::Local(local)) => {
-                if let Some(value) = self.candidates.names.get(&(self.function, *local)) {
-                    return self.expr(*value);
+                if let Some((function, value)) = self.candidates.names.get(&(self.function, *local)) {
+                    let here = std::mem::replace(&mut self.function, *function);
+                    let copy = self.expr(*value);
+                    self.function = here;
+                    return copy;
                 }
             }
             ExprKind::Var(VarRef::Global(global)) => *global = self.global(*global),

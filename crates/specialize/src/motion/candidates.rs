@@ -3,7 +3,7 @@
 //! *In:* a fragment stage and the degrees of its expressions. *Out:* candidates in the order of the text; equal ones are one.
 //! *Holds:* a candidate computes something, or is the value of a local: a varying that is only taken apart stays where it is.
 
-use super::affine::{self, Degrees, Names};
+use super::affine::{self, Degrees, LocalName, Names};
 use super::apply::Links;
 use glisten_front::hir::{
     ExprId, ExprKind, FunctionId, GlobalId, LocalId, Scalar, Shader, Stmt, StmtKind, Storage, Type, Types, VarRef,
@@ -12,14 +12,11 @@ use rustc_hash::FxHashMap;
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-/// A local of a function.
-pub(super) type LocalName = (FunctionId, LocalId);
-
 /// An expression that may move, in all places where it is.
 #[derive(Clone, Debug)]
 pub(super) struct Candidate {
     /// The expressions, each with its function and the local that it is the value of.
-    pub(super) places: Vec<(FunctionId, ExprId, Option<LocalId>)>,
+    pub(super) places: Vec<(FunctionId, ExprId, Option<LocalName>)>,
     /// Operations on scalars that all places execute together.
     pub(super) operations: u32,
     /// Scalars of its value.
@@ -72,8 +69,10 @@ impl Candidates {
             list: Vec::new(),
             open: Needs::default(),
         };
-        for (id, function) in shader.functions() {
-            search.body(id, function.body.as_deref().unwrap_or(&[]));
+        // Callers first, so that what gives a local its value is before all that names it.
+        let functions = shader.main.map(|main| shader.callees_first(main)).unwrap_or_default();
+        for id in functions.into_iter().rev() {
+            search.body(id, shader.function(id).body.as_deref().unwrap_or(&[]));
         }
         let (list, open) = (search.list, search.open);
         let inputs = shader.globals().filter(|(_, global)| global.storage == Storage::In && global.builtin.is_none());
@@ -84,18 +83,17 @@ impl Candidates {
 
 impl Search<'_> {
     fn body(&mut self, function: FunctionId, body: &[Stmt]) {
-        let mut roots: Vec<(ExprId, Option<LocalId>)> = Vec::new();
+        let mut roots: Vec<(ExprId, Option<LocalName>)> = Vec::new();
         self.shader.visit_statements(body, &mut |stmt| {
-            let local = if let StmtKind::Local(local, _) = stmt.kind { Some(local) } else { None };
+            let local = if let StmtKind::Local(local, _) = stmt.kind { Some((function, local)) } else { None };
             roots.extend(stmt.kind.exprs().into_iter().map(|expr| (expr, local)));
         });
         for (root, local) in roots {
-            let named = local.filter(|local| self.names.contains_key(&(function, *local)));
-            self.expr(function, root, named);
+            self.expr(function, root, local.filter(|local| self.names.contains_key(local)));
         }
     }
 
-    fn expr(&mut self, function: FunctionId, root: ExprId, local: Option<LocalId>) {
+    fn expr(&mut self, function: FunctionId, root: ExprId, local: Option<LocalName>) {
         let mut pending = vec![(root, local)];
         while let Some((id, local)) = pending.pop() {
             if self.may_move(id, local.is_some()) {
@@ -108,6 +106,13 @@ impl Search<'_> {
                 }
                 ExprKind::Var(VarRef::Local(named)) => {
                     self.open.locals.insert((function, *named));
+                }
+                ExprKind::Call(callee, arguments) => {
+                    let params = arguments.iter().enumerate().rev();
+                    pending.extend(params.map(|(index, argument)| {
+                        let param = (*callee, LocalId::new(index));
+                        (*argument, Some(param).filter(|param| self.names.contains_key(param)))
+                    }));
                 }
                 kind => pending.extend(kind.children().into_iter().rev().map(|child| (child, None))),
             }
@@ -123,7 +128,7 @@ impl Search<'_> {
         vector && self.degrees.get(id).is_some_and(|affine| affine.kind.is_some() && (of_local || affine.operations > 0))
     }
 
-    fn candidate(&mut self, function: FunctionId, id: ExprId, local: Option<LocalId>) {
+    fn candidate(&mut self, function: FunctionId, id: ExprId, local: Option<LocalName>) {
         let Some(affine) = self.degrees.get(id) else { return };
         let mut text = String::new();
         text_of(self.shader, self.names, function, id, &mut text);
@@ -145,14 +150,14 @@ impl Search<'_> {
 
 impl Search<'_> {
     fn base(&self, function: FunctionId, root: ExprId) -> Option<GlobalId> {
-        let mut pending = vec![root];
-        while let Some(id) = pending.pop() {
+        let mut pending = vec![(function, root)];
+        while let Some((function, id)) = pending.pop() {
             match &self.shader.expr(id).kind {
                 ExprKind::Var(VarRef::Global(global)) if self.shader.global(*global).storage == Storage::In => {
                     return Some(*global);
                 }
                 ExprKind::Var(VarRef::Local(local)) => pending.extend(self.names.get(&(function, *local))),
-                kind => pending.extend(kind.children().into_iter().rev()),
+                kind => pending.extend(kind.children().into_iter().rev().map(|child| (function, child))),
             }
         }
         None
@@ -178,8 +183,8 @@ fn text_of(shader: &Shader, names: &Names, function: FunctionId, id: ExprId, tex
     let expr = shader.expr(id);
     let _ = match &expr.kind {
         ExprKind::Var(VarRef::Local(local)) => {
-            if let Some(value) = names.get(&(function, *local)) {
-                text_of(shader, names, function, *value, text);
+            if let Some((function, value)) = names.get(&(function, *local)) {
+                text_of(shader, names, *function, *value, text);
                 return;
             }
             write!(text, "{function:?} {local:?}")

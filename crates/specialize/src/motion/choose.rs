@@ -3,7 +3,8 @@
 //! *In:* candidates. *Out:* the numbers of those that move. *Holds:* what is chosen leaves fewer operations and varyings,
 //! weighed together, than without it; no more than [`MOST_VARYINGS`] are added.
 
-use super::candidates::{Candidates, LocalName};
+use super::affine::LocalName;
+use super::candidates::Candidates;
 use glisten_front::hir::GlobalId;
 use std::collections::BTreeSet;
 
@@ -94,10 +95,7 @@ impl Needed {
     /// Whether a candidate is anything but the value of locals that nobody reads.
     fn is_needed(&self, candidates: &Candidates, index: usize) -> bool {
         candidates.list.get(index).is_some_and(|candidate| {
-            candidate.places.iter().any(|(function, _, local)| match local {
-                Some(local) => self.locals.contains(&(*function, *local)),
-                None => true,
-            })
+            candidate.places.iter().any(|(_, _, local)| local.is_none_or(|local| self.locals.contains(&local)))
         })
     }
 }
