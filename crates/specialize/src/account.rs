@@ -198,6 +198,9 @@ impl Account<'_> {
                     Some(Reason::Unrolled(0)) => "it never runs".to_owned(),
                     Some(Reason::Unrolled(1)) => "it runs once".to_owned(),
                     Some(Reason::Unrolled(rounds)) if inside(body) => format!("it runs {rounds} times, written out"),
+                    Some(Reason::UnrolledUpTo(rounds)) if inside(body) => {
+                        format!("it runs at most {rounds} times, written out")
+                    }
                     _ => "nobody reads what it computes".to_owned(),
                 };
                 let line = self.line(stmt.span);

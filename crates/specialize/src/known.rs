@@ -58,4 +58,8 @@ pub struct KnownState {
     pub vertices: Option<u32>,
     /// `gl_InstanceID` is below this.
     pub instances: Option<u32>,
+    /// How far interpolated values may lie beyond the values at the vertices, in multiples of the distance between the least
+    /// and the greatest of these. Nothing is known of interpolated values without it: a triangle that is thinner than the
+    /// grid of positions may be interpolated far beyond its vertices.
+    pub interpolation_reach: Option<f64>,
 }

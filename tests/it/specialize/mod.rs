@@ -1,6 +1,7 @@
 //! Specialized scenes draw the same pictures, byte for byte on the reference in f32.
 
-mod contracts;
+#[cfg(feature = "cli")]
+mod account;
 #[cfg(feature = "gpu")]
 mod random;
 mod rules;

@@ -57,6 +57,8 @@ pub(crate) enum Reason {
     Condition(ExprId, bool),
     /// The loop runs so many times and is written out.
     Unrolled(u32),
+    /// The loop runs at most so many times, as it may be left before, and is written out.
+    UnrolledUpTo(u32),
     /// The selector of a switch is known.
     Selector(ExprId),
 }
@@ -104,11 +106,11 @@ struct Frame {
 enum Target {
     /// A loop or switch that is kept.
     Kept { is_loop: bool },
-    /// One that is written out, and how many open branches it stands in.
-    Flat { is_loop: bool, forks: usize },
+    /// One that is written out, how many open branches it is in, and the jumps under open conditions that may stay in it.
+    Flat { is_loop: bool, forks: usize, open: Option<Jump> },
 }
 
-/// A jump that is taken for sure.
+/// A jump out of an iteration or a loop.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Jump {
     Break,
@@ -137,6 +139,12 @@ pub(crate) struct Forward<'a> {
     jump: Option<Jump>,
     /// A loop or switch that is being written out cannot be.
     failed: bool,
+    /// The jump under an open condition because of which it failed.
+    blocked: Option<Jump>,
+    /// What was changed at each jump that stays in a loop that is being written out.
+    leaving: Vec<Changes>,
+    /// Where the journal stood when the innermost loop with such jumps began, or its iteration.
+    leaving_since: Mark,
     /// Expressions that may still be written for loops and clones.
     fuel: u64,
     /// Expressions written so far of which something is open.
@@ -188,6 +196,9 @@ impl<'a> Forward<'a> {
             forks: 0,
             jump: None,
             failed: false,
+            blocked: None,
+            leaving: Vec::new(),
+            leaving_since: Mark::default(),
             fuel: shader.exprs.len() as u64 * 6 + 20_000,
             weight: 0,
             fast: false,

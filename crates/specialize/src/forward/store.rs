@@ -15,7 +15,7 @@ pub(super) struct Key(pub(super) u32);
 pub(super) type Cell = Rc<Vec<Fact>>;
 
 /// A place in the journal.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Mark(usize);
 
 /// What was changed since a mark.
