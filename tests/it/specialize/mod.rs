@@ -4,6 +4,7 @@
 mod account;
 #[cfg(feature = "gpu")]
 mod random;
+mod reach;
 mod rules;
 
 use glisten::Compiler;
