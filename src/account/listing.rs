@@ -241,22 +241,14 @@ impl Listing<'_> {
     }
 
     /// A line of the original that no line of the residual is next to.
-    fn alone(
-        &self,
-        title: &str,
-        left: &[Place],
-        index: usize,
-        kept: &BTreeSet<usize>,
-        comments: &mut Comments,
-    ) -> Row {
+    fn alone(&self, title: &str, left: &[Place], index: usize, kept: &BTreeSet<usize>, comments: &mut Comments) -> Row {
         let Some(place) = left.get(index).copied() else { return Row::default() };
         let text = self.text(place);
         let code = comments.html(text);
         let trimmed = text.trim();
         let nothing = trimmed.is_empty() || trimmed.starts_with("//") || trimmed.chars().all(|c| "{}();".contains(c));
         let unnamed = || Some("nothing that is left names it".to_owned()).filter(|_| title == DECLARATIONS);
-        let because =
-            if kept.contains(&index) || nothing { None } else { self.reason(place, text).or_else(unnamed) };
+        let because = if kept.contains(&index) || nothing { None } else { self.reason(place, text).or_else(unnamed) };
         let class = if because.is_some() { "gone" } else { "plain" };
         Row { class, number: Some(place.1), left: Some(code), because, ..Row::default() }
     }

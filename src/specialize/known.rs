@@ -192,12 +192,12 @@ fn known_texture(texture: &Texture) -> KnownTexture {
                 (D1, false) => Some([level.width, 1, 1]),
                 (D2 | Cube | Rect, _) => Some([level.width, level.height, 1]),
                 (D3, _) => Some([level.width, level.height, level.depth]),
-                // How many samples or rows stand behind the numbers is the target's.
+                // The target decides how many samples or rows there are.
                 (Buffer | Multisample, _) => None,
             }
         })
         .collect::<Option<Vec<_>>>();
-    // What a comparison gives hangs on the reference.
+    // The result of a comparison depends on its reference value.
     let channels = if kind.shadow { [Input::Between(0.0, 1.0); 4] } else { channels(texture) };
     KnownTexture { sizes: sizes.unwrap_or_default(), channels }
 }

@@ -18,14 +18,14 @@ mod known;
 mod residual;
 
 pub use glisten_front::hir::ScalarValue;
+/// Options of [`specialize_with`].
+pub use glisten_specialize::Options as SpecializeOptions;
 pub use glisten_specialize::{
     Input, Kind, Known, KnownState, KnownTexture, LeftOut, Moved, Residual, specialize, specialize_with,
 };
-/// Options of [`specialize_with`].
-pub use glisten_specialize::Options as SpecializeOptions;
 
 #[cfg(feature = "reference")]
-pub use account::{Account, DrawAccount, Entry, Figures, Moves, MovedEntry, account, spirv_instructions};
+pub use account::{Account, DrawAccount, Entry, Figures, MovedEntry, Moves, account, spirv_instructions};
 #[cfg(feature = "reference")]
 pub use error::{Distance, PictureError, Pictures, picture_error, pictures};
 #[cfg(feature = "reference")]

@@ -83,7 +83,8 @@ pub fn specialize_scene_by(
     sources: &SourceMap,
     dynamic: &[String],
 ) -> SpecializedScene {
-    let options = Options { sources: Some(sources), fast_math: contract.fast_math, move_to_vertex: contract.move_to_vertex };
+    let options =
+        Options { sources: Some(sources), fast_math: contract.fast_math, move_to_vertex: contract.move_to_vertex };
     let mut draws = Vec::with_capacity(scene.draws.len());
     let mut residuals: Vec<(StageTexts, Arc<Program>)> = Vec::new();
     let mut result = scene.clone();

@@ -21,8 +21,8 @@ use domain::faults::Faults;
 use domain::{Envelope, F32, F64};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::source::Span;
-use glisten_scene::{Draw, Framebuffer, Scene};
 use glisten_scene::picture::Picture;
+use glisten_scene::{Draw, Framebuffer, Scene};
 
 /// The precision of the reference's numbers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]

@@ -89,7 +89,7 @@ fn uniforms(program: &Program, stage: Stage, known: &Known, facts: &mut [Vec<Fac
     }
 }
 
-/// What is known of each sampler slot's texture.
+/// The known texture of each sampler slot.
 pub(super) fn textures(program: &Program, known: &Known) -> Vec<Option<KnownTexture>> {
     program.interface.samplers.iter().map(|slot| known.textures.get(&slot.name).cloned()).collect()
 }
@@ -111,7 +111,7 @@ fn outside(input: Input) -> Fact {
     }
 }
 
-/// What is the same at all vertices is known, since equal values are interpolated to that very value. Others are in the
+/// Facts of varyings. One that is the same at all vertices is known, since equal values are interpolated to that very value. Others are in the
 /// range of the values at the vertices, extended by `reach`; without it nothing is said of them.
 fn varyings(program: &Program, ends: &[Facts], reach: Option<f64>, facts: &mut [Vec<Fact>]) {
     for varying in &program.interface.varyings {

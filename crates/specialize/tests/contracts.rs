@@ -146,7 +146,10 @@ fn what_is_affine_moves_to_the_vertex_stage() {
         let texts = format!("{body}\n{}\n{}", vertex.unwrap_or(""), fragment.unwrap_or(""));
         let found: Vec<&str> = residual.moved.iter().map(|one| one.name.as_str()).collect();
         assert_eq!(found, *names, "{texts}");
-        assert!(!fragment.is_some_and(|text| text.contains(gone)) && vertex.is_some_and(|text| text.contains(gone)), "{texts}");
+        assert!(
+            !fragment.is_some_and(|text| text.contains(gone)) && vertex.is_some_and(|text| text.contains(gone)),
+            "{texts}"
+        );
     }
 }
 
@@ -193,15 +196,20 @@ fn written(body: &str) -> String {
 
 #[test]
 fn a_short_loop_with_an_open_jump_is_written_out() {
-    let broken = written("float s = 0.0; for (int i = 0; i < 3; ++i) { if (s > v.x) break; s += v.y * float(i); } color = vec4(s);");
+    let broken = written(
+        "float s = 0.0; for (int i = 0; i < 3; ++i) { if (s > v.x) break; s += v.y * float(i); } color = vec4(s);",
+    );
     assert!(broken.contains("do {") && broken.contains("} while (false);") && broken.contains("break;"), "{broken}");
     assert!(!broken.contains("for (") && broken.contains("v.y * 2.0"), "{broken}");
-    let skipped =
-        written("float s = 0.0; for (int i = 0; i < 3; ++i) { if (v.x > float(i)) continue; s += v.y; } color = vec4(s);");
+    let skipped = written(
+        "float s = 0.0; for (int i = 0; i < 3; ++i) { if (v.x > float(i)) continue; s += v.y; } color = vec4(s);",
+    );
     assert!(skipped.contains("do {") && skipped.contains("continue;") && !skipped.contains("for ("), "{skipped}");
     assert!(skipped.contains("v.x > 2.0"), "{skipped}");
     // What is known after an iteration is what holds on all ways out of it.
-    let known = written("float s = 0.0; for (int i = 0; i < 2; ++i) { s = u; if (v.x > float(i)) break; s = 1.0; } color = vec4(s, u, s, s);");
+    let known = written(
+        "float s = 0.0; for (int i = 0; i < 2; ++i) { s = u; if (v.x > float(i)) break; s = 1.0; } color = vec4(s, u, s, s);",
+    );
     assert!(known.contains("vec4(s, 3.0, s, s)"), "{known}");
 }
 
@@ -225,7 +233,10 @@ fn a_uniform_array_ends_where_no_index_reaches() {
         let line = text.lines().find(|line| line.starts_with("uniform vec4")).unwrap_or_default().to_owned();
         line.chars().filter(char::is_ascii_digit).collect::<String>().trim_start_matches('4').to_owned()
     };
-    assert_eq!(size("color = vec4(0.0); for (int i = 0; i < 5; ++i) { for (int j = 0; j < 60; ++j) color += list[i] * v; }"), "5");
+    assert_eq!(
+        size("color = vec4(0.0); for (int i = 0; i < 5; ++i) { for (int j = 0; j < 60; ++j) color += list[i] * v; }"),
+        "5"
+    );
     assert_eq!(size("color = list[clamp(int(v.x), 0, 2)];"), "3");
     assert_eq!(size("color = list[int(gl_FragCoord.x) & 7];"), "8");
     // Nothing is known of these, or they may be negative, which is limited to the first element.

@@ -49,7 +49,12 @@ fn what_may_be_interpolated_beyond_its_vertices_does_not() {
     let thin = format!("-0.9, {row}, 0, 1,  0.9, {row}, 0, 1,  0.9, {}, 0, 1", row + 1e-4);
     let cases = [
         ("a thin triangle along a row of pixels", thin.as_str(), "triangles", ""),
-        ("positions that change from frame to frame", "-1, -1, 0, 1,  1, -1, 0, 1,  0, 1, 0, 1", "triangles", "\"turn\""),
+        (
+            "positions that change from frame to frame",
+            "-1, -1, 0, 1,  1, -1, 0, 1,  0, 1, 0, 1",
+            "triangles",
+            "\"turn\"",
+        ),
         ("a line", "-1, -1, 0, 1,  1, -1, 0, 1,  0, 1, 0, 1", "line_strip", ""),
         ("steep perspective", "-1, -1, 0, 1,  900, -900, 0, 900,  0, 2, 0, 2", "triangles", ""),
         ("a position that is not finite", "-1, -1, 0, 1,  1, -1, 0, 1,  0, nan, 0, 1", "triangles", ""),

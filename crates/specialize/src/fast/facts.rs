@@ -60,13 +60,7 @@ pub(crate) fn finite(types: &Types, ty: TypeId, facts: Facts) -> Facts {
 }
 
 /// The value of an operation on known operands.
-fn folded(
-    types: &Types,
-    like: &Shader,
-    operation: Operation,
-    operands: &[Operand<'_>],
-    ty: TypeId,
-) -> Option<Facts> {
+fn folded(types: &Types, like: &Shader, operation: Operation, operands: &[Operand<'_>], ty: TypeId) -> Option<Facts> {
     let mut shader = Shader::new(like.stage, like.version);
     let mut ids = Vec::with_capacity(operands.len());
     for (facts, ty) in operands {
@@ -97,7 +91,8 @@ fn folded(
 
 fn unsigned_zero(value: ScalarValue) -> ScalarValue {
     match value {
-        ScalarValue::Float(0.0) => ScalarValue::Float(0.0),
+        // -0 and 0 make 0; other numbers stay.
+        ScalarValue::Float(value) => ScalarValue::Float(value + 0.0),
         value => value,
     }
 }

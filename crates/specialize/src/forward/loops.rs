@@ -155,12 +155,12 @@ impl Forward<'_> {
         }
     }
 
-    /// How long a loop whose first round leaves so many expressions may become.
+    /// How long a loop whose first iteration leaves so many expressions may become.
     fn most(&self, first: u64) -> u64 {
         (first * 8).min(2400)
     }
 
-    /// Whether there is another round; `None` if that is open.
+    /// Whether there is another iteration; `None` if that is open.
     fn another(&mut self, parts: &Parts<'_>, out: &mut Vec<Stmt>) -> Option<bool> {
         let Some(condition) = parts.condition else { return Some(true) };
         let value = self.eval(condition.expr);
@@ -209,7 +209,7 @@ impl Forward<'_> {
             self.refine(condition.expr, true);
         }
         let body = self.statements(parts.body);
-        // Whatever way a round took, the variables that it assigns to were forgotten.
+        // Whatever path an iteration took, the variables that it assigns to were forgotten.
         let failed = self.failed;
         self.store.roll_back(mark);
         let after = if parts.kind == LoopKind::DoWhile { test(self) } else { None };

@@ -1,7 +1,7 @@
 //! The forward walk: evaluates a stage with what is known, and writes down what is left to do.
 //!
 //! *In:* a stage, and facts of its globals. *Out:* a [`Walked`] stage: the same program with decided branches gone, loops
-//! unrolled where that pays and functions cloned by what they are called with; beside each expression stands what is known
+//! unrolled where that pays and functions cloned by what they are called with; next to each expression is what is known
 //! of it, each variable still being read and written as it was. So it means the same as before, whatever is done with the
 //! facts later.
 //!
@@ -34,7 +34,7 @@ use store::{Changes, Key, Mark, Store};
 
 /// How deep calls are walked in one another.
 const DEEPEST: usize = 24;
-/// Facts of at most so many scalars are kept beside an expression.
+/// Facts of at most so many scalars are kept next to an expression.
 const NOTED: usize = 16;
 /// Of larger variables nothing is followed but what the scene fixes.
 const FOLLOWED: u32 = 1024;
@@ -50,7 +50,7 @@ pub(crate) struct Note {
     pub(crate) basic: bool,
 }
 
-/// Why something went: where it stood, and what decided it.
+/// Why something went: where it was, and what decided it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Reason {
     /// The condition is known to hold, or not to.
@@ -143,7 +143,7 @@ pub(crate) struct Forward<'a> {
     blocked: Option<Jump>,
     /// What was changed at each jump that stays in a loop that is being written out.
     leaving: Vec<Changes>,
-    /// Where the journal stood when the innermost loop with such jumps began, or its iteration.
+    /// The mark of the journal when the innermost loop with such jumps began, or its iteration.
     leaving_since: Mark,
     /// Expressions that may still be written for loops and clones.
     fuel: u64,

@@ -108,7 +108,7 @@ impl Forward<'_> {
         self.kept_switch(value.id, cases, span, out);
     }
 
-    /// The statements from the label that is hit to the `break`; `None` if a `break` hangs on what is open.
+    /// The statements from the label that is hit to the `break`; `None` if a `break` depends on what is open.
     fn flat_switch(&mut self, bits: u32, cases: &[Case]) -> Option<Vec<Stmt>> {
         let labelled = |label: CaseLabel| cases.iter().position(|case| case.labels.contains(&label));
         let Some(start) = labelled(CaseLabel::Value(bits)).or_else(|| labelled(CaseLabel::Default)) else {

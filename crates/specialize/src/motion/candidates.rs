@@ -37,7 +37,7 @@ pub(super) struct Needs {
 /// Those of a stage.
 pub(super) struct Candidates {
     pub(super) list: Vec<Candidate>,
-    /// What is named outside of all candidates.
+    /// The varyings and locals that are named outside of all candidates.
     pub(super) open: Needs,
     /// The scalars of each varying that may be among the needs.
     pub(super) varyings: Vec<(GlobalId, u32)>,
@@ -125,7 +125,8 @@ impl Search<'_> {
             Type::Scalar(scalar) | Type::Vector(scalar, _) => scalar == Scalar::Float,
             _ => false,
         };
-        vector && self.degrees.get(id).is_some_and(|affine| affine.kind.is_some() && (of_local || affine.operations > 0))
+        vector
+            && self.degrees.get(id).is_some_and(|affine| affine.kind.is_some() && (of_local || affine.operations > 0))
     }
 
     fn candidate(&mut self, function: FunctionId, id: ExprId, local: Option<LocalName>) {

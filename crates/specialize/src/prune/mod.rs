@@ -37,7 +37,7 @@ const ROUNDS: usize = 8;
 
 /// A pruned stage.
 pub(super) struct Pruned {
-    /// What is left.
+    /// The stage that is left.
     pub(super) shader: Shader,
     /// For each global of it the one of the original.
     pub(super) globals: Vec<GlobalId>,

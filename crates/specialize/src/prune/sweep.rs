@@ -53,7 +53,7 @@ impl Sweeper<'_> {
         out
     }
 
-    /// Puts what is left of a statement behind `out`, which runs backwards.
+    /// Appends what is left of a statement to `out`, which runs backwards.
     fn statement(&mut self, stmt: Stmt, out: &mut Vec<Stmt>) {
         let Stmt { kind, span } = stmt;
         match kind {
@@ -216,7 +216,7 @@ impl Sweeper<'_> {
         self.uses.value(self.types, self.shader, expr, -1, within);
     }
 
-    /// The same for an expression that stood alone.
+    /// Takes an expression that was a statement out of the counts.
     fn forget_effect(&mut self, expr: ExprId) {
         self.uses.effect(self.types, self.shader, expr, -1);
     }

@@ -18,7 +18,7 @@ use std::collections::BTreeMap;
 
 /// A settled stage.
 pub(crate) struct Settled {
-    /// What is left to do.
+    /// The stage that is left.
     pub(crate) shader: Shader,
     /// For each function of it the one that it comes from.
     pub(crate) origins: Vec<FunctionId>,
@@ -304,7 +304,7 @@ impl Writer<'_> {
         }
     }
 
-    /// What is assigned to stays what it is; its indices are settled.
+    /// An l-value stays what it is; its indices are settled.
     fn place(&mut self, id: ExprId) -> ExprId {
         let Expr { kind, ty, span } = self.walked.shader.expr(id).clone();
         let kind = match kind {
