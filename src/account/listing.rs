@@ -180,11 +180,14 @@ impl Listing<'_> {
         let mut reasons: Vec<&LeftOut> = self.left_out.iter().filter(covers).collect();
         reasons.sort_by_key(size);
         let first = reasons.first()?;
-        let others = reasons.iter().filter(|one| one.span == first.span).count();
-        Some(match others {
+        // Both stages may have the same file.
+        let names: BTreeSet<&str> =
+            reasons.iter().filter(|one| one.span == first.span).map(|one| one.name.as_str()).collect();
+        Some(match names.len() {
             1 if text.contains(&first.name) => first.because.clone(),
             1 => format!("{}: {}", first.name, first.because),
-            _ => format!("{}: {}; and {} other parts of it", first.name, first.because, others - 1),
+            2 => format!("{}: {}; and another part of it", first.name, first.because),
+            n_names => format!("{}: {}; and {} other parts of it", first.name, first.because, n_names - 1),
         })
     }
 
