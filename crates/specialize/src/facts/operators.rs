@@ -136,6 +136,9 @@ fn integer(op: BinaryOp, a: (i64, i64), b: (i64, i64), scalar: Scalar) -> What {
         BinaryOp::Rem if a.0 >= 0 && b.0 > 0 => (0, a.1.min(b.1 - 1)),
         BinaryOp::Div if a.0 >= 0 && b.0 > 0 => (a.0 / b.1, a.1 / b.0),
         BinaryOp::BitAnd if a.0 >= 0 && b.0 >= 0 => (0, a.1.min(b.1)),
+        // No bit is set that one of them lacks, its sign included.
+        BinaryOp::BitAnd if a.0 >= 0 => (0, a.1),
+        BinaryOp::BitAnd if b.0 >= 0 => (0, b.1),
         _ => return What::Any,
     };
     match scalar {

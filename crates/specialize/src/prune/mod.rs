@@ -6,6 +6,7 @@
 //! | --- | --- |
 //! | `uses` | counts who reads what |
 //! | `sweep` | stores that nobody reads, statements without effect |
+//! | `once` | loops that run once |
 //! | `overwritten` | stores that are overwritten first |
 //! | `declare` | declarations apart from their values |
 //! | `inline` | functions that are one short expression |
@@ -17,6 +18,7 @@ mod compact;
 mod declare;
 mod inline;
 mod merge;
+mod once;
 mod overwritten;
 mod sweep;
 mod trim;

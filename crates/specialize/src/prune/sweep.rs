@@ -3,12 +3,12 @@
 //! *In:* a stage and the outputs that somebody reads. *Out:* the same stage, shorter; whether anything went.
 //! *Holds:* bodies are walked from their ends, so that what only a removed statement read goes in the same sweep.
 
+use super::once;
 use super::uses::{Stored, Uses, reached, stored};
 use crate::forward::Effects;
 use glisten_front::builtin::BuiltinFunction;
 use glisten_front::hir::{
-    Condition, ExprId, ExprKind, FunctionId, GlobalId, LoopKind, ParamMode, ScalarValue, Shader, Stmt, StmtKind,
-    Storage, TypeId, Types, UnaryOp, VarRef,
+    ExprId, ExprKind, FunctionId, GlobalId, ParamMode, Shader, Stmt, StmtKind, Storage, TypeId, Types, UnaryOp, VarRef,
 };
 
 /// Sweeps a stage once. `live` says for each global whether somebody reads it when the stage has ended.
@@ -104,12 +104,17 @@ impl Sweeper<'_> {
                 }
             }
             StmtKind::Loop { kind, condition, step, body } => {
-                let body = self.body(body);
-                if self.runs_once(kind, condition.as_ref(), &body) {
-                    self.changed = true;
-                    // As a block it may be taken apart in the next sweep.
-                    out.push(Stmt { kind: StmtKind::Block(body), span });
-                    return;
+                let mut body = self.body(body);
+                if once::runs_once(self.shader, kind, condition.as_ref()) {
+                    match once::without_jumps(self.shader, body) {
+                        Ok(apart) => {
+                            self.changed = true;
+                            // As a block it may be taken apart in the next sweep.
+                            out.push(Stmt { kind: StmtKind::Block(apart), span });
+                            return;
+                        }
+                        Err(whole) => body = whole,
+                    }
                 }
                 let whole = StmtKind::Loop { kind, condition, step, body };
                 if self.is_idle(&whole) {
@@ -121,17 +126,6 @@ impl Sweeper<'_> {
             }
             kind => out.push(Stmt { kind, span }),
         }
-    }
-
-    /// Whether a loop is `do { ... } while (false)` that nothing leaves before its end.
-    fn runs_once(&self, kind: LoopKind, condition: Option<&Condition>, body: &[Stmt]) -> bool {
-        let Some(Condition { expr, .. }) = condition.filter(|_| kind == LoopKind::DoWhile) else { return false };
-        let never = matches!(self.shader.expr(*expr).kind, ExprKind::Literal(ScalarValue::Bool(false)));
-        let mut leaves = false;
-        self.shader.visit_statements(body, &mut |stmt| {
-            leaves |= matches!(stmt.kind, StmtKind::Break | StmtKind::Continue);
-        });
-        never && !leaves
     }
 
     /// An expression for its effects alone.
