@@ -4,6 +4,7 @@
 //! That a crate cannot name another one without depending on it is the compiler's work; here the manifests are compared with
 //! the documented walls, and paths inside of a crate are resolved, `super` included.
 
+use super::support::root;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -75,10 +76,6 @@ static MAY_TOUCH_OUTSIDE: &[(&str, &str)] = &[
     ("src/verify/files.rs", "leaves the pictures of a failure in a folder that the host names"),
 ];
 
-pub(super) fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-}
-
 pub(super) fn rust_files(folder: &str) -> Vec<PathBuf> {
     let mut pending = vec![root().join(folder)];
     let mut files = Vec::new();
@@ -96,12 +93,14 @@ pub(super) fn rust_files(folder: &str) -> Vec<PathBuf> {
     files
 }
 
+/// The folders of the sources of all crates.
+pub(super) fn source_folders() -> impl Iterator<Item = String> {
+    ["src".to_owned()].into_iter().chain(CRATES.iter().map(|(folder, _, _)| format!("{folder}/src")))
+}
+
 /// The sources of all crates.
 fn sources() -> Vec<PathBuf> {
-    let mut files = rust_files("src");
-    for (folder, _, _) in CRATES {
-        files.extend(rust_files(&format!("{folder}/src")));
-    }
+    let files: Vec<PathBuf> = source_folders().flat_map(|folder| rust_files(&folder)).collect();
     assert!(files.len() > 300, "the sources are not where they are looked for: {}", files.len());
     files
 }

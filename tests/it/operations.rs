@@ -4,6 +4,8 @@
 //! Tests in the respective crates check that each row folds to what is executed, and that each has a rule of
 //! precision that the envelope evaluates.
 
+#[cfg(feature = "reference")]
+use crate::architecture::{rust_files, text_of};
 use crate::emit::Collected;
 use glisten_emit::{Conventions, Target, emit};
 use glisten_front::builtin::BuiltinFunction;
@@ -106,6 +108,19 @@ fn every_row_is_typed_and_lowered() {
     assert!(count > 450, "only {count} overloads");
     assert!(failures.is_empty(), "{}", failures.join("\n"));
     collected.judge();
+}
+
+/// A rule of the pipeline is data: the reference reads its number where it applies it.
+#[test]
+#[cfg(feature = "reference")]
+fn every_rule_of_the_pipeline_is_evaluated() {
+    use glisten_reference::domain::rules;
+    let sources: Vec<String> = rust_files("crates/reference/src").iter().map(|path| text_of(path)).collect();
+    for step in rules::PIPELINE.iter().chain(rules::OWN) {
+        let reads = ["ulps", "absolute", "limit", "steps", "between"].map(|number| format!("{}.{number}()", step.name));
+        let is_read = sources.iter().any(|text| reads.iter().any(|read| text.contains(read)));
+        assert!(is_read, "no code reads the rule {}: {}", step.name, step.describe());
+    }
 }
 
 /// Compiling for the reference expands every call. The executor's own tests check the results.

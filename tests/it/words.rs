@@ -3,7 +3,8 @@
 //! *In:* the Markdown files, and the comments of all Rust and GLSL files. *Out:* every phrase that has a better one. Code in
 //! the text (between backquotes, or in fenced blocks) does not count.
 
-use super::architecture::{name_of, root, rust_files, text_of};
+use super::architecture::{name_of, rust_files, text_of};
+use super::support::root;
 use std::fs;
 use std::path::PathBuf;
 

@@ -16,7 +16,7 @@ use crate::hir::{ArraySize, Global, Shader, Storage, Type, TypeId, Types};
 use crate::source::{SourceMap, Span};
 
 use crate::syntax::ast::{Ast, Declaration, DeclarationKind, Ident, TypeBase};
-use crate::syntax::token::Names;
+use crate::syntax::names::Names;
 use rustc_hash::FxHashSet;
 
 /// Removes all uncertain globals from the interface of `shader`. Returns whether errors concern the shader: those

@@ -10,7 +10,7 @@
 
 use super::assembly::{Corners, Prim};
 use super::slack::{Plane, Slack};
-use super::target::BIN;
+use super::surface::BIN;
 use super::vertices::Vertices;
 use crate::domain::{Domain, F64, Number, rules};
 use crate::exec::LANES;
@@ -126,7 +126,7 @@ impl<D: Domain> Sprite<D> {
         let along = |p: f64, center: D::Float| {
             let exact = half.add(D::Float::from_f64(p).sub(center).div(self.size));
             let sized = (exact.value() - 0.5).abs() * POINT_SIZE_ERROR / self.size.value();
-            exact.widened(sized + rules::POINT_COORD.absolute())
+            exact.widened(sized + const { rules::POINT_COORD.absolute() })
         };
         [along(x, self.center[0]), along(y, self.center[1])]
     }

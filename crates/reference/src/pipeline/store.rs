@@ -129,8 +129,9 @@ fn clamped<D: Domain>(color: [D::Float; 4], format: Format) -> [D::Float; 4] {
 /// attachment has (§4.1.7), which rounds the source, the factors and the products, or may use floats.
 fn in_steps<D: Domain>(value: D::Float) -> D::Float {
     let Interval { low, high, may_be_nan } = value.range();
-    let slack = rules::STORE_SLACK.absolute();
-    let step = |x: f64| (x * 255.0).round() / 255.0;
+    let slack = const { rules::STORE_SLACK.absolute() };
+    let steps = const { rules::BLEND_8_BITS.steps() };
+    let step = |x: f64| (x * steps).round() / steps;
     let (low, high) = (low.min(step(low - slack)), high.max(step(high + slack)));
     D::Float::with_range(value.value(), Interval { low, high, may_be_nan })
 }
@@ -197,7 +198,7 @@ pub(super) fn store<D: Domain>(value: D::Float, format: Format) -> D::Float {
     // A step of 8 bits is not an f32: its bounds are rounded outward once more.
     let range = match format {
         Format::Rgba8Unorm => {
-            let slack = rules::STORE_SLACK.absolute();
+            let slack = const { rules::STORE_SLACK.absolute() };
             let low = if may_be_nan { 0.0 } else { convert(low - slack) };
             Interval { low, high: convert(high + slack), may_be_nan: false }
         }
@@ -224,5 +225,6 @@ fn half_below(x: f64) -> f64 {
 
 /// An 8-bit normalized channel: clamped, `round(255 x) / 255`; NaN is 0.
 fn unorm8(x: f64) -> f64 {
-    if x.is_nan() { 0.0 } else { (x.clamp(0.0, 1.0) * 255.0).round_ties_even() / 255.0 }
+    let steps = const { rules::STORE_8_BITS.steps() };
+    if x.is_nan() { 0.0 } else { (x.clamp(0.0, 1.0) * steps).round_ties_even() / steps }
 }

@@ -5,11 +5,13 @@
 //! its interval, from which the same number can be restored.
 
 use super::store::store;
-use super::target::BIN;
 use crate::domain::{Domain, Number};
 use glisten_scene::Framebuffer;
 use glisten_scene::picture::{Interval, Picture};
 use rayon::prelude::*;
+
+/// The side of a bin in pixels; it is even, so that quads are within one bin.
+pub(super) const BIN: i64 = 32;
 
 /// The contents of the attachments.
 #[derive(Clone, Debug)]

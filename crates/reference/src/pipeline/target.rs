@@ -6,16 +6,13 @@
 //! the bin and is allocated when something is drawn.
 
 use super::store::{Test, depth_test, is_integer, keeps, stored};
-use super::surface::{Marks, Piece, Surface};
+use super::surface::{BIN, Marks, Piece, Surface};
 use crate::domain::{Domain, Number};
 use crate::exec::{LANES, Mask};
 use crate::raster::Bounds;
 use glisten_scene::picture::Interval;
 use glisten_scene::{BlendFactor, Format, Framebuffer, State};
 use smallvec::SmallVec;
-
-/// The side of a bin in pixels; it is even, so that quads are within one bin.
-pub(super) const BIN: i64 = 32;
 
 /// The test results of the fragments of a batch, as sets of lanes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -1,6 +1,7 @@
 //! Level of detail (OpenGL 3.2 §3.8.11).
 
 use super::{Near, cube};
+use crate::domain::rules;
 use glisten_front::hir::{SamplerDim, SamplerType};
 use glisten_scene::Texture;
 
@@ -42,8 +43,8 @@ pub(crate) fn level_of_detail(
     let value = exact(texture, kind, at, gradients);
     let (Some(steps), Some(base)) = (steps, texture.levels.first()) else { return Near::exact(value) };
     if kind.dim == SamplerDim::Cube {
-        // Between the longer step over the square root of two and the sum of both.
-        return Near { value, low: value - 0.5, high: value + 1.0 };
+        let (low, high) = const { rules::CUBE_LEVEL.between() };
+        return Near { value, low: value + low, high: value + high };
     }
     let sizes = match kind.dim {
         SamplerDim::Rect => [1.0; 3],

@@ -9,9 +9,9 @@
 //! and y precedes x.
 //!
 //! The interval is the hull of all texels that a coordinate's interval touches
-//! ([`rules::NEAREST`](super::domain::rules::NEAREST)), with the precision of filter weights
-//! ([`rules::FILTER_WEIGHT`](super::domain::rules::FILTER_WEIGHT)) and of a level of detail from derivatives
-//! ([`rules::LEVEL_RANGE`](super::domain::rules::LEVEL_RANGE)).
+//! ([`rules::TEXEL_COORDINATE`](super::domain::rules::TEXEL_COORDINATE)), with the precision of filter weights
+//! ([`rules::FILTER_WEIGHT`](super::domain::rules::FILTER_WEIGHT)) and the freedom of a level of detail
+//! from derivatives ([`level_of_detail`]).
 
 mod cube;
 mod lod;

@@ -63,7 +63,7 @@ fn trilinear(texture: &Texture, request: &Request) -> [Near; 4] {
     let at = |lambda: f64| between(texture, request, lambda);
     let mut result = at(limited(request.level.value));
     if request.bounded {
-        let weight = rules::FILTER_WEIGHT.absolute();
+        let weight = const { rules::FILTER_WEIGHT.absolute() };
         let (low, high) = (limited(request.level.low - weight), limited(request.level.high + weight));
         let whole = (low.ceil() as u64..=high.floor() as u64).map(|level| level as f64);
         for lambda in [low, high].into_iter().chain(whole) {
@@ -103,7 +103,7 @@ fn in_texels(kind: SamplerType, at: Near, size: u32) -> Near {
     }
     let scale = f64::from(size);
     // A GPU multiplies in f32.
-    at.map(|at| at * scale).widened(rules::ulp(at.value * scale))
+    at.map(|at| at * scale).widened(const { rules::TEXEL_COORDINATE.ulps() } * rules::ulp(at.value * scale))
 }
 
 fn wrapped(wrap: Wrap, index: i64, size: u32) -> i64 {
@@ -131,7 +131,7 @@ fn axis(at: Near, offset: i32, linear: bool) -> Axis {
     let place = |value: f64| index(value.floor()).saturating_add(i64::from(offset));
     let first = place(base);
     let second = first.saturating_add(1);
-    let weight = if linear { rules::FILTER_WEIGHT.absolute() } else { 0.0 };
+    let weight = if linear { const { rules::FILTER_WEIGHT.absolute() } } else { 0.0 };
     let touched = (place(at.low - shift - weight), place(at.high - shift + weight).saturating_add(i64::from(linear)));
     Axis { first, second, weight: if linear { base - floor } else { 0.0 }, error: at.error() + weight, touched }
 }
@@ -155,7 +155,7 @@ fn footprint(texture: &Texture, level: &TextureLevel, request: &Request, linear:
         let error = request.at.iter().map(|at| at.error()).fold(0.0, f64::max) / there.ma;
         for (axis_at, c) in axes.iter_mut().zip([there.sc, there.tc]) {
             let s = if there.ma > 0.0 { 0.5 * (c / there.ma + 1.0) } else { 0.5 };
-            let near = Near::exact(s).widened(error + 4.0 * rules::ulp(1.0));
+            let near = Near::exact(s).widened(error + const { rules::CUBE_COORDINATE.ulps() } * rules::ulp(1.0));
             *axis_at = axis(in_texels(kind, near, level.width), 0, linear);
         }
         let slice = there.face as i64;
@@ -257,8 +257,7 @@ fn value(level: &TextureLevel, place: [i64; 3], texture: &Texture, request: &Req
         return texel.map(Near::exact);
     }
     let passed = compare(texture.compare, request.reference.value, texel[0]);
-    // Both sides are rounded to f32 before the comparison.
-    let slack = rules::ulp(texel[0]);
+    let slack = const { rules::COMPARED_DEPTH.ulps() } * rules::ulp(texel[0]);
     let open = request.bounded
         && (request.reference.low - slack..=request.reference.high + slack).contains(&texel[0])
         && !matches!(texture.compare, Compare::Always | Compare::Never);
@@ -354,7 +353,7 @@ fn limited(
             return Near { value: near.value, low: near.low.min(low[k]), high: near.high.max(high[k]) };
         }
         let spread = if high[k] > low[k] { (high[k] - low[k]) * off.min(1.0) } else { 0.0 };
-        let rounded = rules::FILTER_SUM.ulps() * rules::ulp(low[k].abs().max(high[k].abs()));
+        let rounded = const { rules::FILTER_SUM.ulps() } * rules::ulp(low[k].abs().max(high[k].abs()));
         // A mean of texels is between them.
         let (least, most) = (low[k].min(near.low) - rounded, high[k].max(near.high) + rounded);
         Near {

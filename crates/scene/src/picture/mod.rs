@@ -6,6 +6,7 @@
 
 mod eight_bits;
 mod exr;
+mod file;
 mod image;
 mod interval;
 mod npy;
@@ -13,7 +14,8 @@ mod png;
 
 pub use self::png::{Effort, png_rgb};
 pub use eight_bits::{NOT_FINITE, byte, visible_rgb};
-pub use image::{Image, ImageError, ImageFormat};
+pub use file::ImageFormat;
+pub use image::{Image, ImageError};
 pub use interval::Interval;
 
 /// The contents of a framebuffer, top row first, x fastest.

@@ -4,7 +4,7 @@
 //! try all of them, so that `bool`s and short intervals stay precise. Sums, products and comparisons of longer
 //! intervals are computed from their bounds; the results of all other operations may be anything.
 
-use crate::domain::Integer;
+use crate::domain::{Element, Integer, WIDTH};
 
 /// The largest number of pairs of choices that are tried one by one.
 const TRIED: i64 = 64;
@@ -18,6 +18,10 @@ pub struct EnvelopeInt {
     pub low: i32,
     /// The upper bound, as an `int`.
     pub high: i32,
+}
+
+impl Element for EnvelopeInt {
+    type Few = [Self; WIDTH];
 }
 
 impl EnvelopeInt {
