@@ -118,7 +118,7 @@ impl Collected {
     }
 
     /// Passes everything to the external judges.
-    pub(crate) fn judge(mut self) {
+    pub(crate) fn validate(mut self) {
         self.tint();
         self.spirv_val();
         assert!(self.failures.is_empty(), "{}", self.failures.join("\n\n"));
@@ -183,7 +183,7 @@ fn all(folder: &str, conventions: &Conventions) {
             collected.program(files, target, conventions);
         }
     }
-    collected.judge();
+    collected.validate();
 }
 
 #[test]
@@ -210,7 +210,7 @@ fn the_librarys_programs_are_accepted_everywhere() {
             collected.linked(&name, &linked, target, &Conventions::default());
         }
     }
-    collected.judge();
+    collected.validate();
 }
 
 #[test]
@@ -372,7 +372,7 @@ fn text_nests_as_deep_as_tint_reads_and_no_deeper() {
         assert_eq!(codes(Stage::Fragment, &deeper, Target::Wgsl, &plain), ["E0803"], "{open}");
         assert!(codes(Stage::Fragment, &deeper, Target::Spirv, &plain).is_empty(), "{open}");
     }
-    collected.judge();
+    collected.validate();
 }
 
 #[test]
@@ -385,7 +385,7 @@ fn what_becomes_constant_on_the_way_is_kept_from_the_target() {
     reparse(&text).unwrap_or_else(|error| panic!("{error}"));
     let mut collected = Collected::new();
     collected.add("constants behind effects", Emitted::Text(text));
-    collected.judge();
+    collected.validate();
 }
 
 #[test]

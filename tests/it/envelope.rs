@@ -12,7 +12,7 @@ use glisten_gpu::{Gpu, Via};
 use glisten_reference::Precision;
 use glisten_reference::domain::faults::{ARC_FUNCTIONS, Faults};
 use glisten_reference::domain::rules;
-use glisten_scene::compare::{Judge, Verdict, shares};
+use glisten_scene::compare::{Criterion, Verdict, shares};
 use glisten_scene::picture::Picture;
 
 fn read(path: &str) -> String {
@@ -47,7 +47,7 @@ fn known_faults_explain_what_the_strict_envelope_leaves_outside() {
         let picture = drawn(&gpu, &scene);
         let judged = |options: &Options<'_>| {
             let mut expected = Expected::new(&scene, options).expect("the reference draws it");
-            expected.judge(&picture).expect("the reference draws it")
+            expected.compare(&picture).expect("the reference draws it")
         };
         assert!(!judged(&strict()).holds(false), "{name} holds without");
         let verdict = judged(&Options::default());
@@ -59,11 +59,11 @@ fn known_faults_explain_what_the_strict_envelope_leaves_outside() {
 
 /// For the channels of covered pixels: the width of the envelope, and lavapipe's error.
 fn widths_and_errors(picture: &Picture, reference: &Picture) -> Vec<(f64, f64)> {
-    let ranges = &reference.ranges.as_ref().expect("it has envelopes")[0];
+    let intervals = &reference.intervals.as_ref().expect("it has envelopes")[0];
     let mut pairs = Vec::new();
-    for pixel in (0..ranges.len()).filter(|pixel| picture.covered[*pixel] && reference.covered[*pixel]) {
+    for pixel in (0..intervals.len()).filter(|pixel| picture.covered[*pixel] && reference.covered[*pixel]) {
         let (gpu, cpu) = (picture.attachments[0][pixel], reference.attachments[0][pixel]);
-        let channels = ranges[pixel].iter().zip(gpu).zip(cpu).take(3);
+        let channels = intervals[pixel].iter().zip(gpu).zip(cpu).take(3);
         pairs.extend(channels.map(|((range, gpu), cpu)| (range.width(), (gpu - cpu).abs())));
     }
     pairs
@@ -89,7 +89,7 @@ fn the_envelope_is_not_much_wider_than_what_lavapipe_makes_of_it() {
         ]);
         let scene = loaded("a.toml", load("a.toml", &files, &compiler()));
         let (picture, reference) = (drawn(&gpu, &scene), reference(&scene, Precision::Envelope));
-        let verdict = Verdict::new(&picture, &reference, Judge::Envelope);
+        let verdict = Verdict::new(&picture, &reference, Criterion::Envelope);
         let pairs = widths_and_errors(&picture, &reference);
         let width = median(pairs.iter().map(|pair| pair.0).collect());
         let largest = pairs.iter().map(|pair| pair.1).fold(0.0, f64::max);
@@ -180,7 +180,7 @@ fn measured_rules_rest_on_what_the_driver_does() {
     }
     for name in ["quad_smooth.toml", "triangle.toml", "core/depth_less.toml"] {
         let scene = from_disk(format!("fixtures/scenes/{name}"));
-        let used = shares(&drawn(&gpu, &scene), &reference(&scene, Precision::Envelope), Judge::Envelope);
+        let used = shares(&drawn(&gpu, &scene), &reference(&scene, Precision::Envelope), Criterion::Envelope);
         let used = used.into_iter().filter(|share| share.is_finite()).fold(0.0, f64::max);
         measured(&format!("varyings of {name}"), used, 1.0, "of what is allowed");
     }

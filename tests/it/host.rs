@@ -9,7 +9,7 @@ use glisten_emit::Reflection;
 use glisten_emit::reflection::{Attribute, Binding, Sampler, Uniform};
 use glisten_front::{Compiler, Options};
 use glisten_reference::Precision;
-use glisten_scene::compare::{Judge, Verdict};
+use glisten_scene::compare::{Criterion, Verdict};
 use glisten_scene::picture::Picture;
 use std::path::Path;
 use std::process::Command;
@@ -646,7 +646,7 @@ fn a_host_that_knows_the_reflection_alone_draws_the_picture() {
         let reference = reference(&app, draw);
         let covered = reference.covered.iter().filter(|covered| **covered).count();
         assert!(covered > if draw.points { 60 } else { 900 }, "{covered} pixels are covered");
-        let verdict = Verdict::new(&picture, &reference, Judge::Envelope);
+        let verdict = Verdict::new(&picture, &reference, Criterion::Envelope);
         if !verdict.holds(false) {
             wrong.push(format!("{flags:?} as {extension}: {verdict:#?}"));
         }

@@ -9,7 +9,7 @@ use glisten_front::{Compiler, Options};
 use glisten_gpu::{Gpu, Via};
 use glisten_reference::domain::faults::{Faults, KNOWN};
 use glisten_reference::{LineRule, Precision, RenderOptions};
-use glisten_scene::compare::{Judge, Verdict};
+use glisten_scene::compare::{Criterion, Verdict};
 use glisten_scene::picture::Picture;
 
 const VERTEX: &str = "#version 150\nin vec4 p;\nin float id;\nin float size;\nflat out float v;\n\
@@ -308,9 +308,10 @@ fn every_scene_of_the_repository_agrees_with_lavapipe() {
         for via in if sized { &[Via::Spirv][..] } else { &[Via::Spirv, Via::Wgsl] } {
             match gpu.render(&scene, *via) {
                 Ok(rendered) => {
-                    let mut verdict = Verdict::new(&rendered.picture, &reference, Judge::Envelope);
+                    let mut verdict = Verdict::new(&rendered.picture, &reference, Criterion::Envelope);
                     if verdict.needs_excuse() {
-                        verdict = Verdict::admitting(&rendered.picture, &reference, Judge::Envelope, &faulty(&scene));
+                        verdict =
+                            Verdict::excusing(&rendered.picture, &reference, Criterion::Envelope, &faulty(&scene));
                         excused.extend(verdict.known_faults.iter().map(|count| (path.clone(), count.fault)));
                     }
                     if !verdict.holds(false) {

@@ -39,5 +39,5 @@ fn every_function_is_accepted_by_every_target_in_both_stages() {
             }
         }
     }
-    collected.judge();
+    collected.validate();
 }

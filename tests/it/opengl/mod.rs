@@ -17,12 +17,12 @@ use crate::drawing::{compiler, from_disk, from_texts};
 use crate::emit::missing;
 use crate::support::root;
 use glisten::scene::Scene;
-use glisten::shader_test::{self, Outcome, Painter};
+use glisten::shader_test::{self, TestBackend, TestResult};
 use glisten::verify;
 use glisten_front::hir::{ArraySize, Stage, Type};
 use glisten_gl::{Error, Gl};
 use glisten_reference::LineRule;
-use glisten_scene::compare::{self, Judge, Verdict};
+use glisten_scene::compare::{self, Criterion, Verdict};
 use glisten_scene::picture::Picture;
 use std::path::{Path, PathBuf};
 
@@ -133,19 +133,19 @@ fn written(vertex: &str, fragment: &str, rest: &str) -> Scene {
 /// Judges a picture as `verify` does, with lines by OpenGL's rule. The pictures of a failure are left in a folder, which
 /// the complaint names.
 fn judged(name: &str, scene: &Scene, mut picture: Picture, exception: Option<&Exception>) -> Verdict {
-    let judge = match exception {
-        Some((_, Expected::Within(tolerance), _)) => Judge::Tolerance(*tolerance),
-        _ => Judge::Envelope,
+    let criterion = match exception {
+        Some((_, Expected::Within(tolerance), _)) => Criterion::Tolerance(*tolerance),
+        _ => Criterion::Envelope,
     };
-    let options = verify::Options { judge, lines: LineRule::OpenGl, ..verify::Options::default() };
+    let options = verify::Options { criterion, lines: LineRule::OpenGl, ..verify::Options::default() };
     let mut expected = verify::Expected::new(scene, &options).expect("the reference draws every scene of the fixtures");
     close(scene, &mut picture, expected.picture());
     if let Some((_, Expected::Open(channel), _)) = exception {
         take_over(&mut picture, expected.picture(), 0, *channel);
     }
-    let verdict = expected.judge(&picture).expect("the reference draws every scene of the fixtures");
+    let verdict = expected.compare(&picture).expect("the reference draws every scene of the fixtures");
     if !verdict.holds(false) {
-        let shares = compare::shares(&picture, expected.picture(), judge);
+        let shares = compare::shares(&picture, expected.picture(), criterion);
         let difference = verify::difference(expected.picture(), &shares);
         let pictures = [("gl", &picture), ("cpu", expected.picture()), ("difference", &difference)];
         verify::write_pictures(&failures(name), &pictures).expect("the pictures of a failure can be written");
@@ -241,9 +241,9 @@ struct Judged<'a> {
     wrong: Vec<String>,
 }
 
-impl Painter for Judged<'_> {
-    fn paint(&mut self, scene: &Scene) -> Result<Picture, Outcome> {
-        let picture = self.gl.render(scene).map_err(|error| Outcome::Fail(error.to_string()))?;
+impl TestBackend for Judged<'_> {
+    fn draw(&mut self, scene: &Scene) -> Result<Picture, TestResult> {
+        let picture = self.gl.render(scene).map_err(|error| TestResult::Fail(error.to_string()))?;
         self.pictures += 1;
         let name = format!("shader_test_{}", self.pictures);
         let verdict = judged(&name, scene, picture.clone(), None);
@@ -257,19 +257,19 @@ impl Painter for Judged<'_> {
 #[test]
 fn shader_tests_are_drawn_as_opengl_draws_them() {
     let Some(gl) = gl() else { return };
-    let (mut painter, mut wrong) = (Judged { gl: &gl, pictures: 0, wrong: Vec::new() }, Vec::new());
+    let (mut backend, mut wrong) = (Judged { gl: &gl, pictures: 0, wrong: Vec::new() }, Vec::new());
     let files = files_under(&asked_or("fixtures/shader_tests"), "shader_test");
     let mut skipped = 0;
     for (name, path) in &files {
         let text = std::fs::read_to_string(path).expect("a readable test");
-        match shader_test::run(name, &text, &compiler(), &mut painter) {
-            Outcome::Pass => {}
-            Outcome::Fail(reason) => wrong.push(format!("{name}: {reason}")),
-            Outcome::Skip(_) => skipped += 1,
+        match shader_test::run(name, &text, &compiler(), &mut backend) {
+            TestResult::Pass => {}
+            TestResult::Fail(reason) => wrong.push(format!("{name}: {reason}")),
+            TestResult::Skip(_) => skipped += 1,
         }
-        wrong.extend(painter.wrong.drain(..).map(|what| format!("{name}: {what}")));
+        wrong.extend(backend.wrong.drain(..).map(|what| format!("{name}: {what}")));
     }
-    println!("{} tests, {skipped} of them skipped, {} pictures judged", files.len(), painter.pictures);
+    println!("{} tests, {skipped} of them skipped, {} pictures judged", files.len(), backend.pictures);
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 

@@ -20,18 +20,18 @@ pub(super) struct Tests {
     /// Those whose values pass.
     pub(super) passes: u64,
     /// Those for which a conforming GPU may decide differently.
-    pub(super) open: u64,
+    pub(super) undecided: u64,
 }
 
 impl Tests {
     /// Those that some conforming GPU draws.
     pub(super) fn possible(self) -> u64 {
-        self.passes | self.open
+        self.passes | self.undecided
     }
 
     #[inline(always)]
     fn of(self, lane: usize) -> Test {
-        Test { passes: self.passes >> lane & 1 == 1, open: self.open >> lane & 1 == 1 }
+        Test { passes: self.passes >> lane & 1 == 1, undecided: self.undecided >> lane & 1 == 1 }
     }
 }
 
@@ -159,7 +159,7 @@ impl<D: Domain> Bin<'_, D> {
             let Some(stored) = depth.get_mut(places[lane] as usize) else { continue };
             let test = depth_test::<D>(stored, depth_of(lane), state, before.of(lane));
             after.passes |= u64::from(test.passes) << lane;
-            after.open |= u64::from(test.open) << lane;
+            after.undecided |= u64::from(test.undecided) << lane;
         }
         after
     }
@@ -174,8 +174,8 @@ impl<D: Domain> Bin<'_, D> {
         if D::OPEN {
             for lane in Mask(tests.possible()).lanes() {
                 let slot = &mut pixels.undecided[places[lane] as usize];
-                let open = tests.of(lane).open;
-                *slot = undecided >> lane & 1 == 1 || open || (blends && *slot);
+                let uncertain = tests.of(lane).undecided;
+                *slot = undecided >> lane & 1 == 1 || uncertain || (blends && *slot);
             }
         }
     }
@@ -193,7 +193,7 @@ impl<D: Domain> Bin<'_, D> {
         let format = self.format;
         let blend = blend.filter(|_| !is_integer(format));
         let Some(piece) = self.attachments.get_mut(attachment) else { return };
-        if blend.is_none() && keeps(format) && tests.open == 0 {
+        if blend.is_none() && keeps(format) && tests.undecided == 0 {
             for lane in Mask(tests.passes).lanes() {
                 if let Some(mut pixel) = piece.pixel(places[lane]) {
                     pixel.write::<D>(color(lane));

@@ -65,7 +65,7 @@ impl Picture {
             height,
             attachments: vec![pixels],
             covered: vec![true; n_pixels],
-            ranges: None,
+            intervals: None,
             undecided: vec![false; n_pixels],
             near_edge: vec![false; n_pixels],
         }

@@ -31,7 +31,7 @@ pub struct Picture {
     pub covered: Vec<bool>,
     /// For a reference with envelopes: the values that a conforming GPU may draw, for each channel of each
     /// attachment.
-    pub ranges: Option<Vec<Vec<[Interval; 4]>>>,
+    pub intervals: Option<Vec<Vec<[Interval; 4]>>>,
     /// For a reference with envelopes: pixels where a discard, a depth test or too many branches are undecided.
     pub undecided: Vec<bool>,
     /// Pixels whose center is within 1/128 pixel of an edge of a primitive that was drawn.

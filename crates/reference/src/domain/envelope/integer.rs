@@ -27,7 +27,7 @@ impl Element for EnvelopeInt {
 impl EnvelopeInt {
     /// An undecided condition.
     #[inline(always)]
-    pub(super) fn open(answer: bool) -> Self {
+    pub(super) fn undecided(answer: bool) -> Self {
         Self { bits: u32::from(answer), low: 0, high: 1 }
     }
 
@@ -159,7 +159,7 @@ impl Integer for EnvelopeInt {
         if self.sure() && other.sure() {
             return Self::from_bool(answer);
         }
-        if self.high < other.low || other.high < self.low { Self::from_bool(false) } else { Self::open(answer) }
+        if self.high < other.low || other.high < self.low { Self::from_bool(false) } else { Self::undecided(answer) }
     }
     fn less_signed(self, other: Self) -> Self {
         if self.high < other.low {
@@ -167,7 +167,7 @@ impl Integer for EnvelopeInt {
         } else if self.low >= other.high {
             Self::from_bool(false)
         } else {
-            Self::open((self.bits as i32) < other.bits as i32)
+            Self::undecided((self.bits as i32) < other.bits as i32)
         }
     }
     fn less_unsigned(self, other: Self) -> Self {
@@ -175,7 +175,7 @@ impl Integer for EnvelopeInt {
             return self.less_signed(other);
         }
         let answer = self.bits < other.bits;
-        if self.sure() && other.sure() { Self::from_bool(answer) } else { Self::open(answer) }
+        if self.sure() && other.sure() { Self::from_bool(answer) } else { Self::undecided(answer) }
     }
     fn less_equal_signed(self, other: Self) -> Self {
         other.less_signed(self).not()

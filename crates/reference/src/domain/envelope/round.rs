@@ -19,10 +19,10 @@ pub(super) fn down(x: f64) -> f64 {
         let negative = ((bits as i64) >> 63) as u64;
         return f64::from_bits(bits.wrapping_add(negative & BELOW) & !BELOW);
     }
-    down_at_ends(x)
+    down_out_of_range(x)
 }
 
-fn down_at_ends(x: f64) -> f64 {
+fn down_out_of_range(x: f64) -> f64 {
     if x == 0.0 {
         0.0
     } else if x.abs() < FLUSH {
