@@ -4,7 +4,7 @@
 //! That a crate cannot name another one without depending on it is the compiler's work; here the manifests are compared with
 //! the documented walls, and paths inside of a crate are resolved, `super` included.
 
-use super::support::root;
+use super::support::{files_with, root};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -77,20 +77,7 @@ static MAY_TOUCH_OUTSIDE: &[(&str, &str)] = &[
 ];
 
 pub(super) fn rust_files(folder: &str) -> Vec<PathBuf> {
-    let mut pending = vec![root().join(folder)];
-    let mut files = Vec::new();
-    while let Some(folder) = pending.pop() {
-        for entry in fs::read_dir(&folder).into_iter().flatten() {
-            let path = entry.expect("a folder entry").path();
-            if path.is_dir() {
-                pending.push(path);
-            } else if path.extension().is_some_and(|extension| extension == "rs") {
-                files.push(path);
-            }
-        }
-    }
-    files.sort();
-    files
+    files_with(&root().join(folder), "rs")
 }
 
 /// The folders of the sources of all crates.

@@ -5,7 +5,8 @@
 
 #![expect(clippy::print_stdout, reason = "figures of the docs are printed here")]
 
-use crate::drawing::{as_on_vulkan, compiler, from_disk, gpu, loaded, reference, strict};
+use crate::drawing::{as_on_vulkan, from_disk, gpu, loaded, reference, strict};
+use crate::support::{compiler, fixture};
 use glisten::scene::{MemoryFiles, Scene, load};
 use glisten::verify::{Expected, Options};
 use glisten_gpu::{Gpu, Via};
@@ -15,10 +16,6 @@ use glisten_reference::domain::rules;
 use glisten_scene::compare::{Criterion, Verdict, shares};
 use glisten_scene::picture::Picture;
 
-fn read(path: &str) -> String {
-    std::fs::read_to_string(format!("{}/fixtures/{path}", env!("CARGO_MANIFEST_DIR"))).expect("a fixture")
-}
-
 /// A square over the window, 64x64, drawn by a fragment shader.
 fn square(fragment: &str, format: &str) -> Scene {
     let text = format!(
@@ -26,7 +23,7 @@ fn square(fragment: &str, format: &str) -> Scene {
          fragment = \"a.frag\"\nprimitive = \"triangle_strip\"\nvertex_count = 4\n"
     );
     let fragment = format!("#version 150\nin vec2 place;\nout vec4 color;\n{fragment}\n");
-    let vertex = read("scenes/core/nothing.vert");
+    let vertex = fixture("scenes/core/nothing.vert");
     let files =
         MemoryFiles::new([("a.toml", text.as_str()), ("nothing.vert", vertex.as_str()), ("a.frag", fragment.as_str())]);
     loaded("a.toml", load("a.toml", &files, &compiler()))
@@ -79,8 +76,8 @@ fn the_envelope_is_not_much_wider_than_what_lavapipe_makes_of_it() {
     let gpu = gpu();
     println!("lighting scenes at exponent 32, median width of the envelope and lavapipe's error:");
     for name in ["blinn_phong", "phong", "blinn_phong_vertex", "phong_vertex"] {
-        let text = read(&format!("scenes/{name}.toml")).replace("../programs/", "").replace("40.0", "32.0");
-        let (vertex, fragment) = (read(&format!("programs/{name}.vert")), read(&format!("programs/{name}.frag")));
+        let text = fixture(&format!("scenes/{name}.toml")).replace("../programs/", "").replace("40.0", "32.0");
+        let (vertex, fragment) = (fixture(&format!("programs/{name}.vert")), fixture(&format!("programs/{name}.frag")));
         let (vertex_name, fragment_name) = (format!("{name}.vert"), format!("{name}.frag"));
         let files = MemoryFiles::new([
             ("a.toml", text.as_str()),

@@ -13,9 +13,9 @@ mod coverage;
 #[cfg(feature = "gpu")]
 mod order;
 
-use crate::drawing::{compiler, from_disk, from_texts};
+use crate::drawing::{from_disk, from_texts};
 use crate::emit::missing;
-use crate::support::root;
+use crate::support::{compiler, files_with, root};
 use glisten::scene::Scene;
 use glisten::shader_test::{self, TestBackend, TestResult};
 use glisten::verify;
@@ -96,20 +96,13 @@ fn asked_or(fixtures: &str) -> PathBuf {
 }
 
 /// All files with an extension in a folder, with names relative to it.
-fn files_under(folder: &Path, wanted: &str) -> Vec<(String, PathBuf)> {
-    let mut pending = vec![folder.to_owned()];
-    let mut files = Vec::new();
-    while let Some(next) = pending.pop() {
-        for entry in std::fs::read_dir(next).expect("a folder of scenes") {
-            let path = entry.expect("an entry").path();
-            if path.is_dir() {
-                pending.push(path);
-            } else if path.extension().is_some_and(|extension| extension == wanted) {
-                let name = path.strip_prefix(folder).expect("inside the folder").with_extension("");
-                files.push((name.to_string_lossy().replace('\\', "/"), path));
-            }
-        }
-    }
+fn named_files(folder: &Path, wanted: &str) -> Vec<(String, PathBuf)> {
+    let named = files_with(folder, wanted).into_iter().map(|path| {
+        let name = path.strip_prefix(folder).expect("inside the folder").with_extension("");
+        (name.to_string_lossy().replace('\\', "/"), path)
+    });
+    let mut files: Vec<(String, PathBuf)> = named.collect();
+    assert!(!files.is_empty(), "nothing is in {}", folder.display());
     files.sort();
     files
 }
@@ -218,7 +211,7 @@ fn the_reference_draws_what_opengl_draws() {
     let (mut wrong, mut excused) = (Vec::new(), 0);
     let asked = std::env::var_os(ASKED);
     let folder = asked_or("fixtures/scenes");
-    let files = files_under(&folder, "toml");
+    let files = named_files(&folder, "toml");
     for (name, path) in &files {
         wrong.extend(complaint(&gl, name, &small(from_disk(path)), &mut excused));
     }
@@ -258,7 +251,7 @@ impl TestBackend for Judged<'_> {
 fn shader_tests_are_drawn_as_opengl_draws_them() {
     let Some(gl) = gl() else { return };
     let (mut backend, mut wrong) = (Judged { gl: &gl, pictures: 0, wrong: Vec::new() }, Vec::new());
-    let files = files_under(&asked_or("fixtures/shader_tests"), "shader_test");
+    let files = named_files(&asked_or("fixtures/shader_tests"), "shader_test");
     let mut skipped = 0;
     for (name, path) in &files {
         let text = std::fs::read_to_string(path).expect("a readable test");
