@@ -3,7 +3,7 @@
 //! *In:* the contents of the executor's registers. *Out:* the same, by lane and by block.
 //!
 //! *Holds:* a domain whose numbers are single machine numbers stores them in an array, and the compiler vectorizes the
-//! loops. A domain whose numbers have parts may store each part separately ([`Element::Few`]).
+//! loops. A domain whose numbers have parts may store each part separately ([`Element::Block`]).
 
 use std::fmt::Debug;
 
@@ -18,11 +18,11 @@ pub trait Element: Copy + Default + Debug + Send + Sync + 'static {
     /// Whether it is a single machine number. Then a loop over lanes is a few vector instructions.
     const PLAIN: bool = false;
     /// Eight elements.
-    type Few: Few<Self>;
+    type Block: Block<Self>;
 }
 
 /// Eight elements. Lanes are counted modulo [`WIDTH`].
-pub trait Few<T>: Copy + Default + Debug + Send + Sync + 'static {
+pub trait Block<T>: Copy + Default + Debug + Send + Sync + 'static {
     /// One value in all lanes.
     fn splat(value: T) -> Self;
     /// One value for each lane.
@@ -42,7 +42,7 @@ pub trait Few<T>: Copy + Default + Debug + Send + Sync + 'static {
     }
 }
 
-impl<T: Copy + Default + Debug + Send + Sync + 'static> Few<T> for [T; WIDTH] {
+impl<T: Copy + Default + Debug + Send + Sync + 'static> Block<T> for [T; WIDTH] {
     #[inline(always)]
     fn splat(value: T) -> Self {
         [value; WIDTH]
@@ -63,13 +63,13 @@ impl<T: Copy + Default + Debug + Send + Sync + 'static> Few<T> for [T; WIDTH] {
 
 /// An element in each of [`LANES`] lanes. Lane numbers are taken modulo that.
 #[derive(Clone, Copy, Debug)]
-pub struct Lanes<T: Element>([T::Few; LANES / WIDTH]);
+pub struct Lanes<T: Element>([T::Block; LANES / WIDTH]);
 
 impl<T: Element> Lanes<T> {
     /// One value in all lanes.
     #[inline(always)]
     pub fn splat(value: T) -> Self {
-        Self([T::Few::splat(value); LANES / WIDTH])
+        Self([T::Block::splat(value); LANES / WIDTH])
     }
     /// The value in a lane.
     #[inline(always)]
@@ -91,7 +91,7 @@ impl<T: Element> Lanes<T> {
     pub fn load(&mut self, elements: &[T; LANES]) {
         let (chunks, _) = elements.as_chunks();
         for (block, chunk) in self.0.iter_mut().zip(chunks) {
-            *block = T::Few::of(chunk);
+            *block = T::Block::of(chunk);
         }
     }
     /// Sets the first lanes, one for each element.
@@ -110,12 +110,12 @@ impl<T: Element> Lanes<T> {
     }
     /// The blocks, in order.
     #[inline(always)]
-    pub fn blocks(&self) -> &[T::Few; LANES / WIDTH] {
+    pub fn blocks(&self) -> &[T::Block; LANES / WIDTH] {
         &self.0
     }
     /// The blocks, mutable.
     #[inline(always)]
-    pub fn blocks_mut(&mut self) -> &mut [T::Few; LANES / WIDTH] {
+    pub fn blocks_mut(&mut self) -> &mut [T::Block; LANES / WIDTH] {
         &mut self.0
     }
 }
@@ -147,10 +147,10 @@ impl<T: Element> Source<'_, T> {
 
     /// A block of lanes.
     #[inline(always)]
-    pub fn block(&self, place: usize) -> T::Few {
+    pub fn block(&self, place: usize) -> T::Block {
         match self {
             Self::Lanes(lanes) => lanes.0[place % (LANES / WIDTH)],
-            Self::One(value) => T::Few::splat(*value),
+            Self::One(value) => T::Block::splat(*value),
         }
     }
 }
@@ -159,7 +159,7 @@ macro_rules! arrays {
     ($($element:ty),*) => { $(
         impl Element for $element {
             const PLAIN: bool = true;
-            type Few = [Self; WIDTH];
+            type Block = [Self; WIDTH];
         }
     )* };
 }

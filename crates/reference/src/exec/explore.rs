@@ -142,10 +142,10 @@ impl<D: Domain> Machine<D> {
         let of = |class: Class| code.outputs.iter().filter(move |port| port.class == class);
         for lane in Mask(joined.undecided & !self.undecided).lanes() {
             for lanes in joined.floats.iter_mut().map(Register::spread) {
-                lanes.set(lane, D::Float::with_range(lanes.get(lane).value(), Interval::ALL));
+                lanes.set(lane, D::Float::with_interval(lanes.get(lane).value(), Interval::ALL));
             }
             for lanes in joined.ints.iter_mut().map(Register::spread) {
-                lanes.set(lane, D::Int::with_choices(lanes.get(lane).bits(), i32::MIN, i32::MAX));
+                lanes.set(lane, D::Int::with_interval(lanes.get(lane).bits(), i32::MIN, i32::MAX));
             }
         }
         for (port, outcome) in of(Class::Float).zip(joined.floats) {

@@ -23,7 +23,7 @@ impl<D: Domain> Machine<D> {
             if D::Float::PAIRED {
                 let second = LaneLookup { second: true, ..lookup }.sampled(bound, stage);
                 self.put_pair(call, lane, sampled, second);
-            } else if slot.sure() {
+            } else if slot.is_decided() {
                 self.put(call, lane, sampled);
             } else {
                 undecided |= 1 << lane;
@@ -38,12 +38,16 @@ impl<D: Domain> Machine<D> {
             match sampled {
                 Sampled::Floats(values) => {
                     let BoundedFloat { value, low, high } = values[k % 4];
-                    let range = Interval { low, high, may_be_nan: value.is_nan() };
-                    self.registers.floats.register(*result).spread().set(lane, D::Float::with_range(value, range));
+                    let interval = Interval { low, high, may_be_nan: value.is_nan() };
+                    self.registers
+                        .floats
+                        .register(*result)
+                        .spread()
+                        .set(lane, D::Float::with_interval(value, interval));
                 }
                 Sampled::Ints(bits) => {
                     let BoundedInt { bits, low, high } = bits[k % 4];
-                    self.registers.ints.register(*result).spread().set(lane, D::Int::with_choices(bits, low, high));
+                    self.registers.ints.register(*result).spread().set(lane, D::Int::with_interval(bits, low, high));
                 }
             }
         }
@@ -107,23 +111,23 @@ impl<D: Domain> LaneLookup<'_, D> {
     fn bounded(&self, operand: Operand) -> BoundedFloat {
         let number = self.registers.float(operand).at(self.lane);
         if D::Float::PAIRED && self.second {
-            return BoundedFloat::exact(number.beside());
+            return BoundedFloat::exact(number.second());
         }
         let value = number.value();
-        if !D::OPEN {
+        if !D::HAS_INTERVALS {
             return BoundedFloat::exact(value);
         }
-        let range = number.range();
-        if range.may_be_nan {
+        let interval = number.interval();
+        if interval.may_be_nan {
             BoundedFloat::anything(value)
         } else {
-            BoundedFloat { value, low: range.low, high: range.high }
+            BoundedFloat { value, low: interval.low, high: interval.high }
         }
     }
 
     fn int(&self, operand: Operand) -> D::Int {
         let int = self.registers.int(operand).at(self.lane);
-        if D::Float::PAIRED && self.second { D::Int::from_bits(int.beside()) } else { int }
+        if D::Float::PAIRED && self.second { D::Int::from_bits(int.second()) } else { int }
     }
 
     fn all_bounded(&self, operands: &[Operand]) -> [BoundedFloat; 3] {
@@ -138,7 +142,7 @@ impl<D: Domain> LaneLookup<'_, D> {
         let level = self.call.level.map(|level| self.int(level));
         let [x, y, z] = texture::size(texture, self.call.kind, level.map_or(0, |level| level.bits() as i32));
         let sizes = Sampled::Ints([x, y, z, 0].map(BoundedInt::exact));
-        if level.is_none_or(Integer::sure) { sizes } else { sizes.unknown() }
+        if level.is_none_or(Integer::is_decided) { sizes } else { sizes.unknown() }
     }
 
     /// Reads a texel. If the coordinates are uncertain: the hull of those that they may select, if these are few.
@@ -152,20 +156,20 @@ impl<D: Domain> LaneLookup<'_, D> {
             texture::fetch(texture, self.call.kind, at, level.map_or(0, |level| level.bits() as i32), offset)
         };
         let likely = of(&at);
-        let mut choices = [(0, 0); 3];
-        for (choice, operand) in choices.iter_mut().zip(&self.call.coordinate) {
-            *choice = self.int(*operand).choices();
+        let mut intervals = [(0, 0); 3];
+        for (interval, operand) in intervals.iter_mut().zip(&self.call.coordinate) {
+            *interval = self.int(*operand).interval();
         }
-        let count = choices.iter().map(|(low, high)| i64::from(*high) - i64::from(*low) + 1);
+        let count = intervals.iter().map(|(low, high)| i64::from(*high) - i64::from(*low) + 1);
         let count = count.fold(1i64, i64::saturating_mul);
-        if count > MOST || !level.is_none_or(Integer::sure) {
+        if count > MOST || !level.is_none_or(Integer::is_decided) {
             return likely.unknown();
         }
         let mut hull = likely;
         if count > 1 {
-            for z in choices[2].0..=choices[2].1 {
-                for y in choices[1].0..=choices[1].1 {
-                    for x in choices[0].0..=choices[0].1 {
+            for z in intervals[2].0..=intervals[2].1 {
+                for y in intervals[1].0..=intervals[1].1 {
+                    for x in intervals[0].0..=intervals[0].1 {
                         hull = hull.joined(of(&[x, y, z]));
                     }
                 }
@@ -190,7 +194,7 @@ impl<D: Domain> LaneLookup<'_, D> {
                 BoundedFloat::default()
             },
             offset: self.ints(&self.call.offset),
-            bounded: D::OPEN,
+            bounded: D::HAS_INTERVALS,
         };
         texture::sample(texture, &request)
     }
@@ -203,11 +207,11 @@ impl<D: Domain> LaneLookup<'_, D> {
             Lookup::Grad => {
                 let values = |operands: &[Operand]| self.all_bounded(operands).map(|bounded| bounded.value);
                 let gradients = Gradients { dx: values(&self.call.dx), dy: values(&self.call.dy) };
-                (gradients, D::OPEN.then(|| self.given_steps()))
+                (gradients, D::HAS_INTERVALS.then(|| self.given_steps()))
             }
             // Outside fragment stages there are no derivatives: the base level (§8.7).
             _ if stage != Stage::Fragment || self.call.kind.dim == SamplerDim::Rect => return given,
-            _ => (self.quad_gradients(), D::OPEN.then(|| self.quad_steps())),
+            _ => (self.quad_gradients(), D::HAS_INTERVALS.then(|| self.quad_steps())),
         };
         let lambda = texture::level_of_detail(
             texture,

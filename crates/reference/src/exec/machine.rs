@@ -143,7 +143,7 @@ impl<D: Domain> Machine<D> {
         self.mute_input();
         self.run_main(inner, live.0 | helpers.0);
         self.show_outputs(live.0 & !self.discarded);
-        if D::OPEN {
+        if D::HAS_INTERVALS {
             self.explore(live.0 | helpers.0);
         }
         self.discarded &= live.0;

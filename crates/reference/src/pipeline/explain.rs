@@ -79,17 +79,17 @@ fn of_draw(
         patch.draw(|bin| draw_bin(shading, bin, &list, &mut machine));
         patch
     };
-    let range = |patch: &mut Patch<Envelope>| patch.range(place.x, place.y, place.attachment, place.channel);
+    let interval = |patch: &mut Patch<Envelope>| patch.interval(place.x, place.y, place.attachment, place.channel);
     if list.is_empty() {
         return None;
     }
-    let old = range(patch);
+    let old = interval(patch);
     *patch = drawn(None);
-    let whole = range(patch);
+    let whole = interval(patch);
     if whole == old {
         return None;
     }
-    let share = |muted: Muted| share(whole, range(&mut drawn(Some(muted))));
+    let share = |muted: Muted| share(whole, interval(&mut drawn(Some(muted))));
     let mut contributions = Vec::new();
     for operation in code.operations() {
         let share = share(operation.muted());

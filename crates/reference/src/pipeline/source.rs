@@ -70,7 +70,7 @@ impl<D: Domain> Fragments<D> {
         let Places { x, y, weights, plain } = &mut self.places;
         x.copy_within(from.clone(), to);
         y.copy_within(from.clone(), to);
-        if D::OPEN {
+        if D::HAS_INTERVALS {
             plain.iter_mut().for_each(|lanes| lanes.copy_within(from.clone(), to));
         } else {
             weights.iter_mut().for_each(|lanes| lanes.copy_within(from.clone(), to));
@@ -148,7 +148,7 @@ impl<'v, D: Domain> Source<'v, D> {
         let size = size.min(crate::raster::point::MAX_SIZE);
         Self {
             kind,
-            plain: D::OPEN.then(|| Plain {
+            plain: D::HAS_INTERVALS.then(|| Plain {
                 kind: Kind::of(&prim.corners, places.map(|place| place.map(Number::value))),
                 slack: Slack::new(&prim.corners, places.map(|p| p.map(|c: D::Float| (c.value(), c.error())))),
             }),
@@ -256,7 +256,7 @@ impl<D: Domain> Source<'_, D> {
     #[inline(always)]
     fn same_at_all(&self, index: usize) -> Option<D::Float> {
         let [a, b, c] = self.values.map(|values| values.get(index).copied().unwrap_or_default());
-        let bits = |x: D::Float| (x.value().to_bits(), x.beside().to_bits());
+        let bits = |x: D::Float| (x.value().to_bits(), x.second().to_bits());
         (bits(a) == bits(b) && bits(a) == bits(c) && a.value().is_finite()).then_some(a)
     }
 }

@@ -57,7 +57,7 @@ impl Surface {
         let clear = framebuffer.clear.map(|value| store::<D>(D::Float::from_f64(value), framebuffer.format));
         let cleared = || Attachment {
             colors: filled(count, clear.map(Number::value)),
-            intervals: if D::OPEN { filled(count, clear.map(Number::range)) } else { Vec::new() },
+            intervals: if D::HAS_INTERVALS { filled(count, clear.map(Number::interval)) } else { Vec::new() },
         };
         Self { framebuffer, attachments: (0..framebuffer.attachments).map(|_| cleared()).collect() }
     }
@@ -70,7 +70,7 @@ impl Surface {
             height: self.framebuffer.height,
             attachments: colors,
             covered: marks.covered,
-            intervals: D::OPEN.then_some(intervals),
+            intervals: D::HAS_INTERVALS.then_some(intervals),
             undecided: marks.undecided,
             near_edge: marks.near_edge,
         }
@@ -132,7 +132,9 @@ impl Pixel<'_> {
         let interval = |channel: usize, value: f64| {
             self.interval.as_ref().map_or(Interval::point(value), |interval| interval[channel])
         };
-        std::array::from_fn(|channel| D::Float::whole(self.color[channel], interval(channel, self.color[channel])))
+        std::array::from_fn(|channel| {
+            D::Float::integer_with_interval(self.color[channel], interval(channel, self.color[channel]))
+        })
     }
 
     #[inline(always)]
@@ -140,11 +142,11 @@ impl Pixel<'_> {
         for (to, channel) in self.color.iter_mut().zip(&color) {
             *to = channel.value();
         }
-        if D::OPEN
+        if D::HAS_INTERVALS
             && let Some(interval) = self.interval.as_deref_mut()
         {
             for (to, channel) in interval.iter_mut().zip(&color) {
-                *to = channel.range();
+                *to = channel.interval();
             }
         }
     }

@@ -121,7 +121,7 @@ impl<'s, D: Domain> Target<'s, D> {
 impl<D: Domain> Pixels<D> {
     fn new() -> Self {
         let count = (BIN * BIN) as usize;
-        let undecided = vec![false; if D::OPEN { count } else { 0 }];
+        let undecided = vec![false; if D::HAS_INTERVALS { count } else { 0 }];
         Self { depth: Vec::new(), covered: vec![false; count], near_edge: Vec::new(), undecided }
     }
 }
@@ -171,7 +171,7 @@ impl<D: Domain> Bin<'_, D> {
         for lane in Mask(tests.passes).lanes() {
             pixels.covered[places[lane] as usize] = true;
         }
-        if D::OPEN {
+        if D::HAS_INTERVALS {
             for lane in Mask(tests.possible()).lanes() {
                 let slot = &mut pixels.undecided[places[lane] as usize];
                 let uncertain = tests.of(lane).undecided;
@@ -236,13 +236,13 @@ impl<D: Domain> Patch<D> {
     }
 
     /// The interval of a channel of a pixel inside the patch.
-    pub(super) fn range(&mut self, x: i64, y: i64, attachment: usize, channel: usize) -> Interval {
-        let mut range = Interval::ALL;
+    pub(super) fn interval(&mut self, x: i64, y: i64, attachment: usize, channel: usize) -> Interval {
+        let mut interval = Interval::ALL;
         let place = local(self.area, x, y);
         self.draw(|bin| {
             let color = bin.attachments.get_mut(attachment).and_then(|piece| piece.pixel(place)).map(|p| p.read::<D>());
-            range = color.and_then(|color| color.get(channel).copied()).map_or(Interval::ALL, Number::range);
+            interval = color.and_then(|color| color.get(channel).copied()).map_or(Interval::ALL, Number::interval);
         });
-        range
+        interval
     }
 }

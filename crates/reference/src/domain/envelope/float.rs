@@ -114,12 +114,12 @@ impl EnvelopeFloat {
 
     fn to_int_by(self, bits: u32, limit: impl Fn(f64) -> i64) -> EnvelopeInt {
         if self.may_be_nan {
-            return EnvelopeInt::with_choices(bits, i32::MIN, i32::MAX);
+            return EnvelopeInt::with_interval(bits, i32::MIN, i32::MAX);
         }
         match (i32::try_from(limit(self.low)), i32::try_from(limit(self.high))) {
-            (Ok(low), Ok(high)) => EnvelopeInt::with_choices(bits, low, high),
+            (Ok(low), Ok(high)) => EnvelopeInt::with_interval(bits, low, high),
             _ if self.low == self.high => EnvelopeInt::from_bits(bits),
-            _ => EnvelopeInt::with_choices(bits, i32::MIN, i32::MAX),
+            _ => EnvelopeInt::with_interval(bits, i32::MIN, i32::MAX),
         }
     }
 }
@@ -127,7 +127,7 @@ impl EnvelopeFloat {
 impl Number for EnvelopeFloat {
     type Int = EnvelopeInt;
     type Wide = Self;
-    const OPEN: bool = true;
+    const HAS_INTERVALS: bool = true;
 
     #[inline(always)]
     fn from_f64(value: f64) -> Self {
@@ -142,18 +142,18 @@ impl Number for EnvelopeFloat {
         Self { value, low: down(low), high: up(high), may_be_nan: false }
     }
     #[inline(always)]
-    fn with_range(value: f64, range: Interval) -> Self {
-        Self::rounded(value, range.low, range.high, range.may_be_nan)
+    fn with_interval(value: f64, interval: Interval) -> Self {
+        Self::rounded(value, interval.low, interval.high, interval.may_be_nan)
     }
-    fn whole(value: f64, range: Interval) -> Self {
-        Self { value, low: range.low, high: range.high, may_be_nan: range.may_be_nan }
+    fn integer_with_interval(value: f64, interval: Interval) -> Self {
+        Self { value, low: interval.low, high: interval.high, may_be_nan: interval.may_be_nan }
     }
     #[inline(always)]
     fn value(self) -> f64 {
         self.value
     }
     #[inline(always)]
-    fn range(self) -> Interval {
+    fn interval(self) -> Interval {
         self.as_range()
     }
     #[inline(always)]
@@ -409,15 +409,15 @@ impl Number for EnvelopeFloat {
     #[inline(always)]
     fn select(condition: EnvelopeInt, yes: Self, no: Self) -> Self {
         let (chosen, other) = if condition.bits != 0 { (yes, no) } else { (no, yes) };
-        if condition.sure() { chosen } else { chosen.joined(other) }
+        if condition.is_decided() { chosen } else { chosen.joined(other) }
     }
     fn from_int(value: EnvelopeInt) -> Self {
-        let (low, high) = value.choices();
+        let (low, high) = value.interval();
         Self::rounded(f64::from(value.bits as i32), f64::from(low), f64::from(high), false)
     }
     fn from_uint(value: EnvelopeInt) -> Self {
-        let (low, high) = value.choices();
-        let (low, high) = match (value.sure(), low >= 0) {
+        let (low, high) = value.interval();
+        let (low, high) = match (value.is_decided(), low >= 0) {
             (true, _) => (f64::from(value.bits), f64::from(value.bits)),
             (false, true) => (f64::from(low), f64::from(high)),
             (false, false) => (0.0, f64::from(u32::MAX)),

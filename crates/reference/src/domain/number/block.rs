@@ -1,4 +1,4 @@
-//! [`Block`]: the operations of [`Number`] on eight lanes at once.
+//! [`NumberBlock`]: the operations of [`Number`] on eight lanes at once.
 //!
 //! *In:* blocks of eight numbers. *Out:* blocks of eight results.
 //!
@@ -6,13 +6,13 @@
 //! may define its own operations on its blocks.
 
 use super::Number;
-use crate::domain::{Element, Few, WIDTH};
+use crate::domain::{Block, Element, WIDTH};
 
 /// The result of comparing two blocks.
-pub type Answers<N> = <<N as Number>::Int as Element>::Few;
+pub type Answers<N> = <<N as Number>::Int as Element>::Block;
 
 /// Eight numbers. Methods without a comment are [`Number`]'s of that name, in each lane.
-pub trait Block<N: Number>: Few<N> {
+pub trait NumberBlock<N: Number>: Block<N> {
     /// Whether the operations are the block's own, instead of [`Number`]'s lane by lane.
     const OWN: bool = false;
     /// Runs a loop over blocks, compiled for the vector unit of the block's own operations. Returns `None` if the
@@ -55,8 +55,8 @@ pub trait Block<N: Number>: Few<N> {
     }
     /// The block in the type for built-in functions.
     #[inline(always)]
-    fn widen(&self) -> <N::Wide as Element>::Few {
-        let mut out = <N::Wide as Element>::Few::default();
+    fn widen(&self) -> <N::Wide as Element>::Block {
+        let mut out = <N::Wide as Element>::Block::default();
         for lane in 0..WIDTH {
             out.set(lane, self.get(lane).widen());
         }
@@ -64,7 +64,7 @@ pub trait Block<N: Number>: Few<N> {
     }
     /// The single rounding at the end of a built-in function.
     #[inline(always)]
-    fn narrow(wide: &<N::Wide as Element>::Few) -> Self {
+    fn narrow(wide: &<N::Wide as Element>::Block) -> Self {
         let mut out = Self::default();
         for lane in 0..WIDTH {
             out.set(lane, N::narrow(wide.get(lane)));
@@ -74,7 +74,7 @@ pub trait Block<N: Number>: Few<N> {
     /// A sum, from left to right; with an envelope, in any order.
     #[inline(always)]
     fn sum(count: usize, term: impl Fn(usize) -> Self) -> Self {
-        if N::OPEN {
+        if N::HAS_INTERVALS {
             let mut out = Self::default();
             for lane in 0..WIDTH {
                 out.set(lane, N::sum((0..count).map(|place| term(place).get(lane))));
@@ -219,4 +219,4 @@ pub trait Block<N: Number>: Few<N> {
 
 /// The operations lane by lane: for domains without block operations, and for the others on machines without a
 /// suitable vector unit.
-impl<N: Number> Block<N> for [N; WIDTH] {}
+impl<N: Number> NumberBlock<N> for [N; WIDTH] {}

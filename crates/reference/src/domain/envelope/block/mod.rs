@@ -20,7 +20,7 @@ mod sum;
 mod tests;
 
 use super::EnvelopeFloat;
-use crate::domain::{Element, Few, WIDTH};
+use crate::domain::{Block, Element, WIDTH};
 use lane::LaneBounds;
 use std::hint::black_box;
 
@@ -39,10 +39,10 @@ pub struct EnvelopeBlock {
 type Special = [u64; WIDTH];
 
 impl Element for EnvelopeFloat {
-    type Few = EnvelopeBlock;
+    type Block = EnvelopeBlock;
 }
 
-impl Few<EnvelopeFloat> for EnvelopeBlock {
+impl Block<EnvelopeFloat> for EnvelopeBlock {
     #[inline(always)]
     fn splat(number: EnvelopeFloat) -> Self {
         Self {

@@ -4,7 +4,7 @@ use super::EnvelopeBlock;
 use super::lane::LaneBounds;
 use super::sum::Sum;
 use crate::domain::envelope::{EnvelopeFloat, EnvelopeInt, powers};
-use crate::domain::{Block, Few, Integer, Number, WIDTH};
+use crate::domain::{Block, Integer, Number, NumberBlock, WIDTH};
 use pulp::Arch;
 use std::f64::consts::{LN_2, LOG2_E};
 use std::sync::LazyLock;
@@ -29,8 +29,8 @@ impl EnvelopeBlock {
         let mut answers = Answers::default();
         for (lane, slot) in answers.iter_mut().enumerate() {
             let (a, b) = (self.bounds(lane), other.bounds(lane));
-            let sure = nan >> lane & 1 == 0;
-            let (always, never) = (always(a, b) & sure, never(a, b) & sure);
+            let decided = nan >> lane & 1 == 0;
+            let (always, never) = (always(a, b) & decided, never(a, b) & decided);
             let likely = answer(self.value[lane], other.value[lane]);
             *slot = EnvelopeInt {
                 bits: u32::from(always | (likely & !never)),
@@ -42,7 +42,7 @@ impl EnvelopeBlock {
     }
 }
 
-impl Block<EnvelopeFloat> for EnvelopeBlock {
+impl NumberBlock<EnvelopeFloat> for EnvelopeBlock {
     const OWN: bool = true;
     #[inline(always)]
     fn if_vectorized<R>(work: impl FnOnce() -> R) -> Option<R> {
@@ -337,7 +337,7 @@ impl Block<EnvelopeFloat> for EnvelopeBlock {
         if either != 0 {
             for (lane, condition) in condition.iter().enumerate() {
                 let nan = if condition.bits != 0 { yes.nan } else { no.nan };
-                out.nan |= if condition.sure() { nan } else { either } & 1 << lane;
+                out.nan |= if condition.is_decided() { nan } else { either } & 1 << lane;
             }
         }
         out

@@ -4,7 +4,7 @@ use super::EnvelopeBlock;
 use super::lane::LaneBounds;
 use crate::domain::envelope::EnvelopeFloat;
 use crate::domain::envelope::float::{greatest, least};
-use crate::domain::{Few, WIDTH};
+use crate::domain::{Block, WIDTH};
 
 /// A sum in progress, with the state that [`EnvelopeFloat::summed`] keeps.
 #[derive(Clone, Copy, Debug, Default)]
