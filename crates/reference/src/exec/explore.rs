@@ -1,6 +1,6 @@
-//! Runs every path that lanes may take where conditions are uncertain, and joins the results.
+//! Runs every path that lanes may take where conditions are undecided, and joins the results.
 //!
-//! *In:* a machine after its first run, in which each uncertain condition followed the value and was recorded. *Out:*
+//! *In:* a machine after its first run, in which each undecided condition followed the value and was recorded. *Out:*
 //! its outputs joined over all other paths, the lanes that may or may not be discarded, and the lanes that remain
 //! undecided. *Holds:* a group of lanes runs at most [`MAX_PATHS`] times. After that its outputs may be anything, and
 //! it is undecided.
@@ -33,7 +33,7 @@ struct Joined<D: Domain> {
 }
 
 impl<D: Domain> Machine<D> {
-    /// Runs all other paths of the groups of these lanes that met an uncertain condition.
+    /// Runs all other paths of the groups of these lanes that met an undecided condition.
     pub(super) fn explore(&mut self, lanes: u64) {
         if !self.paths.any || self.budget_exceeded {
             return;
@@ -78,7 +78,7 @@ impl<D: Domain> Machine<D> {
                 }
             }
             paths.retain(|(number, _)| joined.undecided >> (number * group) & members == 0);
-            // A path without an end is one that an uncertain loop bound permits.
+            // A path without an end is one that an undecided loop bound permits.
             self.budget_exceeded = false;
         }
         self.paths.clear();

@@ -12,7 +12,7 @@ use glisten_scene::picture::Interval;
 use glisten_scene::{Filter, Texture};
 
 impl<D: Domain> Machine<D> {
-    /// Runs a texture instruction in these lanes. Returns the lanes whose texture is uncertain.
+    /// Runs a texture instruction in these lanes. Returns the lanes whose texture is undecided.
     pub(super) fn texture(&mut self, call: &TextureCall, stage: Stage, mask: u64) -> u64 {
         let mut undecided = 0;
         for lane in Mask(mask).lanes() {
@@ -145,7 +145,7 @@ impl<D: Domain> LaneLookup<'_, D> {
         if level.is_none_or(Integer::is_decided) { sizes } else { sizes.unknown() }
     }
 
-    /// Reads a texel. If the coordinates are uncertain: the hull of those that they may select, if these are few.
+    /// Reads a texel. If the coordinates are undecided: the hull of those that they may select, if these are few.
     fn fetch(&self, texture: &Texture) -> Sampled {
         const MOST: i64 = 64;
         let offset = self.ints(&self.call.offset);

@@ -1,7 +1,7 @@
-//! The paths that lanes may take where conditions are uncertain: the decisions that a run follows, and those that it
+//! The paths that lanes may take where conditions are undecided: the decisions that a run follows, and those that it
 //! met.
 //!
-//! *In:* uncertain conditions, as instructions meet them. *Out:* the outcome that the run follows, and the paths that
+//! *In:* undecided conditions, as instructions meet them. *Out:* the outcome that the run follows, and the paths that
 //! branch off. [`explore`](super::explore) runs them.
 //!
 //! Lanes that derivatives couple decide together: a quad is one group. Without derivatives, a lane is one. A run has

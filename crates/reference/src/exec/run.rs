@@ -118,7 +118,7 @@ impl<D: Domain> Machine<D> {
         }
     }
 
-    /// The lanes of `mask` where the condition is true. If a lane's condition is uncertain, its path decides.
+    /// The lanes of `mask` where the condition is true. If a lane's condition is undecided, its path decides.
     fn truth(&mut self, condition: Operand, mask: u64) -> u64 {
         let (truth, undecided) = match self.registers.int(condition) {
             Source::One(value) => {
@@ -149,7 +149,7 @@ impl<D: Domain> Machine<D> {
     }
 }
 
-/// The lanes that are true, and those that are uncertain.
+/// The lanes that are true, and those that are undecided.
 #[inline(always)]
 pub(super) fn bits_where<I: Integer>(lanes: &Lanes<I>) -> (u64, u64) {
     let (mut truth, mut undecided) = (0u64, 0u64);
