@@ -387,7 +387,7 @@ fn attributes_of_every_kind_reach_the_driver() {
     let picture = holds(&gl, &written(vertex, fragment, rest));
     let row = |y: usize| y * 16;
     assert!(picture.covered[row(15)] && picture.covered[row(7) + 8], "both rows of the divisor are drawn");
-    assert!(!picture.covered[row(7)], "and nothing beside them");
+    assert!(!picture.covered[row(7)], "and nothing next to them");
 }
 
 #[test]

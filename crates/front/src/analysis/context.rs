@@ -52,7 +52,7 @@ pub(super) struct Analyzer<'a> {
     pub(super) extensions: Extensions,
     /// The current function.
     pub(super) body: Option<Body>,
-    /// What is declared, by name.
+    /// Types, functions, blocks and built-in variables by name.
     pub(super) declared: Declared,
     /// The first uses.
     pub(super) uses: Uses,

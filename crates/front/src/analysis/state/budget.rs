@@ -17,7 +17,7 @@ const MAX_COMPARED: usize = 1 << 17;
 /// target has more than a thousand of any kind.
 pub(in crate::analysis) const MAX_BOUND: u32 = 4096;
 
-/// What a shader has taken so far.
+/// How much a shader has taken so far, and may still take.
 #[derive(Debug)]
 pub(in crate::analysis) struct Budget {
     /// The steps that constant evaluation may still take.

@@ -1,4 +1,4 @@
-//! [`Declared`]: what is declared, by name.
+//! [`Declared`]: types, functions, blocks and built-in variables by name.
 
 use crate::builtin::BuiltinVariable;
 use crate::hir::{FunctionId, GlobalId, Storage, StructId, TypeId};

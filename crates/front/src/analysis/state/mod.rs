@@ -5,7 +5,7 @@
 //!
 //! * [`arrays`]: the elements that are used of arrays without a size.
 //! * [`budget`]: how much time, and how many variables, a shader may still take.
-//! * [`declared`]: what is declared, by name. Names that have scopes are in [`scope`](super::scope).
+//! * [`declared`]: everything declared, by name. Names that have scopes are in [`scope`](super::scope).
 //! * [`layouts`]: layouts and redeclarations that concern the whole shader, with their spans.
 //! * [`uses`]: where something is used first.
 
