@@ -45,6 +45,8 @@ pub use glisten_front::{diagnostic, lint, source};
 pub use glisten_gl::Gl;
 #[cfg(feature = "gpu")]
 pub use glisten_gpu::Gpu;
+#[cfg(feature = "stability")]
+pub use glisten_reference::stability;
 #[cfg(feature = "reference")]
 pub use glisten_reference::{Precision, RenderOptions, render};
 #[cfg(feature = "reference")]

@@ -8,6 +8,7 @@
 //! *Holds:* no panics, no half-written files, and the same bytes for the same input with any `-j`.
 
 mod args;
+mod batch;
 mod compile;
 mod config;
 mod console;

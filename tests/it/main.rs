@@ -4,6 +4,7 @@ mod architecture;
 #[cfg(feature = "cli")]
 mod cli;
 mod codes;
+mod cycles;
 mod diagnostics;
 #[cfg(feature = "reference")]
 mod drawing;

@@ -30,8 +30,8 @@ mod wide;
 pub(crate) use envelope::evaluate;
 pub use envelope::{EnvelopeBlock, EnvelopeFloat, EnvelopeInt};
 pub use integer::Integer;
-pub use lanes::{Answers, Block, Element, Few, LANES, Lanes, Source, WIDTH};
-pub use number::Number;
+pub use lanes::{Element, Few, LANES, Lanes, Source, WIDTH};
+pub use number::{Answers, Block, Number};
 pub use shadow::{ShadowFloat, ShadowInt, Shadowed};
 
 /// A pair of number types.

@@ -10,7 +10,7 @@
 //! `pow` as `exp2(y log2(x))`) round each step in f32, as GPUs do; the others round once. Subnormal f32 numbers are
 //! kept, not flushed to 0.
 
-use super::{Integer, Number};
+use super::{Element, Integer, Number, WIDTH};
 
 /// A `float`.
 pub type ShadowFloat = Shadowed<false>;
@@ -34,6 +34,14 @@ pub struct ShadowInt {
     pub bits: u32,
     /// The bits that follow from f32 arithmetic.
     pub single: u32,
+}
+
+impl Element for ShadowInt {
+    type Few = [Self; WIDTH];
+}
+
+impl<const INSIDE: bool> Element for Shadowed<INSIDE> {
+    type Few = [Self; WIDTH];
 }
 
 impl Integer for ShadowInt {

@@ -218,7 +218,7 @@ impl<D: Domain> Registers<D> {
         match *inst {
             Inst::Float1 { op, dst, a } => self.write_float(dst, |this, out| {
                 let filled = float1(op, out, this.float(a));
-                if D::OPEN && matches!(op, Float1::Asin | Float1::Acos) && this.faults.admits(Fault::ArcFunctions) {
+                if D::OPEN && matches!(op, Float1::Asin | Float1::Acos) && this.faults.excuses(Fault::ArcFunctions) {
                     out.update(|_, number| number.widened(faults::ARC_FUNCTIONS));
                 }
                 filled

@@ -14,7 +14,7 @@ pub(super) struct Test {
     /// Whether the values pass, so that the fragment is drawn.
     pub(super) passes: bool,
     /// Whether a conforming GPU may decide differently.
-    pub(super) open: bool,
+    pub(super) undecided: bool,
 }
 
 /// Runs the depth test (§4.1.5) of a fragment that passed all earlier tests, and writes depth if it passes.
@@ -23,13 +23,16 @@ pub(super) fn depth_test<D: Domain>(slot: &mut D::Float, z: D::Float, state: &St
     let stored = *slot;
     let z = store_depth::<D>(z);
     let passes = compare(state.depth_func, z.value(), stored.value());
-    let mut test = Test { passes: before.passes && passes, open: before.open };
+    let mut test = Test { passes: before.passes && passes, undecided: before.undecided };
     if D::OPEN {
         let (always, never) = certain(state.depth_func, z.range(), stored.range());
-        test = Test { passes: before.passes && !never && (passes || always), open: !never && (before.open || !always) };
+        test = Test {
+            passes: before.passes && !never && (passes || always),
+            undecided: !never && (before.undecided || !always),
+        };
     }
     if state.depth_write {
-        match (test.passes, test.open) {
+        match (test.passes, test.undecided) {
             (false, false) => {}
             (true, false) => *slot = z,
             (true, true) => *slot = z.joined(stored),
@@ -56,7 +59,7 @@ pub(super) fn stored<D: Domain>(
         None => color,
     };
     let new = color.map(|channel| store::<D>(channel, format));
-    match (test.passes, test.open) {
+    match (test.passes, test.undecided) {
         (_, false) => new,
         (true, true) => std::array::from_fn(|i| new[i].joined(old[i])),
         (false, true) => std::array::from_fn(|i| old[i].joined(new[i])),
@@ -93,15 +96,15 @@ fn certain(function: Compare, new: Interval, stored: Interval) -> (bool, bool) {
     let not_above = new.high <= stored.low;
     let not_below = new.low >= stored.high;
     let same = new.width() == 0.0 && stored.width() == 0.0 && new.low == stored.low;
-    let apart = below || above;
+    let disjoint = below || above;
     match function {
         _ if new.may_be_nan => (function == Compare::Always, function == Compare::Never),
         Compare::Never => (false, true),
         Compare::Less => (below, not_below),
-        Compare::Equal => (same, apart),
+        Compare::Equal => (same, disjoint),
         Compare::Lequal => (not_above, above),
         Compare::Greater => (above, not_above),
-        Compare::Notequal => (apart, same),
+        Compare::Notequal => (disjoint, same),
         Compare::Gequal => (not_below, below),
         Compare::Always => (true, false),
     }
@@ -129,8 +132,9 @@ fn clamped<D: Domain>(color: [D::Float; 4], format: Format) -> [D::Float; 4] {
 /// attachment has (§4.1.7), which rounds the source, the factors and the products, or may use floats.
 fn in_steps<D: Domain>(value: D::Float) -> D::Float {
     let Interval { low, high, may_be_nan } = value.range();
-    let slack = rules::STORE_SLACK.absolute();
-    let step = |x: f64| (x * 255.0).round() / 255.0;
+    let slack = const { rules::STORE_SLACK.absolute() };
+    let steps = const { rules::BLEND_8_BITS.steps() };
+    let step = |x: f64| (x * steps).round() / steps;
     let (low, high) = (low.min(step(low - slack)), high.max(step(high + slack)));
     D::Float::with_range(value.value(), Interval { low, high, may_be_nan })
 }
@@ -197,7 +201,7 @@ pub(super) fn store<D: Domain>(value: D::Float, format: Format) -> D::Float {
     // A step of 8 bits is not an f32: its bounds are rounded outward once more.
     let range = match format {
         Format::Rgba8Unorm => {
-            let slack = rules::STORE_SLACK.absolute();
+            let slack = const { rules::STORE_SLACK.absolute() };
             let low = if may_be_nan { 0.0 } else { convert(low - slack) };
             Interval { low, high: convert(high + slack), may_be_nan: false }
         }
@@ -224,5 +228,6 @@ fn half_below(x: f64) -> f64 {
 
 /// An 8-bit normalized channel: clamped, `round(255 x) / 255`; NaN is 0.
 fn unorm8(x: f64) -> f64 {
-    if x.is_nan() { 0.0 } else { (x.clamp(0.0, 1.0) * 255.0).round_ties_even() / 255.0 }
+    let steps = const { rules::STORE_8_BITS.steps() };
+    if x.is_nan() { 0.0 } else { (x.clamp(0.0, 1.0) * steps).round_ties_even() / steps }
 }

@@ -124,14 +124,14 @@ pub(super) struct Collected {
 }
 
 /// Whether a tally belongs to a vertex or a fragment stage, and its span.
-pub(super) type Place = (Stage, Span);
+pub(super) type StageSpan = (Stage, Span);
 
 impl Collected {
     /// The tallies of each stage and span, and the largest error of a fragment stage's output.
-    pub(super) fn joined(&self) -> (BTreeMap<Place, Tally>, f64) {
+    pub(super) fn joined(&self) -> (BTreeMap<StageSpan, Tally>, f64) {
         let mut parts = std::mem::take(&mut *self.parts.lock().unwrap_or_else(PoisonError::into_inner));
         parts.sort_by_key(|(order, _)| *order);
-        let mut all: BTreeMap<Place, Tally> = BTreeMap::new();
+        let mut all: BTreeMap<StageSpan, Tally> = BTreeMap::new();
         let mut output = 0.0_f64;
         for (order, recorder) in &parts {
             // Values that are the same for all invocations count with their stage: 0 with 2, 1 with 3.

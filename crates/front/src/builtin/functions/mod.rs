@@ -13,6 +13,7 @@ mod texture_old;
 
 pub use matcher::Matcher;
 
+use super::operations::Operation;
 use super::{Availability, BuiltinFunction};
 use crate::language::{ParamMode, Stage, TypeId, Types};
 use std::sync::OnceLock;
@@ -62,6 +63,19 @@ pub struct Row {
     pub effect: Effect,
     /// Whether the specification calls it deprecated.
     pub deprecated: bool,
+}
+
+impl Operation {
+    /// The prototypes, in the order of the specification.
+    pub fn prototypes(&self) -> impl Iterator<Item = &'static Row> + use<> {
+        let function = self.function;
+        all().filter(move |row| row.function == function)
+    }
+
+    /// The section of GLSL 1.50.
+    pub fn section(&self) -> &'static str {
+        self.prototypes().next().map_or("", |row| row.section)
+    }
 }
 
 /// The largest number of parameters of a built-in function.

@@ -1,7 +1,7 @@
 //! Operators, comparisons, conversions and selecting functions of the envelope.
 
 use super::round::{down, sum_down, sum_up, ulps_above, ulps_below, up};
-use super::{EnvelopeFloat, EnvelopeInt, ends};
+use super::{EnvelopeFloat, EnvelopeInt, powers};
 use crate::domain::rules::{self, FLUSH, ulp};
 use crate::domain::{Integer, Number};
 use glisten_front::builtin::operations::Precision;
@@ -99,7 +99,7 @@ impl EnvelopeFloat {
                 return EnvelopeInt::from_bool(false);
             }
         }
-        EnvelopeInt::open(answer)
+        EnvelopeInt::undecided(answer)
     }
 
     /// `min` or `max` if an operand may be NaN: then the result is the other one, or NaN (§8.3 does not define it).
@@ -332,16 +332,16 @@ impl Number for EnvelopeFloat {
         self.power(exponent)
     }
     fn exp(self) -> Self {
-        self.exponential(self.value.exp(), |end| ends::exp2(end * LOG2_E))
+        self.exponential(self.value.exp(), |end| powers::exp2(end * LOG2_E))
     }
     fn log(self) -> Self {
-        self.logarithm(self.value.ln(), |end| ends::log2(end) * LN_2)
+        self.logarithm(self.value.ln(), |end| powers::log2(end) * LN_2)
     }
     fn exp2(self) -> Self {
-        self.exponential(self.value.exp2(), ends::exp2)
+        self.exponential(self.value.exp2(), powers::exp2)
     }
     fn log2(self) -> Self {
-        self.logarithm(self.value.log2(), ends::log2)
+        self.logarithm(self.value.log2(), powers::log2)
     }
     fn sin(self) -> Self {
         self.sine()
@@ -393,18 +393,18 @@ impl Number for EnvelopeFloat {
     #[inline(always)]
     fn equal(self, other: Self) -> EnvelopeInt {
         let same = self.is_point() && other.is_point() && self.low == other.low;
-        let apart = self.high < other.low || other.high < self.low;
-        self.answered(other, same, apart, self.value == other.value)
+        let disjoint = self.high < other.low || other.high < self.low;
+        self.answered(other, same, disjoint, self.value == other.value)
     }
     fn isnan(self) -> EnvelopeInt {
-        if self.may_be_nan { EnvelopeInt::open(self.value.is_nan()) } else { EnvelopeInt::from_bool(false) }
+        if self.may_be_nan { EnvelopeInt::undecided(self.value.is_nan()) } else { EnvelopeInt::from_bool(false) }
     }
     fn isinf(self) -> EnvelopeInt {
         let answer = self.value.is_infinite();
         if self.is_point() || !self.is_infinite_perhaps() && !self.may_be_nan {
             return EnvelopeInt::from_bool(self.low.is_infinite());
         }
-        EnvelopeInt::open(answer)
+        EnvelopeInt::undecided(answer)
     }
     #[inline(always)]
     fn select(condition: EnvelopeInt, yes: Self, no: Self) -> Self {

@@ -4,7 +4,7 @@
 //! try all of them, so that `bool`s and short intervals stay precise. Sums, products and comparisons of longer
 //! intervals are computed from their bounds; the results of all other operations may be anything.
 
-use crate::domain::Integer;
+use crate::domain::{Element, Integer, WIDTH};
 
 /// The largest number of pairs of choices that are tried one by one.
 const TRIED: i64 = 64;
@@ -20,10 +20,14 @@ pub struct EnvelopeInt {
     pub high: i32,
 }
 
+impl Element for EnvelopeInt {
+    type Few = [Self; WIDTH];
+}
+
 impl EnvelopeInt {
     /// An undecided condition.
     #[inline(always)]
-    pub(super) fn open(answer: bool) -> Self {
+    pub(super) fn undecided(answer: bool) -> Self {
         Self { bits: u32::from(answer), low: 0, high: 1 }
     }
 
@@ -155,7 +159,7 @@ impl Integer for EnvelopeInt {
         if self.sure() && other.sure() {
             return Self::from_bool(answer);
         }
-        if self.high < other.low || other.high < self.low { Self::from_bool(false) } else { Self::open(answer) }
+        if self.high < other.low || other.high < self.low { Self::from_bool(false) } else { Self::undecided(answer) }
     }
     fn less_signed(self, other: Self) -> Self {
         if self.high < other.low {
@@ -163,7 +167,7 @@ impl Integer for EnvelopeInt {
         } else if self.low >= other.high {
             Self::from_bool(false)
         } else {
-            Self::open((self.bits as i32) < other.bits as i32)
+            Self::undecided((self.bits as i32) < other.bits as i32)
         }
     }
     fn less_unsigned(self, other: Self) -> Self {
@@ -171,7 +175,7 @@ impl Integer for EnvelopeInt {
             return self.less_signed(other);
         }
         let answer = self.bits < other.bits;
-        if self.sure() && other.sure() { Self::from_bool(answer) } else { Self::open(answer) }
+        if self.sure() && other.sure() { Self::from_bool(answer) } else { Self::undecided(answer) }
     }
     fn less_equal_signed(self, other: Self) -> Self {
         other.less_signed(self).not()

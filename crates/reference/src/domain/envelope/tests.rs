@@ -183,15 +183,15 @@ fn exact_operations_stay_exact() {
 fn a_clear_comparison_is_sure_and_an_overlap_is_not() {
     assert!(between(0.9, 1.1).less(between(1.9, 2.1)).sure());
     assert!(!between(0.4, 1.6).less(between(1.4, 2.6)).sure());
-    assert!(exact(0.0).less(exact(0.0)).sure(), "exact operands leave nothing open");
+    assert!(exact(0.0).less(exact(0.0)).sure(), "exact operands leave nothing undecided");
     let nan = EnvelopeFloat::from_f64(f64::NAN);
     assert!(!nan.less(exact(1.0)).sure() && !nan.isnan().sure());
 }
 
 #[test]
 fn selecting_covers_what_may_be_selected() {
-    let open = between(0.9, 1.1).less(exact(1.0));
-    let picked = EnvelopeFloat::select(open, exact(1.0), exact(3.0));
+    let undecided = between(0.9, 1.1).less(exact(1.0));
+    let picked = EnvelopeFloat::select(undecided, exact(1.0), exact(3.0));
     assert_eq!((picked.low, picked.high), (1.0, 3.0));
     assert_eq!(between(-1.0, -0.5).max(exact(0.0)), EnvelopeFloat { value: 0.0, ..exact(0.0) });
 }

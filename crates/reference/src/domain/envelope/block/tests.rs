@@ -74,7 +74,7 @@ impl Random {
 
     fn block(&mut self) -> EnvelopeBlock {
         let mut block = EnvelopeBlock::default();
-        // Whole blocks of lanes that are not odd are the important case.
+        // Whole blocks of lanes that are not special are the important case.
         let tame = self.below(2) == 0;
         for lane in 0..WIDTH {
             let mut number = self.number();
@@ -90,7 +90,7 @@ impl Random {
         std::array::from_fn(|_| match self.below(4) {
             0 => EnvelopeInt::from_bool(false),
             1 => EnvelopeInt::from_bool(true),
-            open => EnvelopeInt::open(open == 2),
+            undecided => EnvelopeInt::undecided(undecided == 2),
         })
     }
 }

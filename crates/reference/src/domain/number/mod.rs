@@ -1,6 +1,10 @@
 //! [`Number`]: the `float` of a domain, with each operation of the language.
 
-use super::{Block, Element, Integer};
+mod block;
+
+pub use block::{Answers, Block};
+
+use super::{Element, Integer};
 use glisten_scene::picture::Interval;
 
 /// A `float`. Methods without a comment are the operation or built-in function of that name (GLSL 1.50 §5.9, §8.1 to §8.3).
