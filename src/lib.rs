@@ -21,6 +21,8 @@
 pub mod library;
 
 #[cfg(feature = "cli")]
+pub mod account;
+#[cfg(feature = "cli")]
 #[doc(hidden)]
 pub mod cli;
 #[cfg(feature = "reference")]

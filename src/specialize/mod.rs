@@ -11,16 +11,24 @@
 #[cfg(feature = "reference")]
 mod account;
 #[cfg(feature = "reference")]
+mod error;
+#[cfg(feature = "reference")]
 mod known;
 #[cfg(feature = "reference")]
 mod residual;
 
 pub use glisten_front::hir::ScalarValue;
-pub use glisten_specialize::{Input, Kind, Known, KnownState, KnownTexture, LeftOut, Residual, specialize};
+pub use glisten_specialize::{
+    Input, Kind, Known, KnownState, KnownTexture, LeftOut, Moved, Residual, specialize, specialize_with,
+};
+/// Options of [`specialize_with`].
+pub use glisten_specialize::Options as SpecializeOptions;
 
 #[cfg(feature = "reference")]
-pub use account::{Account, DrawAccount, Entry, Figures, account, spirv_instructions};
+pub use account::{Account, DrawAccount, Entry, Figures, Moves, MovedEntry, account, spirv_instructions};
+#[cfg(feature = "reference")]
+pub use error::{Distance, PictureError, Pictures, picture_error, pictures};
 #[cfg(feature = "reference")]
 pub use known::known;
 #[cfg(feature = "reference")]
-pub use residual::{SpecializedDraw, SpecializedScene, specialize_scene};
+pub use residual::{Contract, SpecializedDraw, SpecializedScene, specialize_scene, specialize_scene_by};

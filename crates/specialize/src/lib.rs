@@ -37,9 +37,11 @@
 
 mod account;
 mod facts;
+mod fast;
 mod forward;
 mod inputs;
 mod known;
+mod motion;
 mod prune;
 mod residual;
 mod settle;
@@ -47,6 +49,6 @@ mod text;
 
 pub use account::{Kind, LeftOut};
 pub use known::{Input, Known, KnownState, KnownTexture};
-pub use residual::{Options, Residual, ResidualStage, specialize, specialize_with};
+pub use residual::{Moved, Options, Residual, ResidualStage, specialize, specialize_with};
 
 pub use glisten_front::Program;

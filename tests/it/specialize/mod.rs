@@ -1,5 +1,6 @@
 //! Specialized scenes draw the same pictures, byte for byte on the reference in f32.
 
+mod contracts;
 #[cfg(feature = "gpu")]
 mod random;
 mod rules;

@@ -22,6 +22,8 @@ mod sweep;
 mod trim;
 mod uses;
 
+pub(crate) use compact::for_each_child;
+
 use super::settle::Settled;
 use glisten_front::hir::{
     ArraySize, ConstructKind, ExprId, ExprKind, GlobalId, Scalar, ScalarValue, Shader, Stmt, StmtKind, Storage, Type,
