@@ -21,6 +21,7 @@ mod inputs;
 mod library;
 mod lint;
 mod opengl;
+mod optimize;
 mod pictures;
 mod progress;
 mod reflect;

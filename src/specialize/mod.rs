@@ -19,8 +19,8 @@ pub use glisten_front::hir::ScalarValue;
 pub use glisten_specialize::{Input, Kind, Known, KnownState, KnownTexture, LeftOut, Residual, specialize};
 
 #[cfg(feature = "reference")]
-pub use account::{Account, DrawAccount, Entry, Figures, account, spirv_instructions};
+pub use account::{Account, DrawAccount, Entry, Figures, account, body_instructions, spirv_instructions};
 #[cfg(feature = "reference")]
 pub use known::known;
 #[cfg(feature = "reference")]
-pub use residual::{SpecializedDraw, SpecializedScene, specialize_scene};
+pub use residual::{SpecializedDraw, SpecializedScene, specialize_scene, with_program};

@@ -35,6 +35,8 @@ mod mutations;
 #[cfg(feature = "gl")]
 mod opengl;
 mod operations;
+#[cfg(feature = "reference")]
+mod optimize;
 mod print;
 #[cfg(feature = "gpu")]
 mod random;

@@ -40,6 +40,7 @@ mod facts;
 mod forward;
 mod inputs;
 mod known;
+mod optimize;
 mod prune;
 mod residual;
 mod settle;
@@ -47,6 +48,7 @@ mod text;
 
 pub use account::{Kind, LeftOut};
 pub use known::{Input, Known, KnownState, KnownTexture};
+pub use optimize::{left_out, optimize};
 pub use residual::{Options, Residual, ResidualStage, specialize, specialize_with};
 
 pub use glisten_front::Program;
