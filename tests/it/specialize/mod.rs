@@ -1,6 +1,8 @@
 //! Specialized scenes draw the same pictures, byte for byte on the reference in f32.
 
 mod by_hand;
+#[cfg(feature = "cli")]
+mod command;
 #[cfg(feature = "gpu")]
 mod drawn;
 #[cfg(feature = "gpu")]
