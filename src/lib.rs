@@ -60,6 +60,7 @@ pub mod emit {
         ClipZ, Conventions, Emitted, Reflection, SpirvEnv, Target, WindowOrigin, emit, emit_with_sources, reflect,
         reflection,
     };
+    pub use glisten_specialize::{left_out, optimize};
 }
 
 /// The examples of the README and of the page on the library.

@@ -50,8 +50,7 @@ fn scene(one: &SceneOnPage<'_>) -> Value {
     let Pictures { original, residual } = one.pictures;
     let error = one.account.fast_math.or(one.account.move_to_vertex);
     let draws = one.account.draws.iter().zip(&one.scene.draws).zip(&one.specialized.draws);
-    let draws: Vec<Value> =
-        draws.map(|((account, draw), done)| self::draw(account, draw, done, one.sources)).collect();
+    let draws: Vec<Value> = draws.map(|((account, draw), done)| self::draw(account, draw, done, one.sources)).collect();
     let differing = original.bit_unequal(residual);
     context! {
         name => &one.account.scene,
@@ -115,8 +114,7 @@ fn draw(account: &DrawAccount, draw: &Draw, done: &SpecializedDraw, sources: &So
         .map(|one| context! { what => one.what, name => &one.name, line => one.line, because => &one.because })
         .collect();
     let moves = account.move_to_vertex.iter().flat_map(|moves| &moves.moved);
-    let moved: Vec<Value> =
-        moves.map(|one| context! { name => &one.name, expression => &one.expression }).collect();
+    let moved: Vec<Value> = moves.map(|one| context! { name => &one.name, expression => &one.expression }).collect();
     context! {
         vertex => &account.vertex,
         fragment => &account.fragment,
@@ -165,7 +163,9 @@ fn figures(before: &Figures, after: &Figures) -> Vec<Value> {
             let change = match (before, after) {
                 (before, after) if before == after => "as before".to_owned(),
                 (0, _) => "new".to_owned(),
-                (before, after) => format!("{:+.0} %", (after as f64 / before as f64 - 1.0) * 100.0).replace('-', "\u{2212}"),
+                (before, after) => {
+                    format!("{:+.0} %", (after as f64 / before as f64 - 1.0) * 100.0).replace('-', "\u{2212}")
+                }
             };
             context! { name, before => grouped(before), after => grouped(after), change, less => after < before }
         })

@@ -347,7 +347,9 @@ fn error_line(of: &str, error: &PictureError) -> String {
         "{of}: max error {:.3e}, RMSE {:.3e}; to the truth {:.3e} -> {:.3e}",
         error.max_abs, error.rmse, error.original.max_abs, error.residual.max_abs,
     );
-    for (count, what) in [(error.non_finite, "no longer finite, or not before"), (error.coverage_mismatch, "covered by one alone")] {
+    for (count, what) in
+        [(error.non_finite, "no longer finite, or not before"), (error.coverage_mismatch, "covered by one alone")]
+    {
         if count > 0 {
             line.push_str(&format!("; {count} pixels {what}"));
         }

@@ -18,17 +18,19 @@ mod known;
 mod residual;
 
 pub use glisten_front::hir::ScalarValue;
+/// Options of [`specialize_with`].
+pub use glisten_specialize::Options as SpecializeOptions;
 pub use glisten_specialize::{
     Input, Kind, Known, KnownState, KnownTexture, LeftOut, Moved, Residual, specialize, specialize_with,
 };
-/// Options of [`specialize_with`].
-pub use glisten_specialize::Options as SpecializeOptions;
 
 #[cfg(feature = "reference")]
-pub use account::{Account, DrawAccount, Entry, Figures, Moves, MovedEntry, account, spirv_instructions};
+pub use account::{
+    Account, DrawAccount, Entry, Figures, MovedEntry, Moves, account, body_instructions, spirv_instructions,
+};
 #[cfg(feature = "reference")]
 pub use error::{Distance, PictureError, Pictures, picture_error, pictures};
 #[cfg(feature = "reference")]
 pub use known::known;
 #[cfg(feature = "reference")]
-pub use residual::{Contract, SpecializedDraw, SpecializedScene, specialize_scene, specialize_scene_by};
+pub use residual::{Contract, SpecializedDraw, SpecializedScene, specialize_scene, specialize_scene_by, with_program};

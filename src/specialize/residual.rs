@@ -83,7 +83,8 @@ pub fn specialize_scene_by(
     sources: &SourceMap,
     dynamic: &[String],
 ) -> SpecializedScene {
-    let options = Options { sources: Some(sources), fast_math: contract.fast_math, move_to_vertex: contract.move_to_vertex };
+    let options =
+        Options { sources: Some(sources), fast_math: contract.fast_math, move_to_vertex: contract.move_to_vertex };
     let mut draws = Vec::with_capacity(scene.draws.len());
     let mut residuals: Vec<(StageTexts, Arc<Program>)> = Vec::new();
     let mut result = scene.clone();
@@ -102,7 +103,7 @@ pub fn specialize_scene_by(
                 program
             }
         };
-        result.draws.push(rebound(draw, program, dynamic));
+        result.draws.push(with_program(draw, program, dynamic));
         draws.push(SpecializedDraw { texts, lines, left_out, moved, sources, fault });
     }
     SpecializedScene { contract, scene: result, draws }
@@ -117,8 +118,9 @@ fn alike(a: &Program, b: &Program) -> bool {
     places(a) == places(b)
 }
 
-/// The draw with another program, whose inputs are found by their names.
-fn rebound(draw: &Draw, program: Arc<Program>, dynamic: &[String]) -> Draw {
+/// A draw with another program, whose inputs are found by their names: data that it does not declare is left, and what only
+/// it declares has none. `dynamic` is added to the draw's own list, of which the names stay that the program has.
+pub fn with_program(draw: &Draw, program: Arc<Program>, dynamic: &[String]) -> Draw {
     let (old, new) = (&draw.program.interface, &program.interface);
     let attributes = new.attributes.iter().map(|attribute| {
         let index = old.attributes.iter().position(|known| known.name == attribute.name)?;

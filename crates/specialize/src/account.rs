@@ -230,7 +230,8 @@ impl Account<'_> {
             }
             _ if kept.contains(&stmt.span) => {}
             _ => {
-                let moved = self.moved.iter().find(|one| one.span.start >= stmt.span.start && one.span.end <= stmt.span.end);
+                let moved =
+                    self.moved.iter().find(|one| one.span.start >= stmt.span.start && one.span.end <= stmt.span.end);
                 let because = match moved {
                     Some(moved) => format!("it moved to the vertex stage, as `{}`", moved.name),
                     None => "nothing that is drawn depends on it, or its value is known".to_owned(),

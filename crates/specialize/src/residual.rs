@@ -97,7 +97,13 @@ pub fn specialize_with(program: &Program, known: &Known, options: &Options<'_>) 
     let whole = program.stage(Stage::Geometry).is_none();
     let walk = |shader: &Shader, ends: Option<&Walked>| {
         let ends = ends.filter(|_| whole).map(|walked| walked.ends.as_slice());
-        forward::walk(&program.types, shader, inputs::inputs(program, shader, known, ends), &textures, options.fast_math)
+        forward::walk(
+            &program.types,
+            shader,
+            inputs::inputs(program, shader, known, ends),
+            &textures,
+            options.fast_math,
+        )
     };
     let vertex = vertex.map(|shader| (shader, walk(shader, None)));
     let fragment = fragment.map(|shader| (shader, walk(shader, vertex.as_ref().map(|(_, walked)| walked))));
@@ -219,10 +225,8 @@ fn assemble(
     let mut shaders: Vec<Shader> = pruned.iter().map(|(pruned, _)| pruned.shader.clone()).collect();
     shaders.extend(program.stage(Stage::Geometry).cloned());
     shaders.sort_by_key(|shader| shader.stage);
-    let stages: Vec<ResidualStage> = shaders
-        .iter()
-        .map(|shader| ResidualStage::of(&types, shader, options.sources))
-        .collect();
+    let stages: Vec<ResidualStage> =
+        shaders.iter().map(|shader| ResidualStage::of(&types, shader, options.sources)).collect();
     match read_back(program, &stages) {
         Ok((left, sources)) => {
             let left_out = account::left_out(program, known, options, &walked, &moved, (&shaders, &left.interface));
@@ -265,11 +269,8 @@ fn read_back(program: &Program, stages: &[ResidualStage]) -> Result<(Program, So
 
 /// The program as it was.
 fn whole(program: &Program, options: &Options<'_>) -> Residual {
-    let stages = program
-        .stages
-        .iter()
-        .map(|shader| ResidualStage::of(&program.types, shader, options.sources))
-        .collect();
+    let stages =
+        program.stages.iter().map(|shader| ResidualStage::of(&program.types, shader, options.sources)).collect();
     let sources = options.sources.cloned().unwrap_or_default();
     Residual { stages, program: program.clone(), sources, left_out: Vec::new(), moved: Vec::new(), fault: None }
 }

@@ -146,7 +146,10 @@ fn what_is_affine_moves_to_the_vertex_stage() {
         let texts = format!("{body}\n{}\n{}", vertex.unwrap_or(""), fragment.unwrap_or(""));
         let found: Vec<&str> = residual.moved.iter().map(|one| one.name.as_str()).collect();
         assert_eq!(found, *names, "{texts}");
-        assert!(!fragment.is_some_and(|text| text.contains(gone)) && vertex.is_some_and(|text| text.contains(gone)), "{texts}");
+        assert!(
+            !fragment.is_some_and(|text| text.contains(gone)) && vertex.is_some_and(|text| text.contains(gone)),
+            "{texts}"
+        );
     }
 }
 

@@ -296,11 +296,8 @@ impl Algebra<'_> {
         {
             let ty = self.shader.expr(m).ty;
             let Type::Matrix(_, rows) = self.types.get(ty) else { return None };
-            let first = self.push(
-                ExprKind::Binary(BinaryOp::MatMul, m, b),
-                TypeId::vector(Scalar::Float, rows),
-                expr.span,
-            );
+            let first =
+                self.push(ExprKind::Binary(BinaryOp::MatMul, m, b), TypeId::vector(Scalar::Float, rows), expr.span);
             return Some(ExprKind::Binary(BinaryOp::MatMul, a, first));
         }
         None

@@ -60,13 +60,7 @@ pub(crate) fn finite(types: &Types, ty: TypeId, facts: Facts) -> Facts {
 }
 
 /// The value of an operation on known operands.
-fn folded(
-    types: &Types,
-    like: &Shader,
-    operation: Operation,
-    operands: &[Operand<'_>],
-    ty: TypeId,
-) -> Option<Facts> {
+fn folded(types: &Types, like: &Shader, operation: Operation, operands: &[Operand<'_>], ty: TypeId) -> Option<Facts> {
     let mut shader = Shader::new(like.stage, like.version);
     let mut ids = Vec::with_capacity(operands.len());
     for (facts, ty) in operands {

@@ -83,9 +83,10 @@ fn products(n: u32) -> u32 {
 fn name(shader: &Shader, n: u32) -> String {
     let taken = |name: &str| {
         shader.globals.iter().any(|global| global.name == name)
-            || shader.functions.iter().any(|function| {
-                function.name == name || function.locals.iter().any(|local| local.name == name)
-            })
+            || shader
+                .functions
+                .iter()
+                .any(|function| function.name == name || function.locals.iter().any(|local| local.name == name))
     };
     let plain = format!("pow{n}");
     let mut candidate = plain.clone();
@@ -105,9 +106,8 @@ fn written(shader: &mut Shader, ty: TypeId, n: u32) -> Function {
     let mut locals = vec![local("x".into(), LocalKind::Param(ParamMode::In))];
     let mut body = Vec::new();
     let variable = |shader: &mut Shader, id: LocalId| shader.push(ExprKind::Var(VarRef::Local(id)), ty, span);
-    let product = |shader: &mut Shader, a: ExprId, b: ExprId| {
-        shader.push(ExprKind::Binary(BinaryOp::Mul, a, b), ty, span)
-    };
+    let product =
+        |shader: &mut Shader, a: ExprId, b: ExprId| shader.push(ExprKind::Binary(BinaryOp::Mul, a, b), ty, span);
     let mut result: Option<ExprId> = None;
     let (mut square, mut exponent) = (LocalId::new(0), 1);
     loop {

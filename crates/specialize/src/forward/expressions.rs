@@ -268,7 +268,8 @@ impl Forward<'_> {
             _ => {
                 let twice = matches!(arguments, [a, b] if self.same_variable(*a, *b));
                 let result = facts::builtin(&Call { types: self.types, function, arguments: &facts, ty: own.0, twice });
-                let operands: Vec<(&[Fact], TypeId)> = facts.iter().map(|(facts, ty)| (facts.as_slice(), *ty)).collect();
+                let operands: Vec<(&[Fact], TypeId)> =
+                    facts.iter().map(|(facts, ty)| (facts.as_slice(), *ty)).collect();
                 self.improved(Operation::Call(function), &operands, own.0, result)
             }
         };

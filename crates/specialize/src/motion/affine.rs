@@ -160,7 +160,10 @@ impl<'a> Degrees<'a> {
             ExprKind::BuiltinCall(function, list) => self.call(*function, list, id),
             _ => None,
         }
-        .filter(|_| self.types.scalar_of(expr.ty).is_some() || matches!(expr.kind, ExprKind::Var(_) | ExprKind::Member(..) | ExprKind::Index(..)))
+        .filter(|_| {
+            self.types.scalar_of(expr.ty).is_some()
+                || matches!(expr.kind, ExprKind::Var(_) | ExprKind::Member(..) | ExprKind::Index(..))
+        })
     }
 
     /// A sum or a list of these: as affine as they are, if their varyings are of one kind.

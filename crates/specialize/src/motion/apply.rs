@@ -172,9 +172,10 @@ fn replace_local(shader: &mut Shader, function: FunctionId, local: LocalId, inpu
 
 /// A name that says where the value comes from.
 fn name(types: &Types, candidate: &Candidate, fragment: &Shader, vertex: &Shader, moved: &[Move]) -> String {
-    let local = candidate.places.iter().find_map(|(_, _, local)| {
-        local.map(|(function, local)| fragment.function(function).local(local).name.clone())
-    });
+    let local = candidate
+        .places
+        .iter()
+        .find_map(|(_, _, local)| local.map(|(function, local)| fragment.function(function).local(local).name.clone()));
     let varying = candidate.base.map(|id| fragment.global(id).name.clone());
     let wanted = local.or_else(|| varying.map(|name| format!("{name}_affine"))).unwrap_or_else(|| "affine".into());
     let globals = || fragment.globals.iter().chain(&vertex.globals);

@@ -125,7 +125,8 @@ impl Search<'_> {
             Type::Scalar(scalar) | Type::Vector(scalar, _) => scalar == Scalar::Float,
             _ => false,
         };
-        vector && self.degrees.get(id).is_some_and(|affine| affine.kind.is_some() && (of_local || affine.operations > 0))
+        vector
+            && self.degrees.get(id).is_some_and(|affine| affine.kind.is_some() && (of_local || affine.operations > 0))
     }
 
     fn candidate(&mut self, function: FunctionId, id: ExprId, local: Option<LocalName>) {
