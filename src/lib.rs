@@ -21,6 +21,8 @@
 pub mod library;
 
 #[cfg(feature = "cli")]
+pub mod account;
+#[cfg(feature = "cli")]
 #[doc(hidden)]
 pub mod cli;
 #[cfg(feature = "reference")]
@@ -58,6 +60,7 @@ pub mod emit {
         ClipZ, Conventions, Emitted, Reflection, SpirvEnv, Target, WindowOrigin, emit, emit_with_sources, reflect,
         reflection,
     };
+    pub use glisten_specialize::{left_out, optimize};
 }
 
 /// The examples of the README and of the page on the library.

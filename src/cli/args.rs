@@ -2,6 +2,7 @@
 
 use super::exit::Failure;
 use super::stages::StageArg;
+use crate::specialize::Contract;
 use clap::{Args, ValueEnum};
 use glisten_emit::{ClipZ, Conventions, SpirvEnv, WindowOrigin};
 use glisten_front::compiler::Options;
@@ -263,5 +264,41 @@ mod tests {
         assert!(parse_define("1A").is_err() && parse_define("").is_err() && parse_define("A=\n#x").is_err());
         assert_eq!(parse_binding("pv=0"), Ok(("pv".into(), 0)));
         assert!(parse_binding("pv").is_err() && parse_binding("=1").is_err() && parse_binding("pv=-1").is_err());
+    }
+}
+
+/// The changes that `specialize` may make to a picture.
+#[derive(Args, Clone, Copy, Debug, Default)]
+pub(super) struct ContractArgs {
+    /// Allow algebra that changes rounding, infinities and NaN, and print the error that it makes
+    #[arg(long)]
+    fast_math: bool,
+    /// Move what is affine in varyings to the vertex stage where that pays, and print the error that it makes
+    #[arg(long)]
+    move_to_vertex: bool,
+}
+
+impl ContractArgs {
+    /// The contract.
+    pub(super) fn contract(self) -> Contract {
+        Contract { fast_math: self.fast_math, move_to_vertex: self.move_to_vertex }
+    }
+}
+
+/// The changes that `--specialize` may make to a picture.
+#[derive(Args, Clone, Copy, Debug, Default)]
+pub(super) struct WithContractArgs {
+    /// With --specialize, allow algebra that changes rounding, infinities and NaN
+    #[arg(long, requires = "specialize")]
+    fast_math: bool,
+    /// With --specialize, move what is affine in varyings to the vertex stage where that pays
+    #[arg(long, requires = "specialize")]
+    move_to_vertex: bool,
+}
+
+impl WithContractArgs {
+    /// The contract.
+    pub(super) fn contract(self) -> Contract {
+        Contract { fast_math: self.fast_math, move_to_vertex: self.move_to_vertex }
     }
 }

@@ -1,5 +1,6 @@
 //! `glisten gallery`: draws every scene of the library onto one page.
 
+use super::args::WithContractArgs;
 use super::console::Console;
 use super::exit::{Exit, Failure, Outcome};
 use super::files;
@@ -8,7 +9,7 @@ use super::progress::Progress;
 use super::render::Backend;
 use super::scenes::{DrawError, MachineArgs, ViaArg};
 use crate::gallery::{self, Entry, Tile};
-use crate::specialize::specialize_scene;
+use crate::specialize::specialize_scene_by;
 use clap::Args;
 use glisten_front::source::SourceMap;
 use glisten_gpu::{Gpu, Via};
@@ -39,6 +40,8 @@ pub(super) struct GalleryArgs {
     /// Draw with programs of which nothing is left but what each picture needs
     #[arg(long)]
     specialize: bool,
+    #[command(flatten)]
+    contract: WithContractArgs,
     /// The width of the pictures in pixels
     #[arg(long, value_name = "PIXELS", default_value_t = 320, value_parser = clap::value_parser!(u32).range(8..=MAX_SIZE))]
     size: u32,
@@ -87,7 +90,10 @@ pub(super) fn run(args: &GalleryArgs, console: &Console) -> Outcome {
 impl GalleryBackend {
     fn draw(&self, args: &GalleryArgs, entry: &Entry) -> Result<Picture, Failure> {
         let scene = entry.supersampled(args.size);
-        let scene = if args.specialize { specialize_scene(&scene, &SourceMap::default(), &[]).scene } else { scene };
+        let scene = match args.contract.contract() {
+            _ if !args.specialize => scene,
+            contract => specialize_scene_by(contract, &scene, &SourceMap::default(), &[]).scene,
+        };
         let picture = match self {
             Self::Gpu(gpu, via) => gpu.render(&scene, *via).map(|rendered| rendered.picture).map_err(DrawError::from),
             Self::Cpu => {

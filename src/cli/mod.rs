@@ -22,6 +22,7 @@ mod inputs;
 mod library;
 mod lint;
 mod opengl;
+mod optimize;
 mod pictures;
 mod progress;
 mod reflect;

@@ -1,5 +1,6 @@
 //! `glisten render`: draws a scene to a picture on the GPU, with the CPU reference or by OpenGL.
 
+use super::args::WithContractArgs;
 use super::console::Console;
 use super::exit::{Exit, Failure, Outcome};
 use super::files;
@@ -33,6 +34,8 @@ pub(super) struct RenderArgs {
     /// Draw with programs of which nothing is left but what the picture needs
     #[arg(long)]
     specialize: bool,
+    #[command(flatten)]
+    contract: WithContractArgs,
 }
 
 /// The backend that draws a scene.
@@ -77,7 +80,7 @@ pub(super) fn run(args: &RenderArgs, console: &Console) -> Outcome {
     target.check(read.scene.framebuffer.format)?;
     let progress = Progress::new(console, 1);
     progress.say("drawing");
-    let scene = if args.specialize { read.specialized() } else { read.scene.clone() };
+    let scene = if args.specialize { read.specialized(args.contract.contract()) } else { read.scene.clone() };
     let picture = match draw(args, scene) {
         Ok(picture) => picture,
         Err(error) => return read.failed(error),

@@ -1,5 +1,6 @@
 //! `glisten report`: error against run time of the ways to shade a scene, as JSON and as a page.
 
+use super::args::WithContractArgs;
 use super::batch::Batch;
 use super::console::Console;
 use super::exit::{Exit, Failure, Outcome};
@@ -28,6 +29,8 @@ pub(super) struct ReportArgs {
     /// Add each way once more with programs of which nothing is left but what the picture needs
     #[arg(long)]
     specialize: bool,
+    #[command(flatten)]
+    contract: WithContractArgs,
 }
 
 /// Shows the steps of a report as progress.
@@ -61,8 +64,8 @@ pub(super) fn run(args: &ReportArgs, console: &Console) -> Outcome {
     };
     let via: Via = args.via.into();
     let mut steps = Steps { console, progress: Progress::new(console, 1), begun: false };
-    let result =
-        report::run(&args.scene.scene, &DiskFiles, session.compiler(), &gpu, (via, args.specialize), &mut steps);
+    let specialized = args.specialize.then(|| args.contract.contract());
+    let result = report::run(&args.scene.scene, &DiskFiles, session.compiler(), &gpu, (via, specialized), &mut steps);
     drop(steps);
     match result {
         Ok(report) => write(args, console, &report),

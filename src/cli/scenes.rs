@@ -7,7 +7,7 @@ use super::exit::{Exit, Failure};
 use super::guard;
 use super::session::Session;
 use crate::scene::{self, DiskFiles, Scene};
-use crate::specialize::specialize_scene;
+use crate::specialize::{Contract, specialize_scene_by};
 use clap::{Args, ValueEnum};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::source::SourceMap;
@@ -79,8 +79,8 @@ pub(super) struct Read<'a> {
 
 impl Read<'_> {
     /// The scene without what its picture does not need.
-    pub(super) fn specialized(&self) -> Scene {
-        specialize_scene(&self.scene, self.sources(), &[]).scene
+    pub(super) fn specialized(&self, contract: Contract) -> Scene {
+        specialize_scene_by(contract, &self.scene, self.sources(), &[]).scene
     }
 
     /// The texts of the scene and its shaders.

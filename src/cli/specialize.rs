@@ -2,18 +2,21 @@
 //!
 //! *Holds:* the names of all outputs are known before anything is written; equal residuals are written once.
 
-use super::args::{ConventionArgs, LevelArgs, SourceArgs};
+use super::args::{ContractArgs, ConventionArgs, LevelArgs, SourceArgs};
 use super::compile::target_words;
 use super::console::Console;
 use super::exit::{Exit, Failure, Outcome};
 use super::files;
 use super::progress::Progress;
 use super::scenes::{DrawError, MachineArgs, Read, SceneArgs};
-use crate::specialize::{Account, SpecializedScene, account, specialize_scene};
+use crate::account::{PAGE, SceneOnPage, page};
+use crate::specialize::{Account, PictureError, Pictures, SpecializedScene, account, pictures, specialize_scene_by};
 use clap::Args;
 use glisten_emit::{self as emit, Conventions, Target};
 use glisten_front::hir::Stage;
 use glisten_front::link::Program;
+use glisten_front::source::SourceMap;
+use glisten_reference::Precision;
 use glisten_scene::{Scene, ShaderFiles, write};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -33,6 +36,8 @@ pub(super) struct SpecializeArgs {
     /// Write nothing, and tell whether anything can be left out
     #[arg(long)]
     check: bool,
+    #[command(flatten)]
+    contract: ContractArgs,
     /// The target to write (repeatable; default: wgsl and spirv)
     #[arg(long = "target", value_name = "TARGET", value_parser = target_words())]
     targets: Vec<Target>,
@@ -53,6 +58,8 @@ struct Done {
     /// The original.
     scene: Scene,
     specialized: SpecializedScene,
+    /// The texts of the original.
+    sources: SourceMap,
     /// For each draw the files of the original's shaders and the stem of the residual.
     names: Vec<[String; 3]>,
 }
@@ -113,12 +120,14 @@ pub(super) fn run(args: &SpecializeArgs, console: &Console) -> Outcome {
         write_residual(args, &folder, stem, texts, &residuals, (&conventions, console))?;
     }
     let mut programs: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    let mut drawn = Vec::new();
     for one in &done {
-        exit = exit.max(write_scene(args, &folder, one, console)?);
+        drawn.push(write_scene(args, &folder, one, console)?);
         programs.insert(one.name.clone(), one.names.iter().map(|[_, _, stem]| stem.clone()).collect());
     }
     let json = serde_json::to_string_pretty(&programs).expect("names are always JSON") + "\n";
     files::write(&folder.join("programs.json"), json.as_bytes())?;
+    write_page(&folder, &done, &drawn)?;
     console.remark(&format!("wrote {}", folder.display()));
     Ok(exit)
 }
@@ -147,7 +156,8 @@ fn specialized(
     residuals: &mut Residuals,
 ) -> Result<Result<Done, Exit>, Failure> {
     check_dynamic(args, &read.scene)?;
-    let specialized = specialize_scene(&read.scene, read.sources(), &args.dynamic);
+    let contract = args.contract.contract();
+    let specialized = specialize_scene_by(contract, &read.scene, read.sources(), &args.dynamic);
     let mut names = Vec::new();
     for (draw, (left, done)) in read.scene.draws.iter().zip(specialized.scene.draws.iter().zip(&specialized.draws)) {
         if let Some(fault) = &done.fault {
@@ -164,7 +174,7 @@ fn specialized(
         };
         names.push([file(Stage::Vertex), file(Stage::Fragment), stem]);
     }
-    Ok(Ok(Done { name: stem(name), scene: read.scene.clone(), specialized, names }))
+    Ok(Ok(Done { name: stem(name), scene: read.scene.clone(), specialized, sources: read.sources().clone(), names }))
 }
 
 /// A name of `--dynamic` that no program of a scene has is a mistake.
@@ -243,7 +253,13 @@ fn write_residual(
     files::write(&folder.join(format!("{stem}.json")), json.as_bytes())
 }
 
-fn write_scene(args: &SpecializeArgs, folder: &Path, one: &Done, console: &Console) -> Outcome {
+/// Writes a scene and its account, which comes back with the pictures.
+fn write_scene(
+    args: &SpecializeArgs,
+    folder: &Path,
+    one: &Done,
+    console: &Console,
+) -> Result<(Account, Pictures), Failure> {
     let shaders: Vec<ShaderFiles> = one
         .names
         .iter()
@@ -253,15 +269,18 @@ fn write_scene(args: &SpecializeArgs, folder: &Path, one: &Done, console: &Conso
     files::write(&folder.join(format!("{}.toml", one.name)), text.as_bytes())?;
     let (name, scene) = (one.name.clone(), one.scene.clone());
     let (specialized, names) = (one.specialized.clone(), one.names.clone());
-    let counted = args.machine.within_time(move || Ok(account(&name, &scene, &specialized, &names)?));
+    let counted = args.machine.within_time(move || {
+        let drawn = pictures(&scene, &specialized.scene, Precision::F32)?;
+        Ok((account(&name, &scene, &specialized, &names)?, drawn))
+    });
     match counted {
-        Ok(account) => {
+        Ok((account, pictures)) => {
             let json = serde_json::to_string_pretty(&account).expect("an account is always JSON") + "\n";
             files::write(&folder.join(format!("{}.account.json", one.name)), json.as_bytes())?;
             if !console.is_quiet() {
                 console.output(&table(&account))?;
             }
-            Ok(Exit::Ok)
+            Ok((account, pictures))
         }
         Err(DrawError::Failure(failure)) => Err(failure),
         Err(DrawError::Diagnostics(found)) => {
@@ -269,6 +288,23 @@ fn write_scene(args: &SpecializeArgs, folder: &Path, one: &Done, console: &Conso
             Err(Failure::new(Exit::Content, format!("`{}` cannot be drawn: {message}", one.name)))
         }
     }
+}
+
+/// Writes the page of all scenes.
+fn write_page(folder: &Path, done: &[Done], drawn: &[(Account, Pictures)]) -> Result<(), Failure> {
+    let scenes: Vec<SceneOnPage<'_>> = done
+        .iter()
+        .zip(drawn)
+        .map(|(one, (account, pictures))| SceneOnPage {
+            account,
+            scene: &one.scene,
+            sources: &one.sources,
+            specialized: &one.specialized,
+            pictures,
+        })
+        .collect();
+    let page = page(&scenes).map_err(|message| Failure::new(Exit::Content, format!("internal error: {message}")))?;
+    files::write(&folder.join(PAGE), page.as_bytes())
 }
 
 /// The work before and after, a line a draw.
@@ -286,6 +322,38 @@ fn table(account: &Account) -> String {
             before.vertex_operations + before.fragment_operations,
             after.vertex_operations + after.fragment_operations,
         ));
+        let of = format!("{}: {}", account.scene, draw.residual);
+        if let Some(moves) = &draw.move_to_vertex {
+            for moved in &moves.moved {
+                let place = format!("{}:{}", moved.file, moved.line);
+                text.push_str(&format!("{of}: `{}` moved to the vertex stage, from {place}\n", moved.name));
+            }
+        }
+        // Both contracts are measured together: the picture is one.
+        let error = draw.fast_math.or_else(|| draw.move_to_vertex.as_ref().map(|moves| moves.error));
+        if let Some(error) = error.filter(|_| account.draws.len() > 1) {
+            text.push_str(&error_line(&of, &error));
+        }
+    }
+    if let Some(error) = account.fast_math.or(account.move_to_vertex) {
+        text.push_str(&error_line(&account.scene, &error));
     }
     text
+}
+
+/// The error that the residual makes.
+fn error_line(of: &str, error: &PictureError) -> String {
+    let mut line = format!(
+        "{of}: max error {:.3e}, RMSE {:.3e}; to the truth {:.3e} -> {:.3e}",
+        error.max_abs, error.rmse, error.original.max_abs, error.residual.max_abs,
+    );
+    for (count, what) in
+        [(error.non_finite, "no longer finite, or not before"), (error.coverage_mismatch, "covered by one alone")]
+    {
+        if count > 0 {
+            line.push_str(&format!("; {count} pixels {what}"));
+        }
+    }
+    line.push('\n');
+    line
 }

@@ -1,6 +1,7 @@
 //! `glisten verify`: draws a scene on the GPU and with the CPU reference, and judges each pixel.
 
 use super::args::ResultFormat;
+use super::args::WithContractArgs;
 use super::console::Console;
 use super::exit::{Exit, Outcome};
 use super::files;
@@ -42,6 +43,8 @@ pub(super) struct VerifyArgs {
     /// Let the GPU draw with programs of which nothing is left but what the picture needs, and judge it by the original
     #[arg(long)]
     specialize: bool,
+    #[command(flatten)]
+    contract: WithContractArgs,
     /// Write a picture of |difference| / bound: gray up to the bound, red beyond
     #[arg(long, value_name = "FILE")]
     difference: Option<PathBuf>,
@@ -137,7 +140,7 @@ pub(super) fn run(args: &VerifyArgs, console: &Console) -> Outcome {
     };
     let difference = args.difference.as_deref().map(Target::parse).transpose()?;
     let progress = Progress::new(console, vias.len() + 1);
-    let drawn = args.specialize.then(|| read.specialized());
+    let drawn = args.specialize.then(|| read.specialized(args.contract.contract()));
     let scenes = (&read.scene, drawn.as_ref());
     let verification = match compare(args, scenes, read.sources(), &vias, &progress) {
         Ok(verification) => verification,

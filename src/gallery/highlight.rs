@@ -7,7 +7,7 @@ use glisten_front::syntax::keywords::WordClass;
 
 /// The language of a text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Language {
+pub(crate) enum Language {
     Glsl,
     Toml,
 }
@@ -16,7 +16,7 @@ pub(super) enum Language {
 const VERSION: u16 = 150;
 
 /// The text with a `<span>` around each token that has a class.
-pub(super) fn html(text: &str, language: Language) -> String {
+pub(crate) fn html(text: &str, language: Language) -> String {
     let mut out = String::with_capacity(text.len() * 2);
     let mut rest = text;
     let mut starts_line = true;

@@ -13,7 +13,7 @@
 //! *Holds:* the same pictures give the same bytes. Nothing here draws, prints or writes files; texts are escaped.
 
 mod entry;
-mod highlight;
+pub(crate) mod highlight;
 mod math;
 mod page;
 mod tile;

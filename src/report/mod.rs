@@ -12,7 +12,7 @@ mod model;
 mod page;
 mod plan;
 mod plot;
-mod raster;
+pub(crate) mod raster;
 mod run;
 mod table;
 

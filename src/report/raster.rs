@@ -22,14 +22,14 @@ pub(super) const SCALE: [[u8; 3]; 8] = [
 ];
 
 /// The first attachment as a PNG data URI.
-pub(super) fn color_uri(picture: &Picture) -> String {
+pub(crate) fn color_uri(picture: &Picture) -> String {
     let pixels = picture.attachments.first().map(Vec::as_slice).unwrap_or_default();
     let pixels: Vec<[u8; 3]> = pixels.iter().copied().map(visible_rgb).collect();
     data_uri(&pixels, picture.width, picture.height)
 }
 
 /// The differences from the truth as a PNG data URI.
-pub(super) fn difference_uri(differences: &[Option<f64>], width: u32, height: u32) -> String {
+pub(crate) fn difference_uri(differences: &[Option<f64>], width: u32, height: u32) -> String {
     let pixels = differences.iter().map(|difference| match difference {
         Some(difference) => scale_color(*difference),
         None => [0, 200, 220],

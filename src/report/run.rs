@@ -7,7 +7,7 @@ use super::figures::{compare, mark_pareto, spread};
 use super::model::{Adapter, Report, Timing, Truth, Way};
 use super::plan::{Plan, PlannedWay, base_of, plan};
 use crate::scene::{self, FileError, FileSource, Loaded, Scene};
-use crate::specialize::specialize_scene;
+use crate::specialize::{Contract, specialize_scene_by};
 use glisten_front::compiler::Compiler;
 use glisten_front::diagnostic::{Diagnostic, Diagnostics};
 use glisten_front::source::SourceMap;
@@ -64,7 +64,7 @@ struct Candidate {
     times: Vec<f64>,
 }
 
-/// Compares the ways of the scene at `path`; `specialized` adds each of them with residual programs.
+/// Compares the ways of the scene at `path`; `specialized` adds each of them with residual programs of that contract.
 ///
 /// # Errors
 /// [`Error`]; the first way that cannot be drawn ends the report.
@@ -73,12 +73,12 @@ pub fn run(
     files: &dyn FileSource,
     compiler: &Compiler,
     gpu: &Gpu,
-    (via, specialized): (Via, bool),
+    (via, specialized): (Via, Option<Contract>),
     watcher: &mut dyn Watcher,
 ) -> Result<Report, Error> {
     let whole = load(path, files, compiler)?;
     let plan = read_plan(path, files, &whole)?;
-    let drawn = if specialized { 2 * plan.ways.len() } else { plan.ways.len() };
+    let drawn = if specialized.is_some() { 2 * plan.ways.len() } else { plan.ways.len() };
     watcher.steps(plan.truths.len() + 2 * drawn + plan.rounds as usize);
     let mut truths = Vec::new();
     for truth in &plan.truths {
@@ -100,9 +100,9 @@ pub fn run(
         let (way, candidate) = draw(planned, &scene, truth, gpu, via, watcher)?;
         ways.push(way);
         candidates.push(candidate);
-        if specialized {
+        if let Some(contract) = specialized {
             let planned = PlannedWay { name: format!("{}, specialized", planned.name), ..planned.clone() };
-            let scene = specialize_scene(&scene, &SourceMap::default(), &[]).scene;
+            let scene = specialize_scene_by(contract, &scene, &SourceMap::default(), &[]).scene;
             let (way, candidate) = draw(&planned, &scene, truth, gpu, via, watcher)?;
             ways.push(way);
             candidates.push(candidate);

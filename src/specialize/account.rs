@@ -2,12 +2,14 @@
 //!
 //! *In:* a scene and what is left of it. *Out:* [`Account`], which is JSON as the contract says.
 
+use super::error::{PictureError, options, picture_error};
 use super::residual::SpecializedScene;
 use glisten_emit::{Conventions, Emitted, Target, emit};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::link::Program;
-use glisten_reference::{LineRule, Precision, RenderOptions, Work, work};
+use glisten_reference::{Precision, Work, work};
 use glisten_scene::{Draw, Scene};
+use glisten_specialize::Moved;
 use serde::Serialize;
 
 /// The account of a scene.
@@ -17,6 +19,12 @@ pub struct Account {
     pub scene: String,
     /// Its draws, in order.
     pub draws: Vec<DrawAccount>,
+    /// Under fast math, the error of the whole picture.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fast_math: Option<PictureError>,
+    /// Where computations may move to the vertex stage, the error of the whole picture.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub move_to_vertex: Option<PictureError>,
 }
 
 /// The account of a draw.
@@ -34,6 +42,35 @@ pub struct DrawAccount {
     pub before: Figures,
     /// The work of the residual.
     pub after: Figures,
+    /// Under fast math, the error of a picture of this draw alone.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fast_math: Option<PictureError>,
+    /// What moved to the vertex stage, where that is allowed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub move_to_vertex: Option<Moves>,
+}
+
+/// What moved to the vertex stage of a draw.
+#[derive(Clone, Debug, Serialize)]
+pub struct Moves {
+    /// The computations.
+    pub moved: Vec<MovedEntry>,
+    /// The error of a picture of this draw alone.
+    #[serde(flatten)]
+    pub error: PictureError,
+}
+
+/// A computation that moved to the vertex stage.
+#[derive(Clone, Debug, Serialize)]
+pub struct MovedEntry {
+    /// The varying that carries its result.
+    pub name: String,
+    /// Its text.
+    pub expression: String,
+    /// The file that it was in.
+    pub file: String,
+    /// The line.
+    pub line: u32,
 }
 
 /// Something that was left out.
@@ -82,18 +119,21 @@ pub fn account(
     specialized: &SpecializedScene,
     names: &[[String; 3]],
 ) -> Result<Account, Vec<Diagnostic>> {
-    let options = RenderOptions {
-        precision: Precision::F32,
-        lines: LineRule::OpenGl,
-        mark_edges: false,
-        ..RenderOptions::default()
-    };
+    let options = options(Precision::F32);
+    let contract = specialized.contract;
+    let error = if contract.is_exact() { None } else { Some(picture_error(scene, &specialized.scene)?) };
     let (before, after) = (work(scene, &options)?, work(&specialized.scene, &options)?);
     let mut draws = Vec::with_capacity(scene.draws.len());
     for (index, ([vertex, fragment, residual], done)) in names.iter().zip(&specialized.draws).enumerate() {
         let figures = |scene: &Scene, work: &[Work]| {
             let draw = scene.draws.get(index);
             draw.map_or_else(Figures::default, |draw| figures(draw, work.get(index).copied().unwrap_or_default()))
+        };
+        let of_draw = match error {
+            None => None,
+            // The picture of the only draw is the picture.
+            Some(error) if scene.draws.len() == 1 => Some(error),
+            Some(_) => Some(picture_error(&alone(scene, index), &alone(&specialized.scene, index))?),
         };
         let left_out = done.left_out.iter().map(|one| Entry {
             what: one.what.name(),
@@ -109,9 +149,29 @@ pub fn account(
             left_out: left_out.collect(),
             before: figures(scene, &before),
             after: figures(&specialized.scene, &after),
+            fast_math: of_draw.filter(|_| contract.fast_math),
+            move_to_vertex: of_draw
+                .filter(|_| contract.move_to_vertex)
+                .map(|error| Moves { moved: done.moved.iter().map(moved_entry).collect(), error }),
         });
     }
-    Ok(Account { scene: name.to_owned(), draws })
+    Ok(Account {
+        scene: name.to_owned(),
+        draws,
+        fast_math: error.filter(|_| contract.fast_math),
+        move_to_vertex: error.filter(|_| contract.move_to_vertex),
+    })
+}
+
+fn moved_entry(moved: &Moved) -> MovedEntry {
+    let Moved { name, expression, file, line, .. } = moved.clone();
+    MovedEntry { name, expression, file, line }
+}
+
+/// The scene with one of its draws alone.
+fn alone(scene: &Scene, draw: usize) -> Scene {
+    let draws = scene.draws.iter().skip(draw).take(1).cloned().collect();
+    Scene { draws, ..scene.clone() }
 }
 
 fn figures(draw: &Draw, work: Work) -> Figures {
@@ -136,13 +196,14 @@ pub fn spirv_instructions(program: &Program) -> u64 {
     let stages = program.stages.iter();
     stages
         .map(|shader| match emit(program, shader.stage, Target::Spirv, &Conventions::default()) {
-            Ok(Emitted::Words(words)) => in_bodies(&words),
+            Ok(Emitted::Words(words)) => body_instructions(&words),
             Ok(_) | Err(_) => 0,
         })
         .sum()
 }
 
-fn in_bodies(words: &[u32]) -> u64 {
+/// Instructions between `OpFunction` and `OpFunctionEnd` of a module, both included.
+pub fn body_instructions(words: &[u32]) -> u64 {
     const HEADER: usize = 5;
     const FUNCTION: u32 = 54;
     const FUNCTION_END: u32 = 56;

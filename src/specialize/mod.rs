@@ -11,16 +11,26 @@
 #[cfg(feature = "reference")]
 mod account;
 #[cfg(feature = "reference")]
+mod error;
+#[cfg(feature = "reference")]
 mod known;
 #[cfg(feature = "reference")]
 mod residual;
 
 pub use glisten_front::hir::ScalarValue;
-pub use glisten_specialize::{Input, Kind, Known, KnownState, KnownTexture, LeftOut, Residual, specialize};
+/// Options of [`specialize_with`].
+pub use glisten_specialize::Options as SpecializeOptions;
+pub use glisten_specialize::{
+    Input, Kind, Known, KnownState, KnownTexture, LeftOut, Moved, Residual, specialize, specialize_with,
+};
 
 #[cfg(feature = "reference")]
-pub use account::{Account, DrawAccount, Entry, Figures, account, spirv_instructions};
+pub use account::{
+    Account, DrawAccount, Entry, Figures, MovedEntry, Moves, account, body_instructions, spirv_instructions,
+};
+#[cfg(feature = "reference")]
+pub use error::{Distance, PictureError, Pictures, picture_error, pictures};
 #[cfg(feature = "reference")]
 pub use known::known;
 #[cfg(feature = "reference")]
-pub use residual::{SpecializedDraw, SpecializedScene, specialize_scene};
+pub use residual::{Contract, SpecializedDraw, SpecializedScene, specialize_scene, specialize_scene_by, with_program};

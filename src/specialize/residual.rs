@@ -7,14 +7,32 @@
 use super::known::{known, leaf_values};
 use glisten_front::hir::{ScalarValue, Stage};
 use glisten_front::link::Program;
-use glisten_front::source::SourceMap;
+use glisten_front::source::{SourceMap, Span};
 use glisten_scene::{AttributeData, AttributeValues, Draw, Scene};
-use glisten_specialize::{LeftOut, Options, Residual, specialize_with};
+use glisten_specialize::{LeftOut, Moved, Options, Residual, specialize_with};
 use std::sync::Arc;
+
+/// The changes that a specialization may make to a picture. The default allows none.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Contract {
+    /// Algebra that changes rounding.
+    pub fast_math: bool,
+    /// Computations that move to the vertex stage.
+    pub move_to_vertex: bool,
+}
+
+impl Contract {
+    /// Whether the picture stays as it is, bit by bit.
+    pub fn is_exact(self) -> bool {
+        self == Self::default()
+    }
+}
 
 /// A scene of residual programs.
 #[derive(Clone, Debug)]
 pub struct SpecializedScene {
+    /// How it was specialized.
+    pub contract: Contract,
     /// The scene.
     pub scene: Scene,
     /// What became of each draw's program.
@@ -26,8 +44,12 @@ pub struct SpecializedScene {
 pub struct SpecializedDraw {
     /// The residual's texts, by stage.
     pub texts: Vec<(Stage, String)>,
+    /// For each line of each text the place in the original that it comes from.
+    pub lines: Vec<(Stage, Vec<Span>)>,
     /// What was left out.
     pub left_out: Vec<LeftOut>,
+    /// What moved to the vertex stage.
+    pub moved: Vec<Moved>,
     /// The texts that the residual was read back from, for diagnostics about it.
     pub sources: SourceMap,
     /// Why the program was left as it was, should that ever be.
@@ -39,6 +61,11 @@ impl SpecializedDraw {
     pub fn text(&self, stage: Stage) -> &str {
         self.texts.iter().find(|(of, _)| *of == stage).map_or("", |(_, text)| text)
     }
+
+    /// The places in the original that the lines of a stage's text come from.
+    pub fn places(&self, stage: Stage) -> &[Span] {
+        self.lines.iter().find(|(of, _)| *of == stage).map_or(&[], |(_, lines)| lines)
+    }
 }
 
 /// The text of each stage of a program.
@@ -46,14 +73,27 @@ type StageTexts = Vec<(Stage, String)>;
 
 /// Leaves out of a scene what its picture does not need. `dynamic` is added to what the draws call so.
 pub fn specialize_scene(scene: &Scene, sources: &SourceMap, dynamic: &[String]) -> SpecializedScene {
+    specialize_scene_by(Contract::default(), scene, sources, dynamic)
+}
+
+/// Leaves out of a scene what its picture does not need, or what `contract` allows besides.
+pub fn specialize_scene_by(
+    contract: Contract,
+    scene: &Scene,
+    sources: &SourceMap,
+    dynamic: &[String],
+) -> SpecializedScene {
+    let options =
+        Options { sources: Some(sources), fast_math: contract.fast_math, move_to_vertex: contract.move_to_vertex };
     let mut draws = Vec::with_capacity(scene.draws.len());
     let mut residuals: Vec<(StageTexts, Arc<Program>)> = Vec::new();
     let mut result = scene.clone();
     result.draws.clear();
     for draw in &scene.draws {
         let known = known(draw, &scene.framebuffer, dynamic);
-        let Residual { stages, program, left_out, sources, fault } =
-            specialize_with(&draw.program, &known, &Options { sources: Some(sources) });
+        let Residual { stages, program, left_out, moved, sources, fault } =
+            specialize_with(&draw.program, &known, &options);
+        let lines = stages.iter().map(|stage| (stage.stage, stage.lines.clone())).collect();
         let texts: StageTexts = stages.into_iter().map(|stage| (stage.stage, stage.text)).collect();
         let program = match residuals.iter().find(|(known, other)| *known == texts && alike(other, &program)) {
             Some((_, program)) => Arc::clone(program),
@@ -63,10 +103,10 @@ pub fn specialize_scene(scene: &Scene, sources: &SourceMap, dynamic: &[String]) 
                 program
             }
         };
-        result.draws.push(rebound(draw, program, dynamic));
-        draws.push(SpecializedDraw { texts, left_out, sources, fault });
+        result.draws.push(with_program(draw, program, dynamic));
+        draws.push(SpecializedDraw { texts, lines, left_out, moved, sources, fault });
     }
-    SpecializedScene { scene: result, draws }
+    SpecializedScene { contract, scene: result, draws }
 }
 
 /// Whether two programs of one text have the same locations.
@@ -78,8 +118,9 @@ fn alike(a: &Program, b: &Program) -> bool {
     places(a) == places(b)
 }
 
-/// The draw with another program, whose inputs are found by their names.
-fn rebound(draw: &Draw, program: Arc<Program>, dynamic: &[String]) -> Draw {
+/// A draw with another program, whose inputs are found by their names: data that it does not declare is left, and what only
+/// it declares has none. `dynamic` is added to the draw's own list, of which the names stay that the program has.
+pub fn with_program(draw: &Draw, program: Arc<Program>, dynamic: &[String]) -> Draw {
     let (old, new) = (&draw.program.interface, &program.interface);
     let attributes = new.attributes.iter().map(|attribute| {
         let index = old.attributes.iter().position(|known| known.name == attribute.name)?;

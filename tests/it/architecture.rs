@@ -57,6 +57,7 @@ static ORDER: &[(&str, &[&str])] = &[
             "specialize",
             "gallery",
             "report",
+            "account",
             "cli",
             "main",
         ],

@@ -652,3 +652,88 @@ fn the_typed_program_is_printed_and_compiles_again() {
     let again = folder.run_with_input(&["lint", "-", "--stage", "fragment"], &out(&output));
     assert_eq!(code(&again), 0, "{}", out(&again));
 }
+
+/// A program in which an attribute, a varying, a function and a uniform reach no output.
+fn with_dead_parts() -> Folder {
+    let vertex = "#version 150\nin vec4 pv;\nin vec4 dead;\nout vec4 vc;\nout vec4 unread;\nuniform vec4 u;\n\
+                  void main() { vc = pv; unread = dead * u; gl_Position = pv; }\n";
+    let fragment = "#version 150\nin vec4 vc;\nin vec4 unread;\nout vec4 fc;\nvec4 never() { return vc; }\n\
+                    void main() { vec4 nothing = unread; fc = vc; }\n";
+    Folder::new(&[("a.vert", vertex.as_bytes()), ("a.frag", fragment.as_bytes())])
+}
+
+#[test]
+fn compile_leaves_out_what_reaches_no_output() {
+    let place = with_dead_parts();
+    let text = |name: &str| fs::read_to_string(place.path(name)).expect("it was written");
+    // Arguments, and whether the WGSL is without the dead parts.
+    for (arguments, left_out) in [
+        (&[][..], true),
+        (&["-O"], true),
+        (&["-O1"], true),
+        (&["-O0"], false),
+        (&["--no-optimize"], false),
+        (&["-g"], false),
+        (&["-g", "-O"], true),
+        (&["-g", "-O0"], false),
+    ] {
+        let output = place.run(&[&["compile", "a.vert", "a.frag", "-o", "out"], arguments].concat());
+        assert_eq!((code(&output), err(&output).as_str()), (0, ""), "{arguments:?}");
+        let emitted = text("out/a.vert.wgsl") + &text("out/a.frag.wgsl");
+        assert_eq!(!emitted.contains("dead"), left_out, "{arguments:?}\n{emitted}");
+        assert_eq!(!emitted.contains("unread"), left_out, "{arguments:?}\n{emitted}");
+        let reflection: Value = serde_json::from_str(&text("out/a.json")).expect("JSON");
+        // What is left out stays in the reflection, with its location, and is not active.
+        assert_eq!(reflection["attributes"][1]["name"], "dead");
+        assert_eq!(reflection["attributes"][1]["active"], !left_out, "{arguments:?}");
+        assert_eq!(reflection["uniforms"][0]["active"], !left_out, "{arguments:?}");
+        let names: Vec<&Value> = reflection["varyings"].as_array().expect("a list").iter().collect();
+        assert_eq!(names.len(), 2, "{reflection}");
+    }
+    // A host of HLSL declares each input: nothing is left out unless that is asked for.
+    for (target, optimize, left_out) in
+        [("hlsl", "", false), ("hlsl", "-O", true), ("msl", "", false), ("glsl", "", false)]
+    {
+        let mut arguments = vec!["compile", "a.vert", "a.frag", "-o", "other", "--target", target];
+        arguments.extend((!optimize.is_empty()).then_some(optimize));
+        assert_eq!(code(&place.run(&arguments)), 0, "{arguments:?}");
+        let name = if target == "msl" { "other/a.vert.metal".to_owned() } else { format!("other/a.vert.{target}") };
+        assert_eq!(!text(&name).contains("unread"), left_out, "{arguments:?}\n{}", text(&name));
+    }
+    // One of the outputs has it: so it is active.
+    assert_eq!(
+        code(&place.run(&["compile", "a.vert", "a.frag", "-o", "both", "--target", "wgsl", "--target", "hlsl"])),
+        0
+    );
+    let reflection: Value = serde_json::from_str(&text("both/a.json")).expect("JSON");
+    assert_eq!(reflection["attributes"][1]["active"], true);
+    assert_eq!(code(&place.run(&["compile", "a.vert", "a.frag", "-o", "out", "--optimize", "--no-optimize"])), 2);
+}
+
+#[test]
+fn compile_says_what_it_left_out() {
+    let place = with_dead_parts();
+    let output = place.run(&["compile", "a.vert", "a.frag", "-o", "out", "--left-out"]);
+    assert_eq!(code(&output), 0);
+    for word in ["attribute `dead`", "varying `unread`", "function `never`", "uniform `u`", "statement `nothing`"] {
+        assert!(err(&output).contains(word), "{word}:\n{}", err(&output));
+    }
+    let output = place.run(&["compile", "a.vert", "a.frag", "-o", "out", "--left-out", "--diagnostics", "json"]);
+    let findings: Vec<Value> = serde_json::from_str(&err(&output)).expect("JSON");
+    assert!(findings.iter().all(|one| one["code"] == "W0803" && one["severity"] == "note"), "{findings:?}");
+    let dead = findings.iter().find(|one| one["message"].as_str().is_some_and(|text| text.contains("`dead`")));
+    assert_eq!(dead.map(|one| (&one["file"], &one["line"])), Some((&Value::from("a.vert"), &Value::from(3))));
+    // Without optimization, and without the question, nothing is said.
+    for arguments in [&["--left-out", "-O0"][..], &[]] {
+        let output = place.run(&[&["compile", "a.vert", "a.frag", "-o", "out"], arguments].concat());
+        assert_eq!((code(&output), err(&output).as_str()), (0, ""), "{arguments:?}");
+    }
+    // `reflect` shows what `compile` writes by default.
+    let reflect = |arguments: &[&str]| -> Value {
+        let output = place.run(&[&["reflect", "a.vert", "a.frag", "--format", "json"], arguments].concat());
+        serde_json::from_str(&out(&output)).expect("JSON")
+    };
+    let written = fs::read_to_string(place.path("out/a.json")).expect("it was written");
+    assert_eq!(reflect(&[]), serde_json::from_str::<Value>(&written).expect("JSON"));
+    assert_eq!(reflect(&["-O0"])["attributes"][1]["active"], true);
+}

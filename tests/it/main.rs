@@ -36,6 +36,8 @@ mod mutations;
 #[cfg(feature = "gl")]
 mod opengl;
 mod operations;
+#[cfg(feature = "reference")]
+mod optimize;
 mod print;
 #[cfg(feature = "gpu")]
 mod random;

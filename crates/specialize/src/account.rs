@@ -6,7 +6,7 @@
 
 use crate::forward::{Reason, Walked};
 use crate::known::Known;
-use crate::residual::Options;
+use crate::residual::{Moved, Options};
 use glisten_front::Program;
 use glisten_front::hir::{ExprId, ExprKind, ScalarValue, Shader, Stage, Stmt, StmtKind, VarRef};
 use glisten_front::link::{Interface, UniformLeaf};
@@ -63,6 +63,8 @@ pub struct LeftOut {
     pub because: String,
     /// Where it stood, in the original's texts.
     pub span: Span,
+    /// All that went with it: of a branch its body, of a function all of it.
+    pub extent: Span,
 }
 
 /// What was left out of a program: `shaders` are the residual's stages, whose spans are the original's, `residual` is the
@@ -72,9 +74,10 @@ pub(crate) fn left_out(
     known: &Known,
     options: &Options<'_>,
     walked: &[(Stage, Walked)],
+    moved: &[Moved],
     (shaders, residual): (&[Shader], &Interface),
 ) -> Vec<LeftOut> {
-    let mut account = Account { program, known, sources: options.sources, list: Vec::new() };
+    let mut account = Account { program, known, sources: options.sources, moved, list: Vec::new() };
     for shader in &program.stages {
         let left = shaders.iter().find(|left| left.stage == shader.stage);
         let stage = walked.iter().find(|(stage, _)| *stage == shader.stage);
@@ -90,17 +93,31 @@ struct Account<'a> {
     program: &'a Program,
     known: &'a Known,
     sources: Option<&'a SourceMap>,
+    moved: &'a [Moved],
     list: Vec<LeftOut>,
 }
 
 impl Account<'_> {
     fn tell(&mut self, what: Kind, name: String, span: Span, because: String) {
+        self.tell_all(what, name, span, because, span);
+    }
+
+    /// The same of something that is more than what names it.
+    fn tell_all(&mut self, what: Kind, name: String, span: Span, because: String, extent: Span) {
         let place = self.sources.and_then(|sources| {
             let place = sources.location(span)?;
             Some((sources.file(place.file).name().to_owned(), place.line))
         });
         let (file, line) = place.unwrap_or_default();
-        self.list.push(LeftOut { what, name, file, line, because, span });
+        self.list.push(LeftOut { what, name, file, line, because, span, extent });
+    }
+
+    /// From a place to the end of a body.
+    fn extent(&self, span: Span, body: &[Stmt]) -> Span {
+        match (self.sources, body.last()) {
+            (Some(sources), Some(last)) => sources.join(span, last.span),
+            _ => span,
+        }
     }
 
     /// The line of the text that a statement begins on.
@@ -140,7 +157,8 @@ impl Account<'_> {
                 } else {
                     "no call of it is left".to_owned()
                 };
-                self.tell(Kind::Function, function.name.clone(), function.span, because);
+                let extent = self.extent(function.span, function.body.as_deref().unwrap_or(&[]));
+                self.tell_all(Kind::Function, function.name.clone(), function.span, because, extent);
             }
         }
     }
@@ -170,7 +188,8 @@ impl Account<'_> {
                         let name = format!("else of `{}`", self.text(shader.expr(condition).span));
                         let because = self.because(shader, condition, walked);
                         let span = otherwise.first().map_or(stmt.span, |first| first.span);
-                        self.tell(Kind::Branch, name, span, because);
+                        let extent = self.extent(span, otherwise);
+                        self.tell_all(Kind::Branch, name, span, because, extent);
                     }
                 }
             }
@@ -181,9 +200,14 @@ impl Account<'_> {
                     Some(Reason::Unrolled(rounds)) if inside(body) => format!("it runs {rounds} times, written out"),
                     _ => "nobody reads what it computes".to_owned(),
                 };
-                self.tell(Kind::Loop, self.line(stmt.span), stmt.span, because);
+                let line = self.line(stmt.span);
                 if inside(body) {
+                    // The body is there in another form.
+                    let head = Span { end: stmt.span.start.saturating_add(1).min(stmt.span.end), ..stmt.span };
+                    self.tell_all(Kind::Loop, line, stmt.span, because, head);
                     self.statements(shader, body, kept, walked);
+                } else {
+                    self.tell(Kind::Loop, line, stmt.span, because);
                 }
             }
             StmtKind::Switch { selector, cases } => {
@@ -194,7 +218,8 @@ impl Account<'_> {
                     } else if case.body.iter().any(|stmt| !matches!(stmt.kind, StmtKind::Break)) {
                         let span = case.body.first().map_or(stmt.span, |first| first.span);
                         let name = format!("case: {}", self.text(span));
-                        self.tell(Kind::Branch, name, span, because.clone());
+                        let extent = self.extent(span, &case.body);
+                        self.tell_all(Kind::Branch, name, span, because.clone(), extent);
                     }
                 }
             }
@@ -205,7 +230,12 @@ impl Account<'_> {
             }
             _ if kept.contains(&stmt.span) => {}
             _ => {
-                let because = "nothing that is drawn hangs on it, or its value is known".to_owned();
+                let moved =
+                    self.moved.iter().find(|one| one.span.start >= stmt.span.start && one.span.end <= stmt.span.end);
+                let because = match moved {
+                    Some(moved) => format!("it moved to the vertex stage, as `{}`", moved.name),
+                    None => "nothing that is drawn depends on it, or its value is known".to_owned(),
+                };
                 self.tell(Kind::Statement, self.line(stmt.span), stmt.span, because);
             }
         }
@@ -226,7 +256,8 @@ impl Account<'_> {
         }
         let span = shader.expr(condition).span;
         let because = self.because(shader, condition, walked);
-        self.tell(Kind::Branch, self.text(span), span, because);
+        let extent = self.extent(span, body);
+        self.tell_all(Kind::Branch, self.text(span), span, because, extent);
     }
 
     /// What is known of what a condition names.
@@ -277,7 +308,7 @@ impl Account<'_> {
                 Some(inputs) if inputs.iter().all(|input| matches!(input, crate::known::Input::Value(_))) => {
                     "it is the same at all vertices"
                 }
-                _ => "nothing that is drawn hangs on it",
+                _ => "nothing that is drawn depends on it",
             };
             self.tell(Kind::Attribute, attribute.name.clone(), place(Stage::Vertex, attribute.global), because.into());
         }
@@ -324,7 +355,7 @@ impl Account<'_> {
             _ if !leaf.active => "no stage reads it".into(),
             Some(values) if values.len() <= 4 => format!("it is {}", written(values)),
             Some(_) => "its value is known".into(),
-            None => "nothing that is drawn hangs on it".into(),
+            None => "nothing that is drawn depends on it".into(),
         }
     }
 }

@@ -4,11 +4,11 @@ use crate::account::{self, LeftOut};
 use crate::forward::{self, Walked};
 use crate::known::Known;
 use crate::prune::{self, Pruned};
-use crate::settle::{self, Demand, Demands};
-use crate::{inputs, text};
+use crate::settle::{self, Demand, Demands, Settled};
+use crate::{fast, inputs, motion, text};
 use glisten_front::builtin::BuiltinVariable;
-use glisten_front::hir::{GlobalId, Shader, Stage, Storage};
-use glisten_front::source::SourceMap;
+use glisten_front::hir::{GlobalId, Shader, Stage, Storage, Types};
+use glisten_front::source::{SourceMap, Span};
 use glisten_front::{Compiler, Program, Source};
 
 /// What a specialization may be told.
@@ -16,6 +16,11 @@ use glisten_front::{Compiler, Program, Source};
 pub struct Options<'a> {
     /// The texts that the program was compiled from: comments are kept, and the account names files and lines.
     pub sources: Option<&'a SourceMap>,
+    /// Allows algebra that changes rounding: the residual no longer draws the same bits, and what the original makes of
+    /// infinities and NaN may differ.
+    pub fast_math: bool,
+    /// Lets what is affine in varyings move from the fragment stage to the vertex stage, which changes rounding, too.
+    pub move_to_vertex: bool,
 }
 
 /// A program of which nothing is left but what is needed.
@@ -29,8 +34,25 @@ pub struct Residual {
     pub sources: SourceMap,
     /// What was left out, in the order of the original.
     pub left_out: Vec<LeftOut>,
+    /// What moved to the vertex stage.
+    pub moved: Vec<Moved>,
     /// Why the residual did not read back, a fault of this crate: the program is then as it was.
     pub fault: Option<String>,
+}
+
+/// A computation that moved from the fragment stage to the vertex stage.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Moved {
+    /// The varying that carries its result.
+    pub name: String,
+    /// Its text in the original.
+    pub expression: String,
+    /// The file that it was in.
+    pub file: String,
+    /// The line, from 1.
+    pub line: u32,
+    /// Where it was, in the original's texts.
+    pub span: Span,
 }
 
 /// A stage of a residual.
@@ -40,6 +62,15 @@ pub struct ResidualStage {
     pub stage: Stage,
     /// GLSL 1.50.
     pub text: String,
+    /// For each line of the text the place in the original that it comes from; unknown for closing braces and their like.
+    pub lines: Vec<Span>,
+}
+
+impl ResidualStage {
+    fn of(types: &Types, shader: &Shader, sources: Option<&SourceMap>) -> Self {
+        let (text, lines) = text::write(types, shader, sources);
+        Self { stage: shader.stage, text, lines }
+    }
 }
 
 impl Residual {
@@ -66,40 +97,70 @@ pub fn specialize_with(program: &Program, known: &Known, options: &Options<'_>) 
     let whole = program.stage(Stage::Geometry).is_none();
     let walk = |shader: &Shader, ends: Option<&Walked>| {
         let ends = ends.filter(|_| whole).map(|walked| walked.ends.as_slice());
-        forward::walk(&program.types, shader, inputs::inputs(program, shader, known, ends), &textures)
+        forward::walk(
+            &program.types,
+            shader,
+            inputs::inputs(program, shader, known, ends),
+            &textures,
+            options.fast_math,
+        )
     };
     let vertex = vertex.map(|shader| (shader, walk(shader, None)));
     let fragment = fragment.map(|shader| (shader, walk(shader, vertex.as_ref().map(|(_, walked)| walked))));
     let mut walked: Vec<(Stage, Walked)> = Vec::new();
     let mut pruned: Vec<(Pruned, Vec<bool>)> = Vec::new();
+    let mut moved = Vec::new();
     // The fragment stage first: what it reads is what the vertex stage must write.
     let mut wanted = None;
     if let Some((shader, stage)) = fragment {
         let live = live_colors(shader, program, known);
-        let demands = vec![Demand::NONE; shader.globals.len()];
-        let (result, demands) = settled(program, &stage, demands, &live);
-        wanted = Some((demands, result.globals.clone(), result.shader.clone()));
-        pruned.push((result, live));
+        let (settled, demands) = settled(program, &stage, vec![Demand::NONE; shader.globals.len()]);
+        wanted = Some(demands).filter(|_| whole);
+        pruned.push((prune::prune(&program.types, settled, &live), live));
         walked.push((Stage::Fragment, stage));
     }
     if let Some((shader, stage)) = vertex {
-        let wanted = wanted.as_ref().filter(|_| whole);
-        let live = live_varyings(shader, program, known, wanted.map(|(_, globals, _)| globals.as_slice()));
         let mut demands = vec![Demand::NONE; shader.globals.len()];
-        if let Some((of_fragment, ..)) = wanted {
+        if let Some(of_fragment) = &wanted {
             hand_on(program, of_fragment, &mut demands);
         }
-        let (result, _) = settled(program, &stage, demands, &live);
-        pruned.push((result, live));
+        let (mut settled, _) = settled(program, &stage, demands);
+        let reader = pruned.first_mut().filter(|_| whole);
+        let live = match reader {
+            Some((fragment, colors)) => {
+                if options.move_to_vertex {
+                    moved = motion::run(&program.types, program, fragment, colors, &mut settled);
+                }
+                live_varyings(shader, program, known, Some(&fragment.globals))
+            }
+            None => live_varyings(shader, program, known, None),
+        };
+        pruned.push((prune::prune(&program.types, settled, &live), live));
         walked.push((Stage::Vertex, stage));
     }
-    assemble(program, known, options, walked, pruned)
+    let moved: Vec<Moved> = moved.into_iter().map(|one| described(one, options.sources)).collect();
+    assemble(program, known, options, walked, pruned, moved)
 }
 
-fn settled(program: &Program, stage: &Walked, globals: Vec<Demand>, live: &[bool]) -> (Pruned, Demands) {
+/// A move with its text and place.
+fn described(moved: motion::Move, sources: Option<&SourceMap>) -> Moved {
+    let motion::Move { name, span } = moved;
+    let place = sources.and_then(|sources| {
+        let place = sources.location(span)?;
+        Some((sources.file(place.file).name().to_owned(), place.line))
+    });
+    let (file, line) = place.unwrap_or_default();
+    let expression = sources.map_or_else(String::new, |sources| sources.snippet(span).to_owned());
+    Moved { name, expression, file, line, span }
+}
+
+fn settled(program: &Program, stage: &Walked, globals: Vec<Demand>) -> (Settled, Demands) {
     let demands = Demands::of(&program.types, stage, globals);
-    let settled = settle::settle(&program.types, stage, &demands, &program.interface.samplers);
-    (prune::prune(&program.types, settled, live), demands)
+    let mut settled = settle::settle(&program.types, stage, &demands, &program.interface.samplers);
+    if stage.fast {
+        fast::simplify(&program.types, &mut settled.shader);
+    }
+    (settled, demands)
 }
 
 /// What the fragment stage demands of a varying it demands of the output.
@@ -157,20 +218,19 @@ fn assemble(
     options: &Options<'_>,
     walked: Vec<(Stage, Walked)>,
     mut pruned: Vec<(Pruned, Vec<bool>)>,
+    moved: Vec<Moved>,
 ) -> Residual {
     let mut types = program.types.clone();
     prune::finish(&mut types, &mut pruned);
     let mut shaders: Vec<Shader> = pruned.iter().map(|(pruned, _)| pruned.shader.clone()).collect();
     shaders.extend(program.stage(Stage::Geometry).cloned());
     shaders.sort_by_key(|shader| shader.stage);
-    let stages: Vec<ResidualStage> = shaders
-        .iter()
-        .map(|shader| ResidualStage { stage: shader.stage, text: text::write(&types, shader, options.sources) })
-        .collect();
+    let stages: Vec<ResidualStage> =
+        shaders.iter().map(|shader| ResidualStage::of(&types, shader, options.sources)).collect();
     match read_back(program, &stages) {
         Ok((left, sources)) => {
-            let left_out = account::left_out(program, known, options, &walked, (&shaders, &left.interface));
-            Residual { stages, program: left, sources, left_out, fault: None }
+            let left_out = account::left_out(program, known, options, &walked, &moved, (&shaders, &left.interface));
+            Residual { stages, program: left, sources, left_out, moved, fault: None }
         }
         Err(fault) => Residual { fault: Some(fault), ..whole(program, options) },
     }
@@ -209,11 +269,8 @@ fn read_back(program: &Program, stages: &[ResidualStage]) -> Result<(Program, So
 
 /// The program as it was.
 fn whole(program: &Program, options: &Options<'_>) -> Residual {
-    let stages = program
-        .stages
-        .iter()
-        .map(|shader| ResidualStage { stage: shader.stage, text: text::write(&program.types, shader, options.sources) })
-        .collect();
+    let stages =
+        program.stages.iter().map(|shader| ResidualStage::of(&program.types, shader, options.sources)).collect();
     let sources = options.sources.cloned().unwrap_or_default();
-    Residual { stages, program: program.clone(), sources, left_out: Vec::new(), fault: None }
+    Residual { stages, program: program.clone(), sources, left_out: Vec::new(), moved: Vec::new(), fault: None }
 }

@@ -1,19 +1,36 @@
 //! A residual stage as GLSL 1.50.
 //!
-//! *In:* a stage, the texts of the original. *Out:* text with the names of the original, and with the comments that stood
-//! above or behind what is left.
+//! *In:* a stage, the texts of the original. *Out:* text with the names of the original, with the comments that were above
+//! or next to what is left, and for each line the place in the original that it comes from.
 
 use glisten_front::hir::{Notes, Shader, Stage, Types, print_with};
 use glisten_front::source::{SourceMap, Span};
+use std::cell::RefCell;
 
 /// A comment above something is at most so many lines long.
 const MOST_LINES: usize = 40;
+/// The beginning of a line that says where the next one comes from. No source has it: control characters are replaced.
+const MARK: &str = "//\u{1}";
 
-/// Writes a stage.
-pub(crate) fn write(types: &Types, shader: &Shader, sources: Option<&SourceMap>) -> String {
+/// Writes a stage. Lines that come from nowhere, such as closing braces, have an unknown span.
+pub(crate) fn write(types: &Types, shader: &Shader, sources: Option<&SourceMap>) -> (String, Vec<Span>) {
     let mut shader = shader.clone();
     shader.version.number = 150;
-    print_with(types, &shader, Some(&Comments(sources)))
+    let comments = Comments { sources, marks: RefCell::default() };
+    let marked = print_with(types, &shader, Some(&comments));
+    let marks = comments.marks.into_inner();
+    let (mut text, mut lines) = (String::with_capacity(marked.len()), Vec::new());
+    let mut next = Span::default();
+    for line in marked.lines() {
+        if let Some(number) = line.trim_start().strip_prefix(MARK) {
+            next = number.parse().ok().and_then(|number: usize| marks.get(number).copied()).unwrap_or_default();
+            continue;
+        }
+        text.push_str(line);
+        text.push('\n');
+        lines.push(std::mem::take(&mut next));
+    }
+    (text, lines)
 }
 
 /// The extension of a stage's files.
@@ -25,13 +42,16 @@ pub(crate) fn extension(stage: Stage) -> &'static str {
     }
 }
 
-/// The comments of the original.
-struct Comments<'a>(Option<&'a SourceMap>);
+/// The comments of the original, and marks for what is printed below them.
+struct Comments<'a> {
+    sources: Option<&'a SourceMap>,
+    marks: RefCell<Vec<Span>>,
+}
 
 impl Comments<'_> {
     /// The text of the file that a span is in, and the span's place in it; nothing for what a macro brought.
     fn place(&self, span: Span) -> Option<(&str, usize, usize)> {
-        let sources = self.0.filter(|_| span.is_known() && !span.expansion.is_some())?;
+        let sources = self.sources.filter(|_| span.is_known() && !span.expansion.is_some())?;
         let file = sources.file(sources.file_of(span)?);
         let (start, end) = (span.start.checked_sub(file.base())? as usize, span.end.checked_sub(file.base())? as usize);
         let text: &str = file.text();
@@ -41,6 +61,27 @@ impl Comments<'_> {
 
 impl Notes for Comments<'_> {
     fn above(&self, span: Span) -> Vec<String> {
+        let mut lines = self.comment(span);
+        let mut marks = self.marks.borrow_mut();
+        lines.push(format!("{MARK}{}", marks.len()));
+        marks.push(span);
+        lines
+    }
+
+    fn behind(&self, span: Span) -> Option<String> {
+        let (text, _, end) = self.place(span)?;
+        let rest = text.get(end..)?.lines().next()?;
+        let (code, comment) = rest.split_at(rest.find("//")?);
+        let ends = code.trim_start_matches([';', ' ', '\t']).is_empty() || code.trim_end().ends_with(';');
+        let one = code.matches(';').count() <= 1;
+        let comment = comment.trim_end();
+        (ends && one && !comment.ends_with('\\')).then(|| comment.to_owned())
+    }
+}
+
+impl Comments<'_> {
+    /// The comment above something.
+    fn comment(&self, span: Span) -> Vec<String> {
         let Some((text, start, _)) = self.place(span) else { return Vec::new() };
         let before = text.get(..start).unwrap_or("");
         let mut lines: Vec<&str> = before.lines().rev().collect();
@@ -64,15 +105,5 @@ impl Notes for Comments<'_> {
         comment.reverse();
         // A block of which the beginning was not found is none.
         if inside { Vec::new() } else { comment }
-    }
-
-    fn behind(&self, span: Span) -> Option<String> {
-        let (text, _, end) = self.place(span)?;
-        let rest = text.get(end..)?.lines().next()?;
-        let (code, comment) = rest.split_at(rest.find("//")?);
-        let ends = code.trim_start_matches([';', ' ', '\t']).is_empty() || code.trim_end().ends_with(';');
-        let one = code.matches(';').count() <= 1;
-        let comment = comment.trim_end();
-        (ends && one && !comment.ends_with('\\')).then(|| comment.to_owned())
     }
 }

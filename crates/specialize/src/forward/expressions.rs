@@ -2,6 +2,7 @@
 
 use super::{Forward, Val};
 use crate::facts::{self, Call, Fact, Facts, What, at};
+use crate::fast::{self, Operation};
 use crate::known::Input;
 use glisten_front::builtin::BuiltinFunction;
 use glisten_front::hir::{
@@ -40,13 +41,15 @@ impl Forward<'_> {
             ExprKind::Convert(a) => {
                 let a = self.eval(a);
                 let to = self.types.scalar_of(ty).unwrap_or(Scalar::Float);
-                let facts = facts::convert(&a.facts, to);
+                let operand = (a.facts.as_slice(), self.out.expr(a.id).ty);
+                let facts = self.improved(Operation::Convert, &[operand], ty, facts::convert(&a.facts, to));
                 self.give(ExprKind::Convert(a.id), own, facts)
             }
             ExprKind::Construct(kind, arguments) => self.construct(kind, &arguments, own),
             ExprKind::Unary(op, a) => {
                 let a = self.eval(a);
-                let facts = facts::unary(op, &a.facts);
+                let operand = (a.facts.as_slice(), self.out.expr(a.id).ty);
+                let facts = self.improved(Operation::Unary(op), &[operand], ty, facts::unary(op, &a.facts));
                 self.give(ExprKind::Unary(op, a.id), own, facts)
             }
             ExprKind::IncDec(op, target) => self.inc_dec(op, target, own),
@@ -67,6 +70,14 @@ impl Forward<'_> {
             ExprKind::Error => self.give(ExprKind::Error, own, Facts::new()),
             ExprKind::Var(_) | ExprKind::Member(..) | ExprKind::Index(..) | ExprKind::Swizzle(..) => self.path(id).0,
         }
+    }
+
+    /// Under fast math, better facts of an operation's result.
+    fn improved(&self, operation: Operation, operands: &[(&[Fact], TypeId)], ty: TypeId, facts: Facts) -> Facts {
+        if !self.fast {
+            return facts;
+        }
+        fast::improved(self.types, self.shader, operation, operands, ty, facts)
     }
 
     /// Writes an expression down that has these facts.
@@ -91,6 +102,7 @@ impl Forward<'_> {
         let len = self.types.flat_len(own.0) as usize;
         let facts =
             if len > super::FOLLOWED as usize { Facts::new() } else { self.constructed(kind, own.0, &facts, len) };
+        let facts = if self.fast { fast::finite(self.types, own.0, facts) } else { facts };
         self.give(ExprKind::Construct(kind, ids), own, facts)
     }
 
@@ -133,14 +145,15 @@ impl Forward<'_> {
 
     /// The facts of `a op b`.
     fn operated(&self, op: BinaryOp, a: (&[Fact], TypeId), b: (&[Fact], TypeId), ty: TypeId) -> Facts {
-        if op == BinaryOp::MatMul {
-            return facts::mat_mul(self.types, a, b);
-        }
         let scalar = self.types.scalar_of(a.1).unwrap_or(Scalar::Bool);
         if matches!(op, BinaryOp::Equal | BinaryOp::NotEqual) && self.types.scalar_of(a.1).is_none() {
             return Facts::new();
         }
-        facts::binary(op, scalar, self.types.flat_len(ty) as usize, a.0, b.0)
+        let facts = match op {
+            BinaryOp::MatMul => facts::mat_mul(self.types, a, b),
+            _ => facts::binary(op, scalar, self.types.flat_len(ty) as usize, a.0, b.0),
+        };
+        self.improved(Operation::Binary(op), &[a, b], ty, facts)
     }
 
     fn logical(&mut self, op: LogicalOp, left: ExprId, right: ExprId, own: Own) -> Val {
@@ -254,7 +267,10 @@ impl Forward<'_> {
             Some(Type::Sampler(sampler)) => self.texture(function, sampler.dim, &facts, own.0),
             _ => {
                 let twice = matches!(arguments, [a, b] if self.same_variable(*a, *b));
-                facts::builtin(&Call { types: self.types, function, arguments: &facts, ty: own.0, twice })
+                let result = facts::builtin(&Call { types: self.types, function, arguments: &facts, ty: own.0, twice });
+                let operands: Vec<(&[Fact], TypeId)> =
+                    facts.iter().map(|(facts, ty)| (facts.as_slice(), *ty)).collect();
+                self.improved(Operation::Call(function), &operands, own.0, result)
             }
         };
         self.give(ExprKind::BuiltinCall(function, ids), own, result)

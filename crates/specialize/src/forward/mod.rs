@@ -77,6 +77,8 @@ pub(crate) struct Walked {
     pub(crate) ends: Vec<Facts>,
     /// Globals that are named as a whole: by one of the expressions, and how often.
     pub(crate) named: FxHashMap<GlobalId, (ExprId, u32)>,
+    /// Whether algebra is allowed that changes rounding.
+    pub(crate) fast: bool,
 }
 
 /// A value: the expression that gives it, and what is known of it.
@@ -139,21 +141,26 @@ pub(crate) struct Forward<'a> {
     fuel: u64,
     /// Expressions written so far of which something is open.
     weight: u64,
+    /// Whether algebra is allowed that changes rounding.
+    fast: bool,
 }
 
-/// Walks a stage. `inputs` are the facts of its globals, `textures` those of the interface's sampler slots.
+/// Walks a stage. `inputs` are the facts of its globals, `textures` those of the interface's sampler slots; `fast` allows
+/// algebra that changes rounding.
 pub(crate) fn walk(
     types: &Types,
     shader: &Shader,
     inputs: Vec<Vec<Fact>>,
     textures: &[Option<KnownTexture>],
+    fast: bool,
 ) -> Walked {
     with_stack(shader.expr_depth.saturating_mul(2).saturating_add(4096), move || {
         let mut forward = Forward::new(types, shader, textures);
+        forward.fast = fast;
         forward.run(inputs);
         let ends = forward.ends();
         let Forward { out, notes, before, origins, reasons, named, .. } = forward;
-        Walked { shader: out, notes, before, origins, reasons, ends, named }
+        Walked { shader: out, notes, before, origins, reasons, ends, named, fast }
     })
 }
 
@@ -183,6 +190,7 @@ impl<'a> Forward<'a> {
             failed: false,
             fuel: shader.exprs.len() as u64 * 6 + 20_000,
             weight: 0,
+            fast: false,
         }
     }
 

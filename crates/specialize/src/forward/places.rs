@@ -147,6 +147,8 @@ impl Forward<'_> {
             Some(_) => Facts::new(),
             None => facts,
         };
+        let small = self.types.flat_len(ty) <= super::NOTED as u32;
+        let facts = if self.fast && small { crate::fast::finite(self.types, ty, facts) } else { facts };
         let id = self.push(kind, ty, span, &facts);
         (Val { id, facts }, place)
     }

@@ -12,7 +12,7 @@ use glisten_front::stack::with_stack;
 use rustc_hash::FxHashMap;
 
 /// Calls `f` with each operand of an expression.
-pub(super) fn for_each_child(kind: &mut ExprKind, f: &mut dyn FnMut(&mut ExprId)) {
+pub(crate) fn for_each_child(kind: &mut ExprKind, f: &mut dyn FnMut(&mut ExprId)) {
     match kind {
         ExprKind::Error | ExprKind::Literal(_) | ExprKind::Var(_) => {}
         ExprKind::Member(a, _)

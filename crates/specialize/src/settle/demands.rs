@@ -22,6 +22,8 @@ pub(crate) struct Demands {
     /// By clone: what it returns.
     results: Vec<Demand>,
     changed: bool,
+    /// Under fast math nothing is demanded of anything.
+    fast: bool,
 }
 
 impl Demands {
@@ -33,7 +35,11 @@ impl Demands {
             globals,
             results: vec![Demand::NONE; functions.len()],
             changed: false,
+            fast: walked.fast,
         };
+        if demands.fast {
+            return demands;
+        }
         for _ in 0..ROUNDS {
             demands.changed = false;
             demands.round(types, walked);
@@ -163,6 +169,9 @@ impl Demands {
         demand: Demand,
     ) -> SmallVec<[Demand; 4]> {
         let kind = &walked.shader.expr(id).kind;
+        if self.fast {
+            return SmallVec::from_elem(Demand::NONE, kind.children().len());
+        }
         let mut demands = danger::own(types, walked, id);
         let through = self.through(walked, id, demand);
         match kind {

@@ -25,6 +25,8 @@ pub(super) fn operand(walked: &Walked, id: ExprId) -> Option<usize> {
         ExprKind::Binary(op, ..) => match op {
             BinaryOp::Mul => gives(0, 1, &|_, c| is(c, 1.0)).or_else(|| gives(1, 0, &|_, c| is(c, 1.0))),
             BinaryOp::Div => gives(0, 1, &|_, c| is(c, 1.0)),
+            BinaryOp::Add | BinaryOp::Sub if walked.fast && gives(0, 1, &is_zero).is_some() => Some(0),
+            BinaryOp::Add if walked.fast && gives(1, 0, &is_zero).is_some() => Some(1),
             BinaryOp::Add => gives(0, 1, &adds_nothing).or_else(|| gives(1, 0, &adds_nothing)),
             BinaryOp::Sub => gives(0, 1, &takes_nothing),
             _ => None,
@@ -34,7 +36,7 @@ pub(super) fn operand(walked: &Walked, id: ExprId) -> Option<usize> {
         ExprKind::BuiltinCall(F::Clamp, _) => {
             gives(0, 1, &is_above).filter(|_| pure(2) && holds(facts(0), facts(2), &is_below))
         }
-        ExprKind::BuiltinCall(F::Mix, _) => mixed(&facts).filter(|kept| typed(*kept) && (0..3).all(pure)),
+        ExprKind::BuiltinCall(F::Mix, _) => mixed(walked.fast, &facts).filter(|kept| typed(*kept) && (0..3).all(pure)),
         _ => None,
     }
 }
@@ -61,6 +63,11 @@ fn is(fact: Fact, value: f32) -> bool {
         Some(ScalarValue::Uint(known)) => known as f32 == value,
         Some(ScalarValue::Bool(_)) | None => false,
     }
+}
+
+/// Whether it is 0, of either sign: under fast math that adds nothing to anything.
+fn is_zero(_: Fact, c: Fact) -> bool {
+    is(c, 0.0) || is(c, -0.0)
 }
 
 /// `x + c`
@@ -92,8 +99,8 @@ fn is_below(x: Fact, c: Fact) -> bool {
     floats && !range.nan && !limit.nan && range.high <= limit.low && !zero
 }
 
-/// `mix(a, b, 0.0)` and `mix(a, b, 1.0)` of moderate numbers.
-fn mixed<'w>(facts: &dyn Fn(usize) -> &'w [Fact]) -> Option<usize> {
+/// `mix(a, b, 0.0)` and `mix(a, b, 1.0)` of moderate numbers, or under fast math of any.
+fn mixed<'w>(fast: bool, facts: &dyn Fn(usize) -> &'w [Fact]) -> Option<usize> {
     let moderate = |facts: &[Fact]| {
         let small = |fact: &Fact| {
             let range = fact.range();
@@ -101,7 +108,7 @@ fn mixed<'w>(facts: &dyn Fn(usize) -> &'w [Fact]) -> Option<usize> {
         };
         !facts.is_empty() && facts.iter().all(small)
     };
-    if !moderate(facts(0)) || !moderate(facts(1)) {
+    if !fast && (!moderate(facts(0)) || !moderate(facts(1))) {
         return None;
     }
     let all = |value: f32| !facts(2).is_empty() && facts(2).iter().all(|fact| is(*fact, value) && !is_integer(*fact));

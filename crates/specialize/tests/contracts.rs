@@ -1,0 +1,187 @@
+//! The contracts that may change rounding: fast math, and moves to the vertex stage.
+
+use glisten_front::hir::{ScalarValue, Stage};
+use glisten_front::{Compiler, Options, Source};
+use glisten_specialize::{Known, Options as How, Residual, specialize_with};
+
+const VERTEX: &str = "#version 150\nin vec4 p;\nin vec4 q;\nout vec4 v;\nvoid main() { v = q; gl_Position = p; }\n";
+
+fn compiled(vertex: &str, fragment: &str) -> glisten_front::Compilation {
+    let source = |name: &str, text: &str, stage| Source { name: name.into(), text: text.into(), stage };
+    let sources = [source("a.vert", vertex, Stage::Vertex), source("a.frag", fragment, Stage::Fragment)];
+    Compiler::new(Options::default()).compile(&sources)
+}
+
+fn residual(vertex: &str, fragment: &str, known: &[(&str, &[f32])], fast_math: bool, move_to_vertex: bool) -> Residual {
+    let compiled = compiled(vertex, fragment);
+    let messages: Vec<_> = compiled.diagnostics.iter().map(|found| found.message.clone()).collect();
+    let program = compiled.program.unwrap_or_else(|| panic!("{messages:?}\n{fragment}"));
+    let mut values = Known::default();
+    for (name, numbers) in known {
+        values.uniforms.insert((*name).into(), numbers.iter().map(|value| ScalarValue::Float(*value)).collect());
+    }
+    let how = How { sources: Some(&compiled.sources), fast_math, move_to_vertex };
+    let residual = specialize_with(&program, &values, &how);
+    assert!(residual.fault.is_none(), "{:?}", residual.fault);
+    residual
+}
+
+/// What is assigned to `color` under fast math, where `u` and `w` are known and `d` is not.
+fn fast(expression: &str, u: f32, w: f32) -> String {
+    let fragment = format!(
+        "#version 150\nin vec4 v;\nuniform float u;\nuniform float w;\nuniform float d;\nuniform mat4 m;\nout vec4 color;\n\
+         void main() {{ color = vec4({expression}); }}\n"
+    );
+    let residual = residual(VERTEX, &fragment, &[("u", &[u]), ("w", &[w])], true, false);
+    let text = residual.text(Stage::Fragment).expect("a stage").to_owned();
+    let line = text.lines().find(|line| line.trim_start().starts_with("color = ")).unwrap_or_default();
+    line.trim().trim_start_matches("color = ").trim_end_matches(';').to_owned()
+}
+
+#[test]
+fn fast_math_uses_algebra() {
+    let cases: &[(&str, f32, f32, &str)] = &[
+        ("v.x * u", 0.0, 0.0, "vec4(0.0)"),
+        ("v.x + u", 0.0, 0.0, "vec4(v.x)"),
+        ("u / v.x", 0.0, 0.0, "vec4(0.0)"),
+        ("mix(v.x, v.y, u)", 1.0, 0.0, "vec4(v.y)"),
+        ("mix(v.x, v.y, u)", 0.0, 0.0, "vec4(v.x)"),
+        ("dot(v.xy, vec2(u, w))", 0.0, 0.0, "vec4(0.0)"),
+        ("v.x / u", 4.0, 0.0, "vec4(v.x * 0.25)"),
+        ("(v.x * u) * w", 0.5, 0.5, "vec4(v.x * 0.25)"),
+        ("u * (w * v.x)", 0.5, 0.5, "vec4(v.x * 0.25)"),
+        ("(v.x + u) + w", 3.0, -2.0, "vec4(v.x + 1.0)"),
+        ("u - (v.x - w)", 3.0, 2.0, "vec4(5.0 - v.x)"),
+        ("(v.x + u) - w", 1.0, 3.0, "vec4(v.x - 2.0)"),
+        ("v.x * u", -1.0, 0.0, "vec4(-v.x)"),
+        ("v.x + sqrt(u)", 4.0, 0.0, "vec4(v.x + 2.0)"),
+        ("v.x * pow(u, w)", 3.0, 2.0, "vec4(v.x * 9.0)"),
+        ("v.x + u / w", 1.0, 4.0, "vec4(v.x + 0.25)"),
+        ("pow(v.x, u)", 1.0, 0.0, "vec4(v.x)"),
+        ("pow(v.x, u)", 0.0, 0.0, "vec4(1.0)"),
+        ("pow(v.x, u)", 0.5, 0.0, "vec4(sqrt(v.x))"),
+        ("1.0 / sqrt(v.x)", 0.5, 0.0, "vec4(inversesqrt(v.x))"),
+        ("normalize(normalize(v.xyz)), u", 1.0, 0.0, "vec4(normalize(v.xyz), 1.0)"),
+        ("max(clamp(v.x, 0.0, 1.0), u)", 0.0, 0.0, "vec4(clamp(v.x, 0.0, 1.0))"),
+        ("(m * m) * v", 0.0, 0.0, "vec4(m * (m * v))"),
+    ];
+    let mut wrong = Vec::new();
+    for (expression, u, w, wanted) in cases {
+        let found = fast(expression, *u, *w);
+        if found != *wanted {
+            wrong.push(format!("`{expression}` by {u}, {w} is `{found}`, not `{wanted}`"));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn a_whole_power_becomes_products() {
+    let power = |n: f32| {
+        let fragment = "#version 150\nin vec4 v;\nuniform float u;\nout vec4 color;\nvoid main() {\n    float x = max(v.x, v.y);\n    \
+             color = vec4(pow(x * v.z, u));\n}\n";
+        residual(VERTEX, fragment, &[("u", &[n])], true, false).text(Stage::Fragment).expect("a stage").to_owned()
+    };
+    let five = power(5.0);
+    assert!(five.contains("float pow5(float x)") && five.contains("x * x") && !five.contains("pow("), "{five}");
+    // Too long as products, and no whole number.
+    for n in [511.0, 2.5, 1e10] {
+        assert!(power(n).contains("pow("), "{n}");
+    }
+    let inverse = power(-2.0);
+    assert!(inverse.contains("1.0 / ") && !inverse.contains("pow("), "{inverse}");
+}
+
+#[test]
+fn without_fast_math_nothing_of_it_happens() {
+    let fragment = "#version 150\nin vec4 v;\nuniform float u;\nout vec4 color;\n\
+        void main() { color = vec4((v.x / u) + pow(v.y, u)) * 3.0; }\n";
+    let text = residual(VERTEX, fragment, &[("u", &[3.0])], false, false);
+    let text = text.text(Stage::Fragment).expect("a stage");
+    assert!(text.contains("/ 3.0") && text.contains("pow("), "{text}");
+}
+
+#[test]
+fn fast_math_keeps_effects_discards_and_derivatives() {
+    let fragment = "#version 150\nin vec4 v;\nuniform float u;\nout vec4 color;\nfloat count = 0.0;\n\
+        float more() { count += v.x; return v.y; }\n\
+        void main() { float a = more() * u; if (v.z > 0.5) discard; color = vec4(a, count, dFdx(v.x), 1.0); }\n";
+    let text = residual(VERTEX, fragment, &[("u", &[0.0])], true, false);
+    let text = text.text(Stage::Fragment).expect("a stage");
+    assert!(text.contains("count") && text.contains("more()") && text.contains("discard"), "{text}");
+    assert!(text.contains("dFdx(v.x)"), "{text}");
+}
+
+const LIT: &str = "#version 150\nin vec4 p;\nin vec3 n;\nuniform mat4 mvp;\nout vec3 at;\nout vec3 normal;\n\
+    flat out vec3 tint;\nnoperspective out vec2 screen;\ncentroid out vec3 middle;\n\
+    void main() { at = p.xyz; normal = n; tint = n; screen = p.xy; middle = n; gl_Position = mvp * p; }\n";
+
+fn moved(body: &str) -> Residual {
+    let fragment = format!(
+        "#version 150\nin vec3 at;\nin vec3 normal;\nflat in vec3 tint;\nnoperspective in vec2 screen;\n\
+         centroid in vec3 middle;\nuniform vec3 light;\nuniform mat3 turn;\nuniform sampler2D tex;\nout vec4 color;\n\
+         float half_of(float x) {{ return x * 0.5; }}\n\
+         float tilted(vec3 x) {{ if (x.x > 2.0) return 1.0; return length(turn * x); }}\nvoid main() {{\n{body}\n}}\n"
+    );
+    residual(LIT, &fragment, &[], false, true)
+}
+
+#[test]
+fn what_is_affine_moves_to_the_vertex_stage() {
+    // What the fragment stage does, the varyings that carry it, and what is gone from there.
+    let cases: &[(&str, &[&str], &str)] = &[
+        ("vec3 l = light - at; color = vec4(normalize(l), 1.0);", &["l"], "light"),
+        ("color = vec4(normalize(turn * normal), 1.0);", &["normal_affine"], "turn *"),
+        ("color = vec4(max(dot(light, at) + 2.0, 0.0));", &["at_affine"], "light"),
+        ("vec3 l = light - at; color = vec4(sqrt(dot(l, light)));", &["at_affine"], "light"),
+        ("color = vec4(normalize(mix(light, at, 0.25)), 1.0);", &["at_affine"], "light"),
+        ("color = vec4(fract(dot(tint, light)));", &["tint_affine"], "light"),
+        // A parameter of a function that is called from one place stands for its argument.
+        ("color = vec4(tilted(at), at.y * at.y, 0.0, 1.0);", &["at_affine"], "turn *"),
+        ("if (at.x > 0.0) discard; color = vec4(turn * at, 1.0) * half_of(at.y);", &["at_affine"], "turn *"),
+    ];
+    for (body, names, gone) in cases {
+        let residual = moved(body);
+        let (vertex, fragment) = (residual.text(Stage::Vertex), residual.text(Stage::Fragment));
+        let texts = format!("{body}\n{}\n{}", vertex.unwrap_or(""), fragment.unwrap_or(""));
+        let found: Vec<&str> = residual.moved.iter().map(|one| one.name.as_str()).collect();
+        assert_eq!(found, *names, "{texts}");
+        assert!(
+            !fragment.is_some_and(|text| text.contains(gone)) && vertex.is_some_and(|text| text.contains(gone)),
+            "{texts}"
+        );
+    }
+}
+
+#[test]
+fn what_is_not_affine_or_does_not_pay_stays() {
+    for body in [
+        // Products of varyings, and functions of them.
+        "color = vec4(dot(normal, at));",
+        "color = vec4(normalize(at), 1.0);",
+        "color = vec4(light / at, 1.0);",
+        // Varyings of different interpolation.
+        "color = vec4(turn * (at + tint), 1.0) + vec4(at * at, 1.0) + vec4(tint * tint, 1.0);",
+        "color = vec4(turn * (at + middle), 1.0) + vec4(at * at, 1.0) + vec4(middle * middle, 1.0);",
+        "color = vec4(dot(at.xy, screen));",
+        // What changes from fragment to fragment otherwise.
+        "color = vec4(at.x * gl_FragCoord.x);",
+        "color = texture(tex, vec2(0.5)) * at.x;",
+        "float k = 0.0; for (int i = 0; i < 9; ++i) { k += at.x * float(i); if (k > light.x) break; } color = vec4(k);",
+        // A varying more than is saved.
+        "color = vec4(at * 2.0, 1.0) + vec4(sin(at), 1.0);",
+        "color = vec4(at, normal.x);",
+    ] {
+        let residual = moved(body);
+        assert!(residual.moved.is_empty(), "{body}\n{:?}\n{:?}", residual.moved, residual.text(Stage::Fragment));
+    }
+}
+
+#[test]
+fn nothing_moves_into_a_stage_that_returns_early() {
+    let vertex = "#version 150\nin vec4 p;\nuniform bool early;\nout vec3 at;\n\
+        void main() { at = p.xyz; gl_Position = p; if (early) return; gl_Position = p * 2.0; }\n";
+    let fragment = "#version 150\nin vec3 at;\nuniform vec3 light;\nout vec4 color;\n\
+        void main() { color = vec4(normalize(light - at), 1.0); }\n";
+    assert!(residual(vertex, fragment, &[], false, true).moved.is_empty());
+}

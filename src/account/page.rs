@@ -1,0 +1,186 @@
+//! The page as HTML.
+
+use super::listing::{Section, listing};
+use crate::report::raster::{color_uri, difference_uri};
+use crate::specialize::{Account, DrawAccount, Figures, PictureError, Pictures, SpecializedDraw, SpecializedScene};
+use glisten_front::hir::Stage;
+use glisten_front::source::SourceMap;
+use glisten_scene::picture::Picture;
+use glisten_scene::{Draw, Scene};
+use minijinja::{Environment, Value, context};
+
+const TEMPLATE: &str = include_str!("page.html");
+const ROW: &str = include_str!("row.html");
+const STYLE: &str = include_str!("page.css");
+
+/// A scene on the page.
+pub struct SceneOnPage<'a> {
+    /// The account.
+    pub account: &'a Account,
+    /// The original.
+    pub scene: &'a Scene,
+    /// The texts that the original was read from.
+    pub sources: &'a SourceMap,
+    /// The residual.
+    pub specialized: &'a SpecializedScene,
+    /// The pictures of both on the reference in f32.
+    pub pictures: &'a Pictures,
+}
+
+/// The page of these scenes.
+///
+/// # Errors
+/// The message of the template engine, which only a broken template causes.
+pub fn page(scenes: &[SceneOnPage<'_>]) -> Result<String, String> {
+    let mut environment = Environment::new();
+    let several = scenes.len() > 1;
+    let scenes: Vec<Value> = scenes.iter().map(scene).collect();
+    let rendered = environment.add_template("row.html", ROW).and_then(|()| {
+        environment.add_template("page.html", TEMPLATE)?;
+        environment.get_template("page.html")?.render(context! {
+            style => Value::from_safe_string(STYLE.into()),
+            scenes,
+            several,
+        })
+    });
+    rendered.map_err(|error| error.to_string())
+}
+
+fn scene(one: &SceneOnPage<'_>) -> Value {
+    let Pictures { original, residual } = one.pictures;
+    let error = one.account.fast_math.or(one.account.move_to_vertex);
+    let draws = one.account.draws.iter().zip(&one.scene.draws).zip(&one.specialized.draws);
+    let draws: Vec<Value> = draws.map(|((account, draw), done)| self::draw(account, draw, done, one.sources)).collect();
+    let differing = original.bit_unequal(residual);
+    context! {
+        name => &one.account.scene,
+        original => Value::from_safe_string(color_uri(original)),
+        residual => Value::from_safe_string(color_uri(residual)),
+        difference => Value::from_safe_string(difference_uri(&differences(residual, original), original.width, original.height)),
+        width => original.width,
+        height => original.height,
+        differing,
+        error => error.map(|error| self::error(&error)),
+        several_draws => draws.len() > 1,
+        draws,
+    }
+}
+
+fn error(error: &PictureError) -> Value {
+    context! {
+        max_abs => scientific(error.max_abs),
+        rmse => scientific(error.rmse),
+        before => scientific(error.original.max_abs),
+        after => scientific(error.residual.max_abs),
+        exact => scientific(error.exact.max_abs),
+        non_finite => error.non_finite,
+        coverage_mismatch => error.coverage_mismatch,
+    }
+}
+
+fn scientific(value: f64) -> String {
+    if value == 0.0 { "0".into() } else { format!("{value:.2e}") }
+}
+
+/// The largest difference of each pixel over all attachments; nothing where only one picture covers it.
+fn differences(picture: &Picture, truth: &Picture) -> Vec<Option<f64>> {
+    let covered = picture.covered.iter().zip(&truth.covered);
+    covered
+        .enumerate()
+        .map(|(pixel, (a, b))| {
+            let attachments = picture.attachments.iter().zip(&truth.attachments);
+            let channels = attachments.filter_map(|(a, b)| Some((a.get(pixel)?, b.get(pixel)?)));
+            let largest = channels.flat_map(|(a, b)| a.iter().zip(b)).fold(0.0, |largest: f64, (a, b)| {
+                let same = a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan());
+                let difference = if same { 0.0 } else { (a - b).abs() };
+                largest.max(if difference.is_finite() { difference } else { 1.0 })
+            });
+            (a == b).then_some(largest)
+        })
+        .collect()
+}
+
+fn draw(account: &DrawAccount, draw: &Draw, done: &SpecializedDraw, sources: &SourceMap) -> Value {
+    let stages: Vec<Value> = [Stage::Vertex, Stage::Fragment]
+        .into_iter()
+        .map(|stage| {
+            let sections: Vec<Value> = listing(&draw.program, stage, done, sources).iter().map(section).collect();
+            context! { name => stage.name(), sections }
+        })
+        .collect();
+    let left_out: Vec<Value> = account
+        .left_out
+        .iter()
+        .map(|one| context! { what => one.what, name => &one.name, line => one.line, because => &one.because })
+        .collect();
+    let moves = account.move_to_vertex.iter().flat_map(|moves| &moves.moved);
+    let moved: Vec<Value> = moves.map(|one| context! { name => &one.name, expression => &one.expression }).collect();
+    context! {
+        vertex => &account.vertex,
+        fragment => &account.fragment,
+        residual => &account.residual,
+        left_out,
+        moved,
+        figures => figures(&account.before, &account.after),
+        stages,
+    }
+}
+
+fn section(section: &Section) -> Value {
+    let rows: Vec<Value> = section
+        .rows
+        .iter()
+        .map(|row| {
+            let safe = |text: &Option<String>| text.clone().map(Value::from_safe_string);
+            context! {
+                class => row.class,
+                number => row.number,
+                left => safe(&row.left),
+                right => safe(&row.right),
+                because => &row.because,
+                first => row.first,
+            }
+        })
+        .collect();
+    context! { title => &section.title, place => &section.place, gone => &section.gone, rows }
+}
+
+/// The figures, a line each: the name, before, after, and the change.
+fn figures(before: &Figures, after: &Figures) -> Vec<Value> {
+    let lines = [
+        ("SPIR-V instructions", before.spirv_instructions, after.spirv_instructions),
+        ("Vertex operations", before.vertex_operations, after.vertex_operations),
+        ("Fragment operations", before.fragment_operations, after.fragment_operations),
+        ("Varyings", before.varyings, after.varyings),
+        ("Attributes", before.attributes, after.attributes),
+        ("Bytes of attributes", before.attribute_bytes, after.attribute_bytes),
+        ("Bytes of uniforms", before.uniform_bytes, after.uniform_bytes),
+        ("Textures", before.textures, after.textures),
+    ];
+    lines
+        .into_iter()
+        .map(|(name, before, after)| {
+            let change = match (before, after) {
+                (before, after) if before == after => "as before".to_owned(),
+                (0, _) => "new".to_owned(),
+                (before, after) => {
+                    format!("{:+.0} %", (after as f64 / before as f64 - 1.0) * 100.0).replace('-', "\u{2212}")
+                }
+            };
+            context! { name, before => grouped(before), after => grouped(after), change, less => after < before }
+        })
+        .collect()
+}
+
+/// The digits in groups of three.
+fn grouped(value: u64) -> String {
+    let digits = value.to_string();
+    let mut text = String::new();
+    for (index, digit) in digits.chars().enumerate() {
+        if index > 0 && (digits.len() - index).is_multiple_of(3) {
+            text.push('\u{202f}');
+        }
+        text.push(digit);
+    }
+    text
+}
