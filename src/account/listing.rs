@@ -37,6 +37,9 @@ pub(super) struct Row {
     pub(super) right: Option<String>,
 }
 
+/// The title of the section of structs and globals.
+const DECLARATIONS: &str = "declarations";
+
 /// A line of the original.
 type Place = (FileId, u32);
 
@@ -83,7 +86,7 @@ impl Listing<'_> {
 
     fn sections(&self, lines: &[Line<'_>]) -> Vec<Section> {
         let (declarations, functions) = parts(lines);
-        let mut sections = vec![self.section("declarations", &self.declared(), &declarations)];
+        let mut sections = vec![self.section(DECLARATIONS, &self.declared(), &in_order(declarations))];
         let mut shown: BTreeSet<Place> = BTreeSet::new();
         for part in &functions {
             let function = part.header.and_then(|header| self.function(header));
@@ -178,9 +181,11 @@ impl Listing<'_> {
         reasons.sort_by_key(size);
         let first = reasons.first()?;
         let others = reasons.iter().filter(|one| one.span == first.span).count();
-        let named = if text.contains(&first.name) || others > 1 { String::new() } else { format!("{}: ", first.name) };
-        let more = if others > 1 { format!(" ({others} parts of it)") } else { String::new() };
-        Some(format!("{} {named}{}{more}", first.what.name(), first.because).replace(" : ", ": "))
+        Some(match others {
+            1 if text.contains(&first.name) => first.because.clone(),
+            1 => format!("{}: {}", first.name, first.because),
+            _ => format!("{}: {}; and {} other parts of it", first.name, first.because, others - 1),
+        })
     }
 
     /// Both sides of a section next to each other.
@@ -212,7 +217,7 @@ impl Listing<'_> {
                 continue;
             };
             while next < to {
-                rows.push(self.alone(left, next, &kept, &mut comments));
+                rows.push(self.alone(title, left, next, &kept, &mut comments));
                 next += 1;
             }
             let Some(place) = left.get(to).copied() else { continue };
@@ -228,7 +233,7 @@ impl Listing<'_> {
             next = to + 1;
         }
         while next < left.len() {
-            rows.push(self.alone(left, next, &kept, &mut comments));
+            rows.push(self.alone(title, left, next, &kept, &mut comments));
             next += 1;
         }
         once(&mut rows);
@@ -236,16 +241,33 @@ impl Listing<'_> {
     }
 
     /// A line of the original that no line of the residual is next to.
-    fn alone(&self, left: &[Place], index: usize, kept: &BTreeSet<usize>, comments: &mut Comments) -> Row {
+    fn alone(&self, title: &str, left: &[Place], index: usize, kept: &BTreeSet<usize>, comments: &mut Comments) -> Row {
         let Some(place) = left.get(index).copied() else { return Row::default() };
         let text = self.text(place);
         let code = comments.html(text);
         let trimmed = text.trim();
         let nothing = trimmed.is_empty() || trimmed.starts_with("//") || trimmed.chars().all(|c| "{}();".contains(c));
-        let because = if kept.contains(&index) || nothing { None } else { self.reason(place, text) };
+        let unnamed = || Some("nothing that is left names it".to_owned()).filter(|_| title == DECLARATIONS);
+        let because = if kept.contains(&index) || nothing { None } else { self.reason(place, text).or_else(unnamed) };
         let class = if because.is_some() { "gone" } else { "plain" };
         Row { class, number: Some(place.1), left: Some(code), because, ..Row::default() }
     }
+}
+
+/// Declarations in the order of the original. The lines of a struct stay together.
+fn in_order<'a>(lines: Vec<&'a Line<'a>>) -> Vec<&'a Line<'a>> {
+    let mut units: Vec<Vec<&Line<'_>>> = Vec::new();
+    let mut inside = false;
+    for line in lines {
+        let comment = line.text.trim_start().starts_with("//") || line.text.starts_with("/*");
+        match units.last_mut().filter(|_| inside) {
+            Some(unit) => unit.push(line),
+            None => units.push(vec![line]),
+        }
+        inside = comment || line.text.ends_with('{') || (inside && line.text.starts_with("    "));
+    }
+    units.sort_by_key(|unit| unit.iter().find_map(|line| line.from));
+    units.into_iter().flatten().collect()
 }
 
 /// The declarations of a residual, and its functions.

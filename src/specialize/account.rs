@@ -80,7 +80,7 @@ pub struct Entry {
     pub what: &'static str,
     /// Its name; of a branch its condition.
     pub name: String,
-    /// The file that it stood in.
+    /// The file that it was in.
     pub file: String,
     /// The line.
     pub line: u32,

@@ -2,7 +2,7 @@
 //!
 //! *In:* a [`Draw`] and its framebuffer. *Out:* a [`Known`].
 
-use glisten_front::hir::{Scalar, ScalarValue};
+use glisten_front::hir::{GlobalId, Scalar, ScalarValue, Stage};
 use glisten_front::link::UniformLeaf;
 use glisten_scene::{AttributeData, Cull, Draw, Framebuffer, Primitive, Texels, Texture};
 use glisten_specialize::{Input, Known, KnownState, KnownTexture};
@@ -13,6 +13,9 @@ pub fn known(draw: &Draw, framebuffer: &Framebuffer, dynamic: &[String]) -> Know
     let names: Vec<&str> = draw.dynamic.iter().chain(dynamic).map(String::as_str).collect();
     let mut known = Known { state: state(draw, framebuffer), ..Known::default() };
     let interface = &draw.program.interface;
+    if !moves(draw, &names) {
+        known.state.interpolation_reach = glisten_reference::interpolation_reach(draw, *framebuffer);
+    }
     for leaf in &interface.uniforms {
         if is_dynamic(&names, leaf) {
             continue;
@@ -34,6 +37,18 @@ pub fn known(draw: &Draw, framebuffer: &Framebuffer, dynamic: &[String]) -> Know
         }
     }
     known
+}
+
+/// Whether something that changes from frame to frame reaches the vertex stage, and so perhaps the positions.
+fn moves(draw: &Draw, names: &[&str]) -> bool {
+    let interface = &draw.program.interface;
+    let in_vertex = |globals: &[(Stage, GlobalId)]| globals.iter().any(|(stage, _)| *stage == Stage::Vertex);
+    let uniform = interface.uniforms.iter().any(|leaf| {
+        let root = interface.roots.get(leaf.root.0 as usize);
+        is_dynamic(names, leaf) && root.is_some_and(|root| in_vertex(&root.globals))
+    });
+    let sampled = |name: &str| names.iter().any(|dynamic| names_it(dynamic, name));
+    uniform || interface.samplers.iter().any(|slot| sampled(&slot.name) && in_vertex(&slot.globals))
 }
 
 /// Whether a name of `dynamic` is this uniform or what it is part of.
@@ -87,6 +102,7 @@ fn state(draw: &Draw, framebuffer: &Framebuffer) -> KnownState {
         framebuffer: Some([framebuffer.width, framebuffer.height]),
         vertices,
         instances: Some(draw.instances),
+        interpolation_reach: None,
     }
 }
 
@@ -176,12 +192,12 @@ fn known_texture(texture: &Texture) -> KnownTexture {
                 (D1, false) => Some([level.width, 1, 1]),
                 (D2 | Cube | Rect, _) => Some([level.width, level.height, 1]),
                 (D3, _) => Some([level.width, level.height, level.depth]),
-                // How many samples or rows stand behind the numbers is the target's.
+                // The target decides how many samples or rows there are.
                 (Buffer | Multisample, _) => None,
             }
         })
         .collect::<Option<Vec<_>>>();
-    // What a comparison gives hangs on the reference.
+    // The result of a comparison depends on its reference value.
     let channels = if kind.shadow { [Input::Between(0.0, 1.0); 4] } else { channels(texture) };
     KnownTexture { sizes: sizes.unwrap_or_default(), channels }
 }

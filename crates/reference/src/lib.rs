@@ -21,8 +21,8 @@ use domain::faults::Faults;
 use domain::{Envelope, F32, F64};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::source::Span;
-use glisten_scene::Scene;
 use glisten_scene::picture::Picture;
+use glisten_scene::{Draw, Framebuffer, Scene};
 
 /// The precision of the reference's numbers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -75,6 +75,13 @@ pub fn render(scene: &Scene, options: &RenderOptions) -> Result<Picture, Vec<Dia
         Precision::F32 => pipeline::render::<F32>(scene, options),
         Precision::Envelope => pipeline::render::<Envelope>(scene, options),
     }
+}
+
+/// How far beyond the values at the vertices the fragments of a draw may be interpolated, on any conforming target: a
+/// varying between `low` and `high` at the vertices is between `low - f (high - low)` and `high + f (high - low)` at the
+/// fragments, but for the rounding of the result. `None` if nothing bounds it.
+pub fn interpolation_reach(draw: &Draw, framebuffer: Framebuffer) -> Option<f64> {
+    pipeline::reach(draw, framebuffer, &RenderOptions { mark_edges: false, ..RenderOptions::default() })
 }
 
 /// The contribution of an operation to the width of a pixel's envelope.

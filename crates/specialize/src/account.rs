@@ -1,8 +1,8 @@
-//! [`LeftOut`]: what went, where it stood, and what decided it.
+//! [`LeftOut`]: what went, where it was, and what decided it.
 //!
 //! *In:* the original, the residual, and what the forward walk decided. *Out:* a list in the order of the original.
-//! *Holds:* a statement is left out if no copy of it is anywhere in the residual; what stands in something that was left out
-//! is not told of again.
+//! *Holds:* a statement is left out if no copy of it is anywhere in the residual; what is in something that was left out
+//! is not listed again.
 
 use crate::forward::{Reason, Walked};
 use crate::known::Known;
@@ -14,7 +14,7 @@ use glisten_front::source::{SourceMap, Span};
 use rustc_hash::FxHashSet;
 use std::collections::BTreeSet;
 
-/// What something was.
+/// The kind of a thing that was left out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[expect(missing_docs, reason = "the names say it")]
 pub enum Kind {
@@ -51,23 +51,23 @@ impl Kind {
 /// Something that was left out.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LeftOut {
-    /// What it was.
+    /// Its kind.
     pub what: Kind,
     /// Its name; of a branch its condition, of a loop or a statement its first line.
     pub name: String,
-    /// The file that it stood in.
+    /// The file that it was in.
     pub file: String,
     /// The line, from 1.
     pub line: u32,
-    /// What decided it.
+    /// The reason.
     pub because: String,
-    /// Where it stood, in the original's texts.
+    /// Its place in the original's texts.
     pub span: Span,
     /// All that went with it: of a branch its body, of a function all of it.
     pub extent: Span,
 }
 
-/// What was left out of a program: `shaders` are the residual's stages, whose spans are the original's, `residual` is the
+/// Lists what was left out of a program: `shaders` are the residual's stages, whose spans are the original's, `residual` is the
 /// interface of the residual.
 pub(crate) fn left_out(
     program: &Program,
@@ -102,7 +102,7 @@ impl Account<'_> {
         self.tell_all(what, name, span, because, span);
     }
 
-    /// The same of something that is more than what names it.
+    /// Lists something whose name is only a part of it.
     fn tell_all(&mut self, what: Kind, name: String, span: Span, because: String, extent: Span) {
         let place = self.sources.and_then(|sources| {
             let place = sources.location(span)?;
@@ -141,7 +141,7 @@ impl Account<'_> {
         let mut kept: FxHashSet<Span> = FxHashSet::default();
         for function in &left.functions {
             left.visit_statements(function.body.as_deref().unwrap_or(&[]), &mut |stmt| {
-                // The rounds of a loop that was written out stand where it stood.
+                // The iterations of a loop that was written out are where it was.
                 if !matches!(stmt.kind, StmtKind::Block(_)) {
                     kept.insert(stmt.span);
                 }
@@ -198,6 +198,9 @@ impl Account<'_> {
                     Some(Reason::Unrolled(0)) => "it never runs".to_owned(),
                     Some(Reason::Unrolled(1)) => "it runs once".to_owned(),
                     Some(Reason::Unrolled(rounds)) if inside(body) => format!("it runs {rounds} times, written out"),
+                    Some(Reason::UnrolledUpTo(rounds)) if inside(body) => {
+                        format!("it runs at most {rounds} times, written out")
+                    }
                     _ => "nobody reads what it computes".to_owned(),
                 };
                 let line = self.line(stmt.span);
@@ -260,7 +263,7 @@ impl Account<'_> {
         self.tell_all(Kind::Branch, self.text(span), span, because, extent);
     }
 
-    /// What is known of what a condition names.
+    /// The reason why a condition is decided: the values of what it names.
     fn because(&self, shader: &Shader, condition: ExprId, walked: &Walked) -> String {
         let decided = match walked.reasons.get(&shader.expr(condition).span) {
             Some(Reason::Condition(_, truth)) => format!("`{}` is {truth}", self.text(shader.expr(condition).span)),
@@ -294,7 +297,7 @@ impl Account<'_> {
         values
     }
 
-    /// What is declared at the borders of the stages and is there no more.
+    /// Lists the parts of the stages' interfaces that are gone.
     fn interface(&mut self, left: &Interface) {
         let program = self.program;
         let own = &program.interface;

@@ -29,7 +29,7 @@ pub(super) fn inputs(program: &Program, shader: &Shader, known: &Known, ends: Op
     uniforms(program, shader.stage, known, &mut facts);
     match (shader.stage, ends) {
         (Stage::Vertex, _) => attributes(program, known, &mut facts),
-        (Stage::Fragment, Some(ends)) => varyings(program, ends, &mut facts),
+        (Stage::Fragment, Some(ends)) => varyings(program, ends, known.state.interpolation_reach, &mut facts),
         (Stage::Fragment | Stage::Geometry, _) => {}
     }
     facts
@@ -89,7 +89,7 @@ fn uniforms(program: &Program, stage: Stage, known: &Known, facts: &mut [Vec<Fac
     }
 }
 
-/// What is known of each sampler slot's texture.
+/// The known texture of each sampler slot.
 pub(super) fn textures(program: &Program, known: &Known) -> Vec<Option<KnownTexture>> {
     program.interface.samplers.iter().map(|slot| known.textures.get(&slot.name).cloned()).collect()
 }
@@ -111,9 +111,9 @@ fn outside(input: Input) -> Fact {
     }
 }
 
-/// What is the same at all vertices is known, since equal values are interpolated to that very value. Nothing is said of
-/// where other values are: a triangle that is thinner than the grid of positions may be interpolated far beyond them.
-fn varyings(program: &Program, ends: &[Facts], facts: &mut [Vec<Fact>]) {
+/// Facts of varyings. One that is the same at all vertices is known, since equal values are interpolated to that very value. Others are in the
+/// range of the values at the vertices, extended by `reach`; without it nothing is said of them.
+fn varyings(program: &Program, ends: &[Facts], reach: Option<f64>, facts: &mut [Vec<Fact>]) {
     for varying in &program.interface.varyings {
         let (Some(from), Some(to)) = (varying.from, varying.to) else { continue };
         for scalar in 0..program.types.flat_len(varying.ty) {
@@ -121,13 +121,13 @@ fn varyings(program: &Program, ends: &[Facts], facts: &mut [Vec<Fact>]) {
             let slot =
                 facts.get_mut(to.global.index()).and_then(|cell| cell.get_mut((to.flat_offset + scalar) as usize));
             if let (Some(end), Some(slot)) = (end, slot) {
-                *slot = interpolated(*end, varying.interpolation);
+                *slot = interpolated(*end, varying.interpolation, reach);
             }
         }
     }
 }
 
-fn interpolated(fact: Fact, interpolation: Interpolation) -> Fact {
+fn interpolated(fact: Fact, interpolation: Interpolation, reach: Option<f64>) -> Fact {
     match fact.what {
         // 0 of either sign is told from the other by no rasterizer.
         What::Value(ScalarValue::Float(value)) if !value.is_finite() || (value == 0.0 && value.is_sign_negative()) => {
@@ -135,6 +135,20 @@ fn interpolated(fact: Fact, interpolation: Interpolation) -> Fact {
         }
         What::Value(value) => Fact::bound(value),
         _ if interpolation == Interpolation::Flat => Fact { constant: false, ..fact },
-        What::Float(_) | What::Int(..) | What::Uint(..) | What::Any => Fact::ANY,
+        What::Float(range) => reach.map_or(Fact::ANY, |reach| Fact::in_range(extended(range, reach))),
+        What::Int(..) | What::Uint(..) | What::Any => Fact::ANY,
     }
+}
+
+/// The range of interpolated values. Interpolation itself rounds: of a sum of three products and a division by a sum, each in
+/// f32, some 16 ULP of the largest of them would do.
+fn extended(range: Range, reach: f64) -> Range {
+    const ROUNDING: f64 = 1e-4;
+    if !range.is_finite() || !(0.0..=1.0).contains(&reach) {
+        return Range::ANY;
+    }
+    let slack = (range.high - range.low) * reach + range.magnitude() * ROUNDING + 1e-30;
+    let (low, high) = (range.low - slack, range.high + slack);
+    // A quotient by w may overflow or vanish on the way.
+    if low.abs().max(high.abs()) > 1e30 { Range::ANY } else { Range::between(low, high) }
 }

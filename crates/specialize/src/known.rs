@@ -7,7 +7,7 @@
 use glisten_front::hir::ScalarValue;
 use std::collections::BTreeMap;
 
-/// What is fixed.
+/// The inputs of a program that a host fixes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Known {
     /// Uniforms, named as in the reflection (`light[1].position`, `Block.member`): the scalars of the leaf, the elements of
@@ -21,7 +21,7 @@ pub struct Known {
     pub state: KnownState,
 }
 
-/// What is fixed of a scalar that comes from outside.
+/// The part of a scalar from outside that is fixed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Input {
     /// It is always this.
@@ -32,12 +32,12 @@ pub enum Input {
     Open,
 }
 
-/// What is fixed of a texture.
+/// The part of a texture that is fixed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct KnownTexture {
     /// Width, height and depth or layers of each level, as `textureSize` gives them; empty if they are not fixed.
     pub sizes: Vec<[u32; 3]>,
-    /// What each channel of a lookup can be, filtered as it is. [`Input::Value`] is for textures of one color.
+    /// The values that each channel of a lookup can have, filtered as it is. [`Input::Value`] is for textures of one color.
     pub channels: [Input; 4],
 }
 
@@ -48,7 +48,7 @@ pub struct KnownState {
     pub point_size: Option<bool>,
     /// How many clip distances are enabled.
     pub clip_distances: Option<u32>,
-    /// What `gl_FrontFacing` is, where culling or the primitive decides it.
+    /// The value of `gl_FrontFacing`, where culling or the primitive decides it.
     pub front_facing: Option<bool>,
     /// How many color attachments there are: outputs beyond are nobody's.
     pub attachments: Option<u32>,
@@ -58,4 +58,8 @@ pub struct KnownState {
     pub vertices: Option<u32>,
     /// `gl_InstanceID` is below this.
     pub instances: Option<u32>,
+    /// How far interpolated values may lie beyond the values at the vertices, in multiples of the distance between the least
+    /// and the greatest of these. Nothing is known of interpolated values without it: a triangle that is thinner than the
+    /// grid of positions may be interpolated far beyond its vertices.
+    pub interpolation_reach: Option<f64>,
 }

@@ -185,3 +185,61 @@ fn nothing_moves_into_a_stage_that_returns_early() {
         void main() { color = vec4(normalize(light - at), 1.0); }\n";
     assert!(residual(vertex, fragment, &[], false, true).moved.is_empty());
 }
+
+/// The fragment stage of a body, where `u` is known to be 3.
+fn written(body: &str) -> String {
+    let fragment = format!(
+        "#version 150\nin vec4 v;\nuniform float u;\nuniform vec4 list[16];\nout vec4 color;\nvoid main() {{\n{body}\n}}\n"
+    );
+    residual(VERTEX, &fragment, &[("u", &[3.0])], false, false).text(Stage::Fragment).expect("a stage").to_owned()
+}
+
+#[test]
+fn a_short_loop_with_an_open_jump_is_written_out() {
+    let broken = written(
+        "float s = 0.0; for (int i = 0; i < 3; ++i) { if (s > v.x) break; s += v.y * float(i); } color = vec4(s);",
+    );
+    assert!(broken.contains("do {") && broken.contains("} while (false);") && broken.contains("break;"), "{broken}");
+    assert!(!broken.contains("for (") && broken.contains("v.y * 2.0"), "{broken}");
+    let skipped = written(
+        "float s = 0.0; for (int i = 0; i < 3; ++i) { if (v.x > float(i)) continue; s += v.y; } color = vec4(s);",
+    );
+    assert!(skipped.contains("do {") && skipped.contains("continue;") && !skipped.contains("for ("), "{skipped}");
+    assert!(skipped.contains("v.x > 2.0"), "{skipped}");
+    // What is known after an iteration is what holds on all ways out of it.
+    let known = written(
+        "float s = 0.0; for (int i = 0; i < 2; ++i) { s = u; if (v.x > float(i)) break; s = 1.0; } color = vec4(s, u, s, s);",
+    );
+    assert!(known.contains("vec4(s, 3.0, s, s)"), "{known}");
+}
+
+#[test]
+fn loops_that_jump_both_ways_or_run_long_stay() {
+    for body in [
+        "float s = 0.0; for (int i = 0; i < 3; ++i) { if (v.x > s) continue; if (v.y > s) break; s += v.z; } color = vec4(s);",
+        // The `break` is sure only where the `continue` was not taken.
+        "float s = 0.0; for (int i = 0; i < 3; ++i) { if (v.x > s) continue; s += v.z; break; } color = vec4(s);",
+        "float s = 0.0; for (int i = 0; i < 60; ++i) { if (s > v.x) break; s += sin(v.y + s) * cos(v.z + s); } color = vec4(s);",
+    ] {
+        let text = written(body);
+        assert!(text.contains("for (") && !text.contains("do {"), "{text}");
+    }
+}
+
+#[test]
+fn a_uniform_array_ends_where_no_index_reaches() {
+    let size = |body: &str| {
+        let text = written(body);
+        let line = text.lines().find(|line| line.starts_with("uniform vec4")).unwrap_or_default().to_owned();
+        line.chars().filter(char::is_ascii_digit).collect::<String>().trim_start_matches('4').to_owned()
+    };
+    assert_eq!(
+        size("color = vec4(0.0); for (int i = 0; i < 5; ++i) { for (int j = 0; j < 60; ++j) color += list[i] * v; }"),
+        "5"
+    );
+    assert_eq!(size("color = list[clamp(int(v.x), 0, 2)];"), "3");
+    assert_eq!(size("color = list[int(gl_FragCoord.x) & 7];"), "8");
+    // Nothing is known of these, or they may be negative, which is limited to the first element.
+    assert_eq!(size("color = list[int(v.x)];"), "16");
+    assert_eq!(size("color = list[int(clamp(v.x, 0.0, 3.0))];"), "16");
+}

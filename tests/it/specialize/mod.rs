@@ -1,5 +1,7 @@
 //! Specialized scenes draw the same pictures, byte for byte on the reference in f32.
 
+#[cfg(feature = "cli")]
+mod account;
 mod by_hand;
 #[cfg(feature = "cli")]
 mod command;
@@ -7,6 +9,7 @@ mod command;
 mod drawn;
 #[cfg(feature = "gpu")]
 mod random;
+mod reach;
 mod rules;
 
 #[cfg(feature = "gpu")]

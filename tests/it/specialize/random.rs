@@ -5,7 +5,7 @@
 
 use super::difference;
 use crate::random::{scene, seeds, text};
-use glisten::specialize::specialize_scene;
+use glisten::specialize::{Contract, specialize_scene, specialize_scene_by};
 use glisten_front::source::SourceMap;
 
 /// Seeds of programs that were once specialized wrongly: initializers of globals that assign to others, and a loop that was
@@ -67,6 +67,25 @@ fn random_programs_draw_the_same_bytes() {
             if wrong.len() >= 3 {
                 break;
             }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
+}
+
+/// Fast math and moves change numbers, but what is left is always a program, and it is drawn.
+#[test]
+fn random_programs_read_back_under_contracts_that_change_rounding() {
+    let contract = Contract { fast_math: true, move_to_vertex: true };
+    let mut wrong = Vec::new();
+    for seed in seeds() {
+        let fragment = text::fragment(seed);
+        let Ok(scene) = scene(&fragment) else { continue };
+        let specialized = specialize_scene_by(contract, &scene, &SourceMap::default(), &[]);
+        for draw in &specialized.draws {
+            wrong.extend(draw.fault.as_ref().map(|fault| format!("seed {seed}: {fault}")));
+        }
+        if super::bits(&scene).is_ok() && super::bits(&specialized.scene).is_err() {
+            wrong.push(format!("seed {seed}: the residual cannot be drawn"));
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));

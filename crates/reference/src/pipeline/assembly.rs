@@ -100,6 +100,26 @@ pub(super) fn primitives<D: Domain>(
     list
 }
 
+/// The triangles of one instance after clipping, whichever way they face; `None` if a vertex has no finite position.
+pub(super) fn clipped_triangles<D: Domain>(
+    vertices: &mut Vertices<D>,
+    order: &[u32],
+    state: &State,
+) -> Option<Vec<[u32; 3]>> {
+    let mut list = Vec::new();
+    for assembled in assemble(state.primitive, order.len() as u32) {
+        let Assembled::Triangle(corners, _) = assembled else { continue };
+        let corners = corners.map(|position| order.get(position as usize).copied().unwrap_or(0));
+        for vertex in corners {
+            vertices.outside(vertex)?;
+        }
+        let polygon = vertices.clip_triangle(corners);
+        let Some((&hub, rim)) = polygon.split_first() else { continue };
+        list.extend(rim.windows(2).filter_map(|pair| Some([hub, *pair.first()?, *pair.get(1)?])));
+    }
+    Some(list)
+}
+
 fn window<D: Domain>(vertices: &Vertices<D>, vertex: u32) -> Option<[f32; 2]> {
     vertices.window32.get(vertex as usize).map(|&[x, y, _]| [x, y])
 }

@@ -82,7 +82,7 @@ impl Call<'_> {
         self.arguments.get(argument).map_or(&[], |(facts, _)| facts)
     }
 
-    /// A component of an argument; a scalar stands beside every component.
+    /// A component of an argument; a scalar is every component.
     fn operand(&self, argument: usize, index: usize) -> Fact {
         match self.arguments.get(argument) {
             Some((facts, ty)) if self.types.flat_len(*ty) == 1 => at(facts, 0),
@@ -202,7 +202,7 @@ fn extremum(least: bool, scalar: Scalar, x: Fact, y: Fact) -> Fact {
         }
         Scalar::Bool => What::Any,
     };
-    // A value that only one operand leaves open hangs on that one as well.
+    // A value that only one operand leaves open depends on that one as well.
     Fact::result(what, &[x, y])
 }
 

@@ -1,4 +1,4 @@
-//! What every conforming target computes alike.
+//! Exact folding: what every conforming target computes alike.
 //!
 //! *In:* exact operands. *Out:* the result, or `None` where a target may compute another: a quotient (2.5 ULP), a root, a
 //! function, a sum of products that rounds, a subnormal (which may be flushed), what is infinite or NaN, and what GLSL
@@ -137,7 +137,7 @@ pub(super) fn sum_of_products(pairs: &[(f32, f32)]) -> Option<f32> {
         return None;
     }
     let products = || pairs.iter().map(|(a, b)| f64::from(*a) * f64::from(*b)).filter(|product| *product != 0.0);
-    // The sign of a sum that is 0 hangs on the signs of all products.
+    // The sign of a sum that is 0 depends on the signs of all products.
     if products().next().is_none() {
         return pairs.iter().all(|(a, b)| a.is_sign_positive() && b.is_sign_positive()).then_some(0.0);
     }

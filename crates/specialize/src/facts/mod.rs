@@ -16,12 +16,12 @@ pub(crate) use range::{GREATEST, Range};
 use glisten_front::hir::{Scalar, ScalarValue};
 use smallvec::SmallVec;
 
-/// What is known of a scalar.
+/// The knowledge of a scalar.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Fact {
     /// Its value, or where it is.
     pub(crate) what: What,
-    /// Whether it hangs on nothing but literals and what the scene fixes, so that a driver could compute it once.
+    /// Whether it depends on nothing but literals and what the scene fixes, so that a driver could compute it once.
     pub(crate) constant: bool,
     /// Whether what the scene fixes is part of it. Literals alone give a driver no freedom that it had not before.
     pub(crate) bound: bool,
@@ -40,7 +40,7 @@ pub(crate) enum What {
     Float(Range),
     /// An `int` from one number to another, both included.
     Int(i32, i32),
-    /// A `uint` likewise.
+    /// A `uint` from one number to another, both included.
     Uint(u32, u32),
     /// Nothing is known.
     Any,
@@ -143,7 +143,7 @@ impl Fact {
         }
     }
 
-    /// What holds whichever of two it is.
+    /// The fact that holds whichever of two it is.
     pub(crate) fn join(self, other: Self) -> Self {
         let (bound, scaled, up) = (self.bound || other.bound, self.scaled || other.scaled, self.up || other.up);
         if self.what == other.what {
@@ -186,7 +186,7 @@ pub(crate) fn at(facts: &[Fact], index: usize) -> Fact {
     facts.get(index).copied().unwrap_or(Fact::ANY)
 }
 
-/// The same where a scalar stands beside a vector: it is every component.
+/// The fact of a component, where a scalar next to a vector is every component.
 pub(crate) fn spread(facts: &[Fact], index: usize) -> Fact {
     if facts.len() == 1 { at(facts, 0) } else { at(facts, index) }
 }
@@ -196,7 +196,7 @@ pub(crate) fn values(facts: &[Fact]) -> Option<SmallVec<[ScalarValue; 4]>> {
     if facts.is_empty() { None } else { facts.iter().map(|fact| fact.value()).collect() }
 }
 
-/// What holds whichever of two values it is.
+/// The facts that hold whichever of two values it is.
 pub(crate) fn join(a: &[Fact], b: &[Fact]) -> Facts {
     if a.len() != b.len() {
         return Facts::new();

@@ -161,7 +161,7 @@ impl Range {
     }
 
     fn hull(corners: &[f64], ulps: f64) -> Self {
-        // A corner of 0 times infinity is 0 beside the NaN that is told apart.
+        // A corner of 0 times infinity is 0; that it may be NaN is noted apart.
         let corners = corners.iter().map(|corner| if corner.is_nan() { 0.0 } else { *corner });
         let (low, high) =
             corners.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), corner| (low.min(corner), high.max(corner)));

@@ -91,7 +91,8 @@ fn folded(types: &Types, like: &Shader, operation: Operation, operands: &[Operan
 
 fn unsigned_zero(value: ScalarValue) -> ScalarValue {
     match value {
-        ScalarValue::Float(0.0) => ScalarValue::Float(0.0),
+        // -0 and 0 make 0; other numbers stay.
+        ScalarValue::Float(value) => ScalarValue::Float(value + 0.0),
         value => value,
     }
 }

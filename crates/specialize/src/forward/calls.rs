@@ -1,4 +1,4 @@
-//! Calls: a function is walked anew for each way in which it is called, as long as that is affordable.
+//! Calls: a function is walked again for each way in which it is called, as long as that is affordable.
 
 use super::places::Place;
 use super::store::{Cell, Key};
@@ -9,7 +9,7 @@ use glisten_front::source::Span;
 use rustc_hash::FxHashMap;
 use std::rc::Rc;
 
-/// A function is walked anew at most so often.
+/// A function is walked again at most so often.
 const MOST_CLONES: usize = 24;
 
 /// The clones of functions.
@@ -102,7 +102,7 @@ impl Forward<'_> {
         (target.id, Argument { facts: if same { facts } else { Facts::new() }, place, same })
     }
 
-    /// What a call hangs on, bit by bit.
+    /// The facts that a call depends on, bit by bit.
     fn pattern(&self, function: FunctionId, given: &[Argument]) -> Vec<u64> {
         let mut bits = Vec::new();
         for argument in given {

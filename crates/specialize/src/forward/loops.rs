@@ -1,10 +1,13 @@
 //! Loops: written out where that pays, else kept.
+//!
+//! A loop with a `break` under an open condition becomes one run of a loop, which the `break` leaves:
+//! `do { first; second; } while (false);`. With such a `continue` each iteration becomes one. A loop with both is kept.
 
 use super::effects::Assigned;
 use super::{Forward, Jump, Reason, Target};
 use crate::facts::{Fact, What, at};
 use glisten_front::hir::{
-    BinaryOp, Condition, ExprId, ExprKind, IncDec, LoopKind, ScalarValue, Stmt, StmtKind, VarRef,
+    BinaryOp, Condition, ExprId, ExprKind, IncDec, LoopKind, ScalarValue, Stmt, StmtKind, TypeId, VarRef,
 };
 use glisten_front::source::Span;
 
@@ -24,33 +27,92 @@ const ALWAYS: u64 = 160;
 
 impl Forward<'_> {
     pub(super) fn iteration(&mut self, parts: &Parts<'_>, out: &mut Vec<Stmt>) {
-        if let Some((body, rounds)) = self.unroll(parts) {
-            self.tell(parts.span, Reason::Unrolled(rounds));
+        let mut blocked = None;
+        let written = self.unroll(parts, None, &mut blocked);
+        let open = blocked.filter(|_| written.is_none());
+        let written = written.or_else(|| self.unroll(parts, Some(open?), &mut blocked));
+        if let Some((body, rounds)) = written {
+            let reason = if open.is_some() { Reason::UnrolledUpTo(rounds) } else { Reason::Unrolled(rounds) };
+            self.tell(parts.span, reason);
             out.extend(body);
             return;
         }
         self.keep(parts, out);
     }
 
-    /// The rounds one after the other; `None` where their number hangs on what is open, or they would be too many.
-    fn unroll(&mut self, parts: &Parts<'_>) -> Option<(Vec<Stmt>, u32)> {
+    /// The iterations one after the other; `None` where their number depends on what is open, or they would be too many.
+    /// `open` is the jump that may stay where its condition is open; `blocked` tells which jump was in the way.
+    fn unroll(
+        &mut self,
+        parts: &Parts<'_>,
+        open: Option<Jump>,
+        blocked: &mut Option<Jump>,
+    ) -> Option<(Vec<Stmt>, u32)> {
         if !self.may_grow() || parts.condition.is_some_and(|condition| condition.local.is_some()) {
             return None;
         }
         let mark = self.store.mark();
         let exits = self.frames.last().map_or(0, |frame| frame.exits.len());
         let weight = self.weight;
-        self.targets.push(Target::Flat { is_loop: true, forks: self.forks });
-        let result = self.rounds(parts, weight);
+        let outside = (std::mem::take(&mut self.leaving), std::mem::replace(&mut self.leaving_since, mark));
+        self.targets.push(Target::Flat { is_loop: true, forks: self.forks, open });
+        let result = self.rounds(parts, open, weight);
         self.targets.pop();
+        let leaving = std::mem::replace(&mut self.leaving, outside.0);
+        self.leaving_since = outside.1;
         if result.is_none() || self.failed {
+            *blocked = self.blocked;
             self.forget_attempt(mark, exits);
             return None;
         }
-        result
+        let (body, rounds) = result?;
+        if leaving.is_empty() {
+            return Some((body, rounds));
+        }
+        for changes in &leaving {
+            self.store.meet(changes, mark);
+        }
+        Some((vec![self.once(body, parts.span)], rounds))
     }
 
-    fn rounds(&mut self, parts: &Parts<'_>, weight: u64) -> Option<(Vec<Stmt>, u32)> {
+    /// A loop that runs once, for jumps to leave.
+    fn once(&mut self, body: Vec<Stmt>, span: Span) -> Stmt {
+        let fact = Fact::literal(ScalarValue::Bool(false));
+        let expr = self.push(ExprKind::Literal(ScalarValue::Bool(false)), TypeId::BOOL, span, &[fact]);
+        let condition = Some(Condition { local: None, expr });
+        Self::statement(StmtKind::Loop { kind: LoopKind::DoWhile, condition, step: None, body }, span)
+    }
+
+    /// An iteration. Where a `continue` stays in it, it is a loop that runs once.
+    fn one_iteration(&mut self, parts: &Parts<'_>, open: Option<Jump>) -> Stmt {
+        if open != Some(Jump::Continue) {
+            let body = self.statements(parts.body);
+            return Self::statement(StmtKind::Block(body), parts.span);
+        }
+        let mark = self.store.mark();
+        let outside = std::mem::replace(&mut self.leaving_since, mark);
+        let body = self.statements(parts.body);
+        self.leaving_since = outside;
+        let leaving = std::mem::take(&mut self.leaving);
+        if leaving.is_empty() || self.failed {
+            return Self::statement(StmtKind::Block(body), parts.span);
+        }
+        match self.jump.take() {
+            // It is sure only where no `continue` was before it.
+            Some(Jump::Break) => {
+                self.failed = true;
+                self.blocked = None;
+            }
+            Some(Jump::Continue) => self.store.live = true,
+            None => {}
+        }
+        for changes in &leaving {
+            self.store.meet(changes, mark);
+        }
+        self.once(body, parts.span)
+    }
+
+    fn rounds(&mut self, parts: &Parts<'_>, open: Option<Jump>, weight: u64) -> Option<(Vec<Stmt>, u32)> {
         let mut out = Vec::new();
         let mut rounds = 0;
         let mut first = 0;
@@ -60,11 +122,11 @@ impl Forward<'_> {
                 return Some((out, rounds));
             }
             rounds += 1;
-            let body = self.statements(parts.body);
+            let iteration = self.one_iteration(parts, open);
             if self.failed {
                 return None;
             }
-            out.push(Self::statement(StmtKind::Block(body), parts.span));
+            out.push(iteration);
             match self.jump.take() {
                 Some(Jump::Break) => {
                     self.store.live = true;
@@ -85,19 +147,20 @@ impl Forward<'_> {
                 first = grown;
             }
             // What gains nothing by being written out stays a loop.
-            let too_long = grown > ALWAYS && grown > self.most(first);
+            let most = if open.is_some() { ALWAYS } else { self.most(first) };
+            let too_long = grown > ALWAYS && grown > most;
             if rounds >= MOST_ROUNDS || too_long || !self.may_grow() {
                 return None;
             }
         }
     }
 
-    /// How long a loop whose first round leaves so many expressions may become.
+    /// How long a loop whose first iteration leaves so many expressions may become.
     fn most(&self, first: u64) -> u64 {
         (first * 8).min(2400)
     }
 
-    /// Whether there is another round; `None` if that is open.
+    /// Whether there is another iteration; `None` if that is open.
     fn another(&mut self, parts: &Parts<'_>, out: &mut Vec<Stmt>) -> Option<bool> {
         let Some(condition) = parts.condition else { return Some(true) };
         let value = self.eval(condition.expr);
@@ -146,7 +209,7 @@ impl Forward<'_> {
             self.refine(condition.expr, true);
         }
         let body = self.statements(parts.body);
-        // Whatever way a round took, the variables that it assigns to were forgotten.
+        // Whatever path an iteration took, the variables that it assigns to were forgotten.
         let failed = self.failed;
         self.store.roll_back(mark);
         let after = if parts.kind == LoopKind::DoWhile { test(self) } else { None };

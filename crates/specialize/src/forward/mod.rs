@@ -1,7 +1,7 @@
 //! The forward walk: evaluates a stage with what is known, and writes down what is left to do.
 //!
 //! *In:* a stage, and facts of its globals. *Out:* a [`Walked`] stage: the same program with decided branches gone, loops
-//! unrolled where that pays and functions cloned by what they are called with; beside each expression stands what is known
+//! unrolled where that pays and functions cloned by what they are called with; next to each expression is what is known
 //! of it, each variable still being read and written as it was. So it means the same as before, whatever is done with the
 //! facts later.
 //!
@@ -34,7 +34,7 @@ use store::{Changes, Key, Mark, Store};
 
 /// How deep calls are walked in one another.
 const DEEPEST: usize = 24;
-/// Facts of at most so many scalars are kept beside an expression.
+/// Facts of at most so many scalars are kept next to an expression.
 const NOTED: usize = 16;
 /// Of larger variables nothing is followed but what the scene fixes.
 const FOLLOWED: u32 = 1024;
@@ -50,13 +50,15 @@ pub(crate) struct Note {
     pub(crate) basic: bool,
 }
 
-/// Why something went: where it stood, and what decided it.
+/// Why something went: where it was, and what decided it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Reason {
     /// The condition is known to hold, or not to.
     Condition(ExprId, bool),
     /// The loop runs so many times and is written out.
     Unrolled(u32),
+    /// The loop runs at most so many times, as it may be left before, and is written out.
+    UnrolledUpTo(u32),
     /// The selector of a switch is known.
     Selector(ExprId),
 }
@@ -104,11 +106,11 @@ struct Frame {
 enum Target {
     /// A loop or switch that is kept.
     Kept { is_loop: bool },
-    /// One that is written out, and how many open branches it stands in.
-    Flat { is_loop: bool, forks: usize },
+    /// One that is written out, how many open branches it is in, and the jumps under open conditions that may stay in it.
+    Flat { is_loop: bool, forks: usize, open: Option<Jump> },
 }
 
-/// A jump that is taken for sure.
+/// A jump out of an iteration or a loop.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Jump {
     Break,
@@ -137,6 +139,12 @@ pub(crate) struct Forward<'a> {
     jump: Option<Jump>,
     /// A loop or switch that is being written out cannot be.
     failed: bool,
+    /// The jump under an open condition because of which it failed.
+    blocked: Option<Jump>,
+    /// What was changed at each jump that stays in a loop that is being written out.
+    leaving: Vec<Changes>,
+    /// The mark of the journal when the innermost loop with such jumps began, or its iteration.
+    leaving_since: Mark,
     /// Expressions that may still be written for loops and clones.
     fuel: u64,
     /// Expressions written so far of which something is open.
@@ -188,6 +196,9 @@ impl<'a> Forward<'a> {
             forks: 0,
             jump: None,
             failed: false,
+            blocked: None,
+            leaving: Vec::new(),
+            leaving_since: Mark::default(),
             fuel: shader.exprs.len() as u64 * 6 + 20_000,
             weight: 0,
             fast: false,

@@ -108,7 +108,7 @@ impl Forward<'_> {
         self.kept_switch(value.id, cases, span, out);
     }
 
-    /// The statements from the label that is hit to the `break`; `None` if a `break` hangs on what is open.
+    /// The statements from the label that is hit to the `break`; `None` if a `break` depends on what is open.
     fn flat_switch(&mut self, bits: u32, cases: &[Case]) -> Option<Vec<Stmt>> {
         let labelled = |label: CaseLabel| cases.iter().position(|case| case.labels.contains(&label));
         let Some(start) = labelled(CaseLabel::Value(bits)).or_else(|| labelled(CaseLabel::Default)) else {
@@ -116,7 +116,7 @@ impl Forward<'_> {
         };
         let mark = self.store.mark();
         let exits = self.frames.last().map_or(0, |frame| frame.exits.len());
-        self.targets.push(Target::Flat { is_loop: false, forks: self.forks });
+        self.targets.push(Target::Flat { is_loop: false, forks: self.forks, open: None });
         let mut body = Vec::new();
         for case in cases.iter().skip(start) {
             body.extend(self.statements(&case.body));
@@ -139,6 +139,7 @@ impl Forward<'_> {
     /// Back to before something was written out that could not be.
     pub(super) fn forget_attempt(&mut self, mark: Mark, exits: usize) {
         self.failed = false;
+        self.blocked = None;
         self.jump = None;
         self.store.roll_back(mark);
         if let Some(frame) = self.frames.last_mut() {

@@ -95,13 +95,18 @@ impl Forward<'_> {
             let (Target::Kept { is_loop } | Target::Flat { is_loop, .. }) = target;
             jump == Jump::Break || *is_loop
         };
-        match self.targets.iter().rev().find(led_out_of) {
-            Some(Target::Flat { forks, .. }) if *forks == self.forks => self.jump = Some(jump),
-            Some(Target::Flat { .. }) => self.failed = true,
-            Some(Target::Kept { .. }) | None => {
-                let kind = if jump == Jump::Break { StmtKind::Break } else { StmtKind::Continue };
+        let kind = if jump == Jump::Break { StmtKind::Break } else { StmtKind::Continue };
+        match self.targets.iter().rev().find(led_out_of).copied() {
+            Some(Target::Flat { forks, .. }) if forks == self.forks => self.jump = Some(jump),
+            Some(Target::Flat { open: Some(open), .. }) if open == jump => {
+                self.leaving.push(self.store.changes(self.leaving_since));
                 out.push(Self::statement(kind, span));
             }
+            Some(Target::Flat { .. }) => {
+                self.failed = true;
+                self.blocked = Some(jump);
+            }
+            Some(Target::Kept { .. }) | None => out.push(Self::statement(kind, span)),
         }
         self.store.live = false;
     }

@@ -1,6 +1,6 @@
 //! [`Store`]: what is known of each variable where the evaluation stands.
 //!
-//! *In:* assignments. *Out:* facts, and what becomes of them where ways part and meet again.
+//! *In:* assignments. *Out:* facts, and what happens to them where paths part and meet again.
 //! *Holds:* every change is in the journal, so that going back to a mark costs as much as was changed since.
 
 use crate::facts::{self, Fact};
@@ -15,7 +15,7 @@ pub(super) struct Key(pub(super) u32);
 pub(super) type Cell = Rc<Vec<Fact>>;
 
 /// A place in the journal.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Mark(usize);
 
 /// What was changed since a mark.

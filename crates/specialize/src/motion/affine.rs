@@ -12,7 +12,8 @@ use glisten_front::hir::{
     StmtKind, Storage, Type, Types, UnaryOp, VarRef,
 };
 use glisten_front::link::usage::written_by;
-use rustc_hash::{FxHashMap, FxHashSet};
+use rustc_hash::FxHashMap;
+use std::collections::BTreeSet;
 
 /// A moved expression has at most so many nodes, what its locals stand for included.
 const LARGEST: u32 = 96;
@@ -47,12 +48,11 @@ pub(super) fn names(shader: &Shader) -> Names {
     let mut names = arguments(shader);
     for (id, function) in shader.functions() {
         let body = function.body.as_deref().unwrap_or(&[]);
-        let mut several: FxHashSet<LocalId> = FxHashSet::default();
+        let mut several: BTreeSet<LocalId> = BTreeSet::new();
         let mut see = |stmt: &Stmt| match &stmt.kind {
             StmtKind::Local(local, Some(value)) if function.local(*local).kind == LocalKind::Variable => {
-                if names.insert((id, *local), (id, *value)).is_some() {
-                    several.insert(*local);
-                }
+                let before = names.insert((id, *local), (id, *value));
+                several.extend(before.map(|_| *local));
             }
             StmtKind::Loop { condition: Some(condition), .. } => several.extend(condition.local),
             _ => {}

@@ -23,7 +23,7 @@ pub(super) struct Link {
     vertex: GlobalId,
 }
 
-/// What the fragment stage's globals are in the vertex stage.
+/// The vertex stage's counterparts of the fragment stage's globals.
 pub(super) struct Links {
     varyings: FxHashMap<GlobalId, Link>,
     /// Uniforms and constants that the vertex stage has or may have; `None` if it is still to be declared.

@@ -37,7 +37,7 @@ pub(super) struct Needs {
 /// Those of a stage.
 pub(super) struct Candidates {
     pub(super) list: Vec<Candidate>,
-    /// What is named outside of all candidates.
+    /// The varyings and locals that are named outside of all candidates.
     pub(super) open: Needs,
     /// The scalars of each varying that may be among the needs.
     pub(super) varyings: Vec<(GlobalId, u32)>,

@@ -73,7 +73,7 @@ fn flip(moves: &mut [bool], index: usize) {
     }
 }
 
-/// What the fragment stage still needs.
+/// The varyings and locals that the fragment stage still needs.
 struct Needed {
     varyings: BTreeSet<GlobalId>,
     locals: BTreeSet<LocalName>,

@@ -28,7 +28,7 @@ pub(super) fn inline(shader: &mut Shader) -> bool {
         }
     }
     let mut changed = false;
-    // Children precede their parents, and what is inserted stands behind: an expression is looked at once.
+    // Children precede their parents, and what is inserted follows: an expression is looked at once.
     for index in 0..shader.exprs.len() {
         let Some(Expr { kind: ExprKind::Call(callee, arguments), .. }) = shader.exprs.get(index) else { continue };
         let (callee, arguments) = (*callee, arguments.clone());
@@ -89,7 +89,7 @@ fn fits(shader: &Shader, small: &Small, arguments: &[ExprId]) -> bool {
         })
 }
 
-/// The expression with arguments in the place of parameters, behind all others.
+/// The expression with arguments in the place of parameters, after all others.
 fn substitute(shader: &mut Shader, root: ExprId, arguments: &[ExprId]) -> ExprId {
     let mut order = Vec::new();
     shader.visit_expr(root, &mut |expr| order.push(expr));

@@ -33,24 +33,27 @@ use glisten_front::hir::{
     TypeId, Types,
 };
 use glisten_front::source::Span;
+use std::collections::BTreeMap;
 
 /// Rounds of pruning a stage: each finds what the one before laid bare. A chain of dead stores goes in one.
 const ROUNDS: usize = 8;
 
 /// A pruned stage.
 pub(super) struct Pruned {
-    /// What is left.
+    /// The stage that is left.
     pub(super) shader: Shader,
     /// For each global of it the one of the original.
     pub(super) globals: Vec<GlobalId>,
     /// For each function of it the one of the original.
     pub(super) origins: Vec<glisten_front::hir::FunctionId>,
+    /// How many elements of an array open indices may reach, by the name of the global.
+    reach: BTreeMap<String, u32>,
 }
 
 /// Prunes a stage. `live` says for each global of the original whether somebody reads it when the stage has ended.
 pub(super) fn prune(types: &Types, settled: Settled, live: &[bool]) -> Pruned {
     let globals = (0..settled.shader.globals.len()).map(GlobalId::new).collect();
-    let mut pruned = Pruned { shader: settled.shader, globals, origins: settled.origins };
+    let mut pruned = Pruned { shader: settled.shader, globals, origins: settled.origins, reach: settled.reach };
     pruned.again(types, live);
     pruned
 }
@@ -130,9 +133,14 @@ fn overwritten_in(shader: &mut Shader) -> bool {
 
 /// Trims the types that the stages share, then gives functions their names.
 pub(super) fn finish(types: &mut Types, stages: &mut [(Pruned, Vec<bool>)]) {
+    let mut reach: BTreeMap<String, u32> = BTreeMap::new();
+    for (name, elements) in stages.iter().flat_map(|(pruned, _)| &pruned.reach) {
+        let known = reach.entry(name.clone()).or_default();
+        *known = (*known).max(*elements);
+    }
     for _ in 0..3 {
         let mut shaders: Vec<Shader> = stages.iter().map(|(pruned, _)| pruned.shader.clone()).collect();
-        let changed = trim::trim(types, &mut shaders);
+        let changed = trim::trim(types, &mut shaders, &reach);
         for ((pruned, live), shader) in stages.iter_mut().zip(shaders) {
             pruned.shader = shader;
             if changed {

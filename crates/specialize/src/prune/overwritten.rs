@@ -44,9 +44,9 @@ impl Live {
 
 struct Walk<'a> {
     shader: &'a Shader,
-    /// What is live where a `break` or `continue` leads, innermost last.
+    /// The live locals where a `break` or `continue` leads, innermost last.
     jumps: Vec<Live>,
-    /// What is live where the function is left.
+    /// The live locals where the function is left.
     end: Live,
     changed: bool,
 }

@@ -7,7 +7,8 @@ use super::uses::{Stored, Uses, reached, stored};
 use crate::forward::Effects;
 use glisten_front::builtin::BuiltinFunction;
 use glisten_front::hir::{
-    ExprId, ExprKind, FunctionId, GlobalId, ParamMode, Shader, Stmt, StmtKind, Storage, TypeId, Types, UnaryOp, VarRef,
+    Condition, ExprId, ExprKind, FunctionId, GlobalId, LoopKind, ParamMode, ScalarValue, Shader, Stmt, StmtKind,
+    Storage, TypeId, Types, UnaryOp, VarRef,
 };
 
 /// Sweeps a stage once. `live` says for each global whether somebody reads it when the stage has ended.
@@ -52,7 +53,7 @@ impl Sweeper<'_> {
         out
     }
 
-    /// Puts what is left of a statement behind `out`, which runs backwards.
+    /// Appends what is left of a statement to `out`, which runs backwards.
     fn statement(&mut self, stmt: Stmt, out: &mut Vec<Stmt>) {
         let Stmt { kind, span } = stmt;
         match kind {
@@ -104,6 +105,12 @@ impl Sweeper<'_> {
             }
             StmtKind::Loop { kind, condition, step, body } => {
                 let body = self.body(body);
+                if self.runs_once(kind, condition.as_ref(), &body) {
+                    self.changed = true;
+                    // As a block it may be taken apart in the next sweep.
+                    out.push(Stmt { kind: StmtKind::Block(body), span });
+                    return;
+                }
                 let whole = StmtKind::Loop { kind, condition, step, body };
                 if self.is_idle(&whole) {
                     self.uses.body(self.types, self.shader, &[Stmt { kind: whole, span }], -1);
@@ -114,6 +121,17 @@ impl Sweeper<'_> {
             }
             kind => out.push(Stmt { kind, span }),
         }
+    }
+
+    /// Whether a loop is `do { ... } while (false)` that nothing leaves before its end.
+    fn runs_once(&self, kind: LoopKind, condition: Option<&Condition>, body: &[Stmt]) -> bool {
+        let Some(Condition { expr, .. }) = condition.filter(|_| kind == LoopKind::DoWhile) else { return false };
+        let never = matches!(self.shader.expr(*expr).kind, ExprKind::Literal(ScalarValue::Bool(false)));
+        let mut leaves = false;
+        self.shader.visit_statements(body, &mut |stmt| {
+            leaves |= matches!(stmt.kind, StmtKind::Break | StmtKind::Continue);
+        });
+        never && !leaves
     }
 
     /// An expression for its effects alone.
@@ -198,7 +216,7 @@ impl Sweeper<'_> {
         self.uses.value(self.types, self.shader, expr, -1, within);
     }
 
-    /// The same for an expression that stood alone.
+    /// Takes an expression that was a statement out of the counts.
     fn forget_effect(&mut self, expr: ExprId) {
         self.uses.effect(self.types, self.shader, expr, -1);
     }

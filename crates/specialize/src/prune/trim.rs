@@ -11,10 +11,10 @@ use glisten_front::hir::{
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeMap;
 
-/// Trims the types of a program.
-pub(super) fn trim(types: &mut Types, stages: &mut [Shader]) -> bool {
+/// Trims the types of a program. `open` says how many elements of an array open indices may reach.
+pub(super) fn trim(types: &mut Types, stages: &mut [Shader], open: &BTreeMap<String, u32>) -> bool {
     let members = trim_members(types, stages);
-    trim_arrays(types, stages) | members
+    trim_arrays(types, stages, open) | members
 }
 
 fn trim_members(types: &mut Types, stages: &mut [Shader]) -> bool {
@@ -171,8 +171,8 @@ fn has_effects(shader: &Shader, root: glisten_front::hir::ExprId) -> bool {
     effects
 }
 
-/// Arrays of loose uniforms whose every index is known end behind the last that is reached.
-fn trim_arrays(types: &mut Types, stages: &mut [Shader]) -> bool {
+/// Arrays of loose uniforms end after the last element that is reached.
+fn trim_arrays(types: &mut Types, stages: &mut [Shader], open: &BTreeMap<String, u32>) -> bool {
     let mut reach: FxHashMap<String, Option<u32>> = FxHashMap::default();
     for shader in stages.iter() {
         let mut indexed: FxHashSet<u32> = FxHashSet::default();
@@ -185,7 +185,8 @@ fn trim_arrays(types: &mut Types, stages: &mut [Shader]) -> bool {
                 ExprKind::Literal(ScalarValue::Uint(value)) => Some(value),
                 _ => None,
             };
-            note(&mut reach, shader, id, known.map(|index| index + 1));
+            let reached = known.map(|index| index + 1).or_else(|| open.get(&shader.global(id).name).copied());
+            note(&mut reach, shader, id, reached);
         }
         for (index, expr) in shader.exprs.iter().enumerate() {
             if let ExprKind::Var(VarRef::Global(id)) = expr.kind

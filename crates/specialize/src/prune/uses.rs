@@ -19,7 +19,7 @@ pub(super) struct Count {
     pub(super) named: i32,
 }
 
-/// What a store is to.
+/// The target of a store.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Stored {
     pub(super) variable: VarRef,
@@ -106,7 +106,7 @@ impl Uses {
         }
     }
 
-    /// Counts what stands in a statement itself.
+    /// Counts the expressions directly in a statement.
     pub(super) fn statement(&mut self, types: &Types, shader: &Shader, kind: &StmtKind, by: i32) {
         if let StmtKind::Local(local, initializer) = kind {
             let variable = VarRef::Local(*local);
@@ -251,7 +251,7 @@ pub(super) fn member_of(types: &Types, shader: &Shader, base: ExprId, member: u3
     }
 }
 
-/// What an l-value stores to.
+/// The variable, or the member of it, that an l-value stores to.
 pub(super) fn stored(types: &Types, shader: &Shader, target: ExprId) -> Option<Stored> {
     let variable = shader.root_variable(target)?;
     let mut at = target;

@@ -30,7 +30,7 @@ const SMALL: f64 = 1e30;
 /// A demand for each operand.
 pub(super) type Own = SmallVec<[Demand; 4]>;
 
-/// What an operation demands.
+/// The demands of an operation on its operands.
 pub(super) fn own(types: &Types, walked: &Walked, id: ExprId) -> Own {
     let expr = walked.shader.expr(id);
     let children = expr.kind.children();
@@ -119,7 +119,7 @@ fn product(a: Fact, b: Fact, divides: bool) -> [Demand; 2] {
     [zero[0].and(order[0]), zero[1].and(order[1])]
 }
 
-/// A constant factor beside others.
+/// The demand on a constant factor next to others.
 fn joined(product: Fact, constant: Range, divides: bool) -> Demand {
     let range = product.range();
     let bounded = range.is_bounded() && range.magnitude() <= MODERATE && constant.magnitude() <= MODERATE;

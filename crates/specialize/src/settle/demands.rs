@@ -53,7 +53,7 @@ impl Demands {
         demands
     }
 
-    /// Uses stand behind what is stored, mostly: so backwards.
+    /// Uses follow what is stored, mostly: so backwards.
     fn round(&mut self, types: &Types, walked: &Walked) {
         for (id, function) in walked.shader.functions() {
             if let Some(body) = &function.body {
@@ -80,7 +80,7 @@ impl Demands {
         }
     }
 
-    /// What is demanded of the expression in a statement.
+    /// The demand on the expression in a statement.
     pub(super) fn of_statement(&self, function: FunctionId, kind: &StmtKind) -> Demand {
         match kind {
             StmtKind::Local(local, _) => self.of_variable(function, VarRef::Local(*local)),
@@ -130,7 +130,7 @@ impl Demands {
         }
     }
 
-    /// What goes through parameters and results.
+    /// The demands that go through parameters and results.
     fn call(
         &mut self,
         walked: &Walked,
@@ -159,7 +159,7 @@ impl Demands {
         }
     }
 
-    /// What an expression of which this is demanded demands of its operands.
+    /// The demands of an expression on its operands, given the demand on itself.
     pub(super) fn of_operands(
         &self,
         types: &Types,
@@ -198,7 +198,7 @@ impl Demands {
         demands
     }
 
-    /// What is handed on to all operands alike.
+    /// The demand that is handed on to all operands alike.
     fn through(&self, walked: &Walked, id: ExprId, demand: Demand) -> Demand {
         if !demand.is_some() {
             return Demand::NONE;

@@ -19,7 +19,7 @@ use super::facts::{self, Fact};
 use super::forward::Walked;
 use glisten_front::hir::{ExprId, ScalarValue};
 
-/// What must not become a literal.
+/// The values that must not become literals.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Demand(u8);
 
@@ -55,7 +55,7 @@ impl Demand {
 }
 
 impl Walked {
-    /// What is known of an expression.
+    /// The facts of an expression.
     pub(super) fn facts(&self, id: ExprId) -> &[Fact] {
         self.notes.get(id.index()).map_or(&[], |note| &note.facts)
     }

@@ -4,22 +4,26 @@
 //! becomes a `const` of its name where that reads better than its numbers; statements that do nothing are gone.
 
 use super::{Demand, Demands, identities};
+use crate::facts::Fact;
 use crate::forward::Walked;
 use glisten_front::hir::{
-    Case, Condition, ConstructKind, Expr, ExprId, ExprKind, FunctionId, GlobalId, ScalarValue, Shader, Stmt, StmtKind,
-    Storage, Type, TypeId, Types, Value, VarRef,
+    Case, Condition, ConstructKind, Expr, ExprId, ExprKind, FunctionId, GlobalId, Scalar, ScalarValue, Shader, Stmt,
+    StmtKind, Storage, Type, TypeId, Types, Value, VarRef,
 };
 use glisten_front::link::SamplerSlot;
 use glisten_front::source::Span;
 use glisten_front::stack::with_stack;
 use smallvec::SmallVec;
+use std::collections::BTreeMap;
 
 /// A settled stage.
 pub(crate) struct Settled {
-    /// What is left to do.
+    /// The stage that is left.
     pub(crate) shader: Shader,
     /// For each function of it the one that it comes from.
     pub(crate) origins: Vec<FunctionId>,
+    /// How many elements of an array open indices may reach, by the name of the global.
+    pub(crate) reach: BTreeMap<String, u32>,
 }
 
 struct Writer<'a> {
@@ -31,6 +35,7 @@ struct Writer<'a> {
     function: FunctionId,
     /// Globals that are read as they are.
     read: Vec<bool>,
+    reach: BTreeMap<String, u32>,
 }
 
 /// Settles a stage.
@@ -47,9 +52,10 @@ pub(crate) fn settle(types: &Types, walked: &Walked, demands: &Demands, samplers
             out,
             function: FunctionId::new(0),
             read: vec![false; n_globals],
+            reach: BTreeMap::new(),
         };
         writer.run();
-        Settled { shader: writer.out, origins: walked.origins.clone() }
+        Settled { shader: writer.out, origins: walked.origins.clone(), reach: writer.reach }
     })
 }
 
@@ -159,6 +165,7 @@ impl Writer<'_> {
                 ExprKind::Member(base, member) => ExprKind::Member(self.expr(base, of(0)), member),
                 ExprKind::Index(base, index) => {
                     let count = self.elements(base);
+                    self.reaches(base, index, count);
                     let base = self.expr(base, of(0));
                     ExprKind::Index(base, self.index(index, count))
                 }
@@ -262,6 +269,24 @@ impl Writer<'_> {
         }
     }
 
+    /// Notes how far an open index goes into a global. An index is limited into range, so a shorter array gives the same
+    /// element for every index that it has.
+    fn reaches(&mut self, base: ExprId, index: ExprId, count: u32) {
+        let ExprKind::Var(VarRef::Global(global)) = self.walked.shader.expr(base).kind else { return };
+        let fact = self.walked.facts(index).first().copied().unwrap_or(Fact::ANY);
+        let scalar = self.types.scalar_of(self.walked.shader.expr(index).ty).unwrap_or(Scalar::Int);
+        let (low, high) = fact.integers(scalar);
+        let last = i64::from(count.max(1)) - 1;
+        let n_elements = if low < 0 { count } else { high.min(last) as u32 + 1 };
+        let name = &self.walked.shader.global(global).name;
+        match self.reach.get_mut(name) {
+            Some(known) => *known = n_elements.max(*known),
+            None => {
+                self.reach.insert(name.clone(), n_elements);
+            }
+        }
+    }
+
     /// An index; one that is known is limited into range, as the reference does.
     fn index(&mut self, index: ExprId, count: u32) -> ExprId {
         let Expr { ty, span, .. } = self.walked.shader.expr(index).clone();
@@ -279,7 +304,7 @@ impl Writer<'_> {
         }
     }
 
-    /// What is assigned to stays what it is; its indices are settled.
+    /// An l-value stays what it is; its indices are settled.
     fn place(&mut self, id: ExprId) -> ExprId {
         let Expr { kind, ty, span } = self.walked.shader.expr(id).clone();
         let kind = match kind {
@@ -328,7 +353,7 @@ impl Writer<'_> {
     }
 
     /// Values that may be written as numbers.
-    fn settled_values(&self, facts: &[super::Fact], demand: Demand) -> Option<SmallVec<[ScalarValue; 4]>> {
+    fn settled_values(&self, facts: &[Fact], demand: Demand) -> Option<SmallVec<[ScalarValue; 4]>> {
         let values = super::facts::values(facts)?;
         let plain =
             |value: &ScalarValue| !matches!(value, ScalarValue::Float(value) if !value.is_normal() && *value != 0.0);
