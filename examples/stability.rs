@@ -9,10 +9,10 @@
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "an example prints")]
 
 use glisten::scene::{DiskFiles, load};
+use glisten::stability::{SpanError, trace};
 use glisten_front::diagnostic::write::human;
 use glisten_front::{Compiler, Options};
 use glisten_reference::RenderOptions;
-use glisten_reference::stability::{SpanError, trace};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {

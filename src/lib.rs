@@ -47,6 +47,8 @@ pub use glisten_front::{diagnostic, lint, source};
 pub use glisten_gl::Gl;
 #[cfg(feature = "gpu")]
 pub use glisten_gpu::Gpu;
+#[cfg(feature = "stability")]
+pub use glisten_reference::stability;
 #[cfg(feature = "reference")]
 pub use glisten_reference::{Precision, RenderOptions, render};
 #[cfg(feature = "reference")]
@@ -58,6 +60,7 @@ pub mod emit {
         ClipZ, Conventions, Emitted, Reflection, SpirvEnv, Target, WindowOrigin, emit, emit_with_sources, reflect,
         reflection,
     };
+    pub use glisten_specialize::{left_out, optimize};
 }
 
 /// The examples of the README and of the page on the library.

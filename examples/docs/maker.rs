@@ -6,7 +6,7 @@
 use super::regions::Maker;
 use glisten::diagnostic::{Severity, codes};
 use glisten::library;
-use glisten_front::builtin::operations;
+use glisten_front::builtin;
 use glisten_reference::domain::{faults, rules};
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -27,9 +27,9 @@ static REGIONS: &[(&str, Source)] = &[
     ("faults", Source::Tables(known_faults)),
     ("library", Source::Output(&["lib", "list"])),
     ("library-errors", Source::Measured(&["lib", "measure", "--backend", "gpu"])),
-    ("operations", Source::Tables(operations::markdown)),
+    ("operations", Source::Tables(builtin::operations_markdown)),
     ("pipeline", Source::Tables(pipeline)),
-    ("precision", Source::Tables(operations::precision_markdown)),
+    ("precision", Source::Tables(builtin::precision_markdown)),
     ("programs", Source::Tables(programs)),
 ];
 

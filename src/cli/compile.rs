@@ -9,6 +9,7 @@ use super::exit::{Exit, Failure, Outcome};
 use super::files;
 use super::guard;
 use super::inputs::{self, Group};
+use super::optimize::{self, OptimizeArgs};
 use super::session::{Session, Unit};
 use crate::library;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -52,6 +53,11 @@ pub(super) struct CompileArgs {
     /// The number of threads (0: one per core)
     #[arg(short, long, default_value_t = 0, value_name = "N")]
     jobs: usize,
+    /// Report what -O leaves out
+    #[arg(long)]
+    left_out: bool,
+    #[command(flatten)]
+    optimize: OptimizeArgs,
     #[command(flatten)]
     programs: ProgramArgs,
     #[command(flatten)]
@@ -88,7 +94,7 @@ pub(super) fn run(args: &CompileArgs, console: &Console) -> Outcome {
     let mut units = session.compile(inputs.groups);
     if let Some(EmitArg::Hir) = args.emit {
         let exit = session.tell_units(&units, false)?;
-        console.output(&typed_programs(&units))?;
+        console.output(&typed_programs(&units, args.optimize.is_given()))?;
         return Ok(exit);
     }
     for unit in &mut units {
@@ -104,7 +110,7 @@ pub(super) fn run(args: &CompileArgs, console: &Console) -> Outcome {
             Ok(files) => outputs.extend(files),
             Err(diagnostics) => session.add(&mut unit.batch, diagnostics),
         }
-        let notes = unit.sound_program().map_or_else(Vec::new, |program| emit::notes(program, &plan.conventions));
+        let notes = unit.sound_program().map_or_else(Vec::new, |program| plan.notes(program, &unit.batch.sources));
         session.add(&mut unit.batch, notes);
     }
     let exit = session.tell_units(&units, false)?;
@@ -124,6 +130,8 @@ struct OutputPlan {
     folder: PathBuf,
     targets: BTreeSet<Target>,
     conventions: Conventions,
+    optimize: OptimizeArgs,
+    left_out: bool,
 }
 
 impl OutputPlan {
@@ -134,7 +142,8 @@ impl OutputPlan {
         }
         let folder = args.output.clone().unwrap_or_default();
         let conventions = args.conventions.conventions(args.debug_lines);
-        let plan = Self { folder, targets, conventions };
+        let (optimize, left_out) = (args.optimize, args.left_out);
+        let plan = Self { folder, targets, conventions, optimize, left_out };
         plan.refuse_collisions(groups)?;
         Ok(plan)
     }
@@ -181,6 +190,20 @@ impl OutputPlan {
         Ok(())
     }
 
+    /// Whether the code for a target is without what reaches no output.
+    fn optimizes(&self, target: Target) -> bool {
+        self.optimize.applies(target, self.conventions.debug_lines)
+    }
+
+    /// Notes on what is not in the outputs.
+    fn notes(&self, program: &Program, sources: &SourceMap) -> Vec<Diagnostic> {
+        let mut notes = emit::notes(program, &self.conventions);
+        if self.left_out && self.targets.iter().any(|target| self.optimizes(*target)) {
+            notes.extend(optimize::notes(program, sources));
+        }
+        notes
+    }
+
     /// The outputs of one program; none if there are errors.
     fn emit(&self, unit: &Unit) -> Result<Vec<Output>, Vec<Diagnostic>> {
         let Some(program) = unit.sound_program() else { return Ok(Vec::new()) };
@@ -199,10 +222,12 @@ impl OutputPlan {
         let mut outputs = Vec::new();
         let mut diagnostics = Vec::new();
         let sources = Some(sources);
+        let optimized = optimize::optimized(program, self.targets.iter().any(|target| self.optimizes(*target)));
         for shader in &program.stages {
             let Some(input) = group.inputs.iter().find(|input| input.stage == shader.stage) else { continue };
             for target in &self.targets {
-                match emit::emit_with_sources(program, shader.stage, *target, &self.conventions, sources) {
+                let emitted = if self.optimizes(*target) { &optimized } else { program };
+                match emit::emit_with_sources(emitted, shader.stage, *target, &self.conventions, sources) {
                     Ok(emitted) => {
                         let name = format!("{}.{}", input.file_name(), target.extension());
                         outputs.push((self.folder.join(name), emitted.into_bytes()));
@@ -211,7 +236,9 @@ impl OutputPlan {
                 }
             }
         }
-        let reflection = emit::reflect(program, &self.conventions);
+        // What one of the outputs has is active.
+        let all = self.targets.iter().all(|target| self.optimizes(*target));
+        let reflection = emit::reflect(if all { &optimized } else { program }, &self.conventions);
         let mut json = serde_json::to_vec_pretty(&reflection).expect("a reflection is always JSON");
         json.push(b'\n');
         outputs.push((self.folder.join(format!("{}.json", group.name)), json));
@@ -250,10 +277,11 @@ impl OutputPlan {
 }
 
 /// All stages of all programs, each under the name of its file.
-fn typed_programs(units: &[Unit]) -> String {
+fn typed_programs(units: &[Unit], optimized: bool) -> String {
     let mut text = String::new();
     for unit in units {
         let Some(program) = unit.sound_program() else { continue };
+        let program = optimize::optimized(program, optimized);
         for shader in &program.stages {
             let input = unit.group.inputs.iter().find(|input| input.stage == shader.stage);
             let name = input.map_or("", |input| &input.name);

@@ -10,8 +10,8 @@
 //! *Holds:* only the nearest file counts; a level on the command line takes precedence.
 
 use super::args::set_level;
+use super::batch::Batch;
 use super::files;
-use super::session::Batch;
 use glisten_front::diagnostic::codes::general::BAD_CONFIG;
 use glisten_front::diagnostic::{Diagnostic, Level, Levels};
 use glisten_front::source::{SourceMap, Span};

@@ -49,8 +49,8 @@ pub(super) struct GalleryArgs {
     machine: MachineArgs,
 }
 
-/// The backend that draws.
-enum Painter {
+/// A backend that is ready to draw.
+enum GalleryBackend {
     Gpu(Box<Gpu>, Via),
     Cpu,
     OpenGl,
@@ -61,20 +61,20 @@ pub(super) fn run(args: &GalleryArgs, console: &Console) -> Outcome {
     args.backend.require()?;
     let entries = gallery::entries().map_err(internal)?;
     files::make_folder(&args.output)?;
-    let painter = match args.backend {
-        Backend::Gpu => Painter::Gpu(Box::new(args.machine.gpu().map_err(failure)?), args.via.into()),
-        Backend::Cpu => Painter::Cpu,
-        Backend::Gl => Painter::OpenGl,
+    let backend = match args.backend {
+        Backend::Gpu => GalleryBackend::Gpu(Box::new(args.machine.gpu().map_err(failure)?), args.via.into()),
+        Backend::Cpu => GalleryBackend::Cpu,
+        Backend::Gl => GalleryBackend::OpenGl,
     };
     let progress = Progress::new(console, entries.len());
     let mut tiles = Vec::with_capacity(entries.len());
     for entry in &entries {
         progress.say(entry.name);
-        tiles.push(Tile::new(&painter.draw(args, entry)?));
+        tiles.push(Tile::new(&backend.draw(args, entry)?));
         progress.step();
     }
     drop(progress);
-    let page = gallery::page(&entries, &tiles, &painter.name()).map_err(internal)?;
+    let page = gallery::page(&entries, &tiles, &backend.name()).map_err(internal)?;
     for (entry, tile) in entries.iter().zip(&tiles) {
         files::write(&args.output.join(entry.file_name()), &tile.png().map_err(internal)?)?;
     }
@@ -87,7 +87,7 @@ pub(super) fn run(args: &GalleryArgs, console: &Console) -> Outcome {
     Ok(Exit::Ok)
 }
 
-impl Painter {
+impl GalleryBackend {
     fn draw(&self, args: &GalleryArgs, entry: &Entry) -> Result<Picture, Failure> {
         let scene = entry.supersampled(args.size);
         let scene = match args.contract.contract() {

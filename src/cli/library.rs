@@ -56,7 +56,7 @@ enum LibCommand {
         rows: u32,
         /// The CPU reference only, or the GPU as well
         #[arg(long, value_enum, default_value_t)]
-        backend: Backend,
+        backend: MeasureBackends,
         /// The GPU to use, by a part of its name (default: the first software adapter)
         #[arg(long, value_name = "NAME")]
         adapter: Option<String>,
@@ -67,7 +67,7 @@ enum LibCommand {
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-enum Backend {
+enum MeasureBackends {
     /// The CPU reference in f64 and f32
     Cpu,
     /// The CPU reference, and Vulkan through wgpu
@@ -84,8 +84,8 @@ pub(super) fn run(args: &LibArgs, console: &Console) -> Outcome {
         LibCommand::Export { folder } => return export(folder, console),
         LibCommand::Measure { modules, rows, backend, adapter, format } => {
             let gpu = match backend {
-                Backend::Cpu => None,
-                Backend::Both => Some(Gpu::new(adapter.as_deref()).map_err(super::scenes::gpu_failure)?),
+                MeasureBackends::Cpu => None,
+                MeasureBackends::Both => Some(Gpu::new(adapter.as_deref()).map_err(super::scenes::gpu_failure)?),
             };
             measure(modules, *rows as usize, gpu.as_ref(), *format)?
         }
@@ -203,7 +203,7 @@ fn error_of(form: &'static Form) -> Result<String, Failure> {
         "at most {} ULP in f64 and {} in f32, over {} inputs",
         short(wide.ulps),
         short(single.error),
-        wide.judged
+        wide.counted
     ))
 }
 
@@ -297,7 +297,7 @@ fn table(rows: &[FigureRow]) -> String {
     let cells = |row: &FigureRow| {
         let gpu = row.gpu.map_or("-".to_owned(), |figures| short(figures.error));
         let name = format!("`{}`", row.form.signature);
-        [name, row.wide.judged.to_string(), short(row.wide.ulps), short(row.single.error), gpu]
+        [name, row.wide.counted.to_string(), short(row.wide.ulps), short(row.single.error), gpu]
     };
     let all: Vec<[String; 5]> = std::iter::once(head).chain(rows.iter().map(cells)).collect();
     let widths: [usize; 5] =
@@ -348,7 +348,7 @@ impl From<&FigureRow> for RowJson {
         Self {
             module: row.form.module,
             function: row.form.signature,
-            inputs: row.wide.judged,
+            inputs: row.wide.counted,
             undecided: row.wide.undecided,
             f64_ulp: row.wide.ulps,
             f32_error: row.single.error,

@@ -8,6 +8,7 @@
 //! *Holds:* no panics, no half-written files, and the same bytes for the same input with any `-j`.
 
 mod args;
+mod batch;
 mod compile;
 mod config;
 mod console;
@@ -21,6 +22,7 @@ mod inputs;
 mod library;
 mod lint;
 mod opengl;
+mod optimize;
 mod pictures;
 mod progress;
 mod reflect;

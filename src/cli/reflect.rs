@@ -4,10 +4,11 @@ use super::args::{BindingArgs, ConventionArgs, LevelArgs, ProgramArgs, ResultFor
 use super::console::Console;
 use super::exit::{Exit, Outcome};
 use super::inputs;
+use super::optimize::{self, OptimizeArgs};
 use super::session::{Session, Unit};
 use clap::Args;
 use glisten_emit::reflection::{Found, find, table};
-use glisten_emit::{Conventions, Reflection, reflect};
+use glisten_emit::{Conventions, Reflection, Target, reflect};
 use glisten_front::link::Program;
 use indexmap::IndexMap;
 
@@ -23,6 +24,8 @@ pub(super) struct ReflectArgs {
     /// Show what a name is, and its location
     #[arg(long, value_name = "NAME")]
     find: Option<String>,
+    #[command(flatten)]
+    optimize: OptimizeArgs,
     #[command(flatten)]
     programs: ProgramArgs,
     #[command(flatten)]
@@ -49,7 +52,8 @@ pub(super) fn run(args: &ReflectArgs, console: &Console) -> Outcome {
     let mut session = Session::new(console, &args.sources, &args.bindings, &args.levels, 0)?;
     let units = session.compile(inputs.groups);
     let exit = session.tell_units(&units, false)?;
-    let reflected = reflect_all(&units, &args.conventions.conventions(false));
+    let optimizes = args.optimize.applies(Target::Wgsl, false);
+    let reflected = reflect_all(&units, &args.conventions.conventions(false), optimizes);
     if reflected.is_empty() {
         return Ok(exit.max(Exit::Content));
     }
@@ -65,7 +69,7 @@ pub(super) fn run(args: &ReflectArgs, console: &Console) -> Outcome {
     Ok(exit)
 }
 
-fn reflect_all<'a>(units: &'a [Unit], conventions: &Conventions) -> Vec<Reflected<'a>> {
+fn reflect_all<'a>(units: &'a [Unit], conventions: &Conventions, optimizes: bool) -> Vec<Reflected<'a>> {
     let shared = |name: &str| units.iter().filter(|unit| unit.group.name == name).count() > 1;
     let sound = units.iter().filter_map(|unit| Some((unit, unit.sound_program()?)));
     sound
@@ -78,7 +82,8 @@ fn reflect_all<'a>(units: &'a [Unit], conventions: &Conventions) -> Vec<Reflecte
                 }
                 _ => unit.group.name.clone(),
             };
-            Reflected { name, program, reflection: reflect(program, conventions) }
+            let reflection = reflect(&optimize::optimized(program, optimizes), conventions);
+            Reflected { name, program, reflection }
         })
         .collect()
 }

@@ -1,12 +1,13 @@
 //! `glisten report`: error against run time of the ways to shade a scene, as JSON and as a page.
 
 use super::args::WithContractArgs;
+use super::batch::Batch;
 use super::console::Console;
 use super::exit::{Exit, Failure, Outcome};
 use super::files;
 use super::progress::Progress;
 use super::scenes::{DrawError, SceneArgs, ViaArg};
-use super::session::{Batch, Session};
+use super::session::Session;
 use crate::report::{self, Error, Report, Watcher};
 use crate::scene::DiskFiles;
 use clap::Args;

@@ -1,10 +1,11 @@
 //! Shared by `render`, `verify` and `report`: reading a scene with its shaders, and running work with a time limit.
 
 use super::args::{BindingArgs, LevelArgs, SourceArgs};
+use super::batch::Batch;
 use super::console::Console;
 use super::exit::{Exit, Failure};
 use super::guard;
-use super::session::{Batch, Session};
+use super::session::Session;
 use crate::scene::{self, DiskFiles, Scene};
 use crate::specialize::{Contract, specialize_scene_by};
 use clap::{Args, ValueEnum};

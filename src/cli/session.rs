@@ -3,6 +3,7 @@
 //! *Holds:* results are in the order of the groups, whatever `-j` is.
 
 use super::args::{BindingArgs, DiagnosticFormat, LevelArgs, SourceArgs};
+use super::batch::Batch;
 use super::config::Configs;
 use super::console::Console;
 use super::exit::{Exit, Failure};
@@ -21,15 +22,6 @@ use std::collections::BTreeSet;
 
 /// The stack size of the threads that compile. The phases limit their recursion themselves, relying on this size.
 const STACK_BYTES: usize = 16 << 20;
-
-/// Diagnostics with the texts that they refer to.
-#[derive(Debug, Default)]
-pub(super) struct Batch {
-    /// The texts.
-    pub(super) sources: SourceMap,
-    /// The diagnostics.
-    pub(super) diagnostics: Vec<Diagnostic>,
-}
 
 /// The result for a group of files.
 #[derive(Debug)]

@@ -7,7 +7,7 @@ use super::files;
 use super::guard;
 use super::progress::Progress;
 use crate::scene::Scene;
-use crate::shader_test::{self, Outcome as Ending, Painter};
+use crate::shader_test::{self, TestBackend, TestResult};
 use clap::{Args, ValueEnum};
 use glisten_front::compiler::{Compiler, Options};
 use glisten_front::diagnostic::Diagnostic;
@@ -26,7 +26,7 @@ pub(super) struct TestArgs {
     paths: Vec<PathBuf>,
     /// The backend
     #[arg(long, value_enum, default_value_t)]
-    backend: Backend,
+    backend: TestBackends,
     /// The form of the code that the GPU runs
     #[arg(long, value_enum, default_value_t)]
     via: super::scenes::ViaArg,
@@ -42,7 +42,7 @@ pub(super) struct TestArgs {
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-enum Backend {
+enum TestBackends {
     /// Vulkan through wgpu
     Gpu,
     /// The CPU reference
@@ -54,7 +54,7 @@ enum Backend {
 
 /// The result of a test on a backend.
 #[derive(Debug, Serialize)]
-struct TestResult {
+struct TestRow {
     file: String,
     backend: &'static str,
     result: &'static str,
@@ -75,7 +75,7 @@ pub(super) fn run(args: &TestArgs, console: &Console) -> Outcome {
     if files.is_empty() {
         return Err(Failure::usage(format!("there is no .{EXTENSION} file")));
     }
-    let mut painters = painters(args)?;
+    let mut backends = backends(args)?;
     let progress = Progress::new(console, files.len());
     let mut results = Vec::new();
     for path in &files {
@@ -83,10 +83,10 @@ pub(super) fn run(args: &TestArgs, console: &Console) -> Outcome {
         progress.say(&name);
         let bytes = files::read(&name, path).map_err(|_| Failure::usage(format!("cannot read `{name}`")))?;
         let text = String::from_utf8_lossy(&bytes);
-        for (backend, painter) in &mut painters {
-            let ending = one(&name, &text, painter.as_mut());
-            let (result, reason) = (ending.name(), ending.reason().map(str::to_owned));
-            results.push(TestResult { file: name.clone(), backend, result, reason });
+        for (backend, draws) in &mut backends {
+            let found = one(&name, &text, draws.as_mut());
+            let (result, reason) = (found.name(), found.reason().map(str::to_owned));
+            results.push(TestRow { file: name.clone(), backend, result, reason });
         }
         progress.step();
     }
@@ -101,10 +101,10 @@ pub(super) fn run(args: &TestArgs, console: &Console) -> Outcome {
 }
 
 /// Runs a test. A panic fails it and does not affect the others.
-fn one(name: &str, text: &str, painter: &mut dyn Painter) -> Ending {
+fn one(name: &str, text: &str, backend: &mut dyn TestBackend) -> TestResult {
     let compiler = Compiler::new(Options::default());
-    guard::guarded(|| shader_test::run(name, text, &compiler, painter))
-        .unwrap_or_else(|panic| Ending::Fail(format!("internal error: {panic}")))
+    guard::guarded(|| shader_test::run(name, text, &compiler, backend))
+        .unwrap_or_else(|panic| TestResult::Fail(format!("internal error: {panic}")))
 }
 
 /// Collects the files at a path: the path itself, or the files in it, in the order of their names.
@@ -129,45 +129,45 @@ fn collect(path: &Path, files: &mut Vec<PathBuf>, depth: u32) -> Result<(), Fail
     Ok(())
 }
 
-/// A painter and the name of its backend.
-type Named = (&'static str, Box<dyn Painter>);
+/// A backend and its name.
+type Named = (&'static str, Box<dyn TestBackend>);
 
-fn painters(args: &TestArgs) -> Result<Vec<Named>, Failure> {
-    let mut painters: Vec<Named> = Vec::new();
-    if args.backend != Backend::Cpu {
+fn backends(args: &TestArgs) -> Result<Vec<Named>, Failure> {
+    let mut backends: Vec<Named> = Vec::new();
+    if args.backend != TestBackends::Cpu {
         let gpu = Gpu::new(args.adapter.as_deref()).map_err(|error| {
             let exit = if error.is_environment() { Exit::Machine } else { Exit::Content };
             Failure::new(exit, error.to_string())
         })?;
         let gpu = gpu.with_timeout(Duration::from_secs(args.timeout));
-        painters.push(("gpu", Box::new(GpuPainter { gpu, via: args.via.into() })));
+        backends.push(("gpu", Box::new(GpuBackend { gpu, via: args.via.into() })));
     }
-    if args.backend != Backend::Gpu {
-        painters.push(("cpu", Box::new(CpuPainter)));
+    if args.backend != TestBackends::Gpu {
+        backends.push(("cpu", Box::new(CpuBackend)));
     }
-    Ok(painters)
+    Ok(backends)
 }
 
-struct GpuPainter {
+struct GpuBackend {
     gpu: Gpu,
     via: Via,
 }
 
-impl Painter for GpuPainter {
-    fn paint(&mut self, scene: &Scene) -> Result<Picture, Ending> {
+impl TestBackend for GpuBackend {
+    fn draw(&mut self, scene: &Scene) -> Result<Picture, TestResult> {
         match self.gpu.render(scene, self.via) {
             Ok(rendered) => Ok(rendered.picture),
-            Err(glisten_gpu::Error::Emit(diagnostics)) => Err(Ending::Fail(first(&diagnostics))),
-            Err(error @ glisten_gpu::Error::Unsupported(_)) => Err(Ending::Skip(error.to_string())),
-            Err(error) => Err(Ending::Fail(error.to_string())),
+            Err(glisten_gpu::Error::Emit(diagnostics)) => Err(TestResult::Fail(first(&diagnostics))),
+            Err(error @ glisten_gpu::Error::Unsupported(_)) => Err(TestResult::Skip(error.to_string())),
+            Err(error) => Err(TestResult::Fail(error.to_string())),
         }
     }
 }
 
-struct CpuPainter;
+struct CpuBackend;
 
-impl Painter for CpuPainter {
-    fn paint(&mut self, scene: &Scene) -> Result<Picture, Ending> {
+impl TestBackend for CpuBackend {
+    fn draw(&mut self, scene: &Scene) -> Result<Picture, TestResult> {
         // A test states the results of 32-bit floats, for example where they underflow.
         let options = RenderOptions {
             precision: Precision::F32,
@@ -175,7 +175,7 @@ impl Painter for CpuPainter {
             mark_edges: false,
             ..RenderOptions::default()
         };
-        glisten_reference::render(scene, &options).map_err(|diagnostics| Ending::Fail(first(&diagnostics)))
+        glisten_reference::render(scene, &options).map_err(|diagnostics| TestResult::Fail(first(&diagnostics)))
     }
 }
 
@@ -186,7 +186,7 @@ fn first(diagnostics: &[Diagnostic]) -> String {
 }
 
 /// One line for each test that did not pass, then the number of those that did.
-fn human(results: &[TestResult]) -> String {
+fn human(results: &[TestRow]) -> String {
     let mut text = String::new();
     for result in results.iter().filter(|result| result.result != "pass") {
         let reason = result.reason.as_deref().unwrap_or_default();

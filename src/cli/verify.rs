@@ -15,7 +15,7 @@ use clap::{Args, ValueEnum};
 use glisten_front::diagnostic::write;
 use glisten_front::source::SourceMap;
 use glisten_gpu::Via;
-use glisten_scene::compare::{Judge, Verdict, flip};
+use glisten_scene::compare::{Criterion, Verdict, flip};
 use serde::Serialize;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -215,7 +215,7 @@ fn compare(
     let runners: Vec<Instead<'_>> = runners.iter().map(|runner| Instead { runner, scene: drawn }).collect();
     let runners: Vec<&dyn Runner> = runners.iter().map(|runner| runner as &dyn Runner).collect();
     let options = Options {
-        judge: args.tolerance.map_or(Judge::Envelope, Judge::Tolerance),
+        criterion: args.tolerance.map_or(Criterion::Envelope, Criterion::Tolerance),
         excuse_known_faults: !args.no_known_faults,
         allow_undecided: args.allow_undecided,
         sources: Some(sources),

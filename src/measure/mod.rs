@@ -136,7 +136,7 @@ pub fn forms() -> impl Iterator<Item = &'static Form> {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Figures {
     /// The number of rows that were compared.
-    pub judged: usize,
+    pub counted: usize,
     /// The number of rows within rounding of a jump of the result, and of those where the model is undefined.
     pub undecided: usize,
     /// The number of rows with a result that is not finite.
@@ -262,7 +262,7 @@ impl Trial {
 
 impl Figures {
     fn add(&mut self, answer: &Answer, result: &[f64], rounding: &Rounding) {
-        self.judged += 1;
+        self.counted += 1;
         let size = |numbers: &[f64]| numbers.iter().map(|number| number * number).sum::<f64>().sqrt();
         let (ours, theirs) = if answer.projective { (size(&answer.values), size(result)) } else { (1.0, 1.0) };
         let scale = answer.scale.max(f64::from(f32::MIN_POSITIVE));

@@ -23,7 +23,7 @@ pub(super) fn table(report: &Report) -> String {
             if way.pareto { "*".into() } else { String::new() },
         ]);
     }
-    let mut text = aligned(&rows);
+    let mut text = right_aligned(&rows);
     let timing = &report.timing;
     // Writing to a String cannot fail.
     let _ = writeln!(
@@ -49,8 +49,8 @@ pub(super) fn table(report: &Report) -> String {
     text
 }
 
-/// Aligns the first column to the left, all others to the right.
-fn aligned(rows: &[Vec<String>]) -> String {
+/// A table of numbers: the first column is aligned to the left, all others to the right.
+fn right_aligned(rows: &[Vec<String>]) -> String {
     let columns = rows.first().map_or(0, Vec::len);
     let widths: Vec<usize> = (0..columns)
         .map(|column| rows.iter().filter_map(|row| row.get(column)).map(|cell| cell.chars().count()).max().unwrap_or(0))
@@ -75,11 +75,11 @@ fn aligned(rows: &[Vec<String>]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::aligned;
+    use super::right_aligned;
 
     #[test]
     fn columns_line_up() {
         let rows = [vec!["a".to_owned(), "1".to_owned()], vec!["bcd".to_owned(), "20".to_owned()]];
-        assert_eq!(aligned(&rows), "a     1\nbcd  20\n");
+        assert_eq!(right_aligned(&rows), "a     1\nbcd  20\n");
     }
 }

@@ -2,7 +2,7 @@
 
 use super::vertex_data::{Column, VertexData};
 use super::words::Words;
-use super::{Outcome, fail, skip};
+use super::{TestResult, fail, skip};
 use crate::scene::{AttributeData, AttributeValues, Primitive};
 use glisten_front::hir::{Scalar, Type, TypeId, Types};
 use glisten_front::link::{Attribute, Program};
@@ -39,7 +39,7 @@ pub(super) fn parse(
     program: &Program,
     data: &VertexData,
     size: [u32; 2],
-) -> Result<Geometry, Outcome> {
+) -> Result<Geometry, TestResult> {
     let line = words.line;
     if words.eat("arrays") {
         return arrays(words, program, data);
@@ -90,7 +90,7 @@ fn rectangle(attribute: &str, [x, y, width, height]: [f64; 4]) -> Column {
 }
 
 /// `draw arrays GL_TRIANGLES 0 3`, or `draw arrays instanced GL_TRIANGLES 0 3 2`.
-fn arrays(words: &mut Words<'_>, program: &Program, data: &VertexData) -> Result<Geometry, Outcome> {
+fn arrays(words: &mut Words<'_>, program: &Program, data: &VertexData) -> Result<Geometry, TestResult> {
     let line = words.line;
     let instanced = words.eat("instanced");
     let mode = words.word()?;

@@ -1,12 +1,12 @@
 //! `active uniform NAME PNAME VALUE`: what a host would learn about a uniform (OpenGL 3.2 §2.11.4).
 
 use super::words::Words;
-use super::{Outcome, fail, skip, uniforms};
+use super::{TestResult, fail, skip, uniforms};
 use glisten_front::hir::{MatrixLayout, Scalar, Type, Types};
 use glisten_front::link::{Program, UniformLeaf};
 
 /// Compares the linked program with the expectation of the test.
-pub(super) fn check(program: &Program, words: &mut Words<'_>) -> Result<(), Outcome> {
+pub(super) fn check(program: &Program, words: &mut Words<'_>) -> Result<(), TestResult> {
     let line = words.line;
     let (name, property, wanted) = (words.word()?, words.word()?, words.word()?);
     let Some((leaf, _)) = uniforms::find(program, name, 0) else {

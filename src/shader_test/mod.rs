@@ -1,7 +1,7 @@
 //! Runs `.shader_test` files, the format of piglit's shader_runner: shaders, data, draws and the expected picture,
 //! all in one text file.
 //!
-//! *In:* the text of a test, and a painter (the GPU or the reference). *Out:* an [`Outcome`]: pass, fail or skip,
+//! *In:* the text of a test, and a backend (the GPU or the reference). *Out:* a [`TestResult`]: pass, fail or skip,
 //! with the reason.
 //!
 //! ```text
@@ -45,7 +45,7 @@ use glisten_scene::picture::Picture;
 
 /// The result of a test.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Outcome {
+pub enum TestResult {
     /// All expectations hold.
     Pass,
     /// An expectation does not hold; the text says where and which.
@@ -54,7 +54,7 @@ pub enum Outcome {
     Skip(String),
 }
 
-impl Outcome {
+impl TestResult {
     /// `pass`, `fail`, `skip`
     pub fn name(&self) -> &'static str {
         match self {
@@ -73,29 +73,29 @@ impl Outcome {
     }
 }
 
-/// Draws the scenes of a test. An error fails the test, or skips it if the painter lacks a feature.
-pub trait Painter {
+/// Draws the scenes of a test. An error fails the test, or skips it if the backend lacks a feature.
+pub trait TestBackend {
     /// Draws a scene.
     ///
     /// # Errors
-    /// [`Outcome::Fail`] or [`Outcome::Skip`].
-    fn paint(&mut self, scene: &Scene) -> Result<Picture, Outcome>;
+    /// [`TestResult::Fail`] or [`TestResult::Skip`].
+    fn draw(&mut self, scene: &Scene) -> Result<Picture, TestResult>;
 }
 
 /// Runs the test called `name` with this text.
-pub fn run(name: &str, text: &str, compiler: &Compiler, painter: &mut dyn Painter) -> Outcome {
-    match session::run(name, text, compiler, painter) {
-        Ok(()) => Outcome::Pass,
-        Err(outcome) => outcome,
+pub fn run(name: &str, text: &str, compiler: &Compiler, backend: &mut dyn TestBackend) -> TestResult {
+    match session::run(name, text, compiler, backend) {
+        Ok(()) => TestResult::Pass,
+        Err(result) => result,
     }
 }
 
 /// Fails with a line number and a reason.
-fn fail<T>(line: u32, reason: impl std::fmt::Display) -> Result<T, Outcome> {
-    Err(Outcome::Fail(format!("line {line}: {reason}")))
+fn fail<T>(line: u32, reason: impl std::fmt::Display) -> Result<T, TestResult> {
+    Err(TestResult::Fail(format!("line {line}: {reason}")))
 }
 
 /// Skips with a line number and a reason.
-fn skip<T>(line: u32, reason: impl std::fmt::Display) -> Result<T, Outcome> {
-    Err(Outcome::Skip(format!("line {line}: {reason}")))
+fn skip<T>(line: u32, reason: impl std::fmt::Display) -> Result<T, TestResult> {
+    Err(TestResult::Skip(format!("line {line}: {reason}")))
 }

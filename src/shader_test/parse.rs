@@ -1,6 +1,6 @@
 //! Splits a test into its sections.
 
-use super::{Outcome, fail, skip};
+use super::{TestResult, fail, skip};
 use glisten_front::hir::Stage;
 
 /// A line and its number, counted from 1, without its comment and surrounding white space.
@@ -43,7 +43,7 @@ enum Section {
 }
 
 /// Splits a test into its sections.
-pub(super) fn parse(text: &str) -> Result<TestFile, Outcome> {
+pub(super) fn parse(text: &str) -> Result<TestFile, TestResult> {
     let mut file = TestFile::default();
     let mut section = Section::Nothing;
     let mut commented = false;
@@ -111,7 +111,7 @@ fn header(raw: &str) -> Option<&str> {
     is_name(name).then_some(name)
 }
 
-fn open(file: &mut TestFile, name: &str, number: u32) -> Result<Section, Outcome> {
+fn open(file: &mut TestFile, name: &str, number: u32) -> Result<Section, TestResult> {
     let shader = |stage, text, passthrough| ShaderText { stage, text, passthrough };
     Ok(match name {
         "require" => Section::Requirements,
@@ -155,7 +155,7 @@ mod unit {
     #[test]
     fn what_is_unknown_is_skipped_by_name() {
         let outcome = parse("[compute shader]\n").expect_err("unsupported");
-        assert_eq!(outcome, Outcome::Skip("line 1: [compute shader] is not supported".into()));
-        assert!(matches!(parse("hello"), Err(Outcome::Fail(_))));
+        assert_eq!(outcome, TestResult::Skip("line 1: [compute shader] is not supported".into()));
+        assert!(matches!(parse("hello"), Err(TestResult::Fail(_))));
     }
 }

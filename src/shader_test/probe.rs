@@ -1,7 +1,7 @@
 //! Probes: the expected values of pixels.
 
 use super::words::Words;
-use super::{Outcome, fail, skip};
+use super::{TestResult, fail, skip};
 use glisten_scene::picture::Picture;
 
 /// A rectangle in window coordinates, with the origin at the lower left.
@@ -26,7 +26,7 @@ pub(super) fn is_probe(words: &Words<'_>) -> bool {
 }
 
 /// Parses a probe and compares it with the picture.
-pub(super) fn check(mut words: Words<'_>, picture: &Picture, tolerance: [f64; 4]) -> Result<(), Outcome> {
+pub(super) fn check(mut words: Words<'_>, picture: &Picture, tolerance: [f64; 4]) -> Result<(), TestResult> {
     let line = words.line;
     let probe = parse(&mut words, [picture.width, picture.height])?;
     let pixels = picture.attachments.first().map(Vec::as_slice).unwrap_or_default();
@@ -60,7 +60,7 @@ fn tuple(channels: &[f64]) -> String {
 }
 
 /// Parses all forms of probes, in pixels or relative to the window's size.
-fn parse(words: &mut Words<'_>, size: [u32; 2]) -> Result<Probe, Outcome> {
+fn parse(words: &mut Words<'_>, size: [u32; 2]) -> Result<Probe, TestResult> {
     let line = words.line;
     let relative = words.eat("relative");
     words.eat("probe");
@@ -118,7 +118,7 @@ mod unit {
         Picture::of_colors(2, 2, vec![[0.0; 4], nan, [1.0, 0.0, 0.0, 1.0], [0.0, 0.5, 0.0, 1.0]])
     }
 
-    fn check(text: &str) -> Result<(), Outcome> {
+    fn check(text: &str) -> Result<(), TestResult> {
         super::check(Words::new(7, text), &picture(), [0.01; 4])
     }
 
@@ -141,8 +141,8 @@ mod unit {
             "probe rgb 2 0 0 0 0",
             "relative probe rect rgb (0, 0, 1, 0.5) (1, 0, 0)",
         ] {
-            assert!(matches!(check(bad), Err(Outcome::Fail(_))), "{bad}");
+            assert!(matches!(check(bad), Err(TestResult::Fail(_))), "{bad}");
         }
-        assert!(matches!(check("probe depth 0 0 1"), Err(Outcome::Skip(_))));
+        assert!(matches!(check("probe depth 0 0 1"), Err(TestResult::Skip(_))));
     }
 }

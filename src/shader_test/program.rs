@@ -2,7 +2,7 @@
 
 use super::parse::TestFile;
 use super::require::Setup;
-use super::{Outcome, fail};
+use super::{TestResult, fail};
 use glisten_front::compiler::{Compiler, Source};
 use glisten_front::diagnostic::Diagnostics;
 use glisten_front::link::Program;
@@ -20,7 +20,7 @@ pub(super) fn build(
     file: &TestFile,
     setup: &Setup,
     compiler: &Compiler,
-) -> Result<Option<Arc<Program>>, Outcome> {
+) -> Result<Option<Arc<Program>>, TestResult> {
     let mut raised = false;
     let sources: Vec<Source> = file
         .shaders
@@ -44,9 +44,9 @@ pub(super) fn build(
         None => {
             let reason = first_error(&compilation.diagnostics, &compilation.sources);
             if raised || setup.compatibility {
-                Err(Outcome::Skip(format!("not valid GLSL 1.50 core: {reason}")))
+                Err(TestResult::Skip(format!("not valid GLSL 1.50 core: {reason}")))
             } else {
-                Err(Outcome::Fail(reason))
+                Err(TestResult::Fail(reason))
             }
         }
     }

@@ -2,7 +2,7 @@
 
 use super::parse::Line;
 use super::words::Words;
-use super::{Outcome, fail, skip};
+use super::{TestResult, fail, skip};
 
 /// The settings that the requirements ask for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,7 +59,7 @@ const LIMITS: &[(&str, f64)] = &[
 ];
 
 /// Checks the requirements. The first one that is not met is a skip.
-pub(super) fn check(lines: &[Line]) -> Result<Setup, Outcome> {
+pub(super) fn check(lines: &[Line]) -> Result<Setup, TestResult> {
     let mut setup = Setup { size: WINDOW, compatibility: false, version: DEFAULT_VERSION };
     for line in lines {
         let mut words = Words::new(line.number, line.text.strip_prefix("require ").unwrap_or(&line.text));
@@ -105,13 +105,13 @@ pub(super) fn check(lines: &[Line]) -> Result<Setup, Outcome> {
 }
 
 /// The requested version, if the comparison holds.
-fn versions(line: &Line, words: &mut Words<'_>, ours: f64, what: &str) -> Result<f64, Outcome> {
+fn versions(line: &Line, words: &mut Words<'_>, ours: f64, what: &str) -> Result<f64, TestResult> {
     let asked = words.rest().get(1).and_then(|word| word.parse().ok()).unwrap_or(0.0);
     let holds = comparison(words, ours)?;
     if holds { Ok(asked) } else { skip(line.number, format_args!("requires {}, this is {what} {ours:.2}", line.text)) }
 }
 
-fn limit(line: &Line, words: &mut Words<'_>) -> Result<(), Outcome> {
+fn limit(line: &Line, words: &mut Words<'_>) -> Result<(), TestResult> {
     let name = words.word()?;
     let Some((_, ours)) = LIMITS.iter().find(|(limit, _)| *limit == name) else {
         return skip(line.number, format_args!("requires {}", line.text));
@@ -124,7 +124,7 @@ fn limit(line: &Line, words: &mut Words<'_>) -> Result<(), Outcome> {
 }
 
 /// Evaluates a comparison such as `>= 1.50` with the supported value.
-fn comparison(words: &mut Words<'_>, ours: f64) -> Result<bool, Outcome> {
+fn comparison(words: &mut Words<'_>, ours: f64) -> Result<bool, TestResult> {
     let operator = words.word()?;
     let wanted = words.number()?;
     Ok(match operator {
@@ -142,7 +142,7 @@ fn comparison(words: &mut Words<'_>, ours: f64) -> Result<bool, Outcome> {
 mod unit {
     use super::*;
 
-    fn checked(text: &str) -> Result<Setup, Outcome> {
+    fn checked(text: &str) -> Result<Setup, TestResult> {
         check(&[Line { number: 1, text: text.into() }])
     }
 
@@ -158,7 +158,7 @@ mod unit {
             "GL_MAX_VERTEX_OUTPUT_COMPONENTS >= 128",
             "GLSL ES >= 3.00",
         ] {
-            assert!(matches!(checked(unmet), Err(Outcome::Skip(_))), "{unmet}");
+            assert!(matches!(checked(unmet), Err(TestResult::Skip(_))), "{unmet}");
         }
         assert_eq!(checked("SIZE 10 20").map(|setup| setup.size), Ok([10, 20]));
     }

@@ -9,7 +9,7 @@ use super::textures::Units;
 use super::uniforms::Uniforms;
 use super::vertex_data::{self, VertexData};
 use super::words::Words;
-use super::{Outcome, Painter, fail, introspection, probe, program, require, skip};
+use super::{TestBackend, TestResult, fail, introspection, probe, program, require, skip};
 use crate::scene::{BlendFactor, Compare, Cull, Draw, Format, Framebuffer, Primitive, Scene, State};
 use glisten_front::compiler::Compiler;
 use glisten_front::hir::{Stage, Type};
@@ -18,18 +18,23 @@ use glisten_scene::picture::Picture;
 use std::sync::Arc;
 
 /// Runs a test; `Ok` means that it passes.
-pub(super) fn run(name: &str, text: &str, compiler: &Compiler, painter: &mut dyn Painter) -> Result<(), Outcome> {
+pub(super) fn run(
+    name: &str,
+    text: &str,
+    compiler: &Compiler,
+    backend: &mut dyn TestBackend,
+) -> Result<(), TestResult> {
     let file = parse(text)?;
     let setup = require::check(&file.requirements)?;
     let data = vertex_data::parse(&file.vertex_data)?;
     let Some(program) = program::build(name, &file, &setup, compiler)? else { return Ok(()) };
     let mut session = TestSession::new(program, data, setup.size);
-    commands(&file, &mut session, painter)
+    commands(&file, &mut session, backend)
 }
 
-fn commands(file: &TestFile, session: &mut TestSession, painter: &mut dyn Painter) -> Result<(), Outcome> {
+fn commands(file: &TestFile, session: &mut TestSession, backend: &mut dyn TestBackend) -> Result<(), TestResult> {
     for line in &file.commands {
-        session.command(line, painter)?;
+        session.command(line, backend)?;
     }
     Ok(())
 }
@@ -94,11 +99,11 @@ impl TestSession {
         }
     }
 
-    fn command(&mut self, line: &Line, painter: &mut dyn Painter) -> Result<(), Outcome> {
+    fn command(&mut self, line: &Line, backend: &mut dyn TestBackend) -> Result<(), TestResult> {
         let mut words = Words::new(line.number, &line.text);
         if probe::is_probe(&words) {
             let tolerance = self.tolerance;
-            return probe::check(words, self.painted(painter)?, tolerance);
+            return probe::check(words, self.drawn(backend)?, tolerance);
         }
         match words.word()? {
             "clear" => self.clear(&mut words),
@@ -134,7 +139,7 @@ impl TestSession {
         }
     }
 
-    fn clear(&mut self, words: &mut Words<'_>) -> Result<(), Outcome> {
+    fn clear(&mut self, words: &mut Words<'_>) -> Result<(), TestResult> {
         match words.rest() {
             ["color", ..] => {
                 words.word()?;
@@ -152,7 +157,7 @@ impl TestSession {
         }
     }
 
-    fn capability(&mut self, words: &mut Words<'_>, on: bool) -> Result<(), Outcome> {
+    fn capability(&mut self, words: &mut Words<'_>, on: bool) -> Result<(), TestResult> {
         let name = words.word()?;
         let clip = name.strip_prefix("GL_CLIP_PLANE").or_else(|| name.strip_prefix("GL_CLIP_DISTANCE"));
         if let Some(index) = clip.and_then(|index| index.parse::<u32>().ok()).filter(|index| *index < 8) {
@@ -169,7 +174,7 @@ impl TestSession {
         Ok(())
     }
 
-    fn provoking(&mut self, words: &mut Words<'_>) -> Result<(), Outcome> {
+    fn provoking(&mut self, words: &mut Words<'_>) -> Result<(), TestResult> {
         self.state.provoking_last = match words.word()? {
             "first" => false,
             "last" => true,
@@ -178,7 +183,7 @@ impl TestSession {
         Ok(())
     }
 
-    fn draw(&mut self, words: &mut Words<'_>) -> Result<(), Outcome> {
+    fn draw(&mut self, words: &mut Words<'_>) -> Result<(), TestResult> {
         let line = words.line;
         if self.program.stage(Stage::Vertex).is_none() || self.program.stage(Stage::Fragment).is_none() {
             return skip(line, "a draw with one of the two stages alone: the other one would be the fixed function");
@@ -197,7 +202,7 @@ impl TestSession {
         Ok(())
     }
 
-    fn scene_draw(&self, line: u32, geometry: Geometry) -> Result<Draw, Outcome> {
+    fn scene_draw(&self, line: u32, geometry: Geometry) -> Result<Draw, TestResult> {
         let interface = &self.program.interface;
         let missing =
             interface.attributes.iter().zip(&geometry.attributes).find(|(a, data)| a.active && data.is_none());
@@ -229,19 +234,19 @@ impl TestSession {
     }
 
     /// The picture of all draws since the last clear.
-    fn painted(&mut self, painter: &mut dyn Painter) -> Result<&Picture, Outcome> {
+    fn drawn(&mut self, backend: &mut dyn TestBackend) -> Result<&Picture, TestResult> {
         let picture = match self.picture.take() {
             Some(picture) => picture,
             None => {
                 let name = self.program.name.clone();
-                painter.paint(&Scene { name, framebuffer: self.framebuffer, draws: self.draws.clone() })?
+                backend.draw(&Scene { name, framebuffer: self.framebuffer, draws: self.draws.clone() })?
             }
         };
         Ok(self.picture.insert(picture))
     }
 }
 
-fn named<T>(words: &mut Words<'_>, of: impl Fn(&str) -> Option<T>) -> Result<T, Outcome> {
+fn named<T>(words: &mut Words<'_>, of: impl Fn(&str) -> Option<T>) -> Result<T, TestResult> {
     let name = words.word()?;
     match of(name) {
         Some(value) => Ok(value),

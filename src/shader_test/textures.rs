@@ -1,7 +1,7 @@
 //! The textures of the units, with the patterns that tests name.
 
 use super::words::Words;
-use super::{Outcome, fail, skip};
+use super::{TestResult, fail, skip};
 use crate::scene::{Compare, Filter, Texels, Texture, TextureLevel, Wrap};
 use glisten_front::hir::{SamplerType, Scalar};
 use std::collections::BTreeMap;
@@ -33,7 +33,7 @@ const LARGEST: u32 = 4096;
 
 impl Units {
     /// Runs a `texture` command such as `texture checkerboard 0 0 (8, 8) (..) (..)`.
-    pub(super) fn create(&mut self, words: &mut Words<'_>) -> Result<(), Outcome> {
+    pub(super) fn create(&mut self, words: &mut Words<'_>) -> Result<(), TestResult> {
         let line = words.line;
         let form = words.word()?;
         let number = words.count()?;
@@ -85,7 +85,7 @@ impl Units {
     }
 
     /// Runs a `texparameter` command such as `texparameter 2D min nearest`.
-    pub(super) fn parameter(&mut self, words: &mut Words<'_>) -> Result<(), Outcome> {
+    pub(super) fn parameter(&mut self, words: &mut Words<'_>) -> Result<(), TestResult> {
         let line = words.line;
         words.word()?;
         let (name, value) = (words.word()?, words.word()?);
@@ -107,7 +107,12 @@ impl Units {
     }
 
     /// The texture for a sampler of this type at a unit; an unbound unit is black.
-    pub(super) fn texture(&self, line: u32, number: u32, kind: SamplerType) -> Result<Option<Arc<Texture>>, Outcome> {
+    pub(super) fn texture(
+        &self,
+        line: u32,
+        number: u32,
+        kind: SamplerType,
+    ) -> Result<Option<Arc<Texture>>, TestResult> {
         let Some(unit) = self.units.get(&number) else { return Ok(None) };
         let dimensions = glisten_front::hir::SamplerDim::D2 == kind.dim && !kind.arrayed && kind.texel == Scalar::Float;
         if !dimensions {
@@ -123,7 +128,7 @@ impl Units {
     }
 }
 
-fn size(words: &mut Words<'_>) -> Result<[u32; 2], Outcome> {
+fn size(words: &mut Words<'_>) -> Result<[u32; 2], TestResult> {
     let size = [words.count()?, words.count()?];
     if size.iter().all(|side| (1..=LARGEST).contains(side)) {
         Ok(size)

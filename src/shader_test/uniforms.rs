@@ -1,7 +1,7 @@
 //! Uniform values that a test sets by name.
 
 use super::words::Words;
-use super::{Outcome, fail, skip};
+use super::{TestResult, fail, skip};
 use glisten_front::hir::{Scalar, ScalarValue};
 use glisten_front::link::{Program, UniformLeaf};
 use glisten_scene::values::{LeafShape, UniformValues};
@@ -23,7 +23,7 @@ impl Uniforms {
     }
 
     /// Runs `uniform vec4 name 0 1 0 1`; `element` selects a block of an array of blocks.
-    pub(super) fn set(&mut self, program: &Program, words: &mut Words<'_>, element: u32) -> Result<(), Outcome> {
+    pub(super) fn set(&mut self, program: &Program, words: &mut Words<'_>, element: u32) -> Result<(), TestResult> {
         let line = words.line;
         let ty = words.word()?;
         let name = words.word()?;
@@ -54,7 +54,7 @@ impl Uniforms {
     }
 
     /// Runs `uniform int name 1` for a sampler; an array takes one unit per element.
-    fn set_unit(&mut self, program: &Program, name: &str, words: &mut Words<'_>) -> Result<bool, Outcome> {
+    fn set_unit(&mut self, program: &Program, name: &str, words: &mut Words<'_>) -> Result<bool, TestResult> {
         let slots = &program.interface.samplers;
         let element = |index: usize| format!("{name}[{index}]");
         let Some(first) = slots.iter().position(|slot| slot.name == name || slot.name == element(0)) else {

@@ -2,7 +2,7 @@
 
 use super::parse::Line;
 use super::words::{parse_integer, parse_number};
-use super::{Outcome, fail, skip};
+use super::{TestResult, fail, skip};
 
 /// A column of the table: components of an attribute, or of one of its matrix columns or array elements.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,7 +29,7 @@ pub(super) struct VertexData {
 }
 
 /// Parses the table.
-pub(super) fn parse(lines: &[Line]) -> Result<VertexData, Outcome> {
+pub(super) fn parse(lines: &[Line]) -> Result<VertexData, TestResult> {
     let Some((head, rows)) = lines.split_first() else { return Ok(VertexData::default()) };
     let mut columns =
         head.text.split_whitespace().map(|word| header(head.number, word)).collect::<Result<Vec<Column>, _>>()?;
@@ -52,7 +52,7 @@ pub(super) fn parse(lines: &[Line]) -> Result<VertexData, Outcome> {
 }
 
 /// `name[1]/float/vec3`, or `name/float/mat3/2`.
-fn header(line: u32, word: &str) -> Result<Column, Outcome> {
+fn header(line: u32, word: &str) -> Result<Column, TestResult> {
     let mut parts = word.split('/');
     let (Some(name), Some(data), Some(shape)) = (parts.next(), parts.next(), parts.next()) else {
         return fail(line, format_args!("`{word}` is not name/type/type"));
@@ -111,8 +111,8 @@ mod unit {
 
     #[test]
     fn ragged_rows_fail() {
-        assert!(matches!(parse(&lines(&["p/float/2", "1"])), Err(Outcome::Fail(_))));
-        assert!(matches!(parse(&lines(&["p/float/2", "1 2 3"])), Err(Outcome::Fail(_))));
-        assert!(matches!(parse(&lines(&["p/double/2", "1 2"])), Err(Outcome::Skip(_))));
+        assert!(matches!(parse(&lines(&["p/float/2", "1"])), Err(TestResult::Fail(_))));
+        assert!(matches!(parse(&lines(&["p/float/2", "1 2 3"])), Err(TestResult::Fail(_))));
+        assert!(matches!(parse(&lines(&["p/double/2", "1 2"])), Err(TestResult::Skip(_))));
     }
 }

@@ -1,6 +1,6 @@
 //! Splits a command into words, separated by white space, commas and parentheses.
 
-use super::{Outcome, fail};
+use super::{TestResult, fail};
 
 /// The words of a line that have not been read.
 #[derive(Clone, Debug)]
@@ -32,23 +32,23 @@ impl<'a> Words<'a> {
     }
 
     /// The next word.
-    pub(super) fn word(&mut self) -> Result<&'a str, Outcome> {
+    pub(super) fn word(&mut self) -> Result<&'a str, TestResult> {
         let Some(word) = self.words.get(self.next) else { return fail(self.line, "a word is missing at the end") };
         self.next += 1;
         Ok(word)
     }
 
     /// The next word as a number.
-    pub(super) fn number(&mut self) -> Result<f64, Outcome> {
+    pub(super) fn number(&mut self) -> Result<f64, TestResult> {
         self.number_by(parse_number)
     }
 
     /// The next word as an integer. A hexadecimal integer is its own value, not the bits of a float.
-    pub(super) fn integer(&mut self) -> Result<f64, Outcome> {
+    pub(super) fn integer(&mut self) -> Result<f64, TestResult> {
         self.number_by(parse_integer)
     }
 
-    fn number_by(&mut self, parse: fn(&str) -> Option<f64>) -> Result<f64, Outcome> {
+    fn number_by(&mut self, parse: fn(&str) -> Option<f64>) -> Result<f64, TestResult> {
         let word = self.word()?;
         // C's functions ignore what follows a number, and some tests end their lines with a semicolon.
         match parse(word.trim_end_matches(';')) {
@@ -58,7 +58,7 @@ impl<'a> Words<'a> {
     }
 
     /// The next `N` words as numbers.
-    pub(super) fn numbers<const N: usize>(&mut self) -> Result<[f64; N], Outcome> {
+    pub(super) fn numbers<const N: usize>(&mut self) -> Result<[f64; N], TestResult> {
         let mut numbers = [0.0; N];
         for number in &mut numbers {
             *number = self.number()?;
@@ -67,7 +67,7 @@ impl<'a> Words<'a> {
     }
 
     /// The next word as a count or an index.
-    pub(super) fn count(&mut self) -> Result<u32, Outcome> {
+    pub(super) fn count(&mut self) -> Result<u32, TestResult> {
         let number = self.number()?;
         if number >= 0.0 && number <= f64::from(u32::MAX) && number.fract() == 0.0 {
             Ok(number as u32)

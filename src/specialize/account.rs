@@ -196,13 +196,14 @@ pub fn spirv_instructions(program: &Program) -> u64 {
     let stages = program.stages.iter();
     stages
         .map(|shader| match emit(program, shader.stage, Target::Spirv, &Conventions::default()) {
-            Ok(Emitted::Words(words)) => in_bodies(&words),
+            Ok(Emitted::Words(words)) => body_instructions(&words),
             Ok(_) | Err(_) => 0,
         })
         .sum()
 }
 
-fn in_bodies(words: &[u32]) -> u64 {
+/// Instructions between `OpFunction` and `OpFunctionEnd` of a module, both included.
+pub fn body_instructions(words: &[u32]) -> u64 {
     const HEADER: usize = 5;
     const FUNCTION: u32 = 54;
     const FUNCTION_END: u32 = 56;

@@ -25,10 +25,12 @@ pub use glisten_specialize::{
 };
 
 #[cfg(feature = "reference")]
-pub use account::{Account, DrawAccount, Entry, Figures, MovedEntry, Moves, account, spirv_instructions};
+pub use account::{
+    Account, DrawAccount, Entry, Figures, MovedEntry, Moves, account, body_instructions, spirv_instructions,
+};
 #[cfg(feature = "reference")]
 pub use error::{Distance, PictureError, Pictures, picture_error, pictures};
 #[cfg(feature = "reference")]
 pub use known::known;
 #[cfg(feature = "reference")]
-pub use residual::{Contract, SpecializedDraw, SpecializedScene, specialize_scene, specialize_scene_by};
+pub use residual::{Contract, SpecializedDraw, SpecializedScene, specialize_scene, specialize_scene_by, with_program};

@@ -103,7 +103,7 @@ pub fn specialize_scene_by(
                 program
             }
         };
-        result.draws.push(rebound(draw, program, dynamic));
+        result.draws.push(with_program(draw, program, dynamic));
         draws.push(SpecializedDraw { texts, lines, left_out, moved, sources, fault });
     }
     SpecializedScene { contract, scene: result, draws }
@@ -118,8 +118,9 @@ fn alike(a: &Program, b: &Program) -> bool {
     places(a) == places(b)
 }
 
-/// The draw with another program, whose inputs are found by their names.
-fn rebound(draw: &Draw, program: Arc<Program>, dynamic: &[String]) -> Draw {
+/// A draw with another program, whose inputs are found by their names: data that it does not declare is left, and what only
+/// it declares has none. `dynamic` is added to the draw's own list, of which the names stay that the program has.
+pub fn with_program(draw: &Draw, program: Arc<Program>, dynamic: &[String]) -> Draw {
     let (old, new) = (&draw.program.interface, &program.interface);
     let attributes = new.attributes.iter().map(|attribute| {
         let index = old.attributes.iter().position(|known| known.name == attribute.name)?;

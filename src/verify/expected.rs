@@ -6,7 +6,7 @@
 use super::{Failure, Options};
 use crate::scene::Scene;
 use glisten_reference::domain::faults::{Faults, KNOWN};
-use glisten_scene::compare::{Judge, Verdict};
+use glisten_scene::compare::{Criterion, Verdict};
 use glisten_scene::picture::Picture;
 use std::time::Instant;
 
@@ -17,7 +17,7 @@ pub struct Expected<'a> {
     picture: Picture,
     milliseconds: f64,
     /// The picture with each known fault excused alone, and with all of them; drawn on demand.
-    admitting: Option<Vec<(&'static str, Picture)>>,
+    excused: Option<Vec<(&'static str, Picture)>>,
 }
 
 impl<'a> Expected<'a> {
@@ -29,7 +29,7 @@ impl<'a> Expected<'a> {
         let start = Instant::now();
         let picture = options.reference.render(scene, &options.reference_options(Faults::NONE))?;
         let milliseconds = start.elapsed().as_secs_f64() * 1e3;
-        Ok(Self { scene, options, picture, milliseconds, admitting: None })
+        Ok(Self { scene, options, picture, milliseconds, excused: None })
     }
 
     /// The reference's picture with its envelope.
@@ -46,22 +46,22 @@ impl<'a> Expected<'a> {
     ///
     /// # Errors
     /// The reference cannot draw the scene with a fault excused.
-    pub fn judge(&mut self, picture: &Picture) -> Result<Verdict, Failure> {
-        let Options { judge, excuse_known_faults, .. } = *self.options;
-        let verdict = Verdict::new(picture, &self.picture, judge);
-        if judge != Judge::Envelope || !verdict.needs_excuse() || !excuse_known_faults {
+    pub fn compare(&mut self, picture: &Picture) -> Result<Verdict, Failure> {
+        let Options { criterion, excuse_known_faults, .. } = *self.options;
+        let verdict = Verdict::new(picture, &self.picture, criterion);
+        if criterion != Criterion::Envelope || !verdict.needs_excuse() || !excuse_known_faults {
             return Ok(verdict);
         }
-        let admitting = match self.admitting.take() {
-            Some(admitting) => admitting,
-            None => self.admitting()?,
+        let excused = match self.excused.take() {
+            Some(excused) => excused,
+            None => self.draw_excused()?,
         };
-        let verdict = Verdict::admitting(picture, &self.picture, judge, &admitting);
-        self.admitting = Some(admitting);
+        let verdict = Verdict::excusing(picture, &self.picture, criterion, &excused);
+        self.excused = Some(excused);
         Ok(verdict)
     }
 
-    fn admitting(&self) -> Result<Vec<(&'static str, Picture)>, Failure> {
+    fn draw_excused(&self) -> Result<Vec<(&'static str, Picture)>, Failure> {
         let one = KNOWN.iter().map(|known| (known.name, Faults::only(known.fault)));
         let named = one.chain([("several", Faults::all())]);
         let (names, options): (Vec<_>, Vec<_>) =

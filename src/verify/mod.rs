@@ -4,7 +4,7 @@
 //! [`Verdict`] for each runner, the origin of the worst pixel's envelope, a picture of the differences.
 //!
 //! ```text
-//!  Scene ──► Expected   the reference's picture with its envelope; if need be, again with known faults admitted
+//!  Scene ──► Expected   the reference's picture with its envelope; if need be, again with known faults excused
 //!        ──► Runner     SPIR-V or WGSL on a GPU, the sources on OpenGL, the reference in another precision
 //!        ──► Verdict    every pixel against the envelope ──► Verification
 //! ```
@@ -51,7 +51,7 @@ use glisten_front::diagnostic::Diagnostic;
 use glisten_front::source::SourceMap;
 use glisten_reference::domain::faults::Faults;
 use glisten_reference::{LineRule, Precision, RenderOptions};
-use glisten_scene::compare::{self, Judge, Verdict};
+use glisten_scene::compare::{self, Criterion, Verdict};
 use glisten_scene::picture::Picture;
 use std::fmt;
 use std::path::PathBuf;
@@ -60,7 +60,7 @@ use std::path::PathBuf;
 #[derive(Clone, Copy)]
 pub struct Options<'a> {
     /// The criterion for differences: the envelope (the default), or a tolerance.
-    pub judge: Judge,
+    pub criterion: Criterion,
     /// The rule for lines of the targets: Vulkan's, unless set otherwise.
     pub lines: LineRule,
     /// Whether the known faults of drivers are excused. Default: yes.
@@ -79,7 +79,7 @@ pub struct Options<'a> {
 impl Default for Options<'_> {
     fn default() -> Self {
         Self {
-            judge: Judge::Envelope,
+            criterion: Criterion::Envelope,
             lines: LineRule::Vulkan,
             excuse_known_faults: true,
             allow_undecided: false,
@@ -196,12 +196,12 @@ pub fn verify(scene: &Scene, runners: &[&dyn Runner], options: &Options<'_>) -> 
             }
             drawn => drawn?,
         };
-        let verdict = expected.judge(&picture)?;
+        let verdict = expected.compare(&picture)?;
         runs.push(Run { runner: runner.name(), picture, milliseconds, verdict });
     }
     let mut shares = vec![0.0; expected.picture().covered.len()];
     for run in &runs {
-        let these = compare::shares(&run.picture, expected.picture(), options.judge);
+        let these = compare::shares(&run.picture, expected.picture(), options.criterion);
         shares.iter_mut().zip(these).for_each(|(most, share): (&mut f64, f64)| *most = share.max(*most));
     }
     let note = Explanations::new(scene, options).add_to(&mut runs)?;

@@ -4,6 +4,7 @@
 //! That a crate cannot name another one without depending on it is the compiler's work; here the manifests are compared with
 //! the documented walls, and paths inside of a crate are resolved, `super` included.
 
+use super::support::{files_with, root};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -76,33 +77,18 @@ static MAY_TOUCH_OUTSIDE: &[(&str, &str)] = &[
     ("src/verify/files.rs", "leaves the pictures of a failure in a folder that the host names"),
 ];
 
-pub(super) fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
+pub(super) fn rust_files(folder: &str) -> Vec<PathBuf> {
+    files_with(&root().join(folder), "rs")
 }
 
-pub(super) fn rust_files(folder: &str) -> Vec<PathBuf> {
-    let mut pending = vec![root().join(folder)];
-    let mut files = Vec::new();
-    while let Some(folder) = pending.pop() {
-        for entry in fs::read_dir(&folder).into_iter().flatten() {
-            let path = entry.expect("a folder entry").path();
-            if path.is_dir() {
-                pending.push(path);
-            } else if path.extension().is_some_and(|extension| extension == "rs") {
-                files.push(path);
-            }
-        }
-    }
-    files.sort();
-    files
+/// The folders of the sources of all crates.
+pub(super) fn source_folders() -> impl Iterator<Item = String> {
+    ["src".to_owned()].into_iter().chain(CRATES.iter().map(|(folder, _, _)| format!("{folder}/src")))
 }
 
 /// The sources of all crates.
 fn sources() -> Vec<PathBuf> {
-    let mut files = rust_files("src");
-    for (folder, _, _) in CRATES {
-        files.extend(rust_files(&format!("{folder}/src")));
-    }
+    let files: Vec<PathBuf> = source_folders().flat_map(|folder| rust_files(&folder)).collect();
     assert!(files.len() > 300, "the sources are not where they are looked for: {}", files.len());
     files
 }

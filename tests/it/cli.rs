@@ -12,17 +12,17 @@ const VERTEX: &str = "#version 150 core\nin vec4 pv;\nin vec4 cv;\nuniform mat4 
 const FRAGMENT: &str = "#version 150 core\nin vec4 vc;\nout vec4 fc;\nvoid main(void)\n{\n    fc = vc;\n}\n";
 
 /// A temporary folder with files, in which the program runs.
-struct Place(TempDir);
+struct Folder(TempDir);
 
-impl Place {
+impl Folder {
     fn new(files: &[(&str, &[u8])]) -> Self {
-        let place = Self(tempfile::tempdir().expect("a temporary folder"));
+        let folder = Self(tempfile::tempdir().expect("a temporary folder"));
         for (name, bytes) in files {
-            let path = place.path(name);
+            let path = folder.path(name);
             fs::create_dir_all(path.parent().expect("it is in the folder")).expect("a folder");
             fs::write(path, bytes).expect("written");
         }
-        place
+        folder
     }
 
     fn triangle() -> Self {
@@ -92,14 +92,14 @@ fn codes(findings: &[Value]) -> Vec<&str> {
 
 #[test]
 fn wrong_usage_is_2_and_help_is_0() {
-    let place = Place::new(&[]);
+    let folder = Folder::new(&[]);
     for arguments in [&["frobnicate"][..], &[], &["lint"], &["compile", "a.vert"], &["lint", "--deny"], &["explain"]] {
-        let output = place.run(arguments);
+        let output = folder.run(arguments);
         assert_eq!(code(&output), 2, "{arguments:?}");
         assert!(out(&output).is_empty() && !err(&output).is_empty(), "{arguments:?}");
     }
     for arguments in [&["--help"][..], &["--version"], &["lint", "--help"]] {
-        let output = place.run(arguments);
+        let output = folder.run(arguments);
         assert_eq!(code(&output), 0, "{arguments:?}");
         assert!(out(&output).contains("glisten"), "{arguments:?}");
     }
@@ -107,29 +107,29 @@ fn wrong_usage_is_2_and_help_is_0() {
 
 #[test]
 fn each_kind_of_bad_file_has_its_own_word_and_code() {
-    let place = Place::new(&[("empty.vert", b""), ("binary.vert", b"\x03\x02\x23\x07\0\0\0\0"), ("folder/x", b"")]);
+    let folder = Folder::new(&[("empty.vert", b""), ("binary.vert", b"\x03\x02\x23\x07\0\0\0\0"), ("folder/x", b"")]);
     for (file, id, exit, word) in [
         ("missing.vert", "E0010", 2, "there is no file"),
         ("empty.vert", "E0013", 1, "is empty"),
         ("binary.vert", "E0014", 1, "binary"),
     ] {
-        let (findings, exit_code) = place.lint(&[file]);
+        let (findings, exit_code) = folder.lint(&[file]);
         assert_eq!((codes(&findings), exit_code), (vec![id], exit), "{file}");
         assert!(findings[0]["message"].as_str().is_some_and(|message| message.contains(word)), "{findings:?}");
         assert_eq!(findings[0]["file"], file);
     }
     for file in ["missing.vert", "folder"] {
-        let output = place.run(&["compile", file, "-o", "out"]);
+        let output = folder.run(&["compile", file, "-o", "out"]);
         assert_eq!(code(&output), 2, "{file}");
         assert!(err(&output).contains(file), "{}", err(&output));
     }
-    assert!(place.names("out").is_empty());
+    assert!(folder.names("out").is_empty());
 }
 
 #[test]
 fn the_worst_exit_code_wins_and_all_files_are_told_of() {
-    let place = Place::new(&[("empty.vert", b"")]);
-    let (findings, exit) = place.lint(&["empty.vert", "missing.frag"]);
+    let folder = Folder::new(&[("empty.vert", b"")]);
+    let (findings, exit) = folder.lint(&["empty.vert", "missing.frag"]);
     assert_eq!(codes(&findings), ["E0013", "E0010"]);
     assert_eq!(exit, 2);
 }
@@ -138,54 +138,54 @@ fn the_worst_exit_code_wins_and_all_files_are_told_of() {
 #[test]
 fn an_unreadable_file_is_told() {
     use std::os::unix::fs::PermissionsExt;
-    let place = Place::triangle();
-    fs::set_permissions(place.path("tri.vert"), fs::Permissions::from_mode(0o000)).expect("permissions");
-    if fs::read(place.path("tri.vert")).is_ok() {
+    let folder = Folder::triangle();
+    fs::set_permissions(folder.path("tri.vert"), fs::Permissions::from_mode(0o000)).expect("permissions");
+    if fs::read(folder.path("tri.vert")).is_ok() {
         // The superuser can read everything; in that case, use a socket as a file that cannot be read.
-        fs::remove_file(place.path("tri.vert")).expect("removed");
-        let _socket = std::os::unix::net::UnixListener::bind(place.path("tri.vert")).expect("a socket");
-        let (findings, exit) = place.lint(&["tri.vert"]);
+        fs::remove_file(folder.path("tri.vert")).expect("removed");
+        let _socket = std::os::unix::net::UnixListener::bind(folder.path("tri.vert")).expect("a socket");
+        let (findings, exit) = folder.lint(&["tri.vert"]);
         assert_eq!((codes(&findings), exit), (vec!["E0011"], 2));
         return;
     }
-    let (findings, exit) = place.lint(&["tri.vert"]);
+    let (findings, exit) = folder.lint(&["tri.vert"]);
     assert_eq!((codes(&findings), exit), (vec!["E0011"], 2));
 }
 
 #[test]
 fn a_stage_that_no_name_tells_is_asked_for() {
-    let place = Place::new(&[("a.txt", FRAGMENT.as_bytes())]);
-    let output = place.run(&["lint", "a.txt"]);
+    let folder = Folder::new(&[("a.txt", FRAGMENT.as_bytes())]);
+    let output = folder.run(&["lint", "a.txt"]);
     assert_eq!(code(&output), 2);
     assert!(err(&output).contains("--stage"), "{}", err(&output));
-    let output = place.run_with_input(&["lint", "-"], FRAGMENT);
+    let output = folder.run_with_input(&["lint", "-"], FRAGMENT);
     assert_eq!(code(&output), 2);
 }
 
 #[test]
 fn explain_shows_pages_and_the_nearest_of_unknown_codes() {
-    let place = Place::new(&[]);
-    let page = place.run(&["explain", "e0003"]);
+    let folder = Folder::new(&[]);
+    let page = folder.run(&["explain", "e0003"]);
     assert_eq!(code(&page), 0);
     assert!(out(&page).starts_with("E0003 nesting-too-deep (error)"), "{}", out(&page));
-    assert_eq!(out(&place.run(&["explain", "nesting-too-deep"])), out(&page));
-    let unknown = place.run(&["explain", "E003"]);
+    assert_eq!(out(&folder.run(&["explain", "nesting-too-deep"])), out(&page));
+    let unknown = folder.run(&["explain", "E003"]);
     assert_eq!(code(&unknown), 2);
     assert!(err(&unknown).contains("`E0003`"), "{}", err(&unknown));
-    let list = place.run(&["explain", "--list"]);
+    let list = folder.run(&["explain", "--list"]);
     assert_eq!(out(&list).lines().count(), glisten_front::diagnostic::codes::all().count());
 }
 
 #[test]
 fn levels_with_unknown_codes_are_refused() {
-    let place = Place::triangle();
+    let folder = Folder::triangle();
     for (arguments, word) in [
         (["--allow", "W9999"], "there is no code"),
         (["--deny", "lone-stag"], "lone-stage"),
         (["--allow", "E0001"], "no level"),
         (["--warn", "warnings"], "only be denied"),
     ] {
-        let output = place.run(&[&["lint", "tri.vert"][..], &arguments].concat());
+        let output = folder.run(&[&["lint", "tri.vert"][..], &arguments].concat());
         assert_eq!(code(&output), 2, "{arguments:?}");
         assert!(err(&output).contains(word), "{}", err(&output));
     }
@@ -193,9 +193,9 @@ fn levels_with_unknown_codes_are_refused() {
 
 #[test]
 fn a_broken_configuration_is_an_error_at_its_place() {
-    let place = Place::triangle();
-    fs::write(place.path("glisten.toml"), "[lint]\nallow = [\"lone-stag\"]\n").expect("written");
-    let (findings, exit) = place.lint(&["tri.vert", "tri.frag"]);
+    let folder = Folder::triangle();
+    fs::write(folder.path("glisten.toml"), "[lint]\nallow = [\"lone-stag\"]\n").expect("written");
+    let (findings, exit) = folder.lint(&["tri.vert", "tri.frag"]);
     assert_eq!(exit, 1);
     let finding = findings.iter().find(|finding| finding["code"] == "E0015").expect("it is told");
     assert_eq!((finding["line"].as_u64(), finding["column"].as_u64()), (Some(2), Some(10)));
@@ -204,8 +204,8 @@ fn a_broken_configuration_is_an_error_at_its_place() {
 
 #[test]
 fn a_reader_that_goes_away_ends_the_program_in_silence() {
-    let place = Place::new(&[]);
-    let mut child = place
+    let folder = Folder::new(&[]);
+    let mut child = folder
         .command(&["explain", "--list"])
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
@@ -223,15 +223,18 @@ fn is_written(path: &Path) -> bool {
 
 #[test]
 fn compile_writes_texts_words_and_the_reflection() {
-    let place = Place::triangle();
-    let output = place.run(&["compile", "tri.vert", "tri.frag", "-o", "out/deep", "--bind-attrib", "cv=3"]);
+    let folder = Folder::triangle();
+    let output = folder.run(&["compile", "tri.vert", "tri.frag", "-o", "out/deep", "--bind-attrib", "cv=3"]);
     assert_eq!(code(&output), 0, "{}", err(&output));
     assert!(out(&output).is_empty() && err(&output).is_empty(), "{output:?}");
-    assert_eq!(place.names("out/deep"), ["tri.frag.spv", "tri.frag.wgsl", "tri.json", "tri.vert.spv", "tri.vert.wgsl"]);
-    let words = fs::read(place.path("out/deep/tri.vert.spv")).expect("written");
+    assert_eq!(
+        folder.names("out/deep"),
+        ["tri.frag.spv", "tri.frag.wgsl", "tri.json", "tri.vert.spv", "tri.vert.wgsl"]
+    );
+    let words = fs::read(folder.path("out/deep/tri.vert.spv")).expect("written");
     assert_eq!(words.get(..4), Some(&[0x03, 0x02, 0x23, 0x07][..]));
     let reflection: Value =
-        serde_json::from_slice(&fs::read(place.path("out/deep/tri.json")).expect("written")).expect("JSON");
+        serde_json::from_slice(&fs::read(folder.path("out/deep/tri.json")).expect("written")).expect("JSON");
     assert_eq!(reflection["attributes"][1]["name"], "cv");
     assert_eq!(reflection["attributes"][1]["location"], 3);
     assert_eq!(reflection["conventions"]["clip_z"], "zero-to-one");
@@ -239,79 +242,79 @@ fn compile_writes_texts_words_and_the_reflection() {
 
 #[test]
 fn check_and_failures_write_nothing_and_leave_no_temporary_files() {
-    let place = Place::triangle();
-    assert_eq!(code(&place.run(&["compile", "tri.vert", "tri.frag", "--check"])), 0);
-    fs::write(place.path("tri.frag"), FRAGMENT.replace("fc = vc", "fc = vd")).expect("written");
-    let output = place.run(&["compile", "tri.vert", "tri.frag", "-o", "out"]);
+    let folder = Folder::triangle();
+    assert_eq!(code(&folder.run(&["compile", "tri.vert", "tri.frag", "--check"])), 0);
+    fs::write(folder.path("tri.frag"), FRAGMENT.replace("fc = vc", "fc = vd")).expect("written");
+    let output = folder.run(&["compile", "tri.vert", "tri.frag", "-o", "out"]);
     assert_eq!(code(&output), 1);
     assert!(err(&output).contains("tri.frag:6:10"), "{}", err(&output));
-    assert!(place.names("out").is_empty());
-    assert_eq!(place.names("."), ["tri.frag", "tri.vert"]);
+    assert!(folder.names("out").is_empty());
+    assert_eq!(folder.names("."), ["tri.frag", "tri.vert"]);
 }
 
 #[test]
 fn outputs_replace_files_whole_and_folders_are_refused() {
-    let place = Place::triangle();
-    fs::create_dir_all(place.path("out/tri.json")).expect("a folder in the way");
-    let output = place.run(&["compile", "tri.vert", "tri.frag", "-o", "out"]);
+    let folder = Folder::triangle();
+    fs::create_dir_all(folder.path("out/tri.json")).expect("a folder in the way");
+    let output = folder.run(&["compile", "tri.vert", "tri.frag", "-o", "out"]);
     assert_eq!(code(&output), 2);
     assert!(err(&output).contains("tri.json"), "{}", err(&output));
-    assert!(place.names("out").iter().all(|name| !name.starts_with(".glisten")), "{:?}", place.names("out"));
-    let output = place.run(&["compile", "tri.vert", "tri.frag", "-o", "tri.vert"]);
+    assert!(folder.names("out").iter().all(|name| !name.starts_with(".glisten")), "{:?}", folder.names("out"));
+    let output = folder.run(&["compile", "tri.vert", "tri.frag", "-o", "tri.vert"]);
     assert_eq!(code(&output), 2);
     assert!(err(&output).contains("not a folder"), "{}", err(&output));
 }
 
 #[test]
 fn two_programs_that_write_the_same_file_are_refused_before_any_work() {
-    let place = Place::new(&[
+    let folder = Folder::new(&[
         ("a/x.vert", VERTEX.as_bytes()),
         ("b/x.vert", VERTEX.as_bytes()),
         ("a/x.frag", FRAGMENT.as_bytes()),
     ]);
-    let output = place.run(&["compile", "a/x.vert", "a/x.frag", "b/x.vert", "-o", "out"]);
+    let output = folder.run(&["compile", "a/x.vert", "a/x.frag", "b/x.vert", "-o", "out"]);
     assert_eq!(code(&output), 2);
     assert!(err(&output).contains("x.vert.wgsl"), "{}", err(&output));
-    assert!(place.names("out").is_empty());
+    assert!(folder.names("out").is_empty());
 }
 
 #[test]
 fn files_are_grouped_by_stem_and_by_program() {
-    let place = Place::triangle();
-    fs::write(place.path("other.frag"), FRAGMENT).expect("written");
-    let output = place.run(&["compile", "tri.vert", "other.frag", "-o", "out"]);
+    let folder = Folder::triangle();
+    fs::write(folder.path("other.frag"), FRAGMENT).expect("written");
+    let output = folder.run(&["compile", "tri.vert", "other.frag", "-o", "out"]);
     assert_eq!(code(&output), 0, "{}", err(&output));
     assert_eq!(err(&output).matches("W0001").count(), 2, "each is alone: {}", err(&output));
-    let output = place.run(&["compile", "--program", "tri.vert,other.frag", "-o", "paired"]);
+    let output = folder.run(&["compile", "--program", "tri.vert,other.frag", "-o", "paired"]);
     assert_eq!(code(&output), 0, "{}", err(&output));
     assert!(!err(&output).contains("W0001"), "{}", err(&output));
     assert_eq!(
-        place.names("paired"),
+        folder.names("paired"),
         ["other.frag.spv", "other.frag.wgsl", "tri.json", "tri.vert.spv", "tri.vert.wgsl"]
     );
-    let denied = place.run(&["compile", "tri.vert", "-o", "denied", "--deny", "warnings"]);
+    let denied = folder.run(&["compile", "tri.vert", "-o", "denied", "--deny", "warnings"]);
     assert_eq!(code(&denied), 1);
-    assert!(place.names("denied").is_empty());
-    let allowed = place.run(&["compile", "tri.vert", "-o", "allowed", "--deny", "warnings", "--allow", "lone-stage"]);
+    assert!(folder.names("denied").is_empty());
+    let allowed = folder.run(&["compile", "tri.vert", "-o", "allowed", "--deny", "warnings", "--allow", "lone-stage"]);
     assert_eq!(code(&allowed), 0, "{}", err(&allowed));
 }
 
 #[test]
 fn any_number_of_threads_gives_the_same_bytes() {
-    let place = Place::new(&[]);
+    let folder = Folder::new(&[]);
     let names: Vec<String> = (0..12).map(|index| format!("p{index}")).collect();
     for name in &names {
-        fs::write(place.path(&format!("{name}.vert")), VERTEX.replace("vc", &format!("v{name}"))).expect("written");
-        fs::write(place.path(&format!("{name}.frag")), FRAGMENT.replace("vc", &format!("v{name}"))).expect("written");
+        fs::write(folder.path(&format!("{name}.vert")), VERTEX.replace("vc", &format!("v{name}"))).expect("written");
+        fs::write(folder.path(&format!("{name}.frag")), FRAGMENT.replace("vc", &format!("v{name}"))).expect("written");
     }
-    fs::write(place.path("p5.frag"), FRAGMENT.replace("vc;", "vc")).expect("written");
+    fs::write(folder.path("p5.frag"), FRAGMENT.replace("vc;", "vc")).expect("written");
     let files: Vec<String> = names.iter().flat_map(|name| [format!("{name}.frag"), format!("{name}.vert")]).collect();
     let files: Vec<&str> = files.iter().map(String::as_str).collect();
-    let run = |jobs: &str, folder: &str| {
-        let output = place.run(&[&["compile", "-j", jobs, "-o", folder], &files[..]].concat());
+    let run = |jobs: &str, out: &str| {
+        let output = folder.run(&[&["compile", "-j", jobs, "-o", out], &files[..]].concat());
         assert_eq!(code(&output), 1);
-        let read = |name: String| (fs::read(place.path(&format!("{folder}/{name}"))).expect("written"), name);
-        (err(&output), place.names(folder).into_iter().map(read).collect::<Vec<_>>())
+        let read = |name: String| (fs::read(folder.path(&format!("{out}/{name}"))).expect("written"), name);
+        (err(&output), folder.names(out).into_iter().map(read).collect::<Vec<_>>())
     };
     let one = run("1", "one");
     assert_eq!(one.1.len(), 11 * 5);
@@ -320,37 +323,37 @@ fn any_number_of_threads_gives_the_same_bytes() {
 
 #[test]
 fn a_depfile_names_outputs_inputs_and_includes() {
-    let place = Place::triangle();
+    let folder = Folder::triangle();
     let with_include = VERTEX
         .replace("core\n", "core\n#extension GL_ARB_shading_language_include : require\n#include \"lib/a b.glsl\"\n");
-    fs::create_dir_all(place.path("lib")).expect("a folder");
-    fs::write(place.path("lib/a b.glsl"), "// nothing\n").expect("written");
-    fs::write(place.path("tri.vert"), with_include).expect("written");
+    fs::create_dir_all(folder.path("lib")).expect("a folder");
+    fs::write(folder.path("lib/a b.glsl"), "// nothing\n").expect("written");
+    fs::write(folder.path("tri.vert"), with_include).expect("written");
     let arguments = ["compile", "tri.vert", "tri.frag", "-o", "out", "--target", "wgsl", "--depfile", "out.d"];
-    let output = place.run(&arguments);
+    let output = folder.run(&arguments);
     assert_eq!(code(&output), 0, "{}", err(&output));
-    let rule = fs::read_to_string(place.path("out.d")).expect("written");
+    let rule = fs::read_to_string(folder.path("out.d")).expect("written");
     assert_eq!(rule, "out/tri.vert.wgsl out/tri.frag.wgsl out/tri.json: tri.vert lib/a\\ b.glsl tri.frag\n");
-    assert!(is_written(&place.path("out/tri.vert.wgsl")));
+    assert!(is_written(&folder.path("out/tri.vert.wgsl")));
 }
 
 #[test]
 fn standard_input_is_a_shader() {
-    let place = Place::new(&[]);
-    let output = place.run_with_input(&["lint", "-", "--stage", "fragment"], FRAGMENT);
+    let folder = Folder::new(&[]);
+    let output = folder.run_with_input(&["lint", "-", "--stage", "fragment"], FRAGMENT);
     assert_eq!((code(&output), out(&output)), (0, String::new()), "{}", err(&output));
     let output =
-        place.run_with_input(&["compile", "-", "--stage", "fragment", "--target", "wgsl", "-o", "out"], FRAGMENT);
+        folder.run_with_input(&["compile", "-", "--stage", "fragment", "--target", "wgsl", "-o", "out"], FRAGMENT);
     assert_eq!(code(&output), 0, "{}", err(&output));
-    assert_eq!(place.names("out"), ["stdin.frag.wgsl", "stdin.json"]);
+    assert_eq!(folder.names("out"), ["stdin.frag.wgsl", "stdin.json"]);
 }
 
 #[test]
 fn lint_tells_all_errors_of_all_stages_with_their_places() {
-    let place = Place::triangle();
-    fs::write(place.path("tri.vert"), VERTEX.replace("vc = cv;", "vc = cw; float f = true;")).expect("written");
-    fs::write(place.path("tri.frag"), FRAGMENT.replace("fc = vc", "fc = vd")).expect("written");
-    let (findings, exit) = place.lint(&["."]);
+    let folder = Folder::triangle();
+    fs::write(folder.path("tri.vert"), VERTEX.replace("vc = cv;", "vc = cw; float f = true;")).expect("written");
+    fs::write(folder.path("tri.frag"), FRAGMENT.replace("fc = vc", "fc = vd")).expect("written");
+    let (findings, exit) = folder.lint(&["."]);
     assert_eq!(exit, 1);
     let places: Vec<(String, u64, u64)> = findings
         .iter()
@@ -370,13 +373,13 @@ fn lint_tells_all_errors_of_all_stages_with_their_places() {
 
 #[test]
 fn a_link_error_stands_at_the_fragment_side_with_the_other_as_a_label() {
-    let place = Place::triangle();
+    let folder = Folder::triangle();
     fs::write(
-        place.path("tri.frag"),
+        folder.path("tri.frag"),
         FRAGMENT.replace("in vec4 vc;", "in vec3 vc;").replace("= vc", "= vec4(vc, 1.0)"),
     )
     .expect("written");
-    let (findings, exit) = place.lint(&["tri.vert", "tri.frag"]);
+    let (findings, exit) = folder.lint(&["tri.vert", "tri.frag"]);
     assert_eq!((findings.len(), exit), (1, 1), "{findings:#?}");
     assert_eq!(findings[0]["file"], "tri.frag");
     let labels = findings[0]["labels"].as_array().expect("labels");
@@ -388,13 +391,13 @@ fn an_error_in_an_included_file_is_told_once() {
     let with_include = |text: &str| {
         text.replace("core\n", "core\n#extension GL_ARB_shading_language_include : require\n#include \"bad.glsl\"\n")
     };
-    let place = Place::new(&[
+    let folder = Folder::new(&[
         ("tri.vert", with_include(VERTEX).as_bytes()),
         ("tri.frag", with_include(FRAGMENT).as_bytes()),
         ("two.vert", with_include(VERTEX).as_bytes()),
         ("bad.glsl", b"float f() { return true; }\n"),
     ]);
-    let (findings, exit) = place.lint(&["."]);
+    let (findings, exit) = folder.lint(&["."]);
     assert_eq!(exit, 1);
     let in_include =
         findings.iter().filter(|finding| finding["file"].as_str().is_some_and(|f| f.ends_with("bad.glsl")));
@@ -405,29 +408,29 @@ fn an_error_in_an_included_file_is_told_once() {
 fn a_missing_include_is_2() {
     let text =
         VERTEX.replace("core\n", "core\n#extension GL_ARB_shading_language_include : require\n#include \"no.glsl\"\n");
-    let place = Place::new(&[("tri.vert", text.as_bytes())]);
-    let (findings, exit) = place.lint(&["tri.vert"]);
+    let folder = Folder::new(&[("tri.vert", text.as_bytes())]);
+    let (findings, exit) = folder.lint(&["tri.vert"]);
     assert_eq!(exit, 2, "{findings:#?}");
     assert_eq!(findings[0]["line"], 3);
 }
 
 #[test]
 fn every_format_of_diagnostics_is_written() {
-    let place = Place::triangle();
-    fs::write(place.path("tri.frag"), FRAGMENT.replace("fc = vc", "fc = vd")).expect("written");
+    let folder = Folder::triangle();
+    fs::write(folder.path("tri.frag"), FRAGMENT.replace("fc = vc", "fc = vd")).expect("written");
     for (format, word) in [("human", "tri.frag:6:10"), ("sarif", "2.1.0"), ("github", "::error file=tri.frag,line=6")] {
-        let output = place.run(&["lint", "tri.vert", "tri.frag", "--format", format]);
+        let output = folder.run(&["lint", "tri.vert", "tri.frag", "--format", format]);
         assert_eq!(code(&output), 1);
         assert!(out(&output).contains(word), "{format}: {}", out(&output));
-        let output = place.run(&["compile", "tri.vert", "tri.frag", "--check", "--diagnostics", format]);
+        let output = folder.run(&["compile", "tri.vert", "tri.frag", "--check", "--diagnostics", format]);
         assert!(err(&output).contains(word), "{format}: {}", err(&output));
     }
 }
 
 #[test]
 fn reflect_answers_what_a_name_is() {
-    let place = Place::triangle();
-    let find = |name: &str| place.run(&["reflect", "tri.vert", "tri.frag", "--find", name]);
+    let folder = Folder::triangle();
+    let find = |name: &str| folder.run(&["reflect", "tri.vert", "tri.frag", "--find", name]);
     let attribute = find("cv");
     assert_eq!(code(&attribute), 0, "{}", err(&attribute));
     assert!(out(&attribute).contains("attribute") && out(&attribute).contains("location 1"), "{}", out(&attribute));
@@ -441,14 +444,14 @@ fn reflect_answers_what_a_name_is() {
 
 #[test]
 fn reflect_of_several_programs_is_an_object_by_stem() {
-    let place = Place::triangle();
-    fs::write(place.path("lone.frag"), FRAGMENT).expect("written");
-    let output = place.run(&["reflect", "tri.vert", "tri.frag", "lone.frag", "--format", "json"]);
+    let folder = Folder::triangle();
+    fs::write(folder.path("lone.frag"), FRAGMENT).expect("written");
+    let output = folder.run(&["reflect", "tri.vert", "tri.frag", "lone.frag", "--format", "json"]);
     assert_eq!(code(&output), 0, "{}", err(&output));
     let json: Value = serde_json::from_str(&out(&output)).expect("JSON");
     assert_eq!(json["tri"]["entry_points"]["vertex"], "main");
     assert_eq!(json["lone"]["outputs"][0]["name"], "fc");
-    let one = place.run(&["reflect", "tri.vert", "tri.frag", "--format", "json"]);
+    let one = folder.run(&["reflect", "tri.vert", "tri.frag", "--format", "json"]);
     let json: Value = serde_json::from_str(&out(&one)).expect("JSON");
     assert_eq!(json["uniforms"][0]["name"], "mc");
 }
@@ -456,9 +459,9 @@ fn reflect_of_several_programs_is_an_object_by_stem() {
 #[cfg(not(feature = "gl"))]
 #[test]
 fn a_backend_that_is_not_built_says_how_to_build_it() {
-    let place = Place::new(&[]);
+    let folder = Folder::new(&[]);
     for arguments in [&["render", "none.toml", "-o", "s.png"][..], &["gallery", "-o", "pages"]] {
-        let output = place.run(&[arguments, &["--backend", "gl"]].concat());
+        let output = folder.run(&[arguments, &["--backend", "gl"]].concat());
         assert_eq!(code(&output), 2, "{}", err(&output));
         assert!(err(&output).contains("cargo install --path . --features gl"), "{}", err(&output));
     }
@@ -466,11 +469,11 @@ fn a_backend_that_is_not_built_says_how_to_build_it() {
 
 #[test]
 fn macros_come_from_the_command_line() {
-    let place = Place::new(&[("a.frag", b"#version 150\nout vec4 c;\nvoid main() { c = vec4(VALUE); }\n")]);
-    assert_eq!(code(&place.run(&["lint", "a.frag"])), 1);
-    assert_eq!(code(&place.run(&["lint", "a.frag", "-D", "VALUE=0.5"])), 0);
-    assert_eq!(code(&place.run(&["lint", "a.frag", "-DVALUE"])), 0);
-    assert_eq!(code(&place.run(&["lint", "a.frag", "-D", "1X"])), 2);
+    let folder = Folder::new(&[("a.frag", b"#version 150\nout vec4 c;\nvoid main() { c = vec4(VALUE); }\n")]);
+    assert_eq!(code(&folder.run(&["lint", "a.frag"])), 1);
+    assert_eq!(code(&folder.run(&["lint", "a.frag", "-D", "VALUE=0.5"])), 0);
+    assert_eq!(code(&folder.run(&["lint", "a.frag", "-DVALUE"])), 0);
+    assert_eq!(code(&folder.run(&["lint", "a.frag", "-D", "1X"])), 2);
 }
 
 /// A scene that contains the triangle.
@@ -481,13 +484,13 @@ const SCENE: &str = "[framebuffer]\nwidth = 16\nheight = 8\n\n[[draw]]\nvertex =
 
 #[test]
 fn render_writes_float_pictures_by_the_reference() {
-    let place = Place::triangle();
-    fs::write(place.path("s.toml"), SCENE).expect("written");
+    let folder = Folder::triangle();
+    fs::write(folder.path("s.toml"), SCENE).expect("written");
     for precision in ["f64", "f32"] {
         let arguments = ["render", "s.toml", "--backend", "cpu", "--precision", precision, "-o", "s.npy"];
-        let output = place.run(&arguments);
+        let output = folder.run(&arguments);
         assert_eq!(code(&output), 0, "{}", err(&output));
-        let bytes = fs::read(place.path("s.npy")).expect("written");
+        let bytes = fs::read(folder.path("s.npy")).expect("written");
         let npy = npyz::NpyFile::new(&bytes[..]).expect("an npy file");
         assert_eq!(npy.shape(), [8, 16, 4]);
         let values: Vec<f32> = npy.into_vec().expect("float32");
@@ -497,7 +500,7 @@ fn render_writes_float_pictures_by_the_reference() {
 
 #[test]
 fn mistakes_of_a_scene_are_told_at_their_places() {
-    let place = Place::triangle();
+    let folder = Folder::triangle();
     for (text, line, exit, word) in [
         (SCENE.replace("cv =", "cw ="), 11, 1, "cv"),
         (SCENE.replace("width =", "widht ="), 2, 1, "width"),
@@ -505,29 +508,29 @@ fn mistakes_of_a_scene_are_told_at_their_places() {
         ("\0\u{1}".to_owned(), 1, 1, ""),
         (String::new(), 1, 1, ""),
     ] {
-        fs::write(place.path("s.toml"), &text).expect("written");
+        fs::write(folder.path("s.toml"), &text).expect("written");
         let arguments = ["render", "s.toml", "--backend", "cpu", "-o", "s.png", "--diagnostics", "json"];
-        let output = place.run(&arguments);
+        let output = folder.run(&arguments);
         assert_eq!(code(&output), exit, "{text}\n{}", err(&output));
         let findings: Vec<Value> = serde_json::from_str(&err(&output)).expect("JSON");
         let there = |finding: &&Value| finding["file"] == "s.toml" && finding["line"] == line;
         let found = findings.iter().filter(there).any(|finding| finding.to_string().contains(word));
         assert!(found, "{line}: {findings:#?}");
-        assert!(place.names(".").iter().all(|name| name != "s.png"));
+        assert!(folder.names(".").iter().all(|name| name != "s.png"));
     }
-    let output = place.run(&["render", "none.toml", "--backend", "cpu", "-o", "s.png"]);
+    let output = folder.run(&["render", "none.toml", "--backend", "cpu", "-o", "s.png"]);
     assert_eq!(code(&output), 2, "{}", err(&output));
-    let output = place.run(&["render", "s.toml", "--backend", "cpu", "-o", "s.jpeg"]);
+    let output = folder.run(&["render", "s.toml", "--backend", "cpu", "-o", "s.jpeg"]);
     assert_eq!(code(&output), 2);
     assert!(err(&output).contains(".npy"), "{}", err(&output));
 }
 
 #[test]
 fn verify_prints_the_figures_of_the_contract() {
-    let place = Place::triangle();
-    fs::write(place.path("s.toml"), SCENE.replace("0.5, 0.25, 2.0, 1, 0.5", "0.5, 0.25, 2.0, 1, 0.7"))
+    let folder = Folder::triangle();
+    fs::write(folder.path("s.toml"), SCENE.replace("0.5, 0.25, 2.0, 1, 0.5", "0.5, 0.25, 2.0, 1, 0.7"))
         .expect("written");
-    let output = place.run(&["verify", "s.toml", "--format", "json"]);
+    let output = folder.run(&["verify", "s.toml", "--format", "json"]);
     assert_eq!(code(&output), 0, "{}{}", out(&output), err(&output));
     assert!(err(&output).is_empty(), "{}", err(&output));
     let figures: Value = serde_json::from_str(&out(&output)).expect("JSON");
@@ -556,17 +559,17 @@ fn verify_prints_the_figures_of_the_contract() {
     assert_eq!((figures["pixels"].as_u64(), figures["covered"].as_u64()), (Some(128), Some(128)));
     assert_eq!((figures["judged_by"].as_str(), figures["outside"].as_u64()), (Some("envelope"), Some(0)));
     assert_eq!(figures["runs"].as_array().map(Vec::len), Some(2), "by SPIR-V and by WGSL");
-    let strict = place.run(&["verify", "s.toml", "--tolerance", "0", "--via", "spirv"]);
+    let strict = folder.run(&["verify", "s.toml", "--tolerance", "0", "--via", "spirv"]);
     assert_eq!(code(&strict), 1, "{}", out(&strict));
     assert!(out(&strict).contains("DOES NOT HOLD") && out(&strict).contains("tolerance"), "{}", out(&strict));
 }
 
 #[test]
 fn verify_names_the_expressions_that_a_bound_comes_from() {
-    let place = Place::triangle();
-    fs::write(place.path("tri.frag"), FRAGMENT.replace("fc = vc", "fc = pow(vc, vec4(99.0))")).expect("written");
-    fs::write(place.path("s.toml"), SCENE.replace("0.5, 0.25, 2.0, 1", "0.5, 0.25, 0.9, 1")).expect("written");
-    let output = place.run(&["verify", "s.toml", "--via", "spirv", "--format", "json", "--difference", "d.png"]);
+    let folder = Folder::triangle();
+    fs::write(folder.path("tri.frag"), FRAGMENT.replace("fc = vc", "fc = pow(vc, vec4(99.0))")).expect("written");
+    fs::write(folder.path("s.toml"), SCENE.replace("0.5, 0.25, 2.0, 1", "0.5, 0.25, 0.9, 1")).expect("written");
+    let output = folder.run(&["verify", "s.toml", "--via", "spirv", "--format", "json", "--difference", "d.png"]);
     assert_eq!(code(&output), 0, "{}{}", out(&output), err(&output));
     let figures: Value = serde_json::from_str(&out(&output)).expect("JSON");
     let contributions = figures["worst"]["contributions"].as_array().expect("a list");
@@ -575,18 +578,18 @@ fn verify_names_the_expressions_that_a_bound_comes_from() {
         assert!(power.get(key).is_some(), "{key} is missing in {power}");
     }
     assert!(power["file"].as_str().is_some_and(|file| file.ends_with("tri.frag")), "{power}");
-    assert!(fs::read(place.path("d.png")).expect("written").starts_with(b"\x89PNG"));
-    let told = out(&place.run(&["verify", "s.toml", "--via", "spirv"]));
+    assert!(fs::read(folder.path("d.png")).expect("written").starts_with(b"\x89PNG"));
+    let told = out(&folder.run(&["verify", "s.toml", "--via", "spirv"]));
     assert!(told.contains("note[W0905]") && told.contains("`pow`: ") && told.contains("vec4(99.0)"), "{told}");
 }
 
 #[test]
 fn without_a_vulkan_driver_the_message_says_what_to_install() {
-    let place = Place::triangle();
-    fs::write(place.path("s.toml"), SCENE).expect("written");
+    let folder = Folder::triangle();
+    fs::write(folder.path("s.toml"), SCENE).expect("written");
     for arguments in [&["render", "s.toml", "-o", "s.png"][..], &["verify", "s.toml"], &["report", "s.toml", "-o", "r"]]
     {
-        let output = place
+        let output = folder
             .command(arguments)
             .env("VK_DRIVER_FILES", "/nonexistent.json")
             .env("VK_ICD_FILENAMES", "/nonexistent.json")
@@ -595,19 +598,19 @@ fn without_a_vulkan_driver_the_message_says_what_to_install() {
         assert_eq!(code(&output), 3, "{arguments:?}: {}", err(&output));
         assert!(err(&output).contains("mesa-vulkan-drivers"), "{}", err(&output));
     }
-    let output = place.run(&["render", "s.toml", "-o", "s.png", "--adapter", "no such adapter"]);
+    let output = folder.run(&["render", "s.toml", "-o", "s.png", "--adapter", "no such adapter"]);
     assert_eq!(code(&output), 3, "{}", err(&output));
 }
 
 #[test]
 fn color_and_quiet_do_as_they_say() {
-    let place = Place::triangle();
-    fs::write(place.path("tri.frag"), FRAGMENT.replace("fc = vc", "fc = vd")).expect("written");
-    let colored = place.run(&["lint", "tri.vert", "tri.frag", "--color", "always"]);
+    let folder = Folder::triangle();
+    fs::write(folder.path("tri.frag"), FRAGMENT.replace("fc = vc", "fc = vd")).expect("written");
+    let colored = folder.run(&["lint", "tri.vert", "tri.frag", "--color", "always"]);
     assert!(out(&colored).contains('\u{1b}'), "{}", out(&colored));
-    let plain = place.run(&["lint", "tri.vert", "tri.frag"]);
+    let plain = folder.run(&["lint", "tri.vert", "tri.frag"]);
     assert!(!out(&plain).contains('\u{1b}') && err(&plain).contains("1 error"), "{}", err(&plain));
-    let quiet = place.run(&["lint", "-q", "tri.vert", "tri.frag"]);
+    let quiet = folder.run(&["lint", "-q", "tri.vert", "tri.frag"]);
     assert_eq!((out(&quiet), err(&quiet)), (out(&plain), String::new()));
 }
 
@@ -616,16 +619,16 @@ fn several_files_of_a_stage_give_one_output() {
     let helper = "#version 150 core\nvec4 twice(vec4 v) { return 2.0 * v; }\n";
     let main =
         FRAGMENT.replace("out vec4 fc;", "out vec4 fc;\nvec4 twice(vec4 v);").replace("fc = vc", "fc = twice(vc)");
-    let place = Place::new(&[
+    let folder = Folder::new(&[
         ("tri.vert", VERTEX.as_bytes()),
         ("main.frag", main.as_bytes()),
         ("helper.frag", helper.as_bytes()),
     ]);
     let program = "tri.vert,main.frag,helper.frag";
-    let output = place.run(&["compile", "--program", program, "-o", "out", "--target", "wgsl"]);
+    let output = folder.run(&["compile", "--program", program, "-o", "out", "--target", "wgsl"]);
     assert_eq!(code(&output), 0, "{}", err(&output));
-    assert_eq!(place.names("out"), ["main.frag.wgsl", "tri.json", "tri.vert.wgsl"]);
-    let text = fs::read_to_string(place.path("out/main.frag.wgsl")).expect("written");
+    assert_eq!(folder.names("out"), ["main.frag.wgsl", "tri.json", "tri.vert.wgsl"]);
+    let text = fs::read_to_string(folder.path("out/main.frag.wgsl")).expect("written");
     assert!(text.contains("fn twice"), "{text}");
 }
 
@@ -633,19 +636,104 @@ fn several_files_of_a_stage_give_one_output() {
 fn library_modules_can_be_included() {
     let text = "#version 150\n#extension GL_ARB_shading_language_include : require\n#include <glisten/phong.glsl>\n\
         out vec4 fc;\nvoid main() { fc = vec4(phongFactor(vec3(0, 0, 1), vec3(0, 0, 1), vec3(0, 0, 1), 8.0)); }\n";
-    let place = Place::new(&[("a.frag", text.as_bytes())]);
+    let folder = Folder::new(&[("a.frag", text.as_bytes())]);
     let arguments = ["compile", "a.frag", "-o", "out", "--target", "wgsl", "--allow", "W0001", "--depfile", "a.d"];
-    let output = place.run(&arguments);
+    let output = folder.run(&arguments);
     assert_eq!(code(&output), 0, "{}", err(&output));
-    let rule = fs::read_to_string(place.path("a.d")).expect("written");
+    let rule = fs::read_to_string(folder.path("a.d")).expect("written");
     assert_eq!(rule, "out/a.frag.wgsl out/a.json: a.frag\n", "embedded modules are no files");
 }
 
 #[test]
 fn the_typed_program_is_printed_and_compiles_again() {
-    let place = Place::triangle();
-    let output = place.run(&["compile", "tri.frag", "--emit", "hir"]);
+    let folder = Folder::triangle();
+    let output = folder.run(&["compile", "tri.frag", "--emit", "hir"]);
     assert_eq!(code(&output), 0, "{}", err(&output));
-    let again = place.run_with_input(&["lint", "-", "--stage", "fragment"], &out(&output));
+    let again = folder.run_with_input(&["lint", "-", "--stage", "fragment"], &out(&output));
     assert_eq!(code(&again), 0, "{}", out(&again));
+}
+
+/// A program in which an attribute, a varying, a function and a uniform reach no output.
+fn with_dead_parts() -> Folder {
+    let vertex = "#version 150\nin vec4 pv;\nin vec4 dead;\nout vec4 vc;\nout vec4 unread;\nuniform vec4 u;\n\
+                  void main() { vc = pv; unread = dead * u; gl_Position = pv; }\n";
+    let fragment = "#version 150\nin vec4 vc;\nin vec4 unread;\nout vec4 fc;\nvec4 never() { return vc; }\n\
+                    void main() { vec4 nothing = unread; fc = vc; }\n";
+    Folder::new(&[("a.vert", vertex.as_bytes()), ("a.frag", fragment.as_bytes())])
+}
+
+#[test]
+fn compile_leaves_out_what_reaches_no_output() {
+    let place = with_dead_parts();
+    let text = |name: &str| fs::read_to_string(place.path(name)).expect("it was written");
+    // Arguments, and whether the WGSL is without the dead parts.
+    for (arguments, left_out) in [
+        (&[][..], true),
+        (&["-O"], true),
+        (&["-O1"], true),
+        (&["-O0"], false),
+        (&["--no-optimize"], false),
+        (&["-g"], false),
+        (&["-g", "-O"], true),
+        (&["-g", "-O0"], false),
+    ] {
+        let output = place.run(&[&["compile", "a.vert", "a.frag", "-o", "out"], arguments].concat());
+        assert_eq!((code(&output), err(&output).as_str()), (0, ""), "{arguments:?}");
+        let emitted = text("out/a.vert.wgsl") + &text("out/a.frag.wgsl");
+        assert_eq!(!emitted.contains("dead"), left_out, "{arguments:?}\n{emitted}");
+        assert_eq!(!emitted.contains("unread"), left_out, "{arguments:?}\n{emitted}");
+        let reflection: Value = serde_json::from_str(&text("out/a.json")).expect("JSON");
+        // What is left out stays in the reflection, with its location, and is not active.
+        assert_eq!(reflection["attributes"][1]["name"], "dead");
+        assert_eq!(reflection["attributes"][1]["active"], !left_out, "{arguments:?}");
+        assert_eq!(reflection["uniforms"][0]["active"], !left_out, "{arguments:?}");
+        let names: Vec<&Value> = reflection["varyings"].as_array().expect("a list").iter().collect();
+        assert_eq!(names.len(), 2, "{reflection}");
+    }
+    // A host of HLSL declares each input: nothing is left out unless that is asked for.
+    for (target, optimize, left_out) in
+        [("hlsl", "", false), ("hlsl", "-O", true), ("msl", "", false), ("glsl", "", false)]
+    {
+        let mut arguments = vec!["compile", "a.vert", "a.frag", "-o", "other", "--target", target];
+        arguments.extend((!optimize.is_empty()).then_some(optimize));
+        assert_eq!(code(&place.run(&arguments)), 0, "{arguments:?}");
+        let name = if target == "msl" { "other/a.vert.metal".to_owned() } else { format!("other/a.vert.{target}") };
+        assert_eq!(!text(&name).contains("unread"), left_out, "{arguments:?}\n{}", text(&name));
+    }
+    // One of the outputs has it: so it is active.
+    assert_eq!(
+        code(&place.run(&["compile", "a.vert", "a.frag", "-o", "both", "--target", "wgsl", "--target", "hlsl"])),
+        0
+    );
+    let reflection: Value = serde_json::from_str(&text("both/a.json")).expect("JSON");
+    assert_eq!(reflection["attributes"][1]["active"], true);
+    assert_eq!(code(&place.run(&["compile", "a.vert", "a.frag", "-o", "out", "--optimize", "--no-optimize"])), 2);
+}
+
+#[test]
+fn compile_says_what_it_left_out() {
+    let place = with_dead_parts();
+    let output = place.run(&["compile", "a.vert", "a.frag", "-o", "out", "--left-out"]);
+    assert_eq!(code(&output), 0);
+    for word in ["attribute `dead`", "varying `unread`", "function `never`", "uniform `u`", "statement `nothing`"] {
+        assert!(err(&output).contains(word), "{word}:\n{}", err(&output));
+    }
+    let output = place.run(&["compile", "a.vert", "a.frag", "-o", "out", "--left-out", "--diagnostics", "json"]);
+    let findings: Vec<Value> = serde_json::from_str(&err(&output)).expect("JSON");
+    assert!(findings.iter().all(|one| one["code"] == "W0803" && one["severity"] == "note"), "{findings:?}");
+    let dead = findings.iter().find(|one| one["message"].as_str().is_some_and(|text| text.contains("`dead`")));
+    assert_eq!(dead.map(|one| (&one["file"], &one["line"])), Some((&Value::from("a.vert"), &Value::from(3))));
+    // Without optimization, and without the question, nothing is said.
+    for arguments in [&["--left-out", "-O0"][..], &[]] {
+        let output = place.run(&[&["compile", "a.vert", "a.frag", "-o", "out"], arguments].concat());
+        assert_eq!((code(&output), err(&output).as_str()), (0, ""), "{arguments:?}");
+    }
+    // `reflect` shows what `compile` writes by default.
+    let reflect = |arguments: &[&str]| -> Value {
+        let output = place.run(&[&["reflect", "a.vert", "a.frag", "--format", "json"], arguments].concat());
+        serde_json::from_str(&out(&output)).expect("JSON")
+    };
+    let written = fs::read_to_string(place.path("out/a.json")).expect("it was written");
+    assert_eq!(reflect(&[]), serde_json::from_str::<Value>(&written).expect("JSON"));
+    assert_eq!(reflect(&["-O0"])["attributes"][1]["active"], true);
 }

@@ -1,9 +1,9 @@
 //! Helpers of the tests that draw: scenes from files and texts, the reference, the device, and `verify` with pictures
 //! of failures.
 
+pub(crate) use crate::support::compiler;
 use crate::support::root;
 use glisten::scene::{DiskFiles, Loaded, MemoryFiles, Scene, load};
-use glisten_front::{Compiler, Options};
 use glisten_reference::domain::faults::Faults;
 use glisten_reference::{LineRule, Precision, RenderOptions};
 use glisten_scene::picture::Picture;
@@ -13,11 +13,6 @@ use std::path::Path;
 use glisten::verify::{OnGpu, Runner, Verification, verify};
 #[cfg(feature = "gpu")]
 use glisten_gpu::Gpu;
-
-/// A compiler without options.
-pub(crate) fn compiler() -> Compiler {
-    Compiler::new(Options::default())
-}
 
 /// The scene of a loaded file.
 #[track_caller]

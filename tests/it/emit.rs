@@ -3,11 +3,12 @@
 //! The judges are naga's own front end and validator and Tint (through Dawn's null backend, the npm package `webgpu`)
 //! for WGSL, and `spirv-val` for SPIR-V. If an external judge is missing, the test says so; if `CI` is set, it fails.
 
+use crate::support::{compile_files, compiler, files_under, root, stage_of};
 use glisten::library::{Embedded, programs, shader};
 use glisten_emit::{ClipZ, Conventions, Emitted, SpirvEnv, Target, WindowOrigin, emit, notes};
+use glisten_front::Source;
 use glisten_front::hir::Stage;
 use glisten_front::link::Program;
-use glisten_front::{Compiler, Options, Source};
 use std::collections::BTreeMap;
 use std::fs;
 use std::io::Write;
@@ -17,44 +18,14 @@ use std::process::Command;
 /// The errors with which a target may reject a valid program: a stage or feature that it lacks.
 const REFUSALS: [&str; 2] = ["E0801", "E0802"];
 
-/// All shaders in a folder, grouped into programs by folder and stem.
+/// All shaders in a folder of the fixtures, grouped into programs by folder and stem.
 fn fixtures(folder: &str) -> BTreeMap<PathBuf, Vec<PathBuf>> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures").join(folder);
     let mut programs: BTreeMap<PathBuf, Vec<PathBuf>> = BTreeMap::new();
-    let mut folders = vec![root];
-    while let Some(folder) = folders.pop() {
-        let Ok(entries) = fs::read_dir(&folder) else { continue };
-        for path in entries.map(|entry| entry.expect("an entry of the folder").path()) {
-            if path.is_dir() {
-                folders.push(path);
-            } else if stage(&path).is_some() {
-                programs.entry(path.with_extension("")).or_default().push(path);
-            }
-        }
+    for path in files_under(&root().join("fixtures").join(folder)).into_iter().filter(|path| stage_of(path).is_some()) {
+        programs.entry(path.with_extension("")).or_default().push(path);
     }
-    programs.values_mut().for_each(|files| files.sort_by_key(|path| stage(path)));
+    programs.values_mut().for_each(|files| files.sort_by_key(|path| stage_of(path)));
     programs
-}
-
-fn stage(path: &Path) -> Option<Stage> {
-    match path.extension()?.to_str()? {
-        "vert" => Some(Stage::Vertex),
-        "frag" => Some(Stage::Fragment),
-        "geom" => Some(Stage::Geometry),
-        _ => None,
-    }
-}
-
-fn compile(files: &[PathBuf]) -> glisten::Compilation {
-    let sources: Vec<Source> = files
-        .iter()
-        .map(|path| Source {
-            name: path.display().to_string(),
-            text: String::from_utf8_lossy(&fs::read(path).expect("a fixture can be read")).into(),
-            stage: stage(path).expect("only shaders were collected"),
-        })
-        .collect();
-    Compiler::new(Options::default()).compile(&sources)
 }
 
 /// All emitted code, on disk for the external judges.
@@ -86,7 +57,7 @@ impl Collected {
 
     /// Emits all stages of a program for a target.
     fn program(&mut self, files: &[PathBuf], target: Target, conventions: &Conventions) {
-        let compilation = compile(files);
+        let compilation = compile_files(files);
         let name = format!("{} as {}", files[0].with_extension("").display(), target.name());
         let Some(program) = &compilation.program else {
             // Fixtures that are not programs (a single file with an unmatched input) are left to other tests.
@@ -118,14 +89,14 @@ impl Collected {
     }
 
     /// Passes everything to the external judges.
-    pub(crate) fn judge(mut self) {
+    pub(crate) fn validate(mut self) {
         self.tint();
         self.spirv_val();
         assert!(self.failures.is_empty(), "{}", self.failures.join("\n\n"));
     }
 
     fn tint(&mut self) {
-        let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+        let root = root();
         let package = root.join("target/tint/node_modules/webgpu");
         let script = root.join("tests/it/tint.mjs");
         let files: Vec<&Path> = self.wgsl.iter().map(|(path, _)| path.as_path()).collect();
@@ -183,7 +154,7 @@ fn all(folder: &str, conventions: &Conventions) {
             collected.program(files, target, conventions);
         }
     }
-    collected.judge();
+    collected.validate();
 }
 
 #[test]
@@ -201,7 +172,7 @@ fn the_librarys_programs_are_accepted_everywhere() {
             stage,
         };
         let sources = [source(program.vertex, Stage::Vertex), source(program.fragment, Stage::Fragment)];
-        let compilation = Compiler::new(Options::default()).with_includes(Embedded).compile(&sources);
+        let compilation = compiler().with_includes(Embedded).compile(&sources);
         let found: Vec<_> = compilation.diagnostics.iter().map(|found| &found.message).collect();
         assert!(found.is_empty(), "{}: {found:?}", program.name);
         let linked = compilation.program.expect("without findings there is a program");
@@ -210,7 +181,7 @@ fn the_librarys_programs_are_accepted_everywhere() {
             collected.linked(&name, &linked, target, &Conventions::default());
         }
     }
-    collected.judge();
+    collected.validate();
 }
 
 #[test]
@@ -241,7 +212,7 @@ fn the_fixtures_of_lowering_are_programs_and_every_target_takes_or_refuses_them(
     for folder in ["programs", "lower"] {
         for files in fixtures(folder).values() {
             let name = files[0].display();
-            let compilation = compile(files);
+            let compilation = compile_files(files);
             let found: Vec<_> = compilation.diagnostics.iter().map(|found| &found.message).collect();
             let program = compilation.program.as_ref().unwrap_or_else(|| panic!("{name}: {found:?}"));
             assert_eq!(program.stages.len(), 2, "{name}");
@@ -258,7 +229,7 @@ fn the_fixtures_of_lowering_are_programs_and_every_target_takes_or_refuses_them(
 /// The codes of emitting a single shader.
 fn codes(stage: Stage, text: &str, target: Target, conventions: &Conventions) -> Vec<&'static str> {
     let source = Source { name: "shader".into(), text: format!("#version 150\n{text}").into(), stage };
-    let compilation = Compiler::new(Options::default()).compile(&[source]);
+    let compilation = compiler().compile(&[source]);
     let program = compilation.program.expect("the shader is valid");
     let errors = emit(&program, stage, target, conventions).err().into_iter().flatten();
     errors.chain(notes(&program, conventions)).map(|diagnostic| diagnostic.code.id).collect()
@@ -312,7 +283,7 @@ fn long_chains_become_flat_text() {
     );
     let source =
         Source { name: "chain.frag".into(), text: format!("#version 150\n{text}").into(), stage: Stage::Fragment };
-    let program = Compiler::new(Options::default()).compile(&[source]).program.expect("the shader is valid");
+    let program = compiler().compile(&[source]).program.expect("the shader is valid");
     let emitted = emit(&program, Stage::Fragment, Target::Wgsl, &Conventions::default());
     let Ok(Emitted::Text(wgsl)) = emitted else { panic!("WGSL comes out: {emitted:?}") };
     assert!(wgsl.len() < 20 * text.len(), "{} bytes of GLSL became {} of WGSL", text.len(), wgsl.len());
@@ -324,7 +295,7 @@ fn long_chains_become_flat_text() {
 /// The WGSL of a single fragment shader.
 fn wgsl(text: &str) -> String {
     let source = Source { name: "shader".into(), text: format!("#version 150\n{text}").into(), stage: Stage::Fragment };
-    let program = Compiler::new(Options::default()).compile(&[source]).program.expect("the shader is valid");
+    let program = compiler().compile(&[source]).program.expect("the shader is valid");
     match emit(&program, Stage::Fragment, Target::Wgsl, &Conventions::default()) {
         Ok(Emitted::Text(text)) => text,
         other => panic!("WGSL comes out: {other:?}"),
@@ -372,7 +343,7 @@ fn text_nests_as_deep_as_tint_reads_and_no_deeper() {
         assert_eq!(codes(Stage::Fragment, &deeper, Target::Wgsl, &plain), ["E0803"], "{open}");
         assert!(codes(Stage::Fragment, &deeper, Target::Spirv, &plain).is_empty(), "{open}");
     }
-    collected.judge();
+    collected.validate();
 }
 
 #[test]
@@ -385,7 +356,7 @@ fn what_becomes_constant_on_the_way_is_kept_from_the_target() {
     reparse(&text).unwrap_or_else(|error| panic!("{error}"));
     let mut collected = Collected::new();
     collected.add("constants behind effects", Emitted::Text(text));
-    collected.judge();
+    collected.validate();
 }
 
 #[test]
@@ -394,7 +365,7 @@ fn a_judge_refuses_what_is_wrong() {
     collected.add("a call of nothing", Emitted::Text("fn f() -> f32 { return g(); }".into()));
     collected.add("a lone word", Emitted::Words(vec![0x0723_0203]));
     let mut failures = 0;
-    if Path::new(env!("CARGO_MANIFEST_DIR")).join("target/tint/node_modules/webgpu").is_dir() {
+    if root().join("target/tint/node_modules/webgpu").is_dir() {
         collected.tint();
         failures += 1;
     }

@@ -5,19 +5,16 @@
 
 #![expect(clippy::print_stdout, reason = "figures of the docs are printed here")]
 
-use crate::drawing::{as_on_vulkan, compiler, from_disk, gpu, loaded, reference, strict};
+use crate::drawing::{as_on_vulkan, from_disk, gpu, loaded, reference, strict};
+use crate::support::{compiler, fixture};
 use glisten::scene::{MemoryFiles, Scene, load};
 use glisten::verify::{Expected, Options};
 use glisten_gpu::{Gpu, Via};
 use glisten_reference::Precision;
 use glisten_reference::domain::faults::{ARC_FUNCTIONS, Faults};
 use glisten_reference::domain::rules;
-use glisten_scene::compare::{Judge, Verdict, shares};
+use glisten_scene::compare::{Criterion, Verdict, shares};
 use glisten_scene::picture::Picture;
-
-fn read(path: &str) -> String {
-    std::fs::read_to_string(format!("{}/fixtures/{path}", env!("CARGO_MANIFEST_DIR"))).expect("a fixture")
-}
 
 /// A square over the window, 64x64, drawn by a fragment shader.
 fn square(fragment: &str, format: &str) -> Scene {
@@ -26,7 +23,7 @@ fn square(fragment: &str, format: &str) -> Scene {
          fragment = \"a.frag\"\nprimitive = \"triangle_strip\"\nvertex_count = 4\n"
     );
     let fragment = format!("#version 150\nin vec2 place;\nout vec4 color;\n{fragment}\n");
-    let vertex = read("scenes/core/nothing.vert");
+    let vertex = fixture("scenes/core/nothing.vert");
     let files =
         MemoryFiles::new([("a.toml", text.as_str()), ("nothing.vert", vertex.as_str()), ("a.frag", fragment.as_str())]);
     loaded("a.toml", load("a.toml", &files, &compiler()))
@@ -47,7 +44,7 @@ fn known_faults_explain_what_the_strict_envelope_leaves_outside() {
         let picture = drawn(&gpu, &scene);
         let judged = |options: &Options<'_>| {
             let mut expected = Expected::new(&scene, options).expect("the reference draws it");
-            expected.judge(&picture).expect("the reference draws it")
+            expected.compare(&picture).expect("the reference draws it")
         };
         assert!(!judged(&strict()).holds(false), "{name} holds without");
         let verdict = judged(&Options::default());
@@ -59,11 +56,11 @@ fn known_faults_explain_what_the_strict_envelope_leaves_outside() {
 
 /// For the channels of covered pixels: the width of the envelope, and lavapipe's error.
 fn widths_and_errors(picture: &Picture, reference: &Picture) -> Vec<(f64, f64)> {
-    let ranges = &reference.ranges.as_ref().expect("it has envelopes")[0];
+    let intervals = &reference.intervals.as_ref().expect("it has envelopes")[0];
     let mut pairs = Vec::new();
-    for pixel in (0..ranges.len()).filter(|pixel| picture.covered[*pixel] && reference.covered[*pixel]) {
+    for pixel in (0..intervals.len()).filter(|pixel| picture.covered[*pixel] && reference.covered[*pixel]) {
         let (gpu, cpu) = (picture.attachments[0][pixel], reference.attachments[0][pixel]);
-        let channels = ranges[pixel].iter().zip(gpu).zip(cpu).take(3);
+        let channels = intervals[pixel].iter().zip(gpu).zip(cpu).take(3);
         pairs.extend(channels.map(|((range, gpu), cpu)| (range.width(), (gpu - cpu).abs())));
     }
     pairs
@@ -79,8 +76,8 @@ fn the_envelope_is_not_much_wider_than_what_lavapipe_makes_of_it() {
     let gpu = gpu();
     println!("lighting scenes at exponent 32, median width of the envelope and lavapipe's error:");
     for name in ["blinn_phong", "phong", "blinn_phong_vertex", "phong_vertex"] {
-        let text = read(&format!("scenes/{name}.toml")).replace("../programs/", "").replace("40.0", "32.0");
-        let (vertex, fragment) = (read(&format!("programs/{name}.vert")), read(&format!("programs/{name}.frag")));
+        let text = fixture(&format!("scenes/{name}.toml")).replace("../programs/", "").replace("40.0", "32.0");
+        let (vertex, fragment) = (fixture(&format!("programs/{name}.vert")), fixture(&format!("programs/{name}.frag")));
         let (vertex_name, fragment_name) = (format!("{name}.vert"), format!("{name}.frag"));
         let files = MemoryFiles::new([
             ("a.toml", text.as_str()),
@@ -89,7 +86,7 @@ fn the_envelope_is_not_much_wider_than_what_lavapipe_makes_of_it() {
         ]);
         let scene = loaded("a.toml", load("a.toml", &files, &compiler()));
         let (picture, reference) = (drawn(&gpu, &scene), reference(&scene, Precision::Envelope));
-        let verdict = Verdict::new(&picture, &reference, Judge::Envelope);
+        let verdict = Verdict::new(&picture, &reference, Criterion::Envelope);
         let pairs = widths_and_errors(&picture, &reference);
         let width = median(pairs.iter().map(|pair| pair.0).collect());
         let largest = pairs.iter().map(|pair| pair.1).fold(0.0, f64::max);
@@ -180,7 +177,7 @@ fn measured_rules_rest_on_what_the_driver_does() {
     }
     for name in ["quad_smooth.toml", "triangle.toml", "core/depth_less.toml"] {
         let scene = from_disk(format!("fixtures/scenes/{name}"));
-        let used = shares(&drawn(&gpu, &scene), &reference(&scene, Precision::Envelope), Judge::Envelope);
+        let used = shares(&drawn(&gpu, &scene), &reference(&scene, Precision::Envelope), Criterion::Envelope);
         let used = used.into_iter().filter(|share| share.is_finite()).fold(0.0, f64::max);
         measured(&format!("varyings of {name}"), used, 1.0, "of what is allowed");
     }

@@ -1,16 +1,16 @@
 //! The CPU reference's executor on every valid fixture and program: it accepts all of them, and a tile of unusual
 //! inputs runs in every domain without a panic.
 
-use crate::support::{Beside, Shader, shaders_under};
+use crate::support::{NextTo, Shader, compiler, shaders_under};
+use glisten_front::Source;
 use glisten_front::hir::Stage;
 use glisten_front::link::Program;
-use glisten_front::{Compiler, Options, Source};
 use glisten_reference::domain::{Domain, Envelope, F32, F64, Integer, Number};
 use glisten_reference::exec::{Code, LANES, Machine, Mask};
 
 fn program(shader: &Shader) -> Option<Program> {
     let source = Source { name: shader.name.clone(), text: shader.text.as_str().into(), stage: shader.stage };
-    Compiler::new(Options::default()).with_includes(Beside).compile(&[source]).program
+    compiler().with_includes(NextTo).compile(&[source]).program
 }
 
 /// Fills every input with numbers that are likely to cause trouble, and runs.

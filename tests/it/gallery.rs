@@ -1,10 +1,10 @@
 //! The library's programs and scenes, and `glisten gallery` end to end.
 
 use crate::drawing::{complaint, from_texts, strict};
+use crate::support::{compiler, root};
 use glisten::gallery::{Entry, entries};
 use glisten::library::{programs, scenes};
 use glisten::scene::{DiskFiles, Scene, load};
-use glisten_front::{Compiler, Options};
 use glisten_gpu::Gpu;
 use glisten_scene::picture::Image;
 use std::collections::BTreeSet;
@@ -20,7 +20,7 @@ fn all() -> Vec<Entry> {
 fn scenes_load_from_disk_without_a_finding() {
     for scene in scenes() {
         let path = format!("{}/shader_lib/scenes/{}.toml", env!("CARGO_MANIFEST_DIR"), scene.name);
-        let loaded = load(&path, &DiskFiles, &Compiler::new(Options::default()));
+        let loaded = load(&path, &DiskFiles, &compiler());
         let told: Vec<&str> = loaded.diagnostics.iter().map(|finding| finding.message.as_str()).collect();
         assert!(loaded.scene.is_some() && told.is_empty(), "{path}: {told:?}");
     }
@@ -49,7 +49,7 @@ fn every_program_has_a_scene() {
 
 #[test]
 fn programs_have_no_findings() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("shader_lib/programs");
+    let folder = root().join("shader_lib/programs");
     let mut command = Command::new(env!("CARGO_BIN_EXE_glisten"));
     command.args(["lint", "--deny", "warnings"]).current_dir(folder);
     for program in programs() {

@@ -2,15 +2,15 @@
 //! These tests need a Vulkan software adapter and fail loudly without one.
 
 use crate::drawing::{complaint, from_disk, from_texts, gpu, reference, strict};
+use crate::support::root;
 use glisten::scene::Scene;
 use glisten_gpu::{Gpu, Via};
 use glisten_reference::Precision;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::Command;
 
 fn scene_files() -> Vec<PathBuf> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/scenes");
-    let mut files: Vec<PathBuf> = std::fs::read_dir(folder)
+    let mut files: Vec<PathBuf> = std::fs::read_dir(root().join("fixtures/scenes"))
         .expect("the folder of scenes")
         .map(|entry| entry.expect("an entry").path())
         .filter(|path| path.extension().is_some_and(|extension| extension == "toml"))
@@ -93,7 +93,7 @@ fn strips_and_fans_provoke_by_their_last_vertex_on_both_backends() {
 #[cfg(feature = "cli")]
 #[test]
 fn a_machine_without_a_driver_is_told_what_to_install() {
-    let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/scenes/triangle.toml");
+    let scene = root().join("fixtures/scenes/triangle.toml");
     let output = tempfile::tempdir().expect("a temporary folder");
     let run = Command::new(env!("CARGO_BIN_EXE_glisten"))
         .args(["render", "--backend", "gpu"])

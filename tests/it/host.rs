@@ -4,12 +4,13 @@
 //! Needs a Vulkan software adapter.
 
 use crate::drawing;
+use crate::support::root;
 use glisten::scene::{self, DiskFiles};
 use glisten_emit::Reflection;
 use glisten_emit::reflection::{Attribute, Binding, Sampler, Uniform};
 use glisten_front::{Compiler, Options};
 use glisten_reference::Precision;
-use glisten_scene::compare::{Judge, Verdict};
+use glisten_scene::compare::{Criterion, Verdict};
 use glisten_scene::picture::Picture;
 use std::path::Path;
 use std::process::Command;
@@ -80,7 +81,7 @@ struct Draw {
 
 /// The reference's picture of the application.
 fn reference(app: &App, draw: Draw) -> Picture {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/lower");
+    let folder = root().join("fixtures/lower");
     let mut text = format!(
         "framebuffer = {{ width = {SIDE}, height = {SIDE}, clear = [0, 0, 0, 0] }}\n[[draw]]\nvertex = '{0}/host.vert'\n\
          fragment = '{0}/host.frag'\nprimitive = \"{1}\"\ndepth_test = true\nclip_distances = {2}\n\
@@ -121,7 +122,7 @@ fn reference(app: &App, draw: Draw) -> Picture {
 
 /// Runs `glisten compile`; returns the exit code and, if it is 0, the reflection.
 fn compile(into: &Path, flags: &[&str]) -> (Option<i32>, Option<Reflection>) {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/lower");
+    let folder = root().join("fixtures/lower");
     let run = Command::new(env!("CARGO_BIN_EXE_glisten"))
         .args(["compile", "-q", "-o"])
         .arg(into)
@@ -646,7 +647,7 @@ fn a_host_that_knows_the_reflection_alone_draws_the_picture() {
         let reference = reference(&app, draw);
         let covered = reference.covered.iter().filter(|covered| **covered).count();
         assert!(covered > if draw.points { 60 } else { 900 }, "{covered} pixels are covered");
-        let verdict = Verdict::new(&picture, &reference, Judge::Envelope);
+        let verdict = Verdict::new(&picture, &reference, Criterion::Envelope);
         if !verdict.holds(false) {
             wrong.push(format!("{flags:?} as {extension}: {verdict:#?}"));
         }

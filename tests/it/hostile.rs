@@ -1,10 +1,11 @@
 //! Hostile sources: each ends in an error within a stack of 1 MiB, and long legal ones are accepted.
 
+use crate::support::compiler;
+use glisten_front::Source;
 use glisten_front::diagnostic::Diagnostics;
 use glisten_front::hir::Stage;
 use glisten_front::source::{IncludeForm, IncludeResolver, Included, SourceMap};
 use glisten_front::syntax::{ParseOptions, parse};
-use glisten_front::{Compiler, Source};
 use std::fmt::Write as _;
 
 /// A resolver in which every include finds a file that includes itself.
@@ -23,7 +24,7 @@ const STACK: usize = 1 << 20;
 fn compiled(text: String) -> Vec<&'static str> {
     let run = move || {
         let source = Source { name: "hostile.vert".into(), text: text.into(), stage: Stage::Vertex };
-        let compilation = Compiler::new(glisten::Options::default()).with_includes(Endless).compile(&[source]);
+        let compilation = compiler().with_includes(Endless).compile(&[source]);
         compilation.diagnostics.iter().map(|diagnostic| diagnostic.code.id).collect()
     };
     let thread = std::thread::Builder::new().stack_size(STACK).spawn(run);
@@ -296,7 +297,7 @@ fn interfaces_are_matched_in_little_time() {
         format!("#version 150\n{}out vec4 c; void main() {{ c = vec4(0.0{sum}); }}", declared("in", "other"));
     let source = |name: &str, text: String, stage| Source { name: name.into(), text: text.into(), stage };
     let sources = [source("a.vert", vertex, Stage::Vertex), source("a.frag", fragment, Stage::Fragment)];
-    let compilation = Compiler::new(glisten::Options::default()).compile(&sources);
+    let compilation = compiler().compile(&sources);
     assert!(compilation.diagnostics.iter().all(|diagnostic| diagnostic.code.id == "E0702"));
     assert_eq!(compilation.diagnostics.len(), Diagnostics::LIMIT);
 }

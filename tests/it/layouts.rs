@@ -1,10 +1,10 @@
 //! Layouts checked against the emitted code: for random sets of uniforms, the offsets and strides in the interface
 //! (which the reflection shows) are the natural ones of the emitted WGSL, and those of the SPIR-V's decorations.
 
+use crate::support::fragment_program;
 use glisten_emit::{Conventions, Emitted, Target, emit};
 use glisten_front::hir::Stage;
 use glisten_front::link::{Program, SlotBinding, UniformLeaf};
-use glisten_front::{Compiler, Options, Source};
 use naga::{Handle, Module, Type, TypeInner};
 use proptest::prelude::*;
 
@@ -78,13 +78,6 @@ fn source(loose: &[Member], block: &[Member]) -> String {
     let reads: Vec<String> = std::iter::once("0.0".to_owned()).chain(loose_reads).chain(block_reads).collect();
     let declarations = declarations(loose, block);
     format!("{declarations}out vec4 color;\nvoid main() {{ color = vec4({}); }}\n", reads.join(" + "))
-}
-
-fn program(text: &str) -> Program {
-    let source = Source { name: "layout.frag".to_owned(), text: text.into(), stage: Stage::Fragment };
-    let compilation = Compiler::new(Options::default()).compile(&[source]);
-    let found: Vec<_> = compilation.diagnostics.iter().map(|found| &found.message).collect();
-    compilation.program.unwrap_or_else(|| panic!("{found:?}\n{text}"))
 }
 
 fn emitted(program: &Program, target: Target) -> Emitted {
@@ -192,7 +185,7 @@ proptest! {
         block in proptest::collection::vec(member(), 1..8),
     ) {
         let text = source(&loose, &block);
-        let program = program(&text);
+        let program = fragment_program(&text);
         let Emitted::Text(wgsl) = emitted(&program, Target::Wgsl) else { panic!("WGSL is text") };
         let Emitted::Words(words) = emitted(&program, Target::Spirv) else { panic!("SPIR-V is words") };
         let from_wgsl = naga::front::wgsl::parse_str(&wgsl).expect("the text is WGSL");

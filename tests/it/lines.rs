@@ -69,5 +69,5 @@ fn lines_of_included_files_are_their_own() {
     assert!(of("main.frag").iter().all(|line| *line <= 10), "{lines:?}");
     let mut collected = crate::emit::Collected::new();
     collected.add("lines of two files", glisten_emit::Emitted::Words(words));
-    collected.judge();
+    collected.validate();
 }

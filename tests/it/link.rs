@@ -1,6 +1,6 @@
 //! Linking and reflection: locations, layouts, names, the JSON schema.
 
-use crate::support::{root, shaders_under};
+use crate::support::{compiler, root, shaders_under};
 use glisten_emit::reflection::{Found, find, table};
 use glisten_emit::{Conventions, Reflection, WindowOrigin, reflect};
 use glisten_front::hir::Stage;
@@ -88,7 +88,7 @@ fn reflections_conform_to_the_schema_and_read_back() {
     let schema: Value = serde_json::from_str(&schema).expect("the schema is JSON");
     let mut checked = 0;
     for (stem, sources) in programs() {
-        let Some(program) = Compiler::new(Options::default()).compile(&sources).program else { continue };
+        let Some(program) = compiler().compile(&sources).program else { continue };
         for window_origin in [WindowOrigin::UpperLeft, WindowOrigin::LowerLeft] {
             let reflection = reflect(&program, &Conventions { window_origin, ..Conventions::default() });
             let json = serde_json::to_value(&reflection).expect("a reflection is JSON");
@@ -267,24 +267,20 @@ fn a_stage_may_consist_of_several_shaders() {
             "struct S { float k; }; uniform S s; const float two = 2.0; float shade(S t) { return t.k * s.k * two; }",
         ),
     ];
-    let compilation = Compiler::new(Options::default()).compile(&sources);
+    let compilation = compiler().compile(&sources);
     let messages: Vec<_> = compilation.diagnostics.iter().map(|found| found.message.clone()).collect();
     let program = compilation.program.unwrap_or_else(|| panic!("{messages:?}"));
     let text = glisten_front::hir::print(&program.types, &program.stages[1]);
     assert_eq!(text.matches("struct S").count(), 1, "{text}");
     assert_eq!(text.matches("uniform S s;").count(), 1, "{text}");
-    let again = Compiler::new(Options::default()).compile(&[Source {
-        name: "again.frag".into(),
-        text: text.clone().into(),
-        stage: Stage::Fragment,
-    }]);
+    let again =
+        compiler().compile(&[Source { name: "again.frag".into(), text: text.clone().into(), stage: Stage::Fragment }]);
     assert!(!again.diagnostics.has_errors(), "{text}");
 }
 
 #[test]
 fn a_lone_shader_that_others_must_complete_is_no_error_and_no_program() {
-    let compilation =
-        Compiler::new(Options::default()).compile(&[source(Stage::Fragment, "float f() { return 1.0; }")]);
+    let compilation = compiler().compile(&[source(Stage::Fragment, "float f() { return 1.0; }")]);
     assert!(!compilation.diagnostics.has_errors());
     assert_eq!(compilation.diagnostics.len(), 1);
     assert!(compilation.program.is_none());

@@ -2,10 +2,10 @@
 //! for errors in them.
 
 use crate::scenes::{the_error, told};
+use crate::support::compiler;
 use glisten::scene::{Draw, Loaded, MemoryFiles, Texels, Wrap, load};
 use glisten_front::diagnostic::Severity;
 use glisten_front::hir::ScalarValue;
-use glisten_front::{Compiler, Options};
 
 const GOOD: &str = r#"
 global_ambient = [0.1, 0.2, 0.3]
@@ -45,7 +45,7 @@ const OWN_FRAGMENT: &str = "#version 150\n#extension GL_ARB_shading_language_inc
 
 fn load_text(text: &str) -> Loaded {
     let files = MemoryFiles::new([("a.toml", text), ("own.vert", OWN_VERTEX), ("own.frag", OWN_FRAGMENT)]);
-    load("a.toml", &files, &Compiler::new(Options::default()).with_includes(glisten::library::Embedded))
+    load("a.toml", &files, &compiler().with_includes(glisten::library::Embedded))
 }
 
 /// The scene with `from` replaced.

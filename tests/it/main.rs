@@ -4,6 +4,7 @@ mod architecture;
 #[cfg(feature = "cli")]
 mod cli;
 mod codes;
+mod cycles;
 mod diagnostics;
 #[cfg(feature = "reference")]
 mod drawing;
@@ -35,6 +36,8 @@ mod mutations;
 #[cfg(feature = "gl")]
 mod opengl;
 mod operations;
+#[cfg(feature = "reference")]
+mod optimize;
 mod print;
 #[cfg(feature = "gpu")]
 mod random;

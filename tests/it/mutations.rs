@@ -2,8 +2,8 @@
 
 use crate::mutation::{Choice, Kind, Outcome, Study};
 use crate::scenes;
+use crate::support::compiler;
 use glisten::scene::{DiskFiles, load};
-use glisten_front::{Compiler, Options};
 
 /// Scenes that use every feature of the pipeline once, and the textbook's lighting models.
 const SCENES: [&str; 8] = [
@@ -22,7 +22,7 @@ fn planted_faults_are_caught() {
     let files = scenes::paths();
     let chosen = SCENES.map(|name| {
         let path = files.iter().find(|path| path.ends_with(&format!("/{name}.toml"))).expect("it is there");
-        let loaded = load(path, &DiskFiles, &Compiler::new(Options::default()));
+        let loaded = load(path, &DiskFiles, &compiler());
         (name.to_owned(), loaded.scene.expect("another test loads it"))
     });
     let study = Study::of(&crate::drawing::gpu(), &chosen, Choice { each: Some(3), seed: 7 }, &mut |_, _| {});

@@ -4,14 +4,15 @@
 //! Tests in the respective crates check that each row folds to what is executed, and that each has a rule of
 //! precision that the envelope evaluates.
 
+#[cfg(feature = "reference")]
+use crate::architecture::{rust_files, text_of};
 use crate::emit::Collected;
+use crate::support::fragment_program;
 use glisten_emit::{Conventions, Target, emit};
 use glisten_front::builtin::BuiltinFunction;
 use glisten_front::builtin::functions::{Row, Signature};
 use glisten_front::builtin::operations::{Class, TextureArgument};
 use glisten_front::hir::{ParamMode, Stage, Type, TypeId, Types};
-use glisten_front::link::Program;
-use glisten_front::{Compiler, Options, Source};
 use std::fmt::Write;
 
 /// Functions that a target does not support in any program. The documentation names them.
@@ -65,13 +66,6 @@ fn text(row: &Row, signature: &Signature) -> String {
     )
 }
 
-fn compiled(text: &str) -> Program {
-    let source = Source { name: "row.frag".into(), text: text.into(), stage: Stage::Fragment };
-    let compilation = Compiler::new(Options::default()).compile(&[source]);
-    let messages: Vec<String> = compilation.diagnostics.iter().map(|found| found.message.clone()).collect();
-    compilation.program.unwrap_or_else(|| panic!("{messages:?} in\n{text}"))
-}
-
 /// Each overload of each row, in fragment stages.
 fn overloads() -> impl Iterator<Item = (&'static Row, Signature)> {
     let operations = BuiltinFunction::ALL.iter().map(|function| function.operation());
@@ -88,7 +82,7 @@ fn every_row_is_typed_and_lowered() {
     let (mut count, mut failures) = (0, Vec::new());
     for (row, signature) in overloads() {
         let text = text(row, &signature);
-        let program = compiled(&text);
+        let program = fragment_program(&text);
         let told = signature.describe(row.name, Types::basic());
         for target in [Target::Wgsl, Target::Spirv] {
             match emit(&program, Stage::Fragment, target, &Conventions::default()) {
@@ -105,7 +99,20 @@ fn every_row_is_typed_and_lowered() {
     }
     assert!(count > 450, "only {count} overloads");
     assert!(failures.is_empty(), "{}", failures.join("\n"));
-    collected.judge();
+    collected.validate();
+}
+
+/// A rule of the pipeline is data: the reference reads its number where it applies it.
+#[test]
+#[cfg(feature = "reference")]
+fn every_rule_of_the_pipeline_is_evaluated() {
+    use glisten_reference::domain::rules;
+    let sources: Vec<String> = rust_files("crates/reference/src").iter().map(|path| text_of(path)).collect();
+    for step in rules::PIPELINE.iter().chain(rules::OWN) {
+        let reads = ["ulps", "absolute", "limit", "steps", "between"].map(|number| format!("{}.{number}()", step.name));
+        let is_read = sources.iter().any(|text| reads.iter().any(|read| text.contains(read)));
+        assert!(is_read, "no code reads the rule {}: {}", step.name, step.describe());
+    }
 }
 
 /// Compiling for the reference expands every call. The executor's own tests check the results.
@@ -115,7 +122,7 @@ fn every_row_is_executed() {
     for (row, signature) in overloads() {
         let text = text(row, &signature);
         let multisampled = signature.params().first().is_some_and(|param| Types::basic().name(param.0).contains("MS"));
-        let code = glisten_reference::exec::Code::compile(&compiled(&text), Stage::Fragment);
+        let code = glisten_reference::exec::Code::compile(&fragment_program(&text), Stage::Fragment);
         assert_eq!(code.is_ok(), !multisampled, "{}", signature.describe(row.name, Types::basic()));
     }
 }

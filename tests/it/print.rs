@@ -1,34 +1,8 @@
 //! The printer of the typed program: its text is valid GLSL, has the same meaning, and prints the same again.
 
-use glisten_front::hir::{Stage, print};
-use glisten_front::{Compilation, Compiler, Options, Source};
-use std::path::{Path, PathBuf};
-
-fn stage_of(path: &Path) -> Option<Stage> {
-    match path.extension()?.to_str()? {
-        "vert" => Some(Stage::Vertex),
-        "geom" => Some(Stage::Geometry),
-        "frag" => Some(Stage::Fragment),
-        _ => None,
-    }
-}
-
-fn shaders(folder: &Path, found: &mut Vec<PathBuf>) {
-    let entries = std::fs::read_dir(folder).expect("the fixtures are there");
-    for path in entries.flatten().map(|entry| entry.path()) {
-        if path.is_dir() {
-            shaders(&path, found);
-        } else if stage_of(&path).is_some() {
-            found.push(path);
-        }
-    }
-    found.sort();
-}
-
-fn compile(name: &str, text: String, stage: Stage) -> Compilation {
-    let source = Source { name: name.into(), text: text.into(), stage };
-    Compiler::new(Options::default()).compile(&[source])
-}
+use crate::support::{Shader, compile_text, shaders_under};
+use glisten_front::Compilation;
+use glisten_front::hir::print;
 
 fn printed(compilation: &Compilation) -> Option<String> {
     let program = compilation.program.as_ref()?;
@@ -37,20 +11,14 @@ fn printed(compilation: &Compilation) -> Option<String> {
 
 #[test]
 fn printing_and_reading_again_is_stable() {
-    let mut files = Vec::new();
-    for folder in ["fixtures/valid", "fixtures/programs"] {
-        shaders(&Path::new(env!("CARGO_MANIFEST_DIR")).join(folder), &mut files);
-    }
+    let shaders = ["fixtures/valid", "fixtures/programs"].map(shaders_under);
     let mut n_printed = 0;
     let mut failures = Vec::new();
-    for file in files {
-        let name = file.display().to_string();
-        let stage = stage_of(&file).expect("only shaders were collected");
-        let text = String::from_utf8_lossy(&std::fs::read(&file).expect("readable")).into_owned();
+    for Shader { name, text, stage } in shaders.into_iter().flatten() {
         // Other tests handle fixtures with includes or errors.
-        let Some(first) = printed(&compile(&name, text, stage)) else { continue };
+        let Some(first) = printed(&compile_text(&name, &text, stage)) else { continue };
         n_printed += 1;
-        let again = compile(&name, first.clone(), stage);
+        let again = compile_text(&name, &first, stage);
         match printed(&again) {
             None => {
                 let messages: Vec<_> = again.diagnostics.iter().map(|found| found.message.clone()).collect();

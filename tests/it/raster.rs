@@ -3,13 +3,14 @@
 //! Every fragment adds 1 and its primitive's number to the picture, so that a fragment that only one side draws is
 //! visible, wherever it is and whatever else is drawn there. The tests need a Vulkan software adapter.
 
+use crate::drawing::from_disk;
 use crate::scenes;
+use crate::support::compiler;
 use glisten::scene::{DiskFiles, MemoryFiles, Scene, load};
-use glisten_front::{Compiler, Options};
 use glisten_gpu::{Gpu, Via};
 use glisten_reference::domain::faults::{Faults, KNOWN};
 use glisten_reference::{LineRule, Precision, RenderOptions};
-use glisten_scene::compare::{Judge, Verdict};
+use glisten_scene::compare::{Criterion, Verdict};
 use glisten_scene::picture::Picture;
 
 const VERTEX: &str = "#version 150\nin vec4 p;\nin float id;\nin float size;\nflat out float v;\n\
@@ -54,7 +55,7 @@ pub(crate) fn scene(primitive: &str, vertices: &[Vertex], each: usize, sizes: Op
         sizes.join(",")
     );
     let files = MemoryFiles::new([("a.toml", text.as_str()), ("a.vert", VERTEX), ("a.frag", FRAGMENT)]);
-    let loaded = load("a.toml", &files, &Compiler::new(Options::default()));
+    let loaded = load("a.toml", &files, &compiler());
     let messages: Vec<&String> = loaded.diagnostics.iter().map(|diagnostic| &diagnostic.message).collect();
     loaded.scene.unwrap_or_else(|| panic!("{messages:?}"))
 }
@@ -291,7 +292,7 @@ fn every_scene_of_the_repository_agrees_with_lavapipe() {
     let mut failures = Vec::new();
     let mut excused = Vec::new();
     for path in scenes::paths() {
-        let loaded = load(&path, &DiskFiles, &Compiler::new(Options::default()));
+        let loaded = load(&path, &DiskFiles, &compiler());
         let mut scene = loaded.scene.expect("another test loads it");
         // Large scenes are scaled down: the rules are the same.
         scene.framebuffer.width = scene.framebuffer.width.min(64);
@@ -308,9 +309,10 @@ fn every_scene_of_the_repository_agrees_with_lavapipe() {
         for via in if sized { &[Via::Spirv][..] } else { &[Via::Spirv, Via::Wgsl] } {
             match gpu.render(&scene, *via) {
                 Ok(rendered) => {
-                    let mut verdict = Verdict::new(&rendered.picture, &reference, Judge::Envelope);
+                    let mut verdict = Verdict::new(&rendered.picture, &reference, Criterion::Envelope);
                     if verdict.needs_excuse() {
-                        verdict = Verdict::admitting(&rendered.picture, &reference, Judge::Envelope, &faulty(&scene));
+                        verdict =
+                            Verdict::excusing(&rendered.picture, &reference, Criterion::Envelope, &faulty(&scene));
                         excused.extend(verdict.known_faults.iter().map(|count| (path.clone(), count.fault)));
                     }
                     if !verdict.holds(false) {
@@ -351,7 +353,7 @@ fn an_endless_loop_is_told_where_it_stands() {
     for (in_vertex, in_fragment, file, line) in [("for (;;) {}", "", "a.vert", 3), ("", "for (;;) {}", "a.frag", 5)] {
         let (vertex, fragment) = (vertex.replace('@', in_vertex), fragment.replace('@', in_fragment));
         let files = MemoryFiles::new([("a.toml", text), ("a.vert", &vertex), ("a.frag", &fragment)]);
-        let loaded = load("a.toml", &files, &Compiler::new(Options::default()));
+        let loaded = load("a.toml", &files, &compiler());
         let options = RenderOptions { mark_edges: false, ..RenderOptions::default() };
         // If each instance or each pixel had a budget of its own, this would take more than a day.
         let errors = glisten_reference::render(&loaded.scene.expect("it loads"), &options).expect_err("it has no end");
@@ -363,8 +365,7 @@ fn an_endless_loop_is_told_where_it_stands() {
 
 #[test]
 fn noperspective_is_linear_in_the_window_behind_the_eye_too() {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/scenes/core/behind_the_eye_noperspective.toml");
-    let scene = load(path, &DiskFiles, &Compiler::new(Options::default())).scene.expect("another test loads it");
+    let scene = from_disk("fixtures/scenes/core/behind_the_eye_noperspective.toml");
     let options = RenderOptions {
         precision: Precision::F64,
         lines: LineRule::OpenGl,

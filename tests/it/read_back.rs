@@ -4,10 +4,10 @@
 //! The test needs a Vulkan software adapter.
 
 use crate::layouts::{declarations, member};
+use crate::support::{compiler, fragment_program};
 use glisten::scene::{self, MemoryFiles, Scene};
 use glisten_front::hir::{Type, Types};
 use glisten_front::link::UniformLeaf;
-use glisten_front::{Compiler, Options, Source};
 use glisten_gpu::Via;
 use proptest::strategy::{Strategy, ValueTree};
 
@@ -66,11 +66,7 @@ fn reader(declarations: &str, scalars: &[Scalar]) -> String {
 
 /// The scene, and every scalar in the order of the pixels.
 fn scene(declarations: &str) -> (Scene, Vec<Scalar>) {
-    let compile = |text: String| {
-        let source = Source { name: "r.frag".into(), text: text.into(), stage: glisten_front::hir::Stage::Fragment };
-        Compiler::new(Options::default()).compile(&[source]).program.expect("the declarations are valid")
-    };
-    let program = compile(reader(declarations, &[]));
+    let program = fragment_program(&reader(declarations, &[]));
     let mut all = Vec::new();
     let mut uniforms = String::new();
     for leaf in &program.interface.uniforms {
@@ -91,7 +87,7 @@ fn scene(declarations: &str) -> (Scene, Vec<Scalar>) {
     );
     let fragment = reader(declarations, &all);
     let files = MemoryFiles::new([("r.toml", text.as_str()), ("r.vert", VERTEX), ("r.frag", fragment.as_str())]);
-    let loaded = scene::load("r.toml", &files, &Compiler::new(Options::default()));
+    let loaded = scene::load("r.toml", &files, &compiler());
     let messages: Vec<_> = loaded.diagnostics.iter().map(|found| &found.message).collect();
     (loaded.scene.unwrap_or_else(|| panic!("{messages:?}\n{text}{fragment}")), all)
 }

@@ -1,16 +1,12 @@
 //! The README and the pages in `docs` are correct: commands, flags, links, and the outputs shown.
 
+use crate::support::root;
 use std::collections::BTreeSet;
 use std::fs;
-use std::path::Path;
 use std::process::Command;
 
 /// Subcommands whose output is the same on every machine; for the others, only the arguments are checked.
 static SAME_EVERYWHERE: &[&str] = &["lint", "explain", "compile", "reflect", "lib"];
-
-fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-}
 
 fn pages() -> Vec<(String, String)> {
     let mut names = vec!["README.md".to_owned()];

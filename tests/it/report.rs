@@ -1,5 +1,6 @@
 //! `glisten report`, end to end: the table, the JSON and the page.
 
+use crate::support::root;
 use serde_json::Value;
 use std::path::Path;
 use std::process::{Command, Output};
@@ -8,7 +9,7 @@ const ROUNDS: &str = "\n[report]\nrounds = 3\ntessellations = [[8, 4], [16, 8]]\
 
 /// The sphere scene, small and quick, in a folder of its own.
 fn small_scene(folder: &Path) -> std::path::PathBuf {
-    let fixtures = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures");
+    let fixtures = root().join("fixtures");
     let text = std::fs::read_to_string(fixtures.join("scenes/sphere.toml")).expect("the sphere scene");
     let (scene, report) = text.split_once("[report]").expect("it has a report table");
     let ways = &report[report.find("[[report.way]]").expect("it has ways")..];

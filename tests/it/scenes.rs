@@ -1,9 +1,9 @@
 //! Scene files: what they mean, and the diagnostics for their errors.
 
+use crate::support::{compiler, root};
 use glisten::scene::{AttributeValues, DiskFiles, Format, Loaded, MemoryFiles, Texels, load};
 use glisten_front::diagnostic::{Diagnostic, Severity};
 use glisten_front::hir::ScalarValue;
-use glisten_front::{Compiler, Options};
 
 const VERTEX: &str = "#version 150\n\
     struct Light { vec4 position; float power; };\n\
@@ -49,7 +49,7 @@ ids = { width = 1, height = 1, values = [1, 2, -3, 4] }
 
 fn load_text(text: &str) -> Loaded {
     let files = MemoryFiles::new([("s/a.toml", text), ("s/a.vert", VERTEX), ("s/a.frag", FRAGMENT)]);
-    load("s/a.toml", &files, &Compiler::new(Options::default()))
+    load("s/a.toml", &files, &compiler())
 }
 
 /// The scene with `from` replaced.
@@ -229,7 +229,7 @@ fn files_that_are_no_scenes() {
     }
     let mut files = MemoryFiles::default();
     files.0.insert("a.toml".into(), vec![0xff, 0xfe, 0x00]);
-    let loaded = load("a.toml", &files, &Compiler::new(Options::default()));
+    let loaded = load("a.toml", &files, &compiler());
     assert!(told(&loaded)[0].contains("not UTF-8"), "{:?}", told(&loaded));
 }
 
@@ -238,7 +238,7 @@ fn missing_files_and_folders_are_io_errors() {
     let (code, place, _) = mistake("\"a.frag\"", "\"b.frag\"");
     assert_eq!((code, place.as_str()), ("E0901", "\"b.frag\""));
     assert!(changed("\"a.frag\"", "\"b.frag\"").io_error);
-    let compiler = Compiler::new(Options::default());
+    let compiler = compiler();
     for (path, message) in [("no such scene.toml", "no such file"), (env!("CARGO_MANIFEST_DIR"), "a folder")] {
         let loaded = load(path, &DiskFiles, &compiler);
         assert!(loaded.io_error && loaded.scene.is_none());
@@ -253,7 +253,7 @@ fn mistakes_of_shaders_are_told_with_those_of_the_scene() {
         ("a.vert", "#version 150\nvoid main() { x = 1; }\n"),
         ("a.frag", FRAGMENT),
     ]);
-    let loaded = load("a.toml", &files, &Compiler::new(Options::default()));
+    let loaded = load("a.toml", &files, &compiler());
     assert!(loaded.scene.is_none() && !loaded.io_error);
     let first = loaded.diagnostics.iter().next().expect("an error");
     let place = loaded.sources.location(first.primary.span).expect("it is in a file");
@@ -285,16 +285,16 @@ fn all_scenes_of_the_repository_load() {
     let paths = paths();
     assert!(paths.len() >= 50, "only {} scenes", paths.len());
     for path in paths {
-        let loaded = load(&path, &DiskFiles, &Compiler::new(Options::default()));
+        let loaded = load(&path, &DiskFiles, &compiler());
         assert!(loaded.scene.is_some() && loaded.diagnostics.is_empty(), "{path}: {:?}", told(&loaded));
     }
 }
 
 /// The scenes in `fixtures/scenes`, sorted.
 pub(crate) fn paths() -> Vec<String> {
-    let root = concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/scenes");
+    let scenes = root().join("fixtures/scenes");
     let mut paths = Vec::new();
-    for folder in [root.to_owned(), format!("{root}/core")] {
+    for folder in [scenes.join("core"), scenes] {
         for entry in std::fs::read_dir(folder).expect("the folder is there") {
             let path = entry.expect("an entry").path();
             if path.extension().is_some_and(|extension| extension == "toml") {

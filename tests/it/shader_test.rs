@@ -1,11 +1,12 @@
 //! `glisten test`, end to end, on both backends.
 
+use crate::support::root;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
 fn fixtures() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/shader_tests")
+    root().join("fixtures/shader_tests")
 }
 
 /// The results and the exit code.

@@ -2,10 +2,11 @@
 //!
 //! `cargo insta review` shows what changed.
 
+use crate::support::compiler;
 use glisten_emit::{Conventions, Emitted, Target, emit, reflect};
 use glisten_front::diagnostic::write::human;
 use glisten_front::hir::Stage;
-use glisten_front::{Compilation, Compiler, Options, Source};
+use glisten_front::{Compilation, Source};
 use std::fmt::Write;
 use std::fs;
 use std::path::Path;
@@ -18,7 +19,7 @@ fn compile(vertex: &Path) -> Compilation {
         Source { name, text: fs::read_to_string(path).expect("readable").into(), stage }
     };
     let sources = [source(vertex, Stage::Vertex), source(&vertex.with_extension("frag"), Stage::Fragment)];
-    Compiler::new(Options::default()).compile(&sources)
+    compiler().compile(&sources)
 }
 
 fn wgsl(compilation: &Compilation) -> String {

@@ -1,9 +1,10 @@
-//! Shared by several test areas: compiling texts and files, and resolving includes next to them.
+//! Shared by all test areas: the folder of the package, its files, and compiling files and texts.
 
 use glisten_front::diagnostic::Diagnostics;
 use glisten_front::hir::Stage;
+use glisten_front::link::Program;
 use glisten_front::source::{IncludeForm, IncludeResolver, Included, SourceMap};
-use glisten_front::{Compiler, Options, Source};
+use glisten_front::{Compilation, Compiler, Options, Source};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -24,12 +25,12 @@ pub(crate) struct Settings {
 
 /// Finds includes next to the including file.
 #[derive(Clone, Copy)]
-pub(crate) struct Beside;
+pub(crate) struct NextTo;
 
-impl IncludeResolver for Beside {
+impl IncludeResolver for NextTo {
     fn resolve(&self, path: &str, _: IncludeForm, from: &str) -> Result<Included, String> {
         let file = Path::new(from).parent().unwrap_or(Path::new("")).join(path);
-        let text = fs::read_to_string(root().join(&file)).map_err(|_| "no such file beside this one".to_owned())?;
+        let text = fs::read_to_string(root().join(&file)).map_err(|_| "no such file next to this one".to_owned())?;
         Ok(Included { name: file.to_string_lossy().into_owned(), text: text.into() })
     }
 }
@@ -49,24 +50,69 @@ pub(crate) fn stage_of(path: &Path) -> Option<Stage> {
     }
 }
 
-/// All shaders in a folder of the package, in order, with names relative to the package.
-pub(crate) fn shaders_under(folder: &str) -> Vec<Shader> {
-    let mut pending = vec![root().join(folder)];
-    let mut paths: Vec<PathBuf> = Vec::new();
+/// All files in a folder and the folders in it, in order.
+pub(crate) fn files_under(folder: &Path) -> Vec<PathBuf> {
+    let mut pending = vec![folder.to_owned()];
+    let mut files: Vec<PathBuf> = Vec::new();
     while let Some(folder) = pending.pop() {
         for entry in fs::read_dir(&folder).into_iter().flatten() {
             let path = entry.expect("a folder entry").path();
-            if path.is_dir() { pending.push(path) } else { paths.push(path) }
+            if path.is_dir() { pending.push(path) } else { files.push(path) }
         }
     }
-    paths.sort();
+    files.sort();
+    files
+}
+
+/// All files with an extension in a folder and the folders in it, in order.
+pub(crate) fn files_with(folder: &Path, extension: &str) -> Vec<PathBuf> {
+    let mut files = files_under(folder);
+    files.retain(|path| path.extension().is_some_and(|found| found == extension));
+    files
+}
+
+/// The text of a fixture, by its path in `fixtures`.
+pub(crate) fn fixture(path: &str) -> String {
+    fs::read_to_string(root().join("fixtures").join(path)).expect("a fixture")
+}
+
+/// All shaders in a folder of the package, in order, with names relative to the package.
+pub(crate) fn shaders_under(folder: &str) -> Vec<Shader> {
     let shader = |path: &PathBuf| {
         let stage = stage_of(path)?;
         let bytes = fs::read(path).expect("a readable fixture");
         let name = path.strip_prefix(root()).expect("inside the package").to_string_lossy().into_owned();
         Some(Shader { name, text: String::from_utf8_lossy(&bytes).into_owned(), stage })
     };
-    paths.iter().filter_map(shader).collect()
+    files_under(&root().join(folder)).iter().filter_map(shader).collect()
+}
+
+/// A compiler without options.
+pub(crate) fn compiler() -> Compiler {
+    Compiler::new(Options::default())
+}
+
+/// Compiles the shaders of one program, without options.
+pub(crate) fn compile_files(files: &[PathBuf]) -> Compilation {
+    let source = |path: &PathBuf| Source {
+        name: path.display().to_string(),
+        text: String::from_utf8_lossy(&fs::read(path).expect("a readable fixture")).into(),
+        stage: stage_of(path).expect("a shader"),
+    };
+    compiler().compile(&files.iter().map(source).collect::<Vec<Source>>())
+}
+
+/// Compiles one shader, without options.
+pub(crate) fn compile_text(name: &str, text: &str, stage: Stage) -> Compilation {
+    compiler().compile(&[Source { name: name.into(), text: text.into(), stage }])
+}
+
+/// The program of one fragment shader without errors.
+#[track_caller]
+pub(crate) fn fragment_program(text: &str) -> Program {
+    let compilation = compile_text("test.frag", text, Stage::Fragment);
+    let messages: Vec<String> = compilation.diagnostics.iter().map(|found| found.message.clone()).collect();
+    compilation.program.unwrap_or_else(|| panic!("{messages:?} in\n{text}"))
 }
 
 /// All diagnostics of the shaders of one program.
@@ -80,6 +126,6 @@ pub(crate) fn compile(shaders: &[Shader], settings: &Settings) -> (SourceMap, Di
     let source =
         |shader: &Shader| Source { name: shader.name.clone(), text: shader.text.as_str().into(), stage: shader.stage };
     let sources: Vec<Source> = shaders.iter().map(source).collect();
-    let compilation = Compiler::new(options).with_includes(Beside).compile(&sources);
+    let compilation = Compiler::new(options).with_includes(NextTo).compile(&sources);
     (compilation.sources, compilation.diagnostics)
 }

@@ -199,7 +199,7 @@ impl Gpu {
             height: framebuffer.height,
             attachments: planes.iter().map(|bytes| decode(framebuffer.format, bytes)).collect(),
             covered,
-            ranges: None,
+            intervals: None,
             undecided: vec![false; pixels],
             near_edge: vec![false; pixels],
         })

@@ -26,6 +26,7 @@ mod frame;
 mod prepare;
 mod shadow_upload;
 mod states;
+mod texture_extent;
 mod textures;
 mod timing;
 mod uniforms;

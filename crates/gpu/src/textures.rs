@@ -1,13 +1,13 @@
 //! Textures and samplers on the device, in the form that the lowering expects.
 //!
 //! *In:* a scene's [`Texture`] and the sampler slot that reads it. *Out:* a view and a sampler. One-dimensional
-//! textures become two-dimensional ones of height 1, rectangles ordinary ones, buffers [`BUFFER_WIDTH`] texels wide;
-//! shadow samplers get a depth texture. A slot without a texture (an inactive one) gets a single black texel, so that
-//! every binding of the layout is filled.
+//! textures become two-dimensional ones of height 1, rectangles ordinary ones, buffers
+//! [`BUFFER_WIDTH`](glisten_emit::BUFFER_WIDTH) texels wide; shadow samplers get a depth texture. A slot without a
+//! texture (an inactive one) gets a single black texel, so that every binding of the layout is filled.
 
 use super::states::{address_mode, compare, filter_mode};
+use super::texture_extent::extent;
 use super::{Error, Gpu, shadow_upload};
-use glisten_emit::BUFFER_WIDTH;
 use glisten_front::hir::{SamplerDim, SamplerType, Scalar};
 use glisten_scene::{Compare, Filter, Texels, Texture, TextureLevel, Wrap};
 
@@ -149,16 +149,6 @@ fn color_view(gpu: &Gpu, kind: SamplerType, texture: &Texture) -> wgpu::TextureV
 pub(super) fn texels(texture: Option<&Texture>) -> u32 {
     let level = texture.and_then(|texture| texture.levels.first());
     level.map_or(0, |level| level.width.saturating_mul(level.height).saturating_mul(level.depth.max(1)))
-}
-
-/// The size of a level on the device.
-pub(super) fn extent(kind: SamplerType, level: Option<&TextureLevel>) -> wgpu::Extent3d {
-    let (width, height, depth) = level.map_or((1, 1, 1), |level| (level.width, level.height, level.depth));
-    if kind.dim == SamplerDim::Buffer {
-        let texels = width.saturating_mul(height).max(1);
-        return wgpu::Extent3d { width: BUFFER_WIDTH, height: texels.div_ceil(BUFFER_WIDTH), depth_or_array_layers: 1 };
-    }
-    wgpu::Extent3d { width: width.max(1), height: height.max(1), depth_or_array_layers: depth.max(1) }
 }
 
 fn texel_format(texel: Scalar) -> wgpu::TextureFormat {

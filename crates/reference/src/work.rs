@@ -1,9 +1,10 @@
 //! [`work`]: how many operations a picture takes.
 //!
-//! *In:* a scene. *Out:* for each draw the operations that its stages execute, counted while the reference draws in f32.
-//! *Holds:* the same on every machine and with any number of threads. An operation is one scalar result in one
-//! invocation that counts: of arithmetic on floats, of a built-in function, of a comparison, of a lookup. Copies, masks and
-//! arithmetic on integers are none, neither are helper invocations.
+//! *In:* a scene. *Out:* for each draw, the operations that its stages execute, counted while the reference draws in f32.
+//!
+//! *Holds:* the counts are the same on every machine and with any number of threads. An operation is one scalar result
+//! in one invocation: of arithmetic on floats, of a built-in function, of a comparison, or of a lookup. Copies, masks,
+//! arithmetic on integers and helper invocations do not count.
 
 use crate::domain::F32;
 use crate::exec::{Event, Kind, Observer, Order, What};
@@ -13,7 +14,7 @@ use glisten_front::hir::Stage;
 use glisten_scene::Scene;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// What a draw executes.
+/// The operations that a draw executes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Work {
     /// Operations of the vertex stage.

@@ -70,7 +70,7 @@ impl FileSource for MemoryFiles {
 }
 
 /// The path of a file that the file at `from` refers to: relative to its folder, unless it is absolute.
-pub(crate) fn beside(from: &str, path: &str) -> String {
+pub(crate) fn relative_to(from: &str, path: &str) -> String {
     match std::path::Path::new(from).parent() {
         Some(folder) => folder.join(path).to_string_lossy().into_owned(),
         None => path.to_owned(),
@@ -83,9 +83,9 @@ mod tests {
 
     #[test]
     fn names_are_relative_to_the_naming_file() {
-        assert_eq!(beside("scenes/a.toml", "a.vert"), "scenes/a.vert");
-        assert_eq!(beside("a.toml", "a.vert"), "a.vert");
-        assert_eq!(beside("scenes/a.toml", "/b/a.vert"), "/b/a.vert");
+        assert_eq!(relative_to("scenes/a.toml", "a.vert"), "scenes/a.vert");
+        assert_eq!(relative_to("a.toml", "a.vert"), "a.vert");
+        assert_eq!(relative_to("scenes/a.toml", "/b/a.vert"), "/b/a.vert");
     }
 
     #[test]

@@ -42,6 +42,7 @@ mod forward;
 mod inputs;
 mod known;
 mod motion;
+mod optimize;
 mod prune;
 mod residual;
 mod settle;
@@ -49,6 +50,7 @@ mod text;
 
 pub use account::{Kind, LeftOut};
 pub use known::{Input, Known, KnownState, KnownTexture};
+pub use optimize::{left_out, optimize};
 pub use residual::{Moved, Options, Residual, ResidualStage, specialize, specialize_with};
 
 pub use glisten_front::Program;

@@ -1,5 +1,6 @@
 //! `glisten lib`, end to end.
 
+use crate::support::root;
 use serde_json::Value;
 use std::fs;
 use std::process::{Command, Output, Stdio};
@@ -123,7 +124,7 @@ fn measure_prints_a_row_a_function() {
 
 #[test]
 fn the_docs_have_a_row_for_every_function() {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/library.md");
+    let path = root().join("docs/library.md");
     let page = fs::read_to_string(path).expect("the page is there");
     let missing: Vec<&str> = glisten::measure::forms()
         .map(|form| form.signature)

@@ -1,13 +1,9 @@
 //! [`Evaluator`]: the types that a function may take and return, and the errors for others.
 
 use super::call;
+use crate::support::compiler;
 use glisten::evaluate::{Evaluator, signatures};
-use glisten_front::{Compiler, Options};
 use glisten_reference::Precision;
-
-fn compiler() -> Compiler {
-    Compiler::new(Options::default())
-}
 
 fn evaluator(text: &str, signature: &str) -> Evaluator {
     Evaluator::new(&compiler(), text, signature, &[]).unwrap_or_else(|error| panic!("{error}"))

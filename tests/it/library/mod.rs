@@ -11,14 +11,14 @@ mod sum;
 mod targets;
 mod values;
 
+use crate::support::compiler;
 use glisten::evaluate::Evaluator;
 use glisten::library::Embedded;
-use glisten_front::{Compiler, Options};
 use glisten_reference::Precision;
 
 /// A function of a module, ready to be called.
 fn function(module: &str, signature: &str, wraps: &[(usize, &str)]) -> Evaluator {
-    let compiler = Compiler::new(Options::default()).with_includes(Embedded);
+    let compiler = compiler().with_includes(Embedded);
     let text = format!("#include <glisten/{module}.glsl>");
     Evaluator::new(&compiler, &text, signature, wraps).unwrap_or_else(|error| panic!("{signature}: {error}"))
 }

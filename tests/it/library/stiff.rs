@@ -2,6 +2,7 @@
 //! and f32 and on the GPU.
 
 use super::function;
+use crate::support::root;
 use glisten::evaluate::Evaluator;
 use glisten_gpu::{Gpu, Via};
 use glisten_reference::Precision;
@@ -81,7 +82,7 @@ impl Case {
 }
 
 fn cases() -> Vec<Case> {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/library/stiff.toml");
+    let path = root().join("fixtures/library/stiff.toml");
     let table: Table = fs::read_to_string(path).expect("the file is there").parse().expect("it is TOML");
     let list = table["case"].as_array().expect("a list of cases");
     list.iter().map(|case| Case::new(case.as_table().expect("a table"))).collect()

@@ -1,8 +1,8 @@
 //! Compares the sum over the lights (101), as the standard program computes it, with its closed form.
 
+use crate::support::compiler;
 use glam::DVec3;
 use glisten::scene::{MemoryFiles, load};
-use glisten_front::{Compiler, Options};
 use glisten_reference::{RenderOptions, render};
 
 const SIDE: usize = 16;
@@ -94,7 +94,7 @@ fn equation(p: DVec3) -> DVec3 {
 #[test]
 fn the_sum_over_the_lights_is_the_equations() {
     let files = MemoryFiles::new([("a.toml", SCENE), ("sum.vert", VERTEX), ("sum.frag", FRAGMENT)]);
-    let loaded = load("a.toml", &files, &Compiler::new(Options::default()).with_includes(glisten::library::Embedded));
+    let loaded = load("a.toml", &files, &compiler().with_includes(glisten::library::Embedded));
     let messages: Vec<&str> = loaded.diagnostics.iter().map(|found| found.message.as_str()).collect();
     let scene = loaded.scene.unwrap_or_else(|| panic!("{messages:?}"));
     let picture = render(&scene, &RenderOptions::default()).expect("it draws");

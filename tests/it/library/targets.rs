@@ -1,12 +1,13 @@
 //! Compiles every function alone for every target, called from a fragment shader and from a vertex shader.
 
 use crate::emit::Collected;
+use crate::support::compiler;
 use glisten::library::Embedded;
 use glisten::measure::{Trial, forms};
 use glisten_emit::{Conventions, Target, emit};
+use glisten_front::Source;
 use glisten_front::hir::Stage;
 use glisten_front::link::Program;
-use glisten_front::{Compiler, Options, Source};
 
 const FRAGMENT: &str =
     "#version 150\nflat in vec4 glisten_result;\nout vec4 color;\nvoid main() { color = glisten_result; }\n";
@@ -20,7 +21,7 @@ fn in_a_vertex_shader(text: &str) -> Program {
     let source = |name: &str, text: String, stage| Source { name: name.into(), text: text.into(), stage };
     let sources =
         [source("call.vert", moved, Stage::Vertex), source("call.frag", FRAGMENT.to_owned(), Stage::Fragment)];
-    let compilation = Compiler::new(Options::default()).with_includes(Embedded).compile(&sources);
+    let compilation = compiler().with_includes(Embedded).compile(&sources);
     let told: Vec<&str> = compilation.diagnostics.iter().map(|found| found.message.as_str()).collect();
     compilation.program.unwrap_or_else(|| panic!("{told:?}\n{text}"))
 }
@@ -39,5 +40,5 @@ fn every_function_is_accepted_by_every_target_in_both_stages() {
             }
         }
     }
-    collected.judge();
+    collected.validate();
 }

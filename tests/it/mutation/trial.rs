@@ -5,7 +5,7 @@ use glisten::scene::Scene;
 use glisten::verify::{Expected, Options};
 use glisten_front::hir::Stage;
 use glisten_gpu::{Error, Gpu};
-use glisten_scene::compare::{Judge, Verdict, ulp_f32};
+use glisten_scene::compare::{Criterion, Verdict, ulp_f32};
 use glisten_scene::picture::Picture;
 use std::cell::{Cell, RefCell};
 use std::fmt;
@@ -13,9 +13,9 @@ use std::io::Write;
 use std::process::{Command, Stdio};
 
 /// The judge of `verify`.
-const OURS: Judge = Judge::Envelope;
+const OURS: Criterion = Criterion::Envelope;
 /// The tolerance that people choose by hand.
-const BY_HAND: Judge = Judge::Tolerance(1.0 / 255.0);
+const BY_HAND: Criterion = Criterion::Tolerance(1.0 / 255.0);
 
 /// Why a fault that changes the picture passes the judge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -178,8 +178,8 @@ impl<'a> Subject<'a> {
     /// The bound of a channel, counting those of all attachments in sequence.
     fn allowed(&self, pixel: usize, channel: usize) -> f64 {
         let color = self.reference.attachments[channel / 4][pixel][channel % 4];
-        let ranges = self.reference.ranges.as_ref().and_then(|ranges| ranges.get(channel / 4)?.get(pixel));
-        ranges.map_or(0.0, |ranges| ranges[channel % 4].reach(color))
+        let intervals = self.reference.intervals.as_ref().and_then(|intervals| intervals.get(channel / 4)?.get(pixel));
+        intervals.map_or(0.0, |intervals| intervals[channel % 4].reach(color))
     }
 
     /// Where a picture differs from the one without the fault, and by how much.
@@ -219,8 +219,8 @@ impl<'a> Subject<'a> {
     }
 }
 
-fn fails(picture: &Picture, reference: &Picture, judge: Judge) -> bool {
-    !Verdict::new(picture, reference, judge).holds(false)
+fn fails(picture: &Picture, reference: &Picture, criterion: Criterion) -> bool {
+    !Verdict::new(picture, reference, criterion).holds(false)
 }
 
 #[expect(unsafe_code, reason = "the words are glisten's own, or spirv-val has accepted them")]

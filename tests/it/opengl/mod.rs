@@ -13,16 +13,16 @@ mod coverage;
 #[cfg(feature = "gpu")]
 mod order;
 
-use crate::drawing::{compiler, from_disk, from_texts};
+use crate::drawing::{from_disk, from_texts};
 use crate::emit::missing;
-use crate::support::root;
+use crate::support::{compiler, files_with, root};
 use glisten::scene::Scene;
-use glisten::shader_test::{self, Outcome, Painter};
+use glisten::shader_test::{self, TestBackend, TestResult};
 use glisten::verify;
 use glisten_front::hir::{ArraySize, Stage, Type};
 use glisten_gl::{Error, Gl};
 use glisten_reference::LineRule;
-use glisten_scene::compare::{self, Judge, Verdict};
+use glisten_scene::compare::{self, Criterion, Verdict};
 use glisten_scene::picture::Picture;
 use std::path::{Path, PathBuf};
 
@@ -96,20 +96,13 @@ fn asked_or(fixtures: &str) -> PathBuf {
 }
 
 /// All files with an extension in a folder, with names relative to it.
-fn files_under(folder: &Path, wanted: &str) -> Vec<(String, PathBuf)> {
-    let mut pending = vec![folder.to_owned()];
-    let mut files = Vec::new();
-    while let Some(next) = pending.pop() {
-        for entry in std::fs::read_dir(next).expect("a folder of scenes") {
-            let path = entry.expect("an entry").path();
-            if path.is_dir() {
-                pending.push(path);
-            } else if path.extension().is_some_and(|extension| extension == wanted) {
-                let name = path.strip_prefix(folder).expect("inside the folder").with_extension("");
-                files.push((name.to_string_lossy().replace('\\', "/"), path));
-            }
-        }
-    }
+fn named_files(folder: &Path, wanted: &str) -> Vec<(String, PathBuf)> {
+    let named = files_with(folder, wanted).into_iter().map(|path| {
+        let name = path.strip_prefix(folder).expect("inside the folder").with_extension("");
+        (name.to_string_lossy().replace('\\', "/"), path)
+    });
+    let mut files: Vec<(String, PathBuf)> = named.collect();
+    assert!(!files.is_empty(), "nothing is in {}", folder.display());
     files.sort();
     files
 }
@@ -133,19 +126,19 @@ fn written(vertex: &str, fragment: &str, rest: &str) -> Scene {
 /// Judges a picture as `verify` does, with lines by OpenGL's rule. The pictures of a failure are left in a folder, which
 /// the complaint names.
 fn judged(name: &str, scene: &Scene, mut picture: Picture, exception: Option<&Exception>) -> Verdict {
-    let judge = match exception {
-        Some((_, Expected::Within(tolerance), _)) => Judge::Tolerance(*tolerance),
-        _ => Judge::Envelope,
+    let criterion = match exception {
+        Some((_, Expected::Within(tolerance), _)) => Criterion::Tolerance(*tolerance),
+        _ => Criterion::Envelope,
     };
-    let options = verify::Options { judge, lines: LineRule::OpenGl, ..verify::Options::default() };
+    let options = verify::Options { criterion, lines: LineRule::OpenGl, ..verify::Options::default() };
     let mut expected = verify::Expected::new(scene, &options).expect("the reference draws every scene of the fixtures");
     close(scene, &mut picture, expected.picture());
     if let Some((_, Expected::Open(channel), _)) = exception {
         take_over(&mut picture, expected.picture(), 0, *channel);
     }
-    let verdict = expected.judge(&picture).expect("the reference draws every scene of the fixtures");
+    let verdict = expected.compare(&picture).expect("the reference draws every scene of the fixtures");
     if !verdict.holds(false) {
-        let shares = compare::shares(&picture, expected.picture(), judge);
+        let shares = compare::shares(&picture, expected.picture(), criterion);
         let difference = verify::difference(expected.picture(), &shares);
         let pictures = [("gl", &picture), ("cpu", expected.picture()), ("difference", &difference)];
         verify::write_pictures(&failures(name), &pictures).expect("the pictures of a failure can be written");
@@ -218,7 +211,7 @@ fn the_reference_draws_what_opengl_draws() {
     let (mut wrong, mut excused) = (Vec::new(), 0);
     let asked = std::env::var_os(ASKED);
     let folder = asked_or("fixtures/scenes");
-    let files = files_under(&folder, "toml");
+    let files = named_files(&folder, "toml");
     for (name, path) in &files {
         wrong.extend(complaint(&gl, name, &small(from_disk(path)), &mut excused));
     }
@@ -241,9 +234,9 @@ struct Judged<'a> {
     wrong: Vec<String>,
 }
 
-impl Painter for Judged<'_> {
-    fn paint(&mut self, scene: &Scene) -> Result<Picture, Outcome> {
-        let picture = self.gl.render(scene).map_err(|error| Outcome::Fail(error.to_string()))?;
+impl TestBackend for Judged<'_> {
+    fn draw(&mut self, scene: &Scene) -> Result<Picture, TestResult> {
+        let picture = self.gl.render(scene).map_err(|error| TestResult::Fail(error.to_string()))?;
         self.pictures += 1;
         let name = format!("shader_test_{}", self.pictures);
         let verdict = judged(&name, scene, picture.clone(), None);
@@ -257,19 +250,19 @@ impl Painter for Judged<'_> {
 #[test]
 fn shader_tests_are_drawn_as_opengl_draws_them() {
     let Some(gl) = gl() else { return };
-    let (mut painter, mut wrong) = (Judged { gl: &gl, pictures: 0, wrong: Vec::new() }, Vec::new());
-    let files = files_under(&asked_or("fixtures/shader_tests"), "shader_test");
+    let (mut backend, mut wrong) = (Judged { gl: &gl, pictures: 0, wrong: Vec::new() }, Vec::new());
+    let files = named_files(&asked_or("fixtures/shader_tests"), "shader_test");
     let mut skipped = 0;
     for (name, path) in &files {
         let text = std::fs::read_to_string(path).expect("a readable test");
-        match shader_test::run(name, &text, &compiler(), &mut painter) {
-            Outcome::Pass => {}
-            Outcome::Fail(reason) => wrong.push(format!("{name}: {reason}")),
-            Outcome::Skip(_) => skipped += 1,
+        match shader_test::run(name, &text, &compiler(), &mut backend) {
+            TestResult::Pass => {}
+            TestResult::Fail(reason) => wrong.push(format!("{name}: {reason}")),
+            TestResult::Skip(_) => skipped += 1,
         }
-        wrong.extend(painter.wrong.drain(..).map(|what| format!("{name}: {what}")));
+        wrong.extend(backend.wrong.drain(..).map(|what| format!("{name}: {what}")));
     }
-    println!("{} tests, {skipped} of them skipped, {} pictures judged", files.len(), painter.pictures);
+    println!("{} tests, {skipped} of them skipped, {} pictures judged", files.len(), backend.pictures);
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
@@ -394,7 +387,7 @@ fn attributes_of_every_kind_reach_the_driver() {
     let picture = holds(&gl, &written(vertex, fragment, rest));
     let row = |y: usize| y * 16;
     assert!(picture.covered[row(15)] && picture.covered[row(7) + 8], "both rows of the divisor are drawn");
-    assert!(!picture.covered[row(7)], "and nothing beside them");
+    assert!(!picture.covered[row(7)], "and nothing next to them");
 }
 
 #[test]

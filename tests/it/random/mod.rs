@@ -94,5 +94,5 @@ fn random_programs_are_accepted_and_drawn_as_the_reference_draws_them() {
     }
     assert!(wrong.is_empty(), "{} of {:?}:\n{}", wrong.len(), seeds(), wrong.join("\n"));
     assert!(undecided * 5 < drawn, "{undecided} of {drawn} pixels could not be judged");
-    collected.judge();
+    collected.validate();
 }

@@ -6,6 +6,7 @@
 //! *Holds:* every module is checked by naga's validator. An error of naga's validator or writers becomes an internal
 //! error at the position in the GLSL text, without naga's handles. The same input gives the same bytes.
 
+mod emitted;
 mod messages;
 mod naga_repairs;
 mod notes;
@@ -13,6 +14,7 @@ pub mod reflection;
 mod targets;
 mod write;
 
+pub use emitted::Emitted;
 pub use notes::{levels_of_comparisons, notes};
 pub use reflection::{Reflection, reflect};
-pub use write::{Emitted, emit, emit_with_sources};
+pub use write::{emit, emit_with_sources};

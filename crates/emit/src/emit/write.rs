@@ -4,6 +4,7 @@
 //!
 //! *Holds:* naga's writers run inside `catch_unwind`, since they panic on some modules that its validator accepts.
 
+use super::emitted::Emitted;
 use super::messages::{chain, without_handles};
 use super::naga_repairs::nesting::is_nested;
 use super::targets::{self, Job};
@@ -16,25 +17,6 @@ use glisten_front::link::Program;
 use glisten_front::source::{SourceMap, Span};
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use std::panic::{AssertUnwindSafe, catch_unwind};
-
-/// The output of a writer.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Emitted {
-    /// WGSL, MSL, HLSL, GLSL.
-    Text(String),
-    /// SPIR-V.
-    Words(Vec<u32>),
-}
-
-impl Emitted {
-    /// The contents of the file: UTF-8, or little-endian words.
-    pub fn into_bytes(self) -> Vec<u8> {
-        match self {
-            Self::Text(text) => text.into_bytes(),
-            Self::Words(words) => words.into_iter().flat_map(u32::to_le_bytes).collect(),
-        }
-    }
-}
 
 /// Writes one stage of a program for a target.
 ///

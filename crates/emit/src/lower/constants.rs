@@ -4,7 +4,8 @@
 //! non-finite float is therefore read as bits from a private variable, which no target evaluates before the shader
 //! runs.
 
-use super::function::{Ctx, GlobalSlot, LocalSlot};
+use super::function::Ctx;
+use super::slots::{GlobalSlot, LocalSlot};
 use super::{Lower, Try, for_each_operand, internal};
 use glisten_front::hir::{ArraySize, ExprId, FunctionId, LocalKind, Scalar, ScalarValue, Type, TypeId, Value, VarRef};
 use naga::{AddressSpace, BinaryOperator, Expression, GlobalVariable, Handle, Literal};

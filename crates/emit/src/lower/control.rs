@@ -2,7 +2,8 @@
 
 use super::Try;
 use super::facts::is_counted;
-use super::function::{Ctx, LocalSlot};
+use super::function::Ctx;
+use super::slots::LocalSlot;
 use glisten_front::hir::{
     Case, CaseLabel, Condition, ExprId, ExprKind, LoopKind, Scalar, ScalarValue, Stmt, StmtKind, TypeId,
 };

@@ -3,59 +3,13 @@
 //! *Holds:* an expression is evaluated at its `Emit`, so what is added between two statements is emitted between
 //! them. Literals, variables and arguments are not evaluated and are outside every range.
 
-use super::uniforms::HostId;
+use super::slots::{LocalSlot, Lowered, OutputMember, SamplerValue};
 use super::{Lower, Try, for_each_operand, internal, naga_span};
 use crate::target::Target;
 use glisten_front::hir::{FunctionId, GlobalId, LocalId, LocalKind, ParamMode, ScalarValue, Shader, Stage, TypeId};
 use glisten_front::source::Span;
 use naga::{Arena, Block, Expression, Handle, Literal, LocalVariable, Statement};
 use rustc_hash::FxHashMap;
-
-/// How a global is represented.
-#[derive(Clone, Debug)]
-pub(super) enum GlobalSlot {
-    /// Not at all: this stage does not use it, or it is a sampler.
-    Unused,
-    /// A member of the block of the loose uniforms.
-    Loose { variable: Handle<naga::GlobalVariable>, member: u32, host: HostId },
-    /// A uniform block, or the elements of an array of them.
-    Block { variables: Vec<Handle<naga::GlobalVariable>>, host: HostId, arrayed: bool },
-    /// A variable of the module.
-    Private(Handle<naga::GlobalVariable>),
-    /// A constant of the module.
-    Constant(Handle<naga::Constant>),
-    /// A variable or argument of the entry point, the only function that uses it.
-    Entry,
-}
-
-/// How a local is represented.
-#[derive(Clone, Debug)]
-pub(super) enum LocalSlot {
-    /// Not represented yet.
-    Unset,
-    /// Through a pointer: a variable, or an `out` argument.
-    Pointer(Handle<Expression>),
-    /// A named value.
-    Value(Handle<Expression>),
-}
-
-/// A texture and its sampler, as values of a function.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct SamplerValue {
-    /// The index in the flat layout of the variable that it belongs to.
-    pub(super) flat: u32,
-    pub(super) texture: Handle<Expression>,
-    /// `None` for kinds that are only fetched from.
-    pub(super) sampler: Option<Handle<Expression>>,
-    /// The number of texels of a buffer texture, if the program queries that of any.
-    pub(super) texel_count: Option<Handle<Expression>>,
-}
-
-/// A function of the shader after lowering.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Lowered {
-    pub(super) handle: Handle<naga::Function>,
-}
 
 /// The kind of a literal, which distinguishes literals of equal value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -98,7 +52,7 @@ pub(super) struct Ctx<'l, 'a> {
     pub(super) in_switch: bool,
     /// Whether this is the entry point, whose `return` collects the outputs.
     pub(super) is_entry: bool,
-    pub(super) outputs: Vec<super::outputs::OutputMember>,
+    pub(super) outputs: Vec<OutputMember>,
 }
 
 impl<'l, 'a> Ctx<'l, 'a> {
@@ -239,7 +193,7 @@ impl<'l, 'a> Ctx<'l, 'a> {
     pub(super) fn has_returned(&mut self) -> bool {
         self.flush();
         let kill_ends = self.low.target == Target::Spirv || self.out.result.is_none();
-        self.is_over() || self.blocks.last().is_some_and(|block| super::statements::terminates(block, kill_ends))
+        self.is_over() || self.blocks.last().is_some_and(|block| terminates(block, kill_ends))
     }
 
     /// Opens a block.
@@ -456,6 +410,17 @@ impl<'l, 'a> Ctx<'l, 'a> {
 /// Whether the block ends in a statement after which naga allows none.
 fn ends(block: &Block) -> bool {
     matches!(block.last(), Some(Statement::Break | Statement::Continue | Statement::Return { .. } | Statement::Kill))
+}
+
+/// Whether nothing after the block can be reached; `kill_ends` says whether that is so after a `discard`.
+fn terminates(block: &Block, kill_ends: bool) -> bool {
+    match block.last() {
+        Some(Statement::Break | Statement::Continue | Statement::Return { .. }) => true,
+        Some(Statement::Kill) => kill_ends,
+        Some(Statement::If { accept, reject, .. }) => terminates(accept, kill_ends) && terminates(reject, kill_ends),
+        Some(Statement::Block(block)) => terminates(block, kill_ends),
+        _ => false,
+    }
 }
 
 impl Lower<'_> {

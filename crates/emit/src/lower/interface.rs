@@ -5,7 +5,8 @@
 //! global that other functions use, too, is a private variable of the module.
 
 use super::constants::is_constant;
-use super::function::{Ctx, GlobalSlot, LocalSlot};
+use super::function::Ctx;
+use super::slots::{GlobalSlot, LocalSlot};
 use super::{Lower, Try, internal, lacking, naga_span, unsupported};
 use crate::target::{Target, WindowOrigin};
 use glisten_front::builtin::BuiltinVariable;

@@ -15,6 +15,7 @@
 //! | `types`, `uniforms` | types of values, types in std140 memory |
 //! | `interface`, `outputs` | attributes, varyings, colors, built-in variables, the entry point |
 //! | `function` | the state of one function: naga's arenas, emission, names |
+//! | `slots` | how globals, locals and outputs are represented |
 //! | `statements`, `control` | §6 |
 //! | `expressions`, `operators`, `constructors`, `places`, `calls` | §5 |
 //! | `builtins`, `textures`, `texel_loads`, `matrices`, `aggregates` | §8 |
@@ -36,6 +37,7 @@ mod operators;
 mod outputs;
 mod places;
 mod samplers;
+mod slots;
 mod statements;
 mod texel_loads;
 mod textures;
@@ -46,13 +48,13 @@ pub(crate) use operands::for_each_operand;
 
 use crate::target::{Conventions, Target};
 use facts::Facts;
-use function::{GlobalSlot, Lowered};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::{general, targets};
 use glisten_front::hir::{FunctionId, GlobalId, Shader, Stage, Types};
 use glisten_front::link::{Interface, Program};
 use glisten_front::source::Span;
 use rustc_hash::FxHashMap;
+use slots::{GlobalSlot, Lowered};
 
 /// A result of the lowering, or the one diagnostic that says why there is none.
 type Try<T> = Result<T, Box<Diagnostic>>;

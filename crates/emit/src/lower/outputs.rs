@@ -4,40 +4,15 @@
 //! *Holds:* a position is converted to the conventions when it is returned (clip-space z to [0, w], y flipped);
 //! colors have four components, as every color target requires.
 
-use super::function::{Ctx, GlobalSlot, LocalSlot};
+use super::function::Ctx;
 use super::interface::{path_name, plain_location, varying_binding};
+use super::slots::{GlobalSlot, LocalSlot, OutputMember, OutputSource};
 use super::{Try, lacking};
 use crate::target::{ClipZ, SpirvEnv, Target, WindowOrigin};
 use glisten_front::builtin::BuiltinVariable;
 use glisten_front::hir::{ArraySize, GlobalId, Scalar, ScalarValue, Storage, Swizzle, Type, TypeId};
 use glisten_front::link::{Varying, VaryingEnd};
 use naga::{BinaryOperator, Binding, BuiltIn, Expression, Handle, Statement, UnaryOperator};
-
-/// A member of the result.
-#[derive(Clone, Debug)]
-pub(super) struct OutputMember {
-    name: String,
-    ty: Handle<naga::Type>,
-    binding: Binding,
-    source: OutputSource,
-}
-
-/// Where the value of a member comes from.
-#[derive(Clone, Debug)]
-enum OutputSource {
-    Position,
-    PointSize,
-    ClipDistances(GlobalId, u32),
-    /// The varyings at a location: each with its component and, if the stage writes it, its variable.
-    Varyings(Vec<(u32, TypeId, Option<VaryingEnd>)>),
-    /// A color: a variable, or an element of an array.
-    Color {
-        global: GlobalId,
-        element: Option<u32>,
-        ty: TypeId,
-    },
-    Depth(GlobalId),
-}
 
 impl Ctx<'_, '_> {
     /// Declares variables for the outputs that only `main` uses.

@@ -1,8 +1,9 @@
 //! [`Place`]: what an l-value (§5.8), or a chain of members and elements, denotes.
 
-use super::function::{Ctx, GlobalSlot, LocalSlot};
+use super::function::Ctx;
+use super::slots::{GlobalSlot, HostId, LocalSlot};
 use super::types::vector_size;
-use super::uniforms::{HostId, HostKind};
+use super::uniforms::HostKind;
 use super::{Try, internal};
 use glisten_front::builtin::BuiltinVariable;
 use glisten_front::hir::{

@@ -10,7 +10,8 @@
 //! | `samplerBuffer` | 2D of width [`BUFFER_WIDTH`](crate::target::BUFFER_WIDTH) | none: texels are loaded |
 //! | `sampler2DMS`, `sampler2DMSArray` | multisampled 2D (array) | none: texels are loaded |
 
-use super::function::{Ctx, SamplerValue};
+use super::function::Ctx;
+use super::slots::SamplerValue;
 use super::types::naga_scalar;
 use super::{Lower, Try, internal, lacking, unsupported};
 use crate::target::Target;

@@ -1,7 +1,8 @@
 //! Lowers statements (§6) except loops and switches.
 
 use super::Try;
-use super::function::{Ctx, LocalSlot};
+use super::function::Ctx;
+use super::slots::LocalSlot;
 use crate::target::Target;
 use glisten_front::hir::{ExprId, LocalId, LocalKind, Stmt, StmtKind, TypeId};
 use naga::{Block, Expression, Handle, Statement};
@@ -209,14 +210,3 @@ type Condition<'f, C, A> = &'f dyn Fn(&mut C, &A) -> Try<Handle<Expression>>;
 
 /// Lowers the body of an arm.
 type Body<'f, C, A> = &'f dyn Fn(&mut C, &A) -> Try<()>;
-
-/// Whether nothing after the block can be reached; `kill_ends` says whether that is so after a `discard`.
-pub(super) fn terminates(block: &Block, kill_ends: bool) -> bool {
-    match block.last() {
-        Some(Statement::Break | Statement::Continue | Statement::Return { .. }) => true,
-        Some(Statement::Kill) => kill_ends,
-        Some(Statement::If { accept, reject, .. }) => terminates(accept, kill_ends) && terminates(reject, kill_ends),
-        Some(Statement::Block(block)) => terminates(block, kill_ends),
-        _ => false,
-    }
-}

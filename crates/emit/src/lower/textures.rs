@@ -4,7 +4,8 @@
 //! for the texture that represents the sampler (see [`samplers`](super::samplers)). Integer textures have no sampler
 //! in any target: their lookups are in [`texel_loads`](super::texel_loads).
 
-use super::function::{Ctx, SamplerValue};
+use super::function::Ctx;
+use super::slots::SamplerValue;
 use super::{Try, internal, lacking};
 use crate::target::BUFFER_WIDTH;
 use glisten_front::builtin::operations::{Lookup as How, TextureArgument as Role, TextureForm};

@@ -6,7 +6,7 @@
 //! matrices of two rows are arrays of `vec4`, `row_major` matrices are stored transposed, and a `bool` is a `u32`.
 //! Where none of that is needed, the type of the value and the type in memory are the same.
 
-use super::function::GlobalSlot;
+use super::slots::{GlobalSlot, HostId};
 use super::types::round_up;
 use super::{Lower, Try, internal};
 use glisten_front::hir::{ArraySize, MatrixLayout, Scalar, Type, TypeId};
@@ -14,10 +14,6 @@ use glisten_front::link::{Block, SlotBinding, UniformRoot};
 use glisten_front::source::Span;
 use naga::{AddressSpace, GlobalVariable, Handle, ResourceBinding, StructMember, TypeInner};
 use rustc_hash::FxHashMap;
-
-/// A type in memory.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct HostId(usize);
 
 /// How a value of the type is represented in memory.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -1,61 +1,26 @@
 //! Constant expressions (§4.3.3): which expressions are constant, and their values.
 
 use super::context::Analyzer;
-use crate::builtin::BuiltinFunction;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::types;
 use crate::fold;
 use crate::hir::{ExprId, ExprKind, ScalarValue, Value, VarRef};
-use std::cell::Cell;
-
-/// Whether a call of a built-in function with constant arguments is a constant expression. It is not for noise
-/// functions and for functions with side effects. Texture functions never have constant arguments, because samplers
-/// are not constant.
-pub(super) fn is_foldable(function: BuiltinFunction) -> bool {
-    use BuiltinFunction::{EmitVertex, EndPrimitive, Noise1, Noise2, Noise3, Noise4};
-    !matches!(function, EmitVertex | EndPrimitive | Noise1 | Noise2 | Noise3 | Noise4)
-}
-
-/// How many scalars the constants of a shader may read and make; it takes some tenths of a second.
-const MAX_FOLD_STEPS: u64 = 1 << 26;
-
-/// How many steps constant evaluation may still take in a shader.
-#[derive(Debug)]
-pub(super) struct Fuel {
-    steps: Cell<u64>,
-}
-
-impl Default for Fuel {
-    fn default() -> Self {
-        Self { steps: Cell::new(MAX_FOLD_STEPS) }
-    }
-}
-
-impl Fuel {
-    fn is_empty(&self) -> bool {
-        self.steps.get() == 0
-    }
-
-    fn spend(&self, steps: u64) {
-        self.steps.set(self.steps.get().saturating_sub(steps));
-    }
-}
 
 impl Analyzer<'_> {
     /// The value of a constant expression; `None` for any other expression.
     pub(super) fn evaluate(&self, id: ExprId) -> Option<Value> {
-        if !self.is_constant(id) || self.fuel.is_empty() {
+        if !self.is_constant(id) || self.budget.is_exhausted() {
             return None;
         }
         let local = |var| match var {
             VarRef::Global(_) => None,
             VarRef::Local(id) => self.local(id)?.value.as_ref(),
         };
-        let value = fold::evaluate_within(&self.shader, self.types, id, &local, &self.fuel.steps)?;
+        let value = fold::evaluate_within(&self.shader, self.types, id, &local, self.budget.steps())?;
         // Stored values take memory, so the longer ones cost more than the steps that made them.
         let weight = 16 * value.scalars.len() as u64;
         if value.scalars.len() > 16 {
-            self.fuel.spend(weight);
+            self.budget.spend(weight);
         }
         Some(value)
     }
@@ -71,7 +36,7 @@ impl Analyzer<'_> {
 
     /// The diagnostic for an initializer whose value is not known at compile time.
     pub(super) fn not_constant_value(&self, id: ExprId, what: &str) -> Diagnostic {
-        if self.fuel.is_empty() {
+        if self.budget.is_exhausted() {
             let message = "the constants of the shader take too long to compute";
             return Diagnostic::new(&types::TOO_LARGE, self.span(id), message).here("given up here");
         }

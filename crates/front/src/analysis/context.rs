@@ -5,34 +5,26 @@
 //! *Holds:* expressions are appended in evaluation order, children before parents; `facts` runs parallel to them.
 //! Every name that cannot be resolved becomes poison after its one message.
 
-use super::arrays::ArrayUses;
-use super::constant::Fuel;
-use super::declare::{BlockNames, GeometryPlaces};
-use super::layout::BlockDefaults;
-use super::limits::Sizes;
 use super::scope::{Entry, Scopes};
-use super::types::KeywordTypes;
-use super::wording::worded;
+use super::state::{Budget, Declared, Layouts, Uses};
+use super::wording::{LONGEST_QUOTE, worded};
 use crate::diagnostic::codes::names;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::hir::{
     Expr, ExprId, ExprKind, Function, FunctionId, GlobalId, Local, LocalId, ScalarValue, Shader, Stage, Storage,
-    StructId, TypeId, Types, VarRef,
+    TypeId, Types, VarRef,
 };
 use crate::source::{SourceMap, Span};
 use crate::syntax::ast::{Ast, DeclarationKind, Extensions, Ident};
-use crate::syntax::token::Symbol;
 use crate::syntax::warning_of_use;
-use rustc_hash::FxHashMap;
-use smallvec::SmallVec;
 
 /// Facts about an expression besides its type.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Facts {
+struct Facts {
     /// The depth of the tree, counted along left operands too.
-    pub(super) depth: u32,
+    depth: u32,
     /// Whether it is a constant expression (§4.3.3).
-    pub(super) constant: bool,
+    constant: bool,
 }
 
 /// The function whose body is being analyzed.
@@ -44,9 +36,6 @@ pub(super) struct Body {
     pub(super) returns: bool,
 }
 
-/// The types of a function's parameters.
-pub(super) type Signature = SmallVec<[TypeId; 4]>;
-
 /// The state of the traversal.
 pub(super) struct Analyzer<'a> {
     pub(super) ast: &'a Ast,
@@ -54,45 +43,23 @@ pub(super) struct Analyzer<'a> {
     pub(super) strict: bool,
     pub(super) types: &'a mut Types,
     pub(super) sources: &'a SourceMap,
-    pub(super) diagnostics: &'a mut Diagnostics,
+    diagnostics: &'a mut Diagnostics,
     pub(super) shader: Shader,
     /// Parallel to the shader's expressions.
-    pub(super) facts: Vec<Facts>,
+    facts: Vec<Facts>,
     pub(super) scopes: Scopes,
     /// The extensions that are enabled at the current declaration.
     pub(super) extensions: Extensions,
     /// The current function.
     pub(super) body: Option<Body>,
-    /// The type of each type keyword met so far.
-    pub(super) keyword_types: KeywordTypes,
-    /// The functions of the shader by name and parameters.
-    pub(super) signatures: FxHashMap<(Symbol, Signature), FunctionId>,
-    /// The names of blocks.
-    pub(super) block_names: BlockNames,
-    /// The indices of the members, for structs with many members.
-    pub(super) member_indices: FxHashMap<StructId, FxHashMap<Symbol, u32>>,
-    /// How large the variables are together.
-    pub(super) sizes: Sizes,
-    /// How long constant evaluation may still take in this shader.
-    pub(super) fuel: Fuel,
-    /// How many times the analysis searched for a name similar to an unknown one.
-    pub(super) n_suggestions: u32,
-    /// The built-in variables that are used or redeclared.
-    pub(super) builtins: FxHashMap<crate::builtin::BuiltinVariable, GlobalId>,
-    /// The first use of each global.
-    pub(super) first_uses: FxHashMap<GlobalId, Span>,
-    /// The first use of each member of an input or output block without an instance name.
-    pub(super) first_member_uses: FxHashMap<(GlobalId, u32), Span>,
-    /// The elements that are used of arrays without a size (§4.1.9).
-    pub(super) array_uses: ArrayUses,
-    /// `layout(...) uniform;`
-    pub(super) block_defaults: BlockDefaults,
-    /// Where the layouts of a geometry shader were first declared.
-    pub(super) geometry: GeometryPlaces,
-    /// The output block `gl_PerVertex`, if it is redeclared.
-    pub(super) per_vertex_out: Option<super::declare::PerVertex>,
-    /// The first redeclaration of `gl_FragCoord`.
-    pub(super) frag_coord_span: Option<Span>,
+    /// Types, functions, blocks and built-in variables by name.
+    pub(super) declared: Declared,
+    /// The first uses.
+    pub(super) uses: Uses,
+    /// Layouts and redeclarations that concern the whole shader.
+    pub(super) layouts: Layouts,
+    /// How much time, and how many variables, the shader may still take.
+    pub(super) budget: Budget,
 }
 
 impl<'a> Analyzer<'a> {
@@ -116,21 +83,10 @@ impl<'a> Analyzer<'a> {
             scopes: Scopes::default(),
             extensions: Extensions::empty(),
             body: None,
-            keyword_types: KeywordTypes::default(),
-            signatures: FxHashMap::default(),
-            block_names: BlockNames::default(),
-            builtins: FxHashMap::default(),
-            first_uses: FxHashMap::default(),
-            first_member_uses: FxHashMap::default(),
-            array_uses: ArrayUses::default(),
-            member_indices: FxHashMap::default(),
-            sizes: Sizes::default(),
-            fuel: Fuel::default(),
-            n_suggestions: 0,
-            block_defaults: BlockDefaults::default(),
-            geometry: GeometryPlaces::default(),
-            frag_coord_span: None,
-            per_vertex_out: None,
+            declared: Declared::default(),
+            uses: Uses::default(),
+            layouts: Layouts::default(),
+            budget: Budget::default(),
         }
     }
 
@@ -229,6 +185,16 @@ impl<'a> Analyzer<'a> {
         self.facts.get(id.index()).is_some_and(|facts| facts.constant)
     }
 
+    /// The text of an expression in quotes if it is short and outside macros, else `this`.
+    pub(super) fn quote(&self, id: ExprId) -> String {
+        let span = self.span(id);
+        let text = self.sources.snippet(span);
+        if text.is_empty() || text.len() > LONGEST_QUOTE || text.contains(['\n', '`']) || span.expansion.is_some() {
+            return "this".into();
+        }
+        format!("`{text}`")
+    }
+
     /// A local of the current function.
     pub(super) fn local(&self, id: LocalId) -> Option<&Local> {
         let body = self.body.as_ref()?;
@@ -281,16 +247,13 @@ impl<'a> Analyzer<'a> {
     /// Whether to keep searching for names similar to unknown ones: each search compares a name with all names in
     /// scope.
     pub(super) fn may_suggest(&mut self) -> Option<()> {
-        const MOST: usize = 64;
-        const MOST_COMPARED: usize = 1 << 17;
-        self.n_suggestions += 1;
-        let looks = self.n_suggestions as usize;
-        (looks <= MOST && looks.saturating_mul(self.scopes.len()) <= MOST_COMPARED).then_some(())
+        let names = self.scopes.len();
+        self.budget.may_suggest(names).then_some(())
     }
 
     /// Records a use of a global.
     pub(super) fn note_use(&mut self, global: GlobalId, span: Span) {
-        self.first_uses.entry(global).or_insert(span);
+        self.uses.note(global, span);
     }
 
     fn facts_of(&self, kind: &ExprKind) -> Facts {
@@ -312,7 +275,7 @@ impl<'a> Analyzer<'a> {
             ExprKind::Call(_, list) => Facts { constant: false, ..list.iter().map(child).fold(leaf(true), join) },
             ExprKind::BuiltinCall(function, list) => {
                 let facts = list.iter().map(child).fold(leaf(true), join);
-                Facts { constant: facts.constant && super::constant::is_foldable(*function), ..facts }
+                Facts { constant: facts.constant && function.is_foldable(), ..facts }
             }
         };
         facts.depth += 1;

@@ -1,8 +1,8 @@
 //! The checks that need the whole shader: sizes of arrays that follow from their uses (§4.1.9), recursion (§6.1),
 //! static use (§3.8), and outputs that exclude each other (§7.2).
 
-use super::arrays::ArrayKey;
 use super::context::Analyzer;
+use super::state::ArrayKey;
 use crate::builtin::BuiltinVariable;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::qualifiers;
@@ -56,7 +56,7 @@ impl Analyzer<'_> {
 
     /// The array type that covers all elements that are used.
     pub(super) fn sized_by_use(&mut self, key: ArrayKey, element: TypeId, is_clip_distance: bool) -> TypeId {
-        let largest = self.array_uses.largest(key);
+        let largest = self.uses.largest_index(key);
         // An array that is never indexed needs some size to exist; nothing determines which.
         let size = largest.map_or(1, |(index, _)| index.saturating_add(1));
         if let Some((_, span)) = largest.filter(|_| is_clip_distance) {
@@ -80,7 +80,7 @@ impl Analyzer<'_> {
                 }
             }
         }
-        if any || self.array_uses.any_local() {
+        if any || self.uses.any_local_array() {
             for index in first..self.shader.exprs.len() {
                 let Some(ExprKind::Var(VarRef::Local(id))) = self.shader.exprs.get(index).map(|expr| &expr.kind) else {
                     continue;
@@ -91,7 +91,7 @@ impl Analyzer<'_> {
                 }
             }
         }
-        self.array_uses.end_function();
+        self.uses.end_function();
     }
 
     /// Updates the types of expressions that name such arrays. Children come before their parents.
@@ -152,7 +152,7 @@ impl Analyzer<'_> {
             _ => return,
         };
         let ((first_id, first), (second_id, second)) = pair;
-        let at = |id| self.first_uses.get(&id).copied().unwrap_or_default();
+        let at = |id| self.uses.first(id).unwrap_or_default();
         let finding = Diagnostic::new(
             &qualifiers::OUTPUTS_EXCLUDE,
             at(second_id),

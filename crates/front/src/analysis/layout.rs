@@ -153,13 +153,6 @@ pub(super) struct Layout {
     pub(super) max_vertices: Option<(u32, Span)>,
 }
 
-/// `layout(...) uniform;`: the defaults that later blocks inherit.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct BlockDefaults {
-    pub(super) layout: BlockLayout,
-    pub(super) matrix: MatrixLayout,
-}
-
 impl Analyzer<'_> {
     /// Evaluates the layout identifiers of a declaration. Each must be known, enabled, and allowed for this
     /// declaration; later ones override earlier ones.

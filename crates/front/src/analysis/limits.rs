@@ -5,6 +5,7 @@
 //! line.
 
 use super::context::Analyzer;
+use super::state::MAX_BOUND;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::types;
 use crate::hir::{Storage, TypeId};
@@ -17,28 +18,6 @@ const MAX_SCALARS: u32 = 1 << 20;
 /// The largest number of scalars of all uniforms of a shader: 64 times what drivers have.
 const MAX_UNIFORM_SCALARS: u32 = 1 << 18;
 
-/// The largest number of inputs, outputs, blocks and samplers of a shader. Each needs a location or binding, and no
-/// target has more than a thousand of any kind.
-const MAX_BOUND: u32 = 4096;
-
-/// How large the variables are together.
-#[derive(Debug, Default)]
-pub(super) struct Sizes {
-    /// The scalars of all globals so far.
-    globals: u32,
-    /// The scalars of all locals of the current function.
-    locals: u32,
-    /// The number of globals that need a location or binding.
-    places: u32,
-}
-
-impl Sizes {
-    /// Begins a function, which has no locals yet.
-    pub(super) fn begin_function(&mut self) {
-        self.locals = 0;
-    }
-}
-
 impl Analyzer<'_> {
     /// Checks that a type is small enough.
     pub(super) fn check_size(&mut self, ty: TypeId, span: Span) -> bool {
@@ -48,23 +27,22 @@ impl Analyzer<'_> {
     /// Checks that a global still fits together with those before it.
     pub(super) fn check_global_size(&mut self, ty: TypeId, storage: Storage, is_block: bool, span: Span) -> bool {
         let limit = if storage == Storage::Uniform { MAX_UNIFORM_SCALARS } else { MAX_SCALARS };
-        let has_place = matches!(storage, Storage::In | Storage::Out) || is_block || self.types.contains_sampler(ty);
-        self.sizes.places += u32::from(has_place);
-        if has_place && self.sizes.places > MAX_BOUND {
+        let is_bound = matches!(storage, Storage::In | Storage::Out) || is_block || self.types.contains_sampler(ty);
+        if is_bound && !self.budget.add_bound() {
             self.report(
                 Diagnostic::new(&types::TOO_LARGE, span, "this is too much for any target")
                     .here(format!("more than {MAX_BOUND} inputs, outputs, blocks and samplers")),
             );
             return false;
         }
-        self.sizes.globals = self.sizes.globals.saturating_add(self.types.flat_len(ty));
-        self.check_scalars(self.sizes.globals, limit, span)
+        let scalars = self.budget.add_global(self.types.flat_len(ty));
+        self.check_scalars(scalars, limit, span)
     }
 
     /// Checks that a local still fits together with those before it.
     pub(super) fn check_local_size(&mut self, ty: TypeId, span: Span) -> bool {
-        self.sizes.locals = self.sizes.locals.saturating_add(self.types.flat_len(ty));
-        self.check_scalars(self.sizes.locals, MAX_SCALARS, span)
+        let scalars = self.budget.add_local(self.types.flat_len(ty));
+        self.check_scalars(scalars, MAX_SCALARS, span)
     }
 
     fn check_scalars(&mut self, scalars: u32, limit: u32, span: Span) -> bool {

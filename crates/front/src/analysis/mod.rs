@@ -7,7 +7,7 @@
 //! back and none looks ahead. What needs the whole shader comes after it: the sizes of implicitly sized arrays
 //! (`finish`), recursion (`recursion`), and static use (in [`hir`](crate::hir)).
 //!
-//! * `context` holds the state of the traversal, `scope` the names in scope, `arrays` the elements used.
+//! * `context` holds the state of the traversal, `state` its parts, and `scope` the names in scope.
 //! * `types`, `qualifiers` and `layout` analyze what precedes a name.
 //! * `declare` enters names: variables, structs, blocks, functions, redeclared built-in variables.
 //! * `statement` and `expr` analyze function bodies.
@@ -18,7 +18,6 @@
 //! [`TypeId::ERROR`](crate::hir::TypeId::ERROR), which is compatible with everything. No traversal recurses along
 //! left operands.
 
-mod arrays;
 mod constant;
 mod context;
 mod declare;
@@ -30,6 +29,7 @@ mod limits;
 mod qualifiers;
 mod recursion;
 mod scope;
+mod state;
 mod statement;
 mod types;
 mod understood;

@@ -9,16 +9,9 @@ use crate::hir::{ArraySize, Scalar, ScalarValue, Type, TypeId};
 use crate::source::Span;
 use crate::syntax::ast::{ArrayDim, ExprId as AstExprId, Ident, Qualifier, TypeBase, TypeSpec};
 use crate::syntax::token::Symbol;
-use rustc_hash::FxHashMap;
 
 /// The largest size of an array. No target could bind a larger one, which would only cost memory.
 const MAX_ARRAY_SIZE: u32 = 1 << 16;
-
-/// The type of each type keyword met so far.
-#[derive(Debug, Default)]
-pub(super) struct KeywordTypes {
-    known: FxHashMap<Symbol, TypeId>,
-}
 
 impl Analyzer<'_> {
     /// The type that a specifier denotes, with the arrays after it. Enters a struct that the specifier declares.
@@ -146,15 +139,15 @@ impl Analyzer<'_> {
     }
 
     fn keyword_type(&mut self, symbol: Symbol, span: Span) -> TypeId {
-        let known = match self.keyword_types.known.get(&symbol) {
-            Some(&known) => Some(known),
+        let known = match self.declared.keyword_type(symbol) {
+            Some(known) => Some(known),
             None => {
                 let name = self.ast.names.spelling(symbol);
                 let ty = keywords::type_of(name, self.ast.version, self.extensions);
                 let known = ty.map(|ty| self.types.intern(ty));
                 // A name that is unknown here may be known after an `#extension` line.
                 if let Some(known) = known {
-                    self.keyword_types.known.insert(symbol, known);
+                    self.declared.add_keyword_type(symbol, known);
                 }
                 known
             }

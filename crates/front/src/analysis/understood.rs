@@ -16,7 +16,7 @@ use crate::hir::{ArraySize, Global, Shader, Storage, Type, TypeId, Types};
 use crate::source::{SourceMap, Span};
 
 use crate::syntax::ast::{Ast, Declaration, DeclarationKind, Ident, TypeBase};
-use crate::syntax::token::Names;
+use crate::syntax::names::Names;
 use rustc_hash::FxHashSet;
 
 /// Removes all uncertain globals from the interface of `shader`. Returns whether errors concern the shader: those
@@ -51,7 +51,7 @@ struct Text<'a> {
 }
 
 /// The declarations whose meaning may differ from the author's intention.
-enum Doubt {
+enum Suspicion {
     Everything,
     /// The spans of these declarations, and all names that they use.
     Some(Vec<Span>, FxHashSet<String>),
@@ -69,14 +69,14 @@ impl<'a> Text<'a> {
         at.is_known() && self.declarations.iter().any(|(span, _)| is_in(at, *span))
     }
 
-    fn doubt(&self, errors: &[&Diagnostic]) -> Doubt {
+    fn doubt(&self, errors: &[&Diagnostic]) -> Suspicion {
         let mut doubted = vec![false; self.declarations.len()];
         for error in errors {
             let at = self.sources.call_site(error.primary.span);
             let phase = error.code.id.get(1..3);
             let is_character = *error.code == ILLEGAL_CHARACTER;
             if !at.is_known() || phase == Some("00") || (phase == Some("01") && !is_character) {
-                return Doubt::Everything;
+                return Suspicion::Everything;
             }
             if self.is_in_body(at) {
                 continue;
@@ -122,7 +122,7 @@ impl<'a> Text<'a> {
     }
 
     /// Marks all declarations that use a name which an uncertain declaration declares.
-    fn spread(&self, doubted: &[bool]) -> Doubt {
+    fn spread(&self, doubted: &[bool]) -> Suspicion {
         let (mut spans, mut names) = (Vec::new(), FxHashSet::default());
         for ((span, declaration), doubted) in self.declarations.iter().zip(doubted) {
             if matches!(declaration.kind, DeclarationKind::Function(..) | DeclarationKind::Prototype(_)) {
@@ -136,7 +136,7 @@ impl<'a> Text<'a> {
                 );
             }
         }
-        Doubt::Some(spans, names)
+        Suspicion::Some(spans, names)
     }
 }
 
@@ -160,7 +160,7 @@ fn declared(kind: &DeclarationKind) -> Vec<Ident> {
     }
 }
 
-impl Doubt {
+impl Suspicion {
     fn covers(&self, global: &Global, types: &Types, sources: &SourceMap) -> bool {
         let Self::Some(spans, names) = self else { return true };
         let at = sources.call_site(global.span);

@@ -1,11 +1,9 @@
 //! The wording that diagnostics share: articles before names, and short quotes of the source.
 
-use super::context::Analyzer;
 use crate::diagnostic::Diagnostic;
-use crate::hir::ExprId;
 
 /// The longest text that is quoted in a message.
-const LONGEST_QUOTE: usize = 40;
+pub(super) const LONGEST_QUOTE: usize = 40;
 
 /// Writes `an` before quoted names whose pronunciation begins with a vowel (`int`, `in`, `out`), and `a` before the
 /// others (`uint`, `uniform`). The names come from tables and sources, the text before them from the messages.
@@ -37,18 +35,6 @@ pub(super) fn worded(mut finding: Diagnostic) -> Diagnostic {
         label.message = with_articles(&label.message);
     }
     finding
-}
-
-impl Analyzer<'_> {
-    /// The text of an expression in quotes if it is short and outside macros, else `this`.
-    pub(super) fn quote(&self, id: ExprId) -> String {
-        let span = self.span(id);
-        let text = self.sources.snippet(span);
-        if text.is_empty() || text.len() > LONGEST_QUOTE || text.contains(['\n', '`']) || span.expansion.is_some() {
-            return "this".into();
-        }
-        format!("`{text}`")
-    }
 }
 
 #[cfg(test)]

@@ -8,9 +8,11 @@ mod availability;
 pub mod constants;
 pub mod functions;
 mod ids;
+mod markdown;
 pub mod operations;
 pub mod variables;
 
 pub use availability::{Availability, Stages};
 pub use ids::BuiltinVariable;
+pub use markdown::{operations_markdown, precision_markdown};
 pub use operations::BuiltinFunction;

@@ -10,6 +10,7 @@
 //! phase after `link` ever sees one, because a program with errors is not passed on.
 
 mod expr;
+mod handles;
 mod print;
 mod reach;
 mod shader;
@@ -22,10 +23,11 @@ pub use crate::language::{
     StructId, StructType, Type, TypeId, Types,
 };
 pub use expr::{BinaryOp, ConstructKind, Expr, ExprId, ExprKind, IncDec, LogicalOp, Swizzle, UnaryOp, VarRef};
+pub use handles::{FunctionId, GlobalId, LocalId};
 pub use print::{Notes, print, print_with};
 pub use shader::{
-    BlockInfo, BlockLayout, FragCoordLayout, Function, FunctionId, GeometryLayout, Global, GlobalId, Local, LocalId,
-    LocalKind, PerVertexOut, PrimitiveIn, PrimitiveOut, Shader,
+    BlockInfo, BlockLayout, FragCoordLayout, Function, GeometryLayout, Global, Local, LocalKind, PerVertexOut,
+    PrimitiveIn, PrimitiveOut, Shader,
 };
 pub use stmt::{Case, CaseLabel, Condition, LoopKind, Stmt, StmtKind};
 pub use value::{ScalarValue, Value};

@@ -1,43 +1,10 @@
 //! [`Shader`]: one stage and everything at global scope.
 
-use super::{Expr, ExprId, ExprKind, Stmt, TypeId, Value, VarRef};
+use super::{Expr, ExprId, ExprKind, FunctionId, GlobalId, LocalId, Stmt, TypeId, Value, VarRef};
 use crate::builtin::BuiltinVariable;
 use crate::language::{Interpolation, ParamMode, Stage, Storage, Version};
 use crate::source::Span;
 use std::sync::Arc;
-
-macro_rules! handle {
-    ($(#[$doc:meta])* $name:ident) => {
-        $(#[$doc])*
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-        pub struct $name(u32);
-
-        impl $name {
-            /// The handle of the place `index` in its arena.
-            pub fn new(index: usize) -> Self {
-                Self(index as u32)
-            }
-
-            /// The index in its arena.
-            pub fn index(self) -> usize {
-                self.0 as usize
-            }
-        }
-    };
-}
-
-handle!(
-    /// The handle of a global in a [`Shader`].
-    GlobalId
-);
-handle!(
-    /// The handle of a function in a [`Shader`].
-    FunctionId
-);
-handle!(
-    /// The handle of a local in a [`Function`].
-    LocalId
-);
 
 /// The layout of a uniform block (§4.3.8.3).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -101,6 +68,13 @@ pub struct Global {
     pub written: bool,
     /// The name in the declaration; unknown for a built-in variable that is not redeclared.
     pub span: Span,
+}
+
+impl Global {
+    /// The name by which a variable or block of one stage matches that of another.
+    pub fn match_name(&self) -> &str {
+        self.block.as_ref().map_or(&self.name, |block| &block.name)
+    }
 }
 
 impl Global {
@@ -276,6 +250,13 @@ pub struct Shader {
 }
 
 impl Shader {
+    /// Where to report what concerns the whole shader: the `#version` line, or else anything with a position.
+    pub fn anchor(&self) -> Span {
+        let globals = self.globals.iter().map(|global| global.span);
+        let functions = self.functions.iter().map(|function| function.span);
+        [self.version.span].into_iter().chain(functions).chain(globals).find(|span| span.is_known()).unwrap_or_default()
+    }
+
     /// An empty shader.
     pub fn new(stage: Stage, version: Version) -> Self {
         Self {

@@ -15,11 +15,6 @@ fn is_interface(global: &Global, storage: Storage) -> bool {
     global.storage == storage && global.builtin.is_none()
 }
 
-/// The name by which a variable or block matches.
-pub(super) fn match_name(global: &Global) -> &str {
-    global.block.as_ref().map_or(&global.name, |block| &block.name)
-}
-
 /// The outputs of a stage, by the keys with which an input finds them.
 pub(super) struct Outputs<'a> {
     producer: &'a Shader,
@@ -33,7 +28,7 @@ impl<'a> Outputs<'a> {
         let (mut by_name, mut by_location) = (FxHashMap::default(), FxHashMap::default());
         for (id, output) in producer.globals().filter(|(_, output)| is_interface(output, Storage::Out)) {
             let is_block = output.block.is_some();
-            by_name.entry((match_name(output), is_block)).or_insert(id);
+            by_name.entry((output.match_name(), is_block)).or_insert(id);
             if let Some(location) = output.location {
                 by_location.entry((location, is_block)).or_insert(id);
             }
@@ -45,7 +40,7 @@ impl<'a> Outputs<'a> {
     pub(super) fn partner(&self, input: &Global) -> Option<(GlobalId, &'a Global)> {
         let is_block = input.block.is_some();
         let by_location = || self.by_location.get(&(input.location?, is_block));
-        let id = *self.by_name.get(&(match_name(input), is_block)).or_else(by_location)?;
+        let id = *self.by_name.get(&(input.match_name(), is_block)).or_else(by_location)?;
         Some((id, self.producer.global(id)))
     }
 }
@@ -80,7 +75,7 @@ pub(super) fn check_variables(ctx: &mut Linker<'_>, producer: &Shader, consumer:
 
 fn no_partner(ctx: &mut Linker<'_>, producer: &Shader, consumer: &Shader, input: &Global, suggest: bool) {
     let outputs: Vec<&Global> = producer.globals.iter().filter(|output| is_interface(output, Storage::Out)).collect();
-    let (name, stage) = (match_name(input), producer.stage.name());
+    let (name, stage) = (input.match_name(), producer.stage.name());
     let kind = if input.block.is_some() { "block" } else { "input" };
     let message = format!(
         "the {} stage reads the {kind} `{name}`, and the {stage} stage has no such output",
@@ -91,17 +86,17 @@ fn no_partner(ctx: &mut Linker<'_>, producer: &Shader, consumer: &Shader, input:
         ctx.report(diagnostic);
         return;
     }
-    let same_name = producer.globals.iter().find(|global| match_name(global) == name && global.builtin.is_none());
+    let same_name = producer.globals.iter().find(|global| global.match_name() == name && global.builtin.is_none());
     if let Some(other) = same_name {
         let what = describe_other(other);
         diagnostic = diagnostic.label(other.span, format!("the {stage} stage has `{name}` as {what}"));
     }
-    let near = did_you_mean(name, outputs.iter().map(|output| match_name(output)));
-    let near = near.and_then(|near| outputs.iter().copied().find(|output| match_name(output) == near));
+    let near = did_you_mean(name, outputs.iter().map(|output| output.match_name()));
+    let near = near.and_then(|near| outputs.iter().copied().find(|output| output.match_name() == near));
     if let Some(output) = near.or_else(|| only_unread(ctx.types, &outputs, consumer, input)) {
         diagnostic = diagnostic
             .label(output.span, format!("the nearest output of the {stage} stage"))
-            .help(format!("did you mean `{}`?", match_name(output)));
+            .help(format!("did you mean `{}`?", output.match_name()));
     } else if same_name.is_none() {
         diagnostic =
             diagnostic.help(format!("declare it in the {stage} stage: `{}`", declaration(ctx.types, consumer, input)));
@@ -122,12 +117,12 @@ fn describe_other(global: &Global) -> &'static str {
 /// The output of the input's type that no input reads, if there is exactly one.
 fn only_unread<'a>(types: &Types, outputs: &[&'a Global], consumer: &Shader, input: &Global) -> Option<&'a Global> {
     let inputs = consumer.globals.iter().filter(|other| is_interface(other, Storage::In));
-    let taken: FxHashSet<&str> = inputs.map(match_name).collect();
+    let taken: FxHashSet<&str> = inputs.map(Global::match_name).collect();
     let wanted = per_vertex(types, consumer.stage, input.ty)?;
     let mut free = outputs
         .iter()
         .copied()
-        .filter(|output| !taken.contains(match_name(output)) && same_type(types, output.ty, wanted));
+        .filter(|output| !taken.contains(output.match_name()) && same_type(types, output.ty, wanted));
     let first = free.next()?;
     free.next().is_none().then_some(first)
 }
@@ -172,7 +167,7 @@ impl Pair<'_> {
         theirs: String,
         ours: String,
     ) {
-        let name = match_name(self.input);
+        let name = self.input.match_name();
         let message = format!("`{name}` {what}");
         let diagnostic = Diagnostic::new(code, self.input.span, message)
             .here(format!("{ours} in the {} stage", self.consumer.name()))
@@ -246,7 +241,7 @@ fn member_difference(
     pair: &Pair<'_>,
     difference: &MemberDifference<'_>,
 ) -> Diagnostic {
-    let name = match_name(pair.input);
+    let name = pair.input.match_name();
     let (producer, consumer) = (pair.producer.name(), pair.consumer.name());
     match *difference {
         MemberDifference::Count(theirs, ours) => Diagnostic::new(

@@ -5,7 +5,6 @@
 //! whole stage is computed again at the end: static use, and the sizes of a geometry shader's inputs.
 
 use super::compatible::same_value;
-use super::matching::match_name;
 use super::remap::Remap;
 use crate::builtin::BuiltinVariable;
 use crate::diagnostic::{Diagnostic, codes};
@@ -45,7 +44,7 @@ fn check_frag_coord(shaders: &[Shader], found: &mut Vec<Diagnostic>) {
         if global.span.is_known() && shader.frag_coord == first.frag_coord {
             continue;
         }
-        let span = if global.span.is_known() { global.span } else { super::stages::anchor(shader) };
+        let span = if global.span.is_known() { global.span } else { shader.anchor() };
         let message = "the fragment shaders of the program do not declare `gl_FragCoord` alike";
         let finding = Diagnostic::new(&codes::link::FRAG_COORD_CONFLICT, span, message);
         found.push(finding.label(declared.span, "declared here"));
@@ -179,7 +178,7 @@ impl Merge<'_> {
     }
 
     fn unite_layouts(&mut self, geometry: crate::hir::GeometryLayout, frag_coord: crate::hir::FragCoordLayout) {
-        let anchor = super::stages::anchor(self.all);
+        let anchor = self.all.anchor();
         let known = &mut self.all.geometry;
         let input = (known.input, geometry.input);
         let output = (known.output, geometry.output);
@@ -209,7 +208,7 @@ impl Merge<'_> {
 
 /// Why two declarations cannot be one variable.
 fn global_problem(types: &Types, known: &Global, other: &Global) -> Option<Diagnostic> {
-    let name = match_name(known);
+    let name = known.match_name();
     let problem = |what: String| {
         let message = format!("the shaders of one stage declare `{name}` with different {what}");
         Some(Diagnostic::new(&codes::link::SHARED_GLOBAL_MISMATCH, other.span, message).label(known.span, "and here"))

@@ -1,7 +1,6 @@
 //! Redeclarations of `gl_PerVertex` must be the same wherever its members are used (ARB_separate_shader_objects; GLSL
 //! 4.10 §7.1 states for `gl_PerVertex` what in 1.50 follows from the rules of blocks).
 
-use super::stages::anchor;
 use crate::builtin::{BuiltinVariable, variables};
 use crate::diagnostic::{Diagnostic, codes};
 use crate::hir::{Global, Shader, Storage, Type, Types};
@@ -20,7 +19,7 @@ impl Side<'_> {
     }
 
     fn span(&self) -> Span {
-        self.members.as_ref().map_or_else(|| anchor(self.shader), |(_, span)| *span)
+        self.members.as_ref().map_or_else(|| self.shader.anchor(), |(_, span)| *span)
     }
 }
 

@@ -35,7 +35,7 @@ pub(super) fn check(ctx: &mut Linker<'_>, stages: &[Shader], lone: bool) -> bool
     }
     let has = |stage| stages.iter().any(|shader| shader.stage == stage);
     if has(Stage::Geometry) && !has(Stage::Vertex) && !lone {
-        let span = stages.iter().find(|shader| shader.stage == Stage::Geometry).map(anchor).unwrap_or_default();
+        let span = stages.iter().find(|shader| shader.stage == Stage::Geometry).map(Shader::anchor).unwrap_or_default();
         let message = "a geometry shader without a vertex shader before it";
         ctx.report(
             Diagnostic::new(&codes::link::MISSING_STAGE, span, message).help("add a vertex shader to the program"),
@@ -86,14 +86,7 @@ fn missing_main(ctx: &mut Linker<'_>, shader: &Shader, lone: bool) {
     let names = shader.functions.iter().map(|function| function.name.as_str());
     let help =
         crate::diagnostic::did_you_mean("main", names).map(|name| format!("did you mean `{name}` to be `main`?"));
-    ctx.report(Diagnostic::new(code, anchor(shader), message).maybe_help(help));
-}
-
-/// The `#version` line, or else anything with a position.
-pub(super) fn anchor(shader: &Shader) -> crate::source::Span {
-    let globals = shader.globals.iter().map(|global| global.span);
-    let functions = shader.functions.iter().map(|function| function.span);
-    [shader.version.span].into_iter().chain(functions).chain(globals).find(|span| span.is_known()).unwrap_or_default()
+    ctx.report(Diagnostic::new(code, shader.anchor(), message).maybe_help(help));
 }
 
 fn geometry_layout(ctx: &mut Linker<'_>, shader: &Shader, lone: bool) {
@@ -111,5 +104,5 @@ fn geometry_layout(ctx: &mut Linker<'_>, shader: &Shader, lone: bool) {
     let what: Vec<_> = lacking.iter().map(|(_, what, _)| *what).collect();
     let help: Vec<_> = lacking.iter().map(|(.., help)| *help).collect();
     let message = format!("the geometry stage does not declare {}", what.join(" and "));
-    ctx.report(Diagnostic::new(code, anchor(shader), message).help(format!("declare `{}`", help.join(" "))));
+    ctx.report(Diagnostic::new(code, shader.anchor(), message).help(format!("declare `{}`", help.join(" "))));
 }

@@ -90,7 +90,7 @@ fn unite<'a>(ctx: &mut Linker<'_>, stages: &'a [Shader]) -> Vec<Shared<'a>> {
     let mut indices: FxHashMap<(bool, &'a str), usize> = FxHashMap::default();
     for shader in stages {
         for (id, global) in shader.globals().filter(|(_, global)| is_shared(global)) {
-            let name = super::matching::match_name(global);
+            let name = global.match_name();
             let index = *indices.entry((global.block.is_some(), name)).or_insert(all.len());
             match all.get_mut(index) {
                 Some(known) => {
@@ -298,7 +298,7 @@ fn too_large(ctx: &mut Linker<'_>, shared: &Shared<'_>, bytes: u32) {
     let what = if shared.is_block() { "the uniform block" } else { "the loose uniforms up to" };
     let message = format!(
         "{what} `{}` take{} {bytes} bytes, and a uniform buffer has at most {MAX_BLOCK_BYTES}",
-        super::matching::match_name(shared.global),
+        shared.global.match_name(),
         if shared.is_block() { "s" } else { "" },
     );
     ctx.report(Diagnostic::new(&codes::link::TOO_MUCH_UNIFORM_STORAGE, shared.global.span, message));

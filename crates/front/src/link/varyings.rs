@@ -12,7 +12,7 @@ use super::compatible::same_type;
 use super::declared::plural;
 use super::flatten::{join, parts};
 use super::locations::Locations;
-use super::matching::{Outputs, match_name};
+use super::matching::Outputs;
 use super::{Linker, Varying, VaryingEnd};
 use crate::diagnostic::{Diagnostic, codes};
 use crate::hir::{
@@ -104,7 +104,7 @@ fn fits(ctx: &mut Linker<'_>, whole: &Whole<'_>) -> bool {
     }
     let message = format!(
         "`{}` has {components} components, and varyings have at most {}",
-        match_name(global),
+        global.match_name(),
         MAX_LOCATIONS * 4
     );
     ctx.report(Diagnostic::new(&codes::link::TOO_MANY_VARYINGS, global.span, message));

@@ -5,7 +5,8 @@
 
 #![expect(missing_docs, reason = "fields of variants are named for the grammar")]
 
-use super::token::{Names, Symbol};
+use super::names::Names;
+use super::token::Symbol;
 pub use crate::language::{Behavior, Extensions, IncDec, Profile, Version};
 use crate::source::{Inclusion, Span};
 

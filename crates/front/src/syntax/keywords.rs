@@ -1,7 +1,7 @@
 //! The words of the language as data (GLSL 1.50 §3.6): in which versions each is a keyword and in which it is only
 //! reserved.
 //!
-//! *Holds:* row *n* is symbol *n* of [`Names::with_keywords`](super::token::Names::with_keywords).
+//! *Holds:* row *n* is symbol *n* of [`Names::with_keywords`](super::names::Names::with_keywords).
 //! Names that begin with `gl_`, built-in functions and the names inside `layout(..)` are not keywords; they are not
 //! here.
 
@@ -249,7 +249,7 @@ pub static TABLE: &[Keyword] = &[
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::syntax::token::Names;
+    use crate::syntax::names::Names;
 
     #[test]
     fn rows_are_the_first_symbols() {

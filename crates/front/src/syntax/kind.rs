@@ -1,7 +1,7 @@
 //! The cases that the text of the specification forbids and every driver silently accepts. glisten warns and cites
 //! the section; with `strict` it reports an error. All cases are rows of one table, each with its reason.
 
-use super::token::ParseSession;
+use super::session::ParseSession;
 use crate::diagnostic::codes::{preprocess, syntax};
 use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::source::Span;

@@ -7,7 +7,8 @@
 //!
 //! *Holds:* the lexer never fails, never recurses, and reads each byte a bounded number of times.
 
-use super::token::{Names, Token, TokenFlags, TokenKind};
+use super::names::Names;
+use super::token::{Token, TokenFlags, TokenKind};
 use crate::source::Span;
 use std::sync::Arc;
 

@@ -4,7 +4,7 @@
 //! [`ast::Ast`] of what was understood, and diagnostics.
 //!
 //! There are three steps, each lazy and each with its budgets. The lexer cuts text into tokens. The preprocessor runs
-//! directives and expands macros (GLSL 1.50 §3.3), behind the [`TokenSource`](token::TokenSource) interface. The
+//! directives and expands macros (GLSL 1.50 §3.3), behind the [`TokenSource`](session::TokenSource) interface. The
 //! parser follows the grammar (§9) and recovers at declarations and statements.
 //!
 //! *Holds:* types and scopes are unknown here; `S(x)` is a call of something named `S`. If the language is
@@ -14,19 +14,22 @@ pub mod ast;
 pub mod keywords;
 mod kind;
 mod lexer;
+pub mod names;
 mod number;
 mod parser;
 mod preprocessor;
+pub mod session;
 pub mod token;
 
 use crate::diagnostic::Diagnostics;
 use crate::language::Stage;
 use crate::source::{FileId, IncludeResolver, SourceMap, Span};
 use ast::{Ast, Profile, Version};
+use names::Names;
 use parser::Parser;
 use preprocessor::Preprocessor;
 pub(crate) use preprocessor::extension::warning_of_use;
-use token::{Names, ParseSession};
+use session::ParseSession;
 
 /// ParseOptions of a parse.
 #[derive(Clone, Debug)]

@@ -12,12 +12,12 @@ pub(super) struct Numeral {
     /// The value's bits.
     pub(super) bits: u32,
     /// A reason for a warning.
-    pub(super) doubt: Option<Doubt>,
+    pub(super) warning: Option<NumeralWarning>,
 }
 
 /// Why a legal numeral may not mean what its author thinks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Doubt {
+pub(super) enum NumeralWarning {
     /// A decimal without `u` above 2147483648: it becomes negative.
     Negative,
     /// A float above the largest finite one: it becomes infinite.
@@ -75,7 +75,7 @@ fn integer(text: &str, digits: &str, radix: u32) -> Result<Numeral, Malformed> {
         u32::from_str_radix(number, radix).map_err(|_| Malformed::TooLarge)?
     };
     let negative = kind == TokenKind::Int && radix == 10 && value > 1 << 31;
-    Ok(Numeral { kind, bits: value, doubt: negative.then_some(Doubt::Negative) })
+    Ok(Numeral { kind, bits: value, warning: negative.then_some(NumeralWarning::Negative) })
 }
 
 fn float(text: &str) -> Result<Numeral, Malformed> {
@@ -99,8 +99,8 @@ fn float(text: &str) -> Result<Numeral, Malformed> {
     }
     // Rust parses every spelling that the grammar allows, and rounds once to nearest.
     let value: f32 = text.get(..end).and_then(|number| number.parse().ok()).ok_or(Malformed::Suffix(0))?;
-    let doubt = value.is_infinite().then_some(Doubt::Infinite);
-    Ok(Numeral { kind: TokenKind::Float, bits: value.to_bits(), doubt })
+    let warning = value.is_infinite().then_some(NumeralWarning::Infinite);
+    Ok(Numeral { kind: TokenKind::Float, bits: value.to_bits(), warning })
 }
 
 #[cfg(test)]
@@ -115,8 +115,8 @@ mod tests {
         assert_eq!(bits("017"), Ok((TokenKind::Int, 15)));
         assert_eq!(bits("0xFFFFFFFF"), Ok((TokenKind::Int, u32::MAX)));
         assert_eq!(bits("4294967295u"), Ok((TokenKind::Uint, u32::MAX)));
-        assert_eq!(read("2147483648").map(|numeral| numeral.doubt), Ok(None));
-        assert_eq!(read("2147483649").map(|numeral| numeral.doubt), Ok(Some(Doubt::Negative)));
+        assert_eq!(read("2147483648").map(|numeral| numeral.warning), Ok(None));
+        assert_eq!(read("2147483649").map(|numeral| numeral.warning), Ok(Some(NumeralWarning::Negative)));
         assert_eq!(read("4294967296"), Err(Malformed::TooLarge));
         assert_eq!(read("089"), Err(Malformed::OctalDigit));
         assert_eq!(read("0x"), Err(Malformed::NoDigits));
@@ -133,7 +133,7 @@ mod tests {
         assert_eq!(value("1e3"), Ok(1000.0));
         assert_eq!(value("08.5"), Ok(8.5));
         assert_eq!(value("1.5E-3F"), Ok(1.5e-3));
-        assert_eq!(read("1e40").map(|numeral| numeral.doubt), Ok(Some(Doubt::Infinite)));
+        assert_eq!(read("1e40").map(|numeral| numeral.warning), Ok(Some(NumeralWarning::Infinite)));
         assert_eq!(read("1e"), Err(Malformed::NoExponent));
         assert_eq!(read("1.0.0"), Err(Malformed::Suffix(3)));
         assert_eq!(read("1.0lf"), Err(Malformed::Suffix(3)));

@@ -81,7 +81,7 @@ impl Faults {
 
     /// Whether the fault is excused.
     #[inline(always)]
-    pub fn admits(self, fault: Fault) -> bool {
+    pub fn excuses(self, fault: Fault) -> bool {
         self.0 >> fault as u8 & 1 == 1
     }
 }

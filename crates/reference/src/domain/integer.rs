@@ -6,30 +6,30 @@ use super::{Element, WIDTH};
 ///
 /// These cases are defined here because GLSL leaves them undefined: division by zero, and its remainder, have all
 /// bits set; the smallest `int` divided by -1 wraps; shift counts are taken modulo 32.
-pub trait Integer: Element<Few = [Self; WIDTH]> {
+pub trait Integer: Element<Block = [Self; WIDTH]> {
     /// Exactly these bits.
     fn from_bits(bits: u32) -> Self;
     /// The bits; for an inexact integer, those of the most likely value.
     fn bits(self) -> u32;
     /// The bits of the second value, in domains that compute two values.
     #[inline(always)]
-    fn beside(self) -> u32 {
+    fn second(self) -> u32 {
         self.bits()
     }
     /// The bits of both values; domains with one value ignore the second.
     #[inline(always)]
-    fn paired(bits: u32, beside: u32) -> Self {
-        let _ = beside;
+    fn paired(bits: u32, second: u32) -> Self {
+        let _ = second;
         Self::from_bits(bits)
     }
     /// These bits, or those of another `int` within the bounds. Domains without envelopes ignore the bounds.
-    fn with_choices(bits: u32, low: i32, high: i32) -> Self {
+    fn with_interval(bits: u32, low: i32, high: i32) -> Self {
         let _ = (low, high);
         Self::from_bits(bits)
     }
     /// The interval of `int`s that a conforming GPU may have.
     #[inline(always)]
-    fn choices(self) -> (i32, i32) {
+    fn interval(self) -> (i32, i32) {
         (self.bits() as i32, self.bits() as i32)
     }
     /// The hull of both, with this one's bits.
@@ -39,7 +39,7 @@ pub trait Integer: Element<Few = [Self; WIDTH]> {
         self
     }
     /// Whether every conforming GPU has these bits.
-    fn sure(self) -> bool {
+    fn is_decided(self) -> bool {
         true
     }
     /// A function of one operand.

@@ -10,11 +10,11 @@
 //! | [`Envelope`] | an f64 and the interval of a GPU's values | yields the hull of what [`rules`] allow |
 //! | [`Shadow`] | an f32 and an f64 side by side | is done in both, which shows the error of f32 |
 //!
-//! Registers store numbers in [`Lanes`], blocks of eight; a domain may define its own operations on [`Block`]s.
+//! Registers store numbers in [`Lanes`], blocks of eight; a domain may define its own operations on [`NumberBlock`]s.
 //!
 //! *Holds:* every operation is total: nothing panics, whatever the bits. What GLSL leaves undefined is defined here,
 //! in the documentation of the operation. Comparisons yield [`Integer`]s, so that a domain may leave a condition
-//! undecided ([`Integer::sure`]); the executor asks only where the condition determines what runs.
+//! undecided ([`Integer::is_decided`]); the executor asks only where the condition determines what runs.
 
 mod envelope;
 pub mod faults;
@@ -30,8 +30,8 @@ mod wide;
 pub(crate) use envelope::evaluate;
 pub use envelope::{EnvelopeBlock, EnvelopeFloat, EnvelopeInt};
 pub use integer::Integer;
-pub use lanes::{Answers, Block, Element, Few, LANES, Lanes, Source, WIDTH};
-pub use number::Number;
+pub use lanes::{Block, Element, LANES, Lanes, Source, WIDTH};
+pub use number::{Answers, Number, NumberBlock};
 pub use shadow::{ShadowFloat, ShadowInt, Shadowed};
 
 /// A pair of number types.
@@ -43,7 +43,7 @@ pub trait Domain: Copy + Send + Sync + std::fmt::Debug + 'static {
     /// `f64`, `f32`, `envelope`
     const NAME: &'static str;
     /// Whether conditions may be undecided, because conforming GPUs may disagree.
-    const OPEN: bool = <Self::Float as Number>::OPEN;
+    const HAS_INTERVALS: bool = <Self::Float as Number>::HAS_INTERVALS;
 }
 
 /// The reference: IEEE f64.

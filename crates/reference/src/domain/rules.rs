@@ -9,20 +9,30 @@
 
 pub use glisten_front::builtin::operations::precision::*;
 
-/// An error that a step of the pipeline may add.
+/// The values that a step of the pipeline may yield besides the exact one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Allowance {
-    /// A number of ULPs of f32.
+    /// A number of ULPs of f32 to either side.
     OfUlps(f64),
-    /// An absolute error.
+    /// An absolute error to either side.
     OfSize(f64),
-    /// The hull of the named choices, which the step computes.
-    Hull(&'static str),
+    /// 0, for numbers of smaller size.
+    ZeroBelow(f64),
+    /// Infinity, for numbers of larger size.
+    InfiniteAbove(f64),
+    /// The nearest multiple of `1 / n`; from a half, either one. The exact number is not stored.
+    Steps(f64),
+    /// The nearest multiple of `1 / n`.
+    StepsOrExact(f64),
+    /// A lower and an upper number to add.
+    Between(f64, f64),
 }
 
 /// A rule of the pipeline.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Step {
+    /// The name of the rule in the code that evaluates it.
+    pub name: &'static str,
     /// The operation.
     pub operation: &'static str,
     /// The error.
@@ -34,25 +44,23 @@ pub struct Step {
 macro_rules! steps {
     ($list:ident: $list_doc:literal; $($name:ident = $operation:literal, $allowance:expr, $source:literal;)*) => {
         $(#[doc = $operation] pub const $name: Step =
-            Step { operation: $operation, allowance: $allowance, source: $source };)*
+            Step { name: stringify!($name), operation: $operation, allowance: $allowance, source: $source };)*
         #[doc = $list_doc]
         pub static $list: &[Step] = &[$($name),*];
     };
 }
 
-use Allowance::{Hull, OfSize, OfUlps};
+use Allowance::{Between, InfiniteAbove, OfSize, OfUlps, Steps, StepsOrExact, ZeroBelow};
 
 steps! { PIPELINE: "The rows of the specifications.";
-    CONTRACT = "a * b + c", Hull("the product rounded or not"), "Vulkan: Evaluation of Expressions: the product may be rounded or not";
-    FLUSH_TO_ZERO = "subnormal operands and results", Hull("the number and 0"),
+    FLUSH_TO_ZERO = "subnormal operands and results", ZeroBelow(1.175_494_350_822_287_5e-38),
         "Vulkan: Precision and Operation: any subnormal may be flushed to zero";
-    OVERFLOW = "results beyond the greatest f32", Hull("the greatest f32 and infinity"), "Vulkan: ULP";
-    LEVEL_RANGE = "level of detail from derivatives", Hull("log2 of the longest of the steps along the axes, to log2 of their sum"),
-        "OpenGL 3.2 3.8.11: conditions on the scale factor";
-    BLEND_8_BITS = "blending in 8 bits", Hull("source, factors and products rounded to steps of 1/255 or not"),
+    OVERFLOW = "results beyond the largest f32", InfiniteAbove(f32::MAX as f64), "Vulkan: ULP";
+    CUBE_LEVEL = "level of detail of a cube texture, from derivatives", Between(-0.5, 1.0),
+        "OpenGL 3.2 3.8.11: the scale factor is between the longer step over the square root of two, and the sum of both";
+    BLEND_8_BITS = "source, factors and products of blending in 8 bits", StepsOrExact(255.0),
         "OpenGL 3.2 4.1.7: as many bits as the attachment has";
-    STORE_8_BITS = "storing in 8 bits", Hull("the steps of 1/255 on both sides of a half"), "OpenGL 3.2 2.1.5";
-    STORE_HALF = "storing in 16-bit floats", Hull("both neighbors"), "OpenGL 3.2 2.1.2: no rounding is named";
+    STORE_8_BITS = "storing in 8 bits", Steps(255.0), "OpenGL 3.2 2.1.5";
 }
 
 steps! { OWN: "Rules where no specification speaks. `cargo test --test it -- envelope::measured --nocapture` prints the measurements again.";
@@ -61,7 +69,10 @@ steps! { OWN: "Rules where no specification speaks. `cargo test --test it -- env
     SNAPPING = "vertices that varyings are interpolated between, in pixels", OfSize(0.0),
         "where they are computed to be, not where they are snapped for coverage; measured: 1e-4 pixel, 1/512 of snapping would be 2e-3";
     POINT_COORD = "gl_PointCoord", OfSize(4.768_371_582_031_25e-7), "four ULP of 1; measured: within 1 ULP";
-    NEAREST = "nearest texel", Hull("every texel that the coordinate's interval touches"), "the coordinate times the size, rounded once";
+    TEXEL_COORDINATE = "coordinate in texels", OfUlps(1.0),
+        "the coordinate times the size, rounded once; a lookup may read every texel that the interval touches";
+    CUBE_COORDINATE = "coordinate on a face of a cube", OfUlps(4.0), "ULP of 1: a division, a sum and a product";
+    COMPARED_DEPTH = "texel of a shadow comparison", OfUlps(1.0), "it and the reference are rounded to f32 before the comparison";
     FILTER_WEIGHT = "weight of linear filtering", OfSize(3.906_25e-3),
         "eight bits, as Mesa 22.3.6's llvmpipe reports in subTexelPrecisionBits; measured: 6e-8 for float texels";
     FILTER_SUM = "sum of linear filtering", OfUlps(4.0), "measured: within 1 ULP";
@@ -106,7 +117,7 @@ const _: () = {
 };
 
 /// The smallest normal f32. Smaller numbers may be flushed to 0 before or after an operation.
-pub const FLUSH: f64 = 1.175_494_350_822_287_5e-38;
+pub const FLUSH: f64 = FLUSH_TO_ZERO.limit();
 
 /// One ULP of f32 at `x`: the distance between neighbors in its binade, at least that of the subnormals.
 #[inline(always)]
@@ -117,31 +128,52 @@ pub fn ulp(x: f64) -> f64 {
     f64::from_bits((clamped - 23) << 52)
 }
 
+/// Reads the number of a rule of one kind. A rule of another kind does not compile where it is read in a constant.
+macro_rules! numbers {
+    ($($(#[$doc:meta])* $name:ident: $($variant:ident)|+;)*) => {
+        impl Step {
+            $($(#[$doc])*
+            #[inline(always)]
+            pub const fn $name(&self) -> f64 {
+                match self.allowance {
+                    $(Allowance::$variant(number))|+ => number,
+                    _ => panic!("the rule is of another kind"),
+                }
+            })*
+        }
+    };
+}
+
+numbers! {
+    /// The number of ULPs.
+    ulps: OfUlps;
+    /// The absolute error.
+    absolute: OfSize;
+    /// The number from which on it applies.
+    limit: ZeroBelow | InfiniteAbove;
+    /// The number of steps between 0 and 1.
+    steps: Steps | StepsOrExact;
+}
+
 impl Step {
-    /// The ULPs, for a rule with ULPs.
-    #[inline(always)]
-    pub const fn ulps(&self) -> f64 {
+    /// The lower and the upper number to add.
+    pub const fn between(&self) -> (f64, f64) {
         match self.allowance {
-            OfUlps(n) => n,
-            OfSize(_) | Hull(_) => 0.0,
+            Between(low, high) => (low, high),
+            _ => panic!("the rule is of another kind"),
         }
     }
 
-    /// The allowed error in words.
+    /// The allowed values in words.
     pub fn describe(&self) -> String {
         match self.allowance {
             OfUlps(n) => format!("{n} ULP"),
             OfSize(error) => format!("{error:e}"),
-            Hull(choices) => choices.to_owned(),
-        }
-    }
-
-    /// The absolute error, for a rule with one.
-    #[inline(always)]
-    pub const fn absolute(&self) -> f64 {
-        match self.allowance {
-            OfSize(error) => error,
-            OfUlps(_) | Hull(_) => 0.0,
+            ZeroBelow(limit) => format!("0, too, below 2^{}", limit.log2()),
+            InfiniteAbove(limit) => format!("infinity, too, above {limit:.7e}"),
+            Steps(n) => format!("the nearest multiple of 1/{n}; from a half, either"),
+            StepsOrExact(n) => format!("rounded to a multiple of 1/{n}, or not"),
+            Between(low, high) => format!("{low} to {high:+}"),
         }
     }
 }

@@ -6,11 +6,11 @@
 //! makes of its operands' errors.
 //!
 //! *Holds:* both sides take the path of f64, whose results decide conditions and indices. An [`Integer`] that is not
-//! [sure](Integer::sure) is one on which the two disagree. Built-in functions that are formulas (`normalize`, `mix`,
+//! [decided](Integer::is_decided) is one on which the two disagree. Built-in functions that are formulas (`normalize`, `mix`,
 //! `pow` as `exp2(y log2(x))`) round each step in f32, as GPUs do; the others round once. Subnormal f32 numbers are
 //! kept, not flushed to 0.
 
-use super::{Integer, Number};
+use super::{Element, Integer, Number, WIDTH};
 
 /// A `float`.
 pub type ShadowFloat = Shadowed<false>;
@@ -36,6 +36,14 @@ pub struct ShadowInt {
     pub single: u32,
 }
 
+impl Element for ShadowInt {
+    type Block = [Self; WIDTH];
+}
+
+impl<const INSIDE: bool> Element for Shadowed<INSIDE> {
+    type Block = [Self; WIDTH];
+}
+
 impl Integer for ShadowInt {
     fn from_bits(bits: u32) -> Self {
         Self { bits, single: bits }
@@ -43,13 +51,13 @@ impl Integer for ShadowInt {
     fn bits(self) -> u32 {
         self.bits
     }
-    fn beside(self) -> u32 {
+    fn second(self) -> u32 {
         self.single
     }
-    fn paired(bits: u32, beside: u32) -> Self {
-        Self { bits, single: beside }
+    fn paired(bits: u32, second: u32) -> Self {
+        Self { bits, single: second }
     }
-    fn sure(self) -> bool {
+    fn is_decided(self) -> bool {
         self.bits == self.single
     }
     fn lift1(self, f: impl Fn(u32) -> u32) -> Self {
@@ -130,11 +138,11 @@ impl<const INSIDE: bool> Number for Shadowed<INSIDE> {
     fn value(self) -> f64 {
         self.wide
     }
-    fn beside(self) -> f64 {
+    fn second(self) -> f64 {
         self.single.into()
     }
-    fn paired(value: f64, beside: f64) -> Self {
-        Self { single: beside as f32, exact: beside, wide: value }
+    fn paired(value: f64, second: f64) -> Self {
+        Self { single: second as f32, exact: second, wide: value }
     }
     fn widen(self) -> Shadowed<true> {
         let Self { single, exact, wide } = self.begun();
@@ -186,10 +194,10 @@ mod tests {
         // 1 + 2^-30 is 1 in f32.
         let near = of(1.0).add(of(2f64.powi(-30)));
         let answer = of(1.0).less(near);
-        assert_eq!((answer.bits, answer.single, answer.sure()), (1, 0, false));
+        assert_eq!((answer.bits, answer.single, answer.is_decided()), (1, 0, false));
         assert_eq!(Shadowed::select(answer, of(5.0), of(7.0)).single, 5.0);
         let both = answer.and(ShadowInt::from_bits(0));
-        assert!(both.sure(), "a false on both sides ends the quarrel");
+        assert!(both.is_decided(), "a false on both sides ends the quarrel");
     }
 
     #[test]

@@ -10,7 +10,7 @@
 
 use super::inst::{Composite, Operand};
 use super::registers::{Filled, Register, Registers};
-use crate::domain::{Block, Domain, Element, Few, LANES, Number, Source, WIDTH};
+use crate::domain::{Block, Domain, Element, LANES, Number, NumberBlock, Source, WIDTH};
 use smallvec::SmallVec;
 use std::hint::black_box;
 
@@ -39,12 +39,12 @@ fn each<B: Copy + Default, const C: usize>(size: usize, component: impl Fn(usize
 
 /// A number in all lanes.
 #[inline(always)]
-fn splat<W: Number, B: Block<W>>(value: f64) -> B {
+fn splat<W: Number, B: NumberBlock<W>>(value: f64) -> B {
     B::splat(W::from_f64(value))
 }
 
 #[inline(always)]
-fn dot<W: Number, B: Block<W>, const C: usize>(size: usize, a: &Vector<B, C>, b: &Vector<B, C>) -> B {
+fn dot<W: Number, B: NumberBlock<W>, const C: usize>(size: usize, a: &Vector<B, C>, b: &Vector<B, C>) -> B {
     B::sum(
         size,
         #[inline(always)]
@@ -54,7 +54,7 @@ fn dot<W: Number, B: Block<W>, const C: usize>(size: usize, a: &Vector<B, C>, b:
 
 /// `dot(a, a)`
 #[inline(always)]
-fn squared<W: Number, B: Block<W>, const C: usize>(size: usize, a: &Vector<B, C>) -> B {
+fn squared<W: Number, B: NumberBlock<W>, const C: usize>(size: usize, a: &Vector<B, C>) -> B {
     B::sum(
         size,
         #[inline(always)]
@@ -64,7 +64,7 @@ fn squared<W: Number, B: Block<W>, const C: usize>(size: usize, a: &Vector<B, C>
 
 /// A vector over the root of its squared length.
 #[inline(always)]
-fn normalize<W: Number, B: Block<W>, const C: usize>(size: usize, a: &Vector<B, C>) -> Vector<B, C> {
+fn normalize<W: Number, B: NumberBlock<W>, const C: usize>(size: usize, a: &Vector<B, C>) -> Vector<B, C> {
     let scale = squared::<W, B, C>(size, a).inversesqrt();
     each(
         size,
@@ -74,7 +74,11 @@ fn normalize<W: Number, B: Block<W>, const C: usize>(size: usize, a: &Vector<B, 
 }
 
 #[inline(always)]
-fn cross<W: Number, B: Block<W>, const C: usize>(size: usize, a: &Vector<B, C>, b: &Vector<B, C>) -> Vector<B, C> {
+fn cross<W: Number, B: NumberBlock<W>, const C: usize>(
+    size: usize,
+    a: &Vector<B, C>,
+    b: &Vector<B, C>,
+) -> Vector<B, C> {
     each(
         size,
         #[inline(always)]
@@ -87,7 +91,7 @@ fn cross<W: Number, B: Block<W>, const C: usize>(size: usize, a: &Vector<B, C>, 
 
 /// `I - 2 dot(N, I) N`
 #[inline(always)]
-fn reflect<W: Number, B: Block<W>, const C: usize>(
+fn reflect<W: Number, B: NumberBlock<W>, const C: usize>(
     size: usize,
     incident: &Vector<B, C>,
     normal: &Vector<B, C>,
@@ -102,7 +106,7 @@ fn reflect<W: Number, B: Block<W>, const C: usize>(
 
 /// With `k = 1 - eta eta (1 - dot(N, I)^2)`: 0 if that is negative, else `eta I - (eta dot(N, I) + sqrt(k)) N`.
 #[inline(always)]
-fn refract<W: Number, B: Block<W>, const C: usize>(
+fn refract<W: Number, B: NumberBlock<W>, const C: usize>(
     size: usize,
     incident: &Vector<B, C>,
     normal: &Vector<B, C>,
@@ -122,7 +126,7 @@ fn refract<W: Number, B: Block<W>, const C: usize>(
 
 /// `dot(Nref, I) < 0 ? N : -N`
 #[inline(always)]
-fn faceforward<W: Number, B: Block<W>, const C: usize>(
+fn faceforward<W: Number, B: NumberBlock<W>, const C: usize>(
     size: usize,
     normal: &Vector<B, C>,
     incident: &Vector<B, C>,
@@ -137,12 +141,12 @@ fn faceforward<W: Number, B: Block<W>, const C: usize>(
 }
 
 /// The determinant of these columns and rows of a matrix with `size` columns.
-fn minor<W: Number>(m: &[W::Few], size: usize, columns: &[usize], rows: &[usize]) -> W::Few {
+fn minor<W: Number>(m: &[W::Block], size: usize, columns: &[usize], rows: &[usize]) -> W::Block {
     match (columns, rows) {
         ([c], [r]) => m[c * size + r],
         ([c, d], [r, s]) => m[c * size + r].mul(&m[d * size + s]).sub(&m[d * size + r].mul(&m[c * size + s])),
         ([first, rest @ ..], _) => {
-            let mut sum: Option<W::Few> = None;
+            let mut sum: Option<W::Block> = None;
             for (k, row) in rows.iter().enumerate() {
                 let others: SmallVec<[usize; 4]> = rows.iter().copied().filter(|other| other != row).collect();
                 let term = m[first * size + row].mul(&minor::<W>(m, size, rest, &others));
@@ -152,23 +156,23 @@ fn minor<W: Number>(m: &[W::Few], size: usize, columns: &[usize], rows: &[usize]
                     Some(sum) => sum.add(&term),
                 });
             }
-            sum.unwrap_or(splat::<W, W::Few>(1.0))
+            sum.unwrap_or(splat::<W, W::Block>(1.0))
         }
-        _ => splat::<W, W::Few>(1.0),
+        _ => splat::<W, W::Block>(1.0),
     }
 }
 
 /// Rare, so it is not compiled for a vector unit.
 #[inline(never)]
-fn determinant<W: Number>(m: &[W::Few], size: usize) -> W::Few {
+fn determinant<W: Number>(m: &[W::Block], size: usize) -> W::Block {
     let all = [0, 1, 2, 3];
     minor::<W>(m, size, &all[..size], &all[..size])
 }
 
 /// The inverse by cofactors and the determinant.
 #[inline(never)]
-fn inverse<W: Number>(m: &[W::Few], size: usize) -> [W::Few; 16] {
-    let mut out = [splat::<W, W::Few>(0.0); 16];
+fn inverse<W: Number>(m: &[W::Block], size: usize) -> [W::Block; 16] {
+    let mut out = [splat::<W, W::Block>(0.0); 16];
     let all = [0usize, 1, 2, 3];
     let determinant = determinant::<W>(m, size);
     for column in 0..size {
@@ -188,7 +192,7 @@ fn inverse<W: Number>(m: &[W::Few], size: usize) -> [W::Few; 16] {
 /// A function of vectors of `size` components. `scalar` returns the components of all arguments, which follow each other;
 /// `result` takes the components of the result.
 #[inline(always)]
-fn of_vectors<W: Number, B: Block<W>, const C: usize>(
+fn of_vectors<W: Number, B: NumberBlock<W>, const C: usize>(
     (op, squares): (Composite, bool),
     size: usize,
     scalar: impl Fn(usize) -> B,
@@ -235,7 +239,7 @@ fn vector<B: Copy + Default, const C: usize>(size: usize, number: usize, scalar:
 
 /// A block of an argument. Missing ones are blank.
 #[inline(always)]
-fn scalar<N: Number>(arguments: &[Source<'_, N>], place: usize, number: usize) -> <N::Wide as Element>::Few {
+fn scalar<N: Number>(arguments: &[Source<'_, N>], place: usize, number: usize) -> <N::Wide as Element>::Block {
     match arguments.get(number) {
         Some(source) => source.block(place).widen(),
         None => Default::default(),
@@ -245,16 +249,16 @@ fn scalar<N: Number>(arguments: &[Source<'_, N>], place: usize, number: usize) -
 /// The block of an argument as separate numbers.
 #[inline(always)]
 fn by_lane<N: Number>(arguments: &[Source<'_, N>], place: usize, number: usize) -> ByLane<N::Wide> {
-    let few = scalar(arguments, place, number);
+    let lanes_of = scalar(arguments, place, number);
     let mut lanes = [N::Wide::default(); WIDTH];
     for (lane, slot) in lanes.iter_mut().enumerate() {
-        *slot = few.get(lane);
+        *slot = lanes_of.get(lane);
     }
     lanes
 }
 
 /// All components of a matrix.
-fn all<N: Number>(arguments: &[Source<'_, N>], place: usize) -> [<N::Wide as Element>::Few; 16] {
+fn all<N: Number>(arguments: &[Source<'_, N>], place: usize) -> [<N::Wide as Element>::Block; 16] {
     let mut all = [Default::default(); 16];
     for (k, slot) in all.iter_mut().enumerate() {
         *slot = scalar(arguments, place, k);
@@ -274,13 +278,13 @@ fn write<N: Number>(
     outs: &mut [Register<N>],
     number: usize,
     (place, filled): (usize, Filled),
-    found: &<N::Wide as Element>::Few,
+    found: &<N::Wide as Element>::Block,
 ) {
     if let Some(out) = outs.get_mut(number) {
         out.fill(
             #[inline(always)]
             |lanes| {
-                lanes.blocks_mut()[place % (LANES / WIDTH)] = Block::narrow(found);
+                lanes.blocks_mut()[place % (LANES / WIDTH)] = NumberBlock::narrow(found);
                 filled
             },
         );
@@ -297,7 +301,7 @@ fn loops<N: Number, const C: usize>(
 ) {
     let (blocks, filled) = blocks(arguments);
     for place in 0..blocks {
-        of_vectors::<N::Wide, <N::Wide as Element>::Few, C>(
+        of_vectors::<N::Wide, <N::Wide as Element>::Block, C>(
             op,
             size,
             #[inline(always)]
@@ -316,7 +320,7 @@ fn loops_by_lane<N: Number>(op: (Composite, bool), size: usize, arguments: &[Sou
             op,
             size,
             |number| by_lane(arguments, place, number),
-            |number, found| write(outs, number, (place, filled), &Few::of(found)),
+            |number, found| write(outs, number, (place, filled), &Block::of(found)),
         );
     }
 }
@@ -327,7 +331,7 @@ fn vectors<N: Number>(op: (Composite, bool), size: usize, arguments: &[Source<'_
     }
     // The number of components is hidden from the compiler, which would otherwise unroll each loop for each number.
     let size = black_box(size);
-    let done = <N::Wide as Element>::Few::if_vectorized(
+    let done = <N::Wide as Element>::Block::if_vectorized(
         #[inline(always)]
         || loops::<N, MOST>(op, size, arguments, outs),
     );
@@ -359,7 +363,7 @@ impl<D: Domain> Registers<D> {
                 }
             }
             _ => {
-                let squares = D::OPEN && operands.get(..size) == operands.get(size..);
+                let squares = D::HAS_INTERVALS && operands.get(..size) == operands.get(size..);
                 vectors((op, squares), size, &arguments, &mut outs);
             }
         }
@@ -396,13 +400,13 @@ mod tests {
                         (op, squares),
                         size,
                         component,
-                        |_, few| {
-                            by_lane.push(*few);
+                        |_, lanes_of| {
+                            by_lane.push(*lanes_of);
                         },
                     );
                     let block = |number: usize| EnvelopeBlock::of(&component(number));
-                    of_vectors::<EnvelopeFloat, EnvelopeBlock, MOST>((op, squares), size, block, |_, few| {
-                        by_block.push(*few);
+                    of_vectors::<EnvelopeFloat, EnvelopeBlock, MOST>((op, squares), size, block, |_, lanes_of| {
+                        by_block.push(*lanes_of);
                     });
                     assert_eq!(by_lane.len(), by_block.len());
                     for (by_lane, by_block) in by_lane.iter().zip(&by_block) {

@@ -5,7 +5,7 @@ use super::inst::{Compare, Derivative, Float1, Float2, Float3, FloatToInt, Inst,
 use super::registers::{Filled, Registers, blocks1, blocks2, blocks3, calls1, calls2, calls3, copy, map1, map2, map3};
 use super::{DFDY_SIGN, LANES};
 use crate::domain::faults::{self, Fault};
-use crate::domain::{Block, Domain, Element, Few, Integer, Lanes, Number, Source};
+use crate::domain::{Block, Domain, Element, Integer, Lanes, Number, NumberBlock, Source};
 
 type Float<D> = <D as Domain>::Float;
 
@@ -93,7 +93,7 @@ fn float2<N: Number>(op: Float2, out: &mut Lanes<N>, a: Source<'_, N>, b: Source
             a,
             b,
             #[inline(always)]
-            |edge, x| N::Few::select(&x.less(edge), &N::Few::splat(constant(0.0)), &N::Few::splat(constant(1.0))),
+            |edge, x| N::Block::select(&x.less(edge), &N::Block::splat(constant(0.0)), &N::Block::splat(constant(1.0))),
             |edge, x| N::select(x.less(edge), constant(0.0), constant(1.0)),
         ),
     }
@@ -218,13 +218,16 @@ impl<D: Domain> Registers<D> {
         match *inst {
             Inst::Float1 { op, dst, a } => self.write_float(dst, |this, out| {
                 let filled = float1(op, out, this.float(a));
-                if D::OPEN && matches!(op, Float1::Asin | Float1::Acos) && this.faults.admits(Fault::ArcFunctions) {
+                if D::HAS_INTERVALS
+                    && matches!(op, Float1::Asin | Float1::Acos)
+                    && this.faults.excuses(Fault::ArcFunctions)
+                {
                     out.update(|_, number| number.widened(faults::ARC_FUNCTIONS));
                 }
                 filled
             }),
             // A number times itself is a square, for which an envelope is narrower.
-            Inst::Float2 { op: Float2::Mul, dst, a, b } if D::OPEN && a == b => {
+            Inst::Float2 { op: Float2::Mul, dst, a, b } if D::HAS_INTERVALS && a == b => {
                 self.write_float(dst, |this, out| {
                     blocks1(
                         out,
@@ -235,7 +238,7 @@ impl<D: Domain> Registers<D> {
                     )
                 });
             }
-            Inst::MulAdd { dst, a, b, c } if D::OPEN && a == b => self.write_float(dst, |this, out| {
+            Inst::MulAdd { dst, a, b, c } if D::HAS_INTERVALS && a == b => self.write_float(dst, |this, out| {
                 blocks2(
                     out,
                     this.float(a),
@@ -316,17 +319,17 @@ fn is_same<D: Domain>(this: &Registers<D>, operands: &[Operand]) -> bool {
 fn sum_of_products<D: Domain>(this: &Registers<D>, pairs: &[Operand], out: &mut Lanes<Float<D>>) -> Filled {
     let same = is_same(this, pairs);
     let count = pairs.len() / 2;
-    let done = <Float<D> as Element>::Few::if_vectorized(
+    let done = <Float<D> as Element>::Block::if_vectorized(
         #[inline(always)]
         || {
             for (place, out) in out.blocks_mut().iter_mut().enumerate().take(if same { 1 } else { usize::MAX }) {
-                *out = Block::sum(
+                *out = NumberBlock::sum(
                     count,
                     #[inline(always)]
                     |product| match pairs.get(2 * product..2 * product + 2) {
-                        Some([a, b]) if D::OPEN && a == b => this.float(*a).block(place).square(),
+                        Some([a, b]) if D::HAS_INTERVALS && a == b => this.float(*a).block(place).square(),
                         Some([a, b]) => this.float(*a).block(place).mul(&this.float(*b).block(place)),
-                        _ => Few::splat(constant(0.0)),
+                        _ => Block::splat(constant(0.0)),
                     },
                 );
             }
@@ -335,7 +338,7 @@ fn sum_of_products<D: Domain>(this: &Registers<D>, pairs: &[Operand], out: &mut 
     if done.is_none() {
         out.update(|lane, _| {
             Number::sum(pairs.chunks_exact(2).map(|pair| match pair {
-                [a, b] if D::OPEN && a == b => this.float(*a).at(lane).square(),
+                [a, b] if D::HAS_INTERVALS && a == b => this.float(*a).at(lane).square(),
                 [a, b] => this.float(*a).at(lane).mul(this.float(*b).at(lane)),
                 _ => constant(0.0),
             }))
@@ -349,11 +352,11 @@ fn select<N: Number>(out: &mut Lanes<N>, c: Source<'_, N::Int>, a: Source<'_, N>
     if let Source::One(c) = c {
         return map2(out, a, b, |a, b| N::select(c, a, b));
     }
-    let done = N::Few::if_vectorized(
+    let done = N::Block::if_vectorized(
         #[inline(always)]
         || {
             for (place, out) in out.blocks_mut().iter_mut().enumerate() {
-                *out = N::Few::select(&c.block(place), &a.block(place), &b.block(place));
+                *out = N::Block::select(&c.block(place), &a.block(place), &b.block(place));
             }
             Filled::Lanes
         },

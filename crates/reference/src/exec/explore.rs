@@ -1,20 +1,20 @@
-//! Runs every path that lanes may take where conditions are uncertain, and joins the results.
+//! Runs every path that lanes may take where conditions are undecided, and joins the results.
 //!
-//! *In:* a machine after its first run, in which each uncertain condition followed the value and was recorded. *Out:*
+//! *In:* a machine after its first run, in which each undecided condition followed the value and was recorded. *Out:*
 //! its outputs joined over all other paths, the lanes that may or may not be discarded, and the lanes that remain
-//! undecided. *Holds:* a group of lanes runs at most [`MAX_WAYS`] times. After that its outputs may be anything, and
+//! undecided. *Holds:* a group of lanes runs at most [`MAX_PATHS`] times. After that its outputs may be anything, and
 //! it is undecided.
 
 use super::inst::Class;
 use super::machine::Machine;
-use super::paths::{MAX_DECISIONS, Way};
+use super::paths::{MAX_DECISIONS, Path};
 use super::registers::Register;
 use super::{LANES, Mask};
 use crate::domain::{Domain, Integer, Number};
 use glisten_scene::picture::Interval;
 
 /// The largest number of paths of one group.
-const MAX_WAYS: usize = 64;
+const MAX_PATHS: usize = 64;
 
 /// Registers of some ports, floats and ints.
 type Files<D> = (Vec<Register<<D as Domain>::Float>>, Vec<Register<<D as Domain>::Int>>);
@@ -33,52 +33,52 @@ struct Joined<D: Domain> {
 }
 
 impl<D: Domain> Machine<D> {
-    /// Runs all other paths of the groups of these lanes that met an uncertain condition.
+    /// Runs all other paths of the groups of these lanes that met an undecided condition.
     pub(super) fn explore(&mut self, lanes: u64) {
         if !self.paths.any || self.budget_exceeded {
             return;
         }
         let group = self.paths.group;
         let members = (1u64 << group) - 1;
-        let mut ways: Vec<(usize, Way)> = Vec::new();
+        let mut paths: Vec<(usize, Path)> = Vec::new();
         let mut counts = [0usize; LANES];
         let mut joined = self.first_outcome();
         let inputs = self.copy_inputs();
-        for (number, way) in self.paths.ways.iter().enumerate().take(LANES / group) {
-            if way.met > 0 && lanes >> (number * group) & members != 0 {
+        for (number, path) in self.paths.paths.iter().enumerate().take(LANES / group) {
+            if path.met > 0 && lanes >> (number * group) & members != 0 {
                 counts[number] = 1;
-                if way.met > MAX_DECISIONS {
+                if path.met > MAX_DECISIONS {
                     joined.undecided |= members << (number * group);
                 } else {
-                    ways.extend(way.others().map(|other| (number, other)));
+                    paths.extend(path.others().map(|other| (number, other)));
                 }
             }
         }
-        while !ways.is_empty() {
+        while !paths.is_empty() {
             // The latest first (depth first), so that the list stays short.
-            let batch = ways.split_off(ways.len().saturating_sub(LANES / group));
+            let batch = paths.split_off(paths.len().saturating_sub(LANES / group));
             self.paths.clear();
             self.paths.any = true;
             let mut mask = 0;
-            for (slot, (number, way)) in batch.iter().enumerate() {
-                self.paths.ways[slot] = *way;
+            for (slot, (number, path)) in batch.iter().enumerate() {
+                self.paths.paths[slot] = *path;
                 mask |= (lanes >> (number * group) & members) << (slot * group);
                 self.move_group(&inputs, *number * group, slot * group, group);
             }
-            self.run_ways(mask);
+            self.run_paths(mask);
             for (slot, (number, _)) in batch.iter().enumerate() {
-                let way = self.paths.ways[slot];
+                let path = self.paths.paths[slot];
                 counts[*number] += 1;
                 joined.add(self, number * group, slot * group, group);
-                if counts[*number] >= MAX_WAYS || way.met > MAX_DECISIONS || self.budget_exceeded {
+                if counts[*number] >= MAX_PATHS || path.met > MAX_DECISIONS || self.budget_exceeded {
                     joined.undecided |= members << (number * group);
                 }
                 if joined.undecided >> (number * group) & members == 0 {
-                    ways.extend(way.others().map(|other| (*number, other)));
+                    paths.extend(path.others().map(|other| (*number, other)));
                 }
             }
-            ways.retain(|(number, _)| joined.undecided >> (number * group) & members == 0);
-            // A path without an end is one that an uncertain loop bound permits.
+            paths.retain(|(number, _)| joined.undecided >> (number * group) & members == 0);
+            // A path without an end is one that an undecided loop bound permits.
             self.budget_exceeded = false;
         }
         self.paths.clear();
@@ -86,7 +86,7 @@ impl<D: Domain> Machine<D> {
         self.leave(joined);
     }
 
-    fn run_ways(&mut self, mask: u64) {
+    fn run_paths(&mut self, mask: u64) {
         let code = std::sync::Arc::clone(&self.code.inner);
         self.discarded = 0;
         self.budget = self.loop_budget >> 4;
@@ -142,10 +142,10 @@ impl<D: Domain> Machine<D> {
         let of = |class: Class| code.outputs.iter().filter(move |port| port.class == class);
         for lane in Mask(joined.undecided & !self.undecided).lanes() {
             for lanes in joined.floats.iter_mut().map(Register::spread) {
-                lanes.set(lane, D::Float::with_range(lanes.get(lane).value(), Interval::ALL));
+                lanes.set(lane, D::Float::with_interval(lanes.get(lane).value(), Interval::ALL));
             }
             for lanes in joined.ints.iter_mut().map(Register::spread) {
-                lanes.set(lane, D::Int::with_choices(lanes.get(lane).bits(), i32::MIN, i32::MAX));
+                lanes.set(lane, D::Int::with_interval(lanes.get(lane).bits(), i32::MIN, i32::MAX));
             }
         }
         for (port, outcome) in of(Class::Float).zip(joined.floats) {

@@ -6,24 +6,24 @@ use super::registers::Registers;
 use super::{LANES, Mask};
 use crate::domain::faults::{self, Fault};
 use crate::domain::{Domain, Integer, Number};
-use crate::texture::{self, Bits, Gradients, MISSING, Near, Request, Sampled, Steps};
+use crate::texture::{self, BoundedFloat, BoundedInt, Gradients, MISSING, Request, Sampled, Steps};
 use glisten_front::hir::{SamplerDim, Scalar, Stage};
 use glisten_scene::picture::Interval;
 use glisten_scene::{Filter, Texture};
 
 impl<D: Domain> Machine<D> {
-    /// Runs a texture instruction in these lanes. Returns the lanes whose texture is uncertain.
+    /// Runs a texture instruction in these lanes. Returns the lanes whose texture is undecided.
     pub(super) fn texture(&mut self, call: &TextureCall, stage: Stage, mask: u64) -> u64 {
         let mut undecided = 0;
         for lane in Mask(mask).lanes() {
             let slot = self.registers.int(call.sampler).at(lane);
             let bound = self.textures.get(slot.bits() as usize).and_then(Option::as_deref);
-            let lookup = At { registers: &self.registers, call, lane, beside: false };
+            let lookup = LaneLookup { registers: &self.registers, call, lane, second: false };
             let sampled = lookup.sampled(bound, stage);
             if D::Float::PAIRED {
-                let beside = At { beside: true, ..lookup }.sampled(bound, stage);
-                self.put_pair(call, lane, sampled, beside);
-            } else if slot.sure() {
+                let second = LaneLookup { second: true, ..lookup }.sampled(bound, stage);
+                self.put_pair(call, lane, sampled, second);
+            } else if slot.is_decided() {
                 self.put(call, lane, sampled);
             } else {
                 undecided |= 1 << lane;
@@ -37,13 +37,17 @@ impl<D: Domain> Machine<D> {
         for (k, result) in call.results.iter().enumerate() {
             match sampled {
                 Sampled::Floats(values) => {
-                    let Near { value, low, high } = values[k % 4];
-                    let range = Interval { low, high, may_be_nan: value.is_nan() };
-                    self.registers.floats.register(*result).spread().set(lane, D::Float::with_range(value, range));
+                    let BoundedFloat { value, low, high } = values[k % 4];
+                    let interval = Interval { low, high, may_be_nan: value.is_nan() };
+                    self.registers
+                        .floats
+                        .register(*result)
+                        .spread()
+                        .set(lane, D::Float::with_interval(value, interval));
                 }
-                Sampled::Bits(bits) => {
-                    let Bits { bits, low, high } = bits[k % 4];
-                    self.registers.ints.register(*result).spread().set(lane, D::Int::with_choices(bits, low, high));
+                Sampled::Ints(bits) => {
+                    let BoundedInt { bits, low, high } = bits[k % 4];
+                    self.registers.ints.register(*result).spread().set(lane, D::Int::with_interval(bits, low, high));
                 }
             }
         }
@@ -52,9 +56,9 @@ impl<D: Domain> Machine<D> {
 
 impl<D: Domain> Machine<D> {
     /// Stores the result for the coordinates and that for the second values of the coordinates.
-    fn put_pair(&mut self, call: &TextureCall, lane: usize, sampled: Sampled, beside: Sampled) {
+    fn put_pair(&mut self, call: &TextureCall, lane: usize, sampled: Sampled, second: Sampled) {
         for (k, result) in call.results.iter().enumerate() {
-            match (sampled, beside) {
+            match (sampled, second) {
                 (Sampled::Floats(a), Sampled::Floats(b)) => {
                     self.registers
                         .floats
@@ -62,7 +66,7 @@ impl<D: Domain> Machine<D> {
                         .spread()
                         .set(lane, D::Float::paired(a[k % 4].value, b[k % 4].value));
                 }
-                (Sampled::Bits(a), Sampled::Bits(b)) => {
+                (Sampled::Ints(a), Sampled::Ints(b)) => {
                     self.registers
                         .ints
                         .register(*result)
@@ -78,25 +82,25 @@ impl<D: Domain> Machine<D> {
 
 fn nothing(call: &TextureCall) -> Sampled {
     if call.kind.texel == Scalar::Float || call.kind.shadow {
-        Sampled::Floats(MISSING.map(Near::exact))
+        Sampled::Floats(MISSING.map(BoundedFloat::exact))
     } else {
-        Sampled::Bits([0, 0, 0, 1].map(Bits::exact))
+        Sampled::Ints([0, 0, 0, 1].map(BoundedInt::exact))
     }
 }
 
 /// A texture instruction in one lane.
-struct At<'a, D: Domain> {
+struct LaneLookup<'a, D: Domain> {
     registers: &'a Registers<D>,
     call: &'a TextureCall,
     lane: usize,
     /// Whether to use the second values.
-    beside: bool,
+    second: bool,
 }
 
-impl<D: Domain> At<'_, D> {
+impl<D: Domain> LaneLookup<'_, D> {
     fn sampled(&self, texture: Option<&Texture>, stage: Stage) -> Sampled {
         match (texture, self.call.lookup) {
-            (None, Lookup::Size) => Sampled::Bits([Bits::default(); 4]),
+            (None, Lookup::Size) => Sampled::Ints([BoundedInt::default(); 4]),
             (None, _) => nothing(self.call),
             (Some(texture), Lookup::Size) => self.size(texture),
             (Some(texture), Lookup::Fetch) => self.fetch(texture),
@@ -104,26 +108,30 @@ impl<D: Domain> At<'_, D> {
         }
     }
 
-    fn near(&self, operand: Operand) -> Near {
+    fn bounded(&self, operand: Operand) -> BoundedFloat {
         let number = self.registers.float(operand).at(self.lane);
-        if D::Float::PAIRED && self.beside {
-            return Near::exact(number.beside());
+        if D::Float::PAIRED && self.second {
+            return BoundedFloat::exact(number.second());
         }
         let value = number.value();
-        if !D::OPEN {
-            return Near::exact(value);
+        if !D::HAS_INTERVALS {
+            return BoundedFloat::exact(value);
         }
-        let range = number.range();
-        if range.may_be_nan { Near::anything(value) } else { Near { value, low: range.low, high: range.high } }
+        let interval = number.interval();
+        if interval.may_be_nan {
+            BoundedFloat::anything(value)
+        } else {
+            BoundedFloat { value, low: interval.low, high: interval.high }
+        }
     }
 
     fn int(&self, operand: Operand) -> D::Int {
         let int = self.registers.int(operand).at(self.lane);
-        if D::Float::PAIRED && self.beside { D::Int::from_bits(int.beside()) } else { int }
+        if D::Float::PAIRED && self.second { D::Int::from_bits(int.second()) } else { int }
     }
 
-    fn nears(&self, operands: &[Operand]) -> [Near; 3] {
-        std::array::from_fn(|k| operands.get(k).map_or(Near::default(), |operand| self.near(*operand)))
+    fn all_bounded(&self, operands: &[Operand]) -> [BoundedFloat; 3] {
+        std::array::from_fn(|k| operands.get(k).map_or(BoundedFloat::default(), |operand| self.bounded(*operand)))
     }
 
     fn ints(&self, operands: &[Operand]) -> [i32; 3] {
@@ -133,11 +141,11 @@ impl<D: Domain> At<'_, D> {
     fn size(&self, texture: &Texture) -> Sampled {
         let level = self.call.level.map(|level| self.int(level));
         let [x, y, z] = texture::size(texture, self.call.kind, level.map_or(0, |level| level.bits() as i32));
-        let sizes = Sampled::Bits([x, y, z, 0].map(Bits::exact));
-        if level.is_none_or(Integer::sure) { sizes } else { sizes.unknown() }
+        let sizes = Sampled::Ints([x, y, z, 0].map(BoundedInt::exact));
+        if level.is_none_or(Integer::is_decided) { sizes } else { sizes.unknown() }
     }
 
-    /// Reads a texel. If the coordinates are uncertain: the hull of those that they may select, if these are few.
+    /// Reads a texel. If the coordinates are undecided: the hull of those that they may select, if these are few.
     fn fetch(&self, texture: &Texture) -> Sampled {
         const MOST: i64 = 64;
         let offset = self.ints(&self.call.offset);
@@ -148,20 +156,20 @@ impl<D: Domain> At<'_, D> {
             texture::fetch(texture, self.call.kind, at, level.map_or(0, |level| level.bits() as i32), offset)
         };
         let likely = of(&at);
-        let mut choices = [(0, 0); 3];
-        for (choice, operand) in choices.iter_mut().zip(&self.call.coordinate) {
-            *choice = self.int(*operand).choices();
+        let mut intervals = [(0, 0); 3];
+        for (interval, operand) in intervals.iter_mut().zip(&self.call.coordinate) {
+            *interval = self.int(*operand).interval();
         }
-        let count = choices.iter().map(|(low, high)| i64::from(*high) - i64::from(*low) + 1);
+        let count = intervals.iter().map(|(low, high)| i64::from(*high) - i64::from(*low) + 1);
         let count = count.fold(1i64, i64::saturating_mul);
-        if count > MOST || !level.is_none_or(Integer::sure) {
+        if count > MOST || !level.is_none_or(Integer::is_decided) {
             return likely.unknown();
         }
         let mut hull = likely;
         if count > 1 {
-            for z in choices[2].0..=choices[2].1 {
-                for y in choices[1].0..=choices[1].1 {
-                    for x in choices[0].0..=choices[0].1 {
+            for z in intervals[2].0..=intervals[2].1 {
+                for y in intervals[1].0..=intervals[1].1 {
+                    for x in intervals[0].0..=intervals[0].1 {
                         hull = hull.joined(of(&[x, y, z]));
                     }
                 }
@@ -174,55 +182,64 @@ impl<D: Domain> At<'_, D> {
         let kind = self.call.kind;
         let axes = self.call.coordinate.len().saturating_sub(usize::from(kind.arrayed));
         let (coordinate, layer) = self.call.coordinate.split_at(axes);
-        let at = self.nears(coordinate);
+        let at = self.all_bounded(coordinate);
         let request = Request {
             kind,
             at,
-            layer: layer.first().map_or(Near::default(), |layer| self.near(*layer)),
-            reference: self.call.reference.map_or(Near::default(), |reference| self.near(reference)),
-            level: if texture.filter == Filter::Trilinear { self.level(texture, stage, at) } else { Near::default() },
+            layer: layer.first().map_or(BoundedFloat::default(), |layer| self.bounded(*layer)),
+            reference: self.call.reference.map_or(BoundedFloat::default(), |reference| self.bounded(reference)),
+            level: if texture.filter == Filter::Trilinear {
+                self.level(texture, stage, at)
+            } else {
+                BoundedFloat::default()
+            },
             offset: self.ints(&self.call.offset),
-            bounded: D::OPEN,
+            bounded: D::HAS_INTERVALS,
         };
         texture::sample(texture, &request)
     }
 
     /// The level of detail.
-    fn level(&self, texture: &Texture, stage: Stage, at: [Near; 3]) -> Near {
-        let given = self.call.level.map_or(Near::default(), |level| self.near(level));
+    fn level(&self, texture: &Texture, stage: Stage, at: [BoundedFloat; 3]) -> BoundedFloat {
+        let given = self.call.level.map_or(BoundedFloat::default(), |level| self.bounded(level));
         let (gradients, steps) = match self.call.lookup {
             Lookup::Lod => return given,
             Lookup::Grad => {
-                let values = |operands: &[Operand]| self.nears(operands).map(|near| near.value);
+                let values = |operands: &[Operand]| self.all_bounded(operands).map(|bounded| bounded.value);
                 let gradients = Gradients { dx: values(&self.call.dx), dy: values(&self.call.dy) };
-                (gradients, D::OPEN.then(|| self.given_steps()))
+                (gradients, D::HAS_INTERVALS.then(|| self.given_steps()))
             }
             // Outside fragment stages there are no derivatives: the base level (§8.7).
             _ if stage != Stage::Fragment || self.call.kind.dim == SamplerDim::Rect => return given,
-            _ => (self.quad_gradients(), D::OPEN.then(|| self.quad_steps())),
+            _ => (self.quad_gradients(), D::HAS_INTERVALS.then(|| self.quad_steps())),
         };
-        let lambda =
-            texture::level_of_detail(texture, self.call.kind, at.map(|near| near.value), gradients, steps.as_ref());
-        let admitted = self.registers.faults.admits(Fault::LevelOfDetail);
-        let lambda = if admitted { lambda.widened(faults::LEVEL_OF_DETAIL) } else { lambda };
-        Near { value: lambda.value + given.value, low: lambda.low + given.low, high: lambda.high + given.high }
+        let lambda = texture::level_of_detail(
+            texture,
+            self.call.kind,
+            at.map(|bounded| bounded.value),
+            gradients,
+            steps.as_ref(),
+        );
+        let excused = self.registers.faults.excuses(Fault::LevelOfDetail);
+        let lambda = if excused { lambda.widened(faults::LEVEL_OF_DETAIL) } else { lambda };
+        BoundedFloat { value: lambda.value + given.value, low: lambda.low + given.low, high: lambda.high + given.high }
     }
 
     /// The explicit derivatives.
     fn given_steps(&self) -> Steps {
         let mut steps = Steps::default();
         for operands in [&self.call.dx, &self.call.dy] {
-            operands.iter().enumerate().for_each(|(axis, operand)| steps.add(axis, self.near(*operand)));
+            operands.iter().enumerate().for_each(|(axis, operand)| steps.add(axis, self.bounded(*operand)));
         }
         steps
     }
 
     /// The difference of a coordinate between two lanes of the quad.
-    fn difference(&self, operand: Operand, from: usize, to: usize) -> Near {
+    fn difference(&self, operand: Operand, from: usize, to: usize) -> BoundedFloat {
         let first = self.lane & !3;
-        let at = |lane: usize| At { lane: (first + lane) % LANES, ..*self }.near(operand);
+        let at = |lane: usize| LaneLookup { lane: (first + lane) % LANES, ..*self }.bounded(operand);
         let (a, b) = (at(from), at(to));
-        Near { value: b.value - a.value, low: b.low - a.high, high: b.high - a.low }
+        BoundedFloat { value: b.value - a.value, low: b.low - a.high, high: b.high - a.low }
     }
 
     /// The differences of the coordinates in the lane's quad, for both rows and both columns.

@@ -143,7 +143,7 @@ impl<D: Domain> Machine<D> {
         self.mute_input();
         self.run_main(inner, live.0 | helpers.0);
         self.show_outputs(live.0 & !self.discarded);
-        if D::OPEN {
+        if D::HAS_INTERVALS {
             self.explore(live.0 | helpers.0);
         }
         self.discarded &= live.0;
@@ -177,13 +177,13 @@ impl<D: Domain> Machine<D> {
         Mask(self.discarded)
     }
 
-    /// The lanes that the last run may or may not have discarded, depending on uncertain conditions.
+    /// The lanes that the last run may or may not have discarded, depending on undecided conditions.
     /// [`Self::discarded`] follows the value. Always empty in domains without envelopes.
     pub fn perhaps_discarded(&self) -> Mask {
         Mask(self.perhaps_discarded)
     }
 
-    /// The lanes of the last run that have more paths than are run, or whose texture is uncertain. Always empty in
+    /// The lanes of the last run that have more paths than are run, or whose texture is undecided. Always empty in
     /// domains without envelopes.
     pub fn undecided(&self) -> Mask {
         Mask(self.undecided)

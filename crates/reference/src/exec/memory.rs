@@ -2,7 +2,7 @@
 
 use super::inst::Operand;
 use super::registers::{File, Filled, Register, Registers, copy};
-use crate::domain::{Domain, Element, Few, Integer, LANES, Lanes, Number, Source, WIDTH};
+use crate::domain::{Block, Domain, Element, Integer, LANES, Lanes, Number, Source, WIDTH};
 
 /// The index into a table of `len` elements, clamped as an `int`.
 #[inline(always)]
@@ -41,7 +41,7 @@ fn load<T: Element, I: Integer>(out: &mut Lanes<T>, file: &File<T>, table: &[Ope
 
 /// The possible indices, and first the likely one.
 fn places<I: Integer>(index: I, len: usize) -> (usize, std::ops::RangeInclusive<usize>) {
-    let (low, high) = index.choices();
+    let (low, high) = index.interval();
     (limit(index.bits(), len), limit(low as u32, len)..=limit(high as u32, len))
 }
 
@@ -54,7 +54,7 @@ fn join_others<T: Element, I: Integer>(
     element: impl Fn(usize, usize) -> Option<T>,
     join: impl Fn(T, T) -> T,
 ) -> Filled {
-    if matches!(index, Source::One(index) if index.sure()) {
+    if matches!(index, Source::One(index) if index.is_decided()) {
         return filled;
     }
     if filled == Filled::One {
@@ -62,7 +62,7 @@ fn join_others<T: Element, I: Integer>(
     }
     for lane in 0..LANES {
         let index = index.at(lane);
-        if !index.sure() {
+        if !index.is_decided() {
             let (likely, all) = places(index, len);
             let others = all.filter(|place| *place != likely).filter_map(|place| element(place, lane));
             out.set(lane, others.fold(out.get(lane), &join));
@@ -87,7 +87,7 @@ fn store_indexed<T: Element, I: Integer>(
         for (place, home) in all.filter_map(|place| table.get(place).map(|home| (place, *home))) {
             let lanes = file.register(home).spread();
             let old = lanes.get(lane);
-            let new = match (index.sure(), place == likely) {
+            let new = match (index.is_decided(), place == likely) {
                 (true, _) => value,
                 (false, true) => join(value, old),
                 (false, false) => join(old, value),
@@ -117,7 +117,7 @@ impl<D: Domain> Registers<D> {
         self.write_float(dst, |this, out| {
             let index = this.int(index);
             let filled = load(out, &this.floats, table, index);
-            if !D::OPEN {
+            if !D::HAS_INTERVALS {
                 return filled;
             }
             let element = |place: usize, lane| table.get(place).map(|operand| this.float(*operand).at(lane));
@@ -129,7 +129,7 @@ impl<D: Domain> Registers<D> {
         self.write_int(dst, |this, out| {
             let index = this.int(index);
             let filled = load(out, &this.ints, table, index);
-            if !D::OPEN {
+            if !D::HAS_INTERVALS {
                 return filled;
             }
             let element = |place: usize, lane| table.get(place).map(|operand| this.int(*operand).at(lane));

@@ -25,8 +25,8 @@
 //! instructions with its additions and products; a sixth `normalize` and the other built-in functions of vectors; and
 //! a quarter the surrounding pipeline. In the envelope, a quarter is `normalize` (three roots and three quotients per
 //! lane, two of each for the bounds), and the rest is spread over products and sums: an operation is some forty
-//! vector instructions on blocks of eight lanes ([`Block`](super::domain::Block)), compiled for AVX2 if that is
-//! available.
+//! vector instructions on blocks of eight lanes ([`NumberBlock`](super::domain::NumberBlock)), compiled for AVX2 if
+//! that is available.
 //! Lessons: values that are the same in all lanes are computed once (the counter of a loop over lights, and the
 //! uniforms that it selects). Built-in functions of vectors must not reserve room for 16 arguments. Combining
 //! products with sums, and reading uniforms as single numbers, keep the working set in the first-level cache. The

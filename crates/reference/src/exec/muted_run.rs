@@ -109,20 +109,24 @@ impl<D: Domain> Machine<D> {
 }
 
 fn exactly<N: Number>(number: N) -> N {
-    N::whole(number.value(), Interval::point(number.value()))
+    N::integer_with_interval(number.value(), Interval::point(number.value()))
 }
 
 /// A number whose envelope is narrower by that of `own` around its value.
 fn without<N: Number>(number: N, own: N) -> N {
-    let (range, own_range) = (number.range(), own.range());
+    let (interval, own_interval) = (number.interval(), own.interval());
     let off = |distance: f64| if distance.is_finite() { distance.max(0.0) } else { f64::INFINITY };
-    let (below, above) = (off(own.value() - own_range.low), off(own_range.high - own.value()));
+    let (below, above) = (off(own.value() - own_interval.low), off(own_interval.high - own.value()));
     let value = number.value();
-    let low = (range.low + below).min(value);
-    let high = (range.high - above).max(value);
+    let low = (interval.low + below).min(value);
+    let high = (interval.high - above).max(value);
     let or_value = |end: f64| if end.is_nan() { value } else { end };
-    N::whole(
+    N::integer_with_interval(
         value,
-        Interval { low: or_value(low), high: or_value(high), may_be_nan: range.may_be_nan && !own_range.may_be_nan },
+        Interval {
+            low: or_value(low),
+            high: or_value(high),
+            may_be_nan: interval.may_be_nan && !own_interval.may_be_nan,
+        },
     )
 }

@@ -1,7 +1,7 @@
-//! The paths that lanes may take where conditions are uncertain: the decisions that a run follows, and those that it
+//! The paths that lanes may take where conditions are undecided: the decisions that a run follows, and those that it
 //! met.
 //!
-//! *In:* uncertain conditions, as instructions meet them. *Out:* the outcome that the run follows, and the paths that
+//! *In:* undecided conditions, as instructions meet them. *Out:* the outcome that the run follows, and the paths that
 //! branch off. [`explore`](super::explore) runs them.
 //!
 //! Lanes that derivatives couple decide together: a quad is one group. Without derivatives, a lane is one. A run has
@@ -15,7 +15,7 @@ pub(super) const MAX_DECISIONS: u8 = 60;
 
 /// The decisions of one group along one path: bit `k` is the outcome of decision `k`.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Way {
+pub(super) struct Path {
     outcomes: u64,
     /// The number of given decisions. The others follow the value.
     given: u8,
@@ -28,50 +28,51 @@ pub(super) struct Way {
 pub(super) struct Paths {
     /// The number of lanes that decide together.
     pub(super) group: usize,
-    pub(super) ways: [Way; LANES],
+    /// The path of each group.
+    pub(super) paths: [Path; LANES],
     /// Whether any decision was met.
     pub(super) any: bool,
 }
 
 impl Paths {
     pub(super) fn new(couples: bool) -> Self {
-        Self { group: if couples { 4 } else { 1 }, ways: [Way::default(); LANES], any: false }
+        Self { group: if couples { 4 } else { 1 }, paths: [Path::default(); LANES], any: false }
     }
 
     /// Forgets all decisions.
     pub(super) fn clear(&mut self) {
         if self.any {
-            self.ways = [Way::default(); LANES];
+            self.paths = [Path::default(); LANES];
             self.any = false;
         }
     }
 
     /// The outcomes for these lanes: the given ones first, then those of the value.
-    pub(super) fn decide(&mut self, truth: u64, open: u64) -> u64 {
+    pub(super) fn decide(&mut self, truth: u64, undecided: u64) -> u64 {
         self.any = true;
         let mut decided = truth;
-        for lane in Mask(open).lanes() {
-            let Some(way) = self.ways.get_mut(lane / self.group) else { continue };
+        for lane in Mask(undecided).lanes() {
+            let Some(path) = self.paths.get_mut(lane / self.group) else { continue };
             let bit = 1u64 << lane;
-            if way.met >= MAX_DECISIONS {
-                way.met = MAX_DECISIONS + 1;
+            if path.met >= MAX_DECISIONS {
+                path.met = MAX_DECISIONS + 1;
                 continue;
             }
-            let place = 1u64 << way.met;
-            if way.met < way.given {
-                decided = if way.outcomes & place != 0 { decided | bit } else { decided & !bit };
+            let place = 1u64 << path.met;
+            if path.met < path.given {
+                decided = if path.outcomes & place != 0 { decided | bit } else { decided & !bit };
             } else if truth & bit != 0 {
-                way.outcomes |= place;
+                path.outcomes |= place;
             } else {
-                way.outcomes &= !place;
+                path.outcomes &= !place;
             }
-            way.met += 1;
+            path.met += 1;
         }
         decided
     }
 }
 
-impl Way {
+impl Path {
     /// The paths that branch off from this one at decisions that were not given.
     pub(super) fn others(self) -> impl Iterator<Item = Self> {
         (self.given..self.met.min(MAX_DECISIONS)).map(move |place| {

@@ -6,7 +6,7 @@
 
 use super::inst::{Class, Operand};
 use crate::domain::faults::Faults;
-use crate::domain::{Block, Domain, Element, Few, Lanes, Number, Source, WIDTH};
+use crate::domain::{Block, Domain, Element, Lanes, Number, NumberBlock, Source, WIDTH};
 use std::hint::black_box;
 
 /// The largest number of results of one instruction: a `mat4`.
@@ -147,8 +147,8 @@ impl<T: Element> File<T> {
 
 /// Eight results of a function.
 #[inline(always)]
-fn few<R: Element>(f: impl Fn(usize) -> R) -> R::Few {
-    let mut out = R::Few::default();
+fn block_of<R: Element>(f: impl Fn(usize) -> R) -> R::Block {
+    let mut out = R::Block::default();
     for lane in 0..WIDTH {
         out.set(lane, f(lane));
     }
@@ -179,7 +179,7 @@ pub(super) fn map1<A: Element, R: Element>(out: &mut Lanes<R>, a: Source<'_, A>,
     match a {
         Source::Lanes(a) => {
             for (out, a) in out.blocks_mut().iter_mut().zip(a.blocks()) {
-                *out = few(|lane| f(a.get(lane)));
+                *out = block_of(|lane| f(a.get(lane)));
             }
             Filled::Lanes
         }
@@ -203,7 +203,7 @@ pub(super) fn map2<A: Element, B: Element, R: Element>(
     match (a, b) {
         (Source::Lanes(a), Source::Lanes(b)) => {
             for (out, (a, b)) in out.blocks_mut().iter_mut().zip(a.blocks().iter().zip(b.blocks())) {
-                *out = few(|lane| f(a.get(lane), b.get(lane)));
+                *out = block_of(|lane| f(a.get(lane), b.get(lane)));
             }
             Filled::Lanes
         }
@@ -230,7 +230,7 @@ pub(super) fn map3<A: Element, B: Element, C: Element, R: Element>(
         (a, b, c) => {
             for (place, out) in out.blocks_mut().iter_mut().enumerate() {
                 let (a, b, c) = (a.block(place), b.block(place), c.block(place));
-                *out = few(|lane| f(a.get(lane), b.get(lane), c.get(lane)));
+                *out = block_of(|lane| f(a.get(lane), b.get(lane), c.get(lane)));
             }
             Filled::Lanes
         }
@@ -288,7 +288,7 @@ pub(super) fn calls3<A: Element, B: Element, C: Element, R: Element>(
 /// The blocks of an operand in order; for one number for all lanes, the same block repeatedly. So a loop over them is
 /// compiled once for all kinds of operands.
 struct Blocks<'a, T: Element> {
-    blocks: &'a [T::Few],
+    blocks: &'a [T::Block],
     /// 0 if all indices have the same block.
     places: usize,
 }
@@ -297,18 +297,18 @@ impl<'a, T: Element> Blocks<'a, T> {
     /// The blocks of an operand. `room` stores a number for all lanes. The compiler would branch if it knew that the
     /// blocks are equal, so this is hidden from it.
     #[inline(always)]
-    fn of(source: Source<'a, T>, room: &'a mut T::Few) -> Self {
+    fn of(source: Source<'a, T>, room: &'a mut T::Block) -> Self {
         match source {
             Source::Lanes(lanes) => Self { blocks: lanes.blocks(), places: usize::MAX },
             Source::One(value) => {
-                *room = black_box(T::Few::splat(value));
+                *room = black_box(T::Block::splat(value));
                 Self { blocks: std::slice::from_ref(room), places: 0 }
             }
         }
     }
 
     #[inline(always)]
-    fn at(&self, place: usize) -> &T::Few {
+    fn at(&self, place: usize) -> &T::Block {
         // `of` provides a block for every index.
         &self.blocks[place & self.places]
     }
@@ -320,11 +320,11 @@ impl<'a, T: Element> Blocks<'a, T> {
 pub(super) fn blocks1<N: Number>(
     out: &mut Lanes<N>,
     a: Source<'_, N>,
-    block: impl Fn(&N::Few) -> N::Few,
+    block: impl Fn(&N::Block) -> N::Block,
     one: impl Fn(N) -> N,
 ) -> Filled {
-    if let (true, Source::Lanes(a)) = (N::Few::OWN, a) {
-        let done = N::Few::if_vectorized(
+    if let (true, Source::Lanes(a)) = (N::Block::OWN, a) {
+        let done = N::Block::if_vectorized(
             #[inline(always)]
             || {
                 for (out, a) in out.blocks_mut().iter_mut().zip(a.blocks()) {
@@ -344,14 +344,14 @@ pub(super) fn blocks2<N: Number, R: Element>(
     out: &mut Lanes<R>,
     a: Source<'_, N>,
     b: Source<'_, N>,
-    block: impl Fn(&N::Few, &N::Few) -> R::Few,
+    block: impl Fn(&N::Block, &N::Block) -> R::Block,
     one: impl Fn(N, N) -> R,
 ) -> Filled {
-    if N::Few::OWN && !matches!((a, b), (Source::One(_), Source::One(_))) {
-        let done = N::Few::if_vectorized(
+    if N::Block::OWN && !matches!((a, b), (Source::One(_), Source::One(_))) {
+        let done = N::Block::if_vectorized(
             #[inline(always)]
             || {
-                let mut rooms = [N::Few::default(); 2];
+                let mut rooms = [N::Block::default(); 2];
                 let [a_room, b_room] = &mut rooms;
                 let (a, b) = (Blocks::of(a, a_room), Blocks::of(b, b_room));
                 for (place, out) in out.blocks_mut().iter_mut().enumerate() {
@@ -370,14 +370,14 @@ pub(super) fn blocks2<N: Number, R: Element>(
 pub(super) fn blocks3<N: Number>(
     out: &mut Lanes<N>,
     [a, b, c]: [Source<'_, N>; 3],
-    block: impl Fn(&N::Few, &N::Few, &N::Few) -> N::Few,
+    block: impl Fn(&N::Block, &N::Block, &N::Block) -> N::Block,
     one: impl Fn(N, N, N) -> N,
 ) -> Filled {
-    if N::Few::OWN && !matches!((a, b, c), (Source::One(_), Source::One(_), Source::One(_))) {
-        let done = N::Few::if_vectorized(
+    if N::Block::OWN && !matches!((a, b, c), (Source::One(_), Source::One(_), Source::One(_))) {
+        let done = N::Block::if_vectorized(
             #[inline(always)]
             || {
-                let mut rooms = [N::Few::default(); 3];
+                let mut rooms = [N::Block::default(); 3];
                 let [a_room, b_room, c_room] = &mut rooms;
                 let (a, b, c) = (Blocks::of(a, a_room), Blocks::of(b, b_room), Blocks::of(c, c_room));
                 for (place, out) in out.blocks_mut().iter_mut().enumerate() {

@@ -17,7 +17,7 @@ impl<D: Domain> Machine<D> {
             if watched {
                 self.show_choice(inst, section, place - 1, mask);
             }
-            if D::OPEN && self.muted.is_some() && self.is_muted(section, place - 1) {
+            if D::HAS_INTERVALS && self.muted.is_some() && self.is_muted(section, place - 1) {
                 self.run_muted(inst, section, inner, mask);
                 continue;
             }
@@ -105,7 +105,7 @@ impl<D: Domain> Machine<D> {
                     }
                 }
                 ref pure => {
-                    if D::OPEN {
+                    if D::HAS_INTERVALS {
                         self.registers.compute_apart(pure, section);
                     } else {
                         self.registers.compute(pure, section);
@@ -118,47 +118,49 @@ impl<D: Domain> Machine<D> {
         }
     }
 
-    /// The lanes of `mask` where the condition is true. If a lane's condition is uncertain, its path decides.
+    /// The lanes of `mask` where the condition is true. If a lane's condition is undecided, its path decides.
     fn truth(&mut self, condition: Operand, mask: u64) -> u64 {
-        let (truth, open) = match self.registers.int(condition) {
-            Source::One(value) => (if value.is_true() { u64::MAX } else { 0 }, if value.sure() { 0 } else { u64::MAX }),
+        let (truth, undecided) = match self.registers.int(condition) {
+            Source::One(value) => {
+                (if value.is_true() { u64::MAX } else { 0 }, if value.is_decided() { 0 } else { u64::MAX })
+            }
             Source::Lanes(lanes) => bits_where(lanes),
         };
-        if D::OPEN && open & mask != 0 {
-            return self.paths.decide(truth, open & mask) & mask;
+        if D::HAS_INTERVALS && undecided & mask != 0 {
+            return self.paths.decide(truth, undecided & mask) & mask;
         }
         truth & mask
     }
 
     fn matching(&mut self, selector: Operand, labels: &[u32], mask: u64) -> u64 {
         let selector = self.registers.int(selector);
-        let (mut hit, mut open) = (0, 0);
+        let (mut hit, mut undecided) = (0, 0);
         for lane in 0..LANES {
             let value = selector.at(lane);
             hit |= u64::from(labels.contains(&value.bits())) << lane;
-            let (low, high) = value.choices();
+            let (low, high) = value.interval();
             let possible = labels.iter().any(|label| (low..=high).contains(&(*label as i32)));
-            open |= u64::from(!value.sure() && possible) << lane;
+            undecided |= u64::from(!value.is_decided() && possible) << lane;
         }
-        if D::OPEN && open & mask != 0 {
-            return self.paths.decide(hit, open & mask) & mask;
+        if D::HAS_INTERVALS && undecided & mask != 0 {
+            return self.paths.decide(hit, undecided & mask) & mask;
         }
         hit & mask
     }
 }
 
-/// The lanes that are true, and those that are uncertain.
+/// The lanes that are true, and those that are undecided.
 #[inline(always)]
 pub(super) fn bits_where<I: Integer>(lanes: &Lanes<I>) -> (u64, u64) {
-    let (mut truth, mut unsure) = (0u64, 0u64);
+    let (mut truth, mut undecided) = (0u64, 0u64);
     for (byte, lanes) in lanes.blocks().iter().enumerate() {
-        let (mut few, mut doubt) = (0u64, 0u64);
+        let (mut bits, mut uncertain) = (0u64, 0u64);
         for (bit, lane) in lanes.iter().enumerate() {
-            few |= u64::from(lane.is_true()) << bit;
-            doubt |= u64::from(!lane.sure()) << bit;
+            bits |= u64::from(lane.is_true()) << bit;
+            uncertain |= u64::from(!lane.is_decided()) << bit;
         }
-        truth |= few << (byte * 8);
-        unsure |= doubt << (byte * 8);
+        truth |= bits << (byte * 8);
+        undecided |= uncertain << (byte * 8);
     }
-    (truth, unsure)
+    (truth, undecided)
 }

@@ -30,30 +30,30 @@ impl Ratio {
 /// Positions are in units of 2^-16 pixel, finer than any grid to which a rasterizer snaps.
 const UNIT: f64 = 65536.0;
 
-type Place = [i64; 2];
+type Point = [i64; 2];
 
-fn pixels<F: Number>(p: Place) -> Vec2<F> {
+fn pixels<F: Number>(p: Point) -> Vec2<F> {
     p.map(|n| F::from_f64(n as f64 / UNIT))
 }
 
 /// `x_a y_b - x_b y_a`
-fn cross(a: Place, b: Place) -> i128 {
+fn cross(a: Point, b: Point) -> i128 {
     i128::from(a[0]) * i128::from(b[1]) - i128::from(b[0]) * i128::from(a[1])
 }
 
 /// The sum of the absolute values instead: the rounding of the products and the difference is proportional to it.
-fn size(a: Place, b: Place) -> f64 {
+fn size(a: Point, b: Point) -> f64 {
     (a[0] as f64 * b[1] as f64).abs() + (b[0] as f64 * a[1] as f64).abs()
 }
 
-fn minus(a: Place, b: Place) -> Place {
+fn minus(a: Point, b: Point) -> Point {
     [a[0] - b[0], a[1] - b[1]]
 }
 
 /// A triangle and a point in it.
 struct Case {
-    corners: [Place; 3],
-    p: Place,
+    corners: [Point; 3],
+    p: Point,
 }
 
 impl Case {
@@ -71,7 +71,7 @@ impl Case {
         (case.determinant() != 0).then_some(case)
     }
 
-    fn edges(&self) -> (Place, Place) {
+    fn edges(&self) -> (Point, Point) {
         (minus(self.corners[1], self.corners[0]), minus(self.corners[2], self.corners[0]))
     }
 
@@ -94,7 +94,7 @@ impl Case {
         let [_, first, second] = self.weights().map(|n| (n as f64 / determinant).abs());
         // A position in single precision is rounded, too: by half a unit in the last place of its coordinate.
         let places = 2.0 * rounding * 33_554_432.0;
-        let lost = |a: Place, b: Place| {
+        let lost = |a: Point, b: Point| {
             4.0 * rounding * size(a, b) + places * (a[0].abs() + a[1].abs() + b[0].abs() + b[1].abs()) as f64
         };
         let area = lost(u, v) / determinant;

@@ -91,10 +91,10 @@ impl<'v, D: Domain> Batch<'v, D> {
         let lanes = self.settled..self.count;
         let run = self.runs.last().filter(|_| !lanes.is_empty())?;
         let covered = self.live & !Mask::first(lanes.start).0;
-        let open = if run.undecided { covered } else { 0 };
+        let undecided = if run.undecided { covered } else { 0 };
         let locate = Locate { source: &run.source, fragments: &mut self.fragments, corner: self.corner, lanes };
         pulp::Arch::new().dispatch(locate);
-        Some(Tests { passes: covered, open })
+        Some(Tests { passes: covered, undecided })
     }
 
     /// Keeps the candidates that some conforming GPU draws; if whole quads are kept (`COUNT` is 4), all candidates of
@@ -109,7 +109,7 @@ impl<'v, D: Domain> Batch<'v, D> {
         if possible == candidates {
             self.live |= possible;
             self.tests.passes |= tests.passes;
-            self.tests.open |= tests.open;
+            self.tests.undecided |= tests.undecided;
             return;
         }
         let mut to = start;
@@ -121,7 +121,7 @@ impl<'v, D: Domain> Batch<'v, D> {
             self.fragments.shift::<COUNT>(from, to);
             self.live |= lanes(possible) << to;
             self.tests.passes |= lanes(tests.passes) << to;
-            self.tests.open |= lanes(tests.open) << to;
+            self.tests.undecided |= lanes(tests.undecided) << to;
             to += COUNT;
         }
         (self.count, self.settled) = (to, to);
@@ -185,14 +185,14 @@ mod tests {
     fn what_fails_leaves_no_gap() {
         let mut batch = Batch::<F64>::new([0, 0]);
         assert_eq!(batch.add_row(40, 0b1011), 0);
-        batch.keep::<1>(Tests { passes: 0b001, open: 0b100 });
+        batch.keep::<1>(Tests { passes: 0b001, undecided: 0b100 });
         assert_eq!(batch.fragments.pixels[..2], [40, 43]);
-        assert_eq!((batch.live, batch.tests), (0b11, Tests { passes: 0b01, open: 0b10 }));
+        assert_eq!((batch.live, batch.tests), (0b11, Tests { passes: 0b01, undecided: 0b10 }));
         // After the lanes that remained, which need nothing more.
         assert_eq!(batch.add_row(64, 0b11), 0);
-        batch.keep::<1>(Tests { passes: 0b1000, open: 0 });
+        batch.keep::<1>(Tests { passes: 0b1000, undecided: 0 });
         assert_eq!(batch.fragments.pixels[..3], [40, 43, 65]);
-        assert_eq!((batch.live, batch.tests), (0b111, Tests { passes: 0b101, open: 0b010 }));
+        assert_eq!((batch.live, batch.tests), (0b111, Tests { passes: 0b101, undecided: 0b010 }));
         assert!(batch.helpers().is_empty());
     }
 
@@ -201,7 +201,7 @@ mod tests {
         let mut batch = Batch::<F64>::new([0, 0]);
         batch.add_quad(0, 32, 0b0001);
         batch.add_quad(2, 32, 0b0110);
-        batch.keep::<4>(Tests { passes: 0b0010 << 4, open: 0 });
+        batch.keep::<4>(Tests { passes: 0b0010 << 4, undecided: 0 });
         assert_eq!(batch.fragments.pixels[..4], [2, 3, 34, 35]);
         assert_eq!((batch.live, batch.helpers()), (0b0010, Mask(0b1101)));
     }

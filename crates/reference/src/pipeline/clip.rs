@@ -129,7 +129,7 @@ impl<D: Domain> Vertices<D> {
                 Interpolation::Smooth => mix(x, y, t),
                 Interpolation::Noperspective => {
                     let value = mix(x, y, in_window);
-                    if self.faults.admits(Fault::ClippedNoperspective) {
+                    if self.faults.excuses(Fault::ClippedNoperspective) {
                         value.widened(self.lost_in_window(a, b) * (y.value() - x.value()).abs())
                     } else {
                         value

@@ -24,7 +24,7 @@ const INTERPOLATION: &str = "interpolation";
 
 /// A channel of a pixel.
 #[derive(Clone, Copy, Debug)]
-struct Place {
+struct Channel {
     x: i64,
     y: i64,
     attachment: usize,
@@ -40,7 +40,7 @@ pub(crate) fn explain(
     channel: usize,
 ) -> Result<Vec<Contribution>, Vec<Diagnostic>> {
     let (width, height) = (i64::from(scene.framebuffer.width), i64::from(scene.framebuffer.height));
-    let place = Place { x: i64::from(x), y: i64::from(y), attachment, channel };
+    let place = Channel { x: i64::from(x), y: i64::from(y), attachment, channel };
     if place.x >= width || place.y >= height || channel > 3 {
         return Err(vec![refuse(&SCENE_CANNOT_DRAW, "there is no such pixel")]);
     }
@@ -50,7 +50,7 @@ pub(crate) fn explain(
     let mut patch = Patch::<Envelope>::new(scene.framebuffer, area);
     let mut found = Vec::new();
     for (number, draw) in scene.draws.iter().enumerate() {
-        let watch = Watch { make: None, draw: number, instance: 0, apart: true };
+        let watch = Watch { make: None, draw: number, instance: 0, unfused: true };
         draw_all(scene, draw, options, watch, &mut |shading, code, _, _| {
             if let Some(contributions) = of_draw(shading, code, &mut patch, place) {
                 found = contributions;
@@ -66,7 +66,7 @@ fn of_draw(
     shading: &Shading<'_, Envelope>,
     code: &Code,
     patch: &mut Patch<Envelope>,
-    place: Place,
+    place: Channel,
 ) -> Option<Vec<Contribution>> {
     let touching = shading.prims.iter().enumerate().filter(|(_, prim)| prim.shape.may_touch(patch.area));
     let list: Vec<u32> = touching.map(|(index, _)| index as u32).collect();
@@ -79,17 +79,17 @@ fn of_draw(
         patch.draw(|bin| draw_bin(shading, bin, &list, &mut machine));
         patch
     };
-    let range = |patch: &mut Patch<Envelope>| patch.range(place.x, place.y, place.attachment, place.channel);
+    let interval = |patch: &mut Patch<Envelope>| patch.interval(place.x, place.y, place.attachment, place.channel);
     if list.is_empty() {
         return None;
     }
-    let old = range(patch);
+    let old = interval(patch);
     *patch = drawn(None);
-    let whole = range(patch);
+    let whole = interval(patch);
     if whole == old {
         return None;
     }
-    let share = |muted: Muted| share(whole, range(&mut drawn(Some(muted))));
+    let share = |muted: Muted| share(whole, interval(&mut drawn(Some(muted))));
     let mut contributions = Vec::new();
     for operation in code.operations() {
         let share = share(operation.muted());

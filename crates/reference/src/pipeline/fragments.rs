@@ -12,7 +12,8 @@ use super::batch::{Batch, Run};
 use super::outputs::{Channel, OutputPlan};
 use super::plan::Plan;
 use super::source::Source;
-use super::target::{BIN, Bin, Tests, local};
+use super::surface::BIN;
+use super::target::{Bin, Tests, local};
 use super::vertices::Vertices;
 use crate::domain::faults::Faults;
 use crate::domain::{Domain, Integer, Number};
@@ -148,8 +149,10 @@ impl<D: Domain> Shading<'_, D> {
         let pixels = &batch.fragments.pixels;
         let (discarded, perhaps) = (machine.discarded().0, machine.perhaps_discarded().0);
         let reached = batch.live & (!discarded | perhaps);
-        let mut tests =
-            Tests { passes: batch.tests.passes & !discarded & reached, open: (batch.tests.open | perhaps) & reached };
+        let mut tests = Tests {
+            passes: batch.tests.passes & !discarded & reached,
+            undecided: (batch.tests.undecided | perhaps) & reached,
+        };
         if !self.plan.early_depth {
             let depth = self.plan.frag_depth.and_then(|id| machine.float_output(id, 0));
             let depth = |lane: usize| depth.map_or(batch.fragments.z[lane], |depth| depth.get(lane));

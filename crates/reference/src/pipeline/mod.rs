@@ -56,8 +56,8 @@ use rayon::prelude::*;
 pub(super) use reach::reach;
 use smallvec::SmallVec;
 use std::sync::{Mutex, OnceLock};
-use surface::Surface;
-use target::{BIN, Target};
+use surface::{BIN, Surface};
+use target::Target;
 use vertices::{Invocation, shade};
 pub(super) use watch::MakeObserver;
 use watch::Watch;
@@ -80,7 +80,7 @@ pub(super) fn render_watched<D: Domain>(
     let mut surface = Surface::new::<D>(scene.framebuffer);
     let mut target = Target::<D>::new(&mut surface);
     for (number, draw) in scene.draws.iter().enumerate() {
-        let watch = Watch { make: observers, draw: number, instance: 0, apart: observers.is_some() };
+        let watch = Watch { make: observers, draw: number, instance: 0, unfused: observers.is_some() };
         draw_all(scene, draw, options, watch, &mut |shading, code, endless, watch| {
             draw_prims(shading, code, &mut target, endless, watch);
         })?;
@@ -102,7 +102,7 @@ fn draw_all<D: Domain>(
     if draw.program.stage(Stage::Geometry).is_some() {
         return Err(vec![refuse(&SCENE_CANNOT_DRAW, "a program with a geometry stage cannot be drawn")]);
     }
-    let compile = if watch.apart { Code::compile_apart } else { Code::compile };
+    let compile = if watch.unfused { Code::compile_unfused } else { Code::compile };
     let vertex_code = compile(&draw.program, Stage::Vertex)?;
     let fragment_code = compile(&draw.program, Stage::Fragment)?;
     watch.common(&vertex_code, draw, Piece::SameForVertices);

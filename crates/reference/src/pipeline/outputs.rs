@@ -90,12 +90,12 @@ impl<D: Domain> Channel<'_, D> {
 /// An integer for an attachment of integers, with all its bits: the floats of some domains have fewer.
 fn whole<D: Domain>(bits: D::Int, value: impl Fn(u32) -> f64) -> D::Float {
     let likely = value(bits.bits());
-    if !D::OPEN {
+    if !D::HAS_INTERVALS {
         return D::Float::from_f64(likely);
     }
-    let (low, high) = bits.choices();
+    let (low, high) = bits.interval();
     let ends = [value(low as u32), value(high as u32)];
     let may_wrap = low < 0 && high >= 0 && ends[1] < ends[0];
     let (low, high) = if may_wrap { (0.0, f64::from(u32::MAX)) } else { (ends[0], ends[1]) };
-    D::Float::whole(likely, Interval { low, high, may_be_nan: false })
+    D::Float::integer_with_interval(likely, Interval { low, high, may_be_nan: false })
 }

@@ -8,21 +8,21 @@ use glisten_front::hir::{ExprKind, GlobalId, Interpolation, Scalar, Shader, Stag
 use glisten_front::link::Program;
 
 /// A scalar in a variable's flat layout.
-pub(super) type Place = (GlobalId, u32);
+pub(super) type FlatScalar = (GlobalId, u32);
 
 /// A `float` that is passed on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct FloatVarying {
-    pub(super) from: Place,
-    pub(super) to: Place,
+    pub(super) from: FlatScalar,
+    pub(super) to: FlatScalar,
     pub(super) interpolation: Interpolation,
 }
 
 /// An `int` or `uint` that is passed on, always flat.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct IntVarying {
-    pub(super) from: Place,
-    pub(super) to: Place,
+    pub(super) from: FlatScalar,
+    pub(super) to: FlatScalar,
 }
 
 /// How a draw's stages are connected to each other and to the fixed-function parts of the pipeline.

@@ -66,7 +66,7 @@ pub(crate) fn reach(draw: &Draw, framebuffer: Framebuffer, options: &RenderOptio
     let invocations: Vec<Invocation> =
         instances.clone().flat_map(|instance| unique.iter().map(move |&vertex| (vertex, instance))).collect();
     let endless = OnceLock::new();
-    let watch = Watch { make: None, draw: 0, instance: 0, apart: false };
+    let watch = Watch { make: None, draw: 0, instance: 0, unfused: false };
     let faults = options.faults;
     let mut vertices = shade::<Envelope>(draw, &code, &plan, &invocations, viewport, faults, &endless, &watch);
     if endless.get().is_some() {
@@ -112,7 +112,7 @@ fn corner(vertices: &Vertices<Envelope>, vertex: u32) -> Option<Corner> {
         return None;
     }
     let [x, y, _, reciprocal] = vertices.window.get(index).copied()?;
-    let [x, y, reciprocal]: [Interval; 3] = [x.range(), y.range(), reciprocal.range()];
+    let [x, y, reciprocal]: [Interval; 3] = [x.interval(), y.interval(), reciprocal.interval()];
     let [along, down, _] = vertices.window32.get(index).map(|window| window.map(f64::from))?;
     let finite = [x, y, reciprocal].iter().all(|one| !one.may_be_nan && one.low.is_finite() && one.high.is_finite());
     // From the place where the reference has it to the farthest where a target may.

@@ -45,7 +45,8 @@ impl Slack {
                 ([v[1] / determinant, -u[1] / determinant], [-v[0] / determinant, u[0] / determinant])
             }
         };
-        let off = [0, 1].map(|axis| (0..3).map(|corner| places[corner][axis].1).fold(0.0, f64::max));
+        let snapped = const { rules::SNAPPING.absolute() };
+        let off = [0, 1].map(|axis| (0..3).map(|corner| places[corner][axis].1).fold(0.0, f64::max) + snapped);
         Self { x, y, off, origin: [value(0, 0), value(0, 1)] }
     }
 }
@@ -105,7 +106,7 @@ impl Plane {
         let sizes = weights.map(f64::abs);
         let moved = (sizes[0] + sizes[1] + sizes[2]) * self.moved;
         let carried = sizes[0] * self.errors[0] + sizes[1] * self.errors[1] + sizes[2] * self.errors[2];
-        let rounded = rules::VARYING.ulps() * ULP * (terms + self.largest) + rules::ulp(value);
+        let rounded = const { rules::VARYING.ulps() } * ULP * (terms + self.largest) + rules::ulp(value);
         (value, carried + moved + rounded)
     }
 }

@@ -10,7 +10,7 @@
 
 use super::assembly::{Corners, Prim};
 use super::slack::{Plane, Slack};
-use super::target::BIN;
+use super::surface::BIN;
 use super::vertices::Vertices;
 use crate::domain::{Domain, F64, Number, rules};
 use crate::exec::LANES;
@@ -70,7 +70,7 @@ impl<D: Domain> Fragments<D> {
         let Places { x, y, weights, plain } = &mut self.places;
         x.copy_within(from.clone(), to);
         y.copy_within(from.clone(), to);
-        if D::OPEN {
+        if D::HAS_INTERVALS {
             plain.iter_mut().for_each(|lanes| lanes.copy_within(from.clone(), to));
         } else {
             weights.iter_mut().for_each(|lanes| lanes.copy_within(from.clone(), to));
@@ -82,7 +82,8 @@ impl<D: Domain> Fragments<D> {
 #[derive(Debug)]
 pub(super) struct Source<'v, D: Domain> {
     kind: Kind<D>,
-    open: Option<Open>,
+    /// In domains with intervals.
+    plain: Option<Plain>,
     quotients: [&'v [D::Float]; 3],
     /// The values that the quotients are of.
     values: [&'v [D::Float]; 3],
@@ -96,7 +97,7 @@ pub(super) struct Source<'v, D: Domain> {
 
 /// The primitive by its values alone, and the largest error of a GPU.
 #[derive(Debug)]
-struct Open {
+struct Plain {
     kind: Kind<F64>,
     slack: Slack,
 }
@@ -126,7 +127,7 @@ impl<D: Domain> Sprite<D> {
         let along = |p: f64, center: D::Float| {
             let exact = half.add(D::Float::from_f64(p).sub(center).div(self.size));
             let sized = (exact.value() - 0.5).abs() * POINT_SIZE_ERROR / self.size.value();
-            exact.widened(sized + rules::POINT_COORD.absolute())
+            exact.widened(sized + const { rules::POINT_COORD.absolute() })
         };
         [along(x, self.center[0]), along(y, self.center[1])]
     }
@@ -147,7 +148,7 @@ impl<'v, D: Domain> Source<'v, D> {
         let size = size.min(crate::raster::point::MAX_SIZE);
         Self {
             kind,
-            open: D::OPEN.then(|| Open {
+            plain: D::HAS_INTERVALS.then(|| Plain {
                 kind: Kind::of(&prim.corners, places.map(|place| place.map(Number::value))),
                 slack: Slack::new(&prim.corners, places.map(|p| p.map(|c: D::Float| (c.value(), c.error())))),
             }),
@@ -171,8 +172,8 @@ impl<'v, D: Domain> Source<'v, D> {
             *x = f64::from(x0 + pixel % BIN as i32) + 0.5;
             *y = f64::from(y0 + pixel / BIN as i32) + 0.5;
         }
-        match &self.open {
-            Some(open) => open.kind.weights(x, y, places.plain.each_mut().map(|to| &mut to[lanes.clone()])),
+        match &self.plain {
+            Some(plain) => plain.kind.weights(x, y, places.plain.each_mut().map(|to| &mut to[lanes.clone()])),
             None => self.kind.weights(x, y, places.weights.each_mut().map(|to| &mut to[lanes.clone()])),
         }
         self.in_plane(self.z, places, lanes.clone(), &mut z[lanes]);
@@ -184,7 +185,7 @@ impl<'v, D: Domain> Source<'v, D> {
         let Fragments { places, reciprocal, w, .. } = fragments;
         let (reciprocal, w) = (&mut reciprocal[lanes.clone()], &mut w[lanes.clone()]);
         self.in_plane(self.reciprocals, places, lanes.clone(), reciprocal);
-        if self.open.is_some() {
+        if self.plain.is_some() {
             for (w, reciprocal) in w.iter_mut().zip(reciprocal) {
                 *w = D::Float::from_f64(1.0).div(*reciprocal);
             }
@@ -198,9 +199,9 @@ impl<'v, D: Domain> Source<'v, D> {
     /// Equation (106), with the bound of its evaluation in f32.
     #[inline(always)]
     fn in_plane(&self, values: [D::Float; 3], places: &Places<D>, lanes: Range<usize>, to: &mut [D::Float]) {
-        match &self.open {
-            Some(open) => {
-                let plane = Plane::new(&open.slack, values);
+        match &self.plain {
+            Some(plain) => {
+                let plane = Plane::new(&plain.slack, values);
                 let [u, v] = places.plain.each_ref().map(|weights| &weights[lanes.clone()]);
                 plane.fill([u, v, &places.x[lanes.clone()], &places.y[lanes]], to);
             }
@@ -228,7 +229,7 @@ impl<'v, D: Domain> Source<'v, D> {
         let values = self.quotients.map(|quotients| quotients.get(index).copied().unwrap_or_default());
         let Fragments { places, w, .. } = fragments;
         let w = &w[lanes.clone()];
-        match (interpolation, &self.open) {
+        match (interpolation, &self.plain) {
             (Interpolation::Smooth, None) => {
                 if let Some(value) = self.same_at_all(index) {
                     to.fill(value);
@@ -255,7 +256,7 @@ impl<D: Domain> Source<'_, D> {
     #[inline(always)]
     fn same_at_all(&self, index: usize) -> Option<D::Float> {
         let [a, b, c] = self.values.map(|values| values.get(index).copied().unwrap_or_default());
-        let bits = |x: D::Float| (x.value().to_bits(), x.beside().to_bits());
+        let bits = |x: D::Float| (x.value().to_bits(), x.second().to_bits());
         (bits(a) == bits(b) && bits(a) == bits(c) && a.value().is_finite()).then_some(a)
     }
 }

@@ -14,7 +14,7 @@ pub(super) struct Test {
     /// Whether the values pass, so that the fragment is drawn.
     pub(super) passes: bool,
     /// Whether a conforming GPU may decide differently.
-    pub(super) open: bool,
+    pub(super) undecided: bool,
 }
 
 /// Runs the depth test (§4.1.5) of a fragment that passed all earlier tests, and writes depth if it passes.
@@ -23,13 +23,16 @@ pub(super) fn depth_test<D: Domain>(slot: &mut D::Float, z: D::Float, state: &St
     let stored = *slot;
     let z = store_depth::<D>(z);
     let passes = compare(state.depth_func, z.value(), stored.value());
-    let mut test = Test { passes: before.passes && passes, open: before.open };
-    if D::OPEN {
-        let (always, never) = certain(state.depth_func, z.range(), stored.range());
-        test = Test { passes: before.passes && !never && (passes || always), open: !never && (before.open || !always) };
+    let mut test = Test { passes: before.passes && passes, undecided: before.undecided };
+    if D::HAS_INTERVALS {
+        let (always, never) = certain(state.depth_func, z.interval(), stored.interval());
+        test = Test {
+            passes: before.passes && !never && (passes || always),
+            undecided: !never && (before.undecided || !always),
+        };
     }
     if state.depth_write {
-        match (test.passes, test.open) {
+        match (test.passes, test.undecided) {
             (false, false) => {}
             (true, false) => *slot = z,
             (true, true) => *slot = z.joined(stored),
@@ -49,14 +52,14 @@ pub(super) fn stored<D: Domain>(
 ) -> [D::Float; 4] {
     let color = match blend {
         Some(factors) => {
-            let in_bytes = D::OPEN && format == Format::Rgba8Unorm;
+            let in_bytes = D::HAS_INTERVALS && format == Format::Rgba8Unorm;
             let round = if in_bytes { in_steps::<D> } else { |value| value };
             blended::<D>(factors, clamped::<D>(color, format).map(round), old, round)
         }
         None => color,
     };
     let new = color.map(|channel| store::<D>(channel, format));
-    match (test.passes, test.open) {
+    match (test.passes, test.undecided) {
         (_, false) => new,
         (true, true) => std::array::from_fn(|i| new[i].joined(old[i])),
         (false, true) => std::array::from_fn(|i| old[i].joined(new[i])),
@@ -93,15 +96,15 @@ fn certain(function: Compare, new: Interval, stored: Interval) -> (bool, bool) {
     let not_above = new.high <= stored.low;
     let not_below = new.low >= stored.high;
     let same = new.width() == 0.0 && stored.width() == 0.0 && new.low == stored.low;
-    let apart = below || above;
+    let disjoint = below || above;
     match function {
         _ if new.may_be_nan => (function == Compare::Always, function == Compare::Never),
         Compare::Never => (false, true),
         Compare::Less => (below, not_below),
-        Compare::Equal => (same, apart),
+        Compare::Equal => (same, disjoint),
         Compare::Lequal => (not_above, above),
         Compare::Greater => (above, not_above),
-        Compare::Notequal => (apart, same),
+        Compare::Notequal => (disjoint, same),
         Compare::Gequal => (not_below, below),
         Compare::Always => (true, false),
     }
@@ -110,11 +113,11 @@ fn certain(function: Compare, new: Interval, stored: Interval) -> (bool, bool) {
 /// Depth as a 32-bit float, clamped to [0, 1] (§2.12.1).
 fn store_depth<D: Domain>(z: D::Float) -> D::Float {
     let stored = f64::from(z.value() as f32).clamp(0.0, 1.0);
-    if !D::OPEN {
+    if !D::HAS_INTERVALS {
         return D::Float::from_f64(stored);
     }
-    let Interval { low, high, may_be_nan } = z.range();
-    D::Float::with_range(stored, Interval { low: low.clamp(0.0, 1.0), high: high.clamp(0.0, 1.0), may_be_nan })
+    let Interval { low, high, may_be_nan } = z.interval();
+    D::Float::with_interval(stored, Interval { low: low.clamp(0.0, 1.0), high: high.clamp(0.0, 1.0), may_be_nan })
 }
 
 /// Clamps the source color of a fixed-point attachment before blending (§4.1.7).
@@ -128,11 +131,12 @@ fn clamped<D: Domain>(color: [D::Float; 4], format: Format) -> [D::Float; 4] {
 /// A number, joined with the nearest step of 1/255: blending in an 8-bit attachment may use only as many bits as the
 /// attachment has (§4.1.7), which rounds the source, the factors and the products, or may use floats.
 fn in_steps<D: Domain>(value: D::Float) -> D::Float {
-    let Interval { low, high, may_be_nan } = value.range();
-    let slack = rules::STORE_SLACK.absolute();
-    let step = |x: f64| (x * 255.0).round() / 255.0;
+    let Interval { low, high, may_be_nan } = value.interval();
+    let slack = const { rules::STORE_SLACK.absolute() };
+    let steps = const { rules::BLEND_8_BITS.steps() };
+    let step = |x: f64| (x * steps).round() / steps;
     let (low, high) = (low.min(step(low - slack)), high.max(step(high + slack)));
-    D::Float::with_range(value.value(), Interval { low, high, may_be_nan })
+    D::Float::with_interval(value.value(), Interval { low, high, may_be_nan })
 }
 
 /// `source * S + destination * D` (§4.1.7, tables 4.1 and 4.2), with a rounding of factors and products.
@@ -187,23 +191,23 @@ pub(super) fn store<D: Domain>(value: D::Float, format: Format) -> D::Float {
         Format::Rgba8Unorm => unorm8,
     };
     let stored = convert(value.value());
-    if !D::OPEN {
+    if !D::HAS_INTERVALS {
         return D::Float::from_f64(stored);
     }
-    let Interval { low, high, may_be_nan } = value.range();
+    let Interval { low, high, may_be_nan } = value.interval();
     if low == high && convert(low) == low {
         return D::Float::from_f64(stored);
     }
     // A step of 8 bits is not an f32: its bounds are rounded outward once more.
-    let range = match format {
+    let interval = match format {
         Format::Rgba8Unorm => {
-            let slack = rules::STORE_SLACK.absolute();
+            let slack = const { rules::STORE_SLACK.absolute() };
             let low = if may_be_nan { 0.0 } else { convert(low - slack) };
             Interval { low, high: convert(high + slack), may_be_nan: false }
         }
         _ => Interval { low: half_below(low), high: -half_below(-high), may_be_nan },
     };
-    D::Float::with_range(stored, range)
+    D::Float::with_interval(stored, interval)
 }
 
 /// The largest half-precision float not above a number.
@@ -224,5 +228,6 @@ fn half_below(x: f64) -> f64 {
 
 /// An 8-bit normalized channel: clamped, `round(255 x) / 255`; NaN is 0.
 fn unorm8(x: f64) -> f64 {
-    if x.is_nan() { 0.0 } else { (x.clamp(0.0, 1.0) * 255.0).round_ties_even() / 255.0 }
+    let steps = const { rules::STORE_8_BITS.steps() };
+    if x.is_nan() { 0.0 } else { (x.clamp(0.0, 1.0) * steps).round_ties_even() / steps }
 }

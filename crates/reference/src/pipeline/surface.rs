@@ -5,11 +5,13 @@
 //! its interval, from which the same number can be restored.
 
 use super::store::store;
-use super::target::BIN;
 use crate::domain::{Domain, Number};
 use glisten_scene::Framebuffer;
 use glisten_scene::picture::{Interval, Picture};
 use rayon::prelude::*;
+
+/// The side of a bin in pixels; it is even, so that quads are within one bin.
+pub(super) const BIN: i64 = 32;
 
 /// The contents of the attachments.
 #[derive(Clone, Debug)]
@@ -23,7 +25,7 @@ pub(super) struct Surface {
 pub(super) struct Attachment {
     colors: Vec<[f64; 4]>,
     /// Empty in domains without envelopes.
-    ranges: Vec<[Interval; 4]>,
+    intervals: Vec<[Interval; 4]>,
 }
 
 /// Which pixels were drawn to, row by row.
@@ -38,14 +40,14 @@ pub(super) struct Marks {
 #[derive(Debug)]
 pub(super) struct Piece<'s> {
     colors: Vec<&'s mut [[f64; 4]]>,
-    ranges: Vec<&'s mut [[Interval; 4]]>,
+    intervals: Vec<&'s mut [[Interval; 4]]>,
 }
 
 /// A pixel of an attachment.
 #[derive(Debug)]
 pub(super) struct Pixel<'p> {
     color: &'p mut [f64; 4],
-    range: Option<&'p mut [Interval; 4]>,
+    interval: Option<&'p mut [Interval; 4]>,
 }
 
 impl Surface {
@@ -55,20 +57,20 @@ impl Surface {
         let clear = framebuffer.clear.map(|value| store::<D>(D::Float::from_f64(value), framebuffer.format));
         let cleared = || Attachment {
             colors: filled(count, clear.map(Number::value)),
-            ranges: if D::OPEN { filled(count, clear.map(Number::range)) } else { Vec::new() },
+            intervals: if D::HAS_INTERVALS { filled(count, clear.map(Number::interval)) } else { Vec::new() },
         };
         Self { framebuffer, attachments: (0..framebuffer.attachments).map(|_| cleared()).collect() }
     }
 
     /// The finished picture.
     pub(super) fn picture<D: Domain>(self, marks: Marks) -> Picture {
-        let (colors, ranges) = self.attachments.into_iter().map(|held| (held.colors, held.ranges)).unzip();
+        let (colors, intervals) = self.attachments.into_iter().map(|held| (held.colors, held.intervals)).unzip();
         Picture {
             width: self.framebuffer.width,
             height: self.framebuffer.height,
             attachments: colors,
             covered: marks.covered,
-            ranges: D::OPEN.then_some(ranges),
+            intervals: D::HAS_INTERVALS.then_some(intervals),
             undecided: marks.undecided,
             near_edge: marks.near_edge,
         }
@@ -88,10 +90,10 @@ impl Attachment {
         let mut pieces = Vec::new();
         pieces.resize_with(columns * rows.div_ceil(BIN as usize), || Piece {
             colors: Vec::with_capacity(BIN as usize),
-            ranges: Vec::with_capacity(if self.ranges.is_empty() { 0 } else { BIN as usize }),
+            intervals: Vec::with_capacity(if self.intervals.is_empty() { 0 } else { BIN as usize }),
         });
         deal(&mut self.colors, width, &mut pieces, |piece| &mut piece.colors);
-        deal(&mut self.ranges, width, &mut pieces, |piece| &mut piece.ranges);
+        deal(&mut self.intervals, width, &mut pieces, |piece| &mut piece.intervals);
         pieces.into_iter()
     }
 }
@@ -120,16 +122,19 @@ impl Piece<'_> {
     pub(super) fn pixel(&mut self, place: u32) -> Option<Pixel<'_>> {
         let (row, column) = ((place / BIN as u32) as usize, (place % BIN as u32) as usize);
         let color = self.colors.get_mut(row)?.get_mut(column)?;
-        Some(Pixel { color, range: self.ranges.get_mut(row).and_then(|row| row.get_mut(column)) })
+        Some(Pixel { color, interval: self.intervals.get_mut(row).and_then(|row| row.get_mut(column)) })
     }
 }
 
 impl Pixel<'_> {
     #[inline(always)]
     pub(super) fn read<D: Domain>(&self) -> [D::Float; 4] {
-        let range =
-            |channel: usize, value: f64| self.range.as_ref().map_or(Interval::point(value), |range| range[channel]);
-        std::array::from_fn(|channel| D::Float::whole(self.color[channel], range(channel, self.color[channel])))
+        let interval = |channel: usize, value: f64| {
+            self.interval.as_ref().map_or(Interval::point(value), |interval| interval[channel])
+        };
+        std::array::from_fn(|channel| {
+            D::Float::integer_with_interval(self.color[channel], interval(channel, self.color[channel]))
+        })
     }
 
     #[inline(always)]
@@ -137,11 +142,11 @@ impl Pixel<'_> {
         for (to, channel) in self.color.iter_mut().zip(&color) {
             *to = channel.value();
         }
-        if D::OPEN
-            && let Some(range) = self.range.as_deref_mut()
+        if D::HAS_INTERVALS
+            && let Some(interval) = self.interval.as_deref_mut()
         {
-            for (to, channel) in range.iter_mut().zip(&color) {
-                *to = channel.range();
+            for (to, channel) in interval.iter_mut().zip(&color) {
+                *to = channel.interval();
             }
         }
     }

@@ -6,7 +6,7 @@
 //! the bin and is allocated when something is drawn.
 
 use super::store::{Test, depth_test, is_integer, keeps, stored};
-use super::surface::{Marks, Piece, Surface};
+use super::surface::{BIN, Marks, Piece, Surface};
 use crate::domain::{Domain, Number};
 use crate::exec::{LANES, Mask};
 use crate::raster::Bounds;
@@ -14,27 +14,24 @@ use glisten_scene::picture::Interval;
 use glisten_scene::{BlendFactor, Format, Framebuffer, State};
 use smallvec::SmallVec;
 
-/// The side of a bin in pixels; it is even, so that quads are within one bin.
-pub(super) const BIN: i64 = 32;
-
 /// The test results of the fragments of a batch, as sets of lanes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Tests {
     /// Those whose values pass.
     pub(super) passes: u64,
     /// Those for which a conforming GPU may decide differently.
-    pub(super) open: u64,
+    pub(super) undecided: u64,
 }
 
 impl Tests {
     /// Those that some conforming GPU draws.
     pub(super) fn possible(self) -> u64 {
-        self.passes | self.open
+        self.passes | self.undecided
     }
 
     #[inline(always)]
     fn of(self, lane: usize) -> Test {
-        Test { passes: self.passes >> lane & 1 == 1, open: self.open >> lane & 1 == 1 }
+        Test { passes: self.passes >> lane & 1 == 1, undecided: self.undecided >> lane & 1 == 1 }
     }
 }
 
@@ -124,7 +121,7 @@ impl<'s, D: Domain> Target<'s, D> {
 impl<D: Domain> Pixels<D> {
     fn new() -> Self {
         let count = (BIN * BIN) as usize;
-        let undecided = vec![false; if D::OPEN { count } else { 0 }];
+        let undecided = vec![false; if D::HAS_INTERVALS { count } else { 0 }];
         Self { depth: Vec::new(), covered: vec![false; count], near_edge: Vec::new(), undecided }
     }
 }
@@ -162,7 +159,7 @@ impl<D: Domain> Bin<'_, D> {
             let Some(stored) = depth.get_mut(places[lane] as usize) else { continue };
             let test = depth_test::<D>(stored, depth_of(lane), state, before.of(lane));
             after.passes |= u64::from(test.passes) << lane;
-            after.open |= u64::from(test.open) << lane;
+            after.undecided |= u64::from(test.undecided) << lane;
         }
         after
     }
@@ -174,11 +171,11 @@ impl<D: Domain> Bin<'_, D> {
         for lane in Mask(tests.passes).lanes() {
             pixels.covered[places[lane] as usize] = true;
         }
-        if D::OPEN {
+        if D::HAS_INTERVALS {
             for lane in Mask(tests.possible()).lanes() {
                 let slot = &mut pixels.undecided[places[lane] as usize];
-                let open = tests.of(lane).open;
-                *slot = undecided >> lane & 1 == 1 || open || (blends && *slot);
+                let uncertain = tests.of(lane).undecided;
+                *slot = undecided >> lane & 1 == 1 || uncertain || (blends && *slot);
             }
         }
     }
@@ -196,7 +193,7 @@ impl<D: Domain> Bin<'_, D> {
         let format = self.format;
         let blend = blend.filter(|_| !is_integer(format));
         let Some(piece) = self.attachments.get_mut(attachment) else { return };
-        if blend.is_none() && keeps(format) && tests.open == 0 {
+        if blend.is_none() && keeps(format) && tests.undecided == 0 {
             for lane in Mask(tests.passes).lanes() {
                 if let Some(mut pixel) = piece.pixel(places[lane]) {
                     pixel.write::<D>(color(lane));
@@ -239,13 +236,13 @@ impl<D: Domain> Patch<D> {
     }
 
     /// The interval of a channel of a pixel inside the patch.
-    pub(super) fn range(&mut self, x: i64, y: i64, attachment: usize, channel: usize) -> Interval {
-        let mut range = Interval::ALL;
+    pub(super) fn interval(&mut self, x: i64, y: i64, attachment: usize, channel: usize) -> Interval {
+        let mut interval = Interval::ALL;
         let place = local(self.area, x, y);
         self.draw(|bin| {
             let color = bin.attachments.get_mut(attachment).and_then(|piece| piece.pixel(place)).map(|p| p.read::<D>());
-            range = color.and_then(|color| color.get(channel).copied()).map_or(Interval::ALL, Number::range);
+            interval = color.and_then(|color| color.get(channel).copied()).map_or(Interval::ALL, Number::interval);
         });
-        range
+        interval
     }
 }

@@ -263,7 +263,7 @@ fn shade_chunk<D: Domain>(
 /// Whether a position may be anywhere else: it depends on an undecided branch.
 fn may_jump<D: Domain>(clip: [D::Float; 4]) -> bool {
     const FAR: f64 = 1.0 / 256.0;
-    D::OPEN && clip.iter().any(|value| value.error() > FAR * clip[3].value().abs())
+    D::HAS_INTERVALS && clip.iter().any(|value| value.error() > FAR * clip[3].value().abs())
 }
 
 pub(super) fn read_float<D: Domain>(machine: &Machine<D>, (global, flat): (GlobalId, u32), lane: usize) -> D::Float {

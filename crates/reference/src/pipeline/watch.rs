@@ -16,7 +16,7 @@ pub(super) struct Watch<'a, D: Domain> {
     pub(super) draw: usize,
     pub(super) instance: u32,
     /// Whether each operation of the text needs instructions of its own.
-    pub(super) apart: bool,
+    pub(super) unfused: bool,
 }
 
 impl<D: Domain> Watch<'_, D> {

@@ -19,9 +19,9 @@ pub(crate) fn rectangle(from: [f32; 2], to: [f32; 2]) -> Option<Shape> {
     let snap = |value: f32| (value * ONE as f32).round() as i64;
     let (side_x, side_y) = (snap(-dy * scale), snap(dx * scale));
     let place = |p: [f32; 2]| Fixed { x: snap(p[0] - 0.5), y: snap(p[1] - 0.5) };
-    let beside = |p: Fixed, sign: i64| Fixed { x: p.x + sign * side_x, y: p.y + sign * side_y };
+    let shifted = |p: Fixed, sign: i64| Fixed { x: p.x + sign * side_x, y: p.y + sign * side_y };
     let (from, to) = (place(from), place(to));
-    let mut corners = [beside(from, 1), beside(to, 1), beside(to, -1), beside(from, -1)];
+    let mut corners = [shifted(from, 1), shifted(to, 1), shifted(to, -1), shifted(from, -1)];
     if triangle::doubled_area([corners[0], corners[1], corners[2]]) < 0 {
         corners.reverse();
     }

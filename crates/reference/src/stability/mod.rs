@@ -68,7 +68,7 @@ pub struct SpanError {
     /// The number of comparisons, conversions to integers and jumps (`floor`, `step`) on which f32 and f64 disagree.
     pub disagreements: u64,
     /// The number of branches and selections that f32 alone would decide differently.
-    pub choices: u64,
+    pub decisions: u64,
 }
 
 /// The stability of a program, as a drawing shows it.
@@ -125,7 +125,7 @@ impl SpanError {
             births: tally.births,
             births_in_both: tally.births_in_both,
             disagreements: tally.disagreements,
-            choices: tally.choices,
+            decisions: tally.decisions,
         }
     }
 

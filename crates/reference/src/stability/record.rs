@@ -32,7 +32,7 @@ pub(super) struct Tally {
     pub(super) births: u64,
     pub(super) births_in_both: u64,
     pub(super) disagreements: u64,
-    pub(super) choices: u64,
+    pub(super) decisions: u64,
 }
 
 impl Tally {
@@ -50,7 +50,7 @@ impl Tally {
         self.births += other.births;
         self.births_in_both += other.births_in_both;
         self.disagreements += other.disagreements;
-        self.choices += other.choices;
+        self.decisions += other.decisions;
     }
 
     /// Records one scalar result of operands in one lane.
@@ -124,14 +124,14 @@ pub(super) struct Collected {
 }
 
 /// Whether a tally belongs to a vertex or a fragment stage, and its span.
-pub(super) type Place = (Stage, Span);
+pub(super) type StageSpan = (Stage, Span);
 
 impl Collected {
     /// The tallies of each stage and span, and the largest error of a fragment stage's output.
-    pub(super) fn joined(&self) -> (BTreeMap<Place, Tally>, f64) {
+    pub(super) fn joined(&self) -> (BTreeMap<StageSpan, Tally>, f64) {
         let mut parts = std::mem::take(&mut *self.parts.lock().unwrap_or_else(PoisonError::into_inner));
         parts.sort_by_key(|(order, _)| *order);
-        let mut all: BTreeMap<Place, Tally> = BTreeMap::new();
+        let mut all: BTreeMap<StageSpan, Tally> = BTreeMap::new();
         let mut output = 0.0_f64;
         for (order, recorder) in &parts {
             // Values that are the same for all invocations count with their stage: 0 with 2, 1 with 3.
@@ -166,7 +166,7 @@ impl Observer<Shadow> for Recorder {
         if event.lanes.is_empty() {
             return;
         }
-        let unsure = |values: &Values<'_, crate::domain::ShadowInt>| {
+        let undecided = |values: &Values<'_, crate::domain::ShadowInt>| {
             event.lanes.lanes().filter(|lane| values.at(*lane).bits != values.at(*lane).single).count() as u64
         };
         match &event.what {
@@ -180,12 +180,12 @@ impl Observer<Shadow> for Recorder {
             What::Answer(values) => {
                 let tally = self.tallies.entry(event.span).or_default();
                 tally.evaluations += u64::from(event.lanes.0.count_ones());
-                tally.disagreements += unsure(values);
+                tally.disagreements += undecided(values);
             }
             What::Choice(values) => {
-                let choices = unsure(values);
-                if choices > 0 {
-                    self.tallies.entry(event.span).or_default().choices += choices;
+                let decisions = undecided(values);
+                if decisions > 0 {
+                    self.tallies.entry(event.span).or_default().decisions += decisions;
                 }
             }
             What::Output(values) => {

@@ -99,7 +99,7 @@ fn a_branch_that_f32_takes_otherwise_is_counted_at_its_condition() {
         "void main() { float tiny = 1e-9 * (at.x + 2.0); if (1.0 + tiny > 1.0) o = vec4(1.0); else o = vec4(0.0); }";
     let found = causes(body);
     assert_eq!(found.iter().map(|(text, _)| text.as_str()).collect::<Vec<_>>(), ["1.0 + tiny > 1.0"]);
-    assert_eq!((found[0].1.disagreements, found[0].1.choices), (256, 256));
+    assert_eq!((found[0].1.disagreements, found[0].1.decisions), (256, 256));
     let selected = causes("void main() { float tiny = 1e-9 * (at.x + 2.0); o = vec4(1.0 + tiny > 1.0 ? 2.0 : 3.0); }");
     assert_eq!(selected[0].1.disagreements, 256);
     let jump = causes("void main() { o = vec4(floor(at.x * 1e-9 + 1.0)); }");

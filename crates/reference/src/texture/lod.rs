@@ -1,6 +1,7 @@
 //! Level of detail (OpenGL 3.2 §3.8.11).
 
-use super::{Near, cube};
+use super::{BoundedFloat, cube};
+use crate::domain::rules;
 use glisten_front::hir::{SamplerDim, SamplerType};
 use glisten_scene::Texture;
 
@@ -20,7 +21,7 @@ pub(crate) struct Steps {
 
 impl Steps {
     /// Adds the change of one coordinate to a neighboring pixel.
-    pub(crate) fn add(&mut self, axis: usize, change: Near) {
+    pub(crate) fn add(&mut self, axis: usize, change: BoundedFloat) {
         let least = if change.low <= 0.0 && change.high >= 0.0 { 0.0 } else { change.low.abs().min(change.high.abs()) };
         if let (Some(low), Some(high)) = (self.least.get_mut(axis), self.most.get_mut(axis)) {
             // If the intervals are disjoint, it is known which of both directions is the longer one.
@@ -38,12 +39,12 @@ pub(crate) fn level_of_detail(
     at: [f64; 3],
     gradients: Gradients,
     steps: Option<&Steps>,
-) -> Near {
+) -> BoundedFloat {
     let value = exact(texture, kind, at, gradients);
-    let (Some(steps), Some(base)) = (steps, texture.levels.first()) else { return Near::exact(value) };
+    let (Some(steps), Some(base)) = (steps, texture.levels.first()) else { return BoundedFloat::exact(value) };
     if kind.dim == SamplerDim::Cube {
-        // Between the longer step over the square root of two and the sum of both.
-        return Near { value, low: value - 0.5, high: value + 1.0 };
+        let (low, high) = const { rules::CUBE_LEVEL.between() };
+        return BoundedFloat { value, low: value + low, high: value + high };
     }
     let sizes = match kind.dim {
         SamplerDim::Rect => [1.0; 3],
@@ -53,7 +54,7 @@ pub(crate) fn level_of_detail(
     let scaled = |steps: [f64; 3]| (0..count).map(move |axis| steps[axis] * sizes[axis]);
     let least = scaled(steps.least).fold(0.0, f64::max);
     let most: f64 = scaled(steps.most).sum();
-    Near { value, low: value.min(least.log2()), high: value.max(most.log2()) }
+    BoundedFloat { value, low: value.min(least.log2()), high: value.max(most.log2()) }
 }
 
 /// `log2(rho)`, where rho is the longer of the two steps in texels of the base level (equation 3.21 and the one below

@@ -9,9 +9,9 @@
 //! and y precedes x.
 //!
 //! The interval is the hull of all texels that a coordinate's interval touches
-//! ([`rules::NEAREST`](super::domain::rules::NEAREST)), with the precision of filter weights
-//! ([`rules::FILTER_WEIGHT`](super::domain::rules::FILTER_WEIGHT)) and of a level of detail from derivatives
-//! ([`rules::LEVEL_RANGE`](super::domain::rules::LEVEL_RANGE)).
+//! ([`rules::TEXEL_COORDINATE`](super::domain::rules::TEXEL_COORDINATE)), with the precision of filter weights
+//! ([`rules::FILTER_WEIGHT`](super::domain::rules::FILTER_WEIGHT)) and the freedom of a level of detail
+//! from derivatives ([`level_of_detail`]).
 
 mod cube;
 mod lod;
@@ -24,15 +24,15 @@ pub(crate) use texel::{fetch, size};
 
 use glisten_scene::Texture;
 
-/// A number, and the interval of values that a GPU may have.
+/// A number with the lower and upper bound of the values that a GPU may have.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Near {
+pub(crate) struct BoundedFloat {
     pub(crate) value: f64,
     pub(crate) low: f64,
     pub(crate) high: f64,
 }
 
-impl Near {
+impl BoundedFloat {
     pub(crate) fn exact(value: f64) -> Self {
         Self { value, low: value, high: value }
     }
@@ -66,20 +66,20 @@ impl Near {
 /// The result of a lookup.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Sampled {
-    Floats([Near; 4]),
+    Floats([BoundedFloat; 4]),
     /// The bits of an integer texture, with the interval of `int`s for a GPU.
-    Bits([Bits; 4]),
+    Ints([BoundedInt; 4]),
 }
 
-/// Bits, and the interval of `int`s that a GPU may have.
+/// Bits, with the lower and upper bound of the `int`s that a GPU may have.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Bits {
+pub(crate) struct BoundedInt {
     pub(crate) bits: u32,
     pub(crate) low: i32,
     pub(crate) high: i32,
 }
 
-impl Bits {
+impl BoundedInt {
     pub(crate) fn exact(bits: u32) -> Self {
         Self { bits, low: bits as i32, high: bits as i32 }
     }
@@ -94,7 +94,7 @@ impl Sampled {
     pub(crate) fn joined(self, other: Self) -> Self {
         match (self, other) {
             (Self::Floats(a), Self::Floats(b)) => Self::Floats(std::array::from_fn(|k| a[k].joined(b[k]))),
-            (Self::Bits(a), Self::Bits(b)) => Self::Bits(std::array::from_fn(|k| a[k].joined(b[k].bits))),
+            (Self::Ints(a), Self::Ints(b)) => Self::Ints(std::array::from_fn(|k| a[k].joined(b[k].bits))),
             (one, _) => one.unknown(),
         }
     }
@@ -102,8 +102,8 @@ impl Sampled {
     /// The result with its likely value, where everything is possible.
     pub(crate) fn unknown(self) -> Self {
         match self {
-            Self::Floats(values) => Self::Floats(values.map(|near| Near::anything(near.value))),
-            Self::Bits(bits) => Self::Bits(bits.map(|bits| Bits { low: i32::MIN, high: i32::MAX, ..bits })),
+            Self::Floats(values) => Self::Floats(values.map(|bounded| BoundedFloat::anything(bounded.value))),
+            Self::Ints(bits) => Self::Ints(bits.map(|bits| BoundedInt { low: i32::MIN, high: i32::MAX, ..bits })),
         }
     }
 }

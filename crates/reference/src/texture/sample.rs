@@ -1,7 +1,7 @@
 //! Filtered texture lookups (OpenGL 3.2 §3.8.11 to §3.8.12, §3.8.16).
 
 use super::texel;
-use super::{Bits, Near, Sampled, cube, level};
+use super::{BoundedFloat, BoundedInt, Sampled, cube, level};
 use crate::domain::rules;
 use glisten_front::hir::{SamplerDim, SamplerType, Scalar};
 use glisten_scene::{Compare, Filter, Texture, TextureLevel, Wrap};
@@ -11,12 +11,12 @@ use glisten_scene::{Compare, Filter, Texture, TextureLevel, Wrap};
 pub(crate) struct Request {
     pub(crate) kind: SamplerType,
     /// s, t, r, as far as the texture has them.
-    pub(crate) at: [Near; 3],
-    pub(crate) layer: Near,
+    pub(crate) at: [BoundedFloat; 3],
+    pub(crate) layer: BoundedFloat,
     /// The reference value of a shadow sampler.
-    pub(crate) reference: Near,
+    pub(crate) reference: BoundedFloat,
     /// The level of detail, including the bias.
-    pub(crate) level: Near,
+    pub(crate) level: BoundedFloat,
     /// The offset in texels.
     pub(crate) offset: [i32; 3],
     /// Whether intervals are needed.
@@ -39,13 +39,13 @@ pub(crate) fn sample(texture: &Texture, request: &Request) -> Sampled {
     let mut request = *request;
     for at in &mut request.at {
         if !at.value.is_finite() {
-            *at = Near::anything(0.0);
+            *at = BoundedFloat::anything(0.0);
         }
     }
     if request.kind.texel != Scalar::Float {
         // Integers are not filtered (§3.8.14): the nearest texel of the base level.
-        let Some(base) = level(texture, 0) else { return Sampled::Bits([Bits::default(); 4]) };
-        return Sampled::Bits(nearest_bits(texture, base, &request));
+        let Some(base) = level(texture, 0) else { return Sampled::Ints([BoundedInt::default(); 4]) };
+        return Sampled::Ints(nearest_bits(texture, base, &request));
     }
     let floats = match texture.filter {
         Filter::Nearest => at_level(texture, 0, &request, false),
@@ -57,18 +57,18 @@ pub(crate) fn sample(texture: &Texture, request: &Request) -> Sampled {
 
 /// Linear between levels; for magnification, the base level. The interval is the hull over the possible levels of
 /// detail, linear between whole ones.
-fn trilinear(texture: &Texture, request: &Request) -> [Near; 4] {
+fn trilinear(texture: &Texture, request: &Request) -> [BoundedFloat; 4] {
     let last = texture.levels.len().saturating_sub(1) as f64;
     let limited = |lambda: f64| if lambda.is_nan() { 0.0 } else { lambda.clamp(0.0, last) };
     let at = |lambda: f64| between(texture, request, lambda);
     let mut result = at(limited(request.level.value));
     if request.bounded {
-        let weight = rules::FILTER_WEIGHT.absolute();
+        let weight = const { rules::FILTER_WEIGHT.absolute() };
         let (low, high) = (limited(request.level.low - weight), limited(request.level.high + weight));
         let whole = (low.ceil() as u64..=high.floor() as u64).map(|level| level as f64);
         for lambda in [low, high].into_iter().chain(whole) {
-            for (near, other) in result.iter_mut().zip(at(lambda)) {
-                *near = near.joined(other);
+            for (bounded, other) in result.iter_mut().zip(at(lambda)) {
+                *bounded = bounded.joined(other);
             }
         }
     }
@@ -76,7 +76,7 @@ fn trilinear(texture: &Texture, request: &Request) -> [Near; 4] {
 }
 
 /// Between the two levels around a level of detail.
-fn between(texture: &Texture, request: &Request, lambda: f64) -> [Near; 4] {
+fn between(texture: &Texture, request: &Request, lambda: f64) -> [BoundedFloat; 4] {
     let (below, weight) = (lambda.floor(), lambda - lambda.floor());
     let finer = at_level(texture, below as usize, request, true);
     if weight == 0.0 {
@@ -86,24 +86,24 @@ fn between(texture: &Texture, request: &Request, lambda: f64) -> [Near; 4] {
     let mix = |a: f64, b: f64| a * (1.0 - weight) + b * weight;
     std::array::from_fn(|k| {
         let (a, b) = (finer[k], coarser[k]);
-        Near { value: mix(a.value, b.value), low: mix(a.low, b.low), high: mix(a.high, b.high) }
+        BoundedFloat { value: mix(a.value, b.value), low: mix(a.low, b.low), high: mix(a.high, b.high) }
     })
 }
 
 /// The layer: the nearest one, limited to those that exist.
-fn layers(level: &TextureLevel, at: Near) -> (i64, (i64, i64)) {
+fn layers(level: &TextureLevel, at: BoundedFloat) -> (i64, (i64, i64)) {
     let pick = |value: f64| (index((value + 0.5).floor())).clamp(0, i64::from(level.depth.max(1)) - 1);
     (pick(at.value), (pick(at.low), pick(at.high)))
 }
 
 /// The coordinate in texels of a level.
-fn in_texels(kind: SamplerType, at: Near, size: u32) -> Near {
+fn in_texels(kind: SamplerType, at: BoundedFloat, size: u32) -> BoundedFloat {
     if kind.dim == SamplerDim::Rect {
         return at;
     }
     let scale = f64::from(size);
     // A GPU multiplies in f32.
-    at.map(|at| at * scale).widened(rules::ulp(at.value * scale))
+    at.map(|at| at * scale).widened(const { rules::TEXEL_COORDINATE.ulps() } * rules::ulp(at.value * scale))
 }
 
 fn wrapped(wrap: Wrap, index: i64, size: u32) -> i64 {
@@ -124,14 +124,14 @@ fn index(value: f64) -> i64 {
     value.clamp(-FAR, FAR) as i64
 }
 
-fn axis(at: Near, offset: i32, linear: bool) -> Axis {
+fn axis(at: BoundedFloat, offset: i32, linear: bool) -> Axis {
     let shift = if linear { 0.5 } else { 0.0 };
     let base = at.value - shift;
     let floor = base.floor();
     let place = |value: f64| index(value.floor()).saturating_add(i64::from(offset));
     let first = place(base);
     let second = first.saturating_add(1);
-    let weight = if linear { rules::FILTER_WEIGHT.absolute() } else { 0.0 };
+    let weight = if linear { const { rules::FILTER_WEIGHT.absolute() } } else { 0.0 };
     let touched = (place(at.low - shift - weight), place(at.high - shift + weight).saturating_add(i64::from(linear)));
     Axis { first, second, weight: if linear { base - floor } else { 0.0 }, error: at.error() + weight, touched }
 }
@@ -155,8 +155,9 @@ fn footprint(texture: &Texture, level: &TextureLevel, request: &Request, linear:
         let error = request.at.iter().map(|at| at.error()).fold(0.0, f64::max) / there.ma;
         for (axis_at, c) in axes.iter_mut().zip([there.sc, there.tc]) {
             let s = if there.ma > 0.0 { 0.5 * (c / there.ma + 1.0) } else { 0.5 };
-            let near = Near::exact(s).widened(error + 4.0 * rules::ulp(1.0));
-            *axis_at = axis(in_texels(kind, near, level.width), 0, linear);
+            let bounded =
+                BoundedFloat::exact(s).widened(error + const { rules::CUBE_COORDINATE.ulps() } * rules::ulp(1.0));
+            *axis_at = axis(in_texels(kind, bounded, level.width), 0, linear);
         }
         let slice = there.face as i64;
         return Footprint { axes, count: 2, slice, slices: (slice, slice), wrap: Wrap::ClampToEdge, cube: true };
@@ -223,10 +224,10 @@ impl Footprint {
     }
 }
 
-fn nearest_bits(texture: &Texture, level: &TextureLevel, request: &Request) -> [Bits; 4] {
+fn nearest_bits(texture: &Texture, level: &TextureLevel, request: &Request) -> [BoundedInt; 4] {
     let footprint = nearest(texture, level, request);
     let place = footprint.place(level, footprint.axes.map(|axis| axis.first)).unwrap_or([0; 3]);
-    let mut result = texel::bits(level, place).map(Bits::exact);
+    let mut result = texel::bits(level, place).map(BoundedInt::exact);
     if request.bounded {
         let known = footprint.each_touched(level, |place| {
             for (result, bits) in result.iter_mut().zip(texel::bits(level, place)) {
@@ -234,7 +235,7 @@ fn nearest_bits(texture: &Texture, level: &TextureLevel, request: &Request) -> [
             }
         });
         if !known {
-            return result.map(|bits| Bits { low: i32::MIN, high: i32::MAX, ..bits });
+            return result.map(|bits| BoundedInt { low: i32::MIN, high: i32::MAX, ..bits });
         }
     }
     result
@@ -251,20 +252,19 @@ fn nearest(texture: &Texture, level: &TextureLevel, request: &Request) -> Footpr
 }
 
 /// A texel, or the result of comparing it.
-fn value(level: &TextureLevel, place: [i64; 3], texture: &Texture, request: &Request) -> [Near; 4] {
+fn value(level: &TextureLevel, place: [i64; 3], texture: &Texture, request: &Request) -> [BoundedFloat; 4] {
     let texel = texel::floats(level, place);
     if !request.kind.shadow {
-        return texel.map(Near::exact);
+        return texel.map(BoundedFloat::exact);
     }
     let passed = compare(texture.compare, request.reference.value, texel[0]);
-    // Both sides are rounded to f32 before the comparison.
-    let slack = rules::ulp(texel[0]);
-    let open = request.bounded
+    let slack = const { rules::COMPARED_DEPTH.ulps() } * rules::ulp(texel[0]);
+    let undecided = request.bounded
         && (request.reference.low - slack..=request.reference.high + slack).contains(&texel[0])
         && !matches!(texture.compare, Compare::Always | Compare::Never);
     let value = f64::from(u8::from(passed));
-    let result = if open { Near { value, low: 0.0, high: 1.0 } } else { Near::exact(value) };
-    [result, Near::exact(0.0), Near::exact(0.0), Near::exact(1.0)]
+    let result = if undecided { BoundedFloat { value, low: 0.0, high: 1.0 } } else { BoundedFloat::exact(value) };
+    [result, BoundedFloat::exact(0.0), BoundedFloat::exact(0.0), BoundedFloat::exact(1.0)]
 }
 
 /// `reference op stored` (§3.8.16).
@@ -282,20 +282,26 @@ fn compare(op: Compare, reference: f64, stored: f64) -> bool {
 }
 
 /// A lookup in one level.
-fn at_level(texture: &Texture, number: usize, request: &Request, linear: bool) -> [Near; 4] {
-    let Some(level) = level(texture, number) else { return super::MISSING.map(Near::exact) };
+fn at_level(texture: &Texture, number: usize, request: &Request, linear: bool) -> [BoundedFloat; 4] {
+    let Some(level) = level(texture, number) else { return super::MISSING.map(BoundedFloat::exact) };
     let footprint = if linear { footprint(texture, level, request, linear) } else { nearest(texture, level, request) };
     let result = blend(texture, level, request, &footprint, linear);
     if request.bounded { limited(texture, level, request, &footprint, linear, result) } else { result }
 }
 
 /// The weighted sum over the corners of the footprint.
-fn blend(texture: &Texture, level: &TextureLevel, request: &Request, footprint: &Footprint, linear: bool) -> [Near; 4] {
+fn blend(
+    texture: &Texture,
+    level: &TextureLevel,
+    request: &Request,
+    footprint: &Footprint,
+    linear: bool,
+) -> [BoundedFloat; 4] {
     let corners = if linear { 1usize << footprint.count } else { 1 };
-    let mut sum = [Near::default(); 4];
+    let mut sum = [BoundedFloat::default(); 4];
     let mut missing = 0.0;
-    let mut present: [Option<[Near; 4]>; 8] = [None; 8];
-    let add = |sum: &mut [Near; 4], weight: f64, texel: &[Near; 4]| {
+    let mut present: [Option<[BoundedFloat; 4]>; 8] = [None; 8];
+    let add = |sum: &mut [BoundedFloat; 4], weight: f64, texel: &[BoundedFloat; 4]| {
         for (sum, texel) in sum.iter_mut().zip(texel) {
             sum.value += weight * texel.value;
             sum.low += weight * texel.low;
@@ -335,8 +341,8 @@ fn limited(
     request: &Request,
     footprint: &Footprint,
     linear: bool,
-    result: [Near; 4],
-) -> [Near; 4] {
+    result: [BoundedFloat; 4],
+) -> [BoundedFloat; 4] {
     let (mut low, mut high) = ([f64::INFINITY; 4], [f64::NEG_INFINITY; 4]);
     let known = footprint.each_touched(level, |place| {
         for (k, texel) in value(level, place, texture, request).into_iter().enumerate() {
@@ -345,22 +351,26 @@ fn limited(
         }
     });
     if !known {
-        return result.map(|near| Near::anything(near.value));
+        return result.map(|bounded| BoundedFloat::anything(bounded.value));
     }
     let off: f64 = footprint.axes.iter().take(footprint.count).map(|axis| axis.error).sum();
     std::array::from_fn(|k| {
-        let near = result[k];
+        let bounded = result[k];
         if !linear {
-            return Near { value: near.value, low: near.low.min(low[k]), high: near.high.max(high[k]) };
+            return BoundedFloat {
+                value: bounded.value,
+                low: bounded.low.min(low[k]),
+                high: bounded.high.max(high[k]),
+            };
         }
         let spread = if high[k] > low[k] { (high[k] - low[k]) * off.min(1.0) } else { 0.0 };
-        let rounded = rules::FILTER_SUM.ulps() * rules::ulp(low[k].abs().max(high[k].abs()));
+        let rounded = const { rules::FILTER_SUM.ulps() } * rules::ulp(low[k].abs().max(high[k].abs()));
         // A mean of texels is between them.
-        let (least, most) = (low[k].min(near.low) - rounded, high[k].max(near.high) + rounded);
-        Near {
-            value: near.value,
-            low: (near.low - spread - rounded).max(least),
-            high: (near.high + spread + rounded).min(most),
+        let (least, most) = (low[k].min(bounded.low) - rounded, high[k].max(bounded.high) + rounded);
+        BoundedFloat {
+            value: bounded.value,
+            low: (bounded.low - spread - rounded).max(least),
+            high: (bounded.high + spread + rounded).min(most),
         }
     })
 }

@@ -1,6 +1,6 @@
 //! Accesses texels by integer coordinates.
 
-use super::{Bits, Near, Sampled};
+use super::{BoundedFloat, BoundedInt, Sampled};
 use glisten_front::hir::{SamplerDim, SamplerType};
 use glisten_scene::{Texels, Texture, TextureLevel};
 
@@ -46,17 +46,17 @@ pub(crate) fn fetch(texture: &Texture, kind: SamplerType, at: &[i32], level: i32
     let found = usize::try_from(level).ok().and_then(|level| texture.levels.get(level));
     let Some(level) = found else { return nothing(kind) };
     if kind.texel == glisten_front::hir::Scalar::Float {
-        Sampled::Floats(floats(level, place).map(Near::exact))
+        Sampled::Floats(floats(level, place).map(BoundedFloat::exact))
     } else {
-        Sampled::Bits(bits(level, place).map(Bits::exact))
+        Sampled::Ints(bits(level, place).map(BoundedInt::exact))
     }
 }
 
 fn nothing(kind: SamplerType) -> Sampled {
     if kind.texel == glisten_front::hir::Scalar::Float {
-        Sampled::Floats([Near::default(); 4])
+        Sampled::Floats([BoundedFloat::default(); 4])
     } else {
-        Sampled::Bits([Bits::default(); 4])
+        Sampled::Ints([BoundedInt::default(); 4])
     }
 }
 

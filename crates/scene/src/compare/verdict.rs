@@ -14,7 +14,7 @@ use serde::Serialize;
 
 /// The standard by which a difference is explained.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Judge {
+pub enum Criterion {
     /// The reference's envelope for each channel of each pixel.
     Envelope,
     /// One absolute tolerance for all channels.
@@ -115,21 +115,21 @@ const MAX_UNDECIDED_SHARE: f64 = 0.01;
 
 impl Verdict {
     /// Compares two pictures of the same size and number of attachments.
-    pub fn new(gpu: &Picture, cpu: &Picture, judge: Judge) -> Self {
-        Self::admitting(gpu, cpu, judge, &[])
+    pub fn new(gpu: &Picture, cpu: &Picture, criterion: Criterion) -> Self {
+        Self::excusing(gpu, cpu, criterion, &[])
     }
 
     /// Compares like [`Self::new`], given a further reference picture for each known fault of the driver that is
     /// excused.
-    pub fn admitting(gpu: &Picture, cpu: &Picture, judge: Judge, faults: &[(&'static str, Picture)]) -> Self {
-        let judged_by = match judge {
-            Judge::Envelope => "envelope",
-            Judge::Tolerance(_) => "tolerance",
+    pub fn excusing(gpu: &Picture, cpu: &Picture, criterion: Criterion, faults: &[(&'static str, Picture)]) -> Self {
+        let judged_by = match criterion {
+            Criterion::Envelope => "envelope",
+            Criterion::Tolerance(_) => "tolerance",
         };
         let mut tally = Tally {
             gpu,
             cpu,
-            judge,
+            criterion,
             faults,
             verdict: Self { judged_by, ..Self::default() },
             squares: 0.0,
@@ -200,9 +200,9 @@ fn worse_faults(a: &[FaultCount], b: &[FaultCount]) -> Vec<FaultCount> {
 
 /// For each pixel, the largest difference of its channels relative to the bound. It is infinite where only one side
 /// covers a decided pixel, or where a number is not finite but must be.
-pub fn shares(gpu: &Picture, cpu: &Picture, judge: Judge) -> Vec<f64> {
+pub fn shares(gpu: &Picture, cpu: &Picture, criterion: Criterion) -> Vec<f64> {
     let verdict = Verdict::default();
-    let tally = Tally { gpu, cpu, judge, faults: &[], verdict, squares: 0.0, channels: 0, worst_rank: -1.0 };
+    let tally = Tally { gpu, cpu, criterion, faults: &[], verdict, squares: 0.0, channels: 0, worst_rank: -1.0 };
     let flag = |flags: &[bool], pixel: usize| flags.get(pixel).copied().unwrap_or(false);
     (0..cpu.covered.len())
         .map(|pixel| {
@@ -225,7 +225,7 @@ pub fn shares(gpu: &Picture, cpu: &Picture, judge: Judge) -> Vec<f64> {
 struct Tally<'a> {
     gpu: &'a Picture,
     cpu: &'a Picture,
-    judge: Judge,
+    criterion: Criterion,
     faults: &'a [(&'static str, Picture)],
     verdict: Verdict,
     squares: f64,
@@ -311,8 +311,8 @@ impl Tally<'_> {
             let known = picture.covered.get(pixel).copied().unwrap_or(false);
             let inside = |attachment: usize| {
                 let gpu = Self::color(self.gpu, attachment, pixel);
-                let ranges = Self::ranges(picture, attachment, pixel);
-                gpu.into_iter().zip(ranges).all(|(gpu, range)| range.contains(gpu))
+                let intervals = Self::intervals(picture, attachment, pixel);
+                gpu.into_iter().zip(intervals).all(|(gpu, interval)| interval.contains(gpu))
             };
             match (covers, known) {
                 (true, _) => (known || open) && (0..picture.attachments.len()).all(inside),
@@ -334,18 +334,18 @@ impl Tally<'_> {
         picture.attachments.get(attachment).and_then(|colors| colors.get(pixel)).copied().unwrap_or([0.0; 4])
     }
 
-    fn ranges(picture: &Picture, attachment: usize, pixel: usize) -> [Interval; 4] {
-        let found = picture.ranges.as_ref().and_then(|ranges| ranges.get(attachment)?.get(pixel)).copied();
+    fn intervals(picture: &Picture, attachment: usize, pixel: usize) -> [Interval; 4] {
+        let found = picture.intervals.as_ref().and_then(|intervals| intervals.get(attachment)?.get(pixel)).copied();
         found.unwrap_or_else(|| Self::color(picture, attachment, pixel).map(Interval::point))
     }
 
     /// The allowed values of each channel.
     fn allowed(&self, attachment: usize, pixel: usize) -> [Interval; 4] {
-        match self.judge {
-            Judge::Tolerance(tolerance) => {
+        match self.criterion {
+            Criterion::Tolerance(tolerance) => {
                 Self::color(self.cpu, attachment, pixel).map(|value| Interval::around(value, tolerance))
             }
-            Judge::Envelope => Self::ranges(self.cpu, attachment, pixel),
+            Criterion::Envelope => Self::intervals(self.cpu, attachment, pixel),
         }
     }
 
@@ -354,14 +354,14 @@ impl Tally<'_> {
         let cpu = Self::color(self.cpu, attachment, pixel);
         let allowed = self.allowed(attachment, pixel);
         let mut error = PixelError::default();
-        for (channel, ((gpu, cpu), range)) in gpu.into_iter().zip(cpu).zip(allowed).enumerate() {
+        for (channel, ((gpu, cpu), interval)) in gpu.into_iter().zip(cpu).zip(allowed).enumerate() {
             error.non_finite[0] |= !gpu.is_finite();
             error.non_finite[1] |= !cpu.is_finite();
-            let inside = range.contains(gpu);
+            let inside = interval.contains(gpu);
             match (gpu.is_finite(), cpu.is_finite()) {
                 (true, true) => {
                     error.outside |= !inside;
-                    let (difference, room) = ((gpu - cpu).abs(), range.room(cpu, gpu));
+                    let (difference, room) = ((gpu - cpu).abs(), interval.room(cpu, gpu));
                     let share = match difference == 0.0 {
                         true => 0.0,
                         false => difference / room.max(f64::MIN_POSITIVE),
@@ -395,7 +395,7 @@ impl Tally<'_> {
     fn worst_at(&self, attachment: usize, pixel: usize, channel: usize) -> Worst {
         let width = (self.cpu.width as usize).max(1);
         let (gpu, cpu) = (Self::color(self.gpu, attachment, pixel), Self::color(self.cpu, attachment, pixel));
-        let ranges = self.allowed(attachment, pixel);
+        let intervals = self.allowed(attachment, pixel);
         Worst {
             x: (pixel % width) as u32,
             y: (pixel / width) as u32,
@@ -403,9 +403,9 @@ impl Tally<'_> {
             channel: channel as u32,
             gpu,
             cpu,
-            bound: std::array::from_fn(|k| ranges[k].room(cpu[k], gpu[k])),
-            low: ranges.map(|range| range.low),
-            high: ranges.map(|range| range.high),
+            bound: std::array::from_fn(|k| intervals[k].room(cpu[k], gpu[k])),
+            low: intervals.map(|interval| interval.low),
+            high: intervals.map(|interval| interval.high),
             contributions: Vec::new(),
         }
     }
@@ -435,14 +435,14 @@ mod tests {
         let n = values.len();
         let around = |value: f64| [value, 0.0, 0.0, 1.0].map(|value| Interval::around(value, 1e-6));
         Picture {
-            ranges: Some(vec![values.iter().copied().map(around).collect()]),
+            intervals: Some(vec![values.iter().copied().map(around).collect()]),
             ..Picture::of_colors(n as u32, 1, values.iter().map(|&value| [value, 0.0, 0.0, 1.0]).collect())
         }
     }
 
     #[test]
     fn equal_pictures_hold() {
-        let verdict = Verdict::new(&picture(&[0.5, 1.0]), &picture(&[0.5, 1.0]), Judge::Envelope);
+        let verdict = Verdict::new(&picture(&[0.5, 1.0]), &picture(&[0.5, 1.0]), Criterion::Envelope);
         assert!(verdict.holds(false));
         assert_eq!((verdict.max_abs, verdict.psnr, verdict.covered), (0.0, None, 2));
     }
@@ -450,11 +450,11 @@ mod tests {
     #[test]
     fn a_pixel_outside_its_envelope_is_found() {
         let (gpu, cpu) = (picture(&[0.5, 0.25, 0.5]), picture(&[0.5, 0.5, 0.5 + 5e-7]));
-        let verdict = Verdict::new(&gpu, &cpu, Judge::Envelope);
+        let verdict = Verdict::new(&gpu, &cpu, Criterion::Envelope);
         assert_eq!((verdict.outside, verdict.max_abs), (1, 0.25));
         assert_eq!(verdict.worst.as_ref().map(|worst| (worst.x, worst.y)), Some((1, 0)));
         assert!(!verdict.holds(true));
-        assert!(Verdict::new(&gpu, &cpu, Judge::Tolerance(0.3)).holds(false));
+        assert!(Verdict::new(&gpu, &cpu, Criterion::Tolerance(0.3)).holds(false));
         assert_eq!(verdict.max_ulp, 0.25 / 2.0_f64.powi(-24));
     }
 
@@ -465,7 +465,7 @@ mod tests {
         gpu.covered = vec![false, false, true, true];
         cpu.near_edge[1] = true;
         cpu.undecided[2] = true;
-        let verdict = Verdict::new(&gpu, &cpu, Judge::Envelope);
+        let verdict = Verdict::new(&gpu, &cpu, Criterion::Envelope);
         // The undecided pixel is outside its envelope nevertheless.
         assert_eq!((verdict.coverage_mismatch, verdict.edge_pixels, verdict.undecided, verdict.outside), (1, 1, 1, 1));
         assert_eq!((verdict.covered, verdict.max_abs), (2, 0.0));
@@ -478,7 +478,7 @@ mod tests {
         gpu.covered = vec![false, true];
         cpu.covered = vec![true, false];
         cpu.undecided = vec![true, true];
-        let verdict = Verdict::new(&gpu, &cpu, Judge::Envelope);
+        let verdict = Verdict::new(&gpu, &cpu, Criterion::Envelope);
         assert_eq!((verdict.undecided, verdict.coverage_mismatch, verdict.outside), (2, 0, 0));
     }
 
@@ -486,10 +486,10 @@ mod tests {
     fn what_a_known_fault_explains_counts_under_its_name() {
         let (gpu, cpu) = (picture(&[0.5, 0.25, f64::NAN]), picture(&[0.5, 0.5, 0.5]));
         let mut wide = cpu.clone();
-        for colors in wide.ranges.iter_mut().flatten() {
+        for colors in wide.intervals.iter_mut().flatten() {
             colors.iter_mut().for_each(|color| color[0] = Interval { low: 0.2, high: 0.5, may_be_nan: false });
         }
-        let verdict = Verdict::admitting(&gpu, &cpu, Judge::Envelope, &[("none", cpu.clone()), ("acos", wide)]);
+        let verdict = Verdict::excusing(&gpu, &cpu, Criterion::Envelope, &[("none", cpu.clone()), ("acos", wide)]);
         assert_eq!((verdict.outside, verdict.finiteness_mismatch), (0, 1), "NaN is in neither");
         assert_eq!(verdict.known_faults, [FaultCount { fault: "acos", pixels: 1 }]);
     }
@@ -497,10 +497,10 @@ mod tests {
     #[test]
     fn numbers_that_are_not_finite_hold_where_the_envelope_has_them() {
         let (gpu, mut cpu) = (picture(&[f64::NAN, f64::INFINITY]), picture(&[0.0, 0.0]));
-        for colors in cpu.ranges.iter_mut().flatten() {
+        for colors in cpu.intervals.iter_mut().flatten() {
             colors.iter_mut().for_each(|color| color[0] = Interval::ALL);
         }
-        let verdict = Verdict::new(&gpu, &cpu, Judge::Envelope);
+        let verdict = Verdict::new(&gpu, &cpu, Criterion::Envelope);
         assert_eq!((verdict.non_finite_gpu, verdict.finiteness_mismatch), (2, 0));
         assert!(verdict.holds(false));
     }
@@ -509,15 +509,16 @@ mod tests {
     fn undecided_pixels_are_accepted_up_to_one_percent() {
         let (gpu, mut cpu) = (picture(&[0.0; 200]), picture(&[0.0; 200]));
         cpu.undecided[..2].fill(true);
-        assert!(Verdict::new(&gpu, &cpu, Judge::Envelope).holds(false));
+        assert!(Verdict::new(&gpu, &cpu, Criterion::Envelope).holds(false));
         cpu.undecided[..3].fill(true);
-        let verdict = Verdict::new(&gpu, &cpu, Judge::Envelope);
+        let verdict = Verdict::new(&gpu, &cpu, Criterion::Envelope);
         assert!(!verdict.holds(false) && verdict.holds(true));
     }
 
     #[test]
     fn numbers_that_are_not_finite_are_counted_apart() {
-        let verdict = Verdict::new(&picture(&[f64::NAN, f64::INFINITY]), &picture(&[0.0, f64::NAN]), Judge::Envelope);
+        let verdict =
+            Verdict::new(&picture(&[f64::NAN, f64::INFINITY]), &picture(&[0.0, f64::NAN]), Criterion::Envelope);
         assert_eq!((verdict.non_finite_gpu, verdict.non_finite_cpu, verdict.finiteness_mismatch), (2, 1, 1));
         assert_eq!(verdict.max_abs, 0.0);
         assert!(!verdict.holds(true));

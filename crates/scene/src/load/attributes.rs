@@ -1,9 +1,8 @@
 //! Loads `[draw.attributes]` and the attributes of a mesh as [`AttributeData`].
 
-use super::draw::report_unknown_name;
 use super::mesh::Mesh;
 use super::names::ATTRIBUTE_KINDS;
-use super::reader::{Node, Number, NumberValue, Reader};
+use super::reader::{Node, Number, NumberValue, Reader, report_unknown_name};
 use crate::model::{AttributeData, AttributeValues};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::scenes::{

@@ -6,13 +6,13 @@ use super::material::load_material;
 use super::matrices::View;
 use super::mesh::{Mesh, load_mesh};
 use super::names::{BLENDS, CULLS, FRONT_FACES, PRIMITIVES, PROVOKING};
-use super::reader::{Node, NumberValue, Reader};
+use super::reader::{Node, NumberValue, Reader, report_unknown_name};
 use super::textures::load_textures;
 use super::uniforms::{Context, load_uniforms};
 use super::{Loader, ProgramKey, Surroundings, library_file};
 use crate::model::{AttributeData, BlendFactor, Compare, Cull, Draw, Format, Framebuffer, Primitive, State};
 use glisten_front::diagnostic::codes::scenes::{
-    SCENE_CANNOT_DRAW, SCENE_UNKNOWN_NAME, SCENE_WRONG_SIZE, SCENE_WRONG_TYPE, SCENE_WRONG_VALUE,
+    SCENE_CANNOT_DRAW, SCENE_WRONG_SIZE, SCENE_WRONG_TYPE, SCENE_WRONG_VALUE,
 };
 use glisten_front::diagnostic::{Diagnostic, did_you_mean};
 use glisten_front::hir::{Scalar, Stage};
@@ -232,18 +232,6 @@ fn load_locations(reader: &mut Reader, table: &DeTable<'_>, key: &str) -> Vec<(S
         }
     }
     list
-}
-
-/// Reports a name that the program does not declare, and suggests the most similar one.
-pub(super) fn report_unknown_name(reader: &mut Reader, span: Span, what: &str, name: &str, candidates: &[&str]) {
-    let help = match did_you_mean(name, candidates.iter().copied()) {
-        Some(near) => Some(format!("did you mean `{near}`?")),
-        None if candidates.is_empty() => Some(format!("the program has no {what} at all")),
-        None if candidates.len() <= 12 => Some(format!("the program has {}", super::reader::list(candidates))),
-        None => None,
-    };
-    let message = format!("the program declares no {what} `{name}`");
-    reader.report(Diagnostic::new(&SCENE_UNKNOWN_NAME, span, message).here("not declared").maybe_help(help));
 }
 
 fn check_program(reader: &mut Reader, program: &Program, framebuffer: &Framebuffer, place: Span) -> Option<()> {

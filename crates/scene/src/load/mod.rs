@@ -22,7 +22,7 @@ use self::draw::load_draw;
 use self::lights::Lighting;
 use self::names::FORMATS;
 use self::reader::{Node, Reader};
-use crate::files::{FileError, FileSource, beside};
+use crate::files::{FileError, FileSource, relative_to};
 use crate::library::{Library, WithLibrary};
 use crate::model::{Draw, Format, Framebuffer, Scene};
 use glisten_front::compiler::{Compiler, Options, Source};
@@ -240,7 +240,7 @@ impl Loader<'_> {
 
     /// The contents of a file that the scene refers to, or `None` and a diagnostic at `span`.
     fn bytes(&mut self, name: &str, span: Span) -> Option<(String, Vec<u8>)> {
-        let path = beside(self.path, name);
+        let path = relative_to(self.path, name);
         match self.files.read(&path) {
             Ok(bytes) => Some((path, bytes)),
             Err(error) => {

@@ -4,7 +4,9 @@
 //! *In:* TOML values with spans. *Out:* numbers, texts, choices, or `None` with a diagnostic. *Holds:* numbers are
 //! parsed from their decimal text directly to `f32`, so they are rounded once.
 
-use glisten_front::diagnostic::codes::scenes::{SCENE_UNKNOWN_KEY, SCENE_WRONG_TYPE, SCENE_WRONG_VALUE};
+use glisten_front::diagnostic::codes::scenes::{
+    SCENE_UNKNOWN_KEY, SCENE_UNKNOWN_NAME, SCENE_WRONG_TYPE, SCENE_WRONG_VALUE,
+};
 use glisten_front::diagnostic::{Code, Diagnostic, Diagnostics, did_you_mean};
 use glisten_front::source::Span;
 use std::ops::{Range, RangeInclusive};
@@ -236,4 +238,16 @@ pub(super) fn list(names: &[&str]) -> String {
         Some((last, [])) => last.clone(),
         Some((last, rest)) => format!("{} and {last}", rest.join(", ")),
     }
+}
+
+/// Reports a name that the program does not declare, and suggests the most similar one.
+pub(super) fn report_unknown_name(reader: &mut Reader, span: Span, what: &str, name: &str, candidates: &[&str]) {
+    let help = match did_you_mean(name, candidates.iter().copied()) {
+        Some(near) => Some(format!("did you mean `{near}`?")),
+        None if candidates.is_empty() => Some(format!("the program has no {what} at all")),
+        None if candidates.len() <= 12 => Some(format!("the program has {}", list(candidates))),
+        None => None,
+    };
+    let message = format!("the program declares no {what} `{name}`");
+    reader.report(Diagnostic::new(&SCENE_UNKNOWN_NAME, span, message).here("not declared").maybe_help(help));
 }

@@ -1,12 +1,11 @@
 //! Loads `[draw.textures]` as [`Texture`]s.
 
 use super::Loader;
-use super::draw::report_unknown_name;
 use super::material::TEXTURES;
 use super::mipmaps::chain;
 use super::names::{FILTERS, TEXTURE_KINDS, TextureKind, kind_name};
 use super::patterns;
-use super::reader::{Node, Number, NumberValue};
+use super::reader::{Node, Number, NumberValue, report_unknown_name};
 use crate::model::{Compare, Filter, Texels, Texture, TextureLevel, Wrap};
 use crate::picture::Image;
 use glisten_front::diagnostic::Diagnostic;

@@ -2,11 +2,10 @@
 //!
 //! *Holds:* a uniform that is not listed keeps its initializer, or is 0 (GLSL 1.50 §4.3.5).
 
-use super::draw::report_unknown_name;
 use super::lights::{LightSpace, Lighting, Member};
 use super::material::Material;
 use super::matrices::{ROLES, View};
-use super::reader::{Node, Number, NumberValue, Reader};
+use super::reader::{Node, Number, NumberValue, Reader, report_unknown_name};
 use crate::values::UniformValues;
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::scenes::{SCENE_UNSET_UNIFORM, SCENE_WRONG_KIND, SCENE_WRONG_SIZE};

@@ -6,6 +6,7 @@
 
 mod eight_bits;
 mod exr;
+mod file;
 mod image;
 mod interval;
 mod npy;
@@ -13,7 +14,8 @@ mod png;
 
 pub use self::png::{Effort, png_rgb};
 pub use eight_bits::{NOT_FINITE, byte, visible_rgb};
-pub use image::{Image, ImageError, ImageFormat};
+pub use file::ImageFormat;
+pub use image::{Image, ImageError};
 pub use interval::Interval;
 
 /// The contents of a framebuffer, top row first, x fastest.
@@ -29,7 +31,7 @@ pub struct Picture {
     pub covered: Vec<bool>,
     /// For a reference with envelopes: the values that a conforming GPU may draw, for each channel of each
     /// attachment.
-    pub ranges: Option<Vec<Vec<[Interval; 4]>>>,
+    pub intervals: Option<Vec<Vec<[Interval; 4]>>>,
     /// For a reference with envelopes: pixels where a discard, a depth test or too many branches are undecided.
     pub undecided: Vec<bool>,
     /// Pixels whose center is within 1/128 pixel of an edge of a primitive that was drawn.

@@ -13,6 +13,7 @@
 //! | `trim` | members of structs, ends of uniform arrays |
 //! | `merge` | clones that came out alike |
 //! | `compact` | what nothing names: functions, parameters, locals, globals |
+//! | `unreached` | what reaches no output whatever the inputs are, in stages that are not evaluated |
 
 mod compact;
 mod declare;
@@ -22,9 +23,11 @@ mod once;
 mod overwritten;
 mod sweep;
 mod trim;
+mod unreached;
 mod uses;
 
 pub(crate) use compact::for_each_child;
+pub(super) use unreached::without_unreached;
 
 use super::settle::Settled;
 use glisten_front::hir::{
@@ -64,7 +67,7 @@ impl Pruned {
             let own: Vec<bool> =
                 self.globals.iter().map(|global| live.get(global.index()).copied().unwrap_or(true)).collect();
             let mut changed = sweep::sweep(types, &mut self.shader, &own);
-            changed |= self.overwritten();
+            changed |= overwritten_in(&mut self.shader);
             changed |= inline::inline(&mut self.shader);
             merge::merge(&mut self.shader);
             changed |= self.compact(types, &own);
@@ -81,21 +84,6 @@ impl Pruned {
                 }
             }
         }
-    }
-
-    fn overwritten(&mut self) -> bool {
-        let mut changed = false;
-        for index in 0..self.shader.functions.len() {
-            let Some(function) = self.shader.functions.get_mut(index) else { continue };
-            let Some(body) = function.body.take() else { continue };
-            let declared = function.clone();
-            let (body, removed) = overwritten::remove(&self.shader, &declared, body);
-            changed |= removed;
-            if let Some(function) = self.shader.functions.get_mut(index) {
-                function.body = Some(body);
-            }
-        }
-        changed
     }
 
     fn compact(&mut self, types: &Types, live: &[bool]) -> bool {
@@ -127,6 +115,22 @@ impl Pruned {
     fn parameters(&self) -> usize {
         self.shader.functions.iter().map(|function| function.param_count).sum()
     }
+}
+
+/// Removes stores that are overwritten first from all functions.
+fn overwritten_in(shader: &mut Shader) -> bool {
+    let mut changed = false;
+    for index in 0..shader.functions.len() {
+        let Some(function) = shader.functions.get_mut(index) else { continue };
+        let Some(body) = function.body.take() else { continue };
+        let declared = function.clone();
+        let (body, removed) = overwritten::remove(shader, &declared, body);
+        changed |= removed;
+        if let Some(function) = shader.functions.get_mut(index) {
+            function.body = Some(body);
+        }
+    }
+    changed
 }
 
 /// Trims the types that the stages share, then gives functions their names.

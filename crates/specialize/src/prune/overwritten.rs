@@ -5,9 +5,42 @@
 
 use glisten_front::builtin::BuiltinFunction;
 use glisten_front::hir::{ExprId, ExprKind, Function, LocalId, ParamMode, Shader, Stmt, StmtKind, VarRef};
-use rustc_hash::FxHashSet;
 
-type Live = FxHashSet<LocalId>;
+/// Locals that are read later, a bit each: a set is copied for each branch.
+#[derive(Clone, Debug, Default)]
+struct Live(Vec<u64>);
+
+impl Live {
+    fn contains(&self, local: LocalId) -> bool {
+        self.0.get(local.index() / 64).is_some_and(|word| word >> (local.index() % 64) & 1 == 1)
+    }
+
+    fn insert(&mut self, local: LocalId) {
+        let word = local.index() / 64;
+        if self.0.len() <= word {
+            self.0.resize(word + 1, 0);
+        }
+        if let Some(word) = self.0.get_mut(word) {
+            *word |= 1 << (local.index() % 64);
+        }
+    }
+
+    /// Whether it was there.
+    fn remove(&mut self, local: LocalId) -> bool {
+        let was = self.contains(local);
+        if let Some(word) = self.0.get_mut(local.index() / 64) {
+            *word &= !(1 << (local.index() % 64));
+        }
+        was
+    }
+
+    fn extend(&mut self, other: &Self) {
+        if self.0.len() < other.0.len() {
+            self.0.resize(other.0.len(), 0);
+        }
+        self.0.iter_mut().zip(&other.0).for_each(|(word, other)| *word |= other);
+    }
+}
 
 struct Walk<'a> {
     shader: &'a Shader,
@@ -24,7 +57,8 @@ pub(super) fn remove(shader: &Shader, function: &Function, body: Vec<Stmt>) -> (
     let given_back = params.filter(|(_, param)| {
         matches!(param.kind, glisten_front::hir::LocalKind::Param(ParamMode::Out | ParamMode::Inout))
     });
-    let end: Live = given_back.map(|(index, _)| LocalId::new(index)).collect();
+    let mut end = Live::default();
+    given_back.for_each(|(index, _)| end.insert(LocalId::new(index)));
     let mut walk = Walk { shader, jumps: Vec::new(), end: end.clone(), changed: false };
     let mut live = end;
     let body = walk.body(body, &mut live);
@@ -50,11 +84,11 @@ impl Walk<'_> {
                 if let ExprKind::Assign(None, target, value) = self.shader.expr(expr).kind
                     && let ExprKind::Var(VarRef::Local(local)) = self.shader.expr(target).kind
                 {
-                    if !live.contains(&local) && self.is_plain(value) {
+                    if !live.contains(local) && self.is_plain(value) {
                         self.changed = true;
                         return None;
                     }
-                    live.remove(&local);
+                    live.remove(local);
                     self.read(value, live);
                 } else {
                     self.read(expr, live);
@@ -62,7 +96,7 @@ impl Walk<'_> {
                 StmtKind::Expr(expr)
             }
             StmtKind::Local(local, initializer) => {
-                let dead = !live.remove(&local);
+                let dead = !live.remove(local);
                 let initializer = match initializer {
                     Some(expr) if dead && self.is_plain(expr) => {
                         self.changed = true;
@@ -83,7 +117,7 @@ impl Walk<'_> {
                 for (condition, body) in arms.into_iter().rev() {
                     let mut way = after.clone();
                     let body = self.body(body, &mut way);
-                    live.extend(way);
+                    live.extend(&way);
                     self.read(condition, live);
                     walked.push((condition, body));
                 }
@@ -125,14 +159,14 @@ impl Walk<'_> {
                 if let Some(target) = self.jumps.last() {
                     // A `continue` in a switch leads further than its end: what either wants is live.
                     *live = self.jumps.iter().fold(target.clone(), |mut all, one| {
-                        all.extend(one.iter().copied());
+                        all.extend(one);
                         all
                     });
                 }
                 kind
             }
             StmtKind::Discard => {
-                live.clear();
+                *live = Live::default();
                 kind
             }
         };
@@ -160,7 +194,7 @@ impl Walk<'_> {
             });
         }
         if let StmtKind::Loop { condition: Some(condition), .. } = kind {
-            live.extend(condition.local);
+            condition.local.into_iter().for_each(|local| live.insert(local));
         }
     }
 

@@ -290,7 +290,7 @@ impl Sweeper<'_> {
     }
 
     /// Whether a loop changes nothing but locals that nobody else reads.
-    fn is_idle(&self, whole: &StmtKind) -> bool {
+    fn is_idle(&mut self, whole: &StmtKind) -> bool {
         let body = [Stmt { kind: whole.clone(), span: glisten_front::source::Span::default() }];
         let mut idle = true;
         self.shader.visit_statements(&body, &mut |stmt| {
@@ -307,16 +307,18 @@ impl Sweeper<'_> {
             return false;
         }
         let assigned = self.effects.assigned(self.shader, &body, &[]);
-        let mut outside = self.uses.clone();
-        outside.body(self.types, self.shader, &body, -1);
+        // What it reads itself does not count.
+        self.uses.body(self.types, self.shader, &body, -1);
         let unread = |variable| match variable {
-            VarRef::Global(id) => !self.is_live(id) && outside.get(variable).reads <= 0,
+            VarRef::Global(id) => !self.is_live(id) && self.uses.get(variable).reads <= 0,
             VarRef::Local(id) => {
                 let is_parameter = id.index() < self.shader.function(self.uses.function).param_count;
-                !is_parameter && outside.get(variable).reads <= 0
+                !is_parameter && self.uses.get(variable).reads <= 0
             }
         };
-        assigned.locals.iter().all(|local| unread(VarRef::Local(*local)))
-            && assigned.globals.iter().all(|global| unread(VarRef::Global(*global)))
+        let idle = assigned.locals.iter().all(|local| unread(VarRef::Local(*local)))
+            && assigned.globals.iter().all(|global| unread(VarRef::Global(*global)));
+        self.uses.body(self.types, self.shader, &body, 1);
+        idle
     }
 }

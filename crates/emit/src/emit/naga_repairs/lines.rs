@@ -69,7 +69,7 @@ impl SourceLines {
     }
 
     /// Maps every line back to its file.
-    pub(in crate::emit) fn led_back(mut self, words: &[u32]) -> Vec<u32> {
+    pub(in crate::emit) fn restored(mut self, words: &[u32]) -> Vec<u32> {
         let Some(own) = instructions(words).find(|found| found[0] & 0xffff == OP_STRING).map(|found| found[1]) else {
             return words.to_vec();
         };

@@ -8,7 +8,7 @@ pub fn table(reflection: &Reflection) -> String {
     let mut text = String::new();
     let mut section = |title: &str, heads: &[&str], rows: Vec<Vec<String>>| {
         if !rows.is_empty() {
-            text.push_str(&format!("{title}\n{}\n", aligned(heads, &rows)));
+            text.push_str(&format!("{title}\n{}\n", left_aligned(heads, &rows)));
         }
     };
     let yes = |active: bool| if active { "yes" } else { "no" }.to_owned();
@@ -89,7 +89,8 @@ fn conventions(reflection: &Reflection) -> String {
     format!("conventions\n{lines}")
 }
 
-fn aligned(heads: &[&str], rows: &[Vec<String>]) -> String {
+/// A table of words: a row of heads, and every column aligned to the left.
+fn left_aligned(heads: &[&str], rows: &[Vec<String>]) -> String {
     let width = |column: usize| {
         let cells = rows.iter().filter_map(|row| row.get(column)).map(|cell| cell.chars().count());
         cells.chain(heads.get(column).map(|head| head.len())).max().unwrap_or(0)

@@ -9,7 +9,7 @@ mod msl;
 mod spirv;
 mod wgsl;
 
-use super::Emitted;
+use super::emitted::Emitted;
 use crate::target::{Conventions, Target};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::hir::Stage;

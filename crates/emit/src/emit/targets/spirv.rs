@@ -45,7 +45,7 @@ pub(super) fn write(job: &Job<'_>) -> Result<Vec<u32>, String> {
     };
     let words = spv::write_vec(module, info, &options, None).map_err(|error| chain(&error))?;
     Ok(match lines {
-        Some(lines) => lines.led_back(&words),
+        Some(lines) => lines.restored(&words),
         None => words,
     })
 }

@@ -14,8 +14,6 @@ use crate::hir::{
 };
 use crate::source::Span;
 use crate::syntax::ast::{ArrayDim, BlockDecl, Declarator, Ident, MemberDecl, TypeBase};
-use crate::syntax::token::Symbol;
-use rustc_hash::FxHashMap;
 
 /// The properties that the members of a block share.
 struct BlockContext {
@@ -23,15 +21,6 @@ struct BlockContext {
     word: StorageWord,
     word_span: Span,
     matrix: MatrixLayout,
-}
-
-/// The names of blocks.
-#[derive(Debug, Default)]
-pub(in crate::analysis) struct BlockNames {
-    /// All of them, which have no other meaning at global scope (§4.3.7).
-    all: FxHashMap<Symbol, Span>,
-    /// By the interface that they are part of.
-    interfaces: FxHashMap<(Symbol, Storage), Span>,
 }
 
 impl Analyzer<'_> {
@@ -63,7 +52,7 @@ impl Analyzer<'_> {
         if good_name {
             self.enter_block_name(block.name, storage);
         }
-        let matrix = layout.matrix.unwrap_or(self.block_defaults.matrix);
+        let matrix = layout.matrix.unwrap_or(self.layouts.block_defaults.matrix);
         let members = self.block_members(block, &BlockContext { storage, word, word_span, matrix });
         if members.is_empty() {
             self.report(
@@ -251,7 +240,7 @@ impl Analyzer<'_> {
         global.block = Some(BlockInfo {
             name: name.to_owned(),
             instance: block.instance.as_ref().map(|(instance, _)| self.name(*instance).to_owned()),
-            layout: layout.block.unwrap_or(self.block_defaults.layout),
+            layout: layout.block.unwrap_or(self.layouts.block_defaults.layout),
             binding: layout.binding.map(|(value, _)| value),
         });
         let id = self.add_global(global);
@@ -310,12 +299,11 @@ impl Analyzer<'_> {
     /// Enters a block name. It must have no other use, and occur once per interface.
     fn enter_block_name(&mut self, name: Ident, storage: Storage) {
         let spelling = self.name(name);
-        let key = (name.symbol, storage);
-        let taken = match self.block_names.interfaces.get(&key) {
-            Some(&earlier) => Some(earlier),
+        let taken = match self.declared.block_of_interface(name.symbol, storage) {
+            Some(earlier) => Some(earlier),
             None => self.scopes.find_here(name.symbol).map(|binding| binding.span),
         };
-        self.block_names.interfaces.entry(key).or_insert(name.span);
+        self.declared.add_block(name.symbol, storage, name.span);
         if let Some(earlier) = taken {
             self.report(
                 Diagnostic::new(&names::REDEFINED, name.span, format!("the block name `{spelling}` is taken"))
@@ -323,7 +311,6 @@ impl Analyzer<'_> {
                     .label(earlier, "first declared here"),
             );
         }
-        self.block_names.all.entry(name.symbol).or_insert(name.span);
     }
 
     /// Checks that a global name is not also the name of a block (§4.3.7).
@@ -331,7 +318,7 @@ impl Analyzer<'_> {
         if !self.scopes.is_global() {
             return true;
         }
-        let Some(&block) = self.block_names.all.get(&name.symbol) else { return true };
+        let Some(block) = self.declared.block(name.symbol) else { return true };
         let spelling = self.name(name);
         self.report(
             Diagnostic::new(&names::BLOCK_NAME, name.span, format!("`{spelling}` is the name of a block"))

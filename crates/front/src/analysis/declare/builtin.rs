@@ -1,9 +1,9 @@
 //! Declares built-in variables (§7.1, §7.2): at their first use, or when they are redeclared, where 1.50 allows that.
 
-use super::super::arrays::ArrayKey;
 use super::super::context::Analyzer;
 use super::super::layout::{Layout, LayoutSubject};
 use super::super::qualifiers::{Qualifiers, StorageWord};
+use super::super::state::ArrayKey;
 use crate::builtin::variables::{self, Redeclaration, Row};
 use crate::builtin::{BuiltinVariable, constants};
 use crate::diagnostic::Diagnostic;
@@ -15,7 +15,7 @@ use crate::syntax::ast::Declarator;
 impl Analyzer<'_> {
     /// The global of a built-in variable, which its first use creates.
     pub(in crate::analysis) fn builtin_global(&mut self, row: &Row) -> GlobalId {
-        if let Some(&id) = self.builtins.get(&row.variable) {
+        if let Some(id) = self.declared.builtin(row.variable) {
             return id;
         }
         let mut ty = row.make_type(self.types);
@@ -40,7 +40,7 @@ impl Analyzer<'_> {
         global.ty = ty;
         global.builtin = Some(row.variable);
         let id = self.add_global(global);
-        self.builtins.insert(row.variable, id);
+        self.declared.add_builtin(row.variable, id);
         id
     }
 
@@ -166,7 +166,7 @@ impl Analyzer<'_> {
             pixel_center_integer: layout.pixel_center_integer,
         };
         let id = self.builtin_global(row);
-        match self.frag_coord_span {
+        match self.layouts.frag_coord {
             Some(first) if said != self.shader.frag_coord => {
                 self.report(
                     Diagnostic::new(
@@ -180,7 +180,7 @@ impl Analyzer<'_> {
             }
             Some(_) => {}
             None => {
-                if let Some(&used) = self.first_uses.get(&id) {
+                if let Some(used) = self.uses.first(id) {
                     self.report(
                         Diagnostic::new(
                             &names::REDECLARED_AFTER_USE,
@@ -191,7 +191,7 @@ impl Analyzer<'_> {
                         .label(used, "used here"),
                     );
                 }
-                self.frag_coord_span = Some(span);
+                self.layouts.frag_coord = Some(span);
                 self.shader.frag_coord = said;
                 if let Some(global) = self.shader.globals.get_mut(id.index()) {
                     global.span = span;

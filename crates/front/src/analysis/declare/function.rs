@@ -1,8 +1,9 @@
 //! Declares functions (§6.1): prototypes and definitions.
 
-use super::super::context::{Analyzer, Body, Signature};
+use super::super::context::{Analyzer, Body};
 use super::super::qualifiers::{DeclarationContext, StorageWord};
 use super::super::scope::Entry;
+use super::super::state::Signature;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::{names, statements, types};
 use crate::hir::{ArraySize, Function, FunctionId, Local, LocalId, LocalKind, ParamMode, Type, TypeId, VarRef};
@@ -46,7 +47,7 @@ impl Analyzer<'_> {
 
     fn function_body(&mut self, id: FunctionId, header: &FunctionHeader, body: &[Stmt]) {
         let first = self.shader.exprs.len();
-        self.sizes.begin_function();
+        self.budget.begin_function();
         self.body = Some(Body { function: id, loops: 0, switches: 0, returns: false });
         self.scopes.open();
         for (index, param) in header.params.iter().enumerate() {
@@ -99,7 +100,7 @@ impl Analyzer<'_> {
         match self.scopes.find_here(name.symbol).map(|binding| (binding.entry, binding.span)) {
             Some((Entry::Functions(set), _)) => {
                 let params = types_of(&function);
-                let same = self.signatures.get(&(name.symbol, params)).copied();
+                let same = self.declared.function(name.symbol, params);
                 if let Some(id) = same {
                     return self.is_same(id, &function).then_some(id);
                 }
@@ -144,7 +145,7 @@ impl Analyzer<'_> {
 
     fn add_function(&mut self, function: Function, name: Ident) -> FunctionId {
         let id = FunctionId::new(self.shader.functions.len());
-        self.signatures.insert((name.symbol, types_of(&function)), id);
+        self.declared.add_function(name.symbol, types_of(&function), id);
         self.shader.functions.push(function);
         id
     }

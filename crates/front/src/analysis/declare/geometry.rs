@@ -1,23 +1,13 @@
 //! Declares the layouts of a geometry shader (§4.3.8.1, §4.3.8.2), and the sizes of its inputs that follow from them.
 
-use super::super::arrays::ArrayKey;
 use super::super::context::Analyzer;
 use super::super::layout::Layout;
+use super::super::state::ArrayKey;
 use crate::builtin::constants;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::qualifiers;
 use crate::hir::{ArraySize, GlobalId, PrimitiveIn, PrimitiveOut, Stage, Storage, Type, TypeId};
 use crate::source::Span;
-
-/// Where the layouts of a geometry shader were first declared.
-#[derive(Debug, Default)]
-pub(in crate::analysis) struct GeometryPlaces {
-    input: Span,
-    output: Span,
-    max_vertices: Span,
-    /// The number of vertices of all inputs, and what fixed it: the input layout, or the size of an input.
-    size: Option<(u32, Span)>,
-}
 
 impl Analyzer<'_> {
     /// `layout(triangles) in;`: one input primitive, the same in each declaration.
@@ -38,14 +28,14 @@ impl Analyzer<'_> {
         if let Some(earlier) = self.shader.geometry.input
             && earlier != primitive
         {
-            let at = self.geometry.input;
+            let at = self.layouts.geometry.input;
             self.report(contradiction(span, at, "input primitive"));
             return;
         }
         let is_first = self.shader.geometry.input.is_none();
         if is_first {
             self.shader.geometry.input = Some(primitive);
-            self.geometry.input = span;
+            self.layouts.geometry.input = span;
         }
         self.fix_geometry_size(primitive.vertices(), span);
         if is_first {
@@ -66,13 +56,13 @@ impl Analyzer<'_> {
     fn set_output(&mut self, primitive: PrimitiveOut, span: Span) {
         match self.shader.geometry.output {
             Some(earlier) if earlier != primitive => {
-                let at = self.geometry.output;
+                let at = self.layouts.geometry.output;
                 self.report(contradiction(span, at, "output primitive"));
             }
             Some(_) => {}
             None => {
                 self.shader.geometry.output = Some(primitive);
-                self.geometry.output = span;
+                self.layouts.geometry.output = span;
             }
         }
     }
@@ -88,13 +78,13 @@ impl Analyzer<'_> {
         }
         match self.shader.geometry.max_vertices {
             Some(earlier) if earlier != count => {
-                let at = self.geometry.max_vertices;
+                let at = self.layouts.geometry.max_vertices;
                 self.report(contradiction(span, at, "`max_vertices`"));
             }
             Some(_) => {}
             None => {
                 self.shader.geometry.max_vertices = Some(count);
-                self.geometry.max_vertices = span;
+                self.layouts.geometry.max_vertices = span;
             }
         }
     }
@@ -120,7 +110,7 @@ impl Analyzer<'_> {
 
     /// Checks that all sizes of the inputs and of the layout agree.
     fn fix_geometry_size(&mut self, size: u32, span: Span) {
-        match self.geometry.size {
+        match self.layouts.geometry.size {
             Some((earlier, at)) if earlier != size => {
                 self.report(
                     Diagnostic::new(
@@ -133,7 +123,7 @@ impl Analyzer<'_> {
                 );
             }
             Some(_) => {}
-            None => self.geometry.size = Some((size, span)),
+            None => self.layouts.geometry.size = Some((size, span)),
         }
     }
 

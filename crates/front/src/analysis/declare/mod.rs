@@ -15,7 +15,3 @@ mod per_vertex;
 mod requalify;
 mod structure;
 mod variable;
-
-pub(super) use block::BlockNames;
-pub(super) use geometry::GeometryPlaces;
-pub(super) use per_vertex::PerVertex;

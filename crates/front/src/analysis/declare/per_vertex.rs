@@ -6,6 +6,7 @@
 
 use super::super::context::Analyzer;
 use super::super::qualifiers::DeclarationContext;
+use super::super::state::PerVertex;
 use crate::builtin::BuiltinVariable;
 use crate::builtin::variables::{self, Row, VARIABLES};
 use crate::diagnostic::Diagnostic;
@@ -13,13 +14,6 @@ use crate::diagnostic::codes::names;
 use crate::hir::{ArraySize, Member, Stage, Storage, StructType, Type, TypeId};
 use crate::source::Span;
 use crate::syntax::ast::{BlockDecl, Declarator, Extensions};
-
-/// A redeclaration of `gl_PerVertex`.
-#[derive(Clone, Debug)]
-pub(in crate::analysis) struct PerVertex {
-    span: Span,
-    members: Vec<String>,
-}
 
 impl Analyzer<'_> {
     /// `out gl_PerVertex { vec4 gl_Position; };`
@@ -46,12 +40,13 @@ impl Analyzer<'_> {
             }
         }
         self.shader.per_vertex_out = Some(crate::hir::PerVertexOut { members: Clone::clone(&names), span });
-        self.per_vertex_out = Some(PerVertex { span, members: names });
+        self.layouts.per_vertex_out = Some(PerVertex { span, members: names });
     }
 
     /// Reports the use of a member that the redeclared block omits.
     pub(in crate::analysis) fn is_left_out(&mut self, row: &Row, span: Span) -> bool {
-        let Some(block) = self.per_vertex_out.clone().filter(|_| row.per_vertex && row.storage == Storage::Out) else {
+        let Some(block) = self.layouts.per_vertex_out.clone().filter(|_| row.per_vertex && row.storage == Storage::Out)
+        else {
             return false;
         };
         if block.members.iter().any(|member| member == row.name) {
@@ -69,7 +64,8 @@ impl Analyzer<'_> {
 
     /// Reports the redeclaration of a member outside the redeclared block.
     pub(super) fn is_in_per_vertex(&mut self, row: &Row, span: Span) -> bool {
-        let Some(block) = self.per_vertex_out.clone().filter(|_| row.per_vertex && row.storage == Storage::Out) else {
+        let Some(block) = self.layouts.per_vertex_out.clone().filter(|_| row.per_vertex && row.storage == Storage::Out)
+        else {
             return false;
         };
         let name = row.name;
@@ -102,17 +98,17 @@ impl Analyzer<'_> {
         } else if let Some((name, _)) = &block.instance {
             return finding("the output `gl_PerVertex` has no instance name", name.span, "remove the name");
         }
-        let used = self.builtins.iter().filter(|(variable, _)| {
-            if storage == Storage::In { **variable == BuiltinVariable::In } else { is_per_vertex(**variable) }
+        let used = self.declared.builtins().filter(|(variable, _)| {
+            if storage == Storage::In { *variable == BuiltinVariable::In } else { is_per_vertex(*variable) }
         });
         // The earliest use, whatever the order of the table.
         let earliest = used
             .filter_map(|(_, id)| {
-                let declared = Some(self.shader.global(*id).span).filter(|span| span.is_known());
-                self.first_uses.get(id).copied().or(declared)
+                let declared = Some(self.shader.global(id).span).filter(|span| span.is_known());
+                self.uses.first(id).or(declared)
             })
             .min_by_key(|span| span.start);
-        let earlier = match &self.per_vertex_out {
+        let earlier = match &self.layouts.per_vertex_out {
             Some(block) if storage == Storage::Out => Some(block.span),
             _ => earliest,
         };

@@ -1,9 +1,10 @@
 //! Declarations without a type: `invariant a, b;` (§4.6.1), `layout(..) uniform;`, `layout(..) in;` (§4.3.8).
 
 use super::super::context::Analyzer;
-use super::super::layout::{BlockDefaults, LayoutSubject};
+use super::super::layout::LayoutSubject;
 use super::super::qualifiers::{DeclarationContext, Qualifiers, StorageWord};
 use super::super::scope::Entry;
+use super::super::state::BlockDefaults;
 use crate::builtin::variables;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::{names, qualifiers};
@@ -56,10 +57,10 @@ impl Analyzer<'_> {
             return;
         }
         let used = match member {
-            Some(member) => self.first_member_uses.get(&(id, member)),
-            None => self.first_uses.get(&id),
+            Some(member) => self.uses.first_of_member(id, member),
+            None => self.uses.first(id),
         };
-        if let Some(&used) = used {
+        if let Some(used) = used {
             self.report(
                 Diagnostic::new(
                     &names::REDECLARED_AFTER_USE,
@@ -117,9 +118,9 @@ impl Analyzer<'_> {
         match record.storage {
             Some((StorageWord::Uniform, _)) => {
                 let layout = self.layout(record, LayoutSubject::UniformDefault);
-                self.block_defaults = BlockDefaults {
-                    layout: layout.block.unwrap_or(self.block_defaults.layout),
-                    matrix: layout.matrix.unwrap_or(self.block_defaults.matrix),
+                self.layouts.block_defaults = BlockDefaults {
+                    layout: layout.block.unwrap_or(self.layouts.block_defaults.layout),
+                    matrix: layout.matrix.unwrap_or(self.layouts.block_defaults.matrix),
                 };
             }
             Some((StorageWord::In, _)) if self.stage == Stage::Geometry => {

@@ -138,7 +138,7 @@ impl Analyzer<'_> {
         let declaration = StructType { name: name.to_owned(), members: list.members, is_block, span };
         let ty = self.types.add_struct(declaration);
         if let (true, Type::Struct(id)) = (many, self.types.get(ty)) {
-            self.member_indices.insert(id, list.indices);
+            self.declared.add_members(id, list.indices);
         }
         if self.types.summary(ty).depth > MAX_DEPTH {
             self.report(

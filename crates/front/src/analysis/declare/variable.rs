@@ -1,10 +1,10 @@
 //! Declares variables at global scope (§4.3).
 
-use super::super::arrays::ArrayKey;
 use super::super::context::Analyzer;
 use super::super::layout::{Layout, LayoutSubject};
 use super::super::qualifiers::{DeclarationContext, Qualifiers, StorageWord};
 use super::super::scope::Entry;
+use super::super::state::ArrayKey;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::{qualifiers, syntax, types};
 use crate::hir::{ArraySize, ExprId, Global, GlobalId, Interpolation, Stage, Storage, Type, TypeId, Value, VarRef};
@@ -293,7 +293,7 @@ impl Analyzer<'_> {
 
     /// Checks that a size covers all elements that were used before.
     pub(in crate::analysis) fn check_resize(&mut self, key: ArrayKey, size: u32, span: Span) {
-        let Some((largest, at)) = self.array_uses.largest(key) else { return };
+        let Some((largest, at)) = self.uses.largest_index(key) else { return };
         if largest >= size {
             self.report(
                 Diagnostic::new(&types::INDEX_RANGE, at, format!("the array has no element {largest}"))

@@ -1,7 +1,7 @@
 //! Analyzes access to parts of values: `a.b`, `a.xyz`, `a[i]`, `a.length()` (§5.5 to §5.7).
 
-use super::super::arrays::ArrayKey;
 use super::super::context::Analyzer;
+use super::super::state::ArrayKey;
 use super::swizzle::{self, Fault};
 use crate::diagnostic::codes::{names, types};
 use crate::diagnostic::{Diagnostic, did_you_mean};
@@ -47,7 +47,7 @@ impl Analyzer<'_> {
 
     /// The index of a member; structs with many members have a table.
     pub(in crate::analysis) fn member_index(&self, id: StructId, field: Ident) -> Option<u32> {
-        if let Some(indices) = self.member_indices.get(&id) {
+        if let Some(indices) = self.declared.members(id) {
             return indices.get(&field.symbol).copied();
         }
         let name = self.name(field);
@@ -219,7 +219,7 @@ impl Analyzer<'_> {
             },
             _ => return,
         };
-        self.array_uses.note(key, index, at);
+        self.uses.note_element(key, index, at);
     }
 
     /// `a.length()`

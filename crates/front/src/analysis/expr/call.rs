@@ -1,8 +1,9 @@
 //! Analyzes calls (§5.3, §6.1) of functions of the shader and of constructors of structs. Calls of built-in functions
 //! are in `builtin`.
 
-use super::super::context::{Analyzer, Signature};
+use super::super::context::Analyzer;
 use super::super::scope::{Entry, OverloadSet};
+use super::super::state::Signature;
 use super::Purpose;
 use super::overload::{Resolution, resolve};
 use crate::builtin::functions;
@@ -92,7 +93,7 @@ impl Analyzer<'_> {
 
     fn user_call(&mut self, name: Ident, set: OverloadSet, arguments: Vec<ExprId>, span: Span) -> ExprId {
         let given: Signature = arguments.iter().map(|&argument| self.ty(argument)).collect();
-        let exact = self.signatures.get(&(name.symbol, given.clone())).copied();
+        let exact = self.declared.function(name.symbol, given.clone());
         let found = exact.or_else(|| self.by_conversion(name, set, &given));
         let Some(function) = found else { return self.poison(span) };
         let params = self.params_of(function);

@@ -66,7 +66,7 @@ impl Analyzer<'_> {
             Entry::Variable(var) => self.variable(var, span),
             Entry::Member(block, member) => {
                 if self.shader.global(block).storage != Storage::Uniform {
-                    self.first_member_uses.entry((block, member)).or_insert(span);
+                    self.uses.note_member(block, member, span);
                 }
                 let base = self.variable(VarRef::Global(block), span);
                 self.member(base, member, span)

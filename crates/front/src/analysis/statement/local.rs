@@ -1,9 +1,9 @@
 //! Analyzes local variables (§4.2, §4.3).
 
-use super::super::arrays::ArrayKey;
 use super::super::context::Analyzer;
 use super::super::qualifiers::{DeclarationContext, Qualifiers};
 use super::super::scope::Entry;
+use super::super::state::ArrayKey;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::{qualifiers, types};
 use crate::hir::{

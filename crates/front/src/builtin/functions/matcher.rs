@@ -27,7 +27,7 @@ pub enum Matcher {
 
 impl Matcher {
     /// The number of types.
-    pub(super) fn choices(self) -> u8 {
+    pub(super) fn n_types(self) -> u8 {
         match self {
             Self::Fixed(_) | Self::OptionalBias => 1,
             Self::Gen(_) | Self::OutGen(_) => 4,

@@ -13,6 +13,7 @@ mod texture_old;
 
 pub use matcher::Matcher;
 
+use super::operations::Operation;
 use super::{Availability, BuiltinFunction};
 use crate::language::{ParamMode, Stage, TypeId, Types};
 use std::sync::OnceLock;
@@ -62,6 +63,19 @@ pub struct Row {
     pub effect: Effect,
     /// Whether the specification calls it deprecated.
     pub deprecated: bool,
+}
+
+impl Operation {
+    /// The prototypes, in the order of the specification.
+    pub fn prototypes(&self) -> impl Iterator<Item = &'static Row> + use<> {
+        let function = self.function;
+        all().filter(move |row| row.function == function)
+    }
+
+    /// The section of GLSL 1.50.
+    pub fn section(&self) -> &'static str {
+        self.prototypes().next().map_or("", |row| row.section)
+    }
 }
 
 /// The largest number of parameters of a built-in function.
@@ -114,13 +128,13 @@ impl Row {
         let n_required = self.params.len() - usize::from(optional);
         let n_all = if optional && stage == Stage::Fragment { n_required + 1 } else { n_required };
         (n_required..=n_all)
-            .flat_map(move |n_params| (0..self.choices()).map(move |choice| self.signature(choice, n_params)))
+            .flat_map(move |n_params| (0..self.n_types()).map(move |choice| self.signature(choice, n_params)))
     }
 
     /// The number of types of the placeholders.
-    fn choices(&self) -> u8 {
+    fn n_types(&self) -> u8 {
         let params = self.params.iter().map(|param| param.matcher);
-        params.chain([self.ret]).map(Matcher::choices).max().unwrap_or(1)
+        params.chain([self.ret]).map(Matcher::n_types).max().unwrap_or(1)
     }
 
     fn signature(&self, choice: u8, n_params: usize) -> Signature {

@@ -11,7 +11,6 @@ mod class;
 mod cost;
 mod formula;
 pub mod kernel;
-mod markdown;
 pub mod precision;
 mod table;
 mod texture;
@@ -19,7 +18,6 @@ mod texture;
 pub use class::{BooleanFunction, Class, Derivative, Emission, MatrixFunction, Noise, Numbers, Relation, Test};
 pub use cost::{CallCost, Linear};
 pub use formula::Formula;
-pub use markdown::{markdown, precision_markdown};
 pub use precision::{Precision, Rule};
 pub use table::{Binary, BuiltinFunction, Composite, Ternary, Unary};
 pub use texture::{Lookup, TextureArgument, TextureForm};
@@ -40,17 +38,6 @@ pub struct Operation {
 }
 
 impl Operation {
-    /// The prototypes, in the order of the specification.
-    pub fn prototypes(&self) -> impl Iterator<Item = &'static super::functions::Row> + use<> {
-        let function = self.function;
-        super::functions::all().filter(move |row| row.function == function)
-    }
-
-    /// The section of GLSL 1.50.
-    pub fn section(&self) -> &'static str {
-        self.prototypes().next().map_or("", |row| row.section)
-    }
-
     /// Whether the function is discontinuous.
     pub fn jumps(&self) -> bool {
         match self.class {
@@ -91,6 +78,13 @@ impl BuiltinFunction {
     /// The kind of computation.
     pub fn class(self) -> Class {
         self.operation().class
+    }
+
+    /// Whether a call with constant arguments is a constant expression (§4.3.3). It is not for noise functions and
+    /// for functions with side effects. Texture functions never have constant arguments, because samplers are not
+    /// constant.
+    pub fn is_foldable(self) -> bool {
+        !matches!(self.class(), Class::Noise(_) | Class::Emission(_))
     }
 
     /// Whether a call may read from neighboring fragments: see [`Operation::implicit_derivatives`].

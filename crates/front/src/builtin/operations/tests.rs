@@ -93,10 +93,10 @@ fn formulas_are_the_same_only_as_themselves() {
 
 #[test]
 fn the_documents_have_every_operation() {
-    let page = markdown();
+    let page = crate::builtin::operations_markdown();
     for function in BuiltinFunction::ALL {
         assert!(page.contains(&format!("\n| `{}` |", function.name())), "{}", function.name());
     }
     assert!(page.contains("| `dot` | `float dot(genType x, genType y)` | 110 | whole vectors or matrices | 2 m - 1 arithmetic |  | `dot(x, y)` |"), "{page}");
-    assert_eq!(precision_markdown().lines().count(), precision::RULES.len() + 2);
+    assert_eq!(crate::builtin::precision_markdown().lines().count(), precision::RULES.len() + 2);
 }

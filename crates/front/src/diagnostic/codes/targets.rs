@@ -30,4 +30,11 @@ codes! {
          gradients reads the base level. The picture is the same if the depth texture has one level, as shadow maps \
          have; `glisten render` and `glisten verify` reject a scene in which it has more."
         bad None, good None;
+    LEFT_OUT = "W0803" "left-out" Note "OpenGL 3.2 §2.11.3"
+        "With `-O`, which is the default for WGSL and SPIR-V, `glisten compile` leaves out what reaches no output: \
+         functions, statements, varyings, attributes, uniforms and samplers on which nothing that is drawn depends. \
+         Drivers do the same, and call the rest active. `--left-out` reports each of them; `-O0` keeps them. Locations \
+         and bindings are the same with and without them, and a block keeps its layout."
+        bad Vertex("in vec4 p;\nin vec4 q;\nvoid main() { vec4 unread = q; gl_Position = p; }"),
+        good Vertex("in vec4 p;\nvoid main() { gl_Position = p; }");
 }

@@ -14,7 +14,7 @@ mod statements;
 
 use super::{Function, FunctionId, Shader, Type, TypeId, Types};
 use crate::source::Span;
-use names::NameTable;
+use names::{NameTable, ScopedNames};
 
 /// Comments for what is printed, by its span.
 pub trait Notes {
@@ -32,7 +32,8 @@ pub fn print(types: &Types, shader: &Shader) -> String {
 /// Prints a shader with comments, and with names that are given again in scopes apart, as people do.
 pub fn print_with(types: &Types, shader: &Shader, notes: Option<&dyn Notes>) -> String {
     shader.on_stack(|| {
-        let names = NameTable::new(types, shader, notes.is_some());
+        let scoped: ScopedNames<'_> = &|table, function| scoped::local_names(table, types, shader, function);
+        let names = NameTable::new(types, shader, notes.is_some().then_some(scoped));
         let mut printer = Printer { types, shader, names, notes, function: None, text: String::new(), indent: 0 };
         printer.shader();
         printer.text

@@ -3,7 +3,7 @@
 //! Locals get names that are unique within their function and among all globals, so that scopes do not matter.
 
 use crate::builtin::functions;
-use crate::hir::{FunctionId, GlobalId, LocalId, Shader, StructId, Type, TypeId, Types};
+use crate::hir::{Function, FunctionId, GlobalId, LocalId, Shader, StructId, Type, TypeId, Types};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// The name of everything that the printer writes.
@@ -14,6 +14,9 @@ pub(super) struct NameTable {
     functions: Vec<String>,
     locals: Vec<Vec<String>>,
 }
+
+/// Names the locals of a function, given the names of everything global.
+pub(super) type ScopedNames<'a> = &'a dyn Fn(&NameTable, &Function) -> Vec<String>;
 
 /// The names that are taken.
 #[derive(Default)]
@@ -33,7 +36,8 @@ impl Taken {
 }
 
 impl NameTable {
-    pub(super) fn new(types: &Types, shader: &Shader, scoped: bool) -> Self {
+    /// The names of a shader. If `scoped` names the locals of a function, it takes the place of unique names.
+    pub(super) fn new(types: &Types, shader: &Shader, scoped: Option<ScopedNames<'_>>) -> Self {
         let mut taken = Taken::default();
         let globals: Vec<String> = shader.globals.iter().map(|global| global_name(types, &mut taken, global)).collect();
         let functions = function_names(shader, &mut taken);
@@ -48,8 +52,8 @@ impl NameTable {
         }
         let mut table = Self { structs, struct_order, globals, functions, locals: Vec::new() };
         for function in &shader.functions {
-            if scoped {
-                let names = super::scoped::local_names(&table, types, shader, function);
+            if let Some(scoped) = scoped {
+                let names = scoped(&table, function);
                 table.locals.push(names);
                 continue;
             }

@@ -20,7 +20,8 @@ mod types;
 
 use super::ast::{Ast, BinaryOp, ExprId, Ident};
 use super::keywords::{NEVER, TABLE};
-use super::token::{ParseSession, Token, TokenKind, TokenSource};
+use super::session::{ParseSession, TokenSource};
+use super::token::{Token, TokenKind};
 use crate::diagnostic::codes::{general, syntax as codes};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;

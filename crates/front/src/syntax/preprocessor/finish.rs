@@ -4,7 +4,7 @@
 use super::{ParseSession, Preprocessor, Span, Token, TokenKind, codes, kind};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::syntax;
-use crate::syntax::number::{self, Doubt, Malformed, Numeral};
+use crate::syntax::number::{self, Malformed, Numeral, NumeralWarning};
 
 impl Preprocessor<'_> {
     /// The token as the parser sees it; `None` if it is dropped.
@@ -65,14 +65,16 @@ impl Preprocessor<'_> {
 
 fn number(session: &mut ParseSession<'_>, token: &mut Token) {
     match number::read(session.spelling(*token)) {
-        Ok(Numeral { kind, bits, doubt }) => {
-            if let Some(doubt) = doubt {
+        Ok(Numeral { kind, bits, warning }) => {
+            if let Some(warning) = warning {
                 let text = session.spelling(*token).to_owned();
-                let message = match doubt {
-                    Doubt::Negative => format!("`{text}` is too large for an `int` and becomes {}", bits as i32),
-                    Doubt::Infinite => format!("`{text}` is too large for a `float` and becomes infinite"),
+                let message = match warning {
+                    NumeralWarning::Negative => {
+                        format!("`{text}` is too large for an `int` and becomes {}", bits as i32)
+                    }
+                    NumeralWarning::Infinite => format!("`{text}` is too large for a `float` and becomes infinite"),
                 };
-                let help = (doubt == Doubt::Negative).then(|| format!("write `{text}u`"));
+                let help = (warning == NumeralWarning::Negative).then(|| format!("write `{text}u`"));
                 session.report(Diagnostic::new(&syntax::LITERAL_WRAPS, token.span, message).maybe_help(help));
             }
             (token.kind, token.payload) = (kind, bits);

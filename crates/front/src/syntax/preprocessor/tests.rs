@@ -3,7 +3,9 @@
 use super::Preprocessor;
 use crate::diagnostic::Diagnostics;
 use crate::source::{IncludeForm, IncludeResolver, Included, SourceMap};
-use crate::syntax::token::{Names, ParseSession, TokenKind, TokenSource};
+use crate::syntax::names::Names;
+use crate::syntax::session::{ParseSession, TokenSource};
+use crate::syntax::token::TokenKind;
 
 /// Files by name.
 struct Files(&'static [(&'static str, &'static str)]);

@@ -1,7 +1,7 @@
 //! Operators, comparisons, conversions and selecting functions of the envelope.
 
 use super::round::{down, sum_down, sum_up, ulps_above, ulps_below, up};
-use super::{EnvelopeFloat, EnvelopeInt, ends};
+use super::{EnvelopeFloat, EnvelopeInt, powers};
 use crate::domain::rules::{self, FLUSH, ulp};
 use crate::domain::{Integer, Number};
 use glisten_front::builtin::operations::Precision;
@@ -99,7 +99,7 @@ impl EnvelopeFloat {
                 return EnvelopeInt::from_bool(false);
             }
         }
-        EnvelopeInt::open(answer)
+        EnvelopeInt::undecided(answer)
     }
 
     /// `min` or `max` if an operand may be NaN: then the result is the other one, or NaN (§8.3 does not define it).
@@ -114,12 +114,12 @@ impl EnvelopeFloat {
 
     fn to_int_by(self, bits: u32, limit: impl Fn(f64) -> i64) -> EnvelopeInt {
         if self.may_be_nan {
-            return EnvelopeInt::with_choices(bits, i32::MIN, i32::MAX);
+            return EnvelopeInt::with_interval(bits, i32::MIN, i32::MAX);
         }
         match (i32::try_from(limit(self.low)), i32::try_from(limit(self.high))) {
-            (Ok(low), Ok(high)) => EnvelopeInt::with_choices(bits, low, high),
+            (Ok(low), Ok(high)) => EnvelopeInt::with_interval(bits, low, high),
             _ if self.low == self.high => EnvelopeInt::from_bits(bits),
-            _ => EnvelopeInt::with_choices(bits, i32::MIN, i32::MAX),
+            _ => EnvelopeInt::with_interval(bits, i32::MIN, i32::MAX),
         }
     }
 }
@@ -127,7 +127,7 @@ impl EnvelopeFloat {
 impl Number for EnvelopeFloat {
     type Int = EnvelopeInt;
     type Wide = Self;
-    const OPEN: bool = true;
+    const HAS_INTERVALS: bool = true;
 
     #[inline(always)]
     fn from_f64(value: f64) -> Self {
@@ -142,18 +142,18 @@ impl Number for EnvelopeFloat {
         Self { value, low: down(low), high: up(high), may_be_nan: false }
     }
     #[inline(always)]
-    fn with_range(value: f64, range: Interval) -> Self {
-        Self::rounded(value, range.low, range.high, range.may_be_nan)
+    fn with_interval(value: f64, interval: Interval) -> Self {
+        Self::rounded(value, interval.low, interval.high, interval.may_be_nan)
     }
-    fn whole(value: f64, range: Interval) -> Self {
-        Self { value, low: range.low, high: range.high, may_be_nan: range.may_be_nan }
+    fn integer_with_interval(value: f64, interval: Interval) -> Self {
+        Self { value, low: interval.low, high: interval.high, may_be_nan: interval.may_be_nan }
     }
     #[inline(always)]
     fn value(self) -> f64 {
         self.value
     }
     #[inline(always)]
-    fn range(self) -> Interval {
+    fn interval(self) -> Interval {
         self.as_range()
     }
     #[inline(always)]
@@ -332,16 +332,16 @@ impl Number for EnvelopeFloat {
         self.power(exponent)
     }
     fn exp(self) -> Self {
-        self.exponential(self.value.exp(), |end| ends::exp2(end * LOG2_E))
+        self.exponential(self.value.exp(), |end| powers::exp2(end * LOG2_E))
     }
     fn log(self) -> Self {
-        self.logarithm(self.value.ln(), |end| ends::log2(end) * LN_2)
+        self.logarithm(self.value.ln(), |end| powers::log2(end) * LN_2)
     }
     fn exp2(self) -> Self {
-        self.exponential(self.value.exp2(), ends::exp2)
+        self.exponential(self.value.exp2(), powers::exp2)
     }
     fn log2(self) -> Self {
-        self.logarithm(self.value.log2(), ends::log2)
+        self.logarithm(self.value.log2(), powers::log2)
     }
     fn sin(self) -> Self {
         self.sine()
@@ -393,31 +393,31 @@ impl Number for EnvelopeFloat {
     #[inline(always)]
     fn equal(self, other: Self) -> EnvelopeInt {
         let same = self.is_point() && other.is_point() && self.low == other.low;
-        let apart = self.high < other.low || other.high < self.low;
-        self.answered(other, same, apart, self.value == other.value)
+        let disjoint = self.high < other.low || other.high < self.low;
+        self.answered(other, same, disjoint, self.value == other.value)
     }
     fn isnan(self) -> EnvelopeInt {
-        if self.may_be_nan { EnvelopeInt::open(self.value.is_nan()) } else { EnvelopeInt::from_bool(false) }
+        if self.may_be_nan { EnvelopeInt::undecided(self.value.is_nan()) } else { EnvelopeInt::from_bool(false) }
     }
     fn isinf(self) -> EnvelopeInt {
         let answer = self.value.is_infinite();
         if self.is_point() || !self.is_infinite_perhaps() && !self.may_be_nan {
             return EnvelopeInt::from_bool(self.low.is_infinite());
         }
-        EnvelopeInt::open(answer)
+        EnvelopeInt::undecided(answer)
     }
     #[inline(always)]
     fn select(condition: EnvelopeInt, yes: Self, no: Self) -> Self {
         let (chosen, other) = if condition.bits != 0 { (yes, no) } else { (no, yes) };
-        if condition.sure() { chosen } else { chosen.joined(other) }
+        if condition.is_decided() { chosen } else { chosen.joined(other) }
     }
     fn from_int(value: EnvelopeInt) -> Self {
-        let (low, high) = value.choices();
+        let (low, high) = value.interval();
         Self::rounded(f64::from(value.bits as i32), f64::from(low), f64::from(high), false)
     }
     fn from_uint(value: EnvelopeInt) -> Self {
-        let (low, high) = value.choices();
-        let (low, high) = match (value.sure(), low >= 0) {
+        let (low, high) = value.interval();
+        let (low, high) = match (value.is_decided(), low >= 0) {
             (true, _) => (f64::from(value.bits), f64::from(value.bits)),
             (false, true) => (f64::from(low), f64::from(high)),
             (false, false) => (0.0, f64::from(u32::MAX)),

@@ -6,7 +6,7 @@
 
 use super::formula::evaluate;
 use super::round::{OUTWARD, ulps_above, ulps_below};
-use super::{EnvelopeFloat, ends};
+use super::{EnvelopeFloat, powers};
 use crate::domain::Number;
 use crate::domain::rules::{self, FLUSH, ulp};
 use glisten_front::builtin::operations::Formula;
@@ -19,7 +19,7 @@ impl EnvelopeFloat {
     /// An increasing function that inherits its error from a formula: the formula at both bounds. Between them the
     /// roundings may be twice as large, if there is a power of two.
     pub(super) fn by_ends(self, f: impl Fn(f64) -> f64, formula: impl Fn(Self) -> Self) -> Self {
-        let [low, high] = self.ends().map(formula);
+        let [low, high] = self.bounds().map(formula);
         let more = |end: Self| if self.low == self.high { 0.0 } else { end.high - end.low };
         let may_be_nan = self.may_be_nan || low.may_be_nan || high.may_be_nan;
         let (least, most) = (low.low.min(high.low), low.high.max(high.high));
@@ -106,11 +106,11 @@ impl EnvelopeFloat {
         if self.high < 0.0 {
             return Self::anything(value);
         }
-        let product = exponent.mul(self.logarithm(0.0, ends::log2));
+        let product = exponent.mul(self.logarithm(0.0, powers::log2));
         if product.low > product.high || (self.high == 0.0 && exponent.low <= 0.0) {
             return Self::anything(value);
         }
-        let power = product.exponential(value, ends::exp2);
+        let power = product.exponential(value, powers::exp2);
         // 0^0 is undefined (§8.2).
         let undefined = self.low <= 0.0 && exponent.low <= 0.0;
         let top = if undefined { power.high.max(1.0) } else { power.high };

@@ -1,12 +1,12 @@
 //! [`EnvelopeInt`]: an `int`, `uint` or `bool` that may have one of several values.
 //!
-//! *Holds:* the interval is one of `int`s; an inexact `uint` above 2^31 may be anything. Operations on few choices
+//! *Holds:* the interval is one of `int`s; an inexact `uint` above 2^31 may be anything. Operations on few values
 //! try all of them, so that `bool`s and short intervals stay precise. Sums, products and comparisons of longer
 //! intervals are computed from their bounds; the results of all other operations may be anything.
 
-use crate::domain::Integer;
+use crate::domain::{Element, Integer, WIDTH};
 
-/// The largest number of pairs of choices that are tried one by one.
+/// The largest number of pairs of values that are tried one by one.
 const TRIED: i64 = 64;
 
 /// Bits, with the interval of values that a conforming GPU may have.
@@ -20,10 +20,14 @@ pub struct EnvelopeInt {
     pub high: i32,
 }
 
+impl Element for EnvelopeInt {
+    type Block = [Self; WIDTH];
+}
+
 impl EnvelopeInt {
     /// An undecided condition.
     #[inline(always)]
-    pub(super) fn open(answer: bool) -> Self {
+    pub(super) fn undecided(answer: bool) -> Self {
         Self { bits: u32::from(answer), low: 0, high: 1 }
     }
 
@@ -43,11 +47,11 @@ impl EnvelopeInt {
         i64::from(self.high) - i64::from(self.low) + 1
     }
 
-    fn hull(bits: u32, choices: impl Iterator<Item = u32>) -> Self {
+    fn hull(bits: u32, values: impl Iterator<Item = u32>) -> Self {
         let start = Self { bits, low: bits as i32, high: bits as i32 };
-        choices.fold(start, |hull, choice| Self {
-            low: hull.low.min(choice as i32),
-            high: hull.high.max(choice as i32),
+        values.fold(start, |hull, value| Self {
+            low: hull.low.min(value as i32),
+            high: hull.high.max(value as i32),
             ..hull
         })
     }
@@ -88,7 +92,7 @@ impl Integer for EnvelopeInt {
     fn from_bits(bits: u32) -> Self {
         Self { bits, low: bits as i32, high: bits as i32 }
     }
-    fn with_choices(bits: u32, low: i32, high: i32) -> Self {
+    fn with_interval(bits: u32, low: i32, high: i32) -> Self {
         Self { bits, low: low.min(bits as i32), high: high.max(bits as i32) }
     }
     #[inline(always)]
@@ -96,44 +100,48 @@ impl Integer for EnvelopeInt {
         self.bits
     }
     #[inline(always)]
-    fn sure(self) -> bool {
+    fn is_decided(self) -> bool {
         self.low == self.high
     }
     #[inline(always)]
-    fn choices(self) -> (i32, i32) {
+    fn interval(self) -> (i32, i32) {
         (self.low, self.high)
     }
     #[inline(always)]
     fn lift1(self, f: impl Fn(u32) -> u32) -> Self {
-        if self.sure() { Self::from_bits(f(self.bits)) } else { self.tried1(f) }
+        if self.is_decided() { Self::from_bits(f(self.bits)) } else { self.tried1(f) }
     }
     #[inline(always)]
     fn lift2(self, other: Self, f: impl Fn(u32, u32) -> u32) -> Self {
-        if self.sure() && other.sure() { Self::from_bits(f(self.bits, other.bits)) } else { self.tried2(other, f) }
+        if self.is_decided() && other.is_decided() {
+            Self::from_bits(f(self.bits, other.bits))
+        } else {
+            self.tried2(other, f)
+        }
     }
     fn neg(self) -> Self {
         Self::of_wide(self.bits.wrapping_neg(), -i64::from(self.high), -i64::from(self.low))
     }
     fn add(self, other: Self) -> Self {
-        if self.sure() && other.sure() {
+        if self.is_decided() && other.is_decided() {
             return Self::from_bits(self.bits.wrapping_add(other.bits));
         }
         self.by_corners(other, self.bits.wrapping_add(other.bits), |a, b| a + b)
     }
     fn sub(self, other: Self) -> Self {
-        if self.sure() && other.sure() {
+        if self.is_decided() && other.is_decided() {
             return Self::from_bits(self.bits.wrapping_sub(other.bits));
         }
         self.by_corners(other, self.bits.wrapping_sub(other.bits), |a, b| a - b)
     }
     fn mul(self, other: Self) -> Self {
-        if self.sure() && other.sure() {
+        if self.is_decided() && other.is_decided() {
             return Self::from_bits(self.bits.wrapping_mul(other.bits));
         }
         self.by_corners(other, self.bits.wrapping_mul(other.bits), |a, b| a * b)
     }
     fn shl(self, other: Self) -> Self {
-        if other.sure() && !self.sure() {
+        if other.is_decided() && !self.is_decided() {
             let factor = 1i64 << (other.bits & 31);
             let bits = self.bits.wrapping_shl(other.bits);
             return Self::of_wide(bits, i64::from(self.low) * factor, i64::from(self.high) * factor);
@@ -141,7 +149,7 @@ impl Integer for EnvelopeInt {
         self.lift2(other, u32::wrapping_shl)
     }
     fn shr_signed(self, other: Self) -> Self {
-        if other.sure() {
+        if other.is_decided() {
             let shift = |a: i32| a.wrapping_shr(other.bits);
             return Self { bits: shift(self.bits as i32) as u32, low: shift(self.low), high: shift(self.high) };
         }
@@ -152,10 +160,10 @@ impl Integer for EnvelopeInt {
     }
     fn equal(self, other: Self) -> Self {
         let answer = self.bits == other.bits;
-        if self.sure() && other.sure() {
+        if self.is_decided() && other.is_decided() {
             return Self::from_bool(answer);
         }
-        if self.high < other.low || other.high < self.low { Self::from_bool(false) } else { Self::open(answer) }
+        if self.high < other.low || other.high < self.low { Self::from_bool(false) } else { Self::undecided(answer) }
     }
     fn less_signed(self, other: Self) -> Self {
         if self.high < other.low {
@@ -163,7 +171,7 @@ impl Integer for EnvelopeInt {
         } else if self.low >= other.high {
             Self::from_bool(false)
         } else {
-            Self::open((self.bits as i32) < other.bits as i32)
+            Self::undecided((self.bits as i32) < other.bits as i32)
         }
     }
     fn less_unsigned(self, other: Self) -> Self {
@@ -171,7 +179,7 @@ impl Integer for EnvelopeInt {
             return self.less_signed(other);
         }
         let answer = self.bits < other.bits;
-        if self.sure() && other.sure() { Self::from_bool(answer) } else { Self::open(answer) }
+        if self.is_decided() && other.is_decided() { Self::from_bool(answer) } else { Self::undecided(answer) }
     }
     fn less_equal_signed(self, other: Self) -> Self {
         other.less_signed(self).not()
@@ -186,7 +194,7 @@ impl Integer for EnvelopeInt {
     }
     fn select(self, yes: Self, no: Self) -> Self {
         let (chosen, other) = if self.is_true() { (yes, no) } else { (no, yes) };
-        if self.sure() { chosen } else { chosen.joined(other) }
+        if self.is_decided() { chosen } else { chosen.joined(other) }
     }
     fn joined(self, other: Self) -> Self {
         Self { bits: self.bits, low: self.low.min(other.low), high: self.high.max(other.high) }
@@ -209,17 +217,17 @@ mod tests {
         assert_eq!((sum.low, sum.high), (-5, 1007));
         let product = of(-3, 100).mul(of(-2, 2));
         assert_eq!((product.low, product.high), (-200, 200));
-        assert_eq!(of(0, 1000).xor(of(1, 1)).choices(), (i32::MIN, i32::MAX));
-        assert_eq!(of(i32::MAX, i32::MAX).add(of(0, 1)).choices(), (i32::MIN, i32::MAX), "it may wrap");
+        assert_eq!(of(0, 1000).xor(of(1, 1)).interval(), (i32::MIN, i32::MAX));
+        assert_eq!(of(i32::MAX, i32::MAX).add(of(0, 1)).interval(), (i32::MIN, i32::MAX), "it may wrap");
     }
 
     #[test]
     fn comparisons_know_what_is_apart() {
-        assert!(of(0, 3).less_signed(of(4, 9)).sure());
-        assert!(!of(0, 4).less_signed(of(4, 9)).sure());
-        assert!(!of(-1, 4).less_unsigned(of(5, 9)).sure(), "-1 is the greatest uint");
-        assert_eq!(of(0, 1).not().choices(), (0, 1));
+        assert!(of(0, 3).less_signed(of(4, 9)).is_decided());
+        assert!(!of(0, 4).less_signed(of(4, 9)).is_decided());
+        assert!(!of(-1, 4).less_unsigned(of(5, 9)).is_decided(), "-1 is the greatest uint");
+        assert_eq!(of(0, 1).not().interval(), (0, 1));
         assert_eq!(of(0, 1).and(of(0, 0)), EnvelopeInt::from_bits(0));
-        assert_eq!(of(-4, 90).clamp_index(of(7, 7)).choices(), (0, 7));
+        assert_eq!(of(-4, 90).clamp_index(of(7, 7)).interval(), (0, 7));
     }
 }

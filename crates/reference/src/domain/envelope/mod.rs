@@ -17,16 +17,16 @@
 //! | `functions` | the functions that have a rule of their own, or inherit one |
 //! | `formula` | rules of the table, evaluated |
 //! | `vector` | sums of products, in any order |
-//! | `ends` | `exp2` and `log2` without calls, only for bounds |
+//! | `powers` | `exp2` and `log2` without calls, only for bounds |
 //! | `block` | the same operations on eight numbers at once |
 //! | `integer` | intervals of `int`s |
 
 mod block;
-mod ends;
 mod float;
 mod formula;
 mod functions;
 mod integer;
+mod powers;
 mod round;
 #[cfg(test)]
 mod tests;
@@ -99,7 +99,7 @@ impl EnvelopeFloat {
     }
 
     /// Its bounds as exact numbers.
-    fn ends(self) -> [Self; 2] {
+    fn bounds(self) -> [Self; 2] {
         [Self::exact(self.low), Self::exact(self.high)]
     }
 

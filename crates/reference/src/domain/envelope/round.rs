@@ -1,8 +1,9 @@
 //! Rounding outward to f32, and ULPs over intervals.
 
-use crate::domain::rules::{FLUSH, ulp};
+use crate::domain::rules::{self, FLUSH, ulp};
 
-pub(super) const MAX: f64 = f32::MAX as f64;
+/// The largest f32.
+pub(super) const MAX: f64 = rules::OVERFLOW.limit();
 /// The bits that an f64 has and an f32 lacks.
 pub(super) const BELOW: u64 = (1 << 29) - 1;
 /// Widens a number of ULPs to cover the intermediate roundings of f64.
@@ -18,10 +19,10 @@ pub(super) fn down(x: f64) -> f64 {
         let negative = ((bits as i64) >> 63) as u64;
         return f64::from_bits(bits.wrapping_add(negative & BELOW) & !BELOW);
     }
-    down_at_ends(x)
+    down_out_of_range(x)
 }
 
-fn down_at_ends(x: f64) -> f64 {
+fn down_out_of_range(x: f64) -> f64 {
     if x == 0.0 {
         0.0
     } else if x.abs() < FLUSH {

@@ -10,7 +10,7 @@ fn exact(value: f32) -> EnvelopeFloat {
 
 fn between(low: f32, high: f32) -> EnvelopeFloat {
     let middle = f64::from(low) / 2.0 + f64::from(high) / 2.0;
-    EnvelopeFloat::with_range(middle, Interval { low: f64::from(low), high: f64::from(high), may_be_nan: false })
+    EnvelopeFloat::with_interval(middle, Interval { low: f64::from(low), high: f64::from(high), may_be_nan: false })
 }
 
 /// Random numbers from a seed, the same in every run.
@@ -108,7 +108,7 @@ const BINARY: &[Binary] = binary!(add, sub, mul, div, min, max, modulo, pow, ata
 fn assert_holds(name: &str, found: EnvelopeFloat, values: [f64; 2], of: &dyn std::fmt::Debug) {
     assert!(found.low <= found.high, "{name} {of:?}: {found:?}");
     for value in values {
-        assert!(found.range().contains(value), "{name} {of:?}: {value:e} is not in {found:?}");
+        assert!(found.interval().contains(value), "{name} {of:?}: {value:e} is not in {found:?}");
     }
 }
 
@@ -176,22 +176,22 @@ fn exact_operations_stay_exact() {
         assert_eq!(found.low, found.high, "{found:?}");
         assert_eq!(found.value, found.low);
     }
-    assert!(exact(1.0).div(exact(3.0)).range().contains(f64::from(1.0f32 / 3.0)));
+    assert!(exact(1.0).div(exact(3.0)).interval().contains(f64::from(1.0f32 / 3.0)));
 }
 
 #[test]
 fn a_clear_comparison_is_sure_and_an_overlap_is_not() {
-    assert!(between(0.9, 1.1).less(between(1.9, 2.1)).sure());
-    assert!(!between(0.4, 1.6).less(between(1.4, 2.6)).sure());
-    assert!(exact(0.0).less(exact(0.0)).sure(), "exact operands leave nothing open");
+    assert!(between(0.9, 1.1).less(between(1.9, 2.1)).is_decided());
+    assert!(!between(0.4, 1.6).less(between(1.4, 2.6)).is_decided());
+    assert!(exact(0.0).less(exact(0.0)).is_decided(), "exact operands leave nothing undecided");
     let nan = EnvelopeFloat::from_f64(f64::NAN);
-    assert!(!nan.less(exact(1.0)).sure() && !nan.isnan().sure());
+    assert!(!nan.less(exact(1.0)).is_decided() && !nan.isnan().is_decided());
 }
 
 #[test]
 fn selecting_covers_what_may_be_selected() {
-    let open = between(0.9, 1.1).less(exact(1.0));
-    let picked = EnvelopeFloat::select(open, exact(1.0), exact(3.0));
+    let undecided = between(0.9, 1.1).less(exact(1.0));
+    let picked = EnvelopeFloat::select(undecided, exact(1.0), exact(3.0));
     assert_eq!((picked.low, picked.high), (1.0, 3.0));
     assert_eq!(between(-1.0, -0.5).max(exact(0.0)), EnvelopeFloat { value: 0.0, ..exact(0.0) });
 }
@@ -199,7 +199,7 @@ fn selecting_covers_what_may_be_selected() {
 #[test]
 fn a_nan_may_be_dropped_or_not() {
     let root = between(-1.0, 4.0).sqrt();
-    assert!(root.may_be_nan && root.low == 0.0 && root.range().contains(2.0));
+    assert!(root.may_be_nan && root.low == 0.0 && root.interval().contains(2.0));
     let limited = root.max(exact(-7.0));
     assert!(limited.may_be_nan && limited.low == -7.0, "either operand, or NaN: {limited:?}");
     assert!(!exact(1.0).max(exact(2.0)).may_be_nan);
@@ -209,9 +209,9 @@ fn a_nan_may_be_dropped_or_not() {
 fn subnormal_numbers_may_be_flushed() {
     let tiny = EnvelopeFloat::from_f64(1e-40);
     assert_eq!((tiny.low, tiny.high), (0.0, 1e-40));
-    assert!(!exact(0.0).less(tiny).sure());
-    assert!(exact(1e-30).mul(exact(1e-10)).range().contains(0.0));
-    assert!(exact(1e30).mul(exact(1e10)).range().contains(f64::INFINITY));
+    assert!(!exact(0.0).less(tiny).is_decided());
+    assert!(exact(1e-30).mul(exact(1e-10)).interval().contains(0.0));
+    assert!(exact(1e30).mul(exact(1e10)).interval().contains(f64::INFINITY));
 }
 
 #[test]

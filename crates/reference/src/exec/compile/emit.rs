@@ -13,7 +13,7 @@ pub(super) struct Emitter {
     pub(super) main: Section,
     pub(super) preamble: Section,
     /// Whether products and sums remain separate instructions.
-    pub(super) apart: bool,
+    pub(super) unfused: bool,
     /// The span for new instructions.
     pub(super) span: Span,
     pub(super) words: Vec<u32>,
@@ -34,8 +34,8 @@ pub(super) struct Emitter {
 }
 
 impl Emitter {
-    pub(super) fn new(apart: bool) -> Self {
-        Self { apart, ..Self::default() }
+    pub(super) fn new(unfused: bool) -> Self {
+        Self { unfused, ..Self::default() }
     }
 
     pub(super) fn register_count(&self, class: Class) -> usize {

@@ -19,7 +19,7 @@ const WINDOW: usize = 16;
 /// Replaces `t = a * b; ...; d = t + c` by `d = a * b + c` in `main`.
 pub(super) fn fuse(emitter: &mut Emitter) {
     let uses = count_reads(emitter);
-    let mut open: Vec<Product> = Vec::new();
+    let mut pending: Vec<Product> = Vec::new();
     let mut gone = vec![false; emitter.main.insts.len()];
     for place in 0..emitter.main.insts.len() {
         let Some(&inst) = emitter.main.insts.get(place) else { break };
@@ -27,14 +27,14 @@ pub(super) fn fuse(emitter: &mut Emitter) {
             Inst::Float2 { op: Float2::Mul, dst, a, b } => {
                 let movable = !emitter.is_home(Class::Float, a) && !emitter.is_home(Class::Float, b);
                 if movable && uses.get(dst.number()) == Some(&1) {
-                    open.push(Product { place, dst, a, b });
-                    open.retain(|product| product.place + WINDOW > place);
+                    pending.push(Product { place, dst, a, b });
+                    pending.retain(|product| product.place + WINDOW > place);
                 }
             }
             Inst::Float2 { op: Float2::Add, dst, a, b } => {
-                let found = open.iter().position(|product| product.dst == a || product.dst == b);
+                let found = pending.iter().position(|product| product.dst == a || product.dst == b);
                 if let Some(index) = found {
-                    let product = open.swap_remove(index);
+                    let product = pending.swap_remove(index);
                     let c = if product.dst == a { b } else { a };
                     if let (Some(inst), Some(gone)) = (emitter.main.insts.get_mut(place), gone.get_mut(product.place)) {
                         *inst = Inst::MulAdd { dst, a: product.a, b: product.b, c };
@@ -43,7 +43,7 @@ pub(super) fn fuse(emitter: &mut Emitter) {
                 }
             }
             // Beyond an instruction where lanes diverge or join, the product might not run as often as the sum.
-            _ if is_control(&inst) => open.clear(),
+            _ if is_control(&inst) => pending.clear(),
             _ => {}
         }
     }

@@ -11,7 +11,7 @@ impl Compiler<'_> {
         if let [a, b] = pairs {
             return self.float2(Float2::Mul, *a, *b);
         }
-        if self.emit.apart {
+        if self.emit.unfused {
             let products: Val = pairs.chunks_exact(2).map(|pair| self.float2(Float2::Mul, pair[0], pair[1])).collect();
             let sum = products.into_iter().reduce(|sum, product| self.float2(Float2::Add, sum, product));
             return sum.unwrap_or_else(|| self.emit.float(0.0));

@@ -102,14 +102,14 @@ impl Code {
     ///
     /// # Errors
     /// Those of [`Self::compile`].
-    pub fn compile_apart(program: &Program, stage: Stage) -> Result<Self, Vec<Diagnostic>> {
+    pub fn compile_unfused(program: &Program, stage: Stage) -> Result<Self, Vec<Diagnostic>> {
         compile(program, stage, true).map(|inner| Self { inner: Arc::new(inner) })
     }
 }
 
-/// Compiles a stage; with `apart`, each operation separately. Returns diagnostics if the executor does not support
+/// Compiles a stage; with `unfused`, each operation separately. Returns diagnostics if the executor does not support
 /// it.
-fn compile(program: &Program, stage: Stage, apart: bool) -> Result<Inner, Vec<Diagnostic>> {
+fn compile(program: &Program, stage: Stage, unfused: bool) -> Result<Inner, Vec<Diagnostic>> {
     let missing = |what: &str| {
         let message = format!("`{}` has no {what} for the CPU reference to run", program.name);
         vec![Diagnostic::new(&codes::general::NOT_SUPPORTED_YET, Span::default(), message)]
@@ -119,16 +119,16 @@ fn compile(program: &Program, stage: Stage, apart: bool) -> Result<Inner, Vec<Di
         return Err(missing("vertex and fragment stages alone: geometry stages are not run, and so no pipeline"));
     }
     let Some(main) = shader.main else { return Err(missing("`main`")) };
-    shader.on_stack(|| Compiler::new(program, shader, apart).run(main))
+    shader.on_stack(|| Compiler::new(program, shader, unfused).run(main))
 }
 
 impl<'a> Compiler<'a> {
-    fn new(program: &'a Program, shader: &'a Shader, apart: bool) -> Self {
+    fn new(program: &'a Program, shader: &'a Shader, unfused: bool) -> Self {
         Self {
             types: &program.types,
             shader,
             program,
-            emit: Emitter::new(apart),
+            emit: Emitter::new(unfused),
             effects: Effects::of(shader),
             vars: Vec::new(),
             globals: vec![None; shader.globals.len()],
@@ -157,7 +157,7 @@ impl<'a> Compiler<'a> {
         if !self.errors.is_empty() {
             return Err(self.errors);
         }
-        if !self.emit.apart {
+        if !self.emit.unfused {
             fuse::fuse(&mut self.emit);
         }
         let mut ports: Vec<Port> = self.inputs.iter().chain(&outputs).copied().collect();

@@ -47,7 +47,7 @@ struct Walk<'a> {
 }
 
 /// A variable and its scalars.
-type Place = (VarRef, Vec<usize>);
+type LValue = (VarRef, Vec<usize>);
 
 /// The scalars of the outputs; `None` if the lane is discarded.
 pub(super) fn run(program: &Generated, input: impl Fn(GlobalId, u32, Scalar) -> Cell) -> Option<Vec<Cell>> {
@@ -205,7 +205,7 @@ impl Walk<'_> {
     }
 
     /// The place of an l-value. Its indices are evaluated.
-    fn place(&mut self, expr: ExprId) -> Place {
+    fn place(&mut self, expr: ExprId) -> LValue {
         match self.shader.expr(expr).kind {
             ExprKind::Var(var) => (var, (0..self.variable(var).len()).collect()),
             ExprKind::Swizzle(base, swizzle) => {
@@ -221,12 +221,12 @@ impl Walk<'_> {
         }
     }
 
-    fn read(&mut self, place: &Place) -> Vec<Cell> {
+    fn read(&mut self, place: &LValue) -> Vec<Cell> {
         let cells = self.variable(place.0);
         place.1.iter().map(|flat| cells[*flat]).collect()
     }
 
-    fn write(&mut self, place: &Place, value: &[Cell]) {
+    fn write(&mut self, place: &LValue, value: &[Cell]) {
         let cells = self.variable(place.0);
         place.1.iter().zip(value).for_each(|(flat, value)| cells[*flat] = *value);
     }

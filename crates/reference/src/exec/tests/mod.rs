@@ -125,11 +125,11 @@ fn envelope_holds_for(program: &Generated, f: impl Fn(f32) -> f32) {
                 (envelope.float_output(*id, flat), wide.float_output(*id, flat), single.float_output(*id, flat))
             {
                 for lane in decided.lanes() {
-                    let range = e.get(lane).range();
-                    let holds = |value: f64| range.contains(value);
+                    let interval = e.get(lane).interval();
+                    let holds = |value: f64| interval.contains(value);
                     let told = || {
                         format!(
-                            "lane {lane}: {range:?} of {} and {}\n{}",
+                            "lane {lane}: {interval:?} of {} and {}\n{}",
                             w.get(lane),
                             s.get(lane),
                             generate::text(program)
@@ -151,7 +151,7 @@ fn envelope_holds_for(program: &Generated, f: impl Fn(f32) -> f32) {
                 (envelope.int_output(*id, flat), wide.int_output(*id, flat), single.int_output(*id, flat))
             {
                 for lane in decided.lanes() {
-                    let (low, high) = e.get(lane).choices();
+                    let (low, high) = e.get(lane).interval();
                     let told = || {
                         format!(
                             "lane {lane}: {low}..={high} of {} and {}\n{}",

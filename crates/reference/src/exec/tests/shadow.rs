@@ -7,8 +7,8 @@ use crate::exec::{Code, LANES, Machine, Mask};
 use glisten_front::hir::Stage;
 use proptest::prelude::*;
 
-fn ran<D: Domain>(program: &Generated, apart: bool) -> Machine<D> {
-    let compile = if apart { Code::compile_apart } else { Code::compile };
+fn ran<D: Domain>(program: &Generated, unfused: bool) -> Machine<D> {
+    let compile = if unfused { Code::compile_unfused } else { Code::compile };
     let code = compile(&program.program, Stage::Fragment).expect("generated programs can be run");
     let mut machine = Machine::new(&code, &program.uniforms, &[]);
     fill(&mut machine, program);

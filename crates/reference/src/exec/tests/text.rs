@@ -225,7 +225,7 @@ fn past_the_cap_a_lane_is_undecided_and_may_hold_anything() {
     let program = compiled(body);
     let machine = ran::<Envelope>(&program, &[], |_, lane| lane as f64);
     assert_eq!(machine.undecided(), Mask(2));
-    assert_eq!(output(&program, &machine)[1][0].range(), Interval::ALL);
+    assert_eq!(output(&program, &machine)[1][0].interval(), Interval::ALL);
 }
 
 #[test]
@@ -239,7 +239,7 @@ fn more_decisions_than_are_noted_leave_a_lane_undecided_though_each_other_way_en
     let run = |rounds: u32| {
         let program = compiled(&body(rounds));
         let machine = ran::<Envelope>(&program, &[], |_, lane| lane as f64);
-        (machine.undecided(), output(&program, &machine)[1][0].range())
+        (machine.undecided(), output(&program, &machine)[1][0].interval())
     };
     assert_eq!(run(50), (Mask::NONE, Interval { low: -1.0, high: 49.0, may_be_nan: false }));
     assert_eq!(run(70), (Mask(2), Interval::ALL));

@@ -148,8 +148,12 @@ fn bounds_know_edges_between_texels() {
     };
     // Lane 0 has a = 0.5. The edge between texels 0 and 1 is at s = 0.25, which is a = 1, in lane 1.
     let nearest = found(Filter::Nearest);
-    assert_eq!(nearest[0][0].range().width(), 0.0);
-    assert_eq!(nearest[1][0].range(), Interval { low: 0.0, high: 1.0, may_be_nan: false }, "both texels and no more");
+    assert_eq!(nearest[0][0].interval().width(), 0.0);
+    assert_eq!(
+        nearest[1][0].interval(),
+        Interval { low: 0.0, high: 1.0, may_be_nan: false },
+        "both texels and no more"
+    );
     let linear = found(Filter::Linear);
     assert!(linear[1][0].error() > 0.003 && linear[1][0].error() < 0.05, "{:?}", linear[1][0]);
 }

@@ -1,23 +1,23 @@
 //! The operations on the bounds of one lane, without branches, so that loops over lanes compile to vector
 //! instructions.
 //!
-//! *In:* the bounds of operands. *Out:* the bounds of [`EnvelopeFloat`]'s operation, or *odd* if only that operation
+//! *In:* the bounds of operands. *Out:* the bounds of [`EnvelopeFloat`]'s operation, or *special* if only that operation
 //! can compute them.
 //!
-//! *Holds:* both agree in lanes that are not odd, except for the sign of a zero.
+//! *Holds:* both agree in lanes that are not special, except for the sign of a zero.
 
 use crate::domain::envelope::float::{greatest, is_power_of_two, least};
 use crate::domain::envelope::round::{BELOW, MAX, OUTWARD, ulps_above, ulps_below};
-use crate::domain::envelope::{EnvelopeFloat, ends};
+use crate::domain::envelope::{EnvelopeFloat, powers};
 use crate::domain::rules::{self, FLUSH, ulp};
 
 /// The bounds of a lane.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Ends {
+pub(super) struct LaneBounds {
     pub(super) low: f64,
     pub(super) high: f64,
     /// Whether the bounds mean nothing.
-    pub(super) odd: bool,
+    pub(super) special: bool,
 }
 
 /// [`down`](super::super::round::down) of a number up to [`MAX`], moved down first if digits were `lost`.
@@ -35,23 +35,23 @@ fn up(x: f64, lost: bool) -> f64 {
     -down(-x, lost)
 }
 
-impl Ends {
+impl LaneBounds {
     #[inline(always)]
     pub(super) fn of(low: f64, high: f64) -> Self {
-        Self { low, high, odd: false }
+        Self { low, high, special: false }
     }
 
     /// The bounds rounded outward.
     #[inline(always)]
     pub(super) fn rounded(low: f64, high: f64) -> Self {
-        // A NaN is odd, too.
+        // A NaN is special, too.
         let fine = (low.abs() <= MAX) & (high.abs() <= MAX);
-        Self { low: down(low, false), high: up(high, false), odd: !fine }
+        Self { low: down(low, false), high: up(high, false), special: !fine }
     }
 
     #[inline(always)]
-    pub(super) fn or_odd(self, odd: bool) -> Self {
-        Self { odd: self.odd | odd, ..self }
+    pub(super) fn or_special(self, special: bool) -> Self {
+        Self { special: self.special | special, ..self }
     }
 
     #[inline(always)]
@@ -76,7 +76,7 @@ impl Ends {
         let high_lost = ((high == self.high) & (other.high > 0.0)) | ((high == other.high) & (self.high > 0.0));
         // After lost digits, the largest f32 may be exceeded, too.
         let fine = (low.abs() < MAX) & (high.abs() < MAX);
-        Self { low: down(low, low_lost), high: up(high, high_lost), odd: !fine }
+        Self { low: down(low, low_lost), high: up(high, high_lost), special: !fine }
     }
 
     #[inline(always)]
@@ -89,7 +89,8 @@ impl Ends {
         let (ll, lh) = (self.low * other.low, self.low * other.high);
         let (hl, hh) = (self.high * other.low, self.high * other.high);
         let fine = (ll + lh + hl + hh).is_finite();
-        Self::rounded(least(least(ll, lh), least(hl, hh)), greatest(greatest(ll, lh), greatest(hl, hh))).or_odd(!fine)
+        Self::rounded(least(least(ll, lh), least(hl, hh)), greatest(greatest(ll, lh), greatest(hl, hh)))
+            .or_special(!fine)
     }
 
     #[inline(always)]
@@ -110,7 +111,7 @@ impl Ends {
         let n = rules::DIV.ulps();
         let below = if low == 0.0 { 0.0 } else { ulps_below(low, high, n) };
         let above = if high == 0.0 { 0.0 } else { ulps_above(low, high, n) };
-        Self::rounded(below, above).or_odd(other.holds_zero() | exact | !inside)
+        Self::rounded(below, above).or_special(other.holds_zero() | exact | !inside)
     }
 
     #[inline(always)]
@@ -139,7 +140,7 @@ impl Ends {
     pub(super) fn fract(self) -> Self {
         let whole = self.low.floor();
         let same = (whole == self.high.floor()) & self.low.is_finite();
-        Self::rounded(self.low - whole, self.high - whole).or_odd(!same)
+        Self::rounded(self.low - whole, self.high - whole).or_special(!same)
     }
 
     #[inline(always)]
@@ -147,7 +148,7 @@ impl Ends {
         let n = rules::INVERSESQRT.ulps();
         let (low, high) = (1.0 / self.high.sqrt(), 1.0 / self.low.sqrt());
         let fine = (self.low >= FLUSH) & (self.high <= MAX);
-        Self::rounded(ulps_below(low, high, n), ulps_above(low, high, n)).or_odd(!fine)
+        Self::rounded(ulps_below(low, high, n), ulps_above(low, high, n)).or_special(!fine)
     }
 
     #[inline(always)]
@@ -163,13 +164,14 @@ impl Ends {
         let low = greatest(end(flushed, -1.0), 0.0);
         let by_rule = const { rules::SQRT.inherits(&rules::kernels::SQRT) };
         let fine = by_rule & (self.low >= 0.0) & (self.high <= MAX);
-        Self::rounded(low, end(self.high, 1.0)).or_odd(!fine)
+        Self::rounded(low, end(self.high, 1.0)).or_special(!fine)
     }
 
     #[inline(always)]
     pub(super) fn cosine_at_most(self) -> Self {
         let finite = (self.high - self.low).is_finite();
-        Self::of(greatest(self.low, -EnvelopeFloat::COSINE), least(self.high, EnvelopeFloat::COSINE)).or_odd(!finite)
+        Self::of(greatest(self.low, -EnvelopeFloat::COSINE), least(self.high, EnvelopeFloat::COSINE))
+            .or_special(!finite)
     }
 
     /// An exponential function, with the function for its bounds.
@@ -183,11 +185,11 @@ impl Ends {
 
     /// The bounds of a logarithm before rounding. The lower one may be infinite.
     #[inline(always)]
-    fn logarithm_ends(self, f: impl Fn(f64) -> f64) -> (f64, f64) {
+    fn logarithm_bounds(self, f: impl Fn(f64) -> f64) -> (f64, f64) {
         let (from, to) = const { rules::LOG.within() };
         let near_one = (self.high >= from) & (self.low <= to);
-        let beside = if near_one { rules::LOG.absolute() } else { 0.0 };
-        let error = |result: f64| greatest(rules::LOG.ulps() * ulp(result), beside) * OUTWARD;
+        let absolute = if near_one { rules::LOG.absolute() } else { 0.0 };
+        let error = |result: f64| greatest(rules::LOG.ulps() * ulp(result), absolute) * OUTWARD;
         let positive = |x: f64| if x < FLUSH { FLUSH } else { x };
         let (least, most) = (f(positive(self.low)), f(positive(self.high)));
         let low = if self.low < FLUSH { f64::NEG_INFINITY } else { least - error(least) };
@@ -196,13 +198,13 @@ impl Ends {
 
     #[inline(always)]
     pub(super) fn logarithm(self, f: impl Fn(f64) -> f64) -> Self {
-        let (low, high) = self.logarithm_ends(f);
-        Self::rounded(low, high).or_odd(!((self.low >= FLUSH) & (self.high <= MAX)))
+        let (low, high) = self.logarithm_bounds(f);
+        Self::rounded(low, high).or_special(!((self.low >= FLUSH) & (self.high <= MAX)))
     }
 
     #[inline(always)]
     pub(super) fn power(self, exponent: Self) -> Self {
-        let (low, high) = self.logarithm_ends(ends::log2);
+        let (low, high) = self.logarithm_bounds(powers::log2);
         // The lower bound may be infinite. Rounding, and a factor above 0, leave it unchanged.
         let (low, high) = (down(low, false), up(high, false));
         let (ll, lh) = (exponent.low * low, exponent.low * high);
@@ -217,7 +219,7 @@ impl Ends {
             & (exponent.low >= FLUSH)
             & (exponent.high <= MAX)
             & (product.high.abs() <= MAX);
-        product.exponential(ends::exp2).or_odd(!fine)
+        product.exponential(powers::exp2).or_special(!fine)
     }
 
     /// `x (1 - a) + y a` or `x + (y - x) a`.
@@ -229,7 +231,8 @@ impl Ends {
         let step = gap.mul(a);
         let (first, second) = (left.add(right), self.add(step));
         let either = Self::of(least(first.low, second.low), greatest(first.high, second.high));
-        let odd = rest.odd | left.odd | right.odd | gap.odd | step.odd | first.odd | second.odd;
+        let special =
+            rest.special | left.special | right.special | gap.special | step.special | first.special | second.special;
         let corner = |x: f64, y: f64, a: f64| x + (y - x) * a;
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
         for at in [
@@ -254,7 +257,10 @@ impl Ends {
         Self {
             low: if points { either.low } else { found.low },
             high: if points { either.high } else { found.high },
-            odd: !const { rules::MIX.inherits(&rules::kernels::MIX) } | odd | found.odd | (found.low > found.high),
+            special: !const { rules::MIX.inherits(&rules::kernels::MIX) }
+                | special
+                | found.special
+                | (found.low > found.high),
         }
     }
 }

@@ -5,7 +5,7 @@
 //!
 //! *Holds:* the scalar operation is the definition. Nearly all lanes are computed together without branches. A lane
 //! that needs special treatment by a rule (infinite bounds, a NaN that may be dropped, a divisor that contains 0) is
-//! *odd*, and the scalar operation computes it again. Both have the same result, except for the sign of a zero.
+//! *special*, and the scalar operation computes it again. Both have the same result, except for the sign of a zero.
 //!
 //! | file | contents |
 //! | --- | --- |
@@ -20,8 +20,8 @@ mod sum;
 mod tests;
 
 use super::EnvelopeFloat;
-use crate::domain::{Element, Few, WIDTH};
-use lane::Ends;
+use crate::domain::{Block, Element, WIDTH};
+use lane::LaneBounds;
 use std::hint::black_box;
 
 /// A number in each of eight lanes. Vectors of four never cross a cache line.
@@ -35,14 +35,14 @@ pub struct EnvelopeBlock {
     nan: u8,
 }
 
-/// The odd lanes are those that are not 0.
-type Odd = [u64; WIDTH];
+/// The special lanes are those that are not 0.
+type Special = [u64; WIDTH];
 
 impl Element for EnvelopeFloat {
-    type Few = EnvelopeBlock;
+    type Block = EnvelopeBlock;
 }
 
-impl Few<EnvelopeFloat> for EnvelopeBlock {
+impl Block<EnvelopeFloat> for EnvelopeBlock {
     #[inline(always)]
     fn splat(number: EnvelopeFloat) -> Self {
         Self {
@@ -101,35 +101,35 @@ impl Few<EnvelopeFloat> for EnvelopeBlock {
 
 impl EnvelopeBlock {
     #[inline(always)]
-    fn ends(&self, lane: usize) -> Ends {
-        Ends::of(self.low[lane], self.high[lane])
+    fn bounds(&self, lane: usize) -> LaneBounds {
+        LaneBounds::of(self.low[lane], self.high[lane])
     }
 
-    /// Writes the bounds of all lanes, and computes those again that are odd or in `apart`.
+    /// Writes the bounds of all lanes, and computes those again that are special or in `forced`.
     #[inline(always)]
-    fn fill(&mut self, ends: impl Fn(usize) -> Ends, apart: u8, exact: impl Fn(usize) -> EnvelopeFloat) {
-        let (mut low, mut high, mut odd) = ([0.0; WIDTH], [0.0; WIDTH], [0; WIDTH]);
-        let mut any = u64::from(apart);
+    fn fill(&mut self, bounds: impl Fn(usize) -> LaneBounds, forced: u8, exact: impl Fn(usize) -> EnvelopeFloat) {
+        let (mut low, mut high, mut special) = ([0.0; WIDTH], [0.0; WIDTH], [0; WIDTH]);
+        let mut any = u64::from(forced);
         for lane in 0..WIDTH {
-            let ends = ends(lane);
-            low[lane] = ends.low;
-            high[lane] = ends.high;
-            odd[lane] = u64::from(ends.odd);
-            any |= odd[lane];
+            let bounds = bounds(lane);
+            low[lane] = bounds.low;
+            high[lane] = bounds.high;
+            special[lane] = u64::from(bounds.special);
+            any |= special[lane];
         }
         self.low = low;
         self.high = high;
         if any != 0 {
             // These are copies, so that the compiler knows that nothing else reads or writes what the loop does.
-            *self = black_box(*self).redone(black_box(odd), apart, exact);
+            *self = black_box(*self).redone(black_box(special), forced, exact);
         }
     }
 
     #[cold]
     #[inline(never)]
-    fn redone(mut self, odd: Odd, apart: u8, exact: impl Fn(usize) -> EnvelopeFloat) -> Self {
-        for (lane, odd) in odd.iter().enumerate() {
-            if *odd != 0 || apart >> lane & 1 == 1 {
+    fn redone(mut self, special: Special, forced: u8, exact: impl Fn(usize) -> EnvelopeFloat) -> Self {
+        for (lane, special) in special.iter().enumerate() {
+            if *special != 0 || forced >> lane & 1 == 1 {
                 self.set(lane, exact(lane));
             }
         }
@@ -141,7 +141,7 @@ impl EnvelopeBlock {
     fn by_parts(
         &self,
         value: impl Fn(f64) -> f64,
-        ends: impl Fn(Ends) -> Ends,
+        bounds: impl Fn(LaneBounds) -> LaneBounds,
         exact: impl Fn(EnvelopeFloat) -> EnvelopeFloat,
     ) -> Self {
         let mut out = Self { nan: self.nan, ..Self::default() };
@@ -150,7 +150,7 @@ impl EnvelopeBlock {
         }
         out.fill(
             #[inline(always)]
-            move |lane| ends(self.ends(lane)),
+            move |lane| bounds(self.bounds(lane)),
             0,
             #[inline(always)]
             move |lane| exact(self.get(lane)),
@@ -158,14 +158,14 @@ impl EnvelopeBlock {
         out
     }
 
-    /// Applies a function of two operands; `apart` contains the lanes that may drop a NaN.
+    /// Applies a function of two operands; `forced` contains the lanes that may drop a NaN.
     #[inline(always)]
     fn by_both(
         &self,
         other: &Self,
-        apart: u8,
+        forced: u8,
         value: impl Fn(f64, f64) -> f64,
-        ends: impl Fn(Ends, Ends) -> Ends,
+        bounds: impl Fn(LaneBounds, LaneBounds) -> LaneBounds,
         exact: impl Fn(EnvelopeFloat, EnvelopeFloat) -> EnvelopeFloat,
     ) -> Self {
         let mut out = Self { nan: self.nan | other.nan, ..Self::default() };
@@ -174,8 +174,8 @@ impl EnvelopeBlock {
         }
         out.fill(
             #[inline(always)]
-            move |lane| ends(self.ends(lane), other.ends(lane)),
-            apart,
+            move |lane| bounds(self.bounds(lane), other.bounds(lane)),
+            forced,
             #[inline(always)]
             move |lane| exact(self.get(lane), other.get(lane)),
         );

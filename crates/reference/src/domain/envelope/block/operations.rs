@@ -1,10 +1,10 @@
 //! Operations of the language on blocks.
 
 use super::EnvelopeBlock;
-use super::lane::Ends;
+use super::lane::LaneBounds;
 use super::sum::Sum;
-use crate::domain::envelope::{EnvelopeFloat, EnvelopeInt, ends};
-use crate::domain::{Block, Few, Integer, Number, WIDTH};
+use crate::domain::envelope::{EnvelopeFloat, EnvelopeInt, powers};
+use crate::domain::{Block, Integer, Number, NumberBlock, WIDTH};
 use pulp::Arch;
 use std::f64::consts::{LN_2, LOG2_E};
 use std::sync::LazyLock;
@@ -21,16 +21,16 @@ impl EnvelopeBlock {
     fn answered(
         &self,
         other: &Self,
-        always: impl Fn(Ends, Ends) -> bool,
-        never: impl Fn(Ends, Ends) -> bool,
+        always: impl Fn(LaneBounds, LaneBounds) -> bool,
+        never: impl Fn(LaneBounds, LaneBounds) -> bool,
         answer: impl Fn(f64, f64) -> bool,
     ) -> Answers {
         let nan = self.nan | other.nan;
         let mut answers = Answers::default();
         for (lane, slot) in answers.iter_mut().enumerate() {
-            let (a, b) = (self.ends(lane), other.ends(lane));
-            let sure = nan >> lane & 1 == 0;
-            let (always, never) = (always(a, b) & sure, never(a, b) & sure);
+            let (a, b) = (self.bounds(lane), other.bounds(lane));
+            let decided = nan >> lane & 1 == 0;
+            let (always, never) = (always(a, b) & decided, never(a, b) & decided);
             let likely = answer(self.value[lane], other.value[lane]);
             *slot = EnvelopeInt {
                 bits: u32::from(always | (likely & !never)),
@@ -42,7 +42,7 @@ impl EnvelopeBlock {
     }
 }
 
-impl Block<EnvelopeFloat> for EnvelopeBlock {
+impl NumberBlock<EnvelopeFloat> for EnvelopeBlock {
     const OWN: bool = true;
     #[inline(always)]
     fn if_vectorized<R>(work: impl FnOnce() -> R) -> Option<R> {
@@ -147,7 +147,7 @@ impl Block<EnvelopeFloat> for EnvelopeBlock {
         self.by_parts(
             Number::floor,
             #[inline(always)]
-            |ends| ends.rising(f64::floor),
+            |bounds| bounds.rising(f64::floor),
             Number::floor,
         )
     }
@@ -183,10 +183,10 @@ impl Block<EnvelopeFloat> for EnvelopeBlock {
         self.by_parts(
             Number::exp,
             #[inline(always)]
-            |ends| {
-                ends.exponential(
+            |bounds| {
+                bounds.exponential(
                     #[inline(always)]
-                    |end| ends::exp2(end * LOG2_E),
+                    |end| powers::exp2(end * LOG2_E),
                 )
             },
             Number::exp,
@@ -197,7 +197,7 @@ impl Block<EnvelopeFloat> for EnvelopeBlock {
         self.by_parts(
             Number::exp2,
             #[inline(always)]
-            |ends| ends.exponential(ends::exp2),
+            |bounds| bounds.exponential(powers::exp2),
             Number::exp2,
         )
     }
@@ -206,10 +206,10 @@ impl Block<EnvelopeFloat> for EnvelopeBlock {
         self.by_parts(
             Number::log,
             #[inline(always)]
-            |ends| {
-                ends.logarithm(
+            |bounds| {
+                bounds.logarithm(
                     #[inline(always)]
-                    |end| ends::log2(end) * LN_2,
+                    |end| powers::log2(end) * LN_2,
                 )
             },
             Number::log,
@@ -220,7 +220,7 @@ impl Block<EnvelopeFloat> for EnvelopeBlock {
         self.by_parts(
             Number::log2,
             #[inline(always)]
-            |ends| ends.logarithm(ends::log2),
+            |bounds| bounds.logarithm(powers::log2),
             Number::log2,
         )
     }
@@ -277,7 +277,7 @@ impl Block<EnvelopeFloat> for EnvelopeBlock {
         }
         out.fill(
             #[inline(always)]
-            move |lane| self.ends(lane).mixed(y.ends(lane), a.ends(lane)),
+            move |lane| self.bounds(lane).mixed(y.bounds(lane), a.bounds(lane)),
             0,
             #[inline(always)]
             move |lane| self.get(lane).mix(y.get(lane), a.get(lane)),
@@ -327,16 +327,17 @@ impl Block<EnvelopeFloat> for EnvelopeBlock {
         let mut out = Self::default();
         let either = yes.nan | no.nan;
         for (lane, condition) in condition.iter().enumerate() {
-            let (holds, open) = (condition.bits != 0, condition.low != condition.high);
-            let (chosen, other) = if holds { (yes.ends(lane), no.ends(lane)) } else { (no.ends(lane), yes.ends(lane)) };
+            let (holds, undecided) = (condition.bits != 0, condition.low != condition.high);
+            let (chosen, other) =
+                if holds { (yes.bounds(lane), no.bounds(lane)) } else { (no.bounds(lane), yes.bounds(lane)) };
             out.value[lane] = if holds { yes.value[lane] } else { no.value[lane] };
-            out.low[lane] = if open & (other.low < chosen.low) { other.low } else { chosen.low };
-            out.high[lane] = if open & (other.high > chosen.high) { other.high } else { chosen.high };
+            out.low[lane] = if undecided & (other.low < chosen.low) { other.low } else { chosen.low };
+            out.high[lane] = if undecided & (other.high > chosen.high) { other.high } else { chosen.high };
         }
         if either != 0 {
             for (lane, condition) in condition.iter().enumerate() {
                 let nan = if condition.bits != 0 { yes.nan } else { no.nan };
-                out.nan |= if condition.sure() { nan } else { either } & 1 << lane;
+                out.nan |= if condition.is_decided() { nan } else { either } & 1 << lane;
             }
         }
         out

@@ -1,10 +1,10 @@
 //! Sums of blocks, in any order.
 
 use super::EnvelopeBlock;
-use super::lane::Ends;
+use super::lane::LaneBounds;
 use crate::domain::envelope::EnvelopeFloat;
 use crate::domain::envelope::float::{greatest, least};
-use crate::domain::{Few, WIDTH};
+use crate::domain::{Block, WIDTH};
 
 /// A sum in progress, with the state that [`EnvelopeFloat::summed`] keeps.
 #[derive(Clone, Copy, Debug, Default)]
@@ -48,7 +48,7 @@ impl Sum {
         let mut out = EnvelopeBlock { value: sum.value, nan: sum.nan, ..EnvelopeBlock::default() };
         out.fill(
             #[inline(always)]
-            move |lane| sum.ends(lane),
+            move |lane| sum.bounds(lane),
             0,
             #[inline(always)]
             move |lane| EnvelopeFloat::summed((0..count).map(|place| term(place).get(lane))),
@@ -58,10 +58,10 @@ impl Sum {
 
     /// The bounds of the sum in a lane.
     #[inline(always)]
-    fn ends(&self, lane: usize) -> Ends {
+    fn bounds(&self, lane: usize) -> LaneBounds {
         let size = greatest(self.highest[lane], -self.deepest[lane]);
         let plain = self.uneven[lane] == 0;
         let roundings = EnvelopeFloat::roundings_of_sum(self.count[lane], plain, size);
-        Ends::rounded(self.low[lane] - roundings, self.high[lane] + roundings).or_odd(!size.is_finite())
+        LaneBounds::rounded(self.low[lane] - roundings, self.high[lane] + roundings).or_special(!size.is_finite())
     }
 }

@@ -4,7 +4,7 @@ use super::EnvelopeBlock;
 use super::operations::Answers;
 use crate::domain::envelope::{EnvelopeFloat, EnvelopeInt};
 use crate::domain::rules::FLUSH;
-use crate::domain::{Block, Few, Integer, Number, WIDTH};
+use crate::domain::{Block, Integer, Number, NumberBlock, WIDTH};
 
 /// Random numbers from a seed, the same in every run.
 struct Random(u64);
@@ -74,7 +74,7 @@ impl Random {
 
     fn block(&mut self) -> EnvelopeBlock {
         let mut block = EnvelopeBlock::default();
-        // Whole blocks of lanes that are not odd are the important case.
+        // Whole blocks of lanes that are not special are the important case.
         let tame = self.below(2) == 0;
         for lane in 0..WIDTH {
             let mut number = self.number();
@@ -90,7 +90,7 @@ impl Random {
         std::array::from_fn(|_| match self.below(4) {
             0 => EnvelopeInt::from_bool(false),
             1 => EnvelopeInt::from_bool(true),
-            open => EnvelopeInt::open(open == 2),
+            undecided => EnvelopeInt::undecided(undecided == 2),
         })
     }
 }
@@ -120,7 +120,7 @@ type Answer =
     (&'static str, fn(&EnvelopeBlock, &EnvelopeBlock) -> Answers, fn(EnvelopeFloat, EnvelopeFloat) -> EnvelopeInt);
 
 macro_rules! pairs {
-    ($($name:ident),*) => { &[$((stringify!($name), <EnvelopeBlock as Block<EnvelopeFloat>>::$name, <EnvelopeFloat as Number>::$name)),*] };
+    ($($name:ident),*) => { &[$((stringify!($name), <EnvelopeBlock as NumberBlock<EnvelopeFloat>>::$name, <EnvelopeFloat as Number>::$name)),*] };
 }
 
 const UNARY: &[Unary] = pairs!(neg, abs, square, floor, fract, sqrt, inversesqrt, exp, exp2, log, log2, cosine_at_most);
@@ -183,7 +183,7 @@ fn functions_of_three_blocks_are_those_of_their_lanes() {
         let replaced = |lane: usize| if mask >> lane & 1 == 1 { b.get(lane) } else { a.get(lane) };
         assert_lanes("replaced", &a.replaced(&b, mask), replaced, &of);
         for count in 0..=3 {
-            let sum = <EnvelopeBlock as Block<_>>::sum(count, |place| of[place]);
+            let sum = <EnvelopeBlock as NumberBlock<_>>::sum(count, |place| of[place]);
             let terms = |lane: usize| of.iter().take(count).map(move |term| term.get(lane));
             assert_lanes("sum", &sum, |lane| EnvelopeFloat::sum(terms(lane)), &of);
         }

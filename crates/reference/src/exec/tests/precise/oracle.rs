@@ -26,7 +26,7 @@ pub(super) enum Want {
     Exactly(f64),
     /// These bits of an `int`, `uint` or `bool`.
     Bits(u32),
-    /// GLSL leaves the result open, or f64 cannot determine it.
+    /// GLSL leaves the result undefined, or f64 cannot determine it.
     Anything,
 }
 

@@ -8,7 +8,7 @@ use rustc_hash::FxHashMap;
 
 /// An array that may still lack a size.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) enum ArrayKey {
+pub(in crate::analysis) enum ArrayKey {
     /// A global.
     Global(GlobalId),
     /// A member of a global that is a block or an array of blocks.
@@ -19,7 +19,7 @@ pub(super) enum ArrayKey {
 
 /// For each array without a size, the largest constant index, and its position.
 #[derive(Debug, Default)]
-pub(super) struct ArrayUses {
+pub(in crate::analysis) struct ArrayUses {
     globals: FxHashMap<ArrayKey, (u32, Span)>,
     /// The same map for the locals of the current function.
     locals: FxHashMap<LocalId, (u32, Span)>,
@@ -27,7 +27,7 @@ pub(super) struct ArrayUses {
 
 impl ArrayUses {
     /// Notes the use of an element.
-    pub(super) fn note(&mut self, key: ArrayKey, index: u32, at: Span) {
+    pub(in crate::analysis) fn note(&mut self, key: ArrayKey, index: u32, at: Span) {
         let entry = match key {
             ArrayKey::Local(id) => self.locals.entry(id).or_insert((index, at)),
             ArrayKey::Global(_) | ArrayKey::Member(..) => self.globals.entry(key).or_insert((index, at)),
@@ -38,7 +38,7 @@ impl ArrayUses {
     }
 
     /// The largest index, and its position.
-    pub(super) fn largest(&self, key: ArrayKey) -> Option<(u32, Span)> {
+    pub(in crate::analysis) fn largest(&self, key: ArrayKey) -> Option<(u32, Span)> {
         match key {
             ArrayKey::Local(id) => self.locals.get(&id).copied(),
             ArrayKey::Global(_) | ArrayKey::Member(..) => self.globals.get(&key).copied(),
@@ -46,12 +46,12 @@ impl ArrayUses {
     }
 
     /// Whether the current function uses elements of such a local.
-    pub(super) fn any_local(&self) -> bool {
+    pub(in crate::analysis) fn any_local(&self) -> bool {
         !self.locals.is_empty()
     }
 
     /// Forgets the locals at the end of a function.
-    pub(super) fn end_function(&mut self) {
+    pub(in crate::analysis) fn end_function(&mut self) {
         self.locals.clear();
     }
 }

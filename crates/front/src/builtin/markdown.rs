@@ -1,14 +1,16 @@
 //! The tables as Markdown, for `docs/operations.md` and `docs/envelope.md`.
 
-use super::precision::RULES;
-use super::{Binary, BuiltinFunction, CallCost, Class, Linear, Lookup, Operation, Precision, Rule, Unary};
-use crate::builtin::functions::Row;
-use crate::builtin::{Availability, Stages};
+use super::functions::{Row, all};
+use super::operations::precision::RULES;
+use super::operations::{
+    Binary, BuiltinFunction, CallCost, Class, Formula, Linear, Lookup, Operation, Precision, Rule, Unary,
+};
+use super::{Availability, Stages};
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
 /// All operators on floats and all built-in functions, section by section.
-pub fn markdown() -> String {
+pub fn operations_markdown() -> String {
     let mut out =
         String::from("### Operators on floats (§5.9)\n\n| operator | may jump | precision |\n| --- | --- | --- |\n");
     for (name, jumps, rule) in operators() {
@@ -43,7 +45,7 @@ fn rows() -> impl Iterator<Item = &'static Operation> {
 /// The sections in the specification's order.
 fn sections() -> Vec<&'static str> {
     let mut seen: Vec<&'static str> = Vec::new();
-    for row in crate::builtin::functions::all().filter(|row| !row.deprecated) {
+    for row in all().filter(|row| !row.deprecated) {
         if !seen.contains(&row.section) {
             seen.push(row.section);
         }
@@ -169,7 +171,7 @@ impl CallCost {
 impl Rule {
     /// The allowed error in words.
     pub fn describe(&self) -> String {
-        let formula = |formula: &super::Formula| format!("`{}`", formula.text(self.arguments));
+        let formula = |formula: &Formula| format!("`{}`", formula.text(self.arguments));
         match self.precision {
             Precision::Exact => "exact".into(),
             Precision::Correct => "either f32 neighbor".into(),

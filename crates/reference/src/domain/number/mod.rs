@@ -1,6 +1,10 @@
 //! [`Number`]: the `float` of a domain, with each operation of the language.
 
-use super::{Block, Element, Integer};
+mod block;
+
+pub use block::{Answers, NumberBlock};
+
+use super::{Element, Integer};
 use glisten_scene::picture::Interval;
 
 /// A `float`. Methods without a comment are the operation or built-in function of that name (GLSL 1.50 §5.9, §8.1 to §8.3).
@@ -8,14 +12,14 @@ use glisten_scene::picture::Interval;
 /// These cases are defined here because GLSL leaves them undefined: `min` and `max` drop a NaN if the other operand
 /// is not one (IEEE 754-2008 `minNum`, as on GPUs); `sign` of NaN is 0; `pow` of a negative base is NaN, `pow(0, 0)`
 /// is 1; conversions to integers saturate and convert NaN to 0; `round` goes to the even neighbor at halves.
-pub trait Number: Element<Few: Block<Self>> {
+pub trait Number: Element<Block: NumberBlock<Self>> {
     /// The result type of comparisons.
     type Int: Integer;
     /// The type in which built-in functions are computed before rounding.
     type Wide: Number<Int = Self::Int>;
 
     /// Whether a number may represent several values of conforming GPUs.
-    const OPEN: bool = false;
+    const HAS_INTERVALS: bool = false;
     /// Whether there is a second value. Values that leave the domain's arithmetic, such as a texture's coordinates,
     /// are then followed for both.
     const PAIRED: bool = false;
@@ -24,48 +28,48 @@ pub trait Number: Element<Few: Block<Self>> {
     fn from_f64(value: f64) -> Self;
     /// The nearest number, with the interval of a GPU's values; domains without envelopes ignore the interval.
     #[inline(always)]
-    fn with_range(value: f64, range: Interval) -> Self {
-        let _ = range;
+    fn with_interval(value: f64, interval: Interval) -> Self {
+        let _ = interval;
         Self::from_f64(value)
     }
     /// An integer with the interval of a GPU's values, whose bounds need not be f32 numbers.
     #[inline(always)]
-    fn whole(value: f64, range: Interval) -> Self {
-        Self::with_range(value, range)
+    fn integer_with_interval(value: f64, interval: Interval) -> Self {
+        Self::with_interval(value, interval)
     }
     /// The nearest number, from which a GPU's may differ by `error`.
     #[inline(always)]
     fn with_error(value: f64, error: f64) -> Self {
-        Self::with_range(value, Interval::around(value, error))
+        Self::with_interval(value, Interval::around(value, error))
     }
     /// The value.
     fn value(self) -> f64;
     /// The second value.
     #[inline(always)]
-    fn beside(self) -> f64 {
+    fn second(self) -> f64 {
         self.value()
     }
     /// The nearest numbers to two values; domains with one value ignore the second.
     #[inline(always)]
-    fn paired(value: f64, beside: f64) -> Self {
-        let _ = beside;
+    fn paired(value: f64, second: f64) -> Self {
+        let _ = second;
         Self::from_f64(value)
     }
     /// The interval of a conforming GPU's values; only the value in domains without envelopes.
     #[inline(always)]
-    fn range(self) -> Interval {
+    fn interval(self) -> Interval {
         Interval::point(self.value())
     }
     /// The largest difference of a conforming GPU from the value; 0 in domains without envelopes.
     #[inline(always)]
     fn error(self) -> f64 {
-        if Self::OPEN { self.range().reach(self.value()) } else { 0.0 }
+        if Self::HAS_INTERVALS { self.interval().reach(self.value()) } else { 0.0 }
     }
     /// The interval widened by `error` on both sides.
     #[inline(always)]
     fn widened(self, error: f64) -> Self {
-        let Interval { low, high, may_be_nan } = self.range();
-        Self::with_range(self.value(), Interval { low: low - error, high: high + error, may_be_nan })
+        let Interval { low, high, may_be_nan } = self.interval();
+        Self::with_interval(self.value(), Interval { low: low - error, high: high + error, may_be_nan })
     }
     /// The hull of both, with this one's value.
     #[inline(always)]

@@ -1,0 +1,315 @@
+//! `glisten specialize` end to end: exit codes, files, the account.
+
+use crate::support::root;
+use serde_json::Value;
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::PathBuf;
+use std::process::{Command, Output, Stdio};
+use tempfile::TempDir;
+
+const VERTEX: &str = "#version 150\nin vec4 place;\nin vec4 tint;\nout vec4 shade;\nuniform vec4 move;\nuniform bool moves;\n\
+    void main() { shade = tint; gl_Position = moves ? place + move : place; }\n";
+const FRAGMENT: &str = "#version 150\nin vec4 shade;\nuniform int mode;\nuniform sampler2D plain;\nuniform vec4 paint;\nout vec4 color;\n\
+    // Not called with these values\nvec4 other() { return texture(plain, shade.xy); }\n\
+    void main() { color = mode == 1 ? other() : paint * shade; }\n";
+const SCENE: &str = "[framebuffer]\nwidth = 8\nheight = 8\n[[draw]]\nvertex = \"a.vert\"\nfragment = \"a.frag\"\n[draw.attributes]\n\
+    place = { size = 2, values = [-1, -1, 1, -1, 0, 1] }\ntint = { size = 3, values = [1, 0, 0, 0, 1, 0, 0, 0, 1] }\n\
+    [draw.uniforms]\nmoves = false\nmove = [1, 2, 3, 4]\nmode = 0\npaint = [0.5, 0.25, 0.125, 1]\n\
+    [draw.textures]\nplain = { width = 1, height = 1, values = [1, 1, 1, 1] }\n";
+
+/// A folder with a program and a scene of it.
+struct Folder(TempDir);
+
+impl Folder {
+    fn new() -> Self {
+        let place = Self(tempfile::tempdir().expect("a temporary folder"));
+        for (name, text) in [("a.vert", VERTEX), ("a.frag", FRAGMENT), ("a.toml", SCENE)] {
+            place.write(name, text);
+        }
+        place
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    fn write(&self, name: &str, text: &str) {
+        fs::write(self.path(name), text).expect("written");
+    }
+
+    fn read(&self, name: &str) -> String {
+        fs::read_to_string(self.path(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
+    }
+
+    fn json(&self, name: &str) -> Value {
+        serde_json::from_str(&self.read(name)).expect("JSON")
+    }
+
+    fn run(&self, arguments: &[&str]) -> Output {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_glisten"));
+        command.args(arguments).current_dir(self.0.path()).env("NO_COLOR", "1").stdin(Stdio::null());
+        command.output().expect("the program runs")
+    }
+
+    /// Runs it and expects this exit code. Gives what it printed, results first.
+    #[track_caller]
+    fn expect(&self, code: i32, arguments: &[&str]) -> String {
+        let output = self.run(arguments);
+        let text = String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(code), "{arguments:?}: {text}");
+        text
+    }
+
+    fn names(&self, folder: &str) -> BTreeSet<String> {
+        let entries = fs::read_dir(self.path(folder));
+        entries.map_or_else(
+            |_| BTreeSet::new(),
+            |entries| {
+                entries.map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned()).collect()
+            },
+        )
+    }
+}
+
+fn keys(value: &Value) -> Vec<&str> {
+    let mut keys: Vec<&str> = value.as_object().map_or_else(Vec::new, |map| map.keys().map(String::as_str).collect());
+    keys.sort_unstable();
+    keys
+}
+
+#[test]
+fn it_writes_programs_scenes_targets_and_an_account() {
+    let place = Folder::new();
+    let text = place.expect(0, &["specialize", "a.toml", "-o", "out"]);
+    assert!(text.contains("things left out"), "{text}");
+    let expected = [
+        "a.account.json",
+        "a.frag",
+        "a.frag.spv",
+        "a.frag.wgsl",
+        "a.json",
+        "a.toml",
+        "a.vert",
+        "a.vert.spv",
+        "a.vert.wgsl",
+        "programs.json",
+    ];
+    let names = place.names("out");
+    assert!(expected.iter().all(|name| names.contains(*name)), "{names:?}");
+    assert_eq!(place.json("out/programs.json"), serde_json::json!({"a": ["a"]}));
+    let (vertex, fragment) = (place.read("out/a.vert"), place.read("out/a.frag"));
+    for gone in ["move", "mode", "plain", "paint", "other", "Not called"] {
+        assert!(!vertex.contains(gone) && !fragment.contains(gone), "{gone}:\n{vertex}{fragment}");
+    }
+    let account = place.json("out/a.account.json");
+    assert!(["draws", "scene"].iter().all(|key| keys(&account).contains(key)), "{account}");
+    let draw = &account["draws"][0];
+    for key in ["after", "before", "fragment", "left_out", "residual", "vertex"] {
+        assert!(keys(draw).contains(&key), "{draw}");
+    }
+    assert_eq!(
+        (&draw["vertex"], &draw["fragment"], &draw["residual"]),
+        (&"a.vert".into(), &"a.frag".into(), &"a".into())
+    );
+    let figures = [
+        "attribute_bytes",
+        "attributes",
+        "fragment_operations",
+        "spirv_instructions",
+        "textures",
+        "uniform_bytes",
+        "varyings",
+        "vertex_operations",
+    ];
+    for figure in figures {
+        let [before, after] = ["before", "after"].map(|side| draw[side][figure].as_u64().expect("a number"));
+        assert!(after <= before, "{figure}: {before} to {after}");
+    }
+    assert_eq!((draw["before"]["textures"].as_u64(), draw["after"]["textures"].as_u64()), (Some(1), Some(0)));
+    let kinds =
+        ["branch", "loop", "function", "statement", "varying", "attribute", "uniform", "block", "texture", "output"];
+    let left_out = draw["left_out"].as_array().expect("a list");
+    for one in left_out {
+        assert!(["because", "file", "line", "name", "what"].iter().all(|key| keys(one).contains(key)), "{one}");
+        assert!(kinds.iter().any(|kind| one["what"] == *kind), "{one}");
+        assert!(one["line"].as_u64().is_some_and(|line| line > 0) && one["because"] != "", "{one}");
+    }
+    let told = |what: &str, name: &str| {
+        let found = left_out.iter().find(|one| one["what"] == what && one["name"] == name);
+        found.unwrap_or_else(|| panic!("{what} {name}: {left_out:#?}")).clone()
+    };
+    assert_eq!(told("function", "other")["line"], 8);
+    assert_eq!((&told("uniform", "mode")["file"], &told("uniform", "mode")["line"]), (&"a.frag".into(), &3.into()));
+    assert!(told("uniform", "mode")["because"].as_str().is_some_and(|because| because.contains('0')));
+    told("texture", "plain");
+}
+
+/// The residual scene is a scene of the explicit core, and draws the same bytes; so does the residual of the residual.
+#[test]
+fn what_it_writes_draws_the_same_bytes() {
+    let place = Folder::new();
+    place.expect(0, &["specialize", "a.toml", "-o", "once"]);
+    place.expect(0, &["specialize", "once/a.toml", "-o", "twice"]);
+    let draw = |scene: &str, more: &[&str]| {
+        let arguments = ["render", scene, "-o", "a.npy", "--backend", "cpu", "--precision", "f32"];
+        place.expect(0, &[&arguments[..], more].concat());
+        fs::read(place.path("a.npy")).expect("a picture")
+    };
+    let original = draw("a.toml", &[]);
+    for (scene, more) in [("once/a.toml", &[][..]), ("twice/a.toml", &[]), ("a.toml", &["--specialize"])] {
+        assert!(original == draw(scene, more), "{scene} {more:?}");
+    }
+    place.expect(0, &["verify", "a.toml", "--specialize"]);
+    assert_eq!(place.read("once/a.frag"), place.read("twice/a.frag"));
+    let text = place.expect(0, &["specialize", "once/a.toml", "--check"]);
+    assert!(text.contains("nothing can be left out"), "{text}");
+    // The same input gives the same bytes.
+    place.expect(0, &["specialize", "a.toml", "-o", "again"]);
+    for name in place.names("once") {
+        assert!(
+            fs::read(place.path(&format!("once/{name}"))).ok() == fs::read(place.path(&format!("again/{name}"))).ok(),
+            "{name}"
+        );
+    }
+}
+
+#[test]
+fn what_is_dynamic_stays() {
+    let place = Folder::new();
+    let residual = |arguments: &[&str]| {
+        place.expect(0, &[&["specialize", "a.toml", "-o", "out"], arguments].concat());
+        place.read("out/a.vert") + &place.read("out/a.frag")
+    };
+    let text = residual(&["--dynamic", "mode"]);
+    assert!(text.contains("uniform int mode;") && !text.contains("uniform vec4 paint"), "{text}");
+    assert!(place.read("out/a.toml").contains("dynamic = [\"mode\"]"));
+    let text = residual(&["--dynamic", "mode", "--dynamic", "paint", "--dynamic", "moves", "--dynamic", "plain"]);
+    assert!(["mode", "paint", "moves", "move", "plain"].iter().all(|name| text.contains(name)), "{text}");
+    place.write("a.toml", &SCENE.replace("[draw.attributes]", "dynamic = [\"paint\"]\n[draw.attributes]"));
+    assert!(residual(&[]).contains("uniform vec4 paint;"));
+    // A name that is left of nothing is not in the scene any more.
+    residual(&["--dynamic", "move"]);
+    assert!(!place.read("out/a.toml").contains("\"move\""), "{}", place.read("out/a.toml"));
+}
+
+#[test]
+fn several_scenes_share_residuals() {
+    let place = Folder::new();
+    place.write(
+        "b.toml",
+        &SCENE.replace("values = [1, 0, 0, 0, 1, 0, 0, 0, 1]", "values = [0, 0, 1, 0, 1, 0, 1, 0, 0]"),
+    );
+    place.write("c.toml", &SCENE.replace("mode = 0", "mode = 1"));
+    place.write("d.toml", &(SCENE.to_owned() + &SCENE[SCENE.find("[[draw]]").expect("a draw")..]));
+    place.expect(0, &["specialize", "a.toml", "b.toml", "c.toml", "d.toml", "-o", "out"]);
+    let expected = serde_json::json!({"a": ["a"], "b": ["a"], "c": ["a_2"], "d": ["a", "a"]});
+    assert_eq!(place.json("out/programs.json"), expected);
+    assert!(
+        place.names("out").contains("a_2.frag") && !place.names("out").contains("a_3.frag"),
+        "{:?}",
+        place.names("out")
+    );
+    for scene in ["a", "b", "c", "d"] {
+        place.expect(0, &["render", &format!("out/{scene}.toml"), "-o", "a.png", "--backend", "cpu"]);
+    }
+}
+
+#[test]
+fn targets_are_those_that_were_asked_for() {
+    let place = Folder::new();
+    let targets = ["--target", "hlsl", "--target", "msl", "--target", "glsl"];
+    place.expect(0, &[&["specialize", "a.toml", "-o", "out"], &targets[..]].concat());
+    let names = place.names("out");
+    for extension in ["hlsl", "metal", "glsl"] {
+        assert!(names.contains(&format!("a.frag.{extension}")), "{names:?}");
+    }
+    assert!(!names.contains("a.frag.wgsl"), "{names:?}");
+}
+
+#[test]
+fn checking_writes_nothing() {
+    let place = Folder::new();
+    let before = place.names(".");
+    let text = place.expect(0, &["specialize", "a.toml", "--check"]);
+    assert!(text.contains("things can be left out"), "{text}");
+    place.expect(0, &["specialize", "a.toml", "--check", "-o", "out"]);
+    assert_eq!(before, place.names("."));
+}
+
+#[test]
+fn mistakes_have_their_exit_codes() {
+    let place = Folder::new();
+    place.write("plain", "");
+    place.write("broken.toml", "[[draw]\n");
+    place.write("other.toml", &SCENE.replace("a.frag", "none.frag"));
+    place.write("bad.toml", &SCENE.replace("a.frag", "bad.frag"));
+    place.write("bad.frag", "#version 150\nout vec4 color;\nvoid main() { color = nothing; }\n");
+    fs::create_dir(place.path("sub")).expect("a folder");
+    place.write("sub/a.toml", SCENE);
+    let cases: [(i32, &[&str], &str); 10] = [
+        (2, &["a.toml"], "--output"),
+        (2, &[], "SCENE"),
+        (2, &["none.toml", "-o", "out"], "none.toml"),
+        (2, &["other.toml", "-o", "out"], "none.frag"),
+        (2, &["a.toml", "-o", "out", "--dynamic", "pain"], "did you mean `paint`"),
+        (2, &["a.toml", "-o", "out", "--target", "cg"], "cg"),
+        (2, &["a.toml", "-o", "plain"], "plain"),
+        (2, &["a.toml", "sub/a.toml", "-o", "out"], "two scenes are named `a`"),
+        (1, &["broken.toml", "-o", "out"], "broken.toml"),
+        (1, &["bad.toml", "-o", "out"], "`nothing` is not declared"),
+    ];
+    for (code, arguments, word) in cases {
+        let text = place.expect(code, &[&["specialize"], arguments].concat());
+        assert!(text.contains(word), "{arguments:?}: {text}");
+    }
+    // Of several scenes the good one is written, and the bad one is told.
+    place.expect(1, &["specialize", "a.toml", "bad.toml", "-o", "out"]);
+    assert!(place.names("out").contains("a.frag"));
+}
+
+#[test]
+fn odd_scenes_come_back() {
+    let place = Folder::new();
+    let changes: &[(&str, &str)] = &[
+        // Nothing is drawn, or nearly nothing.
+        ("[draw.attributes]", "instances = 0\n[draw.attributes]"),
+        ("[draw.attributes]", "indices = []\n[draw.attributes]"),
+        ("values = [-1, -1, 1, -1, 0, 1]", "values = [0, 0, 0, 0, 0, 0]"),
+        // Values at the ends of what numbers can be.
+        ("paint = [0.5, 0.25, 0.125, 1]", "paint = [3.4e38, -3.4e38, 1e-45, -0.0]"),
+        ("paint = [0.5, 0.25, 0.125, 1]", "paint = [inf, -inf, nan, 0]"),
+        ("mode = 0", "mode = -2147483648"),
+        // A texture that differs from texel to texel, by a mode that reads it.
+        ("width = 1, height = 1, values = [1, 1, 1, 1]", "width = 2, height = 1, values = [1, nan, 1, 1, 0, 0, 0, 0]"),
+        ("[draw.attributes]", "primitive = \"points\"\nprogram_point_size = true\n[draw.attributes]"),
+        ("[draw.attributes]", "blend = \"add\"\ncull = \"front\"\n[draw.attributes]"),
+    ];
+    for (from, to) in changes {
+        assert!(SCENE.contains(from), "{from}");
+        place.write("odd.toml", &SCENE.replacen(from, to, 1));
+        let arguments = ["odd.toml", "-o", "a.npy", "--backend", "cpu", "--precision", "f32"];
+        let drawn = place.run(&[&["render"], &arguments[..]].concat());
+        let original = fs::read(place.path("a.npy")).ok();
+        let done = place.run(&["specialize", "odd.toml", "-o", "out"]);
+        assert_eq!(drawn.status.code(), done.status.code(), "{to}: {}", String::from_utf8_lossy(&done.stderr));
+        if done.status.success() {
+            place.expect(0, &["render", "out/odd.toml", "-o", "b.npy", "--backend", "cpu", "--precision", "f32"]);
+            assert!(original == fs::read(place.path("b.npy")).ok(), "{to}");
+        }
+    }
+}
+
+#[test]
+fn the_gallery_is_one_set_of_residuals() {
+    let place = Folder::new();
+    let scenes = ["directional", "point", "spot"].map(|name| root().join(format!("shader_lib/scenes/{name}.toml")));
+    let scenes = scenes.each_ref().map(|path| path.to_str().expect("a path of this machine"));
+    place.expect(0, &[&["specialize", "-o", "out"], &scenes[..]].concat());
+    let programs = place.json("out/programs.json");
+    assert_eq!(keys(&programs), ["directional", "point", "spot"]);
+    for stem in programs.as_object().expect("a map").values().flat_map(|list| list.as_array().expect("a list")) {
+        let stem = stem.as_str().expect("a name");
+        assert!(place.names("out").contains(&format!("{stem}.frag.spv")), "{stem}");
+    }
+}
