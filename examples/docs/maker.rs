@@ -20,6 +20,8 @@ enum Source {
     Output(&'static [&'static str]),
     /// From the output of the program, which depends on the machine.
     Measured(&'static [&'static str]),
+    /// From the output of a benchmark with an argument.
+    Bench(&'static str, &'static str),
 }
 
 static REGIONS: &[(&str, Source)] = &[
@@ -31,6 +33,8 @@ static REGIONS: &[(&str, Source)] = &[
     ("pipeline", Source::Tables(pipeline)),
     ("precision", Source::Tables(builtin::precision_markdown)),
     ("programs", Source::Tables(programs)),
+    ("specialize-draw", Source::Bench("specialize", "draw")),
+    ("specialize-make", Source::Bench("specialize", "make")),
 ];
 
 /// Commands whose output depends on the machine.
@@ -60,6 +64,18 @@ impl Generator {
         Ok(String::from_utf8_lossy(&output.stderr).into_owned() + &String::from_utf8_lossy(&output.stdout))
     }
 
+    /// The output of a benchmark.
+    fn bench(&self, name: &str, argument: &str) -> Result<String, String> {
+        let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+        let mut command = Command::new(cargo);
+        command.args(["bench", "--quiet", "--bench", name, "--", argument]).current_dir(&self.root);
+        let output = command.output().map_err(|error| format!("cargo cannot run: {error}"))?;
+        if !output.status.success() {
+            return Err(format!("the benchmark `{name}` fails: {}", String::from_utf8_lossy(&output.stderr)));
+        }
+        Ok(String::from_utf8_lossy(&output.stdout).into_owned())
+    }
+
     fn leave(&mut self) -> Result<Option<String>, String> {
         self.left += 1;
         Ok(None)
@@ -82,7 +98,11 @@ impl Maker for Generator {
                 let text = self.run(arguments)?;
                 self.make(format!("```text\n{}\n```", text.trim_end()))
             }
-            Source::Measured(_) if !self.measured => self.leave(),
+            Source::Measured(_) | Source::Bench(..) if !self.measured => self.leave(),
+            Source::Bench(name, argument) => {
+                let text = self.bench(name, argument)?;
+                self.make(text)
+            }
             Source::Measured(arguments) => {
                 let text = self.run(arguments)?;
                 self.make(text)

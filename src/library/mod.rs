@@ -123,6 +123,10 @@ impl glisten_scene::Library for Embedded {
     fn includes(&self) -> std::sync::Arc<dyn IncludeResolver + Send + Sync> {
         std::sync::Arc::new(Self)
     }
+
+    fn attributes_that_reach(&self, program: &glisten_front::Program) -> Vec<bool> {
+        glisten_specialize::optimize(program).interface.attributes.iter().map(|attribute| attribute.active).collect()
+    }
 }
 
 /// A message that no module has this name, with the most similar one.

@@ -198,6 +198,35 @@ fn sizes_must_fit() {
     assert_eq!((code, place.as_str()), ("E0908", "3"));
 }
 
+/// An attribute that is read and reaches no output needs no data, though the text uses it.
+#[test]
+fn what_reaches_no_output_needs_no_data() {
+    let scene = "[[draw]]\nvertex = \"a.vert\"\nfragment = \"a.frag\"\n[draw.attributes]\n\
+        p = { size = 2, values = [-1, -1, 1, -1, 0, 1] }\n";
+    // What happens to the attribute, what the fragment stage does with the varying, and whether it needs data.
+    for (vertex, fragment, needed) in [
+        ("vec4 unread = q * 2.0;", "fc = v;", false),
+        ("w = q;", "vec4 unread = w; fc = v;", false),
+        ("w = q;", "fc = v + w;", true),
+        ("w = q;", "fc = v; if (w.x > 0.0) discard;", true),
+        ("gl_Position += q;", "fc = v;", true),
+    ] {
+        let vertex = format!(
+            "#version 150\nin vec4 p;\nin vec4 q;\nout vec4 v;\nout vec4 w;\n\
+             void main() {{ v = p; w = p; gl_Position = p; {vertex} }}\n"
+        );
+        let fragment = format!("#version 150\nin vec4 v;\nin vec4 w;\nout vec4 fc;\nvoid main() {{ {fragment} }}\n");
+        let files = MemoryFiles::new([("a.toml", scene), ("a.vert", &vertex), ("a.frag", &fragment)]);
+        let loaded = load("a.toml", &files, &compiler());
+        let codes: Vec<&str> = loaded.diagnostics.iter().map(|diagnostic| diagnostic.code.id).collect();
+        assert_eq!(
+            (loaded.scene.is_some(), codes),
+            (!needed, vec![if needed { "E0909" } else { "W0906" }]),
+            "{vertex}{fragment}"
+        );
+    }
+}
+
 #[test]
 fn missing_data_is_an_error_and_missing_values_are_a_warning() {
     let (code, _, text) = mistake("cell = { size = 1, values = [1, 2, 3] }", "");

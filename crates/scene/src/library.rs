@@ -3,6 +3,7 @@
 //! *In:* what the package with the texts hands down. *Out:* programs by name, shaders by file name, modules to include.
 //! *Holds:* this crate embeds no GLSL.
 
+use glisten_front::link::Program;
 use glisten_front::source::{IncludeForm, IncludeResolver, Included, NoIncludes};
 use std::sync::Arc;
 
@@ -22,6 +23,11 @@ pub trait Library {
 
     /// Resolves `#include <glisten/...>`.
     fn includes(&self) -> Arc<dyn IncludeResolver + Send + Sync>;
+
+    /// For each attribute of a program whether it can reach a position or an output. By default each that is read can.
+    fn attributes_that_reach(&self, program: &Program) -> Vec<bool> {
+        program.interface.attributes.iter().map(|attribute| attribute.active).collect()
+    }
 }
 
 /// A library without anything in it.

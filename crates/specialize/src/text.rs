@@ -84,14 +84,14 @@ impl Comments<'_> {
     fn comment(&self, span: Span) -> Vec<String> {
         let Some((text, start, _)) = self.place(span) else { return Vec::new() };
         let before = text.get(..start).unwrap_or("");
-        let mut lines: Vec<&str> = before.lines().rev().collect();
-        if !before.ends_with('\n') && !lines.is_empty() {
+        let mut lines = before.lines().rev();
+        if !before.ends_with('\n') {
             // What stands before it on its own line.
-            lines.remove(0);
+            lines.next();
         }
         let mut comment = Vec::new();
         let mut inside = false;
-        for line in lines.into_iter().take(MOST_LINES) {
+        for line in lines.take(MOST_LINES) {
             let line = line.trim();
             let starts = line.starts_with("/*");
             let whole = starts && line.ends_with("*/");

@@ -142,3 +142,54 @@ fn hostile_programs_come_back() {
         format!("{head}void main() {{\n    float s = 0.0, t = 0.0;\n{branches}    color = vec4(s, t, s, t);\n}}\n");
     time("3,000 branches", &branches, &[("u", &[1.5])]);
 }
+
+/// The number of expressions of all stages.
+fn size(program: &glisten_front::Program) -> usize {
+    program.stages.iter().map(|shader| shader.exprs.len()).sum()
+}
+
+/// Twice the program makes at most twice the residual and a constant more, whatever is written out and cloned.
+#[test]
+fn residuals_grow_as_programs_do() {
+    let of = |functions: usize| {
+        let bodies: String = (0..functions)
+            .map(|n| {
+                format!(
+                    "float f{n}(float x, int k) {{ float s = x; for (int i = 0; i < 4; ++i) {{ if (k == i) s += u * {n}.5; \
+                     else s *= x; }} return s; }}\n"
+                )
+            })
+            .collect();
+        let calls: String =
+            (0..functions).map(|n| format!("    s += f{n}(v.x, {}) + f{n}(v.y, {});\n", n % 4, n % 3)).collect();
+        let head = "#version 150\nin vec4 v;\nuniform float u;\nout vec4 color;\n";
+        let text = format!("{head}{bodies}void main() {{\n    float s = 0.0;\n{calls}    color = vec4(s);\n}}\n");
+        size(&residual(&text, &[("u", &[1.5])]).program)
+    };
+    let [one, two, four] = [100, 200, 400].map(of);
+    assert!(two * 10 <= one * 21 + 40_000 && four * 10 <= two * 21 + 40_000, "{one}, {two}, {four}");
+}
+
+#[test]
+fn lights_by_the_hundred_come_back_and_stay_short() {
+    let text = "#version 150\nstruct Light { float kind; vec3 towards; vec3 color; };\nin vec4 v;\nout vec4 color;\n\
+        uniform Light lights[256];\nuniform float count;\nvoid main() { vec3 sum = vec3(0.0);\n\
+        for (int i = 0; i < int(count); ++i) { if (lights[i].kind > 1.0) continue;\n\
+        sum += max(dot(v.xyz, lights[i].towards), 0.0) * lights[i].color; } color = vec4(sum, 1.0); }\n";
+    let names: Vec<[String; 3]> =
+        (0..256).map(|n| ["kind", "towards", "color"].map(|member| format!("lights[{n}].{member}"))).collect();
+    let mut known: Vec<(&str, &[f32])> = vec![("count", &[256.0])];
+    for (n, [kind, towards, color]) in names.iter().enumerate() {
+        known.extend([
+            (kind.as_str(), if n % 3 == 2 { &[2.0][..] } else { &[0.0][..] }),
+            (towards.as_str(), &[0.5, 0.25, 0.75][..]),
+            (color.as_str(), &[0.5, 0.5, 0.5][..]),
+        ]);
+    }
+    let start = Instant::now();
+    let left = residual(text, &known);
+    assert!(start.elapsed() < Duration::from_secs(120), "{:?}", start.elapsed());
+    // Written out or not: not much longer than what 256 lights are.
+    let length = left.text(Stage::Fragment).map_or(0, |text| text.lines().count());
+    assert!(length < 256 * 5, "{length} lines");
+}

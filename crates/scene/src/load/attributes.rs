@@ -6,7 +6,7 @@ use super::reader::{Node, Number, NumberValue, Reader, report_unknown_name};
 use crate::model::{AttributeData, AttributeValues};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::scenes::{
-    SCENE_MISSING_ATTRIBUTE, SCENE_MISSING_KEY, SCENE_WRONG_KIND, SCENE_WRONG_SIZE,
+    SCENE_MISSING_ATTRIBUTE, SCENE_MISSING_KEY, SCENE_UNSET_ATTRIBUTE, SCENE_WRONG_KIND, SCENE_WRONG_SIZE,
 };
 use glisten_front::hir::{Scalar, Type, TypeId, Types};
 use glisten_front::link::{Attribute, Program};
@@ -15,13 +15,13 @@ use toml::de::DeTable;
 
 const KEYS: &[&str] = &["size", "values", "divisor", "kind"];
 
-/// The data of each attribute of the program, in the program's order.
+/// The data of each attribute of the program, in the program's order. `reaching` says which of them can reach an output.
 pub(super) fn load_attributes(
     reader: &mut Reader,
     draw: &DeTable<'_>,
     program: &Program,
     mesh: Option<&Mesh>,
-    place: Span,
+    (place, reaching): (Span, &dyn Fn() -> Vec<bool>),
 ) -> Vec<Option<AttributeData>> {
     let attributes = &program.interface.attributes;
     let names: Vec<&str> = attributes.iter().map(|attribute| attribute.name.as_str()).collect();
@@ -58,12 +58,26 @@ pub(super) fn load_attributes(
             });
         }
     }
-    for (attribute, given) in attributes.iter().zip(given) {
-        if attribute.active && !given {
-            report_missing(reader, program, attribute, draw, place);
+    let missing = |(attribute, given): (&Attribute, &bool)| attribute.active && !given;
+    if attributes.iter().zip(&given).any(missing) {
+        let reaching = reaching();
+        for (index, (attribute, given)) in attributes.iter().zip(&given).enumerate() {
+            match reaching.get(index) {
+                _ if !missing((attribute, given)) => {}
+                Some(false) => report_unset(reader, program, attribute, draw, place),
+                _ => report_missing(reader, program, attribute, draw, place),
+            }
         }
     }
     data
+}
+
+/// Reports an attribute without data on which no output depends.
+fn report_unset(reader: &mut Reader, program: &Program, attribute: &Attribute, draw: &DeTable<'_>, place: Span) {
+    let span = draw.get("attributes").map_or(place, |node| reader.span(node.span()));
+    let message = format!("attribute `{}` has no data, and reaches no output", attribute.name);
+    let declared = global_span(program, attribute);
+    reader.report(Diagnostic::new(&SCENE_UNSET_ATTRIBUTE, span, message).label(declared, "declared here"));
 }
 
 fn report_missing(reader: &mut Reader, program: &Program, attribute: &Attribute, draw: &DeTable<'_>, place: Span) {

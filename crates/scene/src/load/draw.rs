@@ -74,7 +74,9 @@ pub(super) fn load_draw(loader: &mut Loader<'_>, node: &Node<'_>, around: &Surro
     };
     let view = View::load(&mut loader.reader, table, around.camera, framebuffer);
     let material = load_material(&mut loader.reader, table, around.material, &program);
-    let attributes = load_attributes(&mut loader.reader, table, &program, mesh.as_ref(), place);
+    let library = loader.library;
+    let reaching = || library.attributes_that_reach(&program);
+    let attributes = load_attributes(&mut loader.reader, table, &program, mesh.as_ref(), (place, &reaching));
     let instances = loader.reader.count(table, "instances", 1, 0..=MAX_COUNT);
     let space = loader.reader.choice_at(table, "light_space", LightSpace::World, LIGHT_SPACES);
     let context = Context { program: &program, view: &view, lighting: &around.lighting, space, conventional };

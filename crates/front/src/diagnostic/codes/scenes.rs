@@ -59,6 +59,11 @@ codes! {
         "The program reads a sampler for which the scene has no texture. Every texel reads as (0, 0, 0, 1), as with \
          an incomplete texture in OpenGL."
         bad Text("[draw.textures]  # and the shader reads `tex`"), good Text("[draw.textures]\ntex = { width = 1, height = 1, values = [1, 1, 1, 1] }");
+    SCENE_UNSET_ATTRIBUTE = "W0906" "inactive-attribute-without-data" Warning "OpenGL 3.2 §2.11.3"
+        "The vertex shader reads an attribute for which the scene has no data, and nothing that it computes from it can reach \
+         a position or an output. It is (0, 0, 0, 1). Where it could reach one, missing data is an error."
+        bad Text("[draw.attributes]  # and the shader stores `tangent` in a variable that nothing reads"),
+        good Text("[draw.attributes]\ntangent = { size = 3, values = [1, 0, 0] }");
     BOUND_EXPLAINED = "W0905" "bound-explained" Note "Vulkan, Precision of SPIR-V Instructions"
         "`verify` names the operations that contribute most to the bound of the worst pixel: if one of them were \
          exact, the envelope there would be narrower. A GPU may be off by that much. If the bound is wider than you \
