@@ -78,7 +78,7 @@ fn main() -> ExitCode {
             return ExitCode::FAILURE;
         }
     };
-    let gpu = match Gpu::new(None) {
+    let gpu = match Gpu::new(Some("software")) {
         Ok(gpu) => gpu,
         Err(error) => {
             eprintln!("{error}");

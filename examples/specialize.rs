@@ -35,7 +35,7 @@ fn main() -> Result<ExitCode, Box<dyn std::error::Error>> {
     if folders.is_empty() {
         return Err("name a folder of scenes".into());
     }
-    let gpu = Gpu::new(None)?;
+    let gpu = Gpu::new(Some("software"))?;
     println!(
         "| scene | SPIR-V | | lines | | operations | | bytes | verify |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- |"
     );

@@ -18,7 +18,7 @@ fn main() -> Result<ExitCode, Box<dyn std::error::Error>> {
         let own = ["triangle", "phong", "sphere"];
         scenes = own.map(|name| format!("{}/fixtures/scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"))).to_vec();
     }
-    let gpu = Gpu::new(None)?;
+    let gpu = Gpu::new(Some("software"))?;
     let runners = OnGpu::both(&gpu);
     let runners = [&runners[0] as &dyn Runner, &runners[1]];
     let mut all_hold = true;

@@ -32,7 +32,7 @@ pub(super) struct CompileArgs {
     /// Shaders, or `-` for standard input
     #[arg(required_unless_present = "programs", value_name = "FILE")]
     files: Vec<String>,
-    /// The output folder
+    /// The output folder; `-` writes the code of one stage for one target to standard output
     #[arg(short, long, value_name = "DIR", required_unless_present_any = ["check", "emit"])]
     output: Option<PathBuf>,
     /// The target to write (repeatable; default: wgsl and spirv)
@@ -114,7 +114,11 @@ pub(super) fn run(args: &CompileArgs, console: &Console) -> Outcome {
         session.add(&mut unit.batch, notes);
     }
     let exit = session.tell_units(&units, false)?;
-    if !args.check {
+    if plan.is_standard_output() && !args.check {
+        if let Some((_, code)) = outputs.first() {
+            console.output_bytes(code)?;
+        }
+    } else if !args.check {
         plan.write(&outputs)?;
     }
     if let Some(depfile) = &args.depfile
@@ -144,8 +148,37 @@ impl OutputPlan {
         let conventions = args.conventions.conventions(args.debug_lines);
         let (optimize, left_out) = (args.optimize, args.left_out);
         let plan = Self { folder, targets, conventions, optimize, left_out };
+        if plan.is_standard_output() {
+            plan.refuse_several(args, groups)?;
+        }
         plan.refuse_collisions(groups)?;
         Ok(plan)
+    }
+
+    /// Whether the code goes to standard output.
+    fn is_standard_output(&self) -> bool {
+        self.folder.as_os_str() == "-"
+    }
+
+    /// Only one text fits into standard output.
+    fn refuse_several(&self, args: &CompileArgs, groups: &[Group]) -> Result<(), Failure> {
+        let lone = match groups {
+            [one] => one.is_lone(),
+            _ => false,
+        };
+        let (problem, help) = if args.depfile.is_some() {
+            ("a depfile names no file", "leave `--depfile` out, or name a folder")
+        } else if !lone {
+            ("there are several stages", "name one file, or a folder with `-o DIR`")
+        } else if args.targets.is_empty() {
+            ("no target is given", "add `--target wgsl`, or name a folder with `-o DIR`")
+        } else if self.targets.len() > 1 {
+            ("there are several targets", "name one target, or a folder with `-o DIR`")
+        } else {
+            return Ok(());
+        };
+        let message = format!("`-o -` writes one stage for one target to standard output: {problem}");
+        Err(Failure::usage(message).help(help))
     }
 
     /// The names of a program's outputs, the reflection last.

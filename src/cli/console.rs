@@ -66,8 +66,13 @@ impl Console {
 
     /// Writes a result to standard output.
     pub(super) fn output(&self, text: &str) -> Result<(), Failure> {
+        self.output_bytes(text.as_bytes())
+    }
+
+    /// Writes a result that need not be text to standard output.
+    pub(super) fn output_bytes(&self, bytes: &[u8]) -> Result<(), Failure> {
         let mut stdout = io::stdout().lock();
-        match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
+        match stdout.write_all(bytes).and_then(|()| stdout.flush()) {
             Ok(()) => Ok(()),
             Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Err(Failure::OutputClosed),
             Err(error) => Err(Failure::usage(format!("cannot write to standard output: {error}"))),

@@ -105,6 +105,8 @@ pub(super) fn text_of(name: &str, bytes: Vec<u8>) -> Result<Arc<str>, ReadError>
         binary.help = looks_like.map(str::to_owned);
         return Err(binary);
     }
+    let mut bytes = bytes;
+    bytes.pop_if(|last| *last == END_OF_FILE);
     Ok(match String::from_utf8(bytes) {
         Ok(text) => text.into(),
         Err(error) => String::from_utf8_lossy(error.as_bytes()).into(),
@@ -121,12 +123,17 @@ fn binary(bytes: &[u8]) -> Option<Option<&'static str>> {
         (&[0xfe, 0xff], "it looks like text in UTF-16; save it as UTF-8"),
     ];
     let known = MAGIC.iter().find(|(magic, _)| bytes.starts_with(magic)).map(|(_, what)| *what);
-    let has_nul = bytes.contains(&0);
-    let odd = bytes.iter().filter(|byte| !byte.is_ascii_graphic() && !byte.is_ascii_whitespace()).count();
-    // Other scripts in comments are legal as UTF-8, so bytes above 127 count only if they are not UTF-8.
-    let mostly_odd = odd * 10 > bytes.len() * 3 && std::str::from_utf8(bytes).is_err();
-    (has_nul || mostly_odd || known.is_some()).then_some(known)
+    // Comments may hold anything but NUL (§3.1), in any encoding, so bytes above 127 say nothing. No text has control
+    // bytes besides white space; one at the end is the mark of old systems for the end of a file.
+    let text = bytes.strip_suffix(&[END_OF_FILE]).unwrap_or(bytes);
+    let controls = text.iter().any(|byte| *byte < b' ' && !WHITE_SPACE.contains(byte));
+    (controls || known.is_some()).then_some(known)
 }
+
+/// The white space of GLSL (§3.1), the escape of a terminal or a two-byte encoding excluded.
+const WHITE_SPACE: &[u8] = b"\t\n\x0b\x0c\r";
+/// Control-Z.
+const END_OF_FILE: u8 = 0x1a;
 
 /// Writes a file completely: to a temporary name next to it, which is then renamed. Anything but a regular file (a
 /// pipe, `/dev/null`) is written to directly.
@@ -181,13 +188,18 @@ mod tests {
         assert!(text_of("x", "// こんにちは\n".as_bytes().to_vec()).is_ok());
         let latin1 = text_of("x", b"// caf\xe9\nvoid main() {}\n".to_vec()).expect("one odd byte is forgiven");
         assert!(latin1.contains('\u{fffd}'));
+        let shift_jis = b"// \x83e\x83N\x83X\x83`\x83\x83\x8d\xc0\x95W\n\x0bvoid main() {}\x0c".to_vec();
+        assert!(text_of("x", shift_jis).is_ok());
+        assert!(text_of("x", b"\x80\x81\x82\x83\x84\x85abc".to_vec()).is_ok());
+        assert!(text_of("x", b"void main() {}\n\x1a".to_vec()).is_ok_and(|text| text.ends_with("}\n")));
         for (bytes, code) in [
             (&b""[..], "E0013"),
             (b" \n\t", "E0013"),
             (b"void\0main", "E0014"),
             (b"\x03\x02\x23\x07abc", "E0014"),
             (b"\xff\xfe#\0v\0", "E0014"),
-            (b"\x80\x81\x82\x83\x84\x85abc", "E0014"),
+            (b"void \x01 main", "E0014"),
+            (b"void \x1b[31m main", "E0014"),
         ] {
             assert_eq!(text_of("x", bytes.to_vec()).expect_err("not text").code.id, code, "{bytes:?}");
         }

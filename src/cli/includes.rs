@@ -1,7 +1,8 @@
 //! [`DiskIncludes`]: finds the files that `#include` names on disk.
 //!
 //! *Holds:* `"x"` is searched next to the including file, then in the `-I` folders in order; `<x>` in the `-I`
-//! folders, then among the embedded modules (`<glisten/phong.glsl>`). The name of an included file is the path under
+//! folders, then among the embedded modules (`<glisten/phong.glsl>`). A path that begins with `/`, as all of
+//! ARB_shading_language_include do, starts at an `-I` folder, or else at the root of the disk. The name of an included file is the path under
 //! which it was found, so that diagnostics and depfiles show a path that opens.
 
 use super::files;
@@ -22,9 +23,14 @@ impl DiskIncludes {
     }
 
     fn candidates(&self, path: &str, form: IncludeForm, from: &str) -> Vec<PathBuf> {
+        let along = |path: &str| self.folders.iter().map(|folder| normal(&folder.join(path))).collect::<Vec<_>>();
+        let inner = path.trim_start_matches('/');
+        if inner != path {
+            return along(inner).into_iter().chain([normal(Path::new(path))]).collect();
+        }
         let folder = Path::new(from).parent().unwrap_or(Path::new(""));
-        let own = (form == IncludeForm::Quoted).then(|| folder.to_owned());
-        own.into_iter().chain(self.folders.iter().cloned()).map(|folder| normal(&folder.join(path))).collect()
+        let own = (form == IncludeForm::Quoted).then(|| normal(&folder.join(path)));
+        own.into_iter().chain(along(path)).collect()
     }
 }
 
@@ -103,6 +109,11 @@ mod tests {
         assert_eq!(text(IncludeForm::Angled, "a.glsl").as_deref(), Ok("library"));
         assert!(text(IncludeForm::Quoted, "b.glsl").expect_err("there is none").contains("no `"));
         assert!(DiskIncludes::new(&[]).resolve("a.glsl", IncludeForm::Angled, &from).is_err());
+        for form in [IncludeForm::Quoted, IncludeForm::Angled] {
+            assert_eq!(text(form, "/a.glsl").as_deref(), Ok("library"), "from the root of a folder of -I");
+        }
+        let absolute = path("src/a.glsl").to_string_lossy().into_owned();
+        assert_eq!(text(IncludeForm::Quoted, &absolute).as_deref(), Ok("folder"));
         assert!(text(IncludeForm::Quoted, "sub").expect_err("a folder").contains("is a folder"));
     }
 }

@@ -136,6 +136,13 @@ fn input(name: &str, args: &ProgramArgs, alone: bool) -> Result<Input, Failure> 
     }
 }
 
+/// Whether a file is there to be included: its name ends in `.glsl`, and it has no `main`.
+fn is_part(path: &Path) -> bool {
+    const MAIN: &[u8] = b"main";
+    stages::may_be_included(path)
+        && fs::read(path).is_ok_and(|bytes| !bytes.windows(MAIN.len()).any(|word| word == MAIN))
+}
+
 /// Adds all shaders in a folder and its subfolders, in the order of their names. Hidden folders are skipped, and
 /// links to folders are not followed, so that a cycle of links does no harm.
 fn scan(folder: &Path, found: &mut Vec<String>) -> Result<(), Failure> {
@@ -151,7 +158,7 @@ fn scan(folder: &Path, found: &mut Vec<String>) -> Result<(), Failure> {
             let path = entry.path();
             if kind.is_dir() && !hidden {
                 pending.push(path);
-            } else if !kind.is_dir() && stages::by_extension(&path).is_some() {
+            } else if !kind.is_dir() && stages::by_name(&path).is_some() && !is_part(&path) {
                 files.push(path);
             }
         }
@@ -217,6 +224,16 @@ mod tests {
             ("a.b.fs", "a.b", Some(Stage::Fragment)),
             ("lib.glsl", "lib", None),
             ("X.GEOM", "X", Some(Stage::Geometry)),
+            ("a/phong_vs.glsl", "phong", Some(Stage::Vertex)),
+            ("phong-FS.GLSL", "phong", Some(Stage::Fragment)),
+            ("vs_phong.glsl", "phong", Some(Stage::Vertex)),
+            ("deferred_light_vertex.glsl", "deferred_light", Some(Stage::Vertex)),
+            ("fragment.glsl", "program", Some(Stage::Fragment)),
+            ("a.vertex", "a", Some(Stage::Vertex)),
+            ("a.fragmentshader", "a", Some(Stage::Fragment)),
+            ("a.ps", "a", None),
+            ("waves.glsl", "waves", None),
+            ("_vs.glsl", "_vs", None),
         ] {
             assert_eq!(stages::stem(Path::new(name)), stem, "{name}");
             assert_eq!(stages::by_name(Path::new(name)), stage, "{name}");

@@ -57,7 +57,7 @@ enum LibCommand {
         /// The CPU reference only, or the GPU as well
         #[arg(long, value_enum, default_value_t)]
         backend: MeasureBackends,
-        /// The GPU to use, by a part of its name (default: the first software adapter)
+        /// The GPU to use, by a part of its name, or `software`
         #[arg(long, value_name = "NAME")]
         adapter: Option<String>,
         /// The format of the table

@@ -4,7 +4,7 @@ use super::args::{BindingArgs, DiagnosticFormat, LevelArgs, ProgramArgs, SourceA
 use super::console::Console;
 use super::exit::Outcome;
 use super::inputs;
-use super::session::Session;
+use super::session::{Session, Unit};
 use clap::Args;
 
 /// Check shaders and the programs that they form
@@ -43,5 +43,19 @@ pub(super) fn run(args: &LintArgs, console: &Console) -> Outcome {
             session.add(&mut unit.batch, glisten_front::lint::check(program));
         }
     }
+    if !units.is_empty() {
+        session.set_clean(format!("{}: nothing found", counted(&units)));
+    }
     session.tell_units(&units, true)
+}
+
+/// How many files and programs there are.
+fn counted(units: &[Unit]) -> String {
+    let n_files = units.iter().map(|unit| unit.group.inputs.len()).sum();
+    let n_programs = units.iter().filter(|unit| !unit.group.is_lone()).count();
+    let count = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
+    match n_programs {
+        0 => count(n_files, "file"),
+        _ => format!("{}, {}", count(n_files, "file"), count(n_programs, "program")),
+    }
 }

@@ -2,7 +2,7 @@
 
 use super::args::WithContractArgs;
 use super::console::Console;
-use super::exit::{Exit, Failure, Outcome};
+use super::exit::{Failure, Outcome};
 use super::files;
 use super::opengl;
 use super::pictures::Target;
@@ -73,7 +73,7 @@ enum PrecisionArg {
 pub(super) fn run(args: &RenderArgs, console: &Console) -> Outcome {
     args.backend.require()?;
     let target = Target::parse(&args.output)?;
-    let read = match args.scene.read(console)? {
+    let read = match args.scene.begin(console)? {
         Ok(read) => read,
         Err(exit) => return Ok(exit),
     };
@@ -81,11 +81,14 @@ pub(super) fn run(args: &RenderArgs, console: &Console) -> Outcome {
     let progress = Progress::new(console, 1);
     progress.say("drawing");
     let scene = if args.specialize { read.specialized(args.contract.contract()) } else { read.scene.clone() };
-    let picture = match draw(args, scene) {
-        Ok(picture) => picture,
+    let Drawing { picture, drawn_by } = match draw(args, scene) {
+        Ok(drawing) => drawing,
         Err(error) => return read.failed(error),
     };
     drop(progress);
+    if let Some(adapter) = drawn_by.filter(|_| read.is_human()) {
+        console.remark(&format!("drawn by {adapter}"));
+    }
     let (files, nans) = target.encode(&picture)?;
     if nans > 0 {
         console.remark(&format!("warning: {nans} numbers are NaN and are 0 in the PNG"));
@@ -93,15 +96,31 @@ pub(super) fn run(args: &RenderArgs, console: &Console) -> Outcome {
     for (path, bytes) in files {
         files::write(&path, &bytes)?;
     }
-    Ok(Exit::Ok)
+    let is_empty = !read.scene.draws.is_empty() && !picture.covered.contains(&true);
+    let found = if is_empty { vec![read.nothing_covered()] } else { Vec::new() };
+    read.finish(found)
 }
 
-fn draw(args: &RenderArgs, scene: Scene) -> Result<Picture, DrawError> {
+/// A picture, and the adapter and driver that drew it, if it was a GPU.
+struct Drawing {
+    picture: Picture,
+    drawn_by: Option<String>,
+}
+
+impl From<Picture> for Drawing {
+    fn from(picture: Picture) -> Self {
+        Self { picture, drawn_by: None }
+    }
+}
+
+fn draw(args: &RenderArgs, scene: Scene) -> Result<Drawing, DrawError> {
     let via = args.via.into();
     match args.backend {
         Backend::Gpu => {
             let gpu = args.scene.gpu()?;
-            args.scene.within_time(move || Ok(gpu.render(&scene, via)?.picture))
+            let drawn_by = Some(gpu.adapter().to_string());
+            let picture = args.scene.within_time(move || Ok(gpu.render(&scene, via)?.picture))?;
+            Ok(Drawing { picture, drawn_by })
         }
         Backend::Cpu => {
             let precision = match args.precision {
@@ -110,8 +129,8 @@ fn draw(args: &RenderArgs, scene: Scene) -> Result<Picture, DrawError> {
             };
             let options =
                 RenderOptions { precision, lines: LineRule::OpenGl, mark_edges: false, ..RenderOptions::default() };
-            args.scene.within_time(move || Ok(glisten_reference::render(&scene, &options)?))
+            Ok(args.scene.within_time(move || Ok(glisten_reference::render(&scene, &options)?))?.into())
         }
-        Backend::Gl => opengl::draw(&args.scene.machine, scene),
+        Backend::Gl => Ok(opengl::draw(&args.scene.machine, scene)?.into()),
     }
 }

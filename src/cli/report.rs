@@ -103,6 +103,7 @@ fn write(args: &ReportArgs, console: &Console, report: &Report) -> Outcome {
     if !console.is_quiet() {
         console.output(&report.table())?;
     }
+    console.remark(&format!("drawn by {}, driver {}", report.adapter.name, report.adapter.driver));
     console.remark(&format!("wrote {}", page.display()));
     Ok(Exit::Ok)
 }

@@ -10,7 +10,8 @@ use crate::scene::{self, DiskFiles, Scene};
 use crate::specialize::{Contract, specialize_scene_by};
 use clap::{Args, ValueEnum};
 use glisten_front::diagnostic::Diagnostic;
-use glisten_front::source::SourceMap;
+use glisten_front::diagnostic::codes::scenes::NOTHING_COVERED;
+use glisten_front::source::{SourceMap, Span};
 use glisten_gpu::{Error, Gpu, Via};
 use std::sync::mpsc::{self, RecvTimeoutError};
 use std::time::Duration;
@@ -38,7 +39,8 @@ pub(super) struct MachineArgs {
     /// Give up after this many seconds
     #[arg(long, value_name = "SECONDS", default_value_t = 60.0, value_parser = parse_seconds)]
     timeout: f64,
-    /// The GPU to use, by a part of its name (default: the first software adapter)
+    /// The GPU to use, by a part of its name, or `software` (default: `GLISTEN_ADAPTER` of the environment, or the
+    /// first hardware adapter, or else the first software adapter)
     #[arg(long, value_name = "NAME")]
     adapter: Option<String>,
 }
@@ -88,16 +90,39 @@ impl Read<'_> {
         &self.batch.sources
     }
 
+    /// Whether lines for people may stand between the diagnostics.
+    pub(super) fn is_human(&self) -> bool {
+        self.session.is_human()
+    }
+
     /// Reports a failure to draw the scene.
-    pub(super) fn failed(mut self, error: DrawError) -> Result<Exit, Failure> {
+    pub(super) fn failed(self, error: DrawError) -> Result<Exit, Failure> {
         match error {
-            DrawError::Failure(failure) => Err(failure),
-            DrawError::Diagnostics(diagnostics) => {
-                self.batch.diagnostics.clear();
-                self.session.add(&mut self.batch, diagnostics);
-                Ok(self.session.tell(&[&self.batch], false)?.max(Exit::Content))
-            }
+            DrawError::Failure(failure) => self.finish(Vec::new()).and(Err(failure)),
+            DrawError::Diagnostics(diagnostics) => Ok(self.finish(diagnostics)?.max(Exit::Content)),
         }
+    }
+
+    /// Reports what drawing found, and what has not been reported yet, as one list. Returns the exit code.
+    pub(super) fn finish(mut self, found: Vec<Diagnostic>) -> Result<Exit, Failure> {
+        if self.is_human() && found.is_empty() {
+            return Ok(Exit::Ok);
+        }
+        self.session.add(&mut self.batch, found);
+        self.session.tell(&[&self.batch], false)
+    }
+
+    /// The warning that nothing was drawn: no pixel is covered.
+    pub(super) fn nothing_covered(&self) -> Diagnostic {
+        let scene = self.sources().files().next().map(|(id, _)| self.sources().file(id));
+        let span = scene.map_or_else(Span::default, |scene| {
+            let at = scene.text().find("[[draw").map_or(0..0, |at| at..at + "[[draw".len());
+            Span::new(scene.base() + at.start as u32, scene.base() + at.end as u32)
+        });
+        Diagnostic::new(&NOTHING_COVERED, span, "nothing is covered: no fragment reached a pixel").help(
+            "look for triangles without area, a mesh outside the view, culled faces, a depth test that never passes, \
+             or a `discard` that always runs",
+        )
     }
 }
 
@@ -158,6 +183,19 @@ impl SceneArgs {
 
     /// Reads the scene and reports its diagnostics. Without a scene, returns the exit code.
     pub(super) fn read<'a>(&self, console: &'a Console) -> Result<Result<Read<'a>, Exit>, Failure> {
+        Ok(match self.begin(console)? {
+            Ok(mut read) if !read.is_human() => {
+                read.session.tell(&[&read.batch], false)?;
+                read.batch.diagnostics.clear();
+                Ok(read)
+            }
+            begun => begun,
+        })
+    }
+
+    /// Reads the scene. Its diagnostics are reported, for people at once, otherwise together with those of drawing
+    /// ([`Read::finish`]), so that they are one list. Without a scene, returns the exit code.
+    pub(super) fn begin<'a>(&self, console: &'a Console) -> Result<Result<Read<'a>, Exit>, Failure> {
         let mut session = self.session(console)?;
         let loaded = guard::guarded(|| scene::load(&self.scene, &DiskFiles, session.compiler()));
         let loaded = loaded.map_err(|panic| {
@@ -165,10 +203,15 @@ impl SceneArgs {
         })?;
         let mut batch = Batch { sources: loaded.sources, diagnostics: Vec::new() };
         session.add(&mut batch, loaded.diagnostics);
-        let exit = session.tell(&[&batch], false)?;
-        Ok(match loaded.scene {
-            Some(scene) if exit == Exit::Ok => Ok(Read { scene, session, batch }),
-            _ => {
+        let exit = session.exit(&batch);
+        let scene = loaded.scene.filter(|_| exit == Exit::Ok);
+        if session.is_human() || scene.is_none() {
+            session.tell(&[&batch], false)?;
+            batch.diagnostics.clear();
+        }
+        Ok(match scene {
+            Some(scene) => Ok(Read { scene, session, batch }),
+            None => {
                 let exit = if loaded.io_error { exit.max(Exit::Usage) } else { exit };
                 Err(exit.max(Exit::Content))
             }

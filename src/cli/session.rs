@@ -13,8 +13,9 @@ use super::includes::DiskIncludes;
 use super::inputs::{Group, Input};
 use super::progress::Progress;
 use glisten_front::compiler::{Compiler, Source};
+use glisten_front::diagnostic::codes::scenes;
 use glisten_front::diagnostic::write::{self, Finding};
-use glisten_front::diagnostic::{Diagnostic, Severity};
+use glisten_front::diagnostic::{Code, Diagnostic, Severity};
 use glisten_front::link::Program;
 use glisten_front::source::{SourceMap, Span};
 use rayon::prelude::*;
@@ -57,6 +58,8 @@ pub(super) struct Session<'a> {
     configs: Configs,
     pool: rayon::ThreadPool,
     dropped: usize,
+    /// The summary of a run that finds nothing.
+    clean: Option<String>,
 }
 
 impl<'a> Session<'a> {
@@ -80,6 +83,7 @@ impl<'a> Session<'a> {
             configs: Configs::new(levels.levels()?),
             pool,
             dropped: 0,
+            clean: None,
         })
     }
 
@@ -96,6 +100,22 @@ impl<'a> Session<'a> {
     /// Sets the format of diagnostics.
     pub(super) fn set_format(&mut self, format: DiagnosticFormat) {
         self.format = format;
+    }
+
+    /// Sets the summary of a run that finds nothing.
+    pub(super) fn set_clean(&mut self, summary: String) {
+        self.clean = Some(summary);
+    }
+
+    /// Whether diagnostics are for people, so that they may be told bit by bit and other lines may stand between them.
+    pub(super) fn is_human(&self) -> bool {
+        self.format == DiagnosticFormat::Human
+    }
+
+    /// The exit code of the diagnostics of a batch and of the configurations.
+    pub(super) fn exit(&self, batch: &Batch) -> Exit {
+        let batches = self.configs.errors.iter().chain([batch]);
+        batches.map(|batch| Exit::of(&batch.diagnostics)).max().unwrap_or_default()
     }
 
     /// Compiles every group and applies the levels.
@@ -121,7 +141,8 @@ impl<'a> Session<'a> {
         units.into_iter().map(|(unit, _)| unit).collect()
     }
 
-    /// Adds diagnostics to a batch by the levels of the files that they are in, and sorts the batch by position in the text.
+    /// Adds diagnostics to a batch by the levels of the files that they are in, and sorts the batch by position in the
+    /// text. What a scene lacks comes last, since another diagnostic may be the reason for it.
     pub(super) fn add(&mut self, batch: &mut Batch, found: impl IntoIterator<Item = Diagnostic>) {
         let sources = &batch.sources;
         for mut diagnostic in found {
@@ -131,7 +152,9 @@ impl<'a> Session<'a> {
                 batch.diagnostics.push(diagnostic);
             }
         }
-        batch.diagnostics.sort_by_key(|diagnostic| sources.call_site(diagnostic.primary.span).start);
+        batch
+            .diagnostics
+            .sort_by_key(|diagnostic| (is_told_last(diagnostic), sources.call_site(diagnostic.primary.span).start));
     }
 
     /// Reports all diagnostics, to standard output if `to_output` (as `lint` does), otherwise to standard error. Each
@@ -159,7 +182,7 @@ impl<'a> Session<'a> {
             self.console.message(&text);
         }
         if self.format == DiagnosticFormat::Human
-            && let Some(summary) = summary(&told.findings, self.dropped)
+            && let Some(summary) = summary(&told.findings, self.dropped).or(self.clean.clone())
         {
             self.console.remark(&summary);
         }
@@ -171,6 +194,18 @@ impl<'a> Session<'a> {
         let batches: Vec<&Batch> = units.iter().flat_map(|unit| unit.unread.iter().chain([&unit.batch])).collect();
         self.tell(&batches, to_output)
     }
+}
+
+/// Whether the diagnostic is about something that is not there.
+fn is_told_last(diagnostic: &Diagnostic) -> bool {
+    static LAST: &[&Code] = &[
+        &scenes::SCENE_MISSING_ATTRIBUTE,
+        &scenes::SCENE_UNSET_ATTRIBUTE,
+        &scenes::SCENE_UNSET_UNIFORM,
+        &scenes::SCENE_UNSET_TEXTURE,
+        &scenes::NOTHING_COVERED,
+    ];
+    LAST.iter().any(|code| code.id == diagnostic.code.id)
 }
 
 /// The compiler of the command line. It reports everything: the session applies the levels of each file.

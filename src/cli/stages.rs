@@ -43,29 +43,83 @@ impl From<StageArg> for Stage {
     }
 }
 
+/// Words that tell the stage: as an extension (`phong.vertex`), and before or after the name of a `.glsl` file, with a sign
+/// between (`phong_vs.glsl`, `vs-phong.glsl`) or alone (`vs.glsl`). Those of two letters are other things as extensions.
+static WORDS: &[(&str, Stage)] = &[
+    ("vertexshader", Stage::Vertex),
+    ("vertex", Stage::Vertex),
+    ("vert", Stage::Vertex),
+    ("vs", Stage::Vertex),
+    ("vp", Stage::Vertex),
+    ("fragmentshader", Stage::Fragment),
+    ("fragment", Stage::Fragment),
+    ("frag", Stage::Fragment),
+    ("pixel", Stage::Fragment),
+    ("fs", Stage::Fragment),
+    ("fp", Stage::Fragment),
+    ("ps", Stage::Fragment),
+    ("geometryshader", Stage::Geometry),
+    ("geometry", Stage::Geometry),
+    ("geom", Stage::Geometry),
+    ("gs", Stage::Geometry),
+];
+/// The signs between such a word and the rest of a name.
+const SIGNS: [char; 3] = ['_', '-', '.'];
+/// The name of a program whose files are named by their stages alone.
+const NAMELESS: &str = "program";
+
 /// The stage of a file extension.
-pub(super) fn by_extension(path: &Path) -> Option<Stage> {
+fn by_extension(path: &Path) -> Option<Stage> {
     let extension = path.extension()?.to_str()?;
-    EXTENSIONS.iter().find(|(known, _)| known.eq_ignore_ascii_case(extension)).map(|(_, stage)| *stage)
+    let long = WORDS.iter().filter(|(word, _)| word.len() > 2);
+    EXTENSIONS.iter().chain(long).find(|(known, _)| known.eq_ignore_ascii_case(extension)).map(|(_, stage)| *stage)
 }
 
-/// The stage of a file name, including `phong.vert.glsl`, which a folder scan does not pick up.
+/// The stage that a file name tells, and the name without the part that tells it.
+fn read(path: &Path) -> Option<(Stage, String)> {
+    let name = path.file_name()?.to_str()?;
+    if let Some(stage) = by_extension(path) {
+        return Some((stage, stem_of(name)));
+    }
+    let inner = without_glsl(name)?;
+    if let Some(stage) = by_extension(Path::new(inner)) {
+        return Some((stage, stem_of(inner)));
+    }
+    let lower = inner.to_ascii_lowercase();
+    WORDS.iter().find_map(|(word, stage)| {
+        let rest = match (lower.strip_suffix(word), lower.strip_prefix(word)) {
+            (Some(""), _) => NAMELESS,
+            (Some(before), _) if before.ends_with(SIGNS) => inner.get(..before.len() - 1)?,
+            (_, Some(after)) if after.starts_with(SIGNS) => inner.get(word.len() + 1..)?,
+            _ => return None,
+        };
+        (!rest.is_empty()).then(|| (*stage, rest.to_owned()))
+    })
+}
+
+/// The stage of a file name.
 pub(super) fn by_name(path: &Path) -> Option<Stage> {
-    by_extension(path).or_else(|| by_extension(Path::new(without_glsl(path)?)))
+    read(path).map(|(stage, _)| stage)
 }
 
-fn without_glsl(path: &Path) -> Option<&str> {
-    path.file_name()?.to_str()?.strip_suffix(".glsl")
+/// Whether the name ends in `.glsl`, as those of files do that others include.
+pub(super) fn may_be_included(path: &Path) -> bool {
+    path.file_name().and_then(|name| without_glsl(name.to_str()?)).is_some()
 }
 
-/// The name without the part that says the stage: `phong` for `phong.vert` and for `phong.vert.glsl`.
+fn without_glsl(name: &str) -> Option<&str> {
+    let (inner, extension) = name.rsplit_once('.')?;
+    extension.eq_ignore_ascii_case("glsl").then_some(inner)
+}
+
+/// The name without the part that tells the stage: `phong` for `phong.vert`, `phong.vert.glsl` and `phong_vs.glsl`.
 pub(super) fn stem(path: &Path) -> String {
     let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-    let inner = match without_glsl(path) {
-        Some(inner) if by_extension(Path::new(inner)).is_some() => inner,
-        _ => &name,
-    };
-    Path::new(inner).file_stem().map_or(name.clone(), |stem| stem.to_string_lossy().into_owned())
+    read(path).map_or_else(|| stem_of(&name), |(_, stem)| stem)
+}
+
+fn stem_of(name: &str) -> String {
+    Path::new(name).file_stem().map_or(name.to_owned(), |stem| stem.to_string_lossy().into_owned())
 }
 
 /// All extensions with their dots, for messages.

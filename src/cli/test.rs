@@ -30,7 +30,7 @@ pub(super) struct TestArgs {
     /// The form of the code that the GPU runs
     #[arg(long, value_enum, default_value_t)]
     via: super::scenes::ViaArg,
-    /// The GPU to use, by a part of its name (default: the first software adapter)
+    /// The GPU to use, by a part of its name, or `software`
     #[arg(long, value_name = "NAME")]
     adapter: Option<String>,
     /// Give up on a draw after this many seconds
@@ -135,10 +135,7 @@ type Named = (&'static str, Box<dyn TestBackend>);
 fn backends(args: &TestArgs) -> Result<Vec<Named>, Failure> {
     let mut backends: Vec<Named> = Vec::new();
     if args.backend != TestBackends::Cpu {
-        let gpu = Gpu::new(args.adapter.as_deref()).map_err(|error| {
-            let exit = if error.is_environment() { Exit::Machine } else { Exit::Content };
-            Failure::new(exit, error.to_string())
-        })?;
+        let gpu = Gpu::new(args.adapter.as_deref()).map_err(super::scenes::gpu_failure)?;
         let gpu = gpu.with_timeout(Duration::from_secs(args.timeout));
         backends.push(("gpu", Box::new(GpuBackend { gpu, via: args.via.into() })));
     }

@@ -10,11 +10,11 @@ use super::progress::Progress;
 use super::scenes::{DrawError, SceneArgs};
 use super::timed::{TimedGpu, TimedReference};
 use crate::scene::Scene;
-use crate::verify::{self, Options, Runner, Verification, verify};
+use crate::verify::{self, Conclusion, Options, Runner, Verification, verify};
 use clap::{Args, ValueEnum};
 use glisten_front::diagnostic::write;
 use glisten_front::source::SourceMap;
-use glisten_gpu::Via;
+use glisten_gpu::{AdapterFacts, Via};
 use glisten_scene::compare::{Criterion, Verdict, flip};
 use serde::Serialize;
 use std::path::PathBuf;
@@ -37,6 +37,9 @@ pub(super) struct VerifyArgs {
     /// Accept any number of pixels that the reference cannot decide
     #[arg(long)]
     allow_undecided: bool,
+    /// Accept a picture that shows nothing, such as one in which no pixel is covered
+    #[arg(long)]
+    allow_inconclusive: bool,
     /// Excuse no pixel because of known faults of the driver
     #[arg(long)]
     no_known_faults: bool,
@@ -124,12 +127,16 @@ struct Report<'a> {
     skipped: &'a [Skip],
     /// The number of pixels at which SPIR-V and WGSL drew different bits; null if only one of them ran.
     forms_bit_unequal: Option<u64>,
+    verdict: Conclusion,
     holds: bool,
+    /// The adapter that drew, and its driver.
+    adapter: &'a str,
+    driver: &'a str,
 }
 
 /// Runs the command.
 pub(super) fn run(args: &VerifyArgs, console: &Console) -> Outcome {
-    let read = match args.scene.read(console)? {
+    let read = match args.scene.begin(console)? {
         Ok(read) => read,
         Err(exit) => return Ok(exit),
     };
@@ -142,8 +149,8 @@ pub(super) fn run(args: &VerifyArgs, console: &Console) -> Outcome {
     let progress = Progress::new(console, vias.len() + 1);
     let drawn = args.specialize.then(|| read.specialized(args.contract.contract()));
     let scenes = (&read.scene, drawn.as_ref());
-    let verification = match compare(args, scenes, read.sources(), &vias, &progress) {
-        Ok(verification) => verification,
+    let (verification, facts) = match compare(args, scenes, read.sources(), &vias, &progress) {
+        Ok(compared) => compared,
         Err(error) => return read.failed(error),
     };
     drop(progress);
@@ -163,7 +170,16 @@ pub(super) fn run(args: &VerifyArgs, console: &Console) -> Outcome {
     let holds = verification.holds();
     let text = match args.format {
         ResultFormat::Json => {
-            let report = Report { worse: &worse, runs: &runs, skipped: &skipped, forms_bit_unequal, holds };
+            let report = Report {
+                worse: &worse,
+                runs: &runs,
+                skipped: &skipped,
+                forms_bit_unequal,
+                verdict: verification.conclusion(),
+                holds,
+                adapter: &facts.name,
+                driver: &facts.driver,
+            };
             serde_json::to_string_pretty(&report).expect("figures are always JSON") + "\n"
         }
         ResultFormat::Human => {
@@ -181,8 +197,12 @@ pub(super) fn run(args: &VerifyArgs, console: &Console) -> Outcome {
             text
         }
     };
+    if args.format == ResultFormat::Human && read.is_human() {
+        console.remark(&format!("drawn by {facts}"));
+    }
     console.output(&text)?;
-    Ok(if holds { Exit::Ok } else { Exit::Content })
+    let exit = if holds { Exit::Ok } else { Exit::Content };
+    Ok(read.finish(Vec::new())?.max(exit))
 }
 
 /// Draws a scene in the place of another.
@@ -208,7 +228,7 @@ fn compare(
     sources: &SourceMap,
     vias: &[Via],
     progress: &Progress,
-) -> Result<Verification, DrawError> {
+) -> Result<(Verification, AdapterFacts), DrawError> {
     let machine = &args.scene.machine;
     let gpu = Arc::new(args.scene.gpu()?);
     let runners: Vec<TimedGpu<'_>> = vias.iter().map(|via| TimedGpu::new(&gpu, *via, machine, progress)).collect();
@@ -218,11 +238,12 @@ fn compare(
         criterion: args.tolerance.map_or(Criterion::Envelope, Criterion::Tolerance),
         excuse_known_faults: !args.no_known_faults,
         allow_undecided: args.allow_undecided,
+        allow_inconclusive: args.allow_inconclusive,
         sources: Some(sources),
         reference: &TimedReference::new(machine, progress),
         ..Options::default()
     };
-    Ok(verify(scene, &runners, &options)?)
+    Ok((verify(scene, &runners, &options)?, gpu.adapter().clone()))
 }
 
 fn worst_of(runs: &[Run]) -> Option<Run> {
@@ -254,7 +275,7 @@ fn human(run: &Run, allow_undecided: bool) -> String {
     let faults: Vec<String> =
         verdict.known_faults.iter().map(|count| format!("{} ({})", count.pixels, count.fault)).collect();
     let faults = (!faults.is_empty()).then(|| ("known faults", faults.join(", ")));
-    let mark = if verdict.holds(allow_undecided) { "holds" } else { "DOES NOT HOLD" };
+    let mark = verify::mark(verdict.conclusion(allow_undecided));
     let mut text = format!("{}: {mark}\n", run.via);
     for (name, value) in rows.into_iter().chain(faults) {
         text.push_str(&format!("  {name:18} {value}\n"));

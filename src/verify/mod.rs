@@ -51,6 +51,7 @@ use glisten_front::diagnostic::Diagnostic;
 use glisten_front::source::SourceMap;
 use glisten_reference::domain::faults::Faults;
 use glisten_reference::{LineRule, Precision, RenderOptions};
+pub use glisten_scene::compare::Conclusion;
 use glisten_scene::compare::{self, Criterion, Verdict};
 use glisten_scene::picture::Picture;
 use std::fmt;
@@ -67,6 +68,8 @@ pub struct Options<'a> {
     pub excuse_known_faults: bool,
     /// Whether any number of undecided pixels is accepted. Default: no, at most 1 % of the covered pixels.
     pub allow_undecided: bool,
+    /// Whether a picture that shows nothing is accepted, such as one in which no pixel is covered. Default: no.
+    pub allow_inconclusive: bool,
     /// The texts of the scene (`Loaded::sources`), for the origin of the worst pixel's envelope.
     pub sources: Option<&'a SourceMap>,
     /// A folder for the pictures of a failed verification: one of each runner (`spirv.png`), `cpu.png` and
@@ -83,6 +86,7 @@ impl Default for Options<'_> {
             lines: LineRule::Vulkan,
             excuse_known_faults: true,
             allow_undecided: false,
+            allow_inconclusive: false,
             sources: None,
             failures: None,
             reference: &ThisThread,
@@ -137,12 +141,23 @@ pub struct Verification {
     /// The folder with the pictures of a failure, or the reason why they could not be written.
     pub pictures: Option<Result<PathBuf, String>>,
     allow_undecided: bool,
+    allow_inconclusive: bool,
 }
 
 impl Verification {
-    /// Whether all differences of all runs are explained.
+    /// Whether all differences of all runs are explained, and something was drawn at all.
     pub fn holds(&self) -> bool {
-        self.runs.iter().all(|run| run.verdict.holds(self.allow_undecided))
+        match self.conclusion() {
+            Conclusion::Holds => true,
+            Conclusion::Inconclusive => self.allow_inconclusive,
+            Conclusion::Fails => false,
+        }
+    }
+
+    /// The conclusion of all runs together: the worst of their conclusions.
+    pub fn conclusion(&self) -> Conclusion {
+        let conclusions = self.runs.iter().map(|run| run.verdict.conclusion(self.allow_undecided));
+        conclusions.max().unwrap_or(Conclusion::Inconclusive)
     }
 
     /// A picture of [`shares`](Self::shares): gray up to the allowed difference, red above it.
@@ -162,7 +177,7 @@ impl fmt::Display for Verification {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for run in &self.runs {
             let verdict = &run.verdict;
-            let mark = if verdict.holds(self.allow_undecided) { "holds" } else { "DOES NOT HOLD" };
+            let mark = mark(verdict.conclusion(self.allow_undecided));
             write!(f, "{}: {mark}: {} of {} pixels covered, ", run.runner, verdict.covered, verdict.pixels)?;
             write!(f, "{} outside, {} with another coverage, ", verdict.outside, verdict.coverage_mismatch)?;
             write!(f, "{} not finite on one side, ", verdict.finiteness_mismatch)?;
@@ -176,6 +191,15 @@ impl fmt::Display for Verification {
             Some(Err(why)) => writeln!(f, "the pictures could not be written: {why}"),
             None => Ok(()),
         }
+    }
+}
+
+/// The words of a report for a conclusion.
+pub fn mark(conclusion: Conclusion) -> &'static str {
+    match conclusion {
+        Conclusion::Holds => "holds",
+        Conclusion::Inconclusive => "INCONCLUSIVE: no pixel is covered",
+        Conclusion::Fails => "DOES NOT HOLD",
     }
 }
 
@@ -206,7 +230,7 @@ pub fn verify(scene: &Scene, runners: &[&dyn Runner], options: &Options<'_>) -> 
     }
     let note = Explanations::new(scene, options).add_to(&mut runs)?;
     let (reference, reference_milliseconds) = expected.into_picture();
-    let allow_undecided = options.allow_undecided;
+    let (allow_undecided, allow_inconclusive) = (options.allow_undecided, options.allow_inconclusive);
     let mut verification = Verification {
         reference,
         reference_milliseconds,
@@ -216,6 +240,7 @@ pub fn verify(scene: &Scene, runners: &[&dyn Runner], options: &Options<'_>) -> 
         note,
         pictures: None,
         allow_undecided,
+        allow_inconclusive,
     };
     if let Some(folder) = options.failures.filter(|_| !verification.holds()) {
         let difference = verification.difference();

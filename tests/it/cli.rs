@@ -12,10 +12,10 @@ const VERTEX: &str = "#version 150 core\nin vec4 pv;\nin vec4 cv;\nuniform mat4 
 const FRAGMENT: &str = "#version 150 core\nin vec4 vc;\nout vec4 fc;\nvoid main(void)\n{\n    fc = vc;\n}\n";
 
 /// A temporary folder with files, in which the program runs.
-struct Folder(TempDir);
+pub(crate) struct Folder(TempDir);
 
 impl Folder {
-    fn new(files: &[(&str, &[u8])]) -> Self {
+    pub(crate) fn new(files: &[(&str, &[u8])]) -> Self {
         let folder = Self(tempfile::tempdir().expect("a temporary folder"));
         for (name, bytes) in files {
             let path = folder.path(name);
@@ -25,25 +25,25 @@ impl Folder {
         folder
     }
 
-    fn triangle() -> Self {
+    pub(crate) fn triangle() -> Self {
         Self::new(&[("tri.vert", VERTEX.as_bytes()), ("tri.frag", FRAGMENT.as_bytes())])
     }
 
-    fn path(&self, name: &str) -> PathBuf {
+    pub(crate) fn path(&self, name: &str) -> PathBuf {
         self.0.path().join(name)
     }
 
-    fn command(&self, arguments: &[&str]) -> Command {
+    pub(crate) fn command(&self, arguments: &[&str]) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_glisten"));
         command.args(arguments).current_dir(self.0.path()).env("NO_COLOR", "1");
         command
     }
 
-    fn run(&self, arguments: &[&str]) -> Output {
+    pub(crate) fn run(&self, arguments: &[&str]) -> Output {
         self.command(arguments).stdin(Stdio::null()).output().expect("the program runs")
     }
 
-    fn run_with_input(&self, arguments: &[&str], input: &str) -> Output {
+    pub(crate) fn run_with_input(&self, arguments: &[&str], input: &str) -> Output {
         let mut child = self
             .command(arguments)
             .stdin(Stdio::piped())
@@ -56,14 +56,14 @@ impl Folder {
     }
 
     /// The findings of `lint --format json` and the exit code.
-    fn lint(&self, arguments: &[&str]) -> (Vec<Value>, i32) {
+    pub(crate) fn lint(&self, arguments: &[&str]) -> (Vec<Value>, i32) {
         let output = self.run(&[&["lint", "--format", "json"], arguments].concat());
         let text = out(&output);
         let findings: Vec<Value> = serde_json::from_str(&text).unwrap_or_else(|error| panic!("{error}: {text}"));
         (findings, code(&output))
     }
 
-    fn names(&self, folder: &str) -> Vec<String> {
+    pub(crate) fn names(&self, folder: &str) -> Vec<String> {
         let mut names: Vec<String> = fs::read_dir(self.path(folder))
             .map(|entries| {
                 entries.map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned()).collect()
@@ -74,19 +74,19 @@ impl Folder {
     }
 }
 
-fn out(output: &Output) -> String {
+pub(crate) fn out(output: &Output) -> String {
     String::from_utf8_lossy(&output.stdout).into_owned()
 }
 
-fn err(output: &Output) -> String {
+pub(crate) fn err(output: &Output) -> String {
     String::from_utf8_lossy(&output.stderr).into_owned()
 }
 
-fn code(output: &Output) -> i32 {
+pub(crate) fn code(output: &Output) -> i32 {
     output.status.code().unwrap_or_else(|| panic!("it ended by a signal: {output:?}"))
 }
 
-fn codes(findings: &[Value]) -> Vec<&str> {
+pub(crate) fn codes(findings: &[Value]) -> Vec<&str> {
     findings.iter().filter_map(|finding| finding["code"].as_str()).collect()
 }
 

@@ -51,7 +51,7 @@ pub(crate) fn reference(scene: &Scene, precision: Precision) -> Picture {
 /// The first software adapter.
 #[cfg(feature = "gpu")]
 pub(crate) fn gpu() -> Gpu {
-    Gpu::new(None).expect("these tests need Mesa's Vulkan driver: apt-get install mesa-vulkan-drivers")
+    Gpu::new(Some("software")).expect("these tests need Mesa's Vulkan driver: apt-get install mesa-vulkan-drivers")
 }
 
 /// Options of `verify` that excuse nothing.

@@ -14,6 +14,8 @@ mod envelope;
 #[cfg(feature = "reference")]
 mod exec;
 #[cfg(feature = "cli")]
+mod first_hour;
+#[cfg(feature = "cli")]
 mod gallery;
 #[cfg(feature = "gpu")]
 mod gpu;

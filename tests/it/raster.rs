@@ -67,7 +67,8 @@ struct Count {
 }
 
 fn count(scene: &Scene) -> Count {
-    let gpu = Gpu::new(None).expect("this test needs Mesa's Vulkan driver: apt-get install mesa-vulkan-drivers");
+    let gpu =
+        Gpu::new(Some("software")).expect("this test needs Mesa's Vulkan driver: apt-get install mesa-vulkan-drivers");
     let drawn = gpu.render(scene, Via::Spirv).expect("the scene draws").picture;
     let options = RenderOptions {
         precision: Precision::F32,
@@ -282,7 +283,8 @@ fn lines_by_the_rule_of_vulkan() {
 
 #[test]
 fn every_scene_of_the_repository_agrees_with_lavapipe() {
-    let gpu = Gpu::new(None).expect("this test needs Mesa's Vulkan driver: apt-get install mesa-vulkan-drivers");
+    let gpu =
+        Gpu::new(Some("software")).expect("this test needs Mesa's Vulkan driver: apt-get install mesa-vulkan-drivers");
     let options = RenderOptions {
         precision: Precision::Envelope,
         lines: LineRule::Vulkan,

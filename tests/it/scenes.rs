@@ -142,9 +142,9 @@ fn undeclared_names_name_the_nearest() {
     assert!(text.contains("did you mean `mc`?"), "{text}");
     let (code, _, text) = mistake("\"lights[0].power\"", "\"lights[0].powr\"");
     assert!(code == "E0907" && text.contains("lights[0].power"), "{text}");
-    // If an attribute's name is wrong, the intended attribute lacks its data, too.
+    // The intended attribute lacks its data, too, but the name is the error.
     let loaded = changed("cell = { size = 1", "cel = { size = 1");
-    assert_eq!(told(&loaded).len(), 2, "{:?}", told(&loaded));
+    assert_eq!(told(&loaded).len(), 1, "{:?}", told(&loaded));
     assert_eq!(mistake("ids = {", "tox = { width = 1, height = 1, values = [1, 1, 1, 1] }\nids = {").0, "E0907");
     assert_eq!(mistake("vertex = \"a.vert\"", "vertex = \"a.vert\"\ndynamic = [\"mcc\"]").0, "E0907");
     assert_eq!(mistake("[draw.uniforms]", "[draw.attribute_locations]\npw = 0\n[draw.uniforms]").0, "E0907");
@@ -189,7 +189,8 @@ fn kinds_must_agree_with_the_shader() {
 fn sizes_must_fit() {
     let (code, _, text) = mistake("mc = [1,0,0,0, ", "mc = [");
     assert!(code == "E0908" && text.contains("16 numbers, not 12"), "{text}");
-    assert_eq!(mistake("pv = { size = 3", "pv = { size = 5").0, "E0905");
+    assert_eq!(mistake("pv = { size = 3", "pv = { size = 0").0, "E0905");
+    assert_eq!(mistake("pv = { size = 3", "pv = { size = 5").0, "E0908");
     assert_eq!(mistake("pv = { size = 3", "pv = { size = 2").0, "E0908");
     assert_eq!(mistake("values = [1, 2, 3] }", "values = [1, 2] }").0, "E0908");
     assert_eq!(mistake("0, 1, 0, 1]", "0, 1, 0]").0, "E0908");

@@ -1,6 +1,7 @@
 //! [`Gpu`]: an adapter and its device, opened once and used for any number of scenes.
 
 use super::Error;
+use std::fmt;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
@@ -12,6 +13,17 @@ pub struct AdapterFacts {
     /// The driver's version text.
     pub driver: String,
 }
+
+impl fmt::Display for AdapterFacts {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}, driver {}", self.name, self.driver)
+    }
+}
+
+/// The environment variable that names the adapter to use, if the caller names none.
+pub const ADAPTER_VARIABLE: &str = "GLISTEN_ADAPTER";
+/// The name that stands for any software adapter.
+pub const SOFTWARE: &str = "software";
 
 /// An open device. It serves any number of scenes, one at a time, and keeps nothing of a scene.
 pub struct Gpu {
@@ -41,7 +53,9 @@ impl Gpu {
     /// The time limit of a scene, unless [`Gpu::with_timeout`] sets another.
     pub const DEFAULT_TIMEOUT: Duration = Duration::from_secs(60);
 
-    /// Opens the first software adapter of Vulkan, or the first whose name contains `adapter`, ignoring case.
+    /// Opens the first adapter of Vulkan whose name contains `adapter`, ignoring case, or the first software adapter if
+    /// that is [`SOFTWARE`]. Without a name, [`ADAPTER_VARIABLE`] may give one; else the first that can be opened counts,
+    /// hardware before software.
     ///
     /// # Errors
     /// [`Error::NoAdapter`], [`Error::UnknownAdapter`], or [`Error::Unsupported`] if the device cannot be opened.
@@ -52,7 +66,21 @@ impl Gpu {
             ..wgpu::InstanceDescriptor::new_without_display_handle()
         });
         let adapters = pollster::block_on(instance.enumerate_adapters(wgpu::Backends::VULKAN));
-        let chosen = choose(&adapters, adapter)?;
+        let kinds: Vec<(String, wgpu::DeviceType)> =
+            adapters.iter().map(wgpu::Adapter::get_info).map(|info| (info.name, info.device_type)).collect();
+        let wanted = adapter.map(str::to_owned).or_else(|| std::env::var(ADAPTER_VARIABLE).ok());
+        let order = order(&kinds, wanted.as_deref().filter(|name| !name.is_empty()))?;
+        let mut refused = None;
+        for chosen in order.into_iter().filter_map(|index| adapters.get(index)) {
+            match Self::open(chosen) {
+                Ok(gpu) => return Ok(gpu),
+                Err(error) => refused = refused.or(Some(error)),
+            }
+        }
+        Err(refused.unwrap_or(Error::NoAdapter { software: false, available: Vec::new() }))
+    }
+
+    fn open(chosen: &wgpu::Adapter) -> Result<Self, Error> {
         let info = chosen.get_info();
         let features = chosen.features() & WANTED;
         let limits = chosen.limits();
@@ -117,20 +145,38 @@ impl Gpu {
     }
 }
 
-fn choose<'a>(adapters: &'a [wgpu::Adapter], name: Option<&str>) -> Result<&'a wgpu::Adapter, Error> {
-    let Some(name) = name else {
-        return adapters
-            .iter()
-            .find(|adapter| adapter.get_info().device_type == wgpu::DeviceType::Cpu)
-            .ok_or(Error::NoAdapter);
+/// The adapters to try, by index, the best first: those that a name fits, or all of them.
+fn order(adapters: &[(String, wgpu::DeviceType)], wanted: Option<&str>) -> Result<Vec<usize>, Error> {
+    let is_software = |kind: wgpu::DeviceType| kind == wgpu::DeviceType::Cpu;
+    let available = || adapters.iter().map(|(name, _)| name.clone()).collect();
+    let wanted = wanted.map(str::to_lowercase);
+    let software = wanted.as_deref() == Some(SOFTWARE);
+    let fits = |(name, kind): &(String, wgpu::DeviceType)| match &wanted {
+        None => true,
+        Some(_) if software => is_software(*kind),
+        Some(wanted) => name.to_lowercase().contains(wanted),
     };
-    let wanted = name.to_lowercase();
-    adapters.iter().find(|adapter| adapter.get_info().name.to_lowercase().contains(&wanted)).ok_or_else(|| {
-        Error::UnknownAdapter {
-            name: name.into(),
-            available: adapters.iter().map(|adapter| adapter.get_info().name).collect(),
-        }
-    })
+    let mut order: Vec<usize> = (0..adapters.len()).filter(|&index| adapters.get(index).is_some_and(fits)).collect();
+    match wanted {
+        None => order.sort_by_key(|&index| adapters.get(index).map(|(_, kind)| rank(*kind))),
+        Some(_) => order.truncate(1),
+    }
+    match (order.is_empty(), wanted) {
+        (false, _) => Ok(order),
+        (true, Some(name)) if !software => Err(Error::UnknownAdapter { name, available: available() }),
+        (true, _) => Err(Error::NoAdapter { software, available: available() }),
+    }
+}
+
+/// The place of a kind of adapter among the others, the preferred one first.
+fn rank(kind: wgpu::DeviceType) -> u8 {
+    match kind {
+        wgpu::DeviceType::DiscreteGpu => 0,
+        wgpu::DeviceType::IntegratedGpu => 1,
+        wgpu::DeviceType::VirtualGpu => 2,
+        wgpu::DeviceType::Other => 3,
+        wgpu::DeviceType::Cpu => 4,
+    }
 }
 
 /// Keeps wgpu from panicking on errors outside every error scope.
@@ -154,6 +200,38 @@ fn refusal(error: &wgpu::Error) -> Error {
         wgpu::Error::Validation { description, .. } | wgpu::Error::Internal { description, .. } => {
             let lines: Vec<&str> = description.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
             Error::Refused(lines.join("; "))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Error, order};
+    use wgpu::DeviceType::{Cpu, DiscreteGpu, IntegratedGpu};
+
+    #[test]
+    fn hardware_comes_first_and_a_name_selects() {
+        let all = [("llvmpipe", Cpu), ("Intel UHD", IntegratedGpu), ("GeForce", DiscreteGpu)];
+        let all = all.map(|(name, kind)| (name.to_owned(), kind));
+        assert_eq!(order(&all, None).expect("there are some"), [2, 1, 0]);
+        assert_eq!(order(&all, Some("intel")).expect("there is one"), [1]);
+        assert_eq!(order(&all, Some("Software")).expect("there is one"), [0]);
+        assert_eq!(order(&all[..1], None).expect("software will do"), [0]);
+    }
+
+    #[test]
+    fn what_is_not_there_is_told_with_what_is() {
+        let hardware = [("GeForce".to_owned(), DiscreteGpu)];
+        for (wanted, first) in
+            [("software", "no Vulkan software adapter"), ("radeon", "no Vulkan adapter is called `radeon`")]
+        {
+            let error = order(&hardware, Some(wanted)).expect_err("there is none").to_string();
+            assert!(error.starts_with(first) && error.contains("`GeForce`"), "{error}");
+        }
+        for wanted in [None, Some("software"), Some("radeon")] {
+            let error = order(&[], wanted).expect_err("there is none");
+            assert!(error.is_environment() && error.to_string().contains("none at all"), "{error}");
+            assert!(matches!(error, Error::NoAdapter { .. } | Error::UnknownAdapter { .. }));
         }
     }
 }

@@ -8,7 +8,12 @@ use std::time::Duration;
 #[derive(Clone, Debug)]
 pub enum Error {
     /// There is no Vulkan adapter of the wanted kind.
-    NoAdapter,
+    NoAdapter {
+        /// Whether it must be a software adapter.
+        software: bool,
+        /// The names of the available adapters.
+        available: Vec<String>,
+    },
     /// No adapter has this name.
     UnknownAdapter {
         /// The requested name.
@@ -32,7 +37,7 @@ impl Error {
     /// Whether the cause is this machine (exit code 3) rather than the scene.
     pub fn is_environment(&self) -> bool {
         match self {
-            Self::NoAdapter | Self::UnknownAdapter { .. } | Self::Unsupported(_) => true,
+            Self::NoAdapter { .. } | Self::UnknownAdapter { .. } | Self::Unsupported(_) => true,
             Self::Emit(_) | Self::Refused(_) | Self::Lost(_) | Self::Timeout(_) => false,
         }
     }
@@ -46,15 +51,27 @@ impl Error {
     }
 }
 
+fn list(names: &[String]) -> String {
+    names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
+}
+
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::NoAdapter => f.write_str(
-                "no Vulkan software adapter was found\n\
-                 help: install Mesa's driver (Debian, Ubuntu: `apt-get install mesa-vulkan-drivers`; \
-                 Fedora: `dnf install mesa-vulkan-drivers`; Arch: `pacman -S vulkan-swrast`), \
-                 choose another adapter with `--adapter NAME`, or draw with `--backend cpu`",
-            ),
+            Self::NoAdapter { software, available } => {
+                let kind = if *software { "software " } else { "" };
+                let found = match &available[..] {
+                    [] => "there is none at all".to_owned(),
+                    found => format!("there are {}", list(found)),
+                };
+                write!(
+                    f,
+                    "no Vulkan {kind}adapter was found: {found}\n\
+                     help: install Mesa's driver (Debian, Ubuntu: `apt-get install mesa-vulkan-drivers`; \
+                     Fedora: `dnf install mesa-vulkan-drivers`; Arch: `pacman -S vulkan-swrast`), \
+                     choose another adapter with `--adapter NAME`, or draw with `--backend cpu`",
+                )
+            }
             Self::UnknownAdapter { name, available } if available.is_empty() => {
                 write!(
                     f,
@@ -63,11 +80,8 @@ impl fmt::Display for Error {
                 )
             }
             Self::UnknownAdapter { name, available } => {
-                write!(f, "no Vulkan adapter is called `{name}`\nhelp: there are ")?;
-                for (index, adapter) in available.iter().enumerate() {
-                    write!(f, "{}`{adapter}`", if index > 0 { ", " } else { "" })?;
-                }
-                f.write_str("; a part of the name will do")
+                let found = list(available);
+                write!(f, "no Vulkan adapter is called `{name}`\nhelp: there are {found}; a part of the name will do")
             }
             Self::Unsupported(what) => write!(f, "the adapter lacks {what}"),
             Self::Emit(diagnostics) => match diagnostics.first() {

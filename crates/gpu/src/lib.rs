@@ -35,7 +35,7 @@ mod vertices;
 #[cfg(test)]
 mod tests;
 
-pub use device::{AdapterFacts, Gpu};
+pub use device::{ADAPTER_VARIABLE, AdapterFacts, Gpu, SOFTWARE};
 pub use error::Error;
 pub use prepare::Prepared;
 

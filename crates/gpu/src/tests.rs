@@ -30,7 +30,7 @@ const FRAGMENT: &str = "
 }";
 
 fn gpu() -> Gpu {
-    Gpu::new(None).expect("these tests need Mesa's Vulkan driver: apt-get install mesa-vulkan-drivers")
+    Gpu::new(Some("software")).expect("these tests need Mesa's Vulkan driver: apt-get install mesa-vulkan-drivers")
 }
 
 fn attribute(name: &str, location: u32) -> Attribute {

@@ -176,7 +176,8 @@ pub struct Draw {
     pub indices: Option<Vec<u32>>,
     /// The number of instances.
     pub instances: u32,
-    /// The data of each of the interface's attributes, in order; `None` for inactive ones without data.
+    /// The data of each of the interface's attributes, in order; `None` for those without data, which are inactive or
+    /// can reach no output.
     pub attributes: Vec<Option<AttributeData>>,
     /// The value of each of the interface's roots, in order, flat ([`Types::flat_len`](glisten_front::hir::Types::flat_len)).
     pub uniforms: Vec<Vec<ScalarValue>>,

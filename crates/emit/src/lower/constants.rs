@@ -7,6 +7,7 @@
 use super::function::Ctx;
 use super::slots::{GlobalSlot, LocalSlot};
 use super::{Lower, Try, for_each_operand, internal};
+use crate::target::Target;
 use glisten_front::hir::{ArraySize, ExprId, FunctionId, LocalKind, Scalar, ScalarValue, Type, TypeId, Value, VarRef};
 use naga::{AddressSpace, BinaryOperator, Expression, GlobalVariable, Handle, Literal};
 
@@ -157,6 +158,57 @@ impl Ctx<'_, '_> {
                 Expression::Math { fun, arg: self.hidden_operand(arg), arg1, arg2, arg3 }
             }
             other => other,
+        }
+    }
+
+    /// A vector composed of constants, of which one is a vector, with components in its place: naga's SPIR-V writer
+    /// makes of all these one constant, which must have a constituent for each component.
+    pub(super) fn with_scalar_constituents(&mut self, expression: Expression) -> Expression {
+        let Expression::Compose { ty, components } = &expression else { return expression };
+        let naga::TypeInner::Vector { size, .. } = self.low.module.types[*ty].inner else { return expression };
+        let complete = components.len() == size as usize;
+        if complete
+            || self.low.target != Target::Spirv
+            || !components.iter().all(|part| self.is_constant_to_naga(*part))
+        {
+            return expression;
+        }
+        let (ty, parts) = (*ty, components.clone());
+        let mut components = Vec::new();
+        for part in parts {
+            let length = self.constant_length(part);
+            let one_by_one = (0..length).map(|index| self.add(Expression::AccessIndex { base: part, index }));
+            match length {
+                1 => components.push(part),
+                _ => components.extend(one_by_one.collect::<Vec<_>>()),
+            }
+        }
+        Expression::Compose { ty, components }
+    }
+
+    /// Whether naga's SPIR-V writer makes a constant of the expression.
+    fn is_constant_to_naga(&self, handle: Handle<Expression>) -> bool {
+        let expressions = self.expressions();
+        match &expressions[handle] {
+            Expression::Literal(_) | Expression::Constant(_) | Expression::ZeroValue(_) => true,
+            Expression::Splat { value, .. } => self.is_constant_to_naga(*value),
+            Expression::Compose { components, .. } => components.iter().all(|part| self.is_constant_to_naga(*part)),
+            _ => false,
+        }
+    }
+
+    /// The number of components of a constant scalar or vector.
+    fn constant_length(&self, handle: Handle<Expression>) -> u32 {
+        let expressions = self.expressions();
+        let ty = match &expressions[handle] {
+            Expression::Constant(constant) => self.low.module.constants[*constant].ty,
+            Expression::ZeroValue(ty) | Expression::Compose { ty, .. } => *ty,
+            Expression::Splat { size, .. } => return *size as u32,
+            _ => return 1,
+        };
+        match self.low.module.types[ty].inner {
+            naga::TypeInner::Vector { size, .. } => size as u32,
+            _ => 1,
         }
     }
 

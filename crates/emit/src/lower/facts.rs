@@ -80,6 +80,9 @@ impl Facts {
             let walked = FunctionWalk::new(shader, function, &mut facts.indexed, &mut constants).run();
             facts.functions.push(walked);
         }
+        if let Some(main) = shader.main.and_then(|main| facts.functions.get_mut(main.index())) {
+            main.calls.extend(initializer_calls(shader));
+        }
         facts.natures = natures(shader, &constants);
         facts.order = order(shader, &facts.functions);
         let reached = |is: fn(&FunctionFacts) -> bool| {
@@ -126,6 +129,22 @@ impl Facts {
             }
         }
     }
+}
+
+/// The functions that the initializers of private globals call. They run at the start of `main`.
+fn initializer_calls(shader: &Shader) -> Vec<FunctionId> {
+    let mut calls = Vec::new();
+    for global in shader.globals.iter().filter(|global| global.used && global.storage == Storage::Private) {
+        let Some(initializer) = global.initializer else { continue };
+        shader.visit_expr(initializer, &mut |expr| {
+            if let ExprKind::Call(callee, _) = shader.expr(expr).kind {
+                calls.push(callee);
+            }
+        });
+    }
+    calls.sort_unstable();
+    calls.dedup();
+    calls
 }
 
 fn set(flags: &mut [bool], index: usize) {

@@ -122,6 +122,7 @@ impl<'l, 'a> Ctx<'l, 'a> {
             return handle;
         }
         let expression = self.kept_from_evaluation(expression);
+        let expression = self.with_scalar_constituents(expression);
         let known = self.is_known(&expression);
         let mut depth = 0_u8;
         for_each_operand(&expression, |operand| {

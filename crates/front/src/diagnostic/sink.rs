@@ -34,6 +34,15 @@ impl Diagnostics {
         }
     }
 
+    /// Adds a diagnostic about something that has no place of its own: it is kept although there is another one of its
+    /// code at its span.
+    pub fn push_beside(&mut self, diagnostic: Diagnostic) {
+        if !self.list.contains(&diagnostic) {
+            self.seen.remove(&(diagnostic.code.id, diagnostic.primary.span));
+            self.push(diagnostic);
+        }
+    }
+
     /// Whether there is an error.
     pub fn has_errors(&self) -> bool {
         self.errors > 0

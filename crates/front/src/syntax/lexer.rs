@@ -240,7 +240,7 @@ impl Lexer {
         loop {
             self.skip_to_line_end();
             let before = self.pos.checked_sub(1).and_then(|last| self.text.as_bytes().get(last)).copied();
-            if before != Some(b'\\') || self.at(0).is_none() {
+            if before != Some(b'\\') || self.at(0).is_none() || self.ends_in_foreign_backslash() {
                 break;
             }
             let span = Span::new(self.offset() - 1, self.offset());
@@ -254,6 +254,12 @@ impl Lexer {
         if text.trim_start().starts_with("glisten:") {
             trivia.push(Trivia::Pragma(self.span_from(start)));
         }
+    }
+
+    /// Whether the backslash before this belongs to a character of a legacy encoding: in Shift_JIS, Big5 and GBK it may be
+    /// the second byte of one. Its first byte, which is not UTF-8, has become U+FFFD.
+    fn ends_in_foreign_backslash(&self) -> bool {
+        self.text.get(..self.pos.saturating_sub(1)).is_some_and(|before| before.ends_with('\u{fffd}'))
     }
 
     fn skip_to_line_end(&mut self) {

@@ -8,4 +8,4 @@ mod verdict;
 
 #[cfg(feature = "flip")]
 pub use flip::flip;
-pub use verdict::{Contributed, Criterion, FaultCount, Verdict, Worst, shares, ulp_f32};
+pub use verdict::{Conclusion, Contributed, Criterion, FaultCount, Verdict, Worst, shares, ulp_f32};

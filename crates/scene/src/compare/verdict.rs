@@ -72,6 +72,18 @@ pub struct FaultCount {
     pub pixels: u64,
 }
 
+/// The result of a comparison in one word.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Conclusion {
+    /// Every difference is explained.
+    Holds,
+    /// Nothing was compared: no pixel is covered.
+    Inconclusive,
+    /// There is a difference that is not explained.
+    Fails,
+}
+
 /// The figures and counts of one comparison. Errors are absolute, over all channels of all attachments of the pixels
 /// that both sides cover and that are decided and finite.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -142,7 +154,16 @@ impl Verdict {
         tally.finish()
     }
 
-    /// Whether every difference is explained. Undecided pixels are not accepted from 1 % of the covered ones on,
+    /// The result in one word, with undecided pixels judged as by [`Self::holds`].
+    pub fn conclusion(&self, allow_undecided: bool) -> Conclusion {
+        match (self.holds(allow_undecided), self.covered) {
+            (false, _) => Conclusion::Fails,
+            (true, 0) => Conclusion::Inconclusive,
+            (true, _) => Conclusion::Holds,
+        }
+    }
+
+    /// Whether every difference is explained, if there is one at all: see [`Self::conclusion`]. Undecided pixels are not accepted from 1 % of the covered ones on,
     /// unless they are allowed.
     pub fn holds(&self, allow_undecided: bool) -> bool {
         let undecided = self.undecided as f64 > MAX_UNDECIDED_SHARE * self.covered as f64;
@@ -445,6 +466,18 @@ mod tests {
         let verdict = Verdict::new(&picture(&[0.5, 1.0]), &picture(&[0.5, 1.0]), Criterion::Envelope);
         assert!(verdict.holds(false));
         assert_eq!((verdict.max_abs, verdict.psnr, verdict.covered), (0.0, None, 2));
+    }
+
+    #[test]
+    fn an_empty_picture_shows_nothing() {
+        let mut empty = picture(&[0.5, 0.5]);
+        empty.covered = vec![false; 2];
+        let verdict = Verdict::new(&empty, &empty, Criterion::Envelope);
+        assert_eq!(verdict.conclusion(false), Conclusion::Inconclusive);
+        let one_side = Verdict::new(&picture(&[0.5, 0.5]), &empty, Criterion::Envelope);
+        assert_eq!((one_side.covered, one_side.conclusion(true)), (0, Conclusion::Fails));
+        let covered = Verdict::new(&picture(&[0.5]), &picture(&[0.5]), Criterion::Envelope);
+        assert_eq!(covered.conclusion(false), Conclusion::Holds);
     }
 
     #[test]

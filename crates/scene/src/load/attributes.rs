@@ -1,12 +1,13 @@
 //! Loads `[draw.attributes]` and the attributes of a mesh as [`AttributeData`].
 
-use super::mesh::Mesh;
+use super::mesh::{Mesh, Stream};
 use super::names::ATTRIBUTE_KINDS;
 use super::reader::{Node, Number, NumberValue, Reader, report_unknown_name};
 use crate::model::{AttributeData, AttributeValues};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::scenes::{
-    SCENE_MISSING_ATTRIBUTE, SCENE_MISSING_KEY, SCENE_UNSET_ATTRIBUTE, SCENE_WRONG_KIND, SCENE_WRONG_SIZE,
+    MESH_NARROWED, SCENE_MISSING_ATTRIBUTE, SCENE_MISSING_KEY, SCENE_UNSET_ATTRIBUTE, SCENE_WRONG_KIND,
+    SCENE_WRONG_SIZE,
 };
 use glisten_front::hir::{Scalar, Type, TypeId, Types};
 use glisten_front::link::{Attribute, Program};
@@ -14,6 +15,8 @@ use glisten_front::source::Span;
 use toml::de::DeTable;
 
 const KEYS: &[&str] = &["size", "values", "divisor", "kind"];
+/// The largest number of components of a vertex in the data, more than any declared type has.
+const MAX_SIZE: i64 = 1024;
 
 /// The data of each attribute of the program, in the program's order. `reaching` says which of them can reach an output.
 pub(super) fn load_attributes(
@@ -25,21 +28,20 @@ pub(super) fn load_attributes(
 ) -> Vec<Option<AttributeData>> {
     let attributes = &program.interface.attributes;
     let names: Vec<&str> = attributes.iter().map(|attribute| attribute.name.as_str()).collect();
+    let is_named = |name: &str| attributes.iter().position(|attribute| attribute.name == name);
     let mut data: Vec<Option<AttributeData>> = vec![None; attributes.len()];
     let mut given = vec![false; attributes.len()];
     let mut set = |reader: &mut Reader,
                    name: &str,
                    span: Span,
                    load: &mut dyn FnMut(&mut Reader, &Attribute) -> Option<AttributeData>| {
-        match attributes.iter().position(|attribute| attribute.name == name) {
-            Some(index) => {
-                let loaded = load(reader, &attributes[index]);
-                if let (Some(flag), Some(slot)) = (given.get_mut(index), data.get_mut(index)) {
-                    *flag = true;
-                    *slot = loaded;
-                }
-            }
-            None => report_unknown_name(reader, span, "attribute", name, &names),
+        // The attribute that a misspelled name is most similar to counts as given.
+        let index = is_named(name);
+        let meant = index.or_else(|| report_unknown_name(reader, span, "attribute", name, &names).and_then(is_named));
+        let loaded = index.and_then(|index| load(reader, &attributes[index]));
+        if let Some(meant) = meant {
+            given[meant] = true;
+            data[meant] = loaded.or(data[meant].take());
         }
     };
     for stream in mesh.map_or(&[][..], |mesh| &mesh.streams) {
@@ -47,7 +49,7 @@ pub(super) fn load_attributes(
             continue;
         }
         set(reader, &stream.attribute, stream.span, &mut |reader, attribute| {
-            check_mesh_stream(reader, &program.types, attribute, &stream.data, stream.span)
+            check_mesh_stream(reader, program, attribute, stream)
         });
     }
     if let Some(table) = reader.table_at(draw, "attributes") {
@@ -58,39 +60,45 @@ pub(super) fn load_attributes(
             });
         }
     }
-    let missing = |(attribute, given): (&Attribute, &bool)| attribute.active && !given;
-    if attributes.iter().zip(&given).any(missing) {
-        let reaching = reaching();
-        for (index, (attribute, given)) in attributes.iter().zip(&given).enumerate() {
-            match reaching.get(index) {
-                _ if !missing((attribute, given)) => {}
-                Some(false) => report_unset(reader, program, attribute, draw, place),
-                _ => report_missing(reader, program, attribute, draw, place),
-            }
-        }
+    let missing = attributes.iter().zip(given).filter(|(attribute, given)| attribute.active && !given);
+    let missing: Vec<&Attribute> = missing.map(|(attribute, _)| attribute).collect();
+    if !missing.is_empty() {
+        let span = draw.get("attributes").map_or(place, |node| reader.span(node.span()));
+        let reaching: Vec<&str> = names.iter().zip(reaching()).filter_map(|(name, reaches)| reaches.then_some(*name)).collect();
+        report_missing(reader, program, &missing, &reaching, mesh, span);
     }
     data
 }
 
-/// Reports an attribute without data on which no output depends.
-fn report_unset(reader: &mut Reader, program: &Program, attribute: &Attribute, draw: &DeTable<'_>, place: Span) {
-    let span = draw.get("attributes").map_or(place, |node| reader.span(node.span()));
-    let message = format!("attribute `{}` has no data, and reaches no output", attribute.name);
-    let declared = global_span(program, attribute);
-    reader.report(Diagnostic::new(&SCENE_UNSET_ATTRIBUTE, span, message).label(declared, "declared here"));
-}
-
-fn report_missing(reader: &mut Reader, program: &Program, attribute: &Attribute, draw: &DeTable<'_>, place: Span) {
-    let name = &attribute.name;
-    let components = components(&program.types, attribute.ty);
-    let span = draw.get("attributes").map_or(place, |node| reader.span(node.span()));
-    let message = format!("attribute `{name}` has no data: the vertex shader reads it");
-    let help = format!("add `{name} = {{ size = {components}, values = [...] }}` under [draw.attributes]");
-    reader.report(
-        Diagnostic::new(&SCENE_MISSING_ATTRIBUTE, span, message)
-            .label(global_span(program, attribute), "declared here")
-            .help(help),
-    );
+/// Reports attributes that the vertex shader reads and that have no data: an error for those that can reach the position
+/// or an output, a warning for the others, which are (0, 0, 0, 1).
+fn report_missing(
+    reader: &mut Reader,
+    program: &Program,
+    missing: &[&Attribute],
+    reaching: &[&str],
+    mesh: Option<&Mesh>,
+    span: Span,
+) {
+    let roles = mesh.map_or(&[][..], |mesh| &mesh.unassigned);
+    for attribute in missing {
+        let name = &attribute.name;
+        let components = components(&program.types, attribute.ty);
+        let data = format!("add `{name} = {{ size = {components}, values = [..] }}` under [draw.attributes]");
+        let help = match roles {
+            [] => data,
+            [role, ..] => format!("add `{role} = \"{name}\"` to the mesh, which gives it its {role}s; or {data}"),
+        };
+        let diagnostic = if reaching.contains(&name.as_str()) {
+            let message = format!("attribute `{name}` has no data: the vertex shader reads it");
+            Diagnostic::new(&SCENE_MISSING_ATTRIBUTE, span, message)
+        } else {
+            let message =
+                format!("attribute `{name}` has no data and is (0, 0, 0, 1): nothing that is drawn depends on it");
+            Diagnostic::new(&SCENE_UNSET_ATTRIBUTE, span, message)
+        };
+        reader.report_missing(diagnostic.label(global_span(program, attribute), "declared here").help(help));
+    }
 }
 
 fn global_span(program: &Program, attribute: &Attribute) -> Span {
@@ -116,26 +124,43 @@ pub(super) fn scalar_of(types: &Types, mut ty: TypeId) -> Scalar {
 
 fn check_mesh_stream(
     reader: &mut Reader,
-    types: &Types,
+    program: &Program,
     attribute: &Attribute,
-    data: &AttributeData,
-    span: Span,
+    stream: &Stream,
 ) -> Option<AttributeData> {
+    let (types, Stream { data, span, .. }) = (&program.types, stream);
     let wanted = scalar_of(types, attribute.ty);
     if wanted != Scalar::Float {
         let message = format!("`{}` is {}, and a mesh brings floats", attribute.name, types.name(attribute.ty));
-        reader.error(&SCENE_WRONG_KIND, span, message, "of another kind");
+        reader.error(&SCENE_WRONG_KIND, *span, message, "of another kind");
         return None;
     }
     let declared = components(types, attribute.ty);
-    if data.size <= declared {
-        return Some(data.clone());
+    if data.size > declared && span.is_known() {
+        let (name, ty) = (&attribute.name, types.name(attribute.ty));
+        let message = format!("`{name}` is {ty} and takes {declared} of the mesh's {} components", data.size);
+        let diagnostic = Diagnostic::new(&MESH_NARROWED, *span, message).here("the rest is dropped");
+        let help = format!("declare it `vec{}`, unless this is meant", data.size);
+        reader.report(diagnostic.label(global_span(program, attribute), "declared here").help(help));
     }
-    // A `vec2` takes the first two of three components, as `glVertexAttribPointer` would.
-    let AttributeValues::Float(values) = &data.values else { return Some(data.clone()) };
-    let values =
-        values.chunks(data.size as usize).flat_map(|row| row.iter().copied().take(declared as usize)).collect();
-    Some(AttributeData { size: declared, divisor: data.divisor, values: AttributeValues::Float(values) })
+    Some(narrowed(data.clone(), declared))
+}
+
+/// The data without the components that the declared type does not have, as `glVertexAttribPointer` would drop them.
+fn narrowed(data: AttributeData, declared: u32) -> AttributeData {
+    fn first<T: Copy>(values: &[T], size: u32, declared: u32) -> Vec<T> {
+        values.chunks(size as usize).flat_map(|row| row.iter().copied().take(declared as usize)).collect()
+    }
+    let size = data.size;
+    if size <= declared {
+        return data;
+    }
+    let values = match &data.values {
+        AttributeValues::Float(values) => AttributeValues::Float(first(values, size, declared)),
+        AttributeValues::Int(values) => AttributeValues::Int(first(values, size, declared)),
+        AttributeValues::Uint(values) => AttributeValues::Uint(first(values, size, declared)),
+    };
+    AttributeData { size: declared, divisor: data.divisor, values }
 }
 
 fn load_attribute(reader: &mut Reader, types: &Types, attribute: &Attribute, node: &Node<'_>) -> Option<AttributeData> {
@@ -152,7 +177,7 @@ fn load_attribute(reader: &mut Reader, types: &Types, attribute: &Attribute, nod
         return None;
     }
     let size = match table.get("size") {
-        Some(node) => reader.integer(node, "size", 1..=i64::from(declared.max(1)))? as u32,
+        Some(node) => reader.integer(node, "size", 1..=MAX_SIZE)? as u32,
         None => declared.max(1),
     };
     let divisor = reader.count(table, "divisor", 0, 0..=u32::MAX);
@@ -169,7 +194,7 @@ fn load_attribute(reader: &mut Reader, types: &Types, attribute: &Attribute, nod
         return None;
     }
     let values = attribute_values(reader, name, wanted, &numbers)?;
-    Some(AttributeData { size, divisor, values })
+    Some(narrowed(AttributeData { size, divisor, values }, declared.max(1)))
 }
 
 fn attribute_values(reader: &mut Reader, name: &str, scalar: Scalar, numbers: &[Number]) -> Option<AttributeValues> {

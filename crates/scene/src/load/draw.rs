@@ -294,7 +294,7 @@ fn load_dynamic(reader: &mut Reader, table: &DeTable<'_>, program: &Program) -> 
     names
 }
 
-/// The number of vertices to draw, and the indices.
+/// The number of vertices or indices to draw, and the indices.
 fn load_counts(
     loader: &mut Loader<'_>,
     table: &DeTable<'_>,
@@ -305,33 +305,57 @@ fn load_counts(
     place: Span,
 ) -> Option<(u32, Option<Vec<u32>>)> {
     let rows = check_rows(&mut loader.reader, program, attributes, instances, place)?;
-    let indices = match (mesh, table.get("indices")) {
-        (Some(mesh), None) => Some(mesh.indices.clone()),
-        (Some(_), Some(node)) => {
-            let span = loader.reader.span_of(node);
-            loader.reader.error(&SCENE_WRONG_VALUE, span, "a mesh brings its own indices".into(), "leave these out");
-            return None;
-        }
-        (None, Some(node)) => Some(load_indices(&mut loader.reader, node, rows)?),
-        (None, None) => None,
-    };
-    let available = indices.as_ref().map(|indices| indices.len() as u32).or(rows);
-    let count = match (table.get("vertex_count"), available) {
-        (Some(_), _) => loader.reader.count(table, "vertex_count", 0, 0..=MAX_COUNT),
-        (None, Some(available)) => available,
-        (None, None) => {
-            let help = "add `vertex_count = 3`: no attribute determines the number of vertices";
-            loader.missing_key(place, "a draw without vertex data needs `vertex_count`", help);
-            return None;
-        }
-    };
-    if available.is_some_and(|available| count > available) {
-        let span = table.get("vertex_count").map_or(place, |node| loader.reader.span_of(node));
-        let message = format!("`vertex_count` is {count}, and there is data for {}", available.unwrap_or(0));
+    let given = table.get("vertex_count").map(|node| {
+        let count = loader.reader.count(table, "vertex_count", 0, 0..=MAX_COUNT);
+        (count, loader.reader.span_of(node))
+    });
+    if let (Some((count, span)), Some(rows)) = (given, rows)
+        && count > rows
+    {
+        let message = format!("`vertex_count` is {count}, and there is data for {rows}");
         loader.reader.error(&SCENE_WRONG_SIZE, span, message, "more than there is");
         return None;
     }
-    Some((count, indices))
+    let vertices = given.map(|(count, _)| count).or(rows);
+    match (mesh, table.get("indices"), vertices) {
+        (Some(_), Some(node), _) => {
+            let span = loader.reader.span_of(node);
+            loader.reader.error(&SCENE_WRONG_VALUE, span, "a mesh brings its own indices".into(), "leave these out");
+            None
+        }
+        (Some(mesh), None, _) => {
+            check_mesh_indices(&mut loader.reader, mesh, given)?;
+            Some((mesh.indices.len() as u32, Some(mesh.indices.clone())))
+        }
+        (None, Some(node), _) => {
+            let indices = load_indices(&mut loader.reader, node, vertices)?;
+            Some((indices.len() as u32, Some(indices)))
+        }
+        (None, None, Some(count)) => Some((count, None)),
+        (None, None, None) => {
+            // Where data is missing, that is the error.
+            let message = "a draw without vertex data needs `vertex_count`";
+            let help = "add `vertex_count = 3`: no attribute determines the number of vertices";
+            if !lacks_data(program, attributes) {
+                loader.missing_key(place, message, help);
+            }
+            None
+        }
+    }
+}
+
+/// Whether the vertex shader reads an attribute that got no data.
+fn lacks_data(program: &Program, attributes: &[Option<AttributeData>]) -> bool {
+    program.interface.attributes.iter().zip(attributes).any(|(attribute, data)| attribute.active && data.is_none())
+}
+
+/// Reports a `vertex_count` that leaves out vertices of the mesh.
+fn check_mesh_indices(reader: &mut Reader, mesh: &Mesh, given: Option<(u32, Span)>) -> Option<()> {
+    let needed = mesh.indices.iter().max().map_or(0, |last| last + 1);
+    let Some((count, span)) = given.filter(|(count, _)| *count < needed) else { return Some(()) };
+    let message = format!("`vertex_count` is {count}, and the mesh has {needed} vertices");
+    reader.error(&SCENE_WRONG_SIZE, span, message, "a mesh determines this itself");
+    None
 }
 
 /// The number of vertices for which there is data; the inner `None` if no attribute determines it.

@@ -27,8 +27,8 @@ use crate::library::{Library, WithLibrary};
 use crate::model::{Draw, Format, Framebuffer, Scene};
 use glisten_front::compiler::{Compiler, Options, Source};
 use glisten_front::diagnostic::codes::scenes::{
-    SCENE_CANNOT_DRAW, SCENE_FILE_UNREADABLE, SCENE_MISSING_KEY, SCENE_SYNTAX, SCENE_UNUSED_LIGHT, SCENE_WRONG_TYPE,
-    SCENE_WRONG_VALUE,
+    SCENE_CANNOT_DRAW, SCENE_FILE_UNREADABLE, SCENE_MISSING_KEY, SCENE_SYNTAX, SCENE_UNUSED_LIGHT, SCENE_WITHOUT_DRAW,
+    SCENE_WRONG_TYPE, SCENE_WRONG_VALUE,
 };
 use glisten_front::diagnostic::{Diagnostic, Diagnostics, did_you_mean};
 use glisten_front::hir::Stage;
@@ -75,7 +75,9 @@ pub fn load(path: &str, files: &dyn FileSource, library: &dyn Library, compiler:
         io_error: false,
     };
     let scene = loader.scene();
-    let Loader { reader, sources, io_error, .. } = loader;
+    let Loader { mut reader, sources, io_error, .. } = loader;
+    let missing = std::mem::take(&mut reader.missing);
+    missing.into_iter().for_each(|diagnostic| reader.diagnostics.push_beside(diagnostic));
     let scene = scene.filter(|_| !reader.diagnostics.has_errors());
     Loaded { scene, sources, diagnostics: reader.diagnostics, io_error }
 }
@@ -152,8 +154,21 @@ impl Loader<'_> {
         if complete {
             self.warn_unlit(table, &draws);
         }
+        if draws.is_empty() && complete && !self.reader.diagnostics.has_errors() {
+            self.warn_empty(table);
+        }
         let name = Path::new(self.path).file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
         complete.then_some(Scene { name, framebuffer, draws })
+    }
+
+    /// Warns about a scene that draws nothing.
+    fn warn_empty(&mut self, table: &DeTable<'_>) {
+        let first = table.get_key_value("draw").or(table.iter().next());
+        let span = first.map_or_else(Span::default, |(key, _)| self.reader.span_of(key));
+        let diagnostic = Diagnostic::new(&SCENE_WITHOUT_DRAW, span, "the scene draws nothing")
+            .here("there is no draw in this scene")
+            .help("add a `[[draw]]` table with its programs and its data");
+        self.reader.report(diagnostic);
     }
 
     /// Warns about lights and a material that no program uses.

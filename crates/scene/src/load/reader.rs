@@ -38,6 +38,8 @@ pub(super) struct Reader {
     /// The global offset of the file's first byte.
     pub(super) base: u32,
     pub(super) diagnostics: Diagnostics,
+    /// Diagnostics about things that the scene lacks. They come after all others, which may be the reason for them.
+    pub(super) missing: Vec<Diagnostic>,
 }
 
 impl Reader {
@@ -54,6 +56,11 @@ impl Reader {
     /// Adds a diagnostic.
     pub(super) fn report(&mut self, diagnostic: Diagnostic) {
         self.diagnostics.push(diagnostic);
+    }
+
+    /// Adds a diagnostic about something that the scene lacks.
+    pub(super) fn report_missing(&mut self, diagnostic: Diagnostic) {
+        self.missing.push(diagnostic);
     }
 
     /// Reports keys of `table` that are not among `known`.
@@ -240,9 +247,16 @@ pub(super) fn list(names: &[&str]) -> String {
     }
 }
 
-/// Reports a name that the program does not declare, and suggests the most similar one.
-pub(super) fn report_unknown_name(reader: &mut Reader, span: Span, what: &str, name: &str, candidates: &[&str]) {
-    let help = match did_you_mean(name, candidates.iter().copied()) {
+/// Reports a name that the program does not declare, and suggests the most similar one, which is returned.
+pub(super) fn report_unknown_name<'c>(
+    reader: &mut Reader,
+    span: Span,
+    what: &str,
+    name: &str,
+    candidates: &[&'c str],
+) -> Option<&'c str> {
+    let near = did_you_mean(name, candidates.iter().copied());
+    let help = match near {
         Some(near) => Some(format!("did you mean `{near}`?")),
         None if candidates.is_empty() => Some(format!("the program has no {what} at all")),
         None if candidates.len() <= 12 => Some(format!("the program has {}", list(candidates))),
@@ -250,4 +264,5 @@ pub(super) fn report_unknown_name(reader: &mut Reader, span: Span, what: &str, n
     };
     let message = format!("the program declares no {what} `{name}`");
     reader.report(Diagnostic::new(&SCENE_UNKNOWN_NAME, span, message).here("not declared").maybe_help(help));
+    near
 }

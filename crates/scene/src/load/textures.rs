@@ -57,7 +57,12 @@ pub(super) fn load_textures(
             });
             let Some(index) = index else {
                 let span = loader.reader.span_of(name);
-                report_unknown_name(&mut loader.reader, span, "sampler", name_text, &names);
+                // The sampler that a misspelled name is most similar to counts as given.
+                let near = report_unknown_name(&mut loader.reader, span, "sampler", name_text, &names);
+                let meant = near.and_then(|near| slots.iter().position(|slot| slot.name == near));
+                if let Some(flag) = meant.and_then(|meant| given.get_mut(meant)) {
+                    *flag = true;
+                }
                 continue;
             };
             if let (Some(flag), Some(slot), Some(&kind)) =
@@ -85,7 +90,7 @@ pub(super) fn load_textures(
                 "add `{} = {{ width = .., height = .., values = [..] }}` under [draw.textures]",
                 slot.name
             ));
-            loader.reader.report(diagnostic);
+            loader.reader.report_missing(diagnostic);
         }
         *texture = Some(Arc::new(unset_texture(kind, if conventional { 1 } else { 0 })));
     }

@@ -14,6 +14,10 @@ use glisten_front::link::{Program, UniformLeaf};
 use glisten_front::source::Span;
 use toml::de::DeTable;
 
+/// The largest number of lines to paste that a help text gives, and of numbers in one of them.
+const MAX_LINES: usize = 32;
+const MAX_NEUTRAL: usize = 64;
+
 /// The values of all roots, while they are being set.
 struct Values<'p> {
     program: &'p Program,
@@ -55,8 +59,12 @@ pub(super) fn load_uniforms(
     if let Some(table) = reader.table_at(draw, "matrices") {
         for (name, node) in table {
             let span = reader.span_of(name);
-            let Some(role) = reader.choice(node, name.get_ref(), ROLES) else { continue };
+            let role = reader.choice(node, name.get_ref(), ROLES);
             let Some(target) = values.find(reader, name.get_ref(), span) else { continue };
+            let Some(role) = role else {
+                values.mark(&target);
+                continue;
+            };
             let (shape, numbers) = view.matrix(role);
             if values.program.types.get(target.leaf.ty) != shape
                 || target.element.is_none() && target.leaf.array_size.is_some()
@@ -65,6 +73,7 @@ pub(super) fn load_uniforms(
                 let message = format!("`{}` is declared {declared}, which this role does not fit", target.leaf.name);
                 let span = reader.span_of(node);
                 reader.error(&SCENE_WRONG_KIND, span, message, "of another type");
+                values.mark(&target);
                 continue;
             }
             let scalars: Vec<ScalarValue> = numbers.into_iter().map(ScalarValue::Float).collect();
@@ -75,10 +84,11 @@ pub(super) fn load_uniforms(
         for (name, node) in table {
             let span = reader.span_of(name);
             let Some(target) = values.find(reader, name.get_ref(), span) else { continue };
-            let Some(numbers) = reader.numbers(node, name.get_ref()) else { continue };
+            let numbers = reader.numbers(node, name.get_ref());
             let span = reader.span(node.span());
-            if let Some(scalars) = convert(reader, &program.types, &target, &numbers, span) {
-                values.store(&target, &scalars);
+            match numbers.and_then(|numbers| convert(reader, &program.types, &target, &numbers, span)) {
+                Some(scalars) => values.store(&target, &scalars),
+                None => values.mark(&target),
             }
         }
     }
@@ -100,8 +110,8 @@ impl<'p> Values<'p> {
         Self { program, given, set }
     }
 
-    /// The uniform that a name in the scene refers to.
-    fn find(&self, reader: &mut Reader, name: &str, span: Span) -> Option<Target<'p>> {
+    /// The uniform that a name in the scene refers to. The one that a misspelled name is most similar to counts as set.
+    fn find(&mut self, reader: &mut Reader, name: &str, span: Span) -> Option<Target<'p>> {
         let leaves = &self.program.interface.uniforms;
         if let Some((leaf, element)) = UniformValues::find(self.program, name) {
             let size = leaf.array_size.unwrap_or(1);
@@ -110,6 +120,7 @@ impl<'p> Values<'p> {
             }
             let message = format!("`{}` has {size} elements, so there is no `{name}`", leaf.name);
             reader.error(&SCENE_WRONG_SIZE, span, message, "past the last element");
+            self.mark(&Target { leaf, element: None });
             return None;
         }
         let interface = &self.program.interface;
@@ -130,8 +141,25 @@ impl<'p> Values<'p> {
             return None;
         }
         let candidates: Vec<&str> = leaves.iter().map(|leaf| leaf.name.as_str()).collect();
-        report_unknown_name(reader, span, "uniform", name, &candidates);
+        let near = report_unknown_name(reader, span, "uniform", name, &candidates);
+        if let Some((leaf, element)) = near.and_then(|near| UniformValues::find(self.program, near)) {
+            self.mark(&Target { leaf, element });
+        }
         None
+    }
+
+    /// Notes that the scene gives the target a value, though it may be a wrong one.
+    fn mark(&mut self, target: &Target<'_>) {
+        let each = self.program.types.flat_len(target.leaf.ty);
+        let (first, len) = match (target.element, target.leaf.array_size) {
+            (Some(0) | None, size) => (0, each * size.unwrap_or(1)),
+            (Some(element), _) => (each * element, each),
+        };
+        let start = (target.leaf.flat_offset + first) as usize;
+        let set = self.set.get_mut(target.leaf.root.0 as usize);
+        if let Some(set) = set.and_then(|set| set.get_mut(start..start + len as usize)) {
+            set.fill(true);
+        }
     }
 
     /// Sets the uniforms with the names and types of roles to their matrices.
@@ -226,13 +254,9 @@ impl<'p> Values<'p> {
             if !root.active || root.default.is_some() {
                 continue;
             }
-            let unset: Vec<&UniformLeaf> = self
-                .program
-                .interface
-                .uniforms
-                .iter()
-                .filter(|leaf| leaf.root.0 as usize == index && !self.is_set(leaf))
-                .collect();
+            let leaves = self.program.interface.uniforms.iter();
+            let unset: Vec<&UniformLeaf> =
+                leaves.filter(|leaf| leaf.root.0 as usize == index && !self.is_set(leaf)).collect();
             let Some(first) = unset.first() else { continue };
             let message = match unset.len() {
                 1 => format!("uniform `{}` gets no value and is 0", first.name),
@@ -245,7 +269,45 @@ impl<'p> Values<'p> {
             if let Some(global) = declared {
                 diagnostic = diagnostic.label(global.span, "declared here");
             }
-            reader.report(diagnostic.help(format!("add `\"{}\" = ...` under [draw.uniforms]", first.name)));
+            reader.report_missing(diagnostic.help(self.lines_to_add(&unset)));
+        }
+    }
+
+    /// The help text for uniforms without a value: the lines to paste.
+    fn lines_to_add(&self, unset: &[&UniformLeaf]) -> String {
+        let line = |leaf: &&UniformLeaf| format!("{} = {}", key(&leaf.name), self.neutral(leaf));
+        match unset {
+            [one] => format!("add `{}` under [draw.uniforms]", line(one)),
+            _ => {
+                let lines: Vec<String> = unset.iter().take(MAX_LINES).map(line).collect();
+                let more = unset.len().saturating_sub(MAX_LINES);
+                let rest = if more > 0 { format!("\n# and {more} more") } else { String::new() };
+                format!("add under [draw.uniforms]:\n{}{rest}", lines.join("\n"))
+            }
+        }
+    }
+
+    /// A value to begin with: zeros, ones on the diagonal of a matrix, `false`.
+    fn neutral(&self, leaf: &UniformLeaf) -> String {
+        let types = &self.program.types;
+        let zero = match types.scalar_of(leaf.ty) {
+            Some(Scalar::Bool) => "false",
+            Some(Scalar::Int | Scalar::Uint) => "0",
+            Some(Scalar::Float) | None => "0.0",
+        };
+        let element: Vec<&str> = match types.get(leaf.ty) {
+            Type::Matrix(columns, rows) => (0..columns)
+                .flat_map(|column| (0..rows).map(move |row| if row == column { "1.0" } else { "0.0" }))
+                .collect(),
+            _ => vec![zero; types.flat_len(leaf.ty) as usize],
+        };
+        let count = leaf.array_size.unwrap_or(1) as usize;
+        if element.len() * count > MAX_NEUTRAL {
+            return "[..]".to_owned();
+        }
+        match (&element[..], leaf.array_size) {
+            ([one], None) => (*one).to_owned(),
+            _ => format!("[{}]", element.repeat(count).join(", ")),
         }
     }
 
@@ -323,4 +385,10 @@ fn scalar_value(scalar: Scalar, number: NumberValue) -> Option<ScalarValue> {
         (Scalar::Float | Scalar::Int | Scalar::Uint, NumberValue::Bool(_))
         | (Scalar::Int | Scalar::Uint, NumberValue::Float(_)) => None,
     }
+}
+
+/// A name as a key of TOML.
+fn key(name: &str) -> String {
+    let bare = name.chars().all(|letter| letter.is_ascii_alphanumeric() || letter == '_');
+    if bare { name.to_owned() } else { format!("\"{name}\"") }
 }

@@ -51,7 +51,7 @@ impl Image {
             Some(ImageFormat::Png) => png::read(bytes, allowed),
             Some(ImageFormat::Exr) => exr::read(bytes, allowed),
             Some(ImageFormat::Npy) => npy::read(bytes, allowed),
-            None => Err(ImageError("it is neither a PNG nor an OpenEXR file".to_owned())),
+            None => Err(ImageError("it is none of PNG, OpenEXR and NumPy".to_owned())),
         }
     }
 }

@@ -35,7 +35,8 @@ codes! {
          matrix with 12 numbers instead of 16, texels that do not fill the texture, an index past the last vertex."
         bad Text("mc = [1, 0, 0]  # a mat4"), good Text("mc = [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]");
     SCENE_MISSING_ATTRIBUTE = "E0909" "attribute-without-data" Error "OpenGL 3.2 §2.8"
-        "The vertex shader reads an attribute for which the scene has no data."
+        "The vertex shader reads an attribute for which the scene has no data, and its value can reach the position or \
+         an output."
         bad Text("[draw.attributes]  # and the shader reads `pv`"), good Text("[draw.attributes]\npv = { size = 3, values = [..] }");
     SCENE_WRONG_KIND = "E0910" "contradicting-scene-kind" Error "OpenGL 3.2 §2.7"
         "A `kind` or `integer` in the scene contradicts the declaration in the shader: float data for an `ivec2` \
@@ -75,6 +76,20 @@ codes! {
          nearly equal numbers, a power with a large exponent, and a vector too short to normalize. Expressions that \
          only inherit the error are not reported."
         bad Text("float c = 1.0 - cos(x);  // x is small"), good Text("float s = sin(0.5 * x); float c = 2.0 * s * s;");
+    SCENE_WITHOUT_DRAW = "W0908" "scene-without-draw" Warning ""
+        "The scene has no draw, so its picture is the clear color everywhere. `verify` has nothing to judge then."
+        bad Text("[framebuffer]\nwidth = 128"), good Text("[framebuffer]\nwidth = 128\n[[draw]]\nprogram = \"standard\"");
+    NOTHING_COVERED = "W0909" "nothing-covered" Warning ""
+        "No fragment of the scene reached a pixel: the picture is the clear color everywhere. Typical causes are triangles \
+         without area, a mesh outside the view or behind the camera, culling of the faces that are seen, a depth test that \
+         never passes, and a `discard` that always runs."
+        bad Text("mesh = { shape = \"plane\", position = \"p\" }  # in vec2 p; the plane has y = 0"),
+        good Text("mesh = { shape = \"quad\", position = \"p\" }");
+    MESH_NARROWED = "W0910" "narrowed-mesh-data" Note "OpenGL 3.2 §2.8"
+        "An attribute has fewer components than the mesh provides, so the last ones are dropped. A `plane`, for \
+         example, has y = 0 everywhere: its x and y alone are triangles without area."
+        bad Text("mesh = { shape = \"sphere\", position = \"p\" }  # in vec2 p;"),
+        good Text("mesh = { shape = \"sphere\", position = \"p\" }  # in vec3 p;");
     SCENE_UNUSED_LIGHT = "W0904" "lights-without-program" Warning ""
         "The scene has lights, a material or a global ambient light, but none of its programs declares the uniforms \
          for them: `light`, `lights`, `material`, `global_ambient` of `<glisten/scene.glsl>`."

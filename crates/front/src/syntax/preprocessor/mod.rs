@@ -101,6 +101,8 @@ pub(super) struct Preprocessor<'a> {
     /// Whether a macro use on the line of a directive has no end. That was reported, and the line has no meaning.
     broken_line: bool,
     once: FxHashSet<FileId>,
+    /// The files in which joined lines have been reported.
+    continued: FxHashSet<FileId>,
     resolved: FxHashMap<(FileId, IncludeForm, String), FileId>,
     outcome: PreprocessorOutcome,
 }
@@ -138,6 +140,7 @@ impl<'a> Preprocessor<'a> {
             in_arguments: false,
             broken_line: false,
             once: FxHashSet::default(),
+            continued: FxHashSet::default(),
             resolved: FxHashMap::default(),
             outcome: PreprocessorOutcome {
                 version: Version { number: version::NEWEST_SUPPORTED, profile: Profile::Core, span: Span::default() },
@@ -285,6 +288,11 @@ impl<'a> Preprocessor<'a> {
             match item {
                 Trivia::Pragma(span) => self.comment_pragma(session, span),
                 Trivia::Continuation(span, in_comment) if !self.joins_lines() => {
+                    // Once a file: who joins lines joins many.
+                    let file = session.sources.file_of(span);
+                    if file.is_some_and(|file| !self.continued.insert(file)) {
+                        continue;
+                    }
                     let message = if in_comment {
                         "a comment ends in `\\`; compilers differ on whether it continues on the next line"
                     } else {

@@ -20,6 +20,8 @@ use toml::de::DeTable;
 pub(super) struct Mesh {
     pub(super) indices: Vec<u32>,
     pub(super) streams: Vec<Stream>,
+    /// The roles that the mesh has data for and that no attribute gets.
+    pub(super) unassigned: Vec<&'static str>,
 }
 
 /// The data of one attribute.
@@ -97,7 +99,8 @@ pub(super) fn load_mesh(loader: &mut Loader<'_>, node: &Node<'_>, conventional: 
             return None;
         }
     };
-    Some(Mesh { streams: load_streams(loader, table, &geometry, conventional), indices: geometry.indices })
+    let (streams, unassigned) = load_streams(loader, table, &geometry, conventional);
+    Some(Mesh { streams, unassigned, indices: geometry.indices })
 }
 
 fn load_file(loader: &mut Loader<'_>, node: &Node<'_>) -> Option<Geometry> {
@@ -114,7 +117,13 @@ fn load_file(loader: &mut Loader<'_>, node: &Node<'_>) -> Option<Geometry> {
     }
 }
 
-fn load_streams(loader: &mut Loader<'_>, table: &DeTable<'_>, geometry: &Geometry, conventional: bool) -> Vec<Stream> {
+/// The data of each role that goes to an attribute, and the roles whose data goes to none.
+fn load_streams(
+    loader: &mut Loader<'_>,
+    table: &DeTable<'_>,
+    geometry: &Geometry,
+    conventional: bool,
+) -> (Vec<Stream>, Vec<&'static str>) {
     let three = |rows: &[[f64; 3]]| rows.iter().flatten().map(|&value| value as f32).collect::<Vec<f32>>();
     let texcoords: Vec<f32> = geometry.texcoords.iter().flatten().map(|&value| value as f32).collect();
     let roles = [
@@ -122,13 +131,15 @@ fn load_streams(loader: &mut Loader<'_>, table: &DeTable<'_>, geometry: &Geometr
         ("normal", 3, three(&geometry.normals)),
         ("texcoord", 2, texcoords),
     ];
-    let mut streams = Vec::new();
+    let (mut streams, mut unassigned) = (Vec::new(), Vec::new());
     for (role, size, values) in roles {
         let complete = values.len() == geometry.positions.len() * size as usize;
         let Some(node) = table.get(role) else {
             if conventional && complete {
                 let data = AttributeData { size, divisor: 0, values: AttributeValues::Float(values) };
                 streams.push(Stream { attribute: role.to_owned(), span: Span::default(), implied: true, data });
+            } else if complete {
+                unassigned.push(role);
             }
             continue;
         };
@@ -142,5 +153,5 @@ fn load_streams(loader: &mut Loader<'_>, table: &DeTable<'_>, geometry: &Geometr
         let data = AttributeData { size, divisor: 0, values: AttributeValues::Float(values) };
         streams.push(Stream { attribute, span, implied: false, data });
     }
-    streams
+    (streams, unassigned)
 }
