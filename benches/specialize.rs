@@ -1,7 +1,8 @@
 //! Measures what leaving out gains and what it costs: the time in which lavapipe draws residuals and their originals, and
 //! the time in which residuals are made.
 //!
-//! `cargo bench --bench specialize` prints both as Markdown, for `docs/specialize.md`; with `draw` or `make` one of them.
+//! `cargo bench --bench specialize` prints both as Markdown, for `docs/specialize.md`; with `draw` or `make` one of them, with
+//! `draw edge spot` only these scenes.
 //! A ratio is the median over rounds of the residual's time to the original's of the same round, which are drawn in turns;
 //! the last column is that of the original to itself, which shows the noise.
 
@@ -14,13 +15,13 @@ use glisten_gpu::{Gpu, Prepared, Via};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-const ROUNDS: usize = 9;
+const ROUNDS: usize = 15;
 
 fn main() {
     let asked: Vec<String> = std::env::args().skip(1).filter(|argument| !argument.starts_with('-')).collect();
     let wants = |what: &str| asked.is_empty() || asked.iter().any(|asked| asked == what);
     if wants("draw") {
-        drawn();
+        drawn(&asked);
     }
     if wants("make") {
         made();
@@ -46,12 +47,15 @@ fn median(numbers: &mut [f64]) -> f64 {
     numbers.get(numbers.len() / 2).copied().unwrap_or(f64::NAN)
 }
 
-fn drawn() {
+fn drawn(asked: &[String]) {
     let gpu = Gpu::new(None).expect("a Vulkan adapter: apt-get install mesa-vulkan-drivers");
     println!("| scene | original, ms | residual, ms | ratio | noise |\n| --- | --- | --- | --- | --- |");
     let mut ratios = Vec::new();
     for path in scenes() {
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        if asked.len() > 1 && !asked.contains(&name) {
+            continue;
+        }
         let loaded = load(&path.to_string_lossy(), &DiskFiles, &Compiler::new(Options::default()));
         let scene = loaded.scene.expect("the scene is valid");
         let residual = specialize_scene(&scene, &loaded.sources, &[]).scene;
