@@ -64,7 +64,8 @@ pub(super) fn load_attributes(
     let missing: Vec<&Attribute> = missing.map(|(attribute, _)| attribute).collect();
     if !missing.is_empty() {
         let span = draw.get("attributes").map_or(place, |node| reader.span(node.span()));
-        let reaching: Vec<&str> = names.iter().zip(reaching()).filter_map(|(name, reaches)| reaches.then_some(*name)).collect();
+        let reaching: Vec<&str> =
+            names.iter().zip(reaching()).filter_map(|(name, reaches)| reaches.then_some(*name)).collect();
         report_missing(reader, program, &missing, &reaching, mesh, span);
     }
     data
