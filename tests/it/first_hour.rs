@@ -412,3 +412,65 @@ fn the_adapter_is_chosen_and_named() {
         assert!(told.contains("`nonesuch`") && told.contains("there are `"), "what was found is listed: {told}");
     }
 }
+
+/// The texts under the labels of the findings with a code, the primary one first.
+fn labels(text: &str, wanted: &str) -> Vec<Vec<String>> {
+    let folder = Folder::new(&[("a.frag", text.as_bytes())]);
+    let (list, _) = folder.lint(&["a.frag"]);
+    let lines: Vec<Vec<char>> = text.lines().map(|line| line.chars().collect()).collect();
+    let under = |place: &Value| {
+        let number = |key: &str| place[key].as_u64().expect("a number") as usize;
+        lines[number("line") - 1][number("column") - 1..number("end_column") - 1].iter().collect::<String>()
+    };
+    let all = |finding: &Value| {
+        let labels = finding["labels"].as_array().expect("labels");
+        [finding].into_iter().chain(labels).map(under).collect()
+    };
+    list.iter().filter(|finding| finding["code"] == wanted).map(all).collect()
+}
+
+#[test]
+fn a_divergent_branch_is_told_once_and_the_right_condition_is_blamed() {
+    let shader = |body: &str| {
+        format!(
+            "#version 150\nuniform sampler2D t;\nin vec2 p;\nout vec4 c;\nvec4 inner() {{ return texture(t, p); }}\n\
+             vec4 outer() {{ return inner(); }}\nvoid main() {{\n    c = vec4(0.0);\n    {body}\n}}\n"
+        )
+    };
+    for (body, conditions) in [
+        ("for (int i = 0; i < 4; i++) { if (c.a > 0.5) break; c += texture(t, p); }", &["c.a > 0.5"][..]),
+        ("for (int i = 0; i < int(p.x); i++) { if (i > 3) break; c += texture(t, p); }", &["i < int(p.x)"]),
+        ("if (p.x > 0.5) c = outer();", &["p.x > 0.5"]),
+        ("if (p.x > 0.5) { c = texture(t, p) + texture(t, p.yx); c += texture(t, p * 2.0); }", &["p.x > 0.5"]),
+        ("if (p.x > 0.5) c = texture(t, p); if (p.y > 0.5) c += texture(t, p);", &["p.x > 0.5", "p.y > 0.5"]),
+    ] {
+        let found = labels(&shader(body), "L0010");
+        assert_eq!(found.len(), conditions.len(), "{body}: {found:?}");
+        for (labels, condition) in found.iter().zip(conditions) {
+            assert!(labels.iter().any(|label| label == condition), "{body}: {labels:?}");
+            assert!(!labels.iter().any(|label| label == "i < 4"), "{body}: {labels:?}");
+        }
+    }
+    let many = format!("if (p.x > 0.5) {{ {} }}", "c += texture(t, p); ".repeat(26));
+    assert_eq!(labels(&shader(&many), "L0010").len(), 1);
+}
+
+#[test]
+fn one_mistake_is_one_error() {
+    let body = "\n    vec3 n = normalize(v);\n    if (n.x > 0.5) { n.x = 0.5; }\n    c = vec4(n, 1.0);\n}\n";
+    let head = "#version 150\n#extension GL_ARB_shading_language_include : require\nin vec3 v;\nout vec4 c;\n";
+    let include = "#include \"lights.glsl\"\n";
+    let uses = "vec3 lit(Light l) { return l.color * float(MAX_LIGHTS) + direction(l, v); }\n#if SHADOWS > 1\n#endif\n\
+        Light all[MAX_LIGHTS];\nvoid main() { c = vec4(lit(all[0]), 1.0) * TINT; for (int i = 0; i < MAX_LIGHTS; i++) c += shade(i); }\n";
+    for (text, expected) in [
+        (format!("{head}void main(){body}"), vec!["E0201"]),
+        (format!("{head}float f(float x)\nvoid main() {{{body}"), vec!["E0202"]),
+        (format!("{head}{include}{uses}"), vec!["E0127"]),
+        (format!("{head}float early = unknown;\n{include}{uses}"), vec!["E0301", "E0127"]),
+        (format!("{head}{include}void main() {{ c = vec4(v, 1.0) * true; }}\n"), vec!["E0127", "E0402"]),
+    ] {
+        let folder = Folder::new(&[("a.frag", text.as_bytes())]);
+        let (list, _) = folder.lint(&["a.frag"]);
+        assert_eq!(codes(&list), expected, "{text}\n{list:#?}");
+    }
+}

@@ -19,6 +19,7 @@ mod first_hour;
 mod gallery;
 #[cfg(feature = "gpu")]
 mod gpu;
+mod helps;
 #[cfg(feature = "cli")]
 mod host;
 mod hostile;

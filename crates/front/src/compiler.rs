@@ -2,7 +2,8 @@
 
 use crate::analysis::{analyze, keep_understood};
 use crate::diagnostic::codes::general::TOO_LARGE;
-use crate::diagnostic::{Diagnostic, Diagnostics, Levels};
+use crate::diagnostic::codes::{names, preprocess};
+use crate::diagnostic::{Code, Diagnostic, Diagnostics, Levels};
 use crate::hir::{Stage, Types};
 use crate::link::{Bindings, Program, Understood, check_understood, link};
 use crate::source::{IncludeResolver, NoIncludes, SourceMap, Span, whole_text};
@@ -178,8 +179,37 @@ impl Compiler {
         let mut shader = analyze(&ast, source.stage, strict, types, map, diagnostics);
         shader.texts.push(whole_text(map, file, ast.version.span, &ast.inclusions, &self.options.defines));
         let is_complete = !keep_understood(&ast, &mut shader, types, map, diagnostics, first_error);
+        forget_names_of_missing_includes(map, diagnostics, first_error);
         Some(Understood { shader, is_complete })
     }
+}
+
+/// Names that nothing declares are no errors where an include is missing that may declare them: drops what was reported
+/// about them, from diagnostic `first` on. Names before the include in its file remain errors.
+fn forget_names_of_missing_includes(map: &SourceMap, diagnostics: &mut Diagnostics, first: usize) {
+    static ABOUT_NAMES: &[&Code] = &[
+        &names::UNDECLARED,
+        &names::UNKNOWN_TYPE,
+        &names::UNKNOWN_FUNCTION,
+        &preprocess::UNDEFINED_IN_CONDITION,
+        &preprocess::MALFORMED_CONDITION,
+    ];
+    let is_missing = |diagnostic: &&Diagnostic| *diagnostic.code == preprocess::INCLUDE_NOT_FOUND;
+    let place = |diagnostic: &Diagnostic| {
+        let span = map.call_site(diagnostic.primary.span);
+        (map.file_of(span), span.start)
+    };
+    let missing: Vec<_> = diagnostics.iter().skip(first).filter(is_missing).map(place).collect();
+    if missing.is_empty() {
+        return;
+    }
+    let mut index = 0;
+    diagnostics.retain_mut(|diagnostic| {
+        index += 1;
+        let (file, start) = place(diagnostic);
+        let later = missing.iter().any(|(other, include)| *other != file || *include < start);
+        index <= first || !later || !ABOUT_NAMES.contains(&diagnostic.code)
+    });
 }
 
 /// The file name of a path, without its folder and its last extension.

@@ -7,12 +7,21 @@
 
 use crate::hir::{ExprId, ExprKind, FunctionId, ParamMode, Shader, Stmt, StmtKind, Storage, VarRef};
 use crate::link::usage::written_by;
+use rustc_hash::FxHashMap;
 
 /// A call of a built-in function in divergent control flow.
 pub(super) struct DivergentCall {
     pub(super) expr: ExprId,
-    /// The divergent condition, if it is in the same function.
-    pub(super) condition: Option<ExprId>,
+    pub(super) cause: Cause,
+}
+
+/// The reason why control flow is divergent.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Cause {
+    /// The divergent condition.
+    pub(super) condition: ExprId,
+    /// The call that the condition guards, if it is in a caller.
+    pub(super) call: Option<ExprId>,
 }
 
 /// The number of iterations after which the analysis gives up; real shaders need two or three.
@@ -23,8 +32,11 @@ struct Divergence<'a> {
     globals: Vec<bool>,
     locals: Vec<Vec<bool>>,
     returns: Vec<bool>,
-    /// Whether a function is called in divergent control flow.
-    called: Vec<bool>,
+    /// For each function that is called in divergent control flow: why. The first cause found counts, since later ones may
+    /// follow from it.
+    called: Vec<Option<Cause>>,
+    /// For each divergent loop, by its first expression: the first cause found.
+    loops: FxHashMap<ExprId, ExprId>,
     changed: bool,
     calls: Option<Vec<DivergentCall>>,
     function: FunctionId,
@@ -34,10 +46,14 @@ struct Divergence<'a> {
 #[derive(Clone, Copy)]
 enum Flow {
     Uniform,
-    Divergent(Option<ExprId>),
+    Divergent(Cause),
 }
 
 impl Flow {
+    fn because(condition: ExprId) -> Self {
+        Self::Divergent(Cause { condition, call: None })
+    }
+
     fn is_divergent(self) -> bool {
         matches!(self, Self::Divergent(_))
     }
@@ -52,7 +68,8 @@ pub(super) fn divergent_calls(shader: &Shader) -> Vec<DivergentCall> {
         globals: shader.globals.iter().map(|global| global.storage == Storage::In).collect(),
         locals: shader.functions.iter().map(|function| vec![false; function.locals.len()]).collect(),
         returns: vec![false; shader.functions.len()],
-        called: vec![false; shader.functions.len()],
+        called: vec![None; shader.functions.len()],
+        loops: FxHashMap::default(),
         changed: true,
         calls: None,
         function: main,
@@ -73,7 +90,7 @@ pub(super) fn divergent_calls(shader: &Shader) -> Vec<DivergentCall> {
 impl Divergence<'_> {
     fn function(&mut self, id: FunctionId) {
         self.function = id;
-        let flow = if self.called.get(id.index()) == Some(&true) { Flow::Divergent(None) } else { Flow::Uniform };
+        let flow = self.called.get(id.index()).copied().flatten().map_or(Flow::Uniform, Flow::Divergent);
         let shader = self.shader;
         if let Some(body) = &shader.function(id).body {
             self.body(body, flow);
@@ -87,7 +104,7 @@ impl Divergence<'_> {
             if !flow.is_divergent()
                 && let Some(condition) = self.divergent_exit(statement)
             {
-                flow = Flow::Divergent(Some(condition));
+                flow = Flow::because(condition);
             }
         }
     }
@@ -131,18 +148,13 @@ impl Divergence<'_> {
                 cases.iter().for_each(|case| self.body(&case.body, flow));
             }
             StmtKind::Loop { condition, step, body, .. } => {
-                let mut flow = flow;
+                let condition = condition.as_ref();
+                let flow = self.in_loop(condition.map(|condition| condition.expr), body, flow);
                 if let Some(condition) = condition {
-                    flow = self.under(condition.expr, flow);
                     self.expr(condition.expr, flow);
                     if let Some(id) = condition.local.filter(|_| self.differs(condition.expr)) {
                         self.taint(VarRef::Local(id));
                     }
-                }
-                if !flow.is_divergent()
-                    && let Some(condition) = body.iter().find_map(|statement| self.divergent_exit(statement))
-                {
-                    flow = Flow::Divergent(Some(condition));
                 }
                 self.body(body, flow);
                 step.iter().for_each(|step| self.expr(*step, flow));
@@ -163,8 +175,22 @@ impl Divergence<'_> {
         }
     }
 
+    /// The control flow in a loop. Its own condition, or that of a `break`, may make it divergent; then the counter is
+    /// divergent, too, and the other condition seems to differ as well. So the one that was found first is the cause.
+    fn in_loop(&mut self, condition: Option<ExprId>, body: &[Stmt], flow: Flow) -> Flow {
+        if flow.is_divergent() {
+            return flow;
+        }
+        let own = condition.filter(|&condition| self.differs(condition));
+        let Some(found) = own.or_else(|| body.iter().find_map(|statement| self.divergent_exit(statement))) else {
+            return flow;
+        };
+        let key = condition.unwrap_or(found);
+        Flow::because(*self.loops.entry(key).or_insert(found))
+    }
+
     fn under(&self, condition: ExprId, flow: Flow) -> Flow {
-        if !flow.is_divergent() && self.differs(condition) { Flow::Divergent(Some(condition)) } else { flow }
+        if !flow.is_divergent() && self.differs(condition) { Flow::because(condition) } else { flow }
     }
 
     /// Whether the value may be divergent.
@@ -234,7 +260,7 @@ impl Divergence<'_> {
             {
                 shader.root_variable(*target).into_iter().for_each(|variable| self.taint(variable));
             }
-            ExprKind::Call(function, arguments) => self.call(*function, arguments, flow),
+            ExprKind::Call(function, arguments) => self.call(id, *function, arguments, flow),
             ExprKind::BuiltinCall(..) => {
                 let differs = flow.is_divergent() || self.differs(id);
                 written_by(shader, id, &mut |target| {
@@ -242,8 +268,8 @@ impl Divergence<'_> {
                         self.taint(variable);
                     }
                 });
-                if let (Flow::Divergent(condition), Some(calls)) = (flow, &mut self.calls) {
-                    calls.push(DivergentCall { expr: id, condition });
+                if let (Flow::Divergent(cause), Some(calls)) = (flow, &mut self.calls) {
+                    calls.push(DivergentCall { expr: id, cause });
                 }
             }
             ExprKind::IncDec(_, target) if flow.is_divergent() => {
@@ -253,10 +279,11 @@ impl Divergence<'_> {
         }
     }
 
-    fn call(&mut self, function: FunctionId, arguments: &[ExprId], flow: Flow) {
+    fn call(&mut self, id: ExprId, function: FunctionId, arguments: &[ExprId], flow: Flow) {
         let shader = self.shader;
-        if flow.is_divergent() {
-            set(&mut self.called, function.index(), &mut self.changed);
+        if let (Flow::Divergent(cause), Some(called @ None)) = (flow, self.called.get_mut(function.index())) {
+            *called = Some(Cause { call: cause.call.or(Some(id)), ..cause });
+            self.changed = true;
         }
         for (index, &argument) in arguments.iter().enumerate() {
             let mode = shader.function(function).param_mode(index);

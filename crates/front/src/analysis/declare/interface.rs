@@ -59,7 +59,11 @@ impl Analyzer<'_> {
             return TypeId::ERROR;
         }
         if self.types.contains_sampler(ty) && storage != Storage::Uniform {
-            self.report_sampler(ty, ty_span, name);
+            let help = match storage {
+                Storage::Private => "write `uniform` before it",
+                _ => "declare it `uniform`, with no other storage qualifier",
+            };
+            self.report_sampler(ty, ty_span, name, help);
             return TypeId::ERROR;
         }
         match storage {
@@ -72,13 +76,13 @@ impl Analyzer<'_> {
     }
 
     /// Reports a sampler that is neither a uniform nor a parameter.
-    pub(in crate::analysis) fn report_sampler(&mut self, ty: TypeId, span: Span, name: Span) {
+    pub(in crate::analysis) fn report_sampler(&mut self, ty: TypeId, span: Span, name: Span, help: &str) {
         let type_name = self.type_name(ty);
         self.report(
             Diagnostic::new(&types::SAMPLER, span, format!("a `{type_name}` must be a uniform or a parameter"))
                 .here("holds a sampler")
                 .label(name, "declared here")
-                .help("write `uniform` before it"),
+                .help(help),
         );
     }
 

@@ -93,7 +93,8 @@ impl Analyzer<'_> {
                 block.instance.as_ref().is_some_and(|(name, dims)| self.name(*name) == "gl_in" && dims.len() == 1);
             if !good {
                 let message = "the input `gl_PerVertex` is called `gl_in[]`";
-                return finding(message, at, "another instance").map(|finding| finding.help("write `} gl_in[];`"));
+                return finding(message, at, "another instance")
+                    .map(|finding| finding.help("write `} gl_in[];` at its end"));
             }
         } else if let Some((name, _)) = &block.instance {
             return finding("the output `gl_PerVertex` has no instance name", name.span, "remove the name");

@@ -86,7 +86,8 @@ impl Analyzer<'_> {
             return TypeId::ERROR;
         }
         if self.types.contains_sampler(ty) {
-            self.report_sampler(ty, declaration.ty.span, declarator.name.span);
+            let help = "declare it at global scope, as a `uniform`, or make it a parameter";
+            self.report_sampler(ty, declaration.ty.span, declarator.name.span, help);
             return TypeId::ERROR;
         }
         ty

@@ -2,29 +2,58 @@
 //! §8.8).
 
 use super::super::Findings;
-use super::super::divergence::{self, DivergentCall};
-use crate::hir::{ExprKind, Shader, Stage, Type, Types};
+use super::super::divergence::{self, Cause, DivergentCall};
+use crate::hir::{ExprId, ExprKind, Shader, Stage, Type, Types};
 use crate::link::Program;
+use rustc_hash::FxHashMap;
+
+/// How many further calls under one condition get a label.
+const MAX_LABELS: usize = 4;
 
 pub(super) fn check(program: &Program, findings: &mut Findings<'_>) {
     let Some(fragment) = program.stage(Stage::Fragment) else { return };
-    for DivergentCall { expr, condition } in divergence::divergent_calls(fragment) {
+    let mut groups: Vec<(Cause, Vec<ExprId>)> = Vec::new();
+    let mut indices: FxHashMap<ExprId, usize> = FxHashMap::default();
+    for DivergentCall { expr, cause } in divergence::divergent_calls(fragment) {
         let ExprKind::BuiltinCall(function, arguments) = &fragment.expr(expr).kind else { continue };
         if !function.implicit_derivatives() || has_one_level(&program.types, fragment, arguments) {
             continue;
         }
-        let message =
-            format!("`{}` takes derivatives where neighboring fragments may have gone another way", function.name());
-        let mut finding = findings.at(fragment.expr(expr).span, message).here("the level of detail is undefined here");
-        if let Some(condition) = condition {
-            finding = finding.label(fragment.expr(condition).span, "this may differ between fragments");
+        let index = *indices.entry(cause.condition).or_insert(groups.len());
+        match groups.get_mut(index) {
+            Some((_, calls)) => calls.push(expr),
+            None => groups.push((cause, vec![expr])),
         }
-        findings.push(finding.help("compute it before the branch, or use the form with `Lod` or `Grad`"));
+    }
+    for (cause, mut calls) in groups {
+        calls.sort_by_key(|&call| fragment.expr(call).span.start);
+        report(fragment, cause, &calls, findings);
     }
 }
 
+/// One finding for a condition: at the first call, with labels at the condition and at further calls.
+fn report(fragment: &Shader, cause: Cause, calls: &[ExprId], findings: &mut Findings<'_>) {
+    let span = |id: ExprId| fragment.expr(id).span;
+    let Some((&first, more)) = calls.split_first() else { return };
+    let ExprKind::BuiltinCall(function, _) = &fragment.expr(first).kind else { return };
+    let message =
+        format!("`{}` takes derivatives where neighboring fragments may have gone another way", function.name());
+    let mut finding = findings.at(span(first), message).here("the level of detail is undefined here");
+    finding = finding.label(span(cause.condition), "this may differ between fragments");
+    if let Some(call) = cause.call {
+        finding = finding.label(span(call), "this call depends on it");
+    }
+    for &call in more.iter().take(MAX_LABELS) {
+        finding = finding.label(span(call), "and here");
+    }
+    if more.len() > MAX_LABELS {
+        finding = finding.note(format!("and in {} more places under the same condition", more.len() - MAX_LABELS));
+    }
+    findings.push(finding.help("compute it before the branch, or use the form with `Lod` or `Grad`"));
+}
+
 /// Whether the texture has only one level, so that no level is selected.
-fn has_one_level(types: &Types, shader: &Shader, arguments: &[crate::hir::ExprId]) -> bool {
+fn has_one_level(types: &Types, shader: &Shader, arguments: &[ExprId]) -> bool {
     let sampler = arguments.first().map(|&first| types.get(shader.expr(first).ty));
     matches!(sampler, Some(Type::Sampler(kind)) if !kind.has_levels())
 }

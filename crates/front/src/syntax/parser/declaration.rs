@@ -13,6 +13,8 @@ use crate::syntax::kind;
 /// How many tokens the parser looks ahead to tell a declaration from an expression. Without a bound, a text that
 /// never closes its brackets would be searched to its end from each statement.
 const MAX_AHEAD: usize = 1024;
+/// How many tokens a function may have for its forgotten `{` to be found.
+const MAX_BODY: usize = 1 << 16;
 
 impl<T: TokenSource> Parser<'_, '_, T> {
     /// external_declaration
@@ -61,6 +63,10 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         if let (DeclarationKind::Prototype(_), TokenKind::LeftBrace) = (&kind, self.kind()) {
             let DeclarationKind::Prototype(header) = kind else { return Err(Reported) };
             return self.function_definition(header);
+        }
+        if matches!(kind, DeclarationKind::Prototype(_)) && self.kind() != TokenKind::Semicolon && self.lost_brace() {
+            let DeclarationKind::Prototype(header) = kind else { return Err(Reported) };
+            return Ok(self.function_without_brace(header));
         }
         if !matches!(kind, DeclarationKind::Function(..)) {
             self.semicolon("the declaration")?;
@@ -137,6 +143,40 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         let body: Vec<Stmt> = self.compound_statement();
         self.leaving_function = false;
         Ok(DeclarationKind::Function(header, body))
+    }
+
+    /// Whether the `{` of a body was forgotten: a `}` follows that closes nothing. It is sought only once, so that text
+    /// with many errors is not read again and again.
+    fn lost_brace(&mut self) -> bool {
+        if std::mem::replace(&mut self.sought_brace, true) {
+            return false;
+        }
+        let mut depth = 0_usize;
+        for at in 0..MAX_BODY {
+            match self.ahead(at).kind {
+                TokenKind::LeftBrace => depth += 1,
+                TokenKind::RightBrace if depth == 0 => return true,
+                TokenKind::RightBrace => depth -= 1,
+                TokenKind::Eof => return false,
+                _ => {}
+            }
+        }
+        false
+    }
+
+    /// function_definition without its `{`, which is reported and assumed.
+    fn function_without_brace(&mut self, header: FunctionHeader) -> DeclarationKind {
+        let at = self.previous.span.after();
+        let diagnostic =
+            Diagnostic::new(&codes::UNEXPECTED_TOKEN, at, "`{` is missing before the body of the function")
+                .here("expected `{`")
+                .help("write `{` here");
+        let _: Reported = self.report_found(diagnostic);
+        self.function_brace = at;
+        self.braces += 1;
+        let body = self.rest_of_compound(at);
+        self.leaving_function = false;
+        DeclarationKind::Function(header, body)
     }
 
     /// declaration, without its `;`

@@ -72,6 +72,8 @@ pub(super) struct Parser<'p, 's, T: TokenSource> {
     end_reported: bool,
     /// Whether a function begins inside a function: the outer body ends as if its brace were there.
     leaving_function: bool,
+    /// Whether a forgotten `{` of a function has been sought.
+    sought_brace: bool,
     /// Whether the error that is being propagated leaves nothing to skip.
     recovered: bool,
     /// Whether something nests too deeply: the rest of the block around it is skipped.
@@ -104,6 +106,7 @@ impl<'p, 's, T: TokenSource> Parser<'p, 's, T> {
             renamed: FxHashSet::default(),
             end_reported: false,
             leaving_function: false,
+            sought_brace: false,
             recovered: false,
             overdeep: false,
             assumed_brace: false,

@@ -9,6 +9,11 @@ impl<T: TokenSource> Parser<'_, '_, T> {
     /// compound_statement; reports a missing closing brace.
     pub(super) fn compound_statement(&mut self) -> Vec<Stmt> {
         let opening = self.bump();
+        self.rest_of_compound(opening.span)
+    }
+
+    /// The statements of a block after its `{`, up to its `}`.
+    pub(super) fn rest_of_compound(&mut self, opening: Span) -> Vec<Stmt> {
         let mut statements = Vec::new();
         loop {
             match self.kind() {
@@ -17,7 +22,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
                     return statements;
                 }
                 TokenKind::Eof => {
-                    let _: Reported = self.unclosed_brace(opening.span);
+                    let _: Reported = self.unclosed_brace(opening);
                     statements.push(Stmt { kind: StmtKind::Error, span: self.current.span });
                     return statements;
                 }

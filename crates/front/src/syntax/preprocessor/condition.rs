@@ -293,6 +293,30 @@ impl Evaluator<'_> {
         }
     }
 
+    /// The help text for an undefined name, the last token read: the text to write in its place, if there it is only true
+    /// or false; otherwise a definition that gives it the value that it has now.
+    fn guarded(&self, name: &str) -> String {
+        let at = self.next.saturating_sub(1);
+        let before = at.checked_sub(1).and_then(|before| self.tokens.get(before)).map(|token| token.kind);
+        let after = self.tokens.get(self.next).map(|token| token.kind);
+        let starts = matches!(before, None | Some(TokenKind::LeftParen | TokenKind::AndAnd | TokenKind::OrOr));
+        let ends = matches!(after, None | Some(TokenKind::RightParen | TokenKind::AndAnd | TokenKind::OrOr));
+        // `(NAME) > 2`: the parentheses belong to the operand.
+        let alone = before == Some(TokenKind::LeftParen) && after == Some(TokenKind::RightParen);
+        let outside = |index: Option<usize>| index.and_then(|index| self.tokens.get(index)).map(|token| token.kind);
+        let compared = [outside(at.checked_sub(2)), outside(Some(self.next + 1))];
+        let is_value = |kind: &Option<TokenKind>| {
+            kind.is_some_and(|kind| precedence(kind).is_some_and(|strength| strength > 2) || kind == TokenKind::Tilde)
+        };
+        if ends && before == Some(TokenKind::Bang) {
+            format!("write `(defined({name}) && {name})`")
+        } else if starts && ends && !(alone && compared.iter().any(is_value)) {
+            format!("write `defined({name}) && {name}`")
+        } else {
+            format!("define it before, as `#ifndef {name}`, `#define {name} 0`, `#endif` on lines of their own")
+        }
+    }
+
     /// Handles a name that is not a macro.
     fn undefined(&self, session: &mut ParseSession<'_>, token: Token) -> Result<i64, Malformed> {
         let name = session.spelling(token).to_owned();
@@ -303,13 +327,15 @@ impl Evaluator<'_> {
             return self.fail(session, Some(token), &format!("`{name}` is not a macro with arguments"));
         }
         if self.unevaluated == 0 {
-            let names = self.macros.iter().map(|definition| &*definition.name);
+            // A macro with arguments does not stand alone, and two short names are similar by chance.
+            let similar = |definition: &&Macro| definition.params.is_none() && definition.name.len() > 2;
+            let names = self.macros.iter().filter(similar).map(|definition| &*definition.name);
             let few = self.macros.len() <= MAX_COMPARED;
             let near = if few && session.may_suggest() { did_you_mean(&name, names) } else { None };
             let message = format!("`{name}` is not defined and counts as 0");
             let help = match near {
                 Some(near) => format!("did you mean `{near}`?"),
-                None => format!("write `defined({name}) && {name}`"),
+                None => self.guarded(&name),
             };
             let diagnostic = kind::UNDEFINED_IN_CONDITION.diagnostic(self.strict, token.span, message).help(help);
             session.report(diagnostic);

@@ -74,7 +74,10 @@ fn number(session: &mut ParseSession<'_>, token: &mut Token) {
                     }
                     NumeralWarning::Infinite => format!("`{text}` is too large for a `float` and becomes infinite"),
                 };
-                let help = (warning == NumeralWarning::Negative).then(|| format!("write `{text}u`"));
+                let help = (warning == NumeralWarning::Negative).then(|| match bits as i32 {
+                    i32::MIN => format!("write `{text}u` for a `uint`"),
+                    same => format!("write `{same}` for the same `int`, or `{text}u` for a `uint`"),
+                });
                 session.report(Diagnostic::new(&syntax::LITERAL_WRAPS, token.span, message).maybe_help(help));
             }
             (token.kind, token.payload) = (kind, bits);
