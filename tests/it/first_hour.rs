@@ -474,3 +474,43 @@ fn one_mistake_is_one_error() {
         assert_eq!(codes(&list), expected, "{text}\n{list:#?}");
     }
 }
+
+#[test]
+fn a_search_passes_over_what_is_ignored_and_counts_other_versions() {
+    let (vertex, fragment) = (FLAT.0.as_bytes(), FLAT.1.as_bytes());
+    let broken = b"#version 150\nvoid main() { x; }\n";
+    let folder = Folder::new(&[
+        (".gitignore", b"/target\nnode_modules/\n*.tmp.frag\n!kept.tmp.frag\n"),
+        ("a.vert", vertex),
+        ("a.frag", fragment),
+        ("kept.tmp.frag", fragment),
+        ("gone.tmp.frag", broken),
+        ("target/b.frag", broken),
+        ("deep/node_modules/c.frag", broken),
+        ("deep/.gitignore", b"d.frag\n"),
+        ("deep/d.frag", broken),
+        ("third/party/e.frag", broken),
+        ("gen/f.gen.frag", broken),
+        ("old/g.vert", b"#version 110\nvoid main() { gl_Position = ftransform(); }\n"),
+        ("old/h.frag", b"#version 330 core\nlayout(location = 0) out vec4 c;\nvoid main() { c = vec4(1.0); }\n"),
+        ("old/i.frag", b"#version 300 es\nprecision mediump float;\nvoid main() {}\n"),
+        ("glisten.toml", b"[lint]\nexclude = [\"third\", \"*.gen.frag\"]\n"),
+    ]);
+    let output = folder.run(&["lint", "."]);
+    assert_eq!((code(&output), out(&output)), (0, String::new()), "{}", err(&output));
+    assert!(err(&output).contains("3 files, 1 program: nothing found\n"), "{}", err(&output));
+    assert!(err(&output).contains("3 files of other versions were not checked"), "{}", err(&output));
+    assert_eq!(err(&folder.run(&["lint", ".", "-q"])), "");
+    for arguments in [&["old/h.frag"][..], &[".", "old/h.frag"]] {
+        let (list, exit) = folder.lint(arguments);
+        assert_eq!((codes(&list), exit), (vec!["E0122"], 1), "{arguments:?}");
+    }
+    for file in ["target/b.frag", "third/party/e.frag", "gen/f.gen.frag"] {
+        assert_eq!(folder.lint(&[file]).1, 1, "what is named is checked: {file}");
+    }
+    fs::write(folder.path("glisten.toml"), "exclude = [\"third\", \"gen\"]\n").expect("written");
+    assert_eq!(folder.lint(&["."]).1, 0);
+    fs::write(folder.path("glisten.toml"), "exclude = [\"{a\"]\n").expect("written");
+    let (list, _) = folder.lint(&["a.frag"]);
+    assert_eq!(codes(&list), ["E0015"], "{list:#?}");
+}
