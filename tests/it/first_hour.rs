@@ -514,3 +514,48 @@ fn a_search_passes_over_what_is_ignored_and_counts_other_versions() {
     let (list, _) = folder.lint(&["a.frag"]);
     assert_eq!(codes(&list), ["E0015"], "{list:#?}");
 }
+
+#[test]
+fn a_new_scene_loads_and_draws() {
+    let vertex = "#version 150\nin vec4 position;\nin vec3 normal;\nin vec2 uv;\nin ivec2 cell;\nin mat2 turn;\nuniform mat4 mc;\n\
+        uniform vec3 list[2];\nuniform int n = 3;\nuniform B { bool on; } b;\nout vec3 v;\nvoid main() {\n    v = normal * float(n + \
+        cell.x) + vec3(turn * uv, 0.0) + list[1];\n    gl_Position = b.on ? mc * position : position;\n}\n";
+    let fragment = "#version 150\nin vec3 v;\nuniform sampler2D t, many[2];\nuniform samplerCube cube;\nuniform sampler3D solid;\n\
+        uniform isampler2DArray ids;\nuniform sampler2DShadow shadow;\nuniform samplerBuffer line;\nuniform sampler2DRect r;\nout vec4 c;\n\
+        void main() {\n    c = texture(t, v.xy) + texture(many[1], v.xy) + texture(cube, v) + texture(solid, v) + vec4(texture(ids, \
+        v)) + texture(shadow, v) + texelFetch(line, 0) + texture(r, v.xy);\n}\n";
+    let folder = Folder::new(&[("src/a.vert", vertex.as_bytes()), ("src/a.frag", fragment.as_bytes())]);
+    let output = folder.run(&["new-scene", "src/a.vert", "src/a.frag", "-o", "a.toml"]);
+    assert_eq!(code(&output), 0, "{}", err(&output));
+    let text = fs::read_to_string(folder.path("a.toml")).expect("written");
+    assert!(text.contains("vertex = \"src/a.vert\"") && text.contains("# mat4"), "{text}");
+    let (exit, told) = render(&folder, &["--deny", "warnings"]);
+    assert_eq!((exit, told.as_str()), (0, ""), "{text}");
+    let again = folder.run(&["new-scene", "src/a.vert", "src/a.frag", "-o", "a.toml"]);
+    assert_eq!(code(&again), 2, "a file that exists is kept");
+    let full =
+        "#version 150\nvoid main() { gl_Position = vec4(gl_VertexID % 2 * 4 - 1, gl_VertexID / 2 * 4 - 1, 0, 1); }\n";
+    let folder = scene(full, FLAT.1, "");
+    let output = folder.run(&["new-scene", "a.vert", "a.frag"]);
+    assert!(out(&output).contains("vertex_count = 3"), "{}", out(&output));
+    fs::write(folder.path("a.toml"), &output.stdout).expect("written");
+    assert_eq!(render(&folder, &["--deny", "warnings"]), (0, String::new()));
+    fs::write(folder.path("a.frag"), "#version 150\nvoid main() { x; }\n").expect("written");
+    let failed = folder.run(&["new-scene", "a.vert", "a.frag", "-o", "b.toml"]);
+    assert!(code(&failed) == 1 && !folder.path("b.toml").exists(), "{}", err(&failed));
+}
+
+#[test]
+fn shells_complete_commands_and_help_explains_them() {
+    let folder = Folder::new(&[]);
+    for shell in ["bash", "zsh", "fish", "powershell"] {
+        let output = folder.run(&["completions", shell]);
+        assert_eq!(code(&output), 0, "{}", err(&output));
+        for word in ["new-scene", "bind-attrib", "verify"] {
+            assert!(out(&output).contains(word), "{shell}: {word}");
+        }
+    }
+    assert_eq!(code(&folder.run(&["completions", "nonesuch"])), 2);
+    let (help, flag) = (folder.run(&["help", "lint"]), folder.run(&["lint", "--help"]));
+    assert_eq!((code(&help), out(&help)), (0, out(&flag)));
+}
