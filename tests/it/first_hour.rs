@@ -559,3 +559,62 @@ fn shells_complete_commands_and_help_explains_them() {
     let (help, flag) = (folder.run(&["help", "lint"]), folder.run(&["lint", "--help"]));
     assert_eq!((code(&help), out(&help)), (0, out(&flag)));
 }
+
+#[test]
+fn other_dialects_are_recognized() {
+    for (text, word) in [
+        (
+            "#version 150\nuniform sampler2D t;\nin vec2 p;\nout vec4 c;\nvoid main() { c = t.Sample(p); }\n",
+            "texture(s, p)",
+        ),
+        ("#version 150\nout vec4 c;\nvoid main() { c = vec4(sin(iTime)); }\n", "uniform float iTime;"),
+        (
+            "#version 150\nvoid mainImage(out vec4 c, in vec2 p) { c = vec4(p, 0.0, 1.0); }\n",
+            "mainImage(color, gl_FragCoord.xy)",
+        ),
+    ] {
+        let folder = Folder::new(&[("a.frag", text.as_bytes())]);
+        assert!(
+            out(&folder.run(&["lint", "a.frag"])).contains(word),
+            "{word}: {}",
+            out(&folder.run(&["lint", "a.frag"]))
+        );
+    }
+}
+
+#[test]
+fn comments_for_glisten_need_no_blank_and_no_case() {
+    for comment in [
+        "// glisten: allow(L0010)",
+        "//glisten:allow(L0010)",
+        "// Glisten:allow( L0010 )",
+        "/* glisten: allow(L0010) */",
+    ] {
+        let text = format!(
+            "#version 150\nuniform sampler2D t;\nin vec2 p;\nout vec4 c;\nvoid main() {{\n    c = vec4(0.0);\n    if (p.x > 0.5)\n        c \
+             = texture(t, p); {comment}\n}}\n"
+        );
+        let folder = Folder::new(&[("a.frag", text.as_bytes())]);
+        let (list, _) = folder.lint(&["a.frag"]);
+        assert!(list.is_empty(), "{comment}: {list:#?}");
+        let (list, _) = Folder::new(&[("a.frag", text.replace(comment, "").as_bytes())]).lint(&["a.frag"]);
+        assert_eq!(codes(&list), ["L0010"]);
+    }
+}
+
+#[test]
+fn bindings_have_the_errors_of_opengl() {
+    let folder = Folder::triangle();
+    for (binding, word) in [
+        (["--bind-attrib", "gl_Vertex=0"], "GL_INVALID_OPERATION"),
+        (["--bind-attrib", "pv=16"], "GL_INVALID_VALUE"),
+        (["--bind-frag-data", "gl_FragColor=0"], "GL_INVALID_OPERATION"),
+        (["--bind-frag-data", "fc=8"], "GL_INVALID_VALUE"),
+    ] {
+        let output = folder.run(&[&["compile", "tri.vert", "tri.frag", "-o", "out"][..], &binding].concat());
+        assert!(code(&output) == 2 && err(&output).contains(word), "{binding:?}: {}", err(&output));
+    }
+    let good = ["--bind-attrib", "pv=15", "--bind-frag-data", "fc=0"];
+    let output = folder.run(&[&["compile", "tri.vert", "tri.frag", "-o", "out"][..], &good].concat());
+    assert_eq!(code(&output), 0, "{}", err(&output));
+}
