@@ -5,6 +5,7 @@ use super::stages::StageArg;
 use crate::specialize::Contract;
 use clap::{Args, ValueEnum};
 use glisten_emit::{ClipZ, Conventions, SpirvEnv, WindowOrigin};
+use glisten_front::builtin::constants::{MAX_DRAW_BUFFERS, MAX_VERTEX_ATTRIBS};
 use glisten_front::compiler::Options;
 use glisten_front::diagnostic::{Code, Level, Levels, Severity, codes, did_you_mean};
 use std::path::PathBuf;
@@ -153,10 +154,10 @@ pub(super) fn nearest_code(key: &str) -> Option<&'static str> {
 #[command(next_help_heading = "Bindings")]
 pub(super) struct BindingArgs {
     /// Bind a vertex attribute to a location (glBindAttribLocation)
-    #[arg(long = "bind-attrib", value_name = "NAME=LOCATION", value_parser = parse_binding)]
+    #[arg(long = "bind-attrib", value_name = "NAME=LOCATION", value_parser = parse_attribute)]
     attributes: Vec<(String, u32)>,
     /// Bind a fragment output to a color number (glBindFragDataLocation)
-    #[arg(long = "bind-frag-data", value_name = "NAME=COLOR_NUMBER", value_parser = parse_binding)]
+    #[arg(long = "bind-frag-data", value_name = "NAME=COLOR_NUMBER", value_parser = parse_frag_data)]
     frag_data: Vec<(String, u32)>,
 }
 
@@ -241,6 +242,28 @@ fn parse_define(text: &str) -> Result<(String, String), String> {
         return Err("a macro's value is one line".to_owned());
     }
     Ok((name.to_owned(), value.to_owned()))
+}
+
+/// The arguments of `glBindAttribLocation` (OpenGL 3.2 §2.11.3).
+fn parse_attribute(text: &str) -> Result<(String, u32), String> {
+    within(parse_binding(text)?, MAX_VERTEX_ATTRIBS, "a location", "glBindAttribLocation")
+}
+
+/// The arguments of `glBindFragDataLocation` (OpenGL 3.2 §3.9.2).
+fn parse_frag_data(text: &str) -> Result<(String, u32), String> {
+    within(parse_binding(text)?, MAX_DRAW_BUFFERS, "a color number", "glBindFragDataLocation")
+}
+
+/// The binding, unless OpenGL has an error for it.
+fn within(binding: (String, u32), limit: u32, what: &str, call: &str) -> Result<(String, u32), String> {
+    let (name, number) = &binding;
+    if name.starts_with("gl_") {
+        return Err(format!("`{name}` is built in and cannot be bound (GL_INVALID_OPERATION of {call})"));
+    }
+    if *number >= limit {
+        return Err(format!("{number} is not {what}: they are 0 to {} (GL_INVALID_VALUE of {call})", limit - 1));
+    }
+    Ok(binding)
 }
 
 fn parse_binding(text: &str) -> Result<(String, u32), String> {

@@ -5,7 +5,11 @@
 //! allow = ["W0001"]
 //! warn = []
 //! deny = ["warnings"]
+//! exclude = ["third_party", "*.generated.frag"]
 //! ```
+//!
+//! `exclude` names what a search of a folder passes over, by the patterns of `.gitignore`, relative to the file's folder. It may
+//! also stand above all tables.
 //!
 //! *Holds:* only the nearest file counts; a level on the command line takes precedence.
 
@@ -15,6 +19,7 @@ use super::files;
 use glisten_front::diagnostic::codes::general::BAD_CONFIG;
 use glisten_front::diagnostic::{Diagnostic, Level, Levels};
 use glisten_front::source::{SourceMap, Span};
+use ignore::gitignore::{Gitignore, GitignoreBuilder};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -26,6 +31,8 @@ const NAME: &str = "glisten.toml";
 #[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Config {
+    #[serde(default)]
+    exclude: Vec<Spanned<String>>,
     #[serde(default)]
     lint: LintTable,
 }
@@ -39,6 +46,27 @@ struct LintTable {
     warn: Vec<Spanned<String>>,
     #[serde(default)]
     deny: Vec<Spanned<String>>,
+    #[serde(default)]
+    exclude: Vec<Spanned<String>>,
+}
+
+/// The nearest configuration of a folder or of one above it.
+fn nearest(folder: &Path) -> Option<PathBuf> {
+    let absolute = std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
+    absolute.ancestors().map(|above| above.join(NAME)).find(|path| path.is_file())
+}
+
+/// The patterns that the nearest configuration excludes. Its errors are reported when its levels are read.
+pub(super) fn excluded(folder: &Path) -> Option<Gitignore> {
+    let path = nearest(folder)?;
+    let config: Config =
+        toml::from_str(&String::from_utf8_lossy(&files::read(&path.to_string_lossy(), &path).ok()?)).ok()?;
+    let mut patterns = GitignoreBuilder::new(path.parent()?);
+    for pattern in config.exclude.iter().chain(&config.lint.exclude) {
+        // A pattern that is wrong excludes nothing.
+        let _ = patterns.add_line(None, pattern.get_ref());
+    }
+    patterns.build().ok()
 }
 
 /// The configurations of all folders so far, completed by the levels of the command line.
@@ -67,9 +95,7 @@ impl Configs {
     }
 
     fn search(&mut self, folder: &Path) -> Levels {
-        let absolute = std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
-        let found = absolute.ancestors().map(|above| above.join(NAME)).find(|path| path.is_file());
-        let Some(path) = found else { return Levels::default() };
+        let Some(path) = nearest(folder) else { return Levels::default() };
         let name = path.to_string_lossy().into_owned();
         let mut sources = SourceMap::default();
         let mut levels = Levels::default();
@@ -98,6 +124,11 @@ fn parse(text: &str, name: &str, sources: &mut SourceMap, levels: &mut Levels) -
     };
     let lists = [(Level::Allow, config.lint.allow), (Level::Warn, config.lint.warn), (Level::Deny, config.lint.deny)];
     let mut diagnostics = Vec::new();
+    for pattern in config.exclude.iter().chain(&config.lint.exclude) {
+        if let Err(error) = GitignoreBuilder::new("").add_line(None, pattern.get_ref()) {
+            diagnostics.push(Diagnostic::new(&BAD_CONFIG, at(pattern.span()), format!("not a pattern: {error}")));
+        }
+    }
     for (level, keys) in lists {
         for key in keys {
             if let Err((message, help)) = set_level(levels, level, key.get_ref()) {

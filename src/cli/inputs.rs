@@ -6,10 +6,13 @@
 //! *Holds:* a file that is named twice counts once; a file in a `--program` forms no group of its own.
 
 use super::args::ProgramArgs;
+use super::config;
 use super::exit::Failure;
 use super::stages;
 use glisten_front::hir::Stage;
-use std::collections::BTreeSet;
+use ignore::WalkBuilder;
+use ignore::gitignore::Gitignore;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -70,6 +73,8 @@ pub(super) struct Inputs {
     pub(super) groups: Vec<Group>,
     /// Folders that contain no shader.
     pub(super) empty_folders: Vec<String>,
+    /// The files that a search found and the command line does not name.
+    pub(super) found: BTreeSet<String>,
 }
 
 /// Collects the inputs of a command. Folders are searched only if `scans` is set. Otherwise they stay in the list,
@@ -84,10 +89,13 @@ pub(super) fn collect(files: &[String], args: &ProgramArgs, scans: bool) -> Resu
             if named.len() == before {
                 inputs.empty_folders.push(file.clone());
             }
+            inputs.found.extend(named.iter().skip(before).cloned());
         } else {
             named.push(file.clone());
         }
     }
+    let by_name: BTreeSet<PathBuf> = files.iter().map(|name| identity(name)).collect();
+    inputs.found.retain(|name| !by_name.contains(&identity(name)));
     let mut in_programs = BTreeSet::new();
     let mut groups = Vec::new();
     for program in &args.programs {
@@ -143,29 +151,41 @@ fn is_part(path: &Path) -> bool {
         && fs::read(path).is_ok_and(|bytes| !bytes.windows(MAIN.len()).any(|word| word == MAIN))
 }
 
-/// Adds all shaders in a folder and its subfolders, in the order of their names. Hidden folders are skipped, and
-/// links to folders are not followed, so that a cycle of links does no harm.
-fn scan(folder: &Path, found: &mut Vec<String>) -> Result<(), Failure> {
-    let mut pending = vec![folder.to_owned()];
+/// Adds all shaders in a folder and its subfolders, in the order of their names, except what `.gitignore` or the `exclude` of
+/// a configuration names. Hidden folders are skipped, and links to folders are not followed, so that a cycle of links does no
+/// harm.
+fn scan(root: &Path, found: &mut Vec<String>) -> Result<(), Failure> {
+    let mut excludes: BTreeMap<PathBuf, Option<Gitignore>> = BTreeMap::new();
+    let mut walk = WalkBuilder::new(root);
+    // Without a repository, `.gitignore` says as much about what is generated.
+    walk.hidden(false).require_git(false).filter_entry(|entry| entry.depth() == 0 || !is_hidden_folder(entry));
     let mut files = Vec::new();
-    while let Some(folder) = pending.pop() {
-        let failed =
-            |error: std::io::Error| Failure::usage(format!("cannot read the folder `{}`: {error}", folder.display()));
-        for entry in fs::read_dir(&folder).map_err(failed)? {
-            let entry = entry.map_err(failed)?;
-            let hidden = entry.file_name().to_string_lossy().starts_with('.');
-            let kind = entry.file_type().map_err(failed)?;
-            let path = entry.path();
-            if kind.is_dir() && !hidden {
-                pending.push(path);
-            } else if !kind.is_dir() && stages::by_name(&path).is_some() && !is_part(&path) {
-                files.push(path);
-            }
+    for entry in walk.build() {
+        let entry =
+            entry.map_err(|error| Failure::usage(format!("cannot read the folder `{}`: {error}", root.display())))?;
+        let path = entry.path();
+        let is_folder = entry.file_type().is_some_and(|kind| kind.is_dir());
+        if !is_folder && stages::by_name(path).is_some() && !is_part(path) && !is_excluded(path, &mut excludes) {
+            files.push(entry.into_path());
         }
     }
     files.sort();
     found.extend(files.into_iter().map(|path| path.to_string_lossy().into_owned()));
     Ok(())
+}
+
+fn is_hidden_folder(entry: &ignore::DirEntry) -> bool {
+    entry.file_type().is_some_and(|kind| kind.is_dir()) && entry.file_name().to_string_lossy().starts_with('.')
+}
+
+/// Whether the nearest configuration excludes a file or a folder that it is in.
+fn is_excluded(path: &Path, excludes: &mut BTreeMap<PathBuf, Option<Gitignore>>) -> bool {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let patterns = excludes.entry(folder.to_owned()).or_insert_with(|| config::excluded(folder));
+    let absolute = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+    patterns.as_ref().is_some_and(|patterns| {
+        absolute.starts_with(patterns.path()) && patterns.matched_path_or_any_parents(&absolute, false).is_ignore()
+    })
 }
 
 /// Groups files by folder and stem; each stage occurs at most once in a group.

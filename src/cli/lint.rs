@@ -6,6 +6,10 @@ use super::exit::Outcome;
 use super::inputs;
 use super::session::{Session, Unit};
 use clap::Args;
+use glisten_front::diagnostic::Diagnostic;
+use glisten_front::diagnostic::codes::preprocess::{MISSING_VERSION, UNSUPPORTED_VERSION};
+use glisten_front::source::FileId;
+use std::collections::BTreeSet;
 
 /// Check shaders and the programs that they form
 #[derive(Args, Debug)]
@@ -43,10 +47,40 @@ pub(super) fn run(args: &LintArgs, console: &Console) -> Outcome {
             session.add(&mut unit.batch, glisten_front::lint::check(program));
         }
     }
+    let n_others: usize = units.iter_mut().map(|unit| pass_over_versions(unit, &inputs.found)).sum();
+    units.retain(|unit| !unit.group.inputs.is_empty());
     if !units.is_empty() {
         session.set_clean(format!("{}: nothing found", counted(&units)));
     }
-    session.tell_units(&units, true)
+    let exit = session.tell_units(&units, true)?;
+    if n_others > 0 && session.is_human() {
+        let them = if n_others == 1 { "file of another version was" } else { "files of other versions were" };
+        console.remark(&format!("{n_others} {them} not checked (name a file to see its version)"));
+    }
+    Ok(exit)
+}
+
+/// Takes the files out of a unit that a search found and that are of a GLSL version that is not supported, with all that was
+/// reported about them. Returns their number.
+fn pass_over_versions(unit: &mut Unit, found: &BTreeSet<String>) -> usize {
+    let sources = &unit.batch.sources;
+    let file = |diagnostic: &Diagnostic| sources.file_of(sources.call_site(diagnostic.primary.span));
+    let other = |diagnostic: &&Diagnostic| [&UNSUPPORTED_VERSION, &MISSING_VERSION].contains(&diagnostic.code);
+    let files: Vec<FileId> = unit.batch.diagnostics.iter().filter(other).filter_map(file).collect();
+    let names: BTreeSet<&str> =
+        files.iter().map(|file| sources.file(*file).name()).filter(|name| found.contains(*name)).collect();
+    if names.is_empty() {
+        return 0;
+    }
+    let n_inputs = unit.group.inputs.len();
+    unit.group.inputs.retain(|input| !names.contains(input.name.as_str()));
+    let is_kept =
+        |diagnostic: &Diagnostic| file(diagnostic).is_none_or(|file| !names.contains(sources.file(file).name()));
+    let kept: Vec<bool> = unit.batch.diagnostics.iter().map(is_kept).collect();
+    let none_left = unit.group.inputs.is_empty();
+    let mut kept = kept.into_iter();
+    unit.batch.diagnostics.retain(|_| kept.next().unwrap_or(true) && !none_left);
+    n_inputs - unit.group.inputs.len()
 }
 
 /// How many files and programs there are.

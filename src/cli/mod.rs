@@ -10,6 +10,7 @@
 mod args;
 mod batch;
 mod compile;
+mod completions;
 mod config;
 mod console;
 mod exit;
@@ -21,6 +22,7 @@ mod includes;
 mod inputs;
 mod library;
 mod lint;
+mod new_scene;
 mod opengl;
 mod optimize;
 mod pictures;
@@ -36,7 +38,7 @@ mod test;
 mod timed;
 mod verify;
 
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, CommandFactory, Parser, Subcommand};
 use console::{ColorChoice, Console};
 use exit::{Exit, Failure, Outcome};
 use std::ffi::OsString;
@@ -47,7 +49,7 @@ const STACK_BYTES: usize = 16 << 20;
 
 /// Compile, check, draw and measure GLSL of OpenGL 3.2 (#version 150)
 #[derive(Debug, Parser)]
-#[command(name = "glisten", version, disable_help_subcommand = true, max_term_width = 100)]
+#[command(name = "glisten", version, max_term_width = 100)]
 #[command(after_help = "Exit codes: 0 nothing wrong found; 1 an input is wrong or a check did not hold;\n\
     2 wrong usage, or a file cannot be read or written; 3 the machine lacks something.")]
 struct Cli {
@@ -80,6 +82,8 @@ enum Command {
     Gallery(gallery::GalleryArgs),
     Test(test::TestArgs),
     Lib(library::LibArgs),
+    NewScene(new_scene::NewSceneArgs),
+    Completions(completions::CompletionsArgs),
 }
 
 /// Runs the program with these arguments, the first being its own name.
@@ -120,6 +124,8 @@ fn dispatch(command: &Command, console: &Console) -> Outcome {
         Command::Gallery(args) => gallery::run(args, console),
         Command::Test(args) => test::run(args, console),
         Command::Lib(args) => library::run(args, console),
+        Command::NewScene(args) => new_scene::run(args, console),
+        Command::Completions(args) => completions::run(args, Cli::command(), console),
     }
 }
 

@@ -474,3 +474,147 @@ fn one_mistake_is_one_error() {
         assert_eq!(codes(&list), expected, "{text}\n{list:#?}");
     }
 }
+
+#[test]
+fn a_search_passes_over_what_is_ignored_and_counts_other_versions() {
+    let (vertex, fragment) = (FLAT.0.as_bytes(), FLAT.1.as_bytes());
+    let broken = b"#version 150\nvoid main() { x; }\n";
+    let folder = Folder::new(&[
+        (".gitignore", b"/target\nnode_modules/\n*.tmp.frag\n!kept.tmp.frag\n"),
+        ("a.vert", vertex),
+        ("a.frag", fragment),
+        ("kept.tmp.frag", fragment),
+        ("gone.tmp.frag", broken),
+        ("target/b.frag", broken),
+        ("deep/node_modules/c.frag", broken),
+        ("deep/.gitignore", b"d.frag\n"),
+        ("deep/d.frag", broken),
+        ("third/party/e.frag", broken),
+        ("gen/f.gen.frag", broken),
+        ("old/g.vert", b"#version 110\nvoid main() { gl_Position = ftransform(); }\n"),
+        ("old/h.frag", b"#version 330 core\nlayout(location = 0) out vec4 c;\nvoid main() { c = vec4(1.0); }\n"),
+        ("old/i.frag", b"#version 300 es\nprecision mediump float;\nvoid main() {}\n"),
+        ("glisten.toml", b"[lint]\nexclude = [\"third\", \"*.gen.frag\"]\n"),
+    ]);
+    let output = folder.run(&["lint", "."]);
+    assert_eq!((code(&output), out(&output)), (0, String::new()), "{}", err(&output));
+    assert!(err(&output).contains("3 files, 1 program: nothing found\n"), "{}", err(&output));
+    assert!(err(&output).contains("3 files of other versions were not checked"), "{}", err(&output));
+    assert_eq!(err(&folder.run(&["lint", ".", "-q"])), "");
+    for arguments in [&["old/h.frag"][..], &[".", "old/h.frag"]] {
+        let (list, exit) = folder.lint(arguments);
+        assert_eq!((codes(&list), exit), (vec!["E0122"], 1), "{arguments:?}");
+    }
+    for file in ["target/b.frag", "third/party/e.frag", "gen/f.gen.frag"] {
+        assert_eq!(folder.lint(&[file]).1, 1, "what is named is checked: {file}");
+    }
+    fs::write(folder.path("glisten.toml"), "exclude = [\"third\", \"gen\"]\n").expect("written");
+    assert_eq!(folder.lint(&["."]).1, 0);
+    fs::write(folder.path("glisten.toml"), "exclude = [\"{a\"]\n").expect("written");
+    let (list, _) = folder.lint(&["a.frag"]);
+    assert_eq!(codes(&list), ["E0015"], "{list:#?}");
+}
+
+#[test]
+fn a_new_scene_loads_and_draws() {
+    let vertex = "#version 150\nin vec4 position;\nin vec3 normal;\nin vec2 uv;\nin ivec2 cell;\nin mat2 turn;\nuniform mat4 mc;\n\
+        uniform vec3 list[2];\nuniform int n = 3;\nuniform B { bool on; } b;\nout vec3 v;\nvoid main() {\n    v = normal * float(n + \
+        cell.x) + vec3(turn * uv, 0.0) + list[1];\n    gl_Position = b.on ? mc * position : position;\n}\n";
+    let fragment = "#version 150\nin vec3 v;\nuniform sampler2D t, many[2];\nuniform samplerCube cube;\nuniform sampler3D solid;\n\
+        uniform isampler2DArray ids;\nuniform sampler2DShadow shadow;\nuniform samplerBuffer line;\nuniform sampler2DRect r;\nout vec4 c;\n\
+        void main() {\n    c = texture(t, v.xy) + texture(many[1], v.xy) + texture(cube, v) + texture(solid, v) + vec4(texture(ids, \
+        v)) + texture(shadow, v) + texelFetch(line, 0) + texture(r, v.xy);\n}\n";
+    let folder = Folder::new(&[("src/a.vert", vertex.as_bytes()), ("src/a.frag", fragment.as_bytes())]);
+    let output = folder.run(&["new-scene", "src/a.vert", "src/a.frag", "-o", "a.toml"]);
+    assert_eq!(code(&output), 0, "{}", err(&output));
+    let text = fs::read_to_string(folder.path("a.toml")).expect("written");
+    assert!(text.contains("vertex = \"src/a.vert\"") && text.contains("# mat4"), "{text}");
+    let (exit, told) = render(&folder, &["--deny", "warnings"]);
+    assert_eq!((exit, told.as_str()), (0, ""), "{text}");
+    let again = folder.run(&["new-scene", "src/a.vert", "src/a.frag", "-o", "a.toml"]);
+    assert_eq!(code(&again), 2, "a file that exists is kept");
+    let full =
+        "#version 150\nvoid main() { gl_Position = vec4(gl_VertexID % 2 * 4 - 1, gl_VertexID / 2 * 4 - 1, 0, 1); }\n";
+    let folder = scene(full, FLAT.1, "");
+    let output = folder.run(&["new-scene", "a.vert", "a.frag"]);
+    assert!(out(&output).contains("vertex_count = 3"), "{}", out(&output));
+    fs::write(folder.path("a.toml"), &output.stdout).expect("written");
+    assert_eq!(render(&folder, &["--deny", "warnings"]), (0, String::new()));
+    fs::write(folder.path("a.frag"), "#version 150\nvoid main() { x; }\n").expect("written");
+    let failed = folder.run(&["new-scene", "a.vert", "a.frag", "-o", "b.toml"]);
+    assert!(code(&failed) == 1 && !folder.path("b.toml").exists(), "{}", err(&failed));
+}
+
+#[test]
+fn shells_complete_commands_and_help_explains_them() {
+    let folder = Folder::new(&[]);
+    for shell in ["bash", "zsh", "fish", "powershell"] {
+        let output = folder.run(&["completions", shell]);
+        assert_eq!(code(&output), 0, "{}", err(&output));
+        for word in ["new-scene", "bind-attrib", "verify"] {
+            assert!(out(&output).contains(word), "{shell}: {word}");
+        }
+    }
+    assert_eq!(code(&folder.run(&["completions", "nonesuch"])), 2);
+    let (help, flag) = (folder.run(&["help", "lint"]), folder.run(&["lint", "--help"]));
+    assert_eq!((code(&help), out(&help)), (0, out(&flag)));
+}
+
+#[test]
+fn other_dialects_are_recognized() {
+    for (text, word) in [
+        (
+            "#version 150\nuniform sampler2D t;\nin vec2 p;\nout vec4 c;\nvoid main() { c = t.Sample(p); }\n",
+            "texture(s, p)",
+        ),
+        ("#version 150\nout vec4 c;\nvoid main() { c = vec4(sin(iTime)); }\n", "uniform float iTime;"),
+        (
+            "#version 150\nvoid mainImage(out vec4 c, in vec2 p) { c = vec4(p, 0.0, 1.0); }\n",
+            "mainImage(color, gl_FragCoord.xy)",
+        ),
+    ] {
+        let folder = Folder::new(&[("a.frag", text.as_bytes())]);
+        assert!(
+            out(&folder.run(&["lint", "a.frag"])).contains(word),
+            "{word}: {}",
+            out(&folder.run(&["lint", "a.frag"]))
+        );
+    }
+}
+
+#[test]
+fn comments_for_glisten_need_no_blank_and_no_case() {
+    for comment in [
+        "// glisten: allow(L0010)",
+        "//glisten:allow(L0010)",
+        "// Glisten:allow( L0010 )",
+        "/* glisten: allow(L0010) */",
+    ] {
+        let text = format!(
+            "#version 150\nuniform sampler2D t;\nin vec2 p;\nout vec4 c;\nvoid main() {{\n    c = vec4(0.0);\n    if (p.x > 0.5)\n        c \
+             = texture(t, p); {comment}\n}}\n"
+        );
+        let folder = Folder::new(&[("a.frag", text.as_bytes())]);
+        let (list, _) = folder.lint(&["a.frag"]);
+        assert!(list.is_empty(), "{comment}: {list:#?}");
+        let (list, _) = Folder::new(&[("a.frag", text.replace(comment, "").as_bytes())]).lint(&["a.frag"]);
+        assert_eq!(codes(&list), ["L0010"]);
+    }
+}
+
+#[test]
+fn bindings_have_the_errors_of_opengl() {
+    let folder = Folder::triangle();
+    for (binding, word) in [
+        (["--bind-attrib", "gl_Vertex=0"], "GL_INVALID_OPERATION"),
+        (["--bind-attrib", "pv=16"], "GL_INVALID_VALUE"),
+        (["--bind-frag-data", "gl_FragColor=0"], "GL_INVALID_OPERATION"),
+        (["--bind-frag-data", "fc=8"], "GL_INVALID_VALUE"),
+    ] {
+        let output = folder.run(&[&["compile", "tri.vert", "tri.frag", "-o", "out"][..], &binding].concat());
+        assert!(code(&output) == 2 && err(&output).contains(word), "{binding:?}: {}", err(&output));
+    }
+    let good = ["--bind-attrib", "pv=15", "--bind-frag-data", "fc=0"];
+    let output = folder.run(&[&["compile", "tri.vert", "tri.frag", "-o", "out"][..], &good].concat());
+    assert_eq!(code(&output), 0, "{}", err(&output));
+}

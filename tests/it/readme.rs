@@ -94,7 +94,9 @@ fn outputs_in_the_readme_are_what_the_commands_print() {
         }
         let subcommand = *arguments.first().expect("a subcommand");
         seen.insert(subcommand.to_owned());
-        let (help, code) = glisten(&[subcommand, "--help"]);
+        // `help` has no flags of its own.
+        let asked = if subcommand == "help" { arguments.to_vec() } else { vec![subcommand, "--help"] };
+        let (help, code) = glisten(&asked);
         assert_eq!(code, 0, "{command}: there is no such subcommand");
         for flag in arguments.iter().filter(|argument| argument.starts_with('-')) {
             assert!(help.contains(flag), "{command}: no {flag} in\n{help}");

@@ -86,23 +86,34 @@ fn is_allowed_by_comment(sources: &SourceMap, diagnostic: &Diagnostic) -> bool {
     if file.line(at.line).is_some_and(allows) {
         return true;
     }
-    (1..at.line)
-        .rev()
-        .map_while(|number| file.line(number).filter(|line| line.trim_start().starts_with("//")))
-        .any(allows)
+    (1..at.line).rev().map_while(|number| file.line(number).filter(|line| is_comment(line))).any(allows)
 }
 
-/// The codes in a line's `// glisten: allow(CODE, CODE)`.
+/// The codes in a line's `// glisten: allow(CODE, CODE)`, in any case and with any white space, in either kind of comment.
 fn allowed(line: &str) -> impl Iterator<Item = &str> {
-    const MARK: &str = "glisten: allow(";
-    line.find("//")
+    let comment = line.find("//").into_iter().chain(line.find("/*")).min();
+    comment
         .and_then(|comment| line.get(comment..))
-        .and_then(|comment| comment.find(MARK).and_then(|start| comment.get(start + MARK.len()..)))
+        .and_then(|comment| after_word(comment, "glisten:"))
+        .and_then(|rest| rest.trim_start().strip_prefix("allow"))
+        .and_then(|rest| rest.trim_start().strip_prefix('('))
         .and_then(|rest| rest.split_once(')'))
         .map(|(list, _)| list)
         .into_iter()
         .flat_map(|list| list.split(','))
         .map(str::trim)
+}
+
+/// The text after the first occurrence of a word of ASCII letters, in any case.
+fn after_word<'t>(text: &'t str, word: &str) -> Option<&'t str> {
+    let start = text.as_bytes().windows(word.len()).position(|part| part.eq_ignore_ascii_case(word.as_bytes()))?;
+    text.get(start + word.len()..)
+}
+
+/// Whether a line is nothing but a comment.
+fn is_comment(line: &str) -> bool {
+    let line = line.trim();
+    line.starts_with("//") || line.starts_with("/*") && line.ends_with("*/")
 }
 
 #[cfg(test)]
@@ -140,6 +151,8 @@ mod tests {
             ("int x; // glisten: allow(W0001)\n", 1, true),
             ("// glisten: allow(E0003, lone-stage)\n// why\nint x;\n", 3, true),
             ("// glisten: allow(W0001)\nint y;\nint x;\n", 3, false),
+            ("int x; //glisten:allow(W0001)\n", 1, true),
+            ("/* Glisten: allow (W0001) */\nint x;\n", 2, true),
             ("int x; // glisten: allow(W0101)\n", 1, false),
             ("int x; // glisten: allow(W0001\n", 1, false),
         ] {

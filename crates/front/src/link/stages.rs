@@ -86,6 +86,9 @@ fn missing_main(ctx: &mut Linker<'_>, shader: &Shader, lone: bool) {
     let names = shader.functions.iter().map(|function| function.name.as_str());
     let help =
         crate::diagnostic::did_you_mean("main", names).map(|name| format!("did you mean `{name}` to be `main`?"));
+    let is_shadertoy = shader.functions.iter().any(|function| function.name == "mainImage");
+    let call = "for a shader of Shadertoy, add `out vec4 color; void main() { mainImage(color, gl_FragCoord.xy); }`";
+    let help = if is_shadertoy { Some(call.to_owned()) } else { help };
     ctx.report(Diagnostic::new(code, shader.anchor(), message).maybe_help(help));
 }
 

@@ -46,6 +46,15 @@ pub(super) struct Lexer {
     pub(super) joins_comments: bool,
 }
 
+/// The beginning of a comment for glisten, in any case.
+pub(super) const PRAGMA: &str = "glisten:";
+
+/// Whether a comment's text is for glisten.
+fn is_pragma(text: &str) -> bool {
+    let start = text.trim_start().get(..PRAGMA.len());
+    start.is_some_and(|start| start.eq_ignore_ascii_case(PRAGMA))
+}
+
 const WORD: u8 = 1;
 const DIGIT: u8 = 2;
 
@@ -251,7 +260,7 @@ impl Lexer {
             self.pos += if self.peek(0) == b'\r' && self.peek(1) == b'\n' { 2 } else { 1 };
         }
         let text = self.text.get(start + 2..self.pos).unwrap_or("");
-        if text.trim_start().starts_with("glisten:") {
+        if is_pragma(text) {
             trivia.push(Trivia::Pragma(self.span_from(start)));
         }
     }
@@ -280,7 +289,11 @@ impl Lexer {
                     return lines;
                 }
                 Some(b'*') if self.peek(1) == b'/' => {
+                    let is_pragma = self.text.get(start + 2..self.pos).is_some_and(is_pragma);
                     self.pos += 2;
+                    if is_pragma {
+                        trivia.push(Trivia::Pragma(self.span_from(start)));
+                    }
                     return lines;
                 }
                 Some(byte) => {

@@ -229,7 +229,8 @@ impl Analyzer<'_> {
         if spelling != "length" {
             self.report(
                 Diagnostic::new(&types::METHOD, name.span, format!("there is no method `{spelling}`"))
-                    .here("the only method is `length`"),
+                    .here("the only method is `length`")
+                    .maybe_help(super::foreign::method(spelling).map(str::to_owned)),
             );
             return self.poison(span);
         }

@@ -33,6 +33,31 @@ static TYPES: &[(&str, &str)] = &[
     ("half4", "vec4"), ("char", "int"), ("size_t", "uint"), ("Texture2D", "sampler2D"),
 ];
 
+/// Methods of textures in HLSL.
+static METHODS: &[(&str, &str)] = &[
+    ("Sample", "write `texture(s, p)`, with a `sampler2D` in place of the texture and its sampler"),
+    ("SampleLevel", "write `textureLod(s, p, level)`, with a `sampler2D` in place of the texture and its sampler"),
+    ("SampleBias", "write `texture(s, p, bias)`, with a `sampler2D` in place of the texture and its sampler"),
+    ("SampleGrad", "write `textureGrad(s, p, ddx, ddy)`, with a `sampler2D` in place of the texture and its sampler"),
+    ("SampleCmp", "write `texture(s, vec3(p, reference))`, with a `sampler2DShadow`"),
+    ("Load", "write `texelFetch(s, ivec2(p), level)`, with a `sampler2D` in place of the texture"),
+    ("GetDimensions", "write `textureSize(s, level)`, with a `sampler2D` in place of the texture"),
+];
+
+/// Variables of Shadertoy, as declarations.
+static SHADERTOY: &[(&str, &str)] = &[
+    ("iTime", "uniform float iTime;"),
+    ("iResolution", "uniform vec3 iResolution;"),
+    ("iMouse", "uniform vec4 iMouse;"),
+    ("iFrame", "uniform int iFrame;"),
+    ("iTimeDelta", "uniform float iTimeDelta;"),
+    ("iDate", "uniform vec4 iDate;"),
+    ("iChannel0", "uniform sampler2D iChannel0;"),
+    ("iChannel1", "uniform sampler2D iChannel1;"),
+    ("iChannel2", "uniform sampler2D iChannel2;"),
+    ("iChannel3", "uniform sampler2D iChannel3;"),
+];
+
 /// Functions of later versions.
 #[rustfmt::skip]
 static LATER: &[(&str, u16)] = &[
@@ -54,6 +79,17 @@ pub(super) fn function(name: &str) -> Option<String> {
         let since = LATER.iter().find(|row| row.0 == name)?.1;
         Some(format!("`{name}` came with GLSL {}.{:02}", since / 100, since % 100))
     })
+}
+
+/// The replacement for a method that does not exist.
+pub(super) fn method(name: &str) -> Option<&'static str> {
+    METHODS.iter().find(|row| row.0 == name).map(|row| row.1)
+}
+
+/// The declaration of a variable that another environment provides.
+pub(super) fn variable(name: &str) -> Option<String> {
+    let declaration = SHADERTOY.iter().find(|row| row.0 == name)?.1;
+    Some(format!("Shadertoy declares it: add `{declaration}`"))
 }
 
 /// The replacement for a type that does not exist.

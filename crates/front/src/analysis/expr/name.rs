@@ -151,7 +151,8 @@ impl Analyzer<'_> {
             );
             return;
         }
-        let help = self.nearest_variable(spelling).map(|near| format!("did you mean `{near}`?"));
+        let help = super::foreign::variable(spelling);
+        let help = help.or_else(|| self.nearest_variable(spelling).map(|near| format!("did you mean `{near}`?")));
         self.report(
             Diagnostic::new(&names::UNDECLARED, name.span, format!("`{spelling}` is not declared"))
                 .here("not known here")

@@ -324,7 +324,9 @@ impl<'a> Preprocessor<'a> {
     /// `// glisten: allow(CODE, ...)`
     fn comment_pragma(&mut self, session: &mut ParseSession<'_>, span: Span) {
         let text = session.sources.snippet(span);
-        let words = text.split_once("glisten:").map_or("", |(_, words)| words.trim());
+        // The comment's sign, and white space, precede it.
+        let words =
+            text.get(2..).unwrap_or("").trim_start().get(crate::syntax::lexer::PRAGMA.len()..).unwrap_or("").trim();
         let list = words.strip_prefix("allow").map(str::trim_start);
         let list = list.and_then(|list| list.strip_prefix('(')?.split_once(')')).map(|(list, _)| list);
         let list: Option<Vec<String>> = list

@@ -1,0 +1,26 @@
+//! `glisten completions`: a script that completes glisten's commands, flags and their values in a shell.
+
+use super::console::Console;
+use super::exit::{Exit, Outcome};
+use clap::{Args, Command};
+use clap_complete::Shell;
+
+/// Write a completion script for a shell to standard output
+#[derive(Args, Debug)]
+#[command(
+    after_help = "Examples:\n  glisten completions bash > ~/.local/share/bash-completion/completions/glisten\n  \
+    glisten completions zsh > ~/.zfunc/_glisten\n  glisten completions fish > ~/.config/fish/completions/glisten.fish"
+)]
+pub(super) struct CompletionsArgs {
+    /// The shell
+    #[arg(value_enum)]
+    shell: Shell,
+}
+
+/// Runs the command; `program` is the whole command line.
+pub(super) fn run(args: &CompletionsArgs, mut program: Command, console: &Console) -> Outcome {
+    let mut script = Vec::new();
+    clap_complete::generate(args.shell, &mut program, "glisten", &mut script);
+    console.output_bytes(&script)?;
+    Ok(Exit::Ok)
+}

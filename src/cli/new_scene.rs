@@ -1,0 +1,237 @@
+//! `glisten new-scene`: writes a scene for a program, with a line for everything that the program reads.
+//!
+//! *In:* a vertex and a fragment shader. *Out:* TOML that loads without a diagnostic: a triangle, or one that fills the screen
+//! if the program takes no attributes; every uniform and texture with its type and a neutral value.
+
+use super::args::{BindingArgs, LevelArgs, SourceArgs};
+use super::console::Console;
+use super::exit::{Exit, Failure, Outcome};
+use super::files;
+use super::inputs::Group;
+use super::inputs::Input;
+use super::session::Session;
+use super::stages;
+use clap::Args;
+use glisten_front::hir::{SamplerDim, SamplerType, Scalar, Stage, Type, TypeId, Types};
+use glisten_front::link::{Program, UniformLeaf};
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+/// Write a scene for a program, ready to be filled
+#[derive(Args, Debug)]
+pub(super) struct NewSceneArgs {
+    /// The vertex and the fragment shader
+    #[arg(num_args = 2, required = true, value_names = ["A.vert", "B.frag"])]
+    files: Vec<String>,
+    /// The scene file to create (default: standard output)
+    #[arg(short, long, value_name = "SCENE.toml")]
+    output: Option<PathBuf>,
+    #[command(flatten)]
+    sources: SourceArgs,
+    #[command(flatten)]
+    levels: LevelArgs,
+}
+
+/// The largest number of values that a line spells out.
+const MAX_VALUES: usize = 1024;
+
+/// Runs the command.
+pub(super) fn run(args: &NewSceneArgs, console: &Console) -> Outcome {
+    if let Some(output) = args.output.as_deref().filter(|output| output.exists()) {
+        let failure = Failure::usage(format!("`{}` exists already", output.display()));
+        return Err(failure.help("name a new file, or remove the old one"));
+    }
+    let inputs: Vec<Input> = args.files.iter().zip([Stage::Vertex, Stage::Fragment]).map(input).collect();
+    if let [vertex, fragment] = &inputs[..]
+        && let (Some(Stage::Fragment), Some(Stage::Vertex)) = (told(vertex), told(fragment))
+    {
+        return Err(Failure::usage("the vertex shader comes first, then the fragment shader"));
+    }
+    let mut session = Session::new(console, &args.sources, &BindingArgs::default(), &args.levels, 0)?;
+    let name = inputs.first().map(Input::stem).unwrap_or_default();
+    let units = session.compile(vec![Group { name, inputs }]);
+    let exit = session.tell_units(&units, false)?;
+    let Some(program) = units.first().and_then(|unit| unit.sound_program()) else {
+        return Ok(exit.max(Exit::Content));
+    };
+    let folder = args.output.as_deref().map(|output| output.parent().unwrap_or(Path::new("")));
+    let names: Vec<String> = args.files.iter().map(|file| relative(file, folder)).collect();
+    let text = scene(program, &names);
+    match &args.output {
+        Some(output) => {
+            files::write(output, text.as_bytes())?;
+            console.remark(&format!("wrote {}", output.display()));
+        }
+        None => console.output(&text)?,
+    }
+    Ok(exit)
+}
+
+fn input((file, stage): (&String, Stage)) -> Input {
+    Input { name: file.clone(), path: Some(PathBuf::from(file)), stage }
+}
+
+fn told(input: &Input) -> Option<Stage> {
+    stages::by_name(input.path.as_deref()?)
+}
+
+/// The name of a file as a scene in `folder` gives it: relative if the file is below, otherwise absolute.
+fn relative(file: &str, folder: Option<&Path>) -> String {
+    let Some(folder) = folder else { return file.to_owned() };
+    let absolute = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+    let (file, folder) =
+        (absolute(Path::new(file)), absolute(if folder.as_os_str().is_empty() { Path::new(".") } else { folder }));
+    let plain = |path: &Path| path.components().collect::<PathBuf>();
+    let inside = plain(&file).strip_prefix(plain(&folder)).map(Path::to_owned);
+    inside.unwrap_or(file).to_string_lossy().into_owned()
+}
+
+/// A string of TOML.
+fn quoted(text: &str) -> String {
+    serde_json::to_string(text).expect("a text is always JSON")
+}
+
+fn scene(program: &Program, names: &[String]) -> String {
+    let mut text = String::from("[framebuffer]\nwidth = 256\nheight = 256\nclear = [0.0, 0.0, 0.0, 1.0]\n");
+    let outputs = &program.interface.outputs;
+    let format = outputs.first().and_then(|output| scalar_of(&program.types, output.ty));
+    match format {
+        Some(Scalar::Int) => text.push_str("format = \"rgba32sint\"\n"),
+        Some(Scalar::Uint) => text.push_str("format = \"rgba32uint\"\n"),
+        Some(Scalar::Float | Scalar::Bool) | None => {}
+    }
+    let attachments = outputs.iter().map(|output| output.location + 1).max().unwrap_or(1);
+    if attachments > 1 {
+        let _ = writeln!(text, "attachments = {attachments}");
+    }
+    text.push_str("\n[[draw]]\n");
+    for (key, name) in ["vertex", "fragment"].iter().zip(names) {
+        let _ = writeln!(text, "{key} = {}", quoted(name));
+    }
+    text.push_str("primitive = \"triangles\"\n");
+    attributes(&mut text, program);
+    uniforms(&mut text, program);
+    textures(&mut text, program);
+    text
+}
+
+fn attributes(text: &mut String, program: &Program) {
+    let active: Vec<_> = program.interface.attributes.iter().filter(|attribute| attribute.active).collect();
+    if active.is_empty() {
+        text.push_str("vertex_count = 3   # without attributes: positions come from gl_VertexID\n");
+        return;
+    }
+    text.push_str("\n[draw.attributes]   # one row of `size` numbers for each vertex\n");
+    for attribute in active {
+        let size = program.types.flat_len(attribute.ty) as usize;
+        let integer = matches!(scalar_of(&program.types, attribute.ty), Some(Scalar::Int | Scalar::Uint));
+        let rows = rows(&attribute.name, program.types.get(attribute.ty)).map(|row| {
+            let value = |index: usize| row.get(index).copied().unwrap_or(0.0);
+            let number = |value: f32| if integer { format!("{}", value as i32) } else { format!("{value:?}") };
+            (0..size).map(|index| number(value(index))).collect::<Vec<_>>().join(", ")
+        });
+        let (name, ty) = (&attribute.name, program.types.name(attribute.ty));
+        let _ = writeln!(text, "{name} = {{ size = {size}, values = [{}] }}   # {ty}", rows.join(",  "));
+    }
+}
+
+/// The values of an attribute at the three vertices, by what its name suggests.
+fn rows(name: &str, ty: Type) -> [Vec<f32>; 3] {
+    let name = name.to_ascii_lowercase();
+    let has = |words: &[&str]| words.iter().any(|word| name.contains(word));
+    if let Type::Matrix(columns, rows) = ty {
+        let (columns, rows) = (usize::from(columns), usize::from(rows));
+        let unit = |index: usize| if index / rows == index % rows { 1.0 } else { 0.0 };
+        let identity: Vec<f32> = (0..columns * rows).map(unit).collect();
+        return [identity.clone(), identity.clone(), identity];
+    }
+    if has(&["normal", "nrm"]) {
+        return [const { [0.0, 0.0, 1.0] }; 3].map(Vec::from);
+    }
+    if has(&["tangent"]) {
+        return [const { [1.0, 0.0, 0.0, 1.0] }; 3].map(Vec::from);
+    }
+    if has(&["uv", "tex", "coord"]) {
+        return [[0.0, 0.0], [1.0, 0.0], [0.5, 1.0]].map(Vec::from);
+    }
+    if has(&["col"]) {
+        return [[1.0, 0.0, 0.0, 1.0], [0.0, 1.0, 0.0, 1.0], [0.0, 0.0, 1.0, 1.0]].map(Vec::from);
+    }
+    [[-1.0, -1.0, 0.0, 1.0], [1.0, -1.0, 0.0, 1.0], [0.0, 1.0, 0.0, 1.0]].map(Vec::from)
+}
+
+fn uniforms(text: &mut String, program: &Program) {
+    let interface = &program.interface;
+    let default =
+        |leaf: &UniformLeaf| interface.roots.get(leaf.root.0 as usize).is_some_and(|root| root.default.is_some());
+    let active: Vec<&UniformLeaf> = interface.uniforms.iter().filter(|leaf| leaf.active).collect();
+    if active.is_empty() {
+        return;
+    }
+    text.push_str("\n[draw.uniforms]   # matrices by columns\n");
+    for leaf in active {
+        let ty = program.types.name(leaf.ty);
+        let array = leaf.array_size.map_or_else(String::new, |size| format!("[{size}]"));
+        let values = values(&program.types, leaf);
+        // A uniform with an initializer keeps it.
+        let (mark, note) = if default(leaf) { ("# ", ", has an initializer") } else { ("", "") };
+        let _ = writeln!(text, "{mark}{} = {values}   # {ty}{array}{note}", quoted(&leaf.name));
+    }
+}
+
+/// A neutral value: an identity, ones, `true`.
+fn values(types: &Types, leaf: &UniformLeaf) -> String {
+    let one = match types.scalar_of(leaf.ty) {
+        Some(Scalar::Bool) => "true",
+        Some(Scalar::Int | Scalar::Uint) => "1",
+        Some(Scalar::Float) | None => "1.0",
+    };
+    let element: Vec<&str> = match types.get(leaf.ty) {
+        Type::Matrix(columns, rows) => (0..columns)
+            .flat_map(|column| (0..rows).map(move |row| if row == column { "1.0" } else { "0.0" }))
+            .collect(),
+        _ => vec![one; types.flat_len(leaf.ty) as usize],
+    };
+    match (&element[..], leaf.array_size) {
+        ([one], None) => (*one).to_owned(),
+        (_, size) => format!("[{}]", element.repeat(size.unwrap_or(1) as usize).join(", ")),
+    }
+}
+
+fn textures(text: &mut String, program: &Program) {
+    let active: Vec<_> = program.interface.samplers.iter().filter(|slot| slot.active).collect();
+    if active.is_empty() {
+        return;
+    }
+    text.push_str("\n[draw.textures]   # or { file = \"image.png\" }; RGBA for each texel\n");
+    for slot in active {
+        let Type::Sampler(kind) = program.types.get(slot.ty) else { continue };
+        let (size, texels) = extent(kind);
+        let one = if kind.texel == Scalar::Float { "1.0" } else { "1" };
+        let values = vec![one; (texels * 4).min(MAX_VALUES)].join(", ");
+        let (name, ty) = (quoted(&slot.name), program.types.name(slot.ty));
+        let _ = writeln!(text, "{name} = {{ {size}, values = [{values}] }}   # {ty}");
+    }
+}
+
+/// The keys for the smallest texture of a kind, and how many texels it has.
+fn extent(kind: SamplerType) -> (String, usize) {
+    let (mut size, texels) = match kind.dim {
+        SamplerDim::D1 | SamplerDim::Buffer => ("width = 1", 1),
+        SamplerDim::D3 => ("width = 1, height = 1, depth = 1", 1),
+        SamplerDim::Cube => ("width = 1", 6),
+        _ => ("width = 1, height = 1", 1),
+    };
+    let arrayed = format!("{size}, layers = 1");
+    if kind.arrayed {
+        size = &arrayed;
+    }
+    (size.to_owned(), texels)
+}
+
+fn scalar_of(types: &Types, mut ty: TypeId) -> Option<Scalar> {
+    while let Type::Array(element, _) = types.get(ty) {
+        ty = element;
+    }
+    types.scalar_of(ty)
+}
