@@ -17,7 +17,7 @@ const MAX_LINES: usize = 700;
 static CRATES: &[(&str, &[&str], &[&str])] = &[
     ("crates/front", &[], &["naga", "wgpu", "clap", "png", "toml", "rayon", "tempfile"]),
     ("crates/emit", &["glisten-front"], &["wgpu", "clap", "png", "toml", "rayon"]),
-    ("crates/scene", &["glisten-front", "glisten-specialize"], &["naga", "wgpu", "clap"]),
+    ("crates/scene", &["glisten-front"], &["naga", "wgpu", "clap"]),
     ("crates/reference", &["glisten-front", "glisten-scene"], &["naga", "wgpu", "clap"]),
     ("crates/specialize", &["glisten-front"], &["naga", "wgpu", "clap", "png", "toml", "rayon", "tempfile"]),
     ("crates/gpu", &["glisten-front", "glisten-emit", "glisten-scene"], &["clap"]),
