@@ -11,7 +11,7 @@
 //! | `choose` | chooses those that save more than the varyings that they add |
 //! | `apply` | writes the varying, its computation, and its use |
 //!
-//! *In:* a pruned fragment stage and a settled vertex stage of one program. *Out:* both, changed, and what was [`Moved`].
+//! *In:* a pruned fragment stage and a settled vertex stage of one program. *Out:* both, changed, and what was `Moved`.
 //! *Holds:* nothing here runs unless [`Options::move_to_vertex`](crate::Options::move_to_vertex) is set. What moves has no
 //! effects and looks nothing up, so it does not matter that it is also computed where a branch would have avoided it.
 //! Varyings of different interpolation are never mixed.
