@@ -6,7 +6,7 @@
 
 use crate::gallery::highlight::{Language, html};
 use crate::specialize::{LeftOut, SpecializedDraw};
-use glisten_front::hir::{Function, Shader, Stage, StructId, Type, TypeId, Types};
+use glisten_front::hir::{Function, Shader, Stage, StructId, Types};
 use glisten_front::link::Program;
 use glisten_front::source::{FileId, SourceMap, Span};
 use std::collections::{BTreeMap, BTreeSet};
@@ -117,10 +117,10 @@ impl Listing<'_> {
         let mut structs: BTreeSet<StructId> = BTreeSet::new();
         for global in self.shader.globals.iter().filter(|global| global.builtin.is_none()) {
             places.extend(self.place(global.span));
-            structs_in(self.types, global.ty, &mut structs);
+            self.types.for_each_struct(global.ty, &mut |id| structs.insert(id));
         }
         for local in self.shader.functions.iter().flat_map(|function| &function.locals) {
-            structs_in(self.types, local.ty, &mut structs);
+            self.types.for_each_struct(local.ty, &mut |id| structs.insert(id));
         }
         for id in structs {
             let declared = self.types.structure(id);
@@ -303,18 +303,6 @@ fn parts<'a>(lines: &'a [Line<'a>]) -> (Vec<&'a Line<'a>>, Vec<Part<'a>>) {
     }
     declarations.append(&mut comments);
     (declarations, functions)
-}
-
-fn structs_in(types: &Types, ty: TypeId, into: &mut BTreeSet<StructId>) {
-    match types.get(ty) {
-        Type::Array(element, _) => structs_in(types, element, into),
-        Type::Struct(id) if into.insert(id) => {
-            for member in &types.structure(id).members {
-                structs_in(types, member.ty, into);
-            }
-        }
-        _ => {}
-    }
 }
 
 /// Of places in two orders, the longest choice that is in both: the others become `None`.

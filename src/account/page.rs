@@ -1,6 +1,7 @@
 //! The page as HTML.
 
 use super::listing::{Section, listing};
+use crate::report::grouped;
 use crate::report::raster::{color_uri, difference_uri};
 use crate::specialize::{Account, DrawAccount, Figures, PictureError, Pictures, SpecializedDraw, SpecializedScene};
 use glisten_front::hir::Stage;
@@ -170,17 +171,4 @@ fn figures(before: &Figures, after: &Figures) -> Vec<Value> {
             context! { name, before => grouped(before), after => grouped(after), change, less => after < before }
         })
         .collect()
-}
-
-/// The digits in groups of three.
-fn grouped(value: u64) -> String {
-    let digits = value.to_string();
-    let mut text = String::new();
-    for (index, digit) in digits.chars().enumerate() {
-        if index > 0 && (digits.len() - index).is_multiple_of(3) {
-            text.push('\u{202f}');
-        }
-        text.push(digit);
-    }
-    text
 }

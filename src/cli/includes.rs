@@ -2,8 +2,8 @@
 //!
 //! *Holds:* `"x"` is searched next to the including file, then in the `-I` folders in order; `<x>` in the `-I`
 //! folders, then among the embedded modules (`<glisten/phong.glsl>`). A path that begins with `/`, as all of
-//! ARB_shading_language_include do, starts at an `-I` folder, or else at the root of the disk. The name of an included file is the path under
-//! which it was found, so that diagnostics and depfiles show a path that opens.
+//! ARB_shading_language_include do, starts at an `-I` folder, or else at the root of the disk. The name of an included
+//! file is the path under which it was found, so that diagnostics and depfiles show a path that opens.
 
 use super::files;
 use crate::library::{self, Embedded};

@@ -7,13 +7,13 @@ use super::args::{BindingArgs, LevelArgs, SourceArgs};
 use super::console::Console;
 use super::exit::{Exit, Failure, Outcome};
 use super::files;
-use super::inputs::Group;
-use super::inputs::Input;
+use super::inputs::{Group, Input};
 use super::session::Session;
 use super::stages;
 use clap::Args;
 use glisten_front::hir::{SamplerDim, SamplerType, Scalar, Stage, Type, TypeId, Types};
 use glisten_front::link::{Program, UniformLeaf};
+use glisten_scene::values::{Fill, value_text};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
@@ -172,29 +172,10 @@ fn uniforms(text: &mut String, program: &Program) {
     for leaf in active {
         let ty = program.types.name(leaf.ty);
         let array = leaf.array_size.map_or_else(String::new, |size| format!("[{size}]"));
-        let values = values(&program.types, leaf);
+        let values = value_text(&program.types, leaf, Fill::One, usize::MAX);
         // A uniform with an initializer keeps it.
         let (mark, note) = if default(leaf) { ("# ", ", has an initializer") } else { ("", "") };
         let _ = writeln!(text, "{mark}{} = {values}   # {ty}{array}{note}", quoted(&leaf.name));
-    }
-}
-
-/// A neutral value: an identity, ones, `true`.
-fn values(types: &Types, leaf: &UniformLeaf) -> String {
-    let one = match types.scalar_of(leaf.ty) {
-        Some(Scalar::Bool) => "true",
-        Some(Scalar::Int | Scalar::Uint) => "1",
-        Some(Scalar::Float) | None => "1.0",
-    };
-    let element: Vec<&str> = match types.get(leaf.ty) {
-        Type::Matrix(columns, rows) => (0..columns)
-            .flat_map(|column| (0..rows).map(move |row| if row == column { "1.0" } else { "0.0" }))
-            .collect(),
-        _ => vec![one; types.flat_len(leaf.ty) as usize],
-    };
-    match (&element[..], leaf.array_size) {
-        ([one], None) => (*one).to_owned(),
-        (_, size) => format!("[{}]", element.repeat(size.unwrap_or(1) as usize).join(", ")),
     }
 }
 

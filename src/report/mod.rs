@@ -16,6 +16,8 @@ pub(crate) mod raster;
 mod run;
 mod table;
 
+pub(crate) use page::grouped;
+
 pub use model::{Adapter, Figures, Report, Spread, Timing, Truth, Way};
 pub use run::{Error, Watcher, run};
 

@@ -136,7 +136,7 @@ fn scientific(value: f64) -> String {
 }
 
 /// The digits in groups of three.
-fn grouped(value: u64) -> String {
+pub(crate) fn grouped(value: u64) -> String {
     let digits = value.to_string();
     let mut text = String::new();
     for (index, digit) in digits.chars().enumerate() {

@@ -446,6 +446,19 @@ impl Types {
         }
     }
 
+    /// Calls `visit` for each struct in a type, in the order of declaration. It looks into those for which `visit` is true.
+    pub fn for_each_struct(&self, id: TypeId, visit: &mut dyn FnMut(StructId) -> bool) {
+        match self.get(id) {
+            Type::Array(element, _) => self.for_each_struct(element, visit),
+            Type::Struct(id) if visit(id) => {
+                for member in &self.structure(id).members {
+                    self.for_each_struct(member.ty, visit);
+                }
+            }
+            _ => {}
+        }
+    }
+
     /// The number of scalars of a value in flat layout: members in order, elements in order, matrices by columns.
     /// Samplers count as one. The number saturates; unsized arrays count 0.
     pub fn flat_len(&self, id: TypeId) -> u32 {

@@ -6,7 +6,7 @@ use super::lights::{LightSpace, Lighting, Member};
 use super::material::Material;
 use super::matrices::{ROLES, View};
 use super::reader::{Node, Number, NumberValue, Reader, report_unknown_name};
-use crate::values::UniformValues;
+use crate::values::{Fill, UniformValues, value_text};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::scenes::{SCENE_UNSET_UNIFORM, SCENE_WRONG_KIND, SCENE_WRONG_SIZE};
 use glisten_front::hir::{Scalar, ScalarValue, Type, Types};
@@ -275,7 +275,9 @@ impl<'p> Values<'p> {
 
     /// The help text for uniforms without a value: the lines to paste.
     fn lines_to_add(&self, unset: &[&UniformLeaf]) -> String {
-        let line = |leaf: &&UniformLeaf| format!("{} = {}", key(&leaf.name), self.neutral(leaf));
+        let line = |leaf: &&UniformLeaf| {
+            format!("{} = {}", key(&leaf.name), value_text(&self.program.types, leaf, Fill::Zero, MAX_NEUTRAL))
+        };
         match unset {
             [one] => format!("add `{}` under [draw.uniforms]", line(one)),
             _ => {
@@ -284,30 +286,6 @@ impl<'p> Values<'p> {
                 let rest = if more > 0 { format!("\n# and {more} more") } else { String::new() };
                 format!("add under [draw.uniforms]:\n{}{rest}", lines.join("\n"))
             }
-        }
-    }
-
-    /// A value to begin with: zeros, ones on the diagonal of a matrix, `false`.
-    fn neutral(&self, leaf: &UniformLeaf) -> String {
-        let types = &self.program.types;
-        let zero = match types.scalar_of(leaf.ty) {
-            Some(Scalar::Bool) => "false",
-            Some(Scalar::Int | Scalar::Uint) => "0",
-            Some(Scalar::Float) | None => "0.0",
-        };
-        let element: Vec<&str> = match types.get(leaf.ty) {
-            Type::Matrix(columns, rows) => (0..columns)
-                .flat_map(|column| (0..rows).map(move |row| if row == column { "1.0" } else { "0.0" }))
-                .collect(),
-            _ => vec![zero; types.flat_len(leaf.ty) as usize],
-        };
-        let count = leaf.array_size.unwrap_or(1) as usize;
-        if element.len() * count > MAX_NEUTRAL {
-            return "[..]".to_owned();
-        }
-        match (&element[..], leaf.array_size) {
-            ([one], None) => (*one).to_owned(),
-            _ => format!("[{}]", element.repeat(count).join(", ")),
         }
     }
 

@@ -124,6 +124,55 @@ fn zeros(types: &Types, ty: TypeId, into: &mut Vec<ScalarValue>) {
     }
 }
 
+/// The numbers that fill a [`value_text`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fill {
+    /// 0 and `false`.
+    Zero,
+    /// 1 and `true`.
+    One,
+}
+
+/// A value to begin with, as a scene file has it: a matrix is the identity, all else is filled. `[..]` stands for more than
+/// `most` numbers, and for a leaf without values.
+pub fn value_text(types: &Types, leaf: &UniformLeaf, fill: Fill, most: usize) -> String {
+    let Some(shape) = LeafShape::of(types, leaf) else { return "[..]".to_owned() };
+    let text = |one: bool| match (shape.scalar, one) {
+        (Scalar::Bool, one) => {
+            if one {
+                "true"
+            } else {
+                "false"
+            }
+        }
+        (Scalar::Int | Scalar::Uint, one) => {
+            if one {
+                "1"
+            } else {
+                "0"
+            }
+        }
+        (Scalar::Float, one) => {
+            if one {
+                "1.0"
+            } else {
+                "0.0"
+            }
+        }
+    };
+    let each = shape.n_each();
+    if each * shape.elements as usize > most {
+        return "[..]".to_owned();
+    }
+    let (rows, is_matrix) = (shape.rows as usize, shape.columns > 1);
+    let element: Vec<&str> =
+        (0..each).map(|k| text(if is_matrix { k / rows == k % rows } else { fill == Fill::One })).collect();
+    match (&element[..], leaf.array_size) {
+        ([one], None) => (*one).to_owned(),
+        _ => format!("[{}]", element.repeat(shape.elements as usize).join(", ")),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

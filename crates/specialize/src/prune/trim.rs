@@ -24,13 +24,13 @@ fn trim_members(types: &mut Types, stages: &mut [Shader]) -> bool {
     for shader in stages.iter() {
         for global in &shader.globals {
             let between = matches!(global.storage, Storage::In | Storage::Out) || global.builtin.is_some();
-            structs_in(types, global.ty, if between { &mut fixed } else { &mut seen });
+            types.for_each_struct(global.ty, &mut |id| (if between { &mut fixed } else { &mut seen }).insert(id));
         }
         for local in shader.functions.iter().flat_map(|function| &function.locals) {
-            structs_in(types, local.ty, &mut seen);
+            types.for_each_struct(local.ty, &mut |id| seen.insert(id));
         }
         for expr in &shader.exprs {
-            structs_in(types, expr.ty, &mut seen);
+            types.for_each_struct(expr.ty, &mut |id| seen.insert(id));
             match &expr.kind {
                 ExprKind::Member(base, member) => {
                     if let Type::Struct(id) = types.get(shader.expr(*base).ty) {
@@ -38,13 +38,13 @@ fn trim_members(types: &mut Types, stages: &mut [Shader]) -> bool {
                     }
                 }
                 ExprKind::Binary(BinaryOp::Equal | BinaryOp::NotEqual, a, _) => {
-                    structs_in(types, shader.expr(*a).ty, &mut fixed);
+                    types.for_each_struct(shader.expr(*a).ty, &mut |id| fixed.insert(id));
                 }
                 // What an argument does must be done.
                 ExprKind::Construct(ConstructKind::Struct, arguments)
                     if arguments.iter().any(|argument| has_effects(shader, *argument)) =>
                 {
-                    structs_in(types, expr.ty, &mut fixed);
+                    types.for_each_struct(expr.ty, &mut |id| fixed.insert(id));
                 }
                 _ => {}
             }
@@ -142,18 +142,6 @@ fn trimmed(
             (0..size).flat_map(|_| trimmed(types, kept, element, scalars)).collect()
         }
         _ => scalars.take(types.flat_len(ty) as usize).collect(),
-    }
-}
-
-fn structs_in(types: &Types, ty: TypeId, into: &mut FxHashSet<StructId>) {
-    match types.get(ty) {
-        Type::Array(element, _) => structs_in(types, element, into),
-        Type::Struct(id) if into.insert(id) => {
-            for member in &types.structure(id).members {
-                structs_in(types, member.ty, into);
-            }
-        }
-        _ => {}
     }
 }
 
