@@ -46,6 +46,16 @@ pub enum LineRule {
     Vulkan,
 }
 
+/// Whose vertex positions decide which pixels are covered.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Positions {
+    /// Those of f32 arithmetic, in every domain: pictures of different domains cover the same pixels.
+    #[default]
+    Shared,
+    /// Those of the domain.
+    Own,
+}
+
 /// Options for drawing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RenderOptions {
@@ -57,11 +67,19 @@ pub struct RenderOptions {
     pub mark_edges: bool,
     /// The faults of a driver that envelopes excuse, in addition to what the specifications allow.
     pub faults: Faults,
+    /// Whose positions decide coverage.
+    pub positions: Positions,
 }
 
 impl Default for RenderOptions {
     fn default() -> Self {
-        Self { precision: Precision::F64, lines: LineRule::OpenGl, mark_edges: true, faults: Faults::NONE }
+        Self {
+            precision: Precision::F64,
+            lines: LineRule::OpenGl,
+            mark_edges: true,
+            faults: Faults::NONE,
+            positions: Positions::Shared,
+        }
     }
 }
 

@@ -41,7 +41,7 @@ impl Observer<F32> for Counter {
                 self.operations += lanes * results.len() as u64;
                 self.lookups += if kind == Kind::Texture { lanes } else { 0 };
             }
-            What::Answer(_) => self.operations += lanes,
+            What::Answer { .. } => self.operations += lanes,
             What::Choice(_) | What::Output(_) => {}
         }
     }

@@ -42,6 +42,11 @@ pub trait Integer: Element<Block = [Self; WIDTH]> {
     fn is_decided(self) -> bool {
         true
     }
+    /// The integer that follows from exact arithmetic, in a domain that follows it; otherwise unchanged.
+    #[inline(always)]
+    fn corrected(self) -> Self {
+        self
+    }
     /// A function of one operand.
     fn lift1(self, f: impl Fn(u32) -> u32) -> Self;
     /// A function of two operands.

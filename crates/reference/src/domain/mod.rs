@@ -31,8 +31,8 @@ pub(crate) use envelope::evaluate;
 pub use envelope::{EnvelopeBlock, EnvelopeFloat, EnvelopeInt};
 pub use integer::Integer;
 pub use lanes::{Block, Element, LANES, Lanes, Source, WIDTH};
-pub use number::{Answers, Number, NumberBlock};
-pub use shadow::{ShadowFloat, ShadowInt, Shadowed};
+pub use number::{Answers, ErrorPart, Number, NumberBlock};
+pub use shadow::{ShadowFloat, ShadowInt, Shadowed, rounded};
 
 /// A pair of number types.
 pub trait Domain: Copy + Send + Sync + std::fmt::Debug + 'static {

@@ -1,39 +1,40 @@
-//! The shadow domain: an f32 and an f64 side by side, so that the error of f32 arithmetic can be attributed to
-//! operations.
+//! The shadow domain: the arithmetic of an f32 GPU and exact arithmetic side by side, so that the error of f32 can be
+//! attributed to operations.
 //!
-//! *In:* f32 values. *Out:* three results for each operation: on the f32 operands in f32, on the f32 operands in f64,
-//! on the f64 operands in f64. The first two differ by the error that the operation adds, the last two by what it
-//! makes of its operands' errors.
+//! *In:* f32 values. *Out:* three results for each operation: in f32 on the operands of f32 arithmetic, exactly on these
+//! operands, exactly on exact operands. The first two differ by the error that the operation adds, the last two by what it
+//! makes of its operands' errors. "Exactly" is f64.
 //!
-//! *Holds:* both sides take the path of f64, whose results decide conditions and indices. An [`Integer`] that is not
-//! [decided](Integer::is_decided) is one on which the two disagree. Built-in functions that are formulas (`normalize`, `mix`,
-//! `pow` as `exp2(y log2(x))`) round each step in f32, as GPUs do; the others round once. Subnormal f32 numbers are
-//! kept, not flushed to 0.
+//! *Holds:* the f32 side decides conditions and indices, as on a GPU; the exact side follows it through branches, and
+//! selects by its own conditions where nothing branches. An [`Integer`] that is not [decided](Integer::is_decided) is one
+//! on which the two sides disagree. On the f32 side, built-in functions that are formulas (`normalize`, `mix`, `pow` as
+//! `exp2(y log2(x))`) round each step, as GPUs do, and the others round once; subnormal numbers are flushed to 0; `min` and
+//! `max` pass a NaN on, as they may (GLSL leaves it undefined).
 
-use super::{Element, Integer, Number, WIDTH};
+use super::{Element, ErrorPart, Integer, Number, WIDTH};
 
 /// A `float`.
 pub type ShadowFloat = Shadowed<false>;
 
-/// A number in both precisions. `INSIDE` a built-in function, the exact result continues from step to step; outside,
-/// each operation starts again from its f32 operands.
+/// A number on both sides. `INSIDE` a built-in function, the result on f32 operands continues from step to step without
+/// rounding; outside, each operation starts again from its f32 operands.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Shadowed<const INSIDE: bool> {
-    /// The result of f32 arithmetic.
-    pub single: f32,
+    /// The result of f32 arithmetic: an f32, unless an [`Exactly`](crate::exec::Exactly) leaves out its rounding.
+    pub single: f64,
     /// The last operation's result in f64 on the operands of f32 arithmetic.
     pub exact: f64,
-    /// The result of f64 arithmetic.
+    /// The result of exact arithmetic.
     pub wide: f64,
 }
 
 /// An `int`, `uint` or `bool`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ShadowInt {
-    /// The bits that follow from f64 arithmetic, which decide.
+    /// The bits that follow from f32 arithmetic, which decide.
     pub bits: u32,
-    /// The bits that follow from f32 arithmetic.
-    pub single: u32,
+    /// The bits that follow from exact arithmetic.
+    pub wide: u32,
 }
 
 impl Element for ShadowInt {
@@ -46,64 +47,132 @@ impl<const INSIDE: bool> Element for Shadowed<INSIDE> {
 
 impl Integer for ShadowInt {
     fn from_bits(bits: u32) -> Self {
-        Self { bits, single: bits }
+        Self { bits, wide: bits }
     }
     fn bits(self) -> u32 {
         self.bits
     }
     fn second(self) -> u32 {
-        self.single
+        self.wide
     }
     fn paired(bits: u32, second: u32) -> Self {
-        Self { bits, single: second }
+        Self { bits, wide: second }
     }
     fn is_decided(self) -> bool {
-        self.bits == self.single
+        self.bits == self.wide
+    }
+    fn corrected(self) -> Self {
+        Self { bits: self.wide, ..self }
     }
     fn lift1(self, f: impl Fn(u32) -> u32) -> Self {
-        Self { bits: f(self.bits), single: f(self.single) }
+        Self { bits: f(self.bits), wide: f(self.wide) }
     }
     fn lift2(self, other: Self, f: impl Fn(u32, u32) -> u32) -> Self {
-        Self { bits: f(self.bits, other.bits), single: f(self.single, other.single) }
+        Self { bits: f(self.bits, other.bits), wide: f(self.wide, other.wide) }
     }
+}
+
+/// The nearest f32 of a GPU that flushes subnormal numbers to 0.
+pub fn rounded(value: f64) -> f64 {
+    let single = value as f32;
+    f64::from(if single.is_subnormal() { 0.0 * single } else { single })
 }
 
 impl<const INSIDE: bool> Shadowed<INSIDE> {
     /// The error that the last operation added: the difference between its f32 result and the exact one on the same
     /// operands.
     pub fn added(self) -> f64 {
-        (f64::from(self.single) - self.exact).abs()
+        (self.single - self.exact).abs()
     }
 
-    /// The total difference between f32 and f64 arithmetic.
+    /// The total difference between f32 and exact arithmetic.
     pub fn error(self) -> f64 {
-        (f64::from(self.single) - self.wide).abs()
+        (self.single - self.wide).abs()
     }
 
     fn begun(self) -> Self {
-        if INSIDE { self } else { Self { exact: f64::from(self.single), ..self } }
+        if INSIDE { self } else { Self { exact: self.single, ..self } }
     }
 
-    fn map(self, single: impl Fn(f32) -> f32, wide: impl Fn(f64) -> f64) -> Self {
+    /// An operation whose f32 result is the rounded result of f64 arithmetic. Where a result of f64 is rounded to f32, the
+    /// result of +, -, *, / and `sqrt` is the correctly rounded one, since f64 has more than twice the bits.
+    fn map(self, f: impl Fn(f64) -> f64) -> Self {
         let a = self.begun();
-        Self { single: single(a.single), exact: wide(a.exact), wide: wide(a.wide) }
+        Self { single: rounded(f(a.single)), exact: f(a.exact), wide: f(a.wide) }
     }
 
-    fn zip(self, other: Self, single: impl Fn(f32, f32) -> f32, wide: impl Fn(f64, f64) -> f64) -> Self {
+    fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
         let (a, b) = (self.begun(), other.begun());
-        Self { single: single(a.single, b.single), exact: wide(a.exact, b.exact), wide: wide(a.wide, b.wide) }
+        Self { single: rounded(f(a.single, b.single)), exact: f(a.exact, b.exact), wide: f(a.wide, b.wide) }
+    }
+
+    /// An operation whose f32 result has steps of its own.
+    fn by_steps(self, single: impl Fn(f64) -> f64, f: impl Fn(f64) -> f64) -> Self {
+        let a = self.begun();
+        Self { single: single(a.single), exact: f(a.exact), wide: f(a.wide) }
     }
 }
 
-/// `exp2(y log2(x))` with each step rounded, as Vulkan's precision rules define `pow`.
-fn pow_by_steps(base: f32, exponent: f32) -> f32 {
-    Number::exp2(exponent * Number::log2(base))
+/// The functions of one number that Vulkan's precision rules define by other functions, each step rounded.
+mod steps {
+    use super::rounded;
+    use crate::domain::Number;
+
+    /// `exp2(x log2(e))`
+    pub(super) fn exp(x: f64) -> f64 {
+        rounded(Number::exp2(rounded(x * rounded(std::f64::consts::LOG2_E))))
+    }
+    /// `log2(x) ln(2)`
+    pub(super) fn log(x: f64) -> f64 {
+        rounded(rounded(Number::log2(x)) * rounded(std::f64::consts::LN_2))
+    }
+    /// `sin(x) / cos(x)`
+    pub(super) fn tan(x: f64) -> f64 {
+        rounded(rounded(Number::sin(x)) / rounded(Number::cos(x)))
+    }
+    /// `(exp(x) - exp(-x)) / 2`
+    pub(super) fn sinh(x: f64) -> f64 {
+        rounded(rounded(exp(x) - exp(-x)) * 0.5)
+    }
+    /// `(exp(x) + exp(-x)) / 2`
+    pub(super) fn cosh(x: f64) -> f64 {
+        rounded(rounded(exp(x) + exp(-x)) * 0.5)
+    }
+    /// `log(x + sqrt(x x + 1))`
+    pub(super) fn asinh(x: f64) -> f64 {
+        log(rounded(x + rounded(rounded(rounded(x * x) + 1.0).sqrt())))
+    }
+    /// `log(x + sqrt(x x - 1))`
+    pub(super) fn acosh(x: f64) -> f64 {
+        log(rounded(x + rounded(rounded(rounded(x * x) - 1.0).sqrt())))
+    }
+    /// `log((1 + x) / (1 - x)) / 2`
+    pub(super) fn atanh(x: f64) -> f64 {
+        rounded(log(rounded(rounded(1.0 + x) / rounded(1.0 - x))) * 0.5)
+    }
+    /// `exp2(y log2(x))`
+    pub(super) fn pow(base: f64, exponent: f64) -> f64 {
+        rounded(Number::exp2(rounded(exponent * rounded(Number::log2(base)))))
+    }
+}
+
+/// `min` or `max` of a GPU that passes a NaN on.
+fn passing_nan(f: impl Fn(f64, f64) -> f64) -> impl Fn(f64, f64) -> f64 {
+    move |a, b| if a.is_nan() || b.is_nan() { f64::NAN } else { f(a, b) }
 }
 
 macro_rules! functions_of_one {
     ($($name:ident)*) => { $(
         fn $name(self) -> Self {
-            self.map(<f32 as Number>::$name, <f64 as Number>::$name)
+            self.map(<f64 as Number>::$name)
+        }
+    )* };
+}
+
+macro_rules! functions_by_steps {
+    ($($name:ident)*) => { $(
+        fn $name(self) -> Self {
+            self.by_steps(steps::$name, <f64 as Number>::$name)
         }
     )* };
 }
@@ -111,7 +180,17 @@ macro_rules! functions_of_one {
 macro_rules! functions_of_two {
     ($($name:ident)*) => { $(
         fn $name(self, other: Self) -> Self {
-            self.zip(other, <f32 as Number>::$name, <f64 as Number>::$name)
+            self.zip(other, <f64 as Number>::$name)
+        }
+    )* };
+}
+
+macro_rules! limits {
+    ($($name:ident)*) => { $(
+        fn $name(self, other: Self) -> Self {
+            let (a, b) = (self.begun(), other.begun());
+            let f = <f64 as Number>::$name;
+            Self { single: passing_nan(f)(a.single, b.single), exact: f(a.exact, b.exact), wide: f(a.wide, b.wide) }
         }
     )* };
 }
@@ -120,8 +199,8 @@ macro_rules! answers {
     ($($name:ident($($other:ident)?))*) => { $(
         fn $name(self $(, $other: Self)?) -> ShadowInt {
             ShadowInt {
-                bits: <f64 as Number>::$name(self.wide $(, $other.wide)?),
-                single: <f32 as Number>::$name(self.single $(, $other.single)?),
+                bits: <f64 as Number>::$name(self.single $(, $other.single)?),
+                wide: <f64 as Number>::$name(self.wide $(, $other.wide)?),
             }
         }
     )* };
@@ -133,16 +212,23 @@ impl<const INSIDE: bool> Number for Shadowed<INSIDE> {
     type Wide = Shadowed<true>;
 
     fn from_f64(value: f64) -> Self {
-        Self { single: value as f32, exact: value, wide: value }
+        Self { single: rounded(value), exact: value, wide: value }
     }
     fn value(self) -> f64 {
-        self.wide
+        self.single
     }
     fn second(self) -> f64 {
-        self.single.into()
+        self.wide
     }
     fn paired(value: f64, second: f64) -> Self {
-        Self { single: second as f32, exact: second, wide: value }
+        Self { single: rounded(value), exact: value, wide: second }
+    }
+    fn corrected(self, part: ErrorPart) -> Self {
+        let single = match part {
+            ErrorPart::All => rounded(self.wide),
+            ErrorPart::Own => self.exact,
+        };
+        Self { single, ..self }
     }
     fn widen(self) -> Shadowed<true> {
         let Self { single, exact, wide } = self.begun();
@@ -151,24 +237,30 @@ impl<const INSIDE: bool> Number for Shadowed<INSIDE> {
     fn narrow(Shadowed { single, exact, wide }: Shadowed<true>) -> Self {
         Self { single, exact, wide }
     }
-    functions_of_two! { add sub mul div min max atan2 }
+    functions_of_two! { add sub mul div atan2 }
+    limits! { min max }
     functions_of_one! {
-        neg abs sign floor ceil trunc round sqrt inversesqrt exp log exp2 log2 sin cos tan asin acos atan sinh cosh tanh
-        asinh acosh atanh
+        neg abs sign floor ceil trunc round sqrt inversesqrt exp2 log2 sin cos asin acos atan tanh
     }
+    functions_by_steps! { exp log tan sinh cosh asinh acosh atanh }
     fn pow(self, exponent: Self) -> Self {
-        self.zip(exponent, pow_by_steps, Number::pow)
+        let (a, b) = (self.begun(), exponent.begun());
+        let single = steps::pow(a.single, b.single);
+        Self { single, exact: Number::pow(a.exact, b.exact), wide: Number::pow(a.wide, b.wide) }
     }
     answers! { less(other) less_equal(other) equal(other) isnan() isinf() to_int() to_uint() }
     fn select(condition: ShadowInt, yes: Self, no: Self) -> Self {
-        if condition.is_true() { yes } else { no }
+        let f32_side = if condition.bits != 0 { yes } else { no };
+        Self { wide: if condition.wide != 0 { yes.wide } else { no.wide }, ..f32_side }
     }
     fn from_int(value: ShadowInt) -> Self {
         let as_wide = |bits: u32| f64::from(bits as i32);
-        Self { single: value.single as i32 as f32, exact: as_wide(value.single), wide: as_wide(value.bits) }
+        let exact = as_wide(value.bits);
+        Self { single: rounded(exact), exact, wide: as_wide(value.wide) }
     }
     fn from_uint(value: ShadowInt) -> Self {
-        Self { single: value.single as f32, exact: value.single.into(), wide: value.bits.into() }
+        let exact = f64::from(value.bits);
+        Self { single: rounded(exact), exact, wide: f64::from(value.wide) }
     }
 }
 
@@ -190,21 +282,39 @@ mod tests {
     }
 
     #[test]
-    fn both_sides_take_the_way_of_f64_and_their_quarrel_is_kept() {
+    fn f32_decides_and_the_disagreement_is_kept() {
         // 1 + 2^-30 is 1 in f32.
         let near = of(1.0).add(of(2f64.powi(-30)));
         let answer = of(1.0).less(near);
-        assert_eq!((answer.bits, answer.single, answer.is_decided()), (1, 0, false));
-        assert_eq!(Shadowed::select(answer, of(5.0), of(7.0)).single, 5.0);
+        assert_eq!((answer.bits, answer.wide, answer.is_decided()), (0, 1, false));
+        let selected = Shadowed::select(answer, of(5.0), of(7.0));
+        assert_eq!((selected.single, selected.wide), (7.0, 5.0), "each side selects by its own condition");
         let both = answer.and(ShadowInt::from_bits(0));
-        assert!(both.is_decided(), "a false on both sides ends the quarrel");
+        assert!(both.is_decided(), "a false on both sides ends the disagreement");
+    }
+
+    #[test]
+    fn results_are_those_of_f32() {
+        let values = [1.0f32, 0.1, 3.7e-5, 1e20, 16_777_217.0, -0.3];
+        for a in values {
+            for b in values {
+                let (x, y) = (of(f64::from(a)), of(f64::from(b)));
+                assert_eq!(x.add(y).single, f64::from(a + b));
+                assert_eq!(x.mul(y).single, f64::from(a * b));
+                assert_eq!(x.div(y).single, f64::from(a / b));
+            }
+            assert_eq!(of(f64::from(a.abs())).sqrt().single, f64::from(a.abs().sqrt()));
+        }
+        assert_eq!(of(1e-30).mul(of(1e-9)).single, 0.0, "a subnormal result is flushed");
+        assert!(of(f64::NAN).max(of(0.0)).single.is_nan());
+        assert_eq!(of(f64::NAN).max(of(0.0)).wide, 0.0);
     }
 
     #[test]
     fn pow_rounds_its_logarithm() {
         let (base, exponent) = (of(f64::from(0.999f32)), of(10_000.0));
         let power = base.pow(exponent);
-        let once = (power.exact as f32 as f64 - power.exact).abs();
+        let once = (rounded(power.exact) - power.exact).abs();
         assert!(power.added() > 4.0 * once, "{} {once}", power.added());
         assert!(of(0.0).pow(of(0.0)).single.is_nan(), "undefined (GLSL 1.50 §8.2)");
         assert_eq!(of(0.0).pow(of(2.0)).single, 0.0);

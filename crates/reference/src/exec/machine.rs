@@ -2,6 +2,7 @@
 
 use super::Mask;
 use super::code::{Code, Inner, PoolSource, Port};
+use super::exactly::Exactly;
 use super::inst::Class;
 use super::mute::Muted;
 use super::observe::Observer;
@@ -42,6 +43,8 @@ pub struct Machine<D: Domain> {
     /// The loop that exceeded it.
     pub(super) runaway: Span,
     pub(super) observer: Option<Box<dyn Observer<D>>>,
+    /// The expressions whose error is left out.
+    pub(super) exactly: Option<Arc<Exactly>>,
     /// The lanes that an observer is shown.
     pub(super) watched: u64,
 }
@@ -55,6 +58,8 @@ pub enum Purpose<D: Domain> {
     Share(Muted),
     /// An observer, which also sees the preamble.
     Watching(Box<dyn Observer<D>>),
+    /// Results without the f32 error of some expressions.
+    Corrected(Arc<Exactly>),
 }
 
 impl<D: Domain> Machine<D> {
@@ -71,11 +76,13 @@ impl<D: Domain> Machine<D> {
         uniforms: &[Vec<ScalarValue>],
         textures: &[Option<Arc<Texture>>],
     ) -> Self {
-        let (faults, muted, observer) = match purpose {
-            Purpose::Results(faults) => (faults, None, None),
-            Purpose::Share(muted) => (Faults::NONE, Some(muted), None),
-            Purpose::Watching(observer) => (Faults::NONE, None, Some(observer)),
-        };
+        let (mut faults, mut muted, mut observer, mut exactly) = (Faults::NONE, None, None, None);
+        match purpose {
+            Purpose::Results(excused) => faults = excused,
+            Purpose::Share(left_out) => muted = Some(left_out),
+            Purpose::Watching(watching) => observer = Some(watching),
+            Purpose::Corrected(corrected) => exactly = Some(corrected),
+        }
         let inner = &code.inner;
         let floats = inner.float_pool.iter().map(|source| float_of::<D>(*source, uniforms)).collect();
         let ints = inner.int_pool.iter().map(|source| int_of::<D>(*source, uniforms)).collect();
@@ -94,6 +101,7 @@ impl<D: Domain> Machine<D> {
             budget_exceeded: false,
             runaway: Span::default(),
             observer,
+            exactly,
             watched: 1,
         };
         machine.execute(&inner.preamble, inner, 1);

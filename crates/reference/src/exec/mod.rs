@@ -44,6 +44,7 @@ mod code;
 mod compile;
 mod composite;
 mod compute;
+mod exactly;
 mod explore;
 mod inst;
 mod lookup;
@@ -60,6 +61,7 @@ mod show;
 mod tests;
 
 pub use code::Code;
+pub use exactly::Exactly;
 pub use machine::{LOOP_BUDGET, Machine, Purpose};
 pub use mute::{Muted, Operation};
 pub use observe::{Event, Kind, Observer, Order, Piece, Values, What};

@@ -1,7 +1,7 @@
 //! [`Observer`]: sees the results of a machine as [`Event`]s.
 
 use super::Mask;
-use super::inst::{Composite, Float2, Inst};
+use super::inst::{Composite, Float1, Float2, Float3, Inst};
 use crate::domain::{Domain, Source};
 use glisten_front::hir::Stage;
 use glisten_front::source::Span;
@@ -48,19 +48,43 @@ impl Piece {
 }
 
 /// The kind of an operation that yields floats.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Kind {
     /// `a + b`, `a - b`
     Sum,
+    /// `a * b`
+    Product,
+    /// `a / b`
+    Quotient,
     /// `dot(a, b)`; the operands are those of `a`, then those of `b`.
     Dot,
-    /// A discontinuous function: `floor`, `sign`, `step`, `fract`, `mod` and similar ones.
-    Jump,
+    /// `a0 b0 + a1 b1 + ...`; the operands are pairs.
+    Pairs,
+    /// `normalize(a)`
+    Normalize,
+    /// Another function of whole vectors or matrices.
+    Vector,
+    /// `pow`
+    Power,
+    /// `exp`, `exp2` and the hyperbolic functions that grow like them.
+    Exponential,
+    /// `sin`, `cos`, `tan`
+    Angle,
+    /// A function that is not defined everywhere: roots, logarithms, inverse functions.
+    Partial,
+    /// A discontinuous function whose result follows a comparison: `sign`, `step`.
+    Step,
+    /// A discontinuous function that rounds: `floor`, `fract`, `mod` and similar ones.
+    Whole,
+    /// `mix`, `smoothstep`: a formula.
+    Blend,
     /// A difference between neighboring lanes.
     Derivative,
     /// Texels of a texture, from coordinates.
     Texture,
-    /// Anything else.
+    /// `float(i)`
+    Conversion,
+    /// An operation that adds no more than a rounding: `abs`, `min`, a negation.
     Other,
 }
 
@@ -77,7 +101,16 @@ pub enum What<'a, D: Domain> {
         results: &'a [Values<'a, D::Float>],
     },
     /// A comparison of floats, a classification or a conversion to an integer was made.
-    Answer(Values<'a, D::Int>),
+    Answer {
+        /// Whether it is a conversion to an integer.
+        converts: bool,
+        /// Whether it compares for equality.
+        equality: bool,
+        /// The floats.
+        operands: &'a [Values<'a, D::Float>],
+        /// The answer.
+        answer: Values<'a, D::Int>,
+    },
     /// Lanes diverge, or one of two values is selected, by this condition or selector.
     Choice(Values<'a, D::Int>),
     /// The stage has ended with this value in an output.
@@ -104,22 +137,61 @@ pub trait Observer<D: Domain>: Send + Debug {
 }
 
 impl Kind {
+    /// Whether the operation is discontinuous.
+    pub fn jumps(self) -> bool {
+        matches!(self, Self::Step | Self::Whole)
+    }
+
     /// Returns `None` for instructions that do not compute floats.
     pub(super) fn of(inst: &Inst) -> Option<Self> {
         Some(match inst {
-            Inst::Float2 { op: Float2::Add | Float2::Sub, .. } => Self::Sum,
+            Inst::Float1 { op, .. } => Self::of_unary(*op),
+            Inst::Float2 { op, .. } => Self::of_binary(*op),
+            Inst::Float3 { op, .. } => Self::of_ternary(*op),
             Inst::Composite { op: Composite::Dot, .. } => Self::Dot,
-            Inst::Float1 { op, .. } if op.jumps() => Self::Jump,
-            Inst::Float2 { op, .. } if op.jumps() => Self::Jump,
+            Inst::Composite { op: Composite::Normalize, .. } => Self::Normalize,
+            Inst::Composite { .. } => Self::Vector,
+            Inst::MulAdd { .. } | Inst::SumOfProducts { .. } => Self::Pairs,
             Inst::Derivative { .. } => Self::Derivative,
-            Inst::Float1 { .. }
-            | Inst::Float2 { .. }
-            | Inst::Float3 { .. }
-            | Inst::MulAdd { .. }
-            | Inst::SumOfProducts { .. }
-            | Inst::IntToFloat { .. }
-            | Inst::Composite { .. } => Self::Other,
+            Inst::IntToFloat { .. } => Self::Conversion,
             _ => return None,
         })
+    }
+
+    fn of_unary(op: Float1) -> Self {
+        match op {
+            Float1::Sin | Float1::Cos | Float1::Tan => Self::Angle,
+            Float1::Exp | Float1::Exp2 | Float1::Sinh | Float1::Cosh => Self::Exponential,
+            Float1::Sqrt
+            | Float1::Inversesqrt
+            | Float1::Log
+            | Float1::Log2
+            | Float1::Asin
+            | Float1::Acos
+            | Float1::Acosh
+            | Float1::Atanh => Self::Partial,
+            Float1::Sign => Self::Step,
+            op if op.jumps() => Self::Whole,
+            _ => Self::Other,
+        }
+    }
+
+    fn of_binary(op: Float2) -> Self {
+        match op {
+            Float2::Add | Float2::Sub => Self::Sum,
+            Float2::Mul => Self::Product,
+            Float2::Div => Self::Quotient,
+            Float2::Pow => Self::Power,
+            Float2::Step => Self::Step,
+            op if op.jumps() => Self::Whole,
+            _ => Self::Other,
+        }
+    }
+
+    fn of_ternary(op: Float3) -> Self {
+        match op {
+            Float3::Mix | Float3::Smoothstep => Self::Blend,
+            _ => Self::Other,
+        }
     }
 }

@@ -72,6 +72,14 @@ impl<T: Element> Register<T> {
         &mut self.lanes
     }
 
+    /// Replaces each number.
+    pub(super) fn change(&mut self, f: impl Fn(T) -> T) {
+        match self.filled {
+            Filled::Lanes => self.lanes.update(|_, number| f(number)),
+            Filled::One => self.lanes.set(0, f(self.lanes.get(0))),
+        }
+    }
+
     /// Copies some lanes of another register.
     pub(super) fn copy_lanes(&mut self, other: &Self, from: usize, to: usize, count: usize) {
         let other = other.source();

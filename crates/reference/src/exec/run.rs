@@ -12,6 +12,7 @@ impl<D: Domain> Machine<D> {
         let mut mask = start;
         let mut place = 0;
         let watched = self.observer.is_some();
+        let corrected = self.exactly.is_some();
         while let Some(inst) = section.insts.get(place) {
             place += 1;
             if watched {
@@ -39,6 +40,9 @@ impl<D: Domain> Machine<D> {
                 Inst::Texture { call } => {
                     if let Some(call) = inner.textures.get(call as usize) {
                         self.undecided |= self.texture(call, inner.stage, mask);
+                        if corrected {
+                            self.correct(inst, section, place - 1);
+                        }
                         if watched {
                             self.show_texture(call, section, place - 1, mask);
                         }
@@ -109,6 +113,9 @@ impl<D: Domain> Machine<D> {
                         self.registers.compute_apart(pure, section);
                     } else {
                         self.registers.compute(pure, section);
+                    }
+                    if corrected {
+                        self.correct(pure, section, place - 1);
                     }
                     if watched {
                         self.show(pure, section, place - 1, mask);

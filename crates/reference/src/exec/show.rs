@@ -6,7 +6,7 @@
 
 use super::Mask;
 use super::code::Section;
-use super::inst::{Class, Inst, Lookup, Operand, TextureCall, Use};
+use super::inst::{Class, Compare, FloatToInt, Inst, Lookup, Operand, TextureCall, Use};
 use super::machine::Machine;
 use super::observe::{Event, Kind, Observer, Order, What};
 use crate::domain::{Domain, Source};
@@ -48,7 +48,14 @@ impl<D: Domain> Machine<D> {
         }
         let what = match (Kind::of(inst), inst, answer) {
             (Some(kind), ..) => What::Floats { kind, operands: &operands, results: &results },
-            (None, Inst::Compare { .. } | Inst::FloatToInt { .. }, Some(answer)) => What::Answer(answer),
+            (None, Inst::Compare { op, .. }, Some(answer)) => {
+                let equality = matches!(op, Compare::Equal | Compare::NotEqual);
+                What::Answer { converts: false, equality, operands: &operands, answer }
+            }
+            (None, Inst::FloatToInt { op, .. }, Some(answer)) => {
+                let converts = matches!(op, FloatToInt::Int | FloatToInt::Uint);
+                What::Answer { converts, equality: false, operands: &operands, answer }
+            }
             _ => return,
         };
         let span = section.spans.get(place).copied().unwrap_or_default();

@@ -6,7 +6,7 @@
 
 use super::fragments::{Shading, draw_bin};
 use super::target::Patch;
-use super::watch::Watch;
+use super::watch::{Study, Watch};
 use super::{draw_all, refuse};
 use crate::domain::Envelope;
 use crate::domain::faults::Faults;
@@ -50,7 +50,7 @@ pub(crate) fn explain(
     let mut patch = Patch::<Envelope>::new(scene.framebuffer, area);
     let mut found = Vec::new();
     for (number, draw) in scene.draws.iter().enumerate() {
-        let watch = Watch { make: None, draw: number, instance: 0, unfused: true };
+        let watch = Watch { study: Study { unfused: true, ..Study::NONE }, draw: number, instance: 0 };
         draw_all(scene, draw, options, watch, &mut |shading, code, _, _| {
             if let Some(contributions) = of_draw(shading, code, &mut patch, place) {
                 found = contributions;

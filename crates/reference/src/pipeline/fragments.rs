@@ -15,12 +15,14 @@ use super::source::Source;
 use super::surface::BIN;
 use super::target::{Bin, Tests, local};
 use super::vertices::Vertices;
+use super::watch::{Probe, jittered};
 use crate::domain::faults::Faults;
 use crate::domain::{Domain, Integer, Number};
-use crate::exec::{Code, LANES, Machine, Mask, Purpose};
+use crate::exec::{LANES, Machine, Mask};
 use glisten_front::hir::{FragCoordLayout, GlobalId, Stage};
 use glisten_scene::{Draw, Framebuffer};
 use pulp::{Simd, WithSimd};
+use std::sync::PoisonError;
 
 /// The data that all bins of a draw share.
 pub(super) struct Shading<'a, D: Domain> {
@@ -32,6 +34,8 @@ pub(super) struct Shading<'a, D: Domain> {
     pub(super) outputs: &'a [OutputPlan],
     pub(super) mark_edges: bool,
     pub(super) faults: Faults,
+    pub(super) probe: Option<&'a Probe>,
+    pub(super) jitter: Option<u64>,
 }
 
 /// Draws the primitives of `list` over a bin.
@@ -72,11 +76,6 @@ pub(super) fn draw_bin<D: Domain>(
 }
 
 impl<D: Domain> Shading<'_, D> {
-    /// A machine for the fragment stage.
-    pub(super) fn machine(&self, code: &Code) -> Machine<D> {
-        Machine::with(Purpose::Results(self.faults), code, &self.draw.uniforms, &self.draw.textures)
-    }
-
     /// Keeps the batch's candidates that pass the depth test, if that comes first, and shades the batch when it is
     /// full.
     fn settle(&self, bin: &mut Bin<'_, D>, batch: &mut Batch<'_, D>, machine: &mut Machine<D>) {
@@ -102,10 +101,41 @@ impl<D: Domain> Shading<'_, D> {
         if batch.live != 0 && !machine.budget_exceeded() {
             pulp::Arch::new().dispatch(Interpolate { plan: self.plan, batch, machine });
             self.fill_fixed(batch, machine);
+            if let Some(seed) = self.jitter {
+                self.jitter_inputs(seed, batch, machine);
+            }
+            if let Some(probe) = self.probe {
+                self.examine(probe, batch, machine);
+            }
             machine.run(Mask(batch.live), batch.helpers());
             self.write_lanes(bin, batch, machine);
         }
         batch.clear();
+    }
+
+    /// Moves the float inputs that differ between fragments by an ULP of f32.
+    fn jitter_inputs(&self, seed: u64, batch: &Batch<'_, D>, machine: &mut Machine<D>) {
+        let places = &batch.fragments.places;
+        let coordinates = self.plan.frag_coord.into_iter().flat_map(|id| [(id, 0), (id, 1)]);
+        for (id, flat) in self.plan.floats.iter().map(|varying| varying.to).chain(coordinates) {
+            if let Some(input) = machine.float_input(id, flat) {
+                let place = |lane: usize| [places.x[lane] as u64, places.y[lane] as u64, id.index() as u64 * 64 + u64::from(flat)];
+                input.update(|lane, number| D::Float::from_f64(jittered(number.value(), seed, place(lane))));
+            }
+        }
+    }
+
+    /// Notes the varyings of a fragment, if the batch has it.
+    fn examine(&self, probe: &Probe, batch: &Batch<'_, D>, machine: &mut Machine<D>) {
+        let [x, y] = probe.pixel.map(|at| f64::from(at) + 0.5);
+        let places = &batch.fragments.places;
+        let found = Mask(batch.live).lanes().filter(|lane| places.x[*lane] == x && places.y[*lane] == y).last();
+        let Some(lane) = found else { return };
+        let values = self.plan.floats.iter().filter_map(|varying| {
+            let (id, flat) = varying.to;
+            Some((id, flat, machine.float_input(id, flat)?.get(lane).second()))
+        });
+        *probe.found.lock().unwrap_or_else(PoisonError::into_inner) = values.collect();
     }
 
     /// Fills in the built-in inputs.

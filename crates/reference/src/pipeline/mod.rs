@@ -58,8 +58,14 @@ use smallvec::SmallVec;
 use std::sync::{Mutex, OnceLock};
 use surface::{BIN, Surface};
 use target::Target;
-use vertices::{Invocation, shade};
-pub(super) use watch::MakeObserver;
+use vertices::{Invocation, ShadeOptions, shade};
+#[cfg(any(test, feature = "stability"))]
+pub(super) use watch::Chosen;
+pub(super) use watch::{MakeObserver, Probe, Study};
+
+/// The side of a bin in pixels.
+#[cfg(any(test, feature = "stability"))]
+pub(super) const BIN_SIDE: usize = BIN as usize;
 use watch::Watch;
 
 /// The number of vertices that are shaded before their primitives are drawn. Instances beyond that are drawn in
@@ -68,7 +74,7 @@ const MAX_INVOCATIONS: usize = 1 << 20;
 
 /// Draws a scene in a domain.
 pub(super) fn render<D: Domain>(scene: &Scene, options: &RenderOptions) -> Result<Picture, Vec<Diagnostic>> {
-    render_watched::<D>(scene, options, None)
+    render_studied::<D>(scene, options, Study::NONE)
 }
 
 /// Draws a scene, and shows observers what is computed.
@@ -77,10 +83,19 @@ pub(super) fn render_watched<D: Domain>(
     options: &RenderOptions,
     observers: Option<&MakeObserver<D>>,
 ) -> Result<Picture, Vec<Diagnostic>> {
+    render_studied(scene, options, Study { observers, unfused: observers.is_some(), ..Study::NONE })
+}
+
+/// Draws a scene for a study.
+pub(super) fn render_studied<D: Domain>(
+    scene: &Scene,
+    options: &RenderOptions,
+    study: Study<'_, D>,
+) -> Result<Picture, Vec<Diagnostic>> {
     let mut surface = Surface::new::<D>(scene.framebuffer);
     let mut target = Target::<D>::new(&mut surface);
     for (number, draw) in scene.draws.iter().enumerate() {
-        let watch = Watch { make: observers, draw: number, instance: 0, unfused: observers.is_some() };
+        let watch = Watch { study, draw: number, instance: 0 };
         draw_all(scene, draw, options, watch, &mut |shading, code, endless, watch| {
             draw_prims(shading, code, &mut target, endless, watch);
         })?;
@@ -102,7 +117,7 @@ fn draw_all<D: Domain>(
     if draw.program.stage(Stage::Geometry).is_some() {
         return Err(vec![refuse(&SCENE_CANNOT_DRAW, "a program with a geometry stage cannot be drawn")]);
     }
-    let compile = if watch.unfused { Code::compile_unfused } else { Code::compile };
+    let compile = if watch.study.unfused { Code::compile_unfused } else { Code::compile };
     let vertex_code = compile(&draw.program, Stage::Vertex)?;
     let fragment_code = compile(&draw.program, Stage::Fragment)?;
     watch.common(&vertex_code, draw, Piece::SameForVertices);
@@ -120,7 +135,8 @@ fn draw_all<D: Domain>(
             instances.clone().flat_map(|instance| unique.iter().map(move |&vertex| (vertex, instance))).collect();
         watch.instance = first;
         let faults = options.faults;
-        let mut vertices = shade::<D>(draw, &vertex_code, &plan, &invocations, viewport, faults, &endless, &watch);
+        let shaded = ShadeOptions { viewport, faults, positions: options.positions };
+        let mut vertices = shade::<D>(draw, &vertex_code, &plan, &invocations, shaded, &endless, &watch);
         if endless.get().is_some() {
             break;
         }
@@ -141,6 +157,8 @@ fn draw_all<D: Domain>(
                 outputs: &outputs,
                 mark_edges: options.mark_edges,
                 faults: options.faults,
+                probe: watch.study.probe,
+                jitter: watch.study.jitter,
             };
             paint(&shading, &fragment_code, &endless, &watch);
         }
@@ -270,10 +288,11 @@ fn draw_prims<D: Domain>(
     let take = || idle.lock().ok().and_then(|mut idle| idle.pop());
     target.bins.par_iter_mut().enumerate().for_each(|(index, bin)| {
         let list = bins.of(index);
-        if list.is_empty() || endless.get().is_some() {
+        if list.is_empty() || endless.get().is_some() || !watch.wants(index) {
             return;
         }
-        let mut machine = take().unwrap_or_else(|| shading.machine(code));
+        let mut machine =
+            take().unwrap_or_else(|| watch.machine(Stage::Fragment, code, shading.draw, shading.faults));
         watch.begin(&mut machine);
         draw_bin(shading, bin, list, &mut machine);
         watch.end(&mut machine, Piece::Fragments, index);

@@ -12,8 +12,8 @@
 use super::assembly::clipped_triangles;
 use super::plan::Plan;
 use super::unique_vertices;
-use super::vertices::{Invocation, Vertices, shade};
-use super::watch::Watch;
+use super::vertices::{Invocation, Vertices, ShadeOptions, shade};
+use super::watch::{Study, Watch};
 use super::{MAX_INVOCATIONS, RenderOptions};
 use crate::domain::{Envelope, Number};
 use crate::exec::Code;
@@ -66,9 +66,9 @@ pub(crate) fn reach(draw: &Draw, framebuffer: Framebuffer, options: &RenderOptio
     let invocations: Vec<Invocation> =
         instances.clone().flat_map(|instance| unique.iter().map(move |&vertex| (vertex, instance))).collect();
     let endless = OnceLock::new();
-    let watch = Watch { make: None, draw: 0, instance: 0, unfused: false };
-    let faults = options.faults;
-    let mut vertices = shade::<Envelope>(draw, &code, &plan, &invocations, viewport, faults, &endless, &watch);
+    let watch = Watch { study: Study::NONE, draw: 0, instance: 0 };
+    let shaded = ShadeOptions { viewport, faults: options.faults, positions: options.positions };
+    let mut vertices = shade::<Envelope>(draw, &code, &plan, &invocations, shaded, &endless, &watch);
     if endless.get().is_some() {
         return None;
     }

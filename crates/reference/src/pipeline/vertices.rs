@@ -5,11 +5,12 @@
 //! vertex that several indices refer to is shaded once. The order does not depend on threads.
 
 use super::plan::Plan;
-use super::watch::Watch;
+use super::watch::{Watch, jittered};
 use crate::domain::faults::Faults;
 use crate::domain::{Domain, F32, Integer, Number};
-use crate::exec::{Code, LANES, Machine, Mask, Piece, Purpose};
-use glisten_front::hir::{GlobalId, Interpolation, ScalarValue, Type, TypeId, Types};
+use crate::exec::{Code, LANES, Machine, Mask, Piece};
+use crate::Positions;
+use glisten_front::hir::{GlobalId, Stage, Interpolation, ScalarValue, Type, TypeId, Types};
 use glisten_front::source::Span;
 use glisten_scene::Draw;
 use rayon::prelude::*;
@@ -110,20 +111,27 @@ fn window32(clip: [f32; 4], viewport: [f32; 2]) -> [f32; 3] {
 /// A vertex to shade: `gl_VertexID` and `gl_InstanceID`.
 pub(super) type Invocation = (u32, u32);
 
+/// What the vertices are shaded for.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ShadeOptions {
+    /// The width and height of the window in pixels.
+    pub(super) viewport: [f32; 2],
+    pub(super) faults: Faults,
+    pub(super) positions: Positions,
+}
+
 /// Shades `invocations`.
-#[expect(clippy::too_many_arguments, reason = "called once a draw with what the draw consists of")]
 pub(super) fn shade<D: Domain>(
     draw: &Draw,
     code: &Code,
     plan: &Plan,
     invocations: &[Invocation],
-    viewport: [f32; 2],
-    faults: Faults,
+    ShadeOptions { viewport, faults, positions }: ShadeOptions,
     endless: &OnceLock<Span>,
     watch: &Watch<'_, D>,
 ) -> Vertices<D> {
     let machines = || {
-        let machine = Machine::<D>::with(Purpose::Results(faults), code, &draw.uniforms, &draw.textures);
+        let machine = watch.machine(Stage::Vertex, code, draw, faults);
         (machine, Machine::<F32>::new(code, &draw.uniforms, &draw.textures))
     };
     let chunks: Vec<Chunk<D>> = invocations
@@ -136,7 +144,10 @@ pub(super) fn shade<D: Domain>(
                 return Chunk::with_capacity(0, plan);
             }
             watch.begin(machine);
-            let chunk = shade_chunk(draw, plan, lanes, machine, single);
+            let mut chunk = shade_chunk(draw, plan, lanes, machine, single, watch.study.jitter);
+            if positions == Positions::Own {
+                chunk.cover_by_own_positions();
+            }
             watch.end(machine, Piece::Vertices, part);
             if let Some(found) = machine.endless_loop().or(single.endless_loop()) {
                 endless.get_or_init(|| found);
@@ -174,7 +185,7 @@ pub(super) fn shade<D: Domain>(
 /// The number of clip distances that are both enabled and written.
 fn distance_count(draw: &Draw, plan: &Plan) -> usize {
     let written = plan.clip_distance.and_then(|id| {
-        let shader = draw.program.stage(glisten_front::hir::Stage::Vertex)?;
+        let shader = draw.program.stage(Stage::Vertex)?;
         shader.globals.get(id.index()).map(|global| draw.program.types.flat_len(global.ty))
     });
     written.unwrap_or(0).min(draw.state.clip_distances) as usize
@@ -207,6 +218,18 @@ impl<D: Domain> Chunk<D> {
     }
 }
 
+impl<D: Domain> Chunk<D> {
+    /// Lets the positions of the domain decide coverage, not those of f32.
+    fn cover_by_own_positions(&mut self) {
+        for (clip32, clip) in self.clip32.iter_mut().zip(&self.clip) {
+            *clip32 = clip.map(|number| number.value() as f32);
+        }
+        for (single, distance) in self.distances32.iter_mut().zip(&self.distances) {
+            *single = distance.value() as f32;
+        }
+    }
+}
+
 impl<D: Domain> Vertices<D> {
     fn append(&mut self, chunk: Chunk<D>) {
         let mut floats = chunk.floats.chunks(self.float_count.max(1));
@@ -230,8 +253,12 @@ fn shade_chunk<D: Domain>(
     lanes: &[Invocation],
     machine: &mut Machine<D>,
     single: &mut Machine<F32>,
+    jitter: Option<u64>,
 ) -> Chunk<D> {
     fill_inputs(draw, plan, lanes, machine);
+    if let Some(seed) = jitter {
+        jitter_attributes(seed, draw, lanes, machine);
+    }
     fill_inputs(draw, plan, lanes, single);
     let live = Mask::first(lanes.len());
     machine.run(live, Mask::NONE);
@@ -272,6 +299,19 @@ pub(super) fn read_float<D: Domain>(machine: &Machine<D>, (global, flat): (Globa
 
 pub(super) fn read_int<D: Domain>(machine: &Machine<D>, (global, flat): (GlobalId, u32), lane: usize) -> D::Int {
     machine.int_output(global, flat).map(|lanes| lanes.get(lane)).unwrap_or_default()
+}
+
+/// Moves the attributes that are set by an ULP of f32.
+fn jitter_attributes<D: Domain>(seed: u64, draw: &Draw, lanes: &[Invocation], machine: &mut Machine<D>) {
+    for attribute in &draw.program.interface.attributes {
+        for flat in 0..draw.program.types.flat_len(attribute.ty) {
+            let name = attribute.global.index() as u64 * 64 + u64::from(flat);
+            if let Some(input) = machine.float_input(attribute.global, flat) {
+                let place = |lane: usize| lanes.get(lane).map_or([0; 3], |(v, i)| [u64::from(*v), u64::from(*i), name]);
+                input.update(|lane, number| D::Float::from_f64(jittered(number.value(), seed, place(lane))));
+            }
+        }
+    }
 }
 
 fn fill_inputs<D: Domain>(draw: &Draw, plan: &Plan, lanes: &[Invocation], machine: &mut Machine<D>) {

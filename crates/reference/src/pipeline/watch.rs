@@ -1,35 +1,109 @@
-//! [`Watch`]: attaches observers to machines.
+//! [`Watch`]: attaches observers and corrections to machines.
 //!
-//! *In:* a factory of observers, if there is one. *Out:* observed machines, each for one piece of the drawing.
+//! *In:* a [`Study`]. *Out:* machines for it, each for one piece of the drawing.
 
-use crate::domain::Domain;
-use crate::exec::{Code, Machine, Observer, Order, Piece, Purpose};
+use crate::domain::faults::Faults;
+use crate::domain::{Domain, ErrorPart};
+use crate::exec::{Code, Exactly, Machine, Observer, Order, Piece, Purpose};
+use glisten_front::hir::{GlobalId, Stage};
+use glisten_front::source::Span;
 use glisten_scene::Draw;
+use std::sync::{Arc, Mutex};
 
 /// Makes an observer for a piece of the drawing.
 pub(crate) type MakeObserver<D> = dyn Fn() -> Box<dyn Observer<D>> + Sync;
 
-/// The observers of a draw.
+/// Expressions of a stage whose f32 error is left out.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Chosen<'a> {
+    pub(crate) stage: Stage,
+    pub(crate) spans: &'a [Span],
+    pub(crate) part: ErrorPart,
+}
+
+/// What a drawing does besides the picture.
+#[derive(Clone, Copy)]
+pub(crate) struct Study<'a, D: Domain> {
+    /// Sees what is computed.
+    pub(crate) observers: Option<&'a MakeObserver<D>>,
+    /// The expressions whose f32 error is left out.
+    pub(crate) exactly: Option<Chosen<'a>>,
+    /// Whether to draw a bin, by its index; all if there is none.
+    pub(crate) bins: Option<&'a [bool]>,
+    /// Moves the inputs of both stages by an ULP of f32, each up or down by chance with this seed.
+    pub(crate) jitter: Option<u64>,
+    /// Sees the values of varyings at a pixel.
+    pub(crate) probe: Option<&'a Probe>,
+    /// Whether each operation of the text has instructions of its own.
+    pub(crate) unfused: bool,
+}
+
+impl<D: Domain> Study<'_, D> {
+    /// The picture alone.
+    pub(crate) const NONE: Self = Self {
+        observers: None,
+        exactly: None,
+        bins: None,
+        jitter: None,
+        probe: None,
+        unfused: false,
+    };
+}
+
+/// Collects the float varyings of the last fragment that reached a pixel.
+#[derive(Debug)]
+pub(crate) struct Probe {
+    pub(crate) pixel: [u32; 2],
+    pub(crate) found: Mutex<Vec<(GlobalId, u32, f64)>>,
+}
+
+/// What is done in a draw besides drawing.
 #[derive(Clone, Copy)]
 pub(super) struct Watch<'a, D: Domain> {
-    pub(super) make: Option<&'a MakeObserver<D>>,
+    pub(super) study: Study<'a, D>,
     pub(super) draw: usize,
     pub(super) instance: u32,
-    /// Whether each operation of the text needs instructions of its own.
-    pub(super) unfused: bool,
+}
+
+/// A number moved by an ULP of f32 (2^-23 of it), up or down by chance: the chance depends on the seed and the place.
+pub(super) fn jittered(value: f64, seed: u64, place: [u64; 3]) -> f64 {
+    let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    for part in place {
+        state = (state ^ part).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        state ^= state >> 29;
+    }
+    let step = f64::from(f32::EPSILON);
+    value * if state >> 40 & 1 == 0 { 1.0 + step } else { 1.0 - step }
 }
 
 impl<D: Domain> Watch<'_, D> {
+    /// A machine for a stage of the draw.
+    pub(super) fn machine(&self, stage: Stage, code: &Code, draw: &Draw, faults: Faults) -> Machine<D> {
+        let purpose = match self.study.exactly.filter(|chosen| chosen.stage == stage) {
+            Some(Chosen { spans, part, .. }) => {
+                let exactly = Exactly::new(code, part, |span| spans.binary_search(&span).is_ok());
+                Purpose::Corrected(Arc::new(exactly))
+            }
+            None => Purpose::Results(faults),
+        };
+        Machine::with(purpose, code, &draw.uniforms, &draw.textures)
+    }
+
+    /// Whether a bin is drawn.
+    pub(super) fn wants(&self, bin: usize) -> bool {
+        self.study.bins.is_none_or(|bins| bins.get(bin).copied().unwrap_or(false))
+    }
+
     /// Shows once what the stage computes for all invocations.
     pub(super) fn common(&self, code: &Code, draw: &Draw, piece: Piece) {
-        if let Some(make) = self.make {
+        if let Some(make) = self.study.observers {
             let mut machine = Machine::with(Purpose::Watching(make()), code, &draw.uniforms, &draw.textures);
             machine.end_watch(self.order(piece, 0));
         }
     }
 
     pub(super) fn begin(&self, machine: &mut Machine<D>) {
-        if let Some(make) = self.make {
+        if let Some(make) = self.study.observers {
             machine.watch(make());
         }
     }

@@ -1,10 +1,11 @@
 //! Records the errors of each span while a scene is drawn in the shadow domain.
 //!
-//! *In:* the executor's events. *Out:* a [`Tally`] for each span. *Holds:* tallies of the same events are the same,
-//! whatever threads they ran on: each piece of the drawing has its own recorder, and the recorders are joined in
-//! order.
+//! *In:* the executor's events. *Out:* a [`Tally`] for each span and kind of operation. *Holds:* tallies of the same
+//! events are the same, whatever threads they ran on: each piece of the drawing has its own recorder, and the recorders
+//! are joined in order.
 
-use crate::domain::{Shadow, ShadowFloat};
+use super::kinds::Birth;
+use crate::domain::{Shadow, ShadowFloat, rounded};
 use crate::exec::{Event, Kind, Observer, Order, Values, What};
 use glisten_front::hir::Stage;
 use glisten_front::source::Span;
@@ -15,6 +16,23 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 /// The number of bits of an f32's significand, which is the largest possible loss.
 pub(super) const SIGNIFICAND: f64 = 24.0;
+
+/// Operands whose error is at most this many ULP have lost nothing yet.
+pub(super) const SOUND_ULPS: f64 = 8.0;
+
+/// What a span does: an operation on floats, or an answer about them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub(super) enum Act {
+    /// Floats from floats.
+    Float(Kind),
+    /// A comparison.
+    Compare {
+        /// `==`, `!=`
+        equality: bool,
+    },
+    /// `int(x)`, `uint(x)`
+    ToInt,
+}
 
 /// The figures of one span. Sums are over evaluations: one scalar result in one lane.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -27,15 +45,27 @@ pub(super) struct Tally {
     pub(super) error_sum: f64,
     pub(super) lost_bits: f64,
     pub(super) lost_bits_sum: f64,
+    /// The largest loss where no operand had lost anything: here, and not earlier.
+    pub(super) first_lost_bits: f64,
     pub(super) canceled_bits: f64,
     pub(super) condition: f64,
-    pub(super) births: u64,
+    /// Results that are not finite although the operands are, by their origin.
+    pub(super) births: [u64; Birth::ALL.len()],
     pub(super) births_in_both: u64,
+    /// Results that are 0 only because f32 has no smaller number.
+    pub(super) underflows: u64,
     pub(super) disagreements: u64,
+    /// Disagreements on operands that have lost nothing: the exact operands are at the edge themselves.
+    pub(super) at_edge: u64,
     pub(super) decisions: u64,
 }
 
 impl Tally {
+    /// All results that are not finite although the operands are.
+    pub(super) fn non_finite(&self) -> u64 {
+        self.births.iter().sum()
+    }
+
     pub(super) fn join(&mut self, other: &Self) {
         self.evaluations += other.evaluations;
         self.finite += other.finite;
@@ -45,11 +75,14 @@ impl Tally {
         self.error_sum += other.error_sum;
         self.lost_bits = self.lost_bits.max(other.lost_bits);
         self.lost_bits_sum += other.lost_bits_sum;
+        self.first_lost_bits = self.first_lost_bits.max(other.first_lost_bits);
         self.canceled_bits = self.canceled_bits.max(other.canceled_bits);
         self.condition = self.condition.max(other.condition);
-        self.births += other.births;
+        self.births.iter_mut().zip(other.births).for_each(|(mine, more)| *mine += more);
         self.births_in_both += other.births_in_both;
+        self.underflows += other.underflows;
         self.disagreements += other.disagreements;
+        self.at_edge += other.at_edge;
         self.decisions += other.decisions;
     }
 
@@ -58,7 +91,7 @@ impl Tally {
         self.evaluations += 1;
         let finite = |number: &ShadowFloat| number.single.is_finite();
         if !finite(&result) && operands.iter().all(finite) {
-            self.births += 1;
+            self.births[Birth::of(kind, operands, result) as usize] += 1;
             self.births_in_both += u64::from(!result.wide.is_finite());
             self.lost_bits = if result.wide.is_finite() { SIGNIFICAND } else { self.lost_bits };
         }
@@ -70,38 +103,63 @@ impl Tally {
         self.added_ulps = self.added_ulps.max(result.added() / ulp_f32(result.exact));
         self.error = self.error.max(result.error());
         self.error_sum += result.error();
-        let brought = operands.iter().copied().map(error_ulps).fold(0.0, f64::max);
         // Within an ULP nothing is lost. The loss is a ratio, because the number of ULP of an error jumps at powers
         // of two.
+        let brought = worst_ulps(operands);
         let lost = (error_ulps(result).max(1.0) / brought.max(1.0)).log2().clamp(0.0, SIGNIFICAND);
+        if brought <= SOUND_ULPS {
+            self.first_lost_bits = self.first_lost_bits.max(lost);
+        }
         self.lost_bits = self.lost_bits.max(lost);
         self.lost_bits_sum += lost;
         self.canceled_bits = self.canceled_bits.max(canceled(kind, operands, result));
         self.condition = self.condition.max(condition(operands, result));
-        if kind == Kind::Jump && result.error() >= 0.5 {
-            self.disagreements += 1;
+        let is_sum = matches!(kind, Kind::Sum | Kind::Dot | Kind::Pairs);
+        self.underflows += u64::from(!is_sum && result.single == 0.0 && rounded(result.exact) == 0.0 && result.exact != 0.0);
+        if kind.jumps() && result.error() >= 0.5 * step_size(kind, operands) {
+            self.note_disagreement(operands);
         }
+    }
+
+    fn note_disagreement(&mut self, operands: &[ShadowFloat]) {
+        self.disagreements += 1;
+        self.at_edge += u64::from(worst_ulps(operands) <= SOUND_ULPS);
     }
 }
 
-/// The difference between f32 and f64 in ULP of the larger: 2^24 if no digit is right.
+/// By how much a discontinuous function jumps: 1, or the divisor of `mod`.
+fn step_size(kind: Kind, operands: &[ShadowFloat]) -> f64 {
+    match (kind, operands) {
+        (Kind::Whole, [_, divisor]) => divisor.wide.abs(),
+        _ => 1.0,
+    }
+}
+
+/// The largest error of operands, in ULP.
+fn worst_ulps(operands: &[ShadowFloat]) -> f64 {
+    operands.iter().copied().map(error_ulps).fold(0.0, f64::max)
+}
+
+/// The difference between f32 and exact arithmetic in ULP of the larger: 2^24 if no digit is right.
 fn error_ulps(number: ShadowFloat) -> f64 {
-    let size = f64::from(number.single).abs().max(number.wide.abs());
+    let size = number.single.abs().max(number.wide.abs());
     if number.error() == 0.0 || !size.is_finite() { 0.0 } else { number.error() / ulp_f32(size) }
 }
 
 /// By how many bits the result of a sum is smaller than its largest term, all computed in f32.
 fn canceled(kind: Kind, operands: &[ShadowFloat], result: ShadowFloat) -> f64 {
+    let product = |a: &ShadowFloat, b: &ShadowFloat| a.single * b.single;
     let terms: SmallVec<[f64; 4]> = match kind {
-        Kind::Sum => operands.iter().map(|operand| f64::from(operand.single)).collect(),
+        Kind::Sum => operands.iter().map(|operand| operand.single).collect(),
         Kind::Dot => {
             let (a, b) = operands.split_at(operands.len() / 2);
-            a.iter().zip(b).map(|(a, b)| f64::from(a.single) * f64::from(b.single)).collect()
+            a.iter().zip(b).map(|(a, b)| product(a, b)).collect()
         }
-        Kind::Jump | Kind::Derivative | Kind::Texture | Kind::Other => return 0.0,
+        Kind::Pairs => operands.chunks(2).map(|pair| pair.iter().map(|factor| factor.single).product()).collect(),
+        _ => return 0.0,
     };
     let largest = terms.iter().map(|term| term.abs()).fold(0.0, f64::max);
-    let left = f64::from(result.single).abs();
+    let left = result.single.abs();
     if largest == 0.0 || left >= largest {
         return 0.0;
     }
@@ -114,7 +172,7 @@ fn condition(operands: &[ShadowFloat], result: ShadowFloat) -> f64 {
     let relative = |difference: f64, value: f64| if value == 0.0 { 0.0 } else { (difference / value).abs() };
     let brought = operands.iter().map(|operand| relative(operand.error(), operand.wide)).fold(0.0, f64::max);
     let made = relative(result.exact - result.wide, result.wide);
-    if brought == 0.0 || !brought.is_finite() { 0.0 } else { made / brought }
+    if brought == 0.0 || !brought.is_finite() || !made.is_finite() { 0.0 } else { made / brought }
 }
 
 /// All tallies, joined in order.
@@ -123,21 +181,21 @@ pub(super) struct Collected {
     parts: Mutex<Vec<(Order, Recorder)>>,
 }
 
-/// Whether a tally belongs to a vertex or a fragment stage, and its span.
-pub(super) type StageSpan = (Stage, Span);
+/// A stage, a span of it, and what it does.
+pub(super) type Place = (Stage, Span, Act);
 
 impl Collected {
-    /// The tallies of each stage and span, and the largest error of a fragment stage's output.
-    pub(super) fn joined(&self) -> (BTreeMap<StageSpan, Tally>, f64) {
+    /// The tallies of each place, and the largest error of a fragment stage's output.
+    pub(super) fn joined(&self) -> (BTreeMap<Place, Tally>, f64) {
         let mut parts = std::mem::take(&mut *self.parts.lock().unwrap_or_else(PoisonError::into_inner));
         parts.sort_by_key(|(order, _)| *order);
-        let mut all: BTreeMap<StageSpan, Tally> = BTreeMap::new();
+        let mut all: BTreeMap<Place, Tally> = BTreeMap::new();
         let mut output = 0.0_f64;
         for (order, recorder) in &parts {
             // Values that are the same for all invocations count with their stage: 0 with 2, 1 with 3.
             let stage = order.piece.stage();
-            for (span, tally) in &recorder.tallies {
-                all.entry((stage, *span)).or_default().join(tally);
+            for ((span, act), tally) in &recorder.tallies {
+                all.entry((stage, *span, *act)).or_default().join(tally);
             }
             if stage == Stage::Fragment {
                 output = output.max(recorder.output);
@@ -150,7 +208,7 @@ impl Collected {
 /// The tallies of one piece of the drawing.
 #[derive(Debug, Default)]
 pub(super) struct Recorder {
-    tallies: BTreeMap<Span, Tally>,
+    tallies: BTreeMap<(Span, Act), Tally>,
     output: f64,
     shared: Option<Arc<Collected>>,
 }
@@ -166,26 +224,34 @@ impl Observer<Shadow> for Recorder {
         if event.lanes.is_empty() {
             return;
         }
-        let undecided = |values: &Values<'_, crate::domain::ShadowInt>| {
-            event.lanes.lanes().filter(|lane| values.at(*lane).bits != values.at(*lane).single).count() as u64
+        let is_undecided = |values: &Values<'_, crate::domain::ShadowInt>, lane: usize| {
+            let value = values.at(lane);
+            value.bits != value.wide
+        };
+        let picked = |operands: &[Values<'_, ShadowFloat>], lane: usize| -> SmallVec<[ShadowFloat; 8]> {
+            operands.iter().map(|values| values.at(lane)).collect()
         };
         match &event.what {
             What::Floats { kind, operands, results } => {
-                let tally = self.tallies.entry(event.span).or_default();
+                let tally = self.tallies.entry((event.span, Act::Float(*kind))).or_default();
                 for lane in event.lanes.lanes() {
-                    let operands: SmallVec<[ShadowFloat; 8]> = operands.iter().map(|values| values.at(lane)).collect();
+                    let operands = picked(operands, lane);
                     results.iter().for_each(|values| tally.note(*kind, &operands, values.at(lane)));
                 }
             }
-            What::Answer(values) => {
-                let tally = self.tallies.entry(event.span).or_default();
+            What::Answer { converts, equality, operands, answer } => {
+                let act = if *converts { Act::ToInt } else { Act::Compare { equality: *equality } };
+                let tally = self.tallies.entry((event.span, act)).or_default();
                 tally.evaluations += u64::from(event.lanes.0.count_ones());
-                tally.disagreements += undecided(values);
+                for lane in event.lanes.lanes().filter(|lane| is_undecided(answer, *lane)) {
+                    tally.note_disagreement(&picked(operands, lane));
+                }
             }
             What::Choice(values) => {
-                let decisions = undecided(values);
+                let decisions = event.lanes.lanes().filter(|lane| is_undecided(values, *lane)).count() as u64;
                 if decisions > 0 {
-                    self.tallies.entry(event.span).or_default().decisions += decisions;
+                    let act = Act::Compare { equality: false };
+                    self.tallies.entry((event.span, act)).or_default().decisions += decisions;
                 }
             }
             What::Output(values) => {

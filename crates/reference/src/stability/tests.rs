@@ -1,10 +1,10 @@
 //! Known cases: each is attributed to the right expression.
 
-use super::{SpanError, Trace, trace};
+use super::{BOUND, CauseKind, ExamineOptions, Examination, SpanError, Stability, Trace, examine, trace};
 use crate::RenderOptions;
 use glisten_front::compiler::{Compiler, Options};
 use glisten_front::source::SourceMap;
-use glisten_scene::{MemoryFiles, NoLibrary, load};
+use glisten_scene::{MemoryFiles, NoLibrary, Scene, load};
 
 const VERTEX: &str =
     "#version 150\nin vec2 p;\nout vec2 at;\nvoid main() { at = p; gl_Position = vec4(p, 0.0, 1.0); }\n";
@@ -16,6 +16,12 @@ fn traced(body: &str) -> (Trace, SourceMap) {
 }
 
 fn traced_with(body: &str, more: &str) -> (Trace, SourceMap) {
+    let (scene, sources) = scene_of(body, more);
+    let options = RenderOptions::default();
+    (trace(&scene, &options).unwrap_or_else(|found| panic!("{found:?}")), sources)
+}
+
+fn scene_of(body: &str, more: &str) -> (Scene, SourceMap) {
     let scene = "[framebuffer]\nwidth = 16\nheight = 16\n[[draw]]\nvertex = \"a.vert\"\nfragment = \"a.frag\"\n\
         primitive = \"triangle_strip\"\n[draw.attributes]\np = { size = 2, values = [-1, -1, 1, -1, -1, 1, 1, 1] }\n";
     let scene = format!("{scene}{more}");
@@ -24,8 +30,7 @@ fn traced_with(body: &str, more: &str) -> (Trace, SourceMap) {
     let loaded = load("a.toml", &files, &NoLibrary, &Compiler::new(Options::default()));
     let told: Vec<&str> = loaded.diagnostics.iter().map(|finding| finding.message.as_str()).collect();
     let scene = loaded.scene.unwrap_or_else(|| panic!("{told:?}"));
-    let options = RenderOptions::default();
-    (trace(&scene, &options).unwrap_or_else(|found| panic!("{found:?}")), loaded.sources)
+    (scene, loaded.sources)
 }
 
 /// The texts of the causes with their figures, worst first.
@@ -59,6 +64,7 @@ fn a_difference_that_cancels_is_named_and_not_what_follows() {
     assert_eq!(text, "1.0 - cos(x)");
     assert!(span.canceled_bits > 17.0 && span.mean_lost_bits > 10.0, "{span:?}");
     assert!(span.condition > 1e5, "the difference is ill-conditioned: {span:?}");
+    assert_eq!(span.kind, CauseKind::Cancellation);
     assert_eq!(span.added, 0.0, "the difference itself is exact");
     assert_eq!(span.evaluations, 256);
 }
@@ -135,5 +141,76 @@ fn a_texel_that_f32_misses_is_laid_at_the_lookup() {
     let texts: Vec<&str> = causes.iter().map(|span| sources.snippet(span.span)).collect();
     assert_eq!(texts, ["texture(tex, vec2(0.5 - 1e-9 * (at.x + 2.0), 0.5))"]);
     assert_eq!((causes[0].error, trace.output_error), (0.5, 1.5));
-    assert_eq!(trace.picture.attachments[0][0][0], 0.75, "the picture is f64's");
+    assert_eq!(trace.picture.attachments[0][0][0], 2.25, "the picture is f32's");
+}
+
+/// The examination of a body, and the texts and kinds of its causes, worst first.
+fn examined(body: &str) -> (Examination, Vec<(String, CauseKind)>) {
+    let (scene, sources) = scene_of(body, "");
+    let mut options = ExamineOptions { bound: BOUND, all: false, progress: &mut |_, _| {} };
+    let found = examine(&scene, &mut options).unwrap_or_else(|found| panic!("{found:?}"));
+    let causes = found.causes.iter().map(|cause| (sources.snippet(cause.span).to_owned(), cause.kind)).collect();
+    (found, causes)
+}
+
+#[test]
+fn a_cancellation_that_reaches_the_picture_is_a_cause_with_its_harm() {
+    let body = "void main() { float x = (at.x + 2.0) * 1e-4; float c = 1.0 - cos(x);\nfloat q = c / (x * x); \
+                o = vec4(q, 0.5, at.y * 0.5 + 0.5, 1.0); }";
+    let (found, causes) = examined(body);
+    assert_eq!(found.verdict, Stability::Degraded);
+    assert_eq!(causes[0], ("1.0 - cos(x)".to_owned(), CauseKind::Cancellation));
+    let (_, worst) = found.errors.worst().expect("an error");
+    let harm = found.causes[0].harm.expect("it is finite");
+    assert!(harm > 0.9 * worst && harm <= 1.1 * worst, "{harm} {worst}");
+}
+
+#[test]
+fn what_does_no_harm_is_not_named() {
+    // The cosine cancels near 0, and nobody sees it.
+    let body = "void main() { float d = at.x * 0.7 + at.y * 0.3 - 0.1; o = vec4(max(d, 0.0), d * 0.1, 1.0 - at.x * at.x, 1.0); }";
+    let (found, causes) = examined(body);
+    assert_eq!((found.verdict, causes), (Stability::Stable, vec![]));
+}
+
+#[test]
+fn a_nan_that_max_may_hide_breaks() {
+    let body = "void main() { vec3 h = vec3(at, 0.0) - vec3(at, 0.0); o = vec4(max(normalize(h).x, 0.25)); }";
+    let (found, causes) = examined(body);
+    assert_eq!(found.verdict, Stability::Broken);
+    assert_eq!(causes[0], ("normalize(h)".to_owned(), CauseKind::Division));
+    assert_eq!(found.causes[0].harm, None);
+    assert!(found.non_finite > 0);
+}
+
+#[test]
+fn a_sum_over_many_steps_accumulates() {
+    let body = "void main() { float t = 0.0;\nfor (int i = 0; i < 3000; ++i) t += 0.1 + at.x * 1e-3;\n o = vec4(t - 300.0); }";
+    let (found, causes) = examined(body);
+    assert_eq!(causes[0], ("t += 0.1 + at.x * 1e-3".to_owned(), CauseKind::Accumulation), "{causes:?}");
+    assert!(!found.causes[0].ill_posed);
+}
+
+#[test]
+fn a_hash_is_ill_posed() {
+    let body = "void main() { o = vec4(fract(sin(dot(gl_FragCoord.xy, vec2(12.9898, 78.233))) * 43758.5453)); }";
+    let (found, causes) = examined(body);
+    assert_eq!(found.verdict, Stability::Broken);
+    assert!(found.causes.iter().all(|cause| cause.ill_posed || !cause.kind.is_decision()), "{causes:?}");
+    assert!(found.causes.iter().any(|cause| cause.ill_posed), "{causes:?}");
+}
+
+#[test]
+fn a_fraction_of_a_large_number_is_unstable_and_not_ill_posed() {
+    let body = "uniform float offset = 70000.0; void main() { o = vec4(fract(at.x * 0.37 + offset)); }";
+    let (found, causes) = examined(body);
+    assert_eq!(causes[0], ("fract(at.x * 0.37 + offset)".to_owned(), CauseKind::Conversion), "{causes:?}");
+    assert!(!found.causes[0].ill_posed);
+}
+
+#[test]
+fn the_varyings_of_a_pixel_are_known() {
+    let (scene, _) = scene_of("void main() { o = vec4(at, 0.0, 1.0); }", "");
+    let inputs = super::inputs_at(&scene, [8, 8]).unwrap_or_else(|found| panic!("{found:?}"));
+    assert_eq!(inputs, [("at".to_owned(), vec![0.0625, -0.0625])]);
 }

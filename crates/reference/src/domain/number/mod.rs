@@ -7,6 +7,15 @@ pub use block::{Answers, NumberBlock};
 use super::{Element, Integer};
 use glisten_scene::picture::Interval;
 
+/// A part of the error of a result in f32.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum ErrorPart {
+    /// All of it: the result is that of exact operands, rounded once.
+    All,
+    /// What the operation itself adds: the result is that of its f32 operands, not rounded.
+    Own,
+}
+
 /// A `float`. Methods without a comment are the operation or built-in function of that name (GLSL 1.50 §5.9, §8.1 to §8.3).
 ///
 /// These cases are defined here because GLSL leaves them undefined: `min` and `max` drop a NaN if the other operand
@@ -75,6 +84,12 @@ pub trait Number: Element<Block: NumberBlock<Self>> {
     #[inline(always)]
     fn joined(self, other: Self) -> Self {
         let _ = other;
+        self
+    }
+    /// The number without this part of the error of f32 arithmetic, in a domain that follows it; otherwise unchanged.
+    #[inline(always)]
+    fn corrected(self, part: ErrorPart) -> Self {
+        let _ = part;
         self
     }
     /// The number in the type for built-in functions.
