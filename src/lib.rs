@@ -38,6 +38,8 @@ pub mod scene;
 #[cfg(feature = "reference")]
 pub mod shader_test;
 pub mod specialize;
+#[cfg(feature = "stability")]
+pub mod stability;
 #[cfg(feature = "reference")]
 pub mod verify;
 
@@ -47,8 +49,6 @@ pub use glisten_front::{diagnostic, lint, source};
 pub use glisten_gl::Gl;
 #[cfg(feature = "gpu")]
 pub use glisten_gpu::Gpu;
-#[cfg(feature = "stability")]
-pub use glisten_reference::stability;
 #[cfg(feature = "reference")]
 pub use glisten_reference::{Precision, RenderOptions, render};
 #[cfg(feature = "reference")]

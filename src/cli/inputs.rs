@@ -77,6 +77,34 @@ pub(super) struct Inputs {
     pub(super) found: BTreeSet<String>,
 }
 
+/// The scene files that the command line names: files as they are, folders searched for `.toml` files that draw.
+///
+/// # Errors
+/// A folder that cannot be read, or that contains no scene.
+pub(super) fn scene_files(names: &[String]) -> Result<Vec<String>, Failure> {
+    let mut files = Vec::new();
+    for name in names {
+        let path = Path::new(name);
+        if !path.is_dir() {
+            files.push(name.clone());
+            continue;
+        }
+        let mut found: Vec<String> = WalkBuilder::new(path)
+            .build()
+            .filter_map(Result::ok)
+            .filter(|entry| entry.path().extension().is_some_and(|extension| extension == "toml"))
+            .filter(|entry| fs::read_to_string(entry.path()).is_ok_and(|text| text.contains("[[draw]]")))
+            .map(|entry| entry.path().to_string_lossy().into_owned())
+            .collect();
+        if found.is_empty() {
+            return Err(Failure::usage(format!("there is no scene in `{name}`")));
+        }
+        found.sort();
+        files.append(&mut found);
+    }
+    Ok(files)
+}
+
 /// Collects the inputs of a command. Folders are searched only if `scans` is set. Otherwise they stay in the list,
 /// and reading them gives the error.
 pub(super) fn collect(files: &[String], args: &ProgramArgs, scans: bool) -> Result<Inputs, Failure> {

@@ -33,6 +33,7 @@ mod report;
 mod scenes;
 mod session;
 mod specialize;
+mod stability;
 mod stages;
 mod test;
 mod timed;
@@ -78,6 +79,7 @@ enum Command {
     Render(render::RenderArgs),
     Verify(verify::VerifyArgs),
     Specialize(specialize::SpecializeArgs),
+    Stability(stability::StabilityArgs),
     Report(report::ReportArgs),
     Gallery(gallery::GalleryArgs),
     Test(test::TestArgs),
@@ -120,6 +122,7 @@ fn dispatch(command: &Command, console: &Console) -> Outcome {
         Command::Render(args) => render::run(args, console),
         Command::Verify(args) => verify::run(args, console),
         Command::Specialize(args) => specialize::run(args, console),
+        Command::Stability(args) => stability::run(args, console),
         Command::Report(args) => report::run(args, console),
         Command::Gallery(args) => gallery::run(args, console),
         Command::Test(args) => test::run(args, console),

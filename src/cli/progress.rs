@@ -28,6 +28,11 @@ impl Progress {
         Self { bar, start: Instant::now(), watched: console.is_watched(), shown: AtomicBool::new(false) }
     }
 
+    /// Sets the number of steps.
+    pub(super) fn extend_to(&self, steps: usize) {
+        self.bar.set_length(steps as u64);
+    }
+
     /// Shows the current step.
     pub(super) fn say(&self, what: &str) {
         self.bar.set_message(what.to_owned());

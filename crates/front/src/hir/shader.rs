@@ -281,6 +281,12 @@ impl Shader {
         id
     }
 
+    /// The expression with exactly this span; the outermost one, if several have it, such as a conversion and its operand.
+    pub fn expr_at(&self, span: Span) -> Option<ExprId> {
+        let index = self.exprs.iter().rposition(|expr| expr.span == span)?;
+        Some(ExprId(index as u32))
+    }
+
     /// The expression of a handle of this shader.
     pub fn expr(&self, id: ExprId) -> &Expr {
         // Only `push` of this shader makes an `ExprId`.

@@ -225,7 +225,7 @@ impl<const INSIDE: bool> Number for Shadowed<INSIDE> {
     }
     fn corrected(self, part: ErrorPart) -> Self {
         let single = match part {
-            ErrorPart::All => rounded(self.wide),
+            ErrorPart::All => self.wide,
             ErrorPart::Own => self.exact,
         };
         Self { single, ..self }

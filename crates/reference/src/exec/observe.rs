@@ -70,8 +70,12 @@ pub enum Kind {
     Exponential,
     /// `sin`, `cos`, `tan`
     Angle,
-    /// A function that is not defined everywhere: roots, logarithms, inverse functions.
+    /// A function that is not defined everywhere: `sqrt`, inverse functions.
     Partial,
+    /// `inversesqrt`
+    InverseRoot,
+    /// `log`, `log2`
+    Logarithm,
     /// A discontinuous function whose result follows a comparison: `sign`, `step`.
     Step,
     /// A discontinuous function that rounds: `floor`, `fract`, `mod` and similar ones.
@@ -162,14 +166,9 @@ impl Kind {
         match op {
             Float1::Sin | Float1::Cos | Float1::Tan => Self::Angle,
             Float1::Exp | Float1::Exp2 | Float1::Sinh | Float1::Cosh => Self::Exponential,
-            Float1::Sqrt
-            | Float1::Inversesqrt
-            | Float1::Log
-            | Float1::Log2
-            | Float1::Asin
-            | Float1::Acos
-            | Float1::Acosh
-            | Float1::Atanh => Self::Partial,
+            Float1::Sqrt | Float1::Asin | Float1::Acos | Float1::Acosh | Float1::Atanh => Self::Partial,
+            Float1::Inversesqrt => Self::InverseRoot,
+            Float1::Log | Float1::Log2 => Self::Logarithm,
             Float1::Sign => Self::Step,
             op if op.jumps() => Self::Whole,
             _ => Self::Other,

@@ -17,7 +17,7 @@ use super::target::{Bin, Tests, local};
 use super::vertices::Vertices;
 use super::watch::{Probe, jittered};
 use crate::domain::faults::Faults;
-use crate::domain::{Domain, Integer, Number};
+use crate::domain::{Domain, ErrorPart, Integer, Number};
 use crate::exec::{LANES, Machine, Mask};
 use glisten_front::hir::{FragCoordLayout, GlobalId, Stage};
 use glisten_scene::{Draw, Framebuffer};
@@ -36,6 +36,7 @@ pub(super) struct Shading<'a, D: Domain> {
     pub(super) faults: Faults,
     pub(super) probe: Option<&'a Probe>,
     pub(super) jitter: Option<u64>,
+    pub(super) exact_inputs: &'a [GlobalId],
 }
 
 /// Draws the primitives of `list` over a bin.
@@ -101,6 +102,13 @@ impl<D: Domain> Shading<'_, D> {
         if batch.live != 0 && !machine.budget_exceeded() {
             pulp::Arch::new().dispatch(Interpolate { plan: self.plan, batch, machine });
             self.fill_fixed(batch, machine);
+            for (id, flat) in self.plan.floats.iter().map(|varying| varying.to) {
+                if self.exact_inputs.contains(&id)
+                    && let Some(input) = machine.float_input(id, flat)
+                {
+                    input.update(|_, number| number.corrected(ErrorPart::All));
+                }
+            }
             if let Some(seed) = self.jitter {
                 self.jitter_inputs(seed, batch, machine);
             }

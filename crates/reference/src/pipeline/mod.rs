@@ -159,6 +159,7 @@ fn draw_all<D: Domain>(
                 faults: options.faults,
                 probe: watch.study.probe,
                 jitter: watch.study.jitter,
+                exact_inputs: watch.study.exact_inputs,
             };
             paint(&shading, &fragment_code, &endless, &watch);
         }

@@ -32,6 +32,8 @@ pub(crate) struct Study<'a, D: Domain> {
     pub(crate) bins: Option<&'a [bool]>,
     /// Moves the inputs of both stages by an ULP of f32, each up or down by chance with this seed.
     pub(crate) jitter: Option<u64>,
+    /// The varyings that the fragment stage gets exact.
+    pub(crate) exact_inputs: &'a [GlobalId],
     /// Sees the values of varyings at a pixel.
     pub(crate) probe: Option<&'a Probe>,
     /// Whether each operation of the text has instructions of its own.
@@ -45,6 +47,7 @@ impl<D: Domain> Study<'_, D> {
         exactly: None,
         bins: None,
         jitter: None,
+        exact_inputs: &[],
         probe: None,
         unfused: false,
     };

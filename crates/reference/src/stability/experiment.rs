@@ -9,10 +9,11 @@ use super::loops::Loops;
 use super::record::{Act, Place, SIGNIFICAND, Tally};
 use super::{CAUSE_BITS, Cause, ExamineOptions};
 use crate::domain::{ErrorPart, F64, Shadow};
+use crate::exec::Kind;
 use crate::pipeline::{self, Chosen, Study};
 use crate::{Positions, RenderOptions};
 use glisten_front::diagnostic::Diagnostic;
-use glisten_front::hir::Stage;
+use glisten_front::hir::{GlobalId, Stage, Storage};
 use glisten_front::source::Span;
 use glisten_scene::picture::Picture;
 use glisten_scene::{Format, Scene};
@@ -52,12 +53,15 @@ struct Outcome {
 }
 
 /// An expression that may be a cause.
+#[derive(Clone, Copy)]
 struct Candidate {
     stage: Stage,
     span: Span,
     kind: CauseKind,
-    equality: bool,
+    act: Act,
     tally: Tally,
+    /// Whether a loop runs it.
+    repeats: bool,
     /// Whether only its own rounding counts: see [`Loops`].
     own: bool,
 }
@@ -93,12 +97,11 @@ impl<'a> Bench<'a> {
 
     /// Draws with a part of the error of some expressions left out.
     fn without(&self, stage: Stage, spans: &[Span], part: ErrorPart) -> Result<Outcome, Vec<Diagnostic>> {
-        let study = Study {
-            exactly: Some(Chosen { stage, spans, part }),
-            bins: Some(&self.bins),
-            unfused: true,
-            ..Study::NONE
-        };
+        self.drawn(Study { exactly: Some(Chosen { stage, spans, part }), ..Study::NONE })
+    }
+
+    fn drawn(&self, study: Study<'_, Shadow>) -> Result<Outcome, Vec<Diagnostic>> {
+        let study = Study { bins: Some(&self.bins), unfused: true, ..study };
         let picture = pipeline::render_studied::<Shadow>(self.scene, &self.options, study)?;
         let left = ErrorMap::new(&picture, self.exact, self.format);
         let gain = |index: usize| -> f64 {
@@ -110,6 +113,11 @@ impl<'a> Bench<'a> {
             if gain > worst.1 { (index, gain) } else { worst }
         });
         Ok(Outcome { harm: worst.1, index: worst.0, gains })
+    }
+
+    /// Draws with an exact varying.
+    fn with_exact_varying(&self, varying: GlobalId) -> Result<Outcome, Vec<Diagnostic>> {
+        self.drawn(Study { exact_inputs: &[varying], ..Study::NONE })
     }
 
     /// The changes of [`Self::jitter`], drawn once.
@@ -185,17 +193,17 @@ fn candidates(tallies: &BTreeMap<Place, Tally>, loops: &BTreeMap<Stage, Loops>) 
         let is_cause = tally.lost_bits >= CAUSE_BITS || tally.non_finite() > 0 || tally.disagreements > 0;
         let accumulates = loops.get(&stage).is_some_and(|loops| loops.accumulate.contains(&span));
         let adds = accumulates && tally.added > 0.0;
-        if !span.is_known() || !(is_cause || adds) {
+        if !span.is_known() || !(is_cause || adds) || is_far_lookup(act, tally) {
             continue;
         }
         let kind = if is_cause { CauseKind::of(act, tally) } else { CauseKind::Accumulation };
-        let equality = act == Act::Compare { equality: true };
-        let candidate = Candidate { stage, span, kind, equality, tally: *tally, own: !is_cause };
+        let repeats = loops.get(&stage).is_some_and(|loops| loops.inside.contains(&span));
+        let candidate = Candidate { stage, span, kind, act, tally: *tally, repeats, own: !is_cause };
         let known = by_span.entry((stage, span));
         known
             .and_modify(|known| {
                 if rank(&candidate) > rank(known) {
-                    *known = Candidate { ..clone_of(&candidate) };
+                    *known = candidate;
                 }
             })
             .or_insert(candidate);
@@ -207,9 +215,11 @@ fn candidates(tallies: &BTreeMap<Place, Tally>, loops: &BTreeMap<Stage, Loops>) 
     list
 }
 
-fn clone_of(candidate: &Candidate) -> Candidate {
-    let Candidate { stage, span, kind, equality, tally, own } = *candidate;
-    Candidate { stage, span, kind, equality, tally, own }
+/// Whether a lookup merely shows what its coordinates have lost before: they are so large that f32 has few digits for the
+/// place in the texture.
+fn is_far_lookup(act: Act, tally: &Tally) -> bool {
+    const FAR: f64 = 8.0;
+    act == Act::Float(Kind::Texture) && tally.largest_operand >= FAR
 }
 
 /// What is tried first.
@@ -241,8 +251,8 @@ fn try_candidate(
             return Ok(None);
         }
     }
-    let mut ill_posed = false;
-    if outcome.harm.is_finite() && (kind.is_decision() || kind == CauseKind::Accumulation) {
+    let mut ill_posed = is_at_edge(candidate);
+    if !ill_posed && outcome.harm.is_finite() && (kind.is_decision() || candidate.repeats) {
         ill_posed = is_ill_posed(&outcome, bench.jittered(jitter)?, least);
     }
     if ill_posed && kind == CauseKind::Conversion {
@@ -250,7 +260,8 @@ fn try_candidate(
     }
     let index = if outcome.harm >= least { outcome.index } else { bench.errors.first_not_finite().unwrap_or(0) };
     let harm = (outcome.harm.is_finite() && !in_both).then(|| significant(outcome.harm));
-    let found = Found { kind, harm, index, ill_posed, equality: candidate.equality };
+    let equality = candidate.act == Act::Compare { equality: true };
+    let found = Found { kind, harm, index, ill_posed, equality };
     Ok(Some(found.cause(bench, (stage, span), tally)))
 }
 
@@ -282,6 +293,14 @@ impl Found {
             equality,
         }
     }
+}
+
+/// Whether a comparison disagrees on numbers that are as good as f32 has them: the exact ones are at the threshold. A test for
+/// equality is not: a tolerance helps.
+fn is_at_edge(candidate: &Candidate) -> bool {
+    let compares = matches!(candidate.act, Act::Compare { equality: false } | Act::Float(Kind::Step));
+    let Tally { disagreements, at_edge, .. } = candidate.tally;
+    compares && disagreements > 0 && at_edge == disagreements
 }
 
 /// Whether the exact picture changes as much when its inputs move by an ULP, at most of the pixels that the expression
@@ -336,5 +355,48 @@ fn roundings(
         let of = Found { kind, harm: Some(significant(own.harm)), index: own.index, ill_posed, equality: false };
         found.push(of.cause(bench, (stage, span), &tally));
     }
+    if found.is_empty() {
+        found.extend(coarse_varying(bench, tallies, options)?);
+    }
     Ok(found)
+}
+
+/// If an exact varying makes the picture better, and no expression does: what the vertex stage writes is too large for f32 to
+/// interpolate. The expression of the vertex stage that rounds most is to blame, or the varying itself if none rounds.
+fn coarse_varying(
+    bench: &Bench<'_>,
+    tallies: &BTreeMap<Place, Tally>,
+    options: &ExamineOptions<'_>,
+) -> Result<Option<Cause>, Vec<Diagnostic>> {
+    let mut worst: Option<(Outcome, Span)> = None;
+    for (id, span) in varyings(bench.scene) {
+        let outcome = bench.with_exact_varying(id)?;
+        if outcome.harm.is_finite() && worst.as_ref().is_none_or(|(known, _)| outcome.harm > known.harm) {
+            worst = Some((outcome, span));
+        }
+    }
+    let Some((outcome, declared)) = worst.filter(|(outcome, _)| outcome.harm >= options.least()) else {
+        return Ok(None);
+    };
+    let of_vertices = tallies.iter().filter(|((stage, span, _), _)| *stage == Stage::Vertex && span.is_known());
+    let coarsest = of_vertices.max_by(|(_, a), (_, b)| a.added.total_cmp(&b.added));
+    let harm = Some(significant(outcome.harm));
+    let found = Found { kind: CauseKind::Rounding, harm, index: outcome.index, ill_posed: false, equality: false };
+    Ok(Some(match coarsest.filter(|(_, tally)| tally.added > 0.0) {
+        Some((&(stage, span, _), tally)) => found.cause(bench, (stage, span), tally),
+        None => found.cause(bench, (Stage::Fragment, declared), &Tally::default()),
+    }))
+}
+
+/// The varyings that fragment stages read, with their declarations.
+fn varyings(scene: &Scene) -> Vec<(GlobalId, Span)> {
+    let mut all = Vec::new();
+    for shader in scene.draws.iter().filter_map(|draw| draw.program.stage(Stage::Fragment)) {
+        for (index, global) in shader.globals.iter().enumerate() {
+            if global.storage == Storage::In && global.span.is_known() {
+                all.push((GlobalId::new(index), global.span));
+            }
+        }
+    }
+    all
 }

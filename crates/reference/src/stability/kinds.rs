@@ -80,6 +80,7 @@ impl CauseKind {
         match act {
             Act::Compare { .. } => Self::Comparison,
             Act::ToInt => Self::Conversion,
+            Act::Float(_) if tally.overflows > 0 => Self::Overflow,
             Act::Float(_) if tally.underflows > 0 => Self::Underflow,
             Act::Float(kind) => match kind {
                 Kind::Step => Self::Comparison,
@@ -90,8 +91,8 @@ impl CauseKind {
                 Kind::Power | Kind::Exponential => Self::Power,
                 Kind::Angle => Self::Argument,
                 Kind::Partial => Self::Domain,
-                Kind::Quotient => Self::Division,
-                Kind::Product | Kind::Normalize | Kind::Conversion | Kind::Other => Self::Rounding,
+                Kind::Quotient | Kind::InverseRoot => Self::Division,
+                Kind::Logarithm | Kind::Product | Kind::Normalize | Kind::Conversion | Kind::Other => Self::Rounding,
             },
         }
     }
@@ -113,14 +114,14 @@ impl Birth {
     pub(super) fn of(kind: Kind, operands: &[ShadowFloat], result: ShadowFloat) -> Self {
         let is_zero = |number: &ShadowFloat| number.single == 0.0;
         match kind {
-            Kind::Quotient if operands.get(1).is_some_and(is_zero) => match operands.get(1) {
+            Kind::Quotient | Kind::InverseRoot if operands.last().is_some_and(is_zero) => match operands.last() {
                 Some(divisor) if divisor.wide != 0.0 && divisor.wide.abs() < f64::from(f32::MIN_POSITIVE) => {
                     Self::Underflow
                 }
                 _ => Self::Division,
             },
             Kind::Power if operands.first().is_some_and(|base| base.single <= 0.0) => Self::Domain,
-            Kind::Partial => Self::Domain,
+            Kind::Partial | Kind::InverseRoot | Kind::Logarithm => Self::Domain,
             Kind::Whole | Kind::Blend => Self::Division,
             Kind::Normalize => match operands.iter().map(|part| part.single.abs()).fold(0.0, f64::max) {
                 0.0 if operands.iter().all(|part| part.wide == 0.0) => Self::Division,

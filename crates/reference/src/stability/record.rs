@@ -4,6 +4,7 @@
 //! events are the same, whatever threads they ran on: each piece of the drawing has its own recorder, and the recorders
 //! are joined in order.
 
+use super::CAUSE_BITS;
 use super::kinds::Birth;
 use crate::domain::{Shadow, ShadowFloat, rounded};
 use crate::exec::{Event, Kind, Observer, Order, Values, What};
@@ -19,6 +20,12 @@ pub(super) const SIGNIFICAND: f64 = 24.0;
 
 /// Operands whose error is at most this many ULP have lost nothing yet.
 pub(super) const SOUND_ULPS: f64 = 8.0;
+
+/// The square of a number above this is above the largest f32.
+const LARGEST_SQUARED: f64 = 1.8e19;
+
+/// The square of a number below this is below the smallest normal f32.
+const SMALLEST_SQUARED: f64 = 1.1e-19;
 
 /// What a span does: an operation on floats, or an answer about them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -49,9 +56,13 @@ pub(super) struct Tally {
     pub(super) first_lost_bits: f64,
     pub(super) canceled_bits: f64,
     pub(super) condition: f64,
+    /// The size of the largest operand.
+    pub(super) largest_operand: f64,
     /// Results that are not finite although the operands are, by their origin.
     pub(super) births: [u64; Birth::ALL.len()],
     pub(super) births_in_both: u64,
+    /// Results of whole vectors that are wrong because squares of their components overflow on the way.
+    pub(super) overflows: u64,
     /// Results that are 0 only because f32 has no smaller number.
     pub(super) underflows: u64,
     pub(super) disagreements: u64,
@@ -78,8 +89,10 @@ impl Tally {
         self.first_lost_bits = self.first_lost_bits.max(other.first_lost_bits);
         self.canceled_bits = self.canceled_bits.max(other.canceled_bits);
         self.condition = self.condition.max(other.condition);
+        self.largest_operand = self.largest_operand.max(other.largest_operand);
         self.births.iter_mut().zip(other.births).for_each(|(mine, more)| *mine += more);
         self.births_in_both += other.births_in_both;
+        self.overflows += other.overflows;
         self.underflows += other.underflows;
         self.disagreements += other.disagreements;
         self.at_edge += other.at_edge;
@@ -89,6 +102,7 @@ impl Tally {
     /// Records one scalar result of operands in one lane.
     fn note(&mut self, kind: Kind, operands: &[ShadowFloat], result: ShadowFloat) {
         self.evaluations += 1;
+        self.largest_operand = operands.iter().map(|operand| operand.single.abs()).fold(self.largest_operand, f64::max);
         let finite = |number: &ShadowFloat| number.single.is_finite();
         if !finite(&result) && operands.iter().all(finite) {
             self.births[Birth::of(kind, operands, result) as usize] += 1;
@@ -116,6 +130,11 @@ impl Tally {
         self.condition = self.condition.max(condition(operands, result));
         let is_sum = matches!(kind, Kind::Sum | Kind::Dot | Kind::Pairs);
         self.underflows += u64::from(!is_sum && result.single == 0.0 && rounded(result.exact) == 0.0 && result.exact != 0.0);
+        if matches!(kind, Kind::Normalize | Kind::Vector) && lost >= CAUSE_BITS {
+            let largest = operands.iter().map(|operand| operand.single.abs()).fold(0.0, f64::max);
+            self.overflows += u64::from(largest > LARGEST_SQUARED);
+            self.underflows += u64::from(largest < SMALLEST_SQUARED);
+        }
         if kind.jumps() && result.error() >= 0.5 * step_size(kind, operands) {
             self.note_disagreement(operands);
         }
@@ -143,7 +162,12 @@ fn worst_ulps(operands: &[ShadowFloat]) -> f64 {
 /// The difference between f32 and exact arithmetic in ULP of the larger: 2^24 if no digit is right.
 fn error_ulps(number: ShadowFloat) -> f64 {
     let size = number.single.abs().max(number.wide.abs());
-    if number.error() == 0.0 || !size.is_finite() { 0.0 } else { number.error() / ulp_f32(size) }
+    match (number.single.is_finite(), size.is_finite()) {
+        _ if number.single == number.wide => 0.0,
+        (false, _) => SIGNIFICAND.exp2(),
+        (true, false) => 0.0,
+        (true, true) => number.error() / ulp_f32(size),
+    }
 }
 
 /// By how many bits the result of a sum is smaller than its largest term, all computed in f32.

@@ -76,6 +76,13 @@ codes! {
          nearly equal numbers, a power with a large exponent, and a vector too short to normalize. Expressions that \
          only inherit the error are not reported."
         bad Text("float c = 1.0 - cos(x);  // x is small"), good Text("float s = sin(0.5 * x); float c = 2.0 * s * s;");
+    UNSTABLE_EXPRESSION = "W0920" "unstable-expression" Warning "GLSL 1.50 §4.1.4"
+        "`glisten stability` drew the scene in f32 and in exact arithmetic. The pictures differ, and the difference \
+         shrinks if this expression alone is computed exactly. Typical causes are a difference of nearly equal numbers, a \
+         power with a large exponent, a vector too short or too long to normalize, an angle that is too large, and a sum over \
+         many iterations. The help text says what to write instead, or that the problem is ill-posed: then the exact result \
+         itself jumps."
+        bad Text("float c = 1.0 - cos(x);  // x is small"), good Text("float s = sin(0.5 * x); float c = 2.0 * s * s;");
     SCENE_WITHOUT_DRAW = "W0908" "scene-without-draw" Warning ""
         "The scene has no draw, so its picture is the clear color everywhere. `verify` has nothing to judge then."
         bad Text("[framebuffer]\nwidth = 128"), good Text("[framebuffer]\nwidth = 128\n[[draw]]\nprogram = \"standard\"");

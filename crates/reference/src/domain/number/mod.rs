@@ -10,7 +10,7 @@ use glisten_scene::picture::Interval;
 /// A part of the error of a result in f32.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ErrorPart {
-    /// All of it: the result is that of exact operands, rounded once.
+    /// All of it: the result is that of exact operands, not rounded.
     All,
     /// What the operation itself adds: the result is that of its f32 operands, not rounded.
     Own,

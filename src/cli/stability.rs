@@ -1,0 +1,262 @@
+//! `glisten stability`: tells where f32 arithmetic harms the pictures of scenes, why, and what to write instead.
+
+use super::args::{LevelArgs, SourceArgs};
+use super::console::Console;
+use super::exit::{Exit, Failure, Outcome};
+use super::files;
+use super::inputs;
+use super::pictures::Target;
+use super::progress::Progress;
+use super::scenes::{MachineArgs, Read, SceneArgs};
+use crate::stability::settings::Settings;
+use crate::stability::sweep::{self, Parameter, Sweep, SweepPoint};
+use crate::stability::{BOUND, ExamineOptions, Examination, Findings, Stability, find, heat};
+use clap::{Args, ValueEnum};
+use glisten_front::diagnostic::{Diagnostic, write};
+use glisten_scene::Scene;
+use serde::Serialize;
+use std::path::{Path, PathBuf};
+
+/// Find out where f32 arithmetic harms the picture of a scene, and why
+#[derive(Args, Debug)]
+pub(super) struct StabilityArgs {
+    /// Scene files, or folders to search for them
+    #[arg(value_name = "SCENE.toml|DIR", required = true)]
+    scenes: Vec<String>,
+    /// Draw with values of a uniform from LOW to HIGH, and examine the worst (repeatable: all combinations)
+    #[arg(long = "sweep", value_name = "NAME=LOW..HIGH[:N]", value_parser = sweep::parse)]
+    sweeps: Vec<Sweep>,
+    /// The largest error of the picture that is accepted (default: that of the scene, or 1/1024)
+    #[arg(long, value_name = "X", value_parser = parse_bound)]
+    bound: Option<f64>,
+    /// Report causes whose harm is below the bound, too
+    #[arg(long)]
+    all: bool,
+    /// Write a map of the errors over the picture
+    #[arg(long, value_name = "FILE.png")]
+    heat: Option<PathBuf>,
+    /// The format of the result
+    #[arg(long, value_enum, default_value_t)]
+    format: StabilityFormat,
+    #[command(flatten)]
+    machine: MachineArgs,
+    #[command(flatten)]
+    sources: SourceArgs,
+    #[command(flatten)]
+    levels: LevelArgs,
+}
+
+/// The format of the result.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+enum StabilityFormat {
+    /// A table, and excerpts with carets
+    #[default]
+    #[value(alias = "table")]
+    Human,
+    /// JSON
+    Json,
+    /// SARIF 2.1.0
+    Sarif,
+    /// Workflow commands of GitHub Actions
+    Github,
+}
+
+fn parse_bound(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(bound) if bound > 0.0 && bound.is_finite() => Ok(bound),
+        _ => Err(format!("`{text}` is not a positive number")),
+    }
+}
+
+/// The result for a scene.
+#[derive(Serialize)]
+struct Result1 {
+    scene: String,
+    #[serde(flatten)]
+    findings: Findings,
+    /// The accepted error.
+    bound: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    sweep: Option<SweepResult>,
+}
+
+#[derive(Serialize)]
+struct SweepResult {
+    points: Vec<SweepPoint>,
+    /// The point that was examined.
+    worst: SweepPoint,
+}
+
+/// A scene that was examined, with its texts.
+struct Done<'a> {
+    read: Read<'a>,
+    result: Result1,
+    examined: Examination,
+}
+
+/// Runs the command.
+pub(super) fn run(args: &StabilityArgs, console: &Console) -> Outcome {
+    let scenes = inputs::scene_files(&args.scenes)?;
+    let mut done = Vec::new();
+    let mut exit = Exit::Ok;
+    for name in &scenes {
+        let scene = SceneArgs::of(name, &args.machine, &args.sources, &args.levels);
+        let read = match scene.read(console)? {
+            Ok(read) => read,
+            Err(worse) => {
+                exit = exit.max(worse);
+                continue;
+            }
+        };
+        match examined(args, name, &read, console)? {
+            Ok((result, examined)) => done.push(Done { read, result, examined }),
+            Err(found) => exit = exit.max(read.finish(found)?).max(Exit::Content),
+        }
+    }
+    if let Some(path) = &args.heat {
+        write_heat(path, &done)?;
+    }
+    tell(args, &done, console)?;
+    let is_unstable = |done: &Done<'_>| done.examined.verdict != Stability::Stable;
+    Ok(if done.iter().any(is_unstable) { exit.max(Exit::Content) } else { exit })
+}
+
+/// A result, or the diagnostics of its failure.
+type Examined = Result<(Result1, Examination), Vec<Diagnostic>>;
+
+fn examined(args: &StabilityArgs, name: &str, read: &Read<'_>, console: &Console) -> Result<Examined, Failure> {
+    let sources = read.sources();
+    let Some((_, file)) = sources.files().next() else { return Ok(Err(Vec::new())) };
+    let settings = match Settings::read(file.text(), file.base()) {
+        Ok(settings) => settings,
+        Err(diagnostic) => return Ok(Err(vec![*diagnostic])),
+    };
+    let bound = args.bound.or(settings.bound).unwrap_or(BOUND);
+    let sweeps = if args.sweeps.is_empty() { &settings.sweeps } else { &args.sweeps };
+    let progress = Progress::new(console, 0);
+    progress.say(name);
+    let (scene, sweep) = match swept(sweeps, &read.scene, &progress)? {
+        Ok(swept) => swept,
+        Err(found) => return Ok(Err(found)),
+    };
+    let mut told = 0;
+    let mut step = |done: usize, of: usize| {
+        progress.extend_to(of);
+        if done > told {
+            told = done;
+            progress.step();
+        }
+    };
+    let mut options = ExamineOptions { bound, all: args.all, progress: &mut step };
+    Ok(find(&scene, sources, &mut options).map(|(findings, examined)| {
+        (Result1 { scene: name.to_owned(), findings, bound, sweep }, examined)
+    }))
+}
+
+/// The scene with the worst values of the sweeps, or as it is.
+#[expect(clippy::type_complexity, reason = "a failure of usage, or diagnostics of drawing, or the result")]
+fn swept(
+    sweeps: &[Sweep],
+    scene: &Scene,
+    progress: &Progress,
+) -> Result<Result<(Scene, Option<SweepResult>), Vec<Diagnostic>>, Failure> {
+    if sweeps.is_empty() {
+        return Ok(Ok((scene.clone(), None)));
+    }
+    let found: Result<Vec<Parameter>, String> = sweeps.iter().map(|sweep| Parameter::find(scene, &sweep.name)).collect();
+    let parameters = found.map_err(|message| Failure::new(Exit::Content, message))?;
+    let combinations = sweep::combinations(sweeps).map_err(Failure::usage)?;
+    progress.extend_to(combinations.len());
+    let mut points = Vec::new();
+    let mut worst: Option<(SweepPoint, Scene)> = None;
+    for values in &combinations {
+        let (point, changed) = match sweep::point(scene, &parameters, values) {
+            Ok(point) => point,
+            Err(found) => return Ok(Err(found)),
+        };
+        progress.step();
+        points.push(point.clone());
+        if worst.as_ref().is_none_or(|(most, _)| point.is_worse_than(most)) {
+            worst = Some((point, changed));
+        }
+    }
+    Ok(Ok(match worst {
+        Some((worst, changed)) => (changed, Some(SweepResult { points, worst })),
+        None => (scene.clone(), None),
+    }))
+}
+
+fn tell(args: &StabilityArgs, done: &[Done<'_>], console: &Console) -> Result<(), Failure> {
+    let text = match args.format {
+        StabilityFormat::Json => match done {
+            [one] if args.scenes.len() == 1 => json(&one.result),
+            _ => json(&done.iter().map(|done| &done.result).collect::<Vec<_>>()),
+        },
+        StabilityFormat::Sarif => write::sarif(&findings(done)),
+        StabilityFormat::Github => write::github(&findings(done)),
+        StabilityFormat::Human => done.iter().map(|done| human(done, console)).collect(),
+    };
+    console.output(&text)
+}
+
+fn json(value: &impl Serialize) -> String {
+    // Numbers, strings and lists only: serialization has nothing to reject.
+    serde_json::to_string_pretty(value).unwrap_or_default() + "\n"
+}
+
+fn findings(done: &[Done<'_>]) -> Vec<write::Finding> {
+    let each = done.iter().flat_map(|done| {
+        let causes = done.result.findings.causes.iter().map(|cause| &cause.diagnostic);
+        write::findings(done.read.sources(), causes)
+    });
+    each.collect()
+}
+
+fn human(done: &Done<'_>, console: &Console) -> String {
+    let Result1 { scene, findings, bound, sweep } = &done.result;
+    let picture = &findings.picture;
+    let mut text = format!("{scene}: {}\n", findings.verdict);
+    let mut row = |name: &str, value: String| text.push_str(&format!("  {name:18} {value}\n"));
+    row("largest error", format!("{:.2e} (accepted: {bound:.2e}), rmse {:.2e}", picture.max_abs, picture.rmse));
+    let pixels = done.examined.errors.not_finite();
+    row("not finite", format!("{} results, {pixels} pixels", findings.non_finite));
+    if let Some(worst) = &picture.worst {
+        let color = |color: [Option<f64>; 4]| {
+            color.map(|value| value.map_or_else(|| "not finite".to_owned(), |value| format!("{value:.6}"))).join(", ")
+        };
+        row("worst pixel", format!("({}, {})", worst.x, worst.y));
+        row("  f32", color(worst.f32));
+        row("  exact", color(worst.exact));
+        for (name, values) in &worst.inputs {
+            let values: Vec<String> =
+                values.iter().map(|value| value.map_or_else(|| "not finite".to_owned(), |value| format!("{value:.6}"))).collect();
+            row(&format!("  {name}"), values.join(", "));
+        }
+    }
+    if let Some(sweep) = sweep {
+        let values: Vec<String> = sweep.worst.values.iter().map(|(name, value)| format!("{name} = {value}")).collect();
+        row("worst values", format!("{} (of {} drawn)", values.join(", "), sweep.points.len()));
+    }
+    if !findings.causes.is_empty() {
+        text.push_str("\n  harm      kind          bits  place\n");
+        for cause in &findings.causes {
+            let harm = cause.harm.map_or_else(|| "not fin.".to_owned(), |harm| format!("{harm:.2e}"));
+            let place = format!("{}:{}:{}", cause.file, cause.line, cause.column);
+            text.push_str(&format!("  {harm:9} {:13} {:4.1}  {place}\n", cause.kind, cause.lost_bits));
+        }
+        text.push('\n');
+        let causes = findings.causes.iter().map(|cause| &cause.diagnostic);
+        text.push_str(&write::human(done.read.sources(), causes, console.colors_output()));
+    }
+    text
+}
+
+fn write_heat(path: &Path, done: &[Done<'_>]) -> Result<(), Failure> {
+    let [done] = done else { return Err(Failure::usage("--heat takes one scene").help("name a single scene file")) };
+    let target = Target::parse(path)?;
+    let (files, _) = target.encode(&heat(&done.examined, done.result.bound))?;
+    for (path, bytes) in files {
+        files::write(&path, &bytes)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,169 @@
+//! [`advice`]: what to write instead of an unstable expression.
+//!
+//! *In:* a cause, and the typed expression at its place. *Out:* a help text, which names the library's function where it has
+//! one. *Holds:* an ill-posed cause says so, because no rewriting of the expression helps.
+
+use super::patterns::{self, Found, Pattern};
+use glisten_front::builtin::BuiltinFunction;
+use glisten_front::hir::{ExprKind, Shader};
+use glisten_front::source::SourceMap;
+use glisten_reference::stability::{Cause, CauseKind};
+use glisten_scene::Scene;
+
+/// The help for a cause.
+pub(super) fn advice(scene: &Scene, sources: &SourceMap, cause: &Cause) -> String {
+    let _ = sources;
+    if cause.ill_posed && !cause.equality {
+        return ILL_POSED.to_owned();
+    }
+    let in_draw = scene.draws.iter().find_map(|draw| {
+        let shader = draw.program.stage(cause.stage)?;
+        patterns::at(&draw.program.types, shader, cause.span).map(|found| (shader, found))
+    });
+    let text = match (cause.kind, in_draw) {
+        (CauseKind::Comparison, _) if cause.equality => EQUALITY,
+        (kind, Some((shader, found))) => of_pattern(kind, shader, found).unwrap_or_else(|| of_kind(kind)),
+        (kind, None) => of_kind(kind),
+    };
+    text.to_owned()
+}
+
+const ILL_POSED: &str = "the problem is ill-posed here: the exact result itself jumps when an input moves by one rounding, so no \
+    rewriting of this expression helps. Move the threshold away from the values that occur, make the step soft \
+    (`smoothstep`), or compute with integers";
+
+const EQUALITY: &str = "do not compare computed floats with `==`: use `abs(a - b) <= tolerance`, with a tolerance of some roundings of \
+    the operands, or carry an integer";
+
+fn called(shader: &Shader, found: Found) -> Option<BuiltinFunction> {
+    match shader.expr(found.expr).kind {
+        ExprKind::BuiltinCall(function, _) => Some(function),
+        _ => None,
+    }
+}
+
+/// The help for an expression of a known form.
+fn of_pattern(kind: CauseKind, shader: &Shader, found: Found) -> Option<&'static str> {
+    let function = called(shader, found);
+    Some(match (found.pattern, function) {
+        (Pattern::OneMinusSquare, _) => {
+            "write `(1.0 - c) * (1.0 + c)`; for the sine of an angle between unit vectors, `length(cross(a, b))` keeps all \
+             digits, and `safeOneMinusCos` of <glisten/safe.glsl> is 1 - cos"
+        }
+        (Pattern::OneMinusCos, _) => "write `2.0 * s * s` with `s = sin(0.5 * x)`; `safeOneMinusCos` of <glisten/safe.glsl> takes two unit vectors",
+        (Pattern::Discriminant, _) => {
+            "the discriminant of a quadratic cancels: for a ray and a sphere, take it from the distance of the center to \
+             the ray, `r * r - dot(q, q)` with `q = oc - dot(oc, d) * d`"
+        }
+        (Pattern::QuadraticRoot, _) => {
+            "of the two roots of a quadratic, take the one that does not cancel, `q = -(b + sign(b) * sqrt(d))`, and the \
+             other as `c / q`"
+        }
+        (Pattern::Variance, _) => {
+            "a mean of squares minus a squared mean cancels: average the squares of the differences from the mean, or \
+             subtract a common offset from all values first"
+        }
+        (Pattern::DifferenceOfSquares, _) => "write `(x - y) * (x + y)`",
+        (Pattern::DifferenceOfProducts, _) => {
+            "a difference of products cancels: move the origin to one of the points first, so that the factors are small, \
+             or order the terms so that the differences come before the products"
+        }
+        (Pattern::DifferenceOfRoots, _) => "write `(a - b) / (sqrt(a) + sqrt(b))`",
+        (Pattern::ExpMinusOne, _) => {
+            "near 0, use the series `x * (1.0 + x * (0.5 + x / 6.0))`, or carry the difference from 1 instead of the number; \
+             `safePowOneMinus` of <glisten/safe.glsl> takes the distance from 1"
+        }
+        (Pattern::LinearDepth, _) => {
+            "depth made linear cancels far away: pass the distance from the camera as a varying, or store depth reversed \
+             (1 near, 0 far), where the difference is small"
+        }
+        (Pattern::MatrixProduct, _) => {
+            "the coordinates are large against their differences: subtract the camera's position on the host in double \
+             precision, or multiply the matrices there, and pass positions relative to the camera"
+        }
+        (Pattern::HalfVector, _) => {
+            "the half vector vanishes where the two directions are opposite: `halfVector` of <glisten/blinn_phong.glsl> is \
+             defined for all of them, `safeNormalize` of <glisten/safe.glsl> for every vector"
+        }
+        (Pattern::Smoothstep, _) if kind == CauseKind::Division => {
+            "`smoothstep` with equal edges is 0 / 0: keep the edges apart, or use `step`"
+        }
+        (Pattern::Difference, _) => {
+            "the operands are large against their difference: subtract the common offset on the host in double precision, \
+             and pass positions relative to the camera"
+        }
+        (_, Some(BuiltinFunction::Normalize)) => {
+            "the square of this length leaves the range of f32: `safeNormalize` of <glisten/safe.glsl> scales first and \
+             is defined for the zero vector"
+        }
+        (_, Some(BuiltinFunction::Length | BuiltinFunction::Distance)) => {
+            "the square of this length leaves the range of f32: `safeLength` of <glisten/safe.glsl> scales first"
+        }
+        (_, Some(BuiltinFunction::Acos | BuiltinFunction::Asin)) => {
+            "an angle from its cosine has few digits near 0 and 180 degrees, and none beyond: use `atan(length(cross(a, b)), \
+             dot(a, b))`, or at least `clamp(c, -1.0, 1.0)`"
+        }
+        (_, Some(BuiltinFunction::Sqrt | BuiltinFunction::Inversesqrt)) => {
+            "rounding makes the argument negative or 0: use `sqrt(max(x, 0.0))`, and bound the divisor from below"
+        }
+        (_, Some(BuiltinFunction::Log | BuiltinFunction::Log2)) => {
+            "the argument reaches 0 or is near 1: bound it from below; `safeLogOneMinus` of <glisten/safe.glsl> is the \
+             logarithm of a number near 1 by its distance from 1"
+        }
+        (_, Some(BuiltinFunction::Pow)) => {
+            "`safePow` of <glisten/safe.glsl> keeps the digits of a base near 1 and is defined at 0; \
+             `safeCosPow` takes the two vectors of the cosine"
+        }
+        (_, Some(BuiltinFunction::Inverse | BuiltinFunction::Determinant)) => {
+            "the matrix is nearly singular: compute its inverse on the host in double precision"
+        }
+        (_, Some(BuiltinFunction::Cross)) => {
+            "the vectors are nearly parallel or large against their differences: subtract a common point first, and take \
+             longer edges"
+        }
+        (_, Some(BuiltinFunction::Exp | BuiltinFunction::Exp2)) if kind == CauseKind::Overflow => {
+            "bound the argument from above: `exp(min(x, 80.0))`; for a sigmoid, use the form with `exp(-abs(x))`"
+        }
+        (_, Some(BuiltinFunction::Mix)) => {
+            "`mix` subtracts large numbers: interpolate the differences from one of them, `a + t * (b - a)`"
+        }
+        (_, Some(BuiltinFunction::Mod)) => {
+            "`mod` of a number that is large against the divisor keeps few digits: reduce it on the host, or count in integers"
+        }
+        _ => return None,
+    })
+}
+
+/// The help for any other expression.
+fn of_kind(kind: CauseKind) -> &'static str {
+    match kind {
+        CauseKind::Cancellation => {
+            "rearrange the difference so that the large parts cancel in the formula and not in the numbers, or subtract a \
+             common offset earlier, where it is still exact"
+        }
+        CauseKind::Rounding => {
+            "the number is large against the digits that matter: keep a large offset apart, on the host or in an integer, \
+             and add it last or never"
+        }
+        CauseKind::Overflow => "scale the operands before they are multiplied, or bound them with `min`",
+        CauseKind::Underflow => "scale the operands by a power of two before they are multiplied, and undo it after the division or root",
+        CauseKind::Division => "bound the divisor from below, `max(abs(d), 1e-6)`, or treat the case 0 apart",
+        CauseKind::Domain => "clamp the argument into the domain of the function before the call",
+        CauseKind::Power => {
+            "the exponent multiplies the relative error of the base: compute the base's distance from 1 instead of the \
+             base; `safePow` and `safePowOneMinus` of <glisten/safe.glsl> do"
+        }
+        CauseKind::Argument => {
+            "reduce the angle before it becomes large: keep time or phase modulo the period on the host, `fract(phase) * \
+             6.2831853`"
+        }
+        CauseKind::Comparison => "leave room for rounding: compare with a tolerance, or make the step soft with `smoothstep`",
+        CauseKind::Conversion => {
+            "rounding moves the number over a whole one: keep it small (subtract a multiple of the period on the host), \
+             or add half a step before `floor` and `int`"
+        }
+        CauseKind::Accumulation => {
+            "compute each step from its index, `start + float(i) * step`, or sum the rounding errors beside the sum (Kahan)"
+        }
+    }
+}

@@ -1,0 +1,22 @@
+//! Numerical stability of scenes: whether f32 arithmetic harms the picture, where, why, and what to write instead.
+//!
+//! *In:* a scene with the texts of its shaders. *Out:* [`Findings`]: the verdict, the figures of the picture, and the
+//! causes at their places, each with a help text. The measurement itself is
+//! [`glisten_reference::stability`]; this folder adds places in the text ([`findings`](Findings)), help texts ([`advice`]),
+//! and inputs other than the scene's ([`sweep`]).
+//!
+//! *Holds:* nothing here prints or writes files. Figures are the same on every run.
+
+mod advice;
+mod findings;
+mod heat;
+mod patterns;
+pub mod settings;
+pub mod sweep;
+
+pub use heat::heat;
+pub use findings::{CauseFound, Findings, PictureFigures, Spot, WorstPixel, find};
+pub use glisten_reference::stability::{
+    BOUND, CAUSE_BITS, Cause, CauseKind, ErrorMap, ExamineOptions, Examination, SpanError, Stability, Trace, examine,
+    inputs_at, trace,
+};

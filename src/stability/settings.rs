@@ -1,0 +1,98 @@
+//! [`Settings`]: the `[stability]` table of a scene file.
+//!
+//! *In:* the text of a scene file. *Out:* the bound, the sweeps and the ranges that it states.
+//!
+//! ```toml
+//! [stability]
+//! bound = 0.001                     # the error of the picture that is accepted
+//! [stability.sweep]
+//! "material.shininess" = [1, 10000, 32]         # low, high, number of values; "1..10000:32" is the same
+//! [stability.range]
+//! "light.position.x" = [-1e6, 1e6]              # what --stiff may try
+//! ```
+
+use super::sweep::{Sweep, parse_range};
+use glisten_front::diagnostic::Diagnostic;
+use glisten_front::diagnostic::codes::scenes::{SCENE_SYNTAX, SCENE_WRONG_VALUE};
+use glisten_front::source::Span;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use std::ops::Range;
+use toml::Spanned;
+
+/// What a scene says about its stability.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Settings {
+    /// The error of the picture that is accepted.
+    pub bound: Option<f64>,
+    /// Uniforms to vary.
+    pub sweeps: Vec<Sweep>,
+    /// The values that a search may try.
+    pub ranges: Vec<Sweep>,
+}
+
+#[derive(Default, Deserialize)]
+struct File {
+    #[serde(default)]
+    stability: Table,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Table {
+    bound: Option<Spanned<f64>>,
+    #[serde(default)]
+    sweep: BTreeMap<String, Spanned<RangeValue>>,
+    #[serde(default)]
+    range: BTreeMap<String, Spanned<RangeValue>>,
+}
+
+#[derive(Clone, Deserialize)]
+#[serde(untagged)]
+enum RangeValue {
+    Text(String),
+    Numbers(Vec<f64>),
+}
+
+impl Settings {
+    /// Reads the settings of the scene file with this text, which its source map holds from `base` on.
+    ///
+    /// # Errors
+    /// One diagnostic at its place.
+    pub fn read(text: &str, base: u32) -> Result<Self, Box<Diagnostic>> {
+        let at = |range: Range<usize>| Span::new(base + range.start as u32, base + range.end as u32);
+        let file: File = toml::from_str(text).map_err(|error| {
+            let message = error.message().trim().replace('\n', ", ");
+            let span = error.span().map_or_else(Span::default, at);
+            Box::new(Diagnostic::new(&SCENE_SYNTAX, span, message).here("here"))
+        })?;
+        let wrong = |range: Range<usize>, message: String| {
+            Box::new(Diagnostic::new(&SCENE_WRONG_VALUE, at(range), message).here("here"))
+        };
+        let Table { bound, sweep, range } = file.stability;
+        if let Some(bound) = &bound
+            && (!bound.get_ref().is_finite() || *bound.get_ref() <= 0.0)
+        {
+            return Err(wrong(bound.span(), "`bound` is a positive number".to_owned()));
+        }
+        let ranges = |table: BTreeMap<String, Spanned<RangeValue>>| -> Result<Vec<Sweep>, Box<Diagnostic>> {
+            let each = table.into_iter().map(|(name, value)| {
+                let place = value.span();
+                of_value(&name, value.into_inner()).map_err(|message| wrong(place, message))
+            });
+            each.collect()
+        };
+        Ok(Self { bound: bound.map(Spanned::into_inner), sweeps: ranges(sweep)?, ranges: ranges(range)? })
+    }
+}
+
+fn of_value(name: &str, value: RangeValue) -> Result<Sweep, String> {
+    match value {
+        RangeValue::Text(text) => parse_range(name, &text),
+        RangeValue::Numbers(numbers) => match numbers.as_slice() {
+            [low, high] => Sweep::new(name, *low, *high, None),
+            [low, high, count] => Sweep::new(name, *low, *high, Some(*count)),
+            _ => Err("a range is [low, high] or [low, high, count]".to_owned()),
+        },
+    }
+}

@@ -1,0 +1,283 @@
+//! [`Sweep`]: values of a uniform to draw with.
+//!
+//! *In:* `NAME=LOW..HIGH:N`. *Out:* scenes with other values of the uniform. *Holds:* both ends are among the values.
+
+use glisten_front::diagnostic::{Diagnostic, did_you_mean};
+use glisten_front::hir::{Scalar, ScalarValue};
+use glisten_reference::stability::{ErrorMap, Stability, errors_of};
+use glisten_scene::Scene;
+use glisten_scene::values::{LeafShape, UniformValues};
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// The number of values unless it is given.
+pub const DEFAULT_COUNT: usize = 16;
+/// The largest number of values of one sweep, and of combinations of all.
+pub const MOST: usize = 4096;
+
+/// The values of a uniform, or of a component of one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sweep {
+    /// The uniform as the reflection names it, with `.x` to `.w` for a component of a vector.
+    pub name: String,
+    /// The first value.
+    pub low: f64,
+    /// The last value.
+    pub high: f64,
+    /// The number of values, 2 at least unless both ends are equal.
+    pub count: usize,
+}
+
+/// Reads `NAME=LOW..HIGH[:N]`.
+///
+/// # Errors
+/// What is wrong with it.
+pub fn parse(text: &str) -> Result<Sweep, String> {
+    let Some((name, range)) = text.split_once('=') else {
+        return Err(format!("`{text}` is not NAME=LOW..HIGH[:N]"));
+    };
+    parse_range(name.trim(), range.trim())
+}
+
+/// Reads `LOW..HIGH[:N]`.
+pub(super) fn parse_range(name: &str, text: &str) -> Result<Sweep, String> {
+    let malformed = || format!("`{text}` is not LOW..HIGH[:N], such as 0..1 or 1..1e4:32");
+    let (ends, count) = match text.rsplit_once(':') {
+        Some((ends, count)) => (ends, Some(count.trim().parse::<f64>().map_err(|_| malformed())?)),
+        None => (text, None),
+    };
+    let (low, high) = ends.split_once("..").ok_or_else(malformed)?;
+    let number = |text: &str| text.trim().parse::<f64>().map_err(|_| malformed());
+    Sweep::new(name, number(low)?, number(high)?, count)
+}
+
+impl Sweep {
+    /// A sweep from `low` to `high`.
+    ///
+    /// # Errors
+    /// What is wrong with the numbers.
+    pub fn new(name: &str, low: f64, high: f64, count: Option<f64>) -> Result<Self, String> {
+        let count = count.unwrap_or(DEFAULT_COUNT as f64);
+        match () {
+            () if name.is_empty() => Err("a sweep needs the name of a uniform".to_owned()),
+            () if !low.is_finite() || !high.is_finite() => Err("the ends of a sweep are finite numbers".to_owned()),
+            () if count.fract() != 0.0 || !(2.0..=MOST as f64).contains(&count) => {
+                Err(format!("a sweep has 2 to {MOST} values"))
+            }
+            () => Ok(Self { name: name.to_owned(), low, high, count: count as usize }),
+        }
+    }
+
+    /// The values, evenly spaced; by their logarithm if they span three decades and have one sign.
+    pub fn values(&self) -> Vec<f64> {
+        let (low, high) = (self.low, self.high);
+        let last = (self.count - 1).max(1) as f64;
+        let by_decades = low * high > 0.0 && (high / low >= 1e3 || low / high >= 1e3);
+        (0..self.count)
+            .map(|step| match step as f64 / last {
+                0.0 => low,
+                1.0 => high,
+                t if by_decades => low * (high / low).powf(t),
+                t => low + (high - low) * t,
+            })
+            .collect()
+    }
+}
+
+/// A scalar of a uniform in every draw that has it.
+#[derive(Clone, Debug)]
+pub struct Parameter {
+    name: String,
+    /// The draw, the root, and the position in it, with the type.
+    places: Vec<(usize, usize, usize, Scalar)>,
+}
+
+impl Parameter {
+    /// Finds a uniform by its name.
+    ///
+    /// # Errors
+    /// No draw has it, or it is not a scalar.
+    pub fn find(scene: &Scene, name: &str) -> Result<Self, String> {
+        let mut places = Vec::new();
+        let mut trouble = None;
+        for (index, draw) in scene.draws.iter().enumerate() {
+            match place(&draw.program, name) {
+                Ok(Some((root, at, scalar))) => places.push((index, root, at, scalar)),
+                Ok(None) => {}
+                Err(message) => trouble = Some(message),
+            }
+        }
+        match (places.is_empty(), trouble) {
+            (false, _) => Ok(Self { name: name.to_owned(), places }),
+            (true, Some(message)) => Err(message),
+            (true, None) => {
+                let uniforms = scene.draws.iter().flat_map(|draw| &draw.program.interface.uniforms);
+                let names: Vec<&str> = uniforms.map(|leaf| leaf.name.as_str()).collect();
+                let near = did_you_mean(name, names.iter().copied());
+                let hint = near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
+                Err(format!("no draw has a uniform `{name}`{hint}"))
+            }
+        }
+    }
+
+    /// The scene with another value.
+    pub fn set(&self, scene: &mut Scene, value: f64) {
+        for &(draw, root, at, scalar) in &self.places {
+            let root = scene.draws.get_mut(draw).and_then(|draw| draw.uniforms.get_mut(root));
+            if let Some(slot) = root.and_then(|root| root.get_mut(at)) {
+                *slot = match scalar {
+                    Scalar::Bool => ScalarValue::Bool(value != 0.0),
+                    Scalar::Int => ScalarValue::Int(value.round() as i32),
+                    Scalar::Uint => ScalarValue::Uint(value.round() as u32),
+                    Scalar::Float => ScalarValue::Float(value as f32),
+                };
+            }
+        }
+    }
+
+    /// The value in a scene.
+    pub fn get(&self, scene: &Scene) -> Option<f64> {
+        let &(draw, root, at, _) = self.places.first()?;
+        Some(match scene.draws.get(draw)?.uniforms.get(root)?.get(at)? {
+            ScalarValue::Bool(value) => f64::from(u8::from(*value)),
+            ScalarValue::Int(value) => f64::from(*value),
+            ScalarValue::Uint(value) => f64::from(*value),
+            ScalarValue::Float(value) => f64::from(*value),
+        })
+    }
+
+    /// Its name.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+}
+
+/// The root and the position of a scalar in a program; `None` if the program has no such uniform.
+fn place(program: &glisten_front::link::Program, name: &str) -> Result<Option<(usize, usize, Scalar)>, String> {
+    let whole = UniformValues::find(program, name);
+    let (found, component) = match whole {
+        Some(found) => (found, None),
+        None => {
+            let component = name.rsplit_once('.').and_then(|(vector, component)| {
+                let index = ["x", "y", "z", "w"].iter().position(|letter| *letter == component)?;
+                Some((UniformValues::find(program, vector)?, index))
+            });
+            match component {
+                Some((found, index)) => (found, Some(index)),
+                None => return Ok(None),
+            }
+        }
+    };
+    let (leaf, element) = found;
+    let Some(shape) = LeafShape::of(&program.types, leaf) else {
+        return Err(format!("`{name}` is a sampler; a sweep needs a number"));
+    };
+    let n_each = shape.n_each();
+    if leaf.array_size.is_some() && element.is_none() {
+        return Err(format!("`{name}` is an array: name an element, `{name}[0]`"));
+    }
+    let index = match component {
+        None if n_each == 1 => 0,
+        None => return Err(format!("`{name}` has {n_each} components: name one, `{name}.x`")),
+        Some(index) if index < n_each && shape.columns == 1 => index,
+        Some(_) => return Err(format!("`{name}` is not a component of a vector")),
+    };
+    let element = element.unwrap_or(0) as usize;
+    if element >= shape.elements as usize {
+        return Err(format!("`{name}` is past the end of the array"));
+    }
+    Ok(Some((leaf.root.0 as usize, leaf.flat_offset as usize + element * n_each + index, shape.scalar)))
+}
+
+/// One drawing of a sweep.
+#[derive(Clone, Debug, Serialize)]
+pub struct SweepPoint {
+    /// The values by name.
+    pub values: BTreeMap<String, f64>,
+    /// The largest finite difference of a channel.
+    pub max_abs: f64,
+    /// The number of pixels that are not finite in f32.
+    pub non_finite_pixels: u64,
+}
+
+impl SweepPoint {
+    /// What to compare points by: pixels that are not finite first, then the error.
+    pub fn badness(&self) -> (u64, f64) {
+        (self.non_finite_pixels, self.max_abs)
+    }
+
+    /// Whether this one is worse.
+    pub fn is_worse_than(&self, other: &Self) -> bool {
+        let (a, b) = (self.badness(), other.badness());
+        a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).is_gt()
+    }
+
+    /// A first verdict, before causes are known: see [`Stability`].
+    pub fn verdict(&self, bound: f64) -> Stability {
+        match () {
+            () if self.non_finite_pixels > 0 => Stability::Broken,
+            () if self.max_abs > bound => Stability::Degraded,
+            () => Stability::Stable,
+        }
+    }
+}
+
+/// Draws a scene with values in place of its own.
+///
+/// # Errors
+/// The errors of drawing.
+pub fn point(scene: &Scene, parameters: &[Parameter], values: &[f64]) -> Result<(SweepPoint, Scene), Vec<Diagnostic>> {
+    let mut changed = scene.clone();
+    for (parameter, value) in parameters.iter().zip(values) {
+        parameter.set(&mut changed, *value);
+    }
+    let errors: ErrorMap = errors_of(&changed)?;
+    let named = parameters.iter().zip(values).map(|(parameter, value)| (parameter.name.clone(), *value)).collect();
+    let max_abs = errors.worst().map_or(0.0, |(_, error)| error);
+    Ok((SweepPoint { values: named, max_abs, non_finite_pixels: errors.not_finite() }, changed))
+}
+
+/// All combinations of the values of sweeps, in order: the last one varies first.
+///
+/// # Errors
+/// There are more than [`MOST`].
+pub fn combinations(sweeps: &[Sweep]) -> Result<Vec<Vec<f64>>, String> {
+    let count = sweeps.iter().fold(1usize, |count, sweep| count.saturating_mul(sweep.count));
+    if count > MOST {
+        return Err(format!("the sweeps have {count} combinations, and {MOST} is the limit: give smaller counts, NAME=LOW..HIGH:N"));
+    }
+    let mut all = vec![Vec::new()];
+    for sweep in sweeps {
+        let values = sweep.values();
+        all = all.iter().flat_map(|start| values.iter().map(move |value| [start.as_slice(), &[*value]].concat())).collect();
+    }
+    Ok(all)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Sweep, combinations, parse};
+
+    #[test]
+    fn a_sweep_is_read_with_both_ends_among_its_values() {
+        let sweep = parse("material.shininess=1..10000:5").expect("it is well-formed");
+        assert_eq!((sweep.name.as_str(), sweep.count), ("material.shininess", 5));
+        assert_eq!(sweep.values(), [1.0, 10.0, 100.0, 1000.0, 10_000.0]);
+        let sweep = parse("t=-1..1e0").expect("it is well-formed");
+        assert_eq!((sweep.count, sweep.values()[0], sweep.values()[15]), (16, -1.0, 1.0));
+    }
+
+    #[test]
+    fn what_is_no_sweep_is_told() {
+        for text in ["t", "t=", "t=1", "t=1..", "t=1..x", "t=1..2:1", "t=1..2:0.5", "t=nan..1", "=1..2", "t=1..2:1e9"] {
+            assert!(parse(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn combinations_are_limited() {
+        let sweep = |count: f64| Sweep::new("a", 0.0, 1.0, Some(count)).expect("it is well-formed");
+        assert_eq!(combinations(&[sweep(2.0), sweep(3.0)]).map(|all| all.len()), Ok(6));
+        assert!(combinations(&[sweep(100.0), sweep(100.0)]).is_err());
+    }
+}
