@@ -1,6 +1,7 @@
 //! `glisten stability`: tells where f32 arithmetic harms the pictures of scenes, why, and what to write instead.
 
 use super::args::{LevelArgs, SourceArgs};
+use super::config;
 use super::console::Console;
 use super::exit::{Exit, Failure, Outcome};
 use super::files;
@@ -148,7 +149,8 @@ fn examined(args: &StabilityArgs, name: &str, read: &Read<'_>, console: &Console
         Ok(settings) => settings,
         Err(diagnostic) => return Ok(Err(vec![*diagnostic])),
     };
-    let bound = args.bound.or(settings.bound).unwrap_or(BOUND);
+    let of_project = || config::stability_bound(Path::new(name));
+    let bound = args.bound.or(settings.bound).or_else(of_project).unwrap_or(BOUND);
     let sweeps = if args.sweeps.is_empty() { &settings.sweeps } else { &args.sweeps };
     let progress = Progress::new(console, 0);
     progress.say(name);
@@ -166,7 +168,8 @@ fn examined(args: &StabilityArgs, name: &str, read: &Read<'_>, console: &Console
     };
     let mut step = |done: usize, of: usize| progress.reach(done, of);
     let mut options = ExamineOptions { bound, all: args.all, progress: &mut step };
-    Ok(find(&scene, sources, &mut options).map(|(findings, examined)| {
+    let reload = |file: &str, text: &str| read.reloaded(name, file, text);
+    Ok(find(&scene, sources, &mut options, Some(&reload)).map(|(findings, examined)| {
         let result =
             Result1 { scene: name.to_owned(), findings, bound, sweep, stiff, examined_scene: scene.clone() };
         (result, examined)

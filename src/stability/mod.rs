@@ -11,11 +11,13 @@ mod advice;
 mod findings;
 mod heat;
 mod patterns;
+mod rewrite;
 pub mod settings;
 pub mod stiff;
 pub mod sweep;
 
 pub use heat::heat;
+pub use rewrite::Reload;
 pub use findings::{CauseFound, Findings, PictureFigures, Spot, WorstPixel, find};
 pub use glisten_reference::stability::{
     BOUND, CAUSE_BITS, Cause, CauseKind, ErrorMap, ExamineOptions, Examination, SpanError, Stability, Trace, examine,
