@@ -62,5 +62,7 @@ mod specialize;
 #[cfg(feature = "cli")]
 mod stability;
 mod support;
+#[cfg(feature = "gpu")]
+mod tutorial;
 mod witness;
 mod words;
