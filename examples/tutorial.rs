@@ -11,7 +11,7 @@ use wgpu::util::DeviceExt;
 
 const SIDE: u32 = 256;
 
-/// What the application passed to OpenGL, by the names in the shaders.
+/// The data that the application passed to OpenGL, by the names in the shaders.
 pub struct Globe {
     /// Names and values, matrices by columns.
     pub uniforms: Vec<(&'static str, Vec<f32>)>,
@@ -209,8 +209,7 @@ pub fn draw(translated: &Translated, globe: &Globe) -> Picture {
             resolve_target: None,
             ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::BLACK), store: wgpu::StoreOp::Store },
         };
-        let descriptor =
-            wgpu::RenderPassDescriptor { color_attachments: &[Some(attachment)], ..Default::default() };
+        let descriptor = wgpu::RenderPassDescriptor { color_attachments: &[Some(attachment)], ..Default::default() };
         let mut pass = encoder.begin_render_pass(&descriptor);
         pass.set_pipeline(&pipeline);
         for (index, group) in &groups {
@@ -225,7 +224,11 @@ pub fn draw(translated: &Translated, globe: &Globe) -> Picture {
     read_back(&device, &queue, encoder, &target)
 }
 
-fn texture(device: &wgpu::Device, queue: &wgpu::Queue, (width, height, texels): &(u32, u32, Vec<f32>)) -> wgpu::TextureView {
+fn texture(
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    (width, height, texels): &(u32, u32, Vec<f32>),
+) -> wgpu::TextureView {
     let bytes: Vec<u8> = texels.iter().map(|value| (value * 255.0).round() as u8).collect();
     let descriptor = wgpu::TextureDescriptor {
         label: None,

@@ -12,7 +12,7 @@ use super::scenes::{MachineArgs, Read, SceneArgs};
 use crate::stability::settings::Settings;
 use crate::stability::stiff::{self, Worst};
 use crate::stability::sweep::{self, Parameter, Sweep, SweepPoint};
-use crate::stability::{BOUND, ExamineOptions, Examination, Findings, Stability, find, heat};
+use crate::stability::{BOUND, Examination, ExamineOptions, Findings, Stability, find, heat};
 use clap::{Args, ValueEnum};
 use glisten_front::diagnostic::{self, Diagnostic};
 use glisten_front::hir::Stage;
@@ -170,8 +170,7 @@ fn examined(args: &StabilityArgs, name: &str, read: &Read<'_>, console: &Console
     let mut options = ExamineOptions { bound, all: args.all, progress: &mut step };
     let reload = |file: &str, text: &str| read.reloaded(name, file, text);
     Ok(find(&scene, sources, &mut options, Some(&reload)).map(|(findings, examined)| {
-        let result =
-            Result1 { scene: name.to_owned(), findings, bound, sweep, stiff, examined_scene: scene.clone() };
+        let result = Result1 { scene: name.to_owned(), findings, bound, sweep, stiff, examined_scene: scene.clone() };
         (result, examined)
     }))
 }
@@ -186,7 +185,8 @@ fn swept(
     if sweeps.is_empty() {
         return Ok(Ok((scene.clone(), None)));
     }
-    let found: Result<Vec<Parameter>, String> = sweeps.iter().map(|sweep| Parameter::find(scene, &sweep.name)).collect();
+    let found: Result<Vec<Parameter>, String> =
+        sweeps.iter().map(|sweep| Parameter::find(scene, &sweep.name)).collect();
     let parameters = found.map_err(|message| Failure::new(Exit::Content, message))?;
     let combinations = sweep::combinations(sweeps).map_err(Failure::usage)?;
     progress.extend_to(combinations.len());
@@ -251,8 +251,10 @@ fn human(done: &Done<'_>, console: &Console) -> String {
         row("  f32", color(worst.f32));
         row("  exact", color(worst.exact));
         for (name, values) in &worst.inputs {
-            let values: Vec<String> =
-                values.iter().map(|value| value.map_or_else(|| "not finite".to_owned(), |value| format!("{value:.6}"))).collect();
+            let values: Vec<String> = values
+                .iter()
+                .map(|value| value.map_or_else(|| "not finite".to_owned(), |value| format!("{value:.6}")))
+                .collect();
             row(&format!("  {name}"), values.join(", "));
         }
     }
@@ -287,7 +289,8 @@ fn write_worst(path: &Path, done: &[Done<'_>]) -> Result<(), Failure> {
     let stem = path.file_stem().map_or_else(|| "worst".to_owned(), |stem| stem.to_string_lossy().into_owned());
     let mut shaders = Vec::new();
     for (number, draw) in scene.draws.iter().enumerate() {
-        let name = |stage: &str| if number == 0 { format!("{stem}.{stage}") } else { format!("{stem}_{number}.{stage}") };
+        let name =
+            |stage: &str| if number == 0 { format!("{stem}.{stage}") } else { format!("{stem}_{number}.{stage}") };
         let files = ShaderFiles { vertex: name("vert"), fragment: name("frag") };
         for (stage, file) in [(Stage::Vertex, &files.vertex), (Stage::Fragment, &files.fragment)] {
             let text = draw.program.stage(stage).and_then(|shader| shader.texts.first());

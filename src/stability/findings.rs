@@ -15,7 +15,7 @@ use std::collections::BTreeMap;
 /// The number of causes for which a rewriting is tried.
 const MOST_REWRITINGS: usize = 4;
 
-/// What was found in a scene. The keys are those of the contract.
+/// The findings in a scene. The keys are those of the contract.
 #[derive(Clone, Debug, Serialize)]
 pub struct Findings {
     /// `stable`, `degraded` or `broken`.
@@ -95,7 +95,7 @@ pub struct CauseFound {
     pub at: Spot,
     /// Whether the exact result jumps there, so that no rewriting helps.
     pub ill_posed: bool,
-    /// What to write instead.
+    /// Advice: the text to write instead.
     pub help: String,
     /// The finding for writers of diagnostics.
     #[serde(skip)]
@@ -103,7 +103,7 @@ pub struct CauseFound {
 }
 
 /// Examines a scene and places what is found. With `reload`, rewritings that are mechanical are tried, and the help texts say
-/// what comes of them.
+/// whether they help.
 ///
 /// # Errors
 /// The errors of [`examine`].
@@ -193,14 +193,16 @@ fn placed(scene: &Scene, sources: &SourceMap, examined: &Examination, reload: Op
     list
 }
 
-/// What came of a rewriting, beside the error before.
+/// The result of a rewriting, compared with the error before.
 fn outcome(Tried { text, error }: &Tried, before: f64) -> String {
     let text: Vec<&str> = text.split_whitespace().collect();
     let text = text.join(" ");
     match *error {
         error if error.is_infinite() => format!(". Tried: `{text}` alone leaves pixels that are not finite"),
         error if error > 0.5 * before => {
-            format!(". Tried: `{text}` alone does not help (error {error:.1e}), because its operands have lost digits, too")
+            format!(
+                ". Tried: `{text}` alone does not help (error {error:.1e}), because its operands have lost digits, too"
+            )
         }
         error => format!(". Tried: with `{text}`, the error of the picture is {error:.1e}"),
     }

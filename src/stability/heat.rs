@@ -56,6 +56,9 @@ mod tests {
     #[test]
     fn the_scale_goes_from_blue_to_red() {
         let (low, middle, high) = (scale(-5.0), scale(0.0), scale(5.0));
-        assert!(low[2] > low[0] && high[0] > high[2] && middle[0] > 0.9 && middle[1] > 0.8, "{low:?} {middle:?} {high:?}");
+        assert!(
+            low[2] > low[0] && high[0] > high[2] && middle[0] > 0.9 && middle[1] > 0.8,
+            "{low:?} {middle:?} {high:?}"
+        );
     }
 }

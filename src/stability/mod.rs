@@ -16,10 +16,10 @@ pub mod settings;
 pub mod stiff;
 pub mod sweep;
 
-pub use heat::heat;
-pub use rewrite::Reload;
 pub use findings::{CauseFound, Findings, PictureFigures, Spot, WorstPixel, find};
 pub use glisten_reference::stability::{
-    BOUND, CAUSE_BITS, Cause, CauseKind, ErrorMap, ExamineOptions, Examination, SpanError, Stability, Trace, examine,
+    BOUND, CAUSE_BITS, Cause, CauseKind, ErrorMap, Examination, ExamineOptions, SpanError, Stability, Trace, examine,
     inputs_at, trace,
 };
+pub use heat::heat;
+pub use rewrite::Reload;

@@ -127,7 +127,9 @@ impl<D: Domain> Shading<'_, D> {
         let coordinates = self.plan.frag_coord.into_iter().flat_map(|id| [(id, 0), (id, 1)]);
         for (id, flat) in self.plan.floats.iter().map(|varying| varying.to).chain(coordinates) {
             if let Some(input) = machine.float_input(id, flat) {
-                let place = |lane: usize| [places.x[lane] as u64, places.y[lane] as u64, id.index() as u64 * 64 + u64::from(flat)];
+                let place = |lane: usize| {
+                    [places.x[lane] as u64, places.y[lane] as u64, id.index() as u64 * 64 + u64::from(flat)]
+                };
                 input.update(|lane, number| D::Float::from_f64(jittered(number.value(), seed, place(lane))));
             }
         }

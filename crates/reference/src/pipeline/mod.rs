@@ -292,8 +292,7 @@ fn draw_prims<D: Domain>(
         if list.is_empty() || endless.get().is_some() || !watch.wants(index) {
             return;
         }
-        let mut machine =
-            take().unwrap_or_else(|| watch.machine(Stage::Fragment, code, shading.draw, shading.faults));
+        let mut machine = take().unwrap_or_else(|| watch.machine(Stage::Fragment, code, shading.draw, shading.faults));
         watch.begin(&mut machine);
         draw_bin(shading, bin, list, &mut machine);
         watch.end(&mut machine, Piece::Fragments, index);

@@ -21,7 +21,7 @@ pub(crate) struct Chosen<'a> {
     pub(crate) part: ErrorPart,
 }
 
-/// What a drawing does besides the picture.
+/// The purposes of a drawing besides the picture.
 #[derive(Clone, Copy)]
 pub(crate) struct Study<'a, D: Domain> {
     /// Sees what is computed.
@@ -60,7 +60,7 @@ pub(crate) struct Probe {
     pub(crate) found: Mutex<Vec<(GlobalId, u32, f64)>>,
 }
 
-/// What is done in a draw besides drawing.
+/// A study, and the place in the drawing.
 #[derive(Clone, Copy)]
 pub(super) struct Watch<'a, D: Domain> {
     pub(super) study: Study<'a, D>,

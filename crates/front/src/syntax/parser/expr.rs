@@ -383,7 +383,8 @@ impl<T: TokenSource> Parser<'_, '_, T> {
     /// `(float3)value`: a name in parentheses before a value is a cast of C or HLSL.
     fn reject_cast(&mut self, opening: Token, inner: ExprId) -> Parse<()> {
         let is_name = matches!(self.ast.exprs.get(inner.index()).map(|expr| &expr.kind), Some(ExprKind::Name(_)));
-        let before_value = matches!(self.kind(), TokenKind::Ident | TokenKind::Int | TokenKind::Uint | TokenKind::Float);
+        let before_value =
+            matches!(self.kind(), TokenKind::Ident | TokenKind::Int | TokenKind::Uint | TokenKind::Float);
         if !is_name || !before_value {
             return Ok(());
         }

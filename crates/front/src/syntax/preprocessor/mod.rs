@@ -22,7 +22,6 @@ mod include;
 mod tests;
 mod version;
 
-use std::sync::Arc;
 use super::ast::{Allow, Behavior, Extensions, Profile, Version};
 use super::keywords;
 use super::kind;
@@ -35,6 +34,7 @@ use crate::source::{FileId, IncludeForm, IncludeResolver, Inclusion, Span};
 use define::Macro;
 use expand::TokenRun;
 use rustc_hash::{FxHashMap, FxHashSet};
+use std::sync::Arc;
 
 /// The largest total size of all texts of a shader in bytes, with includes counted each time: 8 MiB.
 pub(super) const MAX_BYTES: usize = 8 << 20;
@@ -165,7 +165,12 @@ impl<'a> Preprocessor<'a> {
     pub(super) fn finish(mut self) -> PreprocessorOutcome {
         self.outcome.version = self.version;
         let is_plain = |definition: &&Macro| definition.params.is_none() && !definition.is_predefined();
-        let names = self.macros.iter().filter(is_plain).take(condition::MAX_COMPARED).map(|definition| Arc::clone(&definition.name));
+        let names = self
+            .macros
+            .iter()
+            .filter(is_plain)
+            .take(condition::MAX_COMPARED)
+            .map(|definition| Arc::clone(&definition.name));
         self.outcome.macros = names.collect();
         self.outcome
     }

@@ -12,7 +12,7 @@ use glisten_scene::picture::Interval;
 pub enum ErrorPart {
     /// All of it: the result is that of exact operands, not rounded.
     All,
-    /// What the operation itself adds: the result is that of its f32 operands, not rounded.
+    /// The part that the operation itself adds: the result is that of its f32 operands, not rounded.
     Own,
 }
 
