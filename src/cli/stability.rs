@@ -1,5 +1,7 @@
 //! `glisten stability`: tells where f32 arithmetic harms the pictures of scenes, why, and what to write instead.
 
+mod page;
+
 use super::args::{LevelArgs, SourceArgs};
 use super::console::Console;
 use super::exit::{Exit, Failure, Outcome};
@@ -35,6 +37,9 @@ pub(super) struct StabilityArgs {
     /// Write a map of the errors over the picture
     #[arg(long, value_name = "FILE.png")]
     heat: Option<PathBuf>,
+    /// Write a page, stability.html, and stability.json to this folder
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
     /// The format of the result
     #[arg(long, value_enum, default_value_t)]
     format: StabilityFormat,
@@ -78,6 +83,9 @@ struct Result1 {
     bound: f64,
     #[serde(skip_serializing_if = "Option::is_none")]
     sweep: Option<SweepResult>,
+    /// The scene that was examined: the worst one.
+    #[serde(skip)]
+    examined_scene: Scene,
 }
 
 #[derive(Serialize)]
@@ -116,6 +124,9 @@ pub(super) fn run(args: &StabilityArgs, console: &Console) -> Outcome {
     if let Some(path) = &args.heat {
         write_heat(path, &done)?;
     }
+    if let Some(folder) = &args.output {
+        page::write(folder, args, &done, console)?;
+    }
     tell(args, &done, console)?;
     let is_unstable = |done: &Done<'_>| done.examined.verdict != Stability::Stable;
     Ok(if done.iter().any(is_unstable) { exit.max(Exit::Content) } else { exit })
@@ -149,7 +160,8 @@ fn examined(args: &StabilityArgs, name: &str, read: &Read<'_>, console: &Console
     };
     let mut options = ExamineOptions { bound, all: args.all, progress: &mut step };
     Ok(find(&scene, sources, &mut options).map(|(findings, examined)| {
-        (Result1 { scene: name.to_owned(), findings, bound, sweep }, examined)
+        let result = Result1 { scene: name.to_owned(), findings, bound, sweep, examined_scene: scene.clone() };
+        (result, examined)
     }))
 }
 
@@ -188,15 +200,19 @@ fn swept(
 
 fn tell(args: &StabilityArgs, done: &[Done<'_>], console: &Console) -> Result<(), Failure> {
     let text = match args.format {
-        StabilityFormat::Json => match done {
-            [one] if args.scenes.len() == 1 => json(&one.result),
-            _ => json(&done.iter().map(|done| &done.result).collect::<Vec<_>>()),
-        },
+        StabilityFormat::Json => json_of(args, done),
         StabilityFormat::Sarif => write::sarif(&findings(done)),
         StabilityFormat::Github => write::github(&findings(done)),
         StabilityFormat::Human => done.iter().map(|done| human(done, console)).collect(),
     };
     console.output(&text)
+}
+
+fn json_of(args: &StabilityArgs, done: &[Done<'_>]) -> String {
+    match done {
+        [one] if args.scenes.len() == 1 => json(&one.result),
+        _ => json(&done.iter().map(|done| &done.result).collect::<Vec<_>>()),
+    }
 }
 
 fn json(value: &impl Serialize) -> String {
@@ -213,7 +229,7 @@ fn findings(done: &[Done<'_>]) -> Vec<write::Finding> {
 }
 
 fn human(done: &Done<'_>, console: &Console) -> String {
-    let Result1 { scene, findings, bound, sweep } = &done.result;
+    let Result1 { scene, findings, bound, sweep, .. } = &done.result;
     let picture = &findings.picture;
     let mut text = format!("{scene}: {}\n", findings.verdict);
     let mut row = |name: &str, value: String| text.push_str(&format!("  {name:18} {value}\n"));
@@ -228,8 +244,10 @@ fn human(done: &Done<'_>, console: &Console) -> String {
         row("  f32", color(worst.f32));
         row("  exact", color(worst.exact));
         for (name, values) in &worst.inputs {
-            let values: Vec<String> =
-                values.iter().map(|value| value.map_or_else(|| "not finite".to_owned(), |value| format!("{value:.6}"))).collect();
+            let values: Vec<String> = values
+                .iter()
+                .map(|value| value.map_or_else(|| "not finite".to_owned(), |value| format!("{value:.6}")))
+                .collect();
             row(&format!("  {name}"), values.join(", "));
         }
     }

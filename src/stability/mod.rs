@@ -10,13 +10,15 @@
 mod advice;
 mod findings;
 mod heat;
+#[cfg(feature = "cli")]
+pub mod page;
 mod patterns;
 pub mod settings;
 pub mod sweep;
 
-pub use heat::heat;
 pub use findings::{CauseFound, Findings, PictureFigures, Spot, WorstPixel, find};
 pub use glisten_reference::stability::{
-    BOUND, CAUSE_BITS, Cause, CauseKind, ErrorMap, ExamineOptions, Examination, SpanError, Stability, Trace, examine,
-    inputs_at, trace,
+    BOUND, CAUSE_BITS, Cause, CauseKind, ErrorMap, Examination, ExamineOptions, Pair, SpanError, Stability, Trace,
+    examine, inputs_at, pictures_of, trace,
 };
+pub use heat::heat;

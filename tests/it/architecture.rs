@@ -58,6 +58,7 @@ static ORDER: &[(&str, &[&str])] = &[
             "gallery",
             "report",
             "account",
+            "stability",
             "cli",
             "main",
         ],
