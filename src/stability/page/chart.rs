@@ -23,11 +23,12 @@ pub(super) struct Frame {
     bottom: f64,
 }
 
-/// For a page of some width.
-pub(super) const WIDE: Frame = Frame { width: 860.0, height: 320.0, left: 72.0, right: 20.0, top: 22.0, bottom: 54.0 };
-/// For a telephone.
-pub(super) const NARROW: Frame =
-    Frame { width: 330.0, height: 270.0, left: 50.0, right: 14.0, top: 22.0, bottom: 52.0 };
+/// For windows of some width: wide ones, tablets, telephones. Text is drawn at about its size.
+pub(super) const FRAMES: [(&str, Frame); 3] = [
+    ("wide", Frame { width: 860.0, height: 320.0, left: 72.0, right: 20.0, top: 22.0, bottom: 54.0 }),
+    ("middle", Frame { width: 540.0, height: 300.0, left: 58.0, right: 16.0, top: 22.0, bottom: 54.0 }),
+    ("narrow", Frame { width: 300.0, height: 260.0, left: 46.0, right: 12.0, top: 22.0, bottom: 52.0 }),
+];
 
 /// The axis of the values.
 enum Values {
@@ -145,7 +146,7 @@ fn axes(svg: &mut String, x: &Values, y: &Axis, name: &str, frame: Frame) {
             text = power(tick),
         );
     }
-    let shown: String = name.chars().take(40).collect();
+    let shown: String = name.chars().take(36).collect();
     let _ = writeln!(
         svg,
         "<text class=\"axis\" x=\"{}\" y=\"{}\" text-anchor=\"end\">{} \u{2192}</text>\

@@ -1,12 +1,14 @@
 //! [`listing`]: the texts of a scene's shaders, with what each line loses in f32, and where the causes are.
 //!
-//! *In:* the figures of every expression, the causes, the texts. *Out:* [`Text`]s of [`Row`]s. *Holds:* all lines of a file in
-//! which something was evaluated are there, in order; code is escaped. An expression belongs to the line on which it begins,
+//! *In:* the figures of every expression, the causes, the texts. *Out:* [`Text`]s of [`Row`]s. *Holds:* all lines of a shader, and of
+//! a file in which something was evaluated, are there, in order; code is escaped. An expression belongs to the line on which it begins,
 //! one from a macro to the line that uses the macro.
 
 use super::super::{CAUSE_BITS, Findings, SpanError};
 use crate::gallery::highlight::{Comments, Language, html};
+use glisten_front::hir::{Shader, Stage};
 use glisten_front::source::{FileId, Location, SourceMap, Span};
+use glisten_scene::Scene;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
@@ -69,14 +71,33 @@ pub(super) struct Expression {
     pub(super) figures: SpanError,
 }
 
-/// The texts of all files in which something was evaluated, in the order in which they were read.
-pub(super) fn listing(sources: &SourceMap, spans: &[SpanError], findings: &Findings) -> Vec<Text> {
+/// The texts of the shaders, and of all files in which something was evaluated, in the order in which they were read.
+pub(super) fn listing(scene: &Scene, sources: &SourceMap, spans: &[SpanError], findings: &Findings) -> Vec<Text> {
     let mut by_file: BTreeMap<FileId, Vec<(u32, &SpanError)>> = BTreeMap::new();
+    let mut stages: BTreeMap<FileId, BTreeSet<Stage>> = BTreeMap::new();
+    for (stage, shader) in stages_of(scene) {
+        let main = shader.functions.iter().find(|function| function.name == "main" && function.body.is_some());
+        let Some(file) = main.and_then(|main| sources.file_of(sources.call_site(main.span))) else { continue };
+        by_file.entry(file).or_default();
+        stages.entry(file).or_default().insert(stage);
+    }
     for figures in spans {
         let Some(location) = sources.location(sources.call_site(figures.span)) else { continue };
         by_file.entry(location.file).or_default().push((location.line, figures));
+        stages.entry(location.file).or_default().insert(figures.stage);
     }
-    by_file.iter().map(|(file, figures)| text(sources, *file, figures, findings)).collect()
+    let stages_of = |file: &FileId| stages.get(file).into_iter().flatten().map(|stage| stage.name()).collect();
+    by_file
+        .iter()
+        .map(|(file, figures)| Text { stages: stages_of(file), ..text(sources, *file, figures, findings) })
+        .collect()
+}
+
+fn stages_of(scene: &Scene) -> impl Iterator<Item = (Stage, &Shader)> {
+    let draws = scene.draws.iter();
+    draws
+        .flat_map(|draw| [Stage::Vertex, Stage::Fragment].map(|stage| (stage, draw.program.stage(stage))))
+        .filter_map(|(stage, shader)| Some((stage, shader?)))
 }
 
 fn text(sources: &SourceMap, file: FileId, figures: &[(u32, &SpanError)], findings: &Findings) -> Text {
@@ -103,10 +124,9 @@ fn text(sources: &SourceMap, file: FileId, figures: &[(u32, &SpanError)], findin
     if rows.last().is_some_and(|last| last.code.is_empty()) {
         rows.pop();
     }
-    let stages: BTreeSet<&'static str> = figures.iter().map(|(_, figures)| figures.stage.name()).collect();
     Text {
         name: sources.file(file).name().to_owned(),
-        stages: stages.into_iter().rev().collect(),
+        stages: Vec::new(),
         folds: folds(&rows),
         has_causes: !causes.is_empty(),
         rows,

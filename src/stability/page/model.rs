@@ -27,7 +27,7 @@ pub(super) fn scene(number: usize, one: &SceneOnPage<'_>) -> Value {
     let (bound, errors) = (*bound, &examined.errors);
     let picture = &findings.picture;
     let id = format!("s{number}");
-    let texts = listing(one.sources, &examined.spans, findings);
+    let texts = listing(one.scene, one.sources, &examined.spans, findings);
     let anchors = anchors(&texts);
     let causes = causes(one, &anchors);
     let files: Vec<Value> = texts.iter().enumerate().map(|(index, text)| file(index + 1, text)).collect();
@@ -38,6 +38,7 @@ pub(super) fn scene(number: usize, one: &SceneOnPage<'_>) -> Value {
     context! {
         id,
         name => one.name,
+        title => Value::from_safe_string(words::path(one.name)),
         command => &one.command,
         verdict => findings.verdict,
         sentence => words::verdict(findings, examined.verdict, bound, errors.not_finite()),
@@ -136,7 +137,7 @@ fn cause(one: &SceneOnPage<'_>, cause: &CauseFound, anchors: &Anchors<'_>, input
         single => color(&one.examined.single),
         exact => color(picture),
         inputs,
-        help => &cause.help,
+        help => Value::from_safe_string(words::help(&cause.help)),
     }
 }
 
@@ -173,7 +174,15 @@ fn legend(bound: f64) -> Value {
 }
 
 fn series(series: &Series, bound: f64) -> Value {
-    let svg = |frame| chart(series, bound, frame).map(Value::from_safe_string);
+    let charts = chart::FRAMES.iter().filter_map(|(class, frame)| {
+        let svg = Value::from_safe_string(chart(series, bound, *frame)?);
+        Some(context! { class => *class, svg })
+    });
+    let charts: Vec<Value> = charts.collect();
+    // The points of a sweep have the same inputs, the ends of a search have not.
+    let names_of = |point: &Point| point.inputs.iter().map(|(name, _)| name.clone()).collect::<Vec<_>>();
+    let names = series.points.first().map(names_of).unwrap_or_default();
+    let names = if series.points.iter().all(|point| names_of(point) == names) { names } else { Vec::new() };
     let points: Vec<Value> =
         series.points.iter().enumerate().map(|(index, point)| self::point(series, index, point, bound)).collect();
     let drawn: Vec<Value> =
@@ -183,8 +192,8 @@ fn series(series: &Series, bound: f64) -> Value {
         drawn.map(|(index, _)| index).position(|index| index == wanted).unwrap_or(0)
     };
     context! {
-        wide => svg(chart::WIDE),
-        narrow => svg(chart::NARROW),
+        charts,
+        names,
         rows => points.iter().take(MOST_POINTS).cloned().collect::<Vec<_>>(),
         more => points.len().saturating_sub(MOST_POINTS),
         count => points.len(),
@@ -223,7 +232,7 @@ fn file(number: usize, text: &Text) -> Value {
     }
     parts.push(context! { rows => rows(at..text.rows.len()) });
     let short = text.name.rsplit('/').next().unwrap_or(&text.name);
-    context! { number, name => &text.name, short, stages => &text.stages, has_causes => text.has_causes, parts }
+    context! { number, name => Value::from_safe_string(words::path(&text.name)), short, stages => &text.stages, has_causes => text.has_causes, parts }
 }
 
 fn row(row: &Row) -> Value {
@@ -239,7 +248,7 @@ fn row(row: &Row) -> Value {
 
 /// The width of a bar: a share of 24 bits.
 fn bar(bits: f64) -> String {
-    format!("{:.1}", (bits / 24.0 * 100.0).clamp(0.0, 100.0))
+    format!("{:.3}", (bits / 24.0).clamp(0.0, 1.0))
 }
 
 /// How hot a number of lost bits is, from 0 to 4.

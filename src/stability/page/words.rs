@@ -4,6 +4,7 @@
 
 use super::super::{Findings, Stability};
 use crate::report::{grouped, scientific};
+use minijinja::HtmlEscape;
 
 /// A figure with three digits: plain from 0.01 to 10,000, with a power of ten otherwise.
 pub(super) fn number(value: f64) -> String {
@@ -29,14 +30,30 @@ pub(super) fn channel(value: Option<f64>) -> String {
     }
 }
 
-/// The value of an input, with all digits.
+/// The value of an input, with six digits.
 pub(super) fn value(value: f64) -> String {
-    if value == 0.0 || (1e-4..1e7).contains(&value.abs()) { format!("{value}") } else { format!("{value:e}") }
+    let rounded = format!("{value:.5e}").parse::<f64>().unwrap_or(value);
+    if rounded == 0.0 || (1e-4..1e7).contains(&rounded.abs()) { format!("{rounded}") } else { format!("{rounded:e}") }
 }
 
 /// Several channels.
 pub(super) fn channels(values: &[Option<f64>]) -> String {
     values.iter().copied().map(channel).collect::<Vec<_>>().join(", ")
+}
+
+/// A path as HTML, which may break after each folder.
+pub(super) fn path(name: &str) -> String {
+    let parts: Vec<String> = name.split('/').map(|part| HtmlEscape(part).to_string()).collect();
+    parts.join("/<wbr>")
+}
+
+/// A help text as HTML: what stands between backticks is code.
+pub(super) fn help(text: &str) -> String {
+    let escaped = |part: &str| HtmlEscape(part).to_string();
+    let parts = text.split('`').enumerate();
+    parts
+        .map(|(at, part)| if at % 2 == 1 { format!("<code>{}</code>", escaped(part)) } else { escaped(part) })
+        .collect()
 }
 
 /// A count of things.
@@ -47,7 +64,6 @@ pub(super) fn count(count: u64, one: &str, many: &str) -> String {
 /// How often the bound goes into an error, or the other way round.
 fn against(error: f64, bound: f64) -> String {
     match error / bound {
-        0.0 => "it is 0".to_owned(),
         ratio if ratio > 1.0 => format!("{} times the accepted {}", number(rounded(ratio)), number(bound)),
         ratio => format!("{} of the accepted {}", percent(ratio), number(bound)),
     }
@@ -69,12 +85,17 @@ fn percent(ratio: f64) -> String {
 /// The verdict with its figures, in a sentence or two.
 pub(super) fn verdict(findings: &Findings, verdict: Stability, bound: f64, pixels: u64) -> String {
     let picture = &findings.picture;
-    let error = format!(
-        "the largest error is {} ({}), the root mean square {}",
-        number(picture.max_abs),
-        against(picture.max_abs, bound),
-        number(picture.rmse)
-    );
+    let error = match picture.max_abs {
+        0.0 if pixels > 0 => "where the picture is finite, it has no error".to_owned(),
+        0.0 => "it has no error".to_owned(),
+        error => format!(
+            "the largest {}error is {} ({}), the root mean square {}",
+            if pixels > 0 { "finite " } else { "" },
+            number(error),
+            against(error, bound),
+            number(picture.rmse)
+        ),
+    };
     let finite = match (pixels, findings.non_finite) {
         (0, 0) => "every result is finite".to_owned(),
         (0, births) => {
@@ -94,7 +115,7 @@ pub(super) fn verdict(findings: &Findings, verdict: Stability, bound: f64, pixel
 
 #[cfg(test)]
 mod tests {
-    use super::{against, channel, number};
+    use super::{against, channel, help, number, path, value};
 
     #[test]
     fn figures_have_three_digits() {
@@ -112,6 +133,9 @@ mod tests {
         }
         assert_eq!(channel(Some(1e-7)), "1.00000e-7");
         assert_eq!(channel(Some(-0.25)), "-0.250000");
+        assert_eq!([0.1 + 0.2, 1e300 / 3.0, -20.0, 0.0].map(value), ["0.3", "3.33333e299", "-20", "0"]);
+        assert_eq!(help("a < `b & c`"), "a &lt; <code>b &amp; c</code>");
+        assert_eq!(path("a/<b>"), "a/<wbr>&lt;b&gt;");
         assert_eq!(against(2.0, 1.0), "2 times the accepted 1");
     }
 }
