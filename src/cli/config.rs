@@ -6,10 +6,15 @@
 //! warn = []
 //! deny = ["warnings"]
 //! exclude = ["third_party", "*.generated.frag"]
+//!
+//! [stability.bounds]
+//! "scenes/far/*.toml" = 0.01
+//! "*.toml" = 0.001
 //! ```
 //!
 //! `exclude` names what a search of a folder passes over, by the patterns of `.gitignore`, relative to the file's folder. It may
-//! also stand above all tables.
+//! also stand above all tables. `[stability.bounds]` states the accepted error of scenes by such patterns; the last one that
+//! fits counts, in the order of the file.
 //!
 //! *Holds:* only the nearest file counts; a level on the command line takes precedence.
 
@@ -35,6 +40,15 @@ struct Config {
     exclude: Vec<Spanned<String>>,
     #[serde(default)]
     lint: LintTable,
+    #[serde(default)]
+    stability: StabilityTable,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct StabilityTable {
+    #[serde(default)]
+    bounds: BTreeMap<String, Spanned<f64>>,
 }
 
 #[derive(Default, Deserialize)]
@@ -67,6 +81,25 @@ pub(super) fn excluded(folder: &Path) -> Option<Gitignore> {
         let _ = patterns.add_line(None, pattern.get_ref());
     }
     patterns.build().ok()
+}
+
+/// The accepted error of a scene by the nearest configuration.
+pub(super) fn stability_bound(scene: &Path) -> Option<f64> {
+    let folder = scene.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let path = nearest(folder)?;
+    let text = files::read(&path.to_string_lossy(), &path).ok()?;
+    let config: Config = toml::from_str(&String::from_utf8_lossy(&text)).ok()?;
+    let root = path.parent()?;
+    let absolute = std::path::absolute(scene).ok()?;
+    let fits = |pattern: &str| {
+        let mut patterns = GitignoreBuilder::new(root);
+        patterns.add_line(None, pattern).ok()?;
+        let patterns = patterns.build().ok()?;
+        Some(patterns.matched(&absolute, false).is_ignore())
+    };
+    let bounds = config.stability.bounds.iter().filter(|(pattern, _)| fits(pattern).unwrap_or(false));
+    let last = bounds.max_by_key(|(_, bound)| bound.span().start);
+    last.map(|(_, bound)| *bound.get_ref()).filter(|bound| *bound > 0.0)
 }
 
 /// The configurations of all folders so far, completed by the levels of the command line.
@@ -128,6 +161,9 @@ fn parse(text: &str, name: &str, sources: &mut SourceMap, levels: &mut Levels) -
         if let Err(error) = GitignoreBuilder::new("").add_line(None, pattern.get_ref()) {
             diagnostics.push(Diagnostic::new(&BAD_CONFIG, at(pattern.span()), format!("not a pattern: {error}")));
         }
+    }
+    for bound in config.stability.bounds.values().filter(|bound| !(*bound.get_ref() > 0.0 && bound.get_ref().is_finite())) {
+        diagnostics.push(Diagnostic::new(&BAD_CONFIG, at(bound.span()), "a bound is a positive number"));
     }
     for (level, keys) in lists {
         for key in keys {

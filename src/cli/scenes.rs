@@ -13,6 +13,8 @@ use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::scenes::NOTHING_COVERED;
 use glisten_front::source::{SourceMap, Span};
 use glisten_gpu::{Error, Gpu, Via};
+use glisten_scene::{FileError, FileSource};
+use std::cell::Cell;
 use std::sync::mpsc::{self, RecvTimeoutError};
 use std::time::Duration;
 
@@ -85,6 +87,14 @@ impl Read<'_> {
         specialize_scene_by(contract, &self.scene, self.sources(), &[]).scene
     }
 
+    /// The scene at `path` with another text for one of its files.
+    pub(super) fn reloaded(&self, path: &str, file: &str, text: &str) -> Option<Scene> {
+        let files = Changed { file, text, was_read: Cell::new(false) };
+        let loaded = guard::guarded(|| scene::load(path, &files, self.session.compiler()));
+        // The text of an include comes from elsewhere.
+        loaded.ok()?.scene.filter(|_| files.was_read.get())
+    }
+
     /// The texts of the scene and its shaders.
     pub(super) fn sources(&self) -> &SourceMap {
         &self.batch.sources
@@ -123,6 +133,23 @@ impl Read<'_> {
             "look for triangles without area, a mesh outside the view, culled faces, a depth test that never passes, \
              or a `discard` that always runs",
         )
+    }
+}
+
+/// The files of the disk, but for one that has another text.
+struct Changed<'a> {
+    file: &'a str,
+    text: &'a str,
+    was_read: Cell<bool>,
+}
+
+impl FileSource for Changed<'_> {
+    fn read(&self, path: &str) -> Result<Vec<u8>, FileError> {
+        if path == self.file {
+            self.was_read.set(true);
+            return Ok(self.text.as_bytes().to_vec());
+        }
+        DiskFiles.read(path)
     }
 }
 

@@ -3,6 +3,7 @@
 mod page;
 
 use super::args::{LevelArgs, SourceArgs};
+use super::config;
 use super::console::Console;
 use super::exit::{Exit, Failure, Outcome};
 use super::files;
@@ -11,11 +12,13 @@ use super::pictures::Target;
 use super::progress::Progress;
 use super::scenes::{MachineArgs, Read, SceneArgs};
 use crate::stability::settings::Settings;
+use crate::stability::stiff::{self, Worst};
 use crate::stability::sweep::{self, Parameter, Sweep, SweepPoint};
 use crate::stability::{BOUND, ExamineOptions, Examination, Findings, Stability, find, heat};
 use clap::{Args, ValueEnum};
-use glisten_front::diagnostic::{Diagnostic, write};
-use glisten_scene::Scene;
+use glisten_front::diagnostic::{self, Diagnostic};
+use glisten_front::hir::Stage;
+use glisten_scene::{Scene, ShaderFiles, write};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
@@ -28,6 +31,13 @@ pub(super) struct StabilityArgs {
     /// Draw with values of a uniform from LOW to HIGH, and examine the worst (repeatable: all combinations)
     #[arg(long = "sweep", value_name = "NAME=LOW..HIGH[:N]", value_parser = sweep::parse)]
     sweeps: Vec<Sweep>,
+    /// Search for the worst inputs: stiff and extreme values of uniforms and attributes, within `[stability.range]` where the
+    /// scene states it
+    #[arg(long, conflicts_with = "sweeps")]
+    stiff: bool,
+    /// Write the scene with the worst inputs that --stiff or --sweep found, with its shaders next to it
+    #[arg(long, value_name = "FILE.toml")]
+    worst: Option<PathBuf>,
     /// The largest error of the picture that is accepted (default: that of the scene, or 1/1024)
     #[arg(long, value_name = "X", value_parser = parse_bound)]
     bound: Option<f64>,
@@ -83,6 +93,8 @@ struct Result1 {
     bound: f64,
     #[serde(skip_serializing_if = "Option::is_none")]
     sweep: Option<SweepResult>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    stiff: Option<Worst>,
     /// The scene that was examined: the worst one.
     #[serde(skip)]
     examined_scene: Scene,
@@ -124,6 +136,9 @@ pub(super) fn run(args: &StabilityArgs, console: &Console) -> Outcome {
     if let Some(path) = &args.heat {
         write_heat(path, &done)?;
     }
+    if let Some(path) = &args.worst {
+        write_worst(path, &done)?;
+    }
     if let Some(folder) = &args.output {
         page::write(folder, args, &done, console)?;
     }
@@ -142,25 +157,29 @@ fn examined(args: &StabilityArgs, name: &str, read: &Read<'_>, console: &Console
         Ok(settings) => settings,
         Err(diagnostic) => return Ok(Err(vec![*diagnostic])),
     };
-    let bound = args.bound.or(settings.bound).unwrap_or(BOUND);
+    let of_project = || config::stability_bound(Path::new(name));
+    let bound = args.bound.or(settings.bound).or_else(of_project).unwrap_or(BOUND);
     let sweeps = if args.sweeps.is_empty() { &settings.sweeps } else { &args.sweeps };
     let progress = Progress::new(console, 0);
     progress.say(name);
-    let (scene, sweep) = match swept(sweeps, &read.scene, &progress)? {
-        Ok(swept) => swept,
-        Err(found) => return Ok(Err(found)),
-    };
-    let mut told = 0;
-    let mut step = |done: usize, of: usize| {
-        progress.extend_to(of);
-        if done > told {
-            told = done;
-            progress.step();
+    let (scene, sweep, stiff) = if args.stiff {
+        let found = stiff::search(&read.scene, &settings.ranges, &mut |done, most| progress.reach(done, most));
+        match found {
+            Ok(worst) => (worst.scene.clone(), None, Some(worst)),
+            Err(found) => return Ok(Err(found)),
+        }
+    } else {
+        match swept(sweeps, &read.scene, &progress)? {
+            Ok((scene, sweep)) => (scene, sweep, None),
+            Err(found) => return Ok(Err(found)),
         }
     };
+    let mut step = |done: usize, of: usize| progress.reach(done, of);
     let mut options = ExamineOptions { bound, all: args.all, progress: &mut step };
-    Ok(find(&scene, sources, &mut options).map(|(findings, examined)| {
-        let result = Result1 { scene: name.to_owned(), findings, bound, sweep, examined_scene: scene.clone() };
+    let reload = |file: &str, text: &str| read.reloaded(name, file, text);
+    Ok(find(&scene, sources, &mut options, Some(&reload)).map(|(findings, examined)| {
+        let result =
+            Result1 { scene: name.to_owned(), findings, bound, sweep, stiff, examined_scene: scene.clone() };
         (result, examined)
     }))
 }
@@ -201,8 +220,8 @@ fn swept(
 fn tell(args: &StabilityArgs, done: &[Done<'_>], console: &Console) -> Result<(), Failure> {
     let text = match args.format {
         StabilityFormat::Json => json_of(args, done),
-        StabilityFormat::Sarif => write::sarif(&findings(done)),
-        StabilityFormat::Github => write::github(&findings(done)),
+        StabilityFormat::Sarif => diagnostic::write::sarif(&findings(done)),
+        StabilityFormat::Github => diagnostic::write::github(&findings(done)),
         StabilityFormat::Human => done.iter().map(|done| human(done, console)).collect(),
     };
     console.output(&text)
@@ -220,16 +239,16 @@ fn json(value: &impl Serialize) -> String {
     serde_json::to_string_pretty(value).unwrap_or_default() + "\n"
 }
 
-fn findings(done: &[Done<'_>]) -> Vec<write::Finding> {
+fn findings(done: &[Done<'_>]) -> Vec<diagnostic::write::Finding> {
     let each = done.iter().flat_map(|done| {
         let causes = done.result.findings.causes.iter().map(|cause| &cause.diagnostic);
-        write::findings(done.read.sources(), causes)
+        diagnostic::write::findings(done.read.sources(), causes)
     });
     each.collect()
 }
 
 fn human(done: &Done<'_>, console: &Console) -> String {
-    let Result1 { scene, findings, bound, sweep, .. } = &done.result;
+    let Result1 { scene, findings, bound, sweep, stiff, .. } = &done.result;
     let picture = &findings.picture;
     let mut text = format!("{scene}: {}\n", findings.verdict);
     let mut row = |name: &str, value: String| text.push_str(&format!("  {name:18} {value}\n"));
@@ -244,12 +263,16 @@ fn human(done: &Done<'_>, console: &Console) -> String {
         row("  f32", color(worst.f32));
         row("  exact", color(worst.exact));
         for (name, values) in &worst.inputs {
-            let values: Vec<String> = values
-                .iter()
-                .map(|value| value.map_or_else(|| "not finite".to_owned(), |value| format!("{value:.6}")))
-                .collect();
+            let values: Vec<String> =
+                values.iter().map(|value| value.map_or_else(|| "not finite".to_owned(), |value| format!("{value:.6}"))).collect();
             row(&format!("  {name}"), values.join(", "));
         }
+    }
+    if let Some(stiff) = stiff {
+        let values: Vec<String> = stiff.changed.iter().map(|it| format!("{} = {}", it.name, it.value)).collect();
+        let values = if values.is_empty() { "the scene's own".to_owned() } else { values.join(", ") };
+        row("worst inputs", format!("{values} ({} inputs varied, {} pictures drawn)", stiff.inputs, stiff.drawings));
+        row("before", format!("{:.2e}", stiff.max_abs_before));
     }
     if let Some(sweep) = sweep {
         let values: Vec<String> = sweep.worst.values.iter().map(|(name, value)| format!("{name} = {value}")).collect();
@@ -264,9 +287,28 @@ fn human(done: &Done<'_>, console: &Console) -> String {
         }
         text.push('\n');
         let causes = findings.causes.iter().map(|cause| &cause.diagnostic);
-        text.push_str(&write::human(done.read.sources(), causes, console.colors_output()));
+        text.push_str(&diagnostic::write::human(done.read.sources(), causes, console.colors_output()));
     }
     text
+}
+
+/// Writes the scene that was examined, with the texts of its shaders.
+fn write_worst(path: &Path, done: &[Done<'_>]) -> Result<(), Failure> {
+    let [done] = done else { return Err(Failure::usage("--worst takes one scene").help("name a single scene file")) };
+    let scene = &done.result.examined_scene;
+    let stem = path.file_stem().map_or_else(|| "worst".to_owned(), |stem| stem.to_string_lossy().into_owned());
+    let mut shaders = Vec::new();
+    for (number, draw) in scene.draws.iter().enumerate() {
+        let name = |stage: &str| if number == 0 { format!("{stem}.{stage}") } else { format!("{stem}_{number}.{stage}") };
+        let files = ShaderFiles { vertex: name("vert"), fragment: name("frag") };
+        for (stage, file) in [(Stage::Vertex, &files.vertex), (Stage::Fragment, &files.fragment)] {
+            let text = draw.program.stage(stage).and_then(|shader| shader.texts.first());
+            let text = text.map_or("", |text| text);
+            files::write(&path.with_file_name(file), text.as_bytes())?;
+        }
+        shaders.push(files);
+    }
+    files::write(path, write(scene, &shaders).as_bytes())
 }
 
 fn write_heat(path: &Path, done: &[Done<'_>]) -> Result<(), Failure> {

@@ -6,13 +6,11 @@
 use super::patterns::{self, Found, Pattern};
 use glisten_front::builtin::BuiltinFunction;
 use glisten_front::hir::{ExprKind, Shader};
-use glisten_front::source::SourceMap;
 use glisten_reference::stability::{Cause, CauseKind};
 use glisten_scene::Scene;
 
 /// The help for a cause.
-pub(super) fn advice(scene: &Scene, sources: &SourceMap, cause: &Cause) -> String {
-    let _ = sources;
+pub(super) fn advice(scene: &Scene, cause: &Cause) -> String {
     if cause.ill_posed && !cause.equality {
         return ILL_POSED.to_owned();
     }

@@ -4,12 +4,16 @@
 //! cause an expression, and one a line unless kinds differ; causes are sorted by harm.
 
 use super::advice::advice;
+use super::rewrite::{Reload, Tried, tried};
 use glisten_front::diagnostic::{Diagnostic, codes, write};
 use glisten_front::source::SourceMap;
 use glisten_reference::stability::{Cause, CauseKind, Examination, ExamineOptions, examine, inputs_at};
 use glisten_scene::Scene;
 use serde::Serialize;
 use std::collections::BTreeMap;
+
+/// The number of causes for which a rewriting is tried.
+const MOST_REWRITINGS: usize = 4;
 
 /// What was found in a scene. The keys are those of the contract.
 #[derive(Clone, Debug, Serialize)]
@@ -98,7 +102,8 @@ pub struct CauseFound {
     pub diagnostic: Diagnostic,
 }
 
-/// Examines a scene and places what is found.
+/// Examines a scene and places what is found. With `reload`, rewritings that are mechanical are tried, and the help texts say
+/// what comes of them.
 ///
 /// # Errors
 /// The errors of [`examine`].
@@ -106,10 +111,11 @@ pub fn find(
     scene: &Scene,
     sources: &SourceMap,
     options: &mut ExamineOptions<'_>,
+    reload: Option<Reload<'_>>,
 ) -> Result<(Findings, Examination), Vec<Diagnostic>> {
     let examined = examine(scene, options)?;
     let picture = figures(scene, &examined)?;
-    let causes = placed(scene, sources, &examined.causes);
+    let causes = placed(scene, sources, &examined, reload);
     let verdict = examined.verdict.name();
     Ok((Findings { verdict, picture, non_finite: examined.non_finite, causes }, examined))
 }
@@ -144,10 +150,17 @@ fn finite(value: f64) -> Option<f64> {
 }
 
 /// The causes at their places, without those that repeat a line and a kind.
-fn placed(scene: &Scene, sources: &SourceMap, causes: &[Cause]) -> Vec<CauseFound> {
+fn placed(scene: &Scene, sources: &SourceMap, examined: &Examination, reload: Option<Reload<'_>>) -> Vec<CauseFound> {
+    let errors = &examined.errors;
+    let worst = errors.worst().map_or(0.0, |(_, error)| error);
+    let before = if errors.not_finite() > 0 { f64::INFINITY } else { worst };
     let mut list: Vec<CauseFound> = Vec::new();
-    for cause in causes {
-        let help = advice(scene, sources, cause);
+    for cause in &examined.causes {
+        let tried = match reload {
+            Some(reload) if list.len() < MOST_REWRITINGS && !cause.ill_posed => tried(scene, sources, cause, reload),
+            _ => None,
+        };
+        let help = advice(scene, cause) + &tried.map_or_else(String::new, |tried| outcome(&tried, before));
         let diagnostic = diagnostic(cause, &help);
         let Some(finding) = write::findings(sources, [&diagnostic]).pop() else { continue };
         let region = finding.region;
@@ -178,6 +191,19 @@ fn placed(scene: &Scene, sources: &SourceMap, causes: &[Cause]) -> Vec<CauseFoun
         });
     }
     list
+}
+
+/// What came of a rewriting, beside the error before.
+fn outcome(Tried { text, error }: &Tried, before: f64) -> String {
+    let text: Vec<&str> = text.split_whitespace().collect();
+    let text = text.join(" ");
+    match *error {
+        error if error.is_infinite() => format!(". Tried: `{text}` alone leaves pixels that are not finite"),
+        error if error > 0.5 * before => {
+            format!(". Tried: `{text}` alone does not help (error {error:.1e}), because its operands have lost digits, too")
+        }
+        error => format!(". Tried: with `{text}`, the error of the picture is {error:.1e}"),
+    }
 }
 
 fn tenths(value: f64) -> f64 {

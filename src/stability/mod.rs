@@ -13,12 +13,15 @@ mod heat;
 #[cfg(feature = "cli")]
 pub mod page;
 mod patterns;
+mod rewrite;
 pub mod settings;
+pub mod stiff;
 pub mod sweep;
 
+pub use heat::heat;
+pub use rewrite::Reload;
 pub use findings::{CauseFound, Findings, PictureFigures, Spot, WorstPixel, find};
 pub use glisten_reference::stability::{
-    BOUND, CAUSE_BITS, Cause, CauseKind, ErrorMap, Examination, ExamineOptions, Pair, SpanError, Stability, Trace,
-    examine, inputs_at, pictures_of, trace,
+    BOUND, CAUSE_BITS, Cause, CauseKind, ErrorMap, ExamineOptions, Examination, Pair, SpanError, Stability, Trace, examine,
+    inputs_at, pictures_of, trace,
 };
-pub use heat::heat;

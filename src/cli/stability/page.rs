@@ -45,9 +45,13 @@ fn undrawn(scene: &str, found: &[Diagnostic]) -> Failure {
     Failure::new(Exit::Content, format!("`{scene}` cannot be drawn again for the page: {why}"))
 }
 
-/// The pictures of a sweep.
+/// The pictures of a sweep or a search.
 fn series(done: &Done<'_>) -> Result<Option<Series>, Vec<Diagnostic>> {
     let scene = &done.read.scene;
+    if let Some(stiff) = &done.result.stiff {
+        let changed = stiff.changed.iter().map(|one| (one.name.clone(), one.value.clone()));
+        return Series::of_search(scene, &stiff.scene, changed.collect(), stiff.drawings).map(Some);
+    }
     let Some(sweep) = &done.result.sweep else { return Ok(None) };
     let names = sweep.worst.values.keys();
     let parameters: Vec<Parameter> = names.filter_map(|name| Parameter::find(scene, name).ok()).collect();
@@ -65,7 +69,7 @@ fn command(args: &StabilityArgs, done: &Done<'_>) -> String {
     if let Some(bound) = args.bound {
         words.push(format!("--bound {bound:?}"));
     }
-    for (set, word) in [(args.all, "--all"), (args.sources.strict, "--strict")] {
+    for (set, word) in [(args.stiff, "--stiff"), (args.all, "--all"), (args.sources.strict, "--strict")] {
         words.extend(set.then(|| word.to_owned()));
     }
     for (name, value) in &args.sources.defines {

@@ -203,7 +203,8 @@ pub(super) fn title(point: &Point) -> String {
         0 => String::new(),
         count => format!(", {}", super::words::count(count, "pixel not finite", "pixels not finite")),
     };
-    format!("{}: largest error {}{lost}", inputs.join(", "), number(point.max_abs))
+    let inputs = if inputs.is_empty() { "as it is".to_owned() } else { inputs.join(", ") };
+    format!("{inputs}: largest error {}{lost}", number(point.max_abs))
 }
 
 fn escape(text: &str) -> String {

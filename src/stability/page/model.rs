@@ -197,8 +197,9 @@ fn series(series: &Series, bound: f64) -> Value {
         rows => points.iter().take(MOST_POINTS).cloned().collect::<Vec<_>>(),
         more => points.len().saturating_sub(MOST_POINTS),
         count => points.len(),
+        drawings => series.drawings,
+        beside => series.beside,
         worst => position(series.worst),
-        worst_point => points.get(series.worst),
         sound_point => points.get(series.soundest).filter(|_| series.worst != series.soundest),
         drawn,
     }

@@ -38,6 +38,10 @@ pub struct Series {
     pub worst: usize,
     /// The one with the least error.
     pub soundest: usize,
+    /// The number of pictures that were drawn to find the worst.
+    pub drawings: usize,
+    /// What the page calls the one with the least error.
+    pub(super) beside: &'static str,
 }
 
 impl Series {
@@ -56,7 +60,7 @@ impl Series {
             let is_worse = points.get(best).zip(points.get(at)).is_some_and(|(best, it)| best.is_worse_than(it));
             if is_worse { at } else { best }
         });
-        let soundest = soundest.unwrap_or(0);
+        let (soundest, drawings) = (soundest.unwrap_or(0), points.len());
         let shown = chosen(points.len(), [position, soundest]);
         let drawn = points.iter().enumerate().map(|(at, point)| {
             let mut changed = scene.clone();
@@ -71,25 +75,30 @@ impl Series {
             let (max_abs, non_finite_pixels) = (point.max_abs, point.non_finite_pixels);
             Ok(Point { inputs, at: at_value, max_abs, non_finite_pixels, pictures })
         });
-        Ok(Self { points: drawn.collect::<Result<_, Vec<Diagnostic>>>()?, worst: position, soundest })
+        Ok(Self { points: drawn.collect::<Result<_, Vec<Diagnostic>>>()?, worst: position, soundest, drawings, beside: "The soundest" })
     }
 
     /// A scene as it is, and the worst one that a search found, with the inputs that differ.
     ///
     /// # Errors
     /// The errors of drawing.
-    pub fn of_search(own: &Scene, worst: &Scene, changed: Vec<(String, String)>) -> Result<Self, Vec<Diagnostic>> {
+    pub fn of_search(
+        own: &Scene,
+        worst: &Scene,
+        changed: Vec<(String, String)>,
+        drawings: usize,
+    ) -> Result<Self, Vec<Diagnostic>> {
         let point = |scene: &Scene, inputs: Vec<(String, String)>| -> Result<Point, Vec<Diagnostic>> {
             let pair = pictures_of(scene)?;
             let max_abs = pair.errors.worst().map_or(0.0, |(_, error)| error);
             let non_finite_pixels = pair.errors.not_finite();
             Ok(Point { inputs, at: None, max_abs, non_finite_pixels, pictures: Some(shrunk(pair)) })
         };
-        let unchanged = vec![("all inputs".to_owned(), "as the scene has them".to_owned())];
-        if changed.is_empty() {
-            return Ok(Self { points: vec![point(own, unchanged)?], worst: 0, soundest: 0 });
+        let mut points = vec![point(own, Vec::new())?];
+        if !changed.is_empty() {
+            points.push(point(worst, changed)?);
         }
-        Ok(Self { points: vec![point(own, unchanged)?, point(worst, changed)?], worst: 1, soundest: 0 })
+        Ok(Self { worst: points.len() - 1, points, soundest: 0, drawings, beside: "The scene\u{2019}s own inputs" })
     }
 }
 

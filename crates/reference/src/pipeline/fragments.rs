@@ -113,7 +113,7 @@ impl<D: Domain> Shading<'_, D> {
                 self.jitter_inputs(seed, batch, machine);
             }
             if let Some(probe) = self.probe {
-                self.examine(probe, batch, machine);
+                self.examine(probe, batch);
             }
             machine.run(Mask(batch.live), batch.helpers());
             self.write_lanes(bin, batch, machine);
@@ -134,14 +134,16 @@ impl<D: Domain> Shading<'_, D> {
     }
 
     /// Notes the varyings of a fragment, if the batch has it.
-    fn examine(&self, probe: &Probe, batch: &Batch<'_, D>, machine: &mut Machine<D>) {
+    fn examine(&self, probe: &Probe, batch: &Batch<'_, D>) {
         let [x, y] = probe.pixel.map(|at| f64::from(at) + 0.5);
         let places = &batch.fragments.places;
         let found = Mask(batch.live).lanes().filter(|lane| places.x[*lane] == x && places.y[*lane] == y).last();
         let Some(lane) = found else { return };
-        let values = self.plan.floats.iter().filter_map(|varying| {
-            let (id, flat) = varying.to;
-            Some((id, flat, machine.float_input(id, flat)?.get(lane).second()))
+        let Some((run, _)) = batch.runs().find(|(_, lanes)| lanes.contains(&lane)) else { return };
+        let values = self.plan.floats.iter().enumerate().map(|(index, varying)| {
+            let mut number = [D::Float::default()];
+            run.source.varying(&batch.fragments, lane..lane + 1, (index, varying.interpolation), &mut number);
+            (varying.to.0, varying.to.1, number[0].second())
         });
         *probe.found.lock().unwrap_or_else(PoisonError::into_inner) = values.collect();
     }

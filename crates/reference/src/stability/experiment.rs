@@ -52,6 +52,13 @@ struct Outcome {
     gains: Vec<f64>,
 }
 
+impl Outcome {
+    /// The number of pixels that become finite.
+    fn cured(&self) -> u64 {
+        self.gains.iter().filter(|gain| gain.is_infinite()).count() as u64
+    }
+}
+
 /// An expression that may be a cause.
 #[derive(Clone, Copy)]
 struct Candidate {
@@ -261,13 +268,16 @@ fn try_candidate(
     let index = if outcome.harm >= least { outcome.index } else { bench.errors.first_not_finite().unwrap_or(0) };
     let harm = (outcome.harm.is_finite() && !in_both).then(|| significant(outcome.harm));
     let equality = candidate.act == Act::Compare { equality: true };
-    let found = Found { kind, harm, index, ill_posed, equality };
+    let cured = outcome.cured();
+    let found = Found { kind, cured, harm, index, ill_posed, equality };
     Ok(Some(found.cause(bench, (stage, span), tally)))
 }
 
 /// What experiments say of an expression.
 struct Found {
     kind: CauseKind,
+    /// The number of pixels that become finite.
+    cured: u64,
     harm: Option<f64>,
     index: usize,
     ill_posed: bool,
@@ -276,7 +286,7 @@ struct Found {
 
 impl Found {
     fn cause(self, bench: &Bench<'_>, (stage, span): (Stage, Span), tally: &Tally) -> Cause {
-        let Self { kind, harm, index, ill_posed, equality } = self;
+        let Self { kind, cured, harm, index, ill_posed, equality } = self;
         Cause {
             stage,
             span,
@@ -285,7 +295,7 @@ impl Found {
             lost_bits: tally.lost_bits,
             first_lost_bits: if kind == CauseKind::Accumulation { SIGNIFICAND } else { tally.first_lost_bits },
             condition: tally.condition,
-            non_finite: tally.non_finite(),
+            non_finite: tally.non_finite().max(cured),
             non_finite_in_exact: tally.births_in_both,
             disagreements: tally.disagreements,
             at: bench.errors.place(index),
@@ -352,7 +362,7 @@ fn roundings(
         let repeats = loops.get(&stage).is_some_and(|loops| loops.inside.contains(&span));
         let kind = if repeats { CauseKind::Accumulation } else { CauseKind::Rounding };
         let ill_posed = repeats && is_ill_posed(&own, bench.jittered(jitter)?, options.least());
-        let of = Found { kind, harm: Some(significant(own.harm)), index: own.index, ill_posed, equality: false };
+        let of = Found { kind, cured: 0, harm: Some(significant(own.harm)), index: own.index, ill_posed, equality: false };
         found.push(of.cause(bench, (stage, span), &tally));
     }
     if found.is_empty() {
@@ -381,7 +391,7 @@ fn coarse_varying(
     let of_vertices = tallies.iter().filter(|((stage, span, _), _)| *stage == Stage::Vertex && span.is_known());
     let coarsest = of_vertices.max_by(|(_, a), (_, b)| a.added.total_cmp(&b.added));
     let harm = Some(significant(outcome.harm));
-    let found = Found { kind: CauseKind::Rounding, harm, index: outcome.index, ill_posed: false, equality: false };
+    let found = Found { kind: CauseKind::Rounding, cured: 0, harm, index: outcome.index, ill_posed: false, equality: false };
     Ok(Some(match coarsest.filter(|(_, tally)| tally.added > 0.0) {
         Some((&(stage, span, _), tally)) => found.cause(bench, (stage, span), tally),
         None => found.cause(bench, (Stage::Fragment, declared), &Tally::default()),

@@ -11,6 +11,7 @@ use crate::exec::{Event, Kind, Observer, Order, Values, What};
 use glisten_front::hir::Stage;
 use glisten_front::source::Span;
 use glisten_scene::compare::ulp_f32;
+use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -20,6 +21,9 @@ pub(super) const SIGNIFICAND: f64 = 24.0;
 
 /// Operands whose error is at most this many ULP have lost nothing yet.
 pub(super) const SOUND_ULPS: f64 = 8.0;
+
+/// The relative error up to which a result has lost less than [`CAUSE_BITS`]: 8 ULP at the end of a binade.
+const SOUND: f64 = 1.0 / (1u64 << 21) as f64;
 
 /// The square of a number above this is above the largest f32.
 const LARGEST_SQUARED: f64 = 1.8e19;
@@ -97,6 +101,22 @@ impl Tally {
         self.disagreements += other.disagreements;
         self.at_edge += other.at_edge;
         self.decisions += other.decisions;
+    }
+
+    /// Records `count` equal results that are as good as f32 has them; `false` if this one needs [`Self::note`].
+    #[inline(always)]
+    fn note_sound(&mut self, result: ShadowFloat, count: u64) -> bool {
+        let error = (result.single - result.wide).abs();
+        // A comparison with a NaN is false.
+        if error <= SOUND * result.single.abs() {
+            self.evaluations += count;
+            self.finite += count;
+            self.error = self.error.max(error);
+            self.error_sum += error * count as f64;
+            self.added = self.added.max((result.single - result.exact).abs());
+            return true;
+        }
+        false
     }
 
     /// Records one scalar result of operands in one lane.
@@ -232,7 +252,7 @@ impl Collected {
 /// The tallies of one piece of the drawing.
 #[derive(Debug, Default)]
 pub(super) struct Recorder {
-    tallies: BTreeMap<(Span, Act), Tally>,
+    tallies: FxHashMap<(Span, Act), Tally>,
     output: f64,
     shared: Option<Arc<Collected>>,
 }
@@ -258,9 +278,21 @@ impl Observer<Shadow> for Recorder {
         match &event.what {
             What::Floats { kind, operands, results } => {
                 let tally = self.tallies.entry((event.span, Act::Float(*kind))).or_default();
-                for lane in event.lanes.lanes() {
-                    let operands = picked(operands, lane);
-                    results.iter().for_each(|values| tally.note(*kind, &operands, values.at(lane)));
+                let jumps = kind.jumps();
+                let n_lanes = u64::from(event.lanes.0.count_ones());
+                for values in *results {
+                    if let Values::One(result) = values
+                        && !jumps
+                        && tally.note_sound(*result, n_lanes)
+                    {
+                        continue;
+                    }
+                    for lane in event.lanes.lanes() {
+                        let result = values.at(lane);
+                        if jumps || !tally.note_sound(result, 1) {
+                            tally.note(*kind, &picked(operands, lane), result);
+                        }
+                    }
                 }
             }
             What::Answer { converts, equality, operands, answer } => {
