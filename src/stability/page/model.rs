@@ -49,6 +49,7 @@ pub(super) fn scene(number: usize, one: &SceneOnPage<'_>) -> Value {
         births => findings.non_finite,
         worst,
         pictures => pictures(&examined.single, &examined.exact, &heat::heat(examined, bound)),
+        is_clipped => is_clipped(&examined.exact),
         legend => legend(bound),
         is_stable => examined.verdict == Stability::Stable,
         causes,
@@ -62,6 +63,12 @@ type Picture = glisten_scene::picture::Picture;
 fn pictures(single: &Picture, exact: &Picture, heat: &Picture) -> Value {
     let uri = |picture| Value::from_safe_string(color_uri(picture));
     context! { width => exact.width, height => exact.height, single => uri(single), exact => uri(exact), heat => uri(heat) }
+}
+
+/// Whether the page shows less than the picture has: a screen ends at 1.
+fn is_clipped(picture: &Picture) -> bool {
+    let pixels = picture.attachments.first().map_or(&[][..], Vec::as_slice);
+    pixels.iter().any(|[r, g, b, _]| [r, g, b].into_iter().any(|channel| *channel > 1.0 || *channel < 0.0))
 }
 
 /// Where each line is on the page.

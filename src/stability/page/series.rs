@@ -75,7 +75,13 @@ impl Series {
             let (max_abs, non_finite_pixels) = (point.max_abs, point.non_finite_pixels);
             Ok(Point { inputs, at: at_value, max_abs, non_finite_pixels, pictures })
         });
-        Ok(Self { points: drawn.collect::<Result<_, Vec<Diagnostic>>>()?, worst: position, soundest, drawings, beside: "The soundest" })
+        Ok(Self {
+            points: drawn.collect::<Result<_, Vec<Diagnostic>>>()?,
+            worst: position,
+            soundest,
+            drawings,
+            beside: "The soundest",
+        })
     }
 
     /// A scene as it is, and the worst one that a search found, with the inputs that differ.
