@@ -7,10 +7,6 @@ use clap_complete::Shell;
 
 /// Write a completion script for a shell to standard output
 #[derive(Args, Debug)]
-#[command(
-    after_help = "Examples:\n  glisten completions bash > ~/.local/share/bash-completion/completions/glisten\n  \
-    glisten completions zsh > ~/.zfunc/_glisten\n  glisten completions fish > ~/.config/fish/completions/glisten.fish"
-)]
 pub(super) struct CompletionsArgs {
     /// The shell
     #[arg(value_enum)]

@@ -13,15 +13,18 @@ mod compile;
 mod completions;
 mod config;
 mod console;
+mod examples;
 mod exit;
 mod explain;
 mod files;
+mod fullscreen;
 mod gallery;
 mod guard;
 mod includes;
 mod inputs;
 mod library;
 mod lint;
+mod man;
 mod new_scene;
 mod opengl;
 mod optimize;
@@ -39,7 +42,7 @@ mod test;
 mod timed;
 mod verify;
 
-use clap::{Args, CommandFactory, Parser, Subcommand};
+use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 use console::{ColorChoice, Console};
 use exit::{Exit, Failure, Outcome};
 use std::ffi::OsString;
@@ -86,12 +89,14 @@ enum Command {
     Lib(library::LibArgs),
     NewScene(new_scene::NewSceneArgs),
     Completions(completions::CompletionsArgs),
+    Man(man::ManArgs),
 }
 
 /// Runs the program with these arguments, the first being its own name.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     let arguments: Vec<OsString> = arguments.into_iter().collect();
-    let cli = match Cli::try_parse_from(arguments) {
+    let parsed = examples::with_examples(Cli::command()).try_get_matches_from(arguments);
+    let cli = match parsed.and_then(|matches| Cli::from_arg_matches(&matches)) {
         Ok(cli) => cli,
         Err(error) => return usage(&error),
     };
@@ -129,6 +134,7 @@ fn dispatch(command: &Command, console: &Console) -> Outcome {
         Command::Lib(args) => library::run(args, console),
         Command::NewScene(args) => new_scene::run(args, console),
         Command::Completions(args) => completions::run(args, Cli::command(), console),
+        Command::Man(args) => man::run(args, examples::with_examples(Cli::command()), console),
     }
 }
 

@@ -1,12 +1,13 @@
 //! `glisten new-scene`: writes a scene for a program, with a line for everything that the program reads.
 //!
-//! *In:* a vertex and a fragment shader. *Out:* TOML that loads without a diagnostic: a triangle, or one that fills the screen
+//! *In:* a vertex and a fragment shader, or a fragment shader alone. *Out:* TOML that loads without a diagnostic: a triangle, or one that fills the screen
 //! if the program takes no attributes; every uniform and texture with its type and a neutral value.
 
 use super::args::{BindingArgs, LevelArgs, SourceArgs};
 use super::console::Console;
 use super::exit::{Exit, Failure, Outcome};
 use super::files;
+use super::fullscreen;
 use super::inputs::{Group, Input};
 use super::session::Session;
 use super::stages;
@@ -20,8 +21,8 @@ use std::path::{Path, PathBuf};
 /// Write a scene for a program, ready to be filled
 #[derive(Args, Debug)]
 pub(super) struct NewSceneArgs {
-    /// The vertex and the fragment shader
-    #[arg(num_args = 2, required = true, value_names = ["A.vert", "B.frag"])]
+    /// The vertex and the fragment shader; a fragment shader alone gets a vertex shader for a triangle that covers the window
+    #[arg(num_args = 1..=2, required = true, value_names = ["A.vert", "B.frag"])]
     files: Vec<String>,
     /// The scene file to create (default: standard output)
     #[arg(short, long, value_name = "SCENE.toml")]
@@ -41,13 +42,20 @@ pub(super) fn run(args: &NewSceneArgs, console: &Console) -> Outcome {
         let failure = Failure::usage(format!("`{}` exists already", output.display()));
         return Err(failure.help("name a new file, or remove the old one"));
     }
-    let inputs: Vec<Input> = args.files.iter().zip([Stage::Vertex, Stage::Fragment]).map(input).collect();
+    let mut session = Session::new(console, &args.sources, &BindingArgs::default(), &args.levels, 0)?;
+    let files = match args.files.as_slice() {
+        [fragment] => match with_vertex_shader(args, fragment, &mut session, console)? {
+            Ok(files) => files,
+            Err(exit) => return Ok(exit),
+        },
+        files => files.to_vec(),
+    };
+    let inputs: Vec<Input> = files.iter().zip([Stage::Vertex, Stage::Fragment]).map(input).collect();
     if let [vertex, fragment] = &inputs[..]
         && let (Some(Stage::Fragment), Some(Stage::Vertex)) = (told(vertex), told(fragment))
     {
         return Err(Failure::usage("the vertex shader comes first, then the fragment shader"));
     }
-    let mut session = Session::new(console, &args.sources, &BindingArgs::default(), &args.levels, 0)?;
     let name = inputs.first().map(Input::stem).unwrap_or_default();
     let units = session.compile(vec![Group { name, inputs }]);
     let exit = session.tell_units(&units, false)?;
@@ -55,7 +63,7 @@ pub(super) fn run(args: &NewSceneArgs, console: &Console) -> Outcome {
         return Ok(exit.max(Exit::Content));
     };
     let folder = args.output.as_deref().map(|output| output.parent().unwrap_or(Path::new("")));
-    let names: Vec<String> = args.files.iter().map(|file| relative(file, folder)).collect();
+    let names: Vec<String> = files.iter().map(|file| relative(file, folder)).collect();
     let text = scene(program, &names);
     match &args.output {
         Some(output) => {
@@ -65,6 +73,38 @@ pub(super) fn run(args: &NewSceneArgs, console: &Console) -> Outcome {
         None => console.output(&text)?,
     }
     Ok(exit)
+}
+
+/// Writes a vertex shader for a fragment shader that comes alone, and returns the names of both.
+fn with_vertex_shader(
+    args: &NewSceneArgs,
+    fragment: &str,
+    session: &mut Session<'_>,
+    console: &Console,
+) -> Result<Result<Vec<String>, Exit>, Failure> {
+    let input = input((&fragment.to_owned(), Stage::Fragment));
+    if told(&input).is_some_and(|stage| stage != Stage::Fragment) {
+        let failure = Failure::usage(format!("`{fragment}` is no fragment shader"));
+        return Err(failure.help("name the vertex and the fragment shader of the program"));
+    }
+    let Some(output) = &args.output else {
+        let failure = Failure::usage("a fragment shader alone needs a vertex shader, which is written next to the scene");
+        return Err(failure.help("add `-o SCENE.toml`, or name the vertex shader, too"));
+    };
+    let name = input.stem();
+    let vertex = output.with_file_name(format!("{name}_fullscreen.vert"));
+    if vertex.exists() {
+        return Err(Failure::usage(format!("`{}` exists already", vertex.display())).help("name it before the fragment shader"));
+    }
+    let units = session.compile(vec![Group { name, inputs: vec![input] }]);
+    let Some(program) = units.first().and_then(|unit| unit.sound_program()) else {
+        return Ok(Err(session.tell_units(&units, false)?.max(Exit::Content)));
+    };
+    let Some(shader) = program.stage(Stage::Fragment) else { return Ok(Err(Exit::Content)) };
+    let text = fullscreen::vertex_shader(&program.types, shader)?;
+    files::write(&vertex, text.as_bytes())?;
+    console.remark(&format!("wrote {}", vertex.display()));
+    Ok(Ok(vec![vertex.to_string_lossy().into_owned(), fragment.to_owned()]))
 }
 
 fn input((file, stage): (&String, Stage)) -> Input {

@@ -185,6 +185,9 @@ impl<'a> Session<'a> {
             && let Some(summary) = summary(&told.findings, self.dropped).or(self.clean.clone())
         {
             self.console.remark(&summary);
+            if let Some(error) = told.findings.iter().find(|finding| finding.severity == Severity::Error) {
+                self.console.remark(&format!("`glisten explain {}` tells more about the first error", error.code.id));
+            }
         }
         Ok(all.iter().map(|batch| Exit::of(&batch.diagnostics)).max().unwrap_or_default())
     }

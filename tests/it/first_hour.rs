@@ -618,3 +618,39 @@ fn bindings_have_the_errors_of_opengl() {
     let output = folder.run(&[&["compile", "tri.vert", "tri.frag", "-o", "out"][..], &good].concat());
     assert_eq!(code(&output), 0, "{}", err(&output));
 }
+
+#[test]
+fn a_fragment_shader_alone_gets_a_vertex_shader() {
+    let fragment = "#version 150\nin vec2 uv;\nflat in int mode;\nin vec4 tint;\nout vec4 c;\nvoid main() {\n    c = vec4(uv, tint.w, \
+        float(mode) + 1.0);\n}\n";
+    let folder = Folder::new(&[("wave.frag", fragment.as_bytes())]);
+    let output = folder.run(&["new-scene", "wave.frag", "-o", "wave.toml"]);
+    assert_eq!(code(&output), 0, "{}", err(&output));
+    let drawn = folder.run(&["render", "wave.toml", "-o", "wave.npy", "--backend", "cpu"]);
+    assert_eq!((code(&drawn), err(&drawn).as_str()), (0, ""), "it loads and draws without a word");
+    let linted = folder.run(&["lint", "wave_fullscreen.vert", "--deny", "warnings"]);
+    assert_eq!(code(&linted), 0, "{}", out(&linted));
+    assert_eq!(code(&folder.run(&["new-scene", "wave.frag"])), 2, "the vertex shader needs a place");
+}
+
+#[test]
+fn manual_pages_are_written_for_every_command() {
+    let folder = Folder::new(&[]);
+    let output = folder.run(&["man", "-o", "pages"]);
+    assert_eq!(code(&output), 0, "{}", err(&output));
+    let pages = folder.names("pages");
+    for page in ["glisten.1", "glisten-lint.1", "glisten-stability.1", "glisten-new-scene.1"] {
+        assert!(pages.iter().any(|name| name == page), "{page}: {pages:?}");
+    }
+    let text = fs::read_to_string(folder.path("pages/glisten-lint.1")).expect("it was written");
+    assert!(text.contains(".TH glisten") && text.contains("\\-\\-deny"), "{text}");
+}
+
+#[test]
+fn an_error_names_the_command_that_explains_it() {
+    let folder = Folder::new(&[("a.frag", b"#version 150\nout vec4 c;\nvoid main() { c = vec4(x); }\n")]);
+    let output = folder.run(&["lint", "a.frag"]);
+    assert!(err(&output).contains("`glisten explain E0301` tells more"), "{}", err(&output));
+    let quiet = folder.run(&["lint", "-q", "a.frag"]);
+    assert_eq!(err(&quiet), "");
+}

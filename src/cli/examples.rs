@@ -1,0 +1,124 @@
+//! Examples for the help text of each command.
+//!
+//! *In:* nothing. *Out:* the command line with examples. *Holds:* every command has examples, and every example is well-formed;
+//! tests check both.
+
+use clap::Command;
+
+/// The examples of each command: a line, and what it does.
+const EXAMPLES: &[(&str, &[(&str, &str)])] = &[
+    (
+        "lint",
+        &[
+            ("glisten lint shaders/", "all shaders of a folder, and the programs that they form"),
+            ("glisten lint a.vert a.frag -D MAX_LIGHTS=4 -I include", "one program, with a macro and a folder of includes"),
+            ("glisten lint . --deny warnings --format github", "in CI: annotations on the changed lines"),
+        ],
+    ),
+    (
+        "compile",
+        &[
+            ("glisten compile a.vert a.frag -o out", "WGSL, SPIR-V and reflection of a program"),
+            ("glisten compile a.vert a.frag -o out --target wgsl", "WGSL alone"),
+        ],
+    ),
+    (
+        "reflect",
+        &[
+            ("glisten reflect a.vert a.frag", "attributes, uniforms, blocks, textures and outputs as a table"),
+            ("glisten reflect a.vert a.frag --format json", "the same for a program"),
+            ("glisten reflect a.vert a.frag --find light.position", "one name, as glGetUniformLocation"),
+        ],
+    ),
+    ("explain", &[("glisten explain E0301", "a code, with an example"), ("glisten explain --list", "all codes")]),
+    (
+        "render",
+        &[
+            ("glisten render scene.toml -o picture.png", "on the GPU"),
+            ("glisten render scene.toml -o picture.npy --backend cpu", "by the reference in f64"),
+        ],
+    ),
+    (
+        "verify",
+        &[
+            ("glisten verify scene.toml", "the GPU's picture against the reference"),
+            ("glisten verify scene.toml --difference off.png", "with a picture of the differences"),
+        ],
+    ),
+    (
+        "specialize",
+        &[
+            ("glisten specialize scene.toml -o out", "programs of which nothing is left but what the scene needs"),
+            ("glisten specialize scene.toml --check", "whether anything could be left out"),
+        ],
+    ),
+    (
+        "stability",
+        &[
+            ("glisten stability scene.toml", "where f32 arithmetic harms the picture, and why"),
+            ("glisten stability scene.toml --sweep material.shininess=1..10000:32", "with 32 values of a uniform"),
+            ("glisten stability scene.toml --stiff --worst worst.toml", "with the worst inputs that can be found"),
+            ("glisten stability scenes/ --format github", "in CI: annotations on the lines of all scenes"),
+        ],
+    ),
+    ("report", &[("glisten report scene.toml -o out", "error against run time, as a page and a table")]),
+    ("gallery", &[("glisten gallery -o out", "a page with the pictures of the library's scenes")]),
+    ("test", &[("glisten test tests/", "all .shader_test files of a folder")]),
+    (
+        "lib",
+        &[
+            ("glisten lib list", "the modules of the library"),
+            ("glisten lib show phong", "what a module computes"),
+            ("glisten lib export shaders/glisten", "the texts of all modules"),
+        ],
+    ),
+    ("new-scene", &[("glisten new-scene a.vert a.frag -o scene.toml", "a scene with everything that the program reads")]),
+    (
+        "completions",
+        &[
+            ("glisten completions bash > ~/.local/share/bash-completion/completions/glisten", ""),
+            ("glisten completions zsh > ~/.zfunc/_glisten", ""),
+            ("glisten completions fish > ~/.config/fish/completions/glisten.fish", ""),
+        ],
+    ),
+    ("man", &[("glisten man -o ~/.local/share/man/man1", "then: man glisten-lint")]),
+];
+
+/// The command line with the examples of each command after its help.
+pub(super) fn with_examples(program: Command) -> Command {
+    EXAMPLES.iter().fold(program, |program, (name, examples)| {
+        program.mut_subcommand(*name, |command| command.after_help(text(examples)))
+    })
+}
+
+fn text(examples: &[(&str, &str)]) -> String {
+    let mut text = String::from("Examples:");
+    for (line, meaning) in examples {
+        text.push_str(&format!("\n  {line}"));
+        if !meaning.is_empty() {
+            text.push_str(&format!("\n      {meaning}"));
+        }
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{EXAMPLES, with_examples};
+    use crate::cli::Cli;
+    use clap::CommandFactory;
+
+    #[test]
+    fn every_command_has_examples_that_are_well_formed() {
+        let program = with_examples(Cli::command());
+        for command in program.get_subcommands() {
+            let listed = EXAMPLES.iter().find(|(name, _)| *name == command.get_name());
+            assert!(listed.is_some_and(|(_, examples)| !examples.is_empty()), "{}", command.get_name());
+        }
+        for (line, _) in EXAMPLES.iter().flat_map(|(_, examples)| *examples) {
+            let words = line.split(" > ").next().unwrap_or(line).split(' ');
+            let parsed = with_examples(Cli::command()).try_get_matches_from(words);
+            assert!(parsed.is_ok(), "{line}: {:?}", parsed.err().map(|error| error.to_string()));
+        }
+    }
+}

@@ -1,0 +1,50 @@
+//! A vertex shader for a fragment shader that comes alone: a triangle that covers the window.
+//!
+//! *In:* a fragment shader. *Out:* the text of a vertex shader that writes what it reads. *Holds:* a `vec2` goes from (0, 0) at the
+//! lower left to (1, 1) at the upper right; longer vectors are filled with 0 and 1, a `float` goes from left to right, and
+//! integers are 0.
+
+use super::exit::{Exit, Failure};
+use glisten_front::hir::{Interpolation, Scalar, Shader, Storage, Type, Types};
+use std::fmt::Write;
+
+/// The text of the vertex shader.
+///
+/// # Errors
+/// The fragment shader reads something that a full-screen triangle has no values for.
+pub(super) fn vertex_shader(types: &Types, fragment: &Shader) -> Result<String, Failure> {
+    let mut outputs = String::new();
+    let mut writes = String::new();
+    let inputs = fragment.globals.iter().filter(|global| global.storage == Storage::In && global.builtin.is_none());
+    for global in inputs {
+        let value = match types.get(global.ty) {
+            Type::Scalar(Scalar::Float) => "uv.x",
+            Type::Vector(Scalar::Float, 2) => "uv",
+            Type::Vector(Scalar::Float, 3) => "vec3(uv, 0.0)",
+            Type::Vector(Scalar::Float, 4) => "vec4(uv, 0.0, 1.0)",
+            Type::Scalar(Scalar::Int) => "0",
+            Type::Scalar(Scalar::Uint) => "0u",
+            Type::Vector(Scalar::Int | Scalar::Uint, _) => "",
+            _ => {
+                let ty = types.name(global.ty);
+                let message = format!("the input `{} {}` needs a vertex shader that writes it", ty, global.name);
+                return Err(Failure::new(Exit::Content, message).help("name the vertex shader before the fragment shader"));
+            }
+        };
+        let ty = types.name(global.ty);
+        let value = if value.is_empty() { format!("{ty}(0)") } else { value.to_owned() };
+        let interpolation = match global.interpolation {
+            Interpolation::Flat => "flat ",
+            Interpolation::Noperspective => "noperspective ",
+            Interpolation::Smooth => "",
+        };
+        let _ = writeln!(outputs, "{interpolation}out {ty} {};", global.name);
+        let _ = writeln!(writes, "    {} = {value};", global.name);
+    }
+    let uv = if writes.contains("uv") { "    vec2 uv = 0.5 * corner + 0.5;\n" } else { "" };
+    Ok(format!(
+        "#version 150\n// A triangle that covers the window: draw 3 vertices, without attributes.\n{outputs}\nvoid main()\n{{\n    \
+         vec2 corner = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);\n{uv}{writes}    \
+         gl_Position = vec4(corner, 0.0, 1.0);\n}}\n"
+    ))
+}
