@@ -10,7 +10,7 @@ const LASER: &str = "fixtures/stability/planted/01_laser_beam.toml";
 const BONES: &str = "fixtures/stability/planted/41_bone_pose.toml";
 const SOUND: &str = "fixtures/stability/sound/01_laser_beam_cross.toml";
 
-/// What the command wrote.
+/// The two files, and the output of the command.
 struct Written {
     page: String,
     json: String,
@@ -71,7 +71,7 @@ fn values<'a>(tags: &'a [(String, String, bool)], name: &str) -> Vec<&'a str> {
     tags.iter().filter_map(|(_, attributes, _)| value(attributes)).collect()
 }
 
-/// What holds of every page.
+/// Checks each property that every page has.
 fn check(page: &str) {
     for outside in ["http:", "https:", "//www", "<link", "@import", "<iframe", "<object", "src=\"/", "url("] {
         assert!(!page.contains(outside), "{outside}");
@@ -214,7 +214,7 @@ fn a_sweep_of_two_uniforms_is_a_table() {
 }
 
 #[test]
-fn a_search_shows_the_worst_beside_the_scenes_own_inputs() {
+fn a_search_shows_the_worst_next_to_the_scenes_own_inputs() {
     let Written { page, .. } = written(&[LASER, "--stiff"]);
     let text = shown(&page);
     assert!(text.contains("The scene\u{2019}s own inputs") && text.contains("--stiff"));

@@ -24,7 +24,7 @@ const MOST_OF_EXPRESSION: usize = 72;
 const MOST_IDLE: usize = 14;
 /// The lines that stay before and after a fold.
 const AROUND: usize = 3;
-/// What a line loses less of is not told.
+/// The least loss of an expression that is told.
 const LEAST_BITS: f64 = 0.05;
 
 /// A file.
@@ -46,11 +46,11 @@ pub(super) struct Row {
     pub(super) code: String,
     /// The positions of the causes that begin or go on here, and whether they begin.
     pub(super) causes: Vec<(usize, bool)>,
-    /// What is lost here.
+    /// The loss here, if something was evaluated.
     pub(super) loss: Option<Loss>,
 }
 
-/// What a line loses: the worst of its expressions.
+/// The loss of a line: the worst of its expressions.
 #[derive(Default)]
 pub(super) struct Loss {
     /// The largest number of bits.
@@ -141,7 +141,7 @@ fn causes_in(sources: &SourceMap, file: FileId, findings: &Findings) -> Vec<(usi
     places.collect()
 }
 
-/// What is marked in a line: characters of it, counted from 0.
+/// The marked part of a line: characters, counted from 0.
 #[derive(Clone, Debug, PartialEq)]
 struct Mark {
     range: Range<usize>,

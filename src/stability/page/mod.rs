@@ -44,7 +44,7 @@ pub struct SceneOnPage<'a> {
     pub scene: &'a Scene,
     /// The texts that it was read from.
     pub sources: &'a SourceMap,
-    /// What was found.
+    /// The findings.
     pub findings: &'a Findings,
     /// The pictures and figures.
     pub examined: &'a Examination,

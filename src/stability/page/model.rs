@@ -102,7 +102,7 @@ fn causes(one: &SceneOnPage<'_>, anchors: &Anchors<'_>) -> Vec<Value> {
         .collect()
 }
 
-/// What reaches the fragment stage at a pixel. The picture was drawn before, so that drawing cannot fail here.
+/// The values that reach the fragment stage at a pixel. The picture was drawn before, so that drawing cannot fail here.
 fn inputs_of(one: &SceneOnPage<'_>, pixel: [u32; 2]) -> Vec<Value> {
     let finite = |value: f64| value.is_finite().then_some(value);
     let found = inputs_at(one.scene, pixel).unwrap_or_default();
@@ -205,7 +205,7 @@ fn series(series: &Series, bound: f64) -> Value {
         more => points.len().saturating_sub(MOST_POINTS),
         count => points.len(),
         drawings => series.drawings,
-        beside => series.beside,
+        sound_name => series.sound_name,
         worst => position(series.worst),
         sound_point => points.get(series.soundest).filter(|_| series.worst != series.soundest),
         drawn,

@@ -40,8 +40,8 @@ pub struct Series {
     pub soundest: usize,
     /// The number of pictures that were drawn to find the worst.
     pub drawings: usize,
-    /// What the page calls the one with the least error.
-    pub(super) beside: &'static str,
+    /// The title of the one with the least error.
+    pub(super) sound_name: &'static str,
 }
 
 impl Series {
@@ -80,7 +80,7 @@ impl Series {
             worst: position,
             soundest,
             drawings,
-            beside: "The soundest",
+            sound_name: "The soundest",
         })
     }
 
@@ -104,7 +104,7 @@ impl Series {
         if !changed.is_empty() {
             points.push(point(worst, changed)?);
         }
-        Ok(Self { worst: points.len() - 1, points, soundest: 0, drawings, beside: "The scene\u{2019}s own inputs" })
+        Ok(Self { worst: points.len() - 1, points, soundest: 0, drawings, sound_name: "The scene\u{2019}s own inputs" })
     }
 }
 
