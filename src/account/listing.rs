@@ -4,7 +4,7 @@
 //! *Out:* [`Section`]s of [`Row`]s. *Holds:* the lines of the residual are all there, in their order within a section; a line
 //! of the original is next to the first line that comes from it, as far as the orders of both agree.
 
-use crate::gallery::highlight::{Language, html};
+use crate::gallery::highlight::Comments;
 use crate::specialize::{LeftOut, SpecializedDraw};
 use glisten_front::hir::{Function, Shader, Stage, StructId, Types};
 use glisten_front::link::Program;
@@ -349,31 +349,6 @@ fn once(rows: &mut [Row]) {
     for row in rows {
         row.first = row.because.is_some() && row.because != known;
         known.clone_from(&row.because);
-    }
-}
-
-/// Whether a line is within a comment that began before it.
-#[derive(Default)]
-struct Comments {
-    open: bool,
-}
-
-impl Comments {
-    fn html(&mut self, line: &str) -> String {
-        let was_open = self.open;
-        let mut rest = line;
-        loop {
-            let mark = if self.open { "*/" } else { "/*" };
-            let Some(place) = rest.find(mark) else { break };
-            self.open = !self.open;
-            rest = rest.get(place + 2..).unwrap_or("");
-        }
-        // Markup knows comments of one line only.
-        if was_open || self.open || line.trim_start().starts_with("/*") {
-            let escaped = line.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
-            return format!("<span class=\"com\">{escaped}</span>");
-        }
-        html(line, Language::Glsl)
     }
 }
 

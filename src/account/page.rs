@@ -12,7 +12,7 @@ use minijinja::{Environment, Value, context};
 
 const TEMPLATE: &str = include_str!("page.html");
 const ROW: &str = include_str!("row.html");
-const STYLE: &str = include_str!("page.css");
+const STYLE: &str = concat!(include_str!("base.css"), include_str!("page.css"));
 
 /// A scene on the page.
 pub struct SceneOnPage<'a> {

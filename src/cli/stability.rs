@@ -1,5 +1,7 @@
 //! `glisten stability`: tells where f32 arithmetic harms the pictures of scenes, why, and what to write instead.
 
+mod page;
+
 use super::args::{LevelArgs, SourceArgs};
 use super::config;
 use super::console::Console;
@@ -45,6 +47,9 @@ pub(super) struct StabilityArgs {
     /// Write a map of the errors over the picture
     #[arg(long, value_name = "FILE.png")]
     heat: Option<PathBuf>,
+    /// Write a page, stability.html, and stability.json to this folder
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
     /// The format of the result
     #[arg(long, value_enum, default_value_t)]
     format: StabilityFormat,
@@ -134,6 +139,9 @@ pub(super) fn run(args: &StabilityArgs, console: &Console) -> Outcome {
     if let Some(path) = &args.worst {
         write_worst(path, &done)?;
     }
+    if let Some(folder) = &args.output {
+        page::write(folder, args, &done, console)?;
+    }
     tell(args, &done, console)?;
     let is_unstable = |done: &Done<'_>| done.examined.verdict != Stability::Stable;
     Ok(if done.iter().any(is_unstable) { exit.max(Exit::Content) } else { exit })
@@ -211,15 +219,19 @@ fn swept(
 
 fn tell(args: &StabilityArgs, done: &[Done<'_>], console: &Console) -> Result<(), Failure> {
     let text = match args.format {
-        StabilityFormat::Json => match done {
-            [one] if args.scenes.len() == 1 => json(&one.result),
-            _ => json(&done.iter().map(|done| &done.result).collect::<Vec<_>>()),
-        },
+        StabilityFormat::Json => json_of(args, done),
         StabilityFormat::Sarif => diagnostic::write::sarif(&findings(done)),
         StabilityFormat::Github => diagnostic::write::github(&findings(done)),
         StabilityFormat::Human => done.iter().map(|done| human(done, console)).collect(),
     };
     console.output(&text)
+}
+
+fn json_of(args: &StabilityArgs, done: &[Done<'_>]) -> String {
+    match done {
+        [one] if args.scenes.len() == 1 => json(&one.result),
+        _ => json(&done.iter().map(|done| &done.result).collect::<Vec<_>>()),
+    }
 }
 
 fn json(value: &impl Serialize) -> String {

@@ -42,6 +42,38 @@ pub(crate) fn html(text: &str, language: Language) -> String {
     out
 }
 
+/// Highlights GLSL line by line. It knows whether a line is within a comment that began before it.
+#[derive(Default)]
+pub(crate) struct Comments {
+    open: bool,
+}
+
+impl Comments {
+    /// The next line.
+    pub(crate) fn html(&mut self, line: &str) -> String {
+        if self.passes(line) {
+            let mut out = String::from("<span class=\"com\">");
+            escape(line, &mut out);
+            return out + "</span>";
+        }
+        html(line, Language::Glsl)
+    }
+
+    /// Goes past the next line. Tells whether a comment of several lines has a part of it.
+    pub(crate) fn passes(&mut self, line: &str) -> bool {
+        let was_open = self.open;
+        let mut rest = line;
+        loop {
+            let mark = if self.open { "*/" } else { "/*" };
+            let Some(place) = rest.find(mark) else { break };
+            self.open = !self.open;
+            rest = rest.get(place + 2..).unwrap_or("");
+        }
+        // Markup knows comments of one line only.
+        was_open || self.open || line.trim_start().starts_with("/*")
+    }
+}
+
 type Token = (usize, Option<&'static str>);
 
 fn glsl(rest: &str, first: char, starts_line: bool) -> Token {

@@ -7,16 +7,17 @@
 //! *Holds:* nothing here prints or writes files; [`Report::table`], [`Report::json`] and [`Report::html`] return
 //! texts. *Not done here:* the pass or fail verdict of `glisten verify`.
 
+pub(crate) mod axis;
 mod figures;
 mod model;
 mod page;
 mod plan;
-mod plot;
+pub(crate) mod plot;
 pub(crate) mod raster;
 mod run;
 mod table;
 
-pub(crate) use page::grouped;
+pub(crate) use page::{grouped, scientific};
 
 pub use model::{Adapter, Figures, Report, Spread, Timing, Truth, Way};
 pub use run::{Error, Watcher, run};

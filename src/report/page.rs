@@ -116,7 +116,7 @@ fn decibels(figures: &Figures) -> String {
 }
 
 /// `1.2e-3` as `1.2 x 10^-3` in typographic characters; 0 as 0.
-fn scientific(value: f64) -> String {
+pub(crate) fn scientific(value: f64) -> String {
     if value == 0.0 {
         return "0".into();
     }

@@ -10,6 +10,8 @@
 mod advice;
 mod findings;
 mod heat;
+#[cfg(feature = "cli")]
+pub mod page;
 mod patterns;
 mod rewrite;
 pub mod settings;
@@ -18,8 +20,8 @@ pub mod sweep;
 
 pub use findings::{CauseFound, Findings, PictureFigures, Spot, WorstPixel, find};
 pub use glisten_reference::stability::{
-    BOUND, CAUSE_BITS, Cause, CauseKind, ErrorMap, Examination, ExamineOptions, SpanError, Stability, Trace, examine,
-    inputs_at, trace,
+    BOUND, CAUSE_BITS, Cause, CauseKind, ErrorMap, Examination, ExamineOptions, Pair, SpanError, Stability, Trace, examine,
+    inputs_at, pictures_of, trace,
 };
 pub use heat::heat;
 pub use rewrite::Reload;

@@ -61,6 +61,8 @@ mod snapshots;
 mod specialize;
 #[cfg(feature = "cli")]
 mod stability;
+#[cfg(feature = "cli")]
+mod stability_page;
 mod support;
 #[cfg(feature = "gpu")]
 mod tutorial;

@@ -263,18 +263,37 @@ pub fn examine(scene: &Scene, options: &mut ExamineOptions<'_>) -> Result<Examin
     Ok(Examination { single, exact, errors, non_finite, causes, spans: spans(&tallies), verdict })
 }
 
-/// The difference of the pictures in f32 and in exact arithmetic alone, without causes: several times as fast as
-/// [`examine`].
+/// Both pictures of a scene, and their difference.
+#[derive(Clone, Debug)]
+pub struct Pair {
+    /// The picture of f32 arithmetic, before it is rounded to the framebuffer's format.
+    pub single: Picture,
+    /// The picture of exact arithmetic.
+    pub exact: Picture,
+    /// The difference, pixel by pixel.
+    pub errors: ErrorMap,
+}
+
+/// The pictures in f32 and in exact arithmetic alone, without causes: several times as fast as [`examine`].
 ///
 /// # Errors
 /// The errors of [`cpu::render`](super::render).
-pub fn errors_of(scene: &Scene) -> Result<ErrorMap, Vec<Diagnostic>> {
+pub fn pictures_of(scene: &Scene) -> Result<Pair, Vec<Diagnostic>> {
     let format = scene.framebuffer.format;
     let scene = &Scene { framebuffer: errors::unrounded(scene.framebuffer), ..scene.clone() };
     let drawing = drawing_options();
     let exact = pipeline::render::<F64>(scene, &drawing)?;
     let single = pipeline::render_studied::<Shadow>(scene, &drawing, Study { unfused: true, ..Study::NONE })?;
-    Ok(ErrorMap::new(&single, &exact, format))
+    let errors = ErrorMap::new(&single, &exact, format);
+    Ok(Pair { single, exact, errors })
+}
+
+/// The difference of [`pictures_of`].
+///
+/// # Errors
+/// The errors of [`cpu::render`](super::render).
+pub fn errors_of(scene: &Scene) -> Result<ErrorMap, Vec<Diagnostic>> {
+    pictures_of(scene).map(|pair| pair.errors)
 }
 
 /// The values of the fragment stage's varyings at a pixel, in exact arithmetic: names with their components. Empty where
