@@ -22,6 +22,7 @@
 //! they round once.
 
 mod errors;
+mod exact;
 mod experiment;
 mod kinds;
 mod loops;
@@ -30,6 +31,7 @@ mod record;
 mod tests;
 
 pub use errors::ErrorMap;
+pub use exact::{EXACT_BITS, ExactPixel, recompute};
 pub use kinds::CauseKind;
 
 use super::domain::{F64, Shadow};
