@@ -33,6 +33,13 @@ impl Progress {
         self.bar.set_length(steps as u64);
     }
 
+    /// Sets how many steps of how many are done.
+    pub(super) fn reach(&self, done: usize, steps: usize) {
+        self.bar.set_length(steps as u64);
+        self.bar.set_position(done as u64);
+        self.show_if_late();
+    }
+
     /// Shows the current step.
     pub(super) fn say(&self, what: &str) {
         self.bar.set_message(what.to_owned());

@@ -9,11 +9,13 @@ use super::pictures::Target;
 use super::progress::Progress;
 use super::scenes::{MachineArgs, Read, SceneArgs};
 use crate::stability::settings::Settings;
+use crate::stability::stiff::{self, Worst};
 use crate::stability::sweep::{self, Parameter, Sweep, SweepPoint};
 use crate::stability::{BOUND, ExamineOptions, Examination, Findings, Stability, find, heat};
 use clap::{Args, ValueEnum};
-use glisten_front::diagnostic::{Diagnostic, write};
-use glisten_scene::Scene;
+use glisten_front::diagnostic::{self, Diagnostic};
+use glisten_front::hir::Stage;
+use glisten_scene::{Scene, ShaderFiles, write};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
@@ -26,6 +28,13 @@ pub(super) struct StabilityArgs {
     /// Draw with values of a uniform from LOW to HIGH, and examine the worst (repeatable: all combinations)
     #[arg(long = "sweep", value_name = "NAME=LOW..HIGH[:N]", value_parser = sweep::parse)]
     sweeps: Vec<Sweep>,
+    /// Search for the worst inputs: stiff and extreme values of uniforms and attributes, within `[stability.range]` where the
+    /// scene states it
+    #[arg(long, conflicts_with = "sweeps")]
+    stiff: bool,
+    /// Write the scene with the worst inputs that --stiff or --sweep found, with its shaders next to it
+    #[arg(long, value_name = "FILE.toml")]
+    worst: Option<PathBuf>,
     /// The largest error of the picture that is accepted (default: that of the scene, or 1/1024)
     #[arg(long, value_name = "X", value_parser = parse_bound)]
     bound: Option<f64>,
@@ -78,6 +87,11 @@ struct Result1 {
     bound: f64,
     #[serde(skip_serializing_if = "Option::is_none")]
     sweep: Option<SweepResult>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    stiff: Option<Worst>,
+    /// The scene that was examined: the worst one.
+    #[serde(skip)]
+    examined_scene: Scene,
 }
 
 #[derive(Serialize)]
@@ -116,6 +130,9 @@ pub(super) fn run(args: &StabilityArgs, console: &Console) -> Outcome {
     if let Some(path) = &args.heat {
         write_heat(path, &done)?;
     }
+    if let Some(path) = &args.worst {
+        write_worst(path, &done)?;
+    }
     tell(args, &done, console)?;
     let is_unstable = |done: &Done<'_>| done.examined.verdict != Stability::Stable;
     Ok(if done.iter().any(is_unstable) { exit.max(Exit::Content) } else { exit })
@@ -135,21 +152,24 @@ fn examined(args: &StabilityArgs, name: &str, read: &Read<'_>, console: &Console
     let sweeps = if args.sweeps.is_empty() { &settings.sweeps } else { &args.sweeps };
     let progress = Progress::new(console, 0);
     progress.say(name);
-    let (scene, sweep) = match swept(sweeps, &read.scene, &progress)? {
-        Ok(swept) => swept,
-        Err(found) => return Ok(Err(found)),
-    };
-    let mut told = 0;
-    let mut step = |done: usize, of: usize| {
-        progress.extend_to(of);
-        if done > told {
-            told = done;
-            progress.step();
+    let (scene, sweep, stiff) = if args.stiff {
+        let found = stiff::search(&read.scene, &settings.ranges, &mut |done, most| progress.reach(done, most));
+        match found {
+            Ok(worst) => (worst.scene.clone(), None, Some(worst)),
+            Err(found) => return Ok(Err(found)),
+        }
+    } else {
+        match swept(sweeps, &read.scene, &progress)? {
+            Ok((scene, sweep)) => (scene, sweep, None),
+            Err(found) => return Ok(Err(found)),
         }
     };
+    let mut step = |done: usize, of: usize| progress.reach(done, of);
     let mut options = ExamineOptions { bound, all: args.all, progress: &mut step };
     Ok(find(&scene, sources, &mut options).map(|(findings, examined)| {
-        (Result1 { scene: name.to_owned(), findings, bound, sweep }, examined)
+        let result =
+            Result1 { scene: name.to_owned(), findings, bound, sweep, stiff, examined_scene: scene.clone() };
+        (result, examined)
     }))
 }
 
@@ -192,8 +212,8 @@ fn tell(args: &StabilityArgs, done: &[Done<'_>], console: &Console) -> Result<()
             [one] if args.scenes.len() == 1 => json(&one.result),
             _ => json(&done.iter().map(|done| &done.result).collect::<Vec<_>>()),
         },
-        StabilityFormat::Sarif => write::sarif(&findings(done)),
-        StabilityFormat::Github => write::github(&findings(done)),
+        StabilityFormat::Sarif => diagnostic::write::sarif(&findings(done)),
+        StabilityFormat::Github => diagnostic::write::github(&findings(done)),
         StabilityFormat::Human => done.iter().map(|done| human(done, console)).collect(),
     };
     console.output(&text)
@@ -204,16 +224,16 @@ fn json(value: &impl Serialize) -> String {
     serde_json::to_string_pretty(value).unwrap_or_default() + "\n"
 }
 
-fn findings(done: &[Done<'_>]) -> Vec<write::Finding> {
+fn findings(done: &[Done<'_>]) -> Vec<diagnostic::write::Finding> {
     let each = done.iter().flat_map(|done| {
         let causes = done.result.findings.causes.iter().map(|cause| &cause.diagnostic);
-        write::findings(done.read.sources(), causes)
+        diagnostic::write::findings(done.read.sources(), causes)
     });
     each.collect()
 }
 
 fn human(done: &Done<'_>, console: &Console) -> String {
-    let Result1 { scene, findings, bound, sweep } = &done.result;
+    let Result1 { scene, findings, bound, sweep, stiff, .. } = &done.result;
     let picture = &findings.picture;
     let mut text = format!("{scene}: {}\n", findings.verdict);
     let mut row = |name: &str, value: String| text.push_str(&format!("  {name:18} {value}\n"));
@@ -233,6 +253,12 @@ fn human(done: &Done<'_>, console: &Console) -> String {
             row(&format!("  {name}"), values.join(", "));
         }
     }
+    if let Some(stiff) = stiff {
+        let values: Vec<String> = stiff.changed.iter().map(|it| format!("{} = {}", it.name, it.value)).collect();
+        let values = if values.is_empty() { "the scene's own".to_owned() } else { values.join(", ") };
+        row("worst inputs", format!("{values} ({} inputs varied, {} pictures drawn)", stiff.inputs, stiff.drawings));
+        row("before", format!("{:.2e}", stiff.max_abs_before));
+    }
     if let Some(sweep) = sweep {
         let values: Vec<String> = sweep.worst.values.iter().map(|(name, value)| format!("{name} = {value}")).collect();
         row("worst values", format!("{} (of {} drawn)", values.join(", "), sweep.points.len()));
@@ -246,9 +272,28 @@ fn human(done: &Done<'_>, console: &Console) -> String {
         }
         text.push('\n');
         let causes = findings.causes.iter().map(|cause| &cause.diagnostic);
-        text.push_str(&write::human(done.read.sources(), causes, console.colors_output()));
+        text.push_str(&diagnostic::write::human(done.read.sources(), causes, console.colors_output()));
     }
     text
+}
+
+/// Writes the scene that was examined, with the texts of its shaders.
+fn write_worst(path: &Path, done: &[Done<'_>]) -> Result<(), Failure> {
+    let [done] = done else { return Err(Failure::usage("--worst takes one scene").help("name a single scene file")) };
+    let scene = &done.result.examined_scene;
+    let stem = path.file_stem().map_or_else(|| "worst".to_owned(), |stem| stem.to_string_lossy().into_owned());
+    let mut shaders = Vec::new();
+    for (number, draw) in scene.draws.iter().enumerate() {
+        let name = |stage: &str| if number == 0 { format!("{stem}.{stage}") } else { format!("{stem}_{number}.{stage}") };
+        let files = ShaderFiles { vertex: name("vert"), fragment: name("frag") };
+        for (stage, file) in [(Stage::Vertex, &files.vertex), (Stage::Fragment, &files.fragment)] {
+            let text = draw.program.stage(stage).and_then(|shader| shader.texts.first());
+            let text = text.map_or("", |text| text);
+            files::write(&path.with_file_name(file), text.as_bytes())?;
+        }
+        shaders.push(files);
+    }
+    files::write(path, write(scene, &shaders).as_bytes())
 }
 
 fn write_heat(path: &Path, done: &[Done<'_>]) -> Result<(), Failure> {

@@ -12,6 +12,7 @@ mod findings;
 mod heat;
 mod patterns;
 pub mod settings;
+pub mod stiff;
 pub mod sweep;
 
 pub use heat::heat;

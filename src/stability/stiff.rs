@@ -1,0 +1,325 @@
+//! [`search`]: looks for inputs with which f32 arithmetic does the most harm.
+//!
+//! *In:* a scene, and the ranges that it states. *Out:* the worst scene that was found, and how its inputs differ.
+//! Each [`Trial`] is an input with the values to try: stiff and extreme ones, chosen by the name, type and value of a
+//! uniform or attribute, or evenly from a stated range. The search is a coordinate descent: one trial after another takes the
+//! value with the largest error, until a round changes nothing.
+//!
+//! *Holds:* the result depends on the scene alone. At most [`MOST_DRAWINGS`] pictures are drawn, fewer for large ones.
+
+use super::sweep::{Parameter, Sweep};
+use glisten_front::diagnostic::Diagnostic;
+use glisten_front::hir::{Scalar, Type};
+use glisten_reference::stability::errors_of;
+use glisten_scene::values::LeafShape;
+use glisten_scene::{AttributeValues, Scene};
+use serde::Serialize;
+use std::fmt::Write;
+
+/// The number of pictures that a search draws at most.
+pub const MOST_DRAWINGS: usize = 400;
+
+/// The number of pixels that all of them have at most, but for the first forty.
+const MOST_PIXELS: usize = 4 << 20;
+
+/// The number of rounds at most.
+const ROUNDS: usize = 3;
+
+/// The number of values tried of a stated range.
+const FROM_RANGE: usize = 9;
+
+/// A change of one input.
+#[derive(Clone, Debug)]
+enum Change {
+    /// Values of scalars of uniforms.
+    Uniform(Vec<(Parameter, f64)>),
+    /// A change of the data of an attribute: the draw, the attribute, and what happens to it.
+    Attribute(usize, usize, Distortion),
+}
+
+/// A change of the data of an attribute.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Distortion {
+    /// All numbers are multiplied.
+    Scaled(f32),
+    /// Every third vertex has the value 0.
+    ZeroAtThird,
+    /// Every second vertex of three moves to the first, but for a millionth of the distance: triangles become slivers.
+    Collapsed,
+}
+
+/// An input, and the values to try.
+#[derive(Clone, Debug)]
+pub struct Trial {
+    name: String,
+    choices: Vec<(String, Change)>,
+}
+
+/// An input of the worst scene that differs from the scene's own.
+#[derive(Clone, Debug, Serialize)]
+pub struct Changed {
+    /// The uniform or attribute.
+    pub name: String,
+    /// Its value, or what happened to its data.
+    pub value: String,
+}
+
+/// What a search found.
+#[derive(Clone, Debug, Serialize)]
+pub struct Worst {
+    /// The inputs that differ.
+    pub changed: Vec<Changed>,
+    /// The largest finite difference of a channel, and with the scene's own inputs.
+    pub max_abs: f64,
+    /// The same with the scene's own inputs.
+    pub max_abs_before: f64,
+    /// The number of pixels that are not finite in f32.
+    pub non_finite_pixels: u64,
+    /// The number of pictures that were drawn.
+    pub drawings: usize,
+    /// The number of inputs that were varied.
+    pub inputs: usize,
+    /// The worst scene.
+    #[serde(skip)]
+    pub scene: Scene,
+}
+
+/// Looks for the worst inputs. `progress` is called before each picture with the number of those drawn and the limit.
+///
+/// # Errors
+/// The errors of drawing with the scene's own inputs. Inputs with which a picture cannot be drawn are passed over.
+pub fn search(
+    scene: &Scene,
+    ranges: &[Sweep],
+    progress: &mut dyn FnMut(usize, usize),
+) -> Result<Worst, Vec<Diagnostic>> {
+    let trials = trials(scene, ranges);
+    let pixels = scene.framebuffer.width as usize * scene.framebuffer.height as usize;
+    let most = (MOST_PIXELS / pixels.max(1)).clamp(40, MOST_DRAWINGS);
+    let before = badness(scene)?;
+    let mut taken: Vec<Option<usize>> = vec![None; trials.len()];
+    let mut worst = before;
+    let mut drawings = 1;
+    for _ in 0..ROUNDS {
+        let mut moved = false;
+        for trial in 0..trials.len() {
+            for choice in 0..trials[trial].choices.len() {
+                if drawings >= most || taken[trial] == Some(choice) {
+                    continue;
+                }
+                progress(drawings, most);
+                drawings += 1;
+                let mut tried = taken.clone();
+                tried[trial] = Some(choice);
+                let Ok(found) = badness(&applied(scene, &trials, &tried)) else { continue };
+                if is_worse(found, worst) {
+                    (worst, taken, moved) = (found, tried, true);
+                }
+            }
+        }
+        if !moved {
+            break;
+        }
+    }
+    let names = trials.iter().zip(&taken).filter_map(|(trial, taken)| {
+        let (value, _) = trial.choices.get((*taken)?)?;
+        Some(Changed { name: trial.name.clone(), value: value.clone() })
+    });
+    Ok(Worst {
+        changed: names.collect(),
+        max_abs: worst.1,
+        max_abs_before: before.1,
+        non_finite_pixels: worst.0,
+        drawings,
+        inputs: trials.len(),
+        scene: applied(scene, &trials, &taken),
+    })
+}
+
+/// The pixels that are not finite, and the largest finite error.
+fn badness(scene: &Scene) -> Result<(u64, f64), Vec<Diagnostic>> {
+    let errors = errors_of(scene)?;
+    Ok((errors.not_finite(), errors.worst().map_or(0.0, |(_, error)| error)))
+}
+
+fn is_worse(a: (u64, f64), b: (u64, f64)) -> bool {
+    a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).is_gt()
+}
+
+fn applied(scene: &Scene, trials: &[Trial], taken: &[Option<usize>]) -> Scene {
+    let mut changed = scene.clone();
+    for (trial, taken) in trials.iter().zip(taken) {
+        if let Some((_, change)) = taken.and_then(|taken| trial.choices.get(taken)) {
+            change.apply(&mut changed);
+        }
+    }
+    changed
+}
+
+impl Change {
+    fn apply(&self, scene: &mut Scene) {
+        match self {
+            Self::Uniform(values) => values.iter().for_each(|(parameter, value)| parameter.set(scene, *value)),
+            Self::Attribute(draw, attribute, distortion) => {
+                let data = scene.draws.get_mut(*draw).and_then(|draw| draw.attributes.get_mut(*attribute));
+                if let Some(Some(data)) = data
+                    && let AttributeValues::Float(numbers) = &mut data.values
+                {
+                    distortion.apply(numbers, data.size.max(1) as usize);
+                }
+            }
+        }
+    }
+}
+
+impl Distortion {
+    fn apply(self, numbers: &mut [f32], size: usize) {
+        match self {
+            Self::Scaled(factor) => numbers.iter_mut().for_each(|number| *number *= factor),
+            Self::ZeroAtThird => numbers.chunks_mut(size).step_by(3).for_each(|row| row.fill(0.0)),
+            Self::Collapsed => {
+                for triangle in numbers.chunks_mut(3 * size) {
+                    let (first, rest) = triangle.split_at_mut(size.min(triangle.len()));
+                    for (first, second) in first.iter().zip(rest) {
+                        *second = first + (*second - first) * 1e-6;
+                    }
+                }
+            }
+        }
+    }
+
+    fn describe(self) -> String {
+        match self {
+            Self::Scaled(factor) => format!("multiplied by {factor:e}"),
+            Self::ZeroAtThird => "0 at every third vertex".to_owned(),
+            Self::Collapsed => "triangles collapsed to slivers".to_owned(),
+        }
+    }
+}
+
+/// The inputs to vary: those that the scene states a range of, and all others by their names and values.
+fn trials(scene: &Scene, ranges: &[Sweep]) -> Vec<Trial> {
+    let mut list: Vec<Trial> = Vec::new();
+    for range in ranges {
+        let Ok(parameter) = Parameter::find(scene, &range.name) else { continue };
+        let values = Sweep { count: FROM_RANGE, ..range.clone() }.values();
+        list.push(scalar(&parameter, &values));
+    }
+    let stated = |name: &str| ranges.iter().any(|range| range.name == name || range.name.starts_with(&format!("{name}.")));
+    let mut known: Vec<String> = Vec::new();
+    for draw in &scene.draws {
+        for leaf in draw.program.interface.uniforms.iter().filter(|leaf| leaf.active) {
+            let Some(shape) = LeafShape::of(&draw.program.types, leaf) else { continue };
+            let elements = leaf.array_size.map_or(vec![leaf.name.clone()], |size| {
+                (0..size.min(2)).map(|element| format!("{}[{element}]", leaf.name)).collect()
+            });
+            for name in elements {
+                let is_new = !known.contains(&name) && !stated(&name);
+                if is_new && shape.scalar == Scalar::Float && shape.columns == 1 {
+                    list.extend(of_uniform(scene, &name, shape.rows));
+                    known.push(name);
+                }
+            }
+        }
+    }
+    for (index, draw) in scene.draws.iter().enumerate() {
+        for (place, attribute) in draw.program.interface.attributes.iter().enumerate().filter(|(_, it)| it.active) {
+            let is_float = matches!(draw.program.types.get(attribute.ty), Type::Scalar(Scalar::Float) | Type::Vector(Scalar::Float, _));
+            if is_float {
+                list.extend(of_attribute(index, place, &attribute.name));
+            }
+        }
+    }
+    list
+}
+
+fn scalar(parameter: &Parameter, values: &[f64]) -> Trial {
+    let choice = |value: &f64| (number(*value), Change::Uniform(vec![(parameter.clone(), *value)]));
+    Trial { name: parameter.name().to_owned(), choices: values.iter().map(choice).collect() }
+}
+
+fn number(value: f64) -> String {
+    format!("{}", value as f32)
+}
+
+/// Words in names, and the values that a scalar of that name may take.
+const BY_NAME: &[(&[&str], &[f64])] = &[
+    (&["shin", "expo", "power", "gloss", "sharp"], &[0.0, 0.01, 1.0, 32.0, 1000.0, 1e4]),
+    (&["time", "clock", "second", "phase"], &[0.0, 1.0, 3600.0, 86_400.0, 1e6]),
+    (&["angle", "rotation", "cone", "fov"], &[0.0, 1e-4, 1.570_796_3, 3.141_592_7]),
+    (&["dist", "radius", "range", "near", "far", "scale", "size"], &[1e-6, 1e-3, 1.0, 1e3, 1e6]),
+    (&["rough", "metal", "alpha", "factor", "weight", "mix", "blend"], &[0.0, 1e-3, 0.5, 1.0]),
+];
+
+/// The values to try of a float uniform with this many components.
+fn of_uniform(scene: &Scene, name: &str, components: u32) -> Option<Trial> {
+    if components == 1 {
+        let parameter = Parameter::find(scene, name).ok()?;
+        let own = parameter.get(scene)?;
+        let last = name.rsplit('.').next().unwrap_or(name).to_lowercase();
+        let named = BY_NAME.iter().find(|(words, _)| words.iter().any(|word| last.contains(word)));
+        let suggested = [0.0, own * 1e-3, own * 0.1, own * 10.0, own * 1e3];
+        return Some(scalar(&parameter, named.map_or(&suggested[..], |(_, values)| values)));
+    }
+    let letters = ["x", "y", "z", "w"];
+    let parameters: Vec<Parameter> = (letters.iter().take(components as usize))
+        .map(|letter| Parameter::find(scene, &format!("{name}.{letter}")))
+        .collect::<Result<_, _>>()
+        .ok()?;
+    let own: Vec<f64> = parameters.iter().map(|parameter| parameter.get(scene)).collect::<Option<_>>()?;
+    let mut choices = Vec::new();
+    for vector in vectors(&own) {
+        let mut text = String::from("[");
+        for (index, value) in vector.iter().enumerate() {
+            let _ = write!(text, "{}{}", if index == 0 { "" } else { ", " }, number(*value));
+        }
+        text.push(']');
+        let values = parameters.iter().cloned().zip(vector).collect();
+        choices.push((text, Change::Uniform(values)));
+    }
+    Some(Trial { name: name.to_owned(), choices })
+}
+
+/// A direction stays a direction and turns to the axes, to grazing and against itself; a place moves to 0 and far away; a color
+/// goes to black.
+fn vectors(own: &[f64]) -> Vec<Vec<f64>> {
+    // A fourth component of 0 or 1 says whether it is a direction or a place.
+    let (own, fixed) = match own {
+        [x, y, z, w] if *w == 0.0 || *w == 1.0 => (&[*x, *y, *z][..], &own[3..]),
+        _ => (own, &[][..]),
+    };
+    of_direction_or_place(own).into_iter().map(|vector| [vector.as_slice(), fixed].concat()).collect()
+}
+
+fn of_direction_or_place(own: &[f64]) -> Vec<Vec<f64>> {
+    let scaled = |factor: f64| own.iter().map(|value| value * factor).collect::<Vec<f64>>();
+    let length = own.iter().map(|value| value * value).sum::<f64>().sqrt();
+    let is_direction = (length - 1.0).abs() < 1e-3 && own.len() == 3;
+    if !is_direction {
+        return [0.0, 1e-20, 1e-3, 1e3, 1e6].map(scaled).to_vec();
+    }
+    let mut list = vec![scaled(-1.0)];
+    for axis in 0..3 {
+        for sign in [1.0, -1.0] {
+            let unit = |grazing: f64| {
+                (0..3).map(|place| if place == axis { sign } else { grazing }).collect::<Vec<f64>>()
+            };
+            list.extend([unit(0.0), unit(1e-4)]);
+        }
+    }
+    list
+}
+
+/// The distortions of an attribute: those of directions shrink and vanish, places collapse.
+fn of_attribute(draw: usize, attribute: usize, name: &str) -> Option<Trial> {
+    let lower = name.to_lowercase();
+    let distortions: &[Distortion] = match () {
+        () if lower.contains("norm") || lower.contains("tangent") => {
+            &[Distortion::ZeroAtThird, Distortion::Scaled(1e-20), Distortion::Scaled(1e-39), Distortion::Scaled(1e20)]
+        }
+        () if lower.contains("pos") || lower.contains("vert") || lower == "pv" => &[Distortion::Collapsed],
+        () => return None,
+    };
+    let choice = |distortion: &Distortion| (distortion.describe(), Change::Attribute(draw, attribute, *distortion));
+    Some(Trial { name: name.to_owned(), choices: distortions.iter().map(choice).collect() })
+}
