@@ -11,7 +11,7 @@ use super::scenes::{MachineArgs, Read, SceneArgs};
 use crate::stability::settings::Settings;
 use crate::stability::stiff::{self, Worst};
 use crate::stability::sweep::{self, Parameter, Sweep, SweepPoint};
-use crate::stability::{BOUND, ExamineOptions, Examination, Findings, Stability, find, heat};
+use crate::stability::{BOUND, ExamineOptions, Examination, Findings, Stability, find, heat, with_exact};
 use clap::{Args, ValueEnum};
 use glisten_front::diagnostic::{self, Diagnostic};
 use glisten_front::hir::Stage;
@@ -41,6 +41,9 @@ pub(super) struct StabilityArgs {
     /// Report causes whose harm is below the bound, too
     #[arg(long)]
     all: bool,
+    /// Recompute the worst pixels in 192 bits, and tell the error of f64 itself
+    #[arg(long)]
+    exact: bool,
     /// Write a map of the errors over the picture
     #[arg(long, value_name = "FILE.png")]
     heat: Option<PathBuf>,
@@ -166,7 +169,9 @@ fn examined(args: &StabilityArgs, name: &str, read: &Read<'_>, console: &Console
     };
     let mut step = |done: usize, of: usize| progress.reach(done, of);
     let mut options = ExamineOptions { bound, all: args.all, progress: &mut step };
-    Ok(find(&scene, sources, &mut options).map(|(findings, examined)| {
+    let found = find(&scene, sources, &mut options);
+    let found = if args.exact { found.and_then(|found| with_exact(&scene, found, bound)) } else { found };
+    Ok(found.map(|(findings, examined)| {
         let result =
             Result1 { scene: name.to_owned(), findings, bound, sweep, stiff, examined_scene: scene.clone() };
         (result, examined)
@@ -240,6 +245,9 @@ fn human(done: &Done<'_>, console: &Console) -> String {
     row("largest error", format!("{:.2e} (accepted: {bound:.2e}), rmse {:.2e}", picture.max_abs, picture.rmse));
     let pixels = done.examined.errors.not_finite();
     row("not finite", format!("{} results, {pixels} pixels", findings.non_finite));
+    if let Some(exact) = &findings.exact {
+        row("reference", exact.sentence());
+    }
     if let Some(worst) = &picture.worst {
         let color = |color: [Option<f64>; 4]| {
             color.map(|value| value.map_or_else(|| "not finite".to_owned(), |value| format!("{value:.6}"))).join(", ")

@@ -4,6 +4,7 @@
 //! cause an expression, and one a line unless kinds differ; causes are sorted by harm.
 
 use super::advice::advice;
+use super::exact::ExactFound;
 use glisten_front::diagnostic::{Diagnostic, codes, write};
 use glisten_front::source::SourceMap;
 use glisten_reference::stability::{Cause, CauseKind, Examination, ExamineOptions, examine, inputs_at};
@@ -22,6 +23,9 @@ pub struct Findings {
     pub non_finite: u64,
     /// The causes, worst first.
     pub causes: Vec<CauseFound>,
+    /// What 192 bits say of the reference, if that was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub exact: Option<ExactFound>,
 }
 
 /// The difference between the picture of f32 arithmetic and the exact one.
@@ -91,6 +95,9 @@ pub struct CauseFound {
     pub at: Spot,
     /// Whether the exact result jumps there, so that no rewriting helps.
     pub ill_posed: bool,
+    /// Whether f64 is enough at that pixel, if that was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub f64_enough: Option<bool>,
     /// What to write instead.
     pub help: String,
     /// The finding for writers of diagnostics.
@@ -111,7 +118,7 @@ pub fn find(
     let picture = figures(scene, &examined)?;
     let causes = placed(scene, sources, &examined.causes);
     let verdict = examined.verdict.name();
-    Ok((Findings { verdict, picture, non_finite: examined.non_finite, causes }, examined))
+    Ok((Findings { verdict, picture, non_finite: examined.non_finite, causes, exact: None }, examined))
 }
 
 fn figures(scene: &Scene, examined: &Examination) -> Result<PictureFigures, Vec<Diagnostic>> {
@@ -173,6 +180,7 @@ fn placed(scene: &Scene, sources: &SourceMap, causes: &[Cause]) -> Vec<CauseFoun
             disagreements: cause.disagreements,
             at: Spot { x: cause.at[0], y: cause.at[1] },
             ill_posed: cause.ill_posed,
+            f64_enough: None,
             help,
             diagnostic,
         });

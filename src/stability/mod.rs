@@ -8,6 +8,7 @@
 //! *Holds:* nothing here prints or writes files. Figures are the same on every run.
 
 mod advice;
+mod exact;
 mod findings;
 mod heat;
 mod patterns;
@@ -16,6 +17,7 @@ pub mod stiff;
 pub mod sweep;
 
 pub use heat::heat;
+pub use exact::{ExactFound, ExactPixelFound, with_exact};
 pub use findings::{CauseFound, Findings, PictureFigures, Spot, WorstPixel, find};
 pub use glisten_reference::stability::{
     BOUND, CAUSE_BITS, Cause, CauseKind, ErrorMap, ExamineOptions, Examination, SpanError, Stability, Trace, examine,
