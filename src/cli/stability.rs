@@ -8,6 +8,7 @@ use super::inputs;
 use super::pictures::Target;
 use super::progress::Progress;
 use super::scenes::{MachineArgs, Read, SceneArgs};
+use super::stability_library::{self, LibraryArgs};
 use crate::stability::settings::Settings;
 use crate::stability::stiff::{self, Worst};
 use crate::stability::sweep::{self, Parameter, Sweep, SweepPoint};
@@ -23,8 +24,14 @@ use std::path::{Path, PathBuf};
 #[derive(Args, Debug)]
 pub(super) struct StabilityArgs {
     /// Scene files, or folders to search for them
-    #[arg(value_name = "SCENE.toml|DIR", required = true)]
+    #[arg(value_name = "SCENE.toml|DIR", required_unless_present = "library")]
     scenes: Vec<String>,
+    /// Examine the functions of the library instead: all, or those of a module, or one
+    #[arg(long, value_name = "NAME", num_args = 0..=1, require_equals = true, conflicts_with_all = ["scenes", "sweeps", "stiff", "worst", "heat", "exact"])]
+    library: Option<Option<String>>,
+    /// The number of calls of each function of the library
+    #[arg(long, value_name = "N", default_value_t = 2048, value_parser = clap::value_parser!(u32).range(16..=65_536), requires = "library")]
+    cases: u32,
     /// Draw with values of a uniform from LOW to HIGH, and examine the worst (repeatable: all combinations)
     #[arg(long = "sweep", value_name = "NAME=LOW..HIGH[:N]", value_parser = sweep::parse)]
     sweeps: Vec<Sweep>,
@@ -113,6 +120,10 @@ struct Done<'a> {
 
 /// Runs the command.
 pub(super) fn run(args: &StabilityArgs, console: &Console) -> Outcome {
+    if let Some(only) = &args.library {
+        let is_json = args.format == StabilityFormat::Json;
+        return stability_library::run(&LibraryArgs { only: only.as_deref(), cases: args.cases as usize, is_json }, console);
+    }
     let scenes = inputs::scene_files(&args.scenes)?;
     let mut done = Vec::new();
     let mut exit = Exit::Ok;

@@ -11,6 +11,7 @@ mod advice;
 mod exact;
 mod findings;
 mod heat;
+pub mod library;
 mod patterns;
 pub mod settings;
 pub mod stiff;

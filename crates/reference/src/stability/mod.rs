@@ -21,6 +21,7 @@
 //! *Not done here:* a GPU's own approximations of `sin` and so on, and its weights of linear filtering, are not modeled:
 //! they round once.
 
+mod draw;
 mod errors;
 mod exact;
 mod experiment;
@@ -30,6 +31,7 @@ mod record;
 #[cfg(test)]
 mod tests;
 
+pub use draw::{Arithmetic, draw};
 pub use errors::ErrorMap;
 pub use exact::{EXACT_BITS, ExactPixel, recompute};
 pub use kinds::CauseKind;
