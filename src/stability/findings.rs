@@ -4,6 +4,7 @@
 //! cause an expression, and one a line unless kinds differ; causes are sorted by harm.
 
 use super::advice::advice;
+use super::exact::ExactFound;
 use super::rewrite::{Reload, Tried, tried};
 use glisten_front::diagnostic::{Diagnostic, codes, write};
 use glisten_front::source::SourceMap;
@@ -26,6 +27,9 @@ pub struct Findings {
     pub non_finite: u64,
     /// The causes, worst first.
     pub causes: Vec<CauseFound>,
+    /// What 192 bits say of the reference, if that was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub exact: Option<ExactFound>,
 }
 
 /// The difference between the picture of f32 arithmetic and the exact one.
@@ -95,6 +99,9 @@ pub struct CauseFound {
     pub at: Spot,
     /// Whether the exact result jumps there, so that no rewriting helps.
     pub ill_posed: bool,
+    /// Whether f64 is enough at that pixel, if that was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub f64_enough: Option<bool>,
     /// Advice: the text to write instead.
     pub help: String,
     /// The finding for writers of diagnostics.
@@ -117,7 +124,7 @@ pub fn find(
     let picture = figures(scene, &examined)?;
     let causes = placed(scene, sources, &examined, reload);
     let verdict = examined.verdict.name();
-    Ok((Findings { verdict, picture, non_finite: examined.non_finite, causes }, examined))
+    Ok((Findings { verdict, picture, non_finite: examined.non_finite, causes, exact: None }, examined))
 }
 
 fn figures(scene: &Scene, examined: &Examination) -> Result<PictureFigures, Vec<Diagnostic>> {
@@ -186,6 +193,7 @@ fn placed(scene: &Scene, sources: &SourceMap, examined: &Examination, reload: Op
             disagreements: cause.disagreements,
             at: Spot { x: cause.at[0], y: cause.at[1] },
             ill_posed: cause.ill_posed,
+            f64_enough: None,
             help,
             diagnostic,
         });

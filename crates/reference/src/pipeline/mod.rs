@@ -158,6 +158,7 @@ fn draw_all<D: Domain>(
                 mark_edges: options.mark_edges,
                 faults: options.faults,
                 probe: watch.study.probe,
+                pixels: watch.study.pixels,
                 jitter: watch.study.jitter,
                 exact_inputs: watch.study.exact_inputs,
             };

@@ -22,7 +22,9 @@
 //! they round once.
 
 mod birth;
+mod draw;
 mod errors;
+mod exact;
 mod experiment;
 mod kinds;
 mod loops;
@@ -30,7 +32,9 @@ mod record;
 #[cfg(test)]
 mod tests;
 
+pub use draw::{Arithmetic, draw};
 pub use errors::ErrorMap;
+pub use exact::{EXACT_BITS, ExactPixel, recompute};
 pub use kinds::CauseKind;
 
 use super::domain::{F64, Shadow};
