@@ -60,5 +60,6 @@ mod snapshots;
 #[cfg(feature = "reference")]
 mod specialize;
 mod support;
+mod targets;
 mod witness;
 mod words;

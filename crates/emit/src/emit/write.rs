@@ -8,7 +8,7 @@ use super::emitted::Emitted;
 use super::messages::{chain, without_handles};
 use super::naga_repairs::nesting::is_nested;
 use super::targets::{self, Job};
-use crate::target::{Conventions, Target};
+use crate::target::{Conventions, Slots, Target};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::general;
 use glisten_front::diagnostic::codes::targets::FEATURE_NOT_IN_TARGET;
@@ -42,16 +42,20 @@ pub fn emit_with_sources(
     conventions: &Conventions,
     sources: Option<&SourceMap>,
 ) -> Result<Emitted, Vec<Diagnostic>> {
+    if target == Target::Glsl {
+        return targets::glsl::write(program, stage, conventions, sources);
+    }
     let module = crate::lower::lower(program, stage, target, conventions)?;
     // naga's validator and writers recurse over nested blocks, which the parser bounds at 256.
     const NESTING: u32 = 512;
     let deep = program.stage(stage).is_some_and(|shader| shader.expr_depth > 32) || is_nested(&module, 24);
-    if let Some(found) = targets::limit(target, &module) {
+    let slots = Slots::of(&program.interface);
+    if let Some(found) = targets::limit(target, &module, &slots) {
         return Err(vec![found]);
     }
     let write = || {
         let info = validate(&module)?;
-        let job = Job { module, info: &info, stage, conventions, sources };
+        let job = Job { module, info: &info, stage, conventions, sources, slots: &slots };
         targets::write(target, job).map_err(|message| vec![failed(target, &message)])
     };
     glisten_front::stack::with_stack(if deep { NESTING } else { 0 }, move || {

@@ -86,7 +86,7 @@ pub(crate) fn lower(
 
 fn no_geometry(shader: &Shader) -> Diagnostic {
     let span = shader.main.map_or(Span::default(), |main| shader.function(main).span);
-    Diagnostic::new(&targets::STAGE_NOT_IN_TARGET, span, "no target of glisten has a geometry stage")
+    Diagnostic::new(&targets::STAGE_NOT_IN_TARGET, span, "of glisten's targets only GLSL has a geometry stage")
         .here("the entry point of a geometry shader")
         .help("compute the emitted vertices in a vertex shader that is drawn once for each of them")
 }
