@@ -61,5 +61,7 @@ mod snapshots;
 mod specialize;
 mod support;
 mod targets;
+#[cfg(feature = "cli")]
+mod wgsl;
 mod witness;
 mod words;

@@ -67,7 +67,7 @@ impl Lower<'_> {
     /// loop that it would have left might never end.
     fn declare_discarded(&mut self) -> Try<()> {
         let goes_on = matches!(self.target, Target::Wgsl | Target::Msl | Target::Hlsl);
-        if goes_on && self.facts.loops_after_discard {
+        if goes_on && !self.facts.loops_after_discard.is_empty() {
             let init = self
                 .module
                 .global_expressions
@@ -114,6 +114,7 @@ impl Lower<'_> {
             && self.conventions.window_origin == WindowOrigin::UpperLeft
             && !self.shader.frag_coord.origin_upper_left
             && self.builtin_global(BuiltinVariable::FragCoord).is_some()
+            && self.shader.reads_row_of_frag_coord()
     }
 
     /// The global of a built-in variable, if the stage uses it.

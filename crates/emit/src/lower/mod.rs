@@ -11,7 +11,7 @@
 //!
 //! | file | contents |
 //! | --- | --- |
-//! | `facts` | facts that must be known first |
+//! | `facts`, `discards` | facts that must be known first |
 //! | `types`, `uniforms` | types of values, types in std140 memory |
 //! | `interface`, `outputs` | attributes, varyings, colors, built-in variables, the entry point |
 //! | `function` | the state of one function: naga's arenas, emission, names |
@@ -27,6 +27,7 @@ mod calls;
 mod constants;
 mod constructors;
 mod control;
+mod discards;
 mod expressions;
 mod facts;
 mod function;

@@ -49,7 +49,8 @@ fn of_wgsl(lines: &[String]) -> Vec<String> {
     let lines: Vec<String> = lines.iter().map(clean).collect();
     let all = lines.join("\n");
     let nests = all.matches("/*").count() != all.matches("*/").count() || all.contains("/*/");
-    let mixes = lines.iter().any(|line| line.trim_start().starts_with("//") && (line.contains("/*") || line.contains("*/")));
+    let mixes =
+        lines.iter().any(|line| line.trim_start().starts_with("//") && (line.contains("/*") || line.contains("*/")));
     if !nests && !mixes {
         return lines;
     }
@@ -116,7 +117,8 @@ fn key_of(line: &str, structure: Option<&str>, shader: &Shader) -> Option<String
     }
     if line.starts_with("var") || line.starts_with("@group(") {
         let declaration = line.split_once("var")?.1;
-        let declaration = declaration.split_once('>').filter(|_| declaration.starts_with('<')).map_or(declaration, |d| d.1);
+        let declaration =
+            declaration.split_once('>').filter(|_| declaration.starts_with('<')).map_or(declaration, |d| d.1);
         return Some(format!("variable {}", name_of(declaration)?));
     }
     if line.starts_with("const ") {

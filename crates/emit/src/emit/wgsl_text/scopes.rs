@@ -26,14 +26,14 @@ pub(super) fn sink(block: &mut Block) {
     let declared: Vec<Stmt> = block.drain(..count).collect();
     let mut stuck = Vec::new();
     // Those that move to one place keep their order.
-    for stmt in declared.into_iter().rev() {
+    for stmt in declared {
         let Stmt::Var { name, ty, value } = stmt else { continue };
         let variable = Variable { name, ty, value };
         if !place(block, &variable, false) {
             stuck.push(variable.declaration(variable.value.clone()));
         }
     }
-    block.splice(0..0, stuck.into_iter().rev());
+    block.splice(0..0, stuck);
 }
 
 impl Variable {

@@ -7,19 +7,52 @@ pub(super) type Block = Vec<Stmt>;
 /// A statement.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Stmt {
-    Let { name: String, value: Expr },
-    Var { name: String, ty: String, value: Option<Expr> },
+    Let {
+        name: String,
+        value: Expr,
+    },
+    Var {
+        name: String,
+        ty: String,
+        value: Option<Expr>,
+    },
     /// `a = b`, or `a op= b`.
-    Assign { target: Expr, op: Option<&'static str>, value: Expr },
+    Assign {
+        target: Expr,
+        op: Option<&'static str>,
+        value: Expr,
+    },
     /// `a++`, `a--`
-    Step { target: Expr, op: &'static str },
+    Step {
+        target: Expr,
+        op: &'static str,
+    },
     Call(Expr),
-    If { condition: Expr, accept: Block, reject: Block },
+    If {
+        condition: Expr,
+        accept: Block,
+        reject: Block,
+    },
     /// The labels of each case as they are written.
-    Switch { selector: Expr, cases: Vec<(String, Block)> },
-    Loop { body: Block, continuing: Block, break_if: Option<Expr> },
-    For { init: Option<Box<Stmt>>, condition: Option<Expr>, step: Option<Box<Stmt>>, body: Block },
-    While { condition: Expr, body: Block },
+    Switch {
+        selector: Expr,
+        cases: Vec<(String, Block)>,
+    },
+    Loop {
+        body: Block,
+        continuing: Block,
+        break_if: Option<Expr>,
+    },
+    For {
+        init: Option<Box<Stmt>>,
+        condition: Option<Expr>,
+        step: Option<Box<Stmt>>,
+        body: Block,
+    },
+    While {
+        condition: Expr,
+        body: Block,
+    },
     Block(Block),
     /// `break`, `continue`, `discard`
     Word(&'static str),
