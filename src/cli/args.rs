@@ -177,6 +177,9 @@ pub(super) struct ConventionArgs {
     /// How many clip distances are enabled (default: all that are written)
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=8))]
     clip_distances: Option<u32>,
+    /// Draw points as quads in WGSL and HLSL, whose points are one pixel wide (the reflection says how)
+    #[arg(long)]
+    point_sprites: bool,
     /// The version of emitted GLSL: OpenGL 3.3, OpenGL 4.5, WebGL 2
     #[arg(long, value_enum, value_name = "VERSION", default_value_t)]
     glsl_version: GlslVersionArg,
@@ -203,6 +206,7 @@ impl ConventionArgs {
             },
             clip_distances: self.clip_distances,
             program_point_size: self.program_point_size,
+            point_sprites: self.point_sprites,
             glsl_version: match self.glsl_version {
                 GlslVersionArg::Desktop330 => GlslVersion::Desktop330,
                 GlslVersionArg::Desktop450 => GlslVersion::Desktop450,

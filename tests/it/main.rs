@@ -59,6 +59,8 @@ mod shader_test;
 mod snapshots;
 #[cfg(feature = "reference")]
 mod specialize;
+#[cfg(feature = "cli")]
+mod sprites;
 mod support;
 mod targets;
 #[cfg(feature = "cli")]

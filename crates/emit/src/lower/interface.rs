@@ -43,6 +43,7 @@ impl Lower<'_> {
     pub(super) fn declare_globals(&mut self) -> Try<()> {
         self.declare_uniforms()?;
         self.declare_samplers()?;
+        self.declare_viewport()?;
         self.declare_discarded()?;
         let shader = self.shader;
         for (id, global) in shader.globals() {
@@ -147,6 +148,9 @@ impl Lower<'_> {
         let stage = if shader.stage == Stage::Vertex { naga::ShaderStage::Vertex } else { naga::ShaderStage::Fragment };
         let mut ctx = Ctx::new(self, id);
         ctx.inputs()?;
+        if ctx.is_vertex() && ctx.low.draws_sprites() {
+            ctx.corner = Some(ctx.sprite_corner()?);
+        }
         ctx.output_variables()?;
         ctx.declare_outputs()?;
         ctx.private_initializers()?;
@@ -391,10 +395,11 @@ impl Ctx<'_, '_> {
                 let ty = self.low.value_type(TypeId::BOOL)?;
                 Ok(self.argument(&global.name, ty, Some(Binding::BuiltIn(BuiltIn::FrontFacing))))
             }
+            B::PointCoord if self.low.draws_sprites() => self.sprite_coordinate(),
             B::PointCoord if target == Target::Wgsl || target == Target::Hlsl => Err(lacking(
                 global.span,
                 format!("{} has no `gl_PointCoord`", target.name()),
-                "compile for SPIR-V, or draw two triangles for each point and pass the coordinate as a varying",
+                "draw points as quads with `--point-sprites`, or compile for SPIR-V",
             )),
             B::PointCoord => self.point_coord(),
             B::Position
@@ -412,6 +417,14 @@ impl Ctx<'_, '_> {
 
     /// An index: unsigned in the target, `int` in GLSL.
     fn index_input(&mut self, name: &str, builtin: BuiltIn) -> Try<Handle<Expression>> {
+        // An instance of a quad is a vertex of the scene, and there are no other instances.
+        let builtin = match builtin {
+            BuiltIn::VertexIndex if self.low.draws_sprites() => BuiltIn::InstanceIndex,
+            BuiltIn::InstanceIndex if self.low.draws_sprites() => {
+                return Ok(self.literal(glisten_front::hir::ScalarValue::Int(0)));
+            }
+            other => other,
+        };
         let ty = self.low.value_type(TypeId::UINT)?;
         let argument = match builtin {
             BuiltIn::VertexIndex => "vertex_index",

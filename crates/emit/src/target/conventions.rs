@@ -66,6 +66,8 @@ pub struct Conventions {
     pub clip_distances: Option<u32>,
     /// Whether `gl_PointSize` has an effect.
     pub program_point_size: bool,
+    /// Whether points are drawn as quads in targets whose points are one pixel wide: WGSL and HLSL.
+    pub point_sprites: bool,
     /// The version of emitted GLSL.
     pub glsl_version: GlslVersion,
     /// Whether SPIR-V contains source lines.

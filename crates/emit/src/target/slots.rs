@@ -32,6 +32,8 @@ impl Slots {
         for buffer in interface.loose.iter().map(|(slot, _)| *slot).chain(blocks) {
             slots.add(buffer, SlotKind::Buffer);
         }
+        // The viewport's size, where points are drawn as quads.
+        slots.add(crate::lower::viewport_slot(interface), SlotKind::Buffer);
         for row in &interface.samplers {
             slots.add(row.texture, SlotKind::Texture);
             if row.sampler != row.texture {

@@ -13,7 +13,8 @@ mod wgsl;
 pub use arrays::{StructArray, StructMember};
 pub use find::{Found, Match, find};
 pub use places::{
-    GlslTarget, HlslBuffer, HlslTarget, HlslTexture, MslBuffer, MslTarget, MslTexture, Targets, Visibility,
+    GlslTarget, HlslBuffer, HlslTarget, HlslTexture, MslBuffer, MslTarget, MslTexture, PointSprites, Targets,
+    Visibility,
 };
 pub use table::table;
 pub use wgsl::{WgslTexture, WgslVariable};
@@ -337,6 +338,9 @@ pub struct ReflectedConventions {
     pub clip_distances: u32,
     /// Whether the program sets the point size.
     pub point_size: bool,
+    /// How points are drawn in WGSL and HLSL, if they are drawn as quads.
+    #[serde(default)]
+    pub point_sprites: Option<PointSprites>,
 }
 
 /// Four bytes in the block of the loose uniforms that are not a uniform of the program.
@@ -391,7 +395,7 @@ pub fn reflect(program: &Program, conventions: &Conventions) -> Reflection {
         blocks: interface.blocks.iter().map(|row| block(&places, interface, row)).collect(),
         uniforms: interface.uniforms.iter().map(|leaf| uniform(types, interface, leaf)).collect(),
         samplers: interface.samplers.iter().map(|slot| sampler(&places, types, interface, slot)).collect(),
-        conventions: reflected_conventions(program, conventions),
+        conventions: reflected_conventions(&places, program, conventions),
         targets: places.targets(),
         struct_arrays: arrays::arrays(program),
         files: BTreeMap::new(),
@@ -507,7 +511,7 @@ fn hidden(interface: &Interface, offset: u32) -> Option<HiddenSlot> {
     interface.loose.map(|(slot, _)| HiddenSlot { group: slot.group, binding: slot.binding, offset })
 }
 
-fn reflected_conventions(program: &Program, conventions: &Conventions) -> ReflectedConventions {
+fn reflected_conventions(places: &Places<'_>, program: &Program, conventions: &Conventions) -> ReflectedConventions {
     let upper_left = conventions.window_origin == WindowOrigin::UpperLeft;
     let height = program.interface.framebuffer_height.filter(|_| upper_left);
     ReflectedConventions {
@@ -527,6 +531,7 @@ fn reflected_conventions(program: &Program, conventions: &Conventions) -> Reflec
         .into(),
         clip_distances: clip_distances(program, conventions),
         point_size: conventions.program_point_size && writes(program, BuiltinVariable::PointSize).is_some(),
+        point_sprites: places.point_sprites(),
     }
 }
 

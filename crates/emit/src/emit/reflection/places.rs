@@ -5,6 +5,7 @@
 //! with the emitted text; a test compares them.
 
 use crate::emit::targets::{glsl, msl};
+use crate::lower::viewport_slot;
 use crate::target::{Conventions, Slots, WindowOrigin};
 use glisten_front::hir::{GlobalId, Stage};
 use glisten_front::link::{Program, SlotBinding};
@@ -82,6 +83,25 @@ pub struct HlslTexture {
     pub sampler: Option<String>,
 }
 
+/// How a host draws points as quads: each point is an instance, attributes advance with instances.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct PointSprites {
+    /// The number of vertices of an instance.
+    pub vertices: u32,
+    /// The topology, in WebGPU's terms: `triangle-strip`.
+    pub topology: String,
+    /// The step mode of all vertex buffers, in WebGPU's terms: `instance`.
+    pub step_mode: String,
+    /// The group of the uniform buffer for the viewport's size.
+    pub group: u32,
+    /// Its binding.
+    pub binding: u32,
+    /// Its size: two `float`s, the viewport's width and height in pixels.
+    pub size: u32,
+    /// Its register in HLSL.
+    pub hlsl: HlslBuffer,
+}
+
 /// The stages, by name, in pipeline order.
 pub type Visibility = Vec<String>;
 
@@ -139,6 +159,22 @@ impl<'a> Places<'a> {
             seen.push(fragment.to_owned());
         }
         seen
+    }
+
+    /// How points are drawn, if they are drawn as quads.
+    pub(super) fn point_sprites(&self) -> Option<PointSprites> {
+        let slot = viewport_slot(&self.program.interface);
+        let (_, hlsl) = self.buffer(slot);
+        let has_vertex = self.program.stage(Stage::Vertex).is_some();
+        (self.conventions.point_sprites && has_vertex).then(|| PointSprites {
+            vertices: 4,
+            topology: "triangle-strip".to_owned(),
+            step_mode: "instance".to_owned(),
+            group: slot.group,
+            binding: slot.binding,
+            size: 8,
+            hlsl,
+        })
     }
 
     /// The names and versions of the targets.

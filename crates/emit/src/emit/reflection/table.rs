@@ -109,7 +109,11 @@ fn conventions(reflection: &Reflection) -> String {
         ("clip_distances", row.clip_distances.to_string()),
         ("point_size", row.point_size.to_string()),
     ];
-    let lines: String = rows.iter().map(|(name, value)| format!("  {name:<20}{value}\n")).collect();
+    let sprites = row.point_sprites.as_ref().map(|row| {
+        let place = format!("{}.{}", row.group, row.binding);
+        ("point_sprites", format!("{} of {} vertices, viewport size at {place}", row.topology, row.vertices))
+    });
+    let lines: String = rows.iter().chain(&sprites).map(|(name, value)| format!("  {name:<20}{value}\n")).collect();
     format!("conventions\n{lines}")
 }
 
