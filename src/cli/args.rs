@@ -4,7 +4,7 @@ use super::exit::Failure;
 use super::stages::StageArg;
 use crate::specialize::Contract;
 use clap::{Args, ValueEnum};
-use glisten_emit::{ClipZ, Conventions, SpirvEnv, WindowOrigin};
+use glisten_emit::{ClipZ, Conventions, GlslVersion, SpirvEnv, WindowOrigin};
 use glisten_front::builtin::constants::{MAX_DRAW_BUFFERS, MAX_VERTEX_ATTRIBS};
 use glisten_front::compiler::Options;
 use glisten_front::diagnostic::{Code, Level, Levels, Severity, codes, did_you_mean};
@@ -177,6 +177,12 @@ pub(super) struct ConventionArgs {
     /// How many clip distances are enabled (default: all that are written)
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=8))]
     clip_distances: Option<u32>,
+    /// Draw points as quads in WGSL and HLSL, whose points are one pixel wide (the reflection says how)
+    #[arg(long)]
+    point_sprites: bool,
+    /// The version of emitted GLSL: OpenGL 3.3, OpenGL 4.5, WebGL 2
+    #[arg(long, value_enum, value_name = "VERSION", default_value_t)]
+    glsl_version: GlslVersionArg,
     /// Enable gl_PointSize; without it, points are one pixel wide
     #[arg(long)]
     program_point_size: bool,
@@ -200,6 +206,12 @@ impl ConventionArgs {
             },
             clip_distances: self.clip_distances,
             program_point_size: self.program_point_size,
+            point_sprites: self.point_sprites,
+            glsl_version: match self.glsl_version {
+                GlslVersionArg::Desktop330 => GlslVersion::Desktop330,
+                GlslVersionArg::Desktop450 => GlslVersion::Desktop450,
+                GlslVersionArg::Es300 => GlslVersion::Es300,
+            },
             debug_lines,
         }
     }
@@ -230,6 +242,20 @@ enum SpirvEnvArg {
     Webgpu,
     /// y down: a positive viewport
     Vulkan,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+enum GlslVersionArg {
+    /// OpenGL 3.3
+    #[default]
+    #[value(name = "330")]
+    Desktop330,
+    /// OpenGL 4.5
+    #[value(name = "450")]
+    Desktop450,
+    /// OpenGL ES 3.0 and WebGL 2
+    #[value(name = "300es", alias = "300-es")]
+    Es300,
 }
 
 fn parse_define(text: &str) -> Result<(String, String), String> {

@@ -14,7 +14,8 @@ use super::session::{Session, Unit};
 use crate::library;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
-use glisten_emit::{self as emit, Conventions, Target};
+use glisten_emit::reflection::StageFiles;
+use glisten_emit::{self as emit, Conventions, Emitted, Target};
 use glisten_front::diagnostic::codes::general::LONE_STAGE;
 use glisten_front::diagnostic::codes::link::{LONE_WITHOUT_DEFINITION, LONE_WITHOUT_MAIN};
 use glisten_front::diagnostic::{Diagnostic, Severity};
@@ -56,6 +57,9 @@ pub(super) struct CompileArgs {
     /// Report what -O leaves out
     #[arg(long)]
     left_out: bool,
+    /// List each element of large arrays of structs in the reflection
+    #[arg(long)]
+    flat: bool,
     #[command(flatten)]
     optimize: OptimizeArgs,
     #[command(flatten)]
@@ -136,6 +140,7 @@ struct OutputPlan {
     conventions: Conventions,
     optimize: OptimizeArgs,
     left_out: bool,
+    flat: bool,
 }
 
 impl OutputPlan {
@@ -146,8 +151,8 @@ impl OutputPlan {
         }
         let folder = args.output.clone().unwrap_or_default();
         let conventions = args.conventions.conventions(args.debug_lines);
-        let (optimize, left_out) = (args.optimize, args.left_out);
-        let plan = Self { folder, targets, conventions, optimize, left_out };
+        let (optimize, left_out, flat) = (args.optimize, args.left_out, args.flat);
+        let plan = Self { folder, targets, conventions, optimize, left_out, flat };
         if plan.is_standard_output() {
             plan.refuse_several(args, groups)?;
         }
@@ -254,6 +259,7 @@ impl OutputPlan {
     ) -> Result<Vec<Output>, Vec<Diagnostic>> {
         let mut outputs = Vec::new();
         let mut diagnostics = Vec::new();
+        let mut texts = Vec::new();
         let sources = Some(sources);
         let optimized = optimize::optimized(program, self.targets.iter().any(|target| self.optimizes(*target)));
         for shader in &program.stages {
@@ -263,6 +269,9 @@ impl OutputPlan {
                 match emit::emit_with_sources(emitted, shader.stage, *target, &self.conventions, sources) {
                     Ok(emitted) => {
                         let name = format!("{}.{}", input.file_name(), target.extension());
+                        if let (Target::Wgsl, Emitted::Text(text)) = (target, &emitted) {
+                            texts.push(text.clone());
+                        }
                         outputs.push((self.folder.join(name), emitted.into_bytes()));
                     }
                     Err(errors) => diagnostics.extend(errors),
@@ -271,7 +280,12 @@ impl OutputPlan {
         }
         // What one of the outputs has is active.
         let all = self.targets.iter().all(|target| self.optimizes(*target));
-        let reflection = emit::reflect(if all { &optimized } else { program }, &self.conventions);
+        let mut reflection = emit::reflect(if all { &optimized } else { program }, &self.conventions);
+        texts.iter().for_each(|text| reflection.name_in_wgsl(text));
+        reflection.files = files_of_stages(group, &self.targets);
+        if !self.flat {
+            reflection.compact();
+        }
         let mut json = serde_json::to_vec_pretty(&reflection).expect("a reflection is always JSON");
         json.push(b'\n');
         outputs.push((self.folder.join(format!("{}.json", group.name)), json));
@@ -307,6 +321,21 @@ impl OutputPlan {
             .collect();
         format!("{}: {}\n", targets.join(" "), sources.join(" "))
     }
+}
+
+/// The files of each stage for the reflection, with the outputs for these targets.
+pub(super) fn files_of_stages(group: &Group, targets: &BTreeSet<Target>) -> BTreeMap<String, StageFiles> {
+    let mut files: BTreeMap<String, StageFiles> = BTreeMap::new();
+    for input in &group.inputs {
+        let own = files.entry(input.stage.name().to_owned()).or_default();
+        own.sources.push(input.file_name());
+        // Several files of one stage have one output, which is named after the first.
+        for target in targets {
+            let name = || format!("{}.{}", input.file_name(), target.extension());
+            own.outputs.entry(target.word().to_owned()).or_insert_with(name);
+        }
+    }
+    files
 }
 
 /// All stages of all programs, each under the name of its file.

@@ -1,16 +1,19 @@
 //! `glisten reflect`: what a host needs to know about a program, as a table or as JSON, or what one name is.
 
 use super::args::{BindingArgs, ConventionArgs, LevelArgs, ProgramArgs, ResultFormat, SourceArgs};
+use super::compile::files_of_stages;
 use super::console::Console;
 use super::exit::{Exit, Outcome};
 use super::inputs;
 use super::optimize::{self, OptimizeArgs};
 use super::session::{Session, Unit};
 use clap::Args;
-use glisten_emit::reflection::{Found, find, table};
-use glisten_emit::{Conventions, Reflection, Target, reflect};
+use glisten_emit::reflection::{Found, Match, find, table};
+use glisten_emit::{Conventions, Emitted, Reflection, Target, emit, reflect};
 use glisten_front::link::Program;
 use indexmap::IndexMap;
+use serde::Serialize;
+use std::collections::BTreeSet;
 
 /// Show what a host needs to know: attributes, varyings, outputs, blocks, uniforms, samplers
 #[derive(Args, Debug)]
@@ -24,6 +27,9 @@ pub(super) struct ReflectArgs {
     /// Show what a name is, and its location
     #[arg(long, value_name = "NAME")]
     find: Option<String>,
+    /// List each element of large arrays of structs
+    #[arg(long)]
+    flat: bool,
     #[command(flatten)]
     optimize: OptimizeArgs,
     #[command(flatten)]
@@ -53,12 +59,15 @@ pub(super) fn run(args: &ReflectArgs, console: &Console) -> Outcome {
     let units = session.compile(inputs.groups);
     let exit = session.tell_units(&units, false)?;
     let optimizes = args.optimize.applies(Target::Wgsl, false);
-    let reflected = reflect_all(&units, &args.conventions.conventions(false), optimizes);
+    let mut reflected = reflect_all(&units, &args.conventions.conventions(false), optimizes);
     if reflected.is_empty() {
         return Ok(exit.max(Exit::Content));
     }
     if let Some(name) = &args.find {
-        return find_in(&reflected, name, console).map(|found| found.max(exit));
+        return find_in(&reflected, name, args.format, console).map(|found| found.max(exit));
+    }
+    if !args.flat {
+        reflected.iter_mut().for_each(|row| row.reflection.compact());
     }
     let several = units.len() > 1;
     let text = match args.format {
@@ -82,7 +91,15 @@ fn reflect_all<'a>(units: &'a [Unit], conventions: &Conventions, optimizes: bool
                 }
                 _ => unit.group.name.clone(),
             };
-            let reflection = reflect(&optimize::optimized(program, optimizes), conventions);
+            let optimized = optimize::optimized(program, optimizes);
+            let mut reflection = reflect(&optimized, conventions);
+            for shader in &optimized.stages {
+                if let Ok(Emitted::Text(text)) = emit(&optimized, shader.stage, Target::Wgsl, conventions) {
+                    reflection.name_in_wgsl(&text);
+                }
+            }
+            // The same as what `compile` writes by default.
+            reflection.files = files_of_stages(&unit.group, &BTreeSet::from([Target::Wgsl, Target::Spirv]));
             Reflected { name, program, reflection }
         })
         .collect()
@@ -108,23 +125,47 @@ fn json(reflected: &[Reflected<'_>], several: bool) -> String {
     text.expect("a reflection is always JSON") + "\n"
 }
 
-fn find_in(reflected: &[Reflected<'_>], name: &str, console: &Console) -> Outcome {
-    let mut lines = Vec::new();
-    let mut nearest_name = None;
-    for row in reflected {
-        match find(row.program, &row.reflection, name) {
-            Found::Known(found) if reflected.len() > 1 => {
-                lines.extend(found.into_iter().map(|line| format!("{}: {line}", row.name)));
-            }
-            Found::Known(found) => lines.extend(found),
-            Found::Unknown { nearest } => nearest_name = nearest_name.or(nearest),
-        }
+/// The answer for one program, as JSON.
+#[derive(Serialize)]
+struct Answer<'a> {
+    program: &'a str,
+    found: Vec<Match>,
+    nearest: Option<String>,
+}
+
+fn find_in(reflected: &[Reflected<'_>], name: &str, format: ResultFormat, console: &Console) -> Outcome {
+    let answer = |row: &'_ Reflected<'_>| match find(row.program, &row.reflection, name) {
+        Found::Known(found) => (found, None),
+        Found::Unknown { nearest } => (Vec::new(), nearest),
+    };
+    let answers: Vec<Answer<'_>> = reflected
+        .iter()
+        .map(|row| {
+            let (found, nearest) = answer(row);
+            Answer { program: &row.name, found, nearest }
+        })
+        .collect();
+    let exit = if answers.iter().all(|answer| answer.found.is_empty()) { Exit::Content } else { Exit::Ok };
+    if format == ResultFormat::Json {
+        let text = serde_json::to_string_pretty(&answers).expect("an answer is always JSON");
+        console.output(&(text + "\n"))?;
+        return Ok(exit);
     }
-    if lines.is_empty() {
-        let help = nearest_name.map(|near| format!("did you mean `{near}`?"));
+    if exit == Exit::Content {
+        let nearest = answers.into_iter().find_map(|answer| answer.nearest);
+        let help = nearest.map(|near| format!("did you mean `{near}`?"));
         console.failure(&format!("there is no `{name}` in the program"), help.as_deref());
-        return Ok(Exit::Content);
+        return Ok(exit);
     }
-    console.output(&(lines.join("\n") + "\n"))?;
-    Ok(Exit::Ok)
+    let several = reflected.len() > 1;
+    let lines = answers.iter().flat_map(|answer| answer.found.iter().map(move |found| (answer.program, found)));
+    let lines = lines.map(|(program, found)| {
+        let indent = if found.part { "  " } else { "" };
+        match several {
+            true => format!("{program}: {indent}{}\n", found.description),
+            false => format!("{indent}{}\n", found.description),
+        }
+    });
+    console.output(&lines.collect::<String>())?;
+    Ok(exit)
 }

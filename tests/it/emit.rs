@@ -19,7 +19,7 @@ use std::process::Command;
 const REFUSALS: [&str; 2] = ["E0801", "E0802"];
 
 /// All shaders in a folder of the fixtures, grouped into programs by folder and stem.
-fn fixtures(folder: &str) -> BTreeMap<PathBuf, Vec<PathBuf>> {
+pub(crate) fn fixtures(folder: &str) -> BTreeMap<PathBuf, Vec<PathBuf>> {
     let mut programs: BTreeMap<PathBuf, Vec<PathBuf>> = BTreeMap::new();
     for path in files_under(&root().join("fixtures").join(folder)).into_iter().filter(|path| stage_of(path).is_some()) {
         programs.entry(path.with_extension("")).or_default().push(path);
@@ -202,7 +202,7 @@ fn the_other_conventions_are_accepted_everywhere() {
         spirv_env: SpirvEnv::Vulkan,
         clip_distances: Some(1),
         program_point_size: false,
-        debug_lines: false,
+        ..Conventions::default()
     };
     all("lower", &conventions);
 }

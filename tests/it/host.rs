@@ -226,7 +226,7 @@ impl Host {
     /// The bytes of every uniform buffer.
     fn buffers(&self, reflection: &Reflection, app: &App) -> Vec<(Binding, wgpu::Buffer)> {
         let mut buffers: Vec<(Binding, Vec<u8>)> = Vec::new();
-        if let Some(loose) = reflection.loose_block {
+        if let Some(loose) = &reflection.loose_block {
             buffers.push((Binding { group: loose.group, binding: loose.binding }, vec![0; loose.size as usize]));
         }
         for block in &reflection.blocks {

@@ -118,8 +118,9 @@ fn the_seeds_triangle_has_its_attributes_where_they_were_bound() {
         let places: Vec<_> = reflection.attributes.iter().map(|row| (row.name.as_str(), row.location)).collect();
         assert_eq!(places, [("pv", pv), ("cv", cv)]);
         // The seed document calls glGetUniformLocation for it.
-        let Found::Known(lines) = find(&program, &reflection, "cv") else { panic!("`cv` is there") };
-        assert!(lines[0].contains("is an attribute"), "{lines:?}");
+        let Found::Known(found) = find(&program, &reflection, "cv") else { panic!("`cv` is there") };
+        assert!(found[0].description.contains("is an attribute"), "{found:?}");
+        assert_eq!(found[0].row["location"], cv, "{found:?}");
         let Found::Unknown { nearest } = find(&program, &reflection, "mcc") else { panic!("`mcc` is not there") };
         assert_eq!(nearest.as_deref(), Some("mc"));
     }

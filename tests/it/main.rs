@@ -66,5 +66,10 @@ mod stability_page;
 mod support;
 #[cfg(feature = "gpu")]
 mod tutorial;
+mod sprites;
+mod support;
+mod targets;
+#[cfg(feature = "cli")]
+mod wgsl;
 mod witness;
 mod words;

@@ -42,6 +42,11 @@ pub(crate) fn places(program: &Program) -> Reflection {
     reflection.blocks.iter_mut().for_each(|row| row.active = true);
     reflection.uniforms.iter_mut().for_each(|row| row.active = true);
     reflection.samplers.iter_mut().for_each(|row| row.active = true);
+    reflection.struct_arrays.iter_mut().for_each(|row| row.active = true);
+    // Stages that do not read it do not see it.
+    reflection.loose_block.iter_mut().for_each(|row| row.visibility.clear());
+    reflection.blocks.iter_mut().for_each(|row| row.visibility.clear());
+    reflection.samplers.iter_mut().for_each(|row| row.visibility.clear());
     reflection
 }
 

@@ -14,7 +14,8 @@ mod lower;
 mod target;
 
 pub use emit::{Emitted, Reflection, emit, emit_with_sources, levels_of_comparisons, notes, reflect, reflection};
-pub use target::{BUFFER_WIDTH, ClipZ, Conventions, SpirvEnv, Target, WindowOrigin};
+pub use lower::viewport_slot;
+pub use target::{BUFFER_WIDTH, ClipZ, Conventions, GlslVersion, SpirvEnv, Target, WindowOrigin};
 
 /// Lowers without emitting, for a benchmark of the two parts. Returns how many functions the lowered module has.
 ///

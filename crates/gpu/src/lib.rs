@@ -25,6 +25,7 @@ mod error;
 mod frame;
 mod prepare;
 mod shadow_upload;
+mod sprites;
 mod states;
 mod texture_extent;
 mod textures;

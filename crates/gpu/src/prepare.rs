@@ -8,7 +8,7 @@
 use super::states::{blend, color_format, depth_stencil, primitive_state};
 use super::textures::{self, Bound};
 use super::vertices::{self, Rows};
-use super::{Error, Gpu, Via, assembly, uniforms};
+use super::{Error, Gpu, Via, assembly, sprites, uniforms};
 use glisten_emit::{self as emit, Conventions, Emitted, Target};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::targets::FEATURE_NOT_IN_TARGET;
@@ -41,7 +41,7 @@ pub(super) struct PreparedDraw {
 pub(super) type Modules<'a> = &'a dyn Fn(&Draw, Stage) -> Result<Emitted, Error>;
 
 fn emitted(draw: &Draw, stage: Stage, target: Target) -> Result<Emitted, Error> {
-    emit::emit(&draw.program, stage, target, &conventions(draw)).map_err(Error::Emit)
+    emit::emit(&draw.program, stage, target, &conventions(draw, target)).map_err(Error::Emit)
 }
 
 /// A pipeline and what it was created for: draws of one program in one state share it.
@@ -66,7 +66,7 @@ impl Gpu {
             Via::Spirv => Target::Spirv,
             Via::Wgsl => Target::Wgsl,
         };
-        self.prepare_with(scene, &|draw, stage| emitted(draw, stage, target))
+        self.prepare_with(scene, target, &|draw, stage| emitted(draw, stage, target))
     }
 
     /// Prepares a scene with SPIR-V after `edit` has changed the emitted words of each stage, in the order of the
@@ -91,10 +91,11 @@ impl Gpu {
             Emitted::Words(words) => Ok(Emitted::Words(edit(stage, words))),
             text @ Emitted::Text(_) => Ok(text),
         };
-        self.prepare_with(scene, &edited)
+        self.prepare_with(scene, Target::Spirv, &edited)
     }
 
-    pub(super) fn prepare_with(&self, scene: &Scene, modules: Modules<'_>) -> Result<Prepared, Error> {
+    /// Prepares a scene with modules for a target, which follow the conventions of [`conventions`].
+    pub(super) fn prepare_with(&self, scene: &Scene, target: Target, modules: Modules<'_>) -> Result<Prepared, Error> {
         self.require(wgpu::Features::DEPTH32FLOAT_STENCIL8, "a depth buffer with stencil")?;
         let limit = self.limits.max_texture_dimension_2d;
         let Framebuffer { width, height, .. } = scene.framebuffer;
@@ -106,7 +107,8 @@ impl Gpu {
         let mut made = Vec::new();
         let mut draws = Vec::new();
         for draw in &scene.draws {
-            draws.push(self.guarded(|| self.prepare_draw(&scene.framebuffer, draw, modules, &mut made))?);
+            let sprites = sprites::applies(draw, target);
+            draws.push(self.guarded(|| self.prepare_draw(&scene.framebuffer, draw, sprites, modules, &mut made))?);
         }
         Ok(Prepared { framebuffer: scene.framebuffer, draws })
     }
@@ -115,13 +117,14 @@ impl Gpu {
         &self,
         framebuffer: &Framebuffer,
         draw: &Draw,
+        sprites: bool,
         modules: Modules<'_>,
         made: &mut Vec<Made>,
     ) -> Result<PreparedDraw, Error> {
         let program = &draw.program;
         refuse_levels(draw)?;
-        let bindings = bindings(program)?;
-        let rows = vertices::rows(draw);
+        let bindings = bindings(program, sprites)?;
+        let rows = if sprites { vertices::rows_of_points(draw) } else { vertices::rows(draw) };
         let instanced: Vec<bool> = rows.iter().map(|rows| rows.step == wgpu::VertexStepMode::Instance).collect();
         let known = made.iter().position(|made| {
             Arc::ptr_eq(&made.program, program) && made.state == draw.state && made.instanced == instanced
@@ -132,13 +135,20 @@ impl Gpu {
                 let modules =
                     [self.module(draw, Stage::Vertex, modules)?, self.module(draw, Stage::Fragment, modules)?];
                 let layouts = self.layouts(&bindings);
-                let pipeline = self.pipeline(framebuffer, draw, &modules, &layouts, &rows);
+                let primitive = if sprites { sprites::primitive_state() } else { primitive_state(&draw.state) };
+                let pipeline = self.pipeline(framebuffer, draw, primitive, &modules, &layouts, &rows);
                 made.push(Made { program: Arc::clone(program), state: draw.state, instanced, pipeline, layouts });
                 made.len() - 1
             }
         };
         let Made { pipeline, layouts, .. } = &made[index];
         let groups = self.bind(framebuffer, draw, &bindings, layouts)?;
+        if sprites {
+            let vertex_buffers = rows.iter().map(|rows| self.buffer(&rows.bytes, wgpu::BufferUsages::VERTEX)).collect();
+            let (count, instances) = (sprites::CORNERS, sprites::count(draw));
+            let pipeline = pipeline.clone();
+            return Ok(PreparedDraw { pipeline, groups, vertex_buffers, indices: None, count, instances });
+        }
         let turned = draw.state.provoking_last && has_flat_varying(program);
         let list = assembly::list(draw.state.primitive, draw.vertex_count, draw.indices.as_deref(), turned);
         let count = list.as_ref().map_or(draw.vertex_count, |list| list.len() as u32);
@@ -215,6 +225,7 @@ impl Gpu {
         &self,
         framebuffer: &Framebuffer,
         draw: &Draw,
+        primitive: wgpu::PrimitiveState,
         [vertex, fragment]: &[wgpu::ShaderModule; 2],
         layouts: &[wgpu::BindGroupLayout],
         rows: &[Rows],
@@ -244,7 +255,7 @@ impl Gpu {
                 compilation_options: wgpu::PipelineCompilationOptions::default(),
                 buffers: &buffers,
             },
-            primitive: primitive_state(&draw.state),
+            primitive,
             depth_stencil: Some(depth_stencil(&draw.state)),
             multisample: wgpu::MultisampleState::default(),
             fragment: Some(wgpu::FragmentState {
@@ -266,11 +277,13 @@ impl Gpu {
         layouts: &[wgpu::BindGroupLayout],
     ) -> Result<Vec<wgpu::BindGroup>, Error> {
         let texels: Vec<u32> = draw.textures.iter().map(|texture| textures::texels(texture.as_deref())).collect();
-        let buffers: Vec<(SlotBinding, wgpu::Buffer)> =
+        let mut buffers: Vec<(SlotBinding, wgpu::Buffer)> =
             uniforms::pack(&draw.program, &draw.uniforms, framebuffer.height, &texels)
                 .into_iter()
                 .map(|packed| (packed.slot, self.buffer(&packed.bytes, wgpu::BufferUsages::UNIFORM)))
                 .collect();
+        let viewport = sprites::viewport(framebuffer);
+        buffers.push((sprites::slot(&draw.program), self.buffer(&viewport, wgpu::BufferUsages::UNIFORM)));
         let mut bound: Vec<(SlotBinding, SlotBinding, Bound)> = Vec::new();
         for (index, slot) in draw.program.interface.samplers.iter().enumerate() {
             let Type::Sampler(kind) = draw.program.types.get(slot.ty) else { continue };
@@ -309,8 +322,9 @@ impl Gpu {
 }
 
 /// The conventions for emission.
-fn conventions(draw: &Draw) -> Conventions {
+fn conventions(draw: &Draw, target: Target) -> Conventions {
     Conventions {
+        point_sprites: sprites::applies(draw, target),
         clip_distances: Some(draw.state.clip_distances),
         program_point_size: draw.state.program_point_size,
         ..Conventions::default()
@@ -379,7 +393,7 @@ impl What {
 }
 
 /// Everything that the interface reflects, by binding. Bindings must count from 0 without gaps in each group.
-fn bindings(program: &Program) -> Result<Vec<Binding>, Error> {
+fn bindings(program: &Program, sprites: bool) -> Result<Vec<Binding>, Error> {
     let interface = &program.interface;
     let mut all: Vec<Binding> = Vec::new();
     all.extend(interface.loose.iter().map(|&(slot, _)| Binding { slot, what: What::Uniforms }));
@@ -388,6 +402,9 @@ fn bindings(program: &Program) -> Result<Vec<Binding>, Error> {
             let slot = SlotBinding { binding: block.slot.binding + element, ..block.slot };
             all.push(Binding { slot, what: What::Uniforms });
         }
+    }
+    if sprites {
+        all.push(Binding { slot: sprites::slot(program), what: What::Uniforms });
     }
     for sampler in &interface.samplers {
         let Type::Sampler(kind) = program.types.get(sampler.ty) else { continue };

@@ -1,7 +1,7 @@
 //! Tests of the runner alone, on hand-written WGSL, independent of lowering. They need a Vulkan software adapter.
 
 use super::{Error, Gpu, Rendered};
-use glisten_emit::Emitted;
+use glisten_emit::{Emitted, Target};
 use glisten_front::hir::{
     GlobalId, Interpolation, MatrixLayout, SamplerDim, SamplerType, Scalar, ScalarValue, Shader, Stage, Type, TypeId,
     Types,
@@ -112,7 +112,7 @@ fn scene(types: Types, interface: Interface) -> Scene {
 
 fn draw(scene: &Scene, vertex: &str, fragment: &str) -> Result<Rendered, Error> {
     let gpu = gpu();
-    let prepared = gpu.prepare_with(scene, &|_, stage| {
+    let prepared = gpu.prepare_with(scene, Target::Spirv, &|_, stage| {
         Ok(Emitted::Text(if stage == Stage::Vertex { vertex.into() } else { fragment.into() }))
     })?;
     gpu.draw(&prepared)
@@ -265,7 +265,7 @@ fn a_measured_stretch_is_positive_and_fragments_are_counted() {
     let gpu = gpu();
     let scene = scene(Types::new(), interface());
     let prepared = gpu
-        .prepare_with(&scene, &|_, stage| {
+        .prepare_with(&scene, Target::Spirv, &|_, stage| {
             Ok(Emitted::Text(if stage == Stage::Vertex { VERTEX.into() } else { FRAGMENT.into() }))
         })
         .expect("the scene is good");

@@ -42,12 +42,26 @@ pub(super) fn rows(draw: &Draw) -> Vec<Rows> {
     };
     let mut buffers = Vec::new();
     if !plain.is_empty() {
-        buffers.push(fill(&plain, vertices, wgpu::VertexStepMode::Vertex));
+        buffers.push(fill(&plain, 0..vertices, wgpu::VertexStepMode::Vertex));
     }
     if !instanced.is_empty() {
-        buffers.push(fill(&instanced, draw.instances, wgpu::VertexStepMode::Instance));
+        buffers.push(fill(&instanced, 0..draw.instances, wgpu::VertexStepMode::Instance));
     }
     buffers
+}
+
+/// The buffers of points that are drawn as instances: a row per point, in the order of the draw.
+pub(super) fn rows_of_points(draw: &Draw) -> Vec<Rows> {
+    let program = &draw.program;
+    let columns = columns(&program.interface.attributes, &draw.attributes, &program.types);
+    if columns.is_empty() {
+        return Vec::new();
+    }
+    let step = wgpu::VertexStepMode::Instance;
+    vec![match &draw.indices {
+        Some(indices) => fill(&columns, indices.iter().copied(), step),
+        None => fill(&columns, 0..draw.vertex_count, step),
+    }]
 }
 
 /// All columns by location. Where two attributes share a location (legal as long as no path reads both), the active
@@ -82,7 +96,7 @@ fn shape(types: &Types, ty: TypeId) -> Option<(Scalar, u32)> {
     }
 }
 
-fn fill(columns: &[Column<'_>], rows: u32, step: wgpu::VertexStepMode) -> Rows {
+fn fill(columns: &[Column<'_>], rows: impl Iterator<Item = u32>, step: wgpu::VertexStepMode) -> Rows {
     let mut layout = Vec::new();
     let mut stride = 0;
     for column in columns {
@@ -93,8 +107,8 @@ fn fill(columns: &[Column<'_>], rows: u32, step: wgpu::VertexStepMode) -> Rows {
         });
         stride += u64::from(column.height) * 4;
     }
-    let mut bytes = Vec::with_capacity(stride as usize * rows as usize);
-    for row in 0..rows {
+    let mut bytes = Vec::with_capacity(stride as usize * rows.size_hint().0);
+    for row in rows {
         for column in columns {
             for component in 0..column.height {
                 bytes.extend(component_bytes(column, row, component));
@@ -154,7 +168,7 @@ mod tests {
     fn missing_components_become_0_0_0_1() {
         let data = [floats(3, &[1.0, 2.0, 3.0])];
         let columns = columns(&[attribute(TypeId::VEC4, 2, 1, true)], &data, &Types::new());
-        let rows = fill(&columns, 1, wgpu::VertexStepMode::Vertex);
+        let rows = fill(&columns, 0..1, wgpu::VertexStepMode::Vertex);
         let floats: Vec<f32> = rows.bytes.chunks(4).map(|b| f32::from_ne_bytes([b[0], b[1], b[2], b[3]])).collect();
         assert_eq!(floats, [1.0, 2.0, 3.0, 1.0]);
         assert_eq!(rows.stride, 16);
@@ -165,7 +179,7 @@ mod tests {
     fn a_matrix_takes_a_location_a_column() {
         let data = [floats(6, &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0])];
         let columns = columns(&[attribute(TypeId::matrix(2, 3), 1, 2, true)], &data, &Types::new());
-        let rows = fill(&columns, 1, wgpu::VertexStepMode::Vertex);
+        let rows = fill(&columns, 0..1, wgpu::VertexStepMode::Vertex);
         assert_eq!(rows.columns.iter().map(|c| (c.shader_location, c.offset)).collect::<Vec<_>>(), [(1, 0), (2, 12)]);
         assert_eq!(rows.bytes.len(), 24);
     }

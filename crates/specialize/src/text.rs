@@ -4,11 +4,9 @@
 //! or next to what is left, and for each line the place in the original that it comes from.
 
 use glisten_front::hir::{Notes, Shader, Stage, Types, print_with};
-use glisten_front::source::{SourceMap, Span};
+use glisten_front::source::{SourceMap, Span, comments};
 use std::cell::RefCell;
 
-/// A comment above something is at most so many lines long.
-const MOST_LINES: usize = 40;
 /// The beginning of a line that says where the next one comes from. No source has it: control characters are replaced.
 const MARK: &str = "//\u{1}";
 
@@ -48,20 +46,9 @@ struct Comments<'a> {
     marks: RefCell<Vec<Span>>,
 }
 
-impl Comments<'_> {
-    /// The text of the file that a span is in, and the span's place in it; nothing for what a macro brought.
-    fn place(&self, span: Span) -> Option<(&str, usize, usize)> {
-        let sources = self.sources.filter(|_| span.is_known() && !span.expansion.is_some())?;
-        let file = sources.file(sources.file_of(span)?);
-        let (start, end) = (span.start.checked_sub(file.base())? as usize, span.end.checked_sub(file.base())? as usize);
-        let text: &str = file.text();
-        (text.is_char_boundary(start) && text.is_char_boundary(end)).then_some((text, start, end))
-    }
-}
-
 impl Notes for Comments<'_> {
     fn above(&self, span: Span) -> Vec<String> {
-        let mut lines = self.comment(span);
+        let mut lines = self.sources.map_or_else(Vec::new, |sources| comments::above(sources, span));
         let mut marks = self.marks.borrow_mut();
         lines.push(format!("{MARK}{}", marks.len()));
         marks.push(span);
@@ -69,41 +56,6 @@ impl Notes for Comments<'_> {
     }
 
     fn behind(&self, span: Span) -> Option<String> {
-        let (text, _, end) = self.place(span)?;
-        let rest = text.get(end..)?.lines().next()?;
-        let (code, comment) = rest.split_at(rest.find("//")?);
-        let ends = code.trim_start_matches([';', ' ', '\t']).is_empty() || code.trim_end().ends_with(';');
-        let one = code.matches(';').count() <= 1;
-        let comment = comment.trim_end();
-        (ends && one && !comment.ends_with('\\')).then(|| comment.to_owned())
-    }
-}
-
-impl Comments<'_> {
-    /// The comment above something.
-    fn comment(&self, span: Span) -> Vec<String> {
-        let Some((text, start, _)) = self.place(span) else { return Vec::new() };
-        let before = text.get(..start).unwrap_or("");
-        let mut lines = before.lines().rev();
-        if !before.ends_with('\n') {
-            // What stands before it on its own line.
-            lines.next();
-        }
-        let mut comment = Vec::new();
-        let mut inside = false;
-        for line in lines.take(MOST_LINES) {
-            let line = line.trim();
-            let starts = line.starts_with("/*");
-            let whole = starts && line.ends_with("*/");
-            let part = inside || line.starts_with("//") || whole || line.ends_with("*/") && !line.contains(';');
-            if !part || line.ends_with('\\') {
-                break;
-            }
-            inside = !whole && !starts && (inside || (line.ends_with("*/") && !line.starts_with("//")));
-            comment.push(line.to_owned());
-        }
-        comment.reverse();
-        // A block of which the beginning was not found is none.
-        if inside { Vec::new() } else { comment }
+        comments::behind(self.sources?, span)
     }
 }

@@ -10,6 +10,7 @@
 
 #[cfg(feature = "gpu")]
 mod coverage;
+mod emitted;
 #[cfg(feature = "gpu")]
 mod order;
 

@@ -12,6 +12,7 @@ mod naga_repairs;
 mod notes;
 pub mod reflection;
 mod targets;
+mod wgsl_text;
 mod write;
 
 pub use emitted::Emitted;

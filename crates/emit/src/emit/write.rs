@@ -8,7 +8,8 @@ use super::emitted::Emitted;
 use super::messages::{chain, without_handles};
 use super::naga_repairs::nesting::is_nested;
 use super::targets::{self, Job};
-use crate::target::{Conventions, Target};
+use super::wgsl_text::{commented, header};
+use crate::target::{Conventions, Slots, Target};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::general;
 use glisten_front::diagnostic::codes::targets::FEATURE_NOT_IN_TARGET;
@@ -42,22 +43,51 @@ pub fn emit_with_sources(
     conventions: &Conventions,
     sources: Option<&SourceMap>,
 ) -> Result<Emitted, Vec<Diagnostic>> {
+    if target == Target::Glsl {
+        let emitted = targets::glsl::write(program, stage, conventions, sources)?;
+        return Ok(with_comments(emitted, program, stage, target, sources));
+    }
     let module = crate::lower::lower(program, stage, target, conventions)?;
     // naga's validator and writers recurse over nested blocks, which the parser bounds at 256.
     const NESTING: u32 = 512;
     let deep = program.stage(stage).is_some_and(|shader| shader.expr_depth > 32) || is_nested(&module, 24);
-    if let Some(found) = targets::limit(target, &module) {
+    let slots = Slots::of(&program.interface);
+    if let Some(found) = targets::limit(target, &module, &slots) {
         return Err(vec![found]);
     }
     let write = || {
         let info = validate(&module)?;
-        let job = Job { module, info: &info, stage, conventions, sources };
+        let job = Job { module, info: &info, stage, conventions, sources, slots: &slots };
         targets::write(target, job).map_err(|message| vec![failed(target, &message)])
     };
-    glisten_front::stack::with_stack(if deep { NESTING } else { 0 }, move || {
+    let emitted = glisten_front::stack::with_stack(if deep { NESTING } else { 0 }, move || {
         catch_unwind(AssertUnwindSafe(write)).unwrap_or_else(|_| {
             Err(vec![internal_error(Span::default(), format!("the writer of {} panicked", target.name()))])
         })
+    })?;
+    Ok(with_comments(emitted, program, stage, target, sources))
+}
+
+/// Text with a header, and WGSL with the comments of the source, too, if the sources are known.
+fn with_comments(
+    emitted: Emitted,
+    program: &Program,
+    stage: Stage,
+    target: Target,
+    sources: Option<&SourceMap>,
+) -> Emitted {
+    let (Emitted::Text(text), Some(shader), Some(sources)) = (&emitted, program.stage(stage), sources) else {
+        return emitted;
+    };
+    let Some(header) = header(shader, sources) else { return emitted };
+    Emitted::Text(match target {
+        Target::Wgsl => header + &commented(text, &program.types, shader, sources),
+        // In GLSL, `#version` comes first: some drivers do not accept a comment before it.
+        Target::Glsl => match text.split_once('\n') {
+            Some((version, rest)) => format!("{version}\n{header}{}", rest.trim_start_matches('\n')),
+            None => header + text,
+        },
+        Target::Msl | Target::Hlsl | Target::Spirv => header + text,
     })
 }
 

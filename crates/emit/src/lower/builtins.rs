@@ -6,7 +6,7 @@
 use super::function::Ctx;
 use super::operators::Typed;
 use super::{Try, unsupported};
-use crate::target::WindowOrigin;
+use crate::target::{Target, WindowOrigin};
 use glisten_front::builtin::BuiltinFunction;
 use glisten_front::builtin::operations::{
     Binary, BooleanFunction, Class, Composite, Derivative, Emission, MatrixFunction, Numbers, Relation, Ternary, Test,
@@ -193,6 +193,10 @@ impl Ctx<'_, '_> {
             Composite::Distance => Ok(self.math(MathFunction::Distance, values)),
             Composite::Cross => Ok(self.math(MathFunction::Cross, values)),
             Composite::Determinant => Ok(self.math(MathFunction::Determinant, values)),
+            Composite::Inverse if matches!(self.low.target, Target::Msl | Target::Hlsl) => {
+                let [matrix] = self.of(values)?;
+                self.inverse(matrix.0, matrix.1)
+            }
             Composite::Inverse => Ok(self.math(MathFunction::Inverse, values)),
             Composite::Dot => {
                 let [a, b] = self.of(values)?;

@@ -1,7 +1,6 @@
 //! Lowers loops and switches (§6.2, §6.3).
 
 use super::Try;
-use super::facts::is_counted;
 use super::function::Ctx;
 use super::slots::LocalSlot;
 use glisten_front::hir::{
@@ -25,10 +24,9 @@ impl Ctx<'_, '_> {
         let in_switch = std::mem::replace(&mut self.in_switch, false);
         // In targets where an invocation continues after a `discard`, it may continue with values that the program
         // never meant to use. A loop that does not evidently end is then left.
-        let facts = self.low.facts.function(self.id);
-        let counted =
-            facts.is_some_and(|facts| is_counted(self.shader, facts, condition.map(|found| found.expr), step));
-        let guard = self.low.discarded.filter(|_| !counted);
+        let span = self.here();
+        let guarded = self.low.facts.loops_after_discard.contains(&(span.start, span.end));
+        let guard = self.low.discarded.filter(|_| guarded);
         let lowered = match kind {
             LoopKind::For | LoopKind::While => self.loop_in_front(condition, step, body, guard),
             LoopKind::DoWhile => self.loop_behind(condition, body, guard),

@@ -3,6 +3,7 @@
 //! *In:* a [`Shader`]. *Out:* [`Facts`]. *Holds:* nothing here recurses over expressions. The arena stores children
 //! before their parents, so one pass over it is enough; functions are traversed with work lists.
 
+use super::discards::{GuardedLoops, guarded_loops};
 use glisten_front::builtin::BuiltinFunction;
 use glisten_front::hir::{
     ExprId, ExprKind, Function, FunctionId, GlobalId, LocalId, LocalKind, ParamMode, ScalarValue, Shader, Stmt,
@@ -39,9 +40,7 @@ pub(super) struct FunctionFacts {
     /// For each local: how often the function writes to it after its declaration, saturating.
     writes: Vec<u8>,
     /// Whether it contains a `discard`.
-    discards: bool,
-    /// Whether it contains a loop that does not evidently end (see [`is_counted`]).
-    open_loop: bool,
+    pub(super) discards: bool,
 }
 
 /// Facts about a shader.
@@ -59,8 +58,8 @@ pub(super) struct Facts {
     pub(super) used: Vec<bool>,
     /// For each global: whether it is indexed by a variable.
     pub(super) indexed: Vec<bool>,
-    /// Whether a discarded invocation may run a loop that does not evidently end.
-    pub(super) loops_after_discard: bool,
+    /// The loops that a discarded invocation may run, and that do not evidently end.
+    pub(super) loops_after_discard: GuardedLoops,
 }
 
 impl Facts {
@@ -73,7 +72,7 @@ impl Facts {
             shared: vec![false; shader.globals.len()],
             used: vec![false; shader.globals.len()],
             indexed: vec![false; shader.globals.len()],
-            loops_after_discard: false,
+            loops_after_discard: GuardedLoops::default(),
         };
         let mut constants = vec![false; shader.exprs.len()];
         for function in &shader.functions {
@@ -85,10 +84,7 @@ impl Facts {
         }
         facts.natures = natures(shader, &constants);
         facts.order = order(shader, &facts.functions);
-        let reached = |is: fn(&FunctionFacts) -> bool| {
-            facts.order.iter().any(|id| facts.functions.get(id.index()).is_some_and(is))
-        };
-        facts.loops_after_discard = reached(|function| function.discards) && reached(|function| function.open_loop);
+        facts.loops_after_discard = guarded_loops(shader, &facts.functions, &facts.order);
         facts.mark_globals(shader);
         facts
     }
@@ -227,8 +223,6 @@ struct FunctionWalk<'a> {
     indexed: &'a mut [bool],
     constants: &'a mut [bool],
     roots: Vec<ExprId>,
-    /// The condition and step of each loop.
-    loops: Vec<(Option<ExprId>, Option<ExprId>)>,
 }
 
 impl<'a> FunctionWalk<'a> {
@@ -240,7 +234,7 @@ impl<'a> FunctionWalk<'a> {
             writes: vec![0; locals],
             ..FunctionFacts::default()
         };
-        Self { shader, function, facts, indexed, constants, roots: Vec::new(), loops: Vec::new() }
+        Self { shader, function, facts, indexed, constants, roots: Vec::new() }
     }
 
     fn run(mut self) -> FunctionFacts {
@@ -258,9 +252,6 @@ impl<'a> FunctionWalk<'a> {
             self.expression(kind);
             children(kind, |child| self.roots.push(child));
         }
-        let facts = &self.facts;
-        let open = self.loops.iter().any(|(condition, step)| !is_counted(self.shader, facts, *condition, *step));
-        self.facts.open_loop = open;
         self.facts.globals.sort_unstable();
         self.facts.globals.dedup();
         self.facts.calls.sort_unstable();
@@ -293,7 +284,6 @@ impl<'a> FunctionWalk<'a> {
                         self.roots.push(condition.expr);
                     }
                     self.roots.extend(step);
-                    self.loops.push((condition.as_ref().map(|condition| condition.expr), *step));
                     inner(body);
                 }
                 StmtKind::Return(value) => self.roots.extend(value),

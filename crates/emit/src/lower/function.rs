@@ -53,6 +53,8 @@ pub(super) struct Ctx<'l, 'a> {
     /// Whether this is the entry point, whose `return` collects the outputs.
     pub(super) is_entry: bool,
     pub(super) outputs: Vec<OutputMember>,
+    /// In a vertex stage that draws points as quads: the corner.
+    pub(super) corner: Option<super::sprites::Corner>,
 }
 
 impl<'l, 'a> Ctx<'l, 'a> {
@@ -77,6 +79,7 @@ impl<'l, 'a> Ctx<'l, 'a> {
             in_switch: false,
             is_entry: shader.main == Some(id),
             outputs: Vec::new(),
+            corner: None,
             low,
         }
     }

@@ -43,6 +43,7 @@ impl Lower<'_> {
     pub(super) fn declare_globals(&mut self) -> Try<()> {
         self.declare_uniforms()?;
         self.declare_samplers()?;
+        self.declare_viewport()?;
         self.declare_discarded()?;
         let shader = self.shader;
         for (id, global) in shader.globals() {
@@ -67,7 +68,7 @@ impl Lower<'_> {
     /// loop that it would have left might never end.
     fn declare_discarded(&mut self) -> Try<()> {
         let goes_on = matches!(self.target, Target::Wgsl | Target::Msl | Target::Hlsl);
-        if goes_on && self.facts.loops_after_discard {
+        if goes_on && !self.facts.loops_after_discard.is_empty() {
             let init = self
                 .module
                 .global_expressions
@@ -114,6 +115,7 @@ impl Lower<'_> {
             && self.conventions.window_origin == WindowOrigin::UpperLeft
             && !self.shader.frag_coord.origin_upper_left
             && self.builtin_global(BuiltinVariable::FragCoord).is_some()
+            && self.shader.reads_row_of_frag_coord()
     }
 
     /// The global of a built-in variable, if the stage uses it.
@@ -146,6 +148,9 @@ impl Lower<'_> {
         let stage = if shader.stage == Stage::Vertex { naga::ShaderStage::Vertex } else { naga::ShaderStage::Fragment };
         let mut ctx = Ctx::new(self, id);
         ctx.inputs()?;
+        if ctx.is_vertex() && ctx.low.draws_sprites() {
+            ctx.corner = Some(ctx.sprite_corner()?);
+        }
         ctx.output_variables()?;
         ctx.declare_outputs()?;
         ctx.private_initializers()?;
@@ -390,10 +395,11 @@ impl Ctx<'_, '_> {
                 let ty = self.low.value_type(TypeId::BOOL)?;
                 Ok(self.argument(&global.name, ty, Some(Binding::BuiltIn(BuiltIn::FrontFacing))))
             }
+            B::PointCoord if self.low.draws_sprites() => self.sprite_coordinate(),
             B::PointCoord if target == Target::Wgsl || target == Target::Hlsl => Err(lacking(
                 global.span,
                 format!("{} has no `gl_PointCoord`", target.name()),
-                "compile for SPIR-V, or draw two triangles for each point and pass the coordinate as a varying",
+                "draw points as quads with `--point-sprites`, or compile for SPIR-V",
             )),
             B::PointCoord => self.point_coord(),
             B::Position
@@ -411,6 +417,14 @@ impl Ctx<'_, '_> {
 
     /// An index: unsigned in the target, `int` in GLSL.
     fn index_input(&mut self, name: &str, builtin: BuiltIn) -> Try<Handle<Expression>> {
+        // An instance of a quad is a vertex of the scene, and there are no other instances.
+        let builtin = match builtin {
+            BuiltIn::VertexIndex if self.low.draws_sprites() => BuiltIn::InstanceIndex,
+            BuiltIn::InstanceIndex if self.low.draws_sprites() => {
+                return Ok(self.literal(glisten_front::hir::ScalarValue::Int(0)));
+            }
+            other => other,
+        };
         let ty = self.low.value_type(TypeId::UINT)?;
         let argument = match builtin {
             BuiltIn::VertexIndex => "vertex_index",

@@ -11,10 +11,11 @@
 //!
 //! | file | contents |
 //! | --- | --- |
-//! | `facts` | facts that must be known first |
+//! | `facts`, `discards` | facts that must be known first |
 //! | `types`, `uniforms` | types of values, types in std140 memory |
 //! | `interface`, `outputs` | attributes, varyings, colors, built-in variables, the entry point |
 //! | `function` | the state of one function: naga's arenas, emission, names |
+//! | `sprites` | points as quads |
 //! | `slots` | how globals, locals and outputs are represented |
 //! | `statements`, `control` | §6 |
 //! | `expressions`, `operators`, `constructors`, `places`, `calls` | §5 |
@@ -27,6 +28,7 @@ mod calls;
 mod constants;
 mod constructors;
 mod control;
+mod discards;
 mod expressions;
 mod facts;
 mod function;
@@ -38,6 +40,7 @@ mod outputs;
 mod places;
 mod samplers;
 mod slots;
+mod sprites;
 mod statements;
 mod texel_loads;
 mod textures;
@@ -45,6 +48,7 @@ mod types;
 mod uniforms;
 
 pub(crate) use operands::for_each_operand;
+pub use sprites::viewport_slot;
 
 use crate::target::{Conventions, Target};
 use facts::Facts;
@@ -86,7 +90,7 @@ pub(crate) fn lower(
 
 fn no_geometry(shader: &Shader) -> Diagnostic {
     let span = shader.main.map_or(Span::default(), |main| shader.function(main).span);
-    Diagnostic::new(&targets::STAGE_NOT_IN_TARGET, span, "no target of glisten has a geometry stage")
+    Diagnostic::new(&targets::STAGE_NOT_IN_TARGET, span, "of glisten's targets only GLSL has a geometry stage")
         .here("the entry point of a geometry shader")
         .help("compute the emitted vertices in a vertex shader that is drawn once for each of them")
 }
@@ -111,6 +115,8 @@ struct Lower<'a> {
     functions: Vec<Option<Lowered>>,
     helpers: aggregates::Helpers,
     hidden: Vec<(u32, naga::Handle<naga::GlobalVariable>)>,
+    /// The uniform buffer with the viewport's size, where points are drawn as quads.
+    viewport: Option<naga::Handle<naga::GlobalVariable>>,
     /// Whether the invocation has been discarded, in targets where it continues and a loop has to know.
     discarded: Option<naga::Handle<naga::GlobalVariable>>,
     diagnostics: Vec<Diagnostic>,
@@ -142,6 +148,7 @@ impl<'a> Lower<'a> {
             functions: vec![None; shader.functions.len()],
             helpers: aggregates::Helpers::default(),
             hidden: Vec::new(),
+            viewport: None,
             discarded: None,
             diagnostics: Vec::new(),
         }

@@ -7,6 +7,7 @@
 use super::function::Ctx;
 use super::interface::{path_name, plain_location, varying_binding};
 use super::slots::{GlobalSlot, LocalSlot, OutputMember, OutputSource};
+use super::sprites::{coordinate_binding, coordinate_location};
 use super::{Try, lacking};
 use crate::target::{ClipZ, SpirvEnv, Target, WindowOrigin};
 use glisten_front::builtin::BuiltinVariable;
@@ -72,6 +73,14 @@ impl Ctx<'_, '_> {
                 OutputSource::Varyings(location.rows.iter().map(|row| (row.component, row.ty, row.from)).collect());
             members.push(OutputMember { name, ty, binding: varying_binding(&location), source });
         }
+        if self.low.draws_sprites() {
+            members.push(OutputMember {
+                name: "point_coord".to_owned(),
+                ty: self.low.value_type(TypeId::VEC2)?,
+                binding: coordinate_binding(coordinate_location(self.low.interface)),
+                source: OutputSource::PointCoord,
+            });
+        }
         self.clip_distances(&mut members)?;
         self.point_size(&mut members)?;
         Ok(members)
@@ -103,6 +112,9 @@ impl Ctx<'_, '_> {
         if !self.low.conventions.program_point_size {
             return Ok(());
         }
+        if self.low.draws_sprites() {
+            return Ok(());
+        }
         let target = self.low.target;
         if matches!(target, Target::Wgsl | Target::Hlsl) {
             let declared = self.shader.global(global).span;
@@ -110,7 +122,7 @@ impl Ctx<'_, '_> {
             return Err(lacking(
                 span,
                 format!("{} has no `gl_PointSize`: its points are one pixel wide", target.name()),
-                "compile for SPIR-V, draw two triangles for each point, or leave `--program-point-size` out",
+                "draw points as quads with `--point-sprites`, compile for SPIR-V, or leave `--program-point-size` out",
             ));
         }
         members.push(OutputMember {
@@ -180,7 +192,14 @@ impl Ctx<'_, '_> {
 
     fn output(&mut self, member: &OutputMember) -> Try<Handle<Expression>> {
         match &member.source {
-            OutputSource::Position => self.position(),
+            OutputSource::Position => {
+                let position = self.position()?;
+                if self.corner.is_some() { self.sprite_position(position) } else { Ok(position) }
+            }
+            OutputSource::PointCoord => match &self.corner {
+                Some(corner) => Ok(corner.coordinate),
+                None => Err(self.internal_error("a point has no corners")),
+            },
             OutputSource::PointSize => match self.low.builtin_global(BuiltinVariable::PointSize) {
                 Some(global) => self.output_part(global, 0, TypeId::FLOAT),
                 None => Ok(self.float(1.0)),
@@ -215,7 +234,7 @@ impl Ctx<'_, '_> {
     }
 
     /// A scalar or vector of an output variable, by its index in the flat layout.
-    fn output_part(&mut self, global: GlobalId, flat: u32, part: TypeId) -> Try<Handle<Expression>> {
+    pub(super) fn output_part(&mut self, global: GlobalId, flat: u32, part: TypeId) -> Try<Handle<Expression>> {
         let mut pointer = self.output_pointer(global)?;
         let mut ty = self.shader.global(global).ty;
         let mut rest = flat;

@@ -67,6 +67,8 @@ pub(super) struct OutputMember {
 #[derive(Clone, Debug)]
 pub(super) enum OutputSource {
     Position,
+    /// The place in the point, where points are drawn as quads.
+    PointCoord,
     PointSize,
     ClipDistances(GlobalId, u32),
     /// The varyings at a location: each with its component and, if the stage writes it, its variable.

@@ -311,7 +311,7 @@ impl Lower<'_> {
             return Err(self.layout_slip(ty));
         }
         let handle = self.host(host).handle;
-        let name = block.instance.as_deref().unwrap_or(&block.name);
+        let name = &block.instance.clone().unwrap_or_else(|| variable_name(&block.name));
         let variables = match len {
             None => vec![self.uniform_variable(name, block.slot, handle)],
             Some(len) => (0..len)
@@ -357,4 +357,18 @@ impl Lower<'_> {
             }
         }
     }
+}
+
+/// A name for the variable of a block without an instance name, whose struct has the block's name: `FormulaParams` is
+/// `formula_params`.
+fn variable_name(block: &str) -> String {
+    let mut name = String::new();
+    for character in block.chars() {
+        let follows_lower = name.ends_with(|last: char| last.is_ascii_lowercase() || last.is_ascii_digit());
+        if character.is_ascii_uppercase() && follows_lower {
+            name.push('_');
+        }
+        name.push(character.to_ascii_lowercase());
+    }
+    if name == block { format!("{name}_block") } else { name }
 }

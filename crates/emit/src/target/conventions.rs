@@ -30,6 +30,29 @@ pub enum SpirvEnv {
     Vulkan,
 }
 
+/// The version of emitted GLSL.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum GlslVersion {
+    /// `#version 330`: OpenGL 3.3, the first with locations in the text.
+    #[default]
+    Desktop330,
+    /// `#version 450`: OpenGL 4.5.
+    Desktop450,
+    /// `#version 300 es`: OpenGL ES 3.0 and WebGL 2.
+    Es300,
+}
+
+impl GlslVersion {
+    /// Its word in options and in the reflection.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Desktop330 => "330",
+            Self::Desktop450 => "450",
+            Self::Es300 => "300es",
+        }
+    }
+}
+
 /// The expectations of the host.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Conventions {
@@ -43,6 +66,10 @@ pub struct Conventions {
     pub clip_distances: Option<u32>,
     /// Whether `gl_PointSize` has an effect.
     pub program_point_size: bool,
+    /// Whether points are drawn as quads in targets whose points are one pixel wide: WGSL and HLSL.
+    pub point_sprites: bool,
+    /// The version of emitted GLSL.
+    pub glsl_version: GlslVersion,
     /// Whether SPIR-V contains source lines.
     pub debug_lines: bool,
 }

@@ -5,9 +5,11 @@
 
 mod conventions;
 mod language;
+mod slots;
 mod textures;
 
-pub use conventions::{ClipZ, Conventions, SpirvEnv, WindowOrigin};
+pub use conventions::{ClipZ, Conventions, GlslVersion, SpirvEnv, WindowOrigin};
 pub use language::Target;
+pub(crate) use slots::{SlotKind, Slots};
 pub use textures::BUFFER_WIDTH;
 pub(crate) use textures::Shape;

@@ -2,8 +2,8 @@
 //!
 //! *In:* a shader with complete bodies. *Out:* its flags `reachable`, `used` and `written`.
 
-use super::{ExprId, ExprKind, FunctionId, GlobalId, ParamMode, Shader, Stmt, StmtKind, VarRef};
-use crate::builtin::BuiltinFunction;
+use super::{ExprId, ExprKind, FunctionId, GlobalId, ParamMode, ScalarValue, Shader, Stmt, StmtKind, VarRef};
+use crate::builtin::{BuiltinFunction, BuiltinVariable};
 
 /// The globals and functions that a function or an initializer mentions.
 #[derive(Default)]
@@ -14,6 +14,27 @@ struct Mentions {
 }
 
 impl Shader {
+    /// Whether it reads the second component of `gl_FragCoord` (§7.2), which depends on the window's origin.
+    pub fn reads_row_of_frag_coord(&self) -> bool {
+        let is_coordinate = |id: ExprId| match self.expr(id).kind {
+            ExprKind::Var(VarRef::Global(global)) => self.global(global).builtin == Some(BuiltinVariable::FragCoord),
+            _ => false,
+        };
+        let all = (0..self.exprs.len()).filter(|index| is_coordinate(ExprId(*index as u32))).count();
+        let others = self.exprs.iter().filter(|expr| match &expr.kind {
+            ExprKind::Swizzle(base, swizzle) => is_coordinate(*base) && !swizzle.as_slice().contains(&1),
+            ExprKind::Index(base, index) => {
+                let is_row = !matches!(
+                    self.expr(*index).kind,
+                    ExprKind::Literal(ScalarValue::Int(0 | 2 | 3) | ScalarValue::Uint(0 | 2 | 3))
+                );
+                is_coordinate(*base) && !is_row
+            }
+            _ => false,
+        });
+        others.count() < all
+    }
+
     /// Sets [`Function::reachable`](super::Function::reachable), [`Global::used`](super::Global::used) and
     /// [`Global::written`](super::Global::written) from the bodies. Call it again after changing bodies.
     pub fn mark_static_use(&mut self) {

@@ -67,7 +67,7 @@ fn only_samplers(types: &Types, ty: TypeId) -> bool {
 fn reads_frag_coord(stages: &[Shader]) -> bool {
     stages.iter().filter(|shader| shader.stage == Stage::Fragment).any(|shader| {
         let reads = |global: &Global| global.used && global.builtin == Some(BuiltinVariable::FragCoord);
-        !shader.frag_coord.origin_upper_left && shader.globals.iter().any(reads)
+        !shader.frag_coord.origin_upper_left && shader.globals.iter().any(reads) && shader.reads_row_of_frag_coord()
     })
 }
 

@@ -7,6 +7,7 @@
 //!
 //! *Holds:* neither this phase nor any later one does I/O. The caller supplies the texts.
 
+pub mod comments;
 mod map;
 mod span;
 mod whole;

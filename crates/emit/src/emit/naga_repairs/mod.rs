@@ -8,8 +8,10 @@
 //! | `inline` | naga's text writers name only the loads that need a name |
 //! | `names` | naga's namer follows the scopes of WGSL |
 //! | `nesting` | naga's validator and writers limit how deep they recurse |
+//! | `hlsl` | naga writes HLSL for hosts without wgpu's root signature |
 //! | `lines` | naga's SPIR-V writer accepts several source files |
 
+pub(super) mod hlsl;
 pub(super) mod inline;
 pub(super) mod lines;
 pub(super) mod names;

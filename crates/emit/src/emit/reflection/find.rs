@@ -7,12 +7,35 @@ use super::{Binding, Reflection};
 use glisten_front::diagnostic::did_you_mean;
 use glisten_front::hir::Storage;
 use glisten_front::link::Program;
+use serde::Serialize;
+
+/// A thing of that name.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Match {
+    /// `attribute`, `varying`, `output`, `block`, `uniform`, `sampler`, or `other` for what no host can access.
+    pub kind: &'static str,
+    /// Its name, or the path of a part of what was asked for.
+    pub name: String,
+    /// Whether it is a part of what was asked for.
+    pub part: bool,
+    /// What it is, in a sentence.
+    pub description: String,
+    /// Its row in the reflection; null for `other`.
+    pub row: serde_json::Value,
+}
+
+impl Match {
+    fn new(kind: &'static str, name: &str, description: String, row: &impl Serialize) -> Self {
+        let row = serde_json::to_value(row).unwrap_or_default();
+        Self { kind, name: name.to_owned(), part: false, description, row }
+    }
+}
 
 /// The answer.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Found {
-    /// One line for each thing of that name.
-    Known(Vec<String>),
+    /// What has that name, or what is inside it.
+    Known(Vec<Match>),
     /// There is no such name.
     Unknown {
         /// The most similar name.
@@ -46,33 +69,38 @@ fn at(group: u32, binding: u32) -> String {
     format!("group {group}, binding {binding}")
 }
 
-fn exact(reflection: &Reflection, name: &str) -> Vec<String> {
+fn exact(reflection: &Reflection, name: &str) -> Vec<Match> {
     let mut lines = Vec::new();
     for row in reflection.attributes.iter().filter(|row| row.name == name) {
-        lines.push(format!("`{name}` is an attribute: {} at location {}{}", row.ty, row.location, state(row.active)));
+        let line = format!("`{name}` is an attribute: {} at location {}{}", row.ty, row.location, state(row.active));
+        lines.push(Match::new("attribute", name, line, row));
     }
     for row in reflection.varyings.iter().filter(|row| row.name == name) {
-        lines.push(format!(
+        let line = format!(
             "`{name}` is a varying: {} {} at location {}, component {}{}",
             row.interpolation,
             row.ty,
             row.location,
             row.component,
             state(row.active)
-        ));
+        );
+        lines.push(Match::new("varying", name, line, row));
     }
     for row in reflection.outputs.iter().filter(|row| row.name == name) {
-        lines.push(format!("`{name}` is a fragment output: {}, color number {}", row.ty, row.location));
+        let line = format!("`{name}` is a fragment output: {}, color number {}", row.ty, row.location);
+        lines.push(Match::new("output", name, line, row));
     }
     for row in reflection.blocks.iter().filter(|row| row.name == name) {
         let place = at(row.group, row.binding);
-        lines.push(format!("`{name}` is a uniform block of {} bytes at {place}{}", row.size, state(row.active)));
+        let line = format!("`{name}` is a uniform block of {} bytes at {place}{}", row.size, state(row.active));
+        lines.push(Match::new("block", name, line, row));
     }
     for row in reflection.uniforms.iter().filter(|row| row.name == name) {
         let array = row.array_size.map_or(String::new(), |size| format!("[{size}]"));
         let place = at(row.group, row.binding);
         let active = state(row.active);
-        lines.push(format!("`{name}` is a uniform: {}{array} at {place}, offset {}{active}", row.ty, row.offset));
+        let line = format!("`{name}` is a uniform: {}{array} at {place}, offset {}{active}", row.ty, row.offset);
+        lines.push(Match::new("uniform", name, line, row));
     }
     for row in reflection.samplers.iter().filter(|row| row.name == name) {
         let Binding { group, binding } = row.texture;
@@ -82,26 +110,32 @@ fn exact(reflection: &Reflection, name: &str) -> Vec<String> {
             format!(", sampler at {}", at(row.sampler.group, row.sampler.binding))
         };
         let active = state(row.active);
-        lines.push(format!("`{name}` is a uniform: {}, texture at {}{sampler}{active}", row.ty, at(group, binding)));
+        let line = format!("`{name}` is a uniform: {}, texture at {}{sampler}{active}", row.ty, at(group, binding));
+        lines.push(Match::new("sampler", name, line, row));
     }
     lines
 }
 
 /// The members or columns of a struct, matrix or block.
-fn members(reflection: &Reflection, name: &str) -> Vec<String> {
+fn members(reflection: &Reflection, name: &str) -> Vec<Match> {
     let inside = |path: &str| path.strip_prefix(name).is_some_and(|rest| rest.starts_with(['.', '[']));
     let paths = reflection.uniforms.iter().map(|row| (&row.name, "uniform"));
     let paths = paths.chain(reflection.samplers.iter().map(|row| (&row.name, "uniform")));
     let paths = paths.chain(reflection.varyings.iter().map(|row| (&row.name, "varying")));
     let parts: Vec<_> = paths.filter(|(path, _)| inside(path)).collect();
     let Some((_, kind)) = parts.first() else { return Vec::new() };
-    let mut lines = vec![format!("`{name}` is a {kind} of {} parts:", parts.len())];
-    lines.extend(parts.iter().flat_map(|(path, _)| exact(reflection, path)).map(|line| format!("  {line}")));
+    let kind: &'static str = kind;
+    let head = format!("`{name}` is a {kind} of {} parts:", parts.len());
+    let mut lines = vec![Match::new(kind, name, head, &serde_json::Value::Null)];
+    lines.extend(parts.iter().flat_map(|(path, _)| exact(reflection, path)).map(|mut found| {
+        found.part = true;
+        found
+    }));
     lines
 }
 
 /// Names that the host cannot access: outputs that nothing reads, built-in and global variables.
-fn globals(program: &Program, name: &str) -> Vec<String> {
+fn globals(program: &Program, name: &str) -> Vec<Match> {
     let mut lines = Vec::new();
     for shader in &program.stages {
         for global in shader.globals.iter().filter(|global| global.name == name) {
@@ -115,7 +149,8 @@ fn globals(program: &Program, name: &str) -> Vec<String> {
             };
             let stage = shader.stage.name();
             let ty = program.types.name(global.ty);
-            lines.push(format!("`{name}` is {what} of the {stage} stage ({ty}), without a place outside of it"));
+            let line = format!("`{name}` is {what} of the {stage} stage ({ty}), without a place outside of it");
+            lines.push(Match::new("other", name, line, &serde_json::Value::Null));
         }
     }
     lines

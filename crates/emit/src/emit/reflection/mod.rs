@@ -4,17 +4,28 @@
 //! `glisten reflect --format json` (its schema is `docs/reflection.schema.json`), a table for people, and the answer
 //! to "what is this name?". *Holds:* keys are only ever added; rows are in the order of the [`Interface`].
 
+mod arrays;
 mod find;
+mod places;
 mod table;
+mod wgsl;
 
-pub use find::{Found, find};
+pub use arrays::{StructArray, StructMember};
+pub use find::{Found, Match, find};
+pub use places::{
+    GlslTarget, HlslBuffer, HlslTarget, HlslTexture, MslBuffer, MslTarget, MslTexture, PointSprites, Targets,
+    Visibility,
+};
 pub use table::table;
+pub use wgsl::{WgslTexture, WgslVariable};
 
 use crate::target::{ClipZ, Conventions, SpirvEnv, WindowOrigin};
 use glisten_front::builtin::BuiltinVariable;
 use glisten_front::hir::{MatrixLayout, ScalarValue, Stage, Storage, Type, Types, Value};
 use glisten_front::link::{Interface, Program, SamplerSlot, SlotBinding, UniformLeaf};
+use places::Places;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 
 /// Everything that a host needs to know about a program.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -37,6 +48,48 @@ pub struct Reflection {
     pub samplers: Vec<Sampler>,
     /// The conventions of the emitted code.
     pub conventions: ReflectedConventions,
+    /// The names and versions of the targets.
+    #[serde(default)]
+    pub targets: Targets,
+    /// Arrays of structs, each once.
+    #[serde(default)]
+    pub struct_arrays: Vec<StructArray>,
+    /// The files of each stage, by its name; empty if the program does not come from files.
+    #[serde(default)]
+    pub files: BTreeMap<String, StageFiles>,
+    /// The program that wrote it: `glisten 0.1.0`.
+    #[serde(default)]
+    pub generator: String,
+}
+
+/// The files of a stage, without folders.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct StageFiles {
+    /// The sources.
+    pub sources: Vec<String>,
+    /// What was emitted, by the word of the target: `wgsl`, `spirv`, `msl`, `hlsl`, `glsl`.
+    pub outputs: BTreeMap<String, String>,
+}
+
+/// An array of more structs than this has no rows in [`Reflection::uniforms`] after [`Reflection::compact`].
+pub const MOST_STRUCTS: u32 = 64;
+
+impl Reflection {
+    /// Drops the rows of elements of arrays of more than [`MOST_STRUCTS`] structs: [`Reflection::struct_arrays`] has
+    /// them once.
+    pub fn compact(&mut self) {
+        let large = self.struct_arrays.iter().filter(|array| array.array_size > MOST_STRUCTS);
+        let large: Vec<String> = large.map(|array| format!("{}[", array.name)).collect();
+        self.uniforms.retain(|row| !large.iter().any(|prefix| row.name.starts_with(prefix)));
+    }
+}
+
+impl StructArray {
+    /// Whether its elements have no rows of their own.
+    fn is_compact(&self, reflection: &Reflection) -> bool {
+        let prefix = format!("{}[", self.name);
+        !reflection.uniforms.iter().any(|row| row.name.starts_with(&prefix))
+    }
 }
 
 /// The names of the entry points.
@@ -67,6 +120,9 @@ pub struct Attribute {
     pub columns: u32,
     /// Whether the vertex stage reads it.
     pub active: bool,
+    /// The format of one location, in WebGPU's terms: `float32x4`.
+    #[serde(default)]
+    pub format: String,
 }
 
 /// A scalar or vector that the rasterizer interpolates.
@@ -119,7 +175,7 @@ impl From<SlotBinding> for Binding {
 }
 
 /// The uniform buffer of the loose uniforms.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct LooseBlock {
     /// The group.
     pub group: u32,
@@ -127,6 +183,18 @@ pub struct LooseBlock {
     pub binding: u32,
     /// The size in bytes, a multiple of 16.
     pub size: u32,
+    /// The stages that see it.
+    #[serde(default)]
+    pub visibility: Visibility,
+    /// Its variable in WGSL, if that was emitted.
+    #[serde(default)]
+    pub wgsl: Option<WgslVariable>,
+    /// Its index in MSL.
+    #[serde(default)]
+    pub msl: MslBuffer,
+    /// Its register in HLSL.
+    #[serde(default)]
+    pub hlsl: HlslBuffer,
 }
 
 /// A uniform block.
@@ -148,6 +216,18 @@ pub struct Block {
     pub unit: Option<u32>,
     /// Whether a stage reads it.
     pub active: bool,
+    /// The stages that see it.
+    #[serde(default)]
+    pub visibility: Visibility,
+    /// The variable of the (first) block in WGSL, if that was emitted.
+    #[serde(default)]
+    pub wgsl: Option<WgslVariable>,
+    /// The index of the (first) block in MSL.
+    #[serde(default)]
+    pub msl: MslBuffer,
+    /// The register of the (first) block in HLSL.
+    #[serde(default)]
+    pub hlsl: HlslBuffer,
 }
 
 /// A scalar, vector, matrix, or array of those.
@@ -179,6 +259,12 @@ pub struct Uniform {
     pub default: Option<Vec<serde_json::Value>>,
     /// Whether a stage reads it.
     pub active: bool,
+    /// The number of bytes from the first to the last, with the padding of an array's last element.
+    #[serde(default)]
+    pub size: u32,
+    /// The type of its memory in WGSL.
+    #[serde(default)]
+    pub wgsl_type: String,
 }
 
 /// A texture and its sampler.
@@ -218,6 +304,18 @@ pub struct Sampler {
     pub unit: Option<u32>,
     /// Whether a stage reads it.
     pub active: bool,
+    /// The stages that see it.
+    #[serde(default)]
+    pub visibility: Visibility,
+    /// Its variables in WGSL, if that was emitted.
+    #[serde(default)]
+    pub wgsl: Option<WgslTexture>,
+    /// The indices in MSL.
+    #[serde(default)]
+    pub msl: MslTexture,
+    /// The registers in HLSL.
+    #[serde(default)]
+    pub hlsl: HlslTexture,
 }
 
 /// The conventions of the emitted code.
@@ -240,6 +338,9 @@ pub struct ReflectedConventions {
     pub clip_distances: u32,
     /// Whether the program sets the point size.
     pub point_size: bool,
+    /// How points are drawn in WGSL and HLSL, if they are drawn as quads.
+    #[serde(default)]
+    pub point_sprites: Option<PointSprites>,
 }
 
 /// Four bytes in the block of the loose uniforms that are not a uniform of the program.
@@ -256,6 +357,7 @@ pub struct HiddenSlot {
 /// The reflection of a program emitted under these conventions.
 pub fn reflect(program: &Program, conventions: &Conventions) -> Reflection {
     let Program { types, interface, .. } = program;
+    let places = Places::new(program, conventions);
     let name = |ty| types.name(ty);
     Reflection {
         entry_points: entry_points(program),
@@ -268,6 +370,7 @@ pub fn reflect(program: &Program, conventions: &Conventions) -> Reflection {
                 location: row.location,
                 columns: row.columns,
                 active: row.active,
+                format: wgsl::vertex_format(types, row.ty),
             })
             .collect(),
         varyings: interface
@@ -288,11 +391,15 @@ pub fn reflect(program: &Program, conventions: &Conventions) -> Reflection {
             .iter()
             .map(|row| Output { name: row.name.clone(), ty: name(row.ty), location: row.location, index: row.index })
             .collect(),
-        loose_block: interface.loose.map(|(slot, size)| LooseBlock { group: slot.group, binding: slot.binding, size }),
-        blocks: interface.blocks.iter().map(block).collect(),
+        loose_block: interface.loose.map(|(slot, size)| loose_block(&places, slot, size)),
+        blocks: interface.blocks.iter().map(|row| block(&places, interface, row)).collect(),
         uniforms: interface.uniforms.iter().map(|leaf| uniform(types, interface, leaf)).collect(),
-        samplers: interface.samplers.iter().map(|slot| sampler(types, interface, slot)).collect(),
-        conventions: reflected_conventions(program, conventions),
+        samplers: interface.samplers.iter().map(|slot| sampler(&places, types, interface, slot)).collect(),
+        conventions: reflected_conventions(&places, program, conventions),
+        targets: places.targets(),
+        struct_arrays: arrays::arrays(program),
+        files: BTreeMap::new(),
+        generator: concat!("glisten ", env!("CARGO_PKG_VERSION")).to_owned(),
     }
 }
 
@@ -301,7 +408,22 @@ fn entry_points(program: &Program) -> EntryPoints {
     EntryPoints { vertex: of(Stage::Vertex), geometry: of(Stage::Geometry), fragment: of(Stage::Fragment) }
 }
 
-fn block(row: &glisten_front::link::Block) -> Block {
+fn loose_block(places: &Places<'_>, slot: SlotBinding, size: u32) -> LooseBlock {
+    let (msl, hlsl) = places.buffer(slot);
+    LooseBlock {
+        group: slot.group,
+        binding: slot.binding,
+        size,
+        visibility: places.loose_visibility(),
+        wgsl: None,
+        msl,
+        hlsl,
+    }
+}
+
+fn block(places: &Places<'_>, interface: &Interface, row: &glisten_front::link::Block) -> Block {
+    let (msl, hlsl) = places.buffer(row.slot);
+    let root = interface.roots.get(row.root.0 as usize);
     Block {
         name: row.name.clone(),
         instance: row.instance.clone(),
@@ -311,6 +433,10 @@ fn block(row: &glisten_front::link::Block) -> Block {
         size: row.size,
         unit: row.unit,
         active: row.active,
+        visibility: root.map_or_else(Vec::new, |root| places.visibility(&root.globals)),
+        wgsl: None,
+        msl,
+        hlsl,
     }
 }
 
@@ -332,6 +458,8 @@ fn uniform(types: &Types, interface: &Interface, leaf: &UniformLeaf) -> Uniform 
         row_major: leaf.matrix_layout == MatrixLayout::RowMajor,
         default,
         active: leaf.active,
+        size: arrays::size_of(types, leaf),
+        wgsl_type: wgsl::memory_type(types, leaf),
     }
 }
 
@@ -352,11 +480,12 @@ fn shortest(value: f32) -> serde_json::Value {
     value.to_string().parse::<f64>().map_or(serde_json::Value::Null, serde_json::Value::from)
 }
 
-fn sampler(types: &Types, interface: &Interface, row: &SamplerSlot) -> Sampler {
+fn sampler(places: &Places<'_>, types: &Types, interface: &Interface, row: &SamplerSlot) -> Sampler {
     let shape = match types.get(row.ty) {
         Type::Sampler(ty) => crate::target::Shape::of(ty),
         _ => crate::target::Shape::default(),
     };
+    let (msl, hlsl) = places.texture(row.texture, row.sampler);
     Sampler {
         name: row.name.clone(),
         ty: types.name(row.ty),
@@ -371,6 +500,10 @@ fn sampler(types: &Types, interface: &Interface, row: &SamplerSlot) -> Sampler {
         texel_count: row.texel_count.and_then(|offset| hidden(interface, offset)),
         unit: row.unit,
         active: row.active,
+        visibility: places.visibility(&row.globals),
+        wgsl: None,
+        msl,
+        hlsl,
     }
 }
 
@@ -378,7 +511,7 @@ fn hidden(interface: &Interface, offset: u32) -> Option<HiddenSlot> {
     interface.loose.map(|(slot, _)| HiddenSlot { group: slot.group, binding: slot.binding, offset })
 }
 
-fn reflected_conventions(program: &Program, conventions: &Conventions) -> ReflectedConventions {
+fn reflected_conventions(places: &Places<'_>, program: &Program, conventions: &Conventions) -> ReflectedConventions {
     let upper_left = conventions.window_origin == WindowOrigin::UpperLeft;
     let height = program.interface.framebuffer_height.filter(|_| upper_left);
     ReflectedConventions {
@@ -398,6 +531,7 @@ fn reflected_conventions(program: &Program, conventions: &Conventions) -> Reflec
         .into(),
         clip_distances: clip_distances(program, conventions),
         point_size: conventions.program_point_size && writes(program, BuiltinVariable::PointSize).is_some(),
+        point_sprites: places.point_sprites(),
     }
 }
 

@@ -1,6 +1,6 @@
 //! Writes the reflection as tables for people.
 
-use super::Reflection;
+use super::{Reflection, StructArray, StructMember};
 
 /// Writes one table for each kind, with a heading, left-aligned columns and no colors. Kinds that the program lacks
 /// are omitted.
@@ -36,14 +36,16 @@ pub fn table(reflection: &Reflection) -> String {
     section("outputs", &["name", "type", "color", "index"], rows.collect());
 
     let loose = reflection.loose_block.iter().map(|row| {
-        vec!["(loose uniforms)".into(), "-".into(), place(row.group, row.binding), row.size.to_string(), "-".into()]
+        let (place, stages) = (place(row.group, row.binding), row.visibility.join(" "));
+        vec!["(loose uniforms)".into(), "-".into(), place, row.size.to_string(), stages, "-".into()]
     });
     let rows = reflection.blocks.iter().map(|row| {
         let name = array(&row.name, row.array_size);
         let instance = row.instance.clone().unwrap_or_else(|| "-".into());
-        vec![name, instance, place(row.group, row.binding), row.size.to_string(), yes(row.active)]
+        let (place, stages) = (place(row.group, row.binding), row.visibility.join(" "));
+        vec![name, instance, place, row.size.to_string(), stages, yes(row.active)]
     });
-    section("blocks", &["name", "instance", "binding", "bytes", "active"], loose.chain(rows).collect());
+    section("blocks", &["name", "instance", "binding", "bytes", "stages", "active"], loose.chain(rows).collect());
 
     let rows = reflection.uniforms.iter().map(|row| {
         let default = row
@@ -57,17 +59,39 @@ pub fn table(reflection: &Reflection) -> String {
         vec![row.name.clone(), ty, place, row.offset.to_string(), strides, default, yes(row.active)]
     });
     let heads = ["name", "type", "binding", "offset", "strides", "default", "active"];
-    section("uniforms", &heads, rows.collect());
+    let once = reflection.struct_arrays.iter().filter(|array| array.is_compact(reflection));
+    section("uniforms", &heads, rows.chain(once.flat_map(struct_rows)).collect());
 
     let rows = reflection.samplers.iter().map(|row| {
         let texture = place(row.texture.group, row.texture.binding);
         let sampler =
             if row.sampler == row.texture { "-".into() } else { place(row.sampler.group, row.sampler.binding) };
-        vec![row.name.clone(), row.ty.clone(), texture, sampler, yes(row.active)]
+        vec![row.name.clone(), row.ty.clone(), texture, sampler, row.visibility.join(" "), yes(row.active)]
     });
-    section("samplers", &["name", "type", "texture", "sampler", "active"], rows.collect());
+    section("samplers", &["name", "type", "texture", "sampler", "stages", "active"], rows.collect());
     text.push_str(&conventions(reflection));
     text
+}
+
+/// The rows of an array of structs: one for the array, and one for each member of an element, with its offset in it.
+fn struct_rows(array: &StructArray) -> Vec<Vec<String>> {
+    let active = if array.active { "yes" } else { "no" };
+    let cells = |name: String, ty: String, offset: u32, strides: [Option<u32>; 2]| {
+        let strides = strides.map(|stride| stride.map_or("-".to_owned(), |stride| stride.to_string())).join(" ");
+        let place = format!("{}.{}", array.group, array.binding);
+        vec![name, ty, place, offset.to_string(), strides, "-".to_owned(), active.to_owned()]
+    };
+    let ty = format!("{}[{}]", array.ty, array.array_size);
+    let mut rows = vec![cells(array.name.clone(), ty, array.offset, [Some(array.array_stride), None])];
+    let mut pending: Vec<(String, &StructMember)> =
+        array.members.iter().rev().map(|member| (format!("{}[].{}", array.name, member.name), member)).collect();
+    while let Some((path, member)) = pending.pop() {
+        let ty = member.array_size.map_or(member.ty.clone(), |size| format!("{}[{size}]", member.ty));
+        rows.push(cells(path.clone(), ty, member.offset, [member.array_stride, member.matrix_stride]));
+        let inner = member.members.iter().rev();
+        pending.extend(inner.map(|inner| (format!("{path}[].{}", inner.name), inner)));
+    }
+    rows
 }
 
 fn conventions(reflection: &Reflection) -> String {
@@ -85,7 +109,11 @@ fn conventions(reflection: &Reflection) -> String {
         ("clip_distances", row.clip_distances.to_string()),
         ("point_size", row.point_size.to_string()),
     ];
-    let lines: String = rows.iter().map(|(name, value)| format!("  {name:<20}{value}\n")).collect();
+    let sprites = row.point_sprites.as_ref().map(|row| {
+        let place = format!("{}.{}", row.group, row.binding);
+        ("point_sprites", format!("{} of {} vertices, viewport size at {place}", row.topology, row.vertices))
+    });
+    let lines: String = rows.iter().chain(&sprites).map(|(name, value)| format!("  {name:<20}{value}\n")).collect();
     format!("conventions\n{lines}")
 }
 

@@ -3,17 +3,18 @@
 //! *In:* a validated module. *Out:* the text or the words, or naga's message. *Holds:* every option is set
 //! explicitly, so that an update of naga changes nothing silently.
 
-mod glsl;
+pub(super) mod glsl;
 mod hlsl;
-mod msl;
+pub(super) mod msl;
 mod spirv;
 mod wgsl;
 
 use super::emitted::Emitted;
-use crate::target::{Conventions, Target};
+use crate::target::{Conventions, Slots, Target};
 use glisten_front::diagnostic::Diagnostic;
+use glisten_front::diagnostic::codes::targets::FEATURE_NOT_IN_TARGET;
 use glisten_front::hir::Stage;
-use glisten_front::source::SourceMap;
+use glisten_front::source::{SourceMap, Span};
 use naga::Module;
 use naga::proc::{BoundsCheckPolicies, BoundsCheckPolicy};
 use naga::valid::ModuleInfo;
@@ -25,6 +26,7 @@ pub(super) struct Job<'a> {
     pub(super) stage: Stage,
     pub(super) conventions: &'a Conventions,
     pub(super) sources: Option<&'a SourceMap>,
+    pub(super) slots: &'a Slots,
 }
 
 /// Writes a module for a target.
@@ -33,17 +35,36 @@ pub(super) fn write(target: Target, job: Job<'_>) -> Result<Emitted, String> {
         Target::Wgsl => wgsl::write(job).map(Emitted::Text),
         Target::Spirv => spirv::write(&job).map(Emitted::Words),
         Target::Msl => msl::write(job).map(Emitted::Text),
-        Target::Hlsl => hlsl::write(&job).map(Emitted::Text),
-        Target::Glsl => glsl::write(&job).map(Emitted::Text),
+        Target::Hlsl => hlsl::write(job).map(Emitted::Text),
+        // Written from the typed program, before there is a module.
+        Target::Glsl => Err("GLSL is not written from a module".to_owned()),
     }
 }
 
 /// The diagnostic for a module that the target cannot accept.
-pub(super) fn limit(target: Target, module: &Module) -> Option<Diagnostic> {
+pub(super) fn limit(target: Target, module: &Module, slots: &Slots) -> Option<Diagnostic> {
     match target {
         Target::Wgsl => wgsl::limit(module),
-        Target::Spirv | Target::Msl | Target::Hlsl | Target::Glsl => None,
+        Target::Msl | Target::Hlsl => too_many(target, module, slots),
+        Target::Spirv | Target::Glsl => None,
     }
+}
+
+/// The diagnostic for a resource whose number the target does not have.
+fn too_many(target: Target, module: &Module, slots: &Slots) -> Option<Diagnostic> {
+    module.global_variables.iter().find_map(|(handle, variable)| {
+        let own = variable.binding?;
+        let (kind, number) = slots.get(own.group, own.binding)?;
+        let limit = kind.limit(target);
+        if number < limit {
+            return None;
+        }
+        let place = module.global_variables.get_span(handle).to_range();
+        let span = place.map_or(Span::default(), |range| Span::new(range.start as u32, range.end as u32));
+        let message = format!("{} has {limit} {}, and the program has more", target.name(), kind.name());
+        let help = "leave some out, or combine them: textures of one size into an array, small blocks into one";
+        Some(Diagnostic::new(&FEATURE_NOT_IN_TARGET, span, message).help(help))
+    })
 }
 
 /// Whether naga's writer of this target has gaps (for example `inverse` in MSL and HLSL).

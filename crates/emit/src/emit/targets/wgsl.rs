@@ -3,6 +3,7 @@
 use super::Job;
 use crate::emit::messages::chain;
 use crate::emit::naga_repairs::{inline, names, nesting};
+use crate::emit::wgsl_text::{Style, tidied};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::hir::Stage;
 use naga::back::wgsl;
@@ -17,7 +18,7 @@ pub(super) fn write(mut job: Job<'_>) -> Result<String, String> {
     inline::inline_loads(&mut job.module);
     let Job { module, info, stage, .. } = &job;
     let text = wgsl::write_string(module, info, wgsl::WriterFlags::empty()).map_err(|error| chain(&error))?;
-    let text = names::restored(&text);
+    let text = tidied(&names::restored(&text), Style::Full);
     // GLSL allows derivatives in any control flow (§8.8 calls them undefined in some). WGSL rejects them where it
     // cannot prove that control flow is uniform, unless a directive disables that. naga has the directive in its IR
     // but never writes it.

@@ -4,9 +4,9 @@ use super::Example::{Geometry, None, Vertex};
 
 codes! {
     STAGE_NOT_IN_TARGET = "E0801" "stage-not-in-target" Error ""
-        "WebGPU has no geometry stage, and glisten does not emit one for any target. A geometry shader is parsed, \
-         validated and linked. To run it, rewrite it by hand as a vertex shader that computes each emitted vertex \
-         from the primitive's vertices (pulled by `gl_VertexID`), or use a host that accepts GLSL."
+        "WebGPU has no geometry stage, and glisten emits one only as GLSL for OpenGL (`--target glsl`). A geometry shader \
+         is parsed, validated and linked. To run it elsewhere, rewrite it by hand as a vertex shader that computes \
+         each emitted vertex from the primitive's vertices (pulled by `gl_VertexID`)."
         bad Geometry("layout(points) in; layout(points, max_vertices = 1) out; void main() { EmitVertex(); }"),
         good Vertex("void main() { gl_Position = vec4(0.0); }");
     FEATURE_NOT_IN_TARGET = "E0802" "feature-not-in-target" Error ""

@@ -22,10 +22,11 @@ impl Printer<'_> {
         let bound = globals.iter().any(|global| {
             global.binding.is_some() || global.block.as_ref().is_some_and(|block| block.binding.is_some())
         });
-        if located {
+        // Core since 3.30 and 4.20.
+        if located && version.number < 330 && version.profile != Profile::Es {
             self.line("#extension GL_ARB_explicit_attrib_location : enable");
         }
-        if bound {
+        if bound && version.number < 420 {
             self.line("#extension GL_ARB_shading_language_420pack : enable");
         }
         self.geometry_layout();

@@ -1,0 +1,104 @@
+//! What GLSL ES 3.00 (WebGL 2) lacks of GLSL 1.50.
+//!
+//! *In:* a stage. *Out:* one error for each kind of thing that it uses and that ES has no equal for. *Not done here:*
+//! what can be said in other words, which `rewrite` does.
+
+use crate::target::GlslVersion;
+use glisten_front::builtin::BuiltinVariable;
+use glisten_front::diagnostic::Diagnostic;
+use glisten_front::diagnostic::codes::targets::{FEATURE_NOT_IN_TARGET, STAGE_NOT_IN_TARGET};
+use glisten_front::hir::{Global, Interpolation, SamplerDim, SamplerType, Shader, Stage, Storage, Type, TypeId, Types};
+use glisten_front::link::Program;
+use glisten_front::source::Span;
+
+/// The errors for a stage, in the order of its globals.
+pub(super) fn of_es(program: &Program, shader: &Shader) -> Vec<Diagnostic> {
+    let anchor = shader.anchor();
+    if shader.stage == Stage::Geometry {
+        return vec![
+            Diagnostic::new(&STAGE_NOT_IN_TARGET, anchor, "GLSL ES 3.00 has no geometry stage")
+                .help("compile for `--glsl-version 330`, or compute the emitted vertices in a vertex shader"),
+        ];
+    }
+    let types = &program.types;
+    let mut lacks = Vec::new();
+    for global in &shader.globals {
+        let span = if global.span.is_known() { global.span } else { anchor };
+        if let Some((what, help)) = of_global(types, shader, global) {
+            lacks.push(lacking(span, what, help));
+        }
+    }
+    for function in shader.functions.iter().filter(|function| function.reachable) {
+        for param in function.params() {
+            if let Some(sampler) = foreign_sampler(types, param.ty) {
+                lacks.push(lacking(param.span, format!("`{}`", sampler.name()), SAMPLERS));
+            }
+        }
+    }
+    if program.interface.outputs.iter().any(|output| output.index == 1) && shader.stage == Stage::Fragment {
+        lacks.push(lacking(anchor, "a second source of blending".into(), "compile for `--glsl-version 330`"));
+    }
+    lacks
+}
+
+const SAMPLERS: &str = "use a 2D texture, or compile for `--glsl-version 330`";
+
+fn lacking(span: Span, what: String, help: &str) -> Diagnostic {
+    let version = GlslVersion::Es300.word();
+    Diagnostic::new(&FEATURE_NOT_IN_TARGET, span, format!("GLSL {version} (WebGL 2) has no {what}")).help(help)
+}
+
+fn of_global(types: &Types, shader: &Shader, global: &Global) -> Option<(String, &'static str)> {
+    if let Some(builtin) = global.builtin {
+        return of_builtin(shader, builtin);
+    }
+    if let Some(sampler) = foreign_sampler(types, global.ty).filter(|_| global.used) {
+        return Some((format!("`{}`", sampler.name()), SAMPLERS));
+    }
+    let between =
+        matches!((shader.stage, global.storage), (Stage::Vertex, Storage::Out) | (Stage::Fragment, Storage::In));
+    if between && global.block.is_some() {
+        return Some(("interface blocks between stages".into(), "declare the members as varyings of their own"));
+    }
+    if between && global.interpolation == Interpolation::Noperspective {
+        return Some((
+            "`noperspective`".into(),
+            "multiply by `gl_Position.w` before the rasterizer, and by `gl_FragCoord.w` after it",
+        ));
+    }
+    if shader.stage == Stage::Vertex && global.storage == Storage::In && matches!(types.get(global.ty), Type::Array(..))
+    {
+        return Some(("arrays of attributes".into(), "declare one attribute for each element"));
+    }
+    None
+}
+
+fn of_builtin(shader: &Shader, builtin: BuiltinVariable) -> Option<(String, &'static str)> {
+    let layout = shader.frag_coord;
+    match builtin {
+        BuiltinVariable::ClipDistance => {
+            Some(("`gl_ClipDistance`".into(), "pass the distance as a varying, and `discard` where it is negative"))
+        }
+        BuiltinVariable::PrimitiveId => {
+            Some(("`gl_PrimitiveID`".into(), "pass the number as a `flat` varying of each triangle's own vertices"))
+        }
+        BuiltinVariable::FragCoord if layout.origin_upper_left || layout.pixel_center_integer => Some((
+            "layouts of `gl_FragCoord`".into(),
+            "compute the coordinate from `gl_FragCoord` and a uniform with the height",
+        )),
+        _ => None,
+    }
+}
+
+/// The first sampler type in a type that ES lacks.
+fn foreign_sampler(types: &Types, ty: TypeId) -> Option<SamplerType> {
+    match types.get(ty) {
+        Type::Sampler(sampler) => {
+            let known = matches!(sampler.dim, SamplerDim::D2 | SamplerDim::D3 | SamplerDim::Cube);
+            (!known || (sampler.dim == SamplerDim::Cube && sampler.arrayed)).then_some(sampler)
+        }
+        Type::Array(element, _) => foreign_sampler(types, element),
+        Type::Struct(id) => types.structure(id).members.iter().find_map(|member| foreign_sampler(types, member.ty)),
+        _ => None,
+    }
+}

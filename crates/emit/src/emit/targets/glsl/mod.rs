@@ -1,0 +1,112 @@
+//! GLSL for OpenGL 3.3, OpenGL 4.5 and WebGL 2, from the typed program and not from naga's module: the language is the
+//! same, so everything keeps its name, its place and its comments.
+//!
+//! *In:* a linked program, a stage, a version. *Out:* the text, or what the version lacks.
+//!
+//! *Holds:* the conventions are OpenGL's own, whatever [`Conventions`] say: nothing is flipped, and clip-space z is
+//! unchanged. Locations of attributes and outputs are in the text; varyings, uniforms and blocks match by name.
+//!
+//! | file | contents |
+//! | --- | --- |
+//! | `limits` | what WebGL 2 lacks |
+//! | `rewrite` | what later versions have dropped, in terms of what they have |
+//! | `names` | names that are words of the version |
+
+mod limits;
+mod names;
+mod rewrite;
+
+pub(in crate::emit) use names::renamed;
+
+use super::super::emitted::Emitted;
+use crate::target::{Conventions, GlslVersion};
+use glisten_front::diagnostic::Diagnostic;
+use glisten_front::diagnostic::codes::general;
+use glisten_front::hir::{Notes, Shader, Stage, Type, TypeId, Types, print_with};
+use glisten_front::language::{Profile, Version};
+use glisten_front::link::Program;
+use glisten_front::source::{SourceMap, Span, comments};
+use std::collections::BTreeSet;
+
+/// Writes a stage as GLSL.
+pub(in crate::emit) fn write(
+    program: &Program,
+    stage: Stage,
+    conventions: &Conventions,
+    sources: Option<&SourceMap>,
+) -> Result<Emitted, Vec<Diagnostic>> {
+    let Some(shader) = program.stage(stage) else {
+        let message = format!("the program `{}` has no {} stage", program.name, stage.name());
+        return Err(vec![Diagnostic::new(&general::INTERNAL, Span::default(), message)]);
+    };
+    let version = conventions.glsl_version;
+    if version == GlslVersion::Es300 {
+        let lacks = limits::of_es(program, shader);
+        if !lacks.is_empty() {
+            return Err(lacks);
+        }
+    }
+    let mut types = program.types.clone();
+    let mut shader = shader.clone();
+    shader.version = language(version, shader.version.span);
+    rewrite::rewrite(&mut types, &mut shader, program, version);
+    names::apply(&mut types, &mut shader, program, version);
+    let notes = Comments(sources);
+    let text = print_with(&types, &shader, Some(&notes));
+    Ok(Emitted::Text(with_precisions(text, &types, &shader)))
+}
+
+fn language(version: GlslVersion, span: Span) -> Version {
+    let (number, profile) = match version {
+        GlslVersion::Desktop330 => (330, Profile::Core),
+        GlslVersion::Desktop450 => (450, Profile::Core),
+        GlslVersion::Es300 => (300, Profile::Es),
+    };
+    Version { number, profile, span }
+}
+
+/// The comments of the source.
+struct Comments<'a>(Option<&'a SourceMap>);
+
+impl Notes for Comments<'_> {
+    fn above(&self, span: Span) -> Vec<String> {
+        self.0.map_or_else(Vec::new, |sources| comments::above(sources, span))
+    }
+
+    fn behind(&self, span: Span) -> Option<String> {
+        comments::behind(self.0?, span)
+    }
+}
+
+/// The text with the precision statements that GLSL ES 3.00 §4.5.4 requires: everything has the highest precision, as
+/// in OpenGL.
+fn with_precisions(text: String, types: &Types, shader: &Shader) -> String {
+    if shader.version.profile != Profile::Es {
+        return text;
+    }
+    let mut samplers = BTreeSet::new();
+    let globals = shader.globals.iter().map(|global| global.ty);
+    let locals = shader.functions.iter().flat_map(|function| function.params().iter().map(|param| param.ty));
+    for ty in globals.chain(locals) {
+        sampler_types(types, ty, &mut samplers);
+    }
+    let words = ["float".to_owned(), "int".to_owned()].into_iter().chain(samplers);
+    let lines: String = words.map(|ty| format!("precision highp {ty};\n")).collect();
+    match text.split_once('\n') {
+        Some((first, rest)) => format!("{first}\n{lines}{rest}"),
+        None => text,
+    }
+}
+
+fn sampler_types(types: &Types, ty: TypeId, found: &mut BTreeSet<String>) {
+    match types.get(ty) {
+        Type::Sampler(sampler) => {
+            found.insert(sampler.name());
+        }
+        Type::Array(element, _) => sampler_types(types, element, found),
+        Type::Struct(id) => {
+            types.structure(id).members.iter().for_each(|member| sampler_types(types, member.ty, found));
+        }
+        _ => {}
+    }
+}

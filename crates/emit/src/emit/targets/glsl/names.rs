@@ -1,0 +1,183 @@
+//! Names that are words of a later version (GLSL 4.50 §3.6, GLSL ES 3.00 §3.7): they get an underscore.
+//!
+//! *In:* a program. *Out:* for each such name its new one. *Holds:* the new name depends on the program and the
+//! version alone, so the stages agree, and the reflection can tell it.
+
+use crate::target::GlslVersion;
+use glisten_front::builtin::functions;
+use glisten_front::hir::{Shader, StructId, Type, TypeId, Types};
+use glisten_front::link::Program;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The words of a version that 1.50 leaves to its users.
+fn words(version: GlslVersion) -> &'static [&'static str] {
+    match version {
+        GlslVersion::Desktop330 => &[],
+        GlslVersion::Desktop450 => DESKTOP_450,
+        GlslVersion::Es300 => ES_300,
+    }
+}
+
+static DESKTOP_450: &[&str] = &[
+    "atomic_uint",
+    "buffer",
+    "coherent",
+    "dmat2",
+    "dmat2x2",
+    "dmat2x3",
+    "dmat2x4",
+    "dmat3",
+    "dmat3x2",
+    "dmat3x3",
+    "dmat3x4",
+    "dmat4",
+    "dmat4x2",
+    "dmat4x3",
+    "dmat4x4",
+    "iimage2DMS",
+    "iimage2DMSArray",
+    "iimage2DRect",
+    "iimageCubeArray",
+    "image2DMS",
+    "image2DMSArray",
+    "image2DRect",
+    "imageCubeArray",
+    "isamplerCubeArray",
+    "patch",
+    "precise",
+    "readonly",
+    "resource",
+    "restrict",
+    "sample",
+    "samplerCubeArray",
+    "samplerCubeArrayShadow",
+    "shared",
+    "subroutine",
+    "uimage2DMS",
+    "uimage2DMSArray",
+    "uimage2DRect",
+    "uimageCubeArray",
+    "usamplerCubeArray",
+    "writeonly",
+];
+
+static ES_300: &[&str] =
+    &["atomic_uint", "coherent", "patch", "readonly", "resource", "restrict", "sample", "subroutine", "writeonly"];
+
+/// The new names of a program, by the old ones.
+pub(in crate::emit) fn renamed(program: &Program, version: GlslVersion) -> BTreeMap<String, String> {
+    let mut all: BTreeSet<&str> = BTreeSet::new();
+    let mut global: BTreeSet<&str> = BTreeSet::new();
+    for shader in &program.stages {
+        collect(&program.types, shader, &mut all, &mut global);
+    }
+    let mut names = BTreeMap::new();
+    for &name in &all {
+        let reserved = words(version).contains(&name);
+        // GLSL ES 3.00 §6.1: built-in functions cannot be redefined. Global names share their scope.
+        let redefines = version == GlslVersion::Es300 && global.contains(name) && !functions::named(name).is_empty();
+        let underscores = version == GlslVersion::Es300 && is_kept_by_webgl(name);
+        if !reserved && !redefines && !underscores {
+            continue;
+        }
+        let mut new = if underscores { format!("n{}", name.replace("__", "_0_")) } else { format!("{name}_") };
+        while all.contains(new.as_str()) || names.values().any(|other| *other == new) {
+            new.push('0');
+        }
+        names.insert(name.to_owned(), new);
+    }
+    names
+}
+
+/// Names that GLSL ES 3.00 §3.8 and WebGL keep to themselves.
+fn is_kept_by_webgl(name: &str) -> bool {
+    name.contains("__") || name.starts_with("webgl_") || name.starts_with("_webgl_")
+}
+
+/// All names of a stage, and among them those at global scope.
+fn collect<'a>(types: &'a Types, shader: &'a Shader, all: &mut BTreeSet<&'a str>, global: &mut BTreeSet<&'a str>) {
+    for variable in shader.globals.iter().filter(|global| global.builtin.is_none()) {
+        let nameless = variable.block.as_ref().is_some_and(|block| block.instance.is_none());
+        let block = variable.block.iter().flat_map(|block| [Some(&block.name), block.instance.as_ref()]).flatten();
+        for name in block.chain([&variable.name]) {
+            all.insert(name);
+            global.insert(name);
+        }
+        for id in structs(types, [variable.ty]) {
+            let structure = types.structure(id);
+            let members = structure.members.iter().map(|member| member.name.as_str());
+            if nameless && structure.is_block {
+                global.extend(members.clone());
+            }
+            all.extend(members);
+        }
+    }
+    for function in shader.functions.iter().filter(|function| function.name != "main") {
+        all.insert(&function.name);
+        global.insert(&function.name);
+    }
+    let locals = || shader.functions.iter().flat_map(|function| &function.locals);
+    all.extend(locals().map(|local| local.name.as_str()));
+    for id in structs(types, all_types(shader)) {
+        let structure = types.structure(id);
+        all.insert(&structure.name);
+        global.insert(&structure.name);
+        all.extend(structure.members.iter().map(|member| member.name.as_str()));
+    }
+    all.remove("");
+    global.remove("");
+}
+
+/// The types of everything in a stage.
+fn all_types(shader: &Shader) -> Vec<TypeId> {
+    let globals = shader.globals.iter().filter(|global| global.builtin.is_none()).map(|global| global.ty);
+    let functions = shader.functions.iter().flat_map(|function| {
+        [function.ret].into_iter().chain(function.locals.iter().map(|local| local.ty)).collect::<Vec<_>>()
+    });
+    globals.chain(functions).chain(shader.exprs.iter().map(|expr| expr.ty)).collect()
+}
+
+/// The structs in types, without those that are built in.
+fn structs(types: &Types, roots: impl IntoIterator<Item = TypeId>) -> BTreeSet<StructId> {
+    let mut found = BTreeSet::new();
+    let mut pending: Vec<TypeId> = roots.into_iter().collect();
+    while let Some(ty) = pending.pop() {
+        match types.get(ty) {
+            Type::Array(element, _) => pending.push(element),
+            Type::Struct(id) if !types.structure(id).name.starts_with("gl_") && found.insert(id) => {
+                pending.extend(types.structure(id).members.iter().map(|member| member.ty));
+            }
+            _ => {}
+        }
+    }
+    found
+}
+
+/// Gives the names of a stage that is about to be printed.
+pub(super) fn apply(types: &mut Types, shader: &mut Shader, program: &Program, version: GlslVersion) {
+    let names = renamed(program, version);
+    if names.is_empty() {
+        return;
+    }
+    let give = |name: &mut String| {
+        if let Some(new) = names.get(name.as_str()) {
+            name.clone_from(new);
+        }
+    };
+    for id in structs(types, all_types(shader)) {
+        let structure = types.structure_mut(id);
+        give(&mut structure.name);
+        structure.members.iter_mut().for_each(|member| give(&mut member.name));
+    }
+    for global in shader.globals.iter_mut().filter(|global| global.builtin.is_none()) {
+        give(&mut global.name);
+        if let Some(block) = &mut global.block {
+            give(&mut block.name);
+            block.instance.iter_mut().for_each(give);
+        }
+    }
+    for function in &mut shader.functions {
+        give(&mut function.name);
+        function.locals.iter_mut().for_each(|local| give(&mut local.name));
+    }
+}

@@ -1,0 +1,149 @@
+//! Points as quads (`--point-sprites`), for targets whose points are one pixel wide: WGSL and HLSL.
+//!
+//! The host draws each point as an instance of a triangle strip of four vertices. What was read for each vertex is read
+//! for each instance. The vertex stage moves each corner half a point's size away from the position, and hands its
+//! place in the point on as a varying.
+//!
+//! *Holds:* the pixels and `gl_PointCoord` are those of OpenGL 3.2 §3.4: a square of `gl_PointSize` pixels around the
+//! position; the place counts from the upper left (POINT_SPRITE_COORD_ORIGIN). The triangles are front faces. Of a point
+//! whose center is outside of the window, the part inside is drawn, as by the GPU's own points; OpenGL drops it (§2.17).
+
+use super::function::Ctx;
+use super::{Lower, Try};
+use crate::target::{Target, WindowOrigin};
+use glisten_front::builtin::BuiltinVariable;
+use glisten_front::hir::{Stage, TypeId};
+use glisten_front::link::Interface;
+use naga::{AddressSpace, BinaryOperator, Binding, BuiltIn, Expression, Handle, MathFunction, TypeInner};
+
+/// The location of the varying with the place in the point: after all others.
+pub(crate) fn coordinate_location(interface: &Interface) -> u32 {
+    interface.interpolated().map(|row| row.location.saturating_add(1)).max().unwrap_or(0)
+}
+
+/// The binding of the uniform buffer with the viewport's size, where points are drawn as quads
+/// ([`Conventions::point_sprites`](crate::Conventions::point_sprites)): after all others of its group.
+pub fn viewport_slot(interface: &Interface) -> glisten_front::link::SlotBinding {
+    let blocks: u32 = interface.blocks.iter().map(|block| block.array_size.unwrap_or(1)).sum();
+    let binding = u32::from(interface.loose.is_some()).saturating_add(blocks);
+    glisten_front::link::SlotBinding { group: 0, binding }
+}
+
+/// The position in clip space, and the place in the point.
+pub(super) struct Corner {
+    /// -1 or 1 along each axis of normalized device coordinates.
+    direction: Handle<Expression>,
+    /// `gl_PointCoord`
+    pub(super) coordinate: Handle<Expression>,
+}
+
+impl Lower<'_> {
+    /// Whether points are drawn as quads.
+    pub(super) fn draws_sprites(&self) -> bool {
+        self.conventions.point_sprites && matches!(self.target, Target::Wgsl | Target::Hlsl)
+    }
+
+    /// Declares the uniform buffer with the viewport's size.
+    pub(super) fn declare_viewport(&mut self) -> Try<()> {
+        if self.shader.stage != Stage::Vertex || !self.draws_sprites() {
+            return Ok(());
+        }
+        let ty = self.value_type(TypeId::VEC2)?;
+        let name = Some("viewport_size".to_owned());
+        let members = vec![naga::StructMember { name, ty, binding: None, offset: 0 }];
+        let ty = self.insert_type(Some("PointSprites".into()), TypeInner::Struct { members, span: 8 });
+        let slot = viewport_slot(self.interface);
+        self.viewport = Some(self.resource("point_sprites", AddressSpace::Uniform, slot, ty));
+        Ok(())
+    }
+}
+
+impl Ctx<'_, '_> {
+    /// The corner that this invocation draws, by the number of the vertex in the strip.
+    pub(super) fn sprite_corner(&mut self) -> Try<Corner> {
+        let uint = self.low.value_type(TypeId::UINT)?;
+        let vec2 = self.low.value_type(TypeId::VEC2)?;
+        let index = self.argument("corner", uint, Some(Binding::BuiltIn(BuiltIn::VertexIndex)));
+        let one = self.add(Expression::Literal(naga::Literal::U32(1)));
+        let (right, up) = (self.op(BinaryOperator::And, index, one), self.op(BinaryOperator::ShiftRight, index, one));
+        let float =
+            |ctx: &mut Self, expr| ctx.add(Expression::As { expr, kind: naga::ScalarKind::Float, convert: Some(4) });
+        let (right, up) = (float(self, right), float(self, up));
+        self.name(right, "right");
+        self.name(up, "up");
+        let whole = self.float(1.0);
+        let (left, down) =
+            (self.op(BinaryOperator::Subtract, whole, right), self.op(BinaryOperator::Subtract, whole, up));
+        // The strip turns counterclockwise. A host whose vertex stage flips y has inverted its front face.
+        let upright = self.low.conventions.window_origin == WindowOrigin::UpperLeft;
+        let (x, y) = if upright { (right, down) } else { (left, up) };
+        let coordinate = self.add(Expression::Compose { ty: vec2, components: vec![x, y] });
+        self.name(coordinate, "point_coord");
+        let place = self.add(Expression::Compose { ty: vec2, components: vec![x, up] });
+        let two = self.float(2.0);
+        let doubled = self.op(BinaryOperator::Multiply, place, two);
+        let ones = self.add(Expression::Compose { ty: vec2, components: vec![whole; 2] });
+        let direction = self.op(BinaryOperator::Subtract, doubled, ones);
+        Ok(Corner { direction, coordinate })
+    }
+
+    /// The position of the corner: half a point's size away from the point's own.
+    pub(super) fn sprite_position(&mut self, position: Handle<Expression>) -> Try<Handle<Expression>> {
+        let Some(viewport) = self.low.viewport else {
+            return Err(self.internal_error("the viewport's size has no place among the uniforms"));
+        };
+        let Some(corner) = self.corner.as_ref().map(|corner| corner.direction) else {
+            return Err(self.internal_error("a point has no corners"));
+        };
+        let size = self.sprite_size()?;
+        if !self.is_named(position) {
+            self.name(position, "center");
+        }
+        let part = |ctx: &mut Self, index| ctx.add(Expression::AccessIndex { base: position, index });
+        let (x, y, z, w) = (part(self, 0), part(self, 1), part(self, 2), part(self, 3));
+        let base = self.global_variable(viewport);
+        let pointer = self.add(Expression::AccessIndex { base, index: 0 });
+        let pixels = self.load(pointer);
+        // Two units of normalized device coordinates are the viewport, one to each side of the center.
+        let factor = self.op(BinaryOperator::Multiply, size, w);
+        let offset = self.op(BinaryOperator::Multiply, corner, factor);
+        let offset = self.op(BinaryOperator::Divide, offset, pixels);
+        self.name(offset, "offset");
+        let part = |ctx: &mut Self, index| ctx.add(Expression::AccessIndex { base: offset, index });
+        let (dx, dy) = (part(self, 0), part(self, 1));
+        let (x, y) = (self.op(BinaryOperator::Add, x, dx), self.op(BinaryOperator::Add, y, dy));
+        let ty = self.low.value_type(TypeId::VEC4)?;
+        Ok(self.add(Expression::Compose { ty, components: vec![x, y, z, w] }))
+    }
+
+    /// The size in pixels: at least one, and one unless the host enables PROGRAM_POINT_SIZE.
+    fn sprite_size(&mut self) -> Try<Handle<Expression>> {
+        let one = self.float(1.0);
+        let sized = self.low.builtin_global(BuiltinVariable::PointSize);
+        match sized.filter(|_| self.low.conventions.program_point_size) {
+            Some(global) => {
+                let size = self.output_part(global, 0, TypeId::FLOAT)?;
+                Ok(self.math2(MathFunction::Max, size, one))
+            }
+            None => Ok(one),
+        }
+    }
+
+    /// `gl_PointCoord` in the fragment stage: the varying of the quad. `w` is the same at all corners.
+    pub(super) fn sprite_coordinate(&mut self) -> Try<Handle<Expression>> {
+        let ty = self.low.value_type(TypeId::VEC2)?;
+        let location = coordinate_location(self.low.interface);
+        Ok(self.argument("gl_PointCoord", ty, Some(coordinate_binding(location))))
+    }
+}
+
+/// naga's binding of the place in the point.
+pub(super) fn coordinate_binding(location: u32) -> Binding {
+    Binding::Location {
+        location,
+        interpolation: Some(naga::Interpolation::Linear),
+        sampling: Some(naga::Sampling::Center),
+        blend_src: None,
+        per_primitive: false,
+    }
+}
