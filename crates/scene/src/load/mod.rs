@@ -16,12 +16,14 @@ mod patterns;
 mod reader;
 mod textures;
 mod uniforms;
+mod unread;
 mod write;
 
 use self::draw::load_draw;
 use self::lights::Lighting;
 use self::names::FORMATS;
 use self::reader::{Node, Reader};
+use self::unread::warn_unread;
 use crate::files::{FileError, FileSource, relative_to};
 use crate::library::{Library, WithLibrary};
 use crate::model::{Draw, Format, Framebuffer, Scene};
@@ -145,7 +147,8 @@ impl Loader<'_> {
         };
         let mut draws = Vec::new();
         let mut complete = true;
-        for node in self.draw_tables(table) {
+        let nodes = self.draw_tables(table);
+        for node in &nodes {
             match load_draw(self, node, &around) {
                 Some(draw) => draws.push(draw),
                 None => complete = false,
@@ -153,6 +156,8 @@ impl Loader<'_> {
         }
         if complete {
             self.warn_unlit(table, &draws);
+            let pairs: Vec<(&Node<'_>, &Draw)> = nodes.iter().copied().zip(&draws).collect();
+            warn_unread(&mut self.reader, table, &pairs, self.library);
         }
         if draws.is_empty() && complete && !self.reader.diagnostics.has_errors() {
             self.warn_empty(table);
