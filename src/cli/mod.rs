@@ -22,6 +22,7 @@ mod includes;
 mod inputs;
 mod library;
 mod lint;
+mod made;
 mod new_scene;
 mod opengl;
 mod optimize;

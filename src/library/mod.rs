@@ -63,6 +63,7 @@ static MODULES: &[Module] = &[
     module!("schlick"),
     module!("specular_lut"),
     module!("spot"),
+    module!("srgb"),
     module!("standard"),
     module!("threshold"),
     module!("toon"),

@@ -28,6 +28,8 @@ macro_rules! shader {
 static SHADERS: &[(&str, &str)] = &[
     shader!("blinn_phong.frag"),
     shader!("blinn_phong_vertex.vert"),
+    shader!("cosine.frag"),
+    shader!("cosine.vert"),
     shader!("decal.frag"),
     shader!("decal.vert"),
     shader!("diffuse.frag"),
@@ -81,6 +83,12 @@ static PROGRAMS: &[LibraryProgram] = &[
         "blinn_phong_vertex.vert",
         "shade.frag",
         "textbook, (101) with (83) and (89), at each vertex",
+    ),
+    program(
+        "cosine",
+        "cosine.vert",
+        "cosine.frag",
+        "textbook, figure 127: powers of a cosine and the normal distribution",
     ),
     program("decal", "decal.vert", "decal.frag", "article, its ground and sky: a color times a texture, unlit"),
     program("diffuse", "diffuse.vert", "diffuse.frag", "article: parallel light and constant ambient light"),

@@ -11,6 +11,8 @@ mod drawing;
 mod emit;
 #[cfg(feature = "gpu")]
 mod envelope;
+#[cfg(feature = "cli")]
+mod equations;
 #[cfg(feature = "reference")]
 mod exec;
 #[cfg(feature = "cli")]

@@ -39,7 +39,7 @@ fn members(types: &Types, root: &UniformRoot) -> Option<Vec<String>> {
     Some(types.structure(id).members.iter().map(|member| member.name.clone()).collect())
 }
 
-/// What each stage reads of a root.
+/// The members of a root that each stage reads.
 fn reads(program: &Program, root: &UniformRoot) -> Vec<MembersRead> {
     let stages = root.globals.iter().filter_map(|&(stage, global)| Some((program.stage(stage)?, global)));
     stages.map(|(shader, global)| shader.members_read(global)).collect()

@@ -27,6 +27,7 @@ use self::unread::warn_unread;
 use crate::files::{FileError, FileSource, relative_to};
 use crate::library::{Library, WithLibrary};
 use crate::model::{Draw, Format, Framebuffer, Scene};
+use crate::picture::Transfer;
 use glisten_front::compiler::{Compiler, Options, Source};
 use glisten_front::diagnostic::codes::scenes::{
     SCENE_CANNOT_DRAW, SCENE_FILE_UNREADABLE, SCENE_MISSING_KEY, SCENE_SYNTAX, SCENE_UNUSED_LIGHT, SCENE_WITHOUT_DRAW,
@@ -49,6 +50,7 @@ pub const MAX_PIXELS: u64 = 1 << 26;
 /// The largest number of color attachments (`gl_MaxDrawBuffers`).
 pub const MAX_ATTACHMENTS: u32 = 8;
 
+const FRAMEBUFFER_KEYS: &[&str] = &["width", "height", "clear", "format", "attachments", "encode"];
 const KEYS: &[&str] = &["framebuffer", "draw", "camera", "light", "material", "global_ambient", "report", "gallery"];
 
 /// The result of loading a scene.
@@ -237,7 +239,7 @@ impl Loader<'_> {
             Some(node) => self.reader.table(node, "framebuffer")?,
             None => &empty,
         };
-        self.reader.check_keys(table, "`framebuffer`", &["width", "height", "clear", "format", "attachments"]);
+        self.reader.check_keys(table, "`framebuffer`", FRAMEBUFFER_KEYS);
         let width = self.reader.count(table, "width", 128, 1..=MAX_SIDE);
         let height = self.reader.count(table, "height", 128, 1..=MAX_SIDE);
         let format = self.reader.choice_at(table, "format", Format::Rgba32Float, FORMATS);
@@ -249,7 +251,19 @@ impl Loader<'_> {
             self.reader.error(&SCENE_CANNOT_DRAW, span, message, "this is larger");
             return None;
         }
-        Some(Framebuffer { width, height, clear, format, attachments })
+        let encode = self.transfer(table, format);
+        Some(Framebuffer { width, height, clear, format, attachments, encode })
+    }
+
+    /// `encode`: the transfer function of 8-bit picture files.
+    fn transfer(&mut self, table: &DeTable<'_>, format: Format) -> Transfer {
+        let transfer = self.reader.choice_at(table, "encode", Transfer::Linear, Transfer::NAMES);
+        let integer = matches!(format, Format::Rgba32Sint | Format::Rgba32Uint);
+        if let (true, Transfer::Srgb, Some(node)) = (integer, transfer, table.get("encode")) {
+            let span = self.reader.span_of(node);
+            self.reader.wrong_value(span, "the numbers of an integer framebuffer are no light", "nothing to encode");
+        }
+        transfer
     }
 
     /// The clear color, rounded to `f32` as by `glClearColor`.
