@@ -76,7 +76,7 @@ const CHAPTERS: &[Chapter] = &[
         id: "article",
         title: "The article's ball",
         of: "Article on hemisphere lighting",
-        about: "Eight programs for a vertex processor with a few dozen registers and no branches, each drawing the same ball \
+        about: "Eight programs, of which the article prints two in the assembly language of vs.1.0, each drawing the same ball \
                 over a tiled floor. The arrow shows the direction of the light.",
     },
 ];

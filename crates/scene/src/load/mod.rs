@@ -29,6 +29,7 @@ use crate::library::{Library, WithLibrary};
 use crate::model::{Draw, Format, Framebuffer, Scene};
 use crate::picture::Transfer;
 use glisten_front::compiler::{Compiler, Options, Source};
+use glisten_front::diagnostic::codes::link::BINDING_WITHOUT_VARIABLE;
 use glisten_front::diagnostic::codes::scenes::{
     SCENE_CANNOT_DRAW, SCENE_FILE_UNREADABLE, SCENE_MISSING_KEY, SCENE_SYNTAX, SCENE_UNUSED_LIGHT, SCENE_WITHOUT_DRAW,
     SCENE_WRONG_TYPE, SCENE_WRONG_VALUE,
@@ -329,7 +330,9 @@ impl Loader<'_> {
         };
         let compilation = compiler.compile_into(sources, &shaders);
         self.sources = compilation.sources;
-        self.reader.diagnostics.extend(compilation.diagnostics);
+        // A name that is bound and not there is an error in a scene, which the draw reports.
+        let found = compilation.diagnostics.into_iter().filter(|found| found.code.id != BINDING_WITHOUT_VARIABLE.id);
+        self.reader.diagnostics.extend(found);
         compilation.program.map(Arc::new)
     }
 
