@@ -35,6 +35,8 @@ mod lint;
 #[cfg(feature = "reference")]
 mod lit_scenes;
 #[cfg(feature = "gpu")]
+mod multisample;
+#[cfg(feature = "gpu")]
 mod mutation;
 #[cfg(feature = "gpu")]
 mod mutations;

@@ -317,7 +317,8 @@ pub struct TextureLevel {
 pub struct Texture {
     /// The dimensionality, array, shadow and texel kind, the same as of the sampler that reads it.
     pub kind: SamplerType,
-    /// The levels, at least one; each is half the size of the one before, rounded down, at least 1.
+    /// The levels, at least one; each is half the size of the one before, rounded down, at least 1. A multisample texture
+    /// has an image of the same size for each sample instead, in the order of the samples.
     pub levels: Vec<TextureLevel>,
     /// The filter.
     pub filter: Filter,
