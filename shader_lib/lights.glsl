@@ -6,9 +6,8 @@
 //
 // The kinds of light as one struct, and a light's whole term with Lambert's diffuse and Blinn and Phong's specular
 // reflection. The equation is background() plus a loop over the lights that adds lightTerm(). Write the loop where
-// the lights are declared, since an array is copied when it is passed to a function. For other models, combine the
-// same parts: lightVector(), lightAttenuation(), lightBeam() and illumination(). All positions and directions are in
-// one space.
+// the lights are declared, since an array is copied when it is passed to a function. For other models, pass their
+// reflections to the other lightTerm(). All positions and directions are in one space.
 //
 // GLISTEN_LIGHTS is the size of a scene's array of lights; define it before the include for more than 8.
 #ifndef GLISTEN_LIGHTS_MODULE
@@ -86,17 +85,25 @@ vec3 lightDome(Light light, vec3 N)
     return hemisphere(N, safeNormalize(light.direction), light.diffuse, light.ambient);
 }
 
-// One term of the sum in (101), linear RGB.
+// One term of the sum in (101), for reflections by any model, linear RGB. A hemisphere's light is ambient light alone.
+//   light  the light    Kamb  ambient reflectance, 0 to 1    P  shaded point    N  unit normal
+//   L  unit vector towards the light: lightVector()    Idiff, Ispec  diffuse and specular reflection, >= 0
+vec3 lightTerm(Light light, vec3 Kamb, vec3 P, vec3 N, vec3 L, vec3 Idiff, vec3 Ispec)
+{
+    if (light.kind == LIGHT_HEMISPHERE)
+        return ambient(Kamb, lightDome(light, N));
+    vec3 Iamb = ambient(Kamb, light.ambient);
+    return illumination(Iamb, Idiff, Ispec, lightAttenuation(light, P), lightBeam(light, L));
+}
+
+// One term of the sum in (101) with Lambert's diffuse and Blinn and Phong's specular reflection, linear RGB.
 //   light, material  the light and the material    P  shaded point    N  unit normal    V  unit vector towards the eye
 vec3 lightTerm(Light light, Material material, vec3 P, vec3 N, vec3 V)
 {
-    if (light.kind == LIGHT_HEMISPHERE)
-        return ambient(material.ambient, lightDome(light, N));
     vec3 L = lightVector(light, P);
-    vec3 Iamb = ambient(material.ambient, light.ambient);
     vec3 Idiff = lambert(N, L, material.diffuse, light.diffuse);
     vec3 Ispec = blinnPhong(N, L, V, material.shininess, material.specular, light.specular);
-    return illumination(Iamb, Idiff, Ispec, lightAttenuation(light, P), lightBeam(light, L));
+    return lightTerm(light, material.ambient, P, N, L, Idiff, Ispec);
 }
 
 #endif

@@ -1,7 +1,7 @@
 // name: normal
 // kind: geometry
 // equation: N' = (M^-1)^T N / |(M^-1)^T N|
-// source: textbook, section 10.2.1
+// source: textbook, section 10.2.1, where it is a heading without a text
 // stability: correct for columns of any length, 1e-38 to 1e38; singular matrices have a normal wherever one exists
 #ifndef GLISTEN_NORMAL
 #define GLISTEN_NORMAL

@@ -1,6 +1,6 @@
 // name: outline
 // kind: geometry
-// equation: p'.xy = p.xy + width w n / |n|, p'.z = p.z - push w, n = the normal on the screen
+// equation: p'.xy = p.xy + width w n / |(a n_x, n_y)|, p'.z = p.z - push w, n = the normal on the screen, a = the aspect
 // source: article, program `edge`
 // stability: finite for every finite input; a normal that points at the viewer does not move the point sideways
 //
@@ -18,14 +18,25 @@ vec3 outlineDirection(vec4 position, vec4 normal)
     return safeFinite(vec3(n, 0.0));
 }
 
-// A clip-space position moved along its normal on the screen and then towards the viewer.
+// A clip-space position moved along its normal on the screen and then towards the viewer, by the same number of pixels
+// in every direction.
 //   position  clip space    direction  on the screen, of any length (its x and y count)
-//   width     in normalized device coordinates (2 is the whole picture)    push  the same, in depth
+//   width     in halves of the picture's height    push  in normalized device coordinates, in depth
+//   aspect    the picture's width over its height, limited to 2^-20 to 2^20; for a projection matrix M, M[1][1] / M[0][0]
+vec4 outlinePosition(vec4 position, vec3 direction, float width, float push, float aspect)
+{
+    aspect = clamp(aspect, exp2(-20.0), exp2(20.0));
+    // The direction in pixels, except for its length.
+    vec2 n = safeNormalize(safeLimit(vec3(aspect * direction.x, direction.y, 0.0))).xy;
+    // The width is multiplied by the direction first, so that 0 is never multiplied by infinity.
+    vec2 by = safeLimit(width * vec3(n.x / aspect, n.y, 0.0)).xy;
+    return safeLimit(vec4(position.xy + by * position.w, position.z - push * position.w, position.w));
+}
+
+// The same for a square picture.
 vec4 outlinePosition(vec4 position, vec3 direction, float width, float push)
 {
-    vec2 n = safeNormalize(vec3(direction.xy, 0.0)).xy;
-    // The width is multiplied by the direction first, so that 0 is never multiplied by infinity.
-    return safeLimit(vec4(position.xy + width * n * position.w, position.z - push * position.w, position.w));
+    return outlinePosition(position, direction, width, push, 1.0);
 }
 
 #endif

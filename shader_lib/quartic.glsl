@@ -4,8 +4,7 @@
 // source: article, program `specular`
 // stability: finite for every finite input
 //
-// The power that a vertex processor without pow() can compute: two squarings. It is also exact where a GPU's pow() is
-// not.
+// The power of the article's highlight by color: two squarings, which are also exact where a GPU's pow() is not.
 #ifndef GLISTEN_QUARTIC
 #define GLISTEN_QUARTIC
 #include "phong.glsl"

@@ -29,6 +29,8 @@ pub mod cli;
 pub mod evaluate;
 #[cfg(feature = "cli")]
 pub mod gallery;
+#[cfg(feature = "cli")]
+pub mod made;
 #[cfg(feature = "reference")]
 pub mod measure;
 #[cfg(feature = "cli")]

@@ -6,16 +6,16 @@
 #include <glisten/lambert.glsl>
 #include <glisten/normal.glsl>
 
-in vec3 position;                       // v0
-in vec3 normal;                         // v3
-in vec2 texcoord;                       // v7
-uniform mat4 model_view_projection;     // c0 to c3: world, view and projection
+in vec3 position;
+in vec3 normal;
+in vec2 texcoord;
+uniform mat4 model_view_projection;     // world, view and projection
 uniform mat3 model_normal;
-uniform vec3 light_direction;           // c13: towards the light
-uniform vec3 ambient_color;             // c14: color of the ambient light
-uniform vec3 mesh_color;                // c15: color of the light and the mesh
-out vec3 shade;                         // oD0
-out vec2 st;                            // oT0
+uniform vec3 light_direction;           // towards the light
+uniform vec3 ambient_color;             // color of the ambient light
+uniform vec3 mesh_color;                // color of the light and the mesh
+out vec3 shade;
+out vec2 st;
 
 void main()
 {

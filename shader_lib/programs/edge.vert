@@ -4,15 +4,17 @@
 // before the model, with depth write and culling off; the model then covers all but the rim.
 #include <glisten/outline.glsl>
 
-in vec3 position;                       // v0
-in vec3 normal;                         // v3
-uniform mat4 model_view_projection;     // c0 to c3: world, view and projection
-uniform float width = 0.02;             // of the rim, in normalized device coordinates (the picture is 2 wide)
-uniform float push = 0.0;               // towards the viewer, in the same units
+in vec3 position;
+in vec3 normal;
+uniform mat4 model_view_projection;     // world, view and projection
+uniform mat4 projection;                // for the ratio of the picture's sides
+uniform float width = 0.02;             // of the rim: the picture is 2 high
+uniform float push = 0.0;               // towards the viewer, in normalized device coordinates
 
 void main()
 {
     vec4 place = model_view_projection * vec4(position, 1.0);
     vec4 along = model_view_projection * vec4(normal, 0.0);
-    gl_Position = outlinePosition(place, outlineDirection(place, along), width, push);
+    float aspect = projection[1][1] / projection[0][0];
+    gl_Position = outlinePosition(place, outlineDirection(place, along), width, push, aspect);
 }

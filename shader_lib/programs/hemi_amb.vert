@@ -5,19 +5,19 @@
 #include <glisten/lambert.glsl>
 #include <glisten/normal.glsl>
 
-in vec3 position;                       // v0
-in vec3 normal;                         // v3
-in vec2 texcoord;                       // v7
-uniform mat4 model_view_projection;     // c0 to c3: world, view and projection
+in vec3 position;
+in vec3 normal;
+in vec2 texcoord;
+uniform mat4 model_view_projection;     // world, view and projection
 uniform mat3 model_normal;
-uniform vec3 light_direction;           // c13: towards the light
-uniform vec3 light_color;               // c14: color of the parallel light
-uniform vec3 mesh_color;                // c15: color of the mesh
-uniform vec3 sky;                       // c18: color of the upper half sphere
-uniform vec3 ground;                    // c19: color of the lower half sphere
-uniform vec3 axis;                      // c20: axis of the half spheres
-out vec3 shade;                         // oD0
-out vec2 st;                            // oT0
+uniform vec3 light_direction;           // towards the light
+uniform vec3 light_color;               // color of the parallel light
+uniform vec3 mesh_color;                // color of the mesh
+uniform vec3 sky;                       // color of the upper half sphere
+uniform vec3 ground;                    // color of the lower half sphere
+uniform vec3 axis;                      // axis of the half spheres
+out vec3 shade;
+out vec2 st;
 
 void main()
 {

@@ -1,7 +1,6 @@
 #version 150
 #extension GL_ARB_shading_language_include : require
-// The textbook's (83) and (86): diffuse reflection and Phong's highlight, at each fragment.
-#include <glisten/ambient.glsl>
+// The textbook's (101) with (83) and (86): diffuse reflection and Phong's highlight, at each fragment.
 #include <glisten/lambert.glsl>
 #include <glisten/phong.glsl>
 #include <glisten/scene.glsl>
@@ -15,13 +14,12 @@ void main()
 {
     vec3 N = safeNormalize(direction);
     vec3 V = safeNormalize(eye - world);
-    vec3 sum = vec3(0.0);
+    vec3 sum = background(material.ambient, global_ambient, material.emission);
     for (int i = 0; i < min(lights, GLISTEN_LIGHTS); ++i) {
         vec3 L = lightVector(light[i], world);
-        vec3 Iamb = ambient(material.ambient, light[i].ambient);
         vec3 Idiff = lambert(N, L, material.diffuse, light[i].diffuse);
         vec3 Ispec = phong(N, L, V, material.shininess, material.specular, light[i].specular);
-        sum += Iamb + Idiff + Ispec;
+        sum += lightTerm(light[i], material.ambient, world, N, L, Idiff, Ispec);
     }
     color = vec4(sum, 1.0);
 }

@@ -1,25 +1,25 @@
 #version 150
 #extension GL_ARB_shading_language_include : require
-// The article's `specular`: `diffuse`, and a highlight by the mirror direction whose power is two squarings, since a
-// vertex processor of the time has no pow().
+// The article's `specular`: `diffuse`, and a highlight by the mirror direction whose power is the fourth, by two
+// squarings: the article speaks of "brightness = x^4". It does not print this program.
 #include <glisten/ambient.glsl>
 #include <glisten/lambert.glsl>
 #include <glisten/normal.glsl>
 #include <glisten/quartic.glsl>
 
-in vec3 position;                       // v0
-in vec3 normal;                         // v3
-in vec2 texcoord;                       // v7
+in vec3 position;
+in vec3 normal;
+in vec2 texcoord;
 uniform mat4 model;
-uniform mat4 model_view_projection;     // c0 to c3: world, view and projection
+uniform mat4 model_view_projection;     // world, view and projection
 uniform mat3 model_normal;
 uniform vec3 eye;
-uniform vec3 light_direction;           // c13: towards the light
-uniform vec3 ambient_color;             // c14: color of the ambient light
-uniform vec3 mesh_color;                // c15: color of the light and the mesh
-out vec3 shade;                         // oD0
-out vec3 gloss;                         // oD1
-out vec2 st;                            // oT0
+uniform vec3 light_direction;           // towards the light
+uniform vec3 ambient_color;             // color of the ambient light
+uniform vec3 mesh_color;                // color of the light and the mesh
+out vec3 shade;
+out vec3 gloss;
+out vec2 st;
 
 void main()
 {

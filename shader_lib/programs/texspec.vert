@@ -9,20 +9,20 @@
 #include <glisten/lut.glsl>
 #include <glisten/normal.glsl>
 
-in vec3 position;                       // v0
-in vec3 normal;                         // v3
-in vec2 texcoord;                       // v7
+in vec3 position;
+in vec3 normal;
+in vec2 texcoord;
 uniform mat4 model;
-uniform mat4 model_view_projection;     // c0 to c3: world, view and projection
+uniform mat4 model_view_projection;     // world, view and projection
 uniform mat3 model_normal;
 uniform vec3 eye;
-uniform vec3 light_direction;           // c13: towards the light
-uniform vec3 ambient_color;             // c14: color of the ambient light
-uniform vec3 mesh_color;                // c15: color of the light and the mesh
+uniform vec3 light_direction;           // towards the light
+uniform vec3 ambient_color;             // color of the ambient light
+uniform vec3 mesh_color;                // color of the light and the mesh
 uniform sampler2D highlight;            // the table that the coordinate is for
-out vec3 shade;                         // oD0
-out vec2 st;                            // oT0
-out float gloss_s;                      // oT1.x = N.H, moved to the centers of the outer texels
+out vec3 shade;
+out vec2 st;
+out float gloss_s;                      // N.H, moved to the centers of the outer texels
 
 void main()
 {

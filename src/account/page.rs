@@ -55,8 +55,8 @@ fn scene(one: &SceneOnPage<'_>) -> Value {
     let differing = original.bit_unequal(residual);
     context! {
         name => &one.account.scene,
-        original => Value::from_safe_string(color_uri(original)),
-        residual => Value::from_safe_string(color_uri(residual)),
+        original => Value::from_safe_string(color_uri(original, one.scene.framebuffer.encode)),
+        residual => Value::from_safe_string(color_uri(residual, one.scene.framebuffer.encode)),
         difference => Value::from_safe_string(difference_uri(&differences(residual, original), original.width, original.height)),
         width => original.width,
         height => original.height,

@@ -4,11 +4,12 @@ use super::args::WithContractArgs;
 use super::console::Console;
 use super::exit::{Exit, Failure, Outcome};
 use super::files;
+use super::made::made;
 use super::opengl;
 use super::progress::Progress;
 use super::render::Backend;
 use super::scenes::{DrawError, MachineArgs, ViaArg};
-use crate::gallery::{self, Entry, Tile};
+use crate::gallery::{self, Difference, Drawing, Entry, Tile};
 use crate::specialize::specialize_scene_by;
 use clap::Args;
 use glisten_front::source::SourceMap;
@@ -42,8 +43,8 @@ pub(super) struct GalleryArgs {
     specialize: bool,
     #[command(flatten)]
     contract: WithContractArgs,
-    /// The width of the pictures in pixels
-    #[arg(long, value_name = "PIXELS", default_value_t = 320, value_parser = clap::value_parser!(u32).range(8..=MAX_SIZE))]
+    /// The width of the pictures in pixels; the page shows them at half of 640, as sharp screens want
+    #[arg(long, value_name = "PIXELS", default_value_t = 640, value_parser = clap::value_parser!(u32).range(8..=MAX_SIZE))]
     size: u32,
     #[command(flatten)]
     machine: MachineArgs,
@@ -67,17 +68,22 @@ pub(super) fn run(args: &GalleryArgs, console: &Console) -> Outcome {
         Backend::Gl => GalleryBackend::OpenGl,
     };
     let progress = Progress::new(console, entries.len());
-    let mut tiles = Vec::with_capacity(entries.len());
+    let mut drawings = Vec::with_capacity(entries.len());
     for entry in &entries {
         progress.say(entry.name);
-        tiles.push(Tile::new(&backend.draw(args, entry)?));
+        drawings.push(backend.drawing(args, &entries, entry)?);
         progress.step();
     }
     drop(progress);
-    let page = gallery::page(&entries, &tiles, &backend.name()).map_err(internal)?;
-    for (entry, tile) in entries.iter().zip(&tiles) {
-        files::write(&args.output.join(entry.file_name()), &tile.png().map_err(internal)?)?;
+    let page = gallery::page(&entries, &drawings, &backend.name(), &made()).map_err(internal)?;
+    for (entry, drawing) in entries.iter().zip(&drawings) {
+        files::write(&args.output.join(entry.file_name()), &drawing.tile.png().map_err(internal)?)?;
+        if let Some(difference) = &drawing.difference {
+            let path = args.output.join(entry.difference_name());
+            files::write(&path, &difference.tile.png().map_err(internal)?)?;
+        }
     }
+    let tiles: Vec<&Tile> = drawings.iter().map(|drawing| &drawing.tile).collect();
     let sheet = gallery::contact_sheet(&tiles, COLUMNS, SIDE, GAP).png().map_err(internal)?;
     files::write(&args.output.join(gallery::SHEET), &sheet)?;
     // Last, so that a page always refers to pictures that exist.
@@ -88,6 +94,17 @@ pub(super) fn run(args: &GalleryArgs, console: &Console) -> Outcome {
 }
 
 impl GalleryBackend {
+    /// The parts of an entry on the page: its picture, and its difference to another's.
+    fn drawing(&self, args: &GalleryArgs, entries: &[Entry], entry: &Entry) -> Result<Drawing, Failure> {
+        let picture = self.draw(args, entry)?;
+        let other = entry.compared_with().and_then(|name| entries.iter().find(|known| known.name == name));
+        let difference = match other {
+            Some(other) => Difference::new(&picture, &self.draw(args, other)?),
+            None => None,
+        };
+        Ok(Drawing { tile: Tile::new(&picture), difference })
+    }
+
     fn draw(&self, args: &GalleryArgs, entry: &Entry) -> Result<Picture, Failure> {
         let scene = entry.supersampled(args.size);
         let scene = match args.contract.contract() {

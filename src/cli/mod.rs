@@ -24,6 +24,7 @@ mod includes;
 mod inputs;
 mod library;
 mod lint;
+mod made;
 mod man;
 mod new_scene;
 mod opengl;

@@ -4,7 +4,7 @@
 
 use super::exit::Failure;
 use crate::scene::Format;
-use glisten_scene::picture::{ImageFormat, Picture};
+use glisten_scene::picture::{ImageFormat, Picture, Transfer};
 use std::path::{Path, PathBuf};
 
 /// Where to write pictures: one file for the first attachment or, with `%d` in the name, one for each.
@@ -36,7 +36,7 @@ impl Target {
     }
 
     /// The files with their contents, and how many numbers were not representable (NaN in a PNG).
-    pub(super) fn encode(&self, picture: &Picture) -> Result<(Vec<File>, usize), Failure> {
+    pub(super) fn encode(&self, picture: &Picture, by: Transfer) -> Result<(Vec<File>, usize), Failure> {
         let mut files = Vec::new();
         let mut nans = 0;
         let count = if self.name.contains("%d") { picture.attachments.len() } else { 1 };
@@ -45,7 +45,7 @@ impl Target {
             if self.format == ImageFormat::Png {
                 nans += picture.n_nans(attachment);
             }
-            let encoded = picture.encode(attachment, self.format);
+            let encoded = picture.encode_by(attachment, self.format, by);
             let bytes =
                 encoded.map_err(|error| Failure::usage(format!("cannot encode `{}`: {error}", path.display())))?;
             files.push((path, bytes));
@@ -61,7 +61,7 @@ type File = (PathBuf, Vec<u8>);
 mod tests {
     use super::Target;
     use crate::scene::Format;
-    use glisten_scene::picture::Picture;
+    use glisten_scene::picture::{Picture, Transfer};
     use std::path::Path;
 
     #[test]
@@ -70,7 +70,7 @@ mod tests {
         picture.attachments.push(picture.attachments[0].clone());
         let encode = |name: &str| {
             let target = Target::parse(Path::new(name)).expect("a known ending");
-            let (files, nans) = target.encode(&picture).expect("it can be encoded");
+            let (files, nans) = target.encode(&picture, Transfer::Linear).expect("it can be encoded");
             (files.into_iter().map(|(path, _)| path.to_string_lossy().into_owned()).collect::<Vec<_>>(), nans)
         };
         assert_eq!(encode("a%d.png"), (vec!["a0.png".to_owned(), "a1.png".to_owned()], 2));

@@ -89,7 +89,7 @@ pub(super) fn run(args: &RenderArgs, console: &Console) -> Outcome {
     if let Some(adapter) = drawn_by.filter(|_| read.is_human()) {
         console.remark(&format!("drawn by {adapter}"));
     }
-    let (files, nans) = target.encode(&picture)?;
+    let (files, nans) = target.encode(&picture, read.scene.framebuffer.encode)?;
     if nans > 0 {
         console.remark(&format!("warning: {nans} numbers are NaN and are 0 in the PNG"));
     }

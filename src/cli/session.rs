@@ -13,13 +13,15 @@ use super::includes::DiskIncludes;
 use super::inputs::{Group, Input};
 use super::progress::Progress;
 use glisten_front::compiler::{Compiler, Source};
+use glisten_front::diagnostic::codes::link::BINDING_WITHOUT_VARIABLE;
 use glisten_front::diagnostic::codes::scenes;
 use glisten_front::diagnostic::write::{self, Finding};
 use glisten_front::diagnostic::{Code, Diagnostic, Severity};
+use glisten_front::hir::Stage;
 use glisten_front::link::Program;
 use glisten_front::source::{SourceMap, Span};
 use rayon::prelude::*;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The stack size of the threads that compile. The phases limit their recursion themselves, relying on this size.
 const STACK_BYTES: usize = 16 << 20;
@@ -129,6 +131,7 @@ impl<'a> Session<'a> {
             unit
         };
         let mut units: Vec<(Unit, usize)> = self.pool.install(|| groups.into_par_iter().map(work).collect());
+        keep_bindings_that_fit_nowhere(&mut units);
         for (unit, dropped) in &mut units {
             // Errors in a configuration are reported even if there are no diagnostics that it applies to.
             for input in &unit.group.inputs {
@@ -196,6 +199,32 @@ impl<'a> Session<'a> {
     pub(super) fn tell_units(&self, units: &[Unit], to_output: bool) -> Result<Exit, Failure> {
         let batches: Vec<&Batch> = units.iter().flat_map(|unit| unit.unread.iter().chain([&unit.batch])).collect();
         self.tell(&batches, to_output)
+    }
+}
+
+/// Drops warnings about bound names that one of the programs has: the bindings of a call are for all of them. What no
+/// program has is told once.
+fn keep_bindings_that_fit_nowhere(units: &mut [(Unit, usize)]) {
+    let is_one = |found: &Diagnostic| found.code.id == BINDING_WITHOUT_VARIABLE.id;
+    let mut counts: BTreeMap<String, usize> = BTreeMap::new();
+    for found in units.iter().flat_map(|(unit, _)| &unit.batch.diagnostics).filter(|found| is_one(found)) {
+        *counts.entry(found.message.clone()).or_default() += 1;
+    }
+    if counts.is_empty() {
+        return;
+    }
+    // Units that could have the name are those with its stage, which the message does not name.
+    let with_stage = |stage: Stage| {
+        units.iter().filter(|(unit, _)| unit.group.inputs.iter().any(|input| input.stage == stage)).count()
+    };
+    let (vertex, fragment) = (with_stage(Stage::Vertex), with_stage(Stage::Fragment));
+    for (unit, _) in units {
+        unit.batch.diagnostics.retain(|found| {
+            // The first one stays, if it is one of as many as there are programs with the stage.
+            let whole = if found.message.starts_with("a color number") { fragment } else { vertex };
+            let count = counts.get_mut(&found.message).filter(|_| is_one(found));
+            count.is_none_or(|count| std::mem::replace(count, 0) == whole)
+        });
     }
 }
 

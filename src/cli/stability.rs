@@ -19,6 +19,7 @@ use crate::stability::{BOUND, Examination, ExamineOptions, Findings, Stability, 
 use clap::{Args, ValueEnum};
 use glisten_front::diagnostic::{self, Diagnostic};
 use glisten_front::hir::Stage;
+use glisten_scene::picture::Transfer;
 use glisten_scene::{Scene, ShaderFiles, write};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
@@ -339,7 +340,7 @@ fn write_worst(path: &Path, done: &[Done<'_>]) -> Result<(), Failure> {
 fn write_heat(path: &Path, done: &[Done<'_>]) -> Result<(), Failure> {
     let [done] = done else { return Err(Failure::usage("--heat takes one scene").help("name a single scene file")) };
     let target = Target::parse(path)?;
-    let (files, _) = target.encode(&heat(&done.examined, done.result.bound))?;
+    let (files, _) = target.encode(&heat(&done.examined, done.result.bound), Transfer::Linear)?;
     for (path, bytes) in files {
         files::write(&path, &bytes)?;
     }

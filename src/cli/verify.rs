@@ -155,7 +155,7 @@ pub(super) fn run(args: &VerifyArgs, console: &Console) -> Outcome {
     };
     drop(progress);
     if let Some(target) = difference {
-        let (files, _) = target.encode(&verification.difference())?;
+        let (files, _) = target.encode(&verification.difference(), glisten_scene::picture::Transfer::Linear)?;
         for (path, bytes) in files {
             files::write(&path, &bytes)?;
         }

@@ -26,6 +26,7 @@ use glisten_front::link::Program;
 use glisten_front::{Compiler, Source};
 use glisten_reference::{Precision, RenderOptions};
 use glisten_scene::picture::Picture;
+use glisten_scene::picture::Transfer;
 use std::fmt;
 use std::sync::Arc;
 
@@ -157,6 +158,7 @@ impl Evaluator {
             clear: [0.0; 4],
             format: Format::Rgba32Float,
             attachments: 1,
+            encode: Transfer::Linear,
         };
         let draw = Draw {
             program: Arc::clone(&self.program),

@@ -20,6 +20,8 @@ pub(super) struct Meta {
     /// The formulas, in the subset of TeX that `math` parses.
     pub(super) equation: Vec<String>,
     pub(super) says: String,
+    /// The scene of which this one gives the picture by other means, if the page shows their difference.
+    pub(super) compare: Option<String>,
     /// The modules (`phong.glsl`) and shaders (`programs/phong.frag`) of the library that it shows.
     pub(super) sources: Vec<String>,
 }
@@ -63,6 +65,11 @@ fn entry(file: &LibraryScene) -> Result<Entry, String> {
 }
 
 impl Entry {
+    /// A sentence that describes the picture: the scene's first line.
+    pub(super) fn description(&self) -> &'static str {
+        self.text.lines().next().map_or("", |line| line.trim_start_matches("# "))
+    }
+
     /// The scene as in its file.
     pub fn scene(&self) -> &Scene {
         &self.scene
@@ -77,6 +84,16 @@ impl Entry {
         framebuffer.width = width * SUPERSAMPLING;
         framebuffer.height = height as u32 * SUPERSAMPLING;
         scene
+    }
+
+    /// The name of the scene with whose picture this one's is compared.
+    pub fn compared_with(&self) -> Option<&str> {
+        self.meta.compare.as_deref()
+    }
+
+    /// The name of the file with the difference to that picture.
+    pub fn difference_name(&self) -> String {
+        format!("{}-difference.png", self.name)
     }
 
     /// The name of the picture's file.

@@ -1,7 +1,7 @@
 //! Converts formulas to MathML, which browsers typeset themselves.
 //!
 //! *In:* a small subset of TeX: letters, numbers, operators, `_` and `^` with a letter or a `{group}`, and the
-//! commands of [`SYMBOLS`], [`FUNCTIONS`], `\frac`, `\mathbf`, `\mathrm`, `\text`, `\sum`. *Out:* a `<math>` element,
+//! commands of [`SYMBOLS`], [`FUNCTIONS`], `\frac`, `\sqrt`, `\mathbf`, `\mathrm`, `\text`, `\sum`. *Out:* a `<math>` element,
 //! escaped. *Holds:* anything outside the subset is an error and is never dropped.
 
 /// Commands for one operator or letter: name, element, text.
@@ -174,6 +174,7 @@ impl<'t> Parser<'t> {
         }
         match name {
             "frac" => Ok(format!("<mfrac>{}{}</mfrac>", self.group()?, self.group()?)),
+            "sqrt" => Ok(format!("<msqrt>{}</msqrt>", self.group()?)),
             "sum" => Ok("<mo>\u{2211}</mo>".into()),
             "mathbf" => Ok(format!("<mi class=\"vector\">{}</mi>", escape(self.words()?))),
             "mathrm" => Ok(format!("<mi mathvariant=\"normal\">{}</mi>", escape(self.words()?))),

@@ -4,15 +4,26 @@
 //!
 //! *Holds:* the pictures are files next to the page; nothing else is loaded.
 
+use super::difference::Difference;
 use super::entry::Entry;
 use super::highlight::{Language, html};
 use super::math::mathml;
 use super::tile::Tile;
 use crate::library;
+use crate::made::Made;
 use minijinja::{Environment, Value, context};
 
 const TEMPLATE: &str = include_str!("page.html");
 const STYLE: &str = include_str!("page.css");
+
+/// The pictures of an entry.
+#[derive(Clone, Debug)]
+pub struct Drawing {
+    /// The picture.
+    pub tile: Tile,
+    /// Its difference to the picture of the scene that it is [compared with](Entry::compared_with).
+    pub difference: Option<Difference>,
+}
 
 /// A chapter of the page: the scenes that name its `id`.
 struct Chapter {
@@ -37,7 +48,8 @@ const CHAPTERS: &[Chapter] = &[
         of: "Textbook, sections 10.1.3 and 10.1.4",
         about: "The dichromatic model takes reflection for a sum of two. One is light that has been inside the surface and \
                 comes out of it colored; the other is mirrored where it arrives, spread by the roughness of the surface. How \
-                it spreads is what these models differ in.",
+                it spreads is what these models differ in. Whatever a formula gives, there is no highlight where the light \
+                does not reach the surface (N\u{b7}L \u{2264} 0).",
     },
     Chapter {
         id: "sum",
@@ -64,8 +76,8 @@ const CHAPTERS: &[Chapter] = &[
         id: "article",
         title: "The article's ball",
         of: "Article on hemisphere lighting",
-        about: "Eight programs for a vertex processor of the year 2002, without powers and without branches, each drawing \
-                the same ball over a tiled floor. The arrow shows the direction of the light.",
+        about: "Eight programs, of which the article prints two in the assembly language of vs.1.0, each drawing the same ball \
+                over a tiled floor. The arrow shows the direction of the light.",
     },
 ];
 
@@ -74,12 +86,12 @@ const CHAPTERS: &[Chapter] = &[
 /// # Errors
 /// What is wrong with an entry's text, or the message of the template engine. Both are errors in the library, which
 /// its tests would find.
-pub fn page(entries: &[Entry], tiles: &[Tile], by: &str) -> Result<String, String> {
+pub fn page(entries: &[Entry], drawings: &[Drawing], by: &str, made: &Made) -> Result<String, String> {
     let mut chapters = Vec::new();
     for chapter in CHAPTERS {
         let mut cards = Vec::new();
-        for (entry, tile) in entries.iter().zip(tiles).filter(|(entry, _)| entry.meta.chapter == chapter.id) {
-            cards.push(card(entry, tile)?);
+        for (entry, drawing) in entries.iter().zip(drawings).filter(|(entry, _)| entry.meta.chapter == chapter.id) {
+            cards.push(card(entries, entry, drawing)?);
         }
         chapters.push(context! {
             id => chapter.id, title => chapter.title, of => chapter.of, about => chapter.about, cards,
@@ -95,12 +107,13 @@ pub fn page(entries: &[Entry], tiles: &[Tile], by: &str) -> Result<String, Strin
             chapters,
             count => entries.len(),
             by,
+            made => context! { command => &made.command, version => &made.version, date => &made.date },
         })
     });
     rendered.map_err(|error| error.to_string())
 }
 
-fn card(entry: &Entry, tile: &Tile) -> Result<Value, String> {
+fn card(entries: &[Entry], entry: &Entry, drawing: &Drawing) -> Result<Value, String> {
     let wrong = |what: String| format!("the scene `{}`: {what}", entry.name);
     let mut formulas = String::new();
     for tex in &entry.meta.equation {
@@ -113,8 +126,10 @@ fn card(entry: &Entry, tile: &Tile) -> Result<Value, String> {
     }
     let scene = format!("{}.toml", entry.name);
     sources.push(context! { name => scene, text => Value::from_safe_string(html(entry.text, Language::Toml)) });
-    let (width, height) = tile.size();
+    let (width, height) = drawing.tile.size();
     Ok(context! {
+        description => entry.description(),
+        difference => drawing.difference.as_ref().map(|difference| self::difference(entries, entry, difference)),
         name => entry.name,
         title => &entry.meta.title,
         place => Value::from_safe_string(inline_code(&entry.meta.place)),
@@ -125,6 +140,18 @@ fn card(entry: &Entry, tile: &Tile) -> Result<Value, String> {
         formulas => Value::from_safe_string(formulas),
         sources,
     })
+}
+
+/// The difference to another picture, with the name and the title of its scene.
+fn difference(entries: &[Entry], entry: &Entry, difference: &Difference) -> Value {
+    let other = entries.iter().find(|known| Some(known.name) == entry.compared_with());
+    context! {
+        picture => entry.difference_name(),
+        most => if difference.most == 0.0 { "0".to_owned() } else { format!("{:.1e}", difference.most) },
+        factor => difference.factor,
+        name => other.map(|other| other.name),
+        title => other.map(|other| &other.meta.title),
+    }
 }
 
 /// The text of a module, or of a program's shader.
@@ -158,21 +185,34 @@ mod tests {
     use crate::gallery::entries;
     use glisten_scene::picture::Picture;
 
-    fn tiles(count: usize) -> Vec<Tile> {
+    fn drawings(entries: &[Entry]) -> Vec<Drawing> {
         let picture = Picture::of_colors(4, 4, vec![[0.5; 4]; 16]);
-        vec![Tile::new(&picture); count]
+        let difference =
+            |entry: &Entry| Difference::new(&picture, &picture).filter(|_| entry.compared_with().is_some());
+        let drawing = |entry| Drawing { tile: Tile::new(&picture), difference: difference(entry) };
+        entries.iter().map(drawing).collect()
     }
 
     #[test]
     fn the_page_is_whole_and_alone() {
         let entries = entries().expect("the library's scenes are good");
-        let page = page(&entries, &tiles(entries.len()), "llvmpipe <Mesa>").expect("the library's texts are good");
+        let made = Made::new(&["gallery".to_owned(), "<o>".to_owned()], 0);
+        let page = page(&entries, &drawings(&entries), "llvmpipe <Mesa>", &made).expect("the library's texts are good");
         assert_eq!(page.matches("<article ").count(), entries.len());
         for entry in &entries {
             assert!(page.contains(&format!("<img src=\"{}.png\"", entry.name)), "{}", entry.name);
             assert!(page.contains(&format!("id=\"{}\"", entry.name)), "{}", entry.name);
         }
-        assert!(page.contains("llvmpipe &lt;Mesa&gt;"));
+        for told in ["llvmpipe &lt;Mesa&gt;", "1970-01-01", env!("CARGO_PKG_VERSION"), "&lt;o&gt;", "encoded for sRGB"]
+        {
+            assert!(page.contains(told), "{told}");
+        }
+        let compared: Vec<&Entry> = entries.iter().filter(|entry| entry.compared_with().is_some()).collect();
+        assert!(!compared.is_empty());
+        for entry in compared {
+            assert!(page.contains(&format!("<img src=\"{}\"", entry.difference_name())), "{}", entry.name);
+            assert!(entries.iter().any(|other| Some(other.name) == entry.compared_with()), "{}", entry.name);
+        }
         let formulas: usize = entries.iter().map(|entry| entry.meta.equation.len()).sum();
         assert_eq!(page.matches("<math ").count(), formulas);
         for outside in ["http://", "https://", "src=\"/", "<link", "@import", "<script"] {

@@ -1,10 +1,10 @@
 //! [`Tile`]: a picture of the gallery with 8 bits per channel, and the sheet of many of them.
 //!
-//! *Holds:* colors are clamped to [0, 1], averaged over the samples of a pixel, and rounded to 8 bits without gamma,
-//! as in `glisten render`. Non-finite colors are magenta.
+//! *Holds:* colors are clamped to [0, 1], averaged over the samples of a pixel as linear light, encoded for sRGB, and
+//! rounded to 8 bits, as in `glisten render` of a scene with `encode = "srgb"`. Non-finite colors are magenta.
 
 use super::entry::supersampling;
-use glisten_scene::picture::{Effort, NOT_FINITE, Picture, png_rgb};
+use glisten_scene::picture::{Effort, NOT_FINITE, Picture, Transfer, png_rgb};
 
 /// The background of the sheet.
 const GROUND: [u8; 3] = [24, 25, 30];
@@ -19,6 +19,11 @@ pub struct Tile {
 }
 
 impl Tile {
+    /// The tile of pixels, `width * height`, top row first.
+    pub(super) fn of_bytes(width: u32, height: u32, pixels: Vec<[u8; 3]>) -> Self {
+        Self { width, height, pixels }
+    }
+
     /// The first attachment of a supersampled picture, averaged.
     pub fn new(picture: &Picture) -> Self {
         let samples = picture.attachments.first().map(Vec::as_slice).unwrap_or_default();
@@ -55,9 +60,9 @@ impl Tile {
     }
 }
 
-/// Bytes as numbers in [0, 1].
+/// The linear light, in [0, 1], of encoded bytes.
 fn shown(pixel: [u8; 3]) -> [f64; 3] {
-    pixel.map(|channel| f64::from(channel) / 255.0)
+    pixel.map(|channel| Transfer::Srgb.decode(f64::from(channel) / 255.0))
 }
 
 /// Scales a picture down: each pixel is the area-weighted mean of the pixels that it covers.
@@ -83,7 +88,7 @@ fn box_filter(
                     }
                 }
             }
-            pixels.push(sum.map(|total| (255.0 * total / area).round() as u8));
+            pixels.push(sum.map(|total| (255.0 * Transfer::Srgb.encode(total / area)).round() as u8));
         }
     }
     Tile { width, height, pixels }
@@ -105,7 +110,7 @@ fn spans(count: u32, from: u32) -> Vec<Vec<(u32, f64)>> {
 }
 
 /// All tiles on one sheet with `columns` columns, each `side` pixels wide, `gap` apart.
-pub fn contact_sheet(tiles: &[Tile], columns: u32, side: u32, gap: u32) -> Tile {
+pub fn contact_sheet(tiles: &[&Tile], columns: u32, side: u32, gap: u32) -> Tile {
     let columns = columns.max(1);
     let rows = (tiles.len() as u32).div_ceil(columns);
     let (width, height) = (columns * (side + gap) + gap, rows * (side + gap) + gap);
@@ -133,7 +138,7 @@ mod tests {
     fn samples_are_clamped_and_averaged() {
         let row = [[9.0, 0.0, 0.5, 1.0], [0.0, -1.0, 0.5, 1.0]];
         let tile = Tile::new(&Picture::of_colors(2, 2, [row, row].concat()));
-        assert_eq!((tile.size(), tile.pixels.as_slice()), ((1, 1), &[[128, 0, 128]][..]));
+        assert_eq!((tile.size(), tile.pixels.as_slice()), ((1, 1), &[[188, 0, 188]][..]));
     }
 
     #[test]
@@ -159,7 +164,7 @@ mod tests {
         let colors = [[1, 2, 3], [4, 5, 6], [7, 8, 9]];
         let tiles: Vec<Tile> =
             colors.iter().map(|color| Tile { width: 4, height: 4, pixels: vec![*color; 16] }).collect();
-        let sheet = contact_sheet(&tiles, 2, 2, 1);
+        let sheet = contact_sheet(&tiles.iter().collect::<Vec<_>>(), 2, 2, 1);
         assert_eq!(sheet.size(), (7, 7));
         let at = |x: usize, y: usize| sheet.pixels[y * 7 + x];
         assert_eq!(

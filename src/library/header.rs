@@ -7,7 +7,7 @@
 pub struct Header<'a> {
     /// The name, which is that of the file.
     pub name: &'a str,
-    /// `light`, `diffuse`, `specular`, `ambient`, `equation`, `geometry`, `helper`, `interface` (declarations only)
+    /// `light`, `diffuse`, `specular`, `ambient`, `equation`, `geometry`, `color`, `helper`, `interface` (declarations only)
     /// or `reference`.
     pub kind: &'a str,
     /// The equations, by number and as text.

@@ -10,6 +10,8 @@ mod catalogue;
 mod cost;
 mod header;
 mod programs;
+#[cfg(feature = "reference")]
+mod reads;
 mod scenes;
 
 pub use catalogue::{Entry, FunctionEntry, entries, entry};
@@ -61,6 +63,7 @@ static MODULES: &[Module] = &[
     module!("schlick"),
     module!("specular_lut"),
     module!("spot"),
+    module!("srgb"),
     module!("standard"),
     module!("threshold"),
     module!("toon"),
@@ -122,6 +125,10 @@ impl glisten_scene::Library for Embedded {
 
     fn includes(&self) -> std::sync::Arc<dyn IncludeResolver + Send + Sync> {
         std::sync::Arc::new(Self)
+    }
+
+    fn values_read(&self, program: &str) -> Option<&std::collections::BTreeSet<String>> {
+        reads::values_read(program)
     }
 
     fn attributes_that_reach(&self, program: &glisten_front::Program) -> Vec<bool> {

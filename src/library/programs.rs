@@ -28,6 +28,8 @@ macro_rules! shader {
 static SHADERS: &[(&str, &str)] = &[
     shader!("blinn_phong.frag"),
     shader!("blinn_phong_vertex.vert"),
+    shader!("cosine.frag"),
+    shader!("cosine.vert"),
     shader!("decal.frag"),
     shader!("decal.vert"),
     shader!("diffuse.frag"),
@@ -75,8 +77,19 @@ const fn program(
 }
 
 static PROGRAMS: &[LibraryProgram] = &[
-    program("blinn_phong", "surface.vert", "blinn_phong.frag", "textbook, (83) and (89), at each fragment"),
-    program("blinn_phong_vertex", "blinn_phong_vertex.vert", "shade.frag", "textbook, (83) and (89), at each vertex"),
+    program("blinn_phong", "surface.vert", "blinn_phong.frag", "textbook, (101) with (83) and (89), at each fragment"),
+    program(
+        "blinn_phong_vertex",
+        "blinn_phong_vertex.vert",
+        "shade.frag",
+        "textbook, (101) with (83) and (89), at each vertex",
+    ),
+    program(
+        "cosine",
+        "cosine.vert",
+        "cosine.frag",
+        "textbook, figure 127: powers of a cosine and the normal distribution",
+    ),
     program("decal", "decal.vert", "decal.frag", "article, its ground and sky: a color times a texture, unlit"),
     program("diffuse", "diffuse.vert", "diffuse.frag", "article: parallel light and constant ambient light"),
     program("edge", "edge.vert", "edge.frag", "article: the outline, drawn before the model"),
@@ -88,13 +101,18 @@ static PROGRAMS: &[LibraryProgram] = &[
         "article: parallel light over half spheres, and a highlight",
     ),
     program("hemisphere", "hemisphere.vert", "diffuse.frag", "article: light from two half spheres"),
-    program("lambert", "surface.vert", "lambert.frag", "textbook, (83), at each fragment"),
-    program("lambert_vertex", "lambert_vertex.vert", "shade.frag", "textbook, (83), at each vertex"),
+    program("lambert", "surface.vert", "lambert.frag", "textbook, (101) with (83), at each fragment"),
+    program("lambert_vertex", "lambert_vertex.vert", "shade.frag", "textbook, (101) with (83), at each vertex"),
     program("metal", "texspec.vert", "texspec.frag", "article: `texspec` with a mottled pattern for its texture"),
-    program("phong", "surface.vert", "phong.frag", "textbook, (83) and (86), at each fragment"),
-    program("phong_vertex", "phong_vertex.vert", "shade.frag", "textbook, (83) and (86), at each vertex"),
-    program("schlick", "surface.vert", "schlick.frag", "textbook, (83) and (90), at each fragment"),
-    program("schlick_vertex", "schlick_vertex.vert", "shade.frag", "textbook, (83) and (90), at each vertex"),
+    program("phong", "surface.vert", "phong.frag", "textbook, (101) with (83) and (86), at each fragment"),
+    program("phong_vertex", "phong_vertex.vert", "shade.frag", "textbook, (101) with (83) and (86), at each vertex"),
+    program("schlick", "surface.vert", "schlick.frag", "textbook, (101) with (83) and (90), at each fragment"),
+    program(
+        "schlick_vertex",
+        "schlick_vertex.vert",
+        "shade.frag",
+        "textbook, (101) with (83) and (90), at each vertex",
+    ),
     program("soft", "soft.vert", "soft.frag", "article: toon shading with a soft edge"),
     program(
         "specular",
@@ -110,8 +128,13 @@ static PROGRAMS: &[LibraryProgram] = &[
         "(101) with any lights and any models, at each vertex",
     ),
     program("texspec", "texspec.vert", "texspec.frag", "article: a highlight by texture"),
-    program("threshold", "surface.vert", "threshold.frag", "textbook, (83) and (91), at each fragment"),
-    program("threshold_vertex", "threshold_vertex.vert", "shade.frag", "textbook, (83) and (91), at each vertex"),
+    program("threshold", "surface.vert", "threshold.frag", "textbook, (101) with (83) and (91), at each fragment"),
+    program(
+        "threshold_vertex",
+        "threshold_vertex.vert",
+        "shade.frag",
+        "textbook, (101) with (83) and (91), at each vertex",
+    ),
     program(
         "vertex_color",
         "vertex_color.vert",

@@ -29,6 +29,7 @@ static SCENES: &[LibraryScene] = &[
     scene!("floor_phong"),
     scene!("floor_blinn_phong"),
     scene!("shininess"),
+    scene!("cosine"),
     scene!("schlick"),
     scene!("schlick_phong"),
     scene!("threshold"),

@@ -4,7 +4,7 @@
 //! of the first attachment and the pixels that both pictures cover. Times are milliseconds of GPU time per frame.
 //! Ratios are to the baseline of the same run and have no unit.
 
-use glisten_scene::picture::Picture;
+use glisten_scene::picture::{Picture, Transfer};
 use serde::Serialize;
 
 /// The error against run time of each way to shade a scene.
@@ -14,6 +14,9 @@ pub struct Report {
     pub scene: String,
     /// The width and height in pixels.
     pub size: [u32; 2],
+    /// How pictures on the page are encoded.
+    #[serde(skip)]
+    pub encode: Transfer,
     /// The GPU.
     pub adapter: Adapter,
     /// `spirv` or `wgsl`.

@@ -56,7 +56,7 @@ fn model(report: &Report, index: usize, truth: &Truth) -> Value {
         name => &truth.model,
         truth => &truth.way,
         truth_mesh => mesh(truth.tessellation),
-        truth_picture => Value::from_safe_string(raster::color_uri(&truth.picture)),
+        truth_picture => Value::from_safe_string(raster::color_uri(&truth.picture, report.encode)),
         ways,
         front,
     }
@@ -82,7 +82,7 @@ fn row(report: &Report, way: &Way, shape: usize) -> Value {
         low => ratio(way.ratio.low),
         high => ratio(way.ratio.high),
         pareto => way.pareto,
-        picture => Value::from_safe_string(raster::color_uri(&way.picture)),
+        picture => Value::from_safe_string(raster::color_uri(&way.picture, report.encode)),
         difference => Value::from_safe_string(raster::difference_uri(&way.difference, width, height)),
     }
 }
@@ -153,7 +153,7 @@ mod tests {
     use super::super::figures::{compare, mark_pareto};
     use super::super::model::{Adapter, Spread, Timing};
     use super::*;
-    use glisten_scene::picture::Picture;
+    use glisten_scene::picture::{Picture, Transfer};
 
     fn picture(level: f64) -> Picture {
         let side = 64;
@@ -202,6 +202,7 @@ mod tests {
         Report {
             scene: "sphere <&>".into(),
             size: [64, 64],
+            encode: Transfer::Linear,
             adapter: Adapter { name: "llvmpipe".into(), driver: "Mesa".into() },
             via: "spirv",
             truths: vec![truth("Phong"), truth("Blinn-Phong")],

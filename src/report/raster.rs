@@ -1,10 +1,10 @@
 //! Encodes the pictures of a report as PNG data URIs.
 //!
-//! *Holds:* colors are clamped to [0, 1] and rounded to 8 bits without gamma, as in `glisten render`; non-finite
-//! colors are magenta. Differences have a logarithmic scale from [`FLOOR`] to 1; pixels that only one picture covers
+//! *Holds:* colors are clamped to [0, 1] and rounded to 8 bits, encoded as the scene says, as in `glisten render`;
+//! non-finite colors are magenta. Differences have a logarithmic scale from [`FLOOR`] to 1; pixels that only one picture covers
 //! are cyan.
 
-use glisten_scene::picture::{Effort, Picture, png_rgb, visible_rgb};
+use glisten_scene::picture::{Effort, Picture, Transfer, png_rgb, visible_rgb};
 
 /// The largest difference that is drawn black.
 pub(super) const FLOOR: f64 = 1e-7;
@@ -22,9 +22,9 @@ pub(super) const SCALE: [[u8; 3]; 8] = [
 ];
 
 /// The first attachment as a PNG data URI.
-pub(crate) fn color_uri(picture: &Picture) -> String {
+pub(crate) fn color_uri(picture: &Picture, by: Transfer) -> String {
     let pixels = picture.attachments.first().map(Vec::as_slice).unwrap_or_default();
-    let pixels: Vec<[u8; 3]> = pixels.iter().copied().map(visible_rgb).collect();
+    let pixels: Vec<[u8; 3]> = pixels.iter().map(|&pixel| visible_rgb(by.encode_pixel(pixel))).collect();
     data_uri(&pixels, picture.width, picture.height)
 }
 

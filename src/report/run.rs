@@ -111,8 +111,10 @@ pub fn run(
     let timing = time(gpu, &plan, &mut ways, &mut candidates, watcher)?;
     mark_pareto(&mut ways);
     let adapter = Adapter { name: gpu.adapter().name.clone(), driver: gpu.adapter().driver.clone() };
-    let size = whole.scene.map_or([0, 0], |scene| [scene.framebuffer.width, scene.framebuffer.height]);
-    Ok(Report { scene: stem(path), size, adapter, via: via.name(), truths, timing, ways })
+    let framebuffer = whole.scene.map(|scene| scene.framebuffer);
+    let size = framebuffer.map_or([0, 0], |framebuffer| [framebuffer.width, framebuffer.height]);
+    let encode = framebuffer.map_or_else(Default::default, |framebuffer| framebuffer.encode);
+    Ok(Report { scene: stem(path), size, encode, adapter, via: via.name(), truths, timing, ways })
 }
 
 fn stem(path: &str) -> String {

@@ -14,7 +14,7 @@ use crate::scene::{BlendFactor, Compare, Cull, Draw, Format, Framebuffer, Primit
 use glisten_front::compiler::Compiler;
 use glisten_front::hir::{Stage, Type};
 use glisten_front::link::Program;
-use glisten_scene::picture::Picture;
+use glisten_scene::picture::{Picture, Transfer};
 use std::sync::Arc;
 
 /// Runs a test; `Ok` means that it passes.
@@ -80,7 +80,14 @@ impl TestSession {
             program_point_size: false,
         };
         // A window stores 8 bits per channel.
-        let framebuffer = Framebuffer { width, height, clear: [0.0; 4], format: Format::Rgba8Unorm, attachments: 1 };
+        let framebuffer = Framebuffer {
+            width,
+            height,
+            clear: [0.0; 4],
+            format: Format::Rgba8Unorm,
+            attachments: 1,
+            encode: Transfer::Linear,
+        };
         Self {
             uniforms: Uniforms::new(&program),
             program,

@@ -44,7 +44,7 @@ static ORDER: &[(&str, &[&str])] = &[
         ],
     ),
     ("crates/emit/src", &["target", "lower", "emit"]),
-    ("crates/scene/src", &["picture", "compare", "model", "files", "library", "values", "load"]),
+    ("crates/scene/src", &["picture", "compare", "model", "files", "library", "values", "reads", "load"]),
     (
         "src",
         &[
@@ -55,6 +55,7 @@ static ORDER: &[(&str, &[&str])] = &[
             "measure",
             "shader_test",
             "specialize",
+            "made",
             "gallery",
             "report",
             "account",

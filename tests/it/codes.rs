@@ -19,7 +19,9 @@ static WITHOUT_EXAMPLE: &[(&str, &str)] = &[
     ("E0129", "too long for a page; tests/it/hostile.rs has it"),
     ("E0130", "too long for a page; tests/it/hostile.rs has it"),
     ("E0513", "too long for a page; crates/front/src/analysis/tests.rs has it"),
+    ("E0729", "needs a binding by name; a fixture has it"),
     ("W0701", "needs a binding by name; a fixture has it"),
+    ("W0708", "needs a binding by name; a fixture has it"),
     ("W0108", "needs a second file; the fixtures have it"),
 ];
 

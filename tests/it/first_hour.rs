@@ -614,6 +614,40 @@ fn bindings_have_the_errors_of_opengl() {
         let output = folder.run(&[&["compile", "tri.vert", "tri.frag", "-o", "out"][..], &binding].concat());
         assert!(code(&output) == 2 && err(&output).contains(word), "{binding:?}: {}", err(&output));
     }
+    // Names that are not there are legal, and a warning.
+    for (binding, message, help) in [
+        (
+            ["--bind-attrib", "pw=3"],
+            "a location is bound to `pw`, which is no attribute of the program",
+            "did you mean `pv`?",
+        ),
+        (
+            ["--bind-frag-data", "fd=1"],
+            "a color number is bound to `fd`, which is no fragment output",
+            "did you mean `fc`?",
+        ),
+        (["--bind-attrib", "pv[0]=1"], "a location is bound to `pv[0]`", "bind the whole array, `pv`"),
+        (["--bind-attrib", "fc=1"], "a location is bound to `fc`", "this is an output of the fragment stage"),
+    ] {
+        let output = folder.run(&[&["compile", "tri.vert", "tri.frag", "-o", "out"][..], &binding].concat());
+        let told = err(&output);
+        assert!(
+            code(&output) == 0 && told.contains("W0708") && told.contains(message) && told.contains(help),
+            "{told}"
+        );
+        let output = folder.run(&[&["lint", "tri.vert", "tri.frag"][..], &binding].concat());
+        assert!(String::from_utf8_lossy(&output.stdout).contains(message), "{binding:?}");
+    }
+    // One program of several has the name.
+    let other = b"#version 150\nin vec4 place;\nvoid main() { gl_Position = place; }\n";
+    let two = Folder::new(&[
+        ("a.vert", other),
+        ("b.vert", &String::from_utf8_lossy(other).replace("place", "pv").into_bytes()),
+    ]);
+    for (binding, warnings) in [("pv=3", 0), ("place=3", 0), ("nosuch=3", 1)] {
+        let told = err(&two.run(&["compile", "a.vert", "b.vert", "--check", "--bind-attrib", binding]));
+        assert_eq!(told.matches("W0708").count(), warnings, "{binding}: {told}");
+    }
     let good = ["--bind-attrib", "pv=15", "--bind-frag-data", "fc=0"];
     let output = folder.run(&[&["compile", "tri.vert", "tri.frag", "-o", "out"][..], &good].concat());
     assert_eq!(code(&output), 0, "{}", err(&output));

@@ -127,7 +127,7 @@ fn both_backends_draw_the_whole_gallery() {
             .collect();
         files.sort();
         let mut wanted: Vec<String> = scenes().iter().map(|scene| format!("{}.png", scene.name)).collect();
-        wanted.extend(["index.html".to_owned(), "gallery.png".to_owned()]);
+        wanted.extend(["index.html", "gallery.png", "hemisphere_table-difference.png"].map(str::to_owned));
         wanted.sort();
         assert_eq!(files, wanted, "nothing is missing and nothing is left over");
         let page = fs::read_to_string(out.join("index.html")).expect("the page");
@@ -158,8 +158,13 @@ fn the_same_call_gives_the_same_bytes() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let outs = ["a", "b"].map(|name| folder.path().join(name));
     for out in &outs {
-        assert_eq!(gallery(out, &["--size", "16", "-q"]).status.code(), Some(0));
+        fs::create_dir(out).expect("a folder");
+        let mut command = Command::new(env!("CARGO_BIN_EXE_glisten"));
+        command.args(["gallery", "-o", ".", "--size", "16", "-q"]).current_dir(out).env("SOURCE_DATE_EPOCH", "86400");
+        assert_eq!(command.status().expect("the program runs").code(), Some(0));
     }
+    let page = fs::read_to_string(outs[0].join("index.html")).expect("the page");
+    assert!(page.contains("on 1970-01-02: <code>glisten gallery -o . --size 16 -q</code>"));
     for entry in fs::read_dir(&outs[0]).expect("the folder is there") {
         let path = entry.expect("an entry").path();
         let other = outs[1].join(path.file_name().expect("a name"));

@@ -115,3 +115,85 @@ fn every_way_through_a_function_is_followed_to_its_return() {
         assert_eq!(!found.iter().any(|(code, _)| *code == "L0013"), is_whole, "{body}: {found:?}");
     }
 }
+
+/// The messages of `unwritten-varying` for the body of a vertex shader and of a fragment shader.
+fn unwritten(vertex: &str, fragment: &str) -> Vec<String> {
+    let texts = [
+        ("a.vert", format!("in vec4 p; uniform bool u; uniform int n; {vertex}"), Stage::Vertex),
+        ("a.frag", format!("uniform bool u; out vec4 c; {fragment}"), Stage::Fragment),
+    ];
+    let sources = texts.map(|(name, text, stage)| Source {
+        name: name.to_owned(),
+        text: format!("#version 150\n{text}\n").into(),
+        stage,
+    });
+    let compilation = Compiler::new(Options::default()).compile(&sources);
+    let told: Vec<&str> = compilation.diagnostics.iter().map(|found| found.message.as_str()).collect();
+    let program = compilation.program.unwrap_or_else(|| panic!("{told:?}"));
+    let found = lint::check(&program);
+    let found = found.iter().filter(|found| found.code.id == "L0014");
+    found
+        .map(|found| found.message.replace("the fragment stage reads ", "").replace("which the vertex stage ", ""))
+        .collect()
+}
+
+#[test]
+fn unwritten_varyings_are_told_by_component_and_way() {
+    let whole = "in vec4 v; void main() { c = v; }";
+    for (vertex, fragment, wanted) in [
+        ("out vec4 v; void main() { gl_Position = p; }", whole, &["`v`, never writes"][..]),
+        ("out vec4 v; void main() { v.xy = p.xy; }", whole, &["`v.zw`, never writes"]),
+        ("out vec4 v; void main() { v.xy = p.xy; v.wz = p.xy; }", whole, &[]),
+        ("out vec4 v; void main() { v.xy = p.xy; }", "in vec4 v; void main() { c = v.yyxx; }", &[]),
+        ("out vec4 v; void main() { if (u) v = p; }", whole, &["`v`, does not write on every way"]),
+        ("out vec4 v; void main() { v = p; if (u) return; v = 2.0 * p; }", whole, &[]),
+        ("out vec4 v; void main() { if (u) return; v = p; }", whole, &["`v`, does not write on every way"]),
+        ("out vec4 v; void main() { if (u) { gl_Position = vec4(0.0); return; } v = p; }", whole, &[]),
+        ("out vec4 v; void main() { if (u) v = p; }", "in vec4 v; void main() { c = u ? v : vec4(1.0); }", &[]),
+        ("out vec4 v; void main() { switch (n) { case 0: v = p; break; default: v = -p; } }", whole, &[]),
+        ("out vec4 v; void main() { switch (n) { case 0: v = p; } }", whole, &["`v`, does not write on every way"]),
+        (
+            "out vec4 v; void main() { switch (n) { case 0: case 1: v = p; break; default: break; } }",
+            whole,
+            &["`v`, does not write on every way"],
+        ),
+        (
+            "out vec4 v; void main() { while (true) { if (u) break; v = p; } }",
+            whole,
+            &["`v`, does not write on every way"],
+        ),
+        (
+            "out vec4 v; void main() { for (int i = 0; i < n; ++i) { if (u) continue; v = p; } }",
+            whole,
+            &["`v`, does not write on every way"],
+        ),
+        ("out vec4 v; void f() { v = p; } void main() { f(); }", whole, &[]),
+        (
+            "out vec4 v; void f() { if (u) return; v = p; } void main() { f(); }",
+            whole,
+            &["`v`, does not write on every way"],
+        ),
+        (
+            "out vec4 v; bool f() { v = p; return u; } void main() { if (u && f()) gl_Position = p; }",
+            whole,
+            &["`v`, does not write on every way"],
+        ),
+        ("out vec4 v; void f(inout vec4 x) { x = p; } void main() { f(v); }", whole, &[]),
+        (
+            "out mat2 m; void main() { m[0] = p.xy; }",
+            "in mat2 m; void main() { c = vec4(m[0], m[1]); }",
+            &["a part of `m`, never writes"],
+        ),
+        ("out mat2 m; void main() { m[0] = p.xy; }", "in mat2 m; void main() { c = vec4(m[0].xyxy); }", &[]),
+        ("out vec2 a[4]; void main() { a[n] = p.xy; }", "in vec2 a[4]; void main() { c = vec4(a[3], a[0]); }", &[]),
+        (
+            "out B { vec4 x; vec4 y; } b; void main() { b.x = p; }",
+            "in B { vec4 x; vec4 y; } b; void main() { c = b.x + b.y; }",
+            &["a part of `B`, never writes"],
+        ),
+        ("out B { vec4 x; vec4 y; }; void main() { x = p; }", "in B { vec4 x; vec4 y; }; void main() { c = x; }", &[]),
+        ("out vec4 v; void main() { }", "in vec4 v; void main() { c = vec4(1.0); }", &[]),
+    ] {
+        assert_eq!(unwritten(vertex, fragment), wanted, "{vertex}\n{fragment}");
+    }
+}

@@ -143,9 +143,16 @@ fn programs_of_ones_own_get_the_scenes_lights() {
     let own = "vertex = \"own.vert\"\nfragment = \"own.frag\"\nattributes = { place = { size = 3, values = [0,0,0, 1,0,0, 0,1,0] } }";
     let text = &GOOD[..GOOD.find("[[draw]]").expect("it draws")];
     let loaded = load_text(&format!("{text}[[draw]]\n{own}\n"));
-    let draw = good(&loaded);
+    let draw = &loaded.scene.as_ref().expect("it loads").draws[0];
     assert_eq!((value(draw, "lights"), value(draw, "light[1].position")), (vec![3.0], vec![0.0, 3.0, 0.0]));
     assert_eq!(value(draw, "material.shininess"), [20.0]);
+    // It has one light without a direction, and no reflectances.
+    assert!(loaded.diagnostics.iter().all(|found| found.code.id == "W0911"), "{:?}", told(&loaded));
+    let material = unread(&loaded).pop().expect("a warning about the material");
+    assert_eq!(
+        material.0,
+        "the program `own.frag` does not read `diffuse`, `specular` and `specular_model` of the material"
+    );
 }
 
 #[test]
@@ -225,6 +232,45 @@ fn lights_that_no_program_asks_for_are_a_warning() {
     assert!(loaded.scene.is_some());
     let codes: Vec<&str> = loaded.diagnostics.iter().map(|diagnostic| diagnostic.code.id).collect();
     assert_eq!(codes, ["W0904"; 3], "{:?}", told(&loaded));
+}
+
+/// The warnings about keys that nothing reads: message and help.
+fn unread(loaded: &Loaded) -> Vec<(String, String)> {
+    let found = loaded.diagnostics.iter().filter(|found| found.code.id == "W0911");
+    found.map(|found| (found.message.clone(), found.help.clone().unwrap_or_default())).collect()
+}
+
+#[test]
+fn keys_that_no_program_reads_are_told_by_name() {
+    let with = |program: &str, model: &str| {
+        let text = GOOD
+            .replace("\"standard\"", &format!("\"{program}\""))
+            .replace("\"schlick_blinn\"", &format!("\"{model}\""));
+        load_text(&text)
+    };
+    good(&with("standard", "phong"));
+    // A program has its own model; saying so is no mistake.
+    good(&with("phong", "phong"));
+    good(&with("schlick_vertex", "schlick_blinn"));
+    let told = unread(&with("threshold", "threshold"));
+    assert!(matches!(&told[..], [(message, _)] if message.contains("does not read `shininess`")), "{told:?}");
+    let [(message, help)] = unread(&with("phong", "blinn_phong")).try_into().expect("one warning");
+    assert_eq!(message, "the program `phong` does not read `specular_model` of the material");
+    assert_eq!(help, "of the library, `standard` and `standard_vertex` read it");
+    let told = unread(&with("lambert", "blinn_phong"));
+    assert_eq!(told.len(), 2, "{told:?}");
+    assert_eq!(told[0].0, "the program `lambert` does not read `specular` of the light");
+    assert!(
+        told[1].0.ends_with("does not read `shininess`, `specular` and `specular_model` of the material"),
+        "{told:?}"
+    );
+    // What one of several programs reads is read.
+    let two = GOOD.to_owned() + "[[draw]]\nprogram = \"lambert\"\nmesh = { shape = \"quad\" }\n";
+    good(&load_text(&two));
+    let own = two + "material = { emission = [1, 0, 0], shininess = 3, decal = { pattern = \"checker\" } }\n";
+    let [(message, help)] = unread(&load_text(&own)).try_into().expect("one warning");
+    assert_eq!(message, "the program `lambert` does not read `decal` and `shininess` of the material");
+    assert_eq!(help, "of the library, `standard` and `standard_vertex` read them");
 }
 
 #[test]

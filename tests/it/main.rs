@@ -11,6 +11,8 @@ mod drawing;
 mod emit;
 #[cfg(feature = "gpu")]
 mod envelope;
+#[cfg(feature = "cli")]
+mod equations;
 #[cfg(feature = "reference")]
 mod exec;
 #[cfg(feature = "cli")]
@@ -32,6 +34,8 @@ mod link;
 mod lint;
 #[cfg(feature = "reference")]
 mod lit_scenes;
+#[cfg(feature = "gpu")]
+mod multisample;
 #[cfg(feature = "gpu")]
 mod mutation;
 #[cfg(feature = "gpu")]
@@ -59,16 +63,16 @@ mod shader_test;
 mod snapshots;
 #[cfg(feature = "reference")]
 mod specialize;
+#[cfg(feature = "gpu")]
+mod sprites;
 #[cfg(feature = "cli")]
 mod stability;
 #[cfg(feature = "cli")]
 mod stability_page;
 mod support;
+mod targets;
 #[cfg(feature = "gpu")]
 mod tutorial;
-mod sprites;
-mod support;
-mod targets;
 #[cfg(feature = "cli")]
 mod wgsl;
 mod witness;

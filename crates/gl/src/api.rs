@@ -10,7 +10,30 @@ use glow::HasContext;
 /// The functions of a context.
 pub(super) struct Api {
     gl: glow::Context,
-    provoking: extern "system" fn(u32),
+    more: More,
+}
+
+/// Functions of OpenGL 3.2 that `glow` leaves out.
+pub(super) struct More {
+    /// `glProvokingVertex`
+    pub(super) provoking_vertex: extern "system" fn(u32),
+    /// `glSampleMaski`
+    pub(super) sample_mask_i: extern "system" fn(u32, u32),
+    /// `glTexImage3DMultisample`
+    pub(super) tex_image_3d_multisample: extern "system" fn(u32, i32, u32, i32, i32, i32, u8),
+}
+
+/// The storage of a multisample texture.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Samples {
+    /// The number of samples.
+    pub(super) count: u32,
+    /// The sized internal format.
+    pub(super) internal: u32,
+    /// The size; the depth is the number of layers.
+    pub(super) size: Size,
+    /// Whether it has layers.
+    pub(super) arrayed: bool,
 }
 
 /// The width, height and depth of a level; dimensions that the kind of texture lacks are 1.
@@ -57,8 +80,8 @@ type Location<'a> = Option<&'a glow::UniformLocation>;
 
 #[expect(unsafe_code, reason = "every function of OpenGL is unsafe to call where no context is current")]
 impl Api {
-    pub(super) fn new(gl: glow::Context, provoking: extern "system" fn(u32)) -> Self {
-        Self { gl, provoking }
+    pub(super) fn new(gl: glow::Context, more: More) -> Self {
+        Self { gl, more }
     }
 
     safe! {
@@ -169,6 +192,51 @@ impl Api {
         self.limit(glow::MAX_COMBINED_TEXTURE_IMAGE_UNITS)
     }
 
+    /// The largest number of samples of a multisample texture.
+    pub(super) fn max_samples(&self, integer: bool) -> u32 {
+        self.limit(if integer { glow::MAX_INTEGER_SAMPLES } else { glow::MAX_COLOR_TEXTURE_SAMPLES })
+    }
+
+    /// The number of the active texture unit.
+    pub(super) fn active_unit(&self) -> i32 {
+        self.limit(glow::ACTIVE_TEXTURE).saturating_sub(glow::TEXTURE0) as i32
+    }
+
+    /// The framebuffer to which is drawn.
+    pub(super) fn bound_framebuffer(&self) -> Option<glow::Framebuffer> {
+        // SAFETY: it queries one name.
+        unsafe { self.gl.get_parameter_framebuffer(glow::DRAW_FRAMEBUFFER_BINDING) }
+    }
+
+    /// Draws only to the samples with a bit in the mask, where `GL_SAMPLE_MASK` is enabled.
+    pub(super) fn sample_mask(&self, mask: u32) {
+        (self.more.sample_mask_i)(0, mask);
+    }
+
+    /// Makes the storage of the bound multisample texture.
+    pub(super) fn tex_image_multisample(&self, target: u32, samples: Samples) {
+        let Samples { count, internal, size, arrayed } = samples;
+        let (width, height, depth) = (size.width as i32, size.height as i32, size.depth as i32);
+        if arrayed {
+            (self.more.tex_image_3d_multisample)(target, count as i32, internal, width, height, depth, 1);
+        } else {
+            // SAFETY: no memory is passed.
+            unsafe { self.gl.tex_image_2d_multisample(target, count as i32, internal as i32, width, height, true) }
+        }
+    }
+
+    /// Attaches a multisample texture, or a layer of it, to the bound framebuffer as its color.
+    pub(super) fn attach_multisample(&self, target: u32, texture: glow::Texture, layer: Option<u32>) {
+        let (frame, place) = (glow::FRAMEBUFFER, glow::COLOR_ATTACHMENT0);
+        // SAFETY: no memory is passed.
+        unsafe {
+            match layer {
+                Some(layer) => self.gl.framebuffer_texture_layer(frame, place, Some(texture), 0, layer as i32),
+                None => self.gl.framebuffer_texture_2d(frame, place, target, Some(texture), 0),
+            }
+        }
+    }
+
     /// The value of a limit that is a single number.
     fn limit(&self, name: u32) -> u32 {
         // SAFETY: the two functions above query one number each, and there is room for one.
@@ -177,7 +245,7 @@ impl Api {
 
     /// `glProvokingVertex`
     pub(super) fn provoking_vertex(&self, convention: u32) {
-        (self.provoking)(convention);
+        (self.more.provoking_vertex)(convention);
     }
 
     /// Draws vertices from the first on. Each enabled attribute must have data for all of them.

@@ -5,7 +5,7 @@
 //! errors, ends with the context. The display belongs to the process and is never terminated.
 
 use super::Error;
-use super::api::Api;
+use super::api::{Api, More};
 use khronos_egl as egl;
 use std::ffi::{CStr, c_void};
 use std::marker::PhantomData;
@@ -185,6 +185,8 @@ impl Drop for Context<'_> {
 }
 
 type ProvokingVertex = extern "system" fn(u32);
+type SampleMask = extern "system" fn(u32, u32);
+type MultisampleImage = extern "system" fn(u32, i32, u32, i32, i32, i32, u8);
 
 /// The functions of the current context.
 #[expect(unsafe_code, reason = "functions are asked for by name")]
@@ -194,9 +196,16 @@ fn api(library: &Library) -> Result<Api, Error> {
     let gl = unsafe {
         glow::Context::from_loader_function(|name| address(name).map_or(std::ptr::null(), |found| found as *const _))
     };
-    let provoking =
-        address("glProvokingVertex").ok_or_else(|| Error::Unsupported("glProvokingVertex of OpenGL 3.2".to_owned()))?;
-    // SAFETY: OpenGL 3.2 defines this type for the function with this name.
-    let provoking = unsafe { std::mem::transmute::<extern "system" fn(), ProvokingVertex>(provoking) };
-    Ok(Api::new(gl, provoking))
+    let named = |name: &str| address(name).ok_or_else(|| Error::Unsupported(format!("{name} of OpenGL 3.2")));
+    let (provoking, mask) = (named("glProvokingVertex")?, named("glSampleMaski")?);
+    let image = named("glTexImage3DMultisample")?;
+    // SAFETY: OpenGL 3.2 defines these types for the functions with these names.
+    let more = unsafe {
+        More {
+            provoking_vertex: std::mem::transmute::<extern "system" fn(), ProvokingVertex>(provoking),
+            sample_mask_i: std::mem::transmute::<extern "system" fn(), SampleMask>(mask),
+            tex_image_3d_multisample: std::mem::transmute::<extern "system" fn(), MultisampleImage>(image),
+        }
+    };
+    Ok(Api::new(gl, more))
 }

@@ -87,7 +87,7 @@ fn clear(api: &Api, framebuffer: &Framebuffer) {
 fn draw(api: &Api, framebuffer: &Framebuffer, linked: glow::Program, draw: &Draw) -> Result<(), Error> {
     api.use_program(Some(linked));
     uniforms::set(api, linked, draw)?;
-    textures::bind(api, linked, draw)?;
+    textures::bind(api, linked, draw, framebuffer)?;
     vertices::bind(api, draw)?;
     // An attachment without an output keeps its color; OpenGL leaves undefined what it would become.
     let places: Vec<u32> = (0..framebuffer.attachments)

@@ -25,6 +25,7 @@ mod api;
 mod egl;
 mod error;
 mod frame;
+mod multisample;
 mod programs;
 mod states;
 mod textures;

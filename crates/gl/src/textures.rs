@@ -4,14 +4,14 @@
 //! sampler uniform set to it. *Holds:* texels have 32 bits per channel, as in the scene. Integer textures are never
 //! filtered, since OpenGL would then call them incomplete.
 
-use super::Error;
 use super::api::{Api, Dimensions, PixelLayout, Size};
 use super::states::{compare, wrap};
+use super::{Error, multisample};
 use glisten_front::hir::{SamplerDim, SamplerType, Scalar, Type};
-use glisten_scene::{Draw, Filter, Texels, Texture, TextureLevel};
+use glisten_scene::{Draw, Filter, Framebuffer, Texels, Texture, TextureLevel};
 
 /// Binds all textures. The program must be current.
-pub(super) fn bind(api: &Api, linked: glow::Program, draw: &Draw) -> Result<(), Error> {
+pub(super) fn bind(api: &Api, linked: glow::Program, draw: &Draw, framebuffer: &Framebuffer) -> Result<(), Error> {
     let units = api.max_units();
     let mut unit = 0;
     for (slot, texture) in draw.program.interface.samplers.iter().zip(&draw.textures) {
@@ -23,6 +23,8 @@ pub(super) fn bind(api: &Api, linked: glow::Program, draw: &Draw) -> Result<(), 
         api.active_texture(glow::TEXTURE0 + unit);
         if kind.dim == SamplerDim::Buffer {
             buffer(api, kind, texture)?;
+        } else if kind.dim == SamplerDim::Multisample {
+            multisample::upload(api, kind, texture, framebuffer, linked)?;
         } else {
             image(api, kind, texture)?;
         }
@@ -34,7 +36,7 @@ pub(super) fn bind(api: &Api, linked: glow::Program, draw: &Draw) -> Result<(), 
 }
 
 /// How the texels of a sampler type are stored.
-fn layout(kind: SamplerType) -> PixelLayout {
+pub(super) fn layout(kind: SamplerType) -> PixelLayout {
     match kind.texel {
         _ if kind.shadow => PixelLayout {
             internal: glow::DEPTH_COMPONENT32F,
@@ -147,7 +149,7 @@ fn buffer(api: &Api, kind: SamplerType, texture: &Texture) -> Result<(), Error> 
 }
 
 /// The bytes of the texels; for depth, only the first channel.
-fn texel_bytes(texels: &Texels, kind: SamplerType) -> Vec<u8> {
+pub(super) fn texel_bytes(texels: &Texels, kind: SamplerType) -> Vec<u8> {
     let channels = if kind.shadow { 1 } else { 4 };
     match texels {
         Texels::Float(texels) => {

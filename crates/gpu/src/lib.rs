@@ -23,6 +23,7 @@ mod assembly;
 mod device;
 mod error;
 mod frame;
+mod multisample_upload;
 mod prepare;
 mod shadow_upload;
 mod sprites;

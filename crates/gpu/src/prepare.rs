@@ -8,11 +8,11 @@
 use super::states::{blend, color_format, depth_stencil, primitive_state};
 use super::textures::{self, Bound};
 use super::vertices::{self, Rows};
-use super::{Error, Gpu, Via, assembly, sprites, uniforms};
+use super::{Error, Gpu, Via, assembly, multisample_upload, sprites, uniforms};
 use glisten_emit::{self as emit, Conventions, Emitted, Target};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::targets::FEATURE_NOT_IN_TARGET;
-use glisten_front::hir::{Interpolation, SamplerType, Stage, Type};
+use glisten_front::hir::{Interpolation, SamplerDim, SamplerType, Stage, Type};
 use glisten_front::link::{Program, SlotBinding};
 use glisten_scene::{Draw, Format, Framebuffer, Scene, State};
 use std::sync::Arc;
@@ -123,6 +123,7 @@ impl Gpu {
     ) -> Result<PreparedDraw, Error> {
         let program = &draw.program;
         refuse_levels(draw)?;
+        refuse_samples(draw)?;
         let bindings = bindings(program, sprites)?;
         let rows = if sprites { vertices::rows_of_points(draw) } else { vertices::rows(draw) };
         let instanced: Vec<bool> = rows.iter().map(|rows| rows.step == wgpu::VertexStepMode::Instance).collect();
@@ -329,6 +330,19 @@ fn conventions(draw: &Draw, target: Target) -> Conventions {
         program_point_size: draw.state.program_point_size,
         ..Conventions::default()
     }
+}
+
+/// Reports multisample textures that WebGPU cannot hold.
+fn refuse_samples(draw: &Draw) -> Result<(), Error> {
+    for (slot, texture) in draw.program.interface.samplers.iter().zip(&draw.textures) {
+        if let Type::Sampler(kind) = draw.program.types.get(slot.ty)
+            && kind.dim == SamplerDim::Multisample
+            && slot.active
+        {
+            multisample_upload::refuse(kind, texture.as_deref())?;
+        }
+    }
+    Ok(())
 }
 
 /// Rejects comparisons at explicit levels of detail, which are compiled only for depth textures of one level.

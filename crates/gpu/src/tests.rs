@@ -11,6 +11,7 @@ use glisten_front::link::{
 };
 use glisten_front::source::Span;
 use glisten_front::syntax::ast::{Profile, Version};
+use glisten_scene::picture::Transfer;
 use glisten_scene::{
     AttributeData, AttributeValues, Compare, Cull, Draw, Filter, Format, Framebuffer, Primitive, Scene, State, Texels,
     Texture, TextureLevel, Wrap,
@@ -105,8 +106,14 @@ fn scene(types: Types, interface: Interface) -> Scene {
         textures: vec![],
         dynamic: vec![],
     };
-    let framebuffer =
-        Framebuffer { width: 8, height: 8, clear: [0.0, 0.0, 0.0, 0.5], format: Format::Rgba32Float, attachments: 1 };
+    let framebuffer = Framebuffer {
+        width: 8,
+        height: 8,
+        clear: [0.0, 0.0, 0.0, 0.5],
+        format: Format::Rgba32Float,
+        attachments: 1,
+        encode: Transfer::Linear,
+    };
     Scene { name: "test".into(), framebuffer, draws: vec![draw] }
 }
 

@@ -7,7 +7,7 @@
 
 use super::states::{address_mode, compare, filter_mode};
 use super::texture_extent::extent;
-use super::{Error, Gpu, shadow_upload};
+use super::{Error, Gpu, multisample_upload, shadow_upload};
 use glisten_front::hir::{SamplerDim, SamplerType, Scalar};
 use glisten_scene::{Compare, Filter, Texels, Texture, TextureLevel, Wrap};
 
@@ -68,7 +68,7 @@ pub(super) fn bind(gpu: &Gpu, kind: SamplerType, texture: Option<&Texture>) -> R
         gpu.require(wgpu::Features::FLOAT32_FILTERABLE, "filtering of 32-bit float textures")?;
     }
     let view = if kind.dim == SamplerDim::Multisample {
-        multisample_view(gpu, kind)
+        multisample_upload::upload(gpu, kind, texture)
     } else if kind.shadow {
         shadow_upload::upload(gpu, texture, view_dimension(kind))
     } else {
@@ -151,7 +151,7 @@ pub(super) fn texels(texture: Option<&Texture>) -> u32 {
     level.map_or(0, |level| level.width.saturating_mul(level.height).saturating_mul(level.depth.max(1)))
 }
 
-fn texel_format(texel: Scalar) -> wgpu::TextureFormat {
+pub(super) fn texel_format(texel: Scalar) -> wgpu::TextureFormat {
     match texel {
         Scalar::Int => wgpu::TextureFormat::Rgba32Sint,
         Scalar::Uint => wgpu::TextureFormat::Rgba32Uint,
@@ -160,7 +160,7 @@ fn texel_format(texel: Scalar) -> wgpu::TextureFormat {
 }
 
 /// The texels as RGBA with 4 bytes per channel, converted if the data's type differs from the sampler's.
-fn texel_bytes(texels: &Texels, texel: Scalar) -> Vec<u8> {
+pub(super) fn texel_bytes(texels: &Texels, texel: Scalar) -> Vec<u8> {
     let bytes = |values: &mut dyn Iterator<Item = f64>| -> Vec<u8> {
         values
             .flat_map(|value| match texel {
@@ -177,23 +177,4 @@ fn texel_bytes(texels: &Texels, texel: Scalar) -> Vec<u8> {
         (Texels::Int(texels), _) => bytes(&mut texels.iter().flatten().map(|&value| f64::from(value))),
         (Texels::Uint(texels), _) => bytes(&mut texels.iter().flatten().map(|&value| f64::from(value))),
     }
-}
-
-/// A multisample view for a slot: a scene has no multisample textures, but the slot must be filled.
-fn multisample_view(gpu: &Gpu, kind: SamplerType) -> wgpu::TextureView {
-    let layers = 1;
-    let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
-        label: None,
-        size: wgpu::Extent3d { width: 1, height: 1, depth_or_array_layers: layers },
-        mip_level_count: 1,
-        sample_count: 4,
-        dimension: wgpu::TextureDimension::D2,
-        format: texel_format(kind.texel),
-        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::RENDER_ATTACHMENT,
-        view_formats: &[],
-    });
-    texture.create_view(&wgpu::TextureViewDescriptor {
-        dimension: Some(view_dimension(kind)),
-        ..wgpu::TextureViewDescriptor::default()
-    })
 }

@@ -86,7 +86,7 @@ impl Default for RenderOptions {
 /// Draws a scene.
 ///
 /// # Errors
-/// What the reference does not support: a geometry stage, a multisample sampler, an endless loop.
+/// What the reference does not support: a geometry stage, an endless loop.
 pub fn render(scene: &Scene, options: &RenderOptions) -> Result<Picture, Vec<Diagnostic>> {
     match options.precision {
         Precision::F64 => pipeline::render::<F64>(scene, options),

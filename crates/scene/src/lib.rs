@@ -14,6 +14,7 @@ mod library;
 mod load;
 mod model;
 pub mod picture;
+mod reads;
 pub mod values;
 
 pub use files::{DiskFiles, FileError, FileSource, MemoryFiles};
@@ -23,3 +24,4 @@ pub use model::{
     AttributeData, AttributeValues, BlendFactor, Compare, Cull, Draw, Filter, Format, Framebuffer, Primitive, Scene,
     State, Texels, Texture, TextureLevel, Wrap,
 };
+pub use reads::scene_values_read;

@@ -5,6 +5,7 @@
 
 use glisten_front::link::Program;
 use glisten_front::source::{IncludeForm, IncludeResolver, Included, NoIncludes};
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 /// Programs, and the modules that they include.
@@ -23,6 +24,12 @@ pub trait Library {
 
     /// Resolves `#include <glisten/...>`.
     fn includes(&self) -> Arc<dyn IncludeResolver + Send + Sync>;
+
+    /// The values of lights and materials that a program of this name reads
+    /// ([`scene_values_read`](crate::scene_values_read)); `None` if it is not known. It serves help texts.
+    fn values_read(&self, _program: &str) -> Option<&BTreeSet<String>> {
+        None
+    }
 
     /// For each attribute of a program whether it can reach a position or an output. By default each that is read can.
     fn attributes_that_reach(&self, program: &Program) -> Vec<bool> {

@@ -3,6 +3,7 @@
 //! *Holds:* indices are below the length of each attribute's data; the values of a root have the length of its type;
 //! a runner can draw a scene without further checks of sizes.
 
+use crate::picture::Transfer;
 use glisten_front::hir::{SamplerType, ScalarValue};
 use glisten_front::link::Program;
 use std::sync::Arc;
@@ -31,6 +32,8 @@ pub struct Framebuffer {
     pub format: Format,
     /// The number of color attachments.
     pub attachments: u32,
+    /// How the colors of an 8-bit picture file are encoded. It changes nothing of the framebuffer.
+    pub encode: Transfer,
 }
 
 /// The format of a color attachment.
@@ -314,7 +317,8 @@ pub struct TextureLevel {
 pub struct Texture {
     /// The dimensionality, array, shadow and texel kind, the same as of the sampler that reads it.
     pub kind: SamplerType,
-    /// The levels, at least one; each is half the size of the one before, rounded down, at least 1.
+    /// The levels, at least one; each is half the size of the one before, rounded down, at least 1. A multisample texture
+    /// has an image of the same size for each sample instead, in the order of the samples.
     pub levels: Vec<TextureLevel>,
     /// The filter.
     pub filter: Filter,

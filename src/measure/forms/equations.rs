@@ -62,6 +62,16 @@ impl Light {
         add(self.ambient, scale(half, sub(self.diffuse, self.ambient)))
     }
 
+    /// Its part of (101) for the sum of the diffuse and the specular reflection, and its condition number.
+    fn around(&self, k_amb: V, (p, n, l): (V, V, V), direct: V) -> Option<(V, f64)> {
+        if self.kind == 3.0 {
+            return Some((mul(k_amb, self.dome(n)), 1.0));
+        }
+        let (beam, condition) = self.beam(l)?;
+        let lit = add(mul(k_amb, self.ambient), scale(self.attenuation(p), direct));
+        Some((scale(beam, lit), condition))
+    }
+
     /// The factor of the beam, and its condition number.
     fn beam(&self, l: V) -> Option<(f64, f64)> {
         if self.kind != 2.0 {
@@ -79,9 +89,6 @@ fn weighted(r: f64, s: V) -> f64 {
 
 /// A term of (101), with its condition number and its distance from the gate of the highlight.
 fn term(light: &Light, material: &Material, p: V, n: V, v: V) -> Option<(V, f64, f64)> {
-    if light.kind == 3.0 {
-        return Some((mul(material.ambient, light.dome(n)), 1.0, f64::INFINITY));
-    }
     let l = light.towards(p);
     let cos = dot(n, l);
     let (mut specular, mut condition) = ([0.0; 3], 1.0);
@@ -92,9 +99,9 @@ fn term(light: &Light, material: &Material, p: V, n: V, v: V) -> Option<(V, f64,
         condition = power.condition.max(1.0);
     }
     let diffuse = scale(cos.max(0.0), mul(material.diffuse, light.diffuse));
-    let (beam, beam_condition) = light.beam(l)?;
-    let direct = scale(light.attenuation(p), add(diffuse, specular));
-    Some((scale(beam, add(mul(material.ambient, light.ambient), direct)), condition * beam_condition, cos.abs()))
+    let (value, beam_condition) = light.around(material.ambient, (p, n, l), add(diffuse, specular))?;
+    let gate = if light.kind == 3.0 { f64::INFINITY } else { cos.abs() };
+    Some((value, condition * beam_condition, gate))
 }
 
 fn single(a: &Args<'_>) -> V {
@@ -130,6 +137,11 @@ pub(super) static FORMS: &[Form] = forms! {
         Some(Answer::new([value], 1.0).conditioned(condition))
     };
     "lights" "lightDome(Light,vec3)" [Light, Direction] |a| Some(Answer::new(light(a).dome(a.d()), 4.0));
+    "lights" "lightTerm(Light,vec3,vec3,vec3,vec3,vec3,vec3)" [Light, Color, Point, Direction, Direction, Intensity, Intensity] |a| {
+        let (light, k_amb, p, n, l) = (light(a), a.v(), a.v(), a.d(), a.d());
+        let (value, condition) = light.around(k_amb, (p, n, l), add(a.v(), a.v()))?;
+        Some(Answer::new(value, 24.0).conditioned(condition))
+    };
     "lights" "lightTerm(Light,Material,vec3,vec3,vec3)" [Light, Material, Point, Direction, Direction] |a| {
         let (light, material) = (light(a), material(a));
         let (value, condition, jump) = term(&light, &material, a.v(), a.d(), a.d())?;

@@ -60,10 +60,20 @@ fn outline_direction(a: &Args<'_>) -> Option<Answer> {
 }
 
 fn outline(a: &Args<'_>) -> Option<Answer> {
-    let ([x, y, z, w], [nx, ny, _], width, push) = (a.v4(), a.v(), a.f(), a.f());
-    let angle = ny.atan2(nx);
-    let moved = [x + width * w * angle.cos(), y + width * w * angle.sin(), z - push * w, w];
-    Some(Answer::new(moved, 20.0))
+    let (position, direction, width, push) = (a.v4(), a.v(), a.f(), a.f());
+    Some(Answer::new(moved(position, direction, [width, push, 1.0]), 20.0))
+}
+
+fn outline_on_any_picture(a: &Args<'_>) -> Option<Answer> {
+    let (position, direction, width, push, aspect) =
+        (a.v4(), a.v(), a.f(), a.f(), a.f().clamp(0.5f64.powi(20), 2f64.powi(20)));
+    Some(Answer::new(moved(position, direction, [width, push, aspect]), 20.0 + 20.0 / aspect))
+}
+
+/// A position moved on the screen by a width in halves of its height, and towards the viewer.
+fn moved([x, y, z, w]: [f64; 4], [nx, ny, _]: V, [width, push, aspect]: V) -> [f64; 4] {
+    let angle = ny.atan2(aspect * nx);
+    [x + width * w * angle.cos() / aspect, y + width * w * angle.sin(), z - push * w, w]
 }
 
 fn cross2(a: [f64; 2], b: [f64; 2]) -> f64 {
@@ -111,6 +121,7 @@ pub(super) static FORMS: &[Form] = forms! {
     "normal" "normalMatrix(mat4)" [Matrix4] normal_matrix;
     "normal" "transformNormal(mat3,vec3)" [Matrix3, Vector] transformed;
     "outline" "outlineDirection(vec4,vec4)" [Clip, Four] outline_direction;
+    "outline" "outlinePosition(vec4,vec3,float,float,float)" [Clip, Point, Unit, Unit, Gain] outline_on_any_picture;
     "outline" "outlinePosition(vec4,vec3,float,float)" [Clip, Point, Unit, Unit] outline;
     "interpolation" "barycentric(vec2,vec2,vec2,vec2)" [Two, Two, Two, Two] barycentric;
     "interpolation" "interpolateLinear(vec2,vec4,vec4,vec4)" [Barycentric, Four, Four, Four] |a| {

@@ -1,5 +1,6 @@
 //! The closed forms, with one file for each group of modules.
 
+mod color;
 mod equations;
 mod geometry;
 mod helpers;
@@ -10,7 +11,8 @@ use super::vector::{V, cross, dot, norm};
 use super::{Answer, Form, InputKind};
 
 /// All tables.
-pub(super) static ALL: [&[Form]; 5] = [helpers::FORMS, models::FORMS, equations::FORMS, geometry::FORMS, naive::FORMS];
+pub(super) static ALL: [&[Form]; 6] =
+    [helpers::FORMS, models::FORMS, equations::FORMS, geometry::FORMS, color::FORMS, naive::FORMS];
 
 /// A table of rows: module, signature, kinds of the inputs, closed form.
 macro_rules! forms {

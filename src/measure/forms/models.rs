@@ -125,7 +125,9 @@ pub(super) static FORMS: &[Form] = forms! {
     "specular_lut" "specularLutHalf(sampler2D,vec3,vec3,vec3)" [Lighting] |a| {
         let (n, l, v) = (a.d(), a.d(), a.d());
         let (h, blur) = half(l, v)?;
-        Some(table(dot(n, h))?.conditioned(8.0 * blur))
+        let cos = dot(n, l);
+        let gloss = if cos > 0.0 { table(dot(n, h))?.conditioned(8.0 * blur) } else { Answer::new([0.0; 3], 1.0) };
+        Some(if cos == 0.0 { gloss } else { gloss.jumping(cos.abs()) })
     };
     "specular_lut" "specularLutLight(sampler2D,vec3,vec3)" [Direction, Direction] |a| table(dot(a.d(), a.d()));
     "ambient" "ambient(vec3,vec3)" [Color, Intensity] |a| Some(Answer::relative(mul(a.v(), a.v())));

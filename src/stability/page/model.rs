@@ -11,6 +11,7 @@ use super::listing::{Loss, Row, Text, listing};
 use super::series::{Point, Series};
 use super::words::{self, channels, number};
 use crate::report::raster::color_uri;
+use glisten_scene::picture::Transfer;
 use minijinja::{Value, context};
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -61,7 +62,7 @@ pub(super) fn scene(number: usize, one: &SceneOnPage<'_>) -> Value {
 type Picture = glisten_scene::picture::Picture;
 
 fn pictures(single: &Picture, exact: &Picture, heat: &Picture) -> Value {
-    let uri = |picture| Value::from_safe_string(color_uri(picture));
+    let uri = |picture| Value::from_safe_string(color_uri(picture, Transfer::Linear));
     context! { width => exact.width, height => exact.height, single => uri(single), exact => uri(exact), heat => uri(heat) }
 }
 

@@ -194,3 +194,16 @@ fn a_table_comes_near_the_power_at_the_rate_of_its_square() {
         }
     }
 }
+
+/// A byte that is decoded and encoded again is itself, and the curve rises.
+#[test]
+fn the_transfer_function_goes_there_and_back() {
+    let encode = function("srgb", "srgbEncode(float)", &[]);
+    let decode = function("srgb", "srgbDecode(float)", &[]);
+    let bytes: Vec<f32> = (0..=255u8).map(|byte| f32::from(byte) / 255.0).collect();
+    let linear: Vec<f32> = call(&decode, &bytes).iter().map(|row| row[0] as f32).collect();
+    assert!(linear.is_sorted_by(|a, b| a < b));
+    for (byte, back) in bytes.iter().zip(call(&encode, &linear)) {
+        assert!((f64::from(*byte) - back[0]).abs() < 1e-6, "{byte}: {}", back[0]);
+    }
+}

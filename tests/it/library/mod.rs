@@ -6,6 +6,7 @@ mod command;
 mod evaluator;
 mod laws;
 mod registers;
+mod seeds;
 mod stiff;
 mod sum;
 mod targets;

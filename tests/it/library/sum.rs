@@ -1,4 +1,5 @@
-//! Compares the sum over the lights (101), as the standard program computes it, with its closed form.
+//! Compares the sum over the lights (101), as the standard program computes it, with its closed form, and the
+//! textbook's programs with the standard one.
 
 use crate::support::compiler;
 use glam::DVec3;
@@ -104,5 +105,45 @@ fn the_sum_over_the_lights_is_the_equations() {
         let error = (DVec3::new(pixel[0], pixel[1], pixel[2]) - expected).abs();
         // There are some ten roundings of f64 in each step, and the powers amplify them by up to 9.
         assert!(error.max_element() < 200.0 * f64::EPSILON * expected.max_element(), "{x} {row}: {pixel:?} {expected}");
+    }
+}
+
+/// A sphere under a light of each kind, drawn by a program.
+fn ball(program: &str, models: &str) -> Vec<[f64; 4]> {
+    let lights = &SCENE[..SCENE.find("[[draw]]").expect("it draws")];
+    let lights = lights.replace("specular_model = \"blinn_phong\"\n", models);
+    let text = format!(
+        "{lights}threshold = 0.75\n[camera]\neye = [1, 2, 6]\n[[draw]]\nprogram = \"{program}\"\n\
+         mesh = {{ shape = \"sphere\", radius = 2.0, segments = 16, rings = 8 }}\n[[light]]\nkind = \"hemisphere\"\n\
+         axis = [0.0, 2.0, 1.0]\nsky = [0.5, 0.25, 1.0]\nground = [0.125, 0.5, 0.0]\n"
+    );
+    let files = MemoryFiles::new([("a.toml", text.as_str())]);
+    let loaded = load("a.toml", &files, &compiler().with_includes(glisten::library::Embedded));
+    let messages: Vec<&str> = loaded.diagnostics.iter().map(|found| found.message.as_str()).collect();
+    let scene = loaded.scene.unwrap_or_else(|| panic!("{messages:?}"));
+    let picture = render(&scene, &RenderOptions::default()).expect("it draws");
+    picture.attachments.first().expect("it has one").clone()
+}
+
+/// Attenuation, beam, half spheres, emission and global ambient light are not the standard program's alone.
+#[test]
+fn the_programs_of_the_textbook_draw_the_whole_equation() {
+    for (program, model) in [
+        ("lambert", "none"),
+        ("phong", "phong"),
+        ("blinn_phong", "blinn_phong"),
+        ("schlick", "schlick_blinn"),
+        ("threshold", "threshold"),
+    ] {
+        for suffix in ["", "_vertex"] {
+            let own = ball(&format!("{program}{suffix}"), "");
+            let standard = ball(&format!("standard{suffix}"), &format!("specular_model = \"{model}\"\n"));
+            let lit = standard.iter().filter(|pixel| pixel[0] > 0.0).count();
+            assert!(lit > 60, "{program}{suffix}: {lit} pixels");
+            for (own, standard) in own.iter().zip(&standard) {
+                let error = own.iter().zip(standard).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+                assert!(error < 1e-12, "{program}{suffix}: {own:?} and {standard:?}");
+            }
+        }
     }
 }

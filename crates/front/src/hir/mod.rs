@@ -11,6 +11,7 @@
 
 mod expr;
 mod handles;
+mod members;
 mod print;
 mod reach;
 mod shader;
@@ -24,6 +25,7 @@ pub use crate::language::{
 };
 pub use expr::{BinaryOp, ConstructKind, Expr, ExprId, ExprKind, IncDec, LogicalOp, Swizzle, UnaryOp, VarRef};
 pub use handles::{FunctionId, GlobalId, LocalId};
+pub use members::MembersRead;
 pub use print::{Notes, print, print_with};
 pub use shader::{
     BlockInfo, BlockLayout, FragCoordLayout, Function, GeometryLayout, Global, Local, LocalKind, PerVertexOut,

@@ -18,6 +18,7 @@
 //! | `varyings` | interpolated variables, split and with locations |
 //! | `clip_distances` | `gl_ClipDistance` as an input of the fragment stage |
 //! | `attributes`, `outputs` | vertex inputs and fragment outputs with locations |
+//! | `bindings` | locations that a host binds by names that are not there |
 //! | `declared` | variables whose locations the text or the host may set |
 //! | `locations` | the allocator of all locations |
 //! | `uniforms`, `samplers` | the variables that are constant during a draw, with locations and bindings |
@@ -26,6 +27,7 @@
 
 mod aliasing;
 mod attributes;
+mod bindings;
 mod canonical;
 mod clip_distances;
 mod compatible;
@@ -101,6 +103,7 @@ pub fn link(
     found.into_iter().for_each(|diagnostic| ctx.report(diagnostic));
     let complete = stages::check(&mut ctx, &stages, lone);
     let interface = interface(&mut ctx, &stages);
+    bindings::check(&mut ctx, &stages);
     let failed = ctx.failed;
     (complete && !failed).then_some(Program { name, types, stages, interface })
 }

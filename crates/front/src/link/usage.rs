@@ -42,7 +42,7 @@ pub(super) fn first_write(shader: &Shader, global: GlobalId) -> Option<Span> {
 }
 
 /// Where a global is first named in the text of the functions that `main` reaches.
-pub(super) fn first_use(shader: &Shader, global: GlobalId) -> Option<Span> {
+pub fn first_use(shader: &Shader, global: GlobalId) -> Option<Span> {
     let mut first: Option<Span> = None;
     for function in shader.functions.iter().filter(|function| function.reachable) {
         shader.visit_body(function.body.as_deref().unwrap_or(&[]), &mut |expr| {

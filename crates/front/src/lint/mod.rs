@@ -6,6 +6,7 @@
 //! but notes; a rule that cannot be sure says nothing. *Not done here:* levels and comments that silence a rule.
 //! Whoever prints the diagnostics applies them.
 
+mod assigned;
 mod divergence;
 mod rules;
 

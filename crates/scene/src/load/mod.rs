@@ -16,16 +16,20 @@ mod patterns;
 mod reader;
 mod textures;
 mod uniforms;
+mod unread;
 mod write;
 
 use self::draw::load_draw;
 use self::lights::Lighting;
 use self::names::FORMATS;
 use self::reader::{Node, Reader};
+use self::unread::warn_unread;
 use crate::files::{FileError, FileSource, relative_to};
 use crate::library::{Library, WithLibrary};
 use crate::model::{Draw, Format, Framebuffer, Scene};
+use crate::picture::Transfer;
 use glisten_front::compiler::{Compiler, Options, Source};
+use glisten_front::diagnostic::codes::link::BINDING_WITHOUT_VARIABLE;
 use glisten_front::diagnostic::codes::scenes::{
     SCENE_CANNOT_DRAW, SCENE_FILE_UNREADABLE, SCENE_MISSING_KEY, SCENE_SYNTAX, SCENE_UNUSED_LIGHT, SCENE_WITHOUT_DRAW,
     SCENE_WRONG_TYPE, SCENE_WRONG_VALUE,
@@ -47,6 +51,7 @@ pub const MAX_PIXELS: u64 = 1 << 26;
 /// The largest number of color attachments (`gl_MaxDrawBuffers`).
 pub const MAX_ATTACHMENTS: u32 = 8;
 
+const FRAMEBUFFER_KEYS: &[&str] = &["width", "height", "clear", "format", "attachments", "encode"];
 const KEYS: &[&str] =
     &["framebuffer", "draw", "camera", "light", "material", "global_ambient", "report", "gallery", "stability"];
 
@@ -146,7 +151,8 @@ impl Loader<'_> {
         };
         let mut draws = Vec::new();
         let mut complete = true;
-        for node in self.draw_tables(table) {
+        let nodes = self.draw_tables(table);
+        for node in &nodes {
             match load_draw(self, node, &around) {
                 Some(draw) => draws.push(draw),
                 None => complete = false,
@@ -154,6 +160,8 @@ impl Loader<'_> {
         }
         if complete {
             self.warn_unlit(table, &draws);
+            let pairs: Vec<(&Node<'_>, &Draw)> = nodes.iter().copied().zip(&draws).collect();
+            warn_unread(&mut self.reader, table, &pairs, self.library);
         }
         if draws.is_empty() && complete && !self.reader.diagnostics.has_errors() {
             self.warn_empty(table);
@@ -233,7 +241,7 @@ impl Loader<'_> {
             Some(node) => self.reader.table(node, "framebuffer")?,
             None => &empty,
         };
-        self.reader.check_keys(table, "`framebuffer`", &["width", "height", "clear", "format", "attachments"]);
+        self.reader.check_keys(table, "`framebuffer`", FRAMEBUFFER_KEYS);
         let width = self.reader.count(table, "width", 128, 1..=MAX_SIDE);
         let height = self.reader.count(table, "height", 128, 1..=MAX_SIDE);
         let format = self.reader.choice_at(table, "format", Format::Rgba32Float, FORMATS);
@@ -245,7 +253,19 @@ impl Loader<'_> {
             self.reader.error(&SCENE_CANNOT_DRAW, span, message, "this is larger");
             return None;
         }
-        Some(Framebuffer { width, height, clear, format, attachments })
+        let encode = self.transfer(table, format);
+        Some(Framebuffer { width, height, clear, format, attachments, encode })
+    }
+
+    /// `encode`: the transfer function of 8-bit picture files.
+    fn transfer(&mut self, table: &DeTable<'_>, format: Format) -> Transfer {
+        let transfer = self.reader.choice_at(table, "encode", Transfer::Linear, Transfer::NAMES);
+        let integer = matches!(format, Format::Rgba32Sint | Format::Rgba32Uint);
+        if let (true, Transfer::Srgb, Some(node)) = (integer, transfer, table.get("encode")) {
+            let span = self.reader.span_of(node);
+            self.reader.wrong_value(span, "the numbers of an integer framebuffer are no light", "nothing to encode");
+        }
+        transfer
     }
 
     /// The clear color, rounded to `f32` as by `glClearColor`.
@@ -311,7 +331,9 @@ impl Loader<'_> {
         };
         let compilation = compiler.compile_into(sources, &shaders);
         self.sources = compilation.sources;
-        self.reader.diagnostics.extend(compilation.diagnostics);
+        // A name that is bound and not there is an error in a scene, which the draw reports.
+        let found = compilation.diagnostics.into_iter().filter(|found| found.code.id != BINDING_WITHOUT_VARIABLE.id);
+        self.reader.diagnostics.extend(found);
         compilation.program.map(Arc::new)
     }
 

@@ -54,6 +54,8 @@ pub(super) const TEXTURE_KINDS: &[(&str, TextureKind)] = &[
     ("buffer", (SamplerDim::Buffer, false, false)),
     ("1d_array", (SamplerDim::D1, true, false)),
     ("2d_array", (SamplerDim::D2, true, false)),
+    ("2d_multisample", (SamplerDim::Multisample, false, false)),
+    ("2d_multisample_array", (SamplerDim::Multisample, true, false)),
     ("shadow_1d", (SamplerDim::D1, false, true)),
     ("shadow_2d", (SamplerDim::D2, false, true)),
     ("shadow_cube", (SamplerDim::Cube, false, true)),
@@ -64,5 +66,5 @@ pub(super) const TEXTURE_KINDS: &[(&str, TextureKind)] = &[
 
 /// The name of a kind, for messages.
 pub(super) fn kind_name(kind: TextureKind) -> &'static str {
-    TEXTURE_KINDS.iter().find(|(_, candidate)| *candidate == kind).map_or("2d_multisample", |(name, _)| name)
+    TEXTURE_KINDS.iter().find(|(_, candidate)| *candidate == kind).map_or("cube", |(name, _)| name)
 }

@@ -20,11 +20,13 @@ use toml::de::DeTable;
 
 const KEYS: &[&str] = &[
     "kind", "integer", "width", "height", "depth", "layers", "values", "filter", "wrap", "mipmaps", "compare", "file",
-    "flip", "pattern",
+    "flip", "pattern", "samples",
 ];
 
 /// The largest width, height, depth or number of layers.
 const MAX_SIDE: u32 = 8192;
+/// The largest number of samples of a texel. A shader can ask for no more on any driver.
+const MAX_SAMPLES: u32 = 32;
 /// The largest number of texels of a texture's first level.
 const MAX_TEXELS: u64 = 1 << 25;
 
@@ -107,9 +109,11 @@ fn unset_texture(kind: SamplerType, level: u8) -> Texture {
             Texels::Float(vec![[f32::from(level), f32::from(level), f32::from(level), 1.0]; depth as usize])
         }
     };
+    // As many samples as every driver has.
+    let count = if kind.dim == SamplerDim::Multisample { 4 } else { 1 };
     Texture {
         kind,
-        levels: vec![TextureLevel { width: 1, height: 1, depth, texels }],
+        levels: vec![TextureLevel { width: 1, height: 1, depth, texels }; count],
         filter: Filter::Nearest,
         wrap: Wrap::ClampToEdge,
         compare: Compare::Lequal,
@@ -123,11 +127,6 @@ fn load_texture(loader: &mut Loader<'_>, node: &Node<'_>, name: &str, kind: Samp
     let keys = if table.contains_key("pattern") { [KEYS, patterns::KEYS].concat() } else { KEYS.to_vec() };
     loader.reader.check_keys(table, "a texture", &keys);
     check_origin(loader, table)?;
-    if kind.dim == SamplerDim::Multisample {
-        let message = format!("`{name}` is a {}: no scene can bring a multisample texture", kind.name());
-        loader.reader.error(&SCENE_WRONG_VALUE, span, message, "of this kind");
-        return None;
-    }
     check_kind(loader, table, name, kind)?;
     let filter = loader.reader.choice_at(table, "filter", Filter::Nearest, FILTERS);
     let is_rect = kind.dim == SamplerDim::Rect;
@@ -139,6 +138,10 @@ fn load_texture(loader: &mut Loader<'_>, node: &Node<'_>, name: &str, kind: Samp
     let level = match (table.get("file"), table.get("pattern")) {
         (Some(file), _) => load_image(loader, table, file, name, kind)?,
         (None, Some(pattern)) => patterns::load(loader, table, pattern, name, kind)?,
+        (None, None) if kind.dim == SamplerDim::Multisample => {
+            let levels = load_samples(loader, table, span, name, kind)?;
+            return Some(Texture { kind, levels, filter, wrap, compare });
+        }
         (None, None) => load_level(loader, table, span, name, kind)?,
     };
     let levels = if mipmaps { chain(level, kind) } else { vec![level] };
@@ -192,8 +195,11 @@ fn check_state(
     (filter, wrap, mipmaps): (Filter, Wrap, bool),
 ) -> Option<()> {
     let integer = matches!(kind.texel, Scalar::Int | Scalar::Uint);
-    let unfiltered = matches!(kind.dim, SamplerDim::Rect | SamplerDim::Buffer);
-    let (key, message) = if integer && filter != Filter::Nearest {
+    let unfiltered = matches!(kind.dim, SamplerDim::Rect | SamplerDim::Buffer | SamplerDim::Multisample);
+    let fetched = kind.dim == SamplerDim::Multisample;
+    let (key, message) = if fetched && filter != Filter::Nearest {
+        ("filter", format!("`{name}` is a {}, whose samples cannot be filtered", kind.name()))
+    } else if integer && filter != Filter::Nearest {
         ("filter", format!("`{name}` holds integers, which cannot be filtered"))
     } else if kind.dim == SamplerDim::Rect && wrap != Wrap::ClampToEdge {
         ("wrap", format!("`{name}` is a {}, which can only clamp", kind.name()))
@@ -205,6 +211,50 @@ fn check_state(
     let span = table.get(key).map_or_else(Span::default, |node| loader.reader.span(node.span()));
     loader.reader.error(&SCENE_WRONG_VALUE, span, message, "not for this sampler");
     None
+}
+
+/// The image of each sample of a multisample texture: the values are sample by sample within a texel.
+fn load_samples(
+    loader: &mut Loader<'_>,
+    table: &DeTable<'_>,
+    span: Span,
+    name: &str,
+    kind: SamplerType,
+) -> Option<Vec<TextureLevel>> {
+    let (numbers, values) = load_values(loader, table, span, name)?;
+    let (width, height, depth) = load_size(loader, table, span, name, kind, 0)?;
+    let texels = width as usize * height as usize * depth as usize;
+    let fitting = (numbers.len() / (4 * texels)).clamp(1, MAX_SAMPLES as usize) as u32;
+    let samples = loader.reader.count(table, "samples", fitting, 1..=MAX_SAMPLES) as usize;
+    if texels.saturating_mul(samples) as u64 > MAX_TEXELS {
+        let message = format!("`{name}` has {texels} texels of {samples} samples; at most {MAX_TEXELS} are drawn with");
+        loader.reader.error(&SCENE_WRONG_SIZE, span, message, "too large");
+        return None;
+    }
+    if numbers.len() != texels * samples * 4 {
+        let wanted = texels * samples * 4;
+        let message = format!(
+            "`{name}` is {texels} texels of {samples} samples of RGBA, which takes {wanted} numbers, not {}",
+            numbers.len()
+        );
+        loader.reader.error(&SCENE_WRONG_SIZE, values, message, "of another size");
+        return None;
+    }
+    let all = load_texels(loader, name, kind, 4, &numbers)?;
+    let image = |sample: usize| TextureLevel { width, height, depth, texels: every(&all, samples, sample) };
+    Some((0..samples).map(image).collect())
+}
+
+/// Every `step`th texel from `first` on.
+fn every(texels: &Texels, step: usize, first: usize) -> Texels {
+    fn pick<T: Copy>(texels: &[T], step: usize, first: usize) -> Vec<T> {
+        texels.iter().skip(first).step_by(step).copied().collect()
+    }
+    match texels {
+        Texels::Float(texels) => Texels::Float(pick(texels, step, first)),
+        Texels::Int(texels) => Texels::Int(pick(texels, step, first)),
+        Texels::Uint(texels) => Texels::Uint(pick(texels, step, first)),
+    }
 }
 
 /// The width, height and depth of the first level; the number of `values` determines a size that is omitted.
@@ -231,6 +281,9 @@ fn load_size(
     let layers = side("layers", kind.arrayed, 1, MAX_SIDE);
     let depth = side("depth", kind.dim == SamplerDim::D3, 1, MAX_SIDE);
     let alone = flat && !kind.arrayed;
+    if kind.dim != SamplerDim::Multisample {
+        side("samples", false, 1, 1);
+    }
     let width = side("width", true, if alone { values.max(1) } else { 0 }, limit);
     let height = side("height", !flat, if is_cube { width } else { 0 }, MAX_SIDE);
     if width == 0 || height == 0 {
@@ -253,13 +306,8 @@ fn load_size(
     Some((width, height, depth))
 }
 
-fn load_level(
-    loader: &mut Loader<'_>,
-    table: &DeTable<'_>,
-    span: Span,
-    name: &str,
-    kind: SamplerType,
-) -> Option<TextureLevel> {
+/// The numbers under `values`, and their span.
+fn load_values(loader: &mut Loader<'_>, table: &DeTable<'_>, span: Span, name: &str) -> Option<(Vec<Number>, Span)> {
     let Some(values) = table.get("values") else {
         loader.missing_key(
             span,
@@ -269,13 +317,24 @@ fn load_level(
         return None;
     };
     let numbers = loader.reader.numbers(values, "values")?;
+    Some((numbers, loader.reader.span_of(values)))
+}
+
+fn load_level(
+    loader: &mut Loader<'_>,
+    table: &DeTable<'_>,
+    span: Span,
+    name: &str,
+    kind: SamplerType,
+) -> Option<TextureLevel> {
+    let (numbers, values) = load_values(loader, table, span, name)?;
     let (width, height, depth) = load_size(loader, table, span, name, kind, numbers.len() as u32 / 4)?;
     let texels = width as usize * height as usize * depth as usize;
     let each = match numbers.len() {
         n if n == texels * 4 => 4,
         n if n == texels && kind.shadow => 1,
         n => {
-            let span = loader.reader.span_of(values);
+            let span = values;
             let shape = if depth > 1 { format!("{width}x{height}x{depth}") } else { format!("{width}x{height}") };
             let message = format!("`{name}` is {shape} texels of RGBA, which takes {} numbers, not {n}", texels * 4);
             loader.reader.error(&SCENE_WRONG_SIZE, span, message, "of another size");

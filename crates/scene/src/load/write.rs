@@ -8,6 +8,7 @@ use crate::model::{
     AttributeData, AttributeValues, BlendFactor, Compare, Cull, Draw, Filter, Format, Scene, State, Texels, Texture,
     TextureLevel, Wrap,
 };
+use crate::picture::Transfer;
 use glisten_front::hir::{SamplerDim, ScalarValue};
 use std::fmt::Write;
 
@@ -34,6 +35,9 @@ pub fn write(scene: &Scene, files: &[ShaderFiles]) -> String {
     );
     if framebuffer.format != Format::Rgba32Float {
         let _ = writeln!(text, "format = {}", quoted(name_of(FORMATS, framebuffer.format)));
+    }
+    if framebuffer.encode != Transfer::Linear {
+        let _ = writeln!(text, "encode = {}", quoted(name_of(Transfer::NAMES, framebuffer.encode)));
     }
     if framebuffer.attachments != 1 {
         let _ = writeln!(text, "attachments = {}", framebuffer.attachments);

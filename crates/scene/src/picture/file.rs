@@ -3,10 +3,10 @@
 //! *In:* the bytes of a PNG, an OpenEXR or a NumPy file, or RGBA numbers. *Out:* the respective other.
 //!
 //! *Holds:* `.npy` and `.exr` contain float32 RGBA as in the framebuffer; `.png` contains 8 bits, straight alpha,
-//! clamped to [0, 1] and rounded, without gamma. Nothing here touches the file system.
+//! clamped to [0, 1] and rounded, encoded by a [`Transfer`] if one is asked for. Nothing here touches the file system.
 
 use super::image::{Image, ImageError, Size};
-use super::{Picture, byte, exr, npy, png};
+use super::{Picture, Transfer, byte, exr, npy, png};
 use std::path::Path;
 
 /// The format of a picture file.
@@ -76,13 +76,21 @@ impl Picture {
     /// # Errors
     /// There is no such attachment, or a side is 0 and the format cannot represent an empty picture.
     pub fn encode(&self, attachment: usize, format: ImageFormat) -> Result<Vec<u8>, ImageError> {
+        self.encode_by(attachment, format, Transfer::Linear)
+    }
+
+    /// The bytes of a file like [`encode`](Self::encode), with the colors of a PNG encoded by a transfer function.
+    ///
+    /// # Errors
+    /// As for [`encode`](Self::encode).
+    pub fn encode_by(&self, attachment: usize, format: ImageFormat, by: Transfer) -> Result<Vec<u8>, ImageError> {
         let pixels = self.attachments.get(attachment).ok_or_else(|| ImageError("no such attachment".to_owned()))?;
         let (width, height) = (self.width, self.height);
         match format {
             ImageFormat::Npy => Ok(npy::write(width, height, pixels)),
             ImageFormat::Exr => exr::write(width, height, pixels),
             ImageFormat::Png => {
-                let bytes: Vec<u8> = pixels.iter().flatten().map(|&value| byte(value)).collect();
+                let bytes: Vec<u8> = pixels.iter().flat_map(|&pixel| by.encode_pixel(pixel)).map(byte).collect();
                 png::write(width, height, &bytes, png::Channels::Rgba, png::Effort::Fast)
             }
         }
@@ -128,6 +136,17 @@ mod tests {
         let bytes: Vec<f32> = image.pixels.iter().flatten().map(|value| value * 255.0).collect();
         assert_eq!(bytes, [0.0, 64.0, 255.0, 255.0, 0.0, 0.0, 128.0, 0.0]);
         assert_eq!((image.width, image.height, picture().n_nans(0), picture().n_nans(1)), (2, 1, 1, 0));
+    }
+
+    #[test]
+    fn a_transfer_function_concerns_the_colors_of_pngs() {
+        let picture = Picture::of_colors(1, 1, vec![[0.0, 0.5, 1.0, 0.5]]);
+        let encode = |format| picture.encode_by(0, format, Transfer::Srgb).expect("it can be written");
+        let bytes: Vec<f32> = read(&encode(ImageFormat::Png)).pixels[0].map(|value| value * 255.0).to_vec();
+        assert_eq!(bytes, [0.0, 188.0, 255.0, 128.0]);
+        for format in [ImageFormat::Npy, ImageFormat::Exr] {
+            assert_eq!(read(&encode(format)).pixels[0], [0.0, 0.5, 1.0, 0.5]);
+        }
     }
 
     #[test]

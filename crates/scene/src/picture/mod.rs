@@ -11,12 +11,14 @@ mod image;
 mod interval;
 mod npy;
 mod png;
+mod transfer;
 
 pub use self::png::{Effort, png_rgb};
 pub use eight_bits::{NOT_FINITE, byte, visible_rgb};
 pub use file::ImageFormat;
 pub use image::{Image, ImageError};
 pub use interval::Interval;
+pub use transfer::Transfer;
 
 /// The contents of a framebuffer, top row first, x fastest.
 #[derive(Clone, Debug, PartialEq)]

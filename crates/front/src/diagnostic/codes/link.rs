@@ -247,6 +247,17 @@ codes! {
             (Stage::Vertex, "out gl_PerVertex { vec4 gl_Position; }; void f(); void main() { gl_Position = vec4(0.0); f(); }"),
             (Stage::Vertex, "void f() { }"),
         ]);
+    BINDING_REFUSED = "E0729" "refused-binding" Error "OpenGL 3.2 §2.11.3, §3.9.2"
+        "A host binds a location to a name that begins with `gl_` (GL_INVALID_OPERATION), or a number that no attribute \
+         or color output can have (GL_INVALID_VALUE)."
+        bad Text("glisten compile --bind-attrib gl_Vertex=0 lit.vert -o out"),
+        good Text("glisten compile --bind-attrib position=0 lit.vert -o out");
+    BINDING_WITHOUT_VARIABLE = "W0708" "binding-without-variable" Warning "OpenGL 3.2 §2.11.3, §3.9.2"
+        "A host binds a location by a name that is no attribute, or no output of the fragment stage. OpenGL allows that and \
+         ignores it, so the variable that was meant gets another location. Varyings have no locations that a host binds. If \
+         several programs are compiled at once, one of them must have the name."
+        bad Text("glisten compile --bind-attrib positon=0 lit.vert -o out  # in vec3 position;"),
+        good Text("glisten compile --bind-attrib position=0 lit.vert -o out");
     BINDING_IGNORED = "W0701" "binding-ignored" Warning "ARB_explicit_attrib_location"
         "A location was bound by name, but the declaration in the text gives another one, which takes precedence. A \
          host that relies on its binding sends its data to the wrong location."

@@ -81,4 +81,13 @@ codes! {
         bad Fragment("in float x; out vec4 c; float f() { if (x > 0.5) return 1.0; } void main() { c = vec4(f()); }"),
         good Fragment("in float x; out vec4 c; float f() { if (x > 0.5) return 1.0; return 0.0; }\n\
                        void main() { c = vec4(f()); }");
+    UNWRITTEN_VARYING = "L0014" "unwritten-varying" Warning "GLSL 1.50 §4.3.6"
+        "The fragment stage reads a varying, or a part of one, that the vertex stage declares and never writes, or does not \
+         write on every way through `main`. What is interpolated there is undefined."
+        bad Program(
+            "in vec4 p; uniform bool lit; out vec4 tint; void main() { if (lit) tint = p; gl_Position = p; }",
+            "in vec4 tint; out vec4 c; void main() { c = tint; }"),
+        good Program(
+            "in vec4 p; uniform bool lit; out vec4 tint; void main() { tint = lit ? p : vec4(1.0); gl_Position = p; }",
+            "in vec4 tint; out vec4 c; void main() { c = tint; }");
 }

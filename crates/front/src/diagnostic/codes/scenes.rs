@@ -101,4 +101,11 @@ codes! {
         "The scene has lights, a material or a global ambient light, but none of its programs declares the uniforms \
          for them: `light`, `lights`, `material`, `global_ambient` of `<glisten/scene.glsl>`."
         bad Text("[[light]]  # and all draws have `program = \"decal\"`"), good Text("[[light]]\nkind = \"directional\"\ntowards = [0, 1, 0]\n[[draw]]\nprogram = \"standard\"");
+    SCENE_UNREAD_KEY = "W0911" "unread-light-or-material-key" Warning ""
+        "A light or a material sets a value that none of the programs to which it applies reads, so the key changes \
+         nothing: a `specular_model` for a program that has one model, a highlight for the program `lambert`, a \
+         member that a shader with `<glisten/scene.glsl>` leaves out. The help names the programs of the library \
+         that read it."
+        bad Text("material = { specular_model = \"phong\" }  # with program = \"lambert\""),
+        good Text("material = { specular_model = \"phong\" }  # with program = \"standard\"");
 }

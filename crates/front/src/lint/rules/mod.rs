@@ -13,6 +13,7 @@ mod unreachable_code;
 mod unused_varying;
 mod unwritten_out_parameter;
 mod unwritten_output;
+mod unwritten_varying;
 
 use super::Rule;
 use crate::diagnostic::codes::lints;
@@ -31,4 +32,5 @@ pub(super) static RULES: &[Rule] = &[
     Rule { code: &lints::INFINITE_LOOP, check: infinite_loop::check },
     Rule { code: &lints::UNREACHABLE_CODE, check: unreachable_code::check },
     Rule { code: &lints::MISSING_RETURN, check: missing_return::check },
+    Rule { code: &lints::UNWRITTEN_VARYING, check: unwritten_varying::check },
 ];

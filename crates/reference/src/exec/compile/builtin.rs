@@ -71,7 +71,7 @@ impl Compiler<'_> {
                 self.refuse(&codes::general::NOT_SUPPORTED_YET, span, "geometry stages");
                 Val::new()
             }
-            Class::Texture(form) => self.texture_call(form, values, first_ty, ty, span),
+            Class::Texture(form) => self.texture_call(form, values, first_ty, ty),
             // `modf` writes an argument, and is compiled before its arguments are.
             Class::Modf => Val::new(),
         }

@@ -92,7 +92,7 @@ impl Code {
     ///
     /// # Errors
     /// Returns diagnostics if the executor does not support something: a program without that stage or without
-    /// `main`, multisample samplers, geometry stages, programs above the limits of the compiler.
+    /// `main`, geometry stages, programs above the limits of the compiler.
     pub fn compile(program: &Program, stage: Stage) -> Result<Self, Vec<Diagnostic>> {
         compile(program, stage, false).map(|inner| Self { inner: Arc::new(inner) })
     }

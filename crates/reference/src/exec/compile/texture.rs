@@ -3,29 +3,16 @@
 use super::super::inst::{Class, Float2, Inst, Lookup, Operand, TextureCall};
 use super::{Compiler, Val};
 use glisten_front::builtin::operations::{TextureArgument, TextureForm};
-use glisten_front::diagnostic::codes;
-use glisten_front::hir::{SamplerDim, Scalar, Type, TypeId};
-use glisten_front::source::Span;
+use glisten_front::hir::{Scalar, Type, TypeId};
 
 impl Compiler<'_> {
-    pub(super) fn texture_call(
-        &mut self,
-        form: TextureForm,
-        values: &[Val],
-        sampler: TypeId,
-        ty: TypeId,
-        span: Span,
-    ) -> Val {
+    pub(super) fn texture_call(&mut self, form: TextureForm, values: &[Val], sampler: TypeId, ty: TypeId) -> Val {
         let (Type::Sampler(kind), Some(slot)) =
             (self.types.get(sampler), values.first().and_then(|value| value.first()).copied())
         else {
             // The analysis has checked that the first argument is a sampler.
             return Val::new();
         };
-        if kind.dim == SamplerDim::Multisample {
-            self.refuse(&codes::general::NOT_SUPPORTED_YET, span, &format!("a `{}`", kind.name()));
-            return Val::new();
-        }
         let mut call = TextureCall {
             lookup: form.lookup,
             kind,
