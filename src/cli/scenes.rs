@@ -266,6 +266,11 @@ impl MachineArgs {
         Ok(gpu.with_timeout(Duration::from_secs_f64(self.timeout)))
     }
 
+    /// The time limit for a scene.
+    pub(super) fn time_limit(&self) -> Duration {
+        Duration::from_secs_f64(self.timeout)
+    }
+
     /// Runs work on a thread of its own and gives up when the time limit is reached.
     pub(super) fn within_time<R: Send + 'static>(
         &self,

@@ -22,7 +22,9 @@ use glisten_front::hir::Stage;
 use glisten_scene::picture::Transfer;
 use glisten_scene::{Scene, ShaderFiles, write};
 use serde::Serialize;
+use std::cell::Cell;
 use std::path::{Path, PathBuf};
+use std::time::Instant;
 
 /// Find out where f32 arithmetic harms the picture of a scene, and why
 #[derive(Args, Debug)]
@@ -147,6 +149,10 @@ pub(super) fn run(args: &StabilityArgs, console: &Console) -> Outcome {
             }
         };
         match examined(args, name, &read, console)? {
+            Ok((_, examined)) if !examined.exact.covered.contains(&true) && !examined.single.covered.contains(&true) => {
+                let nothing = vec![read.nothing_covered()];
+                exit = exit.max(read.finish(nothing)?).max(Exit::Content);
+            }
             Ok((result, examined)) => done.push(Done { read, result, examined }),
             Err(found) => exit = exit.max(read.finish(found)?).max(Exit::Content),
         }
@@ -180,8 +186,18 @@ fn examined(args: &StabilityArgs, name: &str, read: &Read<'_>, console: &Console
     let sweeps = if args.sweeps.is_empty() { &settings.sweeps } else { &args.sweeps };
     let progress = Progress::new(console, 0);
     progress.say(name);
+    let (started, limit) = (Instant::now(), args.machine.time_limit());
+    let stopped = Cell::new(false);
+    let stop = || {
+        stopped.set(true);
+        false
+    };
     let (scene, sweep, stiff) = if args.stiff {
-        let found = stiff::search(&read.scene, &settings.ranges, &mut |done, most| progress.reach(done, most));
+        let found = stiff::search(&read.scene, &settings.ranges, &mut |done, most| {
+            progress.reach(done, most);
+            // The other half is for the experiments.
+            started.elapsed() < limit / 2 || stop()
+        });
         match found {
             Ok(worst) => (worst.scene.clone(), None, Some(worst)),
             Err(found) => return Ok(Err(found)),
@@ -192,10 +208,17 @@ fn examined(args: &StabilityArgs, name: &str, read: &Read<'_>, console: &Console
             Err(found) => return Ok(Err(found)),
         }
     };
-    let mut step = |done: usize, of: usize| progress.reach(done, of);
+    let mut step = |done: usize, of: usize| {
+        progress.reach(done, of);
+        started.elapsed() < limit || stop()
+    };
     let mut options = ExamineOptions { bound, all: args.all, progress: &mut step };
     let reload = |file: &str, text: &str| read.reloaded(name, file, text);
     let found = find(&scene, sources, &mut options, Some(&reload));
+    if stopped.get() {
+        let message = format!("{name}: stopped after {} s, so there may be more to find", limit.as_secs_f64());
+        console.remark(&format!("{message} (`--timeout` gives more time)"));
+    }
     let found = if args.exact { found.and_then(|found| with_exact(&scene, found, bound)) } else { found };
     Ok(found.map(|(findings, examined)| {
         let result = Result1 { scene: name.to_owned(), findings, bound, sweep, stiff, examined_scene: scene.clone() };
@@ -319,6 +342,9 @@ fn human(done: &Done<'_>, console: &Console) -> String {
 
 /// Writes the scene that was examined, with the texts of its shaders.
 fn write_worst(path: &Path, done: &[Done<'_>]) -> Result<(), Failure> {
+    if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
+        files::make_folder(folder)?;
+    }
     let [done] = done else { return Err(Failure::usage("--worst takes one scene").help("name a single scene file")) };
     let scene = &done.result.examined_scene;
     let stem = path.file_stem().map_or_else(|| "worst".to_owned(), |stem| stem.to_string_lossy().into_owned());

@@ -20,6 +20,7 @@ pub(super) fn advice(scene: &Scene, cause: &Cause) -> String {
     });
     let text = match (cause.kind, in_draw) {
         (CauseKind::Comparison, _) if cause.equality => EQUALITY,
+        (CauseKind::Accumulation, Some((shader, found))) if !adds(shader, found) => FEEDBACK,
         (kind, Some((shader, found))) => of_pattern(kind, shader, found).unwrap_or_else(|| of_kind(kind)),
         (kind, None) => of_kind(kind),
     };
@@ -32,6 +33,18 @@ const ILL_POSED: &str = "the problem is ill-posed here: the exact result itself 
 
 const EQUALITY: &str = "do not compare computed floats with `==`: use `abs(a - b) <= tolerance`, with a tolerance of some roundings of \
     the operands, or carry an integer";
+
+const FEEDBACK: &str = "each iteration feeds the rounding of the last one back: use fewer iterations, a recurrence that runs the stable way, \
+    or a closed form";
+
+/// Whether an expression adds to a sum.
+fn adds(shader: &Shader, found: Found) -> bool {
+    use glisten_front::hir::BinaryOp::{Add, Sub};
+    matches!(
+        shader.expr(found.expr).kind,
+        ExprKind::Binary(Add | Sub, ..) | ExprKind::Assign(Some(Add | Sub), ..)
+    )
+}
 
 fn called(shader: &Shader, found: Found) -> Option<BuiltinFunction> {
     match shader.expr(found.expr).kind {
@@ -82,8 +95,8 @@ fn of_pattern(kind: CauseKind, shader: &Shader, found: Found) -> Option<&'static
              precision, or multiply the matrices there, and pass positions relative to the camera"
         }
         (Pattern::HalfVector, _) => {
-            "the half vector vanishes where the two directions are opposite: `halfVector` of <glisten/blinn_phong.glsl> is \
-             defined for all of them, `safeNormalize` of <glisten/safe.glsl> for every vector"
+            "the sum of two vectors vanishes where they are opposite: for a half vector, `halfVector` of \
+             <glisten/blinn_phong.glsl> is defined everywhere; `safeNormalize` of <glisten/safe.glsl> is for every vector"
         }
         (Pattern::Smoothstep, _) if kind == CauseKind::Division => {
             "`smoothstep` with equal edges is 0 / 0: keep the edges apart, or use `step`"
@@ -91,6 +104,10 @@ fn of_pattern(kind: CauseKind, shader: &Shader, found: Found) -> Option<&'static
         (Pattern::Difference, _) => {
             "the operands are large against their difference: subtract the common offset on the host in double precision, \
              and pass positions relative to the camera"
+        }
+        (_, Some(BuiltinFunction::Normalize)) if kind == CauseKind::Division => {
+            "a vector of length 0 has no direction: treat the case apart, or use `safeNormalize` of <glisten/safe.glsl>, which \
+             yields the zero vector"
         }
         (_, Some(BuiltinFunction::Normalize)) => {
             "the square of this length leaves the range of f32: `safeNormalize` of <glisten/safe.glsl> scales first and \
@@ -111,8 +128,8 @@ fn of_pattern(kind: CauseKind, shader: &Shader, found: Found) -> Option<&'static
              logarithm of a number near 1 by its distance from 1"
         }
         (_, Some(BuiltinFunction::Pow)) => {
-            "`safePow` of <glisten/safe.glsl> keeps the digits of a base near 1 and is defined at 0; \
-             `safeCosPow` takes the two vectors of the cosine"
+            "`safePow` of <glisten/safe.glsl> keeps the digits of a base near 1 and is defined at 0, for exponents from 0 on; \
+             for a power of the cosine between two vectors, `safeCosPow` takes the vectors, which have more digits"
         }
         (_, Some(BuiltinFunction::Inverse | BuiltinFunction::Determinant)) => {
             "the matrix is nearly singular: compute its inverse on the host in double precision"

@@ -222,7 +222,11 @@ fn tenths(value: f64) -> f64 {
 
 fn diagnostic(cause: &Cause, help: &str) -> Diagnostic {
     let message = match cause.kind {
-        _ if cause.ill_posed => "the exact result jumps here: f32 decides it the other way",
+        _ if cause.ill_posed && cause.disagreements > 0 => "the exact result jumps here: f32 decides it the other way",
+        _ if cause.ill_posed => "the exact result jumps here when its inputs move by one rounding",
+        _ if cause.non_finite > 0 && cause.non_finite == cause.non_finite_in_exact => {
+            "this is not finite in exact arithmetic either: the formula has no answer here"
+        }
         CauseKind::Cancellation => "leading digits cancel here, and the rest is rounding",
         CauseKind::Rounding => "f32 is too coarse for this result",
         CauseKind::Overflow => "this overflows in f32",

@@ -91,6 +91,14 @@ fn call(
 ) -> Option<String> {
     let first = arguments.first()?;
     let x = text(*first)?;
+    // It is limited already.
+    let limits = matches!(
+        shader.expr(*first).kind,
+        ExprKind::BuiltinCall(BuiltinFunction::Max | BuiltinFunction::Min | BuiltinFunction::Clamp, _)
+    );
+    if limits && function != BuiltinFunction::Normalize {
+        return None;
+    }
     let ty = types.get(shader.expr(*first).ty);
     Some(match (function, ty) {
         (BuiltinFunction::Normalize, Type::Vector(_, 3)) => {

@@ -10,7 +10,7 @@
 use super::sweep::{Parameter, Sweep};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::hir::{Scalar, Type};
-use glisten_reference::stability::errors_of;
+use glisten_reference::stability::pictures_of;
 use glisten_scene::values::LeafShape;
 use glisten_scene::{AttributeValues, Scene};
 use serde::Serialize;
@@ -69,7 +69,7 @@ pub struct Changed {
 pub struct Worst {
     /// The inputs that differ.
     pub changed: Vec<Changed>,
-    /// The largest finite difference of a channel, and with the scene's own inputs.
+    /// The largest finite difference of a channel, divided by the color if that is above 1.
     pub max_abs: f64,
     /// That difference with the scene's own inputs.
     pub max_abs_before: f64,
@@ -84,14 +84,15 @@ pub struct Worst {
     pub scene: Scene,
 }
 
-/// Looks for the worst inputs. `progress` is called before each picture with the number of those drawn and the limit.
+/// Looks for the worst inputs. `progress` is called before each picture with the number of those drawn and the limit; `false`
+/// ends the search with what it has.
 ///
 /// # Errors
 /// The errors of drawing with the scene's own inputs. Inputs with which a picture cannot be drawn are passed over.
 pub fn search(
     scene: &Scene,
     ranges: &[Sweep],
-    progress: &mut dyn FnMut(usize, usize),
+    progress: &mut dyn FnMut(usize, usize) -> bool,
 ) -> Result<Worst, Vec<Diagnostic>> {
     let trials = trials(scene, ranges);
     let pixels = scene.framebuffer.width as usize * scene.framebuffer.height as usize;
@@ -100,14 +101,16 @@ pub fn search(
     let mut taken: Vec<Option<usize>> = vec![None; trials.len()];
     let mut worst = before;
     let mut drawings = 1;
-    for _ in 0..ROUNDS {
+    'rounds: for _ in 0..ROUNDS {
         let mut moved = false;
         for trial in 0..trials.len() {
             for choice in 0..trials[trial].choices.len() {
                 if drawings >= most || taken[trial] == Some(choice) {
                     continue;
                 }
-                progress(drawings, most);
+                if !progress(drawings, most) {
+                    break 'rounds;
+                }
                 drawings += 1;
                 let mut tried = taken.clone();
                 tried[trial] = Some(choice);
@@ -119,6 +122,17 @@ pub fn search(
         }
         if !moved {
             break;
+        }
+    }
+    // What is not needed is taken back.
+    for trial in 0..trials.len() {
+        let mut tried = taken.clone();
+        if tried[trial].take().is_some()
+            && let Ok(found) = badness(&applied(scene, &trials, &tried))
+            && found.0 >= worst.0
+            && found.1 >= 0.99 * worst.1
+        {
+            (worst, taken) = (found, tried);
         }
     }
     let names = trials.iter().zip(&taken).filter_map(|(trial, taken)| {
@@ -138,8 +152,14 @@ pub fn search(
 
 /// The pixels that are not finite, and the largest finite error.
 fn badness(scene: &Scene) -> Result<(u64, f64), Vec<Diagnostic>> {
-    let errors = errors_of(scene)?;
-    Ok((errors.not_finite(), errors.worst().map_or(0.0, |(_, error)| error)))
+    let pair = pictures_of(scene)?;
+    let colors = pair.exact.attachments.first().map_or(&[][..], Vec::as_slice);
+    // The error of a large color counts by its size: a search would only find large colors otherwise.
+    let relative = pair.errors.errors.iter().zip(colors).filter(|(error, _)| error.is_finite()).map(|(error, color)| {
+        let size = color.iter().map(|channel| channel.abs()).filter(|size| size.is_finite()).fold(1.0, f64::max);
+        error / size
+    });
+    Ok((pair.errors.not_finite(), relative.fold(0.0, f64::max)))
 }
 
 fn is_worse(a: (u64, f64), b: (u64, f64)) -> bool {
@@ -246,12 +266,16 @@ fn number(value: f64) -> String {
     format!("{}", value as f32)
 }
 
+/// Words in names of colors, which stay below 1.
+const COLORS: &[&str] = &["col", "albedo", "ambient", "diffuse", "specular", "emission", "tint", "amb", "diff", "spec", "emi"];
+
 /// Words in names, and the values that a scalar of that name may take.
 const BY_NAME: &[(&[&str], &[f64])] = &[
     (&["shin", "expo", "power", "gloss", "sharp"], &[0.0, 0.01, 1.0, 32.0, 1000.0, 1e4]),
     (&["time", "clock", "second", "phase"], &[0.0, 1.0, 3600.0, 86_400.0, 1e6]),
     (&["angle", "rotation", "cone", "fov"], &[0.0, 1e-4, 1.570_796_3, 3.141_592_7]),
     (&["dist", "radius", "range", "near", "far", "scale", "size"], &[1e-6, 1e-3, 1.0, 1e3, 1e6]),
+    (&["color", "colour", "albedo", "ambient", "diffuse", "specular", "emission", "tint", "intensity"], &[0.0, 1e-3, 1.0]),
     (&["rough", "metal", "alpha", "factor", "weight", "mix", "blend"], &[0.0, 1e-3, 0.5, 1.0]),
 ];
 
@@ -271,8 +295,10 @@ fn of_uniform(scene: &Scene, name: &str, components: u32) -> Option<Trial> {
         .collect::<Result<_, _>>()
         .ok()?;
     let own: Vec<f64> = parameters.iter().map(|parameter| parameter.get(scene)).collect::<Option<_>>()?;
+    let last = name.rsplit('.').next().unwrap_or(name).to_lowercase();
+    let is_color = COLORS.iter().any(|word| last.contains(word));
     let mut choices = Vec::new();
-    for vector in vectors(&own) {
+    for vector in if is_color { vec![vec![0.0; own.len()], own.clone()] } else { vectors(&own) } {
         let mut text = String::from("[");
         for (index, value) in vector.iter().enumerate() {
             let _ = write!(text, "{}{}", if index == 0 { "" } else { ", " }, number(*value));

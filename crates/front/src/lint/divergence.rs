@@ -65,7 +65,7 @@ pub(super) fn divergent_calls(shader: &Shader) -> Vec<DivergentCall> {
     let order = shader.callees_first(main);
     let mut walk = Divergence {
         shader,
-        globals: shader.globals.iter().map(|global| global.storage == Storage::In).collect(),
+        globals: shader.globals.iter().map(differs_in_a_quad).collect(),
         locals: shader.functions.iter().map(|function| vec![false; function.locals.len()]).collect(),
         returns: vec![false; shader.functions.len()],
         called: vec![None; shader.functions.len()],
@@ -85,6 +85,16 @@ pub(super) fn divergent_calls(shader: &Shader) -> Vec<DivergentCall> {
         }
     }
     Vec::new()
+}
+
+/// Whether an input may differ between the fragments of a quad, which belong to one primitive: a `flat` input does not
+/// (§4.3.9), nor does what a primitive has as a whole.
+fn differs_in_a_quad(global: &Global) -> bool {
+    let of_primitive = matches!(
+        global.builtin,
+        Some(BuiltinVariable::PrimitiveId | BuiltinVariable::FrontFacing | BuiltinVariable::Layer)
+    );
+    global.storage == Storage::In && global.interpolation != Interpolation::Flat && !of_primitive
 }
 
 impl Divergence<'_> {

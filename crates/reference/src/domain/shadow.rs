@@ -113,6 +113,9 @@ impl<const INSIDE: bool> Shadowed<INSIDE> {
     }
 }
 
+/// A large number that can still be multiplied and added to.
+const LARGE: f64 = 1e18;
+
 /// The functions of one number that Vulkan's precision rules define by other functions, each step rounded.
 mod steps {
     use super::rounded;
@@ -225,7 +228,11 @@ impl<const INSIDE: bool> Number for Shadowed<INSIDE> {
     }
     fn corrected(self, part: ErrorPart) -> Self {
         let single = match part {
+            // Where exact arithmetic has no number either, any number shows whether the picture depends on it.
+            ErrorPart::All if !self.wide.is_finite() => 0.0,
             ErrorPart::All => self.wide,
+            ErrorPart::Limited if self.wide.is_nan() => 0.0,
+            ErrorPart::Limited => self.wide.clamp(-LARGE, LARGE),
             ErrorPart::Own => self.exact,
         };
         Self { single, ..self }

@@ -80,7 +80,8 @@ impl ErrorMap {
     pub fn rmse(&self) -> f64 {
         let finite: Vec<f64> = self.errors.iter().copied().filter(|error| error.is_finite()).collect();
         let count = self.counted.iter().filter(|counted| **counted).count().max(1);
-        (finite.iter().map(|error| error * error).sum::<f64>() / count as f64).sqrt()
+        // An empty sum is -0.
+        (finite.iter().map(|error| error * error).fold(0.0, |sum, square| sum + square) / count as f64).sqrt()
     }
 }
 

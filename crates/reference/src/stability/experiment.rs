@@ -162,7 +162,9 @@ pub(super) fn causes(
     let mut found = Vec::new();
     let mut jitter: Option<Vec<f64>> = None;
     for (done, candidate) in candidates.into_iter().enumerate() {
-        (options.progress)(done, total);
+        if !(options.progress)(done, total) {
+            break;
+        }
         if let Some(cause) = try_candidate(bench, &candidate, options, &mut jitter)? {
             found.push(cause);
         }
@@ -248,9 +250,12 @@ fn try_candidate(
     let spans = [span];
     let least = options.least();
     let mut kind = candidate.kind;
-    let outcome = bench.without(stage, &spans, ErrorPart::All)?;
-    let in_both = tally.births_in_both > 0 && bench.errors.first_not_finite().is_some();
-    if outcome.harm < least && !in_both {
+    let mut outcome = bench.without(stage, &spans, ErrorPart::All)?;
+    if outcome.harm < least && tally.non_finite() > 0 {
+        // The exact result may be too large for the next operation.
+        outcome = bench.without(stage, &spans, ErrorPart::Limited)?;
+    }
+    if outcome.harm < least {
         return Ok(None);
     }
     if candidate.own || kind == CauseKind::Cancellation {
@@ -264,11 +269,12 @@ fn try_candidate(
     if !ill_posed && outcome.harm.is_finite() && (kind.is_decision() || candidate.repeats) {
         ill_posed = is_ill_posed(&outcome, bench.jittered(jitter)?, least);
     }
-    if ill_posed && kind == CauseKind::Conversion {
+    let is_lookup = candidate.act == Act::Float(Kind::Texture);
+    if ill_posed && kind == CauseKind::Conversion && !is_lookup {
         kind = CauseKind::Comparison;
     }
-    let index = if outcome.harm >= least { outcome.index } else { bench.errors.first_not_finite().unwrap_or(0) };
-    let harm = (outcome.harm.is_finite() && !in_both).then(|| significant(outcome.harm));
+    let index = outcome.index;
+    let harm = outcome.harm.is_finite().then(|| significant(outcome.harm));
     let equality = candidate.act == Act::Compare { equality: true };
     let cured = outcome.cured();
     let found = Found { kind, cured, harm, index, ill_posed, equality };
@@ -356,7 +362,9 @@ fn roundings(
     let mut found = Vec::new();
     let total = adding.len();
     for (done, (stage, span, tally)) in adding.into_iter().enumerate() {
-        (options.progress)(done, total);
+        if !(options.progress)(done, total) {
+            break;
+        }
         let own = bench.without(stage, &[span], ErrorPart::Own)?;
         if own.harm < options.least() || !own.harm.is_finite() {
             continue;

@@ -147,8 +147,8 @@ pub struct ExamineOptions<'a> {
     pub bound: f64,
     /// Whether causes below the bound are told, too.
     pub all: bool,
-    /// Called before each experiment with the number of those done and of all.
-    pub progress: &'a mut dyn FnMut(usize, usize),
+    /// Called before each experiment with the number of those done and of all; `false` ends the experiments.
+    pub progress: &'a mut dyn FnMut(usize, usize) -> bool,
 }
 
 /// The verdict over a program with its inputs.

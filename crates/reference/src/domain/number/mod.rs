@@ -12,6 +12,8 @@ use glisten_scene::picture::Interval;
 pub enum ErrorPart {
     /// All of it: the result is that of exact operands, not rounded.
     All,
+    /// All of it, and what is too large for f32 is limited to a large number that still leaves room.
+    Limited,
     /// The part that the operation itself adds: the result is that of its f32 operands, not rounded.
     Own,
 }
