@@ -1,4 +1,4 @@
-//! Measures what `glisten stability` costs beside the reference's picture in f64, without causes: the trace of a scene.
+//! Measures what `glisten stability` costs compared with the reference's picture in f64, without causes: the trace of a scene.
 //!
 //! All rows run in turns: `cargo bench --bench stability --features cli`. The goal is 10. Ratios are of medians; the A/A row
 //! compares the reference with itself.

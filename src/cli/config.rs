@@ -162,7 +162,9 @@ fn parse(text: &str, name: &str, sources: &mut SourceMap, levels: &mut Levels) -
             diagnostics.push(Diagnostic::new(&BAD_CONFIG, at(pattern.span()), format!("not a pattern: {error}")));
         }
     }
-    for bound in config.stability.bounds.values().filter(|bound| !(*bound.get_ref() > 0.0 && bound.get_ref().is_finite())) {
+    for bound in
+        config.stability.bounds.values().filter(|bound| !(*bound.get_ref() > 0.0 && bound.get_ref().is_finite()))
+    {
         diagnostics.push(Diagnostic::new(&BAD_CONFIG, at(bound.span()), "a bound is a positive number"));
     }
     for (level, keys) in lists {

@@ -11,7 +11,10 @@ const EXAMPLES: &[(&str, &[(&str, &str)])] = &[
         "lint",
         &[
             ("glisten lint shaders/", "all shaders of a folder, and the programs that they form"),
-            ("glisten lint a.vert a.frag -D MAX_LIGHTS=4 -I include", "one program, with a macro and a folder of includes"),
+            (
+                "glisten lint a.vert a.frag -D MAX_LIGHTS=4 -I include",
+                "one program, with a macro and a folder of includes",
+            ),
             ("glisten lint . --deny warnings --format github", "in CI: annotations on the changed lines"),
         ],
     ),
@@ -72,7 +75,10 @@ const EXAMPLES: &[(&str, &[(&str, &str)])] = &[
             ("glisten lib export shaders/glisten", "the texts of all modules"),
         ],
     ),
-    ("new-scene", &[("glisten new-scene a.vert a.frag -o scene.toml", "a scene with everything that the program reads")]),
+    (
+        "new-scene",
+        &[("glisten new-scene a.vert a.frag -o scene.toml", "a scene with everything that the program reads")],
+    ),
     (
         "completions",
         &[

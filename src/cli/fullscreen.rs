@@ -28,7 +28,9 @@ pub(super) fn vertex_shader(types: &Types, fragment: &Shader) -> Result<String, 
             _ => {
                 let ty = types.name(global.ty);
                 let message = format!("the input `{} {}` needs a vertex shader that writes it", ty, global.name);
-                return Err(Failure::new(Exit::Content, message).help("name the vertex shader before the fragment shader"));
+                return Err(
+                    Failure::new(Exit::Content, message).help("name the vertex shader before the fragment shader")
+                );
             }
         };
         let ty = types.name(global.ty);

@@ -37,6 +37,7 @@ mod scenes;
 mod session;
 mod specialize;
 mod stability;
+mod stability_library;
 mod stages;
 mod test;
 mod timed;

@@ -88,13 +88,16 @@ fn with_vertex_shader(
         return Err(failure.help("name the vertex and the fragment shader of the program"));
     }
     let Some(output) = &args.output else {
-        let failure = Failure::usage("a fragment shader alone needs a vertex shader, which is written next to the scene");
+        let failure =
+            Failure::usage("a fragment shader alone needs a vertex shader, which is written next to the scene");
         return Err(failure.help("add `-o SCENE.toml`, or name the vertex shader, too"));
     };
     let name = input.stem();
     let vertex = output.with_file_name(format!("{name}_fullscreen.vert"));
     if vertex.exists() {
-        return Err(Failure::usage(format!("`{}` exists already", vertex.display())).help("name it before the fragment shader"));
+        return Err(
+            Failure::usage(format!("`{}` exists already", vertex.display())).help("name it before the fragment shader")
+        );
     }
     let units = session.compile(vec![Group { name, inputs: vec![input] }]);
     let Some(program) = units.first().and_then(|unit| unit.sound_program()) else {

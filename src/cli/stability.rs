@@ -11,10 +11,11 @@ use super::inputs;
 use super::pictures::Target;
 use super::progress::Progress;
 use super::scenes::{MachineArgs, Read, SceneArgs};
+use super::stability_library::{self, LibraryArgs};
 use crate::stability::settings::Settings;
 use crate::stability::stiff::{self, Worst};
 use crate::stability::sweep::{self, Parameter, Sweep, SweepPoint};
-use crate::stability::{BOUND, ExamineOptions, Examination, Findings, Stability, find, heat};
+use crate::stability::{BOUND, Examination, ExamineOptions, Findings, Stability, find, heat, with_exact};
 use clap::{Args, ValueEnum};
 use glisten_front::diagnostic::{self, Diagnostic};
 use glisten_front::hir::Stage;
@@ -26,8 +27,14 @@ use std::path::{Path, PathBuf};
 #[derive(Args, Debug)]
 pub(super) struct StabilityArgs {
     /// Scene files, or folders to search for them
-    #[arg(value_name = "SCENE.toml|DIR", required = true)]
+    #[arg(value_name = "SCENE.toml|DIR", required_unless_present = "library")]
     scenes: Vec<String>,
+    /// Examine the functions of the library instead: all, or those of a module, or one
+    #[arg(long, value_name = "NAME", num_args = 0..=1, require_equals = true, conflicts_with_all = ["scenes", "sweeps", "stiff", "worst", "heat", "exact"])]
+    library: Option<Option<String>>,
+    /// The number of calls of each function of the library
+    #[arg(long, value_name = "N", default_value_t = 2048, value_parser = clap::value_parser!(u32).range(16..=65_536), requires = "library")]
+    cases: u32,
     /// Draw with values of a uniform from LOW to HIGH, and examine the worst (repeatable: all combinations)
     #[arg(long = "sweep", value_name = "NAME=LOW..HIGH[:N]", value_parser = sweep::parse)]
     sweeps: Vec<Sweep>,
@@ -44,6 +51,9 @@ pub(super) struct StabilityArgs {
     /// Report causes whose harm is below the bound, too
     #[arg(long)]
     all: bool,
+    /// Recompute the worst pixels in 192 bits, and tell the error of f64 itself
+    #[arg(long)]
+    exact: bool,
     /// Write a map of the errors over the picture
     #[arg(long, value_name = "FILE.png")]
     heat: Option<PathBuf>,
@@ -116,6 +126,13 @@ struct Done<'a> {
 
 /// Runs the command.
 pub(super) fn run(args: &StabilityArgs, console: &Console) -> Outcome {
+    if let Some(only) = &args.library {
+        let is_json = args.format == StabilityFormat::Json;
+        return stability_library::run(
+            &LibraryArgs { only: only.as_deref(), cases: args.cases as usize, is_json },
+            console,
+        );
+    }
     let scenes = inputs::scene_files(&args.scenes)?;
     let mut done = Vec::new();
     let mut exit = Exit::Ok;
@@ -177,9 +194,10 @@ fn examined(args: &StabilityArgs, name: &str, read: &Read<'_>, console: &Console
     let mut step = |done: usize, of: usize| progress.reach(done, of);
     let mut options = ExamineOptions { bound, all: args.all, progress: &mut step };
     let reload = |file: &str, text: &str| read.reloaded(name, file, text);
-    Ok(find(&scene, sources, &mut options, Some(&reload)).map(|(findings, examined)| {
-        let result =
-            Result1 { scene: name.to_owned(), findings, bound, sweep, stiff, examined_scene: scene.clone() };
+    let found = find(&scene, sources, &mut options, Some(&reload));
+    let found = if args.exact { found.and_then(|found| with_exact(&scene, found, bound)) } else { found };
+    Ok(found.map(|(findings, examined)| {
+        let result = Result1 { scene: name.to_owned(), findings, bound, sweep, stiff, examined_scene: scene.clone() };
         (result, examined)
     }))
 }
@@ -194,7 +212,8 @@ fn swept(
     if sweeps.is_empty() {
         return Ok(Ok((scene.clone(), None)));
     }
-    let found: Result<Vec<Parameter>, String> = sweeps.iter().map(|sweep| Parameter::find(scene, &sweep.name)).collect();
+    let found: Result<Vec<Parameter>, String> =
+        sweeps.iter().map(|sweep| Parameter::find(scene, &sweep.name)).collect();
     let parameters = found.map_err(|message| Failure::new(Exit::Content, message))?;
     let combinations = sweep::combinations(sweeps).map_err(Failure::usage)?;
     progress.extend_to(combinations.len());
@@ -255,6 +274,9 @@ fn human(done: &Done<'_>, console: &Console) -> String {
     row("largest error", format!("{:.2e} (accepted: {bound:.2e}), rmse {:.2e}", picture.max_abs, picture.rmse));
     let pixels = done.examined.errors.not_finite();
     row("not finite", format!("{} results, {pixels} pixels", findings.non_finite));
+    if let Some(exact) = &findings.exact {
+        row("reference", exact.sentence());
+    }
     if let Some(worst) = &picture.worst {
         let color = |color: [Option<f64>; 4]| {
             color.map(|value| value.map_or_else(|| "not finite".to_owned(), |value| format!("{value:.6}"))).join(", ")
@@ -263,8 +285,10 @@ fn human(done: &Done<'_>, console: &Console) -> String {
         row("  f32", color(worst.f32));
         row("  exact", color(worst.exact));
         for (name, values) in &worst.inputs {
-            let values: Vec<String> =
-                values.iter().map(|value| value.map_or_else(|| "not finite".to_owned(), |value| format!("{value:.6}"))).collect();
+            let values: Vec<String> = values
+                .iter()
+                .map(|value| value.map_or_else(|| "not finite".to_owned(), |value| format!("{value:.6}")))
+                .collect();
             row(&format!("  {name}"), values.join(", "));
         }
     }
@@ -299,7 +323,8 @@ fn write_worst(path: &Path, done: &[Done<'_>]) -> Result<(), Failure> {
     let stem = path.file_stem().map_or_else(|| "worst".to_owned(), |stem| stem.to_string_lossy().into_owned());
     let mut shaders = Vec::new();
     for (number, draw) in scene.draws.iter().enumerate() {
-        let name = |stage: &str| if number == 0 { format!("{stem}.{stage}") } else { format!("{stem}_{number}.{stage}") };
+        let name =
+            |stage: &str| if number == 0 { format!("{stem}.{stage}") } else { format!("{stem}_{number}.{stage}") };
         let files = ShaderFiles { vertex: name("vert"), fragment: name("frag") };
         for (stage, file) in [(Stage::Vertex, &files.vertex), (Stage::Fragment, &files.fragment)] {
             let text = draw.program.stage(stage).and_then(|shader| shader.texts.first());

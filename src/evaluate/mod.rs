@@ -52,11 +52,11 @@ impl fmt::Display for EvaluateError {
 impl std::error::Error for EvaluateError {}
 
 impl EvaluateError {
-    fn new(message: impl Into<String>) -> Self {
+    pub(crate) fn new(message: impl Into<String>) -> Self {
         Self { message: message.into() }
     }
 
-    fn told<'a>(diagnostics: impl IntoIterator<Item = &'a Diagnostic>) -> Self {
+    pub(crate) fn told<'a>(diagnostics: impl IntoIterator<Item = &'a Diagnostic>) -> Self {
         let lines: Vec<String> = diagnostics.into_iter().map(|d| format!("{}: {}", d.code, d.message)).collect();
         Self::new(lines.join("; "))
     }

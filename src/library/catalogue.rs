@@ -21,6 +21,9 @@ pub struct FunctionEntry {
     pub declaration: String,
     /// The comment: what the function computes, then one line per parameter.
     pub documentation: String,
+    /// The largest error that is allowed for stiff and extreme inputs, as its comment states it: what follows `bound:`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub bound: Option<String>,
     /// The cost of a call.
     pub cost: Cost,
 }
@@ -61,11 +64,13 @@ pub fn entry(module: &'static Module) -> Entry {
             let file = compilation.sources.file_of(function.span).map(|file| compilation.sources.file(file));
             if file.is_some_and(|file| file.name() == own) {
                 let line = compilation.sources.line(function.span).unwrap_or(1);
+                let comment = comment_above(module.text, line);
                 functions.push(FunctionEntry {
                     name: function.name.clone(),
                     signature: signature(&program.types, function),
                     declaration: declaration(&program.types, function),
-                    documentation: comment_above(module.text, line),
+                    documentation: paragraphs(comment.iter().copied().filter(|line| bound_in(line).is_none())),
+                    bound: comment.iter().find_map(|line| bound_in(line)).map(str::to_owned),
                     cost: cost(&program.types, shader, id),
                 });
             }
@@ -90,11 +95,16 @@ fn declaration(types: &Types, function: &Function) -> String {
     format!("{} {}({})", types.name(function.ret), function.name, params.join(", "))
 }
 
-/// The comment that ends on the line above `line`, counted from 1.
-fn comment_above(text: &str, line: u32) -> String {
+/// The comment that ends on the line above `line`, counted from 1: its lines, without slashes.
+fn comment_above(text: &str, line: u32) -> Vec<&str> {
     let above: Vec<&str> = text.lines().take(line.saturating_sub(1) as usize).collect();
     let start = above.iter().rposition(|line| !line.starts_with("//")).map_or(0, |index| index + 1);
-    paragraphs(above.iter().skip(start).map(|line| line.trim_start_matches("//")))
+    above.iter().skip(start).map(|line| line.trim_start_matches("//")).collect()
+}
+
+/// The bound that a line of a comment states.
+fn bound_in(line: &str) -> Option<&str> {
+    line.trim().strip_prefix("bound:").map(str::trim)
 }
 
 #[cfg(test)]

@@ -68,10 +68,10 @@ pub enum InputKind {
 }
 
 /// Random numbers from a fixed seed (splitmix64).
-pub(super) struct Random(u64);
+pub(crate) struct Random(u64);
 
 impl Random {
-    pub(super) fn new(seed: u64) -> Self {
+    pub(crate) fn new(seed: u64) -> Self {
         Self(seed)
     }
 
@@ -84,32 +84,32 @@ impl Random {
     }
 
     /// 0 to 1, excluding 1.
-    fn unit(&mut self) -> f64 {
+    pub(crate) fn unit(&mut self) -> f64 {
         (self.next() >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    fn range(&mut self, low: f64, high: f64) -> f64 {
+    pub(crate) fn range(&mut self, low: f64, high: f64) -> f64 {
         low + self.unit() * (high - low)
     }
 
     /// Uniform in the logarithm.
-    fn spread(&mut self, low: f64, high: f64) -> f64 {
+    pub(crate) fn spread(&mut self, low: f64, high: f64) -> f64 {
         (self.range(low.ln(), high.ln())).exp()
     }
 
-    pub(super) fn below(&mut self, count: u64) -> u64 {
+    pub(crate) fn below(&mut self, count: u64) -> u64 {
         self.next() % count.max(1)
     }
 
-    fn once_in(&mut self, count: u64) -> bool {
+    pub(crate) fn once_in(&mut self, count: u64) -> bool {
         self.below(count) == 0
     }
 
-    pub(super) fn pick<T: Copy + Default>(&mut self, list: &[T]) -> T {
+    pub(crate) fn pick<T: Copy + Default>(&mut self, list: &[T]) -> T {
         list.get(self.below(list.len() as u64) as usize).copied().unwrap_or_default()
     }
 
-    fn direction(&mut self) -> V {
+    pub(crate) fn direction(&mut self) -> V {
         if self.once_in(16) {
             let mut axis = [0.0; 3];
             let place = self.below(3) as usize;
@@ -126,7 +126,7 @@ impl Random {
     }
 
     /// A direction about `radians` away from `a`.
-    fn near(&mut self, a: V, radians: f64) -> V {
+    pub(crate) fn near(&mut self, a: V, radians: f64) -> V {
         unit(add(a, scale(radians, self.direction())))
     }
 
@@ -187,7 +187,7 @@ impl Random {
     }
 
     /// Appends the numbers of a kind, before rounding to f32.
-    pub(super) fn fill(&mut self, kind: InputKind, to: &mut Vec<f64>) {
+    pub(crate) fn fill(&mut self, kind: InputKind, to: &mut Vec<f64>) {
         const NEAR_ONE: f64 = 1.0 - 1.0 / 16_777_216.0;
         match kind {
             InputKind::Any => to.push(self.any()),
@@ -247,7 +247,7 @@ impl Random {
 impl InputKind {
     /// How many parameters the kind fills, and whether they pass through `normalize` before the call, so that the
     /// reference computes with vectors that are unit vectors to its own precision.
-    pub(super) fn params(self) -> (usize, bool) {
+    pub(crate) fn params(self) -> (usize, bool) {
         match self {
             Self::Direction => (1, true),
             Self::Near | Self::Opposed => (2, true),

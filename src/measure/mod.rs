@@ -10,16 +10,16 @@
 
 mod forms;
 mod inputs;
-mod vector;
+pub(crate) mod vector;
 
 pub use inputs::InputKind;
+pub(crate) use inputs::Random;
 
 use crate::evaluate::{EvaluateError, Evaluator, table};
 use crate::library::Embedded;
 use crate::scene::{Filter, Scene, Texture};
 use glisten_front::{Compiler, Options};
 use glisten_reference::Precision;
-use inputs::Random;
 use std::cell::Cell;
 use std::sync::Arc;
 
@@ -127,6 +127,20 @@ pub struct Form {
     answer: fn(&Args<'_>) -> Option<Answer>,
 }
 
+impl Form {
+    /// The parameters that are unit vectors, which pass through `normalize`.
+    pub(crate) fn wraps(&self) -> Vec<(usize, &'static str)> {
+        let mut wraps = Vec::new();
+        let mut place = 0;
+        for kind in self.inputs {
+            let (params, unit) = kind.params();
+            wraps.extend((place..place + params).filter(|_| unit).map(|place| (place, "normalize")));
+            place += params;
+        }
+        wraps
+    }
+}
+
 /// All functions of all modules.
 pub fn forms() -> impl Iterator<Item = &'static Form> {
     forms::ALL.iter().copied().flatten()
@@ -177,13 +191,7 @@ impl Trial {
     /// # Errors
     /// The function is not what the row says.
     pub fn new(form: &'static Form, rows: usize) -> Result<Self, EvaluateError> {
-        let mut wraps = Vec::new();
-        let mut place = 0;
-        for kind in form.inputs {
-            let (params, unit) = kind.params();
-            wraps.extend((place..place + params).filter(|_| unit).map(|place| (place, "normalize")));
-            place += params;
-        }
+        let wraps = form.wraps();
         let mut random = Random::new(1);
         let mut numbers = Vec::new();
         for _ in 0..rows {
@@ -280,6 +288,12 @@ impl Figures {
 fn texel(index: usize) -> [f32; 4] {
     let x = index as f32 / (TABLE - 1) as f32;
     [x.powi(4), (1.0 - x).powi(2), 0.25 + 0.5 * x, 1.0]
+}
+
+/// That table's texels.
+#[cfg(feature = "stability")]
+pub(crate) fn texel_of_tables() -> Vec<[f32; 4]> {
+    (0..TABLE).map(texel).collect()
 }
 
 /// The result of linear filtering in that table at the corrected coordinate for x.

@@ -48,7 +48,9 @@ fn of_pattern(kind: CauseKind, shader: &Shader, found: Found) -> Option<&'static
             "write `(1.0 - c) * (1.0 + c)`; for the sine of an angle between unit vectors, `length(cross(a, b))` keeps all \
              digits, and `safeOneMinusCos` of <glisten/safe.glsl> is 1 - cos"
         }
-        (Pattern::OneMinusCos, _) => "write `2.0 * s * s` with `s = sin(0.5 * x)`; `safeOneMinusCos` of <glisten/safe.glsl> takes two unit vectors",
+        (Pattern::OneMinusCos, _) => {
+            "write `2.0 * s * s` with `s = sin(0.5 * x)`; `safeOneMinusCos` of <glisten/safe.glsl> takes two unit vectors"
+        }
         (Pattern::Discriminant, _) => {
             "the discriminant of a quadratic cancels: for a ray and a sphere, take it from the distance of the center to \
              the ray, `r * r - dot(q, q)` with `q = oc - dot(oc, d) * d`"
@@ -144,7 +146,9 @@ fn of_kind(kind: CauseKind) -> &'static str {
              and add it last or never"
         }
         CauseKind::Overflow => "scale the operands before they are multiplied, or bound them with `min`",
-        CauseKind::Underflow => "scale the operands by a power of two before they are multiplied, and undo it after the division or root",
+        CauseKind::Underflow => {
+            "scale the operands by a power of two before they are multiplied, and undo it after the division or root"
+        }
         CauseKind::Division => "bound the divisor from below, `max(abs(d), 1e-6)`, or treat the case 0 apart",
         CauseKind::Domain => "clamp the argument into the domain of the function before the call",
         CauseKind::Power => {
@@ -155,7 +159,9 @@ fn of_kind(kind: CauseKind) -> &'static str {
             "reduce the angle before it becomes large: keep time or phase modulo the period on the host, `fract(phase) * \
              6.2831853`"
         }
-        CauseKind::Comparison => "leave room for rounding: compare with a tolerance, or make the step soft with `smoothstep`",
+        CauseKind::Comparison => {
+            "leave room for rounding: compare with a tolerance, or make the step soft with `smoothstep`"
+        }
         CauseKind::Conversion => {
             "rounding moves the number over a whole one: keep it small (subtract a multiple of the period on the host), \
              or add half a step before `floor` and `int`"

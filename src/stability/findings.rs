@@ -4,6 +4,7 @@
 //! cause an expression, and one a line unless kinds differ; causes are sorted by harm.
 
 use super::advice::advice;
+use super::exact::ExactFound;
 use super::rewrite::{Reload, Tried, tried};
 use glisten_front::diagnostic::{Diagnostic, codes, write};
 use glisten_front::source::SourceMap;
@@ -15,7 +16,7 @@ use std::collections::BTreeMap;
 /// The number of causes for which a rewriting is tried.
 const MOST_REWRITINGS: usize = 4;
 
-/// What was found in a scene. The keys are those of the contract.
+/// The findings in a scene. The keys are those of the contract.
 #[derive(Clone, Debug, Serialize)]
 pub struct Findings {
     /// `stable`, `degraded` or `broken`.
@@ -26,6 +27,9 @@ pub struct Findings {
     pub non_finite: u64,
     /// The causes, worst first.
     pub causes: Vec<CauseFound>,
+    /// What 192 bits say of the reference, if that was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub exact: Option<ExactFound>,
 }
 
 /// The difference between the picture of f32 arithmetic and the exact one.
@@ -95,7 +99,10 @@ pub struct CauseFound {
     pub at: Spot,
     /// Whether the exact result jumps there, so that no rewriting helps.
     pub ill_posed: bool,
-    /// What to write instead.
+    /// Whether f64 is enough at that pixel, if that was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub f64_enough: Option<bool>,
+    /// Advice: the text to write instead.
     pub help: String,
     /// The finding for writers of diagnostics.
     #[serde(skip)]
@@ -103,7 +110,7 @@ pub struct CauseFound {
 }
 
 /// Examines a scene and places what is found. With `reload`, rewritings that are mechanical are tried, and the help texts say
-/// what comes of them.
+/// whether they help.
 ///
 /// # Errors
 /// The errors of [`examine`].
@@ -117,7 +124,7 @@ pub fn find(
     let picture = figures(scene, &examined)?;
     let causes = placed(scene, sources, &examined, reload);
     let verdict = examined.verdict.name();
-    Ok((Findings { verdict, picture, non_finite: examined.non_finite, causes }, examined))
+    Ok((Findings { verdict, picture, non_finite: examined.non_finite, causes, exact: None }, examined))
 }
 
 fn figures(scene: &Scene, examined: &Examination) -> Result<PictureFigures, Vec<Diagnostic>> {
@@ -186,6 +193,7 @@ fn placed(scene: &Scene, sources: &SourceMap, examined: &Examination, reload: Op
             disagreements: cause.disagreements,
             at: Spot { x: cause.at[0], y: cause.at[1] },
             ill_posed: cause.ill_posed,
+            f64_enough: None,
             help,
             diagnostic,
         });
@@ -193,14 +201,16 @@ fn placed(scene: &Scene, sources: &SourceMap, examined: &Examination, reload: Op
     list
 }
 
-/// What came of a rewriting, beside the error before.
+/// The result of a rewriting, compared with the error before.
 fn outcome(Tried { text, error }: &Tried, before: f64) -> String {
     let text: Vec<&str> = text.split_whitespace().collect();
     let text = text.join(" ");
     match *error {
         error if error.is_infinite() => format!(". Tried: `{text}` alone leaves pixels that are not finite"),
         error if error > 0.5 * before => {
-            format!(". Tried: `{text}` alone does not help (error {error:.1e}), because its operands have lost digits, too")
+            format!(
+                ". Tried: `{text}` alone does not help (error {error:.1e}), because its operands have lost digits, too"
+            )
         }
         error => format!(". Tried: with `{text}`, the error of the picture is {error:.1e}"),
     }

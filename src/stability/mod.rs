@@ -8,8 +8,10 @@
 //! *Holds:* nothing here prints or writes files. Figures are the same on every run.
 
 mod advice;
+mod exact;
 mod findings;
 mod heat;
+pub mod library;
 #[cfg(feature = "cli")]
 pub mod page;
 mod patterns;
@@ -18,10 +20,11 @@ pub mod settings;
 pub mod stiff;
 pub mod sweep;
 
-pub use heat::heat;
-pub use rewrite::Reload;
+pub use exact::{ExactFound, ExactPixelFound, with_exact};
 pub use findings::{CauseFound, Findings, PictureFigures, Spot, WorstPixel, find};
 pub use glisten_reference::stability::{
-    BOUND, CAUSE_BITS, Cause, CauseKind, ErrorMap, ExamineOptions, Examination, Pair, SpanError, Stability, Trace, examine,
-    inputs_at, pictures_of, trace,
+    BOUND, CAUSE_BITS, Cause, CauseKind, ErrorMap, Examination, ExamineOptions, Pair, SpanError, Stability, Trace,
+    examine, inputs_at, pictures_of, trace,
 };
+pub use heat::heat;
+pub use rewrite::Reload;

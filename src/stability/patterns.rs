@@ -59,7 +59,9 @@ fn pattern(types: &Types, shader: &Shader, id: ExprId) -> Pattern {
     match &shader.expr(id).kind {
         ExprKind::Binary(BinaryOp::Sub, a, b) => difference(types, shader, *a, *b),
         ExprKind::Assign(Some(BinaryOp::Sub), a, b) => difference(types, shader, *a, *b),
-        ExprKind::Binary(BinaryOp::Add, a, b) if is_negation(shader, *a) && calls(shader, *b, BuiltinFunction::Sqrt) => {
+        ExprKind::Binary(BinaryOp::Add, a, b)
+            if is_negation(shader, *a) && calls(shader, *b, BuiltinFunction::Sqrt) =>
+        {
             Pattern::QuadraticRoot
         }
         ExprKind::Binary(BinaryOp::Mul, a, b) if [*a, *b].iter().any(|side| is_matrix(types, shader, *side)) => {
@@ -82,7 +84,9 @@ fn difference(types: &Types, shader: &Shader, a: ExprId, b: ExprId) -> Pattern {
     match () {
         () if is_one(shader, a) && right.is_some() => Pattern::OneMinusSquare,
         () if is_one(shader, a) && calls(shader, b, BuiltinFunction::Cos) => Pattern::OneMinusCos,
-        () if is_one(shader, b) && (calls(shader, a, BuiltinFunction::Exp) || calls(shader, a, BuiltinFunction::Pow)) => {
+        () if is_one(shader, b)
+            && (calls(shader, a, BuiltinFunction::Exp) || calls(shader, a, BuiltinFunction::Pow)) =>
+        {
             Pattern::ExpMinusOne
         }
         () if left.is_some() && right.is_some() => Pattern::DifferenceOfSquares,
@@ -113,7 +117,9 @@ fn bare(shader: &Shader, id: ExprId) -> ExprId {
 fn is_one(shader: &Shader, id: ExprId) -> bool {
     match &shader.expr(id).kind {
         ExprKind::Literal(ScalarValue::Float(value)) => *value == 1.0,
-        ExprKind::Construct(_, parts) => !parts.is_empty() && parts.iter().all(|part| is_one(shader, bare(shader, *part))),
+        ExprKind::Construct(_, parts) => {
+            !parts.is_empty() && parts.iter().all(|part| is_one(shader, bare(shader, *part)))
+        }
         _ => false,
     }
 }

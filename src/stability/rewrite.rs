@@ -1,7 +1,7 @@
 //! Rewritings that are mechanical: the same value in exact arithmetic, without the loss.
 //!
-//! *In:* an expression of a known form, and its text. *Out:* the text to put in its place. *Holds:* only text that stands in a
-//! file as it is gets rewritten, not what a macro expands to; operands with side effects are left alone, since some
+//! *In:* an expression of a known form, and its text. *Out:* the text to put in its place. *Holds:* only text that is in a file
+//! as it is gets rewritten, not what a macro expands to; operands with side effects are left alone, since some
 //! rewritings repeat them.
 
 use super::patterns::{self, Found, Pattern};
@@ -116,7 +116,8 @@ fn operand(shader: &Shader, sources: &SourceMap, id: ExprId) -> Option<String> {
     let mut has_effects = false;
     shader.visit_expr(id, &mut |inner| {
         let kind = &shader.expr(inner).kind;
-        has_effects |= matches!(kind, ExprKind::Assign(..) | ExprKind::IncDec(..) | ExprKind::Call(..) | ExprKind::Comma(..));
+        has_effects |=
+            matches!(kind, ExprKind::Assign(..) | ExprKind::IncDec(..) | ExprKind::Call(..) | ExprKind::Comma(..));
     });
     let span = shader.expr(id).span;
     place(sources, span)?;

@@ -20,7 +20,7 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use toml::Spanned;
 
-/// What a scene says about its stability.
+/// The statements of a scene about its stability.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Settings {
     /// The error of the picture that is accepted.

@@ -64,14 +64,14 @@ pub struct Changed {
     pub value: String,
 }
 
-/// What a search found.
+/// The result of a search.
 #[derive(Clone, Debug, Serialize)]
 pub struct Worst {
     /// The inputs that differ.
     pub changed: Vec<Changed>,
     /// The largest finite difference of a channel, and with the scene's own inputs.
     pub max_abs: f64,
-    /// The same with the scene's own inputs.
+    /// That difference with the scene's own inputs.
     pub max_abs_before: f64,
     /// The number of pixels that are not finite in f32.
     pub non_finite_pixels: u64,
@@ -205,7 +205,8 @@ fn trials(scene: &Scene, ranges: &[Sweep]) -> Vec<Trial> {
         let values = Sweep { count: FROM_RANGE, ..range.clone() }.values();
         list.push(scalar(&parameter, &values));
     }
-    let stated = |name: &str| ranges.iter().any(|range| range.name == name || range.name.starts_with(&format!("{name}.")));
+    let stated =
+        |name: &str| ranges.iter().any(|range| range.name == name || range.name.starts_with(&format!("{name}.")));
     let mut known: Vec<String> = Vec::new();
     for draw in &scene.draws {
         for leaf in draw.program.interface.uniforms.iter().filter(|leaf| leaf.active) {
@@ -224,7 +225,10 @@ fn trials(scene: &Scene, ranges: &[Sweep]) -> Vec<Trial> {
     }
     for (index, draw) in scene.draws.iter().enumerate() {
         for (place, attribute) in draw.program.interface.attributes.iter().enumerate().filter(|(_, it)| it.active) {
-            let is_float = matches!(draw.program.types.get(attribute.ty), Type::Scalar(Scalar::Float) | Type::Vector(Scalar::Float, _));
+            let is_float = matches!(
+                draw.program.types.get(attribute.ty),
+                Type::Scalar(Scalar::Float) | Type::Vector(Scalar::Float, _)
+            );
             if is_float {
                 list.extend(of_attribute(index, place, &attribute.name));
             }
@@ -301,9 +305,8 @@ fn of_direction_or_place(own: &[f64]) -> Vec<Vec<f64>> {
     let mut list = vec![scaled(-1.0)];
     for axis in 0..3 {
         for sign in [1.0, -1.0] {
-            let unit = |grazing: f64| {
-                (0..3).map(|place| if place == axis { sign } else { grazing }).collect::<Vec<f64>>()
-            };
+            let unit =
+                |grazing: f64| (0..3).map(|place| if place == axis { sign } else { grazing }).collect::<Vec<f64>>();
             list.extend([unit(0.0), unit(1e-4)]);
         }
     }

@@ -201,7 +201,7 @@ pub struct SweepPoint {
 }
 
 impl SweepPoint {
-    /// What to compare points by: pixels that are not finite first, then the error.
+    /// The key by which points are compared: pixels that are not finite first, then the error.
     pub fn badness(&self) -> (u64, f64) {
         (self.non_finite_pixels, self.max_abs)
     }
@@ -244,12 +244,17 @@ pub fn point(scene: &Scene, parameters: &[Parameter], values: &[f64]) -> Result<
 pub fn combinations(sweeps: &[Sweep]) -> Result<Vec<Vec<f64>>, String> {
     let count = sweeps.iter().fold(1usize, |count, sweep| count.saturating_mul(sweep.count));
     if count > MOST {
-        return Err(format!("the sweeps have {count} combinations, and {MOST} is the limit: give smaller counts, NAME=LOW..HIGH:N"));
+        return Err(format!(
+            "the sweeps have {count} combinations, and {MOST} is the limit: give smaller counts, NAME=LOW..HIGH:N"
+        ));
     }
     let mut all = vec![Vec::new()];
     for sweep in sweeps {
         let values = sweep.values();
-        all = all.iter().flat_map(|start| values.iter().map(move |value| [start.as_slice(), &[*value]].concat())).collect();
+        all = all
+            .iter()
+            .flat_map(|start| values.iter().map(move |value| [start.as_slice(), &[*value]].concat()))
+            .collect();
     }
     Ok(all)
 }

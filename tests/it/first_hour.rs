@@ -654,3 +654,20 @@ fn an_error_names_the_command_that_explains_it() {
     let quiet = folder.run(&["lint", "-q", "a.frag"]);
     assert_eq!(err(&quiet), "");
 }
+
+#[test]
+fn words_of_other_languages_and_missing_macros_get_the_words_of_glsl() {
+    let root = crate::support::root();
+    let run = |name: &str| {
+        let file = root.join("fixtures/invalid/names").join(name);
+        out(&Folder::new(&[]).run(&["lint", "-q", &file.to_string_lossy()]))
+    };
+    let names = run("other_languages.frag");
+    for help in ["did you mean `MAX_LIGHTS`?", "add `-D BONES=VALUE`", "write `vec3(..)`"] {
+        assert!(names.contains(help), "{help}: {names}");
+    }
+    let casts = run("cast.frag");
+    for help in ["`(float3x3)` is not a cast", "write `mat3(..)` around", "write `int(..)` around"] {
+        assert!(casts.contains(help), "{help}: {casts}");
+    }
+}

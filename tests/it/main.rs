@@ -64,5 +64,7 @@ mod stability;
 #[cfg(feature = "cli")]
 mod stability_page;
 mod support;
+#[cfg(feature = "gpu")]
+mod tutorial;
 mod witness;
 mod words;

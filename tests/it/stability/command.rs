@@ -38,7 +38,16 @@ fn the_json_has_the_keys_of_the_contract() {
     assert_eq!((cause["file"].as_str(), cause["line"].as_u64()), (Some("a.frag"), Some(6)), "{cause}");
     assert_eq!((cause["kind"].as_str(), cause["stage"].as_str()), (Some("cancellation"), Some("fragment")));
     for key in [
-        "column", "end_line", "end_column", "harm", "lost_bits", "condition", "non_finite", "disagreements", "where", "help",
+        "column",
+        "end_line",
+        "end_column",
+        "harm",
+        "lost_bits",
+        "condition",
+        "non_finite",
+        "disagreements",
+        "where",
+        "help",
     ] {
         assert!(!cause[key].is_null(), "{key}: {cause}");
     }
@@ -48,13 +57,17 @@ fn the_json_has_the_keys_of_the_contract() {
 #[test]
 fn a_stable_scene_exits_0_and_bounds_come_from_the_command_line_the_scene_or_the_project() {
     let (exit, found) = json(&folder(0.5, ""), &[]);
-    assert_eq!((exit, found["verdict"].as_str(), found["causes"].as_array().map(Vec::len)), (0, Some("stable"), Some(0)));
+    assert_eq!(
+        (exit, found["verdict"].as_str(), found["causes"].as_array().map(Vec::len)),
+        (0, Some("stable"), Some(0))
+    );
     let (exit, found) = json(&folder(1e-3, ""), &["--bound", "10"]);
     assert_eq!((exit, found["verdict"].as_str()), (0, Some("stable")));
     let (exit, found) = json(&folder(1e-3, "[stability]\nbound = 10.0\n"), &[]);
     assert_eq!((exit, found["bound"].as_f64()), (0, Some(10.0)));
     let project = folder(1e-3, "");
-    fs::write(project.path("glisten.toml"), b"[stability.bounds]\n\"b*.toml\" = 1e-6\n\"*.toml\" = 10.0\n").expect("written");
+    fs::write(project.path("glisten.toml"), b"[stability.bounds]\n\"b*.toml\" = 1e-6\n\"*.toml\" = 10.0\n")
+        .expect("written");
     let (exit, found) = json(&project, &[]);
     assert_eq!((exit, found["bound"].as_f64()), (0, Some(10.0)));
 }

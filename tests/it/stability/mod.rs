@@ -45,7 +45,8 @@ fn found(scene: &str) -> Findings {
     let told: Vec<&str> = loaded.diagnostics.iter().map(|finding| finding.message.as_str()).collect();
     let scene = loaded.scene.unwrap_or_else(|| panic!("{path}: {told:?}"));
     let mut options = ExamineOptions { bound: BOUND, all: false, progress: &mut |_, _| {} };
-    let (findings, _) = find(&scene, &loaded.sources, &mut options, None).unwrap_or_else(|found| panic!("{path}: {found:?}"));
+    let (findings, _) =
+        find(&scene, &loaded.sources, &mut options, None).unwrap_or_else(|found| panic!("{path}: {found:?}"));
     findings
 }
 
@@ -89,10 +90,9 @@ fn planted_instabilities_are_found_and_sound_look_alikes_are_not_accused() {
     assert_eq!(missed(1), [] as [&str; 0], "the kind is wrong");
     // The width of a fraction's step is 0 in f32 alone, and the picture divides by it: an infinity changes pixels there.
     assert_eq!(missed(2), ["planted/39_map_grid.toml"], "the verdict is wrong");
-    // A tolerance helps against the first; the second is a cancellation beside the cut of `atan`.
-    let told_apart = |(case, found): &&(&Case, Findings)| {
-        case.ill_posed == found.causes.iter().take(2).any(|cause| cause.ill_posed)
-    };
+    // A tolerance helps against the first; the second is a cancellation near the cut of `atan`.
+    let told_apart =
+        |(case, found): &&(&Case, Findings)| case.ill_posed == found.causes.iter().take(2).any(|cause| cause.ill_posed);
     let wrong: Vec<&str> = planted.iter().filter(|it| !told_apart(it)).map(|(case, _)| case.scene.as_str()).collect();
     assert_eq!(wrong, ["planted/14_splat_check.toml", "planted/40_wind_rose.toml"], "ill-posed or unstable");
     println!("{} planted, {} sound", planted.len(), sound.len());

@@ -3,6 +3,7 @@
 //! *In:* nothing but [`source`](crate::source). *Out:* stages, versions, types and operators. *Holds:* no phase is
 //! known here, so that the tables of built-ins, the syntax tree and the typed program can all use these terms.
 
+pub(crate) mod foreign;
 mod operators;
 mod stage;
 mod types;

@@ -49,6 +49,8 @@ pub struct Ast {
     pub extension_lines: Vec<(String, Behavior, Span)>,
     /// The files that `#include` lines brought in, in reading order.
     pub inclusions: Vec<Inclusion>,
+    /// The macros without parameters that are defined at the end, for "did you mean".
+    pub macros: Vec<std::sync::Arc<str>>,
 }
 
 /// A comment `// glisten: allow(CODE)`. It silences warnings of that code on its own line or, if it stands alone, on

@@ -62,6 +62,7 @@ pub fn parse(
     ast.allows = outcome.allows;
     ast.extension_lines = outcome.extension_lines;
     ast.inclusions = outcome.inclusions;
+    ast.macros = outcome.macros;
     ast.names = session.names;
     ast
 }
@@ -76,5 +77,6 @@ fn empty_tree() -> Ast {
         allows: Vec::new(),
         extension_lines: Vec::new(),
         inclusions: Vec::new(),
+        macros: Vec::new(),
     }
 }

@@ -9,6 +9,7 @@
 //! | [`F32`] | an f32 | rounds once; a built-in function is computed in f64 and rounded once: a strict GPU |
 //! | [`Envelope`] | an f64 and the interval of a GPU's values | yields the hull of what [`rules`] allow |
 //! | [`Shadow`] | an f32 and an f64 side by side | is done in both, which shows the error of f32 |
+//! | `Exact` | a number of 192 bits | rounds once: the reference for the reference (feature `stability`) |
 //!
 //! Registers store numbers in [`Lanes`], blocks of eight; a domain may define its own operations on [`NumberBlock`]s.
 //!
@@ -16,6 +17,8 @@
 //! in the documentation of the operation. Comparisons yield [`Integer`]s, so that a domain may leave a condition
 //! undecided ([`Integer::is_decided`]); the executor asks only where the condition determines what runs.
 
+#[cfg(any(test, feature = "stability"))]
+mod big;
 mod envelope;
 pub mod faults;
 mod integer;
@@ -26,6 +29,8 @@ mod shadow;
 mod single;
 mod wide;
 
+#[cfg(any(test, feature = "stability"))]
+pub use big::{BITS as EXACT_BITS, Big};
 #[cfg(test)]
 pub(crate) use envelope::evaluate;
 pub use envelope::{EnvelopeBlock, EnvelopeFloat, EnvelopeInt};
@@ -84,4 +89,16 @@ impl Domain for Shadow {
     type Float = ShadowFloat;
     type Int = ShadowInt;
     const NAME: &'static str = "shadow";
+}
+
+/// Numbers of 192 bits, against which f64 is checked.
+#[cfg(any(test, feature = "stability"))]
+#[derive(Clone, Copy, Debug)]
+pub struct Exact;
+
+#[cfg(any(test, feature = "stability"))]
+impl Domain for Exact {
+    type Float = Big;
+    type Int = u32;
+    const NAME: &'static str = "exact";
 }

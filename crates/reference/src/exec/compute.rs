@@ -14,12 +14,6 @@ fn constant<N: Number>(value: f64) -> N {
     N::from_f64(value)
 }
 
-/// A product with a factor that is not an f32, rounded once.
-#[inline(always)]
-fn scaled<N: Number>(x: N, factor: f64) -> N {
-    N::narrow(x.widen().mul(constant(factor)))
-}
-
 /// An operation with a form for blocks.
 macro_rules! each {
     ($out:expr, $a:expr, $operation:ident) => {
@@ -71,8 +65,8 @@ fn float1<N: Number>(op: Float1, out: &mut Lanes<N>, a: Source<'_, N>) -> Filled
         Float1::Asinh => calls1(out, a, &N::asinh),
         Float1::Acosh => calls1(out, a, &N::acosh),
         Float1::Atanh => calls1(out, a, &N::atanh),
-        Float1::Radians => map1(out, a, |x| scaled(x, std::f64::consts::PI / 180.0)),
-        Float1::Degrees => map1(out, a, |x| scaled(x, 180.0 / std::f64::consts::PI)),
+        Float1::Radians => map1(out, a, N::radians),
+        Float1::Degrees => map1(out, a, N::degrees),
     }
 }
 

@@ -44,6 +44,7 @@ mod code;
 mod compile;
 mod composite;
 mod compute;
+mod corrected_run;
 mod exactly;
 mod explore;
 mod inst;

@@ -15,7 +15,7 @@ use super::source::Source;
 use super::surface::BIN;
 use super::target::{Bin, Tests, local};
 use super::vertices::Vertices;
-use super::watch::{Probe, jittered};
+use super::watch::{Probe, jittered, wanted_in_quad, wanted_in_row};
 use crate::domain::faults::Faults;
 use crate::domain::{Domain, ErrorPart, Integer, Number};
 use crate::exec::{LANES, Machine, Mask};
@@ -35,6 +35,7 @@ pub(super) struct Shading<'a, D: Domain> {
     pub(super) mark_edges: bool,
     pub(super) faults: Faults,
     pub(super) probe: Option<&'a Probe>,
+    pub(super) pixels: Option<&'a [[u32; 2]]>,
     pub(super) jitter: Option<u64>,
     pub(super) exact_inputs: &'a [GlobalId],
 }
@@ -55,6 +56,9 @@ pub(super) fn draw_bin<D: Domain>(
         batch.begin(prim, Source::new(prim, shading.vertices));
         if shading.plan.needs_quads {
             prim.shape.quads(area, |x, y, covered| {
+                if shading.pixels.is_some_and(|pixels| !wanted_in_quad(pixels, x, y)) {
+                    return;
+                }
                 batch.add_quad(local(area, x, y), BIN as u32, covered);
                 if batch.is_full() {
                     shading.settle(bin, &mut batch, machine);
@@ -62,7 +66,7 @@ pub(super) fn draw_bin<D: Domain>(
             });
         } else {
             prim.shape.rows(area, |y, x, pixels| {
-                let mut rest = pixels;
+                let mut rest = shading.pixels.map_or(pixels, |wanted| wanted_in_row(wanted, x, y, pixels));
                 while rest != 0 {
                     rest = batch.add_row(local(area, x, y), rest);
                     if batch.is_full() {
@@ -127,7 +131,9 @@ impl<D: Domain> Shading<'_, D> {
         let coordinates = self.plan.frag_coord.into_iter().flat_map(|id| [(id, 0), (id, 1)]);
         for (id, flat) in self.plan.floats.iter().map(|varying| varying.to).chain(coordinates) {
             if let Some(input) = machine.float_input(id, flat) {
-                let place = |lane: usize| [places.x[lane] as u64, places.y[lane] as u64, id.index() as u64 * 64 + u64::from(flat)];
+                let place = |lane: usize| {
+                    [places.x[lane] as u64, places.y[lane] as u64, id.index() as u64 * 64 + u64::from(flat)]
+                };
                 input.update(|lane, number| D::Float::from_f64(jittered(number.value(), seed, place(lane))));
             }
         }

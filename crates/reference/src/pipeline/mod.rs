@@ -158,6 +158,7 @@ fn draw_all<D: Domain>(
                 mark_edges: options.mark_edges,
                 faults: options.faults,
                 probe: watch.study.probe,
+                pixels: watch.study.pixels,
                 jitter: watch.study.jitter,
                 exact_inputs: watch.study.exact_inputs,
             };
@@ -292,8 +293,7 @@ fn draw_prims<D: Domain>(
         if list.is_empty() || endless.get().is_some() || !watch.wants(index) {
             return;
         }
-        let mut machine =
-            take().unwrap_or_else(|| watch.machine(Stage::Fragment, code, shading.draw, shading.faults));
+        let mut machine = take().unwrap_or_else(|| watch.machine(Stage::Fragment, code, shading.draw, shading.faults));
         watch.begin(&mut machine);
         draw_bin(shading, bin, list, &mut machine);
         watch.end(&mut machine, Piece::Fragments, index);

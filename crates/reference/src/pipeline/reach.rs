@@ -12,7 +12,7 @@
 use super::assembly::clipped_triangles;
 use super::plan::Plan;
 use super::unique_vertices;
-use super::vertices::{Invocation, Vertices, ShadeOptions, shade};
+use super::vertices::{Invocation, ShadeOptions, Vertices, shade};
 use super::watch::{Study, Watch};
 use super::{MAX_INVOCATIONS, RenderOptions};
 use crate::domain::{Envelope, Number};

@@ -6,11 +6,11 @@
 
 use super::plan::Plan;
 use super::watch::{Watch, jittered};
+use crate::Positions;
 use crate::domain::faults::Faults;
 use crate::domain::{Domain, F32, Integer, Number};
 use crate::exec::{Code, LANES, Machine, Mask, Piece};
-use crate::Positions;
-use glisten_front::hir::{GlobalId, Stage, Interpolation, ScalarValue, Type, TypeId, Types};
+use glisten_front::hir::{GlobalId, Interpolation, ScalarValue, Stage, Type, TypeId, Types};
 use glisten_front::source::Span;
 use glisten_scene::Draw;
 use rayon::prelude::*;
@@ -111,7 +111,7 @@ fn window32(clip: [f32; 4], viewport: [f32; 2]) -> [f32; 3] {
 /// A vertex to shade: `gl_VertexID` and `gl_InstanceID`.
 pub(super) type Invocation = (u32, u32);
 
-/// What the vertices are shaded for.
+/// Options of the vertex stage.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ShadeOptions {
     /// The width and height of the window in pixels.

@@ -21,7 +21,7 @@ pub(crate) struct Chosen<'a> {
     pub(crate) part: ErrorPart,
 }
 
-/// What a drawing does besides the picture.
+/// The purposes of a drawing besides the picture.
 #[derive(Clone, Copy)]
 pub(crate) struct Study<'a, D: Domain> {
     /// Sees what is computed.
@@ -30,6 +30,8 @@ pub(crate) struct Study<'a, D: Domain> {
     pub(crate) exactly: Option<Chosen<'a>>,
     /// Whether to draw a bin, by its index; all if there is none.
     pub(crate) bins: Option<&'a [bool]>,
+    /// The pixels to draw, column and row, sorted; all if there are none.
+    pub(crate) pixels: Option<&'a [[u32; 2]]>,
     /// Moves the inputs of both stages by an ULP of f32, each up or down by chance with this seed.
     pub(crate) jitter: Option<u64>,
     /// The varyings that the fragment stage gets exact.
@@ -46,11 +48,26 @@ impl<D: Domain> Study<'_, D> {
         observers: None,
         exactly: None,
         bins: None,
+        pixels: None,
         jitter: None,
         exact_inputs: &[],
         probe: None,
         unfused: false,
     };
+}
+
+/// The bits of the pixels to draw among those of a row, of which bit `i` is the `i`th pixel from `x` on.
+pub(super) fn wanted_in_row(pixels: &[[u32; 2]], x: i64, y: i64, set: u64) -> u64 {
+    let is_wanted = |bit: &u32| {
+        let place = [x + i64::from(*bit), y].map(|at| u32::try_from(at).unwrap_or(u32::MAX));
+        set >> bit & 1 == 1 && pixels.binary_search(&place).is_ok()
+    };
+    (0..u64::BITS).filter(is_wanted).fold(0, |wanted, bit| wanted | 1 << bit)
+}
+
+/// Whether a pixel to draw is in the quad with this upper left corner.
+pub(super) fn wanted_in_quad(pixels: &[[u32; 2]], x: i64, y: i64) -> bool {
+    (y..y + 2).any(|y| wanted_in_row(pixels, x, y, 0b11) != 0)
 }
 
 /// Collects the float varyings of the last fragment that reached a pixel.
@@ -60,7 +77,7 @@ pub(crate) struct Probe {
     pub(crate) found: Mutex<Vec<(GlobalId, u32, f64)>>,
 }
 
-/// What is done in a draw besides drawing.
+/// A study, and the place in the drawing.
 #[derive(Clone, Copy)]
 pub(super) struct Watch<'a, D: Domain> {
     pub(super) study: Study<'a, D>,

@@ -19,7 +19,7 @@ pub struct ErrorMap {
     pub counted: Vec<bool>,
 }
 
-/// What a picture shows of a color.
+/// The part of a color that a picture shows.
 pub(super) fn shown(value: f64, format: Format) -> f64 {
     match format {
         Format::Rgba8Unorm if value.is_nan() => value,

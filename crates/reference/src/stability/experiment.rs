@@ -42,7 +42,7 @@ pub(super) struct Bench<'a> {
     bins: Vec<bool>,
 }
 
-/// What an experiment changed.
+/// The result of an experiment.
 struct Outcome {
     /// By how much the errors of pixels shrank at most; infinite if a pixel became finite.
     harm: f64,
@@ -116,9 +116,11 @@ impl<'a> Bench<'a> {
             if !self.holds(index) || before <= after { 0.0 } else { before - after }
         };
         let gains: Vec<f64> = (0..self.errors.errors.len()).map(gain).collect();
-        let worst = gains.iter().copied().enumerate().fold((0, 0.0), |worst, (index, gain)| {
-            if gain > worst.1 { (index, gain) } else { worst }
-        });
+        let worst = gains
+            .iter()
+            .copied()
+            .enumerate()
+            .fold((0, 0.0), |worst, (index, gain)| if gain > worst.1 { (index, gain) } else { worst });
         Ok(Outcome { harm: worst.1, index: worst.0, gains })
     }
 
@@ -229,7 +231,7 @@ fn is_far_lookup(act: Act, tally: &Tally) -> bool {
     act == Act::Float(Kind::Texture) && tally.largest_operand >= FAR
 }
 
-/// What is tried first.
+/// The order in which candidates are tried: the largest first.
 fn rank(candidate: &Candidate) -> (bool, bool, u64) {
     let tally = &candidate.tally;
     (tally.non_finite() > 0, tally.disagreements > 0, (tally.lost_bits * 1e6) as u64)
@@ -273,7 +275,7 @@ fn try_candidate(
     Ok(Some(found.cause(bench, (stage, span), tally)))
 }
 
-/// What experiments say of an expression.
+/// The results of the experiments with an expression.
 struct Found {
     kind: CauseKind,
     /// The number of pixels that become finite.
@@ -362,7 +364,8 @@ fn roundings(
         let repeats = loops.get(&stage).is_some_and(|loops| loops.inside.contains(&span));
         let kind = if repeats { CauseKind::Accumulation } else { CauseKind::Rounding };
         let ill_posed = repeats && is_ill_posed(&own, bench.jittered(jitter)?, options.least());
-        let of = Found { kind, cured: 0, harm: Some(significant(own.harm)), index: own.index, ill_posed, equality: false };
+        let of =
+            Found { kind, cured: 0, harm: Some(significant(own.harm)), index: own.index, ill_posed, equality: false };
         found.push(of.cause(bench, (stage, span), &tally));
     }
     if found.is_empty() {
@@ -391,7 +394,8 @@ fn coarse_varying(
     let of_vertices = tallies.iter().filter(|((stage, span, _), _)| *stage == Stage::Vertex && span.is_known());
     let coarsest = of_vertices.max_by(|(_, a), (_, b)| a.added.total_cmp(&b.added));
     let harm = Some(significant(outcome.harm));
-    let found = Found { kind: CauseKind::Rounding, cured: 0, harm, index: outcome.index, ill_posed: false, equality: false };
+    let found =
+        Found { kind: CauseKind::Rounding, cured: 0, harm, index: outcome.index, ill_posed: false, equality: false };
     Ok(Some(match coarsest.filter(|(_, tally)| tally.added > 0.0) {
         Some((&(stage, span, _), tally)) => found.cause(bench, (stage, span), tally),
         None => found.cause(bench, (Stage::Fragment, declared), &Tally::default()),

@@ -3,8 +3,8 @@
 //! *In:* the tallies of a span. *Out:* the kind that fits them. *Holds:* the order of the rules below decides: a result
 //! that is not finite comes before a decision, a decision before lost bits.
 
+use super::birth::Birth;
 use super::record::{Act, Tally};
-use crate::domain::ShadowFloat;
 use crate::exec::Kind;
 
 /// How an expression loses precision.
@@ -74,7 +74,7 @@ impl CauseKind {
 
     /// The kind of an act that lost bits, births or decisions.
     pub(super) fn of(act: Act, tally: &Tally) -> Self {
-        if let Some(birth) = Birth::most(tally) {
+        if let Some(birth) = most_frequent_birth(tally) {
             return birth;
         }
         match act {
@@ -98,52 +98,14 @@ impl CauseKind {
     }
 }
 
-/// How a result that is not finite comes from finite operands.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Birth {
-    Overflow,
-    Underflow,
-    Division,
-    Domain,
-}
-
-impl Birth {
-    pub(super) const ALL: [Self; 4] = [Self::Overflow, Self::Underflow, Self::Division, Self::Domain];
-
-    /// The origin of a result that is not finite.
-    pub(super) fn of(kind: Kind, operands: &[ShadowFloat], result: ShadowFloat) -> Self {
-        let is_zero = |number: &ShadowFloat| number.single == 0.0;
-        match kind {
-            Kind::Quotient | Kind::InverseRoot if operands.last().is_some_and(is_zero) => match operands.last() {
-                Some(divisor) if divisor.wide != 0.0 && divisor.wide.abs() < f64::from(f32::MIN_POSITIVE) => {
-                    Self::Underflow
-                }
-                _ => Self::Division,
-            },
-            Kind::Power if operands.first().is_some_and(|base| base.single <= 0.0) => Self::Domain,
-            Kind::Partial | Kind::InverseRoot | Kind::Logarithm => Self::Domain,
-            Kind::Whole | Kind::Blend => Self::Division,
-            Kind::Normalize => match operands.iter().map(|part| part.single.abs()).fold(0.0, f64::max) {
-                0.0 if operands.iter().all(|part| part.wide == 0.0) => Self::Division,
-                largest if largest < 1.0 => Self::Underflow,
-                _ => Self::Overflow,
-            },
-            // The inverse of a singular matrix.
-            Kind::Vector if result.single.is_nan() => Self::Division,
-            _ => Self::Overflow,
-        }
-    }
-
-    /// The kind of the most frequent birth; `None` if there is none.
-    fn most(tally: &Tally) -> Option<CauseKind> {
-        let (birth, count) =
-            Self::ALL.iter().zip(tally.births).rev().max_by_key(|(_, count)| *count)?;
-        let kind = match birth {
-            Self::Overflow => CauseKind::Overflow,
-            Self::Underflow => CauseKind::Underflow,
-            Self::Division => CauseKind::Division,
-            Self::Domain => CauseKind::Domain,
-        };
-        (count > 0).then_some(kind)
-    }
+/// The kind of the most frequent birth; `None` if there is none.
+fn most_frequent_birth(tally: &Tally) -> Option<CauseKind> {
+    let (birth, count) = Birth::ALL.iter().zip(tally.births).rev().max_by_key(|(_, count)| *count)?;
+    let kind = match birth {
+        Birth::Overflow => CauseKind::Overflow,
+        Birth::Underflow => CauseKind::Underflow,
+        Birth::Division => CauseKind::Division,
+        Birth::Domain => CauseKind::Domain,
+    };
+    (count > 0).then_some(kind)
 }

@@ -23,7 +23,8 @@ impl Loops {
         let Some(main) = shader.main else { return found };
         let mut repeated = BTreeSet::new();
         for function in shader.callees_first(main).into_iter().rev() {
-            let Some(body) = shader.functions.get(function.index()).and_then(|function| function.body.as_deref()) else {
+            let Some(body) = shader.functions.get(function.index()).and_then(|function| function.body.as_deref())
+            else {
                 continue;
             };
             let whole = repeated.contains(&function);

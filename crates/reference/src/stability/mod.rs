@@ -21,7 +21,10 @@
 //! *Not done here:* a GPU's own approximations of `sin` and so on, and its weights of linear filtering, are not modeled:
 //! they round once.
 
+mod birth;
+mod draw;
 mod errors;
+mod exact;
 mod experiment;
 mod kinds;
 mod loops;
@@ -29,7 +32,9 @@ mod record;
 #[cfg(test)]
 mod tests;
 
+pub use draw::{Arithmetic, draw};
 pub use errors::ErrorMap;
+pub use exact::{EXACT_BITS, ExactPixel, recompute};
 pub use kinds::CauseKind;
 
 use super::domain::{F64, Shadow};
@@ -157,7 +162,7 @@ pub enum Stability {
     Broken,
 }
 
-/// What f32 arithmetic does to the picture of a scene, and why.
+/// The effect of f32 arithmetic on the picture of a scene, and its causes.
 #[derive(Clone, Debug)]
 pub struct Examination {
     /// The picture of f32 arithmetic, before it is rounded to the framebuffer's format.
@@ -205,10 +210,7 @@ pub fn trace(scene: &Scene, options: &RenderOptions) -> Result<Trace, Vec<Diagno
     Ok(Trace { spans: spans(&tallies), output_error, picture })
 }
 
-fn recorded(
-    scene: &Scene,
-    options: &RenderOptions,
-) -> Result<(Picture, BTreeMap<Place, Tally>, f64), Vec<Diagnostic>> {
+fn recorded(scene: &Scene, options: &RenderOptions) -> Result<(Picture, BTreeMap<Place, Tally>, f64), Vec<Diagnostic>> {
     let collected = Arc::new(Collected::default());
     let shared = Arc::clone(&collected);
     let make = move || -> Box<dyn exec::Observer<Shadow>> { Box::new(Recorder::new(&shared)) };
@@ -251,11 +253,8 @@ pub fn examine(scene: &Scene, options: &mut ExamineOptions<'_>) -> Result<Examin
     let non_finite = tallies.values().map(Tally::non_finite).sum();
     let worst = errors.worst().map_or(0.0, |(_, error)| error);
     let hurts = worst > options.least() || errors.not_finite() > 0;
-    let causes = if hurts {
-        causes(&Bench::new(scene, format, &exact, &errors), &tallies, options)?
-    } else {
-        Vec::new()
-    };
+    let causes =
+        if hurts { causes(&Bench::new(scene, format, &exact, &errors), &tallies, options)? } else { Vec::new() };
     let breaks = |cause: &Cause| {
         let decides = cause.disagreements > 0 && cause.kind.is_decision();
         (decides || cause.non_finite > 0) && cause.harm.is_none_or(|harm| harm > options.bound)
@@ -321,10 +320,7 @@ pub fn inputs_at(scene: &Scene, pixel: [u32; 2]) -> Result<Vec<(String, Vec<f64>
     Ok(found)
 }
 
-fn named(
-    program: &Program,
-    values: &[(glisten_front::hir::GlobalId, u32, f64)],
-) -> Vec<(String, Vec<f64>)> {
+fn named(program: &Program, values: &[(glisten_front::hir::GlobalId, u32, f64)]) -> Vec<(String, Vec<f64>)> {
     let globals = program.stage(Stage::Fragment).map_or(&[][..], |shader| &shader.globals);
     let mut by_name: Vec<(String, Vec<f64>)> = Vec::new();
     for (id, _, value) in values {

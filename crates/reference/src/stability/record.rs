@@ -5,7 +5,7 @@
 //! are joined in order.
 
 use super::CAUSE_BITS;
-use super::kinds::Birth;
+use super::birth::Birth;
 use crate::domain::{Shadow, ShadowFloat, rounded};
 use crate::exec::{Event, Kind, Observer, Order, Values, What};
 use glisten_front::hir::Stage;
@@ -30,7 +30,7 @@ const LARGEST_SQUARED: f64 = 1.8e19;
 /// The square of a number below this is below the smallest normal f32.
 const SMALLEST_SQUARED: f64 = 1.1e-19;
 
-/// What a span does: an operation on floats, or an answer about them.
+/// The act of a span: an operation on floats, or an answer about them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(super) enum Act {
     /// Floats from floats.
@@ -107,7 +107,7 @@ impl Tally {
     fn note_sound(&mut self, result: ShadowFloat, count: u64) -> bool {
         let error = (result.single - result.wide).abs();
         // A comparison with a NaN is false.
-        if error <= SOUND * result.single.abs() {
+        if error <= SOUND * result.single.abs() && error.is_finite() {
             self.evaluations += count;
             self.finite += count;
             self.error = self.error.max(error);
@@ -148,7 +148,8 @@ impl Tally {
         self.canceled_bits = self.canceled_bits.max(canceled(kind, operands, result));
         self.condition = self.condition.max(condition(operands, result));
         let is_sum = matches!(kind, Kind::Sum | Kind::Dot | Kind::Pairs);
-        self.underflows += u64::from(!is_sum && result.single == 0.0 && rounded(result.exact) == 0.0 && result.exact != 0.0);
+        self.underflows +=
+            u64::from(!is_sum && result.single == 0.0 && rounded(result.exact) == 0.0 && result.exact != 0.0);
         if matches!(kind, Kind::Normalize | Kind::Vector) && lost >= CAUSE_BITS {
             let largest = operands.iter().map(|operand| operand.single.abs()).fold(0.0, f64::max);
             self.overflows += u64::from(largest > LARGEST_SQUARED);

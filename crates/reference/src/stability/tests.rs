@@ -1,6 +1,6 @@
 //! Known cases: each is attributed to the right expression.
 
-use super::{BOUND, CauseKind, ExamineOptions, Examination, SpanError, Stability, Trace, examine, trace};
+use super::{BOUND, CauseKind, Examination, ExamineOptions, SpanError, Stability, Trace, examine, trace};
 use crate::RenderOptions;
 use glisten_front::compiler::{Compiler, Options};
 use glisten_front::source::SourceMap;
@@ -185,7 +185,8 @@ fn a_nan_that_max_may_hide_breaks() {
 
 #[test]
 fn a_sum_over_many_steps_accumulates() {
-    let body = "void main() { float t = 0.0;\nfor (int i = 0; i < 3000; ++i) t += 0.1 + at.x * 1e-3;\n o = vec4(t - 300.0); }";
+    let body =
+        "void main() { float t = 0.0;\nfor (int i = 0; i < 3000; ++i) t += 0.1 + at.x * 1e-3;\n o = vec4(t - 300.0); }";
     let (found, causes) = examined(body);
     assert_eq!(causes[0], ("t += 0.1 + at.x * 1e-3".to_owned(), CauseKind::Accumulation), "{causes:?}");
     assert!(!found.causes[0].ill_posed);

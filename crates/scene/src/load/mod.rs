@@ -47,7 +47,8 @@ pub const MAX_PIXELS: u64 = 1 << 26;
 /// The largest number of color attachments (`gl_MaxDrawBuffers`).
 pub const MAX_ATTACHMENTS: u32 = 8;
 
-const KEYS: &[&str] = &["framebuffer", "draw", "camera", "light", "material", "global_ambient", "report", "gallery", "stability"];
+const KEYS: &[&str] =
+    &["framebuffer", "draw", "camera", "light", "material", "global_ambient", "report", "gallery", "stability"];
 
 /// The result of loading a scene.
 #[derive(Clone, Debug)]

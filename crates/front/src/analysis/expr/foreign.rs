@@ -2,6 +2,8 @@
 //!
 //! *In:* an unknown name. *Out:* what to write instead. *Not done here:* misspelled names.
 
+use crate::language;
+
 /// Functions of HLSL and similar languages, and their equivalent in GLSL.
 #[rustfmt::skip]
 static FUNCTIONS: &[(&str, &str)] = &[
@@ -22,15 +24,6 @@ static FUNCTIONS: &[(&str, &str)] = &[
     ("texCUBE", "write `texture(s, p)`"),
     ("tex2Dlod", "write `textureLod(s, p.xy, p.w)`"),
     ("printf", "a shader can only write to its outputs"),
-];
-
-/// Types of HLSL and C.
-#[rustfmt::skip]
-static TYPES: &[(&str, &str)] = &[
-    ("float2", "vec2"), ("float3", "vec3"), ("float4", "vec4"), ("int2", "ivec2"), ("int3", "ivec3"), ("int4", "ivec4"),
-    ("uint2", "uvec2"), ("uint3", "uvec3"), ("uint4", "uvec4"), ("bool2", "bvec2"), ("bool3", "bvec3"),
-    ("bool4", "bvec4"), ("float2x2", "mat2"), ("float3x3", "mat3"), ("float4x4", "mat4"), ("half3", "vec3"),
-    ("half4", "vec4"), ("char", "int"), ("size_t", "uint"), ("Texture2D", "sampler2D"),
 ];
 
 /// Methods of textures in HLSL.
@@ -75,7 +68,8 @@ static LATER: &[(&str, u16)] = &[
 /// The replacement for a function that does not exist.
 pub(super) fn function(name: &str) -> Option<String> {
     let foreign = FUNCTIONS.iter().find(|row| row.0 == name).map(|row| row.1.to_owned());
-    foreign.or_else(|| {
+    let ty = || Some(format!("write `{}(..)`", language::foreign::type_name(name)?));
+    foreign.or_else(ty).or_else(|| {
         let since = LATER.iter().find(|row| row.0 == name)?.1;
         Some(format!("`{name}` came with GLSL {}.{:02}", since / 100, since % 100))
     })
@@ -94,5 +88,5 @@ pub(super) fn variable(name: &str) -> Option<String> {
 
 /// The replacement for a type that does not exist.
 pub(in crate::analysis) fn type_name(name: &str) -> Option<String> {
-    TYPES.iter().find(|row| row.0 == name).map(|row| format!("write `{}`", row.1))
+    language::foreign::type_name(name).map(|ty| format!("write `{ty}`"))
 }

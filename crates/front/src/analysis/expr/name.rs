@@ -153,11 +153,20 @@ impl Analyzer<'_> {
         }
         let help = super::foreign::variable(spelling);
         let help = help.or_else(|| self.nearest_variable(spelling).map(|near| format!("did you mean `{near}`?")));
+        let help = help.or_else(|| self.missing_macro(spelling));
         self.report(
             Diagnostic::new(&names::UNDECLARED, name.span, format!("`{spelling}` is not declared"))
                 .here("not known here")
                 .maybe_help(help),
         );
+    }
+
+    /// The help for a name in capitals, which is most likely a macro that the application defines.
+    fn missing_macro(&self, spelling: &str) -> Option<String> {
+        let in_capitals = spelling.len() > 2
+            && spelling.starts_with(|first: char| first.is_ascii_uppercase())
+            && spelling.chars().all(|letter| letter.is_ascii_uppercase() || letter.is_ascii_digit() || letter == '_');
+        in_capitals.then(|| format!("if the application defines it as a macro, add `-D {spelling}=VALUE`"))
     }
 
     fn nearest_variable(&mut self, spelling: &str) -> Option<String> {
@@ -177,6 +186,8 @@ impl Analyzer<'_> {
         for name in built_in.chain(constants) {
             known.push(name);
         }
+        // Two short names are similar by chance.
+        known.extend(self.ast.macros.iter().filter(|name| name.len() > 2).map(|name| &**name));
         did_you_mean(spelling, known).map(str::to_owned)
     }
 

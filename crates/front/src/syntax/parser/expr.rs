@@ -380,6 +380,22 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         self.push(ExprKind::Construct(Box::new(ty), arguments), whole)
     }
 
+    /// `(float3)value`: a name in parentheses before a value is a cast of C or HLSL.
+    fn reject_cast(&mut self, opening: Token, inner: ExprId) -> Parse<()> {
+        let is_name = matches!(self.ast.exprs.get(inner.index()).map(|expr| &expr.kind), Some(ExprKind::Name(_)));
+        let before_value =
+            matches!(self.kind(), TokenKind::Ident | TokenKind::Int | TokenKind::Uint | TokenKind::Float);
+        if !is_name || !before_value {
+            return Ok(());
+        }
+        let span = self.since(opening.span);
+        let name = self.session.sources.snippet(span).trim_matches(['(', ')', ' ']).to_owned();
+        let ty = crate::language::foreign::type_name(&name).unwrap_or(&name);
+        let message = format!("`({name})` is not a cast: GLSL has none");
+        let diagnostic = Diagnostic::new(&codes::UNEXPECTED_TOKEN, span, message);
+        Err(self.report_found(diagnostic.help(format!("write `{ty}(..)` around the value"))))
+    }
+
     /// `(a)`: in the tree, parentheses only widen the span.
     fn parenthesized(&mut self) -> Parse<ExprId> {
         let opening = self.bump();
@@ -393,6 +409,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         }
         let inner = self.expression()?;
         self.close(opening, TokenKind::RightParen, "`)` or an operator")?;
+        self.reject_cast(opening, inner)?;
         let span = self.since(opening.span);
         if let Some(expr) = self.ast.exprs.get_mut(inner.index()) {
             expr.span = span;

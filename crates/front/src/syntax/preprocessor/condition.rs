@@ -8,7 +8,7 @@ use crate::diagnostic::{Code, Diagnostic, did_you_mean};
 const MAX_NESTING: usize = 64;
 
 /// How many macros are compared with an undefined name, to suggest one.
-const MAX_COMPARED: usize = 4096;
+pub(super) const MAX_COMPARED: usize = 4096;
 
 /// The binding strength of a binary operator.
 fn precedence(kind: TokenKind) -> Option<u8> {

@@ -36,7 +36,7 @@ pub(super) struct Macro {
 }
 
 impl Macro {
-    fn is_predefined(&self) -> bool {
+    pub(super) fn is_predefined(&self) -> bool {
         !self.span.is_known()
     }
 

@@ -34,6 +34,7 @@ use crate::source::{FileId, IncludeForm, IncludeResolver, Inclusion, Span};
 use define::Macro;
 use expand::TokenRun;
 use rustc_hash::{FxHashMap, FxHashSet};
+use std::sync::Arc;
 
 /// The largest total size of all texts of a shader in bytes, with includes counted each time: 8 MiB.
 pub(super) const MAX_BYTES: usize = 8 << 20;
@@ -48,6 +49,7 @@ pub(super) struct PreprocessorOutcome {
     pub(super) allows: Vec<Allow>,
     pub(super) extension_lines: Vec<(String, Behavior, Span)>,
     pub(super) inclusions: Vec<Inclusion>,
+    pub(super) macros: Vec<Arc<str>>,
 }
 
 /// A file that is being read.
@@ -149,6 +151,7 @@ impl<'a> Preprocessor<'a> {
                 allows: Vec::new(),
                 extension_lines: Vec::new(),
                 inclusions: Vec::new(),
+                macros: Vec::new(),
             },
         };
         this.define_predefined(session);
@@ -161,6 +164,14 @@ impl<'a> Preprocessor<'a> {
     /// The outcome, after the parser has read the last token.
     pub(super) fn finish(mut self) -> PreprocessorOutcome {
         self.outcome.version = self.version;
+        let is_plain = |definition: &&Macro| definition.params.is_none() && !definition.is_predefined();
+        let names = self
+            .macros
+            .iter()
+            .filter(is_plain)
+            .take(condition::MAX_COMPARED)
+            .map(|definition| Arc::clone(&definition.name));
+        self.outcome.macros = names.collect();
         self.outcome
     }
 

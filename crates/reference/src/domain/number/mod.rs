@@ -12,7 +12,7 @@ use glisten_scene::picture::Interval;
 pub enum ErrorPart {
     /// All of it: the result is that of exact operands, not rounded.
     All,
-    /// What the operation itself adds: the result is that of its f32 operands, not rounded.
+    /// The part that the operation itself adds: the result is that of its f32 operands, not rounded.
     Own,
 }
 
@@ -97,6 +97,16 @@ pub trait Number: Element<Block: NumberBlock<Self>> {
     /// The single rounding at the end of a built-in function.
     fn narrow(wide: Self::Wide) -> Self;
 
+    /// §8.1
+    #[inline(always)]
+    fn radians(self) -> Self {
+        Self::narrow(self.widen().mul(Self::Wide::from_f64(std::f64::consts::PI / 180.0)))
+    }
+    /// §8.1
+    #[inline(always)]
+    fn degrees(self) -> Self {
+        Self::narrow(self.widen().mul(Self::Wide::from_f64(180.0 / std::f64::consts::PI)))
+    }
     /// `a + b`
     fn add(self, other: Self) -> Self;
     /// `a - b`

@@ -3,6 +3,7 @@
 mod builtins;
 mod composites;
 mod evaluate;
+mod exact;
 mod folding;
 mod generate;
 mod precise;

@@ -1,0 +1,122 @@
+//! `glisten stability --library`: every function of the library over its stiff and extreme inputs.
+
+use super::console::Console;
+use super::exit::{Exit, Failure, Outcome};
+use super::progress::Progress;
+use crate::stability::library::{BoundUnit, FunctionFound, LibraryOptions, Naive, Verdict, examine_library};
+use serde::Serialize;
+
+/// The form of the JSON.
+#[derive(Serialize)]
+struct Found<'a> {
+    functions: &'a [FunctionFound],
+}
+
+/// The options of the command line.
+pub(super) struct LibraryArgs<'a> {
+    /// Only this module or function.
+    pub(super) only: Option<&'a str>,
+    /// The number of calls of each function.
+    pub(super) cases: usize,
+    pub(super) is_json: bool,
+}
+
+/// Runs the command.
+pub(super) fn run(args: &LibraryArgs<'_>, console: &Console) -> Outcome {
+    let progress = Progress::new(console, 0);
+    let mut step = |done: usize, of: usize, name: &str| {
+        progress.reach(done, of);
+        progress.say(name);
+    };
+    let mut options = LibraryOptions { cases: args.cases, only: args.only, progress: &mut step };
+    let found = examine_library(&mut options).map_err(|error| Failure::new(Exit::Content, error.message))?;
+    drop(progress);
+    if found.is_empty() {
+        let failure = Failure::usage(format!("the library has no `{}`", args.only.unwrap_or_default()));
+        return Err(failure.help("`glisten lib list` names all modules"));
+    }
+    let text = if args.is_json {
+        // Numbers, strings and lists only: serialization has nothing to reject.
+        serde_json::to_string_pretty(&Found { functions: &found }).unwrap_or_default() + "\n"
+    } else {
+        table(&found)
+    };
+    console.output(&text)?;
+    Ok(if found.iter().all(FunctionFound::is_sound) { Exit::Ok } else { Exit::Content })
+}
+
+fn name(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Stable => "stable",
+        Verdict::Degraded => "degraded",
+        Verdict::Broken => "broken",
+    }
+}
+
+fn table(found: &[FunctionFound]) -> String {
+    let width = found.iter().map(|found| found.function.len()).max().unwrap_or(0);
+    let mut text = format!(
+        "{:width$}  {:8}  {:>8}  {:>11}  {:>8}  {:>9} | {:>8}  {:>10}  {:>5}\n",
+        "function", "verdict", "error", "bound", "max abs", "condition", "naive", "not finite", "cost"
+    );
+    for found in found {
+        let bound = found.bound.as_ref().map_or_else(
+            || "none".to_owned(),
+            |bound| format!("{:.0e} {}", bound.error, if bound.unit == BoundUnit::Abs { "abs" } else { "rel" }),
+        );
+        let figures = &found.figures;
+        text += &format!(
+            "{:width$}  {:8}  {:8.1e}  {bound:>11}  {:8.1e}  {:9.1e} | {}\n",
+            found.function,
+            name(found.verdict),
+            figures.unexplained,
+            figures.max_abs,
+            figures.condition,
+            naive(found.naive.as_ref(), found.cost)
+        );
+    }
+    for found in found.iter().filter(|found| !found.is_sound()) {
+        text += &format!("\n{}: {}\n  {}\n", found.signature, complaint(found), arguments(found));
+    }
+    let reasons = found.iter().filter_map(|found| Some((&found.signature, found.bound.as_ref()?)));
+    let reasons: Vec<String> = reasons
+        .filter(|(_, bound)| !bound.reason.is_empty())
+        .map(|(signature, bound)| format!("  {signature}: {}\n", bound.reason))
+        .collect();
+    if !reasons.is_empty() {
+        text += &format!("\nReasons for errors above rounding:\n{}", reasons.concat());
+    }
+    let calls: usize = found.iter().map(|found| found.cases).sum();
+    text + &format!(
+        "\n{} functions, {calls} calls. error: beyond what moving the inputs by an ULP explains; max abs: the largest error in \
+         all; condition: by\nhow much relative errors of the inputs grow there. naive: the same for the literal form, with the \
+         number of its results that are not\nfinite (those in parentheses have no exact value either); cost: operations as a \
+         multiple of the naive form's.\n",
+        found.len()
+    )
+}
+
+fn naive(naive: Option<&Naive>, cost: Option<f64>) -> String {
+    let Some(naive) = naive else { return "-".to_owned() };
+    let finite = match naive.undefined {
+        0 => format!("{}", naive.non_finite),
+        undefined => format!("{} ({undefined})", naive.non_finite),
+    };
+    let cost = cost.map_or_else(|| "-".to_owned(), |cost| format!("{cost:.2}"));
+    format!("{:8.1e}  {finite:>10}  {cost:>5}", naive.max_abs)
+}
+
+fn complaint(found: &FunctionFound) -> String {
+    let figures = &found.figures;
+    match () {
+        () if figures.non_finite > 0 => format!("{} results are not finite", figures.non_finite),
+        () if figures.another > 0 => format!("{} results are other ones in f32", figures.another),
+        () if found.bound.is_none() => "no bound stands beside it".to_owned(),
+        () => format!("its error is {:.2e}, above its bound", figures.unexplained),
+    }
+}
+
+fn arguments(found: &FunctionFound) -> String {
+    let each: Vec<String> = found.at.iter().map(|(name, values)| format!("{name} = {values:?}")).collect();
+    each.join(", ")
+}

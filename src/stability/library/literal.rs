@@ -1,0 +1,92 @@
+//! [`literal`]: the naive form of a function: the equation as the documents print it, or as one writes it without thought.
+//!
+//! *In:* a function of the library. *Out:* GLSL in terms of its parameters. *Holds:* functions without a naive form that
+//! differs (limits, constants, lookups) have none.
+
+/// The naive form of a function, by its signature.
+pub(super) fn literal(signature: &str) -> Option<&'static str> {
+    LITERAL.iter().find(|(known, _)| *known == signature).map(|(_, form)| *form)
+}
+
+static LITERAL: &[(&str, &str)] = &[
+    ("ambient(vec3,vec3)", "Kamb * Lamb"),
+    ("lightDistance(vec3,vec3)", "naiveDistance(Pl, P)"),
+    ("attenuationInverseSquare(float)", "naiveInverseSquare(r)"),
+    ("attenuation(float,vec3)", "naiveAttenuation(r, s)"),
+    ("halfVector(vec3,vec3)", "naiveHalf(L, V)"),
+    ("blinnPhongFactor(vec3,vec3,vec3,float)", "naiveBlinnPhong(N, L, V, shininess)"),
+    ("blinnPhong(vec3,vec3,vec3,float,vec3,vec3)", "naiveBlinnPhong(N, L, V, shininess) * Kspec * Lspec"),
+    ("halfLambertFactor(vec3,vec3)", "naiveHalfRange(N, L)"),
+    ("halfLambertDot(vec3,vec4)", "dot(vec4(N, 1.0), c0)"),
+    ("halfLambert(vec3,vec3,vec3,vec3)", "naiveHalfRange(N, L) * Kdiff * Ldiff"),
+    ("hemisphereWeight(vec3,vec3)", "0.5 * (1.0 + dot(N, axis))"),
+    ("hemisphere(vec3,vec3,vec3,vec3)", "naiveHemisphere(N, axis, sky, ground)"),
+    (
+        "hemisphereDirectional(vec3,vec3,vec3,vec3,vec3,vec3,vec3)",
+        "Kdiff * (max(dot(N, L), 0.0) * Ldiff + naiveHemisphere(N, axis, sky, ground))",
+    ),
+    (
+        "hemisphereSpecular(vec3,vec3,vec3,vec3,vec3,vec3,vec3,vec3)",
+        "Kdiff * (max(dot(N, L), 0.0) * Ldiff + naiveHemisphere(N, axis, sky, ground)) + Ispec",
+    ),
+    ("illumination(vec3,vec3,vec3)", "Iamb + Idiff + Ispec"),
+    ("illumination(vec3,vec3,vec3,float)", "Iamb + d * (Idiff + Ispec)"),
+    ("illumination(vec3,vec3,vec3,float,float)", "cspot * (Iamb + d * (Idiff + Ispec))"),
+    ("background(vec3,vec3,vec3)", "Kamb * Lglob + Lemi"),
+    ("barycentric(vec2,vec2,vec2,vec2)", "naiveBarycentric(P, P0, P1, P2)"),
+    ("interpolateLinear(vec2,vec4,vec4,vec4)", "(1.0 - uv.x - uv.y) * C0 + uv.x * C1 + uv.y * C2"),
+    (
+        "perspectiveWeights(vec2,vec3)",
+        "vec3((1.0 - uv.x - uv.y) / w.x, uv.x / w.y, uv.y / w.z) / ((1.0 - uv.x - uv.y) / w.x + uv.x / w.y + uv.y / w.z)",
+    ),
+    ("interpolatePerspective(vec2,vec3,vec4,vec4,vec4)", "naivePerspective(uv, w, C0, C1, C2)"),
+    ("segmentPoint(float,vec2,vec2)", "naiveSegment(t, a, b)"),
+    ("lambertFactor(vec3,vec3)", "max(dot(N, L), 0.0)"),
+    ("lambert(vec3,vec3,vec3,vec3)", "naiveLambert(N, L, Kdiff, Ldiff)"),
+    ("lambertUnclamped(vec3,vec3,vec3,vec3)", "naiveLambertUnclamped(N, L, Kdiff, Ldiff)"),
+    (
+        "lightVector(Light,vec3)",
+        "light.kind == LIGHT_DIRECTIONAL ? normalize(-light.direction) : normalize(light.position - P)",
+    ),
+    (
+        "lightAttenuation(Light,vec3)",
+        "light.kind == LIGHT_DIRECTIONAL ? 1.0 : naiveAttenuation(naiveDistance(light.position, P), light.attenuation)",
+    ),
+    (
+        "lightBeam(Light,vec3)",
+        "light.kind == LIGHT_SPOT ? naiveSpot(L, normalize(light.direction), light.exponent) : 1.0",
+    ),
+    ("lightDome(Light,vec3)", "naiveHemisphere(N, normalize(light.direction), light.diffuse, light.ambient)"),
+    ("lutCoordinate(float,float)", "(x * (n - 1.0) + 0.5) / n"),
+    ("normalMatrix(mat4)", "transpose(inverse(mat3(model)))"),
+    ("transformNormal(mat3,vec3)", "normalize(matrix * normal)"),
+    ("outlineDirection(vec4,vec4)", "vec3(normal.xy * position.w - position.xy * normal.w, 0.0)"),
+    (
+        "outlinePosition(vec4,vec3,float,float)",
+        "vec4(position.xy + width * normalize(direction.xy) * position.w, position.z - push * position.w, position.w)",
+    ),
+    ("mirrorDirection(vec3,vec3)", "naiveMirror(N, L)"),
+    ("phongFactor(vec3,vec3,vec3,float)", "naivePhong(N, L, V, shininess)"),
+    ("phong(vec3,vec3,vec3,float,vec3,vec3)", "naivePhong(N, L, V, shininess) * Kspec * Lspec"),
+    ("quartic(float)", "pow(max(x, 0.0), 4.0)"),
+    ("quarticFactor(vec3,vec3,vec3)", "naivePhong(N, L, V, 4.0)"),
+    ("safeLength(vec3)", "length(v)"),
+    ("safeNormalize(vec3)", "normalize(v)"),
+    ("safeLogOneMinus(float)", "log(1.0 - d)"),
+    ("safePowOneMinus(float,float)", "pow(1.0 - d, k)"),
+    ("safePow(float,float)", "naivePower(x, k)"),
+    ("safeOneMinusCos(vec3,vec3)", "1.0 - dot(a, b)"),
+    ("safeCosPow(vec3,vec3,float)", "naivePower(dot(a, b), k)"),
+    ("schlick(float,float)", "naiveSchlick(t, shininess)"),
+    ("schlickBetween(vec3,vec3,float)", "naiveSchlick(dot(a, b), shininess)"),
+    ("schlickBlinnFactor(vec3,vec3,vec3,float)", "naiveSchlick(max(dot(N, naiveHalf(L, V)), 0.0), shininess)"),
+    ("schlickPhongFactor(vec3,vec3,vec3,float)", "naiveSchlick(max(dot(naiveMirror(N, L), V), 0.0), shininess)"),
+    ("spotFactor(vec3,vec3,float)", "naiveSpot(L, Ldir, exponent)"),
+    ("thresholdStep(float,float)", "naiveThreshold(c, t)"),
+    ("thresholdFactor(vec3,vec3,vec3,float)", "naiveThreshold(dot(N, naiveHalf(L, V)), t)"),
+    ("threshold(vec3,vec3,vec3,float,vec3,vec3)", "naiveThreshold(dot(N, naiveHalf(L, V)), t) * Kspec * Lspec"),
+    (
+        "toonRamp(vec3,vec3,float,float,vec3,vec3)",
+        "mix(dark, lit, smoothstep(edge - width, edge + width, naiveHalfRange(N, L)))",
+    ),
+];
