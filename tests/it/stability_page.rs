@@ -143,7 +143,7 @@ fn the_page_of_a_degraded_scene_is_whole() {
         assert!(text.contains(&cause["help"].as_str().expect("a help").replace('`', "")), "{cause}");
         assert!(page.contains(&format!("id=\"s1-c{}\"", number + 1)));
         assert!(page.contains(&format!("href=\"#s1-f2-L{line}\"")), "the card links to the line");
-        assert!(text.contains(&format!("pixel ({}, {})", cause["where"]["x"], cause["where"]["y"])));
+        assert!(text.contains(&format!("Worst pixel({}, {})", cause["where"]["x"], cause["where"]["y"])));
     }
     assert!(text.contains("glisten stability fixtures/stability/planted/01_laser_beam.toml"));
     assert!(text.contains("141 times the accepted") && text.contains(env!("CARGO_PKG_VERSION")));

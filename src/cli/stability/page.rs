@@ -69,7 +69,9 @@ fn command(args: &StabilityArgs, done: &Done<'_>) -> String {
     if let Some(bound) = args.bound {
         words.push(format!("--bound {bound:?}"));
     }
-    for (set, word) in [(args.stiff, "--stiff"), (args.all, "--all"), (args.sources.strict, "--strict")] {
+    for (set, word) in
+        [(args.stiff, "--stiff"), (args.all, "--all"), (args.exact, "--exact"), (args.sources.strict, "--strict")]
+    {
         words.extend(set.then(|| word.to_owned()));
     }
     for (name, value) in &args.sources.defines {

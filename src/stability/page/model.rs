@@ -49,6 +49,7 @@ pub(super) fn scene(number: usize, one: &SceneOnPage<'_>) -> Value {
         pixels => errors.not_finite(),
         births => findings.non_finite,
         worst,
+        reference => findings.exact.as_ref().map(|exact| exact.sentence()),
         pictures => pictures(&examined.single, &examined.exact, &heat::heat(examined, bound)),
         is_clipped => is_clipped(&examined.exact),
         legend => legend(bound),
