@@ -149,7 +149,9 @@ pub(super) fn run(args: &StabilityArgs, console: &Console) -> Outcome {
             }
         };
         match examined(args, name, &read, console)? {
-            Ok((_, examined)) if !examined.exact.covered.contains(&true) && !examined.single.covered.contains(&true) => {
+            Ok((_, examined))
+                if !examined.exact.covered.contains(&true) && !examined.single.covered.contains(&true) =>
+            {
                 let nothing = vec![read.nothing_covered()];
                 exit = exit.max(read.finish(nothing)?).max(Exit::Content);
             }

@@ -40,10 +40,7 @@ const FEEDBACK: &str = "each iteration feeds the rounding of the last one back: 
 /// Whether an expression adds to a sum.
 fn adds(shader: &Shader, found: Found) -> bool {
     use glisten_front::hir::BinaryOp::{Add, Sub};
-    matches!(
-        shader.expr(found.expr).kind,
-        ExprKind::Binary(Add | Sub, ..) | ExprKind::Assign(Some(Add | Sub), ..)
-    )
+    matches!(shader.expr(found.expr).kind, ExprKind::Binary(Add | Sub, ..) | ExprKind::Assign(Some(Add | Sub), ..))
 }
 
 fn called(shader: &Shader, found: Found) -> Option<BuiltinFunction> {

@@ -24,7 +24,7 @@ pub use exact::{ExactFound, ExactPixelFound, with_exact};
 pub use findings::{CauseFound, Findings, PictureFigures, Spot, WorstPixel, find};
 pub use glisten_reference::stability::{
     BOUND, CAUSE_BITS, Cause, CauseKind, ErrorMap, Examination, ExamineOptions, Pair, SpanError, Stability, Trace,
-    examine, errors_of, inputs_at, pictures_of, trace,
+    errors_of, examine, inputs_at, pictures_of, trace,
 };
 pub use heat::heat;
 pub use rewrite::Reload;

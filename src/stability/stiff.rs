@@ -155,10 +155,11 @@ fn badness(scene: &Scene) -> Result<(u64, f64), Vec<Diagnostic>> {
     let pair = pictures_of(scene)?;
     let colors = pair.exact.attachments.first().map_or(&[][..], Vec::as_slice);
     // The error of a large color counts by its size: a search would only find large colors otherwise.
-    let relative = pair.errors.errors.iter().zip(colors).filter(|(error, _)| error.is_finite()).map(|(error, color)| {
-        let size = color.iter().map(|channel| channel.abs()).filter(|size| size.is_finite()).fold(1.0, f64::max);
-        error / size
-    });
+    let relative =
+        pair.errors.errors.iter().zip(colors).filter(|(error, _)| error.is_finite()).map(|(error, color)| {
+            let size = color.iter().map(|channel| channel.abs()).filter(|size| size.is_finite()).fold(1.0, f64::max);
+            error / size
+        });
     Ok((pair.errors.not_finite(), relative.fold(0.0, f64::max)))
 }
 
@@ -267,7 +268,8 @@ fn number(value: f64) -> String {
 }
 
 /// Words in names of colors, which stay below 1.
-const COLORS: &[&str] = &["col", "albedo", "ambient", "diffuse", "specular", "emission", "tint", "amb", "diff", "spec", "emi"];
+const COLORS: &[&str] =
+    &["col", "albedo", "ambient", "diffuse", "specular", "emission", "tint", "amb", "diff", "spec", "emi"];
 
 /// Words in names, and the values that a scalar of that name may take.
 const BY_NAME: &[(&[&str], &[f64])] = &[
@@ -275,7 +277,10 @@ const BY_NAME: &[(&[&str], &[f64])] = &[
     (&["time", "clock", "second", "phase"], &[0.0, 1.0, 3600.0, 86_400.0, 1e6]),
     (&["angle", "rotation", "cone", "fov"], &[0.0, 1e-4, 1.570_796_3, 3.141_592_7]),
     (&["dist", "radius", "range", "near", "far", "scale", "size"], &[1e-6, 1e-3, 1.0, 1e3, 1e6]),
-    (&["color", "colour", "albedo", "ambient", "diffuse", "specular", "emission", "tint", "intensity"], &[0.0, 1e-3, 1.0]),
+    (
+        &["color", "colour", "albedo", "ambient", "diffuse", "specular", "emission", "tint", "intensity"],
+        &[0.0, 1e-3, 1.0],
+    ),
     (&["rough", "metal", "alpha", "factor", "weight", "mix", "blend"], &[0.0, 1e-3, 0.5, 1.0]),
 ];
 

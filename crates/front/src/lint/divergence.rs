@@ -5,7 +5,10 @@
 //! its calls passes. A divergent condition makes what it guards divergent. If it guards a `return`, the rest of the
 //! function is divergent; if it may leave a loop, the whole loop is.
 
-use crate::hir::{ExprId, ExprKind, FunctionId, ParamMode, Shader, Stmt, StmtKind, Storage, VarRef};
+use crate::builtin::BuiltinVariable;
+use crate::hir::{
+    ExprId, ExprKind, FunctionId, Global, Interpolation, ParamMode, Shader, Stmt, StmtKind, Storage, VarRef,
+};
 use crate::link::usage::written_by;
 use rustc_hash::FxHashMap;
 
@@ -90,10 +93,7 @@ pub(super) fn divergent_calls(shader: &Shader) -> Vec<DivergentCall> {
 /// Whether an input may differ between the fragments of a quad, which belong to one primitive: a `flat` input does not
 /// (§4.3.9), nor does what a primitive has as a whole.
 fn differs_in_a_quad(global: &Global) -> bool {
-    let of_primitive = matches!(
-        global.builtin,
-        Some(BuiltinVariable::PrimitiveId | BuiltinVariable::FrontFacing | BuiltinVariable::Layer)
-    );
+    let of_primitive = matches!(global.builtin, Some(BuiltinVariable::PrimitiveId | BuiltinVariable::FrontFacing));
     global.storage == Storage::In && global.interpolation != Interpolation::Flat && !of_primitive
 }
 
