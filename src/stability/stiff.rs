@@ -14,6 +14,7 @@ use glisten_reference::stability::pictures_of;
 use glisten_scene::values::LeafShape;
 use glisten_scene::{AttributeValues, Scene};
 use serde::Serialize;
+use std::f64::consts::{FRAC_PI_2, PI};
 use std::fmt::Write;
 
 /// The number of pictures that a search draws at most.
@@ -275,7 +276,7 @@ const COLORS: &[&str] =
 const BY_NAME: &[(&[&str], &[f64])] = &[
     (&["shin", "expo", "power", "gloss", "sharp"], &[0.0, 0.01, 1.0, 32.0, 1000.0, 1e4]),
     (&["time", "clock", "second", "phase"], &[0.0, 1.0, 3600.0, 86_400.0, 1e6]),
-    (&["angle", "rotation", "cone", "fov"], &[0.0, 1e-4, 1.570_796_3, 3.141_592_7]),
+    (&["angle", "rotation", "cone", "fov"], &[0.0, 1e-4, FRAC_PI_2, PI]),
     (&["dist", "radius", "range", "near", "far", "scale", "size"], &[1e-6, 1e-3, 1.0, 1e3, 1e6]),
     (
         &["color", "colour", "albedo", "ambient", "diffuse", "specular", "emission", "tint", "intensity"],

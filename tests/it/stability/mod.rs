@@ -64,7 +64,7 @@ impl Case {
     }
 
     /// Whether the planted line is among the first two causes, whether its kind is right, and the verdict.
-    fn judge(&self, found: &Findings) -> [bool; 3] {
+    fn outcome(&self, found: &Findings) -> [bool; 3] {
         let name = |path: &str| Path::new(path).file_name().map(|name| name.to_string_lossy().into_owned());
         let hits = found.causes.iter().take(2).filter(|cause| name(&cause.file) == name(&self.file));
         let hits: Vec<&str> = hits.filter(|cause| self.lines().contains(&cause.line)).map(|cause| cause.kind).collect();
@@ -77,14 +77,14 @@ impl Case {
 #[test]
 fn planted_instabilities_are_found_and_sound_look_alikes_are_not_accused() {
     let cases = cases();
-    let judged: Vec<(&Case, Findings)> = cases.par_iter().map(|case| (case, found(&case.scene))).collect();
-    let (sound, planted): (Vec<_>, Vec<_>) = judged.iter().partition(|(case, _)| case.is_sound());
+    let compared: Vec<(&Case, Findings)> = cases.par_iter().map(|case| (case, found(&case.scene))).collect();
+    let (sound, planted): (Vec<_>, Vec<_>) = compared.iter().partition(|(case, _)| case.is_sound());
     assert!(planted.len() >= 60 && sound.len() >= 70, "{} planted, {} sound", planted.len(), sound.len());
     let accused: Vec<&str> =
         sound.iter().filter(|(_, found)| found.verdict != "stable").map(|(case, _)| case.scene.as_str()).collect();
     assert_eq!(accused, [] as [&str; 0], "sound scenes are accused");
     let missed = |which: usize| -> Vec<&str> {
-        planted.iter().filter(|(case, found)| !case.judge(found)[which]).map(|(case, _)| case.scene.as_str()).collect()
+        planted.iter().filter(|(case, found)| !case.outcome(found)[which]).map(|(case, _)| case.scene.as_str()).collect()
     };
     assert_eq!(missed(0), [] as [&str; 0], "the line is not among the first two causes");
     assert_eq!(missed(1), [] as [&str; 0], "the kind is wrong");

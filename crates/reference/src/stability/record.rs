@@ -252,7 +252,8 @@ impl Collected {
         for (order, recorder) in &parts {
             // Values that are the same for all invocations count with their stage: 0 with 2, 1 with 3.
             let stage = order.piece.stage();
-            for ((span, act), tally) in &recorder.tallies {
+            let tallies: BTreeMap<_, _> = recorder.tallies.iter().collect();
+            for ((span, act), tally) in tallies {
                 all.entry((stage, *span, *act)).or_default().join(tally);
             }
             if stage == Stage::Fragment {
