@@ -199,8 +199,11 @@ fn mark(page: &mut String, point: &Point<'_>, label: Option<usize>) {
 const NARROW: (f64, f64) = (250.0, 380.0);
 const LETTER: (f64, f64) = (7.4, 15.0);
 
+/// A place or a size, in pixels.
+type Pair = (f64, f64);
+
 /// The sides of a point on which its label may be: the offset of its center, in label sizes, and the gap in pixels.
-const SIDES: [((f64, f64), (f64, f64), &str); 6] = [
+const SIDES: [(Pair, Pair, &str); 6] = [
     ((0.5, 0.0), (13.0, 0.0), "e"),
     ((-0.5, 0.0), (-13.0, 0.0), "w"),
     ((0.0, -0.5), (0.0, -13.0), "n"),
@@ -214,7 +217,7 @@ const SIDES: [((f64, f64), (f64, f64), &str); 6] = [
 fn labels(points: &[Point<'_>]) -> Vec<Option<usize>> {
     let place = |point: &Point<'_>| (point.at.0 / 100.0 * NARROW.0, point.at.1 / 100.0 * NARROW.1);
     // Boxes: center, half of the size.
-    let mut taken: Vec<((f64, f64), (f64, f64))> = points.iter().map(|point| (place(point), (11.0, 11.0))).collect();
+    let mut taken: Vec<(Pair, Pair)> = points.iter().map(|point| (place(point), (11.0, 11.0))).collect();
     let mut found = Vec::with_capacity(points.len());
     for (index, point) in points.iter().enumerate() {
         let Some([segments, rings]) = point.way.tessellation else {
@@ -230,7 +233,7 @@ fn labels(points: &[Point<'_>]) -> Vec<Option<usize>> {
                 && center.0 + half.0 <= NARROW.0
                 && center.1 - half.1 >= 0.0
                 && center.1 + half.1 <= NARROW.1;
-            let clear = |(number, (other, size)): (usize, &((f64, f64), (f64, f64)))| {
+            let clear = |(number, (other, size)): (usize, &(Pair, Pair))| {
                 number == index
                     || (center.0 - other.0).abs() >= half.0 + size.0
                     || (center.1 - other.1).abs() >= half.1 + size.1
