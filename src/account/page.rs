@@ -2,7 +2,7 @@
 
 use super::listing::{Section, listing};
 use crate::report::grouped;
-use crate::report::raster::{color_uri, difference_uri};
+use crate::report::raster::{Decades, color_uri, difference_uri};
 use crate::specialize::{Account, DrawAccount, Figures, PictureError, Pictures, SpecializedDraw, SpecializedScene};
 use glisten_front::hir::Stage;
 use glisten_front::source::SourceMap;
@@ -57,7 +57,7 @@ fn scene(one: &SceneOnPage<'_>) -> Value {
         name => &one.account.scene,
         original => Value::from_safe_string(color_uri(original, one.scene.framebuffer.encode)),
         residual => Value::from_safe_string(color_uri(residual, one.scene.framebuffer.encode)),
-        difference => Value::from_safe_string(difference_uri(&differences(residual, original), original.width, original.height)),
+        difference => Value::from_safe_string(difference_uri(&differences(residual, original), original.width, original.height, Decades::ALL)),
         width => original.width,
         height => original.height,
         differing,

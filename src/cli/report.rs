@@ -5,6 +5,7 @@ use super::batch::Batch;
 use super::console::Console;
 use super::exit::{Exit, Failure, Outcome};
 use super::files;
+use super::made::made;
 use super::progress::Progress;
 use super::scenes::{DrawError, SceneArgs, ViaArg};
 use super::session::Session;
@@ -96,7 +97,7 @@ fn told(mut session: Session<'_>, sources: SourceMap, error: DrawError) -> Outco
 }
 
 fn write(args: &ReportArgs, console: &Console, report: &Report) -> Outcome {
-    let html = report.html().map_err(|error| Failure::new(Exit::Content, format!("internal error: {error}")))?;
+    let html = report.html(&made()).map_err(|error| Failure::new(Exit::Content, format!("internal error: {error}")))?;
     files::write(&args.output.join("report.json"), report.json().as_bytes())?;
     let page = args.output.join("report.html");
     files::write(&page, html.as_bytes())?;

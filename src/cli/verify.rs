@@ -48,7 +48,7 @@ pub(super) struct VerifyArgs {
     specialize: bool,
     #[command(flatten)]
     contract: WithContractArgs,
-    /// Write a picture of |difference| / bound: gray up to the bound, red beyond
+    /// Write a picture of |difference| / bound on black: blue up to the bound, yellow to red beyond
     #[arg(long, value_name = "FILE")]
     difference: Option<PathBuf>,
 }
@@ -158,6 +158,9 @@ pub(super) fn run(args: &VerifyArgs, console: &Console) -> Outcome {
         let (files, _) = target.encode(&verification.difference(), glisten_scene::picture::Transfer::Linear)?;
         for (path, bytes) in files {
             files::write(&path, &bytes)?;
+            let most = verification.shares.iter().fold(0.0, |most: f64, share| most.max(*share));
+            let most = if most.is_finite() { format!("at most {most:.2} of the bound; ") } else { String::new() };
+            console.remark(&format!("wrote {}: {most}{}", path.display(), verify::DIFFERENCE_LEGEND));
         }
     }
     let runs: Vec<Run> = verification.runs.iter().map(|run| Run::new(run, &verification)).collect();

@@ -57,10 +57,15 @@ impl Axis {
     }
 }
 
+/// The factor, to a tenth, and the exponent of a number.
+pub(crate) fn parts(tick: f64) -> (f64, f64) {
+    let exponent = tick.log10().floor();
+    ((tick / 10f64.powf(exponent) * 10.0).round() / 10.0, exponent)
+}
+
 /// A power of `10` with its exponent raised, and a factor before it if that is not 1.
 pub(crate) fn power(tick: f64) -> String {
-    let exponent = tick.log10().floor();
-    let factor = (tick / 10f64.powf(exponent) * 10.0).round() / 10.0;
+    let (factor, exponent) = parts(tick);
     let exponent = exponent.to_string().replace('-', "\u{2212}");
     let raised = format!("10<tspan dy=\"-5\" font-size=\"9.5\">{exponent}</tspan>");
     if factor == 1.0 { raised } else { format!("{factor}\u{b7}{raised}") }

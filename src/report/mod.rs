@@ -38,7 +38,7 @@ impl Report {
     ///
     /// # Errors
     /// The message of the template engine, which only a broken template causes.
-    pub fn html(&self) -> Result<String, String> {
-        page::page(self).map_err(|error| error.to_string())
+    pub fn html(&self, made: &crate::made::Made) -> Result<String, String> {
+        page::page(self, made).map_err(|error| error.to_string())
     }
 }

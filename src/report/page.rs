@@ -1,7 +1,9 @@
 //! The report as one HTML page that needs no other file.
 
 use super::model::{Figures, Report, Truth, Way};
+use super::raster::Decades;
 use super::{plot, raster};
+use crate::made::Made;
 use minijinja::{Environment, Value, context};
 
 const TEMPLATE: &str = include_str!("page.html");
@@ -11,11 +13,12 @@ const STYLE: &str = include_str!("page.css");
 ///
 /// # Errors
 /// The error of the template engine, which only a broken template causes.
-pub(super) fn page(report: &Report) -> Result<String, minijinja::Error> {
+pub(super) fn page(report: &Report, made: &Made) -> Result<String, minijinja::Error> {
+    let scale = scale(report);
     let mut environment = Environment::new();
     environment.add_template("page.html", TEMPLATE)?;
     let models: Vec<Value> =
-        report.truths.iter().enumerate().map(|(index, truth)| model(report, index, truth)).collect();
+        report.truths.iter().enumerate().map(|(index, truth)| model(report, index, truth, scale)).collect();
     let stops: Vec<String> = raster::SCALE.iter().map(|[r, g, b]| format!("rgb({r} {g} {b})")).collect();
     environment.get_template("page.html")?.render(context! {
         style => Value::from_safe_string(STYLE.into()),
@@ -25,8 +28,10 @@ pub(super) fn page(report: &Report) -> Result<String, minijinja::Error> {
         adapter => &report.adapter.name,
         driver => &report.adapter.driver,
         via => report.via,
-        plot => Value::from_safe_string(plot::svg(report)),
+        plot => Value::from_safe_string(plot::html(report)),
         scale => Value::from_safe_string(stops.join(", ")),
+        ticks => (scale.low..=scale.high).map(decade).collect::<Vec<_>>(),
+        made => context! { command => &made.command, version => &made.version, date => &made.date },
         models,
         baseline => &report.timing.baseline,
         baseline_ms => format!("{:.3}", report.timing.baseline_ms),
@@ -37,14 +42,14 @@ pub(super) fn page(report: &Report) -> Result<String, minijinja::Error> {
     })
 }
 
-fn model(report: &Report, index: usize, truth: &Truth) -> Value {
-    let members: Vec<&Way> = report.ways.iter().filter(|way| way.model == truth.model).collect();
+fn model(report: &Report, index: usize, truth: &Truth, scale: Decades) -> Value {
+    let numbered = || report.ways.iter().enumerate().filter(|(_, way)| way.model == truth.model);
+    let members: Vec<&Way> = numbered().map(|(_, way)| way).collect();
     let names = plot::names(&members);
-    let ways: Vec<Value> = members
-        .iter()
-        .map(|way| {
+    let ways: Vec<Value> = numbered()
+        .map(|(number, way)| {
             let shape = names.iter().position(|name| *name == way.name).unwrap_or(0);
-            row(report, way, shape)
+            row(report, (number, way), shape, scale)
         })
         .collect();
     let front: Vec<Value> = front(&members);
@@ -62,10 +67,11 @@ fn model(report: &Report, index: usize, truth: &Truth) -> Value {
     }
 }
 
-fn row(report: &Report, way: &Way, shape: usize) -> Value {
+fn row(report: &Report, (number, way): (usize, &Way), shape: usize, scale: Decades) -> Value {
     let [width, height] = report.size;
     let mark = format!("<svg viewBox=\"-9 -9 18 18\" class=\"key\">{}</svg>", plot::marker(shape, 0.0, 0.0));
     context! {
+        number,
         mark => Value::from_safe_string(mark),
         name => &way.name,
         mesh => mesh(way.tessellation),
@@ -83,7 +89,21 @@ fn row(report: &Report, way: &Way, shape: usize) -> Value {
         high => ratio(way.ratio.high),
         pareto => way.pareto,
         picture => Value::from_safe_string(raster::color_uri(&way.picture, report.encode)),
-        difference => Value::from_safe_string(raster::difference_uri(&way.difference, width, height)),
+        difference => Value::from_safe_string(raster::difference_uri(&way.difference, width, height, scale)),
+    }
+}
+
+/// The scale for the differences of all ways, so that their colors mean the same.
+fn scale(report: &Report) -> Decades {
+    Decades::of(report.ways.iter().flat_map(|way| way.difference.iter().flatten().copied()))
+}
+
+/// `10^-3`; 0 as 1.
+fn decade(exponent: i32) -> String {
+    if exponent == 0 {
+        "1".to_owned()
+    } else {
+        scientific(10f64.powi(exponent)).split('\u{d7}').next_back().unwrap_or("").trim().to_owned()
     }
 }
 
@@ -149,7 +169,7 @@ pub(crate) fn grouped(value: u64) -> String {
 }
 
 #[cfg(test)]
-mod tests {
+pub(in crate::report) mod tests {
     use super::super::figures::{compare, mark_pareto};
     use super::super::model::{Adapter, Spread, Timing};
     use super::*;
@@ -165,7 +185,7 @@ mod tests {
         }
     }
 
-    fn example() -> Report {
+    pub(in crate::report) fn example() -> Report {
         let mut ways = Vec::new();
         for model in ["Phong", "Blinn-Phong"] {
             for (stage, base_error, base_time) in [("per fragment", 2e-3, 1.4), ("per vertex", 0.2, 1.0)] {
@@ -219,7 +239,19 @@ mod tests {
     #[test]
     fn the_page_is_whole_and_alone() {
         let report = example();
-        let page = page(&report).expect("the template is good");
+        let made = Made::new(&["report".to_owned(), "<a>.toml".to_owned()], 86_400);
+        let page = page(&report, &made).expect("the template is good");
+        for told in
+            ["glisten report &#x27;&lt;a&gt;.toml&#x27;", "1970-01-02", env!("CARGO_PKG_VERSION"), "driver Mesa"]
+        {
+            assert!(page.contains(told), "{told}");
+        }
+        // Every point of the plot leads to a card.
+        for number in 0..report.ways.len() {
+            assert!(
+                page.contains(&format!("href=\"#way-{number}\"")) && page.contains(&format!("id=\"way-{number}\""))
+            );
+        }
         assert!(page.contains("sphere &lt;&amp;&gt;: error against run time"), "the scene's name is escaped");
         // One truth per model; a picture and its difference per way.
         assert_eq!(page.matches("<img src=\"data:image/png;base64,").count(), 2 + 2 * report.ways.len());
@@ -227,7 +259,7 @@ mod tests {
         for outside in ["http://", "https://", "src=\"/", "<link", "@import"] {
             assert!(!page.contains(outside), "{outside}");
         }
-        let rings = page.matches("class=\"ring\"").count();
+        let rings = page.matches("class=\"dot ring\"").count();
         assert_eq!(rings, report.ways.iter().filter(|way| way.pareto).count());
     }
 
@@ -244,6 +276,7 @@ mod tests {
     fn numbers_for_people() {
         assert_eq!(scientific(1.25e-13), "1.2\u{202f}\u{d7}\u{202f}10\u{207b}\u{b9}\u{b3}");
         assert_eq!(scientific(0.0), "0");
+        assert_eq!([decade(-3), decade(0), decade(-7)], ["10\u{207b}\u{b3}", "1", "10\u{207b}\u{2077}"]);
         assert_eq!(grouped(1_234_567), "1\u{202f}234\u{202f}567");
         assert_eq!(grouped(12), "12");
     }

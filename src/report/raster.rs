@@ -1,13 +1,34 @@
 //! Encodes the pictures of a report as PNG data URIs.
 //!
 //! *Holds:* colors are clamped to [0, 1] and rounded to 8 bits, encoded as the scene says, as in `glisten render`;
-//! non-finite colors are magenta. Differences have a logarithmic scale from [`FLOOR`] to 1; pixels that only one picture covers
+//! non-finite colors are magenta. Differences have a logarithmic scale of some [`Decades`]; pixels that only one picture covers
 //! are cyan.
 
 use glisten_scene::picture::{Effort, Picture, Transfer, png_rgb, visible_rgb};
 
-/// The largest difference that is drawn black.
-pub(super) const FLOOR: f64 = 1e-7;
+/// The differences between which the colors lie, in powers of ten: at the low one and below, a pixel is black.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Decades {
+    pub(crate) low: i32,
+    pub(crate) high: i32,
+}
+
+impl Decades {
+    /// From the rounding of f32 to full intensity.
+    pub(crate) const ALL: Self = Self { low: -7, high: 0 };
+    /// The number of decades that a scale has: fewer tell more of differences that are alike.
+    const SPAN: i32 = 4;
+
+    /// The scale for some differences: up to the power of ten above the largest.
+    pub(crate) fn of(differences: impl Iterator<Item = f64>) -> Self {
+        let most = differences.filter(|difference| difference.is_finite()).fold(0.0, f64::max);
+        if most <= 0.0 {
+            return Self::ALL;
+        }
+        let high = (most.log10().ceil() as i32).clamp(Self::ALL.low + Self::SPAN, Self::ALL.high);
+        Self { low: high - Self::SPAN, high }
+    }
+}
 
 /// The colors of the difference scale, dark to light, in equal steps; colors between them are interpolated.
 pub(super) const SCALE: [[u8; 3]; 8] = [
@@ -29,18 +50,18 @@ pub(crate) fn color_uri(picture: &Picture, by: Transfer) -> String {
 }
 
 /// The differences from the truth as a PNG data URI.
-pub(crate) fn difference_uri(differences: &[Option<f64>], width: u32, height: u32) -> String {
+pub(crate) fn difference_uri(differences: &[Option<f64>], width: u32, height: u32, scale: Decades) -> String {
     let pixels = differences.iter().map(|difference| match difference {
-        Some(difference) => scale_color(*difference),
+        Some(difference) => scale_color(*difference, scale),
         None => [0, 200, 220],
     });
     data_uri(&pixels.collect::<Vec<_>>(), width, height)
 }
 
 /// The color of a difference.
-fn scale_color(difference: f64) -> [u8; 3] {
-    let decades = -FLOOR.log10();
-    let place = ((difference.max(FLOOR).log10() + decades) / decades).clamp(0.0, 1.0) * (SCALE.len() - 1) as f64;
+fn scale_color(difference: f64, Decades { low, high }: Decades) -> [u8; 3] {
+    let part = (difference.max(f64::MIN_POSITIVE).log10() - f64::from(low)) / f64::from(high - low);
+    let place = part.clamp(0.0, 1.0) * (SCALE.len() - 1) as f64;
     let index = (place as usize).min(SCALE.len() - 2);
     let [low, high] = [SCALE[index], SCALE[index + 1]];
     let mix = place - index as f64;
@@ -87,8 +108,13 @@ mod tests {
 
     #[test]
     fn the_scale_ends_where_it_says() {
-        assert_eq!(scale_color(0.0), SCALE[0]);
-        assert_eq!(scale_color(1.0), SCALE[7]);
-        assert_eq!(scale_color(100.0), SCALE[7]);
+        let scale = Decades::of([0.0, 0.03, 1e-9].into_iter());
+        assert_eq!(scale, Decades { low: -5, high: -1 });
+        assert_eq!([0.0, 1e-5, 0.1, 100.0].map(|x| scale_color(x, scale)), [SCALE[0], SCALE[0], SCALE[7], SCALE[7]]);
+        // A factor of ten is seen.
+        assert_ne!(scale_color(1e-3, scale), scale_color(1e-2, scale));
+        assert_eq!(Decades::of([0.0].into_iter()), Decades::ALL);
+        assert_eq!(Decades::of([1e-12].into_iter()), Decades { low: -7, high: -3 });
+        assert_eq!(Decades::of([7.0].into_iter()), Decades { low: -4, high: 0 });
     }
 }

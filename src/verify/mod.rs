@@ -160,16 +160,33 @@ impl Verification {
         conclusions.max().unwrap_or(Conclusion::Inconclusive)
     }
 
-    /// A picture of [`shares`](Self::shares): gray up to the allowed difference, red above it.
+    /// A picture of [`shares`](Self::shares), on black: see [`DIFFERENCE_LEGEND`].
     pub fn difference(&self) -> Picture {
         difference(&self.reference, &self.shares)
     }
 }
 
-/// The picture of `shares` ([`compare::shares`]) in the size of the reference's: gray up to 1, red above.
+/// The meaning of the colors of a [difference](Verification::difference).
+pub const DIFFERENCE_LEGEND: &str = "black: equal; to bright blue: up to the bound; yellow to red: up to and beyond ten \
+                                     times the bound; magenta: covered or finite on one side alone";
+
+/// The picture of `shares` ([`compare::shares`]) in the size of the reference's, by the colors of
+/// [`DIFFERENCE_LEGEND`].
 pub fn difference(reference: &Picture, shares: &[f64]) -> Picture {
-    let color = |share: &f64| if *share > 1.0 { [1.0, 0.0, 0.0, 1.0] } else { [*share, *share, *share, 1.0] };
-    Picture::of_colors(reference.width, reference.height, shares.iter().map(color).collect())
+    Picture::of_colors(reference.width, reference.height, shares.iter().map(|share| share_color(*share)).collect())
+}
+
+/// The color of a difference relative to its bound. Within the bound, all colors are calm ones.
+fn share_color(share: f64) -> [f64; 4] {
+    let mix = |from: [f64; 3], to: [f64; 3], x: f64| {
+        let [r, g, b] = std::array::from_fn(|i| from[i] * (1.0 - x) + to[i] * x);
+        [r, g, b, 1.0]
+    };
+    match share {
+        _ if !share.is_finite() => [1.0, 0.0, 1.0, 1.0],
+        _ if share > 1.0 => mix([1.0, 0.9, 0.2], [1.0, 0.0, 0.0], share.log10().min(1.0)),
+        _ => mix([0.0; 3], [0.25, 0.55, 1.0], share.max(0.0)),
+    }
 }
 
 /// The failures, as the message of a test: a line for each run, and the folder with the pictures.
@@ -251,4 +268,25 @@ pub fn verify(scene: &Scene, runners: &[&dyn Runner], options: &Options<'_>) -> 
         verification.pictures = Some(written);
     }
     Ok(verification)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{difference, share_color};
+    use glisten_scene::picture::Picture;
+
+    /// Nothing within the bound is red, and nothing beyond it is blue.
+    #[test]
+    fn differences_are_calm_up_to_the_bound() {
+        assert_eq!(share_color(0.0), [0.0, 0.0, 0.0, 1.0]);
+        for step in 0..=100 {
+            let [red, _, blue, _] = share_color(f64::from(step) / 100.0);
+            assert!(blue >= red, "{step}");
+            let [red, _, blue, _] = share_color(1.001 + f64::from(step));
+            assert!(red > blue, "{step}");
+        }
+        assert_eq!(share_color(f64::INFINITY), share_color(f64::NAN));
+        let reference = Picture::of_colors(2, 1, vec![[0.0; 4]; 2]);
+        assert_eq!(difference(&reference, &[0.0, 99.0]).attachments[0], [[0.0, 0.0, 0.0, 1.0], [1.0, 0.0, 0.0, 1.0]]);
+    }
 }

@@ -59,12 +59,11 @@ fn at_vertex(draw: &Draw, vertex: &Vertex) -> Result<[f64; 3], String> {
     Sample::new(draw, (&[], &Used::default()), (vertex.place, vertex.normal), &|_| None).color()
 }
 
+/// Compares a fragment with the color that is drawn.
+type Comparison<'a> = &'a mut dyn FnMut(&Scene, &Fragment<'_>, &[f64; 4]) -> Result<(), String>;
+
 /// Draws some triangles one by one and calls `compare` for fragments inside; returns how many there were.
-fn each_fragment(
-    scene: &Scene,
-    draw: usize,
-    compare: &mut dyn FnMut(&Scene, &Fragment<'_>, &[f64; 4]) -> Result<(), String>,
-) -> Result<usize, String> {
+fn each_fragment(scene: &Scene, draw: usize, compare: Comparison<'_>) -> Result<usize, String> {
     let mut scene = alone(scene, draw);
     let all = vertices(&scene.draws[0]);
     let count = scene.draws[0].vertex_count;

@@ -160,9 +160,7 @@ impl Walk<'_> {
 
     fn body(&mut self, body: &[Stmt], mut state: State, exits: &mut Exits) -> State {
         for (index, statement) in body.iter().enumerate() {
-            if state.is_none() {
-                return None;
-            }
+            state.as_ref()?;
             let hidden = matches!(statement.kind, StmtKind::Return(_)) && self.hides(body.get(..index).unwrap_or(&[]));
             state = self.statement(statement, state, exits);
             if hidden {
