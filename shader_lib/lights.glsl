@@ -60,6 +60,7 @@ struct Material {
 
 // The unit vector L from the shaded point P towards the light. It is zero if there is none: at a point light, for a
 // directional light without a direction, for a hemisphere.
+// bound: 2.4e-7 abs
 vec3 lightVector(Light light, vec3 P)
 {
     if (light.kind == LIGHT_HEMISPHERE)
@@ -68,12 +69,14 @@ vec3 lightVector(Light light, vec3 P)
 }
 
 // The attenuation d (96) at the point P; 1 for directional lights.
+// bound: 3e-7 rel
 float lightAttenuation(Light light, vec3 P)
 {
     return light.kind == LIGHT_DIRECTIONAL ? 1.0 : attenuation(lightDistance(light.position, P), light.attenuation);
 }
 
 // The factor c_spot (98) of the beam for the unit vector L towards the light; 1 for lights other than spots.
+// bound: 2.4e-7 abs
 float lightBeam(Light light, vec3 L)
 {
     return light.kind == LIGHT_SPOT ? spotFactor(L, safeNormalize(light.direction), light.exponent) : 1.0;
@@ -81,6 +84,7 @@ float lightBeam(Light light, vec3 L)
 
 // The light of a hemisphere, linear RGB.
 //   light  the light    N  unit normal
+// bound: 2.4e-7 rel
 vec3 lightDome(Light light, vec3 N)
 {
     return hemisphere(N, safeNormalize(light.direction), light.diffuse, light.ambient);
@@ -88,6 +92,7 @@ vec3 lightDome(Light light, vec3 N)
 
 // One term of the sum in (101), linear RGB.
 //   light, material  the light and the material    P  shaded point    N  unit normal    V  unit vector towards the eye
+// bound: 2.4e-7 rel
 vec3 lightTerm(Light light, Material material, vec3 P, vec3 N, vec3 V)
 {
     if (light.kind == LIGHT_HEMISPHERE)
