@@ -59,6 +59,10 @@ mod shader_test;
 mod snapshots;
 #[cfg(feature = "reference")]
 mod specialize;
+#[cfg(feature = "cli")]
+mod stability_exact;
+#[cfg(feature = "cli")]
+mod stability_library;
 mod support;
 mod witness;
 mod words;

@@ -67,6 +67,8 @@ pub struct Naive {
     pub verdict: Verdict,
     /// The number of those that are not finite in exact arithmetic either: the equation has no value there.
     pub undefined: usize,
+    /// The arguments with the largest error, or those of the first result that is not finite.
+    pub at: BTreeMap<String, Vec<f64>>,
     /// The smallest and the largest number among the finite results.
     pub range: [f64; 2],
     /// The operations of a call of the function and of the naive form.
@@ -258,6 +260,7 @@ pub(super) fn judge_naive(
         verdict: figures.verdict(),
         undefined: figures.undefined,
         figures,
+        at: BTreeMap::new(),
         range,
         operations: [0.0; 2],
         ratio: None,

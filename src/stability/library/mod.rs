@@ -175,6 +175,7 @@ fn naive_of(
     };
     let (naive, raw, nothing) = (calls(body, &wraps)?, calls(body, &[])?, calls(&format!("{returns}(0.0)"), &wraps)?);
     let mut found = judge_naive(form, [&naive, &raw], inputs, bound, body)?;
+    found.at = found.figures.arguments(&function.declaration);
     found.count_operations([stable, &naive, &nothing], inputs)?;
     Ok(found)
 }
