@@ -14,11 +14,19 @@ static EQUATIONS: &[(&str, &str, &str)] = &[
     ("(82)", "lambertUnclamped(vec3,vec3,vec3,vec3)", "nowhere, for unit vectors"),
     ("(83)", "lambertFactor(vec3,vec3)", "nowhere; the sign of a grazing N.L is that of its rounding"),
     ("(84)", "mirrorDirection(vec3,vec3)", "nowhere"),
-    ("(86)", "phongFactor(vec3,vec3,vec3,float)", "large exponents multiply the rounding of R.V near 1, which may exceed 1; 0^0"),
+    (
+        "(86)",
+        "phongFactor(vec3,vec3,vec3,float)",
+        "large exponents multiply the rounding of R.V near 1, which may exceed 1; 0^0",
+    ),
     ("(87)", "halfVector(vec3,vec3)", "L = -V is 0 / 0"),
     ("(89)", "blinnPhongFactor(vec3,vec3,vec3,float)", "as (86), and L = -V"),
     ("(90)", "schlick(float,float)", "t = K = 0 is 0 / 0; between vectors K - t K cancels near t = 1"),
-    ("(90)", "schlickBetween(vec3,vec3,float)", "t above 1 by rounding, times K; the pole at t = -K / (1 - K) for t below 0"),
+    (
+        "(90)",
+        "schlickBetween(vec3,vec3,float)",
+        "t above 1 by rounding, times K; the pole at t = -K / (1 - K) for t below 0",
+    ),
     ("(91)", "thresholdStep(float,float)", "-1 where c + 1 <= t, that is at c = 0, t = 1"),
     ("(91)", "thresholdFactor(vec3,vec3,vec3,float)", "2 where rounding makes N.H larger than 1 and t = 0; L = -V"),
     ("(94)", "lightDistance(vec3,vec3)", "the square overflows from 1.8e19 on, and vanishes below 1.1e-19"),
@@ -33,19 +41,25 @@ static EQUATIONS: &[(&str, &str, &str)] = &[
     ("(108)", "interpolatePerspective(vec2,vec3,vec4,vec4,vec4)", "1 / w overflows or vanishes for w beyond 1e38"),
     ("N'", "normalMatrix(mat4)", "a singular matrix has no inverse"),
     ("N'", "transformNormal(mat3,vec3)", "normals whose squared length overflows or vanishes"),
-    ("hemisphere", "hemisphere(vec3,vec3,vec3,vec3)", "near a pole, the weight of the other half is a difference that cancels"),
+    (
+        "hemisphere",
+        "hemisphere(vec3,vec3,vec3,vec3)",
+        "near a pole, the weight of the other half is a difference that cancels",
+    ),
 ];
 
 /// The table.
 pub(crate) fn equations() -> Result<String, String> {
     let mut options = LibraryOptions { cases: CASES, only: None, progress: &mut |_, _, _| {} };
     let found = examine_library(&mut options).map_err(|error| error.message)?;
-    let mut text = "| equation | function | as printed: verdict | error | not finite | results | library: error | operations | \
+    let mut text =
+        "| equation | function | as printed: verdict | error | not finite | results | library: error | operations | \
         where the printed form breaks |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- |\n"
-        .to_owned();
+            .to_owned();
     for (equation, signature, place) in EQUATIONS {
         let function = found.iter().find(|found| found.signature == *signature);
-        let row = function.and_then(|function| row(function)).ok_or_else(|| format!("`{signature}` has no naive form"))?;
+        let row =
+            function.and_then(|function| row(function)).ok_or_else(|| format!("`{signature}` has no naive form"))?;
         let _ = writeln!(text, "| {equation} | {row} | {place} |");
     }
     Ok(text)

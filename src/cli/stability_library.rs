@@ -60,10 +60,10 @@ fn table(found: &[FunctionFound]) -> String {
         "function", "verdict", "error", "bound", "max abs", "condition", "naive", "not finite", "cost"
     );
     for found in found {
-        let bound = found.bound.as_ref().map_or_else(
-            || "none".to_owned(),
-            |bound| format!("{:.0e} {}", bound.error, bound.unit.name()),
-        );
+        let bound = found
+            .bound
+            .as_ref()
+            .map_or_else(|| "none".to_owned(), |bound| format!("{:.0e} {}", bound.error, bound.unit.name()));
         let figures = &found.figures;
         text += &format!(
             "{:width$}  {:8}  {:8.1e}  {bound:>11}  {:8.1e}  {:9.1e} | {}\n",

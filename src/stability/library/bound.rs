@@ -49,7 +49,8 @@ impl Bound {
     /// What is wrong with it.
     pub fn parse(text: &str) -> Result<Self, String> {
         let (figures, reason) = text.split_once(',').unwrap_or((text, ""));
-        let (number, unit) = figures.trim().split_once(' ').ok_or_else(|| format!("`{text}` has no unit: abs, rel or color"))?;
+        let (number, unit) =
+            figures.trim().split_once(' ').ok_or_else(|| format!("`{text}` has no unit: abs, rel or color"))?;
         let error = number.parse::<f64>().ok().filter(|error| *error >= 0.0 && error.is_finite());
         let unit = match unit.trim() {
             "abs" => BoundUnit::Abs,

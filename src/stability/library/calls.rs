@@ -119,7 +119,10 @@ pub(super) fn brightest(form: &Form, inputs: &[f32], width: usize) -> Vec<f64> {
     let places: Vec<usize> =
         places(form).into_iter().filter(|(kind, _)| is_color(kind)).flat_map(|(_, range)| range).collect();
     let brightest = |row: &[f32]| {
-        places.iter().filter_map(|place| row.get(*place)).fold(1.0, |most, number| f64::max(most, f64::from(number.abs())))
+        places
+            .iter()
+            .filter_map(|place| row.get(*place))
+            .fold(1.0, |most, number| f64::max(most, f64::from(number.abs())))
     };
     inputs.chunks(width.max(1)).map(brightest).collect()
 }

@@ -14,7 +14,8 @@ static DISTANCES: &[f64] = &[1e-30, 1e-20, 1e-19, 1e-12, 1e-6, 1e-3, 1.0, 1e3, 1
 static SIZES: &[f64] = &[0.0, 1e-37, 1e-30, 1e-20, 1e-10, 1e-3, 1.0, 1e3, 1e10, 1.8e19, 1e20, 1e30, 3e38];
 static COLORS: &[f64] = &[0.0, 1e-30, 1e-6, 1e-3, 0.5, 1.0];
 static INTENSITIES: &[f64] = &[0.0, 1e-6, 1.0, 4.0, 1e4];
-static UNITS: &[f64] = &[0.0, 1e-30, 1e-7, 1e-3, 0.25, 0.5, 0.875, 1.0 - 1e-3, 1.0 - 1e-6, 1.0 - 1.0 / 16_777_216.0, 1.0];
+static UNITS: &[f64] =
+    &[0.0, 1e-30, 1e-7, 1e-3, 0.25, 0.5, 0.875, 1.0 - 1e-3, 1.0 - 1e-6, 1.0 - 1.0 / 16_777_216.0, 1.0];
 
 /// Appends the numbers of a kind.
 pub(super) fn fill(kind: InputKind, random: &mut Random, to: &mut Vec<f64>) {
@@ -40,7 +41,9 @@ fn stiff(kind: InputKind, random: &mut Random, to: &mut Vec<f64>) {
         InputKind::Any4 => to.extend([sized(random), sized(random), sized(random), sized(random)]),
         InputKind::Unit => to.push(random.pick(UNITS)),
         InputKind::Signed => to.push(signed(random, UNITS)),
-        InputKind::Distance01 => to.push(random.pick(&[0.0, 1e-30, 1e-12, 1e-8, 1e-7, 1e-3, 0.125, 0.1250001, 0.5, 1.0])),
+        InputKind::Distance01 => {
+            to.push(random.pick(&[0.0, 1e-30, 1e-12, 1e-8, 1e-7, 1e-3, 0.125, 0.1250001, 0.5, 1.0]))
+        }
         InputKind::Exponent => to.push(random.pick(EXPONENTS)),
         InputKind::Size => to.push(random.pick(&[1.0, 2.0, 3.0, 256.0, 4096.0])),
         InputKind::Direction => to.extend(axis(random)),
@@ -48,7 +51,9 @@ fn stiff(kind: InputKind, random: &mut Random, to: &mut Vec<f64>) {
         InputKind::Opposed => to.extend(pair(random, -1.0)),
         InputKind::Lighting => to.extend(lighting(random).into_iter().flatten()),
         InputKind::Color => to.extend([random.pick(COLORS), random.pick(COLORS), random.pick(COLORS)]),
-        InputKind::Intensity => to.extend([random.pick(INTENSITIES), random.pick(INTENSITIES), random.pick(INTENSITIES)]),
+        InputKind::Intensity => {
+            to.extend([random.pick(INTENSITIES), random.pick(INTENSITIES), random.pick(INTENSITIES)])
+        }
         InputKind::Gain => to.push(random.pick(&[0.0, 1e-6, 1.0, 2.0])),
         InputKind::Width => to.push(random.pick(&[0.0, 1e-7, 1e-4, 0.01, 0.5])),
         InputKind::Distance => to.push(random.pick(DISTANCES)),
@@ -66,9 +71,13 @@ fn stiff(kind: InputKind, random: &mut Random, to: &mut Vec<f64>) {
             let w = random.pick(&[1e-30, 1e-6, 1e-3, 1.0, 1e3, 1e6]);
             to.extend([random.range(-1.0, 1.0) * w, random.range(-1.0, 1.0) * w, random.range(-1.0, 1.0) * w, w]);
         }
-        InputKind::Four => to.extend([signed(random, COLORS), signed(random, COLORS), signed(random, COLORS), signed(random, COLORS)]),
+        InputKind::Four => {
+            to.extend([signed(random, COLORS), signed(random, COLORS), signed(random, COLORS), signed(random, COLORS)])
+        }
         InputKind::Two => to.extend(triangle_corner(random, to)),
-        InputKind::Barycentric => to.extend(random.pick(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [0.5, 0.5], [1e-7, 1e-7], [1.0 - 1e-6, 5e-7]])),
+        InputKind::Barycentric => {
+            to.extend(random.pick(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [0.5, 0.5], [1e-7, 1e-7], [1.0 - 1e-6, 5e-7]]))
+        }
         InputKind::Depths => {
             const DEPTHS: &[f64] = &[1e-30, 1e-6, 1e-3, 1.0, 1e3, 1e6, 1e30];
             to.extend([random.pick(DEPTHS), random.pick(DEPTHS), random.pick(DEPTHS)]);
@@ -90,7 +99,14 @@ fn sized(random: &mut Random) -> f64 {
 }
 
 fn axis(random: &mut Random) -> V {
-    random.pick(&[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, -1.0], [0.0, -1.0, 0.0], [-1.0, 0.0, 0.0]])
+    random.pick(&[
+        [1.0, 0.0, 0.0],
+        [0.0, 1.0, 0.0],
+        [0.0, 0.0, 1.0],
+        [0.0, 0.0, -1.0],
+        [0.0, -1.0, 0.0],
+        [-1.0, 0.0, 0.0],
+    ])
 }
 
 /// A direction, or an axis, whose numbers are exact.
@@ -100,12 +116,15 @@ fn any_direction(random: &mut Random) -> V {
 
 /// A direction at right angles to `a`.
 fn across(random: &mut Random, a: V) -> V {
-    unit(cross(a, loop {
-        let b = any_direction(random);
-        if dot(a, b).abs() < 0.9 {
-            break b;
-        }
-    }))
+    unit(cross(
+        a,
+        loop {
+            let b = any_direction(random);
+            if dot(a, b).abs() < 0.9 {
+                break b;
+            }
+        },
+    ))
 }
 
 /// `sign a`, turned by a small angle.

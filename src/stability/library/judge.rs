@@ -105,7 +105,11 @@ fn truth(calls: &Calls, inputs: &[f32], single: &Rows) -> Result<(Rows, bool), E
     order.truncate(CHECKED);
     let width = calls.width();
     let rows = order.iter().filter_map(|row| inputs.get(row * width..(row + 1) * width));
-    let exact = if width == 0 { double.clone() } else { calls.results(&rows.flatten().copied().collect::<Vec<_>>(), Arithmetic::Exact)? };
+    let exact = if width == 0 {
+        double.clone()
+    } else {
+        calls.results(&rows.flatten().copied().collect::<Vec<_>>(), Arithmetic::Exact)?
+    };
     let is_enough = order.iter().zip(&exact).all(|(row, exact)| {
         let double = &double[*row];
         !is_finite(exact) || apart(exact, double) <= errors[*row] / 16.0 + ulp(size(exact)) / 16.0
@@ -254,7 +258,8 @@ pub(super) fn judge_naive(
     let figures = judge(form, calls, inputs, bound)?;
     let single = calls[0].results(inputs, Arithmetic::Single)?;
     let finite = single.iter().filter(|row| is_finite(row)).flatten();
-    let range = finite.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], number| [low.min(*number), high.max(*number)]);
+    let range =
+        finite.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], number| [low.min(*number), high.max(*number)]);
     Ok(Naive {
         form: text.to_owned(),
         verdict: figures.verdict(),

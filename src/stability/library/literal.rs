@@ -85,5 +85,8 @@ static LITERAL: &[(&str, &str)] = &[
     ("thresholdStep(float,float)", "naiveThreshold(c, t)"),
     ("thresholdFactor(vec3,vec3,vec3,float)", "naiveThreshold(dot(N, naiveHalf(L, V)), t)"),
     ("threshold(vec3,vec3,vec3,float,vec3,vec3)", "naiveThreshold(dot(N, naiveHalf(L, V)), t) * Kspec * Lspec"),
-    ("toonRamp(vec3,vec3,float,float,vec3,vec3)", "mix(dark, lit, smoothstep(edge - width, edge + width, naiveHalfRange(N, L)))"),
+    (
+        "toonRamp(vec3,vec3,float,float,vec3,vec3)",
+        "mix(dark, lit, smoothstep(edge - width, edge + width, naiveHalfRange(N, L)))",
+    ),
 ];

@@ -115,7 +115,11 @@ pub fn examine_library(options: &mut LibraryOptions<'_>) -> Result<Vec<FunctionF
     Ok(found)
 }
 
-fn examine_function(function: &FunctionEntry, form: &'static Form, cases: usize) -> Result<FunctionFound, EvaluateError> {
+fn examine_function(
+    function: &FunctionEntry,
+    form: &'static Form,
+    cases: usize,
+) -> Result<FunctionFound, EvaluateError> {
     let include = format!("#include <glisten/{}.glsl>\n", form.module);
     let calls = Calls::new(&include, form.signature, &form.wraps())?;
     let rows = if calls.width() == 0 { 1 } else { cases };

@@ -1,8 +1,8 @@
 //! [`draw`]: a picture in one of the arithmetics that an examination compares.
 
+use crate::RenderOptions;
 use crate::domain::{Exact, F64, Shadow};
 use crate::pipeline::{self, Study};
-use crate::RenderOptions;
 use glisten_front::diagnostic::Diagnostic;
 use glisten_scene::Scene;
 use glisten_scene::picture::Picture;

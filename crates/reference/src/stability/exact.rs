@@ -6,9 +6,9 @@
 //!
 //! *Not done here:* texture lookups. Their coordinates are rounded to f64, and f64 filters the texels.
 
+use super::Examination;
 use super::errors::{shown, unrounded};
 use super::experiment::drawing_options;
-use super::Examination;
 use crate::domain::Exact;
 use crate::pipeline::{self, BIN_SIDE, Study};
 use glisten_front::diagnostic::Diagnostic;
@@ -121,10 +121,10 @@ fn chosen(examined: &Examination) -> BTreeSet<[u32; 2]> {
 mod tests {
     use super::super::tests::scene_of;
     use super::{ExactPixel, recompute};
+    use crate::RenderOptions;
     use crate::domain::F64;
     use crate::pipeline::{self, Study};
     use crate::stability::{BOUND, ExamineOptions, examine};
-    use crate::RenderOptions;
 
     fn recomputed(body: &str) -> Vec<ExactPixel> {
         let (scene, _) = scene_of(body, "");
@@ -135,7 +135,8 @@ mod tests {
 
     #[test]
     fn f64_is_enough_for_an_ordinary_program() {
-        let pixels = recomputed("void main() { o = vec4(sin(at.x * 50.0), pow(abs(at.y), 7.0), normalize(vec3(at, 0.3)).xy); }");
+        let pixels =
+            recomputed("void main() { o = vec4(sin(at.x * 50.0), pow(abs(at.y), 7.0), normalize(vec3(at, 0.3)).xy); }");
         assert!(pixels.len() >= 16, "{}", pixels.len());
         for pixel in pixels {
             assert!(pixel.double_error < 1e-13 && pixel.single_error < 1e-4, "{pixel:?}");
@@ -145,7 +146,8 @@ mod tests {
     #[test]
     fn what_both_f32_and_f64_lose_is_seen() {
         // Both are 0, so that no pixel differs, and the true value is 1.
-        let body = "void main() { float lost = ((1.0 + 1e-20 * (2.0 + at.x)) - 1.0) * 1e20; o = vec4(lost, 0.0, 0.0, 1.0); }";
+        let body =
+            "void main() { float lost = ((1.0 + 1e-20 * (2.0 + at.x)) - 1.0) * 1e20; o = vec4(lost, 0.0, 0.0, 1.0); }";
         for pixel in recomputed(body) {
             let x = (f64::from(pixel.x) + 0.5) / 8.0 - 1.0;
             assert_eq!((pixel.single[0], pixel.double[0]), (0.0, 0.0), "{pixel:?}");

@@ -243,7 +243,8 @@ impl Number for Big {
             return Self::of(side.powf(exponent.token()));
         }
         // The power's relative error is the exponent's size times that of the logarithm, which may be as large as 2^14.
-        let wide = |x: &BigFloat| with_constants(|constants| x.ln(INNER + 64, UNROUNDED, constants)).unwrap_or_default();
+        let wide =
+            |x: &BigFloat| with_constants(|constants| x.ln(INNER + 64, UNROUNDED, constants)).unwrap_or_default();
         let product = wide(&self.wide()).mul(&exponent.wide(), INNER + 64, UNROUNDED);
         Self::exp_of(&product)
     }
@@ -272,7 +273,9 @@ impl Number for Big {
     fn log2(self) -> Self {
         match self.class {
             // A power of two, whose logarithm is whole.
-            Class::Finite if !self.negative && self.words == Self::of(1.0).words => Self::of(f64::from(self.exponent - 1)),
+            Class::Finite if !self.negative && self.words == Self::of(1.0).words => {
+                Self::of(f64::from(self.exponent - 1))
+            }
             Class::Finite if !self.negative => Self::rounded(&div(&inner(&self.wide(), BigFloat::ln), &ln_2())),
             _ => self.by_rule(f64::log2),
         }

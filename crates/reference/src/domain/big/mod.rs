@@ -91,7 +91,9 @@ impl Big {
         match self.exponent {
             1025.. => f64::INFINITY,
             // Normal: the conversion rounds to 53 bits, with the lowest as the sticky one. The two factors are exact.
-            exponent @ -1021.. => (high | sticky) as f64 * 2f64.powi(-64 + exponent / 2) * 2f64.powi(exponent - exponent / 2),
+            exponent @ -1021.. => {
+                (high | sticky) as f64 * 2f64.powi(-64 + exponent / 2) * 2f64.powi(exponent - exponent / 2)
+            }
             // Subnormal: a whole multiple of 2^-1074.
             exponent => {
                 let drop = -1010 - exponent;
@@ -197,7 +199,8 @@ impl Big {
             // A finite number against a special one, or two special ones: their tokens are in the same order.
             return self.token().partial_cmp(&other.token());
         }
-        let size = self.exponent.cmp(&other.exponent).then_with(|| self.words.iter().rev().cmp(other.words.iter().rev()));
+        let size =
+            self.exponent.cmp(&other.exponent).then_with(|| self.words.iter().rev().cmp(other.words.iter().rev()));
         Some(match (self.negative, other.negative) {
             (false, true) => Ordering::Greater,
             (true, false) => Ordering::Less,

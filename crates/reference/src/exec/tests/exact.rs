@@ -28,7 +28,8 @@ fn random_programs_agree_with_f64_to_its_rounding() {
         let (exact, double) = (ran::<Exact>(&program), ran::<F64>(&program));
         for (id, scalars) in &program.outputs {
             for flat in 0..scalars.len() as u32 {
-                let (Some(exact), Some(double)) = (exact.float_output(*id, flat), double.float_output(*id, flat)) else {
+                let (Some(exact), Some(double)) = (exact.float_output(*id, flat), double.float_output(*id, flat))
+                else {
                     continue;
                 };
                 for lane in 0..LANES {
