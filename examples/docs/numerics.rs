@@ -27,7 +27,11 @@ static EQUATIONS: &[(&str, &str, &str)] = &[
         "schlickBetween(vec3,vec3,float)",
         "t above 1 by rounding, times K; the pole at t = -K / (1 - K) for t below 0",
     ),
-    ("(91)", "thresholdStep(float,float)", "-1 where c + 1 <= t, that is at c = 0, t = 1"),
+    (
+        "(91)",
+        "thresholdStep(float,float)",
+        "-1 at c = 0, t = 1, where the ceiling of -1 is printed and a step is meant",
+    ),
     ("(91)", "thresholdFactor(vec3,vec3,vec3,float)", "2 where rounding makes N.H larger than 1 and t = 0; L = -V"),
     ("(94)", "lightDistance(vec3,vec3)", "the square overflows from 1.8e19 on, and vanishes below 1.1e-19"),
     ("(95)", "attenuationInverseSquare(float)", "r = 0 is 1 / 0, and so is every r whose square vanishes"),
@@ -38,7 +42,7 @@ static EQUATIONS: &[(&str, &str, &str)] = &[
     ("(105)", "barycentric(vec2,vec2,vec2,vec2)", "a triangle without area is 0 / 0; slivers cancel in both forms"),
     ("(106)", "interpolateLinear(vec2,vec4,vec4,vec4)", "nowhere"),
     ("(107)", "segmentPoint(float,vec2,vec2)", "nowhere, for z > 0"),
-    ("(108)", "interpolatePerspective(vec2,vec3,vec4,vec4,vec4)", "1 / w overflows or vanishes for w beyond 1e38"),
+    ("(108)", "interpolatePerspective(vec2,vec3,vec4,vec4,vec4)", "nowhere, for w from 1e-30 to 1e30"),
     ("N'", "normalMatrix(mat4)", "a singular matrix has no inverse"),
     ("N'", "transformNormal(mat3,vec3)", "normals whose squared length overflows or vanishes"),
     (
@@ -58,8 +62,7 @@ pub(crate) fn equations() -> Result<String, String> {
             .to_owned();
     for (equation, signature, place) in EQUATIONS {
         let function = found.iter().find(|found| found.signature == *signature);
-        let row =
-            function.and_then(|function| row(function)).ok_or_else(|| format!("`{signature}` has no naive form"))?;
+        let row = function.and_then(row).ok_or_else(|| format!("`{signature}` has no naive form"))?;
         let _ = writeln!(text, "| {equation} | {row} | {place} |");
     }
     Ok(text)
@@ -78,10 +81,26 @@ fn row(function: &FunctionFound) -> Option<String> {
         (count, 0) => format!("{count}"),
         (count, undefined) => format!("{count}, of which {undefined} have no value"),
     };
-    let [low, high] = naive.range;
+    let [low, high] = naive.range.map(shown);
     let cost = function.cost.map_or_else(|| "-".to_owned(), |cost| format!("{cost:.1} times"));
     Some(format!(
-        "`{}` | {verdict} | {:.0e} | {finite} | {low:.4} to {high:.4} | {:.0e} | {cost}",
-        function.function, figures.unexplained, function.figures.unexplained
+        "`{}` | {verdict} | {} | {finite} | {low} to {high} | {} | {cost}",
+        function.function,
+        digit(figures.unexplained),
+        digit(function.figures.unexplained)
     ))
+}
+
+/// An error, to one digit.
+fn digit(error: f64) -> String {
+    if error < 1e-12 { "0".to_owned() } else { format!("{error:.0e}") }
+}
+
+/// A result, to the digits that show whether it is out of range.
+fn shown(number: f64) -> String {
+    match number.abs() {
+        size if size == size.round() && size < 1e5 => format!("{number}"),
+        size if size < 1e4 => format!("{number:.3}"),
+        _ => format!("{number:.1e}"),
+    }
 }
