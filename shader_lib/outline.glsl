@@ -12,6 +12,7 @@
 // The direction in which a point moves on the screen when it moves along its normal: the derivative of p.xy / p.w,
 // except for its length. z is 0.
 //   position  clip space    normal  the normal, transformed by the same matrix as a direction: matrix * vec4(N, 0)
+// bound: 2.4e-7 rel
 vec3 outlineDirection(vec4 position, vec4 normal)
 {
     vec2 n = normal.xy * position.w - position.xy * normal.w;
@@ -23,6 +24,7 @@ vec3 outlineDirection(vec4 position, vec4 normal)
 //   position  clip space    direction  on the screen, of any length (its x and y count)
 //   width     in halves of the picture's height    push  in normalized device coordinates, in depth
 //   aspect    the picture's width over its height, limited to 2^-20 to 2^20; for a projection matrix M, M[1][1] / M[0][0]
+// bound: 2.4e-7 rel
 vec4 outlinePosition(vec4 position, vec3 direction, float width, float push, float aspect)
 {
     aspect = clamp(aspect, exp2(-20.0), exp2(20.0));
@@ -34,6 +36,7 @@ vec4 outlinePosition(vec4 position, vec3 direction, float width, float push, flo
 }
 
 // The same for a square picture.
+// bound: 2.4e-7 rel
 vec4 outlinePosition(vec4 position, vec3 direction, float width, float push)
 {
     return outlinePosition(position, direction, width, push, 1.0);

@@ -11,6 +11,7 @@
 #include "safe.glsl"
 
 // The mirror direction (84) of the unit vector L about the unit normal N: a unit vector.
+// bound: 2.4e-7 abs
 vec3 mirrorDirection(vec3 N, vec3 L)
 {
     return safeFinite(2.0 * dot(N, L) * N - L);
@@ -18,6 +19,7 @@ vec3 mirrorDirection(vec3 N, vec3 L)
 
 // max(R.V, 0)^shininess: 0 to 1.
 //   N  unit normal    L, V  unit vectors towards the light and the eye    shininess  K_shi, limited to >= 0
+// bound: 2.4e-7 abs
 float phongFactor(vec3 N, vec3 L, vec3 V, float shininess)
 {
     return dot(N, L) > 0.0 ? safeCosPow(mirrorDirection(N, L), V, shininess) : 0.0;
@@ -26,6 +28,7 @@ float phongFactor(vec3 N, vec3 L, vec3 V, float shininess)
 // Specular reflection (86), linear RGB.
 //   N  unit normal    L, V  unit vectors towards the light and the eye    shininess  K_shi, limited to >= 0
 //   Kspec  specular reflectance, 0 to 1    Lspec  intensity of the light, >= 0
+// bound: 2.4e-7 color
 vec3 phong(vec3 N, vec3 L, vec3 V, float shininess, vec3 Kspec, vec3 Lspec)
 {
     return phongFactor(N, L, V, shininess) * safeLimit(Kspec * Lspec);

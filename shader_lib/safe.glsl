@@ -13,24 +13,28 @@
 #define GLISTEN_SAFE
 
 // The largest finite float, 2^128 - 2^104.
+// bound: 0 abs
 float safeLargest()
 {
     return 16777215.0 * exp2(104.0);
 }
 
 // x with infinities replaced by the largest floats. x must not be a NaN.
+// bound: 0 rel
 float safeLimit(float x)
 {
     return clamp(x, -safeLargest(), safeLargest());
 }
 
 // The scalar function for each component.
+// bound: 0 rel
 vec3 safeLimit(vec3 v)
 {
     return clamp(v, vec3(-safeLargest()), vec3(safeLargest()));
 }
 
 // The scalar function for each component.
+// bound: 0 rel
 vec4 safeLimit(vec4 v)
 {
     return clamp(v, vec4(-safeLargest()), vec4(safeLargest()));
@@ -38,30 +42,35 @@ vec4 safeLimit(vec4 v)
 
 // x with infinities replaced by the largest floats and a NaN by 0. It uses only comparisons: what min() and max()
 // return for a NaN depends on the driver.
+// bound: 0 rel
 float safeFinite(float x)
 {
     return x > 0.0 ? min(x, safeLargest()) : (x < 0.0 ? max(x, -safeLargest()) : 0.0);
 }
 
 // The scalar function for each component.
+// bound: 0 rel
 vec3 safeFinite(vec3 v)
 {
     return vec3(safeFinite(v.x), safeFinite(v.y), safeFinite(v.z));
 }
 
 // max(x, 0), at most the largest float; 0 for a NaN.
+// bound: 0 rel
 float safePositive(float x)
 {
     return x > 0.0 ? min(x, safeLargest()) : 0.0;
 }
 
 // x limited to [0, 1]; 0 for a NaN.
+// bound: 0 abs
 float safeUnit(float x)
 {
     return x > 0.0 ? min(x, 1.0) : 0.0;
 }
 
 // The largest of |v.x|, |v.y|, |v.z|.
+// bound: 0 rel
 float safeExtent(vec3 v)
 {
     vec3 a = abs(v);
@@ -70,6 +79,7 @@ float safeExtent(vec3 v)
 
 // The power of two 2^-100, 1 or 2^100 by which a vector of this extent is multiplied so that the square of a
 // component neither overflows nor, if it matters, is flushed to zero. Multiplying by a power of two does not round.
+// bound: 0 abs
 float safeScale(float extent)
 {
     return extent > exp2(60.0) ? exp2(-100.0) : (extent < exp2(-40.0) ? exp2(100.0) : 1.0);
@@ -77,6 +87,7 @@ float safeScale(float extent)
 
 // |v| for every finite v, where the literal length() overflows from 1.8e19 on and vanishes below 1.1e-19. It is
 // limited to the largest float.
+// bound: 2.4e-7 rel
 float safeLength(vec3 v)
 {
     float s = safeScale(safeExtent(v));
@@ -86,6 +97,7 @@ float safeLength(vec3 v)
 
 // v / |v| for every finite v but zero, where the literal form yields 0 or NaN for lengths outside 1.1e-19 to 1.8e19.
 // The zero vector stays the zero vector: no direction, and no light from it.
+// bound: 2.4e-7 abs
 vec3 safeNormalize(vec3 v)
 {
     float m = safeExtent(v);
@@ -97,6 +109,7 @@ vec3 safeNormalize(vec3 v)
 
 // log(1 - d) for d in [0, 1), accurate for small d where 1 - d loses it: -2 atanh(d / (2 - d)) by its series. 0 for d
 // <= 0, the largest negative float for d >= 1.
+// bound: 2.4e-7 rel
 float safeLogOneMinus(float d)
 {
     if (!(d > 0.0))
@@ -115,6 +128,7 @@ float safeLogOneMinus(float d)
 // (1 - d)^k: the power of a number in [0, 1] whose distance d from 1 is known more precisely than the number.
 //   d  limited to [0, 1]    k  limited to k >= 0
 // 1 for k = 0 (also at d = 1, where the literal power is 0^0).
+// bound: 2.4e-7 abs
 float safePowOneMinus(float d, float k)
 {
     if (!(k > 0.0))
@@ -126,6 +140,7 @@ float safePowOneMinus(float d, float k)
 //   x  limited to [0, 1]    k  limited to k >= 0
 // 1 for k = 0 (also 0^0). Near x = 1 the logarithm is computed by a series: a GPU's log2 loses precision there, and k
 // amplifies the loss.
+// bound: 2.4e-7 abs
 float safePow(float x, float k)
 {
     if (!(k > 0.0))
@@ -139,6 +154,7 @@ float safePow(float x, float k)
 
 // 1 - cos of the angle between two unit vectors: |a - b|^2 / 2. If a and b are close, this keeps the digits that
 // dot(a, b) rounds away. At least 0, at most the largest float.
+// bound: 3e-7 abs
 float safeOneMinusCos(vec3 a, vec3 b)
 {
     vec3 d = a - b;
@@ -149,6 +165,7 @@ float safeOneMinusCos(vec3 a, vec3 b)
 // grow with the exponent; elsewhere from dot(a, b), which is exact for perpendicular vectors.
 //   k  limited to k >= 0
 // 1 for k = 0, whatever the angle (the literal power is 0^0 from a right angle on).
+// bound: 2.4e-7 abs
 float safeCosPow(vec3 a, vec3 b, float k)
 {
     if (!(k > 0.0))

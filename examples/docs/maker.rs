@@ -16,6 +16,8 @@ use std::process::Command;
 enum Source {
     /// From the tables of the code.
     Tables(fn() -> String),
+    /// From an examination, which may fail.
+    Examined(fn() -> Result<String, String>),
     /// From the output of the program, with these arguments.
     Output(&'static [&'static str]),
     /// From the output of the program, which depends on the machine.
@@ -29,6 +31,7 @@ static REGIONS: &[(&str, Source)] = &[
     ("faults", Source::Tables(known_faults)),
     ("library", Source::Output(&["lib", "list"])),
     ("library-errors", Source::Measured(&["lib", "measure", "--backend", "gpu"])),
+    ("library-stability", Source::Examined(super::numerics::equations)),
     ("operations", Source::Tables(builtin::operations_markdown)),
     ("pipeline", Source::Tables(pipeline)),
     ("precision", Source::Tables(builtin::precision_markdown)),
@@ -94,6 +97,10 @@ impl Maker for Generator {
         };
         match source {
             Source::Tables(table) => self.make(table()),
+            Source::Examined(examine) => {
+                let text = examine()?;
+                self.make(text)
+            }
             Source::Output(arguments) => {
                 let text = self.run(arguments)?;
                 self.make(format!("```text\n{}\n```", text.trim_end()))

@@ -130,7 +130,13 @@ struct Done<'a> {
 /// Runs the command.
 pub(super) fn run(args: &StabilityArgs, console: &Console) -> Outcome {
     if let Some(only) = &args.library {
-        let is_json = args.format == StabilityFormat::Json;
+        let is_json = match args.format {
+            StabilityFormat::Human => false,
+            StabilityFormat::Json => true,
+            StabilityFormat::Sarif | StabilityFormat::Github => {
+                return Err(Failure::usage("--library has the formats human and json"));
+            }
+        };
         return stability_library::run(
             &LibraryArgs { only: only.as_deref(), cases: args.cases as usize, is_json },
             console,

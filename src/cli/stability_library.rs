@@ -3,7 +3,7 @@
 use super::console::Console;
 use super::exit::{Exit, Failure, Outcome};
 use super::progress::Progress;
-use crate::stability::library::{BoundUnit, FunctionFound, LibraryOptions, Naive, Verdict, examine_library};
+use crate::stability::library::{FunctionFound, LibraryOptions, Naive, Verdict, examine_library};
 use serde::Serialize;
 
 /// The form of the JSON.
@@ -60,10 +60,10 @@ fn table(found: &[FunctionFound]) -> String {
         "function", "verdict", "error", "bound", "max abs", "condition", "naive", "not finite", "cost"
     );
     for found in found {
-        let bound = found.bound.as_ref().map_or_else(
-            || "none".to_owned(),
-            |bound| format!("{:.0e} {}", bound.error, if bound.unit == BoundUnit::Abs { "abs" } else { "rel" }),
-        );
+        let bound = found
+            .bound
+            .as_ref()
+            .map_or_else(|| "none".to_owned(), |bound| format!("{:.0e} {}", bound.error, bound.unit.name()));
         let figures = &found.figures;
         text += &format!(
             "{:width$}  {:8}  {:8.1e}  {bound:>11}  {:8.1e}  {:9.1e} | {}\n",
@@ -99,11 +99,11 @@ fn table(found: &[FunctionFound]) -> String {
 fn naive(naive: Option<&Naive>, cost: Option<f64>) -> String {
     let Some(naive) = naive else { return "-".to_owned() };
     let finite = match naive.undefined {
-        0 => format!("{}", naive.non_finite),
-        undefined => format!("{} ({undefined})", naive.non_finite),
+        0 => format!("{}", naive.figures.non_finite),
+        undefined => format!("{} ({undefined})", naive.figures.non_finite),
     };
     let cost = cost.map_or_else(|| "-".to_owned(), |cost| format!("{cost:.2}"));
-    format!("{:8.1e}  {finite:>10}  {cost:>5}", naive.max_abs)
+    format!("{:8.1e}  {finite:>10}  {cost:>5}", naive.figures.unexplained)
 }
 
 fn complaint(found: &FunctionFound) -> String {

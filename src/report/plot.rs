@@ -215,7 +215,7 @@ fn polygon(x: f64, y: f64, corners: &[(f64, f64)]) -> String {
     format!("<polygon class=\"mark\" points=\"{}\"/>", points.join(" "))
 }
 
-fn escape(text: &str) -> String {
+pub(crate) fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 

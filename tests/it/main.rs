@@ -68,6 +68,10 @@ mod sprites;
 #[cfg(feature = "cli")]
 mod stability;
 #[cfg(feature = "cli")]
+mod stability_exact;
+#[cfg(feature = "cli")]
+mod stability_library;
+#[cfg(feature = "cli")]
 mod stability_page;
 mod support;
 mod targets;

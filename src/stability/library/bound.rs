@@ -13,6 +13,8 @@ pub enum BoundUnit {
     Abs,
     /// The largest number of the result.
     Rel,
+    /// The largest number of the arguments that are colors, or 1: an error of the factor that multiplies them.
+    Color,
 }
 
 /// The error that is allowed beyond what moving the inputs by an ULP explains.
@@ -29,6 +31,17 @@ pub struct Bound {
 /// Errors above this are more than rounding, and need a reason: 16 ULP.
 pub const ROUNDING: f64 = 16.0 / 8_388_608.0;
 
+impl BoundUnit {
+    /// The word in a comment.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Abs => "abs",
+            Self::Rel => "rel",
+            Self::Color => "color",
+        }
+    }
+}
+
 impl Bound {
     /// Parses what follows `bound:`.
     ///
@@ -37,12 +50,13 @@ impl Bound {
     pub fn parse(text: &str) -> Result<Self, String> {
         let (figures, reason) = text.split_once(',').unwrap_or((text, ""));
         let (number, unit) =
-            figures.trim().split_once(' ').ok_or_else(|| format!("`{text}` has no unit: abs or rel"))?;
+            figures.trim().split_once(' ').ok_or_else(|| format!("`{text}` has no unit: abs, rel or color"))?;
         let error = number.parse::<f64>().ok().filter(|error| *error >= 0.0 && error.is_finite());
         let unit = match unit.trim() {
             "abs" => BoundUnit::Abs,
             "rel" => BoundUnit::Rel,
-            other => return Err(format!("`{other}` is not a unit: abs or rel")),
+            "color" => BoundUnit::Color,
+            other => return Err(format!("`{other}` is not a unit: abs, rel or color")),
         };
         let error = error.ok_or_else(|| format!("`{number}` is not a number from 0 on"))?;
         Ok(Self { error, unit, reason: reason.trim().to_owned() })

@@ -6,7 +6,7 @@
 use super::inputs::fill;
 use crate::evaluate::{EvaluateError, Evaluator, table};
 use crate::library::Embedded;
-use crate::measure::{Form, Random, texel_of_tables};
+use crate::measure::{Form, InputKind, Random, texel_of_tables};
 use crate::scene::{Filter, Texture};
 use glisten_front::{Compiler, Options};
 use glisten_reference::RenderOptions;
@@ -99,10 +99,58 @@ pub(super) fn extreme_inputs(width: usize, rows: usize) -> Vec<f32> {
     (0..rows * width).map(|_| random.pick(EXTREMES)).collect()
 }
 
-/// The inputs with each number moved by an ULP, up or down by chance.
+/// Where the numbers of each kind are in a row.
+fn places(form: &Form) -> Vec<(InputKind, std::ops::Range<usize>)> {
+    let mut random = Random::new(0);
+    let mut places = Vec::new();
+    let mut start = 0;
+    for kind in form.inputs {
+        let mut numbers = Vec::new();
+        fill(*kind, &mut random, &mut numbers);
+        places.push((*kind, start..start + numbers.len()));
+        start += numbers.len();
+    }
+    places
+}
+
+/// The largest number among the colors of each row, or 1.
+pub(super) fn brightest(form: &Form, inputs: &[f32], width: usize) -> Vec<f64> {
+    let is_color = |kind: &InputKind| matches!(kind, InputKind::Color | InputKind::Intensity);
+    let places: Vec<usize> =
+        places(form).into_iter().filter(|(kind, _)| is_color(kind)).flat_map(|(_, range)| range).collect();
+    let brightest = |row: &[f32]| {
+        places
+            .iter()
+            .filter_map(|place| row.get(*place))
+            .fold(1.0, |most, number| f64::max(most, f64::from(number.abs())))
+    };
+    inputs.chunks(width.max(1)).map(brightest).collect()
+}
+
+/// The inputs with the directions among them normalized, as `normalize` in f32 passes them on.
+pub(super) fn unit_inputs(form: &Form, inputs: &[f32], width: usize) -> Vec<f32> {
+    let units = places(form).into_iter().filter(|(kind, _)| kind.params().1);
+    let places: Vec<usize> = units.flat_map(|(_, range)| range.step_by(3)).collect();
+    let mut all = inputs.to_vec();
+    for row in all.chunks_mut(width.max(1)) {
+        for place in &places {
+            let Some(direction) = row.get_mut(*place..*place + 3) else { continue };
+            let length = direction.iter().map(|number| f64::from(*number).powi(2)).sum::<f64>().sqrt();
+            if length > 0.0 {
+                direction.iter_mut().for_each(|number| *number = (f64::from(*number) / length) as f32);
+            }
+        }
+    }
+    all
+}
+
+/// The inputs with each number moved by 1 to 4 ULP, depending on the seed, up or down by chance.
 pub(super) fn moved(inputs: &[f32], seed: u64) -> Vec<f32> {
     let mut random = Random::new(1000 + seed);
-    let step = |number: f32, up: bool| if up { number.next_up() } else { number.next_down() };
+    let steps = 1 + seed % 4;
+    let step = |number: f32, up: bool| {
+        (0..steps).fold(number, |number, _| if up { number.next_up() } else { number.next_down() })
+    };
     inputs
         .iter()
         .map(|number| match *number {

@@ -10,7 +10,8 @@ use crate::measure::{InputKind, Random};
 /// Distances from a stiff place, as angles or relative to 1.
 static NEAR: &[f64] = &[0.0, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2];
 static EXPONENTS: &[f64] = &[0.0, 1e-3, 0.5, 1.0, 2.0, 32.0, 128.0, 1e3, 1e4, 1e5, 1e6];
-static DISTANCES: &[f64] = &[1e-37, 1e-20, 1e-19, 1e-12, 1e-6, 1e-3, 1.0, 1e3, 1e6, 1e12, 1e18, 1e19, 1e20, 1e30, 3e38];
+static DISTANCES: &[f64] =
+    &[0.0, 1e-30, 1e-20, 1e-19, 1e-12, 1e-6, 1e-3, 1.0, 1e3, 1e6, 1e12, 1e18, 1e19, 1e20, 1e30, 3e38];
 static SIZES: &[f64] = &[0.0, 1e-37, 1e-30, 1e-20, 1e-10, 1e-3, 1.0, 1e3, 1e10, 1.8e19, 1e20, 1e30, 3e38];
 static COLORS: &[f64] = &[0.0, 1e-30, 1e-6, 1e-3, 0.5, 1.0];
 static INTENSITIES: &[f64] = &[0.0, 1e-6, 1.0, 4.0, 1e4];
@@ -198,7 +199,7 @@ fn triangle_corner(random: &mut Random, before: &[f64]) -> [f64; 2] {
             let step = random.pick(&[0.0, 1e-4, 1e-2, 1.0]);
             [x + step * random.range(-1.0, 1.0), y + step * random.range(-1.0, 1.0)]
         }
-        _ => [random.pick(&[-2.0, 0.0, 0.5, 1.0, 1000.0]), random.pick(&[-2.0, 0.0, 0.5, 1.0, 1000.0])],
+        _ => [random.pick(&[-2.0, 0.0, 0.5, 1.0, 16.0]), random.pick(&[-2.0, 0.0, 0.5, 1.0, 16.0])],
     }
 }
 

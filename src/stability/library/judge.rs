@@ -1,12 +1,14 @@
 //! [`judge`]: the error of a function's f32, and how much of it the rounding of its inputs explains.
 //!
 //! *In:* a function with its inputs. *Out:* its [`Figures`], and those of its naive form. *Holds:* the truth is f64, or 192
-//! bits where f64 could be wrong. An error is explained if moving each input by an ULP changes the exact result nearly as
-//! much: then the problem is ill-conditioned there, or the result jumps, and no formula helps.
+//! bits where f64 could be wrong. An error is explained if moving each input by a few ULP changes the exact result nearly as
+//! much: then the problem is ill-conditioned there, or the result jumps, and no formula helps. It is also explained if the
+//! function is right for its directions as f32 has them, whose lengths are not quite 1: near L = -V, that decides.
 
-use super::calls::{Calls, Rows, moved};
+use super::calls::{Calls, Rows, brightest, moved, unit_inputs};
 use super::{Bound, BoundUnit, ROUNDING, Verdict, parameters};
 use crate::evaluate::EvaluateError;
+use crate::measure::Form;
 use glisten_reference::stability::Arithmetic;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -16,7 +18,7 @@ const MOVES: u64 = 8;
 
 /// How many times the change by moving the inputs an error may be to count as explained: directions round twice, once when
 /// they are normalized and once as inputs, and the moves find half of the worst direction at best.
-const EXPLAINED: f64 = 8.0;
+const EXPLAINED: f64 = 4.0;
 
 /// An unexplained error of this share of the result's size is another result altogether.
 const ANOTHER: f64 = 0.25;
@@ -27,9 +29,10 @@ const CHECKED: usize = 64;
 /// The figures of a function.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Figures {
-    /// The largest error in ULP of the largest number of the exact result.
+    /// The largest error in ULP of the largest number of the exact result, where moving the inputs does not give another
+    /// result altogether.
     pub max_ulp: f64,
-    /// The largest error.
+    /// The largest error, in the same calls.
     pub max_abs: f64,
     /// The largest error beyond what moving the inputs by an ULP explains, as the bound counts it.
     pub unexplained: f64,
@@ -41,26 +44,31 @@ pub struct Figures {
     pub another: usize,
     /// Whether 192 bits were needed for the truth.
     pub beyond_f64: bool,
+    /// The number of those that are not finite in exact arithmetic either.
     #[serde(skip)]
-    worst: usize,
+    undefined: usize,
+    /// The inputs with the largest error.
+    #[serde(skip)]
+    worst: Vec<f32>,
     /// The largest unexplained error relative to 1 or to the result, whichever is larger.
     #[serde(skip)]
     beyond_rounding: f64,
 }
 
 /// The figures of a naive form.
-#[derive(Clone, Debug, Default, Serialize)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Naive {
     /// The form, as GLSL.
     pub form: String,
-    /// The largest error in ULP.
-    pub max_ulp: f64,
-    /// The largest error against its own exact value, where that is finite.
-    pub max_abs: f64,
-    /// The number of calls with a result that is not finite in f32.
-    pub non_finite: usize,
+    /// Its figures against its own exact value.
+    #[serde(flatten)]
+    pub figures: Figures,
+    /// Its verdict.
+    pub verdict: Verdict,
     /// The number of those that are not finite in exact arithmetic either: the equation has no value there.
     pub undefined: usize,
+    /// The arguments with the largest error, or those of the first result that is not finite.
+    pub at: BTreeMap<String, Vec<f64>>,
     /// The smallest and the largest number among the finite results.
     pub range: [f64; 2],
     /// The operations of a call of the function and of the naive form.
@@ -121,37 +129,72 @@ fn changes(calls: &Calls, inputs: &[f32], exact: &Rows) -> Result<Vec<f64>, Eval
     Ok(most)
 }
 
-/// The figures of a function over inputs that its model allows.
-pub(super) fn judge(calls: &Calls, inputs: &[f32], bound: Option<&Bound>) -> Result<Figures, EvaluateError> {
+/// What is left of the errors that are more than rounding, if the directions are taken as f32 has them.
+fn left_as_given(form: &Form, raw: &Calls, inputs: &[f32], left: &mut [f64]) -> Result<(), EvaluateError> {
+    let width = raw.width();
+    let rows: Vec<usize> = (0..left.len()).filter(|row| left[*row] > ROUNDING / 16.0).collect();
+    if rows.is_empty() || width == 0 {
+        return Ok(());
+    }
+    let chosen: Vec<f32> =
+        rows.iter().filter_map(|row| inputs.get(row * width..(row + 1) * width)).flatten().copied().collect();
+    let given = unit_inputs(form, &chosen, width);
+    let single = raw.results(&given, Arithmetic::Single)?;
+    let double = raw.results(&given, Arithmetic::Double)?;
+    for ((row, single), double) in rows.iter().zip(&single).zip(&double) {
+        left[*row] = left[*row].min(apart(single, double));
+    }
+    Ok(())
+}
+
+/// The figures of a function over inputs that its model allows. `raw` is the function without `normalize`.
+pub(super) fn judge(
+    form: &Form,
+    [calls, raw]: [&Calls; 2],
+    inputs: &[f32],
+    bound: Option<&Bound>,
+) -> Result<Figures, EvaluateError> {
     let single = calls.results(inputs, Arithmetic::Single)?;
     let (exact, beyond_f64) = truth(calls, inputs, &single)?;
     let changes = if calls.width() == 0 { vec![0.0; exact.len()] } else { changes(calls, inputs, &exact)? };
+    let errors: Vec<f64> = single.iter().zip(&exact).map(|(single, exact)| apart(single, exact)).collect();
+    let mut left: Vec<f64> =
+        errors.iter().zip(&changes).map(|(error, change)| (error - EXPLAINED * change).max(0.0)).collect();
+    left_as_given(form, raw, inputs, &mut left)?;
     let unit = bound.map_or(BoundUnit::Abs, |bound| bound.unit);
+    let colors = brightest(form, inputs, calls.width());
     let mut figures = Figures { beyond_f64, ..Figures::default() };
     let mut worst = -1.0;
-    for (row, ((single, exact), change)) in single.iter().zip(&exact).zip(changes).enumerate() {
+    for (row, (single, exact)) in single.iter().zip(&exact).enumerate() {
+        let arguments = || inputs.iter().skip(row * calls.width()).take(calls.width()).copied().collect();
         if !is_finite(single) || !is_finite(exact) {
             figures.non_finite += 1;
+            figures.undefined += usize::from(!is_finite(exact));
+            if figures.non_finite == 1 {
+                (figures.worst, worst) = (arguments(), f64::INFINITY);
+            }
             continue;
         }
-        let (error, size) = (apart(single, exact), size(exact));
-        let left = (error - EXPLAINED * change).max(0.0);
-        let of_one = left / size.max(1.0);
-        figures.max_abs = figures.max_abs.max(error);
-        figures.max_ulp = figures.max_ulp.max(error / ulp(size));
+        let (error, left, size) = (errors[row], left[row], size(exact));
+        let color = colors.get(row).copied().unwrap_or(1.0);
+        let of_one = left / if unit == BoundUnit::Color { color } else { size.max(1.0) };
+        if changes[row] <= ANOTHER * size {
+            figures.max_abs = figures.max_abs.max(error);
+            figures.max_ulp = figures.max_ulp.max(error / ulp(size));
+        }
         figures.beyond_rounding = figures.beyond_rounding.max(of_one);
         figures.another += usize::from(left > ANOTHER * size.max(f64::from(f32::MIN_POSITIVE)) && of_one > ROUNDING);
         let judged = match unit {
             BoundUnit::Abs => left,
+            BoundUnit::Color => left / color,
             // A result that f32 flushes to 0 has no relative error.
             BoundUnit::Rel => left / size.max(f64::from(f32::MIN_POSITIVE) / f64::from(f32::EPSILON)),
         };
         figures.unexplained = figures.unexplained.max(judged);
         let badness = judged + error.min(1.0) * 1e-9;
         if badness > worst {
-            worst = badness;
-            figures.worst = row;
-            figures.condition = if size > 0.0 { change / size / f64::from(f32::EPSILON) } else { 0.0 };
+            (figures.worst, worst) = (arguments(), badness);
+            figures.condition = if size > 0.0 { changes[row] / size / f64::from(f32::EPSILON) } else { 0.0 };
         }
     }
     Ok(figures)
@@ -170,13 +213,18 @@ impl Figures {
     /// Counts the calls whose results are not finite, for inputs that no model asks for.
     pub(super) fn count_non_finite(&mut self, calls: &Calls, inputs: &[f32]) -> Result<(), EvaluateError> {
         let results = calls.results(inputs, Arithmetic::Single)?;
+        if let Some(row) = results.iter().position(|row| !is_finite(row))
+            && self.non_finite == 0
+        {
+            self.worst = inputs.iter().skip(row * calls.width()).take(calls.width()).copied().collect();
+        }
         self.non_finite += results.iter().filter(|row| !is_finite(row)).count();
         Ok(())
     }
 
     /// The arguments with the largest error.
-    pub(super) fn arguments(&self, declaration: &str, inputs: &[f32], width: usize) -> BTreeMap<String, Vec<f64>> {
-        let mut numbers = inputs.iter().skip(self.worst * width).take(width).map(|number| f64::from(*number));
+    pub(super) fn arguments(&self, declaration: &str) -> BTreeMap<String, Vec<f64>> {
+        let mut numbers = self.worst.iter().map(|number| f64::from(*number));
         let mut named = BTreeMap::new();
         for parameter in parameters(declaration).split(", ").filter(|parameter| !parameter.is_empty()) {
             let Some((ty, name)) = parameter.rsplit_once(' ') else { continue };
@@ -200,27 +248,28 @@ impl Figures {
 }
 
 /// The figures of a naive form over the inputs of the function.
-pub(super) fn judge_naive(naive: &Calls, stable: &Calls, inputs: &[f32]) -> Result<Naive, EvaluateError> {
-    let single = naive.results(inputs, Arithmetic::Single)?;
-    let (exact, _) = truth(naive, inputs, &single)?;
-    let ours = stable.results(inputs, Arithmetic::Double)?;
-    let mut found = Naive { range: [f64::INFINITY, f64::NEG_INFINITY], ..Naive::default() };
-    for ((single, exact), ours) in single.iter().zip(&exact).zip(&ours) {
-        found.undefined += usize::from(!is_finite(exact));
-        if !is_finite(single) {
-            found.non_finite += 1;
-            continue;
-        }
-        for number in single {
-            found.range = [found.range[0].min(*number), found.range[1].max(*number)];
-        }
-        // Where the equation has no value, or one beyond f32, it is compared with the function's.
-        let exact = if is_finite(exact) && size(exact) <= f64::from(f32::MAX) { exact } else { ours };
-        let error = apart(single, exact);
-        found.max_abs = found.max_abs.max(error);
-        found.max_ulp = found.max_ulp.max(error / ulp(size(exact)));
-    }
-    Ok(found)
+pub(super) fn judge_naive(
+    form: &Form,
+    calls: [&Calls; 2],
+    inputs: &[f32],
+    bound: Option<&Bound>,
+    text: &str,
+) -> Result<Naive, EvaluateError> {
+    let figures = judge(form, calls, inputs, bound)?;
+    let single = calls[0].results(inputs, Arithmetic::Single)?;
+    let finite = single.iter().filter(|row| is_finite(row)).flatten();
+    let range =
+        finite.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], number| [low.min(*number), high.max(*number)]);
+    Ok(Naive {
+        form: text.to_owned(),
+        verdict: figures.verdict(),
+        undefined: figures.undefined,
+        figures,
+        at: BTreeMap::new(),
+        range,
+        operations: [0.0; 2],
+        ratio: None,
+    })
 }
 
 impl Naive {

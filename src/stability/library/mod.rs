@@ -129,12 +129,12 @@ fn examine_function(
         Some(Ok(bound)) => Some(bound),
         Some(Err(message)) => return Err(EvaluateError::new(format!("{}: {message}", form.signature))),
     };
-    let mut figures = judge(&calls, &inputs, bound.as_ref())?;
     let raw = Calls::new(&include, form.signature, &[])?;
+    let mut figures = judge(form, [&calls, &raw], &inputs, bound.as_ref())?;
     let extreme = extreme_inputs(raw.width(), if raw.width() == 0 { 1 } else { rows.div_ceil(4) });
     figures.count_non_finite(&raw, &extreme)?;
     let naive = match literal::literal(form.signature) {
-        Some(body) => Some(naive_of(function, form, body, &inputs, &calls)?),
+        Some(body) => Some(naive_of(function, form, body, &inputs, &calls, bound.as_ref())?),
         None => None,
     };
     let least = bound.as_ref().map_or(0.0, |bound| bound.error);
@@ -145,7 +145,7 @@ fn examine_function(
         cases: rows + extreme.len().checked_div(raw.width()).unwrap_or(0),
         verdict: figures.verdict(),
         within_bound: figures.unexplained <= least,
-        at: figures.arguments(&function.declaration, &inputs, calls.width()),
+        at: figures.arguments(&function.declaration),
         figures,
         bound,
         cost: naive.as_ref().and_then(|naive| naive.ratio),
@@ -164,20 +164,22 @@ fn naive_of(
     body: &str,
     inputs: &[f32],
     stable: &Calls,
+    bound: Option<&Bound>,
 ) -> Result<Naive, EvaluateError> {
     let returns = function.declaration.split(' ').next().unwrap_or("float");
     let types = form.signature.split_once('(').map_or(")", |(_, types)| types);
-    let calls = |returns: &str, body: &str| {
+    let wraps = form.wraps();
+    let calls = |body: &str, wraps: &[(usize, &str)]| {
         let text = format!(
             "#include <glisten/naive.glsl>\n#include <glisten/{}.glsl>\n{returns} literalForm({}) {{ return {body}; }}\n",
             form.module,
             parameters(&function.declaration)
         );
-        Calls::new(&text, &format!("literalForm({types}"), &form.wraps())
+        Calls::new(&text, &format!("literalForm({types}"), wraps)
     };
-    let (naive, nothing) = (calls(returns, body)?, calls(returns, &format!("{returns}(0.0)"))?);
-    let mut found = judge_naive(&naive, stable, inputs)?;
-    body.clone_into(&mut found.form);
+    let (naive, raw, nothing) = (calls(body, &wraps)?, calls(body, &[])?, calls(&format!("{returns}(0.0)"), &wraps)?);
+    let mut found = judge_naive(form, [&naive, &raw], inputs, bound, body)?;
+    found.at = found.figures.arguments(&function.declaration);
     found.count_operations([stable, &naive, &nothing], inputs)?;
     Ok(found)
 }

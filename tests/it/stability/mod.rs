@@ -84,7 +84,11 @@ fn planted_instabilities_are_found_and_sound_look_alikes_are_not_accused() {
         sound.iter().filter(|(_, found)| found.verdict != "stable").map(|(case, _)| case.scene.as_str()).collect();
     assert_eq!(accused, [] as [&str; 0], "sound scenes are accused");
     let missed = |which: usize| -> Vec<&str> {
-        planted.iter().filter(|(case, found)| !case.outcome(found)[which]).map(|(case, _)| case.scene.as_str()).collect()
+        planted
+            .iter()
+            .filter(|(case, found)| !case.outcome(found)[which])
+            .map(|(case, _)| case.scene.as_str())
+            .collect()
     };
     assert_eq!(missed(0), [] as [&str; 0], "the line is not among the first two causes");
     assert_eq!(missed(1), [] as [&str; 0], "the kind is wrong");

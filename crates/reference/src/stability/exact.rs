@@ -116,3 +116,75 @@ fn chosen(examined: &Examination) -> BTreeSet<[u32; 2]> {
     chosen.extend(places.map(|index| errors.place(*index)));
     chosen
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::scene_of;
+    use super::{ExactPixel, recompute};
+    use crate::RenderOptions;
+    use crate::domain::F64;
+    use crate::pipeline::{self, Study};
+    use crate::stability::{BOUND, ExamineOptions, examine};
+
+    fn recomputed(body: &str) -> Vec<ExactPixel> {
+        let (scene, _) = scene_of(body, "");
+        let mut options = ExamineOptions { bound: BOUND, all: false, progress: &mut |_, _| {} };
+        let examined = examine(&scene, &mut options).unwrap_or_else(|found| panic!("{found:?}"));
+        recompute(&scene, &examined).unwrap_or_else(|found| panic!("{found:?}"))
+    }
+
+    #[test]
+    fn f64_is_enough_for_an_ordinary_program() {
+        let pixels =
+            recomputed("void main() { o = vec4(sin(at.x * 50.0), pow(abs(at.y), 7.0), normalize(vec3(at, 0.3)).xy); }");
+        assert!(pixels.len() >= 16, "{}", pixels.len());
+        for pixel in pixels {
+            assert!(pixel.double_error < 1e-13 && pixel.single_error < 1e-4, "{pixel:?}");
+        }
+    }
+
+    #[test]
+    fn what_both_f32_and_f64_lose_is_seen() {
+        // Both are 0, so that no pixel differs, and the true value is 1.
+        let body =
+            "void main() { float lost = ((1.0 + 1e-20 * (2.0 + at.x)) - 1.0) * 1e20; o = vec4(lost, 0.0, 0.0, 1.0); }";
+        for pixel in recomputed(body) {
+            let x = (f64::from(pixel.x) + 0.5) / 8.0 - 1.0;
+            assert_eq!((pixel.single[0], pixel.double[0]), (0.0, 0.0), "{pixel:?}");
+            assert!((pixel.exact[0] - (2.0 + x)).abs() < 1e-6, "{pixel:?}");
+        }
+    }
+
+    #[test]
+    fn rumps_polynomial_is_right_in_192_bits_alone() {
+        let body = "void main() { float a = 77617.0, b = 33096.0 + 0.0 * at.x; float b2 = b * b, a2 = a * a; \
+            float b4 = b2 * b2, b6 = b4 * b2, b8 = b4 * b4; \
+            o = vec4(333.75 * b6 + a2 * (11.0 * a2 * b2 - b6 - 121.0 * b4 - 2.0) + 5.5 * b8 + a / (2.0 * b)); }";
+        for pixel in recomputed(body) {
+            assert!((pixel.exact[0] + 0.827_396_059_946_821_4).abs() < 1e-12, "{pixel:?}");
+            assert!(pixel.double_error > 0.5, "{pixel:?}");
+        }
+    }
+
+    #[test]
+    fn chosen_pixels_are_those_of_the_whole_picture() {
+        // With derivatives, quads are shaded as a whole.
+        for body in [
+            "void main() { o = vec4(at * 0.3, dFdx(at.x * at.y), fwidth(at.y * at.y)); }",
+            "void main() { o = vec4(at, fract(at * 3.0)); }",
+        ] {
+            let (scene, _) = scene_of(body, "");
+            let options = RenderOptions { mark_edges: false, ..RenderOptions::default() };
+            let whole = pipeline::render::<F64>(&scene, &options).expect("it can be drawn");
+            let pixels = [[0, 0], [3, 5], [3, 6], [15, 15]];
+            let study = Study { pixels: Some(&pixels), ..Study::NONE };
+            let some = pipeline::render_studied::<F64>(&scene, &options, study).expect("it can be drawn");
+            for (index, (a, b)) in whole.attachments[0].iter().zip(&some.attachments[0]).enumerate() {
+                let place = [index as u32 % 16, index as u32 / 16];
+                let is_chosen = pixels.contains(&place);
+                assert!(!is_chosen || a == b, "{place:?}: {a:?} {b:?}");
+                assert!(is_chosen || body.contains("dFdx") || !some.covered[index], "{place:?} was not asked for");
+            }
+        }
+    }
+}

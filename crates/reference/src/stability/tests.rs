@@ -21,7 +21,7 @@ fn traced_with(body: &str, more: &str) -> (Trace, SourceMap) {
     (trace(&scene, &options).unwrap_or_else(|found| panic!("{found:?}")), sources)
 }
 
-fn scene_of(body: &str, more: &str) -> (Scene, SourceMap) {
+pub(super) fn scene_of(body: &str, more: &str) -> (Scene, SourceMap) {
     let scene = "[framebuffer]\nwidth = 16\nheight = 16\n[[draw]]\nvertex = \"a.vert\"\nfragment = \"a.frag\"\n\
         primitive = \"triangle_strip\"\n[draw.attributes]\np = { size = 2, values = [-1, -1, 1, -1, -1, 1, 1, 1] }\n";
     let scene = format!("{scene}{more}");
