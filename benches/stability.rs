@@ -1,11 +1,13 @@
-//! Measures what `glisten stability` costs compared with the reference's picture in f64, without causes: the trace of a scene.
+//! Measures what `glisten stability` costs compared with the reference's picture in f64, without causes: both pictures,
+//! the trace of every expression, and the command on a scene that is stable, where no trace is needed.
 //!
-//! All rows run in turns: `cargo bench --bench stability --features cli`. The goal is 10. Ratios are of medians; the A/A row
+//! All rows run in turns: `cargo bench --bench stability --features cli`. The goal
+//! for the command is 10. Ratios are of medians; the A/A row
 //! compares the reference with itself.
 
 use glisten::library::Embedded;
 use glisten::scene::{DiskFiles, Scene, load};
-use glisten::stability::{errors_of, trace};
+use glisten::stability::{BOUND, ExamineOptions, errors_of, examine, trace};
 use glisten_front::{Compiler, Options};
 use glisten_reference::{RenderOptions, render};
 use std::time::Instant;
@@ -33,7 +35,7 @@ fn median(times: &[f64]) -> f64 {
 
 #[expect(clippy::print_stdout, reason = "this is a program that prints figures")]
 fn main() {
-    println!("{:55} {:>8} {:>6} {:>9} {:>6}", "scene", "f64", "A/A", "pictures", "trace");
+    println!("{:55} {:>8} {:>6} {:>9} {:>6} {:>8}", "scene", "f64", "A/A", "pictures", "trace", "command");
     for path in SCENES {
         let Some(scene) = scene(path) else {
             println!("{path:55} does not load");
@@ -43,9 +45,14 @@ fn main() {
         let draw = |row: usize| match row {
             0 | 1 => render(&scene, &options).map(drop),
             2 => errors_of(&scene).map(drop),
-            _ => trace(&scene, &options).map(drop),
+            3 => trace(&scene, &options).map(drop),
+            _ => examine(
+                &scene,
+                &mut ExamineOptions { bound: BOUND, all: false, figures: false, progress: &mut |_, _| true },
+            )
+            .map(drop),
         };
-        let mut rows: [Vec<f64>; 4] = Default::default();
+        let mut rows: [Vec<f64>; 5] = Default::default();
         for round in 0..ROUNDS + 2 {
             for (row, times) in rows.iter_mut().enumerate() {
                 let start = Instant::now();
@@ -58,6 +65,12 @@ fn main() {
         }
         let f64_time = median(&rows[0]);
         let ratio = |row: usize| median(&rows[row]) / f64_time;
-        println!("{path:55} {f64_time:>5.1} ms {:>6.2} {:>9.1} {:>6.1}", ratio(1), ratio(2), ratio(3));
+        println!(
+            "{path:55} {f64_time:>5.1} ms {:>6.2} {:>9.1} {:>6.1} {:>8.1}",
+            ratio(1),
+            ratio(2),
+            ratio(3),
+            ratio(4)
+        );
     }
 }

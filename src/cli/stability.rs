@@ -220,7 +220,7 @@ fn examined(args: &StabilityArgs, name: &str, read: &Read<'_>, console: &Console
         progress.reach(done, of);
         started.elapsed() < limit || stop()
     };
-    let mut options = ExamineOptions { bound, all: args.all, progress: &mut step };
+    let mut options = ExamineOptions { bound, all: args.all, figures: args.output.is_some(), progress: &mut step };
     let reload = |file: &str, text: &str| read.reloaded(name, file, text);
     let found = find(&scene, sources, &mut options, Some(&reload));
     if stopped.get() {

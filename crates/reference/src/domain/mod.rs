@@ -9,6 +9,7 @@
 //! | [`F32`] | an f32 | rounds once; a built-in function is computed in f64 and rounded once: a strict GPU |
 //! | [`Envelope`] | an f64 and the interval of a GPU's values | yields the hull of what [`rules`] allow |
 //! | [`Shadow`] | an f32 and an f64 side by side | is done in both, which shows the error of f32 |
+//! | `Stepwise` | an f32 | rounds once; formulas round each step: a GPU, and the f32 side of `Shadow` |
 //! | `Exact` | a number of 192 bits | rounds once: the reference for the reference (feature `stability`) |
 //!
 //! Registers store numbers in [`Lanes`], blocks of eight; a domain may define its own operations on [`NumberBlock`]s.
@@ -27,6 +28,8 @@ mod number;
 pub mod rules;
 mod shadow;
 mod single;
+#[cfg(any(test, feature = "stability"))]
+mod stepwise;
 mod wide;
 
 #[cfg(any(test, feature = "stability"))]
@@ -38,6 +41,8 @@ pub use integer::Integer;
 pub use lanes::{Block, Element, LANES, Lanes, Source, WIDTH};
 pub use number::{Answers, ErrorPart, Number, NumberBlock};
 pub use shadow::{ShadowFloat, ShadowInt, Shadowed, rounded};
+#[cfg(any(test, feature = "stability"))]
+pub use stepwise::StepFloat;
 
 /// A pair of number types.
 pub trait Domain: Copy + Send + Sync + std::fmt::Debug + 'static {
@@ -101,4 +106,16 @@ impl Domain for Exact {
     type Float = Big;
     type Int = u32;
     const NAME: &'static str = "exact";
+}
+
+/// The f32 side of [`Shadow`] alone.
+#[cfg(any(test, feature = "stability"))]
+#[derive(Clone, Copy, Debug)]
+pub struct Stepwise;
+
+#[cfg(any(test, feature = "stability"))]
+impl Domain for Stepwise {
+    type Float = StepFloat;
+    type Int = u32;
+    const NAME: &'static str = "stepwise";
 }

@@ -73,6 +73,7 @@ impl Integer for ShadowInt {
 }
 
 /// The nearest f32 of a GPU that flushes subnormal numbers to 0.
+#[inline(always)]
 pub fn rounded(value: f64) -> f64 {
     let single = value as f32;
     f64::from(if single.is_subnormal() { 0.0 * single } else { single })
@@ -117,50 +118,51 @@ impl<const INSIDE: bool> Shadowed<INSIDE> {
 const LARGE: f64 = 1e18;
 
 /// The functions of one number that Vulkan's precision rules define by other functions, each step rounded.
-mod steps {
+pub(super) mod steps {
     use super::rounded;
     use crate::domain::Number;
 
     /// `exp2(x log2(e))`
-    pub(super) fn exp(x: f64) -> f64 {
+    pub(in crate::domain) fn exp(x: f64) -> f64 {
         rounded(Number::exp2(rounded(x * rounded(std::f64::consts::LOG2_E))))
     }
     /// `log2(x) ln(2)`
-    pub(super) fn log(x: f64) -> f64 {
+    pub(in crate::domain) fn log(x: f64) -> f64 {
         rounded(rounded(Number::log2(x)) * rounded(std::f64::consts::LN_2))
     }
     /// `sin(x) / cos(x)`
-    pub(super) fn tan(x: f64) -> f64 {
+    pub(in crate::domain) fn tan(x: f64) -> f64 {
         rounded(rounded(Number::sin(x)) / rounded(Number::cos(x)))
     }
     /// `(exp(x) - exp(-x)) / 2`
-    pub(super) fn sinh(x: f64) -> f64 {
+    pub(in crate::domain) fn sinh(x: f64) -> f64 {
         rounded(rounded(exp(x) - exp(-x)) * 0.5)
     }
     /// `(exp(x) + exp(-x)) / 2`
-    pub(super) fn cosh(x: f64) -> f64 {
+    pub(in crate::domain) fn cosh(x: f64) -> f64 {
         rounded(rounded(exp(x) + exp(-x)) * 0.5)
     }
     /// `log(x + sqrt(x x + 1))`
-    pub(super) fn asinh(x: f64) -> f64 {
+    pub(in crate::domain) fn asinh(x: f64) -> f64 {
         log(rounded(x + rounded(rounded(rounded(x * x) + 1.0).sqrt())))
     }
     /// `log(x + sqrt(x x - 1))`
-    pub(super) fn acosh(x: f64) -> f64 {
+    pub(in crate::domain) fn acosh(x: f64) -> f64 {
         log(rounded(x + rounded(rounded(rounded(x * x) - 1.0).sqrt())))
     }
     /// `log((1 + x) / (1 - x)) / 2`
-    pub(super) fn atanh(x: f64) -> f64 {
+    pub(in crate::domain) fn atanh(x: f64) -> f64 {
         rounded(log(rounded(rounded(1.0 + x) / rounded(1.0 - x))) * 0.5)
     }
     /// `exp2(y log2(x))`
-    pub(super) fn pow(base: f64, exponent: f64) -> f64 {
+    pub(in crate::domain) fn pow(base: f64, exponent: f64) -> f64 {
         rounded(Number::exp2(rounded(exponent * rounded(Number::log2(base)))))
     }
 }
 
 /// `min` or `max` of a GPU that passes a NaN on.
-fn passing_nan(f: impl Fn(f64, f64) -> f64) -> impl Fn(f64, f64) -> f64 {
+#[inline(always)]
+pub(super) fn passing_nan(f: impl Fn(f64, f64) -> f64) -> impl Fn(f64, f64) -> f64 {
     move |a, b| if a.is_nan() || b.is_nan() { f64::NAN } else { f(a, b) }
 }
 

@@ -1,8 +1,8 @@
 //! [`draw`]: a picture in one of the arithmetics that an examination compares.
 
 use crate::RenderOptions;
-use crate::domain::{Exact, F64, Shadow};
-use crate::pipeline::{self, Study};
+use crate::domain::{Exact, F64, Stepwise};
+use crate::pipeline;
 use glisten_front::diagnostic::Diagnostic;
 use glisten_scene::Scene;
 use glisten_scene::picture::Picture;
@@ -25,9 +25,7 @@ pub enum Arithmetic {
 pub fn draw(scene: &Scene, arithmetic: Arithmetic) -> Result<Picture, Vec<Diagnostic>> {
     let options = RenderOptions { mark_edges: false, ..RenderOptions::default() };
     match arithmetic {
-        Arithmetic::Single => {
-            pipeline::render_studied::<Shadow>(scene, &options, Study { unfused: true, ..Study::NONE })
-        }
+        Arithmetic::Single => pipeline::render::<Stepwise>(scene, &options),
         Arithmetic::Double => pipeline::render::<F64>(scene, &options),
         Arithmetic::Exact => pipeline::render::<Exact>(scene, &options),
     }

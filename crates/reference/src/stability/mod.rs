@@ -22,6 +22,7 @@
 //! they round once.
 
 mod birth;
+mod births;
 mod draw;
 mod errors;
 mod exact;
@@ -37,9 +38,10 @@ pub use errors::ErrorMap;
 pub use exact::{EXACT_BITS, ExactPixel, recompute};
 pub use kinds::CauseKind;
 
-use super::domain::{F64, Shadow};
+use super::domain::{F64, Shadow, Stepwise};
 use super::pipeline::{self, Probe, Study};
 use super::{RenderOptions, exec};
+use births::BirthCounter;
 use experiment::{Bench, causes, drawing_options};
 use glisten_front::diagnostic::{Diagnostic, codes};
 use glisten_front::hir::Stage;
@@ -49,6 +51,7 @@ use glisten_scene::Scene;
 use glisten_scene::picture::Picture;
 use record::{Collected, Place, Recorder, Tally};
 use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// An expression is a cause if its result has lost this many bits more than its operands. Three operands with half an
@@ -147,6 +150,8 @@ pub struct ExamineOptions<'a> {
     pub bound: f64,
     /// Whether causes below the bound are told, too.
     pub all: bool,
+    /// Whether the figures of every expression are wanted, even if nothing hurts.
+    pub figures: bool,
     /// Called before each experiment with the number of those done and of all; `false` ends the experiments.
     pub progress: &'a mut dyn FnMut(usize, usize) -> bool,
 }
@@ -175,7 +180,8 @@ pub struct Examination {
     pub non_finite: u64,
     /// The causes, worst first.
     pub causes: Vec<Cause>,
-    /// Every expression that was evaluated: causes first, then by their loss.
+    /// Every expression that was evaluated: causes first, then by their loss; empty if nothing hurts and
+    /// [`ExamineOptions::figures`] is not set.
     pub spans: Vec<SpanError>,
     /// The verdict.
     pub verdict: Stability,
@@ -248,11 +254,15 @@ pub fn examine(scene: &Scene, options: &mut ExamineOptions<'_>) -> Result<Examin
     let scene = &Scene { framebuffer: errors::unrounded(scene.framebuffer), ..scene.clone() };
     let drawing = drawing_options();
     let exact = pipeline::render::<F64>(scene, &drawing)?;
-    let (single, tallies, _) = recorded(scene, &drawing)?;
+    let births = Arc::new(AtomicU64::new(0));
+    let shared = Arc::clone(&births);
+    let make = move || -> Box<dyn exec::Observer<Stepwise>> { Box::new(BirthCounter::new(&shared)) };
+    let single = pipeline::render_watched::<Stepwise>(scene, &drawing, Some(&make))?;
     let errors = ErrorMap::new(&single, &exact, format);
-    let non_finite = tallies.values().map(Tally::non_finite).sum();
+    let non_finite = births.load(Ordering::Relaxed);
     let worst = errors.worst().map_or(0.0, |(_, error)| error);
     let hurts = worst > options.least() || errors.not_finite() > 0;
+    let tallies = if hurts || options.figures { recorded(scene, &drawing)?.1 } else { BTreeMap::new() };
     let causes =
         if hurts { causes(&Bench::new(scene, format, &exact, &errors), &tallies, options)? } else { Vec::new() };
     let breaks = |cause: &Cause| {
@@ -287,7 +297,7 @@ pub fn pictures_of(scene: &Scene) -> Result<Pair, Vec<Diagnostic>> {
     let scene = &Scene { framebuffer: errors::unrounded(scene.framebuffer), ..scene.clone() };
     let drawing = drawing_options();
     let exact = pipeline::render::<F64>(scene, &drawing)?;
-    let single = pipeline::render_studied::<Shadow>(scene, &drawing, Study { unfused: true, ..Study::NONE })?;
+    let single = pipeline::render::<Stepwise>(scene, &drawing)?;
     let errors = ErrorMap::new(&single, &exact, format);
     Ok(Pair { single, exact, errors })
 }

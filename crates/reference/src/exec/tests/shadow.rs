@@ -2,7 +2,7 @@
 
 use super::generate::{self, Generated, Source};
 use super::{canonical, fill, outputs};
-use crate::domain::{Domain, ErrorPart, F32, F64, Shadow};
+use crate::domain::{Domain, ErrorPart, F32, F64, Shadow, Stepwise};
 use crate::exec::{Code, Exactly, LANES, Machine, Mask, Purpose};
 use glisten_front::hir::{GlobalId, Stage};
 use proptest::prelude::*;
@@ -52,6 +52,13 @@ proptest! {
             let exact = outputs(&exact, &program, lane);
             assert_eq!(exact_outputs(&shadow, &program, lane), exact, "lane {lane} of\n{}", generate::text(&program));
         }
+    }
+
+    #[test]
+    fn the_f32_side_alone_has_the_same_numbers(bytes in prop::collection::vec(any::<u8>(), 0..400)) {
+        let program = generate::program(&mut Source::new(&bytes));
+        same(&program, &ran::<Shadow>(&program, true), &ran::<Stepwise>(&program, true));
+        same(&program, &ran::<Shadow>(&program, true), &ran::<Stepwise>(&program, false));
     }
 
     #[test]
