@@ -14,6 +14,7 @@
 
 // A linear value as the one to store or to show: 0 to 1.
 //   linear  limited to [0, 1]
+// bound: 2.4e-7 abs
 float srgbEncode(float linear)
 {
     float c = safeUnit(linear);
@@ -22,6 +23,7 @@ float srgbEncode(float linear)
 }
 
 // The same for each channel.
+// bound: 2.4e-7 abs
 vec3 srgbEncode(vec3 linear)
 {
     return vec3(srgbEncode(linear.r), srgbEncode(linear.g), srgbEncode(linear.b));
@@ -29,6 +31,7 @@ vec3 srgbEncode(vec3 linear)
 
 // A stored value as the linear one: 0 to 1.
 //   encoded  limited to [0, 1]
+// bound: 2.4e-7 abs
 float srgbDecode(float encoded)
 {
     float v = safeUnit(encoded);
@@ -37,6 +40,7 @@ float srgbDecode(float encoded)
 }
 
 // The same for each channel.
+// bound: 2.4e-7 abs
 vec3 srgbDecode(vec3 encoded)
 {
     return vec3(srgbDecode(encoded.r), srgbDecode(encoded.g), srgbDecode(encoded.b));
