@@ -65,7 +65,7 @@ pub fn translate() -> Translated {
 // [uniforms]
 /// The bytes of the uniform buffer: each value where the reflection says.
 fn uniform_bytes(reflection: &Reflection, globe: &Globe) -> Vec<u8> {
-    let size = reflection.loose_block.map_or(0, |block| block.size as usize);
+    let size = reflection.loose_block.as_ref().map_or(0, |block| block.size as usize);
     let mut bytes = vec![0; size];
     for uniform in &reflection.uniforms {
         let Some((_, values)) = globe.uniforms.iter().find(|(name, _)| *name == uniform.name) else { continue };
@@ -161,7 +161,7 @@ pub fn draw(translated: &Translated, globe: &Globe) -> Picture {
         ..Default::default()
     });
     let mut entries: Vec<(u32, wgpu::BindGroupEntry<'_>)> = Vec::new();
-    if let Some(block) = reflection.loose_block {
+    if let Some(block) = &reflection.loose_block {
         let resource = uniforms.as_entire_binding();
         entries.push((block.group, wgpu::BindGroupEntry { binding: block.binding, resource }));
     }

@@ -92,7 +92,7 @@ vec3 lightDome(Light light, vec3 N)
 // One term of the sum in (101), for reflections by any model, linear RGB. A hemisphere's light is ambient light alone.
 //   light  the light    Kamb  ambient reflectance, 0 to 1    P  shaded point    N  unit normal
 //   L  unit vector towards the light: lightVector()    Idiff, Ispec  diffuse and specular reflection, >= 0
-// bound: 2e-4 rel, where the beam is nearly 0, its error is rounding relative to 1 and not to itself
+// bound: 1e-4 rel, L need not be that of the light, and then the exponent of the beam amplifies what rounds in its angle
 vec3 lightTerm(Light light, vec3 Kamb, vec3 P, vec3 N, vec3 L, vec3 Idiff, vec3 Ispec)
 {
     if (light.kind == LIGHT_HEMISPHERE)

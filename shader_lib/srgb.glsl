@@ -14,7 +14,7 @@
 
 // A linear value as the one to store or to show: 0 to 1.
 //   linear  limited to [0, 1]
-// bound: 2.4e-7 abs
+// bound: 4e-7 rel
 float srgbEncode(float linear)
 {
     float c = safeUnit(linear);
@@ -23,7 +23,7 @@ float srgbEncode(float linear)
 }
 
 // The same for each channel.
-// bound: 2.4e-7 abs
+// bound: 4e-7 rel
 vec3 srgbEncode(vec3 linear)
 {
     return vec3(srgbEncode(linear.r), srgbEncode(linear.g), srgbEncode(linear.b));
@@ -31,7 +31,7 @@ vec3 srgbEncode(vec3 linear)
 
 // A stored value as the linear one: 0 to 1.
 //   encoded  limited to [0, 1]
-// bound: 2.4e-7 abs
+// bound: 4e-7 rel
 float srgbDecode(float encoded)
 {
     float v = safeUnit(encoded);
@@ -40,7 +40,7 @@ float srgbDecode(float encoded)
 }
 
 // The same for each channel.
-// bound: 2.4e-7 abs
+// bound: 4e-7 rel
 vec3 srgbDecode(vec3 encoded)
 {
     return vec3(srgbDecode(encoded.r), srgbDecode(encoded.g), srgbDecode(encoded.b));

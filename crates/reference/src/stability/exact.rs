@@ -128,7 +128,7 @@ mod tests {
 
     fn recomputed(body: &str) -> Vec<ExactPixel> {
         let (scene, _) = scene_of(body, "");
-        let mut options = ExamineOptions { bound: BOUND, all: false, progress: &mut |_, _| {} };
+        let mut options = ExamineOptions { bound: BOUND, all: false, progress: &mut |_, _| true };
         let examined = examine(&scene, &mut options).unwrap_or_else(|found| panic!("{found:?}"));
         recompute(&scene, &examined).unwrap_or_else(|found| panic!("{found:?}"))
     }
