@@ -89,4 +89,11 @@ static LITERAL: &[(&str, &str)] = &[
         "toonRamp(vec3,vec3,float,float,vec3,vec3)",
         "mix(dark, lit, smoothstep(edge - width, edge + width, naiveHalfRange(N, L)))",
     ),
+    ("srgbEncode(float)", "linear <= 0.0031308 ? 12.92 * linear : 1.055 * pow(linear, 1.0 / 2.4) - 0.055"),
+    ("srgbDecode(float)", "encoded <= 0.04045 ? encoded / 12.92 : pow((encoded + 0.055) / 1.055, 2.4)"),
+    (
+        "outlinePosition(vec4,vec3,float,float,float)",
+        "vec4(position.xy + width * normalize(vec2(aspect * direction.x, direction.y)) / vec2(aspect, 1.0) * position.w, \
+         position.z - push * position.w, position.w)",
+    ),
 ];
