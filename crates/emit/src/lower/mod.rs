@@ -48,7 +48,6 @@ mod types;
 mod uniforms;
 
 pub(crate) use operands::for_each_operand;
-pub use sprites::viewport_slot;
 
 use crate::target::{Conventions, Target};
 use facts::Facts;

@@ -69,6 +69,8 @@ pub(super) enum OutputSource {
     Position,
     /// The place in the point, where points are drawn as quads.
     PointCoord,
+    /// A color that the stage does not write.
+    Nothing,
     PointSize,
     ClipDistances(GlobalId, u32),
     /// The varyings at a location: each with its component and, if the stage writes it, its variable.

@@ -1,4 +1,4 @@
-//! The comments beside a declaration or a statement.
+//! The comments next to a declaration or a statement.
 //!
 //! *In:* the texts, and the span of what a comment belongs to. *Out:* the lines of the comment as they are written.
 //! *Holds:* what a macro has put into the text has no comments.

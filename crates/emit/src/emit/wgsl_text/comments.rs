@@ -1,5 +1,5 @@
 //! Carries comments over: those at the beginning of the file (titles, licenses), those above functions and structs, those
-//! beside members, uniforms and globals.
+//! next to members, uniforms and globals.
 //!
 //! *In:* tidied text, and the source. *Out:* the text with comments. *Holds:* a comment of GLSL is a comment of WGSL:
 //! blocks nest there (WGSL §3.5), and more characters end a line (§3.4).
@@ -15,7 +15,7 @@ struct Beside {
     behind: Option<String>,
 }
 
-/// What the comments belong to: `function f`, `struct S`, `S.member`, `variable v`.
+/// The comments by what they belong to: `function f`, `struct S`, `S.member`, `variable v`.
 type Notes = BTreeMap<String, Beside>;
 
 /// The first lines of an emitted text: where it comes from, and the comments at the beginning of the source.
@@ -95,7 +95,7 @@ pub(in crate::emit) fn commented(text: &str, types: &Types, shader: &Shader, sou
     result
 }
 
-/// What a line declares.
+/// The name of what a line declares.
 fn key_of(line: &str, structure: Option<&str>, shader: &Shader) -> Option<String> {
     if let Some(rest) = line.strip_prefix("fn ") {
         let name = rest.split_once('(')?.0;
