@@ -83,3 +83,12 @@ pub(super) enum OutputSource {
     },
     Depth(GlobalId),
 }
+
+/// A corner of a point that is drawn as a quad.
+#[derive(Clone, Copy)]
+pub(super) struct Corner {
+    /// -1 or 1 along each axis of normalized device coordinates.
+    pub(super) direction: Handle<Expression>,
+    /// `gl_PointCoord`
+    pub(super) coordinate: Handle<Expression>,
+}

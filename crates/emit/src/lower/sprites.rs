@@ -9,6 +9,7 @@
 //! whose center is outside of the window, the part inside is drawn, as by the GPU's own points; OpenGL drops it (§2.17).
 
 use super::function::Ctx;
+use super::slots::Corner;
 use super::{Lower, Try};
 use crate::target::{Target, WindowOrigin, viewport_slot};
 use glisten_front::builtin::BuiltinVariable;
@@ -19,14 +20,6 @@ use naga::{AddressSpace, BinaryOperator, Binding, BuiltIn, Expression, Handle, M
 /// The location of the varying with the place in the point: after all others.
 pub(crate) fn coordinate_location(interface: &Interface) -> u32 {
     interface.interpolated().map(|row| row.location.saturating_add(1)).max().unwrap_or(0)
-}
-
-/// The position in clip space, and the place in the point.
-pub(super) struct Corner {
-    /// -1 or 1 along each axis of normalized device coordinates.
-    direction: Handle<Expression>,
-    /// `gl_PointCoord`
-    pub(super) coordinate: Handle<Expression>,
 }
 
 impl Lower<'_> {

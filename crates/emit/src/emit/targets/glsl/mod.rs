@@ -84,7 +84,7 @@ impl Notes for Comments<'_> {
     }
 
     fn above(&self, span: Span) -> Vec<String> {
-        self.sources.map_or_else(Vec::new, |sources| comments::above(sources, span))
+        self.sources.map_or_else(Vec::new, |sources| comments::above_but_not_leading(sources, span))
     }
 
     fn behind(&self, span: Span) -> Option<String> {
