@@ -15,8 +15,11 @@ const VERTEX: &str = "#version 150\nin vec4 position; in float size; uniform flo
 const FRAGMENT: &str = "#version 150\nflat in int number; in vec4 shade; out vec4 c;\n\
     void main() { c = vec4(gl_PointCoord, float(number) / 8.0 + shade.x, gl_FrontFacing ? 1.0 : 0.0); }\n";
 
-/// A scene of points from positions (x, y, z, w) and sizes.
-fn scene(points: &[([f32; 4], f32)], rest: &str) -> Scene {
+/// A position (x, y, z, w) and a size.
+type Point = ([f32; 4], f32);
+
+/// A scene of points.
+fn scene(points: &[Point], rest: &str) -> Scene {
     let positions: Vec<String> = points.iter().flat_map(|(at, _)| at.map(|value| format!("{value:?}"))).collect();
     let sizes: Vec<String> = points.iter().map(|(_, size)| format!("{size:?}")).collect();
     let text = format!(
@@ -36,7 +39,7 @@ fn scene(points: &[([f32; 4], f32)], rest: &str) -> Scene {
 fn quads_draw_what_points_draw() {
     let gpu = gpu();
     let at = |x: f32, y: f32| [x, y, 0.25, 1.0];
-    let rows: [(&str, Vec<([f32; 4], f32)>, &str); 6] = [
+    let rows: [(&str, Vec<Point>, &str); 6] = [
         ("sizes", vec![(at(-0.5, -0.5), 4.0), (at(0.3, 0.52), 9.0), (at(0.1, -0.2), 16.5), (at(0.8, 0.8), 0.25)], ""),
         // Of a point whose center is outside, a GPU draws the part inside.
         (

@@ -14,7 +14,7 @@ use std::fs;
 use std::path::PathBuf;
 use std::process::Command;
 
-/// What a target may say to a program that it cannot hold.
+/// The errors with which a target may reject a valid program.
 const REFUSALS: [&str; 2] = ["E0801", "E0802"];
 
 /// All programs of the fixtures that compile, with the names of their files.
@@ -67,7 +67,7 @@ fn short(stage: Stage) -> &'static str {
 }
 
 /// Shows every text to glslang. Returns what it refuses; none if there is no glslang.
-fn refused(texts: &[(String, Stage, String)], extension: &str, flags: &[&str]) -> Option<Vec<String>> {
+fn rejected(texts: &[(String, Stage, String)], extension: &str, flags: &[&str]) -> Option<Vec<String>> {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let mut wrong = Vec::new();
     for (index, (name, stage, text)) in texts.iter().enumerate() {
@@ -88,9 +88,9 @@ fn refused(texts: &[(String, Stage, String)], extension: &str, flags: &[&str]) -
 }
 
 /// Asserts that glslang accepts every text, and that there are enough of them.
-fn judge(texts: &[(String, Stage, String)], extension: &str, flags: &[&str], least: usize) {
+fn validate(texts: &[(String, Stage, String)], extension: &str, flags: &[&str], least: usize) {
     assert!(texts.len() >= least, "only {} texts", texts.len());
-    let wrong = refused(texts, extension, flags).unwrap_or_default();
+    let wrong = rejected(texts, extension, flags).unwrap_or_default();
     assert!(wrong.is_empty(), "{} of {}: {}", wrong.len(), texts.len(), wrong.join("\n\n"));
 }
 
@@ -106,7 +106,7 @@ fn hlsl_is_accepted_by_a_compiler_of_hlsl() {
                 assert!(!text.contains(word), "{name} needs a root signature of wgpu's: {text}");
             }
         }
-        judge(&texts, "hlsl", HLSL, 60);
+        validate(&texts, "hlsl", HLSL, 60);
     }
 }
 
@@ -117,7 +117,7 @@ fn glsl_is_accepted_in_each_version() {
     {
         let conventions = Conventions { glsl_version, ..Conventions::default() };
         let texts = emitted(Target::Glsl, &conventions);
-        judge(&texts, "glsl", &[], least);
+        validate(&texts, "glsl", &[], least);
     }
 }
 
@@ -125,8 +125,8 @@ fn glsl_is_accepted_in_each_version() {
 fn glslang_refuses_what_is_wrong() {
     let wrong = |text: &str| [("wrong".to_owned(), Stage::Fragment, text.to_owned())];
     let counts = [
-        refused(&wrong("float4 main() : SV_Target { return nothing; }"), "hlsl", HLSL),
-        refused(&wrong("#version 330\nvoid main() { x = 1.0; }\n"), "glsl", &[]),
+        rejected(&wrong("float4 main() : SV_Target { return nothing; }"), "hlsl", HLSL),
+        rejected(&wrong("#version 330\nvoid main() { x = 1.0; }\n"), "glsl", &[]),
     ];
     assert!(counts.iter().flatten().all(|complaints| complaints.len() == 1), "{counts:?}");
 }
@@ -288,7 +288,7 @@ fn words_of_a_later_version_get_an_underscore_in_both_stages() {
             assert!(text.contains("vec4 sample_;"), "{text}");
             ("words".to_owned(), stage, text)
         });
-        judge(&texts, "glsl", &[], 2);
+        validate(&texts, "glsl", &[], 2);
     }
 }
 
@@ -298,7 +298,6 @@ fn webgl_2_refuses_what_it_lacks_with_a_way_out() {
     let rows = [
         (Stage::Vertex, "noperspective out vec4 v; void main() { v = vec4(1.0); gl_Position = v; }", "noperspective"),
         (Stage::Vertex, "out float gl_ClipDistance[1]; void main() { gl_ClipDistance[0] = 1.0; }", "gl_ClipDistance"),
-        (Stage::Vertex, "out V { vec4 v; } o; void main() { o.v = vec4(1.0); gl_Position = o.v; }", "interface blocks"),
         (Stage::Fragment, "uniform sampler1D s; out vec4 c; void main() { c = texture(s, 0.5); }", "sampler1D"),
         (
             Stage::Fragment,
@@ -349,7 +348,36 @@ fn inverse_and_clip_distances_are_in_hlsl_and_msl() {
     let vertex = &texts[0].2;
     assert!(vertex.contains("float4 clip_distances : SV_ClipDistance0;"), "{vertex}");
     assert!(vertex.contains("float clip_distances_1 : SV_ClipDistance1;"), "{vertex}");
-    judge(&texts, "hlsl", HLSL, 2);
+    validate(&texts, "hlsl", HLSL, 2);
     let msl = text("inverse", &program, Stage::Vertex, Target::Msl, &conventions).expect("MSL has it");
     assert!(msl.contains("[[clip_distance]] [5]"), "{msl}");
+}
+
+#[test]
+fn blocks_between_stages_are_varyings_in_webgl_2() {
+    let program = pair(
+        "in vec4 p; out V { vec2 uv; flat int n; } o; void main() { o.uv = p.xy; o.n = 2; gl_Position = p; }",
+        "in V { vec2 uv; flat int n; } i; uniform samplerBuffer unused; out vec4 c;\n\
+         vec4 never() { return texelFetch(unused, 0); }\n\
+         void main() { c = vec4(i.uv, float(i.n), 1.0); }",
+    );
+    let texts = [Stage::Vertex, Stage::Fragment].map(|stage| {
+        let text = glsl(&program, stage, GlslVersion::Es300);
+        assert!(text.contains(" vec2 V_uv;") && text.contains("flat ") && !text.contains("unused"), "{text}");
+        ("blocks".to_owned(), stage, text)
+    });
+    validate(&texts, "glsl", &[], 2);
+}
+
+#[test]
+fn both_sources_of_blending_are_emitted_even_if_one_is_written() {
+    let text = "#version 150\n#extension GL_ARB_explicit_attrib_location : enable\n\
+        layout(location = 0, index = 0) out vec4 a; layout(location = 0, index = 1) out vec4 b;\n\
+        void main() { a = vec4(1.0); }\n";
+    let source = Source { name: "a.frag".into(), text: text.into(), stage: Stage::Fragment };
+    let program = compiler().compile(&[source]).program.expect("it compiles");
+    for target in [Target::Wgsl, Target::Hlsl, Target::Msl, Target::Spirv] {
+        let emitted = emit(&program, Stage::Fragment, target, &Conventions::default());
+        assert!(emitted.is_ok(), "{}: {emitted:?}", target.name());
+    }
 }

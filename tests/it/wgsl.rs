@@ -47,7 +47,7 @@ fn the_hash_of_the_header_is_that_of_the_content() {
 #[test]
 fn comments_stay_beside_what_they_belong_to() {
     let text = wgsl(
-        "#version 150\n// A light.\nstruct Light {\n    vec3 color;  // linear\n    float power;\n};\n\n\
+        "#version 150\n// Some lights.\n\n// A light.\nstruct Light {\n    vec3 color;  // linear\n    float power;\n};\n\n\
          // All of them.\nuniform Light lights[2];\nuniform float gain;  // 0 to 1\nout vec4 c;\n\n\
          // Adds /* up */ everything.\nvec3 total(float x) { return lights[0].color * x; }\n\n\
          /* The entry /* of it. */\nvoid main() { c = vec4(total(gain), lights[1].power); }\n",
@@ -61,9 +61,18 @@ fn comments_stay_beside_what_they_belong_to() {
     ] {
         assert!(text.contains(part), "no {part:?} in\n{text}");
     }
+    assert_eq!(text.matches("// A light.").count(), 1, "{text}");
     // A comment that nests in WGSL alone would swallow the rest.
     assert_eq!(text.matches("/*").count(), text.matches("*/").count(), "{text}");
     naga::front::wgsl::parse_str(&text).unwrap_or_else(|error| panic!("{}", error.emit_to_string(&text)));
+}
+
+#[test]
+fn a_license_above_the_first_declaration_is_written_once() {
+    let text = wgsl("#version 150\n// Licensed.\nuniform float k;\nout vec4 c;\nvoid main() { c = vec4(k); }\n");
+    assert_eq!(text.matches("// Licensed.").count(), 1, "{text}");
+    let unused = wgsl("#version 150\n// Licensed.\nuniform float k;\nout vec4 c;\nvoid main() { c = vec4(1.0); }\n");
+    assert_eq!(unused.matches("// Licensed.").count(), 1, "{unused}");
 }
 
 #[test]

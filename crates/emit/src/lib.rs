@@ -14,8 +14,7 @@ mod lower;
 mod target;
 
 pub use emit::{Emitted, Reflection, emit, emit_with_sources, levels_of_comparisons, notes, reflect, reflection};
-pub use lower::viewport_slot;
-pub use target::{BUFFER_WIDTH, ClipZ, Conventions, GlslVersion, SpirvEnv, Target, WindowOrigin};
+pub use target::{BUFFER_WIDTH, ClipZ, Conventions, GlslVersion, SpirvEnv, Target, WindowOrigin, viewport_slot};
 
 /// Lowers without emitting, for a benchmark of the two parts. Returns how many functions the lowered module has.
 ///

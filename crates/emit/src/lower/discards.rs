@@ -5,12 +5,8 @@
 //! is before it in the text, in it, in a loop around it, or in a function that is called there; what precedes the call of
 //! a function precedes everything in it.
 
-use super::facts::{FunctionFacts, is_counted};
+use super::facts::{FunctionFacts, GuardedLoops, is_counted};
 use glisten_front::hir::{ExprId, ExprKind, FunctionId, Shader, Stmt, StmtKind};
-use rustc_hash::FxHashSet;
-
-/// The loops, by the first and the last byte of their statements.
-pub(super) type GuardedLoops = FxHashSet<(u32, u32)>;
 
 /// The loops of the functions that `main` reaches. `order` has callees before callers.
 pub(super) fn guarded_loops(shader: &Shader, functions: &[FunctionFacts], order: &[FunctionId]) -> GuardedLoops {

@@ -3,12 +3,12 @@
 //! *In:* a [`Shader`]. *Out:* [`Facts`]. *Holds:* nothing here recurses over expressions. The arena stores children
 //! before their parents, so one pass over it is enough; functions are traversed with work lists.
 
-use super::discards::{GuardedLoops, guarded_loops};
 use glisten_front::builtin::BuiltinFunction;
 use glisten_front::hir::{
     ExprId, ExprKind, Function, FunctionId, GlobalId, LocalId, LocalKind, ParamMode, ScalarValue, Shader, Stmt,
     StmtKind, Storage, VarRef,
 };
+use rustc_hash::FxHashSet;
 
 /// The possible effects of an expression besides yielding a value.
 #[derive(Clone, Copy, Debug, Default)]
@@ -43,6 +43,9 @@ pub(super) struct FunctionFacts {
     pub(super) discards: bool,
 }
 
+/// Loops by the first and the last byte of their statements.
+pub(super) type GuardedLoops = FxHashSet<(u32, u32)>;
+
 /// Facts about a shader.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Facts {
@@ -58,7 +61,8 @@ pub(super) struct Facts {
     pub(super) used: Vec<bool>,
     /// For each global: whether it is indexed by a variable.
     pub(super) indexed: Vec<bool>,
-    /// The loops that a discarded invocation may run, and that do not evidently end.
+    /// The loops that a discarded invocation may run, and that do not evidently end, by the first and the last byte of
+    /// their statements; set by `discards`.
     pub(super) loops_after_discard: GuardedLoops,
 }
 
@@ -84,7 +88,6 @@ impl Facts {
         }
         facts.natures = natures(shader, &constants);
         facts.order = order(shader, &facts.functions);
-        facts.loops_after_discard = guarded_loops(shader, &facts.functions, &facts.order);
         facts.mark_globals(shader);
         facts
     }

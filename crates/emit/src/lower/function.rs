@@ -3,7 +3,7 @@
 //! *Holds:* an expression is evaluated at its `Emit`, so what is added between two statements is emitted between
 //! them. Literals, variables and arguments are not evaluated and are outside every range.
 
-use super::slots::{LocalSlot, Lowered, OutputMember, SamplerValue};
+use super::slots::{Corner, LocalSlot, Lowered, OutputMember, SamplerValue};
 use super::{Lower, Try, for_each_operand, internal, naga_span};
 use crate::target::Target;
 use glisten_front::hir::{FunctionId, GlobalId, LocalId, LocalKind, ParamMode, ScalarValue, Shader, Stage, TypeId};
@@ -54,7 +54,7 @@ pub(super) struct Ctx<'l, 'a> {
     pub(super) is_entry: bool,
     pub(super) outputs: Vec<OutputMember>,
     /// In a vertex stage that draws points as quads: the corner.
-    pub(super) corner: Option<super::sprites::Corner>,
+    pub(super) corner: Option<Corner>,
 }
 
 impl<'l, 'a> Ctx<'l, 'a> {

@@ -48,7 +48,6 @@ mod types;
 mod uniforms;
 
 pub(crate) use operands::for_each_operand;
-pub use sprites::viewport_slot;
 
 use crate::target::{Conventions, Target};
 use facts::Facts;
@@ -80,7 +79,8 @@ pub(crate) fn lower(
     if stage == Stage::Geometry {
         return Err(vec![no_geometry(shader)]);
     }
-    let facts = Facts::of(shader);
+    let mut facts = Facts::of(shader);
+    facts.loops_after_discard = discards::guarded_loops(shader, &facts.functions, &facts.order);
     let nesting = facts.functions.iter().map(|function| function.depth).max().unwrap_or(0);
     // A statement and its contents take several stack frames; an expression takes one or two.
     glisten_front::stack::with_stack(shader.expr_depth.saturating_add(nesting.saturating_mul(4)), || {

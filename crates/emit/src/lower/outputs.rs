@@ -36,7 +36,9 @@ impl Ctx<'_, '_> {
         let members = if self.is_vertex() { self.vertex_outputs()? } else { self.fragment_outputs()? };
         let result = match members.as_slice() {
             [] => None,
-            [only] => Some(naga::FunctionResult { ty: only.ty, binding: Some(only.binding.clone()) }),
+            [only] if !has_blend_source(&only.binding) => {
+                Some(naga::FunctionResult { ty: only.ty, binding: Some(only.binding.clone()) })
+            }
             several => {
                 let name = if self.is_vertex() { "VertexOutput" } else { "FragmentOutput" };
                 let members = several
@@ -139,7 +141,9 @@ impl Ctx<'_, '_> {
         let dual = interface.outputs.iter().any(|output| output.index == 1);
         let mut members = Vec::new();
         for output in &interface.outputs {
-            if !self.low.facts.used.get(output.global.index()).copied().unwrap_or(false) {
+            // Of two sources of blending, targets want both.
+            let used = self.low.facts.used.get(output.global.index()).copied().unwrap_or(false);
+            if !used && !dual {
                 continue;
             }
             let (ty, len) = match self.low.types.get(output.ty) {
@@ -156,7 +160,10 @@ impl Ctx<'_, '_> {
                     name,
                     ty: self.low.vector_type(scalar, 4),
                     binding: plain_location(output.location + element, dual.then_some(output.index)),
-                    source: OutputSource::Color { global: output.global, element: len.map(|_| element), ty },
+                    source: match used {
+                        true => OutputSource::Color { global: output.global, element: len.map(|_| element), ty },
+                        false => OutputSource::Nothing,
+                    },
                 });
             }
         }
@@ -180,7 +187,7 @@ impl Ctx<'_, '_> {
         }
         let value = match (values.as_slice(), &self.out.result) {
             ([], _) | (_, None) => None,
-            ([only], _) => Some(*only),
+            ([only], _) if members.iter().all(|member| !has_blend_source(&member.binding)) => Some(*only),
             (_, Some(result)) => {
                 let ty = result.ty;
                 Some(self.add(Expression::Compose { ty, components: values }))
@@ -212,6 +219,7 @@ impl Ctx<'_, '_> {
                 }
                 Ok(self.add(Expression::Compose { ty: member.ty, components }))
             }
+            OutputSource::Nothing => Ok(self.zero(member.ty)),
             OutputSource::Varyings(rows) => self.varyings_at(rows, member.ty),
             OutputSource::Color { global, element, ty } => {
                 let size = self.low.types.flat_len(*ty);
@@ -365,4 +373,9 @@ impl Ctx<'_, '_> {
         }
         Ok(self.add(Expression::Compose { ty, components: vec![x, y, z, w] }))
     }
+}
+
+/// Whether a color is one of two sources of blending, which only members of structs can be.
+fn has_blend_source(binding: &Binding) -> bool {
+    matches!(binding, Binding::Location { blend_src: Some(_), .. })
 }

@@ -69,6 +69,8 @@ pub(super) enum OutputSource {
     Position,
     /// The place in the point, where points are drawn as quads.
     PointCoord,
+    /// A color that the stage does not write.
+    Nothing,
     PointSize,
     ClipDistances(GlobalId, u32),
     /// The varyings at a location: each with its component and, if the stage writes it, its variable.
@@ -80,4 +82,13 @@ pub(super) enum OutputSource {
         ty: TypeId,
     },
     Depth(GlobalId),
+}
+
+/// A corner of a point that is drawn as a quad.
+#[derive(Clone, Copy)]
+pub(super) struct Corner {
+    /// -1 or 1 along each axis of normalized device coordinates.
+    pub(super) direction: Handle<Expression>,
+    /// `gl_PointCoord`
+    pub(super) coordinate: Handle<Expression>,
 }

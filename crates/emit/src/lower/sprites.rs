@@ -9,8 +9,9 @@
 //! whose center is outside of the window, the part inside is drawn, as by the GPU's own points; OpenGL drops it (§2.17).
 
 use super::function::Ctx;
+use super::slots::Corner;
 use super::{Lower, Try};
-use crate::target::{Target, WindowOrigin};
+use crate::target::{Target, WindowOrigin, viewport_slot};
 use glisten_front::builtin::BuiltinVariable;
 use glisten_front::hir::{Stage, TypeId};
 use glisten_front::link::Interface;
@@ -19,22 +20,6 @@ use naga::{AddressSpace, BinaryOperator, Binding, BuiltIn, Expression, Handle, M
 /// The location of the varying with the place in the point: after all others.
 pub(crate) fn coordinate_location(interface: &Interface) -> u32 {
     interface.interpolated().map(|row| row.location.saturating_add(1)).max().unwrap_or(0)
-}
-
-/// The binding of the uniform buffer with the viewport's size, where points are drawn as quads
-/// ([`Conventions::point_sprites`](crate::Conventions::point_sprites)): after all others of its group.
-pub fn viewport_slot(interface: &Interface) -> glisten_front::link::SlotBinding {
-    let blocks: u32 = interface.blocks.iter().map(|block| block.array_size.unwrap_or(1)).sum();
-    let binding = u32::from(interface.loose.is_some()).saturating_add(blocks);
-    glisten_front::link::SlotBinding { group: 0, binding }
-}
-
-/// The position in clip space, and the place in the point.
-pub(super) struct Corner {
-    /// -1 or 1 along each axis of normalized device coordinates.
-    direction: Handle<Expression>,
-    /// `gl_PointCoord`
-    pub(super) coordinate: Handle<Expression>,
 }
 
 impl Lower<'_> {

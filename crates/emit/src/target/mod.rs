@@ -10,6 +10,7 @@ mod textures;
 
 pub use conventions::{ClipZ, Conventions, GlslVersion, SpirvEnv, WindowOrigin};
 pub use language::Target;
+pub use slots::viewport_slot;
 pub(crate) use slots::{SlotKind, Slots};
 pub use textures::BUFFER_WIDTH;
 pub(crate) use textures::Shape;

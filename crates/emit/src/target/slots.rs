@@ -33,7 +33,7 @@ impl Slots {
             slots.add(buffer, SlotKind::Buffer);
         }
         // The viewport's size, where points are drawn as quads.
-        slots.add(crate::lower::viewport_slot(interface), SlotKind::Buffer);
+        slots.add(viewport_slot(interface), SlotKind::Buffer);
         for row in &interface.samplers {
             slots.add(row.texture, SlotKind::Texture);
             if row.sampler != row.texture {
@@ -78,4 +78,12 @@ impl SlotKind {
             Self::Sampler => "samplers",
         }
     }
+}
+
+/// The binding of the uniform buffer with the viewport's size, where points are drawn as quads
+/// ([`Conventions::point_sprites`](crate::Conventions::point_sprites)): after all others of its group.
+pub fn viewport_slot(interface: &Interface) -> SlotBinding {
+    let blocks: u32 = interface.blocks.iter().map(|block| block.array_size.unwrap_or(1)).sum();
+    let binding = u32::from(interface.loose.is_some()).saturating_add(blocks);
+    SlotBinding { group: 0, binding }
 }

@@ -1,4 +1,4 @@
-//! The comments beside a declaration or a statement.
+//! The comments next to a declaration or a statement.
 //!
 //! *In:* the texts, and the span of what a comment belongs to. *Out:* the lines of the comment as they are written.
 //! *Holds:* what a macro has put into the text has no comments.
@@ -57,17 +57,19 @@ pub fn behind(sources: &SourceMap, span: Span) -> Option<String> {
     (ends && one && !comment.ends_with('\\')).then(|| comment.to_owned())
 }
 
-/// The comments at the beginning of a text, before and after its `#version` line: titles, authors, licenses.
+/// The comments at the beginning of a text, before and after its `#version` line: titles, authors, licenses. If there are
+/// several paragraphs, one directly above the first declaration belongs to that declaration.
 pub fn leading(text: &str) -> Vec<String> {
     let mut comment: Vec<String> = Vec::new();
     let mut inside = false;
     for line in text.lines() {
         let trimmed = line.trim();
         let is_comment = inside || trimmed.starts_with("//") || trimmed.starts_with("/*");
-        if !is_comment && trimmed.starts_with("#version") {
-            continue;
-        }
-        if !is_comment && !trimmed.is_empty() {
+        if !is_comment && !trimmed.is_empty() && !trimmed.starts_with("#version") {
+            let attached = comment.iter().rposition(String::is_empty);
+            if let Some(blank) = attached.filter(|_| comment.last().is_some_and(|last| !last.is_empty())) {
+                comment.truncate(blank);
+            }
             break;
         }
         if !is_comment {
@@ -94,6 +96,14 @@ pub fn leading(text: &str) -> Vec<String> {
     comment
 }
 
+/// The lines of the comment directly above something, unless they are among the [`leading`] ones of the file.
+pub fn above_but_not_leading(sources: &SourceMap, span: Span) -> Vec<String> {
+    let lines = above(sources, span);
+    let Some((text, ..)) = place(sources, span).filter(|_| !lines.is_empty()) else { return lines };
+    let leading: Vec<String> = leading(text).iter().map(|line| line.trim().to_owned()).collect();
+    if leading.ends_with(&lines) { Vec::new() } else { lines }
+}
+
 /// Follows block comments through a line. Returns the offset of the end of a block that ends on it.
 fn block_end(line: &str, inside: &mut bool) -> Option<usize> {
     let mut from = 0;
@@ -116,7 +126,8 @@ mod tests {
     #[test]
     fn a_license_is_found_around_the_version() {
         let text = "// Copyright\n#version 150\n/* Two\n   lines */\n\n\n// A title\nin vec4 p; // no\n";
-        assert_eq!(leading(text), ["// Copyright", "/* Two", "   lines */", "", "// A title"]);
+        assert_eq!(leading(text), ["// Copyright", "", "/* Two", "   lines */"]);
+        assert_eq!(leading("#version 150\n// Licensed.\nin vec4 p;\n"), ["// Licensed."]);
         assert!(leading("#version 150\nin vec4 p;\n// later\n").is_empty());
         assert!(leading("/* without an end\n").is_empty());
         assert_eq!(leading("// one\n/* two */ in vec4 p;\n"), ["// one"]);

@@ -64,7 +64,7 @@ pub(super) fn arrays(program: &Program) -> Vec<StructArray> {
         let leaves: Vec<&UniformLeaf> =
             interface.uniforms.iter().filter(|leaf| leaf.root.0 as usize == index).collect();
         for (path, ty) in starts(types, interface, root) {
-            below(types, &leaves, &path, ty, &mut |path, ty, size| {
+            below(types, &path, ty, &mut |path, ty, size| {
                 found.extend(array(types, interface, root, &leaves, path, ty, size));
             });
         }
@@ -88,7 +88,7 @@ fn starts(types: &Types, interface: &Interface, root: &UniformRoot) -> Vec<(Stri
 }
 
 /// Calls `visit` with the outermost arrays of structs at and below a path.
-fn below(types: &Types, leaves: &[&UniformLeaf], path: &str, ty: TypeId, visit: &mut dyn FnMut(&str, StructId, u32)) {
+fn below(types: &Types, path: &str, ty: TypeId, visit: &mut dyn FnMut(&str, StructId, u32)) {
     match types.get(ty) {
         Type::Array(element, ArraySize::Sized(size)) => {
             if let Type::Struct(id) = types.get(element) {
@@ -97,7 +97,7 @@ fn below(types: &Types, leaves: &[&UniformLeaf], path: &str, ty: TypeId, visit: 
         }
         Type::Struct(id) => {
             for member in &types.structure(id).members {
-                below(types, leaves, &joined(path, &member.name), member.ty, visit);
+                below(types, &joined(path, &member.name), member.ty, visit);
             }
         }
         _ => {}

@@ -18,7 +18,7 @@ pub struct Match {
     pub name: String,
     /// Whether it is a part of what was asked for.
     pub part: bool,
-    /// What it is, in a sentence.
+    /// A sentence that says what it is.
     pub description: String,
     /// Its row in the reflection; null for `other`.
     pub row: serde_json::Value,
@@ -34,7 +34,7 @@ impl Match {
 /// The answer.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Found {
-    /// What has that name, or what is inside it.
+    /// All things of that name, or the parts of one.
     Known(Vec<Match>),
     /// There is no such name.
     Unknown {

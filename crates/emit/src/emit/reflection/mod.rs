@@ -67,7 +67,7 @@ pub struct Reflection {
 pub struct StageFiles {
     /// The sources.
     pub sources: Vec<String>,
-    /// What was emitted, by the word of the target: `wgsl`, `spirv`, `msl`, `hlsl`, `glsl`.
+    /// The emitted files, by the word of the target: `wgsl`, `spirv`, `msl`, `hlsl`, `glsl`.
     pub outputs: BTreeMap<String, String>,
 }
 

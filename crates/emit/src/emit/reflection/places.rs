@@ -5,8 +5,7 @@
 //! with the emitted text; a test compares them.
 
 use crate::emit::targets::{glsl, msl};
-use crate::lower::viewport_slot;
-use crate::target::{Conventions, Slots, WindowOrigin};
+use crate::target::{Conventions, Slots, WindowOrigin, viewport_slot};
 use glisten_front::hir::{GlobalId, Stage};
 use glisten_front::link::{Program, SlotBinding};
 use serde::{Deserialize, Serialize};

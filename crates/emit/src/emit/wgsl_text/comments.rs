@@ -1,12 +1,12 @@
 //! Carries comments over: those at the beginning of the file (titles, licenses), those above functions and structs, those
-//! beside members, uniforms and globals.
+//! next to members, uniforms and globals.
 //!
 //! *In:* tidied text, and the source. *Out:* the text with comments. *Holds:* a comment of GLSL is a comment of WGSL:
 //! blocks nest there (WGSL §3.5), and more characters end a line (§3.4).
 
 use glisten_front::hir::{Shader, Storage, Type, Types};
-use glisten_front::source::{SourceMap, Span, comments};
-use std::collections::BTreeMap;
+use glisten_front::source::{FileId, SourceMap, Span, comments};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A comment above something, and one behind it.
 #[derive(Default)]
@@ -15,22 +15,45 @@ struct Beside {
     behind: Option<String>,
 }
 
-/// What the comments belong to: `function f`, `struct S`, `S.member`, `variable v`.
+/// The comments by what they belong to: `function f`, `struct S`, `S.member`, `variable v`.
 type Notes = BTreeMap<String, Beside>;
 
 /// The first lines of an emitted text: where it comes from, and the comments at the beginning of the source.
 pub(in crate::emit) fn header(shader: &Shader, sources: &SourceMap) -> Option<String> {
-    let file = sources.file(sources.file_of(shader.anchor())?);
-    let name = file.name().rsplit(['/', '\\']).next().unwrap_or("");
-    let name: String = name.chars().map(|character| if character.is_control() { ' ' } else { character }).collect();
-    let version = env!("CARGO_PKG_VERSION");
-    let mut lines = vec![format!("// {name}, translated by glisten {version} (source {:016x})", hash(shader))];
+    let entry = sources.file_of(shader.anchor())?;
+    let file = sources.file(entry);
+    let names: Vec<String> = files_of(shader, entry, sources).iter().map(|name| plain_name(name)).collect();
+    let (names, version) = (names.join(", "), env!("CARGO_PKG_VERSION"));
+    let mut lines = vec![format!("// {names}, translated by glisten {version} (source {:016x})", hash(shader))];
     let leading = comments::leading(file.text());
     if !leading.is_empty() {
         lines.push("//".to_owned());
         lines.extend(of_wgsl(&leading));
     }
     Some(lines.iter().map(|line| format!("{}\n", line.trim_end())).collect::<String>() + "\n")
+}
+
+/// The names of the files that a stage has something from, its own first.
+fn files_of<'s>(shader: &Shader, entry: FileId, sources: &'s SourceMap) -> Vec<&'s str> {
+    let functions = shader.functions.iter().map(|function| function.span);
+    let spans = functions.chain(shader.globals.iter().map(|global| global.span));
+    let found: BTreeSet<FileId> =
+        spans.filter(|span| span.is_known()).filter_map(|span| sources.file_of(span)).collect();
+    let own = sources
+        .files()
+        .filter(|(id, file)| *id != entry && found.contains(id) && file.name() != SourceMap::COMMAND_LINE);
+    [sources.file(entry).name()].into_iter().chain(own.map(|(_, file)| file.name())).collect()
+}
+
+/// The name of a file without its folder.
+fn plain_name(path: &str) -> String {
+    let name = path.rsplit(['/', '\\']).next().unwrap_or("");
+    name.chars().map(|character| if ends_line(character) { ' ' } else { character }).collect()
+}
+
+/// Whether a character ends a line in WGSL, or has no place in a text.
+fn ends_line(character: char) -> bool {
+    character.is_control() || matches!(character, '\u{2028}' | '\u{2029}')
 }
 
 /// The FNV-1a hash of a stage's text, with all that it includes.
@@ -43,8 +66,7 @@ fn hash(shader: &Shader) -> u64 {
 /// GLSL, where they do not nest.
 fn of_wgsl(lines: &[String]) -> Vec<String> {
     let clean = |line: &String| -> String {
-        let breaks = |character: char| character.is_control() || matches!(character, '\u{2028}' | '\u{2029}');
-        line.chars().map(|character| if breaks(character) { ' ' } else { character }).collect()
+        line.chars().map(|character| if ends_line(character) { ' ' } else { character }).collect()
     };
     let lines: Vec<String> = lines.iter().map(clean).collect();
     let all = lines.join("\n");
@@ -95,7 +117,7 @@ pub(in crate::emit) fn commented(text: &str, types: &Types, shader: &Shader, sou
     result
 }
 
-/// What a line declares.
+/// The name of what a line declares.
 fn key_of(line: &str, structure: Option<&str>, shader: &Shader) -> Option<String> {
     if let Some(rest) = line.strip_prefix("fn ") {
         let name = rest.split_once('(')?.0;
@@ -135,7 +157,7 @@ fn notes(types: &Types, shader: &Shader, sources: &SourceMap) -> Notes {
     let mut notes = Notes::new();
     let mut add = |key: String, span: Span, behind: bool| {
         let beside = Beside {
-            above: comments::above(sources, span),
+            above: comments::above_but_not_leading(sources, span),
             behind: behind.then(|| comments::behind(sources, span)).flatten(),
         };
         if !beside.above.is_empty() || beside.behind.is_some() {

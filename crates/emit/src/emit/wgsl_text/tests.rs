@@ -17,7 +17,7 @@ fn written(module: &naga::Module) -> String {
     wgsl::write_string(module, &info, wgsl::WriterFlags::empty()).expect("naga writes it")
 }
 
-/// What naga reads, written again: without spans, and with naga's own names.
+/// The text that naga reads, written again: without spans, and with naga's own names.
 fn read(text: &str) -> String {
     let text = text.replace("diagnostic(off, derivative_uniformity);", "");
     let module = naga::front::wgsl::parse_str(&text).unwrap_or_else(|error| panic!("{}", error.emit_to_string(&text)));

@@ -87,6 +87,9 @@ impl Printer<'_> {
         let shader = self.shader;
         self.blank();
         for (id, global) in shader.globals() {
+            if !self.notes.is_none_or(|notes| notes.keeps_global(global)) {
+                continue;
+            }
             if global.builtin.is_some() {
                 self.builtin(global);
                 continue;

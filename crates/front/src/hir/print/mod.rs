@@ -12,12 +12,20 @@ mod names;
 mod scoped;
 mod statements;
 
-use super::{Function, FunctionId, Shader, Type, TypeId, Types};
+use super::{Function, FunctionId, Global, Shader, Type, TypeId, Types};
 use crate::source::Span;
 use names::{NameTable, ScopedNames};
 
-/// Comments for what is printed, by its span.
+/// Comments for what is printed, by its span, and what is left out.
 pub trait Notes {
+    /// Whether a global is printed.
+    fn keeps_global(&self, _global: &Global) -> bool {
+        true
+    }
+    /// Whether a function is printed.
+    fn keeps_function(&self, _function: &Function) -> bool {
+        true
+    }
     /// The lines of comment above it, as they are written.
     fn above(&self, span: Span) -> Vec<String>;
     /// The comment behind it on its last line.
@@ -130,6 +138,9 @@ impl Printer<'_> {
     fn function(&mut self, id: FunctionId) {
         let shader = self.shader;
         let function = shader.function(id);
+        if !self.notes.is_none_or(|notes| notes.keeps_function(function)) {
+            return;
+        }
         self.function = Some(id);
         self.blank();
         self.above(function.span);

@@ -1,4 +1,4 @@
-//! What GLSL ES 3.00 (WebGL 2) lacks of GLSL 1.50.
+//! The parts of GLSL 1.50 that GLSL ES 3.00 (WebGL 2) lacks.
 //!
 //! *In:* a stage. *Out:* one error for each kind of thing that it uses and that ES has no equal for. *Not done here:*
 //! what can be said in other words, which `rewrite` does.
@@ -7,7 +7,9 @@ use crate::target::GlslVersion;
 use glisten_front::builtin::BuiltinVariable;
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::targets::{FEATURE_NOT_IN_TARGET, STAGE_NOT_IN_TARGET};
-use glisten_front::hir::{Global, Interpolation, SamplerDim, SamplerType, Shader, Stage, Storage, Type, TypeId, Types};
+use glisten_front::hir::{
+    Global, Interpolation, Member, SamplerDim, SamplerType, Shader, Stage, Storage, Type, TypeId, Types,
+};
 use glisten_front::link::Program;
 use glisten_front::source::Span;
 
@@ -36,7 +38,7 @@ pub(super) fn of_es(program: &Program, shader: &Shader) -> Vec<Diagnostic> {
         }
     }
     if program.interface.outputs.iter().any(|output| output.index == 1) && shader.stage == Stage::Fragment {
-        lacks.push(lacking(anchor, "a second source of blending".into(), "compile for `--glsl-version 330`"));
+        lacks.push(lacking(anchor, "second source of blending".into(), "compile for `--glsl-version 330`"));
     }
     lacks
 }
@@ -57,10 +59,12 @@ fn of_global(types: &Types, shader: &Shader, global: &Global) -> Option<(String,
     }
     let between =
         matches!((shader.stage, global.storage), (Stage::Vertex, Storage::Out) | (Stage::Fragment, Storage::In));
-    if between && global.block.is_some() {
-        return Some(("interface blocks between stages".into(), "declare the members as varyings of their own"));
-    }
-    if between && global.interpolation == Interpolation::Noperspective {
+    let members = match types.get(global.ty) {
+        Type::Struct(id) if global.block.is_some() => types.structure(id).members.as_slice(),
+        _ => &[],
+    };
+    let noperspective = |member: &Member| member.interpolation == Some(Interpolation::Noperspective);
+    if between && (global.interpolation == Interpolation::Noperspective || members.iter().any(noperspective)) {
         return Some((
             "`noperspective`".into(),
             "multiply by `gl_Position.w` before the rasterizer, and by `gl_FragCoord.w` after it",

@@ -9,9 +9,11 @@
 //! | file | contents |
 //! | --- | --- |
 //! | `limits` | what WebGL 2 lacks |
+//! | `blocks` | blocks between stages as varyings, for WebGL 2 |
 //! | `rewrite` | what later versions have dropped, in terms of what they have |
 //! | `names` | names that are words of the version |
 
+mod blocks;
 mod limits;
 mod names;
 mod rewrite;
@@ -22,7 +24,7 @@ use super::super::emitted::Emitted;
 use crate::target::{Conventions, GlslVersion};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::general;
-use glisten_front::hir::{Notes, Shader, Stage, Type, TypeId, Types, print_with};
+use glisten_front::hir::{Function, Global, Notes, Shader, Stage, Storage, Type, TypeId, Types, print_with};
 use glisten_front::language::{Profile, Version};
 use glisten_front::link::Program;
 use glisten_front::source::{SourceMap, Span, comments};
@@ -51,9 +53,9 @@ pub(in crate::emit) fn write(
     shader.version = language(version, shader.version.span);
     rewrite::rewrite(&mut types, &mut shader, program, version);
     names::apply(&mut types, &mut shader, program, version);
-    let notes = Comments(sources);
+    let notes = Comments { sources, keeps_all: version != GlslVersion::Es300 };
     let text = print_with(&types, &shader, Some(&notes));
-    Ok(Emitted::Text(with_precisions(text, &types, &shader)))
+    Ok(Emitted::Text(with_precisions(text, &types, &shader, &notes)))
 }
 
 fn language(version: GlslVersion, span: Span) -> Version {
@@ -65,28 +67,41 @@ fn language(version: GlslVersion, span: Span) -> Version {
     Version { number, profile, span }
 }
 
-/// The comments of the source.
-struct Comments<'a>(Option<&'a SourceMap>);
+/// The comments of the source. ES gets only what is in use, since the rest may use what ES lacks.
+struct Comments<'a> {
+    sources: Option<&'a SourceMap>,
+    keeps_all: bool,
+}
 
 impl Notes for Comments<'_> {
+    fn keeps_global(&self, global: &Global) -> bool {
+        let own = matches!(global.storage, Storage::Uniform | Storage::Private | Storage::Const);
+        self.keeps_all || global.used || !own || global.block.is_some()
+    }
+
+    fn keeps_function(&self, function: &Function) -> bool {
+        self.keeps_all || function.reachable
+    }
+
     fn above(&self, span: Span) -> Vec<String> {
-        self.0.map_or_else(Vec::new, |sources| comments::above(sources, span))
+        self.sources.map_or_else(Vec::new, |sources| comments::above_but_not_leading(sources, span))
     }
 
     fn behind(&self, span: Span) -> Option<String> {
-        comments::behind(self.0?, span)
+        comments::behind(self.sources?, span)
     }
 }
 
 /// The text with the precision statements that GLSL ES 3.00 §4.5.4 requires: everything has the highest precision, as
 /// in OpenGL.
-fn with_precisions(text: String, types: &Types, shader: &Shader) -> String {
+fn with_precisions(text: String, types: &Types, shader: &Shader, notes: &Comments<'_>) -> String {
     if shader.version.profile != Profile::Es {
         return text;
     }
     let mut samplers = BTreeSet::new();
-    let globals = shader.globals.iter().map(|global| global.ty);
-    let locals = shader.functions.iter().flat_map(|function| function.params().iter().map(|param| param.ty));
+    let globals = shader.globals.iter().filter(|global| notes.keeps_global(global)).map(|global| global.ty);
+    let functions = shader.functions.iter().filter(|function| notes.keeps_function(function));
+    let locals = functions.flat_map(|function| function.params().iter().map(|param| param.ty));
     for ty in globals.chain(locals) {
         sampler_types(types, ty, &mut samplers);
     }

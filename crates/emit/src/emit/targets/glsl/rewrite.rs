@@ -3,6 +3,7 @@
 //!
 //! *In:* a copy of a stage. *Out:* the same stage, with the locations of the interface. *Holds:* it means the same.
 
+use super::blocks::flatten;
 use crate::target::GlslVersion;
 use glisten_front::builtin::{BuiltinFunction, BuiltinVariable};
 use glisten_front::hir::{
@@ -15,6 +16,9 @@ use glisten_front::source::Span;
 /// Rewrites a stage for a version.
 pub(super) fn rewrite(types: &mut Types, shader: &mut Shader, program: &Program, version: GlslVersion) {
     locations(shader, program);
+    if version == GlslVersion::Es300 {
+        flatten(types, shader, program);
+    }
     interpolations(shader, program);
     built_in_colors(types, shader);
     shadow_lookups(types, shader);
