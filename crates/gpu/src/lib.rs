@@ -27,6 +27,7 @@ mod multisample_upload;
 mod prepare;
 mod shadow_upload;
 mod states;
+mod texels;
 mod texture_extent;
 mod textures;
 mod timing;
