@@ -324,3 +324,27 @@ fn the_docs_list_every_program() {
         assert!(text.contains(&row), "docs/scenes.md lacks {row}");
     }
 }
+
+#[test]
+fn image_files_are_decoded_on_demand() {
+    use glisten_scene::picture::{Effort, png_rgb};
+    let png = png_rgb(2, 1, &[[0, 188, 255], [10, 118, 255]], Effort::Fast).expect("a picture");
+    let load = |decode: &str| {
+        let texture = format!("textures = {{ decal = {{ file = \"a.png\"{decode} }} }}\n");
+        let text = format!("[[draw]]\nprogram = \"decal\"\nmesh = {{ shape = \"quad\" }}\n{texture}");
+        let files = MemoryFiles([("a.toml".into(), text.into_bytes()), ("a.png".into(), png.clone())].into());
+        let loaded = load("a.toml", &files, &compiler().with_includes(glisten::library::Embedded));
+        let draw = good(&loaded).clone();
+        match &draw.textures[0].as_ref().expect("it has texels").levels[0].texels {
+            Texels::Float(texels) => texels.clone(),
+            other => panic!("{other:?}"),
+        }
+    };
+    assert_eq!(load("")[0], [0.0, 188.0 / 255.0, 1.0, 1.0]);
+    assert_eq!(load(", decode = \"linear\""), load(""));
+    for (texel, wanted) in load(", decode = \"srgb\"").iter().zip([[0.0, 0.5029, 1.0], [0.00304, 0.1812, 1.0]]) {
+        assert!(texel.iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-4) && texel[3] == 1.0, "{texel:?}");
+    }
+    let loaded = changed("[[draw]]", "[[draw]]\ntextures = { decal = { pattern = \"checker\", decode = \"srgb\" } }");
+    assert!(told(&loaded)[0].contains("`decode` is for an image file"), "{:?}", told(&loaded));
+}

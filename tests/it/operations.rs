@@ -121,8 +121,7 @@ fn every_rule_of_the_pipeline_is_evaluated() {
 fn every_row_is_executed() {
     for (row, signature) in overloads() {
         let text = text(row, &signature);
-        let multisampled = signature.params().first().is_some_and(|param| Types::basic().name(param.0).contains("MS"));
         let code = glisten_reference::exec::Code::compile(&fragment_program(&text), Stage::Fragment);
-        assert_eq!(code.is_ok(), !multisampled, "{}", signature.describe(row.name, Types::basic()));
+        assert!(code.is_ok(), "{}", signature.describe(row.name, Types::basic()));
     }
 }

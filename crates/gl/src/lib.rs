@@ -28,6 +28,7 @@ mod frame;
 mod multisample;
 mod programs;
 mod states;
+mod texels;
 mod textures;
 mod uniforms;
 mod vertices;

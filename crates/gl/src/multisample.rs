@@ -6,7 +6,7 @@
 
 use super::Error;
 use super::api::{Api, Dimensions, PixelLayout, Samples, Size};
-use super::textures::{layout, texel_bytes};
+use super::texels::{layout, texel_bytes};
 use glisten_front::hir::{SamplerType, Scalar};
 use glisten_scene::{Framebuffer, Texture, TextureLevel};
 

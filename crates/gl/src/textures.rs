@@ -4,11 +4,12 @@
 //! sampler uniform set to it. *Holds:* texels have 32 bits per channel, as in the scene. Integer textures are never
 //! filtered, since OpenGL would then call them incomplete.
 
-use super::api::{Api, Dimensions, PixelLayout, Size};
+use super::api::{Api, Dimensions, Size};
 use super::states::{compare, wrap};
+use super::texels::{layout, texel_bytes};
 use super::{Error, multisample};
 use glisten_front::hir::{SamplerDim, SamplerType, Scalar, Type};
-use glisten_scene::{Draw, Filter, Framebuffer, Texels, Texture, TextureLevel};
+use glisten_scene::{Draw, Filter, Framebuffer, Texture, TextureLevel};
 
 /// Binds all textures. The program must be current.
 pub(super) fn bind(api: &Api, linked: glow::Program, draw: &Draw, framebuffer: &Framebuffer) -> Result<(), Error> {
@@ -33,25 +34,6 @@ pub(super) fn bind(api: &Api, linked: glow::Program, draw: &Draw, framebuffer: &
         unit += 1;
     }
     Ok(())
-}
-
-/// How the texels of a sampler type are stored.
-pub(super) fn layout(kind: SamplerType) -> PixelLayout {
-    match kind.texel {
-        _ if kind.shadow => PixelLayout {
-            internal: glow::DEPTH_COMPONENT32F,
-            format: glow::DEPTH_COMPONENT,
-            kind: glow::FLOAT,
-            bytes: 4,
-        },
-        Scalar::Int => PixelLayout { internal: glow::RGBA32I, format: glow::RGBA_INTEGER, kind: glow::INT, bytes: 16 },
-        Scalar::Uint => {
-            PixelLayout { internal: glow::RGBA32UI, format: glow::RGBA_INTEGER, kind: glow::UNSIGNED_INT, bytes: 16 }
-        }
-        Scalar::Bool | Scalar::Float => {
-            PixelLayout { internal: glow::RGBA32F, format: glow::RGBA, kind: glow::FLOAT, bytes: 16 }
-        }
-    }
 }
 
 /// The texture target of a sampler type, and the number of dimensions of its images.
@@ -146,16 +128,4 @@ fn buffer(api: &Api, kind: SamplerType, texture: &Texture) -> Result<(), Error> 
     api.bind_texture(glow::TEXTURE_BUFFER, Some(made));
     api.tex_buffer(glow::TEXTURE_BUFFER, layout(kind).internal, Some(buffer));
     Ok(())
-}
-
-/// The bytes of the texels; for depth, only the first channel.
-pub(super) fn texel_bytes(texels: &Texels, kind: SamplerType) -> Vec<u8> {
-    let channels = if kind.shadow { 1 } else { 4 };
-    match texels {
-        Texels::Float(texels) => {
-            texels.iter().flat_map(|texel| texel.iter().take(channels)).copied().flat_map(f32::to_ne_bytes).collect()
-        }
-        Texels::Int(texels) => texels.iter().flatten().copied().flat_map(i32::to_ne_bytes).collect(),
-        Texels::Uint(texels) => texels.iter().flatten().copied().flat_map(u32::to_ne_bytes).collect(),
-    }
 }

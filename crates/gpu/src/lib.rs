@@ -28,6 +28,7 @@ mod prepare;
 mod shadow_upload;
 mod sprites;
 mod states;
+mod texels;
 mod texture_extent;
 mod textures;
 mod timing;

@@ -4,7 +4,7 @@
 //! with a sample mask that lets only its own sample through. *Holds:* a texture may have more samples than the scene's, as
 //! with `glTexImage2DMultisample`; a shader that asks for those gets an undefined value.
 
-use super::textures::{texel_bytes, texel_format};
+use super::texels::{texel_bytes, texel_format};
 use super::{Error, Gpu};
 use glisten_front::hir::{SamplerType, Scalar};
 use glisten_scene::{Texture, TextureLevel};

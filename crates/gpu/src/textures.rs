@@ -6,6 +6,7 @@
 //! texture (an inactive one) gets a single black texel, so that every binding of the layout is filled.
 
 use super::states::{address_mode, compare, filter_mode};
+use super::texels::{texel_bytes, texel_format};
 use super::texture_extent::extent;
 use super::{Error, Gpu, multisample_upload, shadow_upload};
 use glisten_front::hir::{SamplerDim, SamplerType, Scalar};
@@ -149,32 +150,4 @@ fn color_view(gpu: &Gpu, kind: SamplerType, texture: &Texture) -> wgpu::TextureV
 pub(super) fn texels(texture: Option<&Texture>) -> u32 {
     let level = texture.and_then(|texture| texture.levels.first());
     level.map_or(0, |level| level.width.saturating_mul(level.height).saturating_mul(level.depth.max(1)))
-}
-
-pub(super) fn texel_format(texel: Scalar) -> wgpu::TextureFormat {
-    match texel {
-        Scalar::Int => wgpu::TextureFormat::Rgba32Sint,
-        Scalar::Uint => wgpu::TextureFormat::Rgba32Uint,
-        Scalar::Bool | Scalar::Float => wgpu::TextureFormat::Rgba32Float,
-    }
-}
-
-/// The texels as RGBA with 4 bytes per channel, converted if the data's type differs from the sampler's.
-pub(super) fn texel_bytes(texels: &Texels, texel: Scalar) -> Vec<u8> {
-    let bytes = |values: &mut dyn Iterator<Item = f64>| -> Vec<u8> {
-        values
-            .flat_map(|value| match texel {
-                Scalar::Int => (value as i32).to_ne_bytes(),
-                Scalar::Uint => (value as u32).to_ne_bytes(),
-                Scalar::Bool | Scalar::Float => (value as f32).to_ne_bytes(),
-            })
-            .collect()
-    };
-    match (texels, texel) {
-        // This keeps the bits of NaNs in the most frequent case.
-        (Texels::Float(texels), Scalar::Float) => texels.iter().flatten().flat_map(|v| v.to_ne_bytes()).collect(),
-        (Texels::Float(texels), _) => bytes(&mut texels.iter().flatten().map(|&value| f64::from(value))),
-        (Texels::Int(texels), _) => bytes(&mut texels.iter().flatten().map(|&value| f64::from(value))),
-        (Texels::Uint(texels), _) => bytes(&mut texels.iter().flatten().map(|&value| f64::from(value))),
-    }
 }

@@ -7,7 +7,7 @@ use super::names::{FILTERS, TEXTURE_KINDS, TextureKind, kind_name};
 use super::patterns;
 use super::reader::{Node, Number, NumberValue, report_unknown_name};
 use crate::model::{Compare, Filter, Texels, Texture, TextureLevel, Wrap};
-use crate::picture::Image;
+use crate::picture::{Image, Transfer};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::scenes::{
     SCENE_BAD_ASSET, SCENE_UNSET_TEXTURE, SCENE_WRONG_KIND, SCENE_WRONG_SIZE, SCENE_WRONG_VALUE,
@@ -20,7 +20,7 @@ use toml::de::DeTable;
 
 const KEYS: &[&str] = &[
     "kind", "integer", "width", "height", "depth", "layers", "values", "filter", "wrap", "mipmaps", "compare", "file",
-    "flip", "pattern", "samples",
+    "flip", "pattern", "samples", "decode",
 ];
 
 /// The largest width, height, depth or number of layers.
@@ -156,6 +156,12 @@ fn check_origin(loader: &mut Loader<'_>, table: &DeTable<'_>) -> Option<()> {
         let span = loader.reader.span_of(second);
         let message = format!("a texture with `{}` has no `{}`", first.get_ref(), second.get_ref());
         loader.reader.error(&SCENE_WRONG_VALUE, span, message, "leave one of the two out");
+        return None;
+    }
+    if let (None, Some((key, _))) = (table.get("file"), table.get_key_value("decode")) {
+        let span = loader.reader.span_of(key);
+        let message = "`decode` is for an image file: other texels are linear light".to_owned();
+        loader.reader.error(&SCENE_WRONG_VALUE, span, message, "nothing to decode");
         return None;
     }
     Some(())
@@ -396,7 +402,7 @@ fn gather<T: Copy>(numbers: &[Number], each: usize, missing: [T; 4], convert: im
         .collect()
 }
 
-/// Loads an image file as a level: 8 or 16 bits per channel become numbers in [0, 1], without gamma. The bottom row
+/// Loads an image file as a level: 8 or 16 bits per channel become numbers in [0, 1], decoded if asked. The bottom row
 /// is at t = 0, so that the image is upright, unless `flip = false`.
 fn load_image(
     loader: &mut Loader<'_>,
@@ -408,6 +414,7 @@ fn load_image(
     let span = loader.reader.span_of(file);
     let path = loader.reader.text(file, "file")?.to_owned();
     let flip = loader.reader.flag(table, "flip", true);
+    let decode = loader.reader.choice_at(table, "decode", Transfer::Linear, Transfer::NAMES);
     if !matches!(kind.dim, SamplerDim::D1 | SamplerDim::D2 | SamplerDim::Rect)
         || kind.arrayed
         || kind.texel != Scalar::Float
@@ -428,10 +435,15 @@ fn load_image(
     };
     let image = if flip { image.flipped() } else { image };
     let Image { width, height, pixels } = image;
+    let light = |[red, green, blue, alpha]: [f32; 4]| {
+        let [red, green, blue] = [red, green, blue].map(|channel| decode.decode(f64::from(channel)) as f32);
+        [red, green, blue, alpha]
+    };
     if width > MAX_SIDE || height > MAX_SIDE || (kind.dim == SamplerDim::D1 && height > 1) {
         let message = format!("`{path}` has {width}x{height} texels, too many for a {}", kind.name());
         loader.reader.error(&SCENE_WRONG_SIZE, span, message, "too large");
         return None;
     }
+    let pixels = if decode == Transfer::Linear { pixels } else { pixels.into_iter().map(light).collect() };
     Some(TextureLevel { width, height, depth: 1, texels: Texels::Float(pixels) })
 }
