@@ -99,7 +99,6 @@ fn planted_instabilities_are_found_and_sound_look_alikes_are_not_accused() {
         |(case, found): &&(&Case, Findings)| case.ill_posed == found.causes.iter().take(2).any(|cause| cause.ill_posed);
     let wrong: Vec<&str> = planted.iter().filter(|it| !told_apart(it)).map(|(case, _)| case.scene.as_str()).collect();
     assert_eq!(wrong, ["planted/14_splat_check.toml", "planted/40_wind_rose.toml"], "ill-posed or unstable");
-    println!("{} planted, {} sound", planted.len(), sound.len());
 }
 
 #[test]
