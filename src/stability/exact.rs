@@ -4,48 +4,14 @@
 //! ([`recompute`]): f64's own error, and which causes f64 is not enough for. *Holds:* a program whose picture agrees in f32
 //! and f64 only because both are wrong is not called stable.
 
+use super::recomputed::{ExactFound, ExactPixelFound};
 use super::{Examination, Findings};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_reference::stability::{EXACT_BITS, ExactPixel, Stability, recompute};
 use glisten_scene::Scene;
-use serde::Serialize;
 
 /// f64 is enough if its error is below the bound divided by this.
 const MARGIN: f64 = 16.0;
-
-/// What 192 bits say of the reference.
-#[derive(Clone, Debug, Serialize)]
-pub struct ExactFound {
-    /// The bits of a number.
-    pub bits: usize,
-    /// The pixels that were recomputed.
-    pub pixels: Vec<ExactPixelFound>,
-    /// The largest error of f64 in these pixels; `None` if f64 is not finite in one of them and the exact color is.
-    pub f64_max_error: Option<f64>,
-    /// The largest error of f32 in these pixels; `None` if f32 is not finite in one of them and the exact color is.
-    pub f32_max_error: Option<f64>,
-    /// Whether f64 is enough for all of them.
-    pub f64_is_enough: bool,
-}
-
-/// A pixel that was recomputed. Colors are `None` in channels that are not finite.
-#[derive(Clone, Debug, Serialize)]
-pub struct ExactPixelFound {
-    /// The column from the left.
-    pub x: u32,
-    /// The row from the top.
-    pub y: u32,
-    /// Its color in f32.
-    pub f32: [Option<f64>; 4],
-    /// Its color in f64.
-    pub f64: [Option<f64>; 4],
-    /// Its color in 192 bits, rounded to f64.
-    pub exact: [Option<f64>; 4],
-    /// The error of f64; `None` if it is not finite.
-    pub error: Option<f64>,
-    /// Whether that is below a sixteenth of the bound.
-    pub f64_is_enough: bool,
-}
 
 fn finite(value: f64) -> Option<f64> {
     value.is_finite().then_some(value)
@@ -102,7 +68,7 @@ pub fn with_exact(
 const NOT_ENOUGH: &str = "f64 is not enough here either: in 192 bits, the pixel has another color";
 
 impl ExactFound {
-    /// What it says, as a sentence.
+    /// The result as a sentence.
     pub fn sentence(&self) -> String {
         let count = self.pixels.iter().filter(|pixel| !pixel.f64_is_enough).count();
         let (of, bits) = (self.pixels.len(), self.bits);

@@ -4,7 +4,7 @@
 //! cause an expression, and one a line unless kinds differ; causes are sorted by harm.
 
 use super::advice::advice;
-use super::exact::ExactFound;
+use super::recomputed::ExactFound;
 use super::rewrite::{Reload, Tried, tried};
 use glisten_front::diagnostic::{Diagnostic, codes, write};
 use glisten_front::source::SourceMap;
@@ -27,7 +27,7 @@ pub struct Findings {
     pub non_finite: u64,
     /// The causes, worst first.
     pub causes: Vec<CauseFound>,
-    /// What 192 bits say of the reference, if that was asked for.
+    /// The error of the reference by 192 bits, if that was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub exact: Option<ExactFound>,
 }

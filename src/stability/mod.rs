@@ -15,16 +15,18 @@ pub mod library;
 #[cfg(feature = "cli")]
 pub mod page;
 mod patterns;
+mod recomputed;
 mod rewrite;
 pub mod settings;
 pub mod stiff;
 pub mod sweep;
 
-pub use exact::{ExactFound, ExactPixelFound, with_exact};
+pub use exact::with_exact;
 pub use findings::{CauseFound, Findings, PictureFigures, Spot, WorstPixel, find};
 pub use glisten_reference::stability::{
     BOUND, CAUSE_BITS, Cause, CauseKind, ErrorMap, Examination, ExamineOptions, Pair, SpanError, Stability, Trace,
     errors_of, examine, inputs_at, pictures_of, trace,
 };
 pub use heat::heat;
+pub use recomputed::{ExactFound, ExactPixelFound};
 pub use rewrite::Reload;

@@ -1,4 +1,4 @@
-//! `glisten stability --library`, from outside: every function of the library holds the bound that stands beside it.
+//! `glisten stability --library`, from outside: every function of the library holds the bound that is next to it.
 
 use crate::support::root;
 use serde_json::Value;

@@ -5,7 +5,7 @@
 
 use serde::Serialize;
 
-/// What a bound is relative to.
+/// The size that a bound is relative to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum BoundUnit {
@@ -22,7 +22,7 @@ pub enum BoundUnit {
 pub struct Bound {
     /// The number.
     pub error: f64,
-    /// What it is relative to.
+    /// The size that it is relative to.
     pub unit: BoundUnit,
     /// The reason why it is larger than rounding; may be empty.
     pub reason: String,

@@ -6,7 +6,7 @@
 //! ```text
 //!  form ──► inputs   a few thousand calls: ordinary ones, and those at which the model is stiff
 //!       ──► calls    the calls in f32, f64 and 192 bits, and in f64 with the inputs moved by an ULP
-//!       ──► judge    the error beyond what moving the inputs explains, against the bound
+//!       ──► compare  the error beyond what moving the inputs explains, against the bound
 //! ```
 //!
 //! *Holds:* inputs and figures are the same on every run. The literal transcriptions (module `naive`) are not judged: they
@@ -14,18 +14,18 @@
 
 mod bound;
 mod calls;
+mod compare;
 mod inputs;
-mod judge;
 mod literal;
 
 pub use bound::{Bound, BoundUnit, ROUNDING};
-pub use judge::{Figures, Naive};
+pub use compare::{Figures, Naive};
 
 use crate::evaluate::EvaluateError;
 use crate::library::{Entry, FunctionEntry, entries};
 use crate::measure::{Form, forms};
 use calls::{Calls, extreme_inputs, stiff_inputs};
-use judge::{judge, judge_naive};
+use compare::{compare, compare_naive};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -42,7 +42,7 @@ pub enum Verdict {
     Broken,
 }
 
-/// What was found of a function.
+/// The findings about a function.
 #[derive(Clone, Debug, Serialize)]
 pub struct FunctionFound {
     /// The module.
@@ -58,7 +58,7 @@ pub struct FunctionFound {
     /// The figures.
     #[serde(flatten)]
     pub figures: Figures,
-    /// The bound that stands beside the function.
+    /// The bound that is next to the function.
     pub bound: Option<Bound>,
     /// Whether the error is within that bound.
     pub within_bound: bool,
@@ -130,7 +130,7 @@ fn examine_function(
         Some(Err(message)) => return Err(EvaluateError::new(format!("{}: {message}", form.signature))),
     };
     let raw = Calls::new(&include, form.signature, &[])?;
-    let mut figures = judge(form, [&calls, &raw], &inputs, bound.as_ref())?;
+    let mut figures = compare(form, [&calls, &raw], &inputs, bound.as_ref())?;
     let extreme = extreme_inputs(raw.width(), if raw.width() == 0 { 1 } else { rows.div_ceil(4) });
     figures.count_non_finite(&raw, &extreme)?;
     let naive = match literal::literal(form.signature) {
@@ -178,7 +178,7 @@ fn naive_of(
         Calls::new(&text, &format!("literalForm({types}"), wraps)
     };
     let (naive, raw, nothing) = (calls(body, &wraps)?, calls(body, &[])?, calls(&format!("{returns}(0.0)"), &wraps)?);
-    let mut found = judge_naive(form, [&naive, &raw], inputs, bound, body)?;
+    let mut found = compare_naive(form, [&naive, &raw], inputs, bound, body)?;
     found.at = found.figures.arguments(&function.declaration);
     found.count_operations([stable, &naive, &nothing], inputs)?;
     Ok(found)

@@ -131,7 +131,7 @@ impl Number for Big {
     fn value(self) -> f64 {
         self.nearest()
     }
-    /// What [`Number::value`] has rounded away, so that two numbers with the same f64 can be told apart.
+    /// The part that [`Number::value`] has rounded away, so that two numbers with the same f64 can be told apart.
     fn second(self) -> f64 {
         let value = self.nearest();
         if value.is_finite() { self.sub(Self::of(value)).nearest() } else { value }

@@ -23,7 +23,7 @@ const MOST_EXPONENT: i32 = 16_384;
 
 const TO_EVEN: RoundingMode = RoundingMode::ToEven;
 
-/// What a number is besides its sign.
+/// A number without its sign.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 enum Class {
     #[default]

@@ -1,4 +1,4 @@
-//! [`judge`]: the error of a function's f32, and how much of it the rounding of its inputs explains.
+//! [`compare`]: the error of a function's f32, and how much of it the rounding of its inputs explains.
 //!
 //! *In:* a function with its inputs. *Out:* its [`Figures`], and those of its naive form. *Holds:* the truth is f64, or 192
 //! bits where f64 could be wrong. An error is explained if moving each input by a few ULP changes the exact result nearly as
@@ -129,7 +129,7 @@ fn changes(calls: &Calls, inputs: &[f32], exact: &Rows) -> Result<Vec<f64>, Eval
     Ok(most)
 }
 
-/// What is left of the errors that are more than rounding, if the directions are taken as f32 has them.
+/// The rest of the errors that are more than rounding, if the directions are taken as f32 has them.
 fn left_as_given(form: &Form, raw: &Calls, inputs: &[f32], left: &mut [f64]) -> Result<(), EvaluateError> {
     let width = raw.width();
     let rows: Vec<usize> = (0..left.len()).filter(|row| left[*row] > ROUNDING / 16.0).collect();
@@ -148,7 +148,7 @@ fn left_as_given(form: &Form, raw: &Calls, inputs: &[f32], left: &mut [f64]) -> 
 }
 
 /// The figures of a function over inputs that its model allows. `raw` is the function without `normalize`.
-pub(super) fn judge(
+pub(super) fn compare(
     form: &Form,
     [calls, raw]: [&Calls; 2],
     inputs: &[f32],
@@ -248,14 +248,14 @@ impl Figures {
 }
 
 /// The figures of a naive form over the inputs of the function.
-pub(super) fn judge_naive(
+pub(super) fn compare_naive(
     form: &Form,
     calls: [&Calls; 2],
     inputs: &[f32],
     bound: Option<&Bound>,
     text: &str,
 ) -> Result<Naive, EvaluateError> {
-    let figures = judge(form, calls, inputs, bound)?;
+    let figures = compare(form, calls, inputs, bound)?;
     let single = calls[0].results(inputs, Arithmetic::Single)?;
     let finite = single.iter().filter(|row| is_finite(row)).flatten();
     let range =
