@@ -20,6 +20,9 @@ use std::process::{Command, Stdio};
 /// The files of a program: vertex and fragment.
 type Pair = [PathBuf; 2];
 
+/// A translator: its name, whether it is installed, and whether it brings a program to WGSL.
+type Row<'a> = (&'static str, bool, &'a dyn Fn(&Pair) -> bool);
+
 fn main() {
     let folders: Vec<String> = std::env::args().skip(1).collect();
     let pairs: Vec<Pair> = folders.iter().flat_map(|folder| pairs(Path::new(folder))).collect();
@@ -27,7 +30,7 @@ fn main() {
     let naga = is_there("naga");
     let glslang = naga && is_there("glslangValidator");
     println!("{} programs", pairs.len());
-    let rows: [(&str, bool, &dyn Fn(&Pair) -> bool); 3] = [
+    let rows: [Row<'_>; 3] = [
         ("glisten", true, &by_glisten),
         ("naga (GLSL front end)", naga, &|pair| by_stage(pair, by_naga)),
         ("glslang, then naga", glslang, &|pair| by_stage(pair, by_glslang)),

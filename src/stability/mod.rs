@@ -2,8 +2,8 @@
 //!
 //! *In:* a scene with the texts of its shaders. *Out:* [`Findings`]: the verdict, the figures of the picture, and the
 //! causes at their places, each with a help text. The measurement itself is
-//! [`glisten_reference::stability`]; this folder adds places in the text ([`findings`](Findings)), help texts ([`advice`]),
-//! and inputs other than the scene's ([`sweep`]).
+//! [`glisten_reference::stability`]; this folder adds places in the text ([`findings`](Findings)), help texts (`advice`),
+//! and inputs other than the scene's ([`sweep`], [`stiff`]).
 //!
 //! *Holds:* nothing here prints or writes files. Figures are the same on every run.
 

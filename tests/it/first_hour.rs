@@ -705,3 +705,13 @@ fn words_of_other_languages_and_missing_macros_get_the_words_of_glsl() {
         assert!(casts.contains(help), "{help}: {casts}");
     }
 }
+
+#[test]
+fn flat_varyings_of_a_program_are_one_finding() {
+    let folder = crate::support::root().join("fixtures/lint/L0004");
+    let file = |name: &str| folder.join(name).to_string_lossy().into_owned();
+    let (findings, _) = Folder::new(&[]).lint(&[&file("bad_many.vert"), &file("bad_many.frag")]);
+    let flat: Vec<&Value> = findings.iter().filter(|finding| finding["code"] == "L0004").collect();
+    assert_eq!(flat.len(), 1, "{findings:?}");
+    assert!(flat[0]["message"].as_str().is_some_and(|text| text.contains("`id` and 2 more varyings")), "{flat:?}");
+}

@@ -12,10 +12,22 @@ pub(super) fn check(program: &Program, findings: &mut Findings<'_>) {
             && global.interpolation == Interpolation::Flat
             && global.used
     });
-    for global in flat {
-        let message =
-            format!("`{}` is flat: OpenGL takes the last vertex's value, WebGPU and Vulkan the first's", global.name);
-        let help = "rotate the indices of each primitive, or give the vertices of a primitive equal values";
-        findings.push(findings.at(global.span, message).help(help));
+    // They have one cause: how the host draws. So they are one finding.
+    let all: Vec<_> = flat.collect();
+    let [first, others @ ..] = all.as_slice() else { return };
+    let (them, are) = match others {
+        [] => (format!("`{}`", first.name), "is"),
+        [second] => (format!("`{}` and `{}`", first.name, second.name), "are"),
+        _ => (format!("`{}` and {} more varyings", first.name, others.len()), "are"),
+    };
+    let message = format!("{them} {are} flat: OpenGL takes the last vertex's value, WebGPU and Vulkan the first's");
+    let help = "rotate the indices of each primitive, or give the vertices of a primitive equal values";
+    let mut finding = findings.at(first.span, message).help(help);
+    for other in others.iter().take(MOST_LABELS) {
+        finding = finding.label(other.span, "flat, too");
     }
+    findings.push(finding);
 }
+
+/// The number of other varyings that a finding shows.
+const MOST_LABELS: usize = 3;
