@@ -18,6 +18,8 @@ mod exec;
 #[cfg(feature = "cli")]
 mod first_hour;
 #[cfg(feature = "cli")]
+mod first_steps;
+#[cfg(feature = "cli")]
 mod gallery;
 #[cfg(feature = "gpu")]
 mod gpu;
