@@ -206,3 +206,13 @@ fn flat_varyings_of_a_program_are_one_finding() {
     assert_eq!(flat.len(), 1, "{findings:?}");
     assert!(flat[0]["message"].as_str().is_some_and(|text| text.contains("`id` and 2 more varyings")), "{flat:?}");
 }
+
+#[test]
+fn a_text_that_rejects_itself_is_one_error() {
+    let text = "#version 150\n#ifndef QUALITY\n#error define QUALITY\n#endif\nout vec4 c;\nvoid main() { c = vec4(lost(QUALITY_STEPS), \
+        missing.x, 1.0, nothing); }\n";
+    let folder = Folder::new(&[("a.frag", text.as_bytes())]);
+    let (findings, exit) = folder.lint(&["a.frag"]);
+    let list: Vec<String> = findings.iter().filter_map(|finding| Some(finding["code"].as_str()?.to_owned())).collect();
+    assert_eq!((exit, list), (1, vec!["E0118".to_owned()]), "{findings:?}");
+}

@@ -88,6 +88,9 @@ impl ErrorMap {
 fn pixel_error(single: &[f64; 4], exact: &[f64; 4], format: Format) -> f64 {
     let channels = single.iter().zip(exact).map(|(single, exact)| {
         let (single, exact) = (shown(*single, format), shown(*exact, format));
+        // A picture of an f32 domain holds integers as f32 numbers.
+        let is_integer = matches!(format, Format::Rgba32Sint | Format::Rgba32Uint);
+        let exact = if is_integer { f64::from(exact as f32) } else { exact };
         match (single.is_finite(), exact.is_finite()) {
             (true, true) => (single - exact).abs(),
             // The model has no finite color here, and f32 has one by chance.

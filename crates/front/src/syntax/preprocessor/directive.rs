@@ -329,6 +329,8 @@ impl Preprocessor<'_> {
         let text = if tokens.is_empty() { "" } else { session.sources.snippet(rest) };
         let message = if text.is_empty() { "#error".to_owned() } else { format!("#error: {text}") };
         session.report(Diagnostic::new(&codes::ERROR_DIRECTIVE, session.sources.join(span, rest), message));
+        // The text says itself that it makes no sense this way: what it declares would only add errors.
+        self.outcome.supported = false;
     }
 
     /// `#pragma`: its macros are not expanded, and unknown pragmas are ignored.

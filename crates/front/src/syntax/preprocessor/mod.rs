@@ -43,7 +43,7 @@ pub(super) const MAX_BYTES: usize = 8 << 20;
 #[derive(Debug)]
 pub(super) struct PreprocessorOutcome {
     pub(super) version: Version,
-    /// Whether the parser understands the language.
+    /// Whether the parser understands the language, and the text does not reject itself by `#error`.
     pub(super) supported: bool,
     pub(super) invariant_all: Option<Span>,
     pub(super) allows: Vec<Allow>,
