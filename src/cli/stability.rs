@@ -98,7 +98,7 @@ fn parse_bound(text: &str) -> Result<f64, String> {
 
 /// The result for a scene.
 #[derive(Serialize)]
-struct Result1 {
+struct SceneResult {
     scene: String,
     #[serde(flatten)]
     findings: Findings,
@@ -123,7 +123,7 @@ struct SweepResult {
 /// A scene that was examined, with its texts.
 struct Done<'a> {
     read: Read<'a>,
-    result: Result1,
+    result: SceneResult,
     examined: Examination,
 }
 
@@ -180,7 +180,7 @@ pub(super) fn run(args: &StabilityArgs, console: &Console) -> Outcome {
 }
 
 /// A result, or the diagnostics of its failure.
-type Examined = Result<(Result1, Examination), Vec<Diagnostic>>;
+type Examined = Result<(SceneResult, Examination), Vec<Diagnostic>>;
 
 fn examined(args: &StabilityArgs, name: &str, read: &Read<'_>, console: &Console) -> Result<Examined, Failure> {
     let sources = read.sources();
@@ -229,18 +229,17 @@ fn examined(args: &StabilityArgs, name: &str, read: &Read<'_>, console: &Console
     }
     let found = if args.exact { found.and_then(|found| with_exact(&scene, found, bound)) } else { found };
     Ok(found.map(|(findings, examined)| {
-        let result = Result1 { scene: name.to_owned(), findings, bound, sweep, stiff, examined_scene: scene.clone() };
+        let result =
+            SceneResult { scene: name.to_owned(), findings, bound, sweep, stiff, examined_scene: scene.clone() };
         (result, examined)
     }))
 }
 
+/// The scene to examine with the points of the sweeps, or the diagnostics of a failure to draw.
+type Swept = Result<(Scene, Option<SweepResult>), Vec<Diagnostic>>;
+
 /// The scene with the worst values of the sweeps, or as it is.
-#[expect(clippy::type_complexity, reason = "a failure of usage, or diagnostics of drawing, or the result")]
-fn swept(
-    sweeps: &[Sweep],
-    scene: &Scene,
-    progress: &Progress,
-) -> Result<Result<(Scene, Option<SweepResult>), Vec<Diagnostic>>, Failure> {
+fn swept(sweeps: &[Sweep], scene: &Scene, progress: &Progress) -> Result<Swept, Failure> {
     if sweeps.is_empty() {
         return Ok(Ok((scene.clone(), None)));
     }
@@ -299,7 +298,7 @@ fn findings(done: &[Done<'_>]) -> Vec<diagnostic::write::Finding> {
 }
 
 fn human(done: &Done<'_>, console: &Console) -> String {
-    let Result1 { scene, findings, bound, sweep, stiff, .. } = &done.result;
+    let SceneResult { scene, findings, bound, sweep, stiff, .. } = &done.result;
     let picture = &findings.picture;
     let mut text = format!("{scene}: {}\n", findings.verdict);
     let mut row = |name: &str, value: String| text.push_str(&format!("  {name:18} {value}\n"));
