@@ -216,3 +216,21 @@ fn a_text_that_rejects_itself_is_one_error() {
     let list: Vec<String> = findings.iter().filter_map(|finding| Some(finding["code"].as_str()?.to_owned())).collect();
     assert_eq!((exit, list), (1, vec!["E0118".to_owned()]), "{findings:?}");
 }
+
+#[test]
+fn a_file_without_a_version_is_not_laid_at_what_it_includes() {
+    let folder = Folder::new(&[
+        ("a.frag", b"#include \"lib.glsl\"\nvoid main() { }\n"),
+        ("lib.glsl", b"float twice(float x) { return 2.0 * x; }\n"),
+        ("ok.frag", b"#version 150\nout vec4 c;\nvoid main() { c = vec4(1.0); }\n"),
+    ]);
+    let (findings, _) = folder.lint(&["a.frag"]);
+    let files: Vec<(&str, &str)> = findings
+        .iter()
+        .filter_map(|finding| Some((finding["code"].as_str()?, finding["file"].as_str()?)))
+        .filter(|(code, _)| *code == "E0120")
+        .collect();
+    assert_eq!(files, [("E0120", "a.frag")], "{findings:?}");
+    let searched = folder.run(&["lint", "."]);
+    assert_eq!(code(&searched), 0, "a search counts it as another version: {}", out(&searched));
+}

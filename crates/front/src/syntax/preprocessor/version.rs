@@ -182,7 +182,11 @@ impl Preprocessor<'_> {
         }
         self.version_seen = true;
         self.outcome.supported = false;
-        let first = self.first_token.or(self.before_version);
+        // The first token may be in an included file; the line belongs in the main file.
+        let main = self.frames.first().map(|frame| frame.file);
+        let in_main = |span: &Span| session.sources.file_of(session.sources.call_site(*span)) == main;
+        let places = [self.first_token, self.before_version];
+        let first = places.into_iter().flatten().find(in_main).or(self.first_token.or(self.before_version));
         let Some(first) = first else {
             let span = self.frames.first().map_or(Span::default(), |frame| {
                 let base = session.sources.file(frame.file).base();
