@@ -1,9 +1,8 @@
 //! Measures what `glisten stability` costs compared with the reference's picture in f64, without causes: both pictures,
 //! the trace of every expression, and the command on a scene that is stable, where no trace is needed.
 //!
-//! All rows run in turns: `cargo bench --bench stability --features cli`. The goal
-//! for the command is 10. Ratios are of medians; the A/A row
-//! compares the reference with itself.
+//! All rows run in turns: `cargo bench --bench stability --features cli`. The goal is 10. Ratios are of medians; the A/A
+//! column compares the reference with itself.
 
 use glisten::library::Embedded;
 use glisten::scene::{DiskFiles, Scene, load};

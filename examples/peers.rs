@@ -6,7 +6,8 @@
 //!
 //! A program is a `.vert` and a `.frag` of one name. glisten's WGSL counts if naga validates it; the others count if `naga`
 //! (`cargo install naga-cli`) writes WGSL. glslang is `glslangValidator`, with the flags that help it with old sources
-//! (`--auto-map-locations --auto-map-bindings -R`). Without these programs on the path, their rows are left out.
+//! (`--auto-map-locations --auto-map-bindings -R`). Without these programs on the path, their rows are left
+//! out. Those two translate each stage alone, so their stages need not fit together; glisten links them first.
 
 #![expect(clippy::print_stdout, reason = "an example prints")]
 
