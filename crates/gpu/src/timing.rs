@@ -95,9 +95,17 @@ impl Gpu {
     /// The errors of [`Gpu::draw`].
     pub fn frames_for_a_stretch(&self, prepared: &Prepared) -> Result<u32, Error> {
         self.measure(prepared, 1)?;
-        let one = self.measure(prepared, 2)?.max(1e-3);
-        let frames = (Self::STRETCH.as_secs_f64() * 1e3 / one).ceil();
-        Ok((frames as u32).clamp(1, Self::MOST_FRAMES))
+        let goal = Self::STRETCH.as_secs_f64() * 1e3;
+        let mut frames = 2;
+        // A short measurement may be far too long by chance, so its frames are measured again.
+        loop {
+            let one = self.measure(prepared, frames)?.max(1e-4);
+            let wanted = (goal / one).ceil().min(f64::from(Self::MOST_FRAMES)) as u32;
+            if f64::from(frames) >= 0.8 * f64::from(wanted) {
+                return Ok(wanted.max(1));
+            }
+            frames = wanted.min(frames * 16).max(1);
+        }
     }
 
     /// The time of a frame in milliseconds: the mean over `frames` frames drawn in one go.
