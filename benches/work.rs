@@ -8,11 +8,10 @@
 
 #![expect(clippy::print_stdout, reason = "a benchmark prints its figures")]
 
-use glisten::report::{Weights, work};
+use glisten::report::{Weights, steps, work};
 use glisten::scene::{DiskFiles, Scene, load};
 use glisten::{Compiler, Options};
 use glisten_gpu::{Gpu, Prepared, Via};
-use glisten_reference::{RenderOptions, counts};
 use std::path::{Path, PathBuf};
 
 const ROUNDS: usize = 9;
@@ -21,15 +20,14 @@ fn main() {
     let asked: Vec<String> = std::env::args().skip(1).filter(|argument| !argument.starts_with('-')).collect();
     let scenes = scenes(&asked);
     if asked.iter().any(|asked| asked == "counts") {
-        return scenes.iter().for_each(|(name, scene)| steps(name, scene));
+        return scenes.iter().for_each(|(name, scene)| print_steps(name, scene));
     }
     let gpu = Gpu::new(None).expect("a Vulkan adapter: apt-get install mesa-vulkan-drivers");
     let times = times(&gpu, &scenes);
     let weights: Vec<Weights> = Weights::embedded().into_iter().filter_map(Weights::named).collect();
     let names: Vec<&str> = weights.iter().map(Weights::name).collect();
     println!("| scene | ms | {} |\n| --- | --- |{}", names.join(" | "), " --- |".repeat(names.len()));
-    let works: Vec<Vec<f64>> =
-        scenes.iter().map(|(_, scene)| weights.iter().map(|weights| sum(scene, weights)).collect()).collect();
+    let works: Vec<Vec<f64>> = scenes.iter().map(|(_, scene)| sums(scene, &weights)).collect();
     for (((name, _), works), time) in scenes.iter().zip(&works).zip(&times) {
         let works: Vec<String> = works.iter().map(|work| format!("{work:.0}")).collect();
         println!("| `{name}` | {time:.3} | {} |", works.join(" | "));
@@ -66,17 +64,16 @@ fn scenes(asked: &[String]) -> Vec<(String, Scene)> {
         .collect()
 }
 
-fn sum(scene: &Scene, weights: &Weights) -> f64 {
-    work(scene, weights).expect("the reference draws it").operations as f64
+/// The operations of a scene by each of the weights.
+fn sums(scene: &Scene, weights: &[Weights]) -> Vec<f64> {
+    let counts = steps(scene).expect("the reference draws it");
+    weights.iter().map(|weights| work(&counts, weights).operations as f64).collect()
 }
 
 /// The steps of a scene, as tab-separated lines.
-fn steps(name: &str, scene: &Scene) {
-    let options = RenderOptions { mark_edges: false, ..RenderOptions::default() };
-    for counts in counts(scene, &options).expect("the reference draws it") {
-        for (step, count) in counts {
-            println!("{name}\t{}\t{}\t{}\t{count}", step.name, step.results, step.argument);
-        }
+fn print_steps(name: &str, scene: &Scene) {
+    for (step, count) in steps(scene).expect("the reference draws it") {
+        println!("{name}\t{}\t{}\t{}\t{count}", step.name, step.results, step.argument);
     }
 }
 

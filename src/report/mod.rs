@@ -37,7 +37,7 @@ pub use model::{Adapter, Ended, Figures, Machine, OnFront, Report, Skipped, Spre
 pub use past::Past;
 pub use run::{Error, Options, Watcher, Ways, run};
 pub use weights::Weights;
-pub use work::work;
+pub use work::{steps, work};
 
 impl Report {
     /// The table for a terminal.
