@@ -35,6 +35,7 @@
 mod expected;
 mod explain;
 mod files;
+pub mod likely;
 mod runner;
 
 pub use expected::Expected;

@@ -74,6 +74,11 @@ pub trait Domain: Copy + Send + Sync + std::fmt::Debug + 'static {
     fn weight_bits() -> Option<u32> {
         None
     }
+    /// The error of a point's size, as a share of the allowed one, -1 to 1.
+    #[inline(always)]
+    fn point_size_share() -> f64 {
+        0.0
+    }
     /// A level of detail with the bits that it has.
     #[inline(always)]
     fn level(exact: f64) -> f64 {
