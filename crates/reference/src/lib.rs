@@ -5,6 +5,7 @@
 //! *Holds:* the crate never sees naga IR, so that a mistake in the lowering shows as a difference. Coverage is
 //! decided in f32 and integers, and is the same in every domain; values are computed in the domain.
 
+mod counts;
 pub mod domain;
 pub mod exec;
 mod interpolate;
@@ -16,6 +17,8 @@ pub mod stability;
 mod texture;
 mod work;
 
+pub use counts::{Counts, counts};
+pub use exec::Step;
 pub use population::{Drawn, Population, population, simulate};
 pub use work::{Work, work};
 

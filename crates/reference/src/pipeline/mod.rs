@@ -39,7 +39,7 @@ mod watch;
 
 use super::RenderOptions;
 use super::domain::Domain;
-use super::exec::{Code, LOOP_BUDGET, Machine, Piece};
+use super::exec::{Code, Form, LOOP_BUDGET, Machine, Piece};
 use super::raster::Shape;
 use assembly::{Prim, primitives};
 pub(super) use explain::explain;
@@ -83,7 +83,8 @@ pub(super) fn render_watched<D: Domain>(
     options: &RenderOptions,
     observers: Option<&MakeObserver<D>>,
 ) -> Result<Picture, Vec<Diagnostic>> {
-    render_studied(scene, options, Study { observers, unfused: observers.is_some(), ..Study::NONE })
+    let form = if observers.is_some() { Form::Unfused } else { Form::Fast };
+    render_studied(scene, options, Study { observers, form, ..Study::NONE })
 }
 
 /// Draws a scene for a study.
@@ -117,9 +118,8 @@ fn draw_all<D: Domain>(
     if draw.program.stage(Stage::Geometry).is_some() {
         return Err(vec![refuse(&SCENE_CANNOT_DRAW, "a program with a geometry stage cannot be drawn")]);
     }
-    let compile = if watch.study.unfused { Code::compile_unfused } else { Code::compile };
-    let vertex_code = compile(&draw.program, Stage::Vertex)?;
-    let fragment_code = compile(&draw.program, Stage::Fragment)?;
+    let vertex_code = Code::compile_as(&draw.program, Stage::Vertex, watch.study.form)?;
+    let fragment_code = Code::compile_as(&draw.program, Stage::Fragment, watch.study.form)?;
     watch.common(&vertex_code, draw, Piece::SameForVertices);
     watch.common(&fragment_code, draw, Piece::SameForFragments);
     let plan = Plan::new(&draw.program);

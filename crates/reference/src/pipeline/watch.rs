@@ -4,7 +4,7 @@
 
 use crate::domain::faults::Faults;
 use crate::domain::{Domain, ErrorPart, Gpu};
-use crate::exec::{Code, Exactly, Machine, Observer, Order, Piece, Purpose};
+use crate::exec::{Code, Exactly, Form, Machine, Observer, Order, Piece, Purpose};
 use glisten_front::hir::{GlobalId, Stage};
 use glisten_front::source::Span;
 use glisten_scene::Draw;
@@ -38,8 +38,8 @@ pub(crate) struct Study<'a, D: Domain> {
     pub(crate) exact_inputs: &'a [GlobalId],
     /// Sees the values of varyings at a pixel.
     pub(crate) probe: Option<&'a Probe>,
-    /// Whether each operation of the text has instructions of its own.
-    pub(crate) unfused: bool,
+    /// What the stages are compiled for.
+    pub(crate) form: Form,
     /// The GPU that is simulated, in the domain of simulated GPUs.
     pub(crate) gpu: Option<Gpu>,
 }
@@ -54,7 +54,7 @@ impl<D: Domain> Study<'_, D> {
         jitter: None,
         exact_inputs: &[],
         probe: None,
-        unfused: false,
+        form: Form::Fast,
         gpu: None,
     };
 }
