@@ -8,6 +8,7 @@
 //! draw.
 
 use crate::specialize::with_program;
+use glisten_emit::{Conventions, Target, emit};
 use glisten_front::hir::{
     Expr, ExprId, ExprKind, Function, FunctionId, Local, LocalKind, ParamMode, Shader, Stage, TypeId, Types,
     print,
@@ -184,6 +185,17 @@ pub(super) fn differs(a: &Scene, b: &Scene) -> bool {
                 || a.attributes != b.attributes
                 || text(a) != text(b)
         })
+}
+
+/// Whether every program of a scene has a translation for the GPU.
+pub(super) fn is_emitted(scene: &Scene) -> bool {
+    let conventions = Conventions::default();
+    let targets = [Target::Spirv, Target::Wgsl];
+    scene.draws.iter().all(|draw| {
+        draw.program.stages.iter().all(|shader| {
+            targets.iter().all(|target| emit(&draw.program, shader.stage, *target, &conventions).is_ok())
+        })
+    })
 }
 
 /// The names of the parameters of functions that [`call`] declares.

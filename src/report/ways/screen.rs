@@ -44,6 +44,6 @@ const LEAST: f64 = 1e-9;
 
 fn change(shader: &mut Shader, id: GlobalId, storage: Storage) {
     if let Some(global) = shader.globals.get_mut(id.index()).filter(|global| global.storage == storage) {
-        (global.interpolation, global.interpolation_written) = (Interpolation::NoPerspective, true);
+        (global.interpolation, global.interpolation_written) = (Interpolation::Noperspective, true);
     }
 }

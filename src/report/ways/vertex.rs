@@ -40,8 +40,8 @@ pub(super) fn at_vertices(scene: &Scene, index: usize) -> Option<Scene> {
 fn interpolation(program: &Program) -> Interpolation {
     let mut read = program.interface.varyings.iter().filter(|varying| varying.active && varying.to.is_some()).peekable();
     let some = read.peek().is_some();
-    let screen = read.all(|varying| varying.interpolation == Interpolation::NoPerspective);
-    if some && screen { Interpolation::NoPerspective } else { Interpolation::Smooth }
+    let screen = read.all(|varying| varying.interpolation == Interpolation::Noperspective);
+    if some && screen { Interpolation::Noperspective } else { Interpolation::Smooth }
 }
 
 /// An output of the fragment stage, and the varying that carries it.
@@ -53,7 +53,7 @@ struct Carried {
 /// The fragment stage that is left: each output is its varying.
 fn passing(types: &Types, outputs: &[Carried], interpolation: Interpolation) -> String {
     let mut text = String::from("#version 150\n\n");
-    let word = if interpolation == Interpolation::NoPerspective { "noperspective " } else { "" };
+    let word = if interpolation == Interpolation::Noperspective { "noperspective " } else { "" };
     for Carried { output, varying } in outputs {
         let ty = types.name(output.ty);
         let _ = writeln!(text, "{word}in {ty} {varying};");
