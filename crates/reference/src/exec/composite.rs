@@ -62,14 +62,14 @@ fn squared<W: Number, B: NumberBlock<W>, const C: usize>(size: usize, a: &Vector
     )
 }
 
-/// A vector over the root of its squared length.
+/// A vector over the root of its squared length. The domain chooses between a product and a quotient.
 #[inline(always)]
 fn normalize<W: Number, B: NumberBlock<W>, const C: usize>(size: usize, a: &Vector<B, C>) -> Vector<B, C> {
-    let scale = squared::<W, B, C>(size, a).inversesqrt();
+    let scale = squared::<W, B, C>(size, a).unit_scale();
     each(
         size,
         #[inline(always)]
-        |k| a[k % C].mul(&scale).cosine_at_most(),
+        |k| a[k % C].scaled(&scale).cosine_at_most(),
     )
 }
 

@@ -106,8 +106,8 @@ fn float3<N: Number>(op: Float3, out: &mut Lanes<N>, a: Source<'_, N>, b: Source
             out,
             [a, b, c],
             #[inline(always)]
-            |x, least, most| x.max(least).min(most),
-            |x, least, most| x.max(least).min(most),
+            |x, least, most| x.limited(least, most),
+            N::limited,
         ),
         Float3::Smoothstep => map3(out, a, b, c, N::smoothstep),
     }

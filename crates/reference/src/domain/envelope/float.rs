@@ -1,6 +1,6 @@
 //! Operators, comparisons, conversions and selecting functions of the envelope.
 
-use super::round::{down, sum_down, sum_up, ulps_above, ulps_below, up};
+use super::round::{OUTWARD, down, sum_down, sum_up, ulps_above, ulps_below, up};
 use super::{EnvelopeFloat, EnvelopeInt, powers};
 use crate::domain::rules::{self, FLUSH, ulp};
 use crate::domain::{Integer, Number};
@@ -27,9 +27,16 @@ pub(super) fn is_power_of_two(value: f64) -> bool {
 }
 
 impl EnvelopeFloat {
-    /// The largest component of a unit vector: two ULP of the inverse root, one of the product, and those of the sum
+    /// The largest component of a unit vector: seven ULP of the quotient by the length, and half of the sum's four
     /// inside the root.
-    pub(super) const COSINE: f64 = 1.0 + 6.0 / (1 << 23) as f64;
+    pub(super) const COSINE: f64 = 1.0 + 10.0 / (1 << 23) as f64;
+    /// The relative error of the reciprocal of a length by WGSL's rule: two ULP of the inverse root, and 2.5 of its
+    /// reciprocal.
+    pub(super) const UNIT_SCALE: f64 = (rules::INVERSESQRT.ulps() + rules::DIV.ulps() + 1e-5) / (1 << 23) as f64;
+    /// The error of an exponent up to which [`ROUND_TRIP`](Self::ROUND_TRIP) holds.
+    pub(super) const FAR_OFF: f64 = 0.25;
+    /// `2^-e (1 - ROUND_TRIP e e)` is below `2 - 2^e` and its roundings, up to [`FAR_OFF`](Self::FAR_OFF).
+    pub(super) const ROUND_TRIP: f64 = 0.75;
 
     /// Whether the interval contains 0.
     #[inline(always)]
@@ -71,15 +78,8 @@ impl EnvelopeFloat {
 
     /// A quotient whose divisor may be 0.
     fn over_zero(self, other: Self) -> Self {
-        let value = self.value / other.value;
-        let may_be_nan = self.may_be_nan
-            || other.may_be_nan
-            || self.holds_zero()
-            || (self.is_infinite_perhaps() && other.is_infinite_perhaps());
-        if self.low == 0.0 && self.high == 0.0 {
-            return Self { value, low: 0.0, high: 0.0, may_be_nan }.joined(Self::anything(value));
-        }
-        Self { value, low: f64::NEG_INFINITY, high: f64::INFINITY, may_be_nan }
+        // The result is unspecified (GLSL 1.50 §4.1.4, §5.9).
+        Self::anything(self.value / other.value)
     }
 
     /// A function without rounding that never decreases.
@@ -277,6 +277,17 @@ impl Number for EnvelopeFloat {
         // The squared length may be flushed or overflow.
         self
     }
+    fn unit_scale(self) -> Self {
+        Self::unit_scale(self)
+    }
+    fn scaled(self, scale: Self) -> Self {
+        Self::scaled(self, scale)
+    }
+    #[inline(always)]
+    fn limited(self, least: Self, most: Self) -> Self {
+        let limited = self.max(least).min(most);
+        if least.high <= most.low { limited } else { Self::anything(limited.value) }
+    }
     fn fract(self) -> Self {
         let value = self.value - self.value.floor();
         if self.low.floor() == self.high.floor() && self.low.is_finite() {
@@ -291,10 +302,13 @@ impl Number for EnvelopeFloat {
         if !(y.low > 0.0 || y.high < 0.0) || formula.may_be_nan {
             return formula;
         }
-        // Between 0 and y, widened by the roundings on the way.
-        let size = self.low.abs().max(self.high.abs()) + y.low.abs().max(y.high.abs());
-        let slack = 4.0 * ulp(size);
-        formula.within(y.low.min(0.0) - slack, y.high.max(0.0) + slack)
+        // Between 0 and y, widened by the error of the quotient, whose floor is then another one, and by the
+        // roundings of the product and the difference.
+        let (x, most, least) =
+            (self.low.abs().max(self.high.abs()), y.low.abs().max(y.high.abs()), y.low.abs().min(y.high.abs()));
+        let quotient = (rules::DIV.ulps() + 1.0) * OUTWARD * ulp(x / least) * most;
+        let slack = quotient + 2.0 * ulp(x + most + quotient);
+        formula.within(down(y.low.min(0.0) - slack), up(y.high.max(0.0) + slack))
     }
     #[inline(always)]
     fn min(self, other: Self) -> Self {
@@ -350,7 +364,7 @@ impl Number for EnvelopeFloat {
         self.cosine()
     }
     fn tan(self) -> Self {
-        Self::by_formula(&rules::TAN, self.value.tan(), &[self])
+        self.tangent()
     }
     fn asin(self) -> Self {
         self.arc_sine()
@@ -371,16 +385,16 @@ impl Number for EnvelopeFloat {
         self.hyperbolic_cosine()
     }
     fn tanh(self) -> Self {
-        self.rising_by(&rules::TANH, f64::tanh).within(-1.0, 1.0)
+        self.hyperbolic_tangent()
     }
     fn asinh(self) -> Self {
         self.rising_by(&rules::ASINH, f64::asinh)
     }
     fn acosh(self) -> Self {
-        self.rising_by(&rules::ACOSH, Number::acosh)
+        self.area_cosine()
     }
     fn atanh(self) -> Self {
-        self.rising_by(&rules::ATANH, Number::atanh)
+        self.area_tangent()
     }
     #[inline(always)]
     fn less(self, other: Self) -> EnvelopeInt {
@@ -428,6 +442,10 @@ impl Number for EnvelopeFloat {
         self.to_int_by(Number::to_int(self.value), |end| i64::from(end as i32))
     }
     fn to_uint(self) -> EnvelopeInt {
+        if self.low <= -1.0 {
+            // A negative number has no `uint` (§5.4.1).
+            return EnvelopeInt::with_interval(Number::to_uint(self.value), i32::MIN, i32::MAX);
+        }
         self.to_int_by(Number::to_uint(self.value), |end| i64::from(end as u32))
     }
     fn sum(terms: impl Iterator<Item = Self> + Clone) -> Self {

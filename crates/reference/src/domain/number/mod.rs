@@ -146,6 +146,21 @@ pub trait Number: Element<Block: NumberBlock<Self>> {
     fn cosine_at_most(self) -> Self {
         self
     }
+    /// The reciprocal of a vector's length, from its square.
+    #[inline(always)]
+    fn unit_scale(self) -> Self {
+        self.inversesqrt()
+    }
+    /// A component of a vector times its [`unit_scale`](Self::unit_scale).
+    #[inline(always)]
+    fn scaled(self, scale: Self) -> Self {
+        self.mul(scale)
+    }
+    /// `clamp`: `min(max(x, least), most)` (§8.3). Undefined if `least > most`.
+    #[inline(always)]
+    fn limited(self, least: Self, most: Self) -> Self {
+        self.max(least).min(most)
+    }
     /// `x - floor(x)` (§8.3)
     #[inline(always)]
     fn fract(self) -> Self {
