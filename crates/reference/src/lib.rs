@@ -18,7 +18,7 @@ mod work;
 pub use work::{Work, work};
 
 use domain::faults::Faults;
-use domain::{Envelope, F32, F64};
+use domain::{Envelope, F32, F64, Profile};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::source::Span;
 use glisten_scene::picture::Picture;
@@ -69,6 +69,8 @@ pub struct RenderOptions {
     pub faults: Faults,
     /// Whose positions decide coverage.
     pub positions: Positions,
+    /// What the device may do where the specifications leave it open.
+    pub profile: Profile,
 }
 
 impl Default for RenderOptions {
@@ -79,6 +81,7 @@ impl Default for RenderOptions {
             mark_edges: true,
             faults: Faults::NONE,
             positions: Positions::Shared,
+            profile: Profile::default(),
         }
     }
 }

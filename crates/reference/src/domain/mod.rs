@@ -25,6 +25,7 @@ pub mod faults;
 mod integer;
 mod lanes;
 mod number;
+mod profile;
 pub mod rules;
 mod shadow;
 mod single;
@@ -40,6 +41,7 @@ pub use envelope::{EnvelopeBlock, EnvelopeFloat, EnvelopeInt};
 pub use integer::Integer;
 pub use lanes::{Block, Element, LANES, Lanes, Source, WIDTH};
 pub use number::{Answers, ErrorPart, Number, NumberBlock};
+pub use profile::Profile;
 pub use shadow::{ShadowFloat, ShadowInt, Shadowed, rounded};
 #[cfg(any(test, feature = "stability"))]
 pub use stepwise::StepFloat;

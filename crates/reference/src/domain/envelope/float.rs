@@ -112,6 +112,26 @@ impl EnvelopeFloat {
         other(b, a, other(a, b, self))
     }
 
+    /// `mod`, from the interval of its formula.
+    fn modulo_by(self, y: Self, formula: Self) -> Self {
+        if !(y.low > 0.0 || y.high < 0.0) || formula.may_be_nan {
+            return formula;
+        }
+        // Between 0 and y, widened by the error of the quotient, whose floor is then another one, and by the
+        // roundings of the product and the difference.
+        let (x, most, least) =
+            (self.low.abs().max(self.high.abs()), y.low.abs().max(y.high.abs()), y.low.abs().min(y.high.abs()));
+        let quotient = (rules::DIV.ulps() + 1.0) * OUTWARD * ulp(x / least) * most;
+        let slack = quotient + 2.0 * ulp(x + most + quotient);
+        formula.within(down(y.low.min(0.0) - slack), up(y.high.max(0.0) + slack))
+    }
+
+    /// Whether dividing by it is one multiplication by an f32, for which every way of dividing is correctly rounded.
+    #[inline(always)]
+    fn is_halving(self) -> bool {
+        self.low == self.high && is_power_of_two(self.low)
+    }
+
     fn to_int_by(self, bits: u32, limit: impl Fn(f64) -> i64) -> EnvelopeInt {
         if self.may_be_nan {
             return EnvelopeInt::with_interval(bits, i32::MIN, i32::MAX);
@@ -220,8 +240,7 @@ impl Number for EnvelopeFloat {
             return self.over_zero(other);
         }
         let value = self.value / other.value;
-        if other.low == other.high && is_power_of_two(other.low) {
-            // The reciprocal is an f32, so every way to divide is one correctly rounded multiplication.
+        if other.is_halving() {
             let quotient = self.mul(Self::exact(1.0 / other.low));
             return Self { may_be_nan: quotient.may_be_nan | other.may_be_nan, ..quotient.of_value(value) };
         }
@@ -283,6 +302,18 @@ impl Number for EnvelopeFloat {
     fn scaled(self, scale: Self) -> Self {
         Self::scaled(self, scale)
     }
+    fn less_itself(self) -> Self {
+        if self.is_infinite_perhaps() || self.may_be_nan { self.sub(self) } else { Self::exact(0.0) }
+    }
+    fn over_itself(self) -> Self {
+        let value = self.value / self.value;
+        let (least, most) = (self.low.abs().min(self.high.abs()), self.low.abs().max(self.high.abs()));
+        if self.holds_zero() || self.may_be_nan || least < FLUSH || most > 1.0 / FLUSH {
+            return self.div(self);
+        }
+        let n = rules::DIV.ulps();
+        Self::rounded(value, ulps_below(1.0, 1.0, n), ulps_above(1.0, 1.0, n), false)
+    }
     #[inline(always)]
     fn limited(self, least: Self, most: Self) -> Self {
         let limited = self.max(least).min(most);
@@ -297,18 +328,31 @@ impl Number for EnvelopeFloat {
         Self { value, low: 0.0, high: 1.0, may_be_nan: self.may_be_nan || self.is_infinite_perhaps() }
     }
     fn modulo(self, y: Self) -> Self {
-        let value = Number::modulo(self.value, y.value);
-        let formula = Self::by_formula(&rules::MOD, value, &[self, y]);
-        if !(y.low > 0.0 || y.high < 0.0) || formula.may_be_nan {
-            return formula;
+        self.modulo_by(y, Self::by_formula(&rules::MOD, Number::modulo(self.value, y.value), &[self, y]))
+    }
+    fn modulo_loosened(self, y: Self) -> Self {
+        let quotient = self.div(y).loosened(y);
+        let formula = self.sub(y.mul(quotient.floor()));
+        self.modulo_by(y, formula.of_value(Number::modulo(self.value, y.value)))
+    }
+    fn smoothstep_loosened(edge0: Self, edge1: Self, x: Self) -> Self {
+        let span = edge1.sub(edge0);
+        let found = Self::smooth_step(edge0, edge1, x);
+        if !span.is_halving() {
+            return found;
         }
-        // Between 0 and y, widened by the error of the quotient, whose floor is then another one, and by the
-        // roundings of the product and the difference.
-        let (x, most, least) =
-            (self.low.abs().max(self.high.abs()), y.low.abs().max(y.high.abs()), y.low.abs().min(y.high.abs()));
-        let quotient = (rules::DIV.ulps() + 1.0) * OUTWARD * ulp(x / least) * most;
-        let slack = quotient + 2.0 * ulp(x + most + quotient);
-        formula.within(down(y.low.min(0.0) - slack), up(y.high.max(0.0) + slack))
+        let quotient = x.sub(edge0).div(span).loosened(span);
+        found.joined(Self::smooth_step(Self::exact(0.0), Self::exact(1.0), quotient))
+    }
+    #[inline(always)]
+    fn loosened(self, divisor: Self) -> Self {
+        if !divisor.is_halving() || !(self.high - self.low).is_finite() || self.low == 0.0 && self.high == 0.0 {
+            return self;
+        }
+        let n = rules::DIV.ulps();
+        let below = if self.low == 0.0 { 0.0 } else { ulps_below(self.low, self.high, n) };
+        let above = if self.high == 0.0 { 0.0 } else { ulps_above(self.low, self.high, n) };
+        Self::rounded(self.value, below, above, self.may_be_nan)
     }
     #[inline(always)]
     fn min(self, other: Self) -> Self {

@@ -127,6 +127,14 @@ pub trait Number: Element<Block: NumberBlock<Self>> {
     }
     /// `a / b`
     fn div(self, other: Self) -> Self;
+    /// `a - a`: 0 unless it may be infinite or NaN.
+    fn less_itself(self) -> Self {
+        self.sub(self)
+    }
+    /// `a / a`: 1 with the error of a division, unless it may be 0, infinite or NaN.
+    fn over_itself(self) -> Self {
+        self.div(self)
+    }
     /// `-a`
     fn neg(self) -> Self;
     /// §8.3
@@ -160,6 +168,23 @@ pub trait Number: Element<Block: NumberBlock<Self>> {
     #[inline(always)]
     fn limited(self, least: Self, most: Self) -> Self {
         self.max(least).min(most)
+    }
+    /// A quotient by this divisor with all of the error that the rule of `/` allows, also if the divisor is a power of
+    /// two, where [`div`](Self::div) has none.
+    #[inline(always)]
+    fn loosened(self, divisor: Self) -> Self {
+        let _ = divisor;
+        self
+    }
+    /// [`modulo`](Self::modulo) with a [loosened](Self::loosened) quotient.
+    #[inline(always)]
+    fn modulo_loosened(self, y: Self) -> Self {
+        self.modulo(y)
+    }
+    /// [`smoothstep`](Self::smoothstep) with a [loosened](Self::loosened) quotient.
+    #[inline(always)]
+    fn smoothstep_loosened(edge0: Self, edge1: Self, x: Self) -> Self {
+        Self::smoothstep(edge0, edge1, x)
     }
     /// `x - floor(x)` (§8.3)
     #[inline(always)]

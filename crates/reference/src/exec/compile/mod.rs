@@ -9,6 +9,7 @@
 
 mod alloc;
 mod builtin;
+mod chains;
 mod effects;
 mod emit;
 mod expr;
