@@ -26,6 +26,7 @@ pub mod faults;
 mod integer;
 mod lanes;
 mod number;
+mod profile;
 pub mod rules;
 mod shadow;
 mod simulated;
@@ -43,6 +44,7 @@ pub(crate) use envelope::{binary, unary};
 pub use integer::Integer;
 pub use lanes::{Block, Element, LANES, Lanes, Source, WIDTH};
 pub use number::{Answers, ErrorPart, Number, NumberBlock};
+pub use profile::Profile;
 pub use shadow::{ShadowFloat, ShadowInt, Shadowed, rounded};
 pub use simulated::{Gpu, Planes, Simulated, SimulatedFloat};
 #[cfg(any(test, feature = "stability"))]

@@ -134,8 +134,8 @@ fn draw_all<D: Domain>(
         let invocations: Vec<Invocation> =
             instances.clone().flat_map(|instance| unique.iter().map(move |&vertex| (vertex, instance))).collect();
         watch.instance = first;
-        let faults = options.faults;
-        let shaded = ShadeOptions { viewport, faults, positions: options.positions };
+        let RenderOptions { faults, profile, positions, .. } = *options;
+        let shaded = ShadeOptions { viewport, faults, profile, positions };
         let mut vertices = shade::<D>(draw, &vertex_code, &plan, &invocations, shaded, &endless, &watch);
         if endless.get().is_some() {
             break;
@@ -157,7 +157,7 @@ fn draw_all<D: Domain>(
                 framebuffer: scene.framebuffer,
                 outputs: &outputs,
                 mark_edges: options.mark_edges,
-                faults: options.faults,
+                profile,
                 probe: watch.study.probe,
                 pixels: watch.study.pixels,
                 jitter: watch.study.jitter,
@@ -294,7 +294,7 @@ fn draw_prims<D: Domain>(
         if list.is_empty() || endless.get().is_some() || !watch.wants(index) {
             return;
         }
-        let mut machine = take().unwrap_or_else(|| watch.machine(Stage::Fragment, code, shading.draw, shading.faults));
+        let mut machine = take().unwrap_or_else(|| watch.machine(Stage::Fragment, code, shading.draw, shading.profile));
         watch.begin(&mut machine);
         draw_bin(shading, bin, list, &mut machine);
         watch.end(&mut machine, Piece::Fragments, index);
