@@ -100,6 +100,8 @@ impl<'s, D: Domain> Target<'s, D> {
             covered: self.gathered(|pixels| &pixels.covered),
             undecided: self.gathered(|pixels| &pixels.undecided),
             near_edge: self.gathered(|pixels| &pixels.near_edge),
+            silhouette: Vec::new(),
+            owner_width: Vec::new(),
         }
     }
 
