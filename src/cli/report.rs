@@ -9,9 +9,9 @@ use super::made::made;
 use super::progress::Progress;
 use super::scenes::{DrawError, SceneArgs, ViaArg};
 use super::session::Session;
-use crate::report::{self, Error, Report, Watcher};
+use crate::report::{self, Error, Options, Report, Watcher, Ways};
 use crate::scene::DiskFiles;
-use clap::Args;
+use clap::{Args, ValueEnum};
 use glisten_front::source::SourceMap;
 use glisten_gpu::Via;
 use std::path::PathBuf;
@@ -27,11 +27,33 @@ pub(super) struct ReportArgs {
     /// The form of the code that the GPU runs
     #[arg(long, value_enum, default_value_t)]
     via: ViaArg,
+    /// The ways to compare
+    #[arg(long, value_enum, default_value_t)]
+    ways: WaysArg,
     /// Add each way once more with programs of which nothing is left but what the picture needs
     #[arg(long)]
     specialize: bool,
     #[command(flatten)]
     contract: WithContractArgs,
+}
+
+/// Which ways to compare.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+enum WaysArg {
+    /// Those of the scene's [report] table, or the scene alone
+    #[default]
+    Declared,
+    /// Those that are found by themselves as well
+    Auto,
+}
+
+impl From<WaysArg> for Ways {
+    fn from(ways: WaysArg) -> Self {
+        match ways {
+            WaysArg::Declared => Self::Declared,
+            WaysArg::Auto => Self::Auto,
+        }
+    }
 }
 
 /// Shows the steps of a report as progress.
@@ -64,9 +86,10 @@ pub(super) fn run(args: &ReportArgs, console: &Console) -> Outcome {
         Err(error) => return told(session, SourceMap::default(), error),
     };
     let via: Via = args.via.into();
+    let options =
+        Options { via, specialized: args.specialize.then(|| args.contract.contract()), ways: args.ways.into() };
     let mut steps = Steps { console, progress: Progress::new(console, 1), begun: false };
-    let specialized = args.specialize.then(|| args.contract.contract());
-    let result = report::run(&args.scene.scene, &DiskFiles, session.compiler(), &gpu, (via, specialized), &mut steps);
+    let result = report::run(&args.scene.scene, &DiskFiles, session.compiler(), &gpu, &options, &mut steps);
     drop(steps);
     match result {
         Ok(report) => write(args, console, &report),

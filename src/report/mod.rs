@@ -16,11 +16,12 @@ pub(crate) mod plot;
 pub(crate) mod raster;
 mod run;
 mod table;
+mod ways;
 
 pub(crate) use page::{grouped, scientific};
 
 pub use model::{Adapter, Figures, Report, Spread, Timing, Truth, Way};
-pub use run::{Error, Watcher, run};
+pub use run::{Error, Options, Watcher, Ways, run};
 
 impl Report {
     /// The table for a terminal.

@@ -81,8 +81,12 @@ pub struct Spread {
 /// A way to shade the scene.
 #[derive(Clone, Debug, Serialize)]
 pub struct Way {
-    /// The name in the scene.
+    /// The name in the scene, or that of a way that was found.
     pub name: String,
+    /// The kind of way in a word: `declared` in the scene, or that of a way that was found.
+    pub kind: &'static str,
+    /// What is done in a sentence, if there is more to say than the name.
+    pub about: String,
     /// The model, which selects the truth.
     pub model: String,
     /// The segments and rings of its mesh, if that was tessellated for the report.

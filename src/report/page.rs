@@ -196,6 +196,8 @@ pub(in crate::report) mod tests {
                     let (error, difference) = compare(&picture, &self::picture(1.0));
                     ways.push(Way {
                         name: format!("{model} {stage}"),
+                        kind: "declared",
+                        about: String::new(),
                         model: model.into(),
                         tessellation: Some([level, level / 2]),
                         vertices: u64::from(level * level * 3),

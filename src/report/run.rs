@@ -5,7 +5,8 @@
 
 use super::figures::{compare, mark_pareto, spread};
 use super::model::{Adapter, Report, Timing, Truth, Way};
-use super::plan::{Plan, PlannedWay, base_of, plan};
+use super::plan::{Drawn, Plan, PlannedWay, base_of, plan};
+use super::ways::{self, Origin};
 use crate::scene::{self, FileError, FileSource, Loaded, Scene};
 use crate::specialize::{Contract, specialize_scene_by};
 use glisten_front::compiler::Compiler;
@@ -57,6 +58,27 @@ impl Watcher for () {
     fn step(&mut self, _what: &str) {}
 }
 
+/// Which ways to compare.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Ways {
+    /// Those that the scene's file declares, or the scene alone.
+    #[default]
+    Declared,
+    /// Those that are found by themselves as well.
+    Auto,
+}
+
+/// What to compare, and how.
+#[derive(Clone, Copy, Debug)]
+pub struct Options {
+    /// The form of the emitted code that the GPU runs.
+    pub via: Via,
+    /// Adds each way with residual programs of this contract.
+    pub specialized: Option<Contract>,
+    /// Which ways to compare.
+    pub ways: Ways,
+}
+
 /// A way on the device.
 struct Candidate {
     prepared: Prepared,
@@ -64,7 +86,10 @@ struct Candidate {
     times: Vec<f64>,
 }
 
-/// Compares the ways of the scene at `path`; `specialized` adds each of them with residual programs of that contract.
+/// How often all ways are timed, unless the scene says.
+const ROUNDS: u32 = 15;
+
+/// Compares the ways of the scene at `path`.
 ///
 /// # Errors
 /// [`Error`]; the first way that cannot be drawn ends the report.
@@ -73,17 +98,22 @@ pub fn run(
     files: &dyn FileSource,
     compiler: &Compiler,
     gpu: &Gpu,
-    (via, specialized): (Via, Option<Contract>),
+    options: &Options,
     watcher: &mut dyn Watcher,
 ) -> Result<Report, Error> {
+    let Options { via, specialized, .. } = *options;
     let whole = load(path, files, compiler)?;
-    let plan = read_plan(path, files, &whole)?;
+    let mut plan = read_plan(path, files, &whole)?;
+    if let (Ways::Auto, Some(scene)) = (options.ways, &whole.scene) {
+        find(path, (files, compiler), (scene, &whole.sources), &mut plan);
+    }
+    let rounds = plan.rounds.unwrap_or(ROUNDS);
     let drawn = if specialized.is_some() { 2 * plan.ways.len() } else { plan.ways.len() };
-    watcher.steps(plan.truths.len() + 2 * drawn + plan.rounds as usize);
+    watcher.steps(plan.truths.len() + 2 * drawn + rounds as usize);
     let mut truths = Vec::new();
     for truth in &plan.truths {
         watcher.step(&format!("the truth of {}", truth.model));
-        let scene = scene_of(path, &truth.text, files, compiler)?;
+        let scene = scene_of(path, &truth.drawn, files, compiler)?;
         truths.push(Truth {
             model: truth.model.clone(),
             way: truth.way.clone(),
@@ -95,9 +125,9 @@ pub fn run(
     let mut ways = Vec::new();
     let mut candidates = Vec::new();
     for planned in &plan.ways {
-        let scene = scene_of(path, &planned.text, files, compiler)?;
+        let scene = scene_of(path, &planned.drawn, files, compiler)?;
         let truth = truths.iter().find(|truth| truth.model == planned.model);
-        let (way, candidate) = draw(planned, &scene, truth, gpu, via, watcher)?;
+        let (way, candidate) = draw(planned, &scene, truth, gpu, planned.via.unwrap_or(via), watcher)?;
         ways.push(way);
         candidates.push(candidate);
         if let Some(contract) = specialized {
@@ -108,7 +138,7 @@ pub fn run(
             candidates.push(candidate);
         }
     }
-    let timing = time(gpu, &plan, &mut ways, &mut candidates, watcher)?;
+    let timing = time(gpu, rounds, &mut ways, &mut candidates, watcher)?;
     mark_pareto(&mut ways);
     let adapter = Adapter { name: gpu.adapter().name.clone(), driver: gpu.adapter().driver.clone() };
     let framebuffer = whole.scene.map(|scene| scene.framebuffer);
@@ -152,7 +182,25 @@ impl FileSource for Replaced<'_> {
     }
 }
 
-fn scene_of(path: &str, text: &str, files: &dyn FileSource, compiler: &Compiler) -> Result<Scene, Error> {
+/// Adds the ways that are found by themselves.
+fn find(
+    path: &str,
+    (files, compiler): (&dyn FileSource, &Compiler),
+    (scene, sources): (&Scene, &SourceMap),
+    plan: &mut Plan,
+) {
+    let text = plan.text.clone();
+    let name = stem(path);
+    let load = |text: &str| scene_of(path, &Drawn::Text(text.to_owned()), files, compiler).ok();
+    let origin = Origin { name: &name, scene, sources, text: &text, compiler, load: &load };
+    plan.add(scene, ways::found(&origin));
+}
+
+fn scene_of(path: &str, drawn: &Drawn, files: &dyn FileSource, compiler: &Compiler) -> Result<Scene, Error> {
+    let text = match drawn {
+        Drawn::Scene(scene) => return Ok((**scene).clone()),
+        Drawn::Text(text) => text,
+    };
     let loaded = load(path, &Replaced { path, text, files }, compiler)?;
     // `load` reports an error if there is no scene.
     loaded.scene.ok_or(Error::Scene { sources: Box::default(), diagnostics: Diagnostics::default(), io_error: false })
@@ -184,6 +232,8 @@ fn draw(
     let vertices = scene.draws.iter().map(|draw| u64::from(draw.vertex_count) * u64::from(draw.instances)).sum();
     let way = Way {
         name: planned.name.clone(),
+        kind: planned.kind,
+        about: planned.about.clone(),
         model: planned.model.clone(),
         tessellation: planned.tessellation,
         vertices,
@@ -202,15 +252,15 @@ fn draw(
 /// Times all candidates in turns, the first of them twice in each round.
 fn time(
     gpu: &Gpu,
-    plan: &Plan,
+    rounds: u32,
     ways: &mut [Way],
     candidates: &mut [Candidate],
     watcher: &mut dyn Watcher,
 ) -> Result<Timing, Error> {
     let count = candidates.len();
     let mut again = Vec::new();
-    for round in 0..plan.rounds as usize {
-        watcher.step(&format!("round {} of {}", round + 1, plan.rounds));
+    for round in 0..rounds as usize {
+        watcher.step(&format!("round {} of {}", round + 1, rounds));
         for turn in 0..=count {
             let index = (turn + round) % (count + 1);
             // The index after the last one is the second copy of the baseline.
@@ -230,7 +280,7 @@ fn time(
     Ok(Timing {
         baseline: ways.first().map(Way::title).unwrap_or_default(),
         baseline_ms: spread(&baseline).median,
-        rounds: plan.rounds,
+        rounds,
         same_again: spread(&ratios(&again)),
     })
 }

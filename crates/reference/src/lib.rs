@@ -9,12 +9,14 @@ pub mod domain;
 pub mod exec;
 mod interpolate;
 mod pipeline;
+mod population;
 mod raster;
 #[cfg(any(test, feature = "stability"))]
 pub mod stability;
 mod texture;
 mod work;
 
+pub use population::{Drawn, Population, population, simulate};
 pub use work::{Work, work};
 
 use domain::faults::Faults;

@@ -145,6 +145,7 @@ fn draw_all<D: Domain>(
                 break;
             }
             watch.instance = first + local;
+            watch.enter();
             let base = local * unique.len() as u32;
             let order: Vec<u32> = order.iter().map(|&position| base + position).collect();
             let prims = primitives(&mut vertices, &order, &draw.state, options.lines);

@@ -176,6 +176,7 @@ pub(super) fn shade<D: Domain>(
         viewport,
         faults,
     };
+    watch.enter();
     for chunk in chunks {
         vertices.append(chunk);
     }
