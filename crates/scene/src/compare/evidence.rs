@@ -15,7 +15,7 @@
 //!
 //! The goal is 1/255 of the range of the picture's values, unless it is given: of all channels that the programs write,
 //! over the covered pixels, alpha included. A picture of one value has no range; its goal is 1/255 of 1/255 of its
-//! largest magnitude.
+//! largest magnitude. In 8 bits, the goal is at least one step: nothing is between.
 //!
 //! *Holds:* the counts of the classes add up to the number of covered pixels, and so do those of the widths.
 
@@ -175,6 +175,8 @@ pub struct Written {
     channels: Vec<[bool; 4]>,
     /// All values of the format, if that is less than all floats.
     full: Option<(f64, f64)>,
+    /// The distance of neighboring values of the format, if it is the same for all; 0 for floats.
+    step: f64,
 }
 
 impl Written {
@@ -198,12 +200,13 @@ impl Written {
                 }
             }
         }
-        Self { channels, full: full_range(scene.framebuffer.format) }
+        let format = scene.framebuffer.format;
+        Self { channels, full: full_range(format), step: step(format) }
     }
 
     /// Every channel of some attachments, of floats.
     pub fn everything(attachments: usize) -> Self {
-        Self { channels: vec![[true; 4]; attachments], full: None }
+        Self { channels: vec![[true; 4]; attachments], full: None, step: 0.0 }
     }
 
     /// Whether a program writes the channel.
@@ -215,6 +218,14 @@ impl Written {
     fn is_unlimited(&self, interval: Interval) -> bool {
         let is_full = self.full.is_some_and(|(low, high)| interval.low <= low && interval.high >= high);
         is_full || !interval.width().is_finite()
+    }
+}
+
+/// The distance of neighboring values, and what rounding adds to it.
+fn step(format: Format) -> f64 {
+    match format {
+        Format::Rgba8Unorm => 1.000_01 / 255.0,
+        Format::Rgba32Sint | Format::Rgba32Uint | Format::Rgba32Float | Format::Rgba16Float => 0.0,
     }
 }
 
@@ -260,7 +271,7 @@ impl<'a> Ruler<'a> {
         }
         let range = if low <= high { high - low } else { 0.0 };
         let magnitude = if low <= high { low.abs().max(high.abs()) } else { 0.0 };
-        let goal = width.unwrap_or(range.max(magnitude * GOAL) * GOAL);
+        let goal = width.unwrap_or_else(|| (range.max(magnitude * GOAL) * GOAL).max(written.step));
         Self { cpu, written, range, goal }
     }
 
@@ -345,8 +356,9 @@ mod tests {
             assert_eq!(ruler.class(index + 2), *class, "{interval:?}");
         }
         // In 8 bits, [0, 1] excludes nothing.
-        let bytes = Written { full: full_range(Format::Rgba8Unorm), ..written };
+        let bytes = Written { full: full_range(Format::Rgba8Unorm), step: step(Format::Rgba8Unorm), ..written };
         assert_eq!(Ruler::new(&picture, &bytes, None).class(5), Class::Unlimited);
+        assert!(Ruler::new(&picture, &bytes, None).goal > 1.0 / 255.0);
         assert_eq!(Ruler::new(&picture, &Written::everything(1), Some(2.0)).class(5), Class::Judged);
     }
 
@@ -365,7 +377,7 @@ mod tests {
     #[test]
     fn a_channel_that_is_not_written_measures_nothing() {
         let picture = reference(&[Interval::ALL]);
-        let written = Written { channels: vec![[false, true, true, false]], full: None };
+        let written = Written { channels: vec![[false, true, true, false]], full: None, step: 0.0 };
         let ruler = Ruler::new(&picture, &written, None);
         assert_eq!((ruler.range, ruler.class(2), ruler.width(2)), (0.0, Class::Judged, 0.0));
     }
