@@ -45,10 +45,7 @@ fn counts(mesh: &Table, Part(times, of): Part) -> Option<[[u32; 2]; 2]> {
         let least = default.min(coarsest).min(count);
         (count.saturating_mul(times) / of.max(1)).clamp(least, MOST.max(count))
     };
-    let after = [
-        scaled(before[0], default[0], COARSEST[0]),
-        scaled(before[1], default[1], COARSEST[1]),
-    ];
+    let after = [scaled(before[0], default[0], COARSEST[0]), scaled(before[1], default[1], COARSEST[1])];
     Some([before, after])
 }
 

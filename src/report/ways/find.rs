@@ -68,7 +68,8 @@ impl Finder<'_, '_> {
 
     /// Without what the scene does not need, exactly or not quite.
     fn contracts(&mut self) {
-        let exact = "Whatever the values of the scene decide is left out of its programs; the picture is the same bit for bit.";
+        let exact =
+            "Whatever the values of the scene decide is left out of its programs; the picture is the same bit for bit.";
         self.add(("specialized", "specialized"), exact.into(), self.base.clone());
         let fast = Contract { fast_math: true, move_to_vertex: false };
         let about = "Specialized by the algebra of real numbers, which changes rounding.";

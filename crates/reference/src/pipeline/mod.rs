@@ -4,6 +4,7 @@
 //!  Draw ──► vertices    64 vertices at a time, positions in the domain and in f32
 //!       ──► assembly    primitives, clipped (clip), their pixels (raster), culled
 //!       ──► bins        32x32 pixels each, the primitives that touch them in order; threads take bins
+//!       ──► edges       pixels near edges, and which primitives may own them (worlds)
 //!       ──► batch       a primitive's pixels as lanes: weights and depth (source, slack), early depth test (store)
 //!       ──► fragments   64 lanes at a time: varyings in, the fragment stage, colors out (outputs)
 //!       ──► target      late depth test, blending (store), into the rows of the picture (surface)
@@ -24,7 +25,9 @@
 mod assembly;
 mod batch;
 mod clip;
+mod edges;
 mod explain;
+mod fragment_tests;
 mod fragments;
 mod outputs;
 mod plan;
@@ -36,6 +39,7 @@ mod surface;
 mod target;
 mod vertices;
 mod watch;
+mod worlds;
 
 use super::RenderOptions;
 use super::domain::Domain;
@@ -61,7 +65,9 @@ use target::Target;
 use vertices::{Invocation, ShadeOptions, shade};
 #[cfg(any(test, feature = "stability"))]
 pub(super) use watch::Chosen;
-pub(super) use watch::{MakeObserver, Probe, Study};
+#[cfg(any(test, feature = "stability"))]
+pub(super) use watch::Probe;
+pub(super) use watch::{MakeObserver, Study};
 
 /// The side of a bin in pixels.
 #[cfg(any(test, feature = "stability"))]
