@@ -10,6 +10,7 @@ pub mod domain;
 pub mod exec;
 mod interpolate;
 mod pipeline;
+mod population;
 mod raster;
 #[cfg(any(test, feature = "stability"))]
 pub mod stability;
@@ -18,10 +19,11 @@ mod work;
 
 pub use counts::{Counts, counts};
 pub use exec::Step;
+pub use population::{Drawn, Population, population, simulate};
 pub use work::{Work, work};
 
 use domain::faults::Faults;
-use domain::{Envelope, F32, F64};
+use domain::{Envelope, F32, F64, Profile};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::source::Span;
 use glisten_scene::picture::Picture;
@@ -72,6 +74,8 @@ pub struct RenderOptions {
     pub faults: Faults,
     /// Whose positions decide coverage.
     pub positions: Positions,
+    /// What the device may do where the specifications leave it open.
+    pub profile: Profile,
 }
 
 impl Default for RenderOptions {
@@ -82,6 +86,7 @@ impl Default for RenderOptions {
             mark_edges: true,
             faults: Faults::NONE,
             positions: Positions::Shared,
+            profile: Profile::default(),
         }
     }
 }

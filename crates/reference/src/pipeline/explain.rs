@@ -9,7 +9,6 @@ use super::target::Patch;
 use super::watch::{Study, Watch};
 use super::{draw_all, refuse};
 use crate::domain::Envelope;
-use crate::domain::faults::Faults;
 use crate::exec::{Code, Form, Machine, Muted, Purpose};
 use crate::raster::Bounds;
 use crate::{Contribution, RenderOptions};
@@ -74,8 +73,8 @@ fn of_draw(
     let drawn = |muted: Option<Muted>| {
         let mut patch = before.clone();
         let draw = shading.draw;
-        let purpose = muted.map_or(Purpose::Results(Faults::NONE), Purpose::Share);
-        let mut machine = Machine::with(purpose, code, &draw.uniforms, &draw.textures);
+        let purpose = muted.map_or(Purpose::Results, Purpose::Share);
+        let mut machine = Machine::with(purpose, shading.profile, code, &draw.uniforms, &draw.textures);
         patch.draw(|bin| draw_bin(shading, bin, &list, &mut machine));
         patch
     };

@@ -4,6 +4,7 @@
 //!  Draw ──► vertices    64 vertices at a time, positions in the domain and in f32
 //!       ──► assembly    primitives, clipped (clip), their pixels (raster), culled
 //!       ──► bins        32x32 pixels each, the primitives that touch them in order; threads take bins
+//!       ──► edges       pixels near edges, and which primitives may own them (worlds)
 //!       ──► batch       a primitive's pixels as lanes: weights and depth (source, slack), early depth test (store)
 //!       ──► fragments   64 lanes at a time: varyings in, the fragment stage, colors out (outputs)
 //!       ──► target      late depth test, blending (store), into the rows of the picture (surface)
@@ -24,7 +25,9 @@
 mod assembly;
 mod batch;
 mod clip;
+mod edges;
 mod explain;
+mod fragment_tests;
 mod fragments;
 mod outputs;
 mod plan;
@@ -36,6 +39,7 @@ mod surface;
 mod target;
 mod vertices;
 mod watch;
+mod worlds;
 
 use super::RenderOptions;
 use super::domain::Domain;
@@ -61,7 +65,9 @@ use target::Target;
 use vertices::{Invocation, ShadeOptions, shade};
 #[cfg(any(test, feature = "stability"))]
 pub(super) use watch::Chosen;
-pub(super) use watch::{MakeObserver, Probe, Study};
+#[cfg(any(test, feature = "stability"))]
+pub(super) use watch::Probe;
+pub(super) use watch::{MakeObserver, Study};
 
 /// The side of a bin in pixels.
 #[cfg(any(test, feature = "stability"))]
@@ -134,8 +140,8 @@ fn draw_all<D: Domain>(
         let invocations: Vec<Invocation> =
             instances.clone().flat_map(|instance| unique.iter().map(move |&vertex| (vertex, instance))).collect();
         watch.instance = first;
-        let faults = options.faults;
-        let shaded = ShadeOptions { viewport, faults, positions: options.positions };
+        let RenderOptions { faults, profile, positions, .. } = *options;
+        let shaded = ShadeOptions { viewport, faults, profile, positions };
         let mut vertices = shade::<D>(draw, &vertex_code, &plan, &invocations, shaded, &endless, &watch);
         if endless.get().is_some() {
             break;
@@ -145,6 +151,7 @@ fn draw_all<D: Domain>(
                 break;
             }
             watch.instance = first + local;
+            watch.enter();
             let base = local * unique.len() as u32;
             let order: Vec<u32> = order.iter().map(|&position| base + position).collect();
             let prims = primitives(&mut vertices, &order, &draw.state, options.lines);
@@ -156,7 +163,7 @@ fn draw_all<D: Domain>(
                 framebuffer: scene.framebuffer,
                 outputs: &outputs,
                 mark_edges: options.mark_edges,
-                faults: options.faults,
+                profile,
                 probe: watch.study.probe,
                 pixels: watch.study.pixels,
                 jitter: watch.study.jitter,
@@ -293,7 +300,7 @@ fn draw_prims<D: Domain>(
         if list.is_empty() || endless.get().is_some() || !watch.wants(index) {
             return;
         }
-        let mut machine = take().unwrap_or_else(|| watch.machine(Stage::Fragment, code, shading.draw, shading.faults));
+        let mut machine = take().unwrap_or_else(|| watch.machine(Stage::Fragment, code, shading.draw, shading.profile));
         watch.begin(&mut machine);
         draw_bin(shading, bin, list, &mut machine);
         watch.end(&mut machine, Piece::Fragments, index);

@@ -2,8 +2,7 @@
 //!
 //! *In:* a [`Study`]. *Out:* machines for it, each for one piece of the drawing.
 
-use crate::domain::faults::Faults;
-use crate::domain::{Domain, ErrorPart};
+use crate::domain::{Domain, ErrorPart, Gpu, Profile};
 use crate::exec::{Code, Exactly, Form, Machine, Observer, Order, Piece, Purpose};
 use glisten_front::hir::{GlobalId, Stage};
 use glisten_front::source::Span;
@@ -40,6 +39,8 @@ pub(crate) struct Study<'a, D: Domain> {
     pub(crate) probe: Option<&'a Probe>,
     /// What the stages are compiled for.
     pub(crate) form: Form,
+    /// The GPU that is simulated, in the domain of simulated GPUs.
+    pub(crate) gpu: Option<Gpu>,
 }
 
 impl<D: Domain> Study<'_, D> {
@@ -53,6 +54,7 @@ impl<D: Domain> Study<'_, D> {
         exact_inputs: &[],
         probe: None,
         form: Form::Fast,
+        gpu: None,
     };
 }
 
@@ -97,16 +99,24 @@ pub(super) fn jittered(value: f64, seed: u64, place: [u64; 3]) -> f64 {
 }
 
 impl<D: Domain> Watch<'_, D> {
+    /// Lets this thread compute for the study. Each piece of work that a thread takes begins with it.
+    pub(super) fn enter(&self) {
+        if let Some(gpu) = self.study.gpu {
+            D::enter(gpu);
+        }
+    }
+
     /// A machine for a stage of the draw.
-    pub(super) fn machine(&self, stage: Stage, code: &Code, draw: &Draw, faults: Faults) -> Machine<D> {
+    pub(super) fn machine(&self, stage: Stage, code: &Code, draw: &Draw, profile: Profile) -> Machine<D> {
+        self.enter();
         let purpose = match self.study.exactly.filter(|chosen| chosen.stage == stage) {
             Some(Chosen { spans, part, .. }) => {
                 let exactly = Exactly::new(code, part, |span| spans.binary_search(&span).is_ok());
                 Purpose::Corrected(Arc::new(exactly))
             }
-            None => Purpose::Results(faults),
+            None => Purpose::Results,
         };
-        Machine::with(purpose, code, &draw.uniforms, &draw.textures)
+        Machine::with(purpose, profile, code, &draw.uniforms, &draw.textures)
     }
 
     /// Whether a bin is drawn.
@@ -117,12 +127,14 @@ impl<D: Domain> Watch<'_, D> {
     /// Shows once what the stage computes for all invocations.
     pub(super) fn common(&self, code: &Code, draw: &Draw, piece: Piece) {
         if let Some(make) = self.study.observers {
-            let mut machine = Machine::with(Purpose::Watching(make()), code, &draw.uniforms, &draw.textures);
+            let purpose = Purpose::Watching(make());
+            let mut machine = Machine::with(purpose, Profile::default(), code, &draw.uniforms, &draw.textures);
             machine.end_watch(self.order(piece, 0));
         }
     }
 
     pub(super) fn begin(&self, machine: &mut Machine<D>) {
+        self.enter();
         if let Some(make) = self.study.observers {
             machine.watch(make());
         }

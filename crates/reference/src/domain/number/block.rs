@@ -74,7 +74,7 @@ pub trait NumberBlock<N: Number>: Block<N> {
     /// A sum, from left to right; with an envelope, in any order.
     #[inline(always)]
     fn sum(count: usize, term: impl Fn(usize) -> Self) -> Self {
-        if N::HAS_INTERVALS {
+        if N::HAS_INTERVALS || N::SUMS_BY_CHOICE {
             let mut out = Self::default();
             for lane in 0..WIDTH {
                 out.set(lane, N::sum((0..count).map(|place| term(place).get(lane))));
@@ -176,6 +176,25 @@ pub trait NumberBlock<N: Number>: Block<N> {
     #[inline(always)]
     fn log2(&self) -> Self {
         self.map(N::log2)
+    }
+    /// [`Number::unit_scale`]
+    #[inline(always)]
+    fn unit_scale(&self) -> Self {
+        self.map(N::unit_scale)
+    }
+    /// [`Number::scaled`]
+    #[inline(always)]
+    fn scaled(&self, scale: &Self) -> Self {
+        self.zip(scale, N::scaled)
+    }
+    /// [`Number::limited`]
+    #[inline(always)]
+    fn limited(&self, least: &Self, most: &Self) -> Self {
+        let mut out = Self::default();
+        for lane in 0..WIDTH {
+            out.set(lane, self.get(lane).limited(least.get(lane), most.get(lane)));
+        }
+        out
     }
     /// [`Number::cosine_at_most`]
     #[inline(always)]

@@ -34,6 +34,8 @@ pub trait Number: Element<Block: NumberBlock<Self>> {
     /// Whether there is a second value. Values that leave the domain's arithmetic, such as a texture's coordinates,
     /// are then followed for both.
     const PAIRED: bool = false;
+    /// Whether [`sum`](Self::sum) has an order of its own.
+    const SUMS_BY_CHOICE: bool = false;
 
     /// The nearest number.
     fn from_f64(value: f64) -> Self;
@@ -127,6 +129,14 @@ pub trait Number: Element<Block: NumberBlock<Self>> {
     }
     /// `a / b`
     fn div(self, other: Self) -> Self;
+    /// `a - a`: 0 unless it may be infinite or NaN.
+    fn less_itself(self) -> Self {
+        self.sub(self)
+    }
+    /// `a / a`: 1 with the error of a division, unless it may be 0, infinite or NaN.
+    fn over_itself(self) -> Self {
+        self.div(self)
+    }
     /// `-a`
     fn neg(self) -> Self;
     /// §8.3
@@ -145,6 +155,38 @@ pub trait Number: Element<Block: NumberBlock<Self>> {
     #[inline(always)]
     fn cosine_at_most(self) -> Self {
         self
+    }
+    /// The reciprocal of a vector's length, from its square.
+    #[inline(always)]
+    fn unit_scale(self) -> Self {
+        self.inversesqrt()
+    }
+    /// A component of a vector times its [`unit_scale`](Self::unit_scale).
+    #[inline(always)]
+    fn scaled(self, scale: Self) -> Self {
+        self.mul(scale)
+    }
+    /// `clamp`: `min(max(x, least), most)` (§8.3). Undefined if `least > most`.
+    #[inline(always)]
+    fn limited(self, least: Self, most: Self) -> Self {
+        self.max(least).min(most)
+    }
+    /// A quotient by this divisor with all of the error that the rule of `/` allows, also if the divisor is a power of
+    /// two, where [`div`](Self::div) has none.
+    #[inline(always)]
+    fn loosened(self, divisor: Self) -> Self {
+        let _ = divisor;
+        self
+    }
+    /// [`modulo`](Self::modulo) with a [loosened](Self::loosened) quotient.
+    #[inline(always)]
+    fn modulo_loosened(self, y: Self) -> Self {
+        self.modulo(y)
+    }
+    /// [`smoothstep`](Self::smoothstep) with a [loosened](Self::loosened) quotient.
+    #[inline(always)]
+    fn smoothstep_loosened(edge0: Self, edge1: Self, x: Self) -> Self {
+        Self::smoothstep(edge0, edge1, x)
     }
     /// `x - floor(x)` (§8.3)
     #[inline(always)]
@@ -237,4 +279,9 @@ pub trait Number: Element<Block: NumberBlock<Self>> {
     fn to_int(self) -> Self::Int;
     /// `uint(float)`, rounding toward zero.
     fn to_uint(self) -> Self::Int;
+    /// Whether derivatives are those of one row and one column of the quad (§8.8 lets a GPU choose).
+    #[inline(always)]
+    fn coarse() -> bool {
+        false
+    }
 }

@@ -3,6 +3,8 @@
 
 use super::super::code::{Form, PoolSource, Section};
 use super::super::inst::{Class, Inst, List, Operand, Slot, Target, TextureCall};
+use super::chains::Chain;
+use super::fuse::is_control;
 use glisten_front::link::RootIndex;
 use glisten_front::source::Span;
 use rustc_hash::FxHashMap;
@@ -28,6 +30,10 @@ pub(super) struct Emitter {
     splatted: FxHashMap<(Class, Operand), Operand>,
     main_lists: FxHashMap<(Class, Vec<Operand>), List>,
     preamble_lists: FxHashMap<(Class, Vec<Operand>), List>,
+    /// The sums and products with constants.
+    pub(super) chains: FxHashMap<Operand, Chain>,
+    /// The number of stores, and of points where lanes diverge or join.
+    pub(super) stores: u32,
     /// Preamble instructions by what they compute (with `dst` blanked).
     computed: FxHashMap<Inst, Operand>,
 }
@@ -98,6 +104,7 @@ impl Emitter {
     }
 
     pub(super) fn push(&mut self, inst: Inst) {
+        self.stores += u32::from(is_control(&inst) || inst.stores());
         self.main.push(inst, self.span);
     }
 

@@ -9,6 +9,7 @@
 
 mod alloc;
 mod builtin;
+mod chains;
 mod dead;
 mod effects;
 mod emit;

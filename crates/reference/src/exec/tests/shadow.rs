@@ -43,7 +43,7 @@ proptest! {
         let program = generate::program(&mut Source::new(&bytes));
         let code = Code::compile_as(&program.program, Stage::Fragment, Form::Unfused).expect("generated programs can be run");
         let all = Arc::new(Exactly::new(&code, ErrorPart::All, |_| true));
-        let mut shadow = Machine::<Shadow>::with(Purpose::Corrected(all), &code, &program.uniforms, &[]);
+        let mut shadow = Machine::<Shadow>::with(Purpose::Corrected(all), Default::default(), &code, &program.uniforms, &[]);
         fill(&mut shadow, &program);
         shadow.run(Mask::ALL, Mask::NONE);
         let exact = ran::<F64>(&program, Form::Fast);
