@@ -6,8 +6,8 @@
 use super::clock::Candidate;
 use super::figures::{compare, spread};
 use super::model::{OnFront, Skipped, Truth, Way};
+use super::options::{Error, Options, Watcher};
 use super::plan::{DECLARED, PlannedTruth, PlannedWay};
-use super::run::{Error, Options, Watcher};
 use super::ways::AS_WRITTEN;
 use super::work::{steps, work};
 use glisten_gpu::Gpu;
