@@ -3,10 +3,11 @@
 //! *In:* a scene and [`Options`]. *Out:* the reference's picture; verdicts.
 //! *Holds:* the reference draws once. It draws again with known faults excused only if a picture needs an excuse.
 
-use super::{Failure, Options};
+use super::{Failure, Options, likely};
 use crate::scene::Scene;
+use glisten_reference::Population;
 use glisten_reference::domain::faults::{Faults, KNOWN};
-use glisten_scene::compare::{Compared, Criterion, Judge, Population, Verdict, Written};
+use glisten_scene::compare::{Compared, Criterion, Judge, Verdict, Written};
 use glisten_scene::picture::Picture;
 use std::time::Instant;
 
@@ -68,7 +69,8 @@ impl<'a> Expected<'a> {
     /// The reference cannot draw the scene with a fault excused.
     pub fn compared(&mut self, picture: &Picture) -> Result<Compared, Failure> {
         let Options { criterion, excuse_known_faults, .. } = *self.options;
-        let compared = self.judge(&[]).compare(picture, &self.picture);
+        let suspects = self.suspects(picture);
+        let compared = self.judge(&[], suspects.as_deref()).compare(picture, &self.picture);
         if criterion != Criterion::Envelope || !compared.verdict.needs_excuse() || !excuse_known_faults {
             return Ok(compared);
         }
@@ -76,14 +78,20 @@ impl<'a> Expected<'a> {
             Some(excused) => excused,
             None => self.draw_excused()?,
         };
-        let compared = self.judge(&excused).compare(picture, &self.picture);
+        let compared = self.judge(&excused, suspects.as_deref()).compare(picture, &self.picture);
         self.excused = Some(excused);
         Ok(compared)
     }
 
-    fn judge<'j>(&'j self, faults: &'j [(&'static str, Picture)]) -> Judge<'j> {
+    fn judge<'j>(&'j self, faults: &'j [(&'static str, Picture)], suspects: Option<&'j [bool]>) -> Judge<'j> {
         let Options { criterion, width, .. } = *self.options;
-        Judge { criterion, faults, written: Some(&self.written), width, population: self.population.as_ref() }
+        Judge { criterion, faults, written: Some(&self.written), width, suspects }
+    }
+
+    /// The pixels that are far outside of what the population drew.
+    fn suspects(&self, picture: &Picture) -> Option<Vec<bool>> {
+        let distances = likely::distances(picture, &self.picture, self.population.as_ref()?);
+        Some(distances.into_iter().map(|distance| distance >= likely::FAR).collect())
     }
 
     fn draw_excused(&self) -> Result<Vec<(&'static str, Picture)>, Failure> {

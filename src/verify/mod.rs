@@ -36,6 +36,7 @@
 mod expected;
 mod explain;
 mod files;
+pub mod likely;
 mod maps;
 mod runner;
 mod verification;

@@ -4,8 +4,7 @@
 
 use crate::scene::Scene;
 use glisten_front::diagnostic::Diagnostic;
-use glisten_reference::{Contribution, LineRule, Precision, RenderOptions};
-use glisten_scene::compare::Population;
+use glisten_reference::{Contribution, LineRule, Population, Precision, RenderOptions};
 use glisten_scene::picture::Picture;
 use std::fmt;
 use std::time::Instant;

@@ -6,6 +6,23 @@
 //! *Holds:* the first way is the scene as written; the order is the same on every run; no way is equal to the scene as
 //! written. *Not done here:* drawing and measuring.
 
+mod coarser;
+mod depends;
+mod edit;
+mod find;
+mod fixed;
+mod models;
+mod naive;
+mod names;
+mod powers;
+mod probe;
+mod roots;
+mod same;
+mod screen;
+mod stable;
+mod tables;
+mod vertex;
+
 use crate::scene::Scene;
 use glisten_front::compiler::Compiler;
 use glisten_front::hir::Stage;
@@ -68,20 +85,51 @@ pub(super) struct FoundTruth {
 
 /// The ways of a scene, the scene as written first.
 pub(super) fn found(origin: &Origin<'_>) -> Vec<FoundWay> {
-    vec![as_written(origin)]
+    let mut list = List::new(as_written(origin));
+    find::all(origin, &mut list);
+    list.ways
 }
 
 /// The scene as written, which is the truth of its model.
 fn as_written(origin: &Origin<'_>) -> FoundWay {
-    FoundWay {
-        name: AS_WRITTEN.into(),
-        kind: AS_WRITTEN,
-        about: "The scene as its file says.".into(),
-        model: origin.name.into(),
-        scene: origin.scene.clone(),
-        tessellation: None,
-        via: None,
-        programs: None,
-        truth: None,
+    FoundWay::new((AS_WRITTEN, AS_WRITTEN), "The scene as its file says.".into(), origin.name, origin.scene.clone())
+}
+
+impl FoundWay {
+    /// A way by its name and kind, with the tessellation of the scene.
+    fn new((name, kind): (&str, &'static str), about: String, model: &str, scene: Scene) -> Self {
+        Self {
+            name: name.into(),
+            kind,
+            about,
+            model: model.into(),
+            scene,
+            tessellation: None,
+            via: None,
+            programs: None,
+            truth: None,
+        }
+    }
+}
+
+/// The ways that were found so far: no two draw with the same programs and data.
+struct List {
+    ways: Vec<FoundWay>,
+}
+
+impl List {
+    /// No report has more ways.
+    const MOST: usize = 28;
+
+    fn new(first: FoundWay) -> Self {
+        Self { ways: vec![first] }
+    }
+
+    /// Adds a way, unless it is one that is there, or one that no GPU could draw.
+    fn add(&mut self, way: FoundWay) {
+        let is_new = self.ways.iter().all(|known| edit::differs(&known.scene, &way.scene));
+        if is_new && self.ways.len() < Self::MOST && edit::is_emitted(&way.scene) {
+            self.ways.push(way);
+        }
     }
 }

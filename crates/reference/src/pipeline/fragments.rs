@@ -18,8 +18,7 @@ use super::surface::BIN;
 use super::target::{Bin, local};
 use super::vertices::Vertices;
 use super::watch::{Probe, jittered, wanted_in_quad, wanted_in_row};
-use crate::domain::faults::Faults;
-use crate::domain::{Domain, ErrorPart, Integer, Number};
+use crate::domain::{Domain, ErrorPart, Integer, Number, Profile};
 use crate::exec::{LANES, Machine, Mask};
 use crate::raster::band::band;
 use glisten_front::hir::{FragCoordLayout, GlobalId, Stage};
@@ -36,7 +35,7 @@ pub(super) struct Shading<'a, D: Domain> {
     pub(super) framebuffer: Framebuffer,
     pub(super) outputs: &'a [OutputPlan],
     pub(super) mark_edges: bool,
-    pub(super) faults: Faults,
+    pub(super) profile: Profile,
     pub(super) probe: Option<&'a Probe>,
     pub(super) pixels: Option<&'a [[u32; 2]]>,
     pub(super) jitter: Option<u64>,

@@ -22,7 +22,8 @@ use pulp::{Simd, WithSimd};
 pub(crate) const ONE: i64 = 256;
 
 /// Half the width of the band around an edge within which `near_edge` is marked, in units of the grid: 1/128 pixel.
-const NEAR: f64 = 2.0;
+/// Devices with a coarser grid, and positions with an envelope, have a [wider](Shape::widened) one.
+pub(crate) const NEAR: f64 = 2.0;
 
 /// A window position in units of the grid; pixel centers are at multiples of [`ONE`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -137,6 +138,26 @@ impl Shape {
                 })
             }
         }
+    }
+
+    /// The shape with a wider band around its edges, by some units of the grid to either side.
+    pub(crate) fn widened(mut self, units: f64) -> Self {
+        /// Far enough for any window.
+        const MOST: f64 = (1_u64 << 24) as f64;
+        if let Self::Convex { bounds, edges, count } = &mut self
+            && *count > 0
+            && units > 0.0
+        {
+            let units = units.min(MOST);
+            for edge in edges.iter_mut().take(*count) {
+                let length = (edge.step_x as f64).hypot(edge.step_y as f64) / ONE as f64;
+                edge.near += (length * units).ceil() as i64;
+            }
+            let pixels = (units / ONE as f64).ceil() as i64;
+            let Bounds { x0, x1, y0, y1 } = *bounds;
+            *bounds = Bounds { x0: x0 - pixels, x1: x1 + pixels, y0: y0 - pixels, y1: y1 + pixels };
+        }
+        self
     }
 
     /// Whether it may cover a pixel of `area`, or have one near an edge.

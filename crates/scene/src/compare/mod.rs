@@ -6,13 +6,12 @@
 pub mod evidence;
 #[cfg(feature = "flip")]
 mod flip;
-pub mod population;
+pub mod suspects;
 mod tally;
 mod verdict;
 
 pub use evidence::{Class, Evidence, Written};
 #[cfg(feature = "flip")]
 pub use flip::flip;
-pub use population::Population;
 pub use tally::{Compared, Judge, shares};
 pub use verdict::{Conclusion, Contributed, Criterion, Demands, FaultCount, Verdict, Worst, ulp_f32};

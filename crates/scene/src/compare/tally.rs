@@ -10,7 +10,6 @@
 //! difference that only a known fault of the driver explains is counted under the fault's name.
 
 use super::evidence::{Class, Ruler, Widths, Written};
-use super::population::Population;
 use super::verdict::{Criterion, FaultCount, Verdict, Worst, ulp_f32};
 use crate::picture::{Interval, Picture};
 
@@ -25,13 +24,13 @@ pub struct Judge<'a> {
     pub written: Option<&'a Written>,
     /// The largest width of the envelope of a judged pixel; `None`: 1/255 of the range of the picture's values.
     pub width: Option<f64>,
-    /// What simulated GPUs drew.
-    pub population: Option<&'a Population>,
+    /// Which pixels are far outside of what a population of simulated GPUs drew, if there is one.
+    pub suspects: Option<&'a [bool]>,
 }
 
 impl Default for Judge<'_> {
     fn default() -> Self {
-        Self { criterion: Criterion::Envelope, faults: &[], written: None, width: None, population: None }
+        Self { criterion: Criterion::Envelope, faults: &[], written: None, width: None, suspects: None }
     }
 }
 
@@ -113,7 +112,7 @@ impl<'a> Tally<'a> {
             Criterion::Envelope => "envelope",
             Criterion::Tolerance(_) => "tolerance",
         };
-        let suspect = judge.population.map(|_| 0);
+        let suspect = judge.suspects.map(|_| 0);
         Self {
             judge,
             gpu,
@@ -221,10 +220,8 @@ impl<'a> Tally<'a> {
     }
 
     fn count_suspect(&mut self, pixel: usize, is_judged_otherwise: bool) {
-        let (Some(population), Some(count)) = (self.judge.population, &mut self.verdict.suspect) else { return };
-        let suspect =
-            |attachment: usize| population.is_suspect(attachment, pixel, Self::color(self.gpu, attachment, pixel));
-        *count += u64::from(!is_judged_otherwise && (0..self.cpu.attachments.len()).any(suspect));
+        let (Some(suspects), Some(count)) = (self.judge.suspects, &mut self.verdict.suspect) else { return };
+        *count += u64::from(!is_judged_otherwise && suspects.get(pixel).copied().unwrap_or(false));
     }
 
     /// Whether a known fault explains the pixel, which is then counted under that fault.

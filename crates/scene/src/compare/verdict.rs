@@ -4,7 +4,7 @@
 //! *In:* the counts of a comparison ([`Judge`]). *Out:* error figures, and a [`Conclusion`] by [`Demands`].
 
 use super::evidence::{Evidence, Width};
-use super::population;
+use super::suspects;
 use super::tally::Judge;
 use crate::picture::Picture;
 use serde::Serialize;
@@ -162,7 +162,7 @@ impl Verdict {
 
     /// The result in one word.
     pub fn conclusion(&self, demands: &Demands) -> Conclusion {
-        let suspects = demands.likely && population::fails(self.suspect.unwrap_or(0), self.covered);
+        let suspects = demands.likely && suspects::fail(self.suspect.unwrap_or(0), self.covered);
         match () {
             () if self.needs_excuse() || suspects => Conclusion::Fails,
             () if self.covered == 0 || self.share_judged(demands) < demands.evidence_share => Conclusion::Inconclusive,
@@ -416,10 +416,7 @@ mod tests {
         for color in cpu.intervals.iter_mut().flatten().flatten() {
             color[0] = Interval { low: 0.0, high: 1.0, may_be_nan: false };
         }
-        let drawn = [0.6, 0.0, 0.0, 1.0].map(Interval::point);
-        let population =
-            population::Population { members: 4, seed: 1, ranges: vec![vec![drawn; 20]], covered: vec![4; 20] };
-        let verdict = Judge { population: Some(&population), ..Judge::default() }.compare(&gpu, &cpu).verdict;
+        let verdict = Judge { suspects: Some(&[true; 20]), ..Judge::default() }.compare(&gpu, &cpu).verdict;
         assert_eq!((verdict.suspect, verdict.outside), (Some(20), 0));
         let usual = Demands::default();
         assert_eq!(verdict.conclusion(&usual), Conclusion::Fails);
