@@ -95,9 +95,10 @@ impl Gpu {
             let ours = emitted(draw, stage, target)?;
             let index = if stage == Stage::Vertex { replaced[0] } else { replaced[1] };
             match index.and_then(|index| foreign.get(index)) {
-                Some(module) => {
-                    module.code_instead_of([ours].into_iter().chain(emitted(draw, stage, Target::Wgsl).ok()))
-                }
+                Some(module) => module.code_instead_of(
+                    &draw.program.name,
+                    [ours].into_iter().chain(emitted(draw, stage, Target::Wgsl).ok()),
+                ),
                 None => Ok(ours),
             }
         };

@@ -62,7 +62,11 @@ impl Foreign {
 
     /// The code, if its interface is that of the emitted module, of which there may be several forms: the first that
     /// can be read back counts.
-    pub(crate) fn code_instead_of(&self, emitted: impl IntoIterator<Item = Emitted>) -> Result<Emitted, Error> {
+    pub(crate) fn code_instead_of(
+        &self,
+        program: &str,
+        emitted: impl IntoIterator<Item = Emitted>,
+    ) -> Result<Emitted, Error> {
         let told = |why: String| Error::Foreign(format!("`{}`: {why}", self.name));
         let module = emitted.into_iter().find_map(|code| read::parse(&code).ok());
         let module = module.ok_or_else(|| told("the emitted module cannot be read back to compare them".to_owned()))?;
@@ -73,7 +77,7 @@ impl Foreign {
         }
         let stage = self.stage.name();
         Err(Error::Foreign(format!(
-            "`{}`: its interface is not that of the {stage} stage: {}\nhelp: `glisten reflect` and `glisten compile` show \
+            "`{}`: its interface is not that of the {stage} stage of `{program}`: {}\nhelp: `glisten reflect` and `glisten compile` show \
              the interface that a module must have",
             self.name,
             differences.join("; ")
