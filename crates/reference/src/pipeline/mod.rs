@@ -65,7 +65,9 @@ use target::Target;
 use vertices::{Invocation, ShadeOptions, shade};
 #[cfg(any(test, feature = "stability"))]
 pub(super) use watch::Chosen;
-pub(super) use watch::{MakeObserver, Probe, Study};
+#[cfg(any(test, feature = "stability"))]
+pub(super) use watch::Probe;
+pub(super) use watch::{MakeObserver, Study};
 
 /// The side of a bin in pixels.
 #[cfg(any(test, feature = "stability"))]
