@@ -169,13 +169,20 @@ impl Runner for Cpu {
 pub struct OnGpu<'a> {
     gpu: &'a glisten_gpu::Gpu,
     via: glisten_gpu::Via,
+    foreign: &'a [glisten_gpu::Foreign],
 }
 
 #[cfg(feature = "gpu")]
 impl<'a> OnGpu<'a> {
     /// The runner of one form.
     pub fn new(gpu: &'a glisten_gpu::Gpu, via: glisten_gpu::Via) -> Self {
-        Self { gpu, via }
+        Self { gpu, via, foreign: &[] }
+    }
+
+    /// The runner with modules of other translators in place of the emitted ones.
+    #[must_use]
+    pub fn with(self, foreign: &'a [glisten_gpu::Foreign]) -> Self {
+        Self { foreign, ..self }
     }
 
     /// The runners of both forms, SPIR-V first.
@@ -191,7 +198,8 @@ impl Runner for OnGpu<'_> {
     }
 
     fn draw(&self, scene: &Scene) -> Result<Drawn, Failure> {
-        let glisten_gpu::Rendered { picture, milliseconds } = self.gpu.render(scene, self.via)?;
+        let prepared = self.gpu.prepare_foreign(scene, self.via, self.foreign)?;
+        let glisten_gpu::Rendered { picture, milliseconds } = self.gpu.draw(&prepared)?;
         Ok(Drawn { picture, milliseconds })
     }
 }
