@@ -46,6 +46,7 @@ mod stages;
 mod test;
 mod timed;
 mod verify;
+mod with;
 
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 use console::{ColorChoice, Console};

@@ -19,6 +19,7 @@
 //!
 //! *Holds:* the counts of the classes add up to the number of covered pixels, and so do those of the widths.
 
+use super::population::LEAST;
 use crate::picture::{Interval, Picture};
 use crate::{Format, Scene};
 use glisten_front::builtin::BuiltinVariable;
@@ -177,6 +178,8 @@ pub struct Written {
     full: Option<(f64, f64)>,
     /// The distance of neighboring values of the format, if it is the same for all; 0 for floats.
     step: f64,
+    /// The same as a share of the value, of floats.
+    relative: f64,
 }
 
 impl Written {
@@ -201,12 +204,17 @@ impl Written {
             }
         }
         let format = scene.framebuffer.format;
-        Self { channels, full: full_range(format), step: step(format) }
+        Self { channels, full: full_range(format), step: step(format), relative: relative_step(format) }
     }
 
     /// Every channel of some attachments, of floats.
     pub fn everything(attachments: usize) -> Self {
-        Self { channels: vec![[true; 4]; attachments], full: None, step: 0.0 }
+        Self {
+            channels: vec![[true; 4]; attachments],
+            full: None,
+            step: 0.0,
+            relative: relative_step(Format::Rgba32Float),
+        }
     }
 
     /// Whether a program writes the channel.
@@ -226,6 +234,15 @@ fn step(format: Format) -> f64 {
     match format {
         Format::Rgba8Unorm => 1.000_01 / 255.0,
         Format::Rgba32Sint | Format::Rgba32Uint | Format::Rgba32Float | Format::Rgba16Float => 0.0,
+    }
+}
+
+/// The distance of neighboring floats, as a share of the larger one.
+fn relative_step(format: Format) -> f64 {
+    match format {
+        Format::Rgba16Float => 1.0 / 1024.0,
+        Format::Rgba32Float => f64::from(f32::EPSILON),
+        Format::Rgba8Unorm | Format::Rgba32Sint | Format::Rgba32Uint => 0.0,
     }
 }
 
@@ -281,6 +298,12 @@ impl<'a> Ruler<'a> {
             .map(Interval::width)
             .map(|width| if width.is_nan() { f64::INFINITY } else { width })
             .fold(0.0, f64::max)
+    }
+
+    /// What a number may be off for no reason: what the format rounds to, and a small share of the range.
+    pub(super) fn unit(&self, value: f64) -> f64 {
+        let rounding = (self.written.step / 2.0).max(4.0 * self.written.relative * value.abs());
+        rounding.max(self.range * LEAST)
     }
 
     /// The class of a pixel that is covered and not excused.

@@ -150,6 +150,8 @@ impl<'a> Tally<'a> {
             [gpu_covers, _] if undecided || may_miss => {
                 let count = if may_miss { &mut self.verdict.edge_pixels } else { &mut self.verdict.undecided };
                 *count += 1;
+                let suspect = |all: &Population| !may_miss && all.is_covered_by_chance(gpu_covers, pixel);
+                self.count_suspect(suspect);
                 if gpu_covers && self.cpu.intervals.is_some() {
                     self.colors(pixel, true, None);
                 }
@@ -183,7 +185,10 @@ impl<'a> Tally<'a> {
         } else {
             self.verdict.non_finite_gpu += any(|error| error.non_finite[0]);
             self.verdict.non_finite_cpu += any(|error| error.non_finite[1]);
-            self.count_suspect(pixel, is_wrong || is_edge);
+        }
+        if let Some(ruler) = ruler.filter(|_| !is_wrong && !is_edge) {
+            let (gpu, cpu) = (self.gpu, self.cpu);
+            self.count_suspect(|population| population.is_suspect(gpu, cpu, ruler, pixel));
         }
         for (attachment, error) in errors.iter().enumerate() {
             if !is_open {
@@ -220,11 +225,10 @@ impl<'a> Tally<'a> {
         }
     }
 
-    fn count_suspect(&mut self, pixel: usize, is_judged_otherwise: bool) {
-        let (Some(population), Some(count)) = (self.judge.population, &mut self.verdict.suspect) else { return };
-        let suspect =
-            |attachment: usize| population.is_suspect(attachment, pixel, Self::color(self.gpu, attachment, pixel));
-        *count += u64::from(!is_judged_otherwise && (0..self.cpu.attachments.len()).any(suspect));
+    fn count_suspect(&mut self, is_suspect: impl FnOnce(&Population) -> bool) {
+        if let (Some(population), Some(count)) = (self.judge.population, &mut self.verdict.suspect) {
+            *count += u64::from(is_suspect(population));
+        }
     }
 
     /// Whether a known fault explains the pixel, which is then counted under that fault.

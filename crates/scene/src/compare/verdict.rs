@@ -162,12 +162,17 @@ impl Verdict {
 
     /// The result in one word.
     pub fn conclusion(&self, demands: &Demands) -> Conclusion {
-        let suspects = demands.likely && population::fails(self.suspect.unwrap_or(0), self.covered);
+        let suspects = demands.likely && self.is_suspect();
         match () {
             () if self.needs_excuse() || suspects => Conclusion::Fails,
             () if self.covered == 0 || self.share_judged(demands) < demands.evidence_share => Conclusion::Inconclusive,
             () => Conclusion::Holds,
         }
+    }
+
+    /// Whether so many pixels are suspect that the picture is.
+    pub fn is_suspect(&self) -> bool {
+        population::fails(self.suspect.unwrap_or(0), self.covered)
     }
 
     /// Whether the conclusion is [`Conclusion::Holds`] by the usual [`Demands`], with undecided pixels as judged ones if
@@ -416,9 +421,8 @@ mod tests {
         for color in cpu.intervals.iter_mut().flatten().flatten() {
             color[0] = Interval { low: 0.0, high: 1.0, may_be_nan: false };
         }
-        let drawn = [0.6, 0.0, 0.0, 1.0].map(Interval::point);
-        let population =
-            population::Population { members: 4, seed: 1, ranges: vec![vec![drawn; 20]], covered: vec![4; 20] };
+        let mut population = population::Population::new(1, [20, 1], 1);
+        (0..4).for_each(|_| population.add(&picture(&[0.6; 20])));
         let verdict = Judge { population: Some(&population), ..Judge::default() }.compare(&gpu, &cpu).verdict;
         assert_eq!((verdict.suspect, verdict.outside), (Some(20), 0));
         let usual = Demands::default();
