@@ -23,7 +23,7 @@ pub(super) struct Draw {
     pub(super) candidate: Candidate,
 }
 
-/// What was drawn so far.
+/// The truths and ways that were drawn so far.
 pub(super) struct Drawing<'a> {
     pub(super) gpu: &'a Gpu,
     pub(super) options: &'a Options,

@@ -59,15 +59,16 @@ mod paths;
 mod registers;
 mod run;
 mod show;
+mod step;
 #[cfg(test)]
 mod tests;
 
 pub use code::{Code, Form};
-pub use count::Step;
 pub use exactly::Exactly;
 pub use machine::{LOOP_BUDGET, Machine, Purpose};
 pub use mute::{Muted, Operation};
 pub use observe::{Event, Kind, Observer, Order, Piece, Values, What};
+pub use step::Step;
 
 /// The number of invocations that run at once: a tile of 8x8 pixels (quad by quad), or 64 vertices.
 ///
