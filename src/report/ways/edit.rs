@@ -10,8 +10,7 @@
 use crate::specialize::with_program;
 use glisten_emit::{Conventions, Target, emit};
 use glisten_front::hir::{
-    Expr, ExprId, ExprKind, Function, FunctionId, Local, LocalKind, ParamMode, Shader, Stage, TypeId, Types,
-    print,
+    Expr, ExprId, ExprKind, Function, FunctionId, Local, LocalKind, ParamMode, Shader, Stage, TypeId, Types, print,
 };
 use glisten_front::source::Span;
 use glisten_front::{Compiler, Options, Program, Source};
@@ -192,9 +191,10 @@ pub(super) fn is_emitted(scene: &Scene) -> bool {
     let conventions = Conventions::default();
     let targets = [Target::Spirv, Target::Wgsl];
     scene.draws.iter().all(|draw| {
-        draw.program.stages.iter().all(|shader| {
-            targets.iter().all(|target| emit(&draw.program, shader.stage, *target, &conventions).is_ok())
-        })
+        draw.program
+            .stages
+            .iter()
+            .all(|shader| targets.iter().all(|target| emit(&draw.program, shader.stage, *target, &conventions).is_ok()))
     })
 }
 

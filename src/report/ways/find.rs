@@ -68,7 +68,8 @@ impl Finder<'_, '_> {
 
     /// Without what the scene does not need, exactly or not quite.
     fn contracts(&mut self) {
-        let exact = "Whatever the values of the scene decide is left out of its programs; the picture is the same bit for bit.";
+        let exact =
+            "Whatever the values of the scene decide is left out of its programs; the picture is the same bit for bit.";
         self.add(("specialized", "specialized"), exact.into(), self.base.clone());
         let fast = Contract { fast_math: true, move_to_vertex: false };
         let about = "Specialized by the algebra of real numbers, which changes rounding.";
@@ -112,8 +113,8 @@ impl Finder<'_, '_> {
 
     fn roots(&mut self) {
         if let Some((scene, count)) = in_draws(&self.base, roots::inverse) {
-            let count = counted(&count, "normalization or quotient");
-            let about = format!("{count} by `inversesqrt`, the same in exact arithmetic.");
+            let about =
+                format!("{} by `inversesqrt`, the same in exact arithmetic.", counted(&count, "reciprocal root"));
             self.add(("roots by inversesqrt", "inversesqrt"), about, specialized(&scene, Contract::default()));
         }
     }
@@ -189,9 +190,11 @@ impl Finder<'_, '_> {
 
     /// Other models of the library, each with a truth of its own.
     fn models(&mut self, table: &Table) {
-        if let Some(scene) = models::per_vertex(table).and_then(|text| (self.origin.load)(&text)) {
+        let shaded = self.list.ways.iter().any(|way| way.kind == "vertex" && way.tessellation.is_none());
+        let own = if shaded { None } else { models::per_vertex(table) };
+        if let Some(scene) = own.and_then(|text| (self.origin.load)(&text)) {
             let about = "Shaded at the vertices by the library's own program.";
-            self.add(("per vertex, the library's", "vertex"), about.into(), specialized(&scene, Contract::default()));
+            self.add(("per vertex", "vertex"), about.into(), specialized(&scene, Contract::default()));
         }
         let by_program = models::by_program(table);
         let loaded = by_program.into_iter().filter_map(|(name, text)| Some((name, (self.origin.load)(&text)?)));

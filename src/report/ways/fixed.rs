@@ -30,9 +30,7 @@ impl Fixed {
         let mut globals: Vec<Vec<Option<f64>>> =
             shader.globals.iter().map(|global| vec![None; len(global.ty)]).collect();
         for (index, global) in shader.globals.iter().enumerate() {
-            if let (Storage::Const, Some(value), Some(cell)) =
-                (global.storage, &global.value, globals.get_mut(index))
-            {
+            if let (Storage::Const, Some(value), Some(cell)) = (global.storage, &global.value, globals.get_mut(index)) {
                 *cell = value.scalars.iter().map(|scalar| Some(number(*scalar))).collect();
             }
         }
@@ -176,6 +174,7 @@ fn combined(op: BinaryOp, a: &[f64], b: &[f64]) -> Option<Vec<f64>> {
         _ => return None,
     };
     let len = a.len().max(b.len());
-    let get = |list: &[f64], index: usize| if list.len() == 1 { list.first().copied() } else { list.get(index).copied() };
+    let get =
+        |list: &[f64], index: usize| if list.len() == 1 { list.first().copied() } else { list.get(index).copied() };
     (0..len).map(|index| Some(f64::from(apply(get(a, index)?, get(b, index)?) as f32))).collect()
 }

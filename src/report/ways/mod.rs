@@ -21,6 +21,8 @@ mod same;
 mod screen;
 mod stable;
 mod tables;
+#[cfg(test)]
+mod tests;
 mod vertex;
 
 use crate::scene::Scene;

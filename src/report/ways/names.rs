@@ -117,9 +117,11 @@ pub(super) fn pure_functions(shader: &Shader) -> BTreeSet<FunctionId> {
 fn is_pure(shader: &Shader, id: FunctionId, pure: &BTreeSet<FunctionId>) -> bool {
     let function = shader.function(id);
     let Some(body) = function.body.as_deref() else { return false };
-    let by_value = function.locals.iter().take(function.param_count).all(|param| {
-        matches!(param.kind, LocalKind::Param(ParamMode::In | ParamMode::ConstIn))
-    });
+    let by_value = function
+        .locals
+        .iter()
+        .take(function.param_count)
+        .all(|param| matches!(param.kind, LocalKind::Param(ParamMode::In | ParamMode::ConstIn)));
     let mut plain = by_value;
     shader.visit_statements(body, &mut |stmt| plain &= !matches!(stmt.kind, StmtKind::Discard));
     shader.visit_body(body, &mut |expr| {

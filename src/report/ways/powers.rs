@@ -60,9 +60,8 @@ pub(super) fn rational(scene: &Scene, index: usize) -> Option<(Scene, Vec<f64>)>
             continue;
         }
         let n = decimal(power.exponent);
-        let text = move |name: &str, ty: &str| {
-            format!("{ty} {name}({ty} t) {{\n    return t / ({n} - t * {n} + t);\n}}\n")
-        };
+        let text =
+            move |name: &str, ty: &str| format!("{ty} {name}({ty} t) {{\n    return t / ({n} - t * {n} + t);\n}}\n");
         let name = format!("schlick_{}", power.exponent).replace(['.', '-'], "_");
         rewrite(&mut edited, Stage::Fragment, power, &name, &text);
         exponents.push(power.exponent);

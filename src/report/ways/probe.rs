@@ -47,7 +47,8 @@ fn watch(edited: &mut Edited, id: ExprId) -> Option<()> {
         ["watched", "least", "greatest", "strange", "watched_range"].map(|name| stage.fresh(&types, name));
     let body = stage.renamed_main(&types, "watched_main")?;
     // The outputs of old are variables like others.
-    let names: Vec<String> = (0..stage.shader.globals.len()).map(|one| stage.fresh(&types, &format!("old_{one}"))).collect();
+    let names: Vec<String> =
+        (0..stage.shader.globals.len()).map(|one| stage.fresh(&types, &format!("old_{one}"))).collect();
     for (global, name) in stage.shader.globals.iter_mut().zip(names) {
         if global.storage == Storage::Out {
             (global.storage, global.location, global.index, global.invariant) = (Storage::Private, None, None, false);

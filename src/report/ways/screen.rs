@@ -14,12 +14,13 @@ pub(super) fn without_perspective(scene: &Scene, index: usize) -> Option<Scene> 
     let draw = scene.draws.get(index)?;
     let mut edited = Edited::of(draw)?;
     let varyings = &draw.program.interface.varyings;
-    let smooth = varyings.iter().filter(|one| one.active && one.interpolation == Interpolation::Smooth && !one.centroid);
+    let smooth =
+        varyings.iter().filter(|one| one.active && one.interpolation == Interpolation::Smooth && !one.centroid);
     let ends: Vec<_> = smooth.filter_map(|one| Some((one.from?.global, one.to?.global))).collect();
     let plain = |shader: &Shader, id: GlobalId| shader.global(id).block.is_none();
-    let ends = ends.into_iter().filter(|(from, to)| {
-        plain(&edited.vertex.shader, *from) && plain(&edited.fragment.shader, *to)
-    });
+    let ends = ends
+        .into_iter()
+        .filter(|(from, to)| plain(&edited.vertex.shader, *from) && plain(&edited.fragment.shader, *to));
     let ends: Vec<_> = ends.collect();
     if ends.is_empty() {
         return None;

@@ -64,8 +64,9 @@ fn forms(shader: &Shader) -> Vec<(ExprId, Form)> {
             let form = match &shader.expr(id).kind {
                 ExprKind::Binary(BinaryOp::Sub, a, b) => difference(shader, *a, *b),
                 ExprKind::BuiltinCall(BuiltinFunction::Pow, list) => match list.as_slice() {
-                    [base, exponent] => cosine(shader, &names, function, *base)
-                        .map(|(a, b)| Form::Cosine(a, b, *exponent)),
+                    [base, exponent] => {
+                        cosine(shader, &names, function, *base).map(|(a, b)| Form::Cosine(a, b, *exponent))
+                    }
                     _ => None,
                 },
                 _ => None,
@@ -98,7 +99,8 @@ fn square(shader: &Shader, id: ExprId) -> Option<ExprId> {
     let mut plain = true;
     shader.visit_expr(a, &mut |part| {
         let kind = &shader.expr(part).kind;
-        plain &= !matches!(kind, ExprKind::Call(..) | ExprKind::Assign(..) | ExprKind::IncDec(..) | ExprKind::Comma(..));
+        plain &=
+            !matches!(kind, ExprKind::Call(..) | ExprKind::Assign(..) | ExprKind::IncDec(..) | ExprKind::Comma(..));
     });
     (plain && same(shader, a, b)).then_some(a)
 }
@@ -152,7 +154,9 @@ fn rewrite(types: &Types, open: &mut Open, id: ExprId, form: &Form) {
     const FLOAT: TypeId = TypeId::FLOAT;
     let (wanted, params, body, arguments): (&str, &[TypeId], &str, Vec<ExprId>) = match *form {
         Form::OneMinusSquare(x) => ("one_minus_square", &[FLOAT], "return (1.0 - a) * (1.0 + a);", vec![x]),
-        Form::OneMinusCos(x) => ("one_minus_cos", &[FLOAT], "float s = sin(0.5 * a);\n    return 2.0 * s * s;", vec![x]),
+        Form::OneMinusCos(x) => {
+            ("one_minus_cos", &[FLOAT], "float s = sin(0.5 * a);\n    return 2.0 * s * s;", vec![x])
+        }
         Form::Squares(x, y) => ("difference_of_squares", &[FLOAT, FLOAT], "return (a - b) * (a + b);", vec![x, y]),
         Form::Roots(x, y) => {
             let body = "return a == b ? 0.0 : (a - b) / (sqrt(a) + sqrt(b));";

@@ -26,8 +26,7 @@ pub(super) fn at_vertices(scene: &Scene, index: usize) -> Option<Scene> {
     let place = edited.vertex.renamed_main(&types, "place_vertex")?;
     let interpolation = interpolation(&draw.program);
     let vertex = &mut edited.vertex.shader;
-    let mut moved =
-        Move { program: &draw.program, fragment: &fragment, vertex, outputs: Vec::new(), interpolation };
+    let mut moved = Move { program: &draw.program, fragment: &fragment, vertex, outputs: Vec::new(), interpolation };
     let shade = moved.apply()?;
     let outputs = moved.outputs;
     let _ = write!(edited.vertex.appended, "\nvoid main() {{\n    {place}();\n    {shade}();\n}}\n");
@@ -38,7 +37,8 @@ pub(super) fn at_vertices(scene: &Scene, index: usize) -> Option<Scene> {
 
 /// The interpolation of the colors: that of the varyings they are computed from, or with perspective if these differ.
 fn interpolation(program: &Program) -> Interpolation {
-    let mut read = program.interface.varyings.iter().filter(|varying| varying.active && varying.to.is_some()).peekable();
+    let mut read =
+        program.interface.varyings.iter().filter(|varying| varying.active && varying.to.is_some()).peekable();
     let some = read.peek().is_some();
     let screen = read.all(|varying| varying.interpolation == Interpolation::Noperspective);
     if some && screen { Interpolation::Noperspective } else { Interpolation::Smooth }
