@@ -1,6 +1,6 @@
 //! [`Gpu`]: an adapter and its device, opened once and used for any number of scenes.
 
-use super::Error;
+use super::{Error, PrecisionLimits};
 use std::fmt;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
@@ -33,6 +33,7 @@ pub struct Gpu {
     pub(super) limits: wgpu::Limits,
     pub(super) timeout: Duration,
     facts: AdapterFacts,
+    precision: Option<PrecisionLimits>,
     /// An error outside every error scope, such as a lost device.
     stray: Arc<Mutex<Option<Error>>>,
 }
@@ -93,8 +94,9 @@ impl Gpu {
         .map_err(|error| Error::Unsupported(format!("a device that can be opened: {error}")))?;
         let stray = Arc::new(Mutex::new(None));
         watch(&device, &stray);
+        let precision = PrecisionLimits::of(chosen);
         let facts = AdapterFacts { name: info.name, driver: format!("{} {}", info.driver, info.driver_info) };
-        Ok(Self { device, queue, features, limits, timeout: Self::DEFAULT_TIMEOUT, facts, stray })
+        Ok(Self { device, queue, features, limits, timeout: Self::DEFAULT_TIMEOUT, facts, precision, stray })
     }
 
     /// This device with another limit for each wait.
@@ -106,6 +108,11 @@ impl Gpu {
     /// The name and driver of the adapter.
     pub fn adapter(&self) -> &AdapterFacts {
         &self.facts
+    }
+
+    /// The precision of its fixed-function parts, if the adapter reports it.
+    pub fn precision(&self) -> Option<PrecisionLimits> {
+        self.precision
     }
 
     /// Runs `work` and turns errors that wgpu reports meanwhile into an [`Error`].

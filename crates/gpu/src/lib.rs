@@ -13,7 +13,8 @@
 //! ```
 //!
 //! *Holds:* whatever a scene contains, the result is a picture or an [`Error`]: error scopes catch wgpu's errors, and
-//! waiting has a limit. The emitted SPIR-V runs unchanged; the `unsafe` code for that is all in `prepare`. Pictures
+//! waiting has a limit. The emitted SPIR-V runs unchanged; the `unsafe` code for that is all in `prepare` (and
+//! in `limits`, which reads what wgpu does not report). Pictures
 //! are read top row first: code is emitted with [`WindowOrigin::UpperLeft`](glisten_emit::WindowOrigin), so what
 //! OpenGL draws at the top of the window is in row 0.
 //!
@@ -23,6 +24,7 @@ mod assembly;
 mod device;
 mod error;
 mod frame;
+mod limits;
 mod multisample_upload;
 mod prepare;
 mod shadow_upload;
@@ -40,6 +42,7 @@ mod tests;
 
 pub use device::{ADAPTER_VARIABLE, AdapterFacts, Gpu, SOFTWARE};
 pub use error::Error;
+pub use limits::PrecisionLimits;
 pub use prepare::Prepared;
 
 use glisten_scene::picture::Picture;

@@ -5,6 +5,7 @@
 //! *Holds:* the crate never sees naga IR, so that a mistake in the lowering shows as a difference. Coverage is
 //! decided in f32 and integers, and is the same in every domain; values are computed in the domain.
 
+mod counts;
 pub mod domain;
 pub mod exec;
 mod interpolate;
@@ -16,11 +17,13 @@ pub mod stability;
 mod texture;
 mod work;
 
+pub use counts::{Counts, counts};
+pub use exec::Step;
 pub use population::{Drawn, Population, population, simulate};
 pub use work::{Work, work};
 
 use domain::faults::Faults;
-use domain::{Envelope, F32, F64};
+use domain::{Envelope, F32, F64, Profile};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::source::Span;
 use glisten_scene::picture::Picture;
@@ -71,6 +74,8 @@ pub struct RenderOptions {
     pub faults: Faults,
     /// Whose positions decide coverage.
     pub positions: Positions,
+    /// What the device may do where the specifications leave it open.
+    pub profile: Profile,
 }
 
 impl Default for RenderOptions {
@@ -81,6 +86,7 @@ impl Default for RenderOptions {
             mark_edges: true,
             faults: Faults::NONE,
             positions: Positions::Shared,
+            profile: Profile::default(),
         }
     }
 }

@@ -28,7 +28,8 @@ pub struct Drawn {
 }
 
 impl Drawn {
-    const NONE: Self = Self { low: f64::INFINITY, high: f64::NEG_INFINITY, has_nan: false };
+    /// Of no picture.
+    pub const NONE: Self = Self { low: f64::INFINITY, high: f64::NEG_INFINITY, has_nan: false };
 
     fn add(&mut self, value: f64) {
         if value.is_nan() {
@@ -39,7 +40,8 @@ impl Drawn {
         }
     }
 
-    fn join(&mut self, other: &Self) {
+    /// Adds what others drew.
+    pub fn join(&mut self, other: &Self) {
         self.low = self.low.min(other.low);
         self.high = self.high.max(other.high);
         self.has_nan |= other.has_nan;

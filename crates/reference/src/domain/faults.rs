@@ -9,10 +9,6 @@
 /// A known fault of a driver.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Fault {
-    /// It computes `asin` and `acos` with a short polynomial.
-    ArcFunctions,
-    /// It computes the level of detail with an imprecise logarithm.
-    LevelOfDetail,
     /// It computes `noperspective` varyings incorrectly for triangles that are clipped along an edge of constant x.
     ClippedNoperspective,
 }
@@ -33,29 +29,13 @@ pub struct KnownFault {
 }
 
 /// All known faults of Mesa 22.3.6's llvmpipe and lavapipe.
-pub static KNOWN: &[KnownFault] = &[
-    KnownFault {
-        fault: Fault::ArcFunctions,
-        name: "acos",
-        rule: "Vulkan: Asin, Acos: inherited from atan2 and sqrt; WGSL: 6.8e-5",
-        measured: "asin 3.9e-4, acos 1.6e-4 off",
-        applies: "asin, acos of any argument",
-    },
-    KnownFault {
-        fault: Fault::LevelOfDetail,
-        name: "level_of_detail",
-        rule: "OpenGL 3.2 3.8.11: the scale factor is at least the longest step along an axis",
-        measured: "up to 0.043 off in levels",
-        applies: "lookups of mipmapped textures by derivatives, with a trilinear filter",
-    },
-    KnownFault {
-        fault: Fault::ClippedNoperspective,
-        name: "clipped_noperspective",
-        rule: "OpenGL 3.2 2.19.1: noperspective varyings are linear in the window",
-        measured: "NaN, or wrong by the reciprocal of the difference of x",
-        applies: "triangles clipped along an edge whose ends have nearly one x and different w",
-    },
-];
+pub static KNOWN: &[KnownFault] = &[KnownFault {
+    fault: Fault::ClippedNoperspective,
+    name: "clipped_noperspective",
+    rule: "OpenGL 3.2 2.19.1: noperspective varyings are linear in the window",
+    measured: "NaN, or wrong by the reciprocal of the difference of x",
+    applies: "triangles clipped along an edge whose ends have nearly one x and different w",
+}];
 
 /// A set of faults.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -85,8 +65,3 @@ impl Faults {
         self.0 >> fault as u8 & 1 == 1
     }
 }
-
-/// The largest excused error of `asin` and `acos`.
-pub const ARC_FUNCTIONS: f64 = 4.0e-4;
-/// The largest excused error of a level of detail, in levels.
-pub const LEVEL_OF_DETAIL: f64 = 0.05;

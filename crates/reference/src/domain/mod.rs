@@ -26,6 +26,7 @@ pub mod faults;
 mod integer;
 mod lanes;
 mod number;
+mod profile;
 pub mod rules;
 mod shadow;
 mod simulated;
@@ -43,6 +44,7 @@ pub(crate) use envelope::{binary, unary};
 pub use integer::Integer;
 pub use lanes::{Block, Element, LANES, Lanes, Source, WIDTH};
 pub use number::{Answers, ErrorPart, Number, NumberBlock};
+pub use profile::Profile;
 pub use shadow::{ShadowFloat, ShadowInt, Shadowed, rounded};
 pub use simulated::{Gpu, Planes, Simulated, SimulatedFloat};
 #[cfg(any(test, feature = "stability"))]
@@ -73,6 +75,11 @@ pub trait Domain: Copy + Send + Sync + std::fmt::Debug + 'static {
     #[inline(always)]
     fn weight_bits() -> Option<u32> {
         None
+    }
+    /// The error of a point's size, as a share of the allowed one, -1 to 1.
+    #[inline(always)]
+    fn point_size_share() -> f64 {
+        0.0
     }
     /// A level of detail with the bits that it has.
     #[inline(always)]

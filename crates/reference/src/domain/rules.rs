@@ -73,8 +73,6 @@ steps! { OWN: "Rules where no specification speaks. `cargo test --test it -- env
         "the coordinate times the size, rounded once; a lookup may read every texel that the interval touches";
     CUBE_COORDINATE = "coordinate on a face of a cube", OfUlps(4.0), "ULP of 1: a division, a sum and a product";
     COMPARED_DEPTH = "texel of a shadow comparison", OfUlps(1.0), "it and the reference are rounded to f32 before the comparison";
-    FILTER_WEIGHT = "weight of linear filtering", OfSize(3.906_25e-3),
-        "eight bits, as Mesa 22.3.6's llvmpipe reports in subTexelPrecisionBits; measured: 6e-8 for float texels";
     FILTER_SUM = "sum of linear filtering", OfUlps(4.0), "measured: within 1 ULP";
     STORE_SLACK = "rounding to 8 bits", OfSize(1.0e-6), "a conversion through 255 x + 0.5 in f32; measured: 2e-8 from the half";
 }

@@ -11,6 +11,7 @@
 use super::inst::{Composite, Operand};
 use super::registers::{Filled, Register, Registers};
 use crate::domain::{Block, Domain, Element, LANES, Number, NumberBlock, Source, WIDTH};
+use glisten_scene::picture::Interval;
 use smallvec::SmallVec;
 use std::hint::black_box;
 
@@ -62,14 +63,14 @@ fn squared<W: Number, B: NumberBlock<W>, const C: usize>(size: usize, a: &Vector
     )
 }
 
-/// A vector over the root of its squared length.
+/// A vector over the root of its squared length. The domain chooses between a product and a quotient.
 #[inline(always)]
 fn normalize<W: Number, B: NumberBlock<W>, const C: usize>(size: usize, a: &Vector<B, C>) -> Vector<B, C> {
-    let scale = squared::<W, B, C>(size, a).inversesqrt();
+    let scale = squared::<W, B, C>(size, a).unit_scale();
     each(
         size,
         #[inline(always)]
-        |k| a[k % C].mul(&scale).cosine_at_most(),
+        |k| a[k % C].scaled(&scale).cosine_at_most(),
     )
 }
 
@@ -368,6 +369,13 @@ impl<D: Domain> Registers<D> {
             }
         }
         drop(arguments);
+        if D::HAS_INTERVALS
+            && !self.profile.limits_differences
+            && matches!(op, Composite::Determinant | Composite::Inverse)
+        {
+            let unlimited = |number: D::Float| Number::with_interval(number.value(), Interval::ALL);
+            outs.iter_mut().for_each(|out| out.change(unlimited));
+        }
         for (operand, out) in results.iter().zip(outs.drain(..)) {
             self.floats.put(*operand, out);
         }

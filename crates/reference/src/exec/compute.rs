@@ -4,8 +4,8 @@ use super::code::Section;
 use super::inst::{Compare, Derivative, Float1, Float2, Float3, FloatToInt, Inst, Int1, Int2, IntToFloat, Operand};
 use super::registers::{Filled, Registers, blocks1, blocks2, blocks3, calls1, calls2, calls3, copy, map1, map2, map3};
 use super::{DFDY_SIGN, LANES};
-use crate::domain::faults::{self, Fault};
 use crate::domain::{Block, Domain, Element, Integer, Lanes, Number, NumberBlock, Source};
+use glisten_scene::picture::Interval;
 
 type Float<D> = <D as Domain>::Float;
 
@@ -106,8 +106,8 @@ fn float3<N: Number>(op: Float3, out: &mut Lanes<N>, a: Source<'_, N>, b: Source
             out,
             [a, b, c],
             #[inline(always)]
-            |x, least, most| x.max(least).min(most),
-            |x, least, most| x.max(least).min(most),
+            |x, least, most| x.limited(least, most),
+            N::limited,
         ),
         Float3::Smoothstep => map3(out, a, b, c, N::smoothstep),
     }
@@ -211,16 +211,7 @@ impl<D: Domain> Registers<D> {
     #[inline(always)]
     pub(super) fn compute(&mut self, inst: &Inst, section: &Section) {
         match *inst {
-            Inst::Float1 { op, dst, a } => self.write_float(dst, |this, out| {
-                let filled = float1(op, out, this.float(a));
-                if D::HAS_INTERVALS
-                    && matches!(op, Float1::Asin | Float1::Acos)
-                    && this.faults.excuses(Fault::ArcFunctions)
-                {
-                    out.update(|_, number| number.widened(faults::ARC_FUNCTIONS));
-                }
-                filled
-            }),
+            Inst::Float1 { op, dst, a } => self.write_float(dst, |this, out| float1(op, out, this.float(a))),
             // A number times itself is a square, for which an envelope is narrower.
             Inst::Float2 { op: Float2::Mul, dst, a, b } if D::HAS_INTERVALS && a == b => {
                 self.write_float(dst, |this, out| {
@@ -243,6 +234,28 @@ impl<D: Domain> Registers<D> {
                     |a: Float<D>, c| a.square().add(c),
                 )
             }),
+            // The same number twice, for which an envelope is narrower: `a - a` and `a / a`.
+            Inst::Float2 { op: op @ (Float2::Sub | Float2::Div), dst, a, b } if D::HAS_INTERVALS && a == b => {
+                let same: fn(Float<D>) -> Float<D> =
+                    if op == Float2::Sub { Number::less_itself } else { Number::over_itself };
+                self.write_float(dst, |this, out| map1(out, this.float(a), same));
+            }
+            Inst::Float2 { op: Float2::Div, dst, a, b } if D::HAS_INTERVALS && !self.profile.exact_halves => {
+                self.write_float(dst, |this, out| {
+                    let (a, b) = (this.float(a), this.float(b));
+                    let filled = float2(Float2::Div, out, a, b);
+                    out.update(|lane, quotient| quotient.loosened(b.at(lane)));
+                    filled
+                });
+            }
+            Inst::Float2 { op: Float2::Mod, dst, a, b } if D::HAS_INTERVALS && !self.profile.exact_halves => {
+                self.write_float(dst, |this, out| map2(out, this.float(a), this.float(b), Number::modulo_loosened));
+            }
+            Inst::Float3 { op: Float3::Smoothstep, dst, a, b, c } if D::HAS_INTERVALS && !self.profile.exact_halves => {
+                self.write_float(dst, |this, out| {
+                    map3(out, this.float(a), this.float(b), this.float(c), Number::smoothstep_loosened)
+                });
+            }
             Inst::Float2 { op, dst, a, b } => {
                 self.write_float(dst, |this, out| float2(op, out, this.float(a), this.float(b)));
             }
@@ -255,6 +268,12 @@ impl<D: Domain> Registers<D> {
                     |a: Float<D>, b, c| a.mul(b).add(c),
                 )
             }),
+            Inst::Folded { dst, a, .. } if !(D::HAS_INTERVALS || Float::<D>::SUMS_BY_CHOICE) => {
+                self.write_float(dst, |this, out| copy(out, this.float(a)));
+            }
+            Inst::Folded { sum, dst, a, list } => {
+                self.write_float(dst, |this, out| folded(this, sum, a, section.list(list), out));
+            }
             Inst::SumOfProducts { dst, list } => {
                 self.write_float(dst, |this, out| sum_of_products(this, section.list(list), out));
             }
@@ -295,6 +314,9 @@ impl<D: Domain> Registers<D> {
             Inst::Derivative { op, dst, a } => self.write_float(dst, |this, out| {
                 // Infinity and envelopes have differences other than 0, even if all lanes are equal.
                 derivative(op, out, this.float(a));
+                if D::HAS_INTERVALS && !this.profile.limits_differences {
+                    out.update(|_, number| Number::with_interval(number.value(), Interval::ALL));
+                }
                 Filled::Lanes
             }),
             Inst::MoveFloat { dst, a } => self.write_float(dst, |this, out| copy(out, this.float(a))),
@@ -309,6 +331,28 @@ impl<D: Domain> Registers<D> {
 #[inline(always)]
 fn is_same<D: Domain>(this: &Registers<D>, operands: &[Operand]) -> bool {
     operands.iter().all(|operand| matches!(this.float(*operand), Source::One(_)))
+}
+
+/// The hull of a chain's result and of the same chain with its constants combined.
+fn folded<D: Domain>(
+    this: &Registers<D>,
+    sum: bool,
+    written: Operand,
+    chain: &[Operand],
+    out: &mut Lanes<Float<D>>,
+) -> Filled {
+    let written = this.float(written);
+    let combined = |lane: usize| {
+        let terms = chain.iter().map(|term| this.float(*term).at(lane));
+        terms.reduce(if sum { Number::add } else { Number::mul })
+    };
+    let both = |lane: usize, number: Float<D>| combined(lane).map_or(number, |other| number.joined(other));
+    if let Source::One(number) = written {
+        out.set(0, both(0, number));
+        return Filled::One;
+    }
+    out.update(|lane, _| both(lane, written.at(lane)));
+    Filled::Lanes
 }
 
 fn sum_of_products<D: Domain>(this: &Registers<D>, pairs: &[Operand], out: &mut Lanes<Float<D>>) -> Filled {

@@ -183,6 +183,14 @@ pub(super) enum Inst {
         b: Operand,
         c: Operand,
     },
+    /// `a`, the result of a chain of sums or products; in an envelope joined with the sum or product of a list, which
+    /// is the same chain with its constants combined.
+    Folded {
+        sum: bool,
+        dst: Operand,
+        a: Operand,
+        list: List,
+    },
     /// `a0 b0 + a1 b1 + ...` over pairs in a list, from left to right, each step rounded.
     SumOfProducts {
         dst: Operand,
@@ -359,7 +367,7 @@ impl Inst {
         use Class::{Float, Int};
         use Use::{Read, Write};
         match self {
-            Self::Float1 { dst, a, .. } | Self::Derivative { dst, a, .. } => {
+            Self::Float1 { dst, a, .. } | Self::Derivative { dst, a, .. } | Self::Folded { dst, a, .. } => {
                 f(Float, Read, a);
                 f(Float, Write, dst);
             }
@@ -452,7 +460,9 @@ impl Inst {
     /// The lists of operands that the instruction reads and writes.
     pub(super) fn lists(&self) -> [Option<(Class, Use, List)>; 2] {
         match *self {
-            Self::SumOfProducts { list, .. } => [Some((Class::Float, Use::Read, list)), None],
+            Self::SumOfProducts { list, .. } | Self::Folded { list, .. } => {
+                [Some((Class::Float, Use::Read, list)), None]
+            }
             Self::Composite { results, arguments, .. } => {
                 [Some((Class::Float, Use::Read, arguments)), Some((Class::Float, Use::Write, results))]
             }
@@ -462,6 +472,17 @@ impl Inst {
             Self::StoreIndexedInt { table, .. } => [Some((Class::Int, Use::Write, table)), None],
             _ => [None, None],
         }
+    }
+
+    /// Whether it changes the home of a variable.
+    pub(super) fn stores(&self) -> bool {
+        matches!(
+            self,
+            Self::StoreFloat { .. }
+                | Self::StoreInt { .. }
+                | Self::StoreIndexedFloat { .. }
+                | Self::StoreIndexedInt { .. }
+        )
     }
 
     /// The target of a jump.

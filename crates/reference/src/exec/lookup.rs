@@ -4,7 +4,6 @@ use super::inst::{Lookup, Operand, TextureCall};
 use super::machine::Machine;
 use super::registers::Registers;
 use super::{LANES, Mask};
-use crate::domain::faults::{self, Fault};
 use crate::domain::{Domain, Integer, Number};
 use crate::texture::{self, BoundedFloat, BoundedInt, Gradients, MISSING, Request, Sampled, Steps};
 use glisten_front::hir::{SamplerDim, Scalar, Stage};
@@ -196,6 +195,7 @@ impl<D: Domain> LaneLookup<'_, D> {
             offset: self.ints(&self.call.offset),
             bounded: D::HAS_INTERVALS,
             weight_bits: D::weight_bits(),
+            profile: self.registers.profile,
         };
         texture::sample(texture, &request)
     }
@@ -222,8 +222,6 @@ impl<D: Domain> LaneLookup<'_, D> {
             steps.as_ref(),
         );
         let lambda = BoundedFloat { value: D::level(lambda.value), ..lambda };
-        let excused = self.registers.faults.excuses(Fault::LevelOfDetail);
-        let lambda = if excused { lambda.widened(faults::LEVEL_OF_DETAIL) } else { lambda };
         BoundedFloat { value: lambda.value + given.value, low: lambda.low + given.low, high: lambda.high + given.high }
     }
 

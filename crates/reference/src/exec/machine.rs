@@ -8,8 +8,7 @@ use super::mute::Muted;
 use super::observe::Observer;
 use super::paths::{Paths, couples};
 use super::registers::{Register, Registers};
-use crate::domain::faults::Faults;
-use crate::domain::{Domain, Integer, Lanes, Number};
+use crate::domain::{Domain, Integer, Lanes, Number, Profile};
 use glisten_front::hir::{GlobalId, ScalarValue};
 use glisten_front::source::Span;
 use glisten_scene::Texture;
@@ -52,8 +51,8 @@ pub struct Machine<D: Domain> {
 /// The purpose of a machine. The purposes exclude each other.
 #[derive(Debug)]
 pub enum Purpose<D: Domain> {
-    /// Results. Their envelopes allow these faults of drivers.
-    Results(Faults),
+    /// Results.
+    Results,
     /// The share of an operation in the envelopes: its own contribution is left out.
     Share(Muted),
     /// An observer, which also sees the preamble.
@@ -66,19 +65,20 @@ impl<D: Domain> Machine<D> {
     /// Creates a machine for the uniforms (of each root of the interface, flat) and textures (of each sampler slot)
     /// of a draw, and runs the preamble.
     pub fn new(code: &Code, uniforms: &[Vec<ScalarValue>], textures: &[Option<Arc<Texture>>]) -> Self {
-        Self::with(Purpose::Results(Faults::NONE), code, uniforms, textures)
+        Self::with(Purpose::Results, Profile::default(), code, uniforms, textures)
     }
 
-    /// Creates a machine for a purpose.
+    /// Creates a machine for a purpose, and a device.
     pub fn with(
         purpose: Purpose<D>,
+        profile: Profile,
         code: &Code,
         uniforms: &[Vec<ScalarValue>],
         textures: &[Option<Arc<Texture>>],
     ) -> Self {
-        let (mut faults, mut muted, mut observer, mut exactly) = (Faults::NONE, None, None, None);
+        let (mut muted, mut observer, mut exactly) = (None, None, None);
         match purpose {
-            Purpose::Results(excused) => faults = excused,
+            Purpose::Results => {}
             Purpose::Share(left_out) => muted = Some(left_out),
             Purpose::Watching(watching) => observer = Some(watching),
             Purpose::Corrected(corrected) => exactly = Some(corrected),
@@ -88,7 +88,7 @@ impl<D: Domain> Machine<D> {
         let ints = inner.int_pool.iter().map(|source| int_of::<D>(*source, uniforms)).collect();
         let mut machine = Self {
             code: code.clone(),
-            registers: Registers::new(inner.preamble_results, floats, ints, faults),
+            registers: Registers::new(inner.preamble_results, floats, ints, profile),
             slots: vec![0; inner.mask_slots],
             textures: textures.to_vec(),
             discarded: 0,
@@ -149,6 +149,7 @@ impl<D: Domain> Machine<D> {
         self.budget = if self.budget_exceeded { self.loop_budget >> 6 } else { self.loop_budget };
         self.watched = live.0;
         self.mute_input();
+        self.count_invocations(inner);
         self.run_main(inner, live.0 | helpers.0);
         self.show_outputs(live.0 & !self.discarded);
         if D::HAS_INTERVALS {

@@ -5,8 +5,7 @@
 //! registers are done once. Examples are the counter of a loop over lights, and all uniforms that it selects.
 
 use super::inst::{Class, Operand};
-use crate::domain::faults::Faults;
-use crate::domain::{Block, Domain, Element, Lanes, Number, NumberBlock, Source, WIDTH};
+use crate::domain::{Block, Domain, Element, Lanes, Number, NumberBlock, Profile, Source, WIDTH};
 use std::hint::black_box;
 
 /// The largest number of results of one instruction: a `mat4`.
@@ -40,8 +39,8 @@ pub(super) struct File<T: Element> {
 pub(super) struct Registers<D: Domain> {
     pub(super) floats: File<D::Float>,
     pub(super) ints: File<D::Int>,
-    /// The faults of a driver that are excused.
-    pub(super) faults: Faults,
+    /// What the device may do where the specifications leave it open.
+    pub(super) profile: Profile,
 }
 
 impl<T: Element> Register<T> {
@@ -401,9 +400,9 @@ pub(super) fn blocks3<N: Number>(
 }
 
 impl<D: Domain> Registers<D> {
-    pub(super) fn new(count: [usize; 2], float_pool: Vec<D::Float>, int_pool: Vec<D::Int>, faults: Faults) -> Self {
+    pub(super) fn new(count: [usize; 2], float_pool: Vec<D::Float>, int_pool: Vec<D::Int>, profile: Profile) -> Self {
         let [floats, ints] = count;
-        Self { floats: File::new(floats, float_pool), ints: File::new(ints, int_pool), faults }
+        Self { floats: File::new(floats, float_pool), ints: File::new(ints, int_pool), profile }
     }
 
     /// Appends the preamble's results to the pools and allocates the registers of `main`.

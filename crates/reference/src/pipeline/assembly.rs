@@ -6,8 +6,8 @@
 use super::clip::SIDES;
 use super::vertices::Vertices;
 use crate::LineRule;
-use crate::domain::Domain;
-use crate::raster::{Fixed, Shape, line, point, triangle};
+use crate::domain::{Domain, Number};
+use crate::raster::{Fixed, NEAR, ONE, Shape, line, point, triangle};
 use glisten_front::hir::Interpolation;
 use glisten_scene::{Cull, Primitive, State};
 
@@ -128,6 +128,22 @@ fn is_undecided<D: Domain>(vertices: &Vertices<D>, corners: &[u32]) -> bool {
     corners.iter().any(|&vertex| vertices.undecided.get(vertex as usize).copied().unwrap_or(false))
 }
 
+/// By how much the band around the edges between these vertices is wider than that of Mesa's grid, in units of the
+/// grid: by the device's snapping, and by the envelopes of the positions.
+fn freedom<D: Domain>(vertices: &Vertices<D>, corners: &[u32]) -> f64 {
+    if !D::HAS_INTERVALS {
+        return 0.0;
+    }
+    let off = |vertex: &u32| {
+        let [x, y] = vertices.window.get(*vertex as usize).map_or([0.0; 2], |[x, y, _, _]| [x.error(), y.error()]);
+        x.hypot(y)
+    };
+    let moved = corners.iter().map(off).fold(0.0, f64::max);
+    // A position without a bound is undecided as a whole.
+    let moved = if moved.is_finite() { moved } else { 0.0 };
+    (vertices.profile.edge_band() + moved) * ONE as f64 - NEAR
+}
+
 fn point_prim<D: Domain>(vertices: &Vertices<D>, vertex: u32, id: u32, rule: LineRule) -> Option<Prim> {
     // OpenGL discards a point whose center is outside (§2.19); Vulkan may draw the part inside the window.
     let counted = match rule {
@@ -159,6 +175,7 @@ fn line_prim<D: Domain>(
         LineRule::Vulkan => line::rectangle(from, to)?,
         LineRule::OpenGl => line::diamond_exit(Fixed::snap(from[0], from[1])?, Fixed::snap(to[0], to[1])?),
     };
+    let shape = shape.widened(freedom(vertices, &ends));
     Some(Prim { shape, corners: Corners::Line(ends), provoking, front: true, id, undecided })
 }
 
@@ -189,6 +206,7 @@ fn triangle_prims<D: Domain>(
             continue;
         }
         if let Some(shape) = triangle::shape([a, b, c]) {
+            let shape = shape.widened(freedom(vertices, &corners));
             list.push(Prim { shape, corners: Corners::Triangle(corners), provoking, front, id, undecided });
         }
     }

@@ -14,6 +14,7 @@ use super::vertices::Vertices;
 use crate::domain::faults::Fault;
 use crate::domain::{Domain, Number};
 use glisten_front::hir::Interpolation;
+use glisten_scene::picture::Interval;
 use smallvec::SmallVec;
 
 /// The six planes of the view volume.
@@ -130,7 +131,7 @@ impl<D: Domain> Vertices<D> {
                 Interpolation::Noperspective => {
                     let value = mix(x, y, in_window);
                     if self.faults.excuses(Fault::ClippedNoperspective) {
-                        value.widened(self.lost_in_window(a, b) * (y.value() - x.value()).abs())
+                        self.excused(value, self.lost_in_window(a, b), (y.value() - x.value()).abs())
                     } else {
                         value
                     }
@@ -158,6 +159,17 @@ impl<D: Domain> Vertices<D> {
         }
         let (a, b) = (a.map(f64::from), b.map(f64::from));
         std::array::from_fn(|i| (a[i] + cut.double * (b[i] - a[i])) as f32)
+    }
+
+    /// A varying that a driver may get wrong by a share of its difference along the edge. If that is not small, the
+    /// difference of x may be 0, and the driver's result NaN.
+    fn excused(&self, value: D::Float, share: f64, difference: f64) -> D::Float {
+        const SMALL: f64 = 1.0 / 64.0;
+        if share <= SMALL {
+            value.widened(share * difference)
+        } else {
+            D::Float::with_interval(value.value(), Interval::ALL)
+        }
     }
 
     /// How far off a driver may be that, like Mesa 22.3, derives the position along an edge in window space only from

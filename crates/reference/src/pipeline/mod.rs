@@ -4,6 +4,7 @@
 //!  Draw ──► vertices    64 vertices at a time, positions in the domain and in f32
 //!       ──► assembly    primitives, clipped (clip), their pixels (raster), culled
 //!       ──► bins        32x32 pixels each, the primitives that touch them in order; threads take bins
+//!       ──► edges       pixels near edges, and which primitives may own them (worlds)
 //!       ──► batch       a primitive's pixels as lanes: weights and depth (source, slack), early depth test (store)
 //!       ──► fragments   64 lanes at a time: varyings in, the fragment stage, colors out (outputs)
 //!       ──► target      late depth test, blending (store), into the rows of the picture (surface)
@@ -24,7 +25,9 @@
 mod assembly;
 mod batch;
 mod clip;
+mod edges;
 mod explain;
+mod fragment_tests;
 mod fragments;
 mod outputs;
 mod plan;
@@ -36,10 +39,11 @@ mod surface;
 mod target;
 mod vertices;
 mod watch;
+mod worlds;
 
 use super::RenderOptions;
 use super::domain::Domain;
-use super::exec::{Code, LOOP_BUDGET, Machine, Piece};
+use super::exec::{Code, Form, LOOP_BUDGET, Machine, Piece};
 use super::raster::Shape;
 use assembly::{Prim, primitives};
 pub(super) use explain::explain;
@@ -61,7 +65,9 @@ use target::Target;
 use vertices::{Invocation, ShadeOptions, shade};
 #[cfg(any(test, feature = "stability"))]
 pub(super) use watch::Chosen;
-pub(super) use watch::{MakeObserver, Probe, Study};
+#[cfg(any(test, feature = "stability"))]
+pub(super) use watch::Probe;
+pub(super) use watch::{MakeObserver, Study};
 
 /// The side of a bin in pixels.
 #[cfg(any(test, feature = "stability"))]
@@ -83,7 +89,8 @@ pub(super) fn render_watched<D: Domain>(
     options: &RenderOptions,
     observers: Option<&MakeObserver<D>>,
 ) -> Result<Picture, Vec<Diagnostic>> {
-    render_studied(scene, options, Study { observers, unfused: observers.is_some(), ..Study::NONE })
+    let form = if observers.is_some() { Form::Unfused } else { Form::Fast };
+    render_studied(scene, options, Study { observers, form, ..Study::NONE })
 }
 
 /// Draws a scene for a study.
@@ -117,9 +124,8 @@ fn draw_all<D: Domain>(
     if draw.program.stage(Stage::Geometry).is_some() {
         return Err(vec![refuse(&SCENE_CANNOT_DRAW, "a program with a geometry stage cannot be drawn")]);
     }
-    let compile = if watch.study.unfused { Code::compile_unfused } else { Code::compile };
-    let vertex_code = compile(&draw.program, Stage::Vertex)?;
-    let fragment_code = compile(&draw.program, Stage::Fragment)?;
+    let vertex_code = Code::compile_as(&draw.program, Stage::Vertex, watch.study.form)?;
+    let fragment_code = Code::compile_as(&draw.program, Stage::Fragment, watch.study.form)?;
     watch.common(&vertex_code, draw, Piece::SameForVertices);
     watch.common(&fragment_code, draw, Piece::SameForFragments);
     let plan = Plan::new(&draw.program);
@@ -134,8 +140,8 @@ fn draw_all<D: Domain>(
         let invocations: Vec<Invocation> =
             instances.clone().flat_map(|instance| unique.iter().map(move |&vertex| (vertex, instance))).collect();
         watch.instance = first;
-        let faults = options.faults;
-        let shaded = ShadeOptions { viewport, faults, positions: options.positions };
+        let RenderOptions { faults, profile, positions, .. } = *options;
+        let shaded = ShadeOptions { viewport, faults, profile, positions };
         let mut vertices = shade::<D>(draw, &vertex_code, &plan, &invocations, shaded, &endless, &watch);
         if endless.get().is_some() {
             break;
@@ -157,7 +163,7 @@ fn draw_all<D: Domain>(
                 framebuffer: scene.framebuffer,
                 outputs: &outputs,
                 mark_edges: options.mark_edges,
-                faults: options.faults,
+                profile,
                 probe: watch.study.probe,
                 pixels: watch.study.pixels,
                 jitter: watch.study.jitter,
@@ -294,7 +300,7 @@ fn draw_prims<D: Domain>(
         if list.is_empty() || endless.get().is_some() || !watch.wants(index) {
             return;
         }
-        let mut machine = take().unwrap_or_else(|| watch.machine(Stage::Fragment, code, shading.draw, shading.faults));
+        let mut machine = take().unwrap_or_else(|| watch.machine(Stage::Fragment, code, shading.draw, shading.profile));
         watch.begin(&mut machine);
         draw_bin(shading, bin, list, &mut machine);
         watch.end(&mut machine, Piece::Fragments, index);

@@ -67,7 +67,8 @@ pub(crate) fn reach(draw: &Draw, framebuffer: Framebuffer, options: &RenderOptio
         instances.clone().flat_map(|instance| unique.iter().map(move |&vertex| (vertex, instance))).collect();
     let endless = OnceLock::new();
     let watch = Watch { study: Study::NONE, draw: 0, instance: 0 };
-    let shaded = ShadeOptions { viewport, faults: options.faults, positions: options.positions };
+    let shaded =
+        ShadeOptions { viewport, faults: options.faults, profile: options.profile, positions: options.positions };
     let mut vertices = shade::<Envelope>(draw, &code, &plan, &invocations, shaded, &endless, &watch);
     if endless.get().is_some() {
         return None;

@@ -125,7 +125,9 @@ impl<D: Domain> Sprite<D> {
     pub(super) fn coordinates(&self, x: f64, y: f64) -> [D::Float; 2] {
         let half = D::Float::from_f64(0.5);
         let along = |p: f64, center: D::Float| {
-            let exact = half.add(D::Float::from_f64(p).sub(center).div(self.size));
+            let off = D::Float::from_f64(D::point_size_share() * POINT_SIZE_ERROR);
+            let size = if D::point_size_share() == 0.0 { self.size } else { self.size.add(off) };
+            let exact = half.add(D::Float::from_f64(p).sub(center).div(size));
             let sized = (exact.value() - 0.5).abs() * POINT_SIZE_ERROR / self.size.value();
             exact.widened(sized + const { rules::POINT_COORD.absolute() })
         };

@@ -8,7 +8,7 @@ use super::plan::Plan;
 use super::watch::{Watch, jittered};
 use crate::Positions;
 use crate::domain::faults::Faults;
-use crate::domain::{Domain, F32, Integer, Number};
+use crate::domain::{Domain, F32, Integer, Number, Profile};
 use crate::exec::{Code, LANES, Machine, Mask, Piece};
 use glisten_front::hir::{GlobalId, Interpolation, ScalarValue, Stage, Type, TypeId, Types};
 use glisten_front::source::Span;
@@ -55,6 +55,8 @@ pub(super) struct Vertices<D: Domain> {
     pub(super) viewport: [f32; 2],
     /// The faults of a driver that are excused.
     pub(super) faults: Faults,
+    /// What the device may do where the specifications leave it open.
+    pub(super) profile: Profile,
 }
 
 impl<D: Domain> Vertices<D> {
@@ -117,6 +119,7 @@ pub(super) struct ShadeOptions {
     /// The width and height of the window in pixels.
     pub(super) viewport: [f32; 2],
     pub(super) faults: Faults,
+    pub(super) profile: Profile,
     pub(super) positions: Positions,
 }
 
@@ -126,12 +129,12 @@ pub(super) fn shade<D: Domain>(
     code: &Code,
     plan: &Plan,
     invocations: &[Invocation],
-    ShadeOptions { viewport, faults, positions }: ShadeOptions,
+    ShadeOptions { viewport, faults, profile, positions }: ShadeOptions,
     endless: &OnceLock<Span>,
     watch: &Watch<'_, D>,
 ) -> Vertices<D> {
     let machines = || {
-        let machine = watch.machine(Stage::Vertex, code, draw, faults);
+        let machine = watch.machine(Stage::Vertex, code, draw, profile);
         (machine, Machine::<F32>::new(code, &draw.uniforms, &draw.textures))
     };
     let chunks: Vec<Chunk<D>> = invocations
@@ -175,6 +178,7 @@ pub(super) fn shade<D: Domain>(
         interpolations: plan.floats.iter().map(|varying| varying.interpolation).collect(),
         viewport,
         faults,
+        profile,
     };
     watch.enter();
     for chunk in chunks {

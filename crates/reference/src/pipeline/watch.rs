@@ -2,9 +2,8 @@
 //!
 //! *In:* a [`Study`]. *Out:* machines for it, each for one piece of the drawing.
 
-use crate::domain::faults::Faults;
-use crate::domain::{Domain, ErrorPart, Gpu};
-use crate::exec::{Code, Exactly, Machine, Observer, Order, Piece, Purpose};
+use crate::domain::{Domain, ErrorPart, Gpu, Profile};
+use crate::exec::{Code, Exactly, Form, Machine, Observer, Order, Piece, Purpose};
 use glisten_front::hir::{GlobalId, Stage};
 use glisten_front::source::Span;
 use glisten_scene::Draw;
@@ -38,8 +37,8 @@ pub(crate) struct Study<'a, D: Domain> {
     pub(crate) exact_inputs: &'a [GlobalId],
     /// Sees the values of varyings at a pixel.
     pub(crate) probe: Option<&'a Probe>,
-    /// Whether each operation of the text has instructions of its own.
-    pub(crate) unfused: bool,
+    /// What the stages are compiled for.
+    pub(crate) form: Form,
     /// The GPU that is simulated, in the domain of simulated GPUs.
     pub(crate) gpu: Option<Gpu>,
 }
@@ -54,7 +53,7 @@ impl<D: Domain> Study<'_, D> {
         jitter: None,
         exact_inputs: &[],
         probe: None,
-        unfused: false,
+        form: Form::Fast,
         gpu: None,
     };
 }
@@ -108,16 +107,16 @@ impl<D: Domain> Watch<'_, D> {
     }
 
     /// A machine for a stage of the draw.
-    pub(super) fn machine(&self, stage: Stage, code: &Code, draw: &Draw, faults: Faults) -> Machine<D> {
+    pub(super) fn machine(&self, stage: Stage, code: &Code, draw: &Draw, profile: Profile) -> Machine<D> {
         self.enter();
         let purpose = match self.study.exactly.filter(|chosen| chosen.stage == stage) {
             Some(Chosen { spans, part, .. }) => {
                 let exactly = Exactly::new(code, part, |span| spans.binary_search(&span).is_ok());
                 Purpose::Corrected(Arc::new(exactly))
             }
-            None => Purpose::Results(faults),
+            None => Purpose::Results,
         };
-        Machine::with(purpose, code, &draw.uniforms, &draw.textures)
+        Machine::with(purpose, profile, code, &draw.uniforms, &draw.textures)
     }
 
     /// Whether a bin is drawn.
@@ -128,7 +127,8 @@ impl<D: Domain> Watch<'_, D> {
     /// Shows once what the stage computes for all invocations.
     pub(super) fn common(&self, code: &Code, draw: &Draw, piece: Piece) {
         if let Some(make) = self.study.observers {
-            let mut machine = Machine::with(Purpose::Watching(make()), code, &draw.uniforms, &draw.textures);
+            let purpose = Purpose::Watching(make());
+            let mut machine = Machine::with(purpose, Profile::default(), code, &draw.uniforms, &draw.textures);
             machine.end_watch(self.order(piece, 0));
         }
     }

@@ -11,6 +11,7 @@
 //!
 //! *Not done here:* the fragments' values ([`interpolate`](super::interpolate)), clipping.
 
+pub(crate) mod band;
 pub(crate) mod line;
 pub(crate) mod point;
 pub(crate) mod triangle;
@@ -21,7 +22,8 @@ use pulp::{Simd, WithSimd};
 pub(crate) const ONE: i64 = 256;
 
 /// Half the width of the band around an edge within which `near_edge` is marked, in units of the grid: 1/128 pixel.
-const NEAR: f64 = 2.0;
+/// Devices with a coarser grid, and positions with an envelope, have a [wider](Shape::widened) one.
+pub(crate) const NEAR: f64 = 2.0;
 
 /// A window position in units of the grid; pixel centers are at multiples of [`ONE`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -138,6 +140,26 @@ impl Shape {
         }
     }
 
+    /// The shape with a wider band around its edges, by some units of the grid to either side.
+    pub(crate) fn widened(mut self, units: f64) -> Self {
+        /// Far enough for any window.
+        const MOST: f64 = (1_u64 << 24) as f64;
+        if let Self::Convex { bounds, edges, count } = &mut self
+            && *count > 0
+            && units > 0.0
+        {
+            let units = units.min(MOST);
+            for edge in edges.iter_mut().take(*count) {
+                let length = (edge.step_x as f64).hypot(edge.step_y as f64) / ONE as f64;
+                edge.near += (length * units).ceil() as i64;
+            }
+            let pixels = (units / ONE as f64).ceil() as i64;
+            let Bounds { x0, x1, y0, y1 } = *bounds;
+            *bounds = Bounds { x0: x0 - pixels, x1: x1 + pixels, y0: y0 - pixels, y1: y1 + pixels };
+        }
+        self
+    }
+
     /// Whether it may cover a pixel of `area`, or have one near an edge.
     pub(crate) fn may_touch(&self, area: Bounds) -> bool {
         match self {
@@ -202,13 +224,6 @@ impl Shape {
                     }
                 }
             }
-        }
-    }
-
-    /// Calls `mark` with each pixel of `area` whose center is within 1/128 pixel of an edge.
-    pub(crate) fn near_edges(&self, area: Bounds, mut mark: impl FnMut(i64, i64)) {
-        if let Self::Convex { bounds, edges, count } = self {
-            mark_near(edges.get(..*count).unwrap_or(&[]), bounds.intersect(area), &mut mark);
         }
     }
 }
@@ -279,23 +294,6 @@ impl<const EDGES: usize> WithSimd for Block<'_, EDGES> {
                 for value in start {
                     *value += edge.step_y;
                 }
-            }
-        }
-    }
-}
-
-fn mark_near(edges: &[Edge], area: Bounds, mark: &mut impl FnMut(i64, i64)) {
-    for y in area.y0..area.y1 {
-        for x in area.x0..area.x1 {
-            let mut near = false;
-            let mut beyond = false;
-            for edge in edges {
-                let value = edge.at(x, y);
-                near |= value.abs() <= edge.near;
-                beyond |= value < -edge.near;
-            }
-            if near && !beyond {
-                mark(x, y);
             }
         }
     }

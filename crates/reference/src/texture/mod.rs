@@ -10,7 +10,7 @@
 //!
 //! The interval is the hull of all texels that a coordinate's interval touches
 //! ([`rules::TEXEL_COORDINATE`](super::domain::rules::TEXEL_COORDINATE)), with the precision of filter weights
-//! ([`rules::FILTER_WEIGHT`](super::domain::rules::FILTER_WEIGHT)) and the freedom of a level of detail
+//! ([`Profile`](super::domain::Profile)) and the freedom of a level of detail
 //! from derivatives ([`level_of_detail`]).
 
 mod cube;

@@ -2,7 +2,7 @@
 
 use super::texel;
 use super::{BoundedFloat, BoundedInt, Sampled, cube, level};
-use crate::domain::rules;
+use crate::domain::{Profile, rules};
 use glisten_front::hir::{SamplerDim, SamplerType, Scalar};
 use glisten_scene::{Compare, Filter, Texture, TextureLevel, Wrap};
 
@@ -23,6 +23,8 @@ pub(crate) struct Request {
     pub(crate) bounded: bool,
     /// The bits of the weights of linear filtering; none if they are exact.
     pub(crate) weight_bits: Option<u32>,
+    /// The precision of the filters.
+    pub(crate) profile: Profile,
 }
 
 /// One axis of a lookup in a level: the texels left and right, the weight of the right one, the largest error of a
@@ -65,7 +67,7 @@ fn trilinear(texture: &Texture, request: &Request) -> [BoundedFloat; 4] {
     let at = |lambda: f64| between(texture, request, lambda);
     let mut result = at(limited(request.level.value));
     if request.bounded {
-        let weight = const { rules::FILTER_WEIGHT.absolute() };
+        let weight = request.profile.level_weight();
         let (low, high) = (limited(request.level.low - weight), limited(request.level.high + weight));
         let whole = (low.ceil() as u64..=high.floor() as u64).map(|level| level as f64);
         for lambda in [low, high].into_iter().chain(whole) {
@@ -126,14 +128,14 @@ fn index(value: f64) -> i64 {
     value.clamp(-FAR, FAR) as i64
 }
 
-fn axis(at: BoundedFloat, offset: i32, linear: bool) -> Axis {
+fn axis(at: BoundedFloat, offset: i32, linear: bool, request: &Request) -> Axis {
     let shift = if linear { 0.5 } else { 0.0 };
     let base = at.value - shift;
     let floor = base.floor();
     let place = |value: f64| index(value.floor()).saturating_add(i64::from(offset));
     let first = place(base);
     let second = first.saturating_add(1);
-    let weight = if linear { const { rules::FILTER_WEIGHT.absolute() } } else { 0.0 };
+    let weight = if linear { request.profile.filter_weight() } else { 0.0 };
     let touched = (place(at.low - shift - weight), place(at.high - shift + weight).saturating_add(i64::from(linear)));
     Axis { first, second, weight: if linear { base - floor } else { 0.0 }, error: at.error() + weight, touched }
 }
@@ -159,14 +161,14 @@ fn footprint(texture: &Texture, level: &TextureLevel, request: &Request, linear:
             let s = if there.ma > 0.0 { 0.5 * (c / there.ma + 1.0) } else { 0.5 };
             let bounded =
                 BoundedFloat::exact(s).widened(error + const { rules::CUBE_COORDINATE.ulps() } * rules::ulp(1.0));
-            *axis_at = axis(in_texels(kind, bounded, level.width), 0, linear);
+            *axis_at = axis(in_texels(kind, bounded, level.width), 0, linear, request);
         }
         let slice = there.face as i64;
         return Footprint { axes, count: 2, slice, slices: (slice, slice), wrap: Wrap::ClampToEdge, cube: true };
     }
     let count = usize::from(kind.dimensions());
     for (place, size) in [level.width, level.height, level.depth].into_iter().enumerate().take(count) {
-        axes[place] = axis(in_texels(kind, request.at[place], size), request.offset[place], linear);
+        axes[place] = axis(in_texels(kind, request.at[place], size), request.offset[place], linear, request);
     }
     let (slice, slices) = if kind.arrayed { layers(level, request.layer) } else { (0, (0, 0)) };
     let wrap = if kind.dim == SamplerDim::Rect { Wrap::ClampToEdge } else { texture.wrap };

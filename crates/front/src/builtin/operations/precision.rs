@@ -197,7 +197,8 @@ rules! {
     DOT = "dot, matrix products" ("x", "y"), Inherited(&formula!((dot x y))), "Vulkan: OpDot: summed in any order";
     LENGTH = "length" ("x"), Inherited(&formula!((Sqrt (dot x x)))), "Vulkan: Length";
     DISTANCE = "distance" ("p0", "p1"), Inherited(&formula!((Sqrt (dot (- x y) (- x y))))), "Vulkan: Distance";
-    NORMALIZE = "normalize" ("x"), Inherited(&formula!((* x (Inversesqrt (dot x x))))), "Vulkan: Normalize";
+    NORMALIZE = "normalize" ("x"), Inherited(&formula!((either (* x (Inversesqrt (dot x x))) (/ x (Sqrt (dot x x)))))),
+        "Vulkan: Normalize; WGSL: normalize";
     CROSS = "cross" ("x", "y"), Inherited(&formula!((- (* (next 1 x) (next 2 y)) (* (next 1 y) (next 2 x))))),
         "Vulkan: Cross";
     FACEFORWARD = "faceforward" ("N", "I", "Nref"), Inherited(&formula!((less (dot z y) 0.0 x (Neg x)))),

@@ -1,6 +1,6 @@
 //! Operators, comparisons, conversions and selecting functions of the envelope.
 
-use super::round::{down, sum_down, sum_up, ulps_above, ulps_below, up};
+use super::round::{OUTWARD, down, sum_down, sum_up, ulps_above, ulps_below, up};
 use super::{EnvelopeFloat, EnvelopeInt, powers};
 use crate::domain::rules::{self, FLUSH, ulp};
 use crate::domain::{Integer, Number};
@@ -27,9 +27,16 @@ pub(super) fn is_power_of_two(value: f64) -> bool {
 }
 
 impl EnvelopeFloat {
-    /// The largest component of a unit vector: two ULP of the inverse root, one of the product, and those of the sum
+    /// The largest component of a unit vector: seven ULP of the quotient by the length, and half of the sum's four
     /// inside the root.
-    pub(super) const COSINE: f64 = 1.0 + 6.0 / (1 << 23) as f64;
+    pub(super) const COSINE: f64 = 1.0 + 10.0 / (1 << 23) as f64;
+    /// The relative error of the reciprocal of a length by WGSL's rule: two ULP of the inverse root, and 2.5 of its
+    /// reciprocal.
+    pub(super) const UNIT_SCALE: f64 = (rules::INVERSESQRT.ulps() + rules::DIV.ulps() + 1e-5) / (1 << 23) as f64;
+    /// The error of an exponent up to which [`ROUND_TRIP`](Self::ROUND_TRIP) holds.
+    pub(super) const FAR_OFF: f64 = 0.25;
+    /// `2^-e (1 - ROUND_TRIP e e)` is below `2 - 2^e` and its roundings, up to [`FAR_OFF`](Self::FAR_OFF).
+    pub(super) const ROUND_TRIP: f64 = 0.75;
 
     /// Whether the interval contains 0.
     #[inline(always)]
@@ -71,15 +78,8 @@ impl EnvelopeFloat {
 
     /// A quotient whose divisor may be 0.
     fn over_zero(self, other: Self) -> Self {
-        let value = self.value / other.value;
-        let may_be_nan = self.may_be_nan
-            || other.may_be_nan
-            || self.holds_zero()
-            || (self.is_infinite_perhaps() && other.is_infinite_perhaps());
-        if self.low == 0.0 && self.high == 0.0 {
-            return Self { value, low: 0.0, high: 0.0, may_be_nan }.joined(Self::anything(value));
-        }
-        Self { value, low: f64::NEG_INFINITY, high: f64::INFINITY, may_be_nan }
+        // The result is unspecified (GLSL 1.50 §4.1.4, §5.9).
+        Self::anything(self.value / other.value)
     }
 
     /// A function without rounding that never decreases.
@@ -110,6 +110,26 @@ impl EnvelopeFloat {
         let other =
             |dropped: Self, kept: Self, joined: Self| if dropped.may_be_nan { joined.joined(kept) } else { joined };
         other(b, a, other(a, b, self))
+    }
+
+    /// `mod`, from the interval of its formula.
+    fn modulo_by(self, y: Self, formula: Self) -> Self {
+        if !(y.low > 0.0 || y.high < 0.0) || formula.may_be_nan {
+            return formula;
+        }
+        // Between 0 and y, widened by the error of the quotient, whose floor is then another one, and by the
+        // roundings of the product and the difference.
+        let (x, most, least) =
+            (self.low.abs().max(self.high.abs()), y.low.abs().max(y.high.abs()), y.low.abs().min(y.high.abs()));
+        let quotient = (rules::DIV.ulps() + 1.0) * OUTWARD * ulp(x / least) * most;
+        let slack = quotient + 2.0 * ulp(x + most + quotient);
+        formula.within(down(y.low.min(0.0) - slack), up(y.high.max(0.0) + slack))
+    }
+
+    /// Whether dividing by it is one multiplication by an f32, for which every way of dividing is correctly rounded.
+    #[inline(always)]
+    fn is_halving(self) -> bool {
+        self.low == self.high && is_power_of_two(self.low)
     }
 
     fn to_int_by(self, bits: u32, limit: impl Fn(f64) -> i64) -> EnvelopeInt {
@@ -220,8 +240,7 @@ impl Number for EnvelopeFloat {
             return self.over_zero(other);
         }
         let value = self.value / other.value;
-        if other.low == other.high && is_power_of_two(other.low) {
-            // The reciprocal is an f32, so every way to divide is one correctly rounded multiplication.
+        if other.is_halving() {
             let quotient = self.mul(Self::exact(1.0 / other.low));
             return Self { may_be_nan: quotient.may_be_nan | other.may_be_nan, ..quotient.of_value(value) };
         }
@@ -277,6 +296,29 @@ impl Number for EnvelopeFloat {
         // The squared length may be flushed or overflow.
         self
     }
+    fn unit_scale(self) -> Self {
+        Self::unit_scale(self)
+    }
+    fn scaled(self, scale: Self) -> Self {
+        Self::scaled(self, scale)
+    }
+    fn less_itself(self) -> Self {
+        if self.is_infinite_perhaps() || self.may_be_nan { self.sub(self) } else { Self::exact(0.0) }
+    }
+    fn over_itself(self) -> Self {
+        let value = self.value / self.value;
+        let (least, most) = (self.low.abs().min(self.high.abs()), self.low.abs().max(self.high.abs()));
+        if self.holds_zero() || self.may_be_nan || least < FLUSH || most > 1.0 / FLUSH {
+            return self.div(self);
+        }
+        let n = rules::DIV.ulps();
+        Self::rounded(value, ulps_below(1.0, 1.0, n), ulps_above(1.0, 1.0, n), false)
+    }
+    #[inline(always)]
+    fn limited(self, least: Self, most: Self) -> Self {
+        let limited = self.max(least).min(most);
+        if least.high <= most.low { limited } else { Self::anything(limited.value) }
+    }
     fn fract(self) -> Self {
         let value = self.value - self.value.floor();
         if self.low.floor() == self.high.floor() && self.low.is_finite() {
@@ -286,15 +328,31 @@ impl Number for EnvelopeFloat {
         Self { value, low: 0.0, high: 1.0, may_be_nan: self.may_be_nan || self.is_infinite_perhaps() }
     }
     fn modulo(self, y: Self) -> Self {
-        let value = Number::modulo(self.value, y.value);
-        let formula = Self::by_formula(&rules::MOD, value, &[self, y]);
-        if !(y.low > 0.0 || y.high < 0.0) || formula.may_be_nan {
-            return formula;
+        self.modulo_by(y, Self::by_formula(&rules::MOD, Number::modulo(self.value, y.value), &[self, y]))
+    }
+    fn modulo_loosened(self, y: Self) -> Self {
+        let quotient = self.div(y).loosened(y);
+        let formula = self.sub(y.mul(quotient.floor()));
+        self.modulo_by(y, formula.of_value(Number::modulo(self.value, y.value)))
+    }
+    fn smoothstep_loosened(edge0: Self, edge1: Self, x: Self) -> Self {
+        let span = edge1.sub(edge0);
+        let found = Self::smooth_step(edge0, edge1, x);
+        if !span.is_halving() {
+            return found;
         }
-        // Between 0 and y, widened by the roundings on the way.
-        let size = self.low.abs().max(self.high.abs()) + y.low.abs().max(y.high.abs());
-        let slack = 4.0 * ulp(size);
-        formula.within(y.low.min(0.0) - slack, y.high.max(0.0) + slack)
+        let quotient = x.sub(edge0).div(span).loosened(span);
+        found.joined(Self::smooth_step(Self::exact(0.0), Self::exact(1.0), quotient))
+    }
+    #[inline(always)]
+    fn loosened(self, divisor: Self) -> Self {
+        if !divisor.is_halving() || !(self.high - self.low).is_finite() || self.low == 0.0 && self.high == 0.0 {
+            return self;
+        }
+        let n = rules::DIV.ulps();
+        let below = if self.low == 0.0 { 0.0 } else { ulps_below(self.low, self.high, n) };
+        let above = if self.high == 0.0 { 0.0 } else { ulps_above(self.low, self.high, n) };
+        Self::rounded(self.value, below, above, self.may_be_nan)
     }
     #[inline(always)]
     fn min(self, other: Self) -> Self {
@@ -350,7 +408,7 @@ impl Number for EnvelopeFloat {
         self.cosine()
     }
     fn tan(self) -> Self {
-        Self::by_formula(&rules::TAN, self.value.tan(), &[self])
+        self.tangent()
     }
     fn asin(self) -> Self {
         self.arc_sine()
@@ -371,16 +429,16 @@ impl Number for EnvelopeFloat {
         self.hyperbolic_cosine()
     }
     fn tanh(self) -> Self {
-        self.rising_by(&rules::TANH, f64::tanh).within(-1.0, 1.0)
+        self.hyperbolic_tangent()
     }
     fn asinh(self) -> Self {
         self.rising_by(&rules::ASINH, f64::asinh)
     }
     fn acosh(self) -> Self {
-        self.rising_by(&rules::ACOSH, Number::acosh)
+        self.area_cosine()
     }
     fn atanh(self) -> Self {
-        self.rising_by(&rules::ATANH, Number::atanh)
+        self.area_tangent()
     }
     #[inline(always)]
     fn less(self, other: Self) -> EnvelopeInt {
@@ -428,6 +486,10 @@ impl Number for EnvelopeFloat {
         self.to_int_by(Number::to_int(self.value), |end| i64::from(end as i32))
     }
     fn to_uint(self) -> EnvelopeInt {
+        if self.low <= -1.0 {
+            // A negative number has no `uint` (§5.4.1).
+            return EnvelopeInt::with_interval(Number::to_uint(self.value), i32::MIN, i32::MAX);
+        }
         self.to_int_by(Number::to_uint(self.value), |end| i64::from(end as u32))
     }
     fn sum(terms: impl Iterator<Item = Self> + Clone) -> Self {

@@ -1,8 +1,9 @@
 //! Functions with a rule of their own, and those that inherit one from a formula.
 //!
-//! *Holds:* a function that inherits its precision from a formula is computed by it (at both bounds of the argument
-//! if the function is monotonic), and limited to the range of the function. Arguments with an undefined result may
-//! yield NaN.
+//! *Holds:* a function that inherits its precision from a formula may be off to either side by as much as the formula
+//! is to one of them (Vulkan: Precision and Operation); it is computed at both bounds of the argument if the function
+//! is monotonic. No result is cut to the range of the function where a rule allows more. Arguments with a result that
+//! GLSL leaves undefined yield [`EnvelopeFloat::anything`].
 
 use super::formula::evaluate;
 use super::round::{OUTWARD, ulps_above, ulps_below};
@@ -12,19 +13,16 @@ use crate::domain::rules::{self, FLUSH, ulp};
 use glisten_front::builtin::operations::Formula;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// The largest error above the maximum of a function: two ULP of 1.
-const TOP: f64 = 2.4e-7;
-
 impl EnvelopeFloat {
-    /// An increasing function that inherits its error from a formula: the formula at both bounds. Between them the
-    /// roundings may be twice as large, if there is a power of two.
+    /// An increasing function that inherits its error from a formula: the error of the formula at both bounds, to
+    /// either side. Between them it may be twice as large, if there is a power of two.
     pub(super) fn by_ends(self, f: impl Fn(f64) -> f64, formula: impl Fn(Self) -> Self) -> Self {
         let [low, high] = self.bounds().map(formula);
-        let more = |end: Self| if self.low == self.high { 0.0 } else { end.high - end.low };
+        let (least, most) = (f(self.low), f(self.high));
+        let off = |exact: f64, end: Self| (exact - end.low).max(end.high - exact);
         let may_be_nan = self.may_be_nan || low.may_be_nan || high.may_be_nan;
-        let (least, most) = (low.low.min(high.low), low.high.max(high.high));
-        let more = more(low).max(more(high));
-        Self::rounded(f(self.value), least - more, most + more, may_be_nan)
+        let error = off(least, low).max(off(most, high)) * if self.low == self.high { 1.0 } else { 2.0 };
+        Self::rounded(f(self.value), least - error, most + error, may_be_nan)
     }
 
     pub(super) fn inverse_square_root(self) -> Self {
@@ -34,14 +32,30 @@ impl EnvelopeFloat {
             let (low, high) = (1.0 / self.high.sqrt(), 1.0 / self.low.sqrt());
             return Self::rounded(value, ulps_below(low, high, n), ulps_above(low, high, n), self.may_be_nan);
         }
-        if self.high < 0.0 {
+        // Undefined up to 0 (GLSL 1.50 §8.2), and a subnormal may be 0.
+        Self::anything(value)
+    }
+
+    /// The reciprocal of a vector's length, for its components: [`Self::inverse_square_root`], or with the error of
+    /// `1.0 / length`, which WGSL allows.
+    pub(super) fn unit_scale(self) -> Self {
+        let value = 1.0 / self.value.sqrt();
+        if self.low < FLUSH {
             return Self::anything(value);
         }
-        let low = 1.0 / self.high.max(FLUSH).sqrt();
-        Self {
-            high: f64::INFINITY,
-            ..Self::rounded(value, ulps_below(low, low, n), low, self.may_be_nan || self.low < 0.0)
+        let (low, high) = (1.0 / self.high.sqrt(), 1.0 / self.low.sqrt());
+        Self::rounded(value, low * (1.0 - Self::UNIT_SCALE), high * (1.0 + Self::UNIT_SCALE), self.may_be_nan)
+    }
+
+    /// A component times a [scale](Self::unit_scale): a product, or a quotient by the length.
+    pub(super) fn scaled(self, scale: Self) -> Self {
+        let product = self.mul(scale);
+        let n = rules::DIV.ulps();
+        let (below, above) = (ulps_below(product.low, product.high, n), ulps_above(product.low, product.high, n));
+        if !(below.is_finite() && above.is_finite()) {
+            return product;
         }
+        Self::rounded(product.value, below, above, product.may_be_nan)
     }
 
     pub(super) fn square_root(self) -> Self {
@@ -49,53 +63,60 @@ impl EnvelopeFloat {
             return self.rising_by(&rules::SQRT, f64::sqrt);
         }
         let value = self.value.sqrt();
-        if self.high < 0.0 {
+        // Undefined below 0 (§8.2).
+        if self.low < 0.0 {
             return Self::anything(value);
         }
         let (first, second) = (rules::INVERSESQRT.ulps(), rules::DIV.ulps());
-        let end = |x: f64, sign: f64| {
+        // The formula is farther off above than below.
+        let off = |x: f64| {
             if x <= 0.0 {
                 return 0.0;
             }
-            let inner = 1.0 / x.sqrt();
-            let root = 1.0 / (inner - sign * first * ulp(inner) * (1.0 + 1e-6));
-            // Twice the ULP below, since there may be a power of two just above.
-            root + sign * second * ulp(root) * (1.0 + 1e-6)
+            let (inner, exact) = (1.0 / x.sqrt(), x.sqrt());
+            let root = 1.0 / (inner - first * ulp(inner) * (1.0 + 1e-6));
+            root + second * ulp(root) * (1.0 + 1e-6) - exact
         };
-        let flushed = |x: f64| if x < FLUSH { 0.0 } else { x };
-        let low = end(flushed(self.low), -1.0);
-        let high = end(self.high, 1.0);
-        Self::rounded(value, low.max(0.0), high, self.may_be_nan || self.low < 0.0)
+        let flushed = if self.low < FLUSH { 0.0 } else { self.low };
+        Self::rounded(value, flushed.sqrt() - off(flushed), self.high.sqrt() + off(self.high), self.may_be_nan)
     }
 
     /// An exponential function, with the exact value and the function for its bounds.
     pub(super) fn exponential(self, value: f64, f: impl Fn(f64) -> f64) -> Self {
+        self.exponential_times(1.0, value, f)
+    }
+
+    /// The same with its lower bound times a number.
+    fn exponential_times(self, share: f64, value: f64, f: impl Fn(f64) -> f64) -> Self {
         let n = |x: f64| rules::EXP.ulps_at(x);
         let (low, high) = (f(self.low), f(self.high));
         let below = if low == 0.0 { 0.0 } else { ulps_below(low, high, n(self.low)) };
         let above = if high.is_finite() { ulps_above(low, high, n(self.high)) } else { high };
         // The number of ULPs decreases toward 0, but the result increases faster, so its bounds are at those of the
         // interval.
-        Self::rounded(value, below.max(0.0), above, self.may_be_nan)
+        Self::rounded(value, below.max(0.0) * share, above, self.may_be_nan)
     }
 
     /// A logarithm, with the exact value and the function for its bounds.
     pub(super) fn logarithm(self, value: f64, f: impl Fn(f64) -> f64) -> Self {
-        if self.high < 0.0 {
+        // Undefined up to 0 (§8.2), and a subnormal may be 0.
+        if self.low < FLUSH {
             return Self::anything(value);
         }
+        self.logarithm_in_power(value, f)
+    }
+
+    /// The logarithm inside `pow`, which is defined at 0: minus infinity.
+    fn logarithm_in_power(self, value: f64, f: impl Fn(f64) -> f64) -> Self {
         let (from, to) = const { rules::LOG.within() };
         let near_one = self.high >= from && self.low <= to;
-        let error = |result: f64| {
-            let outside = rules::LOG.ulps() * ulp(result);
-            let error = if near_one { outside.max(rules::LOG.absolute()) } else { outside };
-            error * OUTWARD
-        };
+        let absolute = if near_one { rules::LOG.absolute() * OUTWARD } else { 0.0 };
         let least = if self.low < FLUSH { f64::NEG_INFINITY } else { f(self.low) };
         let most = if self.high < FLUSH { f(FLUSH) } else { f(self.high) };
-        let low = if least.is_finite() { least - error(least) } else { least };
-        let high = if most.is_finite() { most + error(most) } else { most };
-        Self::rounded(value, low, high, self.may_be_nan || self.low < 0.0)
+        let n = rules::LOG.ulps();
+        let low = if least.is_finite() { ulps_below(least, most, n).min(least - absolute) } else { least };
+        let high = if most.is_finite() { ulps_above(least, most, n).max(most + absolute) } else { most };
+        Self::rounded(value, low, high, self.may_be_nan)
     }
 
     pub(super) fn power(self, exponent: Self) -> Self {
@@ -103,18 +124,36 @@ impl EnvelopeFloat {
         if !const { rules::POW.inherits(&rules::kernels::POW) } {
             return Self::by_formula(&rules::POW, value, &[self, exponent]);
         }
-        if self.high < 0.0 {
+        // Undefined below 0, and at 0 unless the exponent is greater than 0 (§8.2).
+        if self.low < 0.0 || self.low < FLUSH && exponent.low <= 0.0 {
             return Self::anything(value);
         }
-        let product = exponent.mul(self.logarithm(0.0, powers::log2));
-        if product.low > product.high || (self.high == 0.0 && exponent.low <= 0.0) {
+        let logarithm = self.logarithm_in_power(0.0, powers::log2);
+        let product = exponent.mul(logarithm);
+        if product.low > product.high {
             return Self::anything(value);
         }
-        let power = product.exponential(value, powers::exp2);
-        // 0^0 is undefined (§8.2).
-        let undefined = self.low <= 0.0 && exponent.low <= 0.0;
-        let top = if undefined { power.high.max(1.0) } else { power.high };
-        Self { high: top, may_be_nan: power.may_be_nan || undefined, ..power }
+        let share = if product.low.is_finite() && product.high.is_finite() {
+            let ends = [self.low, self.high].map(powers::log2);
+            let error = (ends[0] - logarithm.low).max(logarithm.high - ends[1]);
+            let largest = exponent.low.abs().max(exponent.high.abs());
+            Self::share_below(largest * error + ulp(product.low.abs().max(product.high.abs())))
+        } else {
+            1.0
+        };
+        product.exponential_times(share, value, powers::exp2)
+    }
+
+    /// By how much the lower bound of a power is below `2^-off` of the exact one, if the exponent is wrong by `off`: the
+    /// result may be as far below as the formula is above, which is `2 - 2^off`.
+    #[inline(always)]
+    pub(super) fn share_below(off: f64) -> f64 {
+        if off <= Self::FAR_OFF {
+            1.0 - Self::ROUND_TRIP * off * off
+        } else {
+            let above = off.exp2();
+            above * (2.0 - above * (1.0 + 1e-4))
+        }
     }
 
     /// The extremes of a cosine between two angles.
@@ -146,7 +185,9 @@ impl EnvelopeFloat {
         let reduced = if largest > reduced_beyond { ulp(largest) } else { 0.0 };
         let error = rules::SIN.absolute() + reduced;
         let may_be_nan = self.may_be_nan || largest.is_infinite();
-        Self::rounded(value, least - error, most + error, may_be_nan).within(-1.0 - TOP, 1.0 + TOP)
+        // Where glisten's own rule adds to the error, it does not add above the function's range.
+        let (under, over) = (-1.0 - rules::SIN.absolute(), 1.0 + rules::SIN.absolute());
+        Self::rounded(value, (least - error).max(under), (most + error).min(over), may_be_nan)
     }
 
     pub(super) fn sine(self) -> Self {
@@ -172,7 +213,7 @@ impl EnvelopeFloat {
         {
             // The branch cut along negative x, and the origin, which GLSL leaves undefined (§8.1).
             let origin = x.high >= 0.0 && over_cut;
-            return Self { value, low: -full, high: full, may_be_nan: may_be_nan || origin };
+            return if origin { Self::anything(value) } else { Self { value, low: -full, high: full, may_be_nan } };
         }
         let corners = [(self.low, x.low), (self.low, x.high), (self.high, x.low), (self.high, x.high)];
         let angles = corners.map(|(y, x)| y.atan2(x));
@@ -186,21 +227,20 @@ impl EnvelopeFloat {
     /// `asin` and `acos` at a point inherit from `atan2` and the root of `1 - x x`. WGSL's table also allows an
     /// absolute error.
     fn arc(self, value: f64, f: impl Fn(f64) -> f64, rule: &rules::Rule) -> Self {
-        if self.low > 1.0 || self.high < -1.0 {
+        // Undefined beyond 1 (§8.1).
+        if self.low < -1.0 || self.high > 1.0 {
             return Self::anything(value);
         }
-        let inside = Self { low: self.low.max(-1.0), high: self.high.min(1.0), ..self };
         let at = |x: f64| Self::by_formula(rule, f(x), &[Self::exact(x)]);
-        let (a, b) = (at(inside.low), at(inside.high));
-        let (fa, fb) = (f(inside.low), f(inside.high));
+        let (a, b) = (at(self.low), at(self.high));
+        let (fa, fb) = (f(self.low), f(self.high));
         let error = |end: Self, exact: f64| {
             let inherited = (exact - end.low).max(end.high - exact);
             if inherited.is_finite() { inherited.max(rule.absolute()) } else { rule.absolute() }
         };
         // Between the bounds a ULP may be twice as large.
         let error = error(a, fa).max(error(b, fb)) * if self.low == self.high { 1.0 } else { 2.0 };
-        let may_be_nan = self.may_be_nan || self.low < -1.0 || self.high > 1.0;
-        Self::rounded(value, fa.min(fb) - error, fa.max(fb) + error, may_be_nan)
+        Self::rounded(value, fa.min(fb) - error, fa.max(fb) + error, self.may_be_nan)
     }
 
     pub(super) fn arc_sine(self) -> Self {
@@ -208,16 +248,44 @@ impl EnvelopeFloat {
     }
 
     pub(super) fn arc_cosine(self) -> Self {
-        let most = ulps_above(PI, PI, rules::ATAN.ulps());
-        self.arc(self.value.acos(), f64::acos, &rules::ACOS).within(-rules::ACOS.absolute(), most)
+        self.arc(self.value.acos(), f64::acos, &rules::ACOS)
+    }
+
+    /// Undefined below 1 (§8.1).
+    pub(super) fn area_cosine(self) -> Self {
+        let value = Number::acosh(self.value);
+        if self.low < 1.0 { Self::anything(value) } else { self.rising_by(&rules::ACOSH, Number::acosh) }
+    }
+
+    /// Undefined from 1 on (§8.1).
+    pub(super) fn area_tangent(self) -> Self {
+        let value = Number::atanh(self.value);
+        let inside = self.low > -1.0 && self.high < 1.0;
+        if inside { self.rising_by(&rules::ATANH, Number::atanh) } else { Self::anything(value) }
+    }
+
+    /// By its formula, whose error at a point counts to either side.
+    pub(super) fn tangent(self) -> Self {
+        let value = self.value.tan();
+        let found = Self::by_formula(&rules::TAN, value, &[self]);
+        if !self.is_point() {
+            return found;
+        }
+        let error = (value - found.low).max(found.high - value);
+        Self::rounded(value, value - error, value + error, found.may_be_nan)
+    }
+
+    /// By its formula, or with WGSL's absolute error. Where the formula's powers overflow, its result is not limited:
+    /// there the range is that of the absolute error, and NaN, which infinity over infinity is.
+    pub(super) fn hyperbolic_tangent(self) -> Self {
+        let found = self.rising_by(&rules::TANH, f64::tanh);
+        let most = 1.0 + rules::TANH.absolute();
+        if found.low.is_finite() && found.high.is_finite() { found } else { found.within(-most, most) }
     }
 
     pub(super) fn hyperbolic_cosine(self) -> Self {
         let value = self.value.cosh();
-        let size = self.abs();
-        let found = size.rising_by(&rules::COSH, f64::cosh);
-        // The sum of a number and its reciprocal, both with an error.
-        Self { low: found.low.max(1.0 - 1e-6), ..found.of_value(value) }
+        self.abs().rising_by(&rules::COSH, f64::cosh).of_value(value)
     }
 
     /// `x (1 - a) + y a`, or by distributivity `x + (y - x) a`: linear in each argument, so the extremes are at the
@@ -254,13 +322,19 @@ impl EnvelopeFloat {
         Self::rounded(value, low, high, either.may_be_nan)
     }
 
-    /// A formula of `t`, which increases between 0 and 1, with `t = clamp((x - edge0) / (edge1 - edge0), 0, 1)`.
+    /// A formula of `t`, which increases between 0 and 1, with `t = clamp((x - edge0) / (edge1 - edge0), 0, 1)`. It is
+    /// undefined unless `edge0 < edge1` (§8.3).
     pub(super) fn smooth_step(edge0: Self, edge1: Self, x: Self) -> Self {
+        if edge0.high >= edge1.low || edge0.may_be_nan || edge1.may_be_nan {
+            return Self::anything(Number::smoothstep(edge0.value, edge1.value, x.value));
+        }
         let Some(Formula::With(curve, t)) = rules::SMOOTHSTEP.formula() else {
             let value = Number::smoothstep(edge0.value, edge1.value, x.value);
             return Self::by_formula(&rules::SMOOTHSTEP, value, &[edge0, edge1, x]);
         };
         let t = evaluate(t, &[&[edge0], &[edge1], &[x]], 0);
-        t.by_ends(|t| evaluate(curve, &[&[t]], 0), |t| evaluate(curve, &[&[t]], 0)).within(0.0, 1.0 + TOP)
+        let found = t.by_ends(|t| evaluate(curve, &[&[t]], 0), |t| evaluate(curve, &[&[t]], 0));
+        // The error is a share of the result, so it never reaches below 0.
+        Self { low: found.low.max(0.0), ..found }
     }
 }

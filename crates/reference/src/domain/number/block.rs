@@ -177,6 +177,25 @@ pub trait NumberBlock<N: Number>: Block<N> {
     fn log2(&self) -> Self {
         self.map(N::log2)
     }
+    /// [`Number::unit_scale`]
+    #[inline(always)]
+    fn unit_scale(&self) -> Self {
+        self.map(N::unit_scale)
+    }
+    /// [`Number::scaled`]
+    #[inline(always)]
+    fn scaled(&self, scale: &Self) -> Self {
+        self.zip(scale, N::scaled)
+    }
+    /// [`Number::limited`]
+    #[inline(always)]
+    fn limited(&self, least: &Self, most: &Self) -> Self {
+        let mut out = Self::default();
+        for lane in 0..WIDTH {
+            out.set(lane, self.get(lane).limited(least.get(lane), most.get(lane)));
+        }
+        out
+    }
     /// [`Number::cosine_at_most`]
     #[inline(always)]
     fn cosine_at_most(&self) -> Self {

@@ -129,6 +129,14 @@ pub trait Number: Element<Block: NumberBlock<Self>> {
     }
     /// `a / b`
     fn div(self, other: Self) -> Self;
+    /// `a - a`: 0 unless it may be infinite or NaN.
+    fn less_itself(self) -> Self {
+        self.sub(self)
+    }
+    /// `a / a`: 1 with the error of a division, unless it may be 0, infinite or NaN.
+    fn over_itself(self) -> Self {
+        self.div(self)
+    }
     /// `-a`
     fn neg(self) -> Self;
     /// §8.3
@@ -147,6 +155,38 @@ pub trait Number: Element<Block: NumberBlock<Self>> {
     #[inline(always)]
     fn cosine_at_most(self) -> Self {
         self
+    }
+    /// The reciprocal of a vector's length, from its square.
+    #[inline(always)]
+    fn unit_scale(self) -> Self {
+        self.inversesqrt()
+    }
+    /// A component of a vector times its [`unit_scale`](Self::unit_scale).
+    #[inline(always)]
+    fn scaled(self, scale: Self) -> Self {
+        self.mul(scale)
+    }
+    /// `clamp`: `min(max(x, least), most)` (§8.3). Undefined if `least > most`.
+    #[inline(always)]
+    fn limited(self, least: Self, most: Self) -> Self {
+        self.max(least).min(most)
+    }
+    /// A quotient by this divisor with all of the error that the rule of `/` allows, also if the divisor is a power of
+    /// two, where [`div`](Self::div) has none.
+    #[inline(always)]
+    fn loosened(self, divisor: Self) -> Self {
+        let _ = divisor;
+        self
+    }
+    /// [`modulo`](Self::modulo) with a [loosened](Self::loosened) quotient.
+    #[inline(always)]
+    fn modulo_loosened(self, y: Self) -> Self {
+        self.modulo(y)
+    }
+    /// [`smoothstep`](Self::smoothstep) with a [loosened](Self::loosened) quotient.
+    #[inline(always)]
+    fn smoothstep_loosened(edge0: Self, edge1: Self, x: Self) -> Self {
+        Self::smoothstep(edge0, edge1, x)
     }
     /// `x - floor(x)` (§8.3)
     #[inline(always)]

@@ -5,7 +5,7 @@
 //! rule. A function that inherits from a formula is either, or the formula step by step.
 
 use super::SimulatedFloat;
-use super::gpu::Gpu;
+use super::gpu::{Form, Function, Gpu};
 use crate::domain::rules::{self, ulp};
 use crate::domain::{Number, evaluate};
 use glisten_front::builtin::operations::precision::{Precision, Rule};
@@ -16,8 +16,8 @@ fn place(x: f64) -> f64 {
 }
 
 /// The exact result with this GPU's error, at most `allowed`.
-fn with_error(gpu: &Gpu, exact: f64, allowed: f64, function: &'static str, place: f64) -> f64 {
-    let share = gpu.share(function, place);
+fn with_error(gpu: &Gpu, exact: f64, allowed: f64, function: Function, place: f64) -> f64 {
+    let share = Gpu::share(function, place);
     if share == 0.0 || !exact.is_finite() {
         return gpu.rounded(f64::from(exact as f32));
     }
@@ -28,7 +28,7 @@ fn with_error(gpu: &Gpu, exact: f64, allowed: f64, function: &'static str, place
 
 impl SimulatedFloat {
     /// A function of one number.
-    pub(super) fn by_rule(self, rule: &Rule, function: &'static str, f: impl Fn(f64) -> f64) -> Self {
+    pub(super) fn by_rule(self, rule: &Rule, function: Function, f: impl Fn(f64) -> f64) -> Self {
         let gpu = Gpu::current();
         let x = self.read(&gpu);
         let exact = f(x);
@@ -43,7 +43,7 @@ impl SimulatedFloat {
                 return angular(&gpu, x, exact, function, [error, reduced, lost]);
             }
             Precision::Inherited(formula) | Precision::InheritedOr(formula, _)
-                if !gpu.is_precise(function) && exact.is_finite() && !gpu.has_second_form(function) =>
+                if !Gpu::is_precise(function) && exact.is_finite() && !gpu.has_second(Form::Inherited) =>
             {
                 return evaluate(formula, &[&[Self(x)]], 0);
             }
@@ -64,17 +64,17 @@ impl SimulatedFloat {
         let gpu = Gpu::current();
         let (a, b) = (self.read(&gpu), other.read(&gpu));
         let exact = a / b;
-        if gpu.is_precise("div") {
+        if Gpu::is_precise(Function::Divide) {
             return Self(gpu.rounded(exact));
         }
-        Self(with_error(&gpu, exact, rules::DIV.ulps() * ulp(exact), "div", place(b)))
+        Self(with_error(&gpu, exact, rules::DIV.ulps() * ulp(exact), Function::Divide, place(b)))
     }
 
     /// `exp2(y log2(x))`, or the exact power.
     pub(super) fn power(self, exponent: Self) -> Self {
         let gpu = Gpu::current();
         let (x, y) = (self.read(&gpu), exponent.read(&gpu));
-        if gpu.is_precise("pow") || x < 0.0 {
+        if Gpu::is_precise(Function::Pow) || x < 0.0 {
             return Self(gpu.rounded(Number::pow(x, y)));
         }
         Self(y).mul(Self(x).log2()).exp2()
@@ -86,18 +86,18 @@ impl SimulatedFloat {
         let (y, x) = (self.read(&gpu), x.read(&gpu));
         let exact = y.atan2(x);
         let allowed = rules::ATAN.ulps() * ulp(exact);
-        Self(with_error(&gpu, exact, allowed, "atan", place(y / x)))
+        Self(with_error(&gpu, exact, allowed, Function::Atan, place(y / x)))
     }
 }
 
 /// A sine or cosine: its error is a function of the angle within the period, and beyond the first one the angle is
 /// rounded once more. It does not leave the range of the function, although the rule lets it.
-fn angular(gpu: &Gpu, x: f64, exact: f64, function: &'static str, [error, reduced, lost]: [f64; 3]) -> SimulatedFloat {
+fn angular(gpu: &Gpu, x: f64, exact: f64, function: Function, [error, reduced, lost]: [f64; 3]) -> SimulatedFloat {
     if !exact.is_finite() {
         return SimulatedFloat(exact);
     }
     let turn = (x / std::f64::consts::TAU).fract().abs();
-    let share = gpu.share(function, turn);
+    let share = Gpu::share(function, turn);
     if x.abs() >= lost && share != 0.0 {
         return SimulatedFloat(f64::from(share as f32));
     }

@@ -46,11 +46,13 @@ pub struct Gpu {
     pub(super) weight_bits: Option<u32>,
     /// The bits of the fraction of a level of detail; none if it is a float.
     pub(super) level_bits: Option<u32>,
+    /// A bit for each [`Form`].
+    forms: u8,
 }
 
 /// A choice of its own of each GPU.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) enum Choice {
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Choice {
     Rounding,
     Flush,
     Fuse,
@@ -60,19 +62,69 @@ pub(super) enum Choice {
     Planes,
     Weights,
     Levels,
-    /// Between two forms of an operation.
-    Form(&'static str),
-    /// Whether a function is computed as well as possible.
-    Quality(&'static str),
-    /// The largest error of a function, as a share of the allowed one.
-    Size(&'static str),
-    /// Where a function's error begins to swing, and how often it does.
-    Swing(&'static str),
+    Forms,
+    /// Of each [`Function`], from here on.
+    Functions,
 }
+
+/// A function with an error of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Function {
+    Divide,
+    Sqrt,
+    Inversesqrt,
+    Exp,
+    Exp2,
+    Log,
+    Log2,
+    Pow,
+    Sin,
+    Cos,
+    Tan,
+    Asin,
+    Acos,
+    Atan,
+    Sinh,
+    Cosh,
+    Tanh,
+    Asinh,
+    Acosh,
+    Atanh,
+    /// Of a point, which a driver rounds.
+    PointSize,
+}
+
+/// An operation with two forms.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Form {
+    /// Of a rule that allows two.
+    Rule,
+    /// Rounding from a half.
+    Half,
+    Mix,
+    /// Of functions that inherit their precision: the formula, or the function with an error of its own.
+    Inherited,
+}
+
+/// The error of a function.
+#[derive(Clone, Copy, Debug, Default)]
+struct Swing {
+    /// The largest, as a share of the allowed one, -1 to 1; 0 if the function is computed as well as possible.
+    size: f64,
+    /// Where it begins to swing, 0 to 1.
+    begin: f64,
+    /// How often it swings.
+    times: f64,
+}
+
+const FUNCTIONS: usize = Function::PointSize as usize + 1;
 
 thread_local! {
     /// The GPU that computes on this thread.
     static CURRENT: Cell<Gpu> = const { Cell::new(Gpu::STRICT) };
+    /// The errors of its functions.
+    static SWINGS: Cell<[Swing; FUNCTIONS]> =
+        const { Cell::new([Swing { size: 0.0, begin: 0.0, times: 0.0 }; FUNCTIONS]) };
 }
 
 /// Mixes the bits of a number (the finalizer of SplitMix64).
@@ -95,6 +147,7 @@ impl Gpu {
         planes: Planes::Weights,
         weight_bits: None,
         level_bits: None,
+        forms: 0,
     };
 
     /// The GPU of this number in the population of a seed.
@@ -128,6 +181,7 @@ impl Gpu {
                 1 => Some(8),
                 _ => Some(4),
             },
+            forms: blank.pick(Choice::Forms, 256) as u8,
             ..blank
         }
     }
@@ -135,6 +189,18 @@ impl Gpu {
     /// Computes on this thread from now on.
     pub fn enter(self) {
         CURRENT.set(self);
+        SWINGS.set(std::array::from_fn(|function| self.swing(function)));
+    }
+
+    /// Half of all GPUs compute a function as well as possible.
+    fn swing(&self, function: usize) -> Swing {
+        let unit = |bits: u64| (bits >> 11) as f64 / (1_u64 << 53) as f64;
+        let bits = mixed(self.seed ^ mixed(Choice::Functions as u64 + function as u64));
+        if self.is_strict() || bits & 1 == 0 {
+            return Swing::default();
+        }
+        let [size, begin] = [mixed(bits ^ 1), mixed(bits ^ 2)].map(unit);
+        Swing { size: 2.0 * size - 1.0, begin, times: (1 + (bits >> 1) % 8) as f64 }
     }
 
     /// The GPU that computes on this thread.
@@ -149,38 +215,33 @@ impl Gpu {
         self.seed == 0
     }
 
-    fn bits(&self, choice: Choice) -> u64 {
-        use std::hash::{Hash, Hasher};
-        let mut hasher = rustc_hash::FxHasher::default();
-        choice.hash(&mut hasher);
-        mixed(self.seed ^ mixed(hasher.finish()))
-    }
-
     /// One of `count` choices.
-    pub(super) fn pick(&self, choice: Choice, count: u64) -> u64 {
-        self.bits(choice) % count.max(1)
+    fn pick(&self, choice: Choice, count: u64) -> u64 {
+        mixed(self.seed ^ mixed(choice as u64)) % count.max(1)
     }
 
-    /// Whether a formula has its second form.
-    pub(super) fn has_second_form(&self, function: &'static str) -> bool {
-        !self.is_strict() && self.pick(Choice::Form(function), 2) == 1
+    /// Whether an operation has its second form.
+    #[inline(always)]
+    pub(super) fn has_second(&self, form: Form) -> bool {
+        self.forms >> (form as u8) & 1 == 1
     }
 
-    /// Whether a function is computed as well as possible. Half of all are.
-    pub(super) fn is_precise(&self, function: &'static str) -> bool {
-        self.is_strict() || self.pick(Choice::Quality(function), 2) == 0
+    /// Whether the GPU of this thread computes a function as well as possible.
+    #[inline(always)]
+    pub(super) fn is_precise(function: Function) -> bool {
+        Self::swing_of(function).size == 0.0
+    }
+
+    #[inline(always)]
+    fn swing_of(function: Function) -> Swing {
+        SWINGS.with(|swings| swings.as_array_of_cells()[function as usize].get())
     }
 
     /// The error of a function at a place between 0 and 1, as a share of the allowed one, -1 to 1. It swings like the
     /// error of a polynomial.
-    pub(super) fn share(&self, function: &'static str, place: f64) -> f64 {
-        if self.is_precise(function) {
-            return 0.0;
-        }
-        let unit = |bits: u64| (bits >> 11) as f64 / (1_u64 << 53) as f64;
-        let swing = self.bits(Choice::Swing(function));
-        let size = 2.0 * unit(self.bits(Choice::Size(function))) - 1.0;
-        let turn = place * (1 + swing % 8) as f64 + unit(swing);
+    pub(super) fn share(function: Function, place: f64) -> f64 {
+        let Swing { size, begin, times } = Self::swing_of(function);
+        let turn = place * times + begin;
         size * (1.0 - 4.0 * (turn.fract() - 0.5).abs())
     }
 
@@ -244,12 +305,14 @@ mod tests {
         let mut most = 0.0_f64;
         let mut precise = 0;
         for number in 2..66 {
-            let gpu = Gpu::of(1, number);
-            precise += u32::from(gpu.is_precise("sin"));
-            let largest = (0..100).map(|k| gpu.share("sin", f64::from(k) / 100.0).abs()).fold(0.0, f64::max);
+            Gpu::of(1, number).enter();
+            precise += u32::from(Gpu::is_precise(Function::Sin));
+            let share = |k: i32| Gpu::share(Function::Sin, f64::from(k) / 100.0).abs();
+            let largest = (0..100).map(share).fold(0.0, f64::max);
             assert!(largest <= 1.0);
             most = most.max(largest);
         }
+        Gpu::STRICT.enter();
         assert!(most > 0.8 && (16..48).contains(&precise), "{most} {precise}");
     }
 }

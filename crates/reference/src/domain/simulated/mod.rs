@@ -12,7 +12,7 @@ mod gpu;
 pub use gpu::{Gpu, Planes};
 
 use super::{Element, Number, WIDTH, rules};
-use gpu::Gpu as Current;
+use gpu::{Form, Function, Gpu as Current};
 use smallvec::SmallVec;
 
 /// A `float`: an f32, or the exact product of two.
@@ -28,7 +28,7 @@ impl SimulatedFloat {
     /// The f32.
     #[inline(always)]
     fn read(self, gpu: &Current) -> f64 {
-        gpu.rounded(self.0)
+        if gpu.fuses { gpu.rounded(self.0) } else { self.0 }
     }
 
     #[inline(always)]
@@ -73,9 +73,9 @@ macro_rules! exact_functions {
 }
 
 macro_rules! functions {
-    ($($name:ident $rule:ident)*) => { $(
+    ($($name:ident $function:ident $rule:ident)*) => { $(
         fn $name(self) -> Self {
-            self.by_rule(&rules::$rule, stringify!($name), <f64 as Number>::$name)
+            self.by_rule(&rules::$rule, Function::$function, <f64 as Number>::$name)
         }
     )* };
 }
@@ -114,7 +114,7 @@ impl Number for SimulatedFloat {
     #[inline(always)]
     fn joined(self, other: Self) -> Self {
         // A formula with two forms: this GPU has one of them.
-        if Current::current().has_second_form("joined") { other } else { self }
+        if Current::current().has_second(Form::Rule) { other } else { self }
     }
     #[inline(always)]
     fn add(self, other: Self) -> Self {
@@ -144,11 +144,11 @@ impl Number for SimulatedFloat {
     fn round(self) -> Self {
         let gpu = Current::current();
         let x = self.read(&gpu);
-        Self(if gpu.has_second_form("round") { x.round() } else { x.round_ties_even() })
+        Self(if gpu.has_second(Form::Half) { x.round() } else { x.round_ties_even() })
     }
     fn mix(self, y: Self, a: Self) -> Self {
         let one = Self(1.0);
-        if Current::current().has_second_form("mix") {
+        if Current::current().has_second(Form::Mix) {
             return self.add(y.sub(self).mul(a));
         }
         self.mul(one.sub(a)).add(y.mul(a))
@@ -160,8 +160,24 @@ impl Number for SimulatedFloat {
         self.limit(other, <f64 as Number>::max)
     }
     functions! {
-        sqrt SQRT inversesqrt INVERSESQRT exp EXP exp2 EXP log LOG log2 LOG sin SIN cos SIN tan TAN asin ASIN acos ACOS
-        atan ATAN sinh SINH cosh COSH tanh TANH asinh ASINH acosh ACOSH atanh ATANH
+        sqrt Sqrt SQRT
+        inversesqrt Inversesqrt INVERSESQRT
+        exp Exp EXP
+        exp2 Exp2 EXP
+        log Log LOG
+        log2 Log2 LOG
+        sin Sin SIN
+        cos Cos SIN
+        tan Tan TAN
+        asin Asin ASIN
+        acos Acos ACOS
+        atan Atan ATAN
+        sinh Sinh SINH
+        cosh Cosh COSH
+        tanh Tanh TANH
+        asinh Asinh ASINH
+        acosh Acosh ACOSH
+        atanh Atanh ATANH
     }
     fn pow(self, exponent: Self) -> Self {
         self.power(exponent)
@@ -205,6 +221,9 @@ impl super::Domain for Simulated {
     }
     fn weight_bits() -> Option<u32> {
         Current::current().weight_bits
+    }
+    fn point_size_share() -> f64 {
+        Current::share(Function::PointSize, 0.0)
     }
     fn level(exact: f64) -> f64 {
         match Current::current().level_bits {

@@ -1,8 +1,10 @@
 //! [`Emitter`]: appends instructions, interns constants and lists, and moves into the preamble what is the same for
 //! every invocation.
 
-use super::super::code::{PoolSource, Section};
+use super::super::code::{Form, PoolSource, Section};
 use super::super::inst::{Class, Inst, List, Operand, Slot, Target, TextureCall};
+use super::chains::Chain;
+use super::fuse::is_control;
 use glisten_front::link::RootIndex;
 use glisten_front::source::Span;
 use rustc_hash::FxHashMap;
@@ -12,8 +14,7 @@ use rustc_hash::FxHashMap;
 pub(super) struct Emitter {
     pub(super) main: Section,
     pub(super) preamble: Section,
-    /// Whether products and sums remain separate instructions.
-    pub(super) unfused: bool,
+    pub(super) form: Form,
     /// The span for new instructions.
     pub(super) span: Span,
     pub(super) words: Vec<u32>,
@@ -29,13 +30,17 @@ pub(super) struct Emitter {
     splatted: FxHashMap<(Class, Operand), Operand>,
     main_lists: FxHashMap<(Class, Vec<Operand>), List>,
     preamble_lists: FxHashMap<(Class, Vec<Operand>), List>,
+    /// The sums and products with constants.
+    pub(super) chains: FxHashMap<Operand, Chain>,
+    /// The number of stores, and of points where lanes diverge or join.
+    pub(super) stores: u32,
     /// Preamble instructions by what they compute (with `dst` blanked).
     computed: FxHashMap<Inst, Operand>,
 }
 
 impl Emitter {
-    pub(super) fn new(unfused: bool) -> Self {
-        Self { unfused, ..Self::default() }
+    pub(super) fn new(form: Form) -> Self {
+        Self { form, ..Self::default() }
     }
 
     pub(super) fn register_count(&self, class: Class) -> usize {
@@ -82,7 +87,9 @@ impl Emitter {
     }
 
     pub(super) fn uniform(&mut self, class: Class, root: RootIndex, flat: u32) -> Operand {
-        self.source(class, PoolSource::Uniform(root, flat))
+        let uniform = self.source(class, PoolSource::Uniform(root, flat));
+        // What reads a register is not moved into the preamble.
+        if self.form == Form::Counted { self.in_register(class, uniform) } else { uniform }
     }
 
     /// The value of an int operand, if it is constant.
@@ -97,6 +104,7 @@ impl Emitter {
     }
 
     pub(super) fn push(&mut self, inst: Inst) {
+        self.stores += u32::from(is_control(&inst) || inst.stores());
         self.main.push(inst, self.span);
     }
 

@@ -231,10 +231,10 @@ impl Compiler<'_> {
         let signed = scalar == Some(Scalar::Int);
         if scalar == Some(Scalar::Float) {
             return match op {
-                B::Add => self.float2(Float2::Add, a, b),
-                B::Sub => self.float2(Float2::Sub, a, b),
-                B::Mul => self.float2(Float2::Mul, a, b),
-                B::Div => self.float2(Float2::Div, a, b),
+                B::Add => self.chained(Float2::Add, a, b),
+                B::Sub => self.chained(Float2::Sub, a, b),
+                B::Mul => self.chained(Float2::Mul, a, b),
+                B::Div => self.chained(Float2::Div, a, b),
                 B::Rem => self.float2(Float2::Mod, a, b),
                 B::Less => self.compare(Compare::Less, a, b),
                 B::Greater => self.compare(Compare::Less, b, a),

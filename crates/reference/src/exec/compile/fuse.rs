@@ -50,7 +50,8 @@ pub(super) fn fuse(emitter: &mut Emitter) {
     remove(emitter, &gone);
 }
 
-fn is_control(inst: &Inst) -> bool {
+/// Whether lanes diverge or join at the instruction.
+pub(super) fn is_control(inst: &Inst) -> bool {
     let mut inst = *inst;
     inst.target_mut().is_some()
         || matches!(inst, Inst::Save { .. } | Inst::Join { .. } | Inst::Leave { .. } | Inst::Discard | Inst::Idle)

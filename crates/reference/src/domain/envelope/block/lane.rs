@@ -152,19 +152,35 @@ impl LaneBounds {
     }
 
     #[inline(always)]
+    pub(super) fn unit_scale(self) -> Self {
+        let (low, high) = (1.0 / self.high.sqrt(), 1.0 / self.low.sqrt());
+        let fine = (self.low >= FLUSH) & (self.high <= MAX);
+        let error = EnvelopeFloat::UNIT_SCALE;
+        Self::rounded(low * (1.0 - error), high * (1.0 + error)).or_special(!fine)
+    }
+
+    #[inline(always)]
+    pub(super) fn scaled(self, scale: Self) -> Self {
+        let product = self.mul(scale);
+        let n = rules::DIV.ulps();
+        Self::rounded(ulps_below(product.low, product.high, n), ulps_above(product.low, product.high, n))
+            .or_special(product.special)
+    }
+
+    #[inline(always)]
     pub(super) fn square_root(self) -> Self {
         let (first, second) = (rules::INVERSESQRT.ulps(), rules::DIV.ulps());
-        let end = |x: f64, sign: f64| {
-            let inner = 1.0 / x.sqrt();
-            let root = 1.0 / (inner - sign * first * ulp(inner) * (1.0 + 1e-6));
-            let end = root + sign * second * ulp(root) * (1.0 + 1e-6);
-            if x <= 0.0 { 0.0 } else { end }
+        let off = |x: f64, exact: f64| {
+            let inner = 1.0 / exact;
+            let root = 1.0 / (inner - first * ulp(inner) * (1.0 + 1e-6));
+            let off = root + second * ulp(root) * (1.0 + 1e-6) - exact;
+            if x <= 0.0 { 0.0 } else { off }
         };
         let flushed = if self.low < FLUSH { 0.0 } else { self.low };
-        let low = greatest(end(flushed, -1.0), 0.0);
+        let (least, most) = (flushed.sqrt(), self.high.sqrt());
         let by_rule = const { rules::SQRT.inherits(&rules::kernels::SQRT) };
         let fine = by_rule & (self.low >= 0.0) & (self.high <= MAX);
-        Self::rounded(low, end(self.high, 1.0)).or_special(!fine)
+        Self::rounded(least - off(flushed, least), most + off(self.high, most)).or_special(!fine)
     }
 
     #[inline(always)]
@@ -177,34 +193,41 @@ impl LaneBounds {
     /// An exponential function, with the function for its bounds.
     #[inline(always)]
     pub(super) fn exponential(self, f: impl Fn(f64) -> f64) -> Self {
+        self.exponential_times(1.0, f)
+    }
+
+    #[inline(always)]
+    fn exponential_times(self, share: f64, f: impl Fn(f64) -> f64) -> Self {
         let n = |x: f64| rules::EXP.ulps_at(x);
         let (low, high) = (f(self.low), f(self.high));
         let below = if low == 0.0 { 0.0 } else { ulps_below(low, high, n(self.low)) };
-        Self::rounded(greatest(below, 0.0), ulps_above(low, high, n(self.high)))
+        Self::rounded(greatest(below, 0.0) * share, ulps_above(low, high, n(self.high)))
     }
 
-    /// The bounds of a logarithm before rounding. The lower one may be infinite.
+    /// The bounds of a logarithm before rounding, of which the lower one may be infinite, and the exact ones.
     #[inline(always)]
-    fn logarithm_bounds(self, f: impl Fn(f64) -> f64) -> (f64, f64) {
+    fn logarithm_bounds(self, f: impl Fn(f64) -> f64) -> (f64, f64, (f64, f64)) {
         let (from, to) = const { rules::LOG.within() };
         let near_one = (self.high >= from) & (self.low <= to);
-        let absolute = if near_one { rules::LOG.absolute() } else { 0.0 };
-        let error = |result: f64| greatest(rules::LOG.ulps() * ulp(result), absolute) * OUTWARD;
+        let absolute = if near_one { rules::LOG.absolute() * OUTWARD } else { 0.0 };
         let positive = |x: f64| if x < FLUSH { FLUSH } else { x };
-        let (least, most) = (f(positive(self.low)), f(positive(self.high)));
-        let low = if self.low < FLUSH { f64::NEG_INFINITY } else { least - error(least) };
-        (low, most + error(most))
+        let (bottom, top) = (f(positive(self.low)), f(positive(self.high)));
+        let n = rules::LOG.ulps();
+        let below = least(ulps_below(bottom, top, n), bottom - absolute);
+        let above = greatest(ulps_above(bottom, top, n), top + absolute);
+        let low = if self.low < FLUSH { f64::NEG_INFINITY } else { below };
+        (low, above, (bottom, top))
     }
 
     #[inline(always)]
     pub(super) fn logarithm(self, f: impl Fn(f64) -> f64) -> Self {
-        let (low, high) = self.logarithm_bounds(f);
+        let (low, high, _) = self.logarithm_bounds(f);
         Self::rounded(low, high).or_special(!((self.low >= FLUSH) & (self.high <= MAX)))
     }
 
     #[inline(always)]
     pub(super) fn power(self, exponent: Self) -> Self {
-        let (low, high) = self.logarithm_bounds(powers::log2);
+        let (low, high, ends) = self.logarithm_bounds(powers::log2);
         // The lower bound may be infinite. Rounding, and a factor above 0, leave it unchanged.
         let (low, high) = (down(low, false), up(high, false));
         let (ll, lh) = (exponent.low * low, exponent.low * high);
@@ -219,7 +242,13 @@ impl LaneBounds {
             & (exponent.low >= FLUSH)
             & (exponent.high <= MAX)
             & (product.high.abs() <= MAX);
-        product.exponential(powers::exp2).or_special(!fine)
+        // As far below as the formula is above.
+        let error = greatest(ends.0 - low, high - ends.1);
+        let off = exponent.high * error + ulp(greatest(product.low.abs(), product.high.abs()));
+        let bounded = product.low >= -MAX;
+        let share = if bounded { 1.0 - EnvelopeFloat::ROUND_TRIP * off * off } else { 1.0 };
+        let far = bounded & (off > EnvelopeFloat::FAR_OFF);
+        product.exponential_times(share, powers::exp2).or_special(far | !fine)
     }
 
     /// `x (1 - a) + y a` or `x + (y - x) a`.

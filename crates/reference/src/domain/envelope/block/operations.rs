@@ -236,6 +236,41 @@ impl NumberBlock<EnvelopeFloat> for EnvelopeBlock {
         )
     }
     #[inline(always)]
+    fn unit_scale(&self) -> Self {
+        self.by_parts(
+            #[inline(always)]
+            |value| 1.0 / value.sqrt(),
+            #[inline(always)]
+            |a| a.unit_scale(),
+            Number::unit_scale,
+        )
+    }
+    #[inline(always)]
+    fn scaled(&self, scale: &Self) -> Self {
+        self.by_both(
+            scale,
+            0,
+            Number::mul,
+            #[inline(always)]
+            |a, b| a.scaled(b),
+            Number::scaled,
+        )
+    }
+    #[inline(always)]
+    fn limited(&self, least: &Self, most: &Self) -> Self {
+        let mut out = self.max(least).min(most);
+        let mut crossed = 0;
+        for lane in 0..WIDTH {
+            crossed |= u64::from(least.high[lane] > most.low[lane]);
+        }
+        if crossed != 0 {
+            for lane in 0..WIDTH {
+                out.set(lane, self.get(lane).limited(least.get(lane), most.get(lane)));
+            }
+        }
+        out
+    }
+    #[inline(always)]
     fn cosine_at_most(&self) -> Self {
         // Infinite bounds leave everything unchanged.
         self.by_parts(

@@ -1,0 +1,100 @@
+//! Chains of sums or products with several constants, which a compiler may combine before anything runs.
+//!
+//! *In:* the operands of `+`, `-`, `*` and `/`. *Out:* the result of the operation as written; and, from the second
+//! constant of a chain on, an instruction that lets an envelope have the result with all constants combined as well:
+//! `(x * 1e30) * 1e30` may be `x * inf`, `(x - 3e38) - 3e38` may be `x - inf`.
+//!
+//! *Holds:* Vulkan (Precision and Operation: Evaluation of Expressions) and WGSL (Reassociation and Fusion) allow it, and
+//! drivers do it. Values are those of the text. *Not done here:* chains whose terms include the negative of a variable.
+
+use super::super::code::{Form, PoolSource};
+use super::super::inst::{Class, Float2, Inst, Operand};
+use super::Compiler;
+use super::emit::Emitter;
+use smallvec::SmallVec;
+
+/// The terms of a longer chain are not followed.
+const MAX_TERMS: usize = 4;
+
+/// A sum or a product, without the order of its operations.
+#[derive(Clone, Debug)]
+pub(super) struct Chain {
+    sum: bool,
+    terms: SmallVec<[Operand; MAX_TERMS]>,
+    /// The combination of all constants.
+    constant: f64,
+    constants: u32,
+    /// The number of stores before the chain, if one of its terms is a variable's home.
+    stores: Option<u32>,
+}
+
+impl Emitter {
+    /// The value of a float operand that the text knows.
+    fn known_float(&self, operand: Operand) -> Option<f64> {
+        if operand.is_reg() || operand.is_preamble() {
+            return None;
+        }
+        match self.pools[Class::Float as usize].get(operand.number()) {
+            Some(PoolSource::Constant(bits)) => Some(f64::from(f32::from_bits(*bits))),
+            _ => None,
+        }
+    }
+
+    /// An operand as a chain of the kind.
+    fn chain_of(&self, operand: Operand, sum: bool) -> Chain {
+        let blank =
+            Chain { sum, terms: SmallVec::new(), constant: if sum { 0.0 } else { 1.0 }, constants: 0, stores: None };
+        if let Some(value) = self.known_float(operand) {
+            return Chain { constant: value, constants: 1, ..blank };
+        }
+        let known = self.chains.get(&operand).filter(|chain| chain.sum == sum);
+        if let Some(chain) = known.filter(|chain| chain.stores.is_none_or(|stores| stores == self.stores)) {
+            return chain.clone();
+        }
+        let stores = self.is_home(Class::Float, operand).then_some(self.stores);
+        Chain { terms: SmallVec::from_slice(&[operand]), stores, ..blank }
+    }
+
+    /// The chain that an operation makes or continues.
+    fn chain(&self, op: Float2, a: Operand, b: Operand) -> Option<Chain> {
+        let sum = match op {
+            Float2::Add | Float2::Sub => true,
+            Float2::Mul | Float2::Div => false,
+            _ => return None,
+        };
+        let (mut chain, mut other) = (self.chain_of(a, sum), self.chain_of(b, sum));
+        if matches!(op, Float2::Sub | Float2::Div) {
+            if !other.terms.is_empty() {
+                return None;
+            }
+            other.constant = if sum { -other.constant } else { 1.0 / other.constant };
+        }
+        chain.constant = if sum { chain.constant + other.constant } else { chain.constant * other.constant };
+        chain.constants += other.constants;
+        chain.stores = chain.stores.or(other.stores);
+        chain.terms.extend(other.terms);
+        (!chain.terms.is_empty() && chain.terms.len() <= MAX_TERMS && chain.constants > 0).then_some(chain)
+    }
+}
+
+impl Compiler<'_> {
+    /// `a op b`, and where constants may be combined, the same with them combined.
+    pub(super) fn chained(&mut self, op: Float2, a: Operand, b: Operand) -> Operand {
+        let plain = self.float2(op, a, b);
+        if self.emit.form != Form::Fast {
+            return plain;
+        }
+        let Some(chain) = self.emit.chain(op, a, b) else { return plain };
+        let result = if chain.constants > 1 { self.folded(plain, &chain) } else { plain };
+        self.emit.chains.insert(result, chain);
+        result
+    }
+
+    fn folded(&mut self, plain: Operand, chain: &Chain) -> Operand {
+        let constant = self.emit.float(chain.constant as f32);
+        let operands: Vec<Operand> = chain.terms.iter().copied().chain([constant]).collect();
+        let hoisted = plain.is_scalar();
+        let list = self.emit.list(Class::Float, &operands, hoisted);
+        self.emit.pure(Class::Float, &[plain], |dst| Inst::Folded { sum: chain.sum, dst, a: plain, list })
+    }
+}
