@@ -36,6 +36,7 @@ pub use compare::Comparison;
 pub use model::{Adapter, Ended, Figures, Machine, OnFront, Report, Skipped, Spread, Timing, Truth, Way, Work};
 pub use past::Past;
 pub use run::{Error, Options, Watcher, Ways, run};
+pub use ways::{LIBRARY_SCENE, LibraryFiles};
 pub use weights::Weights;
 pub use work::work;
 
