@@ -7,7 +7,7 @@ use super::{Failure, Options, likely};
 use crate::scene::Scene;
 use glisten_reference::Population;
 use glisten_reference::domain::faults::{Faults, KNOWN};
-use glisten_scene::compare::{Compared, Criterion, Judge, Verdict, Written};
+use glisten_scene::compare::{Compared, Comparison, Criterion, Verdict, Written};
 use glisten_scene::picture::Picture;
 use std::time::Instant;
 
@@ -70,7 +70,7 @@ impl<'a> Expected<'a> {
     pub fn compared(&mut self, picture: &Picture) -> Result<Compared, Failure> {
         let Options { criterion, excuse_known_faults, .. } = *self.options;
         let suspects = self.suspects(picture);
-        let compared = self.judge(&[], suspects.as_deref()).compare(picture, &self.picture);
+        let compared = self.comparison(&[], suspects.as_deref()).compare(picture, &self.picture);
         if criterion != Criterion::Envelope || !compared.verdict.needs_excuse() || !excuse_known_faults {
             return Ok(compared);
         }
@@ -78,14 +78,14 @@ impl<'a> Expected<'a> {
             Some(excused) => excused,
             None => self.draw_excused()?,
         };
-        let compared = self.judge(&excused, suspects.as_deref()).compare(picture, &self.picture);
+        let compared = self.comparison(&excused, suspects.as_deref()).compare(picture, &self.picture);
         self.excused = Some(excused);
         Ok(compared)
     }
 
-    fn judge<'j>(&'j self, faults: &'j [(&'static str, Picture)], suspects: Option<&'j [bool]>) -> Judge<'j> {
+    fn comparison<'c>(&'c self, faults: &'c [(&'static str, Picture)], suspects: Option<&'c [bool]>) -> Comparison<'c> {
         let Options { criterion, width, .. } = *self.options;
-        Judge { criterion, faults, written: Some(&self.written), width, suspects }
+        Comparison { criterion, faults, written: Some(&self.written), width, suspects }
     }
 
     /// The pixels that are far outside of what the population drew.
