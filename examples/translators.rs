@@ -158,7 +158,7 @@ fn glslang(draw: &Draw, stage: Stage, folder: &Path) -> Option<Vec<u8>> {
 
 fn glslang_and_naga(draw: &Draw, stage: Stage, folder: &Path) -> Option<Vec<u8>> {
     let (input, output) = (glslang_file(draw, stage, folder)?, folder.join("out.wgsl"));
-    run(Command::new("naga").args([&input, &output]))?;
+    run(Command::new("naga").arg("--keep-coordinate-space").args([&input, &output]))?;
     std::fs::read(output).ok()
 }
 

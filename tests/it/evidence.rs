@@ -77,7 +77,9 @@ fn noise_is_inconclusive_with_the_line_that_makes_it_so() {
         let (exit, json) = verify(&folder, &["--no-likely"]);
         assert_eq!((exit, &json["verdict"]), (1, &"inconclusive".into()), "{json}");
         let causes = json["weakness"]["contributions"].as_array().expect("they are named");
-        assert!(causes.iter().any(|one| one["operation"] == "sin" && one["line"] == 6), "{json}");
+        // Either alone suffices: `sin` may be off by 2^-11, and `fract` wraps what interpolation leaves open.
+        let is_named = |one: &Value| one["line"] == 6 && (one["operation"] == "sin" || one["operation"] == "fract");
+        assert!(causes.iter().any(is_named), "{json}");
         let told = out(&folder.run(&["verify", "a.toml", "--no-likely"]));
         assert!(told.contains("inconclusive: only ") && told.contains("a.frag:6:"), "{told}");
         let (exit, json) = verify(&folder, &["--no-likely", "--allow-inconclusive"]);
