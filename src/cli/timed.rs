@@ -9,7 +9,9 @@ use crate::scene::Scene;
 use crate::verify::{self, Channel, Drawn, OnGpu, Reference, Runner, ThisThread};
 use glisten_gpu::{Foreign, Gpu, Via};
 use glisten_reference::{Contribution, RenderOptions};
+use glisten_scene::compare::Population;
 use glisten_scene::picture::Picture;
+use std::ops::Range;
 use std::sync::Arc;
 
 /// The reference.
@@ -37,6 +39,24 @@ impl Reference for TimedReference<'_> {
     fn render_all(&self, scene: &Scene, options: &[RenderOptions]) -> Result<Vec<Picture>, verify::Failure> {
         let (scene, options) = (scene.clone(), options.to_vec());
         Ok(self.machine.within_time(move || Ok(ThisThread.render_all(&scene, &options)?))?)
+    }
+
+    /// Each member has the time limit of a draw.
+    fn populate(
+        &self,
+        population: Population,
+        scene: &Scene,
+        options: &RenderOptions,
+        members: Range<u32>,
+    ) -> Result<Population, verify::Failure> {
+        let mut population = population;
+        for number in members {
+            self.progress.say(&format!("the simulated GPU {}", number + 1));
+            let (scene, options) = (scene.clone(), *options);
+            let drawn = move || Ok(ThisThread.populate(population, &scene, &options, number..number + 1)?);
+            population = self.machine.within_time(drawn)?;
+        }
+        Ok(population)
     }
 
     fn explain(

@@ -36,7 +36,6 @@
 mod expected;
 mod explain;
 mod files;
-pub mod likely;
 mod maps;
 mod runner;
 mod verification;

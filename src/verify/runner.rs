@@ -4,9 +4,11 @@
 
 use crate::scene::Scene;
 use glisten_front::diagnostic::Diagnostic;
-use glisten_reference::{Contribution, LineRule, Population, Precision, RenderOptions};
+use glisten_reference::{Contribution, LineRule, Precision, RenderOptions};
+use glisten_scene::compare::Population;
 use glisten_scene::picture::Picture;
 use std::fmt;
+use std::ops::Range;
 use std::time::Instant;
 
 /// The result of a runner.
@@ -77,12 +79,19 @@ pub trait Reference {
         options.iter().map(|options| self.render(scene, options)).collect()
     }
 
-    /// Draws a scene by a population of simulated conforming GPUs; `None` if there is none.
+    /// Adds the pictures of the simulated GPUs with these numbers like [`glisten_reference::populate`].
     ///
     /// # Errors
     /// The scene cannot be drawn.
-    fn population(&self, _scene: &Scene, _options: &RenderOptions) -> Result<Option<Population>, Failure> {
-        Ok(None)
+    fn populate(
+        &self,
+        mut population: Population,
+        scene: &Scene,
+        options: &RenderOptions,
+        members: Range<u32>,
+    ) -> Result<Population, Failure> {
+        glisten_reference::populate(&mut population, scene, options, members)?;
+        Ok(population)
     }
 
     /// Explains a channel of a pixel like [`glisten_reference::explain`].

@@ -6,12 +6,13 @@
 pub mod evidence;
 #[cfg(feature = "flip")]
 mod flip;
-pub mod suspects;
+pub mod population;
 mod tally;
 mod verdict;
 
 pub use evidence::{Class, Evidence, Written};
 #[cfg(feature = "flip")]
 pub use flip::flip;
+pub use population::Population;
 pub use tally::{Compared, Comparison, shares};
 pub use verdict::{Conclusion, Contributed, Criterion, Demands, FaultCount, Verdict, Worst, ulp_f32};

@@ -10,6 +10,7 @@
 //! difference that only a known fault of the driver explains is counted under the fault's name.
 
 use super::evidence::{Class, Ruler, Widths, Written};
+use super::population::Population;
 use super::verdict::{Criterion, FaultCount, Verdict, Worst, ulp_f32};
 use crate::picture::{Interval, Picture};
 
@@ -24,13 +25,13 @@ pub struct Comparison<'a> {
     pub written: Option<&'a Written>,
     /// The largest width of the envelope of a judged pixel; `None`: 1/255 of the range of the picture's values.
     pub width: Option<f64>,
-    /// Which pixels are far outside of what a population of simulated GPUs drew, if there is one.
-    pub suspects: Option<&'a [bool]>,
+    /// What simulated GPUs drew.
+    pub population: Option<&'a Population>,
 }
 
 impl Default for Comparison<'_> {
     fn default() -> Self {
-        Self { criterion: Criterion::Envelope, faults: &[], written: None, width: None, suspects: None }
+        Self { criterion: Criterion::Envelope, faults: &[], written: None, width: None, population: None }
     }
 }
 
@@ -125,7 +126,7 @@ impl<'a> Tally<'a> {
             Criterion::Envelope => "envelope",
             Criterion::Tolerance(_) => "tolerance",
         };
-        let suspect = comparison.suspects.map(|_| 0);
+        let suspect = comparison.population.map(|_| 0);
         Self {
             comparison,
             gpu,
@@ -162,6 +163,8 @@ impl<'a> Tally<'a> {
             [gpu_covers, _] if undecided || may_miss => {
                 let count = if may_miss { &mut self.verdict.edge_pixels } else { &mut self.verdict.undecided };
                 *count += 1;
+                let suspect = |all: &Population| !may_miss && all.is_covered_by_chance(gpu_covers, pixel);
+                self.count_suspect(suspect);
                 if gpu_covers && self.cpu.intervals.is_some() {
                     self.colors(pixel, true, None);
                 }
@@ -195,7 +198,10 @@ impl<'a> Tally<'a> {
         } else {
             self.verdict.non_finite_gpu += any(|error| error.non_finite[0]);
             self.verdict.non_finite_cpu += any(|error| error.non_finite[1]);
-            self.count_suspect(pixel, is_wrong || is_edge);
+        }
+        if let Some(ruler) = ruler.filter(|_| !is_wrong && !is_edge) {
+            let (gpu, cpu) = (self.gpu, self.cpu);
+            self.count_suspect(|population| population.is_suspect(gpu, cpu, ruler, pixel));
         }
         for (attachment, error) in errors.iter().enumerate() {
             if !is_open {
@@ -232,9 +238,10 @@ impl<'a> Tally<'a> {
         }
     }
 
-    fn count_suspect(&mut self, pixel: usize, is_judged_otherwise: bool) {
-        let (Some(suspects), Some(count)) = (self.comparison.suspects, &mut self.verdict.suspect) else { return };
-        *count += u64::from(!is_judged_otherwise && suspects.get(pixel).copied().unwrap_or(false));
+    fn count_suspect(&mut self, is_suspect: impl FnOnce(&Population) -> bool) {
+        if let (Some(population), Some(count)) = (self.comparison.population, &mut self.verdict.suspect) {
+            *count += u64::from(is_suspect(population));
+        }
     }
 
     /// Whether a known fault explains the pixel, which is then counted under that fault.

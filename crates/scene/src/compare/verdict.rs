@@ -1,10 +1,11 @@
 //! [`Verdict`]: how far a GPU's picture is from the reference's, whether the difference is explained, and how much of
 //! the picture was judged at all.
 //!
-//! *In:* the counts of a comparison ([`Comparison`](super::Comparison)). *Out:* error figures, and a [`Conclusion`] by [`Demands`].
+//! *In:* the counts of a comparison ([`Comparison`](super::Comparison)). *Out:* error figures, and a
+//! [`Conclusion`] by [`Demands`].
 
 use super::evidence::{Evidence, Width};
-use super::suspects;
+use super::population;
 use serde::Serialize;
 
 /// The standard by which a difference is explained.
@@ -149,12 +150,17 @@ pub struct Verdict {
 impl Verdict {
     /// The result in one word.
     pub fn conclusion(&self, demands: &Demands) -> Conclusion {
-        let suspects = demands.likely && suspects::fail(self.suspect.unwrap_or(0), self.covered);
+        let suspects = demands.likely && self.is_suspect();
         match () {
             () if self.needs_excuse() || suspects => Conclusion::Fails,
             () if self.covered == 0 || self.share_judged(demands) < demands.evidence_share => Conclusion::Inconclusive,
             () => Conclusion::Holds,
         }
+    }
+
+    /// Whether so many pixels are suspect that the picture is.
+    pub fn is_suspect(&self) -> bool {
+        population::fails(self.suspect.unwrap_or(0), self.covered)
     }
 
     /// Whether the conclusion is [`Conclusion::Holds`] by the usual [`Demands`], with undecided pixels as judged ones if
@@ -410,7 +416,9 @@ mod tests {
         for color in cpu.intervals.iter_mut().flatten().flatten() {
             color[0] = Interval { low: 0.0, high: 1.0, may_be_nan: false };
         }
-        let verdict = Comparison { suspects: Some(&[true; 20]), ..Comparison::default() }.compare(&gpu, &cpu).verdict;
+        let mut population = population::Population::new(1, [20, 1], 1);
+        (0..4).for_each(|_| population.add(&picture(&[0.6; 20])));
+        let verdict = Comparison { population: Some(&population), ..Comparison::default() }.compare(&gpu, &cpu).verdict;
         assert_eq!((verdict.suspect, verdict.outside), (Some(20), 0));
         let usual = Demands::default();
         assert_eq!(verdict.conclusion(&usual), Conclusion::Fails);
