@@ -7,7 +7,7 @@
 use super::{Failure, Options};
 use crate::scene::Scene;
 use glisten_reference::domain::faults::{Faults, KNOWN};
-use glisten_scene::compare::{Compared, Criterion, Judge, Population, Verdict, Written};
+use glisten_scene::compare::{Compared, Comparison, Criterion, Population, Verdict, Written};
 use glisten_scene::picture::Picture;
 use std::time::Instant;
 
@@ -71,11 +71,11 @@ impl<'a> Expected<'a> {
     /// The reference cannot draw the scene with a fault excused.
     pub fn compared(&mut self, picture: &Picture) -> Result<Compared, Failure> {
         let Options { criterion, excuse_known_faults, .. } = *self.options;
-        let mut compared = self.judge(&[]).compare(picture, &self.picture);
+        let mut compared = self.comparison(&[]).compare(picture, &self.picture);
         for members in [FEW, ALL] {
             let open = compared.verdict.suspect.is_none() || compared.verdict.is_suspect();
             if open && self.populate(members)? {
-                compared = self.judge(&[]).compare(picture, &self.picture);
+                compared = self.comparison(&[]).compare(picture, &self.picture);
             }
         }
         if criterion != Criterion::Envelope || !compared.verdict.needs_excuse() || !excuse_known_faults {
@@ -85,7 +85,7 @@ impl<'a> Expected<'a> {
             Some(excused) => excused,
             None => self.draw_excused()?,
         };
-        let compared = self.judge(&excused).compare(picture, &self.picture);
+        let compared = self.comparison(&excused).compare(picture, &self.picture);
         self.excused = Some(excused);
         Ok(compared)
     }
@@ -105,9 +105,9 @@ impl<'a> Expected<'a> {
         Ok(true)
     }
 
-    fn judge<'j>(&'j self, faults: &'j [(&'static str, Picture)]) -> Judge<'j> {
+    fn comparison<'j>(&'j self, faults: &'j [(&'static str, Picture)]) -> Comparison<'j> {
         let Options { criterion, width, .. } = *self.options;
-        Judge { criterion, faults, written: Some(&self.written), width, population: self.population.as_ref() }
+        Comparison { criterion, faults, written: Some(&self.written), width, population: self.population.as_ref() }
     }
 
     fn draw_excused(&self) -> Result<Vec<(&'static str, Picture)>, Failure> {
