@@ -6,6 +6,7 @@ use super::console::Console;
 use super::exit::{Exit, Outcome};
 use super::files;
 use super::pictures::Target;
+use super::profile::ProfileChoice;
 use super::progress::Progress;
 use super::scenes::{DrawError, SceneArgs};
 use super::timed::{TimedGpu, TimedReference};
@@ -40,6 +41,9 @@ pub(super) struct VerifyArgs {
     /// Accept a picture that shows nothing, such as one in which no pixel is covered
     #[arg(long)]
     allow_inconclusive: bool,
+    /// The devices whose freedom the envelope allows
+    #[arg(long, value_enum, default_value_t)]
+    profile: ProfileChoice,
     /// Excuse no pixel because of known faults of the driver
     #[arg(long)]
     no_known_faults: bool,
@@ -243,6 +247,7 @@ fn compare(
         allow_undecided: args.allow_undecided,
         allow_inconclusive: args.allow_inconclusive,
         sources: Some(sources),
+        profile: args.profile.of(&gpu),
         reference: &TimedReference::new(machine, progress),
         ..Options::default()
     };

@@ -49,6 +49,7 @@ use crate::scene::Scene;
 use explain::Explanations;
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::source::SourceMap;
+use glisten_reference::domain::Profile;
 use glisten_reference::domain::faults::Faults;
 use glisten_reference::{LineRule, Precision, RenderOptions};
 pub use glisten_scene::compare::Conclusion;
@@ -70,6 +71,8 @@ pub struct Options<'a> {
     pub allow_undecided: bool,
     /// Whether a picture that shows nothing is accepted, such as one in which no pixel is covered. Default: no.
     pub allow_inconclusive: bool,
+    /// What the device may do where the specifications leave it open. Default: what Mesa's llvmpipe does.
+    pub profile: Profile,
     /// The texts of the scene (`Loaded::sources`), for the origin of the worst pixel's envelope.
     pub sources: Option<&'a SourceMap>,
     /// A folder for the pictures of a failed verification: one of each runner (`spirv.png`), `cpu.png` and
@@ -87,6 +90,7 @@ impl Default for Options<'_> {
             excuse_known_faults: true,
             allow_undecided: false,
             allow_inconclusive: false,
+            profile: Profile::default(),
             sources: None,
             failures: None,
             reference: &ThisThread,
@@ -97,7 +101,8 @@ impl Default for Options<'_> {
 impl Options<'_> {
     /// The options with which the reference draws.
     pub fn reference_options(&self, faults: Faults) -> RenderOptions {
-        RenderOptions { precision: Precision::Envelope, lines: self.lines, faults, ..RenderOptions::default() }
+        let (lines, profile) = (self.lines, self.profile);
+        RenderOptions { precision: Precision::Envelope, lines, faults, profile, ..RenderOptions::default() }
     }
 }
 

@@ -54,12 +54,12 @@ mod memory;
 mod mute;
 mod muted_run;
 mod observe;
-mod paths;
 mod registers;
 mod run;
 mod show;
 #[cfg(test)]
 mod tests;
+mod ways;
 
 pub use code::Code;
 pub use exactly::Exactly;
