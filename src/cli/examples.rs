@@ -64,7 +64,15 @@ const EXAMPLES: &[(&str, &[(&str, &str)])] = &[
             ("glisten stability scenes/ --format github", "in CI: annotations on the lines of all scenes"),
         ],
     ),
-    ("report", &[("glisten report scene.toml -o out", "error against run time, as a page and a table")]),
+    (
+        "report",
+        &[
+            ("glisten report scene.toml -o out", "error against work and run time, as a page and a table"),
+            ("glisten report scene.toml -o out --ways auto", "with ways that are found by themselves"),
+            ("glisten report scene.toml -o out --compare old.json", "in CI: what got worse"),
+            ("glisten report scene.toml -o out --budget rmse=1e-3", "the cheapest way that is close enough"),
+        ],
+    ),
     ("gallery", &[("glisten gallery -o out", "a page with the pictures of the library's scenes")]),
     ("test", &[("glisten test tests/", "all .shader_test files of a folder")]),
     (

@@ -16,6 +16,8 @@ pub(super) enum Exit {
     Usage,
     /// 3: the machine lacks something.
     Machine,
+    /// 130: Ctrl-C ended it, as shells have it.
+    Interrupted = 130,
 }
 
 /// The codes of errors about files rather than about their content.

@@ -28,6 +28,13 @@ impl Progress {
         Self { bar, start: Instant::now(), watched: console.is_watched(), shown: AtomicBool::new(false) }
     }
 
+    /// This bar with an estimate of the time that is left.
+    pub(super) fn with_estimate(self) -> Self {
+        let style = ProgressStyle::with_template("{wide_msg} [{bar:30}] {pos}/{len} {elapsed}, about {eta} left");
+        self.bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()).progress_chars("=> "));
+        self
+    }
+
     /// Sets the number of steps.
     pub(super) fn extend_to(&self, steps: usize) {
         self.bar.set_length(steps as u64);

@@ -1,22 +1,27 @@
-//! `glisten report`: error against run time of the ways to shade a scene, as JSON and as a page.
+//! `glisten report`: error against work and run time of the ways to shade a scene, as JSON and as a page.
+//!
+//! *Holds:* Ctrl-C leaves what is done as a report that says that it is not complete.
 
 use super::args::WithContractArgs;
 use super::batch::Batch;
 use super::console::Console;
 use super::exit::{Exit, Failure, Outcome};
 use super::files;
+use super::interrupt::Interrupt;
+use super::machine::machine;
 use super::made::made;
 use super::progress::Progress;
+use super::report_checks::CheckArgs;
 use super::scenes::{DrawError, SceneArgs, ViaArg};
 use super::session::Session;
-use crate::report::{self, Error, Report, Watcher};
+use crate::report::{self, Error, Options, Report, Watcher, Ways, Weights};
 use crate::scene::DiskFiles;
-use clap::Args;
+use clap::{Args, ValueEnum};
 use glisten_front::source::SourceMap;
-use glisten_gpu::Via;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
 
-/// Measure the ways to shade a scene: error against run time
+/// Measure the ways to shade a scene: error against work and run time
 #[derive(Args, Debug)]
 pub(super) struct ReportArgs {
     #[command(flatten)]
@@ -27,23 +32,63 @@ pub(super) struct ReportArgs {
     /// The form of the code that the GPU runs
     #[arg(long, value_enum, default_value_t)]
     via: ViaArg,
+    /// The ways to compare
+    #[arg(long, value_enum, default_value_t)]
+    ways: WaysArg,
     /// Add each way once more with programs of which nothing is left but what the picture needs
     #[arg(long)]
     specialize: bool,
     #[command(flatten)]
     contract: WithContractArgs,
+    /// The weights of operations: `operations` (the default), `llvmpipe`, `gpu`, or a file of your own
+    #[arg(long, value_name = "NAME|FILE")]
+    weights: Option<String>,
+    /// Time all ways at most this often (default: as the scene says, or 100)
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1000))]
+    rounds: Option<u32>,
+    /// Time them for at most this many seconds (default 30)
+    #[arg(long, value_name = "SECONDS", value_parser = parse_seconds)]
+    seconds: Option<f64>,
+    #[command(flatten)]
+    checks: CheckArgs,
+}
+
+/// Which ways to compare.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+enum WaysArg {
+    /// Those of the scene's [report] table, or the scene alone
+    #[default]
+    Declared,
+    /// Those that are found by themselves as well
+    Auto,
+}
+
+impl From<WaysArg> for Ways {
+    fn from(ways: WaysArg) -> Self {
+        match ways {
+            WaysArg::Declared => Self::Declared,
+            WaysArg::Auto => Self::Auto,
+        }
+    }
+}
+
+fn parse_seconds(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(seconds) if (0.0..=1e6).contains(&seconds) => Ok(seconds),
+        _ => Err(format!("`{text}` is not a number of seconds")),
+    }
 }
 
 /// Shows the steps of a report as progress.
-struct Steps<'a> {
-    console: &'a Console,
+struct Steps {
     progress: Progress,
     begun: bool,
+    interrupt: Interrupt,
 }
 
-impl Watcher for Steps<'_> {
+impl Watcher for Steps {
     fn steps(&mut self, count: usize) {
-        self.progress = Progress::new(self.console, count);
+        self.progress.extend_to(count);
     }
 
     fn step(&mut self, what: &str) {
@@ -53,32 +98,75 @@ impl Watcher for Steps<'_> {
         self.begun = true;
         self.progress.say(what);
     }
+
+    fn is_stopped(&self) -> bool {
+        self.interrupt.is_pressed()
+    }
 }
 
 /// Runs the command.
 pub(super) fn run(args: &ReportArgs, console: &Console) -> Outcome {
+    let checks = args.checks.read()?;
+    let weights = weights(args.weights.as_deref())?;
     let session = args.scene.session(console)?;
     files::make_folder(&args.output)?;
     let gpu = match args.scene.gpu() {
         Ok(gpu) => gpu,
         Err(error) => return told(session, SourceMap::default(), error),
     };
-    let via: Via = args.via.into();
-    let mut steps = Steps { console, progress: Progress::new(console, 1), begun: false };
-    let specialized = args.specialize.then(|| args.contract.contract());
-    let result = report::run(&args.scene.scene, &DiskFiles, session.compiler(), &gpu, (via, specialized), &mut steps);
+    let options = Options {
+        via: args.via.into(),
+        specialized: args.specialize.then(|| args.contract.contract()),
+        ways: args.ways.into(),
+        weights,
+        rounds: args.rounds,
+        time: args.seconds.map(Duration::from_secs_f64),
+        machine: machine(),
+    };
+    let interrupt = Interrupt::watch();
+    let mut steps =
+        Steps { progress: Progress::new(console, 1).with_estimate(), begun: false, interrupt: interrupt.clone() };
+    let result = report::run(&args.scene.scene, &DiskFiles, session.compiler(), &gpu, &options, &mut steps);
     drop(steps);
-    match result {
-        Ok(report) => write(args, console, &report),
-        Err(Error::Scene { sources, diagnostics, io_error }) => {
+    let report = match result {
+        Ok(report) => report,
+        Err(error) => return failed(session, error, console),
+    };
+    write(args, console, &report)?;
+    if interrupt.is_pressed() {
+        console.remark("ended by Ctrl-C; what was done is the report");
+        return Ok(Exit::Interrupted);
+    }
+    checks.apply(&report, &args.output, console)
+}
+
+/// The weights of that name, or in a file of that name.
+fn weights(name: Option<&str>) -> Result<Weights, Failure> {
+    let Some(name) = name else { return Ok(Weights::default()) };
+    if let Some(weights) = Weights::named(name) {
+        return Ok(weights);
+    }
+    let text = files::read(name, Path::new(name)).map_err(|error| {
+        let names = Weights::embedded().join("`, `");
+        let help = error.help.unwrap_or_else(|| format!("weights that need no file are `{names}`"));
+        Failure::usage(error.message).help(help)
+    })?;
+    let parsed = Weights::parse(&String::from_utf8_lossy(&text));
+    parsed.map_err(|error| Failure::new(Exit::Content, format!("the weights in `{name}` cannot be read: {error}")))
+}
+
+/// Reports why there is no report.
+fn failed(session: Session<'_>, error: Error, console: &Console) -> Outcome {
+    match error {
+        Error::Scene { sources, diagnostics, io_error } => {
             let exit = told(session, *sources, DrawError::Diagnostics(diagnostics.into_iter().collect()))?;
             Ok(if io_error { exit.max(Exit::Usage) } else { exit })
         }
-        Err(Error::Reference { way, diagnostics }) => {
+        Error::Reference { way, diagnostics } => {
             console.remark(&format!("the reference cannot draw `{way}`"));
             told(session, SourceMap::default(), DrawError::Diagnostics(diagnostics))
         }
-        Err(Error::Gpu { way, error }) => {
+        Error::Gpu { way, error } => {
             console.remark(&format!("the GPU cannot draw `{way}`"));
             told(session, SourceMap::default(), error.into())
         }
@@ -96,7 +184,7 @@ fn told(mut session: Session<'_>, sources: SourceMap, error: DrawError) -> Outco
     }
 }
 
-fn write(args: &ReportArgs, console: &Console, report: &Report) -> Outcome {
+fn write(args: &ReportArgs, console: &Console, report: &Report) -> Result<(), Failure> {
     let html = report.html(&made()).map_err(|error| Failure::new(Exit::Content, format!("internal error: {error}")))?;
     files::write(&args.output.join("report.json"), report.json().as_bytes())?;
     let page = args.output.join("report.html");
@@ -106,5 +194,5 @@ fn write(args: &ReportArgs, console: &Console, report: &Report) -> Outcome {
     }
     console.remark(&format!("drawn by {}, driver {}", report.adapter.name, report.adapter.driver));
     console.remark(&format!("wrote {}", page.display()));
-    Ok(Exit::Ok)
+    Ok(())
 }

@@ -1,9 +1,11 @@
 //! `glisten verify`: draws a scene on the GPU and with the CPU reference, and judges each pixel.
 
+mod told;
+
 use super::args::ResultFormat;
 use super::args::WithContractArgs;
 use super::console::Console;
-use super::exit::{Exit, Outcome};
+use super::exit::{Exit, Failure, Outcome};
 use super::files;
 use super::pictures::Target;
 use super::profile::ProfileChoice;
@@ -11,12 +13,13 @@ use super::progress::Progress;
 use super::scenes::{DrawError, SceneArgs};
 use super::timed::{TimedGpu, TimedReference};
 use crate::scene::Scene;
-use crate::verify::{self, Conclusion, Options, Runner, Verification, verify};
+use crate::verify::{self, Conclusion, Demands, Options, Runner, Verification, Weakness, verify};
 use clap::{Args, ValueEnum};
 use glisten_front::diagnostic::write;
 use glisten_front::source::SourceMap;
 use glisten_gpu::{AdapterFacts, Via};
 use glisten_scene::compare::{Criterion, Verdict, flip};
+use glisten_scene::picture::{Picture, Transfer};
 use serde::Serialize;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -35,15 +38,27 @@ pub(super) struct VerifyArgs {
     /// Judge by this absolute difference per channel instead of the derived envelope
     #[arg(long, value_name = "X", value_parser = parse_tolerance)]
     tolerance: Option<f64>,
-    /// Accept any number of pixels that the reference cannot decide
+    /// Count pixels that the reference cannot decide as judged
     #[arg(long)]
     allow_undecided: bool,
-    /// Accept a picture that shows nothing, such as one in which no pixel is covered
+    /// Accept a picture of which too little can be judged, such as one in which no pixel is covered
     #[arg(long)]
     allow_inconclusive: bool,
     /// The devices whose freedom the envelope allows
     #[arg(long, value_enum, default_value_t)]
     profile: ProfileChoice,
+    /// The share of the covered pixels that must be judged, at an edge, or excused; with less, the picture is inconclusive
+    #[arg(long, value_name = "X", default_value_t = 0.95, value_parser = parse_share)]
+    evidence_share: f64,
+    /// The largest width of the envelope of a judged pixel (default: 1/255 of the range of the picture's values)
+    #[arg(long, value_name = "X", value_parser = parse_width)]
+    width: Option<f64>,
+    /// Fail for pixels far outside of what a population of simulated GPUs draws (the default)
+    #[arg(long, overrides_with = "no_likely")]
+    likely: bool,
+    /// Judge by the envelope alone, without simulated GPUs
+    #[arg(long)]
+    no_likely: bool,
     /// Excuse no pixel because of known faults of the driver
     #[arg(long)]
     no_known_faults: bool,
@@ -55,6 +70,9 @@ pub(super) struct VerifyArgs {
     /// Write a picture of |difference| / bound on black: blue up to the bound, yellow to red beyond
     #[arg(long, value_name = "FILE")]
     difference: Option<PathBuf>,
+    /// Write a picture of what was judged: green, blue at edges, yellow where the envelope is wide, red where it is unlimited
+    #[arg(long, value_name = "FILE")]
+    evidence: Option<PathBuf>,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
@@ -72,6 +90,20 @@ fn parse_tolerance(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(tolerance) if tolerance >= 0.0 => Ok(tolerance),
         _ => Err(format!("`{text}` is not a tolerance")),
+    }
+}
+
+fn parse_width(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(width) if width >= 0.0 => Ok(width),
+        _ => Err(format!("`{text}` is not a width")),
+    }
+}
+
+fn parse_share(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(share) if (0.0..=1.0).contains(&share) => Ok(share),
+        _ => Err(format!("`{text}` is not a share from 0 to 1")),
     }
 }
 
@@ -133,6 +165,10 @@ struct Report<'a> {
     forms_bit_unequal: Option<u64>,
     verdict: Conclusion,
     holds: bool,
+    /// The share of the covered pixels that is judged, at an edge, or excused.
+    evidence_share: f64,
+    /// Why too little was judged; null unless the verdict is inconclusive for that reason.
+    weakness: Option<&'a Weakness>,
     /// The adapter that drew, and its driver.
     adapter: &'a str,
     driver: &'a str,
@@ -149,7 +185,9 @@ pub(super) fn run(args: &VerifyArgs, console: &Console) -> Outcome {
         ViaChoice::Wgsl => vec![Via::Wgsl],
         ViaChoice::Both => vec![Via::Spirv, Via::Wgsl],
     };
-    let difference = args.difference.as_deref().map(Target::parse).transpose()?;
+    let [difference, evidence] =
+        [&args.difference, &args.evidence].map(|file| file.as_deref().map(Target::parse).transpose());
+    let (difference, evidence) = (difference?, evidence?);
     let progress = Progress::new(console, vias.len() + 1);
     let drawn = args.specialize.then(|| read.specialized(args.contract.contract()));
     let scenes = (&read.scene, drawn.as_ref());
@@ -159,13 +197,12 @@ pub(super) fn run(args: &VerifyArgs, console: &Console) -> Outcome {
     };
     drop(progress);
     if let Some(target) = difference {
-        let (files, _) = target.encode(&verification.difference(), glisten_scene::picture::Transfer::Linear)?;
-        for (path, bytes) in files {
-            files::write(&path, &bytes)?;
-            let most = verification.shares.iter().fold(0.0, |most: f64, share| most.max(*share));
-            let most = if most.is_finite() { format!("at most {most:.2} of the bound; ") } else { String::new() };
-            console.remark(&format!("wrote {}: {most}{}", path.display(), verify::DIFFERENCE_LEGEND));
-        }
+        let most = verification.shares.iter().fold(0.0, |most: f64, share| most.max(*share));
+        let most = if most.is_finite() { format!("at most {most:.2} of the bound; ") } else { String::new() };
+        write_map(console, &target, &verification.difference(), &format!("{most}{}", verify::DIFFERENCE_LEGEND))?;
+    }
+    if let Some(target) = evidence {
+        write_map(console, &target, &verification.evidence(), verify::EVIDENCE_LEGEND)?;
     }
     let runs: Vec<Run> = verification.runs.iter().map(|run| Run::new(run, &verification)).collect();
     let skipped: Vec<Skip> = verification.skipped.iter().map(Skip::new).collect();
@@ -184,20 +221,20 @@ pub(super) fn run(args: &VerifyArgs, console: &Console) -> Outcome {
                 forms_bit_unequal,
                 verdict: verification.conclusion(),
                 holds,
+                evidence_share: worse.verdict.share_judged(&verification.demands),
+                weakness: verification.weakness.as_ref(),
                 adapter: &facts.name,
                 driver: &facts.driver,
             };
             serde_json::to_string_pretty(&report).expect("figures are always JSON") + "\n"
         }
         ResultFormat::Human => {
-            let mut text: String = runs.iter().map(|run| human(run, args.allow_undecided)).collect();
-            for skip in &skipped {
-                text.push_str(&format!("{}: not run: {}\n", skip.via, skip.reason));
-            }
-            if let Some(count) = forms_bit_unequal {
-                text.push_str(&format!("spirv and wgsl: {count} pixels are not bit-equal\n"));
-            }
-            if let Some(note) = &verification.note {
+            let mut text = told::told(&verification, &runs, &skipped, forms_bit_unequal);
+            let notes = [
+                verification.note.as_ref().filter(|_| !holds),
+                verification.weakness.as_ref().and_then(|w| w.note.as_ref()),
+            ];
+            for note in notes.into_iter().flatten() {
                 text.push('\n');
                 text.push_str(&write::human(read.sources(), [note], console.colors_output()));
             }
@@ -210,6 +247,23 @@ pub(super) fn run(args: &VerifyArgs, console: &Console) -> Outcome {
     console.output(&text)?;
     let exit = if holds { Exit::Ok } else { Exit::Content };
     Ok(read.finish(Vec::new())?.max(exit))
+}
+
+impl VerifyArgs {
+    fn demands(&self) -> Demands {
+        let Self { evidence_share, allow_undecided, no_likely, .. } = *self;
+        Demands { evidence_share, allow_undecided, likely: !no_likely }
+    }
+}
+
+/// Writes a picture of what a verification found, and tells what its colors mean.
+fn write_map(console: &Console, target: &Target, picture: &Picture, legend: &str) -> Result<(), Failure> {
+    let (files, _) = target.encode(picture, Transfer::Linear)?;
+    for (path, bytes) in files {
+        files::write(&path, &bytes)?;
+        console.remark(&format!("wrote {}: {legend}", path.display()));
+    }
+    Ok(())
 }
 
 /// Draws a scene in the place of another.
@@ -244,8 +298,9 @@ fn compare(
     let options = Options {
         criterion: args.tolerance.map_or(Criterion::Envelope, Criterion::Tolerance),
         excuse_known_faults: !args.no_known_faults,
-        allow_undecided: args.allow_undecided,
+        demands: args.demands(),
         allow_inconclusive: args.allow_inconclusive,
+        width: args.width,
         sources: Some(sources),
         profile: args.profile.of(&gpu),
         reference: &TimedReference::new(machine, progress),
@@ -263,38 +318,4 @@ fn worst_of(runs: &[Run]) -> Option<Run> {
         gpu_ms: worse.gpu_ms.max(run.gpu_ms),
         cpu_ms: worse.cpu_ms,
     })
-}
-
-fn human(run: &Run, allow_undecided: bool) -> String {
-    let verdict = &run.verdict;
-    let psnr = verdict.psnr.map_or("equal".to_owned(), |psnr| format!("{psnr:.1} dB"));
-    let rows = [
-        ("covered", format!("{} of {} pixels", verdict.covered, verdict.pixels)),
-        ("largest error", format!("{:.3e} ({:.1} ulp)", verdict.max_abs, verdict.max_ulp)),
-        ("rmse, psnr", format!("{:.3e}, {psnr}", verdict.rmse)),
-        ("flip", format!("{:.3e}", run.flip)),
-        ("outside", format!("{} (judged by {})", verdict.outside, verdict.judged_by)),
-        ("not bit-equal", format!("{} pixels", run.bit_unequal)),
-        ("undecided", verdict.undecided.to_string()),
-        ("coverage mismatch", format!("{} ({} at edges)", verdict.coverage_mismatch, verdict.edge_pixels)),
-        ("not finite", format!("gpu {}, cpu {}", verdict.non_finite_gpu, verdict.non_finite_cpu)),
-        ("time", format!("gpu {:.3} ms, cpu {:.3} ms", run.gpu_ms, run.cpu_ms)),
-    ];
-    let faults: Vec<String> =
-        verdict.known_faults.iter().map(|count| format!("{} ({})", count.pixels, count.fault)).collect();
-    let faults = (!faults.is_empty()).then(|| ("known faults", faults.join(", ")));
-    let mark = verify::mark(verdict.conclusion(allow_undecided));
-    let mut text = format!("{}: {mark}\n", run.via);
-    for (name, value) in rows.into_iter().chain(faults) {
-        text.push_str(&format!("  {name:18} {value}\n"));
-    }
-    if let Some(worst) = &verdict.worst
-        && verdict.max_abs > 0.0
-    {
-        let numbers = |color: [f64; 4]| color.map(|value| format!("{value:.7}")).join(", ");
-        text.push_str(&format!("  worst pixel        ({}, {})\n", worst.x, worst.y));
-        text.push_str(&format!("    gpu   {}\n    cpu   {}\n", numbers(worst.gpu), numbers(worst.cpu)));
-        text.push_str(&format!("    bound {}\n", worst.bound.map(|value| format!("{value:.2e}")).join(", ")));
-    }
-    text
 }

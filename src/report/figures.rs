@@ -1,6 +1,11 @@
-//! The figures of a report: differences of pictures, spreads of ratios, the Pareto front.
+//! The figures of a report: differences of pictures, spreads of ratios.
+//!
+//! *Holds:* pixels that only one picture covers, and those that are not finite, are counted and are in no other figure but FLIP,
+//! which is of the whole pictures.
 
-use super::model::{Figures, Spread, Way};
+use super::interval::{SHOWN, median_interval};
+use super::model::{Figures, Spread};
+use glisten_scene::compare::ulp_f32;
 use glisten_scene::picture::Picture;
 
 /// The difference between `picture` and `truth`, as figures and per pixel.
@@ -28,10 +33,11 @@ pub(super) fn compare(picture: &Picture, truth: &Picture) -> (Figures, Vec<Optio
                 figures.non_finite += 1;
                 return None;
             }
-            for difference in rgb() {
+            for (difference, wanted) in rgb().zip(wanted) {
                 squares += difference * difference;
                 channels += 1;
                 largest = largest.max(difference);
+                figures.max_ulp = figures.max_ulp.max(difference / ulp_f32(*wanted));
             }
             figures.max_abs = figures.max_abs.max(largest);
             Some(largest)
@@ -51,17 +57,8 @@ pub(super) fn spread(values: &[f64]) -> Spread {
         let [below, above] = [place.floor(), place.ceil()].map(|i| sorted.get(i as usize).copied().unwrap_or(f64::NAN));
         below + (above - below) * place.fract()
     };
-    Spread { median: at(0.5), low: at(0.25), high: at(0.75) }
-}
-
-/// Marks the ways of each model that no other way beats in both error and time.
-pub(super) fn mark_pareto(ways: &mut [Way]) {
-    let points: Vec<(String, f64, f64)> =
-        ways.iter().map(|way| (way.model.clone(), way.ratio.median, way.error.rmse)).collect();
-    for (way, (model, time, error)) in ways.iter_mut().zip(&points) {
-        way.pareto =
-            !points.iter().any(|(other, t, e)| other == model && t <= time && e <= error && (t < time || e < error));
-    }
+    let interval = median_interval(values, SHOWN).unwrap_or([f64::NAN; 2]);
+    Spread { median: at(0.5), low: at(0.25), high: at(0.75), interval }
 }
 
 #[cfg(test)]
@@ -84,6 +81,7 @@ mod tests {
         assert_eq!(figures.max_abs, 1.0);
         // One of the six finite channels is off by 1.
         assert!((figures.rmse - (1.0f64 / 6.0).sqrt()).abs() < 1e-15);
+        assert_eq!(figures.max_ulp, 1.0 / f64::from(f32::MIN_POSITIVE) * 2f64.powi(23));
         assert_eq!(differences, [Some(1.0), Some(0.0), None, None]);
     }
 
@@ -95,7 +93,13 @@ mod tests {
 
     #[test]
     fn quartiles_interpolate() {
-        assert_eq!(spread(&[4.0, 1.0, 3.0, 2.0]), Spread { median: 2.5, low: 1.75, high: 3.25 });
-        assert_eq!(spread(&[7.0]), Spread { median: 7.0, low: 7.0, high: 7.0 });
+        let quartiles = |values: &[f64]| {
+            let spread = spread(values);
+            (spread.median, spread.low, spread.high)
+        };
+        assert_eq!(quartiles(&[4.0, 1.0, 3.0, 2.0]), (2.5, 1.75, 3.25));
+        assert_eq!(quartiles(&[7.0]), (7.0, 7.0, 7.0));
+        assert_eq!(spread(&[1.0, 2.0, 3.0, 4.0, 5.0, 6.0]).interval, [1.0, 6.0]);
+        assert!(spread(&[1.0]).interval[0].is_nan());
     }
 }

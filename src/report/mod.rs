@@ -8,19 +8,36 @@
 //! texts. *Not done here:* the pass or fail verdict of `glisten verify`.
 
 pub(crate) mod axis;
+mod budget;
+mod clock;
+mod compare;
+mod draw;
 mod figures;
+mod front;
+mod interval;
 mod model;
 mod page;
+mod past;
 mod plan;
 pub(crate) mod plot;
+mod random;
 pub(crate) mod raster;
 mod run;
 mod table;
+mod ways;
+mod weights;
+mod work;
 
 pub(crate) use page::{grouped, scientific};
 
-pub use model::{Adapter, Figures, Report, Spread, Timing, Truth, Way};
-pub use run::{Error, Watcher, run};
+pub use budget::{Budget, Choice, WayFiles};
+pub use clock::Limits;
+pub use compare::Comparison;
+pub use model::{Adapter, Ended, Figures, Machine, OnFront, Report, Skipped, Spread, Timing, Truth, Way, Work};
+pub use past::Past;
+pub use run::{Error, Options, Watcher, Ways, run};
+pub use weights::Weights;
+pub use work::work;
 
 impl Report {
     /// The table for a terminal.

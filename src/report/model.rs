@@ -2,10 +2,14 @@
 //!
 //! *Units:* errors are absolute, in units of a color channel (1 is full intensity of an 8-bit screen), over the RGB
 //! of the first attachment and the pixels that both pictures cover. Times are milliseconds of GPU time per frame.
-//! Ratios are to the baseline of the same run and have no unit.
+//! Ratios are to the baseline of the same run and have no unit. A figure that there is not, because a report was ended before
+//! it was measured, is NaN, and null in JSON.
 
+use crate::scene::Scene;
+use glisten_front::hir::Stage;
 use glisten_scene::picture::{Picture, Transfer};
 use serde::Serialize;
+use std::sync::Arc;
 
 /// The error against run time of each way to shade a scene.
 #[derive(Clone, Debug, Serialize)]
@@ -17,16 +21,48 @@ pub struct Report {
     /// How pictures on the page are encoded.
     #[serde(skip)]
     pub encode: Transfer,
+    /// Whether all ways were drawn, and timed as long as was asked for.
+    pub complete: bool,
+    /// The version of glisten.
+    pub version: &'static str,
     /// The GPU.
     pub adapter: Adapter,
+    /// The rest of the machine.
+    pub machine: Machine,
     /// `spirv` or `wgsl`.
     pub via: &'static str,
+    /// The name of the weights by which operations were counted.
+    pub weights: String,
     /// The truths, one per model.
     pub truths: Vec<Truth>,
     /// How times were measured.
     pub timing: Timing,
-    /// The ways, in the order of the scene, coarse to fine.
+    /// The ways, in the order of the scene, coarse to fine, then those that were found.
     pub ways: Vec<Way>,
+    /// The ways that were found and could not be drawn.
+    pub skipped: Vec<Skipped>,
+}
+
+/// The machine, as far as it is known. No figure but those of time depends on it.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Machine {
+    /// The name of the CPU.
+    pub cpu: Option<String>,
+    /// The number of threads that may run at the same time.
+    pub threads: usize,
+    /// The mean number of runnable threads in the minute before the report.
+    pub load: Option<f64>,
+}
+
+/// A way that was found and could not be drawn.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Skipped {
+    /// The name.
+    pub name: String,
+    /// The model.
+    pub model: String,
+    /// The reason.
+    pub because: String,
 }
 
 /// The GPU that drew.
@@ -61,10 +97,30 @@ pub struct Timing {
     pub baseline: String,
     /// Its median time in milliseconds per frame.
     pub baseline_ms: f64,
-    /// How often all ways were drawn, in turns.
+    /// How often all ways were drawn, each round in an order by chance.
     pub rounds: u32,
+    /// The seed of the orders.
+    pub seed: u64,
+    /// Why there were no more rounds.
+    pub ended: Ended,
     /// The ratio of a second copy of the baseline to the first in the same run: its distance from 1 is noise.
     pub same_again: Spread,
+    /// By how much one way must be faster than another to beat it, after the noise of the same again: 0.1 is 10 %.
+    pub margin: f64,
+}
+
+/// Why there were no more rounds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Ended {
+    /// Every interval is narrow enough.
+    Narrow,
+    /// The limit of rounds.
+    Rounds,
+    /// The limit of seconds.
+    Seconds,
+    /// The user ended it.
+    Stopped,
 }
 
 /// A ratio over the rounds of a run.
@@ -76,13 +132,19 @@ pub struct Spread {
     pub low: f64,
     /// The upper quartile.
     pub high: f64,
+    /// The interval that holds the median with a confidence of 95 %.
+    pub interval: [f64; 2],
 }
 
 /// A way to shade the scene.
 #[derive(Clone, Debug, Serialize)]
 pub struct Way {
-    /// The name in the scene.
+    /// The name in the scene, or that of a way that was found.
     pub name: String,
+    /// The kind of way in a word: `declared` in the scene, or that of a way that was found.
+    pub kind: &'static str,
+    /// What is done in a sentence, if there is more to say than the name.
+    pub about: String,
     /// The model, which selects the truth.
     pub model: String,
     /// The segments and rings of its mesh, if that was tessellated for the report.
@@ -91,6 +153,8 @@ pub struct Way {
     pub vertices: u64,
     /// How often the fragment stage ran in a frame; null if the adapter does not count.
     pub fragments: Option<u64>,
+    /// What the reference executes for the picture.
+    pub work: Work,
     /// The GPU's picture compared with the truth.
     pub error: Figures,
     /// The GPU's picture compared with the same way in f64: the effect of rounding alone.
@@ -99,8 +163,21 @@ pub struct Way {
     pub milliseconds: f64,
     /// The time relative to the baseline's.
     pub ratio: Spread,
-    /// Whether no other way of the model is both faster and closer to the truth.
+    /// Whether no other way of the model takes less work and is closer to the truth.
     pub pareto: bool,
+    /// Whether no other way of the model is faster and closer to the truth.
+    pub pareto_time: OnFront,
+    /// The form of the code that the GPU ran.
+    pub via: &'static str,
+    /// The time of each round, in milliseconds per frame.
+    #[serde(skip)]
+    pub times: Vec<f64>,
+    /// The scene.
+    #[serde(skip)]
+    pub scene: Arc<Scene>,
+    /// The GLSL texts of each draw, if they are at hand.
+    #[serde(skip)]
+    pub programs: Option<Vec<Vec<(Stage, String)>>>,
     /// The picture.
     #[serde(skip)]
     pub picture: Picture,
@@ -108,6 +185,42 @@ pub struct Way {
     /// it.
     #[serde(skip)]
     pub difference: Vec<Option<f64>>,
+}
+
+/// What the reference executes for a picture: the same on every machine.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Work {
+    /// Invocations of the vertex stage, one for each distinct vertex of an instance.
+    pub vertices: u64,
+    /// Invocations of the fragment stage, without helper invocations.
+    pub fragments: u64,
+    /// The sum of all steps by their weights.
+    pub operations: u64,
+    /// Texture lookups.
+    pub texture_lookups: u64,
+}
+
+/// Whether a way is on the front of error against time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum OnFront {
+    /// Every way that is as close to the truth is slower beyond doubt.
+    Yes,
+    /// A way that is as close to the truth is faster beyond doubt.
+    No,
+    /// The measured times do not tell.
+    Open,
+}
+
+impl OnFront {
+    /// `yes`, `no` or `open`
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Yes => "yes",
+            Self::No => "no",
+            Self::Open => "open",
+        }
+    }
 }
 
 /// The difference between two pictures.
@@ -119,6 +232,11 @@ pub struct Figures {
     pub rmse: f64,
     /// Decibels against a peak of 1; null for equal pictures.
     pub psnr: Option<f64>,
+    /// The largest difference in units in the last place (ULP) of the truth as an f32.
+    pub max_ulp: f64,
+    /// The mean FLIP error of the whole pictures, if it was computed: 0 (the same) to 1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub flip: Option<f64>,
     /// The number of pixels that both cover.
     pub covered: u64,
     /// The number of pixels that only one covers.

@@ -37,8 +37,14 @@ pub(super) fn page(report: &Report, made: &Made) -> Result<String, minijinja::Er
         baseline_ms => format!("{:.3}", report.timing.baseline_ms),
         rounds => report.timing.rounds,
         same_again => ratio(report.timing.same_again.median),
-        same_low => ratio(report.timing.same_again.low),
-        same_high => ratio(report.timing.same_again.high),
+        same_low => ratio(report.timing.same_again.interval[0]),
+        same_high => ratio(report.timing.same_again.interval[1]),
+        complete => report.complete,
+        weights => &report.weights,
+        margin => format!("{:.0}", report.timing.margin * 100.0),
+        cpu => report.machine.cpu.as_deref().unwrap_or("unknown CPU"),
+        threads => report.machine.threads,
+        load => report.machine.load,
     })
 }
 
@@ -85,9 +91,14 @@ fn row(report: &Report, (number, way): (usize, &Way), shape: usize, scale: Decad
         fragments => way.fragments.map_or_else(|| "\u{2013}".to_owned(), grouped),
         milliseconds => format!("{:.3}", way.milliseconds),
         ratio => ratio(way.ratio.median),
-        low => ratio(way.ratio.low),
-        high => ratio(way.ratio.high),
+        low => ratio(way.ratio.interval[0]),
+        high => ratio(way.ratio.interval[1]),
+        operations => grouped(way.work.operations),
+        lookups => grouped(way.work.texture_lookups),
+        max_ulp => scientific(way.error.max_ulp),
+        flip => way.error.flip.map_or_else(|| "\u{2013}".to_owned(), scientific),
         pareto => way.pareto,
+        pareto_time => way.pareto_time.name(),
         picture => Value::from_safe_string(raster::color_uri(&way.picture, report.encode)),
         difference => Value::from_safe_string(raster::difference_uri(&way.difference, width, height, scale)),
     }
@@ -107,10 +118,10 @@ fn decade(exponent: i32) -> String {
     }
 }
 
-/// The ways of the Pareto front from the fastest to the most exact, for the sentence above the pictures.
+/// The ways of the front by work from the cheapest to the most exact, for the sentence above the pictures.
 fn front(ways: &[&Way]) -> Vec<Value> {
     let mut best: Vec<&&Way> = ways.iter().filter(|way| way.pareto).collect();
-    best.sort_by(|a, b| a.ratio.median.total_cmp(&b.ratio.median));
+    best.sort_by_key(|way| way.work.operations);
     best.into_iter()
         .map(|way| {
             context! {
@@ -170,10 +181,13 @@ pub(crate) fn grouped(value: u64) -> String {
 
 #[cfg(test)]
 pub(in crate::report) mod tests {
-    use super::super::figures::{compare, mark_pareto};
-    use super::super::model::{Adapter, Spread, Timing};
+    use super::super::figures::compare;
+    use super::super::front::mark;
+    use super::super::model::{Adapter, Ended, Machine, OnFront, Spread, Timing, Work};
     use super::*;
     use glisten_scene::picture::{Picture, Transfer};
+    use glisten_scene::{Format, Framebuffer, Scene};
+    use std::sync::Arc;
 
     fn picture(level: f64) -> Picture {
         let side = 64;
@@ -182,6 +196,45 @@ pub(in crate::report) mod tests {
         Picture {
             covered: (0..side * side).map(inside).collect(),
             ..Picture::of_colors(64, 64, (0..side * side).map(shade).collect())
+        }
+    }
+
+    fn no_scene() -> Arc<Scene> {
+        let framebuffer = Framebuffer {
+            width: 64,
+            height: 64,
+            clear: [0.0; 4],
+            format: Format::Rgba32Float,
+            attachments: 1,
+            encode: Transfer::Linear,
+        };
+        Arc::new(Scene { name: "none".into(), framebuffer, draws: Vec::new() })
+    }
+
+    /// A way with this error and this number of operations.
+    pub(in crate::report) fn way(model: &str, rmse: f64, operations: u64) -> Way {
+        let (error, difference) = compare(&picture(1.0), &picture(1.0));
+        Way {
+            name: model.into(),
+            kind: "declared",
+            about: String::new(),
+            model: model.into(),
+            tessellation: None,
+            vertices: 3,
+            fragments: Some(2124),
+            work: Work { vertices: 3, fragments: 2124, operations, texture_lookups: 0 },
+            rounding: Figures { max_abs: 3e-6, ..error },
+            error: Figures { rmse, flip: Some(rmse / 2.0), ..error },
+            milliseconds: 1.0,
+            ratio: Spread { median: 1.0, low: 0.97, high: 1.05, interval: [0.98, 1.02] },
+            pareto: false,
+            pareto_time: OnFront::Open,
+            via: "spirv",
+            times: Vec::new(),
+            scene: no_scene(),
+            programs: None,
+            picture: picture(1.0),
+            difference,
         }
     }
 
@@ -194,24 +247,23 @@ pub(in crate::report) mod tests {
                     let median = base_time + factor / 10.0;
                     let picture = picture(1.0 - error);
                     let (error, difference) = compare(&picture, &self::picture(1.0));
+                    let interval = [median * 0.98, median * 1.02];
                     ways.push(Way {
                         name: format!("{model} {stage}"),
-                        model: model.into(),
                         tessellation: Some([level, level / 2]),
                         vertices: u64::from(level * level * 3),
-                        fragments: Some(2124),
-                        rounding: Figures { max_abs: 3e-6, ..error },
                         error,
                         milliseconds: median * 0.7,
-                        ratio: Spread { median, low: median * 0.97, high: median * 1.05 },
-                        pareto: false,
+                        ratio: Spread { median, low: median * 0.97, high: median * 1.05, interval },
+                        times: vec![median; 40],
                         picture,
                         difference,
+                        ..way(model, 0.0, u64::from(level) * 1000)
                     });
                 }
             }
         }
-        mark_pareto(&mut ways);
+        mark(&mut ways, &[], 0.1);
         let truth = |model: &str| Truth {
             model: model.into(),
             way: format!("{model} per fragment"),
@@ -223,6 +275,11 @@ pub(in crate::report) mod tests {
             scene: "sphere <&>".into(),
             size: [64, 64],
             encode: Transfer::Linear,
+            complete: true,
+            version: env!("CARGO_PKG_VERSION"),
+            machine: Machine { cpu: Some("a CPU".into()), threads: 2, load: Some(0.5) },
+            weights: "operations".into(),
+            skipped: Vec::new(),
             adapter: Adapter { name: "llvmpipe".into(), driver: "Mesa".into() },
             via: "spirv",
             truths: vec![truth("Phong"), truth("Blinn-Phong")],
@@ -230,7 +287,10 @@ pub(in crate::report) mod tests {
                 baseline: ways[0].title(),
                 baseline_ms: 1.05,
                 rounds: 15,
-                same_again: Spread { median: 1.01, low: 0.99, high: 1.02 },
+                seed: 1,
+                ended: Ended::Narrow,
+                same_again: Spread { median: 1.01, low: 0.99, high: 1.02, interval: [0.995, 1.015] },
+                margin: 0.1,
             },
             ways,
         }

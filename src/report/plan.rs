@@ -1,7 +1,8 @@
 //! The ways that a scene file asks to compare, each as a scene of its own.
 //!
-//! *In:* the text of a scene file, with or without a `[report]` table. *Out:* [`Plan`]: for every way and
-//! tessellation, the text of a scene, which is drawn exactly as `glisten render` would draw it.
+//! *In:* the text of a scene file, with or without a `[report]` table, or the ways that were found by themselves. *Out:*
+//! [`Plan`]: for every way and tessellation a scene, or the text of one, which is drawn exactly as `glisten render` would
+//! draw it.
 //!
 //! ```toml
 //! [report]
@@ -20,33 +21,56 @@
 //! Without the table there is one way: the scene as it is, with a quarter, a half and all of its mesh's segments and
 //! rings. *Holds:* `set` merges tables (`set = { mesh = { radius = 2.0 } }` keeps the other keys of the mesh).
 
+use super::ways::{AS_WRITTEN, FoundTruth, FoundWay};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::scenes::{SCENE_SYNTAX, SCENE_WRONG_VALUE};
+use glisten_front::hir::Stage;
 use glisten_front::source::{SourceMap, Span};
-use glisten_scene::default_tessellation;
+use glisten_gpu::Via;
+use glisten_scene::{Scene, default_tessellation};
 use serde::Deserialize;
 use std::ops::Range;
 use toml::{Table, Value};
 
 /// The ways and truths to draw.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Plan {
     /// The ways, in the order of the file, coarse to fine.
     pub(super) ways: Vec<PlannedWay>,
     /// The truths, one per model, in the order in which models are first named.
     pub(super) truths: Vec<PlannedTruth>,
-    /// How often all ways are timed.
-    pub(super) rounds: u32,
+    /// How often all ways are timed, if the scene says so.
+    pub(super) rounds: Option<u32>,
+    /// Whether the scene's file declares ways.
+    pub(super) declared: bool,
+    /// The text of the scene's file without the report's table.
+    pub(super) text: String,
+}
+
+/// What to draw.
+#[derive(Clone, Debug)]
+pub(super) enum Drawn {
+    /// The text of a scene file, at the place of the scene's own.
+    Text(String),
+    /// A scene that is loaded.
+    Scene(Box<Scene>),
 }
 
 /// A way to draw.
 #[derive(Clone, Debug)]
 pub(super) struct PlannedWay {
     pub(super) name: String,
+    /// The kind of the way in a word: `declared` for those of the scene's file.
+    pub(super) kind: &'static str,
+    /// What is done in a sentence, if there is more to say than the name.
+    pub(super) about: String,
     pub(super) model: String,
     pub(super) tessellation: Option<[u32; 2]>,
-    /// The text of the scene file.
-    pub(super) text: String,
+    pub(super) drawn: Drawn,
+    /// The form of the code that this way needs.
+    pub(super) via: Option<Via>,
+    /// The GLSL texts of each draw, if they are at hand.
+    pub(super) programs: Option<Vec<Vec<(Stage, String)>>>,
 }
 
 /// The truth of a model.
@@ -55,9 +79,11 @@ pub(super) struct PlannedTruth {
     pub(super) model: String,
     pub(super) way: String,
     pub(super) tessellation: Option<[u32; 2]>,
-    /// The text of the scene file.
-    pub(super) text: String,
+    pub(super) drawn: Drawn,
 }
+
+/// The kind of the ways that a scene's file declares.
+pub(super) const DECLARED: &str = "declared";
 
 /// The `[report]` table.
 #[derive(Clone, Debug, Default, Deserialize)]
@@ -90,7 +116,6 @@ struct SceneFile {
     report: Option<toml::Spanned<ReportTable>>,
 }
 
-const ROUNDS: u32 = 15;
 const MOST_ROUNDS: u32 = 1000;
 /// How much finer the truth's mesh is than the finest way's, unless `truth_tessellation` is given.
 const TRUTH_FACTOR: u32 = 4;
@@ -120,9 +145,43 @@ pub(super) fn plan(scene_name: &str, text: &str, base: u32) -> Result<Plan, Box<
     build(scene_name, &scene, table).map_err(wrong)
 }
 
+impl Plan {
+    /// Adds the ways that were found by themselves, after those that the scene's file declares.
+    pub(super) fn add(&mut self, scene: &Scene, found: Vec<FoundWay>) {
+        if !self.declared {
+            self.ways.clear();
+            self.truths.clear();
+        }
+        for way in found {
+            if !self.truths.iter().any(|truth| truth.model == way.model) {
+                let truth = way.truth.unwrap_or_else(|| FoundTruth {
+                    way: AS_WRITTEN.into(),
+                    scene: scene.clone(),
+                    tessellation: None,
+                });
+                self.truths.push(PlannedTruth {
+                    model: way.model.clone(),
+                    way: truth.way,
+                    tessellation: truth.tessellation,
+                    drawn: Drawn::Scene(Box::new(truth.scene)),
+                });
+            }
+            self.ways.push(PlannedWay {
+                name: way.name,
+                kind: way.kind,
+                about: way.about,
+                model: way.model,
+                tessellation: way.tessellation,
+                drawn: Drawn::Scene(Box::new(way.scene)),
+                via: way.via,
+                programs: way.programs,
+            });
+        }
+    }
+}
+
 fn build(scene_name: &str, scene: &Table, report: ReportTable) -> Result<Plan, String> {
-    let rounds = report.rounds.unwrap_or(ROUNDS);
-    if !(3..=MOST_ROUNDS).contains(&rounds) {
+    if report.rounds.is_some_and(|rounds| !(3..=MOST_ROUNDS).contains(&rounds)) {
         return Err(format!("`rounds` is 3 to {MOST_ROUNDS}"));
     }
     let draw = scene.get("draw").and_then(Value::as_array).and_then(|draws| draws.get(report.draw));
@@ -141,9 +200,13 @@ fn build(scene_name: &str, scene: &Table, report: ReportTable) -> Result<Plan, S
         for &tessellation in &tessellations {
             planned.push(PlannedWay {
                 name: way.name.clone(),
+                kind: DECLARED,
+                about: String::new(),
                 model: model(way),
                 tessellation,
-                text: text(way, tessellation)?,
+                drawn: Drawn::Text(text(way, tessellation)?),
+                via: None,
+                programs: None,
             });
         }
     }
@@ -159,10 +222,11 @@ fn build(scene_name: &str, scene: &Table, report: ReportTable) -> Result<Plan, S
             model,
             way: truth_way.name.clone(),
             tessellation,
-            text: text(truth_way, tessellation)?,
+            drawn: Drawn::Text(text(truth_way, tessellation)?),
         });
     }
-    Ok(Plan { ways: planned, truths, rounds })
+    let text = toml::to_string(scene).map_err(|error| format!("the scene cannot be written again: {error}"))?;
+    Ok(Plan { ways: planned, truths, rounds: report.rounds, declared: !report.way.is_empty(), text })
 }
 
 fn model(way: &WayTable) -> String {
@@ -266,13 +330,21 @@ mesh = { shape = "sphere", position = "p", radius = 0.1 }
         plan("ball", &format!("{SCENE}\n{report}"), 0)
     }
 
+    fn text(way: &PlannedWay) -> &str {
+        match &way.drawn {
+            Drawn::Text(text) => text,
+            Drawn::Scene(_) => "",
+        }
+    }
+
     #[test]
     fn without_a_table_the_scene_at_three_levels() {
         let plan = planned("").expect("a plan");
         let levels: Vec<_> = plan.ways.iter().map(|way| way.tessellation).collect();
         assert_eq!(levels, [Some([16, 8]), Some([32, 16]), Some([64, 32])]);
         assert_eq!((plan.truths.len(), plan.truths[0].tessellation), (1, Some([256, 128])));
-        assert!(plan.ways[0].text.contains("radius = 0.1") && !plan.ways[0].text.contains("report"));
+        let text = text(&plan.ways[0]);
+        assert!(text.contains("radius = 0.1") && !text.contains("report"));
     }
 
     #[test]
@@ -312,7 +384,7 @@ set = { fragment = "b.frag", mesh = { radius = 2.0 } }
         let two = &plan.ways[1];
         assert_eq!((two.name.as_str(), two.tessellation), ("two", Some([8, 4])));
         for part in ["b.frag", "a.vert", "radius = 2.0", "segments = 8", "shape = \"sphere\""] {
-            assert!(two.text.contains(part), "{part} in {}", two.text);
+            assert!(text(two).contains(part), "{part} in {}", text(two));
         }
         assert_eq!(plan.truths[0].way, "one");
     }

@@ -27,13 +27,13 @@ struct Point<'a> {
 /// The whole plot as HTML: lines in an SVG that stretches, and texts and marks in boxes that do not.
 pub(super) fn html(report: &Report) -> String {
     let error = |way: &Way| way.error.rmse.max(LEAST_ERROR);
-    let times = report.ways.iter().flat_map(|way| [way.ratio.low, way.ratio.high, way.ratio.median]);
+    let times = report.ways.iter().flat_map(|way| [way.ratio.interval[0], way.ratio.interval[1], way.ratio.median]);
     let x = Axis::over(times, 0.06, 0.0, 100.0);
     let y = Axis::over(report.ways.iter().map(error), 0.2, 100.0, 0.0);
     let mut points = Vec::new();
     for (model, truth) in report.truths.iter().enumerate() {
         let ways: Vec<(usize, &Way)> =
-            report.ways.iter().enumerate().filter(|(_, way)| way.model == truth.model).collect();
+            report.ways.iter().enumerate().filter(|(_, way)| way.model == truth.model && is_timed(way)).collect();
         let names = names(&ways.iter().map(|(_, way)| *way).collect::<Vec<_>>());
         points.extend(ways.into_iter().map(|(number, way)| Point {
             way,
@@ -41,7 +41,7 @@ pub(super) fn html(report: &Report) -> String {
             model,
             shape: names.iter().position(|name| *name == way.name).unwrap_or(0),
             at: (x.place(way.ratio.median), y.place(error(way))),
-            spread: [x.place(way.ratio.low), x.place(way.ratio.high)],
+            spread: way.ratio.interval.map(|end| x.place(if end.is_finite() { end } else { way.ratio.median })),
         }));
     }
     let mut page = String::from("<div class=\"plot\"><div class=\"field\">\n");
@@ -54,6 +54,11 @@ pub(super) fn html(report: &Report) -> String {
     page.push_str("</div>\n<p class=\"axis-y\">RMSE \u{2192} worse</p>\n");
     page.push_str("<p class=\"axis-x\">GPU time / baseline \u{2192} slower</p></div>\n");
     page
+}
+
+/// Whether the way was timed before the report was ended.
+fn is_timed(way: &Way) -> bool {
+    way.ratio.median.is_finite()
 }
 
 /// The names of ways in order, without repetitions.
@@ -134,8 +139,8 @@ fn mark(page: &mut String, point: &Point<'_>, label: Option<usize>) {
         marker(*shape, 0.0, 0.0),
         label.and_then(|side| way.tessellation.map(|mesh| label_at(side, mesh))).unwrap_or_default(),
         way.ratio.median,
-        way.ratio.low,
-        way.ratio.high,
+        way.ratio.interval[0],
+        way.ratio.interval[1],
         way.error.rmse,
         way.error.max_abs,
     );

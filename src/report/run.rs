@@ -1,19 +1,22 @@
 //! Draws and times every way of a plan.
 //!
-//! *Holds:* all ways, and the baseline a second time, are timed in turns in one run. The order rotates from round to
-//! round, so that no way always follows the same other way.
+//! *In:* a scene file, or what is found for it. *Out:* a [`Report`]. *Holds:* a user who ends it gets the ways that are drawn,
+//! and the rounds that are complete, as a report that says so.
 
-use super::figures::{compare, mark_pareto, spread};
-use super::model::{Adapter, Report, Timing, Truth, Way};
-use super::plan::{Plan, PlannedWay, base_of, plan};
+use super::clock::{Candidate, Limits, SEED, Times, time};
+use super::draw::{Draw, Drawing};
+use super::figures::spread;
+use super::front::{margin, mark};
+use super::model::{Adapter, Ended, Machine, Report, Timing, Truth, Way};
+use super::plan::{Drawn, Plan, PlannedWay, base_of, plan};
+use super::ways::{self, Origin};
+use super::weights::Weights;
 use crate::scene::{self, FileError, FileSource, Loaded, Scene};
 use crate::specialize::{Contract, specialize_scene_by};
 use glisten_front::compiler::Compiler;
 use glisten_front::diagnostic::{Diagnostic, Diagnostics};
 use glisten_front::source::SourceMap;
-use glisten_gpu::{Gpu, Prepared, Via};
-use glisten_reference::{Precision, RenderOptions};
-use glisten_scene::picture::Picture;
+use glisten_gpu::{Gpu, Via};
 
 /// Why a report could not be made.
 #[derive(Debug)]
@@ -45,10 +48,14 @@ pub enum Error {
 
 /// Follows the progress of the work: the number of steps, then each step.
 pub trait Watcher {
-    /// Announces the number of steps.
+    /// Announces the number of steps, as far as it is known; the last announcement counts.
     fn steps(&mut self, count: usize);
     /// Announces a step.
     fn step(&mut self, what: &str);
+    /// Whether the user wants an end. What is done then is the report.
+    fn is_stopped(&self) -> bool {
+        false
+    }
 }
 
 /// Ignores progress.
@@ -57,86 +64,188 @@ impl Watcher for () {
     fn step(&mut self, _what: &str) {}
 }
 
-/// A way on the device.
-struct Candidate {
-    prepared: Prepared,
-    frames: u32,
-    times: Vec<f64>,
+/// Which ways to compare.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Ways {
+    /// Those that the scene's file declares, or the scene alone.
+    #[default]
+    Declared,
+    /// Those that are found by themselves as well.
+    Auto,
 }
 
-/// Compares the ways of the scene at `path`; `specialized` adds each of them with residual programs of that contract.
+/// What to compare, and how.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// The form of the emitted code that the GPU runs.
+    pub via: Via,
+    /// Adds each way with residual programs of this contract.
+    pub specialized: Option<Contract>,
+    /// Which ways to compare.
+    pub ways: Ways,
+    /// The weights of operations.
+    pub weights: Weights,
+    /// The limit of rounds; the scene's, or else the default, if there is none.
+    pub rounds: Option<u32>,
+    /// The limit of seconds for timing; the default if there is none.
+    pub time: Option<std::time::Duration>,
+    /// The machine.
+    pub machine: Machine,
+}
+
+/// Compares the ways of the scene at `path`.
 ///
 /// # Errors
-/// [`Error`]; the first way that cannot be drawn ends the report.
+/// [`Error`]; the first way of the scene's file that cannot be drawn ends the report.
 pub fn run(
     path: &str,
     files: &dyn FileSource,
     compiler: &Compiler,
     gpu: &Gpu,
-    (via, specialized): (Via, Option<Contract>),
+    options: &Options,
     watcher: &mut dyn Watcher,
 ) -> Result<Report, Error> {
-    let whole = load(path, files, compiler)?;
-    let plan = read_plan(path, files, &whole)?;
-    let drawn = if specialized.is_some() { 2 * plan.ways.len() } else { plan.ways.len() };
-    watcher.steps(plan.truths.len() + 2 * drawn + plan.rounds as usize);
-    let mut truths = Vec::new();
-    for truth in &plan.truths {
-        watcher.step(&format!("the truth of {}", truth.model));
-        let scene = scene_of(path, &truth.text, files, compiler)?;
-        truths.push(Truth {
-            model: truth.model.clone(),
-            way: truth.way.clone(),
-            tessellation: truth.tessellation,
-            precision: "f64",
-            picture: reference(&truth.way, &scene)?,
-        });
+    let files = Files { path, files, compiler };
+    let whole = files.load(files.files)?;
+    let mut plan = files.plan(&whole)?;
+    if let (Ways::Auto, Some(scene)) = (options.ways, &whole.scene) {
+        watcher.step("looking for ways");
+        files.find((scene, &whole.sources), &mut plan);
     }
-    let mut ways = Vec::new();
-    let mut candidates = Vec::new();
-    for planned in &plan.ways {
-        let scene = scene_of(path, &planned.text, files, compiler)?;
-        let truth = truths.iter().find(|truth| truth.model == planned.model);
-        let (way, candidate) = draw(planned, &scene, truth, gpu, via, watcher)?;
-        ways.push(way);
-        candidates.push(candidate);
-        if let Some(contract) = specialized {
-            let planned = PlannedWay { name: format!("{}, specialized", planned.name), ..planned.clone() };
-            let scene = specialize_scene_by(contract, &scene, &SourceMap::default(), &[]).scene;
-            let (way, candidate) = draw(&planned, &scene, truth, gpu, via, watcher)?;
-            ways.push(way);
-            candidates.push(candidate);
+    let mut drawing = Drawing { gpu, options, truths: Vec::new(), done: Vec::new(), skipped: Vec::new(), steps: 0 };
+    let drawn = if options.specialized.is_some() { 2 * plan.ways.len() } else { plan.ways.len() };
+    watcher.steps(plan.truths.len() + 2 * drawn + Limits::default().rounds as usize / 4);
+    for truth in &plan.truths {
+        if !watcher.is_stopped() {
+            drawing.truth(truth, &files.scene_of(&truth.drawn)?, watcher)?;
         }
     }
-    let timing = time(gpu, &plan, &mut ways, &mut candidates, watcher)?;
-    mark_pareto(&mut ways);
-    let adapter = Adapter { name: gpu.adapter().name.clone(), driver: gpu.adapter().driver.clone() };
+    draw_ways(&files, &plan, &mut drawing, watcher)?;
+    let limits = Limits {
+        rounds: options.rounds.or(plan.rounds).unwrap_or(Limits::default().rounds),
+        time: options.time.unwrap_or(Limits::default().time),
+    };
+    let all = drawing.done.len() + drawing.skipped.len() == drawn;
+    let steps = drawing.steps;
+    let Drawing { truths, done, skipped, .. } = drawing;
+    let (mut ways, candidates): (Vec<Way>, Vec<Candidate>) =
+        done.into_iter().map(|Draw { way, candidate }| (way, candidate)).unzip();
+    let times = time(gpu, &candidates, limits, (steps, watcher))
+        .map_err(|(number, error)| Error::Gpu { way: ways.get(number).map(Way::title).unwrap_or_default(), error })?;
+    let timing = settle(&mut ways, &truths, times);
     let framebuffer = whole.scene.map(|scene| scene.framebuffer);
-    let size = framebuffer.map_or([0, 0], |framebuffer| [framebuffer.width, framebuffer.height]);
-    let encode = framebuffer.map_or_else(Default::default, |framebuffer| framebuffer.encode);
-    Ok(Report { scene: stem(path), size, encode, adapter, via: via.name(), truths, timing, ways })
+    Ok(Report {
+        scene: stem(path),
+        size: framebuffer.map_or([0, 0], |framebuffer| [framebuffer.width, framebuffer.height]),
+        encode: framebuffer.map_or_else(Default::default, |framebuffer| framebuffer.encode),
+        complete: all && timing.ended != Ended::Stopped,
+        version: env!("CARGO_PKG_VERSION"),
+        adapter: Adapter { name: gpu.adapter().name.clone(), driver: gpu.adapter().driver.clone() },
+        machine: options.machine.clone(),
+        via: options.via.name(),
+        weights: options.weights.name().to_owned(),
+        truths,
+        timing,
+        ways,
+        skipped,
+    })
+}
+
+/// Draws all ways, and each specialized where that is asked for.
+fn draw_ways(
+    files: &Files<'_>,
+    plan: &Plan,
+    drawing: &mut Drawing<'_>,
+    watcher: &mut dyn Watcher,
+) -> Result<(), Error> {
+    for planned in &plan.ways {
+        if watcher.is_stopped() {
+            return Ok(());
+        }
+        let scene = files.scene_of(&planned.drawn)?;
+        drawing.way(planned, &scene, watcher)?;
+        if let Some(contract) = drawing.options.specialized {
+            let name = format!("{}, specialized", planned.name);
+            let specialized = specialize_scene_by(contract, &scene, &SourceMap::default(), &[]);
+            let programs = Some(specialized.draws.into_iter().map(|draw| draw.texts).collect());
+            let planned = PlannedWay { name, kind: "specialized", programs, ..planned.clone() };
+            drawing.way(&planned, &specialized.scene, watcher)?;
+        }
+    }
+    Ok(())
+}
+
+/// Enters the times into the ways, and marks the fronts.
+fn settle(ways: &mut [Way], truths: &[Truth], times: Times) -> Timing {
+    let same_again = times.ratio(&times.again);
+    for (way, series) in ways.iter_mut().zip(&times.ways) {
+        way.milliseconds = spread(series).median;
+        way.ratio = times.ratio(series);
+        way.times = series.clone();
+    }
+    let margin = margin(&same_again);
+    mark(ways, truths, margin);
+    Timing {
+        baseline: ways.first().map(Way::title).unwrap_or_default(),
+        baseline_ms: ways.first().map_or(f64::NAN, |way| way.milliseconds),
+        rounds: times.rounds(),
+        seed: SEED,
+        ended: times.ended,
+        same_again,
+        margin,
+    }
 }
 
 fn stem(path: &str) -> String {
     std::path::Path::new(path).file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned())
 }
 
-fn load(path: &str, files: &dyn FileSource, compiler: &Compiler) -> Result<Loaded, Error> {
-    let loaded = scene::load(path, files, compiler);
-    if loaded.scene.is_some() {
-        return Ok(loaded);
-    }
-    let Loaded { sources, diagnostics, io_error, .. } = loaded;
-    Err(Error::Scene { sources: Box::new(sources), diagnostics, io_error })
+/// The scene's file, and how to read it.
+struct Files<'a> {
+    path: &'a str,
+    files: &'a dyn FileSource,
+    compiler: &'a Compiler,
 }
 
-fn read_plan(path: &str, files: &dyn FileSource, whole: &Loaded) -> Result<Plan, Error> {
-    let text = files.read(path).unwrap_or_default();
-    plan(&stem(path), &String::from_utf8_lossy(&text), base_of(&whole.sources, path)).map_err(|diagnostic| {
-        let mut diagnostics = Diagnostics::default();
-        diagnostics.push(*diagnostic);
-        Error::Scene { sources: Box::new(whole.sources.clone()), diagnostics, io_error: false }
-    })
+impl Files<'_> {
+    fn load(&self, files: &dyn FileSource) -> Result<Loaded, Error> {
+        let loaded = scene::load(self.path, files, self.compiler);
+        if loaded.scene.is_some() {
+            return Ok(loaded);
+        }
+        let Loaded { sources, diagnostics, io_error, .. } = loaded;
+        Err(Error::Scene { sources: Box::new(sources), diagnostics, io_error })
+    }
+
+    fn plan(&self, whole: &Loaded) -> Result<Plan, Error> {
+        let text = self.files.read(self.path).unwrap_or_default();
+        let base = base_of(&whole.sources, self.path);
+        plan(&stem(self.path), &String::from_utf8_lossy(&text), base).map_err(|diagnostic| {
+            let mut diagnostics = Diagnostics::default();
+            diagnostics.push(*diagnostic);
+            Error::Scene { sources: Box::new(whole.sources.clone()), diagnostics, io_error: false }
+        })
+    }
+
+    /// Adds the ways that are found by themselves.
+    fn find(&self, (scene, sources): (&Scene, &SourceMap), plan: &mut Plan) {
+        let text = plan.text.clone();
+        let name = stem(self.path);
+        let load = |text: &str| self.scene_of(&Drawn::Text(text.to_owned())).ok();
+        let origin = Origin { name: &name, scene, sources, text: &text, compiler: self.compiler, load: &load };
+        plan.add(scene, ways::found(&origin));
+    }
+
+    fn scene_of(&self, drawn: &Drawn) -> Result<Scene, Error> {
+        let text = match drawn {
+            Drawn::Scene(scene) => return Ok((**scene).clone()),
+            Drawn::Text(text) => text,
+        };
+        let loaded = self.load(&Replaced { path: self.path, text, files: self.files })?;
+        // `load` reports an error if there is no scene.
+        let none = || Error::Scene { sources: Box::default(), diagnostics: Diagnostics::default(), io_error: false };
+        loaded.scene.ok_or_else(none)
+    }
 }
 
 /// The files of another source, except that the scene's own text replaces its file.
@@ -150,87 +259,4 @@ impl FileSource for Replaced<'_> {
     fn read(&self, path: &str) -> Result<Vec<u8>, FileError> {
         if path == self.path { Ok(self.text.as_bytes().to_vec()) } else { self.files.read(path) }
     }
-}
-
-fn scene_of(path: &str, text: &str, files: &dyn FileSource, compiler: &Compiler) -> Result<Scene, Error> {
-    let loaded = load(path, &Replaced { path, text, files }, compiler)?;
-    // `load` reports an error if there is no scene.
-    loaded.scene.ok_or(Error::Scene { sources: Box::default(), diagnostics: Diagnostics::default(), io_error: false })
-}
-
-fn reference(way: &str, scene: &Scene) -> Result<Picture, Error> {
-    let options = RenderOptions { precision: Precision::F64, mark_edges: false, ..RenderOptions::default() };
-    glisten_reference::render(scene, &options).map_err(|diagnostics| Error::Reference { way: way.into(), diagnostics })
-}
-
-fn draw(
-    planned: &PlannedWay,
-    scene: &Scene,
-    truth: Option<&Truth>,
-    gpu: &Gpu,
-    via: Via,
-    watcher: &mut dyn Watcher,
-) -> Result<(Way, Candidate), Error> {
-    let failed = |error| Error::Gpu { way: planned.name.clone(), error };
-    watcher.step(&format!("{} on the CPU", planned.name));
-    let exact = reference(&planned.name, scene)?;
-    watcher.step(&format!("{} on the GPU", planned.name));
-    let prepared = gpu.prepare(scene, via).map_err(failed)?;
-    let picture = gpu.draw(&prepared).map_err(failed)?.picture;
-    let fragments = gpu.fragments_shaded(&prepared).map_err(failed)?;
-    let frames = gpu.frames_for_a_stretch(&prepared).map_err(failed)?;
-    let (error, difference) = compare(&picture, truth.map_or(&exact, |truth| &truth.picture));
-    let (rounding, _) = compare(&picture, &exact);
-    let vertices = scene.draws.iter().map(|draw| u64::from(draw.vertex_count) * u64::from(draw.instances)).sum();
-    let way = Way {
-        name: planned.name.clone(),
-        model: planned.model.clone(),
-        tessellation: planned.tessellation,
-        vertices,
-        fragments,
-        error,
-        rounding,
-        milliseconds: 0.0,
-        ratio: spread(&[]),
-        pareto: false,
-        picture,
-        difference,
-    };
-    Ok((way, Candidate { prepared, frames, times: Vec::new() }))
-}
-
-/// Times all candidates in turns, the first of them twice in each round.
-fn time(
-    gpu: &Gpu,
-    plan: &Plan,
-    ways: &mut [Way],
-    candidates: &mut [Candidate],
-    watcher: &mut dyn Watcher,
-) -> Result<Timing, Error> {
-    let count = candidates.len();
-    let mut again = Vec::new();
-    for round in 0..plan.rounds as usize {
-        watcher.step(&format!("round {} of {}", round + 1, plan.rounds));
-        for turn in 0..=count {
-            let index = (turn + round) % (count + 1);
-            // The index after the last one is the second copy of the baseline.
-            let Some(candidate) = candidates.get_mut(if index == count { 0 } else { index }) else { continue };
-            let measured = gpu.measure(&candidate.prepared, candidate.frames);
-            let way = ways.first().map(|way| way.name.clone()).unwrap_or_default();
-            let milliseconds = measured.map_err(|error| Error::Gpu { way, error })?;
-            if index == count { again.push(milliseconds) } else { candidate.times.push(milliseconds) }
-        }
-    }
-    let baseline = candidates.first().map(|candidate| candidate.times.clone()).unwrap_or_default();
-    let ratios = |times: &[f64]| -> Vec<f64> { times.iter().zip(&baseline).map(|(time, base)| time / base).collect() };
-    for (way, candidate) in ways.iter_mut().zip(candidates.iter()) {
-        way.milliseconds = spread(&candidate.times).median;
-        way.ratio = spread(&ratios(&candidate.times));
-    }
-    Ok(Timing {
-        baseline: ways.first().map(Way::title).unwrap_or_default(),
-        baseline_ms: spread(&baseline).median,
-        rounds: plan.rounds,
-        same_again: spread(&ratios(&again)),
-    })
 }

@@ -1,42 +1,21 @@
 //! The report as a table for a terminal.
 
-use super::model::Report;
+use super::model::{Ended, Report, Timing, Way};
 use std::fmt::Write as _;
+
+/// The columns.
+const HEAD: [&str; 10] =
+    ["way", "max error", "RMSE", "FLIP", "operations", "lookups", "ms", "time", "95 %", "front: work, time"];
 
 /// Writes lines of at most some 100 columns, then an explanation of the figures.
 pub(super) fn table(report: &Report) -> String {
-    let mut rows = vec![
-        ["way", "max error", "RMSE", "rounding", "fragments", "ms", "time", "quartiles", ""]
-            .map(str::to_owned)
-            .to_vec(),
-    ];
-    for way in &report.ways {
-        rows.push(vec![
-            way.title(),
-            format!("{:.1e}", way.error.max_abs),
-            format!("{:.1e}", way.error.rmse),
-            format!("{:.1e}", way.rounding.max_abs),
-            way.fragments.map_or_else(|| "-".into(), |count| count.to_string()),
-            format!("{:.3}", way.milliseconds),
-            format!("{:.2}", way.ratio.median),
-            format!("{:.2}-{:.2}", way.ratio.low, way.ratio.high),
-            if way.pareto { "*".into() } else { String::new() },
-        ]);
-    }
+    let mut rows = vec![HEAD.map(str::to_owned).to_vec()];
+    rows.extend(report.ways.iter().map(row));
     let mut text = right_aligned(&rows);
-    let timing = &report.timing;
     // Writing to a String cannot fail.
-    let _ = writeln!(
-        text,
-        "\ntime: ratios to `{}` ({:.3} ms), median of {} rounds in turns; the same again: {:.2} ({:.2}-{:.2})\n\
-         *: no way of the model is both faster and nearer to the truth",
-        timing.baseline,
-        timing.baseline_ms,
-        timing.rounds,
-        timing.same_again.median,
-        timing.same_again.low,
-        timing.same_again.high
-    );
+    let weights = &report.weights;
+    let _ = writeln!(text, "\noperations: by the weights `{weights}`, counted on the reference; the same on every run");
+    text.push_str(&times(&report.timing));
     for truth in &report.truths {
         let mesh = truth.tessellation.map(|[s, r]| format!(" at {s}x{r}")).unwrap_or_default();
         let _ = writeln!(text, "truth of {}: {}{mesh} on the CPU in {}", truth.model, truth.way, truth.precision);
@@ -46,7 +25,54 @@ pub(super) fn table(report: &Report) -> String {
         text,
         "errors are over pixels that both cover; silhouettes differ at {mismatches} pixels of all ways together"
     );
+    for skipped in &report.skipped {
+        let _ = writeln!(text, "skipped: {}: {}", skipped.name, skipped.because);
+    }
+    if !report.complete {
+        text.push_str("ended before it was complete: the figures are those that there were\n");
+    }
     text
+}
+
+fn row(way: &Way) -> Vec<String> {
+    let [low, high] = way.ratio.interval;
+    vec![
+        way.title(),
+        format!("{:.1e}", way.error.max_abs),
+        format!("{:.1e}", way.error.rmse),
+        way.error.flip.map_or_else(|| "-".into(), |flip| format!("{flip:.1e}")),
+        way.work.operations.to_string(),
+        way.work.texture_lookups.to_string(),
+        figure(way.milliseconds, 3),
+        figure(way.ratio.median, 2),
+        format!("{}-{}", figure(low, 2), figure(high, 2)),
+        format!("{}, {}", if way.pareto { "yes" } else { "no" }, way.pareto_time.name()),
+    ]
+}
+
+/// A figure, if there is one.
+fn figure(value: f64, digits: usize) -> String {
+    if value.is_finite() { format!("{value:.digits$}") } else { "?".into() }
+}
+
+/// How times were measured, and how far they can be trusted.
+fn times(timing: &Timing) -> String {
+    let ended = match timing.ended {
+        Ended::Narrow => "until every interval was narrower than 3 %",
+        Ended::Rounds => "the limit",
+        Ended::Seconds => "until the limit of seconds",
+        Ended::Stopped => "until it was stopped",
+    };
+    let [low, high] = timing.same_again.interval.map(|end| figure(end, 2));
+    format!(
+        "time: ratios to `{}` ({} ms), median of {} rounds ({ended}) and its interval; the same again: {} ({low}-{high})\n\
+         front: no way of the model is nearer to the truth and takes less work, or less time by {:.0} % beyond doubt\n",
+        timing.baseline,
+        figure(timing.baseline_ms, 3),
+        timing.rounds,
+        figure(timing.same_again.median, 2),
+        timing.margin * 100.0,
+    )
 }
 
 /// A table of numbers: the first column is aligned to the left, all others to the right.

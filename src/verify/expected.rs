@@ -7,7 +7,7 @@ use super::{Failure, Options};
 use crate::scene::Scene;
 use glisten_reference::domain::faults::Faults;
 use glisten_reference::faults_of;
-use glisten_scene::compare::{Criterion, Verdict};
+use glisten_scene::compare::{Compared, Criterion, Judge, Population, Verdict, Written};
 use glisten_scene::picture::Picture;
 use std::time::Instant;
 
@@ -17,6 +17,8 @@ pub struct Expected<'a> {
     options: &'a Options<'a>,
     picture: Picture,
     milliseconds: f64,
+    written: Written,
+    population: Option<Population>,
     /// The picture with each known fault excused alone, and with all of them; drawn on demand.
     excused: Option<Vec<(&'static str, Picture)>>,
 }
@@ -30,7 +32,17 @@ impl<'a> Expected<'a> {
         let start = Instant::now();
         let picture = options.reference.render(scene, &options.reference_options(Faults::NONE))?;
         let milliseconds = start.elapsed().as_secs_f64() * 1e3;
-        Ok(Self { scene, options, picture, milliseconds, excused: None })
+        let is_likely = options.demands.likely && options.criterion == Criterion::Envelope;
+        let population = match is_likely {
+            true => options.reference.population(scene, &options.reference_options(Faults::NONE))?,
+            false => None,
+        };
+        Ok(Self { scene, options, picture, milliseconds, written: Written::of(scene), population, excused: None })
+    }
+
+    /// The channels that the scene's programs write.
+    pub(super) fn written(&self) -> &Written {
+        &self.written
     }
 
     /// The reference's picture with its envelope.
@@ -48,18 +60,31 @@ impl<'a> Expected<'a> {
     /// # Errors
     /// The reference cannot draw the scene with a fault excused.
     pub fn compare(&mut self, picture: &Picture) -> Result<Verdict, Failure> {
+        Ok(self.compared(picture)?.verdict)
+    }
+
+    /// Compares a picture of the scene with the reference, and tells the class of each pixel.
+    ///
+    /// # Errors
+    /// The reference cannot draw the scene with a fault excused.
+    pub fn compared(&mut self, picture: &Picture) -> Result<Compared, Failure> {
         let Options { criterion, excuse_known_faults, .. } = *self.options;
-        let verdict = Verdict::new(picture, &self.picture, criterion);
-        if criterion != Criterion::Envelope || !verdict.needs_excuse() || !excuse_known_faults {
-            return Ok(verdict);
+        let compared = self.judge(&[]).compare(picture, &self.picture);
+        if criterion != Criterion::Envelope || !compared.verdict.needs_excuse() || !excuse_known_faults {
+            return Ok(compared);
         }
         let excused = match self.excused.take() {
             Some(excused) => excused,
             None => self.draw_excused()?,
         };
-        let verdict = Verdict::excusing(picture, &self.picture, criterion, &excused);
+        let compared = self.judge(&excused).compare(picture, &self.picture);
         self.excused = Some(excused);
-        Ok(verdict)
+        Ok(compared)
+    }
+
+    fn judge<'j>(&'j self, faults: &'j [(&'static str, Picture)]) -> Judge<'j> {
+        let Options { criterion, width, .. } = *self.options;
+        Judge { criterion, faults, written: Some(&self.written), width, population: self.population.as_ref() }
     }
 
     /// One picture for each known fault that can show in the scene; and one with all of them, if there are several.

@@ -21,7 +21,7 @@ const LEAST_SHARE: f64 = 0.01;
 /// The explanations of a scene's pixels.
 pub(super) struct Explanations<'a> {
     scene: &'a Scene,
-    options: &'a Options<'a>,
+    pub(super) options: &'a Options<'a>,
     known: Vec<(Channel, Vec<Contribution>)>,
 }
 
@@ -32,7 +32,7 @@ impl<'a> Explanations<'a> {
 
     /// Adds the origin of the envelope to each run's worst pixel. Returns the excerpt for the run with the largest
     /// error. Without the texts, or without an envelope, there is nothing to add.
-    pub(super) fn add_to(mut self, runs: &mut [Run]) -> Result<Option<Diagnostic>, Failure> {
+    pub(super) fn add_to(&mut self, runs: &mut [Run]) -> Result<Option<Diagnostic>, Failure> {
         let Some(sources) = self.options.sources else { return Ok(None) };
         let (mut excerpt, mut largest) = (None, -1.0);
         for run in runs.iter_mut().filter(|run| run.verdict.judged_by == "envelope") {
@@ -50,7 +50,7 @@ impl<'a> Explanations<'a> {
     }
 
     /// The largest contributions to an envelope.
-    fn contributions(&mut self, at: Channel) -> Result<Vec<Contribution>, Failure> {
+    pub(super) fn contributions(&mut self, at: Channel) -> Result<Vec<Contribution>, Failure> {
         if let Some((_, contributions)) = self.known.iter().find(|(known, _)| *known == at) {
             return Ok(contributions.clone());
         }
@@ -61,7 +61,8 @@ impl<'a> Explanations<'a> {
     }
 }
 
-fn contributed(sources: &SourceMap, contribution: &Contribution) -> Option<Contributed> {
+/// The place of a contribution, for a report.
+pub(super) fn contributed(sources: &SourceMap, contribution: &Contribution) -> Option<Contributed> {
     let location = sources.location(sources.call_site(contribution.span))?;
     Some(Contributed {
         file: sources.file(location.file).name().to_owned(),
@@ -73,12 +74,15 @@ fn contributed(sources: &SourceMap, contribution: &Contribution) -> Option<Contr
     })
 }
 
-/// The contributions as an excerpt.
+/// The contributions to the bound of a channel, as an excerpt.
 fn note(contributions: &[Contribution], at: Channel) -> Option<Diagnostic> {
-    let (first, rest) = contributions.split_first()?;
-    let channel = ["red", "green", "blue", "alpha"].get(at.channel as usize)?;
     let [x, y] = at.pixel;
-    let message = format!("what the bound of {channel} at pixel ({x}, {y}) comes from");
+    excerpt(contributions, format!("what the bound of {} at pixel ({x}, {y}) comes from", at.name()))
+}
+
+/// The contributions as an excerpt with this message.
+pub(super) fn excerpt(contributions: &[Contribution], message: String) -> Option<Diagnostic> {
+    let (first, rest) = contributions.split_first()?;
     let text = |one: &Contribution| format!("`{}`: {:.0} % of it", one.operation, one.share * 100.0);
     let note = Diagnostic::new(&BOUND_EXPLAINED, first.span, message).here(text(first));
     Some(rest.iter().fold(note, |note, one| note.label(one.span, text(one))))

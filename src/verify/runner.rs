@@ -5,6 +5,7 @@
 use crate::scene::Scene;
 use glisten_front::diagnostic::Diagnostic;
 use glisten_reference::{Contribution, LineRule, Precision, RenderOptions};
+use glisten_scene::compare::Population;
 use glisten_scene::picture::Picture;
 use std::fmt;
 use std::time::Instant;
@@ -77,6 +78,14 @@ pub trait Reference {
         options.iter().map(|options| self.render(scene, options)).collect()
     }
 
+    /// Draws a scene by a population of simulated conforming GPUs; `None` if there is none.
+    ///
+    /// # Errors
+    /// The scene cannot be drawn.
+    fn population(&self, _scene: &Scene, _options: &RenderOptions) -> Result<Option<Population>, Failure> {
+        Ok(None)
+    }
+
     /// Explains a channel of a pixel like [`glisten_reference::explain`].
     ///
     /// # Errors
@@ -93,6 +102,13 @@ pub struct Channel {
     pub attachment: u32,
     /// 0 (red) to 3 (alpha).
     pub channel: u32,
+}
+
+impl Channel {
+    /// `red`, `green`, `blue`, `alpha`
+    pub fn name(self) -> &'static str {
+        ["red", "green", "blue", "alpha"].get(self.channel as usize).copied().unwrap_or("a channel")
+    }
 }
 
 /// The reference on the calling thread.

@@ -152,7 +152,17 @@ fn picture(api: &Api, framebuffer: &Framebuffer) -> Result<Picture, Error> {
     let covered: Vec<bool> = read(STENCIL).into_iter().map(|stencil| stencil != 0).collect();
     api.check("reading the picture")?;
     let open = vec![false; covered.len()];
-    Ok(Picture { width, height, attachments, covered, intervals: None, undecided: open.clone(), near_edge: open })
+    Ok(Picture {
+        width,
+        height,
+        attachments,
+        covered,
+        intervals: None,
+        undecided: open.clone(),
+        near_edge: open,
+        silhouette: Vec::new(),
+        owner_width: Vec::new(),
+    })
 }
 
 /// The pixels of an attachment.

@@ -202,6 +202,8 @@ impl Gpu {
             intervals: None,
             undecided: vec![false; pixels],
             near_edge: vec![false; pixels],
+            silhouette: Vec::new(),
+            owner_width: Vec::new(),
         })
     }
 }

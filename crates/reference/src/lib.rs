@@ -5,16 +5,21 @@
 //! *Holds:* the crate never sees naga IR, so that a mistake in the lowering shows as a difference. Coverage is
 //! decided in f32 and integers, and is the same in every domain; values are computed in the domain.
 
+mod counts;
 pub mod domain;
 pub mod exec;
 mod interpolate;
 mod pipeline;
+mod population;
 mod raster;
 #[cfg(any(test, feature = "stability"))]
 pub mod stability;
 mod texture;
 mod work;
 
+pub use counts::{Counts, counts};
+pub use exec::Step;
+pub use population::{Drawn, Population, population, simulate};
 pub use work::{Work, work};
 
 use domain::faults::{self, Fault, Faults, KnownFault};

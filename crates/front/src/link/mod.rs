@@ -55,6 +55,7 @@ pub use program::{
     Attribute, Block, BlockIndex, Interface, Output, Program, RootIndex, SamplerSlot, SlotBinding, UniformLeaf,
     UniformRoot, Varying, VaryingEnd,
 };
+pub use remap::Remap;
 
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::hir::{Shader, Stage, Types};

@@ -2,22 +2,25 @@
 
 use crate::hir::{Expr, ExprId, ExprKind, FunctionId, GlobalId, Shader, Stmt, StmtKind, Type, Types, VarRef};
 
-/// The new handles of everything in a shader.
-pub(super) struct Remap {
+/// The new handles of everything in a shader that is appended to another.
+#[derive(Clone, Debug)]
+pub struct Remap {
     /// The number of expressions before it.
-    pub(super) exprs: u32,
+    pub exprs: u32,
     /// The new handle of each global.
-    pub(super) globals: Vec<GlobalId>,
+    pub globals: Vec<GlobalId>,
     /// The new handle of each function.
-    pub(super) functions: Vec<FunctionId>,
+    pub functions: Vec<FunctionId>,
 }
 
 impl Remap {
-    pub(super) fn expr_id(&self, id: ExprId) -> ExprId {
+    /// The new handle of an expression.
+    pub fn expr_id(&self, id: ExprId) -> ExprId {
         ExprId(id.0 + self.exprs)
     }
 
-    pub(super) fn function_id(&self, id: FunctionId) -> FunctionId {
+    /// The new handle of a function.
+    pub fn function_id(&self, id: FunctionId) -> FunctionId {
         self.functions.get(id.index()).copied().unwrap_or(id)
     }
 
@@ -25,7 +28,8 @@ impl Remap {
         self.globals.get(id.index()).copied().unwrap_or(id)
     }
 
-    pub(super) fn expr(&self, expr: Expr) -> Expr {
+    /// The expression with new handles.
+    pub fn expr(&self, expr: Expr) -> Expr {
         Expr { kind: self.kind(expr.kind), ..expr }
     }
 
@@ -54,8 +58,9 @@ impl Remap {
         }
     }
 
-    /// Recurses into blocks, which nest at most as deep as the parser allows.
-    pub(super) fn body(&self, body: &mut [Stmt]) {
+    /// Gives the statements of a body new handles. It recurses into blocks, which nest at most as deep as the parser
+    /// allows.
+    pub fn body(&self, body: &mut [Stmt]) {
         for statement in body {
             match &mut statement.kind {
                 StmtKind::Expr(expr) => *expr = self.expr_id(*expr),

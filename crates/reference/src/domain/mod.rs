@@ -9,6 +9,7 @@
 //! | [`F32`] | an f32 | rounds once; a built-in function is computed in f64 and rounded once: a strict GPU |
 //! | [`Envelope`] | an f64 and the interval of a GPU's values | yields the hull of what [`rules`] allow |
 //! | [`Shadow`] | an f32 and an f64 side by side | is done in both, which shows the error of f32 |
+//! | [`Simulated`] | an f32 | has the error that one conforming GPU, drawn by chance, makes |
 //! | `Stepwise` | an f32 | rounds once; formulas round each step: a GPU, and the f32 side of `Shadow` |
 //! | `Exact` | a number of 192 bits | rounds once: the reference for the reference (feature `stability`) |
 //!
@@ -28,6 +29,7 @@ mod number;
 mod profile;
 pub mod rules;
 mod shadow;
+mod simulated;
 mod single;
 #[cfg(any(test, feature = "stability"))]
 mod stepwise;
@@ -35,14 +37,16 @@ mod wide;
 
 #[cfg(any(test, feature = "stability"))]
 pub use big::{BITS as EXACT_BITS, Big};
-#[cfg(test)]
 pub(crate) use envelope::evaluate;
 pub use envelope::{EnvelopeBlock, EnvelopeFloat, EnvelopeInt};
+#[cfg(test)]
+pub(crate) use envelope::{binary, unary};
 pub use integer::Integer;
 pub use lanes::{Block, Element, LANES, Lanes, Source, WIDTH};
 pub use number::{Answers, ErrorPart, Number, NumberBlock};
 pub use profile::Profile;
 pub use shadow::{ShadowFloat, ShadowInt, Shadowed, rounded};
+pub use simulated::{Gpu, Planes, Simulated, SimulatedFloat};
 #[cfg(any(test, feature = "stability"))]
 pub use stepwise::StepFloat;
 
@@ -56,6 +60,32 @@ pub trait Domain: Copy + Send + Sync + std::fmt::Debug + 'static {
     const NAME: &'static str;
     /// Whether conditions may be undecided, because conforming GPUs may disagree.
     const HAS_INTERVALS: bool = <Self::Float as Number>::HAS_INTERVALS;
+
+    /// Computes as this GPU on this thread from now on, in the domain of simulated GPUs.
+    #[inline(always)]
+    fn enter(gpu: Gpu) {
+        let _ = gpu;
+    }
+    /// The equation by which varyings are interpolated.
+    #[inline(always)]
+    fn planes() -> Planes {
+        Planes::Weights
+    }
+    /// The bits of the weights of linear filtering; none if they are the domain's numbers.
+    #[inline(always)]
+    fn weight_bits() -> Option<u32> {
+        None
+    }
+    /// The error of a point's size, as a share of the allowed one, -1 to 1.
+    #[inline(always)]
+    fn point_size_share() -> f64 {
+        0.0
+    }
+    /// A level of detail with the bits that it has.
+    #[inline(always)]
+    fn level(exact: f64) -> f64 {
+        exact
+    }
 }
 
 /// The reference: IEEE f64.

@@ -21,6 +21,18 @@ pub(super) enum PoolSource {
     Uniform(RootIndex, u32),
 }
 
+/// What a stage is compiled for. The numbers are the same.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Form {
+    /// Speed.
+    #[default]
+    Fast,
+    /// Each product and sum is an instruction of its own, so that an observer sees each.
+    Unfused,
+    /// Besides, what depends on uniforms runs in every invocation, as on a GPU; only constants are computed before.
+    Counted,
+}
+
 /// When a section runs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Runs {
@@ -39,6 +51,8 @@ pub(super) struct Section {
     /// The expression or statement of each instruction.
     pub(super) spans: Vec<Span>,
     pub(super) lists: Vec<Operand>,
+    /// For each instruction, whether no output depends on it; empty unless the form is [`Form::Counted`].
+    pub(super) dead: Vec<bool>,
 }
 
 /// A scalar of an input or output.

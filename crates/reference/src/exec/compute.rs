@@ -185,6 +185,7 @@ fn derivative<N: Number>(op: Derivative, out: &mut Lanes<N>, a: Source<'_, N>) {
         let [a0, a1, a2, a3] = [0, 1, 2, 3].map(|place| a.at(quad + place));
         let (top, bottom) = either(a1.sub(a0), a3.sub(a2));
         let (left, right) = either(up(a0, a2), up(a1, a3));
+        let (bottom, right) = if N::coarse() { (top, left) } else { (bottom, right) };
         let differences = match op {
             Derivative::X => [top, top, bottom, bottom],
             Derivative::Y => [left, right, left, right],
@@ -267,7 +268,7 @@ impl<D: Domain> Registers<D> {
                     |a: Float<D>, b, c| a.mul(b).add(c),
                 )
             }),
-            Inst::Folded { dst, a, .. } if !D::HAS_INTERVALS => {
+            Inst::Folded { dst, a, .. } if !(D::HAS_INTERVALS || Float::<D>::SUMS_BY_CHOICE) => {
                 self.write_float(dst, |this, out| copy(out, this.float(a)));
             }
             Inst::Folded { sum, dst, a, list } => {

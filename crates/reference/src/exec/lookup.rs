@@ -194,6 +194,7 @@ impl<D: Domain> LaneLookup<'_, D> {
             },
             offset: self.ints(&self.call.offset),
             bounded: D::HAS_INTERVALS,
+            weight_bits: D::weight_bits(),
             profile: self.registers.profile,
         };
         texture::sample(texture, &request)
@@ -220,6 +221,7 @@ impl<D: Domain> LaneLookup<'_, D> {
             gradients,
             steps.as_ref(),
         );
+        let lambda = BoundedFloat { value: D::level(lambda.value), ..lambda };
         BoundedFloat { value: lambda.value + given.value, low: lambda.low + given.low, high: lambda.high + given.high }
     }
 

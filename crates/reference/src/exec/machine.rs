@@ -155,6 +155,7 @@ impl<D: Domain> Machine<D> {
         self.budget = if self.budget_exceeded { self.loop_budget >> 6 } else { self.loop_budget };
         self.watched = live.0;
         self.mute_input();
+        self.count_invocations(inner);
         self.run_main(inner, live.0 | helpers.0);
         self.show_outputs(live.0 & !self.discarded);
         if D::HAS_INTERVALS {

@@ -45,6 +45,7 @@ mod compile;
 mod composite;
 mod compute;
 mod corrected_run;
+mod count;
 mod exactly;
 mod explore;
 mod inst;
@@ -61,7 +62,8 @@ mod show;
 mod tests;
 mod ways;
 
-pub use code::Code;
+pub use code::{Code, Form};
+pub use count::Step;
 pub use exactly::Exactly;
 pub use machine::{LOOP_BUDGET, Machine, Purpose};
 pub use mute::{Muted, Operation};

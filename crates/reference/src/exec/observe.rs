@@ -1,6 +1,7 @@
 //! [`Observer`]: sees the results of a machine as [`Event`]s.
 
 use super::Mask;
+use super::count::Step;
 use super::inst::{Composite, Float1, Float2, Float3, Inst};
 use crate::domain::{Domain, Source};
 use glisten_front::hir::Stage;
@@ -136,6 +137,8 @@ pub struct Event<'a, D: Domain> {
 pub trait Observer<D: Domain>: Send + Debug {
     /// Receives an event.
     fn see(&mut self, event: &Event<'_, D>);
+    /// Counts a step in so many lanes; complete only in code of the counted form.
+    fn count(&mut self, _step: Step, _lanes: u32) {}
     /// Called at the end of a piece of the drawing.
     fn finish(self: Box<Self>, order: Order);
 }

@@ -1,6 +1,6 @@
 //! Runs instructions: masks and jumps.
 
-use super::code::{Inner, Section};
+use super::code::{Inner, Runs, Section};
 use super::inst::Inst;
 use super::machine::Machine;
 use crate::domain::{Domain, Integer, Lanes};
@@ -17,6 +17,9 @@ impl<D: Domain> Machine<D> {
             place += 1;
             if watched {
                 self.show_choice(inst, section, place - 1, mask);
+                if section.runs == Runs::Always {
+                    self.count(inst, (section, place - 1), inner, mask);
+                }
             }
             if D::HAS_INTERVALS && self.muted.is_some() && self.is_muted(section, place - 1) {
                 self.run_muted(inst, section, inner, mask);

@@ -6,8 +6,9 @@
 //! only those that pass remain.
 
 use super::assembly::Prim;
+use super::edges::EdgeFragment;
+use super::fragment_tests::Tests;
 use super::source::{Fragments, Source};
-use super::target::Tests;
 use crate::domain::Domain;
 use crate::exec::{LANES, Mask};
 use pulp::{Simd, WithSimd};
@@ -28,7 +29,7 @@ pub(super) struct Batch<'v, D: Domain> {
     pub(super) fragments: Fragments<D>,
     /// The lanes to shade, without helper lanes of quads.
     pub(super) live: u64,
-    /// The results of their tests so far.
+    /// The results of their tests so far; for candidates, their roles near edges.
     pub(super) tests: Tests,
     runs: Vec<Run<'v, D>>,
     count: usize,
@@ -86,15 +87,28 @@ impl<'v, D: Domain> Batch<'v, D> {
         self.count += 4;
     }
 
+    /// Adds a fragment near an edge. There must be room.
+    pub(super) fn add_edge(&mut self, fragment: &EdgeFragment) {
+        self.add_row(fragment.place, 1);
+        self.tests.set_role(self.count - 1, fragment.role, fragment.is_inside);
+    }
+
+    /// Notes that a lane of the last quad, whose first lane is the upper left pixel, is near an edge.
+    pub(super) fn mark_in_quad(&mut self, lane: usize, fragment: &EdgeFragment) {
+        self.tests.set_role(self.count.saturating_sub(4) + lane, fragment.role, fragment.is_inside);
+    }
+
     /// Computes the candidates' weights and depth. Returns the state of their tests; `None` if there are none.
     pub(super) fn locate(&mut self) -> Option<Tests> {
         let lanes = self.settled..self.count;
         let run = self.runs.last().filter(|_| !lanes.is_empty())?;
         let covered = self.live & !Mask::first(lanes.start).0;
-        let undecided = if run.undecided { covered } else { 0 };
+        let roles = self.tests.moved(|set| set & covered);
+        let doubtful = if run.undecided { covered } else { 0 };
         let locate = Locate { source: &run.source, fragments: &mut self.fragments, corner: self.corner, lanes };
         pulp::Arch::new().dispatch(locate);
-        Some(Tests { passes: covered, undecided })
+        let passes = covered & !(roles.open & roles.outside);
+        Some(Tests { passes, undecided: doubtful | roles.open, doubtful, ..roles })
     }
 
     /// Keeps the candidates that some conforming GPU draws; if whole quads are kept (`COUNT` is 4), all candidates of
@@ -104,12 +118,12 @@ impl<'v, D: Domain> Batch<'v, D> {
         let (before, possible) = (Mask::first(start).0, tests.possible());
         let candidates = self.live & !before;
         self.live &= before;
+        self.tests = self.tests.moved(|set| set & before);
         let unit = (1_u64 << COUNT) - 1;
         self.settled = end;
         if possible == candidates {
             self.live |= possible;
-            self.tests.passes |= tests.passes;
-            self.tests.undecided |= tests.undecided;
+            self.tests.merge(tests);
             return;
         }
         let mut to = start;
@@ -120,8 +134,7 @@ impl<'v, D: Domain> Batch<'v, D> {
             }
             self.fragments.shift::<COUNT>(from, to);
             self.live |= lanes(possible) << to;
-            self.tests.passes |= lanes(tests.passes) << to;
-            self.tests.undecided |= lanes(tests.undecided) << to;
+            self.tests.merge(tests.moved(|set| lanes(set) << to));
             to += COUNT;
         }
         (self.count, self.settled) = (to, to);
@@ -185,14 +198,14 @@ mod tests {
     fn what_fails_leaves_no_gap() {
         let mut batch = Batch::<F64>::new([0, 0]);
         assert_eq!(batch.add_row(40, 0b1011), 0);
-        batch.keep::<1>(Tests { passes: 0b001, undecided: 0b100 });
+        batch.keep::<1>(Tests { passes: 0b001, undecided: 0b100, ..Tests::default() });
         assert_eq!(batch.fragments.pixels[..2], [40, 43]);
-        assert_eq!((batch.live, batch.tests), (0b11, Tests { passes: 0b01, undecided: 0b10 }));
+        assert_eq!((batch.live, batch.tests), (0b11, Tests { passes: 0b01, undecided: 0b10, ..Tests::default() }));
         // After the lanes that remained, which need nothing more.
         assert_eq!(batch.add_row(64, 0b11), 0);
-        batch.keep::<1>(Tests { passes: 0b1000, undecided: 0 });
+        batch.keep::<1>(Tests { passes: 0b1000, ..Tests::default() });
         assert_eq!(batch.fragments.pixels[..3], [40, 43, 65]);
-        assert_eq!((batch.live, batch.tests), (0b111, Tests { passes: 0b101, undecided: 0b010 }));
+        assert_eq!((batch.live, batch.tests), (0b111, Tests { passes: 0b101, undecided: 0b010, ..Tests::default() }));
         assert!(batch.helpers().is_empty());
     }
 
@@ -201,7 +214,7 @@ mod tests {
         let mut batch = Batch::<F64>::new([0, 0]);
         batch.add_quad(0, 32, 0b0001);
         batch.add_quad(2, 32, 0b0110);
-        batch.keep::<4>(Tests { passes: 0b0010 << 4, undecided: 0 });
+        batch.keep::<4>(Tests { passes: 0b0010 << 4, ..Tests::default() });
         assert_eq!(batch.fragments.pixels[..4], [2, 3, 34, 35]);
         assert_eq!((batch.live, batch.helpers()), (0b0010, Mask(0b1101)));
     }

@@ -9,7 +9,7 @@ use super::target::Patch;
 use super::watch::{Study, Watch};
 use super::{draw_all, refuse};
 use crate::domain::Envelope;
-use crate::exec::{Code, Machine, Muted, Purpose};
+use crate::exec::{Code, Form, Machine, Muted, Purpose};
 use crate::raster::Bounds;
 use crate::{Contribution, RenderOptions};
 use glisten_front::diagnostic::Diagnostic;
@@ -49,7 +49,7 @@ pub(crate) fn explain(
     let mut patch = Patch::<Envelope>::new(scene.framebuffer, area);
     let mut found = Vec::new();
     for (number, draw) in scene.draws.iter().enumerate() {
-        let watch = Watch { study: Study { unfused: true, ..Study::NONE }, draw: number, instance: 0 };
+        let watch = Watch { study: Study { form: Form::Unfused, ..Study::NONE }, draw: number, instance: 0 };
         draw_all(scene, draw, options, watch, &mut |shading, code, _, _| {
             if let Some(contributions) = of_draw(shading, code, &mut patch, place) {
                 found = contributions;

@@ -9,15 +9,18 @@
 
 use super::assembly::Prim;
 use super::batch::{Batch, Run};
+use super::edges::{EdgeFragment, EdgeFragments};
+use super::fragment_tests::Tests;
 use super::outputs::{Channel, OutputPlan};
 use super::plan::Plan;
 use super::source::Source;
 use super::surface::BIN;
-use super::target::{Bin, Tests, local};
+use super::target::{Bin, local};
 use super::vertices::Vertices;
 use super::watch::{Probe, jittered, wanted_in_quad, wanted_in_row};
 use crate::domain::{Domain, ErrorPart, Integer, Number, Profile};
 use crate::exec::{LANES, Machine, Mask};
+use crate::raster::band::band;
 use glisten_front::hir::{FragCoordLayout, GlobalId, Stage};
 use glisten_scene::{Draw, Framebuffer};
 use pulp::{Simd, WithSimd};
@@ -48,38 +51,134 @@ pub(super) fn draw_bin<D: Domain>(
 ) {
     let area = bin.area;
     let mut batch = Batch::new([area.x0 as i32, area.y0 as i32]);
-    for prim in list.iter().filter_map(|&index| shading.prims.get(index as usize)) {
-        if shading.mark_edges {
-            prim.shape.near_edges(area, |x, y| bin.mark_near_edge(x, y));
+    let edges = if shading.mark_edges && D::HAS_INTERVALS {
+        EdgeFragments::of(shading.prims, list, shading.vertices, area)
+    } else {
+        EdgeFragments::default()
+    };
+    for (number, prim) in list.iter().map(|&index| shading.prims.get(index as usize)).enumerate() {
+        let Some(prim) = prim else { continue };
+        if shading.mark_edges && !D::HAS_INTERVALS {
+            band(&prim.shape, area, |near| bin.mark_near_edge(near.x, near.y));
         }
         batch.begin(prim, Source::new(prim, shading.vertices));
+        let mut near = Near::new(edges.of_prim(number));
         if shading.plan.needs_quads {
-            prim.shape.quads(area, |x, y, covered| {
-                if shading.pixels.is_some_and(|pixels| !wanted_in_quad(pixels, x, y)) {
-                    return;
-                }
-                batch.add_quad(local(area, x, y), BIN as u32, covered);
-                if batch.is_full() {
-                    shading.settle(bin, &mut batch, machine);
-                }
-            });
+            shading.add_quads(bin, &mut batch, machine, prim, &mut near);
         } else {
-            prim.shape.rows(area, |y, x, pixels| {
-                let mut rest = shading.pixels.map_or(pixels, |wanted| wanted_in_row(wanted, x, y, pixels));
-                while rest != 0 {
-                    rest = batch.add_row(local(area, x, y), rest);
-                    if batch.is_full() {
-                        shading.settle(bin, &mut batch, machine);
-                    }
-                }
-            });
+            shading.add_rows(bin, &mut batch, machine, prim, &near);
         }
         shading.settle(bin, &mut batch, machine);
     }
     shading.flush(bin, &mut batch, machine);
+    bin.end_draw();
+}
+
+/// The fragments of a primitive near its edges, and their pixels in the rows of the bin.
+struct Near<'e> {
+    fragments: &'e [EdgeFragment],
+    rows: [u32; BIN as usize],
+}
+
+impl<'e> Near<'e> {
+    fn new(fragments: &'e [EdgeFragment]) -> Self {
+        let mut rows = [0; BIN as usize];
+        for fragment in fragments {
+            rows[fragment.place as usize / BIN as usize % BIN as usize] |= 1 << (fragment.place % BIN as u32);
+        }
+        Self { fragments, rows }
+    }
+
+    /// The pixels of a row from a column on.
+    fn row(&self, row: i64, column: i64) -> u64 {
+        self.rows.get(row as usize).map_or(0, |set| u64::from(*set) >> column.clamp(0, BIN))
+    }
+
+    /// The pixels of a quad, by its upper left pixel.
+    fn quad(&self, row: i64, column: i64) -> u32 {
+        (self.row(row, column) & 0b11 | (self.row(row + 1, column) & 0b11) << 2) as u32
+    }
+
+    /// The fragments of a quad, by its upper left pixel in the bin, each with its number in the quad.
+    fn in_quad(&self, first: u32) -> impl Iterator<Item = (usize, &'e EdgeFragment)> {
+        let places = [first, first + 1, first + BIN as u32, first + BIN as u32 + 1];
+        let lane = move |fragment: &EdgeFragment| places.iter().position(|place| *place == fragment.place);
+        self.fragments.iter().filter_map(move |fragment| Some((lane(fragment)?, fragment)))
+    }
 }
 
 impl<D: Domain> Shading<'_, D> {
+    /// Adds the fragments of a primitive one by one: first those that are certainly covered, then those near an edge.
+    #[inline(always)]
+    fn add_rows<'v>(
+        &self,
+        bin: &mut Bin<'_, D>,
+        batch: &mut Batch<'v, D>,
+        machine: &mut Machine<D>,
+        prim: &Prim,
+        near: &Near<'_>,
+    ) {
+        let area = bin.area;
+        prim.shape.rows(area, |y, x, pixels| {
+            let certain = pixels & !near.row(y - area.y0, x - area.x0);
+            let mut rest = self.pixels.map_or(certain, |wanted| wanted_in_row(wanted, x, y, certain));
+            while rest != 0 {
+                rest = batch.add_row(local(area, x, y), rest);
+                if batch.is_full() {
+                    self.settle(bin, batch, machine);
+                }
+            }
+        });
+        for fragment in near.fragments {
+            batch.add_edge(fragment);
+            if batch.is_full() {
+                self.settle(bin, batch, machine);
+            }
+        }
+    }
+
+    /// Adds the fragments of a primitive in whole quads: first those with a covered pixel, then those that have pixels
+    /// near an edge alone.
+    #[inline(always)]
+    fn add_quads<'v>(
+        &self,
+        bin: &mut Bin<'_, D>,
+        batch: &mut Batch<'v, D>,
+        machine: &mut Machine<D>,
+        prim: &Prim,
+        near: &mut Near<'_>,
+    ) {
+        let area = bin.area;
+        let mut done = [0_u32; BIN as usize];
+        prim.shape.quads(area, |x, y, covered| {
+            if self.pixels.is_some_and(|pixels| !wanted_in_quad(pixels, x, y)) {
+                return;
+            }
+            let (row, column) = (y - area.y0, x - area.x0);
+            let set = near.quad(row, column);
+            batch.add_quad(local(area, x, y), BIN as u32, covered | set);
+            if set != 0 {
+                near.in_quad(local(area, x, y)).for_each(|(lane, fragment)| batch.mark_in_quad(lane, fragment));
+                if let Some(done) = done.get_mut(row as usize / 2) {
+                    *done |= 1 << column;
+                }
+            }
+            if batch.is_full() {
+                self.settle(bin, batch, machine);
+            }
+        });
+        for fragment in near.fragments {
+            let (row, column) = (fragment.place / BIN as u32 & !1, fragment.place % BIN as u32 & !1);
+            let Some(done) = done.get_mut(row as usize / 2).filter(|done| **done >> column & 1 == 0) else { continue };
+            *done |= 1 << column;
+            let first = row * BIN as u32 + column;
+            batch.add_quad(first, BIN as u32, near.quad(i64::from(row), i64::from(column)));
+            near.in_quad(first).for_each(|(lane, fragment)| batch.mark_in_quad(lane, fragment));
+            if batch.is_full() {
+                self.settle(bin, batch, machine);
+            }
+        }
+    }
     /// Keeps the batch's candidates that pass the depth test, if that comes first, and shades the batch when it is
     /// full.
     fn settle(&self, bin: &mut Bin<'_, D>, batch: &mut Batch<'_, D>, machine: &mut Machine<D>) {
@@ -197,7 +296,11 @@ impl<D: Domain> Shading<'_, D> {
         let mut tests = Tests {
             passes: batch.tests.passes & !discarded & reached,
             undecided: (batch.tests.undecided | perhaps) & reached,
+            doubtful: (batch.tests.doubtful | perhaps) & reached,
+            ..batch.tests
         };
+        let lost = batch.live & tests.owners & (!tests.passes | tests.undecided);
+        Mask(lost).lanes().for_each(|lane| bin.leave(pixels[lane]));
         if !self.plan.early_depth {
             let depth = self.plan.frag_depth.and_then(|id| machine.float_output(id, 0));
             let depth = |lane: usize| depth.map_or(batch.fragments.z[lane], |depth| depth.get(lane));

@@ -4,6 +4,7 @@
 //!  Draw ──► vertices    64 vertices at a time, positions in the domain and in f32
 //!       ──► assembly    primitives, clipped (clip), their pixels (raster), culled
 //!       ──► bins        32x32 pixels each, the primitives that touch them in order; threads take bins
+//!       ──► edges       pixels near edges, and which primitives may own them (worlds)
 //!       ──► batch       a primitive's pixels as lanes: weights and depth (source, slack), early depth test (store)
 //!       ──► fragments   64 lanes at a time: varyings in, the fragment stage, colors out (outputs)
 //!       ──► target      late depth test, blending (store), into the rows of the picture (surface)
@@ -24,7 +25,9 @@
 mod assembly;
 mod batch;
 mod clip;
+mod edges;
 mod explain;
+mod fragment_tests;
 mod fragments;
 mod outputs;
 mod plan;
@@ -36,10 +39,11 @@ mod surface;
 mod target;
 mod vertices;
 mod watch;
+mod worlds;
 
 use super::RenderOptions;
 use super::domain::Domain;
-use super::exec::{Code, LOOP_BUDGET, Machine, Piece};
+use super::exec::{Code, Form, LOOP_BUDGET, Machine, Piece};
 use super::raster::Shape;
 use assembly::{Prim, primitives};
 pub(super) use explain::explain;
@@ -61,7 +65,9 @@ use target::Target;
 use vertices::{Invocation, ShadeOptions, shade};
 #[cfg(any(test, feature = "stability"))]
 pub(super) use watch::Chosen;
-pub(super) use watch::{MakeObserver, Probe, Study};
+#[cfg(any(test, feature = "stability"))]
+pub(super) use watch::Probe;
+pub(super) use watch::{MakeObserver, Study};
 
 /// The side of a bin in pixels.
 #[cfg(any(test, feature = "stability"))]
@@ -83,7 +89,8 @@ pub(super) fn render_watched<D: Domain>(
     options: &RenderOptions,
     observers: Option<&MakeObserver<D>>,
 ) -> Result<Picture, Vec<Diagnostic>> {
-    render_studied(scene, options, Study { observers, unfused: observers.is_some(), ..Study::NONE })
+    let form = if observers.is_some() { Form::Unfused } else { Form::Fast };
+    render_studied(scene, options, Study { observers, form, ..Study::NONE })
 }
 
 /// Draws a scene for a study.
@@ -117,9 +124,8 @@ fn draw_all<D: Domain>(
     if draw.program.stage(Stage::Geometry).is_some() {
         return Err(vec![refuse(&SCENE_CANNOT_DRAW, "a program with a geometry stage cannot be drawn")]);
     }
-    let compile = if watch.study.unfused { Code::compile_unfused } else { Code::compile };
-    let vertex_code = compile(&draw.program, Stage::Vertex)?;
-    let fragment_code = compile(&draw.program, Stage::Fragment)?;
+    let vertex_code = Code::compile_as(&draw.program, Stage::Vertex, watch.study.form)?;
+    let fragment_code = Code::compile_as(&draw.program, Stage::Fragment, watch.study.form)?;
     watch.common(&vertex_code, draw, Piece::SameForVertices);
     watch.common(&fragment_code, draw, Piece::SameForFragments);
     let plan = Plan::new(&draw.program);
@@ -145,6 +151,7 @@ fn draw_all<D: Domain>(
                 break;
             }
             watch.instance = first + local;
+            watch.enter();
             let base = local * unique.len() as u32;
             let order: Vec<u32> = order.iter().map(|&position| base + position).collect();
             let prims = primitives(&mut vertices, &order, &draw.state, options.lines);

@@ -12,7 +12,7 @@ use super::assembly::{Corners, Prim};
 use super::slack::{Plane, Slack};
 use super::surface::BIN;
 use super::vertices::Vertices;
-use crate::domain::{Domain, F64, Number, rules};
+use crate::domain::{Domain, F64, Number, Planes, rules};
 use crate::exec::LANES;
 use crate::interpolate::{Frame, Vec2, along, linear, perspective, perspective_w, weights};
 use glisten_front::hir::Interpolation;
@@ -125,7 +125,9 @@ impl<D: Domain> Sprite<D> {
     pub(super) fn coordinates(&self, x: f64, y: f64) -> [D::Float; 2] {
         let half = D::Float::from_f64(0.5);
         let along = |p: f64, center: D::Float| {
-            let exact = half.add(D::Float::from_f64(p).sub(center).div(self.size));
+            let off = D::Float::from_f64(D::point_size_share() * POINT_SIZE_ERROR);
+            let size = if D::point_size_share() == 0.0 { self.size } else { self.size.add(off) };
+            let exact = half.add(D::Float::from_f64(p).sub(center).div(size));
             let sized = (exact.value() - 0.5).abs() * POINT_SIZE_ERROR / self.size.value();
             exact.widened(sized + const { rules::POINT_COORD.absolute() })
         };
@@ -185,7 +187,7 @@ impl<'v, D: Domain> Source<'v, D> {
         let Fragments { places, reciprocal, w, .. } = fragments;
         let (reciprocal, w) = (&mut reciprocal[lanes.clone()], &mut w[lanes.clone()]);
         self.in_plane(self.reciprocals, places, lanes.clone(), reciprocal);
-        if self.plain.is_some() {
+        if self.plain.is_some() || self.is_sloped() {
             for (w, reciprocal) in w.iter_mut().zip(reciprocal) {
                 *w = D::Float::from_f64(1.0).div(*reciprocal);
             }
@@ -194,6 +196,12 @@ impl<'v, D: Domain> Source<'v, D> {
                 *w = perspective_w(weights, self.reciprocals);
             }
         }
+    }
+
+    /// Whether it is interpolated by slopes instead of weights.
+    #[inline(always)]
+    fn is_sloped(&self) -> bool {
+        D::planes() != Planes::Weights && matches!(self.kind, Kind::Triangle(_))
     }
 
     /// Equation (106), with the bound of its evaluation in f32.
@@ -206,6 +214,13 @@ impl<'v, D: Domain> Source<'v, D> {
                 plane.fill([u, v, &places.x[lanes.clone()], &places.y[lanes]], to);
             }
             None => {
+                if let (Kind::Triangle(frame), true) = (&self.kind, self.is_sloped()) {
+                    let plane = SlopedPlane::new(frame, values, D::planes());
+                    for (place, to) in lanes.zip(to) {
+                        *to = plane.at([places.x[place], places.y[place]]);
+                    }
+                    return;
+                }
                 for (to, weights) in to.iter_mut().zip(places.weights(lanes)) {
                     *to = linear(weights, values);
                 }
@@ -235,6 +250,11 @@ impl<'v, D: Domain> Source<'v, D> {
                     to.fill(value);
                     return;
                 }
+                if self.is_sloped() {
+                    self.in_plane(values, places, lanes, to);
+                    to.iter_mut().zip(w).for_each(|(to, w)| *to = to.mul(*w));
+                    return;
+                }
                 for ((to, weights), w) in to.iter_mut().zip(places.weights(lanes)).zip(w) {
                     *to = perspective(weights, *w, values);
                 }
@@ -258,6 +278,35 @@ impl<D: Domain> Source<'_, D> {
         let [a, b, c] = self.values.map(|values| values.get(index).copied().unwrap_or_default());
         let bits = |x: D::Float| (x.value().to_bits(), x.second().to_bits());
         (bits(a) == bits(b) && bits(a) == bits(c) && a.value().is_finite()).then_some(a)
+    }
+}
+
+/// A value that is linear in the window as a number at a point and two slopes, as GPUs compute it.
+struct SlopedPlane<F> {
+    at: Vec2<F>,
+    value: F,
+    slopes: Vec2<F>,
+}
+
+impl<F: Number> SlopedPlane<F> {
+    fn new(frame: &Frame<F>, c: [F; 3], planes: Planes) -> Self {
+        let (to_second, to_third) = (c[1].sub(c[0]), c[2].sub(c[0]));
+        let per_area = F::from_f64(1.0).div(frame.determinant);
+        let slope = |a: F, b: F, a_side: F, b_side: F| a.mul(a_side).sub(b.mul(b_side)).mul(per_area);
+        let slopes =
+            [slope(to_second, to_third, frame.v[1], frame.u[1]), slope(to_third, to_second, frame.u[0], frame.v[0])];
+        if planes == Planes::FromVertex {
+            return Self { at: frame.origin, value: c[0], slopes };
+        }
+        let [x, y] = frame.origin;
+        let value = c[0].sub(slopes[0].mul(x)).sub(slopes[1].mul(y));
+        Self { at: [F::default(); 2], value, slopes }
+    }
+
+    #[inline(always)]
+    fn at(&self, [x, y]: [f64; 2]) -> F {
+        let [x, y] = [F::from_f64(x).sub(self.at[0]), F::from_f64(y).sub(self.at[1])];
+        self.value.add(self.slopes[0].mul(x)).add(self.slopes[1].mul(y))
     }
 }
 

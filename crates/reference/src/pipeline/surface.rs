@@ -34,6 +34,8 @@ pub(super) struct Marks {
     pub(super) covered: Vec<bool>,
     pub(super) undecided: Vec<bool>,
     pub(super) near_edge: Vec<bool>,
+    pub(super) silhouette: Vec<bool>,
+    pub(super) owner_width: Vec<f32>,
 }
 
 /// A bin's part of the rows of an attachment.
@@ -73,6 +75,8 @@ impl Surface {
             intervals: D::HAS_INTERVALS.then_some(intervals),
             undecided: marks.undecided,
             near_edge: marks.near_edge,
+            silhouette: marks.silhouette,
+            owner_width: marks.owner_width,
         }
     }
 }

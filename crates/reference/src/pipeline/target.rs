@@ -5,35 +5,16 @@
 //! stored as f32, in its format. Colors are written directly to the picture ([`Surface`]); everything else belongs to
 //! the bin and is allocated when something is drawn.
 
-use super::store::{Test, depth_test, is_integer, keeps, stored};
+use super::fragment_tests::Tests;
+use super::store::{Test, depth_test, is_integer, keeps, store, stored};
 use super::surface::{BIN, Marks, Piece, Surface};
+use super::worlds::{self, World, Worlds, joined};
 use crate::domain::{Domain, Number};
 use crate::exec::{LANES, Mask};
 use crate::raster::Bounds;
 use glisten_scene::picture::Interval;
 use glisten_scene::{BlendFactor, Format, Framebuffer, State};
 use smallvec::SmallVec;
-
-/// The test results of the fragments of a batch, as sets of lanes.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Tests {
-    /// Those whose values pass.
-    pub(super) passes: u64,
-    /// Those for which a conforming GPU may decide differently.
-    pub(super) undecided: u64,
-}
-
-impl Tests {
-    /// Those that some conforming GPU draws.
-    pub(super) fn possible(self) -> u64 {
-        self.passes | self.undecided
-    }
-
-    #[inline(always)]
-    fn of(self, lane: usize) -> Test {
-        Test { passes: self.passes >> lane & 1 == 1, undecided: self.undecided >> lane & 1 == 1 }
-    }
-}
 
 /// The framebuffer, divided into bins.
 #[derive(Debug)]
@@ -61,10 +42,25 @@ struct Pixels<D: Domain> {
     /// Empty before the first depth test.
     depth: Vec<D::Float>,
     covered: Vec<bool>,
-    /// Empty if no pixel is near an edge.
-    near_edge: Vec<bool>,
+    /// Pixels near an edge. Empty if there are none.
+    edges: Vec<EdgeMarks>,
+    /// Pixels whose owner is open while a draw lasts.
+    worlds: Worlds<D>,
     /// Whether it is undecided if a visible fragment is drawn, or which one. Empty in domains without envelopes.
     undecided: Vec<bool>,
+}
+
+/// What is known of a pixel near an edge.
+#[derive(Clone, Copy, Debug, Default)]
+struct EdgeMarks {
+    /// Whether the color depends on which primitive owns the pixel.
+    color: bool,
+    /// Whether the depth does.
+    depth: bool,
+    /// Whether the pixel may be left uncovered.
+    silhouette: bool,
+    /// The largest width of the color of one owner.
+    owner_width: f32,
 }
 
 /// The index of a pixel in its bin.
@@ -97,21 +93,24 @@ impl<'s, D: Domain> Target<'s, D> {
     /// Which pixels were drawn to.
     pub(super) fn into_marks(self) -> Marks {
         Marks {
-            covered: self.gathered(|pixels| &pixels.covered),
-            undecided: self.gathered(|pixels| &pixels.undecided),
-            near_edge: self.gathered(|pixels| &pixels.near_edge),
+            covered: self.gathered(|pixels| &pixels.covered, |covered| *covered),
+            undecided: self.gathered(|pixels| &pixels.undecided, |undecided| *undecided),
+            near_edge: self.gathered(|pixels| &pixels.edges, |marks| marks.color),
+            silhouette: self.gathered(|pixels| &pixels.edges, |marks| marks.silhouette),
+            owner_width: self.gathered(|pixels| &pixels.edges, |marks| marks.owner_width),
         }
     }
 
-    fn gathered(&self, of: impl Fn(&Pixels<D>) -> &[bool]) -> Vec<bool> {
+    /// A value of each pixel, row by row.
+    fn gathered<T, R: Clone + Default>(&self, of: impl Fn(&Pixels<D>) -> &[T], value: impl Fn(&T) -> R) -> Vec<R> {
         let (width, height) = (self.framebuffer.width as usize, self.framebuffer.height as usize);
-        let mut all = vec![false; width * height];
+        let mut all = vec![R::default(); width * height];
         for bin in &self.bins {
             let Some(marks) = bin.pixels.as_ref().map(&of) else { continue };
             let columns = bin.area.x0 as usize..bin.area.x1 as usize;
             let rows = all.chunks_exact_mut(width).skip(bin.area.y0 as usize);
             for (row, marks) in rows.zip(marks.chunks_exact(BIN as usize)) {
-                row[columns.clone()].copy_from_slice(&marks[..columns.len()]);
+                row[columns.clone()].iter_mut().zip(marks).for_each(|(to, mark)| *to = value(mark));
             }
         }
         all
@@ -122,7 +121,8 @@ impl<D: Domain> Pixels<D> {
     fn new() -> Self {
         let count = (BIN * BIN) as usize;
         let undecided = vec![false; if D::HAS_INTERVALS { count } else { 0 }];
-        Self { depth: Vec::new(), covered: vec![false; count], near_edge: Vec::new(), undecided }
+        let (edges, worlds) = (Vec::new(), Worlds::new());
+        Self { depth: Vec::new(), covered: vec![false; count], edges, worlds, undecided }
     }
 }
 
@@ -132,11 +132,25 @@ impl<D: Domain> Bin<'_, D> {
         self.pixels.get_or_insert_with(Pixels::new)
     }
 
+    /// Marks a pixel near an edge, in a domain without envelopes.
     pub(super) fn mark_near_edge(&mut self, x: i64, y: i64) {
-        let place = local(self.area, x, y) as usize;
-        let near_edge = &mut self.pixels().near_edge;
-        near_edge.resize((BIN * BIN) as usize, false);
-        near_edge[place] = true;
+        let place = local(self.area, x, y);
+        if let Some(marks) = self.edge_marks(place) {
+            marks.color = true;
+        }
+    }
+
+    fn edge_marks(&mut self, place: u32) -> Option<&mut EdgeMarks> {
+        let edges = &mut self.pixels().edges;
+        edges.resize((BIN * BIN) as usize, EdgeMarks::default());
+        edges.get_mut(place as usize)
+    }
+
+    /// Forgets the worlds of a draw that is complete: each of its owners has been one.
+    pub(super) fn end_draw(&mut self) {
+        if let Some(pixels) = &mut self.pixels {
+            pixels.worlds.clear();
+        }
     }
 
     /// Runs the depth test (§4.1.5) of fragments that passed all earlier tests, and writes depth where it passes.
@@ -154,20 +168,128 @@ impl<D: Domain> Bin<'_, D> {
         if depth.is_empty() {
             *depth = vec![D::Float::from_f64(1.0); (BIN * BIN) as usize];
         }
-        let mut after = Tests::default();
+        let mut after = Tests { passes: 0, undecided: 0, ..before };
         for lane in Mask(before.possible()).lanes() {
+            if D::HAS_INTERVALS && self.has_edges(before) {
+                self.edge_depth_test(lane, places[lane], depth_of(lane), state, before, &mut after);
+                continue;
+            }
+            let depth = &mut self.pixels().depth;
             let Some(stored) = depth.get_mut(places[lane] as usize) else { continue };
             let test = depth_test::<D>(stored, depth_of(lane), state, before.of(lane));
-            after.passes |= u64::from(test.passes) << lane;
-            after.undecided |= u64::from(test.undecided) << lane;
+            after.add(lane, test);
+            after.doubtful |= u64::from(test.undecided) << lane;
         }
         after
     }
 
+    /// Whether a pixel or a fragment near an edge is concerned.
+    fn has_edges(&self, tests: Tests) -> bool {
+        tests.edge() != 0 || self.pixels.as_ref().is_some_and(|pixels| !pixels.edges.is_empty())
+    }
+
+    /// The depth test of a fragment in a bin with edges. Where the stored depth depends on an edge, so does the result.
+    fn edge_depth_test(
+        &mut self,
+        lane: usize,
+        place: u32,
+        z: D::Float,
+        state: &State,
+        before: Tests,
+        after: &mut Tests,
+    ) {
+        let (bit, attachments) = (1_u64 << lane, self.attachments.len());
+        let was_open = self.edge_marks(place).is_some_and(|marks| marks.depth);
+        let pixels = self.pixels.get_or_insert_with(Pixels::new);
+        let Some(stored) = pixels.depth.get_mut(place as usize) else { return };
+        let is_owner = before.owners & bit != 0;
+        let world = match is_owner {
+            true => Some(pixels.worlds.entry(place).or_insert_with(|| worlds::Pixel::new(attachments))),
+            false => pixels.worlds.get_mut(&place),
+        };
+        // Whether the comparison alone is open.
+        let alone = |stored: D::Float| {
+            depth_test::<D>(&mut { stored }, z, state, Test { passes: true, undecided: false }).undecided
+        };
+        let mut is_close = alone(*stored);
+        let mut test = before.of(lane);
+        let test = match world {
+            Some(pixel) if is_owner && !matches!(pixel.depth, World::Joined) => {
+                let none = if let World::Apart(none) = pixel.depth { none } else { *stored };
+                is_close = alone(none);
+                let mut mine = none;
+                let test = depth_test::<D>(&mut mine, z, state, test);
+                *stored = match pixel.depth {
+                    World::Untouched => mine,
+                    _ if before.outside & bit != 0 => stored.joined(mine),
+                    _ => mine.joined(*stored),
+                };
+                pixel.depth = World::Apart(none);
+                test
+            }
+            Some(pixel) => {
+                // A fragment between owners, or an owner after such a one.
+                let mut hull = *stored;
+                if let World::Apart(none) = pixel.depth {
+                    hull = hull.joined(none);
+                }
+                is_close = alone(hull);
+                if is_owner {
+                    after.owners &= !bit;
+                    after.open |= bit;
+                    test = opened(test, before.outside & bit != 0);
+                }
+                let test = depth_test::<D>(&mut hull, z, state, test);
+                if test.passes || test.undecided {
+                    (pixel.depth, *stored) = (World::Joined, hull);
+                }
+                test
+            }
+            None => depth_test::<D>(stored, z, state, test),
+        };
+        after.add(lane, test);
+        let is_possible = test.passes || test.undecided;
+        let is_certain = test.passes && !test.undecided;
+        if is_owner && !is_certain {
+            self.leave(place);
+        }
+        match is_close {
+            true if was_open => after.open |= bit & !after.owners,
+            true => after.doubtful |= bit,
+            false => {}
+        }
+        let is_edge = after.edge() & bit != 0;
+        if state.depth_write
+            && is_possible
+            && let Some(marks) = self.edge_marks(place)
+        {
+            marks.depth = is_edge || !is_certain && marks.depth;
+        }
+    }
+
+    /// Notes that an owner leaves a pixel as it was.
+    pub(super) fn leave(&mut self, place: u32) {
+        let count = self.attachments.len();
+        let pixels = self.pixels.get_or_insert_with(Pixels::new);
+        let pixel = pixels.worlds.entry(place).or_insert_with(|| worlds::Pixel::new(count));
+        pixel.leaves = true;
+        for (attachment, world) in self.attachments.iter_mut().zip(&pixel.colors) {
+            if let World::Apart(none) = world
+                && let Some(mut at) = attachment.pixel(place)
+            {
+                at.write::<D>(joined(at.read::<D>(), *none));
+            }
+        }
+    }
+
     /// Records that fragments are written to pixels, or may be. A fragment that certainly is, and that hides the
-    /// previous contents, resolves what was undecided.
+    /// previous contents, resolves what was undecided, and what was open because of an edge.
     pub(super) fn cover(&mut self, places: &[u32; LANES], tests: Tests, undecided: u64, blends: bool) {
+        let has_edges = self.has_edges(tests);
         let pixels = self.pixels();
+        if D::HAS_INTERVALS && has_edges {
+            return self.cover_edges(places, tests, undecided, blends);
+        }
         for lane in Mask(tests.passes).lanes() {
             pixels.covered[places[lane] as usize] = true;
         }
@@ -176,6 +298,33 @@ impl<D: Domain> Bin<'_, D> {
                 let slot = &mut pixels.undecided[places[lane] as usize];
                 let uncertain = tests.of(lane).undecided;
                 *slot = undecided >> lane & 1 == 1 || uncertain || (blends && *slot);
+            }
+        }
+    }
+
+    fn cover_edges(&mut self, places: &[u32; LANES], tests: Tests, undecided: u64, blends: bool) {
+        for lane in Mask(tests.possible()).lanes() {
+            let has = |set: u64| set >> lane & 1 == 1;
+            let place = places[lane];
+            let is_covered = self.pixels().covered.get(place as usize).copied().unwrap_or(false);
+            let keeps = blends || has(tests.undecided | tests.edge());
+            if let Some(marks) = self.edge_marks(place) {
+                marks.color = has(tests.edge()) || keeps && marks.color;
+                if !keeps {
+                    marks.owner_width = 0.0;
+                }
+                if has(tests.open) && !has(tests.doubtful) {
+                    marks.silhouette |= !is_covered;
+                } else if !has(tests.undecided) {
+                    marks.silhouette = false;
+                }
+            }
+            let pixels = self.pixels();
+            if let Some(slot) = pixels.undecided.get_mut(place as usize) {
+                *slot = has(undecided | tests.doubtful) || keeps && *slot;
+            }
+            if let Some(covered) = pixels.covered.get_mut(place as usize) {
+                *covered |= has(tests.passes & !tests.outside);
             }
         }
     }
@@ -192,6 +341,10 @@ impl<D: Domain> Bin<'_, D> {
     ) {
         let format = self.format;
         let blend = blend.filter(|_| !is_integer(format));
+        let has_worlds = tests.edge() != 0 || self.pixels.as_ref().is_some_and(|pixels| !pixels.worlds.is_empty());
+        if D::HAS_INTERVALS && has_worlds {
+            return self.write_edge_colors(places, attachment, color, blend, tests);
+        }
         let Some(piece) = self.attachments.get_mut(attachment) else { return };
         if blend.is_none() && keeps(format) && tests.undecided == 0 {
             for lane in Mask(tests.passes).lanes() {
@@ -208,6 +361,67 @@ impl<D: Domain> Bin<'_, D> {
             }
         }
     }
+
+    /// Writes colors among which are those of pixels near an edge.
+    fn write_edge_colors(
+        &mut self,
+        places: &[u32; LANES],
+        attachment: usize,
+        color: impl Fn(usize) -> [D::Float; 4],
+        blend: Option<(BlendFactor, BlendFactor)>,
+        tests: Tests,
+    ) {
+        let (format, count) = (self.format, self.attachments.len());
+        let pixels = self.pixels.get_or_insert_with(Pixels::new);
+        let Some(piece) = self.attachments.get_mut(attachment) else { return };
+        for lane in Mask(tests.possible()).lanes() {
+            let (place, bit) = (places[lane], 1_u64 << lane);
+            let Some(mut at) = piece.pixel(place) else { continue };
+            let (new, is_owner, is_outside) = (color(lane), tests.owners & bit != 0, tests.outside & bit != 0);
+            if tests.edge() & bit != 0
+                && let Some(marks) = pixels.edges.get_mut(place as usize)
+            {
+                marks.owner_width = marks.owner_width.max(width::<D>(new, format));
+            }
+            let world = match is_owner {
+                true => Some(pixels.worlds.entry(place).or_insert_with(|| worlds::Pixel::new(count))),
+                false => pixels.worlds.get_mut(&place),
+            };
+            let leaves = world.as_ref().is_some_and(|world| world.leaves);
+            let mut unknown = World::Untouched;
+            let world = world.and_then(|world| world.colors.get_mut(attachment)).unwrap_or(&mut unknown);
+            let now = at.read::<D>();
+            if is_owner && !matches!(world, World::Joined) {
+                let (none, is_first) = if let World::Apart(none) = world { (*none, false) } else { (now, true) };
+                let mine = stored::<D>(new, none, blend, format, tests.of(lane));
+                at.write::<D>(match is_first {
+                    true if leaves => joined(mine, none),
+                    true => mine,
+                    false if is_outside => joined(now, mine),
+                    false => joined(mine, now),
+                });
+                *world = World::Apart(none);
+                continue;
+            }
+            let now = if let World::Apart(none) = world { joined(now, *none) } else { now };
+            if matches!(world, World::Apart(_)) {
+                *world = World::Joined;
+            }
+            let test = if is_owner { opened(tests.of(lane), is_outside) } else { tests.of(lane) };
+            at.write::<D>(stored::<D>(new, now, blend, format, test));
+        }
+    }
+}
+
+/// The test of an owner that may or may not draw, because another fragment came in between.
+fn opened(test: Test, is_outside: bool) -> Test {
+    Test { passes: test.passes && !is_outside, undecided: true }
+}
+
+/// The width of the widest channel of a color, as the format stores it.
+fn width<D: Domain>(color: [D::Float; 4], format: Format) -> f32 {
+    let widths = color.map(|channel| store::<D>(channel, format).interval().width());
+    widths.into_iter().fold(0.0, |most: f64, width| if width.is_nan() { f64::INFINITY } else { most.max(width) }) as f32
 }
 
 /// A part of a picture that is drawn alone, and can be drawn again from its previous state.

@@ -180,6 +180,7 @@ pub(super) fn shade<D: Domain>(
         faults,
         profile,
     };
+    watch.enter();
     for chunk in chunks {
         vertices.append(chunk);
     }

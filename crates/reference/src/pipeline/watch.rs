@@ -2,8 +2,8 @@
 //!
 //! *In:* a [`Study`]. *Out:* machines for it, each for one piece of the drawing.
 
-use crate::domain::{Domain, ErrorPart, Profile};
-use crate::exec::{Code, Exactly, Machine, Observer, Order, Piece, Purpose};
+use crate::domain::{Domain, ErrorPart, Gpu, Profile};
+use crate::exec::{Code, Exactly, Form, Machine, Observer, Order, Piece, Purpose};
 use glisten_front::hir::{GlobalId, Stage};
 use glisten_front::source::Span;
 use glisten_scene::Draw;
@@ -37,8 +37,10 @@ pub(crate) struct Study<'a, D: Domain> {
     pub(crate) exact_inputs: &'a [GlobalId],
     /// Sees the values of varyings at a pixel.
     pub(crate) probe: Option<&'a Probe>,
-    /// Whether each operation of the text has instructions of its own.
-    pub(crate) unfused: bool,
+    /// What the stages are compiled for.
+    pub(crate) form: Form,
+    /// The GPU that is simulated, in the domain of simulated GPUs.
+    pub(crate) gpu: Option<Gpu>,
 }
 
 impl<D: Domain> Study<'_, D> {
@@ -51,7 +53,8 @@ impl<D: Domain> Study<'_, D> {
         jitter: None,
         exact_inputs: &[],
         probe: None,
-        unfused: false,
+        form: Form::Fast,
+        gpu: None,
     };
 }
 
@@ -96,8 +99,16 @@ pub(super) fn jittered(value: f64, seed: u64, place: [u64; 3]) -> f64 {
 }
 
 impl<D: Domain> Watch<'_, D> {
+    /// Lets this thread compute for the study. Each piece of work that a thread takes begins with it.
+    pub(super) fn enter(&self) {
+        if let Some(gpu) = self.study.gpu {
+            D::enter(gpu);
+        }
+    }
+
     /// A machine for a stage of the draw.
     pub(super) fn machine(&self, stage: Stage, code: &Code, draw: &Draw, profile: Profile) -> Machine<D> {
+        self.enter();
         let purpose = match self.study.exactly.filter(|chosen| chosen.stage == stage) {
             Some(Chosen { spans, part, .. }) => {
                 let exactly = Exactly::new(code, part, |span| spans.binary_search(&span).is_ok());
@@ -123,6 +134,7 @@ impl<D: Domain> Watch<'_, D> {
     }
 
     pub(super) fn begin(&self, machine: &mut Machine<D>) {
+        self.enter();
         if let Some(make) = self.study.observers {
             machine.watch(make());
         }

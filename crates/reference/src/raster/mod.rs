@@ -11,6 +11,7 @@
 //!
 //! *Not done here:* the fragments' values ([`interpolate`](super::interpolate)), clipping.
 
+pub(crate) mod band;
 pub(crate) mod line;
 pub(crate) mod point;
 pub(crate) mod triangle;
@@ -225,14 +226,6 @@ impl Shape {
             }
         }
     }
-
-    /// Calls `mark` with each pixel of `area` whose center is in the band around an edge: 1/128 pixel wide to either
-    /// side, unless it was [widened](Self::widened).
-    pub(crate) fn near_edges(&self, area: Bounds, mut mark: impl FnMut(i64, i64)) {
-        if let Self::Convex { bounds, edges, count } = self {
-            mark_near(edges.get(..*count).unwrap_or(&[]), bounds.intersect(area), &mut mark);
-        }
-    }
 }
 
 /// The width of a block, in pixels; even.
@@ -301,23 +294,6 @@ impl<const EDGES: usize> WithSimd for Block<'_, EDGES> {
                 for value in start {
                     *value += edge.step_y;
                 }
-            }
-        }
-    }
-}
-
-fn mark_near(edges: &[Edge], area: Bounds, mark: &mut impl FnMut(i64, i64)) {
-    for y in area.y0..area.y1 {
-        for x in area.x0..area.x1 {
-            let mut near = false;
-            let mut beyond = false;
-            for edge in edges {
-                let value = edge.at(x, y);
-                near |= value.abs() <= edge.near;
-                beyond |= value < -edge.near;
-            }
-            if near && !beyond {
-                mark(x, y);
             }
         }
     }

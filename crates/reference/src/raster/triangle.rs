@@ -147,16 +147,6 @@ mod tests {
     }
 
     #[test]
-    fn pixels_near_an_edge_are_marked() {
-        let corners = [(2.495, 0.0), (12.0, 0.0), (2.495, 12.0)].map(|(x, y)| Fixed::snap(x, y).expect("finite"));
-        let mut marked = Vec::new();
-        let shape = shape(corners).expect("it has area");
-        shape.near_edges(AREA, |x, y| marked.push((x, y)));
-        assert!(marked.contains(&(2, 5)));
-        assert!(!marked.contains(&(3, 5)));
-    }
-
-    #[test]
     fn nothing_without_area_and_nothing_that_is_not_finite() {
         assert!(count(&[[(1.0, 1.0), (5.0, 5.0), (9.0, 9.0)]]).iter().all(|&count| count == 0));
         assert_eq!(Fixed::snap(f32::NAN, 0.0), None);

@@ -10,6 +10,7 @@ use super::Examination;
 use super::errors::{shown, unrounded};
 use super::experiment::drawing_options;
 use crate::domain::Exact;
+use crate::exec::Form;
 use crate::pipeline::{self, BIN_SIDE, Study};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_scene::Scene;
@@ -62,7 +63,7 @@ pub fn recompute(scene: &Scene, examined: &Examination) -> Result<Vec<ExactPixel
             *bin = true;
         }
     }
-    let study = Study { bins: Some(&bins), pixels: Some(&pixels), unfused: true, ..Study::NONE };
+    let study = Study { bins: Some(&bins), pixels: Some(&pixels), form: Form::Unfused, ..Study::NONE };
     let drawing = crate::RenderOptions { mark_edges: false, ..drawing_options() };
     let picture = pipeline::render_studied::<Exact>(scene, &drawing, study)?;
     let width = examined.errors.width as usize;

@@ -9,7 +9,7 @@ use super::loops::Loops;
 use super::record::{Act, Place, SIGNIFICAND, Tally};
 use super::{CAUSE_BITS, Cause, ExamineOptions};
 use crate::domain::{ErrorPart, F64, Shadow};
-use crate::exec::Kind;
+use crate::exec::{Form, Kind};
 use crate::pipeline::{self, Chosen, Study};
 use crate::{Positions, RenderOptions};
 use glisten_front::diagnostic::Diagnostic;
@@ -108,7 +108,7 @@ impl<'a> Bench<'a> {
     }
 
     fn drawn(&self, study: Study<'_, Shadow>) -> Result<Outcome, Vec<Diagnostic>> {
-        let study = Study { bins: Some(&self.bins), unfused: true, ..study };
+        let study = Study { bins: Some(&self.bins), form: Form::Unfused, ..study };
         let picture = pipeline::render_studied::<Shadow>(self.scene, &self.options, study)?;
         let left = ErrorMap::new(&picture, self.exact, self.format);
         let gain = |index: usize| -> f64 {

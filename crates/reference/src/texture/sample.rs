@@ -21,6 +21,8 @@ pub(crate) struct Request {
     pub(crate) offset: [i32; 3],
     /// Whether intervals are needed.
     pub(crate) bounded: bool,
+    /// The bits of the weights of linear filtering; none if they are exact.
+    pub(crate) weight_bits: Option<u32>,
     /// The precision of the filters.
     pub(crate) profile: Profile,
 }
@@ -291,6 +293,14 @@ fn at_level(texture: &Texture, number: usize, request: &Request, linear: bool) -
     if request.bounded { limited(texture, level, request, &footprint, linear, result) } else { result }
 }
 
+/// A weight with the bits that it has.
+#[inline(always)]
+fn quantized(weight: f64, bits: Option<u32>) -> f64 {
+    let Some(bits) = bits else { return weight };
+    let steps = f64::from(1_u32 << bits.min(24));
+    (weight * steps).round() / steps
+}
+
 /// The weighted sum over the corners of the footprint.
 fn blend(
     texture: &Texture,
@@ -313,7 +323,8 @@ fn blend(
     for (corner, kept) in present.iter_mut().enumerate().take(corners) {
         let pick = |axis: usize| {
             let side = footprint.axes[axis];
-            if corner >> axis & 1 == 1 { (side.second, side.weight) } else { (side.first, 1.0 - side.weight) }
+            let weight = quantized(side.weight, request.weight_bits);
+            if corner >> axis & 1 == 1 { (side.second, weight) } else { (side.first, 1.0 - weight) }
         };
         let weight: f64 = (0..footprint.count).map(|axis| pick(axis).1).product();
         match footprint.place(level, std::array::from_fn(|axis| pick(axis).0)) {

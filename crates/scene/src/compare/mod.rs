@@ -1,11 +1,18 @@
 //! The differences between two pictures.
 //!
-//! *In:* two [`Picture`](crate::picture::Picture)s of the same scene. *Out:* error figures and a [`Verdict`].
+//! *In:* two [`Picture`](crate::picture::Picture)s of the same scene. *Out:* error figures and a [`Verdict`], which says
+//! how much of the picture was judged ([`evidence`]).
 
+pub mod evidence;
 #[cfg(feature = "flip")]
 mod flip;
+pub mod population;
+mod tally;
 mod verdict;
 
+pub use evidence::{Class, Evidence, Written};
 #[cfg(feature = "flip")]
 pub use flip::flip;
-pub use verdict::{Conclusion, Contributed, Criterion, FaultCount, Verdict, Worst, shares, ulp_f32};
+pub use population::Population;
+pub use tally::{Compared, Judge, shares};
+pub use verdict::{Conclusion, Contributed, Criterion, Demands, FaultCount, Verdict, Worst, ulp_f32};

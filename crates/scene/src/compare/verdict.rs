@@ -1,15 +1,12 @@
-//! [`Verdict`]: how far a GPU's picture is from the reference's, and whether the difference is explained.
+//! [`Verdict`]: how far a GPU's picture is from the reference's, whether the difference is explained, and how much of
+//! the picture was judged at all.
 //!
-//! *In:* two pictures of one scene, and the reference's envelope or a tolerance. *Out:* counts and error figures.
-//!
-//! *Holds:* each pixel is counted exactly once. Either only one side covers it (`coverage_mismatch`, or `edge_pixels`
-//! if its center is so near an edge that rounding decides), or the reference cannot decide it (`undecided`), or its
-//! colors are compared. Colors never decide coverage. An undecided pixel may be uncovered; if it is covered, its
-//! color must lie in the envelope, too. Non-finite numbers are counted separately and never enter an error figure; if
-//! the envelope contains them, they are no mismatch. A difference that only a known fault of the driver explains is
-//! counted under the fault's name.
+//! *In:* the counts of a comparison ([`Judge`]). *Out:* error figures, and a [`Conclusion`] by [`Demands`].
 
-use crate::picture::{Interval, Picture};
+use super::evidence::{Evidence, Width};
+use super::population;
+use super::tally::Judge;
+use crate::picture::Picture;
 use serde::Serialize;
 
 /// The standard by which a difference is explained.
@@ -76,12 +73,30 @@ pub struct FaultCount {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Conclusion {
-    /// Every difference is explained.
+    /// Every difference is explained, and enough of the picture was judged.
     Holds,
-    /// Nothing was compared: no pixel is covered.
+    /// Every difference is explained, but too little of the picture was judged: nothing is covered, or too few of the
+    /// covered pixels have a narrow envelope.
     Inconclusive,
     /// There is a difference that is not explained.
     Fails,
+}
+
+/// The demands on a verdict that holds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Demands {
+    /// The smallest share of the covered pixels that is judged, at an edge, or excused.
+    pub evidence_share: f64,
+    /// Whether undecided pixels count as judged.
+    pub allow_undecided: bool,
+    /// Whether suspects fail.
+    pub likely: bool,
+}
+
+impl Default for Demands {
+    fn default() -> Self {
+        Self { evidence_share: 0.95, allow_undecided: false, likely: true }
+    }
 }
 
 /// The figures and counts of one comparison. Errors are absolute, over all channels of all attachments of the pixels
@@ -102,7 +117,7 @@ pub struct Verdict {
     pub covered: u64,
     /// Pixels that only one side covers.
     pub coverage_mismatch: u64,
-    /// Pixels within 1/128 pixel of an edge whose coverage differs, or whose difference exceeds the bound.
+    /// Pixels at a silhouette that only one side covers.
     pub edge_pixels: u64,
     /// Pixels that both cover and whose value on the GPU is not finite.
     pub non_finite_gpu: u64,
@@ -116,14 +131,22 @@ pub struct Verdict {
     pub outside: u64,
     /// Pixels whose discard, depth test or coverage is undecided, or that have too many possible paths.
     pub undecided: u64,
-    /// Pixels that only a known fault of the driver explains; they count nowhere else.
+    /// The covered pixels by how they were compared.
+    pub evidence: Evidence,
+    /// The widths of the envelopes of the covered pixels, by decades.
+    pub widths: Vec<Width>,
+    /// The range of the picture's values.
+    pub range: f64,
+    /// The largest width of the envelope of a judged pixel.
+    pub width: f64,
+    /// Pixels inside their envelope, but far outside of what a population of simulated GPUs drew; `None` (null) without a
+    /// population.
+    pub suspect: Option<u64>,
+    /// Pixels that only a known fault of the driver explains; they count nowhere else but in `evidence`.
     pub known_faults: Vec<FaultCount>,
     /// The pixel with the largest difference; `None` (null) if none was compared.
     pub worst: Option<Worst>,
 }
-
-/// The largest accepted share of undecided pixels.
-const MAX_UNDECIDED_SHARE: f64 = 0.01;
 
 impl Verdict {
     /// Compares two pictures of the same size and number of attachments.
@@ -134,43 +157,31 @@ impl Verdict {
     /// Compares like [`Self::new`], given a further reference picture for each known fault of the driver that is
     /// excused.
     pub fn excusing(gpu: &Picture, cpu: &Picture, criterion: Criterion, faults: &[(&'static str, Picture)]) -> Self {
-        let judged_by = match criterion {
-            Criterion::Envelope => "envelope",
-            Criterion::Tolerance(_) => "tolerance",
-        };
-        let mut tally = Tally {
-            gpu,
-            cpu,
-            criterion,
-            faults,
-            verdict: Self { judged_by, ..Self::default() },
-            squares: 0.0,
-            channels: 0,
-            worst_rank: -1.0,
-        };
-        for pixel in 0..cpu.covered.len() {
-            tally.pixel(pixel);
-        }
-        tally.finish()
+        Judge { criterion, faults, ..Judge::default() }.compare(gpu, cpu).verdict
     }
 
-    /// The result in one word, with undecided pixels judged as by [`Self::holds`].
-    pub fn conclusion(&self, allow_undecided: bool) -> Conclusion {
-        match (self.holds(allow_undecided), self.covered) {
-            (false, _) => Conclusion::Fails,
-            (true, 0) => Conclusion::Inconclusive,
-            (true, _) => Conclusion::Holds,
+    /// The result in one word.
+    pub fn conclusion(&self, demands: &Demands) -> Conclusion {
+        let suspects = demands.likely && population::fails(self.suspect.unwrap_or(0), self.covered);
+        match () {
+            () if self.needs_excuse() || suspects => Conclusion::Fails,
+            () if self.covered == 0 || self.share_judged(demands) < demands.evidence_share => Conclusion::Inconclusive,
+            () => Conclusion::Holds,
         }
     }
 
-    /// Whether every difference is explained, if there is one at all: see [`Self::conclusion`]. Undecided pixels are not accepted from 1 % of the covered ones on,
-    /// unless they are allowed.
+    /// Whether the conclusion is [`Conclusion::Holds`] by the usual [`Demands`], with undecided pixels as judged ones if
+    /// they are allowed.
     pub fn holds(&self, allow_undecided: bool) -> bool {
-        let undecided = self.undecided as f64 > MAX_UNDECIDED_SHARE * self.covered as f64;
-        self.outside == 0
-            && self.coverage_mismatch == 0
-            && self.finiteness_mismatch == 0
-            && (allow_undecided || !undecided)
+        self.conclusion(&Demands { allow_undecided, ..Demands::default() }) == Conclusion::Holds
+    }
+
+    /// The share of the covered pixels that is judged, at an edge, or excused. Undecided pixels that only one side covers
+    /// count as covered here.
+    pub fn share_judged(&self, demands: &Demands) -> f64 {
+        let one_sided = self.undecided.saturating_sub(self.evidence.undecided);
+        let allowed = if demands.allow_undecided { self.undecided } else { 0 };
+        (self.evidence.good() + allowed) as f64 / (self.covered + one_sided).max(1) as f64
     }
 
     /// Whether there is a difference that the specifications do not explain.
@@ -186,13 +197,15 @@ impl Verdict {
             (Some(a), Some(b)) => Some(a.min(b)),
             (a, b) => a.or(b),
         };
+        let usual = Demands::default();
+        let least = if self.share_judged(&usual) <= other.share_judged(&usual) { self } else { other };
         Self {
             max_abs: far.max_abs,
             rmse: self.rmse.max(other.rmse),
             psnr,
             max_ulp: self.max_ulp.max(other.max_ulp),
             pixels: self.pixels,
-            covered: self.covered.min(other.covered),
+            covered: least.covered,
             coverage_mismatch: self.coverage_mismatch.max(other.coverage_mismatch),
             edge_pixels: self.edge_pixels.max(other.edge_pixels),
             non_finite_gpu: self.non_finite_gpu.max(other.non_finite_gpu),
@@ -201,6 +214,11 @@ impl Verdict {
             judged_by: self.judged_by,
             outside: self.outside.max(other.outside),
             undecided: self.undecided.max(other.undecided),
+            evidence: least.evidence,
+            widths: least.widths.clone(),
+            range: least.range,
+            width: least.width,
+            suspect: self.suspect.max(other.suspect),
             known_faults: worse_faults(&self.known_faults, &other.known_faults),
             worst: far.worst.clone().or_else(|| near.worst.clone()),
         }
@@ -219,228 +237,6 @@ fn worse_faults(a: &[FaultCount], b: &[FaultCount]) -> Vec<FaultCount> {
     all
 }
 
-/// For each pixel, the largest difference of its channels relative to the bound. It is infinite where only one side
-/// covers a decided pixel, or where a number is not finite but must be.
-pub fn shares(gpu: &Picture, cpu: &Picture, criterion: Criterion) -> Vec<f64> {
-    let verdict = Verdict::default();
-    let tally = Tally { gpu, cpu, criterion, faults: &[], verdict, squares: 0.0, channels: 0, worst_rank: -1.0 };
-    let flag = |flags: &[bool], pixel: usize| flags.get(pixel).copied().unwrap_or(false);
-    (0..cpu.covered.len())
-        .map(|pixel| {
-            let covers = [flag(&gpu.covered, pixel), flag(&cpu.covered, pixel)];
-            let open = flag(&cpu.undecided, pixel) || flag(&cpu.near_edge, pixel) || flag(&gpu.near_edge, pixel);
-            match covers {
-                [true, true] => (0..cpu.attachments.len())
-                    .map(|attachment| tally.judge_channels(attachment, pixel))
-                    .map(|error| if error.finiteness_mismatch > 0 { f64::INFINITY } else { error.share })
-                    .fold(0.0, f64::max),
-                [false, false] => 0.0,
-                _ if open => 0.0,
-                _ => f64::INFINITY,
-            }
-        })
-        .collect()
-}
-
-/// A comparison in progress.
-struct Tally<'a> {
-    gpu: &'a Picture,
-    cpu: &'a Picture,
-    criterion: Criterion,
-    faults: &'a [(&'static str, Picture)],
-    verdict: Verdict,
-    squares: f64,
-    channels: u64,
-    worst_rank: f64,
-}
-
-/// The comparison of one pixel of one attachment.
-#[derive(Default)]
-struct PixelError {
-    non_finite: [bool; 2],
-    finiteness_mismatch: u64,
-    outside: bool,
-    /// The largest difference relative to the bound.
-    share: f64,
-    /// The rank for choosing the worst pixel. Every pixel outside its bound ranks before all those inside. Among the
-    /// latter, half an ULP does not count, so that a number known except for its final rounding does not appear as
-    /// the worst.
-    rank: f64,
-    /// The channel with that rank.
-    channel: usize,
-}
-
-impl Tally<'_> {
-    fn pixel(&mut self, pixel: usize) {
-        let flag = |flags: &[bool]| flags.get(pixel).copied().unwrap_or(false);
-        let (gpu_covers, cpu_covers) = (flag(&self.gpu.covered), flag(&self.cpu.covered));
-        let near_edge = flag(&self.cpu.near_edge) || flag(&self.gpu.near_edge);
-        let undecided = flag(&self.cpu.undecided);
-        if gpu_covers != cpu_covers && !(undecided && gpu_covers) {
-            match (near_edge, undecided) {
-                (true, _) => self.verdict.edge_pixels += 1,
-                (false, true) => self.verdict.undecided += 1,
-                (false, false) if self.excused(pixel) => {}
-                (false, false) => self.verdict.coverage_mismatch += 1,
-            }
-            return;
-        }
-        if !gpu_covers {
-            return;
-        }
-        self.verdict.covered += u64::from(cpu_covers);
-        self.colors(pixel, near_edge, undecided);
-    }
-
-    fn colors(&mut self, pixel: usize, near_edge: bool, undecided: bool) {
-        let errors: Vec<PixelError> =
-            (0..self.cpu.attachments.len()).map(|attachment| self.judge_channels(attachment, pixel)).collect();
-        let is_wrong = errors.iter().any(|error| error.outside || error.finiteness_mismatch > 0);
-        if near_edge && is_wrong {
-            // There, rounding decides which of two triangles drew it.
-            self.verdict.edge_pixels += 1;
-            return;
-        }
-        if is_wrong && self.excused(pixel) {
-            return;
-        }
-        let any = |test: fn(&PixelError) -> bool| u64::from(errors.iter().any(test));
-        self.verdict.outside += any(|error| error.outside);
-        self.verdict.finiteness_mismatch += errors.iter().map(|error| error.finiteness_mismatch).sum::<u64>();
-        if undecided {
-            self.verdict.undecided += 1;
-        } else {
-            self.verdict.non_finite_gpu += any(|error| error.non_finite[0]);
-            self.verdict.non_finite_cpu += any(|error| error.non_finite[1]);
-        }
-        for (attachment, error) in errors.iter().enumerate() {
-            if !undecided {
-                self.add_differences(attachment, pixel);
-            }
-            if error.rank > self.worst_rank && (!undecided || error.outside) {
-                self.worst_rank = error.rank;
-                self.verdict.worst = Some(self.worst_at(attachment, pixel, error.channel));
-            }
-        }
-    }
-
-    /// Whether a known fault explains the pixel, which is then counted under that fault.
-    fn excused(&mut self, pixel: usize) -> bool {
-        let covers = self.gpu.covered.get(pixel).copied().unwrap_or(false);
-        let explains = |picture: &Picture| {
-            let open = picture.undecided.get(pixel).copied().unwrap_or(false);
-            let known = picture.covered.get(pixel).copied().unwrap_or(false);
-            let inside = |attachment: usize| {
-                let gpu = Self::color(self.gpu, attachment, pixel);
-                let intervals = Self::intervals(picture, attachment, pixel);
-                gpu.into_iter().zip(intervals).all(|(gpu, interval)| interval.contains(gpu))
-            };
-            match (covers, known) {
-                (true, _) => (known || open) && (0..picture.attachments.len()).all(inside),
-                (false, true) => open,
-                (false, false) => true,
-            }
-        };
-        let Some(fault) = self.faults.iter().find(|(_, picture)| explains(picture)).map(|(name, _)| *name) else {
-            return false;
-        };
-        match self.verdict.known_faults.iter_mut().find(|count| count.fault == fault) {
-            Some(count) => count.pixels += 1,
-            None => self.verdict.known_faults.push(FaultCount { fault, pixels: 1 }),
-        }
-        true
-    }
-
-    fn color(picture: &Picture, attachment: usize, pixel: usize) -> [f64; 4] {
-        picture.attachments.get(attachment).and_then(|colors| colors.get(pixel)).copied().unwrap_or([0.0; 4])
-    }
-
-    fn intervals(picture: &Picture, attachment: usize, pixel: usize) -> [Interval; 4] {
-        let found = picture.intervals.as_ref().and_then(|intervals| intervals.get(attachment)?.get(pixel)).copied();
-        found.unwrap_or_else(|| Self::color(picture, attachment, pixel).map(Interval::point))
-    }
-
-    /// The allowed values of each channel.
-    fn allowed(&self, attachment: usize, pixel: usize) -> [Interval; 4] {
-        match self.criterion {
-            Criterion::Tolerance(tolerance) => {
-                Self::color(self.cpu, attachment, pixel).map(|value| Interval::around(value, tolerance))
-            }
-            Criterion::Envelope => Self::intervals(self.cpu, attachment, pixel),
-        }
-    }
-
-    fn judge_channels(&self, attachment: usize, pixel: usize) -> PixelError {
-        let gpu = Self::color(self.gpu, attachment, pixel);
-        let cpu = Self::color(self.cpu, attachment, pixel);
-        let allowed = self.allowed(attachment, pixel);
-        let mut error = PixelError::default();
-        for (channel, ((gpu, cpu), interval)) in gpu.into_iter().zip(cpu).zip(allowed).enumerate() {
-            error.non_finite[0] |= !gpu.is_finite();
-            error.non_finite[1] |= !cpu.is_finite();
-            let inside = interval.contains(gpu);
-            match (gpu.is_finite(), cpu.is_finite()) {
-                (true, true) => {
-                    error.outside |= !inside;
-                    let (difference, room) = ((gpu - cpu).abs(), interval.room(cpu, gpu));
-                    let share = match difference == 0.0 {
-                        true => 0.0,
-                        false => difference / room.max(f64::MIN_POSITIVE),
-                    };
-                    error.share = error.share.max(share);
-                    let beyond = (difference - 0.5 * ulp_f32(cpu)).max(0.0);
-                    let rank = if inside { beyond / room.max(f64::MIN_POSITIVE) } else { 1.0 + share };
-                    if rank > error.rank {
-                        (error.rank, error.channel) = (rank, channel);
-                    }
-                }
-                (false, false) => {}
-                _ => error.finiteness_mismatch += u64::from(!inside),
-            }
-        }
-        error
-    }
-
-    fn add_differences(&mut self, attachment: usize, pixel: usize) {
-        let gpu = Self::color(self.gpu, attachment, pixel);
-        let cpu = Self::color(self.cpu, attachment, pixel);
-        for (gpu, cpu) in gpu.into_iter().zip(cpu).filter(|(gpu, cpu)| gpu.is_finite() && cpu.is_finite()) {
-            let difference = (gpu - cpu).abs();
-            self.verdict.max_abs = self.verdict.max_abs.max(difference);
-            self.verdict.max_ulp = self.verdict.max_ulp.max(difference / ulp_f32(cpu));
-            self.squares += difference * difference;
-            self.channels += 1;
-        }
-    }
-
-    fn worst_at(&self, attachment: usize, pixel: usize, channel: usize) -> Worst {
-        let width = (self.cpu.width as usize).max(1);
-        let (gpu, cpu) = (Self::color(self.gpu, attachment, pixel), Self::color(self.cpu, attachment, pixel));
-        let intervals = self.allowed(attachment, pixel);
-        Worst {
-            x: (pixel % width) as u32,
-            y: (pixel / width) as u32,
-            attachment: attachment as u32,
-            channel: channel as u32,
-            gpu,
-            cpu,
-            bound: std::array::from_fn(|k| intervals[k].room(cpu[k], gpu[k])),
-            low: intervals.map(|interval| interval.low),
-            high: intervals.map(|interval| interval.high),
-            contributions: Vec::new(),
-        }
-    }
-
-    fn finish(mut self) -> Verdict {
-        self.verdict.pixels = self.cpu.covered.len() as u64;
-        if self.channels > 0 {
-            self.verdict.rmse = (self.squares / self.channels as f64).sqrt();
-        }
-        self.verdict.psnr = (self.verdict.rmse > 0.0).then(|| -20.0 * self.verdict.rmse.log10());
-        self.verdict
-    }
-}
-
 /// The distance between neighboring f32 numbers at `value`; below the smallest normal number, the distance there.
 pub fn ulp_f32(value: f64) -> f64 {
     let magnitude = value.abs().max(f64::from(f32::MIN_POSITIVE));
@@ -451,6 +247,8 @@ pub fn ulp_f32(value: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::compare::evidence::Class;
+    use crate::picture::Interval;
 
     fn picture(values: &[f64]) -> Picture {
         let n = values.len();
@@ -473,11 +271,12 @@ mod tests {
         let mut empty = picture(&[0.5, 0.5]);
         empty.covered = vec![false; 2];
         let verdict = Verdict::new(&empty, &empty, Criterion::Envelope);
-        assert_eq!(verdict.conclusion(false), Conclusion::Inconclusive);
+        let usual = Demands::default();
+        assert_eq!(verdict.conclusion(&usual), Conclusion::Inconclusive);
         let one_side = Verdict::new(&picture(&[0.5, 0.5]), &empty, Criterion::Envelope);
-        assert_eq!((one_side.covered, one_side.conclusion(true)), (0, Conclusion::Fails));
+        assert_eq!((one_side.covered, one_side.conclusion(&usual)), (0, Conclusion::Fails));
         let covered = Verdict::new(&picture(&[0.5]), &picture(&[0.5]), Criterion::Envelope);
-        assert_eq!(covered.conclusion(false), Conclusion::Holds);
+        assert_eq!(covered.conclusion(&usual), Conclusion::Holds);
     }
 
     #[test]
@@ -497,6 +296,7 @@ mod tests {
         let mut cpu = picture(&[0.0, 0.0, 0.0, 1.0]);
         gpu.covered = vec![false, false, true, true];
         cpu.near_edge[1] = true;
+        cpu.silhouette = vec![false, true, false, false];
         cpu.undecided[2] = true;
         let verdict = Verdict::new(&gpu, &cpu, Criterion::Envelope);
         // The undecided pixel is outside its envelope nevertheless.
@@ -535,17 +335,96 @@ mod tests {
         }
         let verdict = Verdict::new(&gpu, &cpu, Criterion::Envelope);
         assert_eq!((verdict.non_finite_gpu, verdict.finiteness_mismatch), (2, 0));
-        assert!(verdict.holds(false));
+        // An envelope of everything excludes nothing.
+        assert_eq!(
+            (verdict.evidence.unlimited, verdict.conclusion(&Demands::default())),
+            (2, Conclusion::Inconclusive)
+        );
+    }
+
+    /// A verdict on pixels of which the first `wide` have an envelope as wide as the picture's range.
+    fn partly_wide(wide: usize) -> Verdict {
+        let (gpu, mut cpu) = (picture(&[0.0; 200]), picture(&[0.0; 200]));
+        for color in cpu.intervals.iter_mut().flatten().flat_map(|colors| colors.iter_mut().take(wide)) {
+            color[0] = Interval { low: 0.0, high: 1.0, may_be_nan: false };
+        }
+        Verdict::new(&gpu, &cpu, Criterion::Envelope)
     }
 
     #[test]
-    fn undecided_pixels_are_accepted_up_to_one_percent() {
-        let (gpu, mut cpu) = (picture(&[0.0; 200]), picture(&[0.0; 200]));
-        cpu.undecided[..2].fill(true);
-        assert!(Verdict::new(&gpu, &cpu, Criterion::Envelope).holds(false));
-        cpu.undecided[..3].fill(true);
+    fn a_verdict_holds_from_95_percent_of_evidence_on() {
+        let usual = Demands::default();
+        assert_eq!(partly_wide(10).conclusion(&usual), Conclusion::Holds);
+        let verdict = partly_wide(11);
+        assert_eq!((verdict.evidence.judged, verdict.evidence.weak), (189, 11));
+        assert_eq!(verdict.evidence.total(), verdict.covered);
+        assert_eq!(verdict.widths.iter().map(|row| row.pixels).sum::<u64>(), verdict.covered);
+        assert_eq!(verdict.conclusion(&usual), Conclusion::Inconclusive);
+        assert_eq!(verdict.conclusion(&Demands { evidence_share: 0.9, ..usual }), Conclusion::Holds);
+    }
+
+    #[test]
+    fn undecided_pixels_are_no_evidence_unless_they_are_allowed() {
+        let (mut gpu, mut cpu) = (picture(&[0.0; 200]), picture(&[0.0; 200]));
+        cpu.undecided[..11].fill(true);
         let verdict = Verdict::new(&gpu, &cpu, Criterion::Envelope);
         assert!(!verdict.holds(false) && verdict.holds(true));
+        // Those that only one side covers count, too, although they are not covered.
+        gpu.covered[..11].fill(false);
+        let verdict = Verdict::new(&gpu, &cpu, Criterion::Envelope);
+        assert_eq!((verdict.covered, verdict.evidence.undecided, verdict.undecided), (189, 0, 11));
+        assert_eq!(verdict.conclusion(&Demands::default()), Conclusion::Inconclusive);
+        assert!(verdict.holds(true));
+    }
+
+    #[test]
+    fn an_edge_is_judged_by_its_hull() {
+        let (gpu, mut cpu) = (picture(&[0.2, 0.9, 0.5]), picture(&[0.4, 0.4, 0.5]));
+        cpu.near_edge = vec![true, true, false];
+        for color in cpu.intervals.iter_mut().flatten().flat_map(|colors| colors.iter_mut().take(2)) {
+            color[0] = Interval { low: 0.1, high: 0.5, may_be_nan: false };
+        }
+        cpu.owner_width = vec![1e-6, 1e-6, 0.0];
+        let compared = Judge::default().compare(&gpu, &cpu);
+        assert_eq!(compared.classes, [Some(Class::Edge), Some(Class::Edge), Some(Class::Judged)]);
+        let verdict = compared.verdict;
+        assert_eq!((verdict.outside, verdict.evidence.edge, verdict.edge_pixels), (1, 2, 0));
+        // The first pixel has another owner's color, which is no error.
+        assert_eq!((verdict.max_abs, verdict.worst.map(|worst| worst.x)), (0.0, Some(1)));
+    }
+
+    #[test]
+    fn a_silhouette_may_be_missed_but_its_color_may_not() {
+        let (mut gpu, mut cpu) = (picture(&[0.5, 0.5, 0.9]), picture(&[0.5, 0.0, 0.0]));
+        gpu.covered = vec![false, true, true];
+        cpu.covered = vec![true, false, false];
+        cpu.near_edge = vec![true; 3];
+        cpu.silhouette = vec![true; 3];
+        for color in cpu.intervals.iter_mut().flatten().flatten() {
+            color[0] = Interval { low: 0.0, high: 0.5, may_be_nan: false };
+        }
+        let verdict = Verdict::new(&gpu, &cpu, Criterion::Envelope);
+        assert_eq!((verdict.edge_pixels, verdict.coverage_mismatch, verdict.outside), (3, 0, 1));
+        // An edge between primitives of one draw is covered by one of them.
+        cpu.silhouette = vec![false; 3];
+        assert_eq!(Verdict::new(&gpu, &cpu, Criterion::Envelope).coverage_mismatch, 3);
+    }
+
+    #[test]
+    fn suspects_fail_where_they_are_many() {
+        let (gpu, mut cpu) = (picture(&[0.5; 20]), picture(&[0.6; 20]));
+        for color in cpu.intervals.iter_mut().flatten().flatten() {
+            color[0] = Interval { low: 0.0, high: 1.0, may_be_nan: false };
+        }
+        let drawn = [0.6, 0.0, 0.0, 1.0].map(Interval::point);
+        let population =
+            population::Population { members: 4, seed: 1, ranges: vec![vec![drawn; 20]], covered: vec![4; 20] };
+        let verdict = Judge { population: Some(&population), ..Judge::default() }.compare(&gpu, &cpu).verdict;
+        assert_eq!((verdict.suspect, verdict.outside), (Some(20), 0));
+        let usual = Demands::default();
+        assert_eq!(verdict.conclusion(&usual), Conclusion::Fails);
+        assert_eq!(verdict.conclusion(&Demands { likely: false, ..usual }), Conclusion::Inconclusive);
+        assert_eq!(Verdict::new(&gpu, &cpu, Criterion::Envelope).suspect, None);
     }
 
     #[test]

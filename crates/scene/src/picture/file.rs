@@ -68,6 +68,8 @@ impl Picture {
             intervals: None,
             undecided: vec![false; n_pixels],
             near_edge: vec![false; n_pixels],
+            silhouette: Vec::new(),
+            owner_width: Vec::new(),
         }
     }
 

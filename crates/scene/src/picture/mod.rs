@@ -36,8 +36,14 @@ pub struct Picture {
     pub intervals: Option<Vec<Vec<[Interval; 4]>>>,
     /// For a reference with envelopes: pixels where a discard, a depth test or too many branches are undecided.
     pub undecided: Vec<bool>,
-    /// Pixels whose center is within 1/128 pixel of an edge of a primitive that was drawn.
+    /// Pixels whose center is within 1/128 pixel of an edge of a primitive that was drawn. For a reference with
+    /// envelopes, the interval there is the hull of the colors of the primitives that may own the pixel.
     pub near_edge: Vec<bool>,
+    /// For a reference with envelopes: those of them at a silhouette, which a conforming GPU may leave uncovered.
+    pub silhouette: Vec<bool>,
+    /// For a reference with envelopes: near edges, the largest width of the interval of one owner. Empty if there are
+    /// none.
+    pub owner_width: Vec<f32>,
 }
 
 impl Picture {

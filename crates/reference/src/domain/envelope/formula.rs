@@ -39,7 +39,7 @@ pub(crate) fn evaluate<N: Number>(formula: &Formula, arguments: &[&[N]], compone
     }
 }
 
-fn unary<N: Number>(op: Unary, x: N) -> N {
+pub(crate) fn unary<N: Number>(op: Unary, x: N) -> N {
     let scaled = |factor: f64| N::narrow(x.widen().mul(N::Wide::from_f64(factor)));
     match op {
         Unary::Neg => x.neg(),
@@ -73,7 +73,7 @@ fn unary<N: Number>(op: Unary, x: N) -> N {
     }
 }
 
-fn binary<N: Number>(op: Binary, x: N, y: N) -> N {
+pub(crate) fn binary<N: Number>(op: Binary, x: N, y: N) -> N {
     match op {
         Binary::Add => x.add(y),
         Binary::Sub => x.sub(y),

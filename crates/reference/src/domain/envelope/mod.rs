@@ -33,8 +33,9 @@ mod tests;
 mod vector;
 
 pub use block::EnvelopeBlock;
-#[cfg(test)]
 pub(crate) use formula::evaluate;
+#[cfg(test)]
+pub(crate) use formula::{binary, unary};
 pub use integer::EnvelopeInt;
 
 use glisten_scene::picture::Interval;

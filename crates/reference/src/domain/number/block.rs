@@ -74,7 +74,7 @@ pub trait NumberBlock<N: Number>: Block<N> {
     /// A sum, from left to right; with an envelope, in any order.
     #[inline(always)]
     fn sum(count: usize, term: impl Fn(usize) -> Self) -> Self {
-        if N::HAS_INTERVALS {
+        if N::HAS_INTERVALS || N::SUMS_BY_CHOICE {
             let mut out = Self::default();
             for lane in 0..WIDTH {
                 out.set(lane, N::sum((0..count).map(|place| term(place).get(lane))));

@@ -34,6 +34,8 @@ pub trait Number: Element<Block: NumberBlock<Self>> {
     /// Whether there is a second value. Values that leave the domain's arithmetic, such as a texture's coordinates,
     /// are then followed for both.
     const PAIRED: bool = false;
+    /// Whether [`sum`](Self::sum) has an order of its own.
+    const SUMS_BY_CHOICE: bool = false;
 
     /// The nearest number.
     fn from_f64(value: f64) -> Self;
@@ -277,4 +279,9 @@ pub trait Number: Element<Block: NumberBlock<Self>> {
     fn to_int(self) -> Self::Int;
     /// `uint(float)`, rounding toward zero.
     fn to_uint(self) -> Self::Int;
+    /// Whether derivatives are those of one row and one column of the quad (§8.8 lets a GPU choose).
+    #[inline(always)]
+    fn coarse() -> bool {
+        false
+    }
 }

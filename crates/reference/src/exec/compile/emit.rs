@@ -1,7 +1,7 @@
 //! [`Emitter`]: appends instructions, interns constants and lists, and moves into the preamble what is the same for
 //! every invocation.
 
-use super::super::code::{PoolSource, Section};
+use super::super::code::{Form, PoolSource, Section};
 use super::super::inst::{Class, Inst, List, Operand, Slot, Target, TextureCall};
 use super::chains::Chain;
 use super::fuse::is_control;
@@ -14,8 +14,7 @@ use rustc_hash::FxHashMap;
 pub(super) struct Emitter {
     pub(super) main: Section,
     pub(super) preamble: Section,
-    /// Whether products and sums remain separate instructions.
-    pub(super) unfused: bool,
+    pub(super) form: Form,
     /// The span for new instructions.
     pub(super) span: Span,
     pub(super) words: Vec<u32>,
@@ -40,8 +39,8 @@ pub(super) struct Emitter {
 }
 
 impl Emitter {
-    pub(super) fn new(unfused: bool) -> Self {
-        Self { unfused, ..Self::default() }
+    pub(super) fn new(form: Form) -> Self {
+        Self { form, ..Self::default() }
     }
 
     pub(super) fn register_count(&self, class: Class) -> usize {
@@ -88,7 +87,9 @@ impl Emitter {
     }
 
     pub(super) fn uniform(&mut self, class: Class, root: RootIndex, flat: u32) -> Operand {
-        self.source(class, PoolSource::Uniform(root, flat))
+        let uniform = self.source(class, PoolSource::Uniform(root, flat));
+        // What reads a register is not moved into the preamble.
+        if self.form == Form::Counted { self.in_register(class, uniform) } else { uniform }
     }
 
     /// The value of an int operand, if it is constant.

@@ -10,6 +10,7 @@
 mod alloc;
 mod builtin;
 mod chains;
+mod dead;
 mod effects;
 mod emit;
 mod expr;
@@ -20,7 +21,7 @@ mod stmt;
 mod texture;
 mod vars;
 
-use super::code::{Code, Inner, Port, Runs, Section};
+use super::code::{Code, Form, Inner, Port, Runs, Section};
 use super::inst::{Class, Operand, Slot};
 use effects::Effects;
 use emit::Emitter;
@@ -95,22 +96,20 @@ impl Code {
     /// Returns diagnostics if the executor does not support something: a program without that stage or without
     /// `main`, geometry stages, programs above the limits of the compiler.
     pub fn compile(program: &Program, stage: Stage) -> Result<Self, Vec<Diagnostic>> {
-        compile(program, stage, false).map(|inner| Self { inner: Arc::new(inner) })
+        Self::compile_as(program, stage, Form::Fast)
     }
 
-    /// Compiles each product and sum to an instruction of its own, so that an observer sees each. The numbers are the
-    /// same.
+    /// Compiles a stage of a program in a form.
     ///
     /// # Errors
     /// Those of [`Self::compile`].
-    pub fn compile_unfused(program: &Program, stage: Stage) -> Result<Self, Vec<Diagnostic>> {
-        compile(program, stage, true).map(|inner| Self { inner: Arc::new(inner) })
+    pub fn compile_as(program: &Program, stage: Stage, form: Form) -> Result<Self, Vec<Diagnostic>> {
+        compile(program, stage, form).map(|inner| Self { inner: Arc::new(inner) })
     }
 }
 
-/// Compiles a stage; with `unfused`, each operation separately. Returns diagnostics if the executor does not support
-/// it.
-fn compile(program: &Program, stage: Stage, unfused: bool) -> Result<Inner, Vec<Diagnostic>> {
+/// Compiles a stage. Returns diagnostics if the executor does not support it.
+fn compile(program: &Program, stage: Stage, form: Form) -> Result<Inner, Vec<Diagnostic>> {
     let missing = |what: &str| {
         let message = format!("`{}` has no {what} for the CPU reference to run", program.name);
         vec![Diagnostic::new(&codes::general::NOT_SUPPORTED_YET, Span::default(), message)]
@@ -120,16 +119,16 @@ fn compile(program: &Program, stage: Stage, unfused: bool) -> Result<Inner, Vec<
         return Err(missing("vertex and fragment stages alone: geometry stages are not run, and so no pipeline"));
     }
     let Some(main) = shader.main else { return Err(missing("`main`")) };
-    shader.on_stack(|| Compiler::new(program, shader, unfused).run(main))
+    shader.on_stack(|| Compiler::new(program, shader, form).run(main))
 }
 
 impl<'a> Compiler<'a> {
-    fn new(program: &'a Program, shader: &'a Shader, unfused: bool) -> Self {
+    fn new(program: &'a Program, shader: &'a Shader, form: Form) -> Self {
         Self {
             types: &program.types,
             shader,
             program,
-            emit: Emitter::new(unfused),
+            emit: Emitter::new(form),
             effects: Effects::of(shader),
             vars: Vec::new(),
             globals: vec![None; shader.globals.len()],
@@ -158,8 +157,11 @@ impl<'a> Compiler<'a> {
         if !self.errors.is_empty() {
             return Err(self.errors);
         }
-        if !self.emit.unfused {
+        if self.emit.form == Form::Fast {
             fuse::fuse(&mut self.emit);
+        }
+        if self.emit.form == Form::Counted {
+            self.emit.main.dead = dead::dead(&mut self.emit, &outputs);
         }
         let mut ports: Vec<Port> = self.inputs.iter().chain(&outputs).copied().collect();
         let registers = alloc::allocate(&mut self.emit, &mut ports);

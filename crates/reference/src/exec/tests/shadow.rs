@@ -3,14 +3,13 @@
 use super::generate::{self, Generated, Source};
 use super::{canonical, fill, outputs};
 use crate::domain::{Domain, ErrorPart, F32, F64, Shadow, Stepwise};
-use crate::exec::{Code, Exactly, LANES, Machine, Mask, Purpose};
+use crate::exec::{Code, Exactly, Form, LANES, Machine, Mask, Purpose};
 use glisten_front::hir::{GlobalId, Stage};
 use proptest::prelude::*;
 use std::sync::Arc;
 
-fn ran<D: Domain>(program: &Generated, unfused: bool) -> Machine<D> {
-    let compile = if unfused { Code::compile_unfused } else { Code::compile };
-    let code = compile(&program.program, Stage::Fragment).expect("generated programs can be run");
+fn ran<D: Domain>(program: &Generated, form: Form) -> Machine<D> {
+    let code = Code::compile_as(&program.program, Stage::Fragment, form).expect("generated programs can be run");
     let mut machine = Machine::new(&code, &program.uniforms, &[]);
     fill(&mut machine, program);
     machine.run(Mask::ALL, Mask::NONE);
@@ -42,12 +41,12 @@ proptest! {
     #[test]
     fn with_every_expression_exact_the_exact_side_is_f64(bytes in prop::collection::vec(any::<u8>(), 0..400)) {
         let program = generate::program(&mut Source::new(&bytes));
-        let code = Code::compile_unfused(&program.program, Stage::Fragment).expect("generated programs can be run");
+        let code = Code::compile_as(&program.program, Stage::Fragment, Form::Unfused).expect("generated programs can be run");
         let all = Arc::new(Exactly::new(&code, ErrorPart::All, |_| true));
         let mut shadow = Machine::<Shadow>::with(Purpose::Corrected(all), Default::default(), &code, &program.uniforms, &[]);
         fill(&mut shadow, &program);
         shadow.run(Mask::ALL, Mask::NONE);
-        let exact = ran::<F64>(&program, false);
+        let exact = ran::<F64>(&program, Form::Fast);
         for lane in 0..LANES {
             let exact = outputs(&exact, &program, lane);
             assert_eq!(exact_outputs(&shadow, &program, lane), exact, "lane {lane} of\n{}", generate::text(&program));
@@ -57,13 +56,14 @@ proptest! {
     #[test]
     fn the_f32_side_alone_has_the_same_numbers(bytes in prop::collection::vec(any::<u8>(), 0..400)) {
         let program = generate::program(&mut Source::new(&bytes));
-        same(&program, &ran::<Shadow>(&program, true), &ran::<Stepwise>(&program, true));
-        same(&program, &ran::<Shadow>(&program, true), &ran::<Stepwise>(&program, false));
+        same(&program, &ran::<Shadow>(&program, Form::Unfused), &ran::<Stepwise>(&program, Form::Unfused));
+        same(&program, &ran::<Shadow>(&program, Form::Unfused), &ran::<Stepwise>(&program, Form::Fast));
     }
 
     #[test]
     fn operations_apart_give_the_same_numbers(bytes in prop::collection::vec(any::<u8>(), 0..400)) {
         let program = generate::program(&mut Source::new(&bytes));
-        same(&program, &ran::<F32>(&program, true), &ran::<F32>(&program, false));
+        same(&program, &ran::<F32>(&program, Form::Unfused), &ran::<F32>(&program, Form::Fast));
+        same(&program, &ran::<F32>(&program, Form::Counted), &ran::<F32>(&program, Form::Fast));
     }
 }

@@ -1,0 +1,169 @@
+//! Built-in functions of a simulated GPU: by their rules, each with this GPU's error.
+//!
+//! *In:* a rule of the table, and the exact function. *Out:* an f32 that the rule allows. *Holds:* a GPU that computes a
+//! function well rounds the exact result to the nearest; another one has an error that swings between the bounds of the
+//! rule. A function that inherits from a formula is either, or the formula step by step.
+
+use super::SimulatedFloat;
+use super::gpu::{Form, Function, Gpu};
+use crate::domain::rules::{self, ulp};
+use crate::domain::{Number, evaluate};
+use glisten_front::builtin::operations::precision::{Precision, Rule};
+
+/// The place of a number in its binade, 0 to 1.
+fn place(x: f64) -> f64 {
+    f64::from(x as f32 as f64 as f32).to_bits().wrapping_shl(12) as f64 / (u64::MAX as f64)
+}
+
+/// The exact result with this GPU's error, at most `allowed`.
+fn with_error(gpu: &Gpu, exact: f64, allowed: f64, function: Function, place: f64) -> f64 {
+    let share = Gpu::share(function, place);
+    if share == 0.0 || !exact.is_finite() {
+        return gpu.rounded(f64::from(exact as f32));
+    }
+    // The rounding to f32 is a part of it.
+    let room = (allowed - 0.5 * ulp(exact)).max(0.0);
+    gpu.rounded(f64::from((exact + share * room) as f32))
+}
+
+impl SimulatedFloat {
+    /// A function of one number.
+    pub(super) fn by_rule(self, rule: &Rule, function: Function, f: impl Fn(f64) -> f64) -> Self {
+        let gpu = Gpu::current();
+        let x = self.read(&gpu);
+        let exact = f(x);
+        let allowed = match rule.precision {
+            Precision::Ulps(_) | Precision::UlpsWithArgument { .. } => rule.ulps_at(x) * ulp(exact),
+            Precision::UlpsOrWithin { ulps, error, low, high } => {
+                let inside = if (low..=high).contains(&x) { error } else { 0.0 };
+                inside.max(ulps * ulp(exact))
+            }
+            Precision::Absolute(error) => error,
+            Precision::Angle { error, reduced, lost } => {
+                return angular(&gpu, x, exact, function, [error, reduced, lost]);
+            }
+            Precision::Inherited(formula) | Precision::InheritedOr(formula, _)
+                if !Gpu::is_precise(function) && exact.is_finite() && !gpu.has_second(Form::Inherited) =>
+            {
+                return evaluate(formula, &[&[Self(x)]], 0);
+            }
+            Precision::InheritedOr(_, error) => error,
+            Precision::Inherited(_)
+            | Precision::Exact
+            | Precision::Correct
+            | Precision::EitherHalf
+            | Precision::EitherOfNan
+            | Precision::EitherDifference
+            | Precision::Cofactors => 0.0,
+        };
+        Self(with_error(&gpu, exact, allowed, function, place(x)))
+    }
+
+    /// `a / b`
+    pub(super) fn quotient(self, other: Self) -> Self {
+        let gpu = Gpu::current();
+        let (a, b) = (self.read(&gpu), other.read(&gpu));
+        let exact = a / b;
+        if Gpu::is_precise(Function::Divide) {
+            return Self(gpu.rounded(exact));
+        }
+        Self(with_error(&gpu, exact, rules::DIV.ulps() * ulp(exact), Function::Divide, place(b)))
+    }
+
+    /// `exp2(y log2(x))`, or the exact power.
+    pub(super) fn power(self, exponent: Self) -> Self {
+        let gpu = Gpu::current();
+        let (x, y) = (self.read(&gpu), exponent.read(&gpu));
+        if Gpu::is_precise(Function::Pow) || x < 0.0 {
+            return Self(gpu.rounded(Number::pow(x, y)));
+        }
+        Self(y).mul(Self(x).log2()).exp2()
+    }
+
+    /// `atan(y, x)`
+    pub(super) fn angle(self, x: Self) -> Self {
+        let gpu = Gpu::current();
+        let (y, x) = (self.read(&gpu), x.read(&gpu));
+        let exact = y.atan2(x);
+        let allowed = rules::ATAN.ulps() * ulp(exact);
+        Self(with_error(&gpu, exact, allowed, Function::Atan, place(y / x)))
+    }
+}
+
+/// A sine or cosine: its error is a function of the angle within the period, and beyond the first one the angle is
+/// rounded once more. It does not leave the range of the function, although the rule lets it.
+fn angular(gpu: &Gpu, x: f64, exact: f64, function: Function, [error, reduced, lost]: [f64; 3]) -> SimulatedFloat {
+    if !exact.is_finite() {
+        return SimulatedFloat(exact);
+    }
+    let turn = (x / std::f64::consts::TAU).fract().abs();
+    let share = Gpu::share(function, turn);
+    if x.abs() >= lost && share != 0.0 {
+        return SimulatedFloat(f64::from(share as f32));
+    }
+    let angle = if x.abs() > reduced { ulp(x) } else { 0.0 };
+    SimulatedFloat(with_error(gpu, exact, error + angle, function, turn).clamp(-1.0, 1.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::domain::{EnvelopeFloat, binary, unary};
+    use glisten_front::builtin::operations::{Binary, Unary};
+
+    fn arguments() -> impl Iterator<Item = f64> {
+        (1..400).map(|k| {
+            let bits = super::super::gpu::mixed(k);
+            let unit = (bits >> 40) as f64 / (1_u64 << 24) as f64;
+            let scale = 2f64.powi((bits % 13) as i32 - 8);
+            f64::from(((unit * 2.0 - 1.0) * scale) as f32)
+        })
+    }
+
+    /// Checks results against their envelopes, and keeps one that is outside of each function's.
+    #[derive(Default)]
+    struct Checked {
+        /// The results that have room.
+        counted: u32,
+        outside: std::collections::BTreeMap<&'static str, String>,
+    }
+
+    impl Checked {
+        fn add(&mut self, name: &'static str, arguments: &[f64], found: SimulatedFloat, envelope: EnvelopeFloat) {
+            let (found, interval) = (found.value(), envelope.interval());
+            let holds =
+                if found.is_nan() { interval.may_be_nan } else { found >= interval.low && found <= interval.high };
+            if !holds {
+                let told = format!("{name}{arguments:?} is {found}, outside of {interval:?}, by {:?}", Gpu::current());
+                self.outside.entry(name).or_insert(told);
+            }
+            self.counted += u32::from(interval.low < interval.high);
+        }
+    }
+
+    /// Every function of every GPU of the population is inside of the envelope of the same function.
+    #[test]
+    fn functions_are_inside_of_their_envelopes() {
+        let mut checked = Checked::default();
+        let numbers: Vec<f64> = arguments().collect();
+        for number in 0..48 {
+            Gpu::of(3, number).enter();
+            for (x, y) in numbers.iter().zip(numbers.iter().skip(1)) {
+                let [a, b] = [*x, *y].map(SimulatedFloat::from_f64);
+                let [wide_a, wide_b] = [*x, *y].map(EnvelopeFloat::from_f64);
+                for op in Unary::ALL {
+                    checked.add(op.name(), &[*x], unary(*op, a), unary(*op, wide_a));
+                }
+                for op in Binary::ALL {
+                    checked.add(op.name(), &[*x, *y], binary(*op, a, b), binary(*op, wide_a, wide_b));
+                }
+                let half = [*x, *y].map(|number| SimulatedFloat::from_f64(number).mix(b, a));
+                let wide = [*x, *y].map(|number| EnvelopeFloat::from_f64(number).mix(wide_b, wide_a));
+                half.into_iter().zip(wide).for_each(|(found, wide)| checked.add("mix", &[*x, *y], found, wide));
+            }
+        }
+        Gpu::STRICT.enter();
+        assert!(checked.outside.is_empty(), "{:#?}", checked.outside);
+        assert!(checked.counted > 100_000, "{} of them have room", checked.counted);
+    }
+}

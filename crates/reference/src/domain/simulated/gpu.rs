@@ -1,0 +1,318 @@
+//! [`Gpu`]: a GPU that conforms, by its choices among what the specifications leave open.
+//!
+//! *In:* a seed and a number. *Out:* the choices, the same for the same seed and number. *Holds:* a choice is a GPU's, not
+//! an operation's: the same operation on the same numbers always has the same result, as in hardware. The first two
+//! GPUs are drawn by no chance: number 0 rounds each operation to the nearest, number 1 as well but interpolates by
+//! planes and flushes subnormals, as most drivers do.
+
+use std::cell::Cell;
+
+/// The rounding of an operation whose rule is "correctly rounded", which means either neighbor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Rounding {
+    Nearest,
+    TowardZero,
+    /// Up or down, by the digits that are lost.
+    Either,
+}
+
+/// The equation by which varyings are interpolated over a triangle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Planes {
+    /// Weights of the vertices.
+    Weights,
+    /// A value at the window's corner and two slopes.
+    FromCorner,
+    /// The value at the first vertex and two slopes.
+    FromVertex,
+}
+
+/// A simulated GPU.
+#[derive(Clone, Copy, Debug)]
+pub struct Gpu {
+    seed: u64,
+    pub(super) rounding: Rounding,
+    pub(super) flushes: bool,
+    /// Whether a product is added without being rounded.
+    pub(super) fuses: bool,
+    /// Whether sums of products begin with the last one.
+    pub(super) sums_backward: bool,
+    /// Whether `min` and `max` pass a NaN on.
+    pub(super) passes_nan: bool,
+    /// Whether derivatives are those of one row and one column of the quad.
+    pub(super) coarse: bool,
+    pub(super) planes: Planes,
+    /// The bits of filter weights; none if they are floats.
+    pub(super) weight_bits: Option<u32>,
+    /// The bits of the fraction of a level of detail; none if it is a float.
+    pub(super) level_bits: Option<u32>,
+    /// A bit for each [`Form`].
+    forms: u8,
+}
+
+/// A choice of its own of each GPU.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Choice {
+    Rounding,
+    Flush,
+    Fuse,
+    Sums,
+    Nan,
+    Coarse,
+    Planes,
+    Weights,
+    Levels,
+    Forms,
+    /// Of each [`Function`], from here on.
+    Functions,
+}
+
+/// A function with an error of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Function {
+    Divide,
+    Sqrt,
+    Inversesqrt,
+    Exp,
+    Exp2,
+    Log,
+    Log2,
+    Pow,
+    Sin,
+    Cos,
+    Tan,
+    Asin,
+    Acos,
+    Atan,
+    Sinh,
+    Cosh,
+    Tanh,
+    Asinh,
+    Acosh,
+    Atanh,
+    /// Of a point, which a driver rounds.
+    PointSize,
+}
+
+/// An operation with two forms.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Form {
+    /// Of a rule that allows two.
+    Rule,
+    /// Rounding from a half.
+    Half,
+    Mix,
+    /// Of functions that inherit their precision: the formula, or the function with an error of its own.
+    Inherited,
+}
+
+/// The error of a function.
+#[derive(Clone, Copy, Debug, Default)]
+struct Swing {
+    /// The largest, as a share of the allowed one, -1 to 1; 0 if the function is computed as well as possible.
+    size: f64,
+    /// Where it begins to swing, 0 to 1.
+    begin: f64,
+    /// How often it swings.
+    times: f64,
+}
+
+const FUNCTIONS: usize = Function::PointSize as usize + 1;
+
+thread_local! {
+    /// The GPU that computes on this thread.
+    static CURRENT: Cell<Gpu> = const { Cell::new(Gpu::STRICT) };
+    /// The errors of its functions.
+    static SWINGS: Cell<[Swing; FUNCTIONS]> =
+        const { Cell::new([Swing { size: 0.0, begin: 0.0, times: 0.0 }; FUNCTIONS]) };
+}
+
+/// Mixes the bits of a number (the finalizer of SplitMix64).
+pub(super) const fn mixed(mut state: u64) -> u64 {
+    state = (state ^ (state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    state = (state ^ (state >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    state ^ (state >> 31)
+}
+
+impl Gpu {
+    /// Rounds to the nearest, and has no other freedom.
+    pub const STRICT: Self = Self {
+        seed: 0,
+        rounding: Rounding::Nearest,
+        flushes: false,
+        fuses: false,
+        sums_backward: false,
+        passes_nan: false,
+        coarse: false,
+        planes: Planes::Weights,
+        weight_bits: None,
+        level_bits: None,
+        forms: 0,
+    };
+
+    /// The GPU of this number in the population of a seed.
+    pub fn of(seed: u64, number: u32) -> Self {
+        match number {
+            0 => return Self::STRICT,
+            1 => return Self { flushes: true, planes: Planes::FromCorner, ..Self::STRICT },
+            _ => {}
+        }
+        let blank = Self { seed: mixed(seed ^ mixed(u64::from(number))) | 1, ..Self::STRICT };
+        let yes = |choice: Choice| blank.pick(choice, 2) == 1;
+        Self {
+            rounding: match blank.pick(Choice::Rounding, 8) {
+                0..4 => Rounding::Nearest,
+                4 => Rounding::TowardZero,
+                _ => Rounding::Either,
+            },
+            flushes: yes(Choice::Flush),
+            fuses: yes(Choice::Fuse),
+            sums_backward: yes(Choice::Sums),
+            passes_nan: yes(Choice::Nan),
+            coarse: yes(Choice::Coarse),
+            planes: match blank.pick(Choice::Planes, 3) {
+                0 => Planes::Weights,
+                1 => Planes::FromCorner,
+                _ => Planes::FromVertex,
+            },
+            weight_bits: yes(Choice::Weights).then_some(8),
+            level_bits: match blank.pick(Choice::Levels, 3) {
+                0 => None,
+                1 => Some(8),
+                _ => Some(4),
+            },
+            forms: blank.pick(Choice::Forms, 256) as u8,
+            ..blank
+        }
+    }
+
+    /// Computes on this thread from now on.
+    pub fn enter(self) {
+        CURRENT.set(self);
+        SWINGS.set(std::array::from_fn(|function| self.swing(function)));
+    }
+
+    /// Half of all GPUs compute a function as well as possible.
+    fn swing(&self, function: usize) -> Swing {
+        let unit = |bits: u64| (bits >> 11) as f64 / (1_u64 << 53) as f64;
+        let bits = mixed(self.seed ^ mixed(Choice::Functions as u64 + function as u64));
+        if self.is_strict() || bits & 1 == 0 {
+            return Swing::default();
+        }
+        let [size, begin] = [mixed(bits ^ 1), mixed(bits ^ 2)].map(unit);
+        Swing { size: 2.0 * size - 1.0, begin, times: (1 + (bits >> 1) % 8) as f64 }
+    }
+
+    /// The GPU that computes on this thread.
+    #[inline(always)]
+    pub(super) fn current() -> Self {
+        CURRENT.get()
+    }
+
+    /// Whether it is the one without freedom.
+    #[inline(always)]
+    fn is_strict(&self) -> bool {
+        self.seed == 0
+    }
+
+    /// One of `count` choices.
+    fn pick(&self, choice: Choice, count: u64) -> u64 {
+        mixed(self.seed ^ mixed(choice as u64)) % count.max(1)
+    }
+
+    /// Whether an operation has its second form.
+    #[inline(always)]
+    pub(super) fn has_second(&self, form: Form) -> bool {
+        self.forms >> (form as u8) & 1 == 1
+    }
+
+    /// Whether the GPU of this thread computes a function as well as possible.
+    #[inline(always)]
+    pub(super) fn is_precise(function: Function) -> bool {
+        Self::swing_of(function).size == 0.0
+    }
+
+    #[inline(always)]
+    fn swing_of(function: Function) -> Swing {
+        SWINGS.with(|swings| swings.as_array_of_cells()[function as usize].get())
+    }
+
+    /// The error of a function at a place between 0 and 1, as a share of the allowed one, -1 to 1. It swings like the
+    /// error of a polynomial.
+    pub(super) fn share(function: Function, place: f64) -> f64 {
+        let Swing { size, begin, times } = Self::swing_of(function);
+        let turn = place * times + begin;
+        size * (1.0 - 4.0 * (turn.fract() - 0.5).abs())
+    }
+
+    /// The f32 to which it rounds.
+    #[inline(always)]
+    pub(super) fn rounded(&self, exact: f64) -> f64 {
+        let nearest = exact as f32;
+        let single = if f64::from(nearest) == exact || !nearest.is_finite() {
+            nearest
+        } else {
+            match self.rounding {
+                Rounding::Nearest => nearest,
+                Rounding::TowardZero if f64::from(nearest).abs() > exact.abs() => toward_zero(nearest),
+                Rounding::TowardZero => nearest,
+                Rounding::Either if mixed(exact.to_bits() ^ self.seed) & 1 == 0 => nearest,
+                Rounding::Either if f64::from(nearest).abs() > exact.abs() => toward_zero(nearest),
+                Rounding::Either => from_zero(nearest),
+            }
+        };
+        f64::from(if self.flushes && single.is_subnormal() { 0.0 * single } else { single })
+    }
+}
+
+/// The neighbor of smaller size; that of 0 has the other sign.
+fn toward_zero(x: f32) -> f32 {
+    if x > 0.0 { x.next_down() } else { x.next_up() }
+}
+
+/// The neighbor of larger size.
+fn from_zero(x: f32) -> f32 {
+    if x > 0.0 { x.next_up() } else { x.next_down() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_gpu_rounds_to_a_neighbor() {
+        let mut counts = [0; 3];
+        for number in 0..64 {
+            let gpu = Gpu::of(7, number);
+            counts[gpu.rounding as usize] += 1;
+            for place in 1..2000 {
+                let exact = f64::from(place) * 0.000_7 - 0.5;
+                let nearest = f64::from(exact as f32);
+                let ulp = crate::domain::rules::ulp(exact);
+                let found = gpu.rounded(exact);
+                assert_eq!(found, f64::from(found as f32), "an f32");
+                assert!((found - exact).abs() < ulp, "{exact} {found} {gpu:?}");
+                assert!(gpu.rounding != Rounding::Nearest || found == nearest);
+                assert!(gpu.rounding != Rounding::TowardZero || found.abs() <= exact.abs());
+                assert_eq!(gpu.rounded(found), found, "an f32 stays");
+            }
+        }
+        assert!(counts.iter().all(|count| *count > 2), "{counts:?}");
+    }
+
+    #[test]
+    fn errors_of_functions_fill_their_room() {
+        let mut most = 0.0_f64;
+        let mut precise = 0;
+        for number in 2..66 {
+            Gpu::of(1, number).enter();
+            precise += u32::from(Gpu::is_precise(Function::Sin));
+            let share = |k: i32| Gpu::share(Function::Sin, f64::from(k) / 100.0).abs();
+            let largest = (0..100).map(share).fold(0.0, f64::max);
+            assert!(largest <= 1.0);
+            most = most.max(largest);
+        }
+        Gpu::STRICT.enter();
+        assert!(most > 0.8 && (16..48).contains(&precise), "{most} {precise}");
+    }
+}

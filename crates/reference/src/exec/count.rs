@@ -1,0 +1,154 @@
+//! [`Step`]: what a machine executes, for those who count.
+//!
+//! *In:* instructions as they run, of code in the counted form. *Out:* a [`Step`] for each that is an operation of the text.
+//!
+//! *Holds:* copies, masks and what no output depends on are no steps. Names are those of the table of operations, and of
+//! [`Step::OTHERS`] for what that table does not have.
+
+use super::code::{Inner, Section};
+use super::inst::{Composite, Inst, Int2, Lookup, TextureCall};
+use super::machine::Machine;
+use crate::domain::{Domain, Integer};
+use glisten_front::builtin::operations::{Binary, Derivative, Ternary, Unary};
+use glisten_front::hir::{SamplerDim, Stage};
+use glisten_scene::Filter;
+
+/// A kind of step with its size. What it costs is for others to say.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Step {
+    /// The name: `+`, `pow`, `normalize`, `lookup`, `branch`, `fragment`.
+    pub name: &'static str,
+    /// The components of the result; of an invocation, the components of its outputs; of a lookup, 4.
+    pub results: u32,
+    /// The components of the first argument; of an invocation, the components of its inputs; of a lookup, the texels that
+    /// it reads.
+    pub argument: u32,
+}
+
+impl Step {
+    /// The invocation of the vertex stage.
+    pub const VERTEX: &str = "vertex";
+    /// The invocation of the fragment stage.
+    pub const FRAGMENT: &str = "fragment";
+    /// A lookup in a texture.
+    pub const LOOKUP: &str = "lookup";
+    /// The steps that are not in the table of operations.
+    pub const OTHERS: &[&str] = &[
+        Self::VERTEX,
+        Self::FRAGMENT,
+        Self::LOOKUP,
+        "negation",
+        "comparison",
+        "conversion",
+        "selection",
+        "branch",
+        "index",
+        "integer",
+        "integer division",
+    ];
+
+    /// The names of all steps, sorted.
+    pub fn names() -> Vec<&'static str> {
+        let unary = Unary::ALL.iter().map(|op| name_of_unary(*op));
+        let binary = Binary::ALL.iter().map(|op| op.name());
+        let ternary = Ternary::ALL.iter().map(|op| op.name());
+        let composite = Composite::ALL.iter().map(|op| op.name());
+        let mut names: Vec<&str> = unary.chain(binary).chain(ternary).chain(composite).collect();
+        names.extend(["dFdx", "dFdy", "fwidth"]);
+        names.extend(Self::OTHERS);
+        names.sort_unstable();
+        names.dedup();
+        names
+    }
+
+    fn scalar(name: &'static str) -> Option<Self> {
+        Some(Self { name, results: 1, argument: 1 })
+    }
+}
+
+fn name_of_unary(op: Unary) -> &'static str {
+    // `-` is the name of the subtraction.
+    if op == Unary::Neg { "negation" } else { op.name() }
+}
+
+/// The step of an instruction, except for lookups.
+fn step(inst: &Inst) -> Option<Step> {
+    match *inst {
+        Inst::Float1 { op, .. } => Step::scalar(name_of_unary(op)),
+        Inst::Float2 { op, .. } => Step::scalar(op.name()),
+        Inst::Float3 { op, .. } => Step::scalar(op.name()),
+        Inst::Compare { .. } => Step::scalar("comparison"),
+        Inst::FloatToInt { .. } | Inst::IntToFloat { .. } => Step::scalar("conversion"),
+        Inst::SelectFloat { .. } | Inst::SelectInt { .. } => Step::scalar("selection"),
+        Inst::Int2 { op: Int2::ClampIndex, .. } => None,
+        Inst::Int2 { op: Int2::DivSigned | Int2::DivUnsigned | Int2::RemSigned | Int2::RemUnsigned, .. } => {
+            Step::scalar("integer division")
+        }
+        Inst::Int1 { .. } | Inst::Int2 { .. } => Step::scalar("integer"),
+        Inst::Composite { op, size, results, .. } => {
+            let size = u32::from(size);
+            let argument = if matches!(op, Composite::Determinant | Composite::Inverse) { size * size } else { size };
+            Some(Step { name: op.name(), results: results.len, argument })
+        }
+        Inst::Derivative { op, .. } => Step::scalar(match op {
+            Derivative::X => "dFdx",
+            Derivative::Y => "dFdy",
+            Derivative::Width => "fwidth",
+        }),
+        Inst::LoadFloat { .. }
+        | Inst::LoadInt { .. }
+        | Inst::StoreIndexedFloat { .. }
+        | Inst::StoreIndexedInt { .. } => Step::scalar("index"),
+        Inst::Arm { .. } | Inst::LoopTest { .. } | Inst::CaseMask { .. } => Step::scalar("branch"),
+        _ => None,
+    }
+}
+
+/// The texels that a lookup reads.
+fn texels(call: &TextureCall, filter: Filter) -> u32 {
+    if call.lookup == Lookup::Fetch || filter == Filter::Nearest {
+        return 1;
+    }
+    let directions = match call.kind.dim {
+        SamplerDim::D1 => 1,
+        SamplerDim::D3 => 3,
+        _ => 2,
+    };
+    1 << (directions + u32::from(filter == Filter::Trilinear))
+}
+
+impl<D: Domain> Machine<D> {
+    /// Tells the observer of an instruction that is about to run.
+    pub(super) fn count(&mut self, inst: &Inst, (section, place): (&Section, usize), inner: &Inner, mask: u64) {
+        if section.dead.get(place).copied().unwrap_or(false) {
+            return;
+        }
+        let step = match inst {
+            Inst::Texture { call } => inner.textures.get(*call as usize).and_then(|call| self.lookup_step(call, mask)),
+            inst => step(inst),
+        };
+        let lanes = (mask & self.watched).count_ones();
+        if let (Some(step), Some(observer)) = (step, &mut self.observer) {
+            observer.count(step, lanes);
+        }
+    }
+
+    /// A query of a texture's size looks nothing up.
+    fn lookup_step(&self, call: &TextureCall, mask: u64) -> Option<Step> {
+        if call.lookup == Lookup::Size {
+            return Step::scalar("integer");
+        }
+        let slot = self.registers.int(call.sampler).at(mask.trailing_zeros().min(63) as usize).bits();
+        let texture = self.textures.get(slot as usize).and_then(Option::as_ref);
+        let filter = texture.map_or(Filter::Nearest, |texture| texture.filter);
+        Some(Step { name: Step::LOOKUP, results: 4, argument: texels(call, filter) })
+    }
+
+    /// Tells the observer of the invocations that are about to run.
+    pub(super) fn count_invocations(&mut self, inner: &Inner) {
+        let Some(observer) = &mut self.observer else { return };
+        let name = if inner.stage == Stage::Vertex { Step::VERTEX } else { Step::FRAGMENT };
+        let [results, argument] = [&inner.outputs, &inner.inputs].map(|ports| ports.len() as u32);
+        observer.count(Step { name, results, argument }, self.watched.count_ones());
+    }
+}

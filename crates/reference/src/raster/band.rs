@@ -1,0 +1,111 @@
+//! The band around the edges of a shape: the pixels for which a conforming GPU may decide coverage differently.
+//!
+//! *In:* a [`Shape`]. *Out:* the pixels of a rectangle whose centers are within the band ([`band`]), each with whether it
+//! is covered, and near which edges. *Holds:* each pixel is reported once, row by row; the cost is that of the edges, not
+//! of the area. How wide the band is belongs to the edges ([`Edge::near`]).
+
+use super::{Bounds, Edge, Shape};
+use smallvec::SmallVec;
+
+/// A pixel near an edge.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Near {
+    pub(crate) x: i64,
+    pub(crate) y: i64,
+    /// Whether the shape covers the pixel.
+    pub(crate) is_inside: bool,
+    /// Near which edges: bit `i` is edge `i`.
+    pub(crate) edges: u8,
+}
+
+/// Calls `visit` with each pixel of `area` whose center is near an edge of the shape, and not beyond another one.
+pub(crate) fn band(shape: &Shape, area: Bounds, mut visit: impl FnMut(Near)) {
+    let Shape::Convex { bounds, edges, count } = shape else { return };
+    let area = bounds.intersect(area);
+    let edges = edges.get(..*count).unwrap_or(&[]);
+    let mut columns: SmallVec<[i64; 16]> = SmallVec::new();
+    for y in area.y0..area.y1 {
+        columns.clear();
+        edges.iter().for_each(|edge| columns.extend(columns_near(edge, area, y)));
+        columns.sort_unstable();
+        columns.dedup();
+        columns.iter().filter_map(|&x| near(edges, x, y)).for_each(&mut visit);
+    }
+}
+
+/// The columns of a row near a line.
+fn columns_near(edge: &Edge, area: Bounds, y: i64) -> std::ops::Range<i64> {
+    let at_zero = edge.at(0, y);
+    let (low, high) = match edge.step_x {
+        0 if at_zero.abs() <= edge.near => (area.x0, area.x1),
+        0 => (0, 0),
+        step => {
+            let ends = [-edge.near - at_zero, edge.near - at_zero];
+            let [low, high] = if step > 0 { ends } else { [-ends[1], -ends[0]] };
+            // From the first column not below `low` to the last one not above `high`.
+            (-(-low).div_euclid(step.abs()), high.div_euclid(step.abs()) + 1)
+        }
+    };
+    low.max(area.x0)..high.min(area.x1)
+}
+
+fn near(edges: &[Edge], x: i64, y: i64) -> Option<Near> {
+    let mut found = Near { x, y, is_inside: true, edges: 0 };
+    for (index, edge) in edges.iter().enumerate() {
+        let value = edge.at(x, y);
+        if value < -edge.near {
+            return None;
+        }
+        found.is_inside &= value >= 0;
+        found.edges |= u8::from(value.abs() <= edge.near) << index;
+    }
+    (found.edges != 0).then_some(found)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Fixed, triangle};
+    use super::*;
+
+    const AREA: Bounds = Bounds { x0: 0, x1: 16, y0: 0, y1: 16 };
+
+    fn shape(corners: [(f32, f32); 3]) -> Shape {
+        triangle::shape(corners.map(|(x, y)| Fixed::snap(x, y).expect("finite"))).expect("it has area")
+    }
+
+    #[test]
+    fn pixels_near_an_edge_are_found() {
+        let mut found = Vec::new();
+        band(&shape([(2.495, 0.0), (12.0, 0.0), (2.495, 12.0)]), AREA, |near| found.push(near));
+        assert!(found.iter().any(|near| (near.x, near.y, near.is_inside) == (2, 5, true)), "{found:?}");
+        assert!(found.iter().all(|near| near.x != 3 || near.y != 5));
+        found.clear();
+        // Just to the right of the center.
+        band(&shape([(2.505, 0.0), (12.0, 0.0), (2.505, 12.0)]), AREA, |near| found.push(near));
+        assert!(found.iter().any(|near| (near.x, near.y, near.is_inside) == (2, 5, false)), "{found:?}");
+    }
+
+    #[test]
+    fn the_band_is_that_of_a_search_of_all_pixels() {
+        let mut state = 3_u32;
+        let mut next = || {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            // Multiples of an eighth of a pixel, so that centers lie on edges.
+            ((state >> 8) % 160) as f32 / 8.0 - 2.0
+        };
+        let mut total = 0;
+        for _ in 0..300 {
+            let corners = [(next(), next()), (next(), next()), (next(), next())];
+            let corners = corners.map(|(x, y)| Fixed::snap(x, y).expect("finite"));
+            let Some(shape) = triangle::shape(corners) else { continue };
+            let Shape::Convex { edges, count, .. } = &shape else { continue };
+            let mut found = Vec::new();
+            band(&shape, AREA, |near| found.push(near));
+            let all = (0..16).flat_map(|y| (0..16).map(move |x| (x, y)));
+            let expected: Vec<Near> = all.filter_map(|(x, y)| near(&edges[..*count], x, y)).collect();
+            assert_eq!(found, expected);
+            total += found.len();
+        }
+        assert!(total > 100, "{total}");
+    }
+}

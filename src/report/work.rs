@@ -1,0 +1,39 @@
+//! The work of a way: what the reference executes for its picture.
+
+use super::model::Work;
+use super::weights::Weights;
+use glisten_front::diagnostic::Diagnostic;
+use glisten_reference::{Counts, RenderOptions, Step, counts};
+use glisten_scene::Scene;
+use glisten_specialize::optimize;
+use std::sync::Arc;
+
+/// Counts the work of a scene. What reaches no output of a program is left out, as emitters and drivers leave it out.
+///
+/// # Errors
+/// Those of the reference.
+pub fn work(scene: &Scene, weights: &Weights) -> Result<Work, Vec<Diagnostic>> {
+    let options = RenderOptions { mark_edges: false, ..RenderOptions::default() };
+    let mut all = Counts::new();
+    for counts in counts(&without_unread(scene), &options)? {
+        for (step, count) in counts {
+            *all.entry(step).or_default() += count;
+        }
+    }
+    let of = |name: &str| all.iter().filter(|(step, _)| step.name == name).map(|(_, count)| count).sum();
+    Ok(Work {
+        vertices: of(Step::VERTEX),
+        fragments: of(Step::FRAGMENT),
+        operations: weights.sum(&all),
+        texture_lookups: of(Step::LOOKUP),
+    })
+}
+
+/// The scene with programs without what no output depends on.
+fn without_unread(scene: &Scene) -> Scene {
+    let mut scene = scene.clone();
+    for draw in &mut scene.draws {
+        draw.program = Arc::new(optimize(&draw.program));
+    }
+    scene
+}
