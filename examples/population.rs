@@ -12,7 +12,7 @@ use glisten::{Compiler, Gpu, Precision, RenderOptions};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_gpu::Via;
 use glisten_reference::{LineRule, populate};
-use glisten_scene::compare::{Judge, Population, Written};
+use glisten_scene::compare::{Comparison, Population, Written};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
@@ -111,8 +111,9 @@ fn lines(scene: &Scene, gpu: &Gpu, arguments: &Arguments) -> Result<Vec<Line>, S
         .into_iter()
         .map(|via| {
             let picture = gpu.render(scene, via).map_err(|error| error.to_string())?.picture;
-            let judge = Judge { written: Some(&written), population: Some(&population), ..Judge::default() };
-            let verdict = judge.compare(&picture, &reference).verdict;
+            let comparison =
+                Comparison { written: Some(&written), population: Some(&population), ..Comparison::default() };
+            let verdict = comparison.compare(&picture, &reference).verdict;
             let (covered, suspect) = (verdict.covered, verdict.suspect.unwrap_or(0));
             Ok(Line { via, covered, suspect, is_alarm: verdict.is_suspect(), milliseconds })
         })

@@ -84,7 +84,7 @@ impl<'a> TimedGpu<'a> {
         Self { gpu: Arc::clone(gpu), via, foreign: Arc::new([]), machine, progress }
     }
 
-    /// The same with modules of other translators.
+    /// Draws with modules of other translators.
     pub(super) fn with(self, foreign: &Arc<[Foreign]>) -> Self {
         Self { foreign: Arc::clone(foreign), ..self }
     }

@@ -38,6 +38,7 @@ pub use model::{Adapter, Ended, Figures, Machine, OnFront, Report, Skipped, Spre
 pub use options::{Error, Options, Watcher, Ways};
 pub use past::Past;
 pub use run::run;
+pub use ways::{LIBRARY_SCENE, LibraryFiles};
 pub use weights::Weights;
 pub use work::{steps, work};
 

@@ -6,8 +6,9 @@
 
 use super::{Failure, Options};
 use crate::scene::Scene;
-use glisten_reference::domain::faults::{Faults, KNOWN};
-use glisten_scene::compare::{Compared, Criterion, Judge, Population, Verdict, Written};
+use glisten_reference::domain::faults::Faults;
+use glisten_reference::faults_of;
+use glisten_scene::compare::{Compared, Comparison, Criterion, Population, Verdict, Written};
 use glisten_scene::picture::Picture;
 use std::time::Instant;
 
@@ -71,11 +72,11 @@ impl<'a> Expected<'a> {
     /// The reference cannot draw the scene with a fault excused.
     pub fn compared(&mut self, picture: &Picture) -> Result<Compared, Failure> {
         let Options { criterion, excuse_known_faults, .. } = *self.options;
-        let mut compared = self.judge(&[]).compare(picture, &self.picture);
+        let mut compared = self.comparison(&[]).compare(picture, &self.picture);
         for members in [FEW, ALL] {
             let open = compared.verdict.suspect.is_none() || compared.verdict.is_suspect();
             if open && self.populate(members)? {
-                compared = self.judge(&[]).compare(picture, &self.picture);
+                compared = self.comparison(&[]).compare(picture, &self.picture);
             }
         }
         if criterion != Criterion::Envelope || !compared.verdict.needs_excuse() || !excuse_known_faults {
@@ -85,7 +86,7 @@ impl<'a> Expected<'a> {
             Some(excused) => excused,
             None => self.draw_excused()?,
         };
-        let compared = self.judge(&excused).compare(picture, &self.picture);
+        let compared = self.comparison(&excused).compare(picture, &self.picture);
         self.excused = Some(excused);
         Ok(compared)
     }
@@ -105,14 +106,16 @@ impl<'a> Expected<'a> {
         Ok(true)
     }
 
-    fn judge<'j>(&'j self, faults: &'j [(&'static str, Picture)]) -> Judge<'j> {
+    fn comparison<'j>(&'j self, faults: &'j [(&'static str, Picture)]) -> Comparison<'j> {
         let Options { criterion, width, .. } = *self.options;
-        Judge { criterion, faults, written: Some(&self.written), width, population: self.population.as_ref() }
+        Comparison { criterion, faults, written: Some(&self.written), width, population: self.population.as_ref() }
     }
 
+    /// One picture for each known fault that can show in the scene; and one with all of them, if there are several.
     fn draw_excused(&self) -> Result<Vec<(&'static str, Picture)>, Failure> {
-        let one = KNOWN.iter().map(|known| (known.name, Faults::only(known.fault)));
-        let named = one.chain([("several", Faults::all())]);
+        let known = faults_of(self.scene);
+        let one = known.iter().map(|known| (known.name, Faults::only(known.fault)));
+        let named = one.chain((known.len() > 1).then(|| ("several", Faults::all())));
         let (names, options): (Vec<_>, Vec<_>) =
             named.map(|(name, faults)| (name, self.options.reference_options(faults))).unzip();
         Ok(names.into_iter().zip(self.options.reference.render_all(self.scene, &options)?).collect())

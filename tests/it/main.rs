@@ -13,6 +13,8 @@ mod emit;
 mod envelope;
 #[cfg(feature = "cli")]
 mod equations;
+#[cfg(feature = "cli")]
+mod evidence;
 #[cfg(feature = "reference")]
 mod exec;
 #[cfg(feature = "cli")]

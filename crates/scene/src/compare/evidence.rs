@@ -15,7 +15,8 @@
 //!
 //! The goal is 1/255 of the range of the picture's values, unless it is given: of all channels that the programs write,
 //! over the covered pixels, alpha included. A picture of one value has no range; its goal is 1/255 of 1/255 of its
-//! largest magnitude. In 8 bits, the goal is at least one step: nothing is between.
+//! largest magnitude. In 8 bits, the goal is at least one step, because nothing
+//! is between, and two steps where a draw blends, which rounds twice.
 //!
 //! *Holds:* the counts of the classes add up to the number of covered pixels, and so do those of the widths.
 
@@ -204,7 +205,10 @@ impl Written {
             }
         }
         let format = scene.framebuffer.format;
-        Self { channels, full: full_range(format), step: step(format), relative: relative_step(format) }
+        let blends = scene.draws.iter().any(|draw| draw.state.blend.is_some());
+        // Blending rounds its factors and products as well (§4.1.7).
+        let steps = if blends { 2.0 } else { 1.0 };
+        Self { channels, full: full_range(format), step: steps * step(format), relative: relative_step(format) }
     }
 
     /// Every channel of some attachments, of floats.
@@ -232,7 +236,7 @@ impl Written {
 /// The distance of neighboring values, and what rounding adds to it.
 fn step(format: Format) -> f64 {
     match format {
-        Format::Rgba8Unorm => 1.000_01 / 255.0,
+        Format::Rgba8Unorm => 1.0001 / 255.0,
         Format::Rgba32Sint | Format::Rgba32Uint | Format::Rgba32Float | Format::Rgba16Float => 0.0,
     }
 }
@@ -400,7 +404,7 @@ mod tests {
     #[test]
     fn a_channel_that_is_not_written_measures_nothing() {
         let picture = reference(&[Interval::ALL]);
-        let written = Written { channels: vec![[false, true, true, false]], full: None, step: 0.0 };
+        let written = Written { channels: vec![[false, true, true, false]], full: None, step: 0.0, relative: 0.0 };
         let ruler = Ruler::new(&picture, &written, None);
         assert_eq!((ruler.range, ruler.class(2), ruler.width(2)), (0.0, Class::Judged, 0.0));
     }
