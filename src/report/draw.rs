@@ -77,6 +77,15 @@ impl Drawing<'_> {
         Ok(())
     }
 
+    /// A frame that only clears, on the device.
+    pub(super) fn empty(&self) -> Option<Candidate> {
+        let scene = &self.done.first()?.way.scene;
+        let empty = Scene { name: scene.name.clone(), framebuffer: scene.framebuffer, draws: Vec::new() };
+        let prepared = self.gpu.prepare(&empty, self.options.via).ok()?;
+        let frames = self.gpu.frames_for_a_stretch(&prepared).ok()?;
+        Some(Candidate { prepared, frames })
+    }
+
     fn drawn(&mut self, planned: &PlannedWay, scene: &Scene, watcher: &mut dyn Watcher) -> Result<Draw, Error> {
         let failed = |error| Error::Gpu { way: planned.name.clone(), error };
         self.step(&format!("{} on the CPU", planned.name), watcher);

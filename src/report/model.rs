@@ -97,6 +97,8 @@ pub struct Timing {
     pub baseline: String,
     /// Its median time in milliseconds per frame.
     pub baseline_ms: f64,
+    /// The median time of a frame that only clears: a part of every way's time.
+    pub empty_ms: f64,
     /// How often all ways were drawn, each round in an order by chance.
     pub rounds: u32,
     /// The seed of the orders.
