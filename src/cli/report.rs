@@ -114,6 +114,7 @@ impl Watcher for Steps {
 
 /// Runs the command.
 pub(super) fn run(args: &ReportArgs, console: &Console) -> Outcome {
+    let interrupt = Interrupt::watch();
     let checks = args.checks.read()?;
     let weights = weights(args.weights.as_deref())?;
     let session = args.scene.session(console)?;
@@ -131,7 +132,6 @@ pub(super) fn run(args: &ReportArgs, console: &Console) -> Outcome {
         time: args.seconds.map(Duration::from_secs_f64),
         machine: machine(),
     };
-    let interrupt = Interrupt::watch();
     let mut steps =
         Steps { progress: Progress::new(console, 1).with_estimate(), begun: false, interrupt: interrupt.clone() };
     let files: &dyn FileSource = if args.library { &LibraryFiles } else { &DiskFiles };
