@@ -2,14 +2,17 @@
 
 use super::scenes::{At, Ball, By, Highlight, errors, files, picture, scene};
 use glisten::report::{self, Weights};
-use glisten::{Compiler, Gpu};
+use glisten::{Compiler, Gpu, Options};
 use glisten_gpu::Via;
 use std::fmt::Write;
+use std::time::Duration;
 
 /// Fragments that outnumber vertices, and vertices that outnumber fragments.
 const MESHES: [u32; 2] = [64, 512];
 const SIZE: u32 = 256;
 const EXPONENTS: [u32; 2] = [4, 32];
+/// The limit of timing for a mesh and an exponent.
+const TIME: Duration = Duration::from_secs(30);
 
 /// The ways to draw a highlight of an exponent, those at the vertices first.
 fn ways(exponent: u32) -> Vec<Highlight> {
@@ -62,63 +65,57 @@ pub(crate) fn work() -> Result<String, String> {
 }
 
 fn work_of(scene: &glisten::scene::Scene, weights: &Weights) -> Result<(u64, u64), String> {
-    let counted = report::work(scene, weights).map_err(|errors| format!("{errors:?}"))?;
+    let steps = report::steps(scene).map_err(|errors| format!("{errors:?}"))?;
+    let counted = report::work(&steps, weights);
     Ok((counted.operations, counted.texture_lookups))
 }
 
-/// The table of times: ratios to `pow` at the same place.
+/// The table of times: ratios to `pow` at the vertices of the same mesh, round by round.
 pub(crate) fn time() -> Result<String, String> {
     let gpu = Gpu::new(Some("software")).map_err(|error| error.to_string())?;
     let mut text = String::from(
-        "| k | highlight | mesh | time, `pow` at the vertices is 1 | 95 % interval |\n| --- | --- | --- | --- | --- |",
+        "| k | highlight | time, 64x32 | 95 % interval | time, 512x256 | 95 % interval |\n\
+         | --- | --- | --- | --- | --- | --- |",
     );
     for exponent in EXPONENTS {
         let ways = ways(exponent);
-        let mut scene = Ball { size: SIZE, segments: MESHES[0] }.text(&ways[0].keys("0"));
-        let meshes: Vec<String> = MESHES.iter().map(|segments| format!("[{segments}, {}]", segments / 2)).collect();
-        let _ = write!(scene, "\n[report]\ntessellations = [{}]\n", meshes.join(", "));
-        for (number, way) in ways.iter().enumerate() {
-            let truth = if number == 0 { "truth = true\n" } else { "" };
-            let _ = write!(
-                scene,
-                "\n[[report.way]]\nname = \"{}\"\nmodel = \"k\"\n{truth}set = {{ {} }}\n",
-                way.name(),
-                way.keys(&number.to_string())
-            );
-        }
-        let mut files = files(&ways);
-        files.0.insert("s.toml".into(), scene.into_bytes());
-        let options = report::Options {
-            via: Via::Spirv,
-            specialized: None,
-            ways: report::Ways::Declared,
-            weights: Weights::default(),
-            rounds: None,
-            time: Some(std::time::Duration::from_secs(40)),
-            machine: report::Machine::default(),
-        };
-        let compiler = Compiler::new(glisten::Options::default());
-        let found = report::run("s.toml", &files, &compiler, &gpu, &options, &mut ());
-        let found = found.map_err(|error| format!("{error:?}"))?;
-        for mesh in MESHES {
-            let of_mesh = || found.ways.iter().filter(|way| way.tessellation.is_some_and(|[n, _]| n == mesh));
-            let Some(base) = of_mesh().next() else { continue };
-            for way in of_mesh() {
-                let scaled = |x: f64| x / base.ratio.median;
-                let [low, high] = way.ratio.interval;
-                let _ = write!(
-                    text,
-                    "\n| {exponent} | {} | {mesh}x{} | {:.2} | {:.2} to {:.2} |",
-                    way.name,
-                    mesh / 2,
-                    scaled(way.ratio.median),
-                    scaled(low),
-                    scaled(high)
-                );
+        let [few, many] = MESHES.map(|segments| timed(&gpu, &ways, Ball { size: SIZE, segments }));
+        for (way, (few, many)) in ways.iter().zip(few?.into_iter().zip(many?)) {
+            let _ = write!(text, "\n| {exponent} | {} |", way.name());
+            for [median, low, high] in [few, many] {
+                let _ = write!(text, " {median:.2} | {low:.2} to {high:.2} |");
             }
         }
     }
     let adapter = gpu.adapter();
-    let _ = write!(text, "\n\nMeasured on {}, {}.", adapter.name, adapter.driver);
+    let _ =
+        write!(text, "\n\nTimes are ratios to the first way of each exponent; {}, {}.", adapter.name, adapter.driver);
     Ok(text)
+}
+
+/// The ratio of the time of each way to that of the first, and its interval.
+fn timed(gpu: &Gpu, ways: &[Highlight], ball: Ball) -> Result<Vec<[f64; 3]>, String> {
+    let Some(first) = ways.first() else { return Ok(Vec::new()) };
+    let mut scene = ball.text(&first.keys("0"));
+    let mesh = format!("[{}, {}]", ball.segments, ball.segments / 2);
+    let _ = write!(scene, "\n[report]\ntessellations = [{mesh}]\ntruth_tessellation = {mesh}\n");
+    for (number, way) in ways.iter().enumerate() {
+        let truth = if number == 0 { "truth = true\n" } else { "" };
+        let (name, keys) = (way.name(), way.keys(&number.to_string()));
+        let _ = write!(scene, "\n[[report.way]]\nname = \"{name}\"\nmodel = \"k\"\n{truth}set = {{ {keys} }}\n");
+    }
+    let mut files = files(ways);
+    files.0.insert("s.toml".into(), scene.into_bytes());
+    let options = report::Options {
+        via: Via::Spirv,
+        specialized: None,
+        ways: report::Ways::Declared,
+        weights: Weights::default(),
+        rounds: None,
+        time: Some(TIME),
+        machine: report::Machine::default(),
+    };
+    let found = report::run("s.toml", &files, &Compiler::new(Options::default()), gpu, &options, &mut ());
+    let found = found.map_err(|error| format!("{error:?}"))?;
+    Ok(found.ways.iter().map(|way| [way.ratio.median, way.ratio.interval[0], way.ratio.interval[1]]).collect())
 }
