@@ -35,6 +35,7 @@ pub(super) fn page(report: &Report, made: &Made) -> Result<String, minijinja::Er
         models,
         baseline => &report.timing.baseline,
         baseline_ms => figure(report.timing.baseline_ms, 3),
+        empty_ms => figure(report.timing.empty_ms, 3),
         rounds => report.timing.rounds,
         same_again => ratio(report.timing.same_again.median),
         same_low => ratio(report.timing.same_again.interval[0]),
@@ -291,6 +292,7 @@ pub(in crate::report) mod tests {
             timing: Timing {
                 baseline: ways[0].title(),
                 baseline_ms: 1.05,
+                empty_ms: 0.1,
                 rounds: 15,
                 seed: 1,
                 ended: Ended::Narrow,

@@ -60,6 +60,7 @@ mod read_back;
 mod readme;
 #[cfg(feature = "cli")]
 mod report;
+#[cfg(feature = "cli")]
 mod report_checks;
 #[cfg(feature = "reference")]
 mod scenes;
