@@ -62,6 +62,7 @@ mod readme;
 mod report;
 #[cfg(feature = "cli")]
 mod report_checks;
+mod report_ways;
 #[cfg(feature = "reference")]
 mod scenes;
 #[cfg(feature = "cli")]
