@@ -32,6 +32,7 @@ mod new_scene;
 mod opengl;
 mod optimize;
 mod pictures;
+mod profile;
 mod progress;
 mod reflect;
 mod render;

@@ -8,6 +8,7 @@ use super::console::Console;
 use super::exit::{Exit, Failure, Outcome};
 use super::files;
 use super::pictures::Target;
+use super::profile::ProfileChoice;
 use super::progress::Progress;
 use super::scenes::{DrawError, SceneArgs};
 use super::timed::{TimedGpu, TimedReference};
@@ -46,6 +47,9 @@ pub(super) struct VerifyArgs {
     /// Accept a picture of which too little can be judged, such as one in which no pixel is covered
     #[arg(long)]
     allow_inconclusive: bool,
+    /// The devices whose freedom the envelope allows
+    #[arg(long, value_enum, default_value_t)]
+    profile: ProfileChoice,
     /// The share of the covered pixels that must be judged, at an edge, or excused; with less, the picture is inconclusive
     #[arg(long, value_name = "X", default_value_t = 0.95, value_parser = parse_share)]
     evidence_share: f64,
@@ -304,6 +308,7 @@ fn compare(
         allow_inconclusive: args.allow_inconclusive,
         width: args.width,
         sources: Some(sources),
+        profile: args.profile.of(&gpu),
         reference: &TimedReference::new(machine, progress),
         ..Options::default()
     };

@@ -6,7 +6,8 @@
 
 use super::{Failure, Options};
 use crate::scene::Scene;
-use glisten_reference::domain::faults::{Faults, KNOWN};
+use glisten_reference::domain::faults::Faults;
+use glisten_reference::faults_of;
 use glisten_scene::compare::{Compared, Comparison, Criterion, Population, Verdict, Written};
 use glisten_scene::picture::Picture;
 use std::time::Instant;
@@ -110,9 +111,11 @@ impl<'a> Expected<'a> {
         Comparison { criterion, faults, written: Some(&self.written), width, population: self.population.as_ref() }
     }
 
+    /// One picture for each known fault that can show in the scene; and one with all of them, if there are several.
     fn draw_excused(&self) -> Result<Vec<(&'static str, Picture)>, Failure> {
-        let one = KNOWN.iter().map(|known| (known.name, Faults::only(known.fault)));
-        let named = one.chain([("several", Faults::all())]);
+        let known = faults_of(self.scene);
+        let one = known.iter().map(|known| (known.name, Faults::only(known.fault)));
+        let named = one.chain((known.len() > 1).then(|| ("several", Faults::all())));
         let (names, options): (Vec<_>, Vec<_>) =
             named.map(|(name, faults)| (name, self.options.reference_options(faults))).unzip();
         Ok(names.into_iter().zip(self.options.reference.render_all(self.scene, &options)?).collect())

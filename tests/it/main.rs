@@ -60,6 +60,7 @@ mod read_back;
 mod readme;
 #[cfg(feature = "cli")]
 mod report;
+mod report_checks;
 #[cfg(feature = "reference")]
 mod scenes;
 #[cfg(feature = "cli")]

@@ -6,6 +6,7 @@
 
 use super::fragments::{Shading, draw_bin};
 use super::origin::Origin;
+use super::same_surface::surfaces;
 use super::target::Patch;
 use super::watch::{Study, Watch};
 use super::{draw_all, refuse};
@@ -52,8 +53,14 @@ pub(crate) fn explain(
     let area = Bounds { x0, x1: (x0 + 2).min(width), y0, y1: (y0 + 2).min(height) };
     let mut patch = Patch::<Envelope>::new(scene.framebuffer, area);
     let mut found = Vec::new();
+    let surfaces = surfaces(scene);
     for (number, draw) in scene.draws.iter().enumerate() {
-        let watch = Watch { study: Study { form: Form::Unfused, ..Study::NONE }, draw: number, instance: 0 };
+        let watch = Watch {
+            study: Study { form: Form::Unfused, ..Study::NONE },
+            draw: number,
+            instance: 0,
+            surface: surfaces.get(number).copied().unwrap_or(0),
+        };
         draw_all(scene, draw, options, watch, &mut |shading, code, _, _| {
             if let Some(contributions) = of_draw(shading, code, &mut patch, place) {
                 found = contributions;
