@@ -179,7 +179,7 @@ pub struct Written {
     full: Option<(f64, f64)>,
     /// The distance of neighboring values of the format, if it is the same for all; 0 for floats.
     step: f64,
-    /// The same as a share of the value, of floats.
+    /// For floats, the distance as a share of the value.
     relative: f64,
 }
 
@@ -304,7 +304,7 @@ impl<'a> Ruler<'a> {
             .fold(0.0, f64::max)
     }
 
-    /// What a number may be off for no reason: what the format rounds to, and a small share of the range.
+    /// How far a number may be off for no reason: what the format rounds to, and a small share of the range.
     pub(super) fn unit(&self, value: f64) -> f64 {
         let rounding = (self.written.step / 2.0).max(4.0 * self.written.relative * value.abs());
         rounding.max(self.range * LEAST)
