@@ -20,7 +20,6 @@
 //!
 //! *Holds:* the counts of the classes add up to the number of covered pixels, and so do those of the widths.
 
-use super::population::LEAST;
 use crate::picture::{Interval, Picture};
 use crate::{Format, Scene};
 use glisten_front::builtin::BuiltinVariable;
@@ -29,6 +28,9 @@ use serde::Serialize;
 
 /// The goal for the width of an envelope, as a share of the range of the picture's values.
 const GOAL: f64 = 1.0 / 255.0;
+
+/// The least difference that says something, as a share of the range of the picture's values.
+pub const LEAST: f64 = 1.0 / 65_536.0;
 
 /// How a covered pixel was compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
