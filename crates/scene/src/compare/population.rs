@@ -11,14 +11,11 @@
 //! only one side covers is suspect if no pixel around differs in coverage within the population. From [`MIN_SHARE`] of the
 //! covered pixels and [`MIN_PIXELS`] pixels on, suspects fail a comparison.
 
-use super::evidence::Ruler;
+use super::evidence::{LEAST, Ruler};
 use crate::picture::{Interval, Picture};
 
 /// How many spreads of the population a number may be outside of its range.
 pub const FAR: f64 = 4.0;
-
-/// The least spread, as a share of the range of the picture's values.
-pub const LEAST: f64 = 1.0 / 65_536.0;
 
 /// The share of the covered pixels from which suspects fail.
 pub const MIN_SHARE: f64 = 0.001;
