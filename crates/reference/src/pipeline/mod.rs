@@ -38,6 +38,7 @@ mod source;
 mod store;
 mod surface;
 mod target;
+mod tilt;
 mod vertices;
 mod watch;
 mod worlds;
