@@ -47,7 +47,7 @@ impl Tilted {
     /// The noise of a value that is linear in the window.
     pub(super) fn noise(&self, weights: [f64; 3], place: [f64; 2]) -> f64 {
         let value = linear(weights, self.plane.values);
-        self.rounding(place) + rules::ulp(value) + self.tilt / 2.0
+        self.rounding(place) + rules::SLOPE.ulps() * rules::ulp(value) + self.tilt / 2.0
     }
 
     /// The noise of a quotient by the reciprocal of w: equation (108).
