@@ -23,6 +23,7 @@ const html = element(null);
 const svg = element(SVG);
 
 const raised = (number) => String(number).replace(/[-0-9]/g, (sign) => (sign === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[sign]));
+const decadeText = (exponent) => (exponent === 0 ? "1" : `10${raised(exponent)}`);
 const scientific = (value, digits = 1) => {
   if (value === 0) return "0";
   if (!Number.isFinite(value)) return "–";

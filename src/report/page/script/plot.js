@@ -2,14 +2,14 @@
 // ---- Plot: points, fronts and intervals on the chosen axes.
 const axes = { x: "work", y: "rmse" };
 const hidden = new Set(); // Names of models and kinds that the legend has switched off.
-const FONT = "12px system-ui, sans-serif";
-const plotted = { points: [] };
+const fontOf = (point) => `${point.state === "yes" ? "600 " : ""}12px system-ui, "Segoe UI", Arial, sans-serif`;
+const plotted = { points: [], lines: [] };
 
 const isOn = (way) => !hidden.has("model:" + way.model) && !hidden.has("kind:" + way.kindName);
 const shortName = (way) => {
   const several = way.tessellation && ways.some((other) => other !== way && other.name === way.name && other.model === way.model);
   if (several) return `${way.number + 1} · ${way.tessellation.join("×")}`;
-  const name = way.name.length > 26 ? way.name.slice(0, 25) + "…" : way.name;
+  const name = way.name.length > 32 ? way.name.slice(0, 31) + "…" : way.name;
   return `${way.number + 1} · ${name}`;
 };
 
@@ -43,7 +43,7 @@ const drawPlot = () => {
     "aria-label": `${up.name} over ${across.name}: ${on.length} ways. Arrow keys go from point to point, Enter pins one, Escape frees it.`,
   });
   drawGrid(drawing, { frame, x, y, foot, hasZero, across, up });
-  drawFronts(drawing, { frame, foot });
+  drawFronts(drawing, { frame });
   drawPoints(drawing, frame, foot);
   place.replaceChildren(drawing);
   plotted.drawing = drawing;
@@ -86,21 +86,27 @@ const drawGrid = (drawing, { frame, x, y, foot, hasZero, across, up }) => {
     svg("text", { class: "axis", x: 4, y: 13 }, `${up.name} ↑ worse`));
 };
 
+const pathOf = (places) => "M" + places.map((place) => place.map((one) => one.toFixed(1)).join(" ")).join("L");
+
 // A front is a staircase: what is above and to the right of it is beaten.
-const drawFronts = (drawing, { frame, foot }) => {
+const drawFronts = (drawing, { frame }) => {
+  const joined = (places) => places.slice(1).forEach(([x, y], index) => plotted.lines.push([...places[index], x, y]));
+  plotted.lines = plotted.points.filter((point) => point.ends?.[0] && point.ends[1]).map((point) => [point.ends[0], point.y, point.ends[1], point.y]);
   for (const model of new Set(plotted.points.map((point) => point.way.model))) {
     const members = plotted.points.filter((point) => point.way.model === model);
     const best = members.filter((point) => point.state === "yes").sort((a, b) => a.x - b.x || b.y - a.y);
     if (best.length) {
-      let path = `M${best[0].x.toFixed(1)} ${frame.top}V${best[0].y.toFixed(1)}`;
-      for (const point of best.slice(1)) path += `H${point.x.toFixed(1)}V${point.y.toFixed(1)}`;
-      path += `H${frame.width - frame.right}`;
-      drawing.append(svg("path", { class: `front ${best[0].way.color}`, d: path }));
+      const steps = best.flatMap((point, index) => [[point.x, index ? best[index - 1].y : frame.top], [point.x, point.y]]);
+      steps.push([frame.width - frame.right, best.at(-1).y]);
+      joined(steps);
+      drawing.append(svg("path", { class: `front ${best[0].way.color}`, d: pathOf(steps) }));
     }
     for (const name of new Set(members.map((point) => point.way.name))) {
       const series = members.filter((point) => point.way.name === name);
       if (series.length < 2) continue;
-      drawing.append(svg("path", { class: `series ${series[0].way.color}`, d: "M" + series.map((point) => `${point.x.toFixed(1)} ${point.y.toFixed(1)}`).join("L") }));
+      const places = series.map((point) => [point.x, point.y]);
+      joined(places);
+      drawing.append(svg("path", { class: `series ${series[0].way.color}`, d: pathOf(places) }));
     }
   }
 };
@@ -115,7 +121,7 @@ const drawPoints = (drawing, frame, foot) => {
     if (point.together.some((other) => other !== point && other.label)) continue;
     point.label = shortName(point.way) + (point.together.length > 1 ? ` +${point.together.length - 1}` : "");
   }
-  const boxes = placeLabels(order, { width: frame.width - 2, height: foot - 2, left: frame.left + 3, top: frame.top, font: FONT, busy: [] });
+  const boxes = placeLabels(order, { width: frame.width - 2, height: foot - 2, left: frame.left + 3, top: frame.top, font: fontOf, lines: plotted.lines });
   order.forEach((point, index) => {
     const box = boxes[index];
     if (!box) return;
@@ -123,6 +129,7 @@ const drawPoints = (drawing, frame, foot) => {
       const [cx, cy] = [Math.max(box.x, Math.min(point.x, box.x + box.w)), box.y + box.h / 2];
       drawing.append(svg("path", { class: "leader", d: `M${point.x.toFixed(1)} ${point.y.toFixed(1)}L${cx.toFixed(1)} ${cy.toFixed(1)}` }));
     }
+    drawing.append(svg("rect", { class: "under", x: box.x.toFixed(1), y: box.y.toFixed(1), width: box.w.toFixed(1), height: box.h, rx: 3 }));
     drawing.append(svg("text", { class: `label ${point.state}`, x: (box.x + 3).toFixed(1), y: (box.y + 12).toFixed(1) }, point.label));
   });
   // The front is drawn last, so that it is on top.

@@ -35,7 +35,7 @@ const showProfile = () => {
   place.parentElement.hidden = !truth || !truth.profile.some((value) => value !== null);
   if (place.parentElement.hidden) return;
   const width = Math.max(280, Math.floor(place.clientWidth));
-  const [left, right] = [58, width - 10];
+  const [left, right] = [72, width - 10];
   const isBands = stage.view === "bands";
   const known = truth.profile.flatMap((value, index) => (value === null && (way.profile[index] ?? null) === null ? [] : [index]));
   const [first, last] = [Math.max(0, known[0] - 2), Math.min(count - 1, known.at(-1) + 2)];
@@ -56,7 +56,7 @@ const showProfile = () => {
     const clamp = (value) => Math.max(top, Math.min(foot, y.place(value)));
     for (const tick of y.ticks) {
       const at = y.place(tick);
-      drawing.append(svg("path", { class: "grid", d: `M${left} ${at.toFixed(1)}H${right}` }), svg("text", { class: "tick", x: left - 6, y: at + 4, "text-anchor": "end" }, foot > 300 ? (tick === 0 ? "0" : scientific(tick, 0)) : String(Number(tick.toPrecision(3)))));
+      drawing.append(svg("path", { class: "grid", d: `M${left} ${at.toFixed(1)}H${right}` }), svg("text", { class: "tick", x: left - 6, y: at + 4, "text-anchor": "end" }, foot > 300 ? (Math.abs(tick) < 1e-15 ? "0" : scientific(tick, 0).replace("-", "−")) : String(Number(tick.toPrecision(3)))));
     }
     drawing.append(svg("text", { class: "axis", x: left, y: top - 6 }, name));
     for (const [values, className] of lines) drawing.append(svg("path", { class: `line ${className} ${className === "ours" ? way.color : ""}`, d: line(values, x, clamp) }));

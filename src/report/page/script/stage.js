@@ -36,10 +36,10 @@ const FIRST_SEEN = 1 + Math.ceil(((page.seen[0] - page.coded[0]) / (page.coded[1
 const codeAt = (data, at) => codes.get((data[at] << 16) | (data[at + 1] << 8) | data[at + 2]) ?? 0;
 
 const bounds = (way) => {
-  const options = [["seen", `10${raised(page.seen[1])}, logarithmic from 10${raised(page.seen[0])}`]];
+  const options = [["seen", `${decadeText(page.seen[1])}, logarithmic from ${decadeText(page.seen[0])}`]];
   if (way.error.max_abs > 0) options.push([String(way.error.max_abs), `${scientific(way.error.max_abs, 2)}, the largest of this way`]);
   options.push([String(1 / 255), "1/255, a step of 8 bits"]);
-  for (let decade = page.seen[1]; decade > page.coded[0] + 1; decade -= 1) options.push([String(Number(`1e${decade}`)), `10${raised(decade)}`]);
+  for (let decade = page.seen[1]; decade > page.coded[0] + 1; decade -= 1) options.push([String(Number(`1e${decade}`)), decadeText(decade)]);
   return options;
 };
 
@@ -73,7 +73,7 @@ const painted = (image, className) => {
 const ramp = () => {
   const stops = [];
   for (let code = FIRST_SEEN; code <= LAST; code += 12) stops.push(page.palette[code]);
-  const [from, to] = stage.bound === "seen" ? [`10${raised(page.seen[0])} or less`, `10${raised(page.seen[1])}`] : ["0", `${stage.bound === String(1 / 255) ? "1/255" : scientific(Number(stage.bound), 1)} or more`];
+  const [from, to] = stage.bound === "seen" ? [`${decadeText(page.seen[0])} or less`, decadeText(page.seen[1])] : ["0", `${stage.bound === String(1 / 255) ? "1/255" : scientific(Number(stage.bound), 1)} or more`];
   return html("span", { class: "bound" }, html("span", {}, from), html("i", { class: "ramp", style: `background:linear-gradient(to right,${stops.join()})` }), html("span", {}, to));
 };
 

@@ -40,7 +40,7 @@ const showRows = () => {
     const number = Number(row.dataset.way);
     row.classList.toggle("on", number === shown());
     row.classList.toggle("pinned", number === choice.pinned);
-    row.setAttribute("aria-selected", String(number === choice.pinned));
+    row.setAttribute("aria-current", String(number === choice.pinned));
   }
   for (const card of all(".card[data-way]")) card.classList.toggle("pinned", Number(card.dataset.way) === choice.pinned);
 };
@@ -69,3 +69,8 @@ showRows();
 // A link to a way pins it.
 const linked = /^#(?:way|row)-(\d+)$/.exec(location.hash);
 if (linked && ways[linked[1]]) pin(Number(linked[1]));
+
+// Paper shows all pictures, also those that were not scrolled to.
+addEventListener("beforeprint", () => {
+  for (const image of all("img[loading]")) image.loading = "eager";
+});
