@@ -220,7 +220,7 @@ impl<'a> Subject<'a> {
 }
 
 fn fails(picture: &Picture, reference: &Picture, criterion: Criterion) -> bool {
-    !Verdict::new(picture, reference, criterion).holds(false)
+    Verdict::new(picture, reference, criterion).fails()
 }
 
 #[expect(unsafe_code, reason = "the words are glisten's own, or spirv-val has accepted them")]
