@@ -40,7 +40,7 @@ pub(super) struct PreparedDraw {
 /// Returns the code of a stage of a draw.
 pub(super) type Modules<'a> = &'a dyn Fn(&Draw, Stage) -> Result<Emitted, Error>;
 
-fn emitted(draw: &Draw, stage: Stage, target: Target) -> Result<Emitted, Error> {
+pub(super) fn emitted(draw: &Draw, stage: Stage, target: Target) -> Result<Emitted, Error> {
     emit::emit(&draw.program, stage, target, &conventions(draw, target)).map_err(Error::Emit)
 }
 
