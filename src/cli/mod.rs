@@ -32,6 +32,7 @@ mod new_scene;
 mod opengl;
 mod optimize;
 mod pictures;
+mod profile;
 mod progress;
 mod reflect;
 mod render;
@@ -46,6 +47,7 @@ mod stages;
 mod test;
 mod timed;
 mod verify;
+mod with;
 
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 use console::{ColorChoice, Console};

@@ -9,8 +9,8 @@
 use super::figures::spread;
 use super::interval::FEWEST;
 use super::model::{Ended, Spread};
+use super::options::Watcher;
 use super::random::Random;
-use super::run::Watcher;
 use glisten_gpu::{Error, Gpu, Prepared};
 use std::time::{Duration, Instant};
 

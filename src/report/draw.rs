@@ -6,10 +6,10 @@
 use super::clock::Candidate;
 use super::figures::{compare, spread};
 use super::model::{OnFront, Skipped, Truth, Way};
+use super::options::{Error, Options, Watcher};
 use super::plan::{DECLARED, PlannedTruth, PlannedWay};
-use super::run::{Error, Options, Watcher};
 use super::ways::AS_WRITTEN;
-use super::work::work;
+use super::work::{steps, work};
 use glisten_gpu::Gpu;
 use glisten_reference::{Precision, RenderOptions};
 use glisten_scene::Scene;
@@ -81,8 +81,7 @@ impl Drawing<'_> {
         let failed = |error| Error::Gpu { way: planned.name.clone(), error };
         self.step(&format!("{} on the CPU", planned.name), watcher);
         let exact = reference(&planned.name, scene)?;
-        let work = work(scene, &self.options.weights)
-            .map_err(|diagnostics| Error::Reference { way: planned.name.clone(), diagnostics })?;
+        let counts = steps(scene).map_err(|diagnostics| Error::Reference { way: planned.name.clone(), diagnostics })?;
         self.step(&format!("{} on the GPU", planned.name), watcher);
         let (gpu, via) = (self.gpu, planned.via.unwrap_or(self.options.via));
         let prepared = gpu.prepare(scene, via).map_err(failed)?;
@@ -103,7 +102,7 @@ impl Drawing<'_> {
             tessellation: planned.tessellation,
             vertices,
             fragments,
-            work,
+            work: work(&counts, &self.options.weights),
             error,
             rounding,
             milliseconds: f64::NAN,

@@ -34,7 +34,7 @@ pub(super) fn page(report: &Report, made: &Made) -> Result<String, minijinja::Er
         made => context! { command => &made.command, version => &made.version, date => &made.date },
         models,
         baseline => &report.timing.baseline,
-        baseline_ms => format!("{:.3}", report.timing.baseline_ms),
+        baseline_ms => figure(report.timing.baseline_ms, 3),
         rounds => report.timing.rounds,
         same_again => ratio(report.timing.same_again.median),
         same_low => ratio(report.timing.same_again.interval[0]),
@@ -89,7 +89,7 @@ fn row(report: &Report, (number, way): (usize, &Way), shape: usize, scale: Decad
         non_finite => way.error.non_finite,
         vertices => grouped(way.vertices),
         fragments => way.fragments.map_or_else(|| "\u{2013}".to_owned(), grouped),
-        milliseconds => format!("{:.3}", way.milliseconds),
+        milliseconds => figure(way.milliseconds, 3),
         ratio => ratio(way.ratio.median),
         low => ratio(way.ratio.interval[0]),
         high => ratio(way.ratio.interval[1]),
@@ -139,7 +139,12 @@ fn mesh(tessellation: Option<[u32; 2]>) -> Option<String> {
 }
 
 fn ratio(value: f64) -> String {
-    format!("{value:.2}")
+    figure(value, 2)
+}
+
+/// A figure, if it was measured.
+fn figure(value: f64, digits: usize) -> String {
+    if value.is_finite() { format!("{value:.digits$}") } else { "\u{2013}".into() }
 }
 
 fn decibels(figures: &Figures) -> String {

@@ -9,7 +9,7 @@
 //! draw = 0                                         # the draw whose keys the ways replace
 //! tessellations = [[16, 8], [32, 16], [64, 32]]    # segments and rings of its mesh
 //! truth_tessellation = [256, 128]                  # of the mesh of the truth
-//! rounds = 15
+//! rounds = 40                                      # at most
 //!
 //! [[report.way]]
 //! name = "Phong per fragment"

@@ -1,14 +1,23 @@
 //! [`Expected`]: the reference's picture of a scene, and the verdict on another picture of it.
 //!
 //! *In:* a scene and [`Options`]. *Out:* the reference's picture; verdicts.
-//! *Holds:* the reference draws once. It draws again with known faults excused only if a picture needs an excuse.
+//! *Holds:* the reference draws once. It draws again with known faults excused only if a picture needs an excuse. A few
+//! simulated GPUs draw as well; many do only where a picture is suspect by the few.
 
 use super::{Failure, Options};
 use crate::scene::Scene;
-use glisten_reference::domain::faults::{Faults, KNOWN};
-use glisten_scene::compare::{Compared, Criterion, Judge, Population, Verdict, Written};
+use glisten_reference::domain::faults::Faults;
+use glisten_reference::faults_of;
+use glisten_scene::compare::{Compared, Comparison, Criterion, Population, Verdict, Written};
 use glisten_scene::picture::Picture;
 use std::time::Instant;
+
+/// The seed of the population.
+const SEED: u64 = 1;
+/// The simulated GPUs that every picture is compared with.
+const FEW: u32 = 8;
+/// Those that a picture is compared with if the few find it suspect.
+const ALL: u32 = 32;
 
 /// The picture of the reference, with which others are compared. For pictures that no [`Runner`](super::Runner) drew.
 pub struct Expected<'a> {
@@ -31,12 +40,7 @@ impl<'a> Expected<'a> {
         let start = Instant::now();
         let picture = options.reference.render(scene, &options.reference_options(Faults::NONE))?;
         let milliseconds = start.elapsed().as_secs_f64() * 1e3;
-        let is_likely = options.demands.likely && options.criterion == Criterion::Envelope;
-        let population = match is_likely {
-            true => options.reference.population(scene, &options.reference_options(Faults::NONE))?,
-            false => None,
-        };
-        Ok(Self { scene, options, picture, milliseconds, written: Written::of(scene), population, excused: None })
+        Ok(Self { scene, options, picture, milliseconds, written: Written::of(scene), population: None, excused: None })
     }
 
     /// The channels that the scene's programs write.
@@ -68,7 +72,13 @@ impl<'a> Expected<'a> {
     /// The reference cannot draw the scene with a fault excused.
     pub fn compared(&mut self, picture: &Picture) -> Result<Compared, Failure> {
         let Options { criterion, excuse_known_faults, .. } = *self.options;
-        let compared = self.judge(&[]).compare(picture, &self.picture);
+        let mut compared = self.comparison(&[]).compare(picture, &self.picture);
+        for members in [FEW, ALL] {
+            let open = compared.verdict.suspect.is_none() || compared.verdict.is_suspect();
+            if open && self.populate(members)? {
+                compared = self.comparison(&[]).compare(picture, &self.picture);
+            }
+        }
         if criterion != Criterion::Envelope || !compared.verdict.needs_excuse() || !excuse_known_faults {
             return Ok(compared);
         }
@@ -76,19 +86,36 @@ impl<'a> Expected<'a> {
             Some(excused) => excused,
             None => self.draw_excused()?,
         };
-        let compared = self.judge(&excused).compare(picture, &self.picture);
+        let compared = self.comparison(&excused).compare(picture, &self.picture);
         self.excused = Some(excused);
         Ok(compared)
     }
 
-    fn judge<'j>(&'j self, faults: &'j [(&'static str, Picture)]) -> Judge<'j> {
-        let Options { criterion, width, .. } = *self.options;
-        Judge { criterion, faults, written: Some(&self.written), width, population: self.population.as_ref() }
+    /// Draws with more simulated GPUs, so that there are `members`. Returns false if nobody asks for them.
+    fn populate(&mut self, members: u32) -> Result<bool, Failure> {
+        let Options { criterion, demands, reference, .. } = *self.options;
+        if !demands.likely || criterion != Criterion::Envelope {
+            return Ok(false);
+        }
+        let Picture { width, height, .. } = self.picture;
+        let blank = || Population::new(SEED, [width, height], self.picture.attachments.len() as u32);
+        let population = self.population.take().unwrap_or_else(blank);
+        let missing = population.members..members.max(population.members);
+        let options = self.options.reference_options(Faults::NONE);
+        self.population = Some(reference.populate(population, self.scene, &options, missing)?);
+        Ok(true)
     }
 
+    fn comparison<'j>(&'j self, faults: &'j [(&'static str, Picture)]) -> Comparison<'j> {
+        let Options { criterion, width, .. } = *self.options;
+        Comparison { criterion, faults, written: Some(&self.written), width, population: self.population.as_ref() }
+    }
+
+    /// One picture for each known fault that can show in the scene; and one with all of them, if there are several.
     fn draw_excused(&self) -> Result<Vec<(&'static str, Picture)>, Failure> {
-        let one = KNOWN.iter().map(|known| (known.name, Faults::only(known.fault)));
-        let named = one.chain([("several", Faults::all())]);
+        let known = faults_of(self.scene);
+        let one = known.iter().map(|known| (known.name, Faults::only(known.fault)));
+        let named = one.chain((known.len() > 1).then(|| ("several", Faults::all())));
         let (names, options): (Vec<_>, Vec<_>) =
             named.map(|(name, faults)| (name, self.options.reference_options(faults))).unzip();
         Ok(names.into_iter().zip(self.options.reference.render_all(self.scene, &options)?).collect())

@@ -36,7 +36,6 @@
 mod expected;
 mod explain;
 mod files;
-pub mod likely;
 mod maps;
 mod runner;
 mod verification;
@@ -57,6 +56,7 @@ use crate::scene::Scene;
 use explain::Explanations;
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::source::SourceMap;
+use glisten_reference::domain::Profile;
 use glisten_reference::domain::faults::Faults;
 use glisten_reference::{LineRule, Precision, RenderOptions};
 use glisten_scene::compare::{self, Compared, Criterion, Verdict};
@@ -76,6 +76,8 @@ pub struct Options<'a> {
     pub demands: Demands,
     /// Whether a picture of which too little was judged is accepted, such as one in which no pixel is covered. Default: no.
     pub allow_inconclusive: bool,
+    /// What the device may do where the specifications leave it open. Default: what Mesa's llvmpipe does.
+    pub profile: Profile,
     /// The largest width of the envelope of a judged pixel. Default: 1/255 of the range of the picture's values.
     pub width: Option<f64>,
     /// The texts of the scene (`Loaded::sources`), for the origin of the worst pixel's envelope.
@@ -95,6 +97,7 @@ impl Default for Options<'_> {
             excuse_known_faults: true,
             demands: Demands::default(),
             allow_inconclusive: false,
+            profile: Profile::default(),
             width: None,
             sources: None,
             failures: None,
@@ -106,7 +109,8 @@ impl Default for Options<'_> {
 impl Options<'_> {
     /// The options with which the reference draws.
     pub fn reference_options(&self, faults: Faults) -> RenderOptions {
-        RenderOptions { precision: Precision::Envelope, lines: self.lines, faults, ..RenderOptions::default() }
+        let (lines, profile) = (self.lines, self.profile);
+        RenderOptions { precision: Precision::Envelope, lines, faults, profile, ..RenderOptions::default() }
     }
 }
 

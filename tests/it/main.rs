@@ -13,6 +13,8 @@ mod emit;
 mod envelope;
 #[cfg(feature = "cli")]
 mod equations;
+#[cfg(feature = "cli")]
+mod evidence;
 #[cfg(feature = "reference")]
 mod exec;
 #[cfg(feature = "cli")]
@@ -58,6 +60,7 @@ mod read_back;
 mod readme;
 #[cfg(feature = "cli")]
 mod report;
+mod report_checks;
 #[cfg(feature = "reference")]
 mod scenes;
 #[cfg(feature = "cli")]

@@ -19,12 +19,13 @@ mod work;
 
 pub use counts::{Counts, counts};
 pub use exec::Step;
-pub use population::{Drawn, Population, population, simulate};
+pub use population::{populate, simulate};
 pub use work::{Work, work};
 
-use domain::faults::Faults;
+use domain::faults::{self, Fault, Faults, KnownFault};
 use domain::{Envelope, F32, F64, Profile};
 use glisten_front::diagnostic::Diagnostic;
+use glisten_front::hir::Interpolation;
 use glisten_front::source::Span;
 use glisten_scene::picture::Picture;
 use glisten_scene::{Draw, Framebuffer, Scene};
@@ -108,6 +109,18 @@ pub fn render(scene: &Scene, options: &RenderOptions) -> Result<Picture, Vec<Dia
 /// fragments, but for the rounding of the result. `None` if nothing bounds it.
 pub fn interpolation_reach(draw: &Draw, framebuffer: Framebuffer) -> Option<f64> {
     pipeline::reach(draw, framebuffer, &RenderOptions { mark_edges: false, ..RenderOptions::default() })
+}
+
+/// The known faults of drivers that can show in a scene: the others need not be drawn.
+pub fn faults_of(scene: &Scene) -> Vec<&'static KnownFault> {
+    let is_linear = |draw: &Draw| {
+        let varyings = draw.program.interface.interpolated();
+        varyings.into_iter().any(|varying| varying.active && varying.interpolation == Interpolation::Noperspective)
+    };
+    let applies = |known: &&KnownFault| match known.fault {
+        Fault::ClippedNoperspective => scene.draws.iter().any(is_linear),
+    };
+    faults::KNOWN.iter().filter(applies).collect()
 }
 
 /// The contribution of an operation to the width of a pixel's envelope.

@@ -1,20 +1,24 @@
-//! Runs every path that lanes may take where conditions are undecided, and joins the results.
+//! Runs all ways that lanes may take where conditions are undecided, and joins the results.
 //!
-//! *In:* a machine after its first run, in which each undecided condition followed the value and was recorded. *Out:*
-//! its outputs joined over all other paths, the lanes that may or may not be discarded, and the lanes that remain
-//! undecided. *Holds:* a group of lanes runs at most [`MAX_PATHS`] times. After that its outputs may be anything, and
-//! it is undecided.
+//! *In:* a machine after its first run, in which each undecided condition followed the value. *Out:* its outputs joined
+//! over all ways, the lanes that may or may not be discarded, and the lanes that remain undecided.
+//!
+//! *Holds:* several fragments share a run, and each has as many lanes as it needs ([`ways`](super::ways)). The outputs of
+//! a fragment that is given up may be anything. What is run does not depend on other runs of the machine.
 
-use super::inst::Class;
+use super::inst::{Class, Inst};
 use super::machine::Machine;
-use super::paths::{MAX_DECISIONS, Path};
 use super::registers::Register;
 use super::{LANES, Mask};
 use crate::domain::{Domain, Integer, Number};
 use glisten_scene::picture::Interval;
 
-/// The largest number of paths of one group.
-const MAX_PATHS: usize = 64;
+/// The share of the groups that are fragments when a run begins; the others are for their ways. The following runs have
+/// more or fewer, depending on how many ways there were.
+const PACKED: usize = 8;
+/// Loops may run this many times as long as in the first run, and the number of instructions below.
+const LONGER: u64 = 3;
+const AT_LEAST: u64 = 1 << 12;
 
 /// Registers of some ports, floats and ints.
 type Files<D> = (Vec<Register<<D as Domain>::Float>>, Vec<Register<<D as Domain>::Int>>);
@@ -25,72 +29,66 @@ struct Joined<D: Domain> {
     ints: Vec<Register<D::Int>>,
     /// Lanes that the first run discarded.
     first: u64,
-    /// Lanes that some path discards.
+    /// Lanes that some way discards.
     discarded: u64,
-    /// Lanes that some path keeps. Their outputs have a meaning.
+    /// Lanes that some way keeps. Their outputs have a meaning.
     kept: u64,
     undecided: u64,
+    /// Lanes whose outputs may be anything.
+    unlimited: u64,
 }
 
 impl<D: Domain> Machine<D> {
-    /// Runs all other paths of the groups of these lanes that met an undecided condition.
+    /// Runs all ways of the groups of these lanes that met an undecided condition.
     pub(super) fn explore(&mut self, lanes: u64) {
-        if !self.paths.any || self.budget_exceeded {
+        if self.ways.met & lanes == 0 || self.budget_exceeded {
             return;
         }
-        let group = self.paths.group;
-        let members = (1u64 << group) - 1;
-        let mut paths: Vec<(usize, Path)> = Vec::new();
-        let mut counts = [0usize; LANES];
+        let (group, members) = (self.ways.group, self.ways.members());
+        let capacity = self.ways.capacity();
+        let open: Vec<usize> =
+            (0..capacity).filter(|number| self.ways.met & lanes & members << (number * group) != 0).collect();
         let mut joined = self.first_outcome();
         let inputs = self.copy_inputs();
-        for (number, path) in self.paths.paths.iter().enumerate().take(LANES / group) {
-            if path.met > 0 && lanes >> (number * group) & members != 0 {
-                counts[number] = 1;
-                if path.met > MAX_DECISIONS {
-                    joined.undecided |= members << (number * group);
-                } else {
-                    paths.extend(path.others().map(|other| (number, other)));
-                }
-            }
-        }
-        while !paths.is_empty() {
-            // The latest first (depth first), so that the list stays short.
-            let batch = paths.split_off(paths.len().saturating_sub(LANES / group));
-            self.paths.clear();
-            self.paths.any = true;
+        let spent = self.loop_budget - self.budget;
+        let allowance = (LONGER * spent + AT_LEAST).min(self.loop_budget);
+        let mut packed = (capacity / PACKED).max(1);
+        let mut rest = &open[..];
+        while !rest.is_empty() {
+            let (now, later) = rest.split_at(packed.min(rest.len()));
+            rest = later;
             let mut mask = 0;
-            for (slot, (number, path)) in batch.iter().enumerate() {
-                self.paths.paths[slot] = *path;
+            for (slot, number) in now.iter().enumerate() {
                 mask |= (lanes >> (number * group) & members) << (slot * group);
-                self.move_group(&inputs, *number * group, slot * group, group);
+                self.move_group(&inputs, number * group, slot * group, group);
             }
-            self.run_paths(mask);
-            for (slot, (number, _)) in batch.iter().enumerate() {
-                let path = self.paths.paths[slot];
-                counts[*number] += 1;
-                joined.add(self, number * group, slot * group, group);
-                if counts[*number] >= MAX_PATHS || path.met > MAX_DECISIONS || self.budget_exceeded {
-                    joined.undecided |= members << (number * group);
+            self.ways.begin(now.len(), mask);
+            self.run_ways(mask, allowance);
+            for (fragment, number) in now.iter().enumerate() {
+                let lanes = members << (number * group);
+                if self.ways.given_up >> fragment & 1 == 1 {
+                    joined.unlimited |= lanes;
                 }
-                if joined.undecided >> (number * group) & members == 0 {
-                    paths.extend(path.others().map(|other| (*number, other)));
+                let ways: Vec<usize> = self.ways.of(fragment).collect();
+                for way in ways {
+                    joined.add(self, number * group, way * group, group);
                 }
             }
-            paths.retain(|(number, _)| joined.undecided >> (number * group) & members == 0);
-            // A path without an end is one that an undecided loop bound permits.
-            self.budget_exceeded = false;
+            packed = match (self.ways.crowded, 2 * self.ways.most <= capacity) {
+                (true, _) => (packed / 2).max(1),
+                (false, true) => (packed * 2).min(capacity / 2),
+                (false, false) => packed,
+            };
         }
-        self.paths.clear();
+        self.ways.exploring = false;
         self.restore_inputs(&inputs);
         self.leave(joined);
     }
 
-    fn run_paths(&mut self, mask: u64) {
+    fn run_ways(&mut self, mask: u64, allowance: u64) {
         let code = std::sync::Arc::clone(&self.code.inner);
-        self.discarded = 0;
-        self.budget = self.loop_budget >> 4;
-        self.budget_exceeded = false;
+        (self.discarded, self.undecided) = (0, 0);
+        (self.budget, self.allowance) = (allowance, allowance);
         self.run_main(&code, mask);
     }
 
@@ -104,6 +102,7 @@ impl<D: Domain> Machine<D> {
             discarded: self.discarded,
             kept: !self.discarded,
             undecided: self.undecided,
+            unlimited: 0,
         }
     }
 
@@ -140,7 +139,7 @@ impl<D: Domain> Machine<D> {
     fn leave(&mut self, mut joined: Joined<D>) {
         let code = std::sync::Arc::clone(&self.code.inner);
         let of = |class: Class| code.outputs.iter().filter(move |port| port.class == class);
-        for lane in Mask(joined.undecided & !self.undecided).lanes() {
+        for lane in Mask(joined.unlimited).lanes() {
             for lanes in joined.floats.iter_mut().map(Register::spread) {
                 lanes.set(lane, D::Float::with_interval(lanes.get(lane).value(), Interval::ALL));
             }
@@ -159,18 +158,21 @@ impl<D: Domain> Machine<D> {
             }
         }
         self.discarded = joined.first;
-        self.perhaps_discarded = joined.discarded & joined.kept | joined.undecided & !self.undecided;
+        let discards = code.main.insts.iter().any(|inst| matches!(inst, Inst::Discard));
+        let unknown = if discards { joined.unlimited } else { 0 };
+        self.perhaps_discarded = joined.discarded & joined.kept | unknown;
         self.undecided = joined.undecided;
     }
 }
 
 impl<D: Domain> Joined<D> {
-    /// Joins the results of a path in the lanes from `at` with those of the group's lanes from `from`.
+    /// Joins the results of a way in the lanes from `at` with those of the group's lanes from `from`.
     fn add(&mut self, machine: &Machine<D>, from: usize, at: usize, group: usize) {
         let inner = &machine.code.inner;
         let of = |class: Class| inner.outputs.iter().filter(move |port| port.class == class);
         for member in 0..group {
             let (from, at) = (from + member, at + member);
+            self.undecided |= (machine.undecided >> at & 1) << from;
             if machine.discarded >> at & 1 == 1 {
                 self.discarded |= 1 << from;
                 continue;

@@ -6,8 +6,8 @@ use super::exactly::Exactly;
 use super::inst::Class;
 use super::mute::Muted;
 use super::observe::Observer;
-use super::paths::{Paths, couples};
 use super::registers::{Register, Registers};
+use super::ways::{Ways, couples};
 use crate::domain::{Domain, Integer, Lanes, Number, Profile};
 use glisten_front::hir::{GlobalId, ScalarValue};
 use glisten_front::source::Span;
@@ -31,13 +31,17 @@ pub struct Machine<D: Domain> {
     pub(super) undecided: u64,
     /// Lanes that may or may not be discarded.
     pub(super) perhaps_discarded: u64,
-    pub(super) paths: Paths,
+    pub(super) ways: Ways,
+    /// All lanes that run.
+    pub(super) whole: u64,
     /// The operation or input that adds nothing to envelopes.
     pub(super) muted: Option<Muted>,
     /// The budget of each run.
     pub(super) loop_budget: u64,
     /// The rest for this run.
     pub(super) budget: u64,
+    /// While exploring, the budget after it was exceeded.
+    pub(super) allowance: u64,
     pub(super) budget_exceeded: bool,
     /// The loop that exceeded it.
     pub(super) runaway: Span,
@@ -94,10 +98,12 @@ impl<D: Domain> Machine<D> {
             discarded: 0,
             undecided: 0,
             perhaps_discarded: 0,
-            paths: Paths::new(couples(&inner.main, inner)),
+            ways: Ways::new(couples(&inner.main, inner)),
+            whole: 1,
             muted,
             loop_budget: LOOP_BUDGET,
             budget: LOOP_BUDGET,
+            allowance: 0,
             budget_exceeded: false,
             runaway: Span::default(),
             observer,
@@ -144,7 +150,7 @@ impl<D: Domain> Machine<D> {
         self.discarded = 0;
         self.undecided = 0;
         self.perhaps_discarded = 0;
-        self.paths.clear();
+        (self.ways.met, self.ways.exploring) = (0, false);
         // A machine that has exceeded its budget is likely to do so again. Then it should end soon.
         self.budget = if self.budget_exceeded { self.loop_budget >> 6 } else { self.loop_budget };
         self.watched = live.0;
@@ -192,8 +198,7 @@ impl<D: Domain> Machine<D> {
         Mask(self.perhaps_discarded)
     }
 
-    /// The lanes of the last run that have more paths than are run, or whose texture is undecided. Always empty in
-    /// domains without envelopes.
+    /// The lanes of the last run whose texture is undecided. Always empty in domains without envelopes.
     pub fn undecided(&self) -> Mask {
         Mask(self.undecided)
     }

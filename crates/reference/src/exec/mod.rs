@@ -48,6 +48,7 @@ mod corrected_run;
 mod count;
 mod exactly;
 mod explore;
+mod identity;
 mod inst;
 mod lookup;
 mod machine;
@@ -55,16 +56,17 @@ mod memory;
 mod mute;
 mod muted_run;
 mod observe;
-mod paths;
 mod registers;
 mod run;
 mod show;
 #[cfg(test)]
 mod tests;
+mod ways;
 
 pub use code::{Code, Form};
 pub use count::Step;
 pub use exactly::Exactly;
+pub(crate) use identity::hashed;
 pub use machine::{LOOP_BUDGET, Machine, Purpose};
 pub use mute::{Muted, Operation};
 pub use observe::{Event, Kind, Observer, Order, Piece, Values, What};

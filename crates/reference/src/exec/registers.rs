@@ -88,6 +88,15 @@ impl<T: Element> Register<T> {
         }
     }
 
+    /// Copies some lanes to others, unless all are equal.
+    fn copy_within(&mut self, from: usize, to: usize, count: usize) {
+        if self.filled == Filled::Lanes {
+            for place in 0..count {
+                self.lanes.set(to + place, self.lanes.get(from + place));
+            }
+        }
+    }
+
     /// Writes the register with `fill`.
     #[inline(always)]
     pub(super) fn fill(&mut self, fill: impl FnOnce(&mut Lanes<T>) -> Filled) {
@@ -96,6 +105,21 @@ impl<T: Element> Register<T> {
 }
 
 impl<T: Element> File<T> {
+    /// Joins some lanes of every register with others.
+    pub(super) fn join_lanes(&mut self, from: usize, into: usize, count: usize, hull: impl Fn(T, T) -> T) {
+        for register in self.registers.iter_mut().filter(|register| register.filled == Filled::Lanes) {
+            let lanes = &mut register.lanes;
+            for place in 0..count {
+                lanes.set(into + place, hull(lanes.get(into + place), lanes.get(from + place)));
+            }
+        }
+    }
+
+    /// Copies some lanes of every register to others.
+    pub(super) fn copy_lanes(&mut self, from: usize, to: usize, count: usize) {
+        self.registers.iter_mut().for_each(|register| register.copy_within(from, to, count));
+    }
+
     fn new(count: usize, pool: Vec<T>) -> Self {
         let blank = |count| (0..count).map(|_| Register::blank()).collect();
         Self { registers: blank(count), pool, spares: blank(SPARES) }

@@ -1,16 +1,16 @@
 //! Runs instructions: masks and jumps.
 
-use super::LANES;
 use super::code::{Inner, Runs, Section};
-use super::inst::{Inst, Operand};
+use super::inst::Inst;
 use super::machine::Machine;
-use crate::domain::{Domain, Integer, Lanes, Source};
+use crate::domain::{Domain, Integer, Lanes};
 
 impl<D: Domain> Machine<D> {
     /// Runs a section from its start with these lanes.
     pub(super) fn execute(&mut self, section: &Section, inner: &Inner, start: u64) {
         let mut mask = start;
         let mut place = 0;
+        self.whole = start;
         let watched = self.observer.is_some();
         let corrected = self.exactly.is_some();
         while let Some(inst) = section.insts.get(place) {
@@ -26,8 +26,8 @@ impl<D: Domain> Machine<D> {
                 continue;
             }
             match *inst {
-                Inst::StoreFloat { dst, a } => self.registers.store_float(dst, a, mask, mask == start),
-                Inst::StoreInt { dst, a } => self.registers.store_int(dst, a, mask, mask == start),
+                Inst::StoreFloat { dst, a } => self.registers.store_float(dst, a, mask, mask == self.whole),
+                Inst::StoreInt { dst, a } => self.registers.store_int(dst, a, mask, mask == self.whole),
                 Inst::LoadFloat { dst, table, index } => {
                     self.registers.load_float(dst, section.list(table), index);
                 }
@@ -53,7 +53,7 @@ impl<D: Domain> Machine<D> {
                 }
                 Inst::Save { slot } => self.slots[slot as usize] = mask,
                 Inst::Arm { c, rest, next } => {
-                    let truth = self.truth(c, mask);
+                    let truth = self.truth(c, &mut mask);
                     self.slots[rest as usize] = mask & !truth;
                     mask = truth;
                     if mask == 0 {
@@ -61,12 +61,16 @@ impl<D: Domain> Machine<D> {
                     }
                 }
                 Inst::Rest { rest: slot, end: target } | Inst::LoopNext { active: slot, exit: target } => {
+                    self.forget_waiting(slot + 1);
                     mask = self.slots[slot as usize] & !self.discarded;
                     if mask == 0 {
                         place = target as usize;
                     }
                 }
-                Inst::Join { slot } => mask = self.slots[slot as usize] & !self.discarded,
+                Inst::Join { slot } => {
+                    mask = self.slots[slot as usize] & !self.discarded;
+                    self.forget_waiting(slot);
+                }
                 Inst::Leave { slots } => {
                     for slot in inner.words(slots) {
                         self.slots[*slot as usize] &= !mask;
@@ -78,7 +82,7 @@ impl<D: Domain> Machine<D> {
                     mask = 0;
                 }
                 Inst::LoopTest { c, active, exit } => {
-                    mask = self.truth(c, mask);
+                    mask = self.truth(c, &mut mask);
                     self.slots[active as usize] = mask;
                     if mask == 0 {
                         place = exit as usize;
@@ -92,6 +96,13 @@ impl<D: Domain> Machine<D> {
                             place = head as usize;
                         }
                         None => {
+                            if D::HAS_INTERVALS && self.ways.exploring {
+                                self.allowance /= 2;
+                                self.budget = self.allowance;
+                                self.give_up_lanes(&mut mask);
+                                place = exit as usize;
+                                continue;
+                            }
                             self.budget = 0;
                             self.budget_exceeded = true;
                             self.runaway = section.spans.get(place - 1).copied().unwrap_or_default();
@@ -100,7 +111,7 @@ impl<D: Domain> Machine<D> {
                     }
                 }
                 Inst::CaseMask { selector, labels, rest, slot } => {
-                    let hit = self.matching(selector, inner.words(labels), self.slots[rest as usize]);
+                    let hit = self.matching(selector, inner.words(labels), rest as usize, &mut mask);
                     self.slots[slot as usize] = hit;
                     self.slots[rest as usize] &= !hit;
                 }
@@ -126,36 +137,6 @@ impl<D: Domain> Machine<D> {
                 }
             }
         }
-    }
-
-    /// The lanes of `mask` where the condition is true. If a lane's condition is undecided, its path decides.
-    fn truth(&mut self, condition: Operand, mask: u64) -> u64 {
-        let (truth, undecided) = match self.registers.int(condition) {
-            Source::One(value) => {
-                (if value.is_true() { u64::MAX } else { 0 }, if value.is_decided() { 0 } else { u64::MAX })
-            }
-            Source::Lanes(lanes) => bits_where(lanes),
-        };
-        if D::HAS_INTERVALS && undecided & mask != 0 {
-            return self.paths.decide(truth, undecided & mask) & mask;
-        }
-        truth & mask
-    }
-
-    fn matching(&mut self, selector: Operand, labels: &[u32], mask: u64) -> u64 {
-        let selector = self.registers.int(selector);
-        let (mut hit, mut undecided) = (0, 0);
-        for lane in 0..LANES {
-            let value = selector.at(lane);
-            hit |= u64::from(labels.contains(&value.bits())) << lane;
-            let (low, high) = value.interval();
-            let possible = labels.iter().any(|label| (low..=high).contains(&(*label as i32)));
-            undecided |= u64::from(!value.is_decided() && possible) << lane;
-        }
-        if D::HAS_INTERVALS && undecided & mask != 0 {
-            return self.paths.decide(hit, undecided & mask) & mask;
-        }
-        hit & mask
     }
 }
 

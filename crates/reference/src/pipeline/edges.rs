@@ -16,7 +16,7 @@ use crate::raster::band::band;
 use crate::raster::{Bounds, Fixed, triangle};
 use smallvec::SmallVec;
 
-/// What may happen to a fragment near an edge.
+/// Whether a fragment near an edge is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Role {
     /// It is drawn, or not, whatever happens to others.

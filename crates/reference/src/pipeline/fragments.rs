@@ -13,6 +13,7 @@ use super::edges::{EdgeFragment, EdgeFragments};
 use super::fragment_tests::Tests;
 use super::outputs::{Channel, OutputPlan};
 use super::plan::Plan;
+use super::same_surface::Origin;
 use super::source::Source;
 use super::surface::BIN;
 use super::target::{Bin, local};
@@ -40,6 +41,8 @@ pub(super) struct Shading<'a, D: Domain> {
     pub(super) pixels: Option<&'a [[u32; 2]]>,
     pub(super) jitter: Option<u64>,
     pub(super) exact_inputs: &'a [GlobalId],
+    /// The surface of the instance, if another draw has the same; else 0.
+    pub(super) surface: u64,
 }
 
 /// Draws the primitives of `list` over a bin.
@@ -62,7 +65,7 @@ pub(super) fn draw_bin<D: Domain>(
             band(&prim.shape, area, |near| bin.mark_near_edge(near.x, near.y));
         }
         batch.begin(prim, Source::new(prim, shading.vertices));
-        let mut near = Near::new(edges.of_prim(number));
+        let mut near = EdgeRows::new(edges.of_prim(number));
         if shading.plan.needs_quads {
             shading.add_quads(bin, &mut batch, machine, prim, &mut near);
         } else {
@@ -75,12 +78,12 @@ pub(super) fn draw_bin<D: Domain>(
 }
 
 /// The fragments of a primitive near its edges, and their pixels in the rows of the bin.
-struct Near<'e> {
+struct EdgeRows<'e> {
     fragments: &'e [EdgeFragment],
     rows: [u32; BIN as usize],
 }
 
-impl<'e> Near<'e> {
+impl<'e> EdgeRows<'e> {
     fn new(fragments: &'e [EdgeFragment]) -> Self {
         let mut rows = [0; BIN as usize];
         for fragment in fragments {
@@ -116,7 +119,7 @@ impl<D: Domain> Shading<'_, D> {
         batch: &mut Batch<'v, D>,
         machine: &mut Machine<D>,
         prim: &Prim,
-        near: &Near<'_>,
+        near: &EdgeRows<'_>,
     ) {
         let area = bin.area;
         prim.shape.rows(area, |y, x, pixels| {
@@ -146,7 +149,7 @@ impl<D: Domain> Shading<'_, D> {
         batch: &mut Batch<'v, D>,
         machine: &mut Machine<D>,
         prim: &Prim,
-        near: &mut Near<'_>,
+        near: &mut EdgeRows<'_>,
     ) {
         let area = bin.area;
         let mut done = [0_u32; BIN as usize];
@@ -184,7 +187,9 @@ impl<D: Domain> Shading<'_, D> {
     fn settle(&self, bin: &mut Bin<'_, D>, batch: &mut Batch<'_, D>, machine: &mut Machine<D>) {
         let Some(before) = batch.locate() else { return };
         let tests = if self.plan.early_depth {
-            bin.depth_tests(&batch.fragments.pixels, |lane| batch.fragments.z[lane], &self.draw.state, before)
+            let origins = self.origins(batch);
+            let z = |lane: usize| batch.fragments.z[lane];
+            bin.depth_tests(&batch.fragments.pixels, z, &self.draw.state, before, origins.as_ref())
         } else {
             before
         };
@@ -221,6 +226,19 @@ impl<D: Domain> Shading<'_, D> {
             self.write_lanes(bin, batch, machine);
         }
         batch.clear();
+    }
+
+    /// The primitives of the fragments, if another draw may have the same depths.
+    fn origins(&self, batch: &Batch<'_, D>) -> Option<[Origin; LANES]> {
+        if !D::HAS_INTERVALS || self.surface == 0 {
+            return None;
+        }
+        let mut origins = [Origin::default(); LANES];
+        for (run, lanes) in batch.runs() {
+            let origin = Origin { surface: self.surface, primitive: run.id };
+            lanes.for_each(|lane| origins[lane] = origin);
+        }
+        Some(origins)
     }
 
     /// Moves the float inputs that differ between fragments by an ULP of f32.
@@ -304,7 +322,8 @@ impl<D: Domain> Shading<'_, D> {
         if !self.plan.early_depth {
             let depth = self.plan.frag_depth.and_then(|id| machine.float_output(id, 0));
             let depth = |lane: usize| depth.map_or(batch.fragments.z[lane], |depth| depth.get(lane));
-            tests = bin.depth_tests(pixels, depth, state, tests);
+            let origins = self.origins(batch).filter(|_| self.plan.frag_depth.is_none());
+            tests = bin.depth_tests(pixels, depth, state, tests, origins.as_ref());
         }
         bin.cover(pixels, tests, machine.undecided().0, state.blend.is_some());
         for output in self.outputs {

@@ -29,9 +29,11 @@ mod edges;
 mod explain;
 mod fragment_tests;
 mod fragments;
+mod origin;
 mod outputs;
 mod plan;
 mod reach;
+mod same_surface;
 mod slack;
 mod source;
 mod store;
@@ -43,7 +45,7 @@ mod worlds;
 
 use super::RenderOptions;
 use super::domain::Domain;
-use super::exec::{Code, Form, LOOP_BUDGET, Machine, Piece};
+use super::exec::{Code, Form, LOOP_BUDGET, Machine, Piece, hashed};
 use super::raster::Shape;
 use assembly::{Prim, primitives};
 pub(super) use explain::explain;
@@ -101,8 +103,9 @@ pub(super) fn render_studied<D: Domain>(
 ) -> Result<Picture, Vec<Diagnostic>> {
     let mut surface = Surface::new::<D>(scene.framebuffer);
     let mut target = Target::<D>::new(&mut surface);
+    let surfaces = if D::HAS_INTERVALS { same_surface::surfaces(scene) } else { Vec::new() };
     for (number, draw) in scene.draws.iter().enumerate() {
-        let watch = Watch { study, draw: number, instance: 0 };
+        let watch = Watch { study, draw: number, instance: 0, surface: surfaces.get(number).copied().unwrap_or(0) };
         draw_all(scene, draw, options, watch, &mut |shading, code, endless, watch| {
             draw_prims(shading, code, &mut target, endless, watch);
         })?;
@@ -168,6 +171,7 @@ fn draw_all<D: Domain>(
                 pixels: watch.study.pixels,
                 jitter: watch.study.jitter,
                 exact_inputs: watch.study.exact_inputs,
+                surface: if watch.surface == 0 { 0 } else { hashed((watch.surface, watch.instance)) | 1 },
             };
             paint(&shading, &fragment_code, &endless, &watch);
         }

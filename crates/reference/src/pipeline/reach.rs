@@ -66,7 +66,7 @@ pub(crate) fn reach(draw: &Draw, framebuffer: Framebuffer, options: &RenderOptio
     let invocations: Vec<Invocation> =
         instances.clone().flat_map(|instance| unique.iter().map(move |&vertex| (vertex, instance))).collect();
     let endless = OnceLock::new();
-    let watch = Watch { study: Study::NONE, draw: 0, instance: 0 };
+    let watch = Watch { study: Study::NONE, draw: 0, instance: 0, surface: 0 };
     let shaded =
         ShadeOptions { viewport, faults: options.faults, profile: options.profile, positions: options.positions };
     let mut vertices = shade::<Envelope>(draw, &code, &plan, &invocations, shaded, &endless, &watch);

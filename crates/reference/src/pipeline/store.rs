@@ -89,6 +89,11 @@ fn compare(function: Compare, new: f64, stored: f64) -> bool {
     }
 }
 
+/// Whether a comparison of depth holds for equal numbers.
+pub(super) fn holds_for_equal(function: Compare) -> bool {
+    compare(function, 0.0, 0.0)
+}
+
 /// Whether a comparison of depth certainly holds, and whether it certainly fails.
 fn certain(function: Compare, new: Interval, stored: Interval) -> (bool, bool) {
     let below = new.high < stored.low;

@@ -6,7 +6,8 @@
 //! the bin and is allocated when something is drawn.
 
 use super::fragment_tests::Tests;
-use super::store::{Test, depth_test, is_integer, keeps, store, stored};
+use super::same_surface::Origin;
+use super::store::{Test, depth_test, holds_for_equal, is_integer, keeps, store, stored};
 use super::surface::{BIN, Marks, Piece, Surface};
 use super::worlds::{self, World, Worlds, joined};
 use crate::domain::{Domain, Number};
@@ -41,6 +42,8 @@ pub(super) struct Bin<'s, D: Domain> {
 struct Pixels<D: Domain> {
     /// Empty before the first depth test.
     depth: Vec<D::Float>,
+    /// The fragments that the depths are of; empty if no surface is drawn twice.
+    origins: Vec<Origin>,
     covered: Vec<bool>,
     /// Pixels near an edge. Empty if there are none.
     edges: Vec<EdgeMarks>,
@@ -50,7 +53,7 @@ struct Pixels<D: Domain> {
     undecided: Vec<bool>,
 }
 
-/// What is known of a pixel near an edge.
+/// The state of a pixel near an edge.
 #[derive(Clone, Copy, Debug, Default)]
 struct EdgeMarks {
     /// Whether the color depends on which primitive owns the pixel.
@@ -122,7 +125,7 @@ impl<D: Domain> Pixels<D> {
         let count = (BIN * BIN) as usize;
         let undecided = vec![false; if D::HAS_INTERVALS { count } else { 0 }];
         let (edges, worlds) = (Vec::new(), Worlds::new());
-        Self { depth: Vec::new(), covered: vec![false; count], edges, worlds, undecided }
+        Self { depth: Vec::new(), origins: Vec::new(), covered: vec![false; count], edges, worlds, undecided }
     }
 }
 
@@ -160,6 +163,7 @@ impl<D: Domain> Bin<'_, D> {
         depth_of: impl Fn(usize) -> D::Float,
         state: &State,
         before: Tests,
+        origins: Option<&[Origin; LANES]>,
     ) -> Tests {
         if !state.depth_test {
             return before;
@@ -169,9 +173,24 @@ impl<D: Domain> Bin<'_, D> {
             *depth = vec![D::Float::from_f64(1.0); (BIN * BIN) as usize];
         }
         let mut after = Tests { passes: 0, undecided: 0, ..before };
+        if origins.is_some() {
+            self.pixels().origins.resize((BIN * BIN) as usize, Origin::default());
+        }
         for lane in Mask(before.possible()).lanes() {
+            let origin = origins.map(|origins| origins[lane]);
+            if let Some(origin) = origin
+                && self.has_same_depth(lane, places[lane], depth_of(lane), state, before, origin)
+            {
+                if holds_for_equal(state.depth_func) {
+                    after.add(lane, before.of(lane));
+                } else if before.owners >> lane & 1 == 1 {
+                    self.leave(places[lane]);
+                }
+                continue;
+            }
             if D::HAS_INTERVALS && self.has_edges(before) {
                 self.edge_depth_test(lane, places[lane], depth_of(lane), state, before, &mut after);
+                self.note_origin(lane, places[lane], state, after, origin);
                 continue;
             }
             let depth = &mut self.pixels().depth;
@@ -179,8 +198,53 @@ impl<D: Domain> Bin<'_, D> {
             let test = depth_test::<D>(stored, depth_of(lane), state, before.of(lane));
             after.add(lane, test);
             after.doubtful |= u64::from(test.undecided) << lane;
+            self.note_origin(lane, places[lane], state, after, origin);
         }
         after
+    }
+
+    /// Whether the depth at a fragment's pixel is certainly that of the same fragment in another draw; near an edge, of
+    /// one of those that may own the pixel, if the comparison holds for equal depths.
+    fn has_same_depth(
+        &self,
+        lane: usize,
+        place: u32,
+        z: D::Float,
+        state: &State,
+        before: Tests,
+        origin: Origin,
+    ) -> bool {
+        let Some(pixels) = &self.pixels else { return false };
+        let (Some(known), Some(stored)) = (pixels.origins.get(place as usize), pixels.depth.get(place as usize)) else {
+            return false;
+        };
+        if known.surface != origin.surface {
+            return false;
+        }
+        if before.edge() >> lane & 1 == 0 {
+            return known.primitive == origin.primitive;
+        }
+        let (new, old) = (z.interval(), stored.interval());
+        known.primitive == Origin::ANY
+            && holds_for_equal(state.depth_func)
+            && new.low <= old.high
+            && new.high >= old.low
+    }
+
+    /// Remembers whose depth a pixel has after a test.
+    fn note_origin(&mut self, lane: usize, place: u32, state: &State, after: Tests, origin: Option<Origin>) {
+        let has = |set: u64| set >> lane & 1 == 1;
+        if !state.depth_write || !has(after.possible()) {
+            return;
+        }
+        let Some(slot) = self.pixels.as_mut().and_then(|pixels| pixels.origins.get_mut(place as usize)) else { return };
+        let any = |origin: Origin| Origin { primitive: Origin::ANY, ..origin };
+        *slot = match origin {
+            Some(origin) if has(after.edge()) && !has(after.doubtful) => any(origin),
+            Some(origin) if !has(after.undecided) => origin,
+            Some(origin) if slot.surface == origin.surface => any(origin),
+            _ => Origin::default(),
+        };
     }
 
     /// Whether a pixel or a fragment near an edge is concerned.

@@ -85,6 +85,8 @@ pub(super) struct Watch<'a, D: Domain> {
     pub(super) study: Study<'a, D>,
     pub(super) draw: usize,
     pub(super) instance: u32,
+    /// The surface of the draw, if another draw has the same.
+    pub(super) surface: u64,
 }
 
 /// A number moved by an ULP of f32 (2^-23 of it), up or down by chance: the chance depends on the seed and the place.

@@ -219,30 +219,75 @@ fn a_discard_that_is_open_is_told() {
 }
 
 #[test]
-fn past_the_cap_a_lane_is_undecided_and_may_hold_anything() {
-    let body = "in float a; void main() { o = vec4(0); for (int i = 0; i < 9; i++) { if (a / 3.0 * 3.0 < 1.0) \
-                o.x += 1.0; } }";
-    let program = compiled(body);
-    let machine = ran::<Envelope>(&program, &[], |_, lane| lane as f64);
-    assert_eq!(machine.undecided(), Mask(2));
-    assert_eq!(output(&program, &machine)[1][0].interval(), Interval::ALL);
+fn many_ways_are_merged_and_lose_nothing() {
+    let body = |rounds: u32| {
+        format!(
+            "in float a; void main() {{ o = vec4(0); for (int i = 0; i < {rounds}; i++) {{ \
+             if (a / 3.0 * 3.0 < 1.0) o.x += 1.0; if (a / 3.0 * 3.0 < 1.0) o.y -= 1.0; }} }}"
+        )
+    };
+    for rounds in [2, 9, 300] {
+        let program = compiled(&body(rounds));
+        let machine = ran::<Envelope>(&program, &[], |_, lane| lane as f64);
+        assert_eq!((machine.undecided(), machine.perhaps_discarded()), (Mask::NONE, Mask::NONE));
+        let lane = output(&program, &machine);
+        let most = f64::from(rounds);
+        assert_eq!(lane[1][0].interval(), Interval { low: 0.0, high: most, may_be_nan: false });
+        assert_eq!(lane[1][1].interval(), Interval { low: -most, high: 0.0, may_be_nan: false });
+        assert_eq!(lane[2][0].interval(), Interval::point(0.0), "the next lane is decided");
+    }
 }
 
 #[test]
-fn more_decisions_than_are_noted_leave_a_lane_undecided_though_each_other_way_ends_soon() {
-    let body = |rounds: u32| {
-        format!(
+fn ways_out_of_a_loop_wait_and_are_merged() {
+    let run = |rounds: u32| {
+        let body = format!(
             "in float a; void main() {{ o = vec4(-1); for (int i = 0; i < {rounds}; i++) {{ \
              if (a / 3.0 * 3.0 < 1.0) {{ o = vec4(i); return; }} }} }}"
-        )
-    };
-    let run = |rounds: u32| {
-        let program = compiled(&body(rounds));
+        );
+        let program = compiled(&body);
         let machine = ran::<Envelope>(&program, &[], |_, lane| lane as f64);
         (machine.undecided(), output(&program, &machine)[1][0].interval())
     };
-    assert_eq!(run(50), (Mask::NONE, Interval { low: -1.0, high: 49.0, may_be_nan: false }));
-    assert_eq!(run(70), (Mask(2), Interval::ALL));
+    for rounds in [50, 70, 400] {
+        let all = Interval { low: -1.0, high: f64::from(rounds) - 1.0, may_be_nan: false };
+        assert_eq!(run(rounds), (Mask::NONE, all), "{rounds}");
+    }
+}
+
+/// The way that never leaves the loop is given up, and with it its lane: the others keep their intervals.
+#[test]
+fn a_loop_that_may_never_end_leaves_its_lane_without_a_bound() {
+    let body = "in float a; void main() { o = vec4(0); while (a / 3.0 * 3.0 < 1.0 && a > 0.5) o.x += 1.0; \
+                if (a / 3.0 * 3.0 < 2.0) o.y = 1.0; }";
+    let program = compiled(body);
+    let machine = ran::<Envelope>(&program, &[], |_, lane| lane as f64);
+    assert!(!machine.budget_exceeded(), "the value's way ends");
+    let lanes = output(&program, &machine);
+    assert_eq!(lanes[1][0].interval(), Interval::ALL);
+    assert_eq!(lanes[2][1].interval(), Interval { low: 0.0, high: 1.0, may_be_nan: false });
+    assert_eq!((machine.undecided(), machine.perhaps_discarded()), (Mask::NONE, Mask::NONE), "nothing is discarded");
+}
+
+/// A switch inside a loop, with lanes that leave by `break`, `continue` and `return`.
+#[test]
+fn ways_take_every_turn() {
+    let body = "in float a; void main() { o = vec4(0); for (int i = 0; i < 6; i++) { \
+                switch (int(a / 3.0 * 3.0)) { case 0: o.x += 1.0; break; case 1: o.y += 1.0; continue; default: o.z = 1.0; return; } \
+                o.w += 1.0; } }";
+    let program = compiled(body);
+    let machine = ran::<Envelope>(&program, &[], |_, lane| lane as f64);
+    let lanes = output(&program, &machine);
+    // a = 1: each turn is 0 or 1, or the end, since each case is decided by itself; a = 2: each is 1, or the end.
+    let hull = |low: f64, high: f64| Interval { low, high, may_be_nan: false };
+    assert_eq!(
+        lanes[1].iter().map(|n| n.interval()).collect::<Vec<_>>(),
+        [hull(0.0, 6.0), hull(0.0, 6.0), hull(0.0, 1.0), hull(0.0, 6.0)]
+    );
+    assert_eq!(
+        lanes[2].iter().map(|n| n.interval()).collect::<Vec<_>>(),
+        [hull(0.0, 0.0), hull(0.0, 6.0), hull(0.0, 1.0), hull(0.0, 0.0)]
+    );
 }
 
 #[test]

@@ -1,0 +1,30 @@
+//! `--profile`: whose freedom an envelope allows.
+//!
+//! *In:* the choice, and the open GPU. *Out:* a [`Profile`].
+
+use clap::ValueEnum;
+use glisten_gpu::{Gpu, PrecisionLimits};
+use glisten_reference::domain::Profile;
+
+/// The choices.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(super) enum ProfileChoice {
+    /// What every implementation of Vulkan may draw
+    Vulkan,
+    /// What every implementation of WGSL may draw: derivatives have no accuracy there
+    Wgsl,
+    /// What this device may draw: the specifications with the limits that it reports
+    #[default]
+    Device,
+}
+
+impl ProfileChoice {
+    /// The profile for pictures of a GPU.
+    pub(super) fn of(self, gpu: &Gpu) -> Profile {
+        match self {
+            Self::Vulkan => Profile::VULKAN,
+            Self::Wgsl => Profile::WGSL,
+            Self::Device => Profile::of_device(&gpu.adapter().name, gpu.precision().map(PrecisionLimits::bits)),
+        }
+    }
+}
