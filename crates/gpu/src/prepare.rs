@@ -40,17 +40,13 @@ pub(super) struct PreparedDraw {
 /// Returns the code of a stage of a draw.
 pub(super) type Modules<'a> = &'a dyn Fn(&Draw, Stage) -> Result<Emitted, Error>;
 
-<<<<<<< HEAD
-pub(super) fn emitted(draw: &Draw, stage: Stage, target: Target) -> Result<Emitted, Error> {
-=======
 /// The modules that replace the stages of a draw, by their index.
 type Replaced = [Option<usize>; 2];
 
 /// The stages of a draw.
 const STAGES: [Stage; 2] = [Stage::Vertex, Stage::Fragment];
 
-fn emitted(draw: &Draw, stage: Stage, target: Target) -> Result<Emitted, Error> {
->>>>>>> main
+pub(super) fn emitted(draw: &Draw, stage: Stage, target: Target) -> Result<Emitted, Error> {
     emit::emit(&draw.program, stage, target, &conventions(draw, target)).map_err(Error::Emit)
 }
 
