@@ -25,7 +25,7 @@ pub struct Comparison<'a> {
     pub written: Option<&'a Written>,
     /// The largest width of the envelope of a judged pixel; `None`: 1/255 of the range of the picture's values.
     pub width: Option<f64>,
-    /// What simulated GPUs drew.
+    /// The pictures of simulated GPUs.
     pub population: Option<&'a Population>,
 }
 
