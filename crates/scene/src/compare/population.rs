@@ -3,14 +3,14 @@
 //! *In:* the pictures of the members, and a GPU's. *Out:* which of its pixels are suspect.
 //!
 //! *The rule:* a channel is suspect if it is further outside of the population's range than [`FAR`] times its spread: the
-//! width of that range, but at least [`LEAST`] of the range of the picture's values and what the format rounds to. A few
+//! width of that range, but at least [`LEAST`](super::evidence::LEAST) of the range of the picture's values and what the format rounds to. A few
 //! dozen members do not reach the ends of what rounding may do, so what is nearer says nothing. It is also suspect if it
 //! is not finite and no member's is. Where the envelope is wider than the goal for evidence, it may hide a jump: on which
 //! side of it a pixel lies may be decided by one rounding, so there the eight pixels around count as well. A pixel that
 //! only one side covers is suspect if no pixel around differs in coverage within the population. From [`MIN_SHARE`] of the
 //! covered pixels and [`MIN_PIXELS`] pixels on, suspects fail a comparison.
 
-use super::evidence::{LEAST, Ruler};
+use super::evidence::Ruler;
 use crate::picture::{Interval, Picture};
 
 /// How many spreads of the population a number may be outside of its range.
