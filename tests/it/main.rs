@@ -60,7 +60,9 @@ mod read_back;
 mod readme;
 #[cfg(feature = "cli")]
 mod report;
+#[cfg(feature = "cli")]
 mod report_checks;
+mod report_ways;
 #[cfg(feature = "reference")]
 mod scenes;
 #[cfg(feature = "cli")]

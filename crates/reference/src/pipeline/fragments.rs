@@ -383,6 +383,14 @@ impl<D: Domain> WithSimd for Interpolate<'_, '_, D> {
             }
             input.load(&numbers);
         }
+        for (index, varying) in plan.floats.iter().enumerate().filter(|_| D::HAS_INTERVALS) {
+            let Some(noise) = machine.noise_input(varying.to.0, varying.to.1) else { continue };
+            for (run, lanes) in batch.runs() {
+                let to = &mut numbers[lanes.clone()];
+                run.source.noise(&batch.fragments, lanes, (index, varying.interpolation), to);
+            }
+            noise.load(&numbers);
+        }
         for (index, varying) in plan.ints.iter().enumerate() {
             fill_int(machine, varying.to, batch, |run| run.source.ints.get(index).copied().unwrap_or_default());
         }

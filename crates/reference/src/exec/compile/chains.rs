@@ -10,6 +10,7 @@
 use super::super::code::{Form, PoolSource};
 use super::super::inst::{Class, Float2, Inst, Operand};
 use super::Compiler;
+use super::affine::Definition;
 use super::emit::Emitter;
 use smallvec::SmallVec;
 
@@ -95,6 +96,8 @@ impl Compiler<'_> {
         let operands: Vec<Operand> = chain.terms.iter().copied().chain([constant]).collect();
         let hoisted = plain.is_scalar();
         let list = self.emit.list(Class::Float, &operands, hoisted);
-        self.emit.pure(Class::Float, &[plain], |dst| Inst::Folded { sum: chain.sum, dst, a: plain, list })
+        let both = self.emit.pure(Class::Float, &[plain], |dst| Inst::Folded { sum: chain.sum, dst, a: plain, list });
+        self.emit.define(both, Definition::Same(plain));
+        both
     }
 }

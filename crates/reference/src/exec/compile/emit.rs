@@ -3,6 +3,7 @@
 
 use super::super::code::{Form, PoolSource, Section};
 use super::super::inst::{Class, Inst, List, Operand, Slot, Target, TextureCall};
+use super::affine::Definition;
 use super::chains::Chain;
 use super::fuse::is_control;
 use glisten_front::link::RootIndex;
@@ -32,6 +33,10 @@ pub(super) struct Emitter {
     preamble_lists: FxHashMap<(Class, Vec<Operand>), List>,
     /// The sums and products with constants.
     pub(super) chains: FxHashMap<Operand, Chain>,
+    /// What registers are computed from, as far as that is linear.
+    pub(super) definitions: FxHashMap<Operand, Definition>,
+    /// The registers with the noise of registers.
+    pub(super) noises: FxHashMap<Operand, Operand>,
     /// The number of stores, and of points where lanes diverge or join.
     pub(super) stores: u32,
     /// Preamble instructions by what they compute (with `dst` blanked).
