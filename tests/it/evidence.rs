@@ -165,6 +165,7 @@ const INCONCLUSIVE: &[(&str, &str)] = &[
     ("lower_textures", FILTERED),
     ("mipmaps_implicit", FILTERED),
     ("normal_map", "derivatives choose the level of detail, and the texels differ"),
+    ("root_of_negative", "GLSL leaves the root and the power of a negative number undefined"),
     ("screen_lines", "the lines are as thin as derivatives are uncertain"),
     ("sphere_trace", "the march may end a step sooner or later, and the normal is a difference"),
     ("texture_1d", FILTERED),

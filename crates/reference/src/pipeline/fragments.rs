@@ -171,7 +171,7 @@ impl<D: Domain> Shading<'_, D> {
             }
         });
         for fragment in near.fragments {
-            let (row, column) = (fragment.place / BIN as u32 & !1, fragment.place % BIN as u32 & !1);
+            let (row, column) = ((fragment.place / BIN as u32) & !1, (fragment.place % BIN as u32) & !1);
             let Some(done) = done.get_mut(row as usize / 2).filter(|done| **done >> column & 1 == 0) else { continue };
             *done |= 1 << column;
             let first = row * BIN as u32 + column;
