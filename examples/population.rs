@@ -2,24 +2,20 @@
 //! would be suspected.
 //!
 //! `cargo run --release --example population -- SCENE|FOLDER... [--members N] [--seed N] [--list]` draws each scene on the
-//! first software adapter as SPIR-V and as WGSL, and with the population. For each scene it prints the largest distance
-//! of a pixel from the population, in units of its spread, and the pixels that are farther than each of a few limits.
+//! first software adapter as SPIR-V and as WGSL, and with the population. It prints the pictures that `verify` would fail
+//! for being far from the population (with `--list`, all of them), and the time of the population.
 
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a program that prints a report")]
 
 use glisten::scene::{DiskFiles, Scene, load};
-use glisten::verify::likely;
 use glisten::{Compiler, Gpu, Precision, RenderOptions};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_gpu::Via;
-use glisten_reference::{LineRule, Population, population};
-use glisten_scene::picture::Picture;
+use glisten_reference::{LineRule, populate};
+use glisten_scene::compare::{Comparison, Population, Written};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
-
-/// The limits that are tried, in units of the spread.
-const LIMITS: [f64; 6] = [0.5, 1.0, 2.0, 4.0, 8.0, 16.0];
 
 struct Arguments {
     paths: Vec<PathBuf>,
@@ -51,13 +47,6 @@ fn scene_files(path: &Path, to: &mut Vec<PathBuf>) {
     }
 }
 
-/// For each limit, the pixels of a picture that are farther from the population; and the largest distance.
-fn beyond(picture: &Picture, reference: &Picture, population: &Population) -> ([u64; LIMITS.len()], f64) {
-    let distances = likely::distances(picture, reference, population);
-    let counts = LIMITS.map(|limit| distances.iter().filter(|distance| **distance > limit).count() as u64);
-    (counts, distances.into_iter().fold(0.0, f64::max))
-}
-
 fn main() -> ExitCode {
     let Some(arguments) = arguments() else {
         eprintln!("usage: population SCENE|FOLDER... [--members N] [--seed N] [--list]");
@@ -73,45 +62,60 @@ fn main() -> ExitCode {
             return ExitCode::from(3);
         }
     };
-    let mut alarms = [0; LIMITS.len()];
-    let mut drawn = 0;
-    println!("{:44} {:>7} {:>9} {:>9}  farther than {LIMITS:?}", "scene", "covered", "ms", "farthest");
+    let (mut drawn, mut alarms) = (0, 0);
+    println!("{:44} {:>7} {:>9} {:>7}", "scene", "covered", "ms", "suspect");
     for path in &files {
         let loaded = load(&path.to_string_lossy(), &DiskFiles, &Compiler::new(Default::default()));
         let Some(scene) = loaded.scene else { continue };
-        for via in [Via::Spirv, Via::Wgsl] {
-            match line(&scene, &gpu, via, &arguments) {
-                Ok((covered, counts, most, milliseconds)) => {
+        match lines(&scene, &gpu, &arguments) {
+            Ok(lines) => {
+                for Line { via, covered, suspect, is_alarm, milliseconds } in lines {
                     drawn += 1;
-                    for (alarm, count) in alarms.iter_mut().zip(counts) {
-                        *alarm += u32::from(count >= 8 && count as f64 > 0.001 * covered as f64);
-                    }
-                    if arguments.list || counts[2] > 0 {
+                    alarms += u32::from(is_alarm);
+                    if arguments.list || is_alarm {
                         let name = format!("{} {}", path.file_stem().unwrap_or_default().display(), via.name());
-                        println!("{name:44} {covered:7} {milliseconds:9.0} {most:9.2e}  {counts:?}");
+                        println!(
+                            "{name:44} {covered:7} {milliseconds:9.0} {suspect:7} {}",
+                            if is_alarm { "FAR" } else { "" }
+                        );
                     }
                 }
-                Err(why) => println!("{}: {why}", path.display()),
             }
+            Err(why) => println!("{}: {why}", path.display()),
         }
     }
-    println!("{drawn} pictures; suspected beyond {LIMITS:?}: {alarms:?}");
+    println!("{drawn} pictures, {alarms} of them far from what {} simulated GPUs drew", arguments.members);
     ExitCode::SUCCESS
 }
 
-type Line = (usize, [u64; LIMITS.len()], f64, f64);
+struct Line {
+    via: Via,
+    covered: u64,
+    suspect: u64,
+    is_alarm: bool,
+    milliseconds: f64,
+}
 
-fn line(scene: &Scene, gpu: &Gpu, via: Via, arguments: &Arguments) -> Result<Line, String> {
-    let picture = gpu.render(scene, via).map_err(|error| error.to_string())?.picture;
-    let options = RenderOptions { lines: LineRule::Vulkan, ..RenderOptions::default() };
-    let started = Instant::now();
-    let population = population(scene, &options, (arguments.seed, 0..arguments.members), None)
-        .map_err(|found| found.first().map_or_else(String::new, |first| first.message.clone()))?;
-    let milliseconds = started.elapsed().as_secs_f64() * 1e3;
-    let covered = picture.covered.iter().filter(|covered| **covered).count();
+fn lines(scene: &Scene, gpu: &Gpu, arguments: &Arguments) -> Result<Vec<Line>, String> {
     let told = |found: Vec<Diagnostic>| found.first().map_or_else(String::new, |first| first.message.clone());
+    let options = RenderOptions { lines: LineRule::Vulkan, ..RenderOptions::default() };
+    let size = [scene.framebuffer.width, scene.framebuffer.height];
+    let mut population = Population::new(arguments.seed, size, scene.framebuffer.attachments);
+    let started = Instant::now();
+    populate(&mut population, scene, &options, 0..arguments.members).map_err(told)?;
+    let milliseconds = started.elapsed().as_secs_f64() * 1e3;
     let envelope = RenderOptions { precision: Precision::Envelope, ..options };
     let reference = glisten_reference::render(scene, &envelope).map_err(told)?;
-    let (counts, most) = beyond(&picture, &reference, &population);
-    Ok((covered, counts, most, milliseconds))
+    let written = Written::of(scene);
+    [Via::Spirv, Via::Wgsl]
+        .into_iter()
+        .map(|via| {
+            let picture = gpu.render(scene, via).map_err(|error| error.to_string())?.picture;
+            let comparison =
+                Comparison { written: Some(&written), population: Some(&population), ..Comparison::default() };
+            let verdict = comparison.compare(&picture, &reference).verdict;
+            let (covered, suspect) = (verdict.covered, verdict.suspect.unwrap_or(0));
+            Ok(Line { via, covered, suspect, is_alarm: verdict.is_suspect(), milliseconds })
+        })
+        .collect()
 }

@@ -46,6 +46,8 @@ const EXAMPLES: &[(&str, &[(&str, &str)])] = &[
         &[
             ("glisten verify scene.toml", "the GPU's picture against the reference"),
             ("glisten verify scene.toml --difference off.png", "with a picture of the differences"),
+            ("glisten verify scene.toml --evidence seen.png", "with a picture of how much was judged"),
+            ("glisten verify scene.toml --with fragment=a.spv", "the code of another translator"),
         ],
     ),
     (

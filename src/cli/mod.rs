@@ -47,6 +47,7 @@ mod stages;
 mod test;
 mod timed;
 mod verify;
+mod with;
 
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 use console::{ColorChoice, Console};

@@ -8,8 +8,10 @@ use super::opengl;
 use super::pictures::Target;
 use super::progress::Progress;
 use super::scenes::{DrawError, SceneArgs, ViaArg};
+use super::with::WithArgs;
 use crate::scene::Scene;
 use clap::{Args, ValueEnum};
+use glisten_gpu::Via;
 use glisten_reference::{LineRule, Precision, RenderOptions};
 use glisten_scene::picture::Picture;
 use std::path::PathBuf;
@@ -28,9 +30,11 @@ pub(super) struct RenderArgs {
     /// The precision of the CPU reference
     #[arg(long, value_enum, default_value_t)]
     precision: PrecisionArg,
-    /// The form of the code that the GPU runs
-    #[arg(long, value_enum, default_value_t)]
-    via: ViaArg,
+    /// The form of the code that the GPU runs (default: spirv; with --with, that of the module)
+    #[arg(long, value_enum)]
+    via: Option<ViaArg>,
+    #[command(flatten)]
+    with: WithArgs,
     /// Draw with programs of which nothing is left but what the picture needs
     #[arg(long)]
     specialize: bool,
@@ -114,12 +118,20 @@ impl From<Picture> for Drawing {
 }
 
 fn draw(args: &RenderArgs, scene: Scene) -> Result<Drawing, DrawError> {
-    let via = args.via.into();
+    let via = args.with.vias(&[args.via.unwrap_or_default().into()], args.via.is_some())?;
+    let via = via.first().copied().unwrap_or(Via::Spirv);
+    let foreign = args.with.read(&scene)?;
+    if !foreign.is_empty() && args.backend != Backend::Gpu {
+        return Err(Failure::usage("--with replaces what the GPU runs, and --backend asks for another one").into());
+    }
     match args.backend {
         Backend::Gpu => {
             let gpu = args.scene.gpu()?;
             let drawn_by = Some(gpu.adapter().to_string());
-            let picture = args.scene.within_time(move || Ok(gpu.render(&scene, via)?.picture))?;
+            let picture = args.scene.within_time(move || {
+                let prepared = gpu.prepare_foreign(&scene, via, &foreign)?;
+                Ok(gpu.draw(&prepared)?.picture)
+            })?;
             Ok(Drawing { picture, drawn_by })
         }
         Backend::Cpu => {

@@ -14,8 +14,9 @@ use super::progress::Progress;
 use super::report_checks::CheckArgs;
 use super::scenes::{DrawError, SceneArgs, ViaArg};
 use super::session::Session;
-use crate::report::{self, Error, Options, Report, Watcher, Ways, Weights};
-use crate::scene::DiskFiles;
+use crate::report::{self, Error, LIBRARY_SCENE, LibraryFiles, Options, Report, Watcher, Ways, Weights};
+use crate::scene::{DiskFiles, FileSource};
+use clap::builder::ArgPredicate;
 use clap::{Args, ValueEnum};
 use glisten_front::source::SourceMap;
 use std::path::{Path, PathBuf};
@@ -23,9 +24,16 @@ use std::time::Duration;
 
 /// Measure the ways to shade a scene: error against work and run time
 #[derive(Args, Debug)]
+#[command(mut_arg("scene", |scene| {
+    let library = ArgPredicate::Equals("true".into());
+    scene.required(false).required_unless_present("library").default_value_if("library", library, LIBRARY_SCENE)
+}))]
 pub(super) struct ReportArgs {
     #[command(flatten)]
     scene: SceneArgs,
+    /// Compare the models of the library in one scene instead, per fragment and per vertex
+    #[arg(long, conflicts_with = "scene")]
+    library: bool,
     /// The folder for report.json and report.html
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
@@ -106,6 +114,7 @@ impl Watcher for Steps {
 
 /// Runs the command.
 pub(super) fn run(args: &ReportArgs, console: &Console) -> Outcome {
+    let interrupt = Interrupt::watch();
     let checks = args.checks.read()?;
     let weights = weights(args.weights.as_deref())?;
     let session = args.scene.session(console)?;
@@ -123,10 +132,10 @@ pub(super) fn run(args: &ReportArgs, console: &Console) -> Outcome {
         time: args.seconds.map(Duration::from_secs_f64),
         machine: machine(),
     };
-    let interrupt = Interrupt::watch();
     let mut steps =
         Steps { progress: Progress::new(console, 1).with_estimate(), begun: false, interrupt: interrupt.clone() };
-    let result = report::run(&args.scene.scene, &DiskFiles, session.compiler(), &gpu, &options, &mut steps);
+    let files: &dyn FileSource = if args.library { &LibraryFiles } else { &DiskFiles };
+    let result = report::run(&args.scene.scene, files, session.compiler(), &gpu, &options, &mut steps);
     drop(steps);
     let report = match result {
         Ok(report) => report,

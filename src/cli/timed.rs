@@ -7,9 +7,11 @@ use super::progress::Progress;
 use super::scenes::{DrawError, MachineArgs, told};
 use crate::scene::Scene;
 use crate::verify::{self, Channel, Drawn, OnGpu, Reference, Runner, ThisThread};
-use glisten_gpu::{Gpu, Via};
+use glisten_gpu::{Foreign, Gpu, Via};
 use glisten_reference::{Contribution, RenderOptions};
+use glisten_scene::compare::Population;
 use glisten_scene::picture::Picture;
+use std::ops::Range;
 use std::sync::Arc;
 
 /// The reference.
@@ -39,6 +41,24 @@ impl Reference for TimedReference<'_> {
         Ok(self.machine.within_time(move || Ok(ThisThread.render_all(&scene, &options)?))?)
     }
 
+    /// Each member has the time limit of a draw.
+    fn populate(
+        &self,
+        population: Population,
+        scene: &Scene,
+        options: &RenderOptions,
+        members: Range<u32>,
+    ) -> Result<Population, verify::Failure> {
+        let mut population = population;
+        for number in members {
+            self.progress.say(&format!("the simulated GPU {}", number + 1));
+            let (scene, options) = (scene.clone(), *options);
+            let drawn = move || Ok(ThisThread.populate(population, &scene, &options, number..number + 1)?);
+            population = self.machine.within_time(drawn)?;
+        }
+        Ok(population)
+    }
+
     fn explain(
         &self,
         scene: &Scene,
@@ -54,13 +74,19 @@ impl Reference for TimedReference<'_> {
 pub(super) struct TimedGpu<'a> {
     gpu: Arc<Gpu>,
     via: Via,
+    foreign: Arc<[Foreign]>,
     machine: &'a MachineArgs,
     progress: &'a Progress,
 }
 
 impl<'a> TimedGpu<'a> {
     pub(super) fn new(gpu: &Arc<Gpu>, via: Via, machine: &'a MachineArgs, progress: &'a Progress) -> Self {
-        Self { gpu: Arc::clone(gpu), via, machine, progress }
+        Self { gpu: Arc::clone(gpu), via, foreign: Arc::new([]), machine, progress }
+    }
+
+    /// Draws with modules of other translators.
+    pub(super) fn with(self, foreign: &Arc<[Foreign]>) -> Self {
+        Self { foreign: Arc::clone(foreign), ..self }
     }
 }
 
@@ -72,7 +98,8 @@ impl Runner for TimedGpu<'_> {
     fn draw(&self, scene: &Scene) -> Result<Drawn, verify::Failure> {
         self.progress.say(self.name());
         let (gpu, via, scene) = (Arc::clone(&self.gpu), self.via, scene.clone());
-        let drawn = self.machine.within_time(move || Ok(OnGpu::new(&gpu, via).draw(&scene)?))?;
+        let foreign = Arc::clone(&self.foreign);
+        let drawn = self.machine.within_time(move || Ok(OnGpu::new(&gpu, via).with(&foreign).draw(&scene)?))?;
         self.progress.step();
         Ok(drawn)
     }

@@ -12,12 +12,13 @@ use super::profile::ProfileChoice;
 use super::progress::Progress;
 use super::scenes::{DrawError, SceneArgs};
 use super::timed::{TimedGpu, TimedReference};
+use super::with::WithArgs;
 use crate::scene::Scene;
 use crate::verify::{self, Conclusion, Demands, Options, Runner, Verification, Weakness, verify};
 use clap::{Args, ValueEnum};
 use glisten_front::diagnostic::write;
 use glisten_front::source::SourceMap;
-use glisten_gpu::{AdapterFacts, Via};
+use glisten_gpu::{AdapterFacts, Foreign, Via};
 use glisten_scene::compare::{Criterion, Verdict, flip};
 use glisten_scene::picture::{Picture, Transfer};
 use serde::Serialize;
@@ -29,9 +30,11 @@ use std::sync::Arc;
 pub(super) struct VerifyArgs {
     #[command(flatten)]
     scene: SceneArgs,
-    /// The form of the code that the GPU runs
-    #[arg(long, value_enum, default_value_t)]
-    via: ViaChoice,
+    /// The form of the code that the GPU runs (default: both; with --with, those of the modules)
+    #[arg(long, value_enum)]
+    via: Option<ViaChoice>,
+    #[command(flatten)]
+    with: WithArgs,
     /// The format of the figures
     #[arg(long, value_enum, default_value_t)]
     format: ResultFormat,
@@ -180,18 +183,20 @@ pub(super) fn run(args: &VerifyArgs, console: &Console) -> Outcome {
         Ok(read) => read,
         Err(exit) => return Ok(exit),
     };
-    let vias = match args.via {
+    let wanted = match args.via.unwrap_or_default() {
         ViaChoice::Spirv => vec![Via::Spirv],
         ViaChoice::Wgsl => vec![Via::Wgsl],
         ViaChoice::Both => vec![Via::Spirv, Via::Wgsl],
     };
+    let vias = args.with.vias(&wanted, args.via.is_some())?;
+    let foreign: Arc<[Foreign]> = args.with.read(&read.scene)?.into();
     let [difference, evidence] =
         [&args.difference, &args.evidence].map(|file| file.as_deref().map(Target::parse).transpose());
     let (difference, evidence) = (difference?, evidence?);
     let progress = Progress::new(console, vias.len() + 1);
     let drawn = args.specialize.then(|| read.specialized(args.contract.contract()));
     let scenes = (&read.scene, drawn.as_ref());
-    let (verification, facts) = match compare(args, scenes, read.sources(), &vias, &progress) {
+    let (verification, facts) = match compare(args, scenes, read.sources(), (&vias, &foreign), &progress) {
         Ok(compared) => compared,
         Err(error) => return read.failed(error),
     };
@@ -287,12 +292,13 @@ fn compare(
     args: &VerifyArgs,
     (scene, drawn): (&Scene, Option<&Scene>),
     sources: &SourceMap,
-    vias: &[Via],
+    (vias, foreign): (&[Via], &Arc<[Foreign]>),
     progress: &Progress,
 ) -> Result<(Verification, AdapterFacts), DrawError> {
     let machine = &args.scene.machine;
     let gpu = Arc::new(args.scene.gpu()?);
-    let runners: Vec<TimedGpu<'_>> = vias.iter().map(|via| TimedGpu::new(&gpu, *via, machine, progress)).collect();
+    let runner = |via: &Via| TimedGpu::new(&gpu, *via, machine, progress).with(foreign);
+    let runners: Vec<TimedGpu<'_>> = vias.iter().map(runner).collect();
     let runners: Vec<Instead<'_>> = runners.iter().map(|runner| Instead { runner, scene: drawn }).collect();
     let runners: Vec<&dyn Runner> = runners.iter().map(|runner| runner as &dyn Runner).collect();
     let options = Options {

@@ -6,10 +6,10 @@
 use super::clock::Candidate;
 use super::figures::{compare, spread};
 use super::model::{OnFront, Skipped, Truth, Way};
+use super::options::{Error, Options, Watcher};
 use super::plan::{DECLARED, PlannedTruth, PlannedWay};
-use super::run::{Error, Options, Watcher};
 use super::ways::AS_WRITTEN;
-use super::work::work;
+use super::work::{steps, work};
 use glisten_gpu::Gpu;
 use glisten_reference::{Precision, RenderOptions};
 use glisten_scene::Scene;
@@ -23,7 +23,7 @@ pub(super) struct Draw {
     pub(super) candidate: Candidate,
 }
 
-/// What was drawn so far.
+/// The truths and ways that were drawn so far.
 pub(super) struct Drawing<'a> {
     pub(super) gpu: &'a Gpu,
     pub(super) options: &'a Options,
@@ -77,12 +77,20 @@ impl Drawing<'_> {
         Ok(())
     }
 
+    /// A frame that only clears, on the device.
+    pub(super) fn empty(&self) -> Option<Candidate> {
+        let scene = &self.done.first()?.way.scene;
+        let empty = Scene { name: scene.name.clone(), framebuffer: scene.framebuffer, draws: Vec::new() };
+        let prepared = self.gpu.prepare(&empty, self.options.via).ok()?;
+        let frames = self.gpu.frames_for_a_stretch(&prepared).ok()?;
+        Some(Candidate { prepared, frames })
+    }
+
     fn drawn(&mut self, planned: &PlannedWay, scene: &Scene, watcher: &mut dyn Watcher) -> Result<Draw, Error> {
         let failed = |error| Error::Gpu { way: planned.name.clone(), error };
         self.step(&format!("{} on the CPU", planned.name), watcher);
         let exact = reference(&planned.name, scene)?;
-        let work = work(scene, &self.options.weights)
-            .map_err(|diagnostics| Error::Reference { way: planned.name.clone(), diagnostics })?;
+        let counts = steps(scene).map_err(|diagnostics| Error::Reference { way: planned.name.clone(), diagnostics })?;
         self.step(&format!("{} on the GPU", planned.name), watcher);
         let (gpu, via) = (self.gpu, planned.via.unwrap_or(self.options.via));
         let prepared = gpu.prepare(scene, via).map_err(failed)?;
@@ -103,7 +111,7 @@ impl Drawing<'_> {
             tessellation: planned.tessellation,
             vertices,
             fragments,
-            work,
+            work: work(&counts, &self.options.weights),
             error,
             rounding,
             milliseconds: f64::NAN,

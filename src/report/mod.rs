@@ -16,6 +16,7 @@ mod figures;
 mod front;
 mod interval;
 mod model;
+mod options;
 mod page;
 mod past;
 mod plan;
@@ -34,10 +35,12 @@ pub use budget::{Budget, Choice, WayFiles};
 pub use clock::Limits;
 pub use compare::Comparison;
 pub use model::{Adapter, Ended, Figures, Machine, OnFront, Report, Skipped, Spread, Timing, Truth, Way, Work};
+pub use options::{Error, Options, Watcher, Ways};
 pub use past::Past;
-pub use run::{Error, Options, Watcher, Ways, run};
+pub use run::run;
+pub use ways::{LIBRARY_SCENE, LibraryFiles};
 pub use weights::Weights;
-pub use work::work;
+pub use work::{steps, work};
 
 impl Report {
     /// The table for a terminal.

@@ -7,91 +7,16 @@ use super::clock::{Candidate, Limits, SEED, Times, time};
 use super::draw::{Draw, Drawing};
 use super::figures::spread;
 use super::front::{margin, mark};
-use super::model::{Adapter, Ended, Machine, Report, Timing, Truth, Way};
+use super::model::{Adapter, Ended, Report, Timing, Truth, Way};
+use super::options::{Error, Options, Watcher, Ways};
 use super::plan::{Drawn, Plan, PlannedWay, base_of, plan};
 use super::ways::{self, Origin};
-use super::weights::Weights;
 use crate::scene::{self, FileError, FileSource, Loaded, Scene};
-use crate::specialize::{Contract, specialize_scene_by};
+use crate::specialize::specialize_scene_by;
 use glisten_front::compiler::Compiler;
-use glisten_front::diagnostic::{Diagnostic, Diagnostics};
+use glisten_front::diagnostic::Diagnostics;
 use glisten_front::source::SourceMap;
-use glisten_gpu::{Gpu, Via};
-
-/// Why a report could not be made.
-#[derive(Debug)]
-pub enum Error {
-    /// The scene, or something that it names, has errors; the diagnostics belong to these sources.
-    Scene {
-        /// The texts.
-        sources: Box<SourceMap>,
-        /// The diagnostics.
-        diagnostics: Diagnostics,
-        /// Whether a file that it names cannot be read.
-        io_error: bool,
-    },
-    /// The reference cannot draw a way.
-    Reference {
-        /// The way.
-        way: String,
-        /// The diagnostics.
-        diagnostics: Vec<Diagnostic>,
-    },
-    /// The GPU cannot draw a way.
-    Gpu {
-        /// The way.
-        way: String,
-        /// The reason.
-        error: glisten_gpu::Error,
-    },
-}
-
-/// Follows the progress of the work: the number of steps, then each step.
-pub trait Watcher {
-    /// Announces the number of steps, as far as it is known; the last announcement counts.
-    fn steps(&mut self, count: usize);
-    /// Announces a step.
-    fn step(&mut self, what: &str);
-    /// Whether the user wants an end. What is done then is the report.
-    fn is_stopped(&self) -> bool {
-        false
-    }
-}
-
-/// Ignores progress.
-impl Watcher for () {
-    fn steps(&mut self, _count: usize) {}
-    fn step(&mut self, _what: &str) {}
-}
-
-/// Which ways to compare.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Ways {
-    /// Those that the scene's file declares, or the scene alone.
-    #[default]
-    Declared,
-    /// Those that are found by themselves as well.
-    Auto,
-}
-
-/// What to compare, and how.
-#[derive(Clone, Debug)]
-pub struct Options {
-    /// The form of the emitted code that the GPU runs.
-    pub via: Via,
-    /// Adds each way with residual programs of this contract.
-    pub specialized: Option<Contract>,
-    /// Which ways to compare.
-    pub ways: Ways,
-    /// The weights of operations.
-    pub weights: Weights,
-    /// The limit of rounds; the scene's, or else the default, if there is none.
-    pub rounds: Option<u32>,
-    /// The limit of seconds for timing; the default if there is none.
-    pub time: Option<std::time::Duration>,
-    /// The machine.
-    pub machine: Machine,
-}
+use glisten_gpu::Gpu;
 
 /// Compares the ways of the scene at `path`.
 ///
@@ -126,11 +51,11 @@ pub fn run(
         time: options.time.unwrap_or(Limits::default().time),
     };
     let all = drawing.done.len() + drawing.skipped.len() == drawn;
-    let steps = drawing.steps;
+    let (steps, empty) = (drawing.steps, drawing.empty());
     let Drawing { truths, done, skipped, .. } = drawing;
     let (mut ways, candidates): (Vec<Way>, Vec<Candidate>) =
         done.into_iter().map(|Draw { way, candidate }| (way, candidate)).unzip();
-    let times = time(gpu, &candidates, limits, (steps, watcher))
+    let times = time(gpu, (&candidates, empty.as_ref()), limits, (steps, watcher))
         .map_err(|(number, error)| Error::Gpu { way: ways.get(number).map(Way::title).unwrap_or_default(), error })?;
     let timing = settle(&mut ways, &truths, times);
     let framebuffer = whole.scene.map(|scene| scene.framebuffer);
@@ -188,6 +113,7 @@ fn settle(ways: &mut [Way], truths: &[Truth], times: Times) -> Timing {
     Timing {
         baseline: ways.first().map(Way::title).unwrap_or_default(),
         baseline_ms: ways.first().map_or(f64::NAN, |way| way.milliseconds),
+        empty_ms: spread(&times.empty).median,
         rounds: times.rounds(),
         seed: SEED,
         ended: times.ended,

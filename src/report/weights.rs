@@ -10,7 +10,7 @@
 //! dot = { fixed = -1, argument = 2 }      # for a call, and for each component of the first argument
 //! ```
 //!
-//! *Holds:* what a file does not name has the weight of the default file. A name that is no step is an error with the nearest
+//! *Holds:* what a file does not name has the weight of the default file. A name that is not a step is an error with the nearest
 //! one.
 
 use glisten_front::diagnostic::did_you_mean;
@@ -107,7 +107,7 @@ impl Weights {
         Self::default().with(text)
     }
 
-    /// What the file calls itself.
+    /// The name that the file gives itself.
     pub fn name(&self) -> &str {
         &self.name
     }

@@ -8,11 +8,11 @@ use glisten_scene::Scene;
 use glisten_specialize::optimize;
 use std::sync::Arc;
 
-/// Counts the work of a scene. What reaches no output of a program is left out, as emitters and drivers leave it out.
+/// Counts the steps of a scene. What reaches no output of a program is left out, as emitters and drivers leave it out.
 ///
 /// # Errors
 /// Those of the reference.
-pub fn work(scene: &Scene, weights: &Weights) -> Result<Work, Vec<Diagnostic>> {
+pub fn steps(scene: &Scene) -> Result<Counts, Vec<Diagnostic>> {
     let options = RenderOptions { mark_edges: false, ..RenderOptions::default() };
     let mut all = Counts::new();
     for counts in counts(&without_unread(scene), &options)? {
@@ -20,13 +20,18 @@ pub fn work(scene: &Scene, weights: &Weights) -> Result<Work, Vec<Diagnostic>> {
             *all.entry(step).or_default() += count;
         }
     }
+    Ok(all)
+}
+
+/// The work of a scene, by its steps.
+pub fn work(all: &Counts, weights: &Weights) -> Work {
     let of = |name: &str| all.iter().filter(|(step, _)| step.name == name).map(|(_, count)| count).sum();
-    Ok(Work {
+    Work {
         vertices: of(Step::VERTEX),
         fragments: of(Step::FRAGMENT),
-        operations: weights.sum(&all),
+        operations: weights.sum(all),
         texture_lookups: of(Step::LOOKUP),
-    })
+    }
 }
 
 /// The scene with programs without what no output depends on.

@@ -8,6 +8,7 @@ use glisten_reference::{Contribution, LineRule, Precision, RenderOptions};
 use glisten_scene::compare::Population;
 use glisten_scene::picture::Picture;
 use std::fmt;
+use std::ops::Range;
 use std::time::Instant;
 
 /// The result of a runner.
@@ -78,12 +79,19 @@ pub trait Reference {
         options.iter().map(|options| self.render(scene, options)).collect()
     }
 
-    /// Draws a scene by a population of simulated conforming GPUs; `None` if there is none.
+    /// Adds the pictures of the simulated GPUs with these numbers like [`glisten_reference::populate`].
     ///
     /// # Errors
     /// The scene cannot be drawn.
-    fn population(&self, _scene: &Scene, _options: &RenderOptions) -> Result<Option<Population>, Failure> {
-        Ok(None)
+    fn populate(
+        &self,
+        mut population: Population,
+        scene: &Scene,
+        options: &RenderOptions,
+        members: Range<u32>,
+    ) -> Result<Population, Failure> {
+        glisten_reference::populate(&mut population, scene, options, members)?;
+        Ok(population)
     }
 
     /// Explains a channel of a pixel like [`glisten_reference::explain`].
@@ -161,13 +169,20 @@ impl Runner for Cpu {
 pub struct OnGpu<'a> {
     gpu: &'a glisten_gpu::Gpu,
     via: glisten_gpu::Via,
+    foreign: &'a [glisten_gpu::Foreign],
 }
 
 #[cfg(feature = "gpu")]
 impl<'a> OnGpu<'a> {
     /// The runner of one form.
     pub fn new(gpu: &'a glisten_gpu::Gpu, via: glisten_gpu::Via) -> Self {
-        Self { gpu, via }
+        Self { gpu, via, foreign: &[] }
+    }
+
+    /// The runner with modules of other translators in place of the emitted ones.
+    #[must_use]
+    pub fn with(self, foreign: &'a [glisten_gpu::Foreign]) -> Self {
+        Self { foreign, ..self }
     }
 
     /// The runners of both forms, SPIR-V first.
@@ -183,7 +198,8 @@ impl Runner for OnGpu<'_> {
     }
 
     fn draw(&self, scene: &Scene) -> Result<Drawn, Failure> {
-        let glisten_gpu::Rendered { picture, milliseconds } = self.gpu.render(scene, self.via)?;
+        let prepared = self.gpu.prepare_foreign(scene, self.via, self.foreign)?;
+        let glisten_gpu::Rendered { picture, milliseconds } = self.gpu.draw(&prepared)?;
         Ok(Drawn { picture, milliseconds })
     }
 }

@@ -47,6 +47,11 @@ impl Verification {
         }
     }
 
+    /// Whether a run has a difference that nothing explains.
+    pub fn fails(&self) -> bool {
+        self.conclusion() == Conclusion::Fails
+    }
+
     /// The conclusion of all runs together: the worst of their conclusions.
     pub fn conclusion(&self) -> Conclusion {
         conclusion(&self.runs, &self.demands)

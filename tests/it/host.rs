@@ -648,7 +648,7 @@ fn a_host_that_knows_the_reflection_alone_draws_the_picture() {
         let covered = reference.covered.iter().filter(|covered| **covered).count();
         assert!(covered > if draw.points { 60 } else { 900 }, "{covered} pixels are covered");
         let verdict = Verdict::new(&picture, &reference, Criterion::Envelope);
-        if !verdict.holds(false) {
+        if verdict.fails() {
             wrong.push(format!("{flags:?} as {extension}: {verdict:#?}"));
         }
     }

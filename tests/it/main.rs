@@ -13,6 +13,8 @@ mod emit;
 mod envelope;
 #[cfg(feature = "cli")]
 mod equations;
+#[cfg(feature = "cli")]
+mod evidence;
 #[cfg(feature = "reference")]
 mod exec;
 #[cfg(feature = "cli")]
@@ -60,6 +62,9 @@ mod read_back;
 mod readme;
 #[cfg(feature = "cli")]
 mod report;
+#[cfg(feature = "cli")]
+mod report_checks;
+mod report_ways;
 #[cfg(feature = "reference")]
 mod scenes;
 #[cfg(feature = "cli")]

@@ -181,7 +181,7 @@ mod drawn {
             let runners = runners.each_ref().map(|runner| Instead { runner, scene: &optimized });
             let runners = [&runners[0] as &dyn Runner, &runners[1]];
             match verify(&scene, &runners, &Options::default()) {
-                Ok(verification) if verification.holds() => {}
+                Ok(verification) if !verification.fails() => {}
                 Ok(verification) => wrong.push(format!("{}\n{verification}", path.display())),
                 Err(failure) => wrong.push(format!("{}: {failure}", path.display())),
             }

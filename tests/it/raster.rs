@@ -317,7 +317,7 @@ fn every_scene_of_the_repository_agrees_with_lavapipe() {
                             Verdict::excusing(&rendered.picture, &reference, Criterion::Envelope, &faulty(&scene));
                         excused.extend(verdict.known_faults.iter().map(|count| (path.clone(), count.fault)));
                     }
-                    if !verdict.holds(false) {
+                    if verdict.fails() {
                         failures.push(format!("{path} by {}: {verdict:?}", via.name()));
                     }
                 }

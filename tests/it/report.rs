@@ -1,6 +1,6 @@
 //! `glisten report`, end to end: the table, the JSON and the page.
 
-use crate::support::root;
+use crate::support::{conforms, root};
 use serde_json::Value;
 use std::path::Path;
 use std::process::{Command, Output};
@@ -8,7 +8,7 @@ use std::process::{Command, Output};
 const ROUNDS: &str = "\n[report]\nrounds = 3\ntessellations = [[8, 4], [16, 8]]\ntruth_tessellation = [32, 16]\n";
 
 /// The sphere scene, small and quick, in a folder of its own.
-fn small_scene(folder: &Path) -> std::path::PathBuf {
+pub(crate) fn small_scene(folder: &Path) -> std::path::PathBuf {
     let fixtures = root().join("fixtures");
     let text = std::fs::read_to_string(fixtures.join("scenes/sphere.toml")).expect("the sphere scene");
     let (scene, report) = text.split_once("[report]").expect("it has a report table");
@@ -23,13 +23,13 @@ fn small_scene(folder: &Path) -> std::path::PathBuf {
 }
 
 fn report(scene: &Path, folder: &Path) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_glisten"))
-        .arg("report")
-        .arg(scene)
-        .arg("-o")
-        .arg(folder.join("out"))
-        .output()
-        .expect("the program runs")
+    report_with(scene, &folder.join("out"), &[])
+}
+
+/// Runs the command with further arguments.
+pub(crate) fn report_with(scene: &Path, out: &Path, more: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_glisten"));
+    command.arg("report").arg(scene).arg("-o").arg(out).args(more).output().expect("the program runs")
 }
 
 #[test]
@@ -46,6 +46,9 @@ fn error_against_run_time_of_a_sphere() {
     for way in ways {
         assert_eq!(way["error"]["non_finite"], 0, "{way}");
         assert!(way["ratio"]["median"].as_f64().expect("a ratio") > 0.0, "{way}");
+        let interval = way["ratio"]["interval"].as_array().expect("an interval");
+        let [low, high] = [0, 1].map(|end| interval[end].as_f64().expect("an end"));
+        assert!((low..=high).contains(&way["ratio"]["median"].as_f64().expect("a ratio")), "{way}");
         assert!(way["rounding"]["max_abs"].as_f64().expect("a figure") < 1e-3, "{way}");
     }
     let rmse = |name: &str, segments: u64| {
@@ -58,6 +61,11 @@ fn error_against_run_time_of_a_sphere() {
         assert!(rmse(&fragment, 16) < rmse(&fragment, 8), "{model}: a finer mesh is nearer to the truth");
     }
     assert!(ways.iter().any(|way| way["pareto"] == true));
+    let schema = std::fs::read_to_string(root().join("docs/report.schema.json")).expect("the schema is there");
+    let schema: Value = serde_json::from_str(&schema).expect("the schema is JSON");
+    assert_eq!(conforms(&report, &schema, "report"), [""; 0]);
+    assert!(conforms(&serde_json::json!({ "ways": [{}] }), &schema, "broken").len() > 20, "the check finds nothing");
+    assert_eq!(report["complete"], true);
     let page = std::fs::read_to_string(folder.path().join("out/report.html")).expect("report.html");
     assert!(page.contains("<svg viewBox") && page.matches("data:image/png;base64,").count() == 2 + 2 * 8);
 }

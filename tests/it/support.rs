@@ -5,6 +5,7 @@ use glisten_front::hir::Stage;
 use glisten_front::link::Program;
 use glisten_front::source::{IncludeForm, IncludeResolver, Included, SourceMap};
 use glisten_front::{Compilation, Compiler, Options, Source};
+use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -128,4 +129,46 @@ pub(crate) fn compile(shaders: &[Shader], settings: &Settings) -> (SourceMap, Di
     let sources: Vec<Source> = shaders.iter().map(source).collect();
     let compilation = Compiler::new(options).with_includes(NextTo).compile(&sources);
     (compilation.sources, compilation.diagnostics)
+}
+
+/// Checks a value against the part of JSON Schema that the schemas in `docs` use.
+pub(crate) fn conforms(value: &Value, schema: &Value, path: &str) -> Vec<String> {
+    let is = |name: &str| match name {
+        "object" => value.is_object(),
+        "array" => value.is_array(),
+        "string" => value.is_string(),
+        "integer" => value.is_u64(),
+        "number" => value.is_number(),
+        "boolean" => value.is_boolean(),
+        "null" => value.is_null(),
+        other => panic!("{path}: the schema uses the type {other}"),
+    };
+    let types: Vec<&str> = match &schema["type"] {
+        Value::String(name) => vec![name],
+        Value::Array(names) => names.iter().filter_map(Value::as_str).collect(),
+        other => panic!("{path}: no type in the schema: {other}"),
+    };
+    if !types.iter().any(|name| is(name)) {
+        return vec![format!("{path}: {value} is no {types:?}")];
+    }
+    if let Some(allowed) = schema["enum"].as_array()
+        && !allowed.contains(value)
+    {
+        return vec![format!("{path}: {value} is not among {allowed:?}")];
+    }
+    let mut wrong = Vec::new();
+    if let (Some(object), Some(properties)) = (value.as_object(), schema["properties"].as_object()) {
+        for (key, inner) in object {
+            match properties.get(key) {
+                Some(schema) => wrong.extend(conforms(inner, schema, &format!("{path}.{key}"))),
+                None => wrong.push(format!("{path}.{key} is not in the schema")),
+            }
+        }
+        let required = schema["required"].as_array().into_iter().flatten().filter_map(Value::as_str);
+        wrong.extend(required.filter(|key| !object.contains_key(*key)).map(|key| format!("{path}.{key} is missing")));
+    }
+    for (index, inner) in value.as_array().into_iter().flatten().enumerate() {
+        wrong.extend(conforms(inner, &schema["items"], &format!("{path}[{index}]")));
+    }
+    wrong
 }

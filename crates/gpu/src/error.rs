@@ -27,6 +27,10 @@ pub enum Error {
     Emit(Vec<Diagnostic>),
     /// The runner or the driver rejects the scene; the message is wgpu's or the runner's own.
     Refused(String),
+    /// A module of another translator cannot be run in place of the emitted one.
+    Foreign(String),
+    /// This machine lacks a program.
+    Lacks(String),
     /// The device stopped working.
     Lost(String),
     /// The draw did not finish in time.
@@ -37,8 +41,8 @@ impl Error {
     /// Whether the cause is this machine (exit code 3) rather than the scene.
     pub fn is_environment(&self) -> bool {
         match self {
-            Self::NoAdapter { .. } | Self::UnknownAdapter { .. } | Self::Unsupported(_) => true,
-            Self::Emit(_) | Self::Refused(_) | Self::Lost(_) | Self::Timeout(_) => false,
+            Self::NoAdapter { .. } | Self::UnknownAdapter { .. } | Self::Unsupported(_) | Self::Lacks(_) => true,
+            Self::Emit(_) | Self::Refused(_) | Self::Foreign(_) | Self::Lost(_) | Self::Timeout(_) => false,
         }
     }
 
@@ -88,6 +92,7 @@ impl fmt::Display for Error {
                 Some(first) => f.write_str(&first.message),
                 None => f.write_str("a program of the scene cannot be emitted"),
             },
+            Self::Foreign(message) | Self::Lacks(message) => f.write_str(message),
             Self::Refused(message) => write!(f, "the draw was refused: {message}"),
             Self::Lost(message) => write!(f, "the GPU device was lost: {message}"),
             Self::Timeout(limit) => {

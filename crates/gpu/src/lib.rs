@@ -7,22 +7,25 @@
 //!        ──► vertices    attribute bytes, expanded to the declared types
 //!        ──► uniforms    the bytes of the loose block and of every uniform block
 //!        ──► textures    texels and samplers (1D as 2D, buffers 4096 wide, depth by drawing)
-//!        ──► prepare     emitted modules, layouts, bind groups, pipelines
+//!        ──► prepare     emitted modules, or others in their place (foreign), layouts, bind groups, pipelines
 //!        ──► frame       attachments, passes, read-back ──► Picture
 //!        ──► timing      repeated draws under timestamp queries
 //! ```
 //!
 //! *Holds:* whatever a scene contains, the result is a picture or an [`Error`]: error scopes catch wgpu's errors, and
-//! waiting has a limit. The emitted SPIR-V runs unchanged; the `unsafe` code for that is all in `prepare` (and
-//! in `limits`, which reads what wgpu does not report). Pictures
-//! are read top row first: code is emitted with [`WindowOrigin::UpperLeft`](glisten_emit::WindowOrigin), so what
+//! waiting has a limit. SPIR-V runs unchanged; the `unsafe` code for that is all in `prepare` (and in `limits`, which reads
+//! what wgpu does not report). Pictures are
+//! read top row first: code is emitted with [`WindowOrigin::UpperLeft`](glisten_emit::WindowOrigin), so what
 //! OpenGL draws at the top of the window is in row 0.
 //!
 //! *Not done here:* judging the picture ([`compare`](glisten_scene::compare)), multisampling, geometry shaders.
 
 mod assembly;
 mod device;
+#[cfg(feature = "edited-modules")]
+mod edited;
 mod error;
+mod foreign;
 mod frame;
 mod limits;
 mod multisample_upload;
@@ -42,6 +45,7 @@ mod tests;
 
 pub use device::{ADAPTER_VARIABLE, AdapterFacts, Gpu, SOFTWARE};
 pub use error::Error;
+pub use foreign::Foreign;
 pub use limits::PrecisionLimits;
 pub use prepare::Prepared;
 

@@ -8,7 +8,7 @@
 use super::states::{blend, color_format, depth_stencil, primitive_state};
 use super::textures::{self, Bound};
 use super::vertices::{self, Rows};
-use super::{Error, Gpu, Via, assembly, multisample_upload, sprites, uniforms};
+use super::{Error, Foreign, Gpu, Via, assembly, multisample_upload, sprites, uniforms};
 use glisten_emit::{self as emit, Conventions, Emitted, Target};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::targets::FEATURE_NOT_IN_TARGET;
@@ -40,7 +40,13 @@ pub(super) struct PreparedDraw {
 /// Returns the code of a stage of a draw.
 pub(super) type Modules<'a> = &'a dyn Fn(&Draw, Stage) -> Result<Emitted, Error>;
 
-fn emitted(draw: &Draw, stage: Stage, target: Target) -> Result<Emitted, Error> {
+/// The modules that replace the stages of a draw, by their index.
+type Replaced = [Option<usize>; 2];
+
+/// The stages of a draw.
+const STAGES: [Stage; 2] = [Stage::Vertex, Stage::Fragment];
+
+pub(super) fn emitted(draw: &Draw, stage: Stage, target: Target) -> Result<Emitted, Error> {
     emit::emit(&draw.program, stage, target, &conventions(draw, target)).map_err(Error::Emit)
 }
 
@@ -49,6 +55,7 @@ struct Made {
     program: Arc<Program>,
     state: State,
     instanced: Vec<bool>,
+    replaced: Replaced,
     pipeline: wgpu::RenderPipeline,
     layouts: Vec<wgpu::BindGroupLayout>,
 }
@@ -67,6 +74,35 @@ impl Gpu {
             Via::Wgsl => Target::Wgsl,
         };
         self.prepare_with(scene, target, &|draw, stage| emitted(draw, stage, target))
+    }
+
+    /// Prepares a scene with modules of others in place of the emitted ones. Those of the other form are not used.
+    ///
+    /// # Errors
+    /// Those of [`Gpu::prepare`], and [`Error::Foreign`] if the interface of a module is not that of the emitted one.
+    pub fn prepare_foreign(&self, scene: &Scene, via: Via, foreign: &[Foreign]) -> Result<Prepared, Error> {
+        let target = match via {
+            Via::Spirv => Target::Spirv,
+            Via::Wgsl => Target::Wgsl,
+        };
+        // The last one that is given for a stage counts.
+        let of = |number: usize, stage: Stage| {
+            foreign.iter().rposition(|module| {
+                module.via() == via && module.stage == stage && module.draw.is_none_or(|draw| draw == number)
+            })
+        };
+        let code = |replaced: Replaced, draw: &Draw, stage: Stage| {
+            let ours = emitted(draw, stage, target)?;
+            let index = if stage == Stage::Vertex { replaced[0] } else { replaced[1] };
+            match index.and_then(|index| foreign.get(index)) {
+                Some(module) => module.code_instead_of(
+                    &draw.program.name,
+                    [ours].into_iter().chain(emitted(draw, stage, Target::Wgsl).ok()),
+                ),
+                None => Ok(ours),
+            }
+        };
+        self.prepare_replaced(scene, target, &|number| STAGES.map(|stage| of(number, stage)), &code)
     }
 
     /// Prepares a scene with SPIR-V after `edit` has changed the emitted words of each stage, in the order of the
@@ -96,6 +132,16 @@ impl Gpu {
 
     /// Prepares a scene with modules for a target, which follow the conventions of [`conventions`].
     pub(super) fn prepare_with(&self, scene: &Scene, target: Target, modules: Modules<'_>) -> Result<Prepared, Error> {
+        self.prepare_replaced(scene, target, &|_| [None; 2], &|_, draw, stage| modules(draw, stage))
+    }
+
+    fn prepare_replaced(
+        &self,
+        scene: &Scene,
+        target: Target,
+        replaced: &dyn Fn(usize) -> Replaced,
+        code: &dyn Fn(Replaced, &Draw, Stage) -> Result<Emitted, Error>,
+    ) -> Result<Prepared, Error> {
         self.require(wgpu::Features::DEPTH32FLOAT_STENCIL8, "a depth buffer with stencil")?;
         let limit = self.limits.max_texture_dimension_2d;
         let Framebuffer { width, height, .. } = scene.framebuffer;
@@ -106,9 +152,12 @@ impl Gpu {
         }
         let mut made = Vec::new();
         let mut draws = Vec::new();
-        for draw in &scene.draws {
-            let sprites = sprites::applies(draw, target);
-            draws.push(self.guarded(|| self.prepare_draw(&scene.framebuffer, draw, sprites, modules, &mut made))?);
+        for (number, draw) in scene.draws.iter().enumerate() {
+            let (sprites, replaced) = (sprites::applies(draw, target), replaced(number));
+            let modules: Modules<'_> = &|draw, stage| code(replaced, draw, stage);
+            draws.push(
+                self.guarded(|| self.prepare_draw(&scene.framebuffer, draw, (sprites, replaced), modules, &mut made))?,
+            );
         }
         Ok(Prepared { framebuffer: scene.framebuffer, draws })
     }
@@ -117,7 +166,7 @@ impl Gpu {
         &self,
         framebuffer: &Framebuffer,
         draw: &Draw,
-        sprites: bool,
+        (sprites, replaced): (bool, Replaced),
         modules: Modules<'_>,
         made: &mut Vec<Made>,
     ) -> Result<PreparedDraw, Error> {
@@ -128,17 +177,19 @@ impl Gpu {
         let rows = if sprites { vertices::rows_of_points(draw) } else { vertices::rows(draw) };
         let instanced: Vec<bool> = rows.iter().map(|rows| rows.step == wgpu::VertexStepMode::Instance).collect();
         let known = made.iter().position(|made| {
-            Arc::ptr_eq(&made.program, program) && made.state == draw.state && made.instanced == instanced
+            let is_alike = made.state == draw.state && made.instanced == instanced && made.replaced == replaced;
+            Arc::ptr_eq(&made.program, program) && is_alike
         });
         let index = match known {
             Some(index) => index,
             None => {
-                let modules =
-                    [self.module(draw, Stage::Vertex, modules)?, self.module(draw, Stage::Fragment, modules)?];
+                let [vertex, fragment] = STAGES.map(|stage| self.module(draw, stage, modules));
+                let modules = [vertex?, fragment?];
                 let layouts = self.layouts(&bindings);
                 let primitive = if sprites { sprites::primitive_state() } else { primitive_state(&draw.state) };
                 let pipeline = self.pipeline(framebuffer, draw, primitive, &modules, &layouts, &rows);
-                made.push(Made { program: Arc::clone(program), state: draw.state, instanced, pipeline, layouts });
+                let (program, state) = (Arc::clone(program), draw.state);
+                made.push(Made { program, state, instanced, replaced, pipeline, layouts });
                 made.len() - 1
             }
         };
@@ -186,10 +237,7 @@ impl Gpu {
         }
     }
 
-    #[expect(
-        unsafe_code,
-        reason = "the emitted words are to run as they are, not as wgpu's naga would write them anew"
-    )]
+    #[expect(unsafe_code, reason = "the words are to run as they are, not as wgpu's naga would write them anew")]
     fn passthrough(&self, name: &str, words: &[u32]) -> wgpu::ShaderModule {
         let descriptor = wgpu::ShaderModuleDescriptorPassthrough {
             label: Some(name),
@@ -198,7 +246,8 @@ impl Gpu {
             spirv: Some(words.into()),
             ..wgpu::ShaderModuleDescriptorPassthrough::default()
         };
-        // SAFETY: naga's writer wrote the words, from a module that its validator accepted. The pipeline's layout is
+        // SAFETY: naga's writer wrote the words, from a module that its validator accepted; or `spirv-val` accepted the
+        // module of another translator, whose interface is that of naga's (see `foreign`). The pipeline's layout is
         // explicit and lists exactly the bindings that the module declares (see `bindings`).
         unsafe { self.device.create_shader_module_passthrough(descriptor) }
     }

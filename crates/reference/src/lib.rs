@@ -19,7 +19,7 @@ mod work;
 
 pub use counts::{Counts, counts};
 pub use exec::Step;
-pub use population::{Drawn, Population, population, simulate};
+pub use population::{populate, simulate};
 pub use work::{Work, work};
 
 use domain::faults::{self, Fault, Faults, KnownFault};

@@ -1,4 +1,5 @@
-//! The figures of a verification for people: three lines if all is well, a table for each form if not.
+//! The figures of a verification for people: three lines if all is well, one more if it is inconclusive, and a table for each
+//! form if it fails.
 //!
 //! *In:* a [`Verification`] and its runs. *Out:* text.
 
@@ -9,7 +10,8 @@ use glisten_scene::compare::Verdict;
 /// The text for people.
 pub(super) fn told(verification: &Verification, runs: &[Run], skipped: &[Skip], bit_unequal: Option<u64>) -> String {
     let mut text = match (verification.conclusion(), worst_of(runs)) {
-        (Conclusion::Holds, Some(worst)) => summary(verification, runs, &worst, bit_unequal),
+        (Conclusion::Inconclusive, Some(worst)) if is_empty(&worst.verdict) => String::new(),
+        (Conclusion::Holds | Conclusion::Inconclusive, Some(worst)) => summary(verification, runs, &worst, bit_unequal),
         _ => {
             let mut text: String = runs.iter().map(|run| table(run, verification)).collect();
             if let Some(count) = bit_unequal {
@@ -29,7 +31,12 @@ pub(super) fn told(verification: &Verification, runs: &[Run], skipped: &[Skip], 
     text
 }
 
-/// Three lines.
+/// Whether there is nothing that figures could be about.
+fn is_empty(verdict: &Verdict) -> bool {
+    verdict.covered == 0 && verdict.undecided == 0 && verdict.edge_pixels == 0 && !verdict.needs_excuse()
+}
+
+/// Three lines: how much was judged, how far the pictures are apart, how long it took.
 fn summary(verification: &Verification, runs: &[Run], worst: &Run, bit_unequal: Option<u64>) -> String {
     let verdict = &worst.verdict;
     let vias: Vec<&str> = runs.iter().map(|run| run.via).collect();
@@ -41,10 +48,11 @@ fn summary(verification: &Verification, runs: &[Run], worst: &Run, bit_unequal: 
     };
     let share = 100.0 * verdict.share_judged(&verification.demands);
     format!(
-        "{}: holds: {} of {} covered pixels judged ({share:.1} %){}\n\
+        "{}: {}: {} of {} covered pixels judged ({share:.1} %){}\n\
          largest error {:.3e} ({:.1} ulp), rmse {:.3e}, flip {:.3e}; {}\n\
          {}{equal}, reference {:.3} ms\n",
         vias.join(" and "),
+        mark(verification.conclusion()),
         verdict.evidence.good(),
         verdict.covered,
         parts(verdict),
@@ -81,7 +89,7 @@ fn parts(verdict: &Verdict) -> String {
 
 /// Why a picture is inconclusive, in words.
 fn reason(verification: &Verification, verdict: &Verdict) -> String {
-    if verdict.covered == 0 && verdict.undecided == 0 {
+    if is_empty(verdict) {
         return "no pixel is covered, so there is nothing to judge".to_owned();
     }
     let (share, wanted) = (verdict.share_judged(&verification.demands), verification.demands.evidence_share);

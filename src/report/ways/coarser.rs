@@ -1,6 +1,6 @@
 //! The mesh of a scene at other tessellations.
 //!
-//! *In:* a scene file as a table. *Out:* texts of scene files whose first mesh by shape has fewer or more segments and rings.
+//! *In:* a scene file as a table. *Out:* texts of scene files whose meshes by shape have fewer or more segments and rings.
 //! *Holds:* a mesh from a file, and a scene without a mesh, have none.
 
 use glisten_scene::default_tessellation;
@@ -16,11 +16,11 @@ const MOST: u32 = 1024;
 const COARSEST: [u32; 2] = [3, 2];
 
 /// The text of the scene with this part of the segments and rings in all of its meshes by shape, and the numbers of the
-/// first one; `None` if that changes nothing.
+/// finest one; `None` if that changes nothing.
 pub(super) fn tessellated(scene: &Table, part: Part) -> Option<(String, [u32; 2])> {
     let mut scene = scene.clone();
     scene.remove("report");
-    let mut first = None;
+    let mut finest: Option<[u32; 2]> = None;
     for draw in scene.get_mut("draw")?.as_array_mut()? {
         let Some(mesh) = draw.get_mut("mesh").and_then(Value::as_table_mut) else { continue };
         let Some([before, after]) = counts(mesh, part) else { continue };
@@ -30,9 +30,12 @@ pub(super) fn tessellated(scene: &Table, part: Part) -> Option<(String, [u32; 2]
         for (key, count) in ["segments", "rings"].into_iter().zip(after) {
             mesh.insert(key.into(), Value::Integer(i64::from(count)));
         }
-        first.get_or_insert(after);
+        let size = |[segments, rings]: [u32; 2]| u64::from(segments) * u64::from(rings);
+        if finest.is_none_or(|known| size(after) > size(known)) {
+            finest = Some(after);
+        }
     }
-    Some((toml::to_string(&scene).ok()?, first?))
+    Some((toml::to_string(&scene).ok()?, finest?))
 }
 
 /// The segments and rings of a mesh, and those of a part of them.

@@ -13,7 +13,7 @@ use glisten_front::hir::{BinaryOp, ExprId, ExprKind, FunctionId, Shader, TypeId,
 use std::collections::{BTreeMap, BTreeSet};
 
 /// What a look-up has to save: the weight of a power is 9, that of a division or a root 4, that of a product 1.
-const LEAST_WEIGHT: u32 = 8;
+const LEAST_WEIGHT: u32 = 6;
 
 /// A function of one number.
 #[derive(Clone, Debug)]

@@ -113,8 +113,8 @@ impl Finder<'_, '_> {
 
     fn roots(&mut self) {
         if let Some((scene, count)) = in_draws(&self.base, roots::inverse) {
-            let count = counted(&count, "normalization or quotient");
-            let about = format!("{count} by `inversesqrt`, the same in exact arithmetic.");
+            let about =
+                format!("{} by `inversesqrt`, the same in exact arithmetic.", counted(&count, "reciprocal root"));
             self.add(("roots by inversesqrt", "inversesqrt"), about, specialized(&scene, Contract::default()));
         }
     }
@@ -190,9 +190,11 @@ impl Finder<'_, '_> {
 
     /// Other models of the library, each with a truth of its own.
     fn models(&mut self, table: &Table) {
-        if let Some(scene) = models::per_vertex(table).and_then(|text| (self.origin.load)(&text)) {
+        let shaded = self.list.ways.iter().any(|way| way.kind == "vertex" && way.tessellation.is_none());
+        let own = if shaded { None } else { models::per_vertex(table) };
+        if let Some(scene) = own.and_then(|text| (self.origin.load)(&text)) {
             let about = "Shaded at the vertices by the library's own program.";
-            self.add(("per vertex, the library's", "vertex"), about.into(), specialized(&scene, Contract::default()));
+            self.add(("per vertex", "vertex"), about.into(), specialized(&scene, Contract::default()));
         }
         let by_program = models::by_program(table);
         let loaded = by_program.into_iter().filter_map(|(name, text)| Some((name, (self.origin.load)(&text)?)));

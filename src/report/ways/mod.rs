@@ -11,6 +11,7 @@ mod depends;
 mod edit;
 mod find;
 mod fixed;
+mod library;
 mod models;
 mod naive;
 mod names;
@@ -21,7 +22,11 @@ mod same;
 mod screen;
 mod stable;
 mod tables;
+#[cfg(test)]
+mod tests;
 mod vertex;
+
+pub use library::{LIBRARY_SCENE, LibraryFiles};
 
 use crate::scene::Scene;
 use glisten_front::compiler::Compiler;

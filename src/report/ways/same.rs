@@ -1,6 +1,6 @@
 //! Whether two expressions have the same form.
 
-use glisten_front::hir::{ExprId, ExprKind, FunctionId, LocalId, Shader, VarRef};
+use glisten_front::hir::{ExprId, ExprKind, FunctionId, Shader};
 
 /// Whether two expressions of one function have the same form, and so the same value if they have no effects.
 pub(super) fn same(shader: &Shader, a: ExprId, b: ExprId) -> bool {
@@ -55,11 +55,6 @@ fn name(kind: &ExprKind) -> &'static str {
         ExprKind::Comma(..) => "comma",
         _ => "error",
     }
-}
-
-/// Whether an expression is this local.
-pub(super) fn is_local(shader: &Shader, id: ExprId, local: LocalId) -> bool {
-    matches!(shader.expr(id).kind, ExprKind::Var(VarRef::Local(named)) if named == local)
 }
 
 /// An expression and the function that it is in.

@@ -174,14 +174,17 @@ fn source(draw: &Draw, fixed: &Fixed, found: &Tabulated) -> Option<String> {
     // Only the functions that it calls are left: the others may read what there is none of.
     keep_called(&mut stage.shader, value);
     stage.shader.functions.push(returning(&function, ty, value));
-    for global in &mut stage.shader.globals {
+    let unused = stage.fresh(&types, "unused");
+    for (number, global) in stage.shader.globals.iter_mut().enumerate() {
         if matches!(global.storage, Storage::In | Storage::Out) {
-            (global.storage, global.builtin) = (Storage::Private, None);
+            if global.builtin.take().is_some() {
+                global.name = format!("{unused}_{number}");
+            }
+            global.storage = Storage::Private;
             (global.location, global.index, global.interpolation_written) = (None, None, false);
             (global.centroid, global.invariant, global.block) = (false, false, None);
         }
     }
-    stage.shader.globals.retain(|global| global.storage != Storage::Private || global.initializer.is_some());
     let zeros = ["", ", 0.0, 0.0, 0.0", ", 0.0, 0.0", ", 0.0", ""].get(types.flat_len(ty) as usize)?;
     let _ = write!(
         stage.appended,

@@ -52,7 +52,7 @@ fn opengl_draws_emitted_glsl_as_the_reference_draws_the_source() {
                 continue;
             }
             let verdict = judged(&name, &scene, picture.clone(), exception);
-            if !verdict.holds(false) || (verdict.covered == 0 && !is_empty(&name)) {
+            if verdict.fails() || (verdict.covered == 0 && !is_empty(&name)) {
                 wrong.push(told(&name, &verdict));
             }
             judged_picture = Some(picture);

@@ -138,7 +138,7 @@ fn judged(name: &str, scene: &Scene, mut picture: Picture, exception: Option<&Ex
         take_over(&mut picture, expected.picture(), 0, *channel);
     }
     let verdict = expected.compare(&picture).expect("the reference draws every scene of the fixtures");
-    if !verdict.holds(false) {
+    if verdict.fails() {
         let shares = compare::shares(&picture, expected.picture(), criterion);
         let difference = verify::difference(expected.picture(), &shares);
         let pictures = [("gl", &picture), ("cpu", expected.picture()), ("difference", &difference)];
@@ -202,7 +202,7 @@ fn complaint(gl: &Gl, name: &str, scene: &Scene, excused: &mut u64) -> Option<St
     if verdict.covered == 0 && !EMPTY.contains(&name) {
         return Some(format!("{name}: nothing is drawn"));
     }
-    (!verdict.holds(false)).then(|| told(name, &verdict))
+    verdict.fails().then(|| told(name, &verdict))
 }
 
 #[test]
@@ -241,7 +241,7 @@ impl TestBackend for Judged<'_> {
         self.pictures += 1;
         let name = format!("shader_test_{}", self.pictures);
         let verdict = judged(&name, scene, picture.clone(), None);
-        if !verdict.holds(true) {
+        if verdict.fails() {
             self.wrong.push(told(&name, &verdict));
         }
         Ok(picture)
@@ -286,7 +286,7 @@ fn random_programs_are_drawn_as_opengl_draws_them() {
         let verdict = judged(&name, &scene, picture, None);
         let is_open = scene.draws[0].program.stages.iter().any(order::is_open);
         (all, open) = (all + 1, open + u32::from(is_open));
-        match (verdict.holds(true), is_open) {
+        match (!verdict.fails(), is_open) {
             (true, _) => {}
             (false, true) => differing += 1,
             (false, false) if MISTAKEN.iter().any(|(known, _)| *known == seed) => {}

@@ -60,7 +60,7 @@ pub(crate) fn program(seed: u64) -> (String, Scene) {
 
 /// The message for a picture with differences, and the number of undecided pixels.
 fn compare(gpu: &Gpu, seed: u64, scene: &Scene) -> (Option<String>, usize) {
-    let options = verify::Options { allow_undecided: true, allow_inconclusive: true, ..strict() };
+    let options = verify::Options { allow_inconclusive: true, ..strict() };
     let verification = verified(&format!("random_{seed}"), gpu, scene, &options);
     let open = verification.reference.undecided.iter().filter(|undecided| **undecided).count();
     ((!verification.holds()).then(|| verification.to_string()), open)

@@ -21,7 +21,7 @@ pub(super) enum PoolSource {
     Uniform(RootIndex, u32),
 }
 
-/// What a stage is compiled for. The numbers are the same.
+/// The purpose for which a stage is compiled. The numbers are the same.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Form {
     /// Speed.

@@ -5,6 +5,7 @@
 //! stand for everything that the vertex stage and interpolation contribute.
 
 use super::fragments::{Shading, draw_bin};
+use super::origin::Origin;
 use super::same_surface::surfaces;
 use super::target::Patch;
 use super::watch::{Study, Watch};
@@ -21,6 +22,9 @@ use glisten_scene::picture::Interval;
 
 /// The operation's name for an input.
 const INTERPOLATION: &str = "interpolation";
+
+/// A share below this explains nothing.
+const LEAST_SHARE: f64 = 0.01;
 
 /// A channel of a pixel.
 #[derive(Clone, Copy, Debug)]
@@ -77,14 +81,14 @@ fn of_draw(
     let touching = shading.prims.iter().enumerate().filter(|(_, prim)| prim.shape.may_touch(patch.area));
     let list: Vec<u32> = touching.map(|(index, _)| index as u32).collect();
     let before = patch.clone();
-    let drawn = |muted: Option<Muted>| {
+    let drawn_for = |purpose: Purpose<Envelope>| {
         let mut patch = before.clone();
         let draw = shading.draw;
-        let purpose = muted.map_or(Purpose::Results, Purpose::Share);
         let mut machine = Machine::with(purpose, shading.profile, code, &draw.uniforms, &draw.textures);
         patch.draw(|bin| draw_bin(shading, bin, &list, &mut machine));
         patch
     };
+    let drawn = |muted: Option<Muted>| drawn_for(muted.map_or(Purpose::Results, Purpose::Share));
     let interval = |patch: &mut Patch<Envelope>| patch.interval(place.x, place.y, place.attachment, place.channel);
     if list.is_empty() {
         return None;
@@ -108,6 +112,11 @@ fn of_draw(
     for (global, facts) in inputs.into_iter().filter_map(|id| Some((id, fragment.globals.get(id.index())?))) {
         let share = share(Muted::input(global));
         contributions.push(Contribution { span: facts.span, operation: INTERPOLATION, share });
+    }
+    if contributions.iter().all(|one| one.share < LEAST_SHARE) {
+        let origin = Origin::default();
+        drawn_for(Purpose::Watching(Box::new(origin.clone())));
+        contributions.extend(origin.contributions(&code.operations()));
     }
     Some(contributions)
 }

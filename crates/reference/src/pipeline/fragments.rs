@@ -65,7 +65,7 @@ pub(super) fn draw_bin<D: Domain>(
             band(&prim.shape, area, |near| bin.mark_near_edge(near.x, near.y));
         }
         batch.begin(prim, Source::new(prim, shading.vertices));
-        let mut near = Near::new(edges.of_prim(number));
+        let mut near = EdgeRows::new(edges.of_prim(number));
         if shading.plan.needs_quads {
             shading.add_quads(bin, &mut batch, machine, prim, &mut near);
         } else {
@@ -78,12 +78,12 @@ pub(super) fn draw_bin<D: Domain>(
 }
 
 /// The fragments of a primitive near its edges, and their pixels in the rows of the bin.
-struct Near<'e> {
+struct EdgeRows<'e> {
     fragments: &'e [EdgeFragment],
     rows: [u32; BIN as usize],
 }
 
-impl<'e> Near<'e> {
+impl<'e> EdgeRows<'e> {
     fn new(fragments: &'e [EdgeFragment]) -> Self {
         let mut rows = [0; BIN as usize];
         for fragment in fragments {
@@ -119,7 +119,7 @@ impl<D: Domain> Shading<'_, D> {
         batch: &mut Batch<'v, D>,
         machine: &mut Machine<D>,
         prim: &Prim,
-        near: &Near<'_>,
+        near: &EdgeRows<'_>,
     ) {
         let area = bin.area;
         prim.shape.rows(area, |y, x, pixels| {
@@ -149,7 +149,7 @@ impl<D: Domain> Shading<'_, D> {
         batch: &mut Batch<'v, D>,
         machine: &mut Machine<D>,
         prim: &Prim,
-        near: &mut Near<'_>,
+        near: &mut EdgeRows<'_>,
     ) {
         let area = bin.area;
         let mut done = [0_u32; BIN as usize];

@@ -29,6 +29,7 @@ mod edges;
 mod explain;
 mod fragment_tests;
 mod fragments;
+mod origin;
 mod outputs;
 mod plan;
 mod reach;

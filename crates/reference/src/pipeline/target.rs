@@ -53,7 +53,7 @@ struct Pixels<D: Domain> {
     undecided: Vec<bool>,
 }
 
-/// What is known of a pixel near an edge.
+/// The state of a pixel near an edge.
 #[derive(Clone, Copy, Debug, Default)]
 struct EdgeMarks {
     /// Whether the color depends on which primitive owns the pixel.

@@ -9,17 +9,17 @@ use smallvec::SmallVec;
 
 /// A pixel near an edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Near {
+pub(crate) struct EdgePixel {
     pub(crate) x: i64,
     pub(crate) y: i64,
     /// Whether the shape covers the pixel.
     pub(crate) is_inside: bool,
-    /// Near which edges: bit `i` is edge `i`.
+    /// EdgePixel which edges: bit `i` is edge `i`.
     pub(crate) edges: u8,
 }
 
 /// Calls `visit` with each pixel of `area` whose center is near an edge of the shape, and not beyond another one.
-pub(crate) fn band(shape: &Shape, area: Bounds, mut visit: impl FnMut(Near)) {
+pub(crate) fn band(shape: &Shape, area: Bounds, mut visit: impl FnMut(EdgePixel)) {
     let Shape::Convex { bounds, edges, count } = shape else { return };
     let area = bounds.intersect(area);
     let edges = edges.get(..*count).unwrap_or(&[]);
@@ -29,7 +29,7 @@ pub(crate) fn band(shape: &Shape, area: Bounds, mut visit: impl FnMut(Near)) {
         edges.iter().for_each(|edge| columns.extend(columns_near(edge, area, y)));
         columns.sort_unstable();
         columns.dedup();
-        columns.iter().filter_map(|&x| near(edges, x, y)).for_each(&mut visit);
+        columns.iter().filter_map(|&x| edge_pixel(edges, x, y)).for_each(&mut visit);
     }
 }
 
@@ -49,8 +49,8 @@ fn columns_near(edge: &Edge, area: Bounds, y: i64) -> std::ops::Range<i64> {
     low.max(area.x0)..high.min(area.x1)
 }
 
-fn near(edges: &[Edge], x: i64, y: i64) -> Option<Near> {
-    let mut found = Near { x, y, is_inside: true, edges: 0 };
+fn edge_pixel(edges: &[Edge], x: i64, y: i64) -> Option<EdgePixel> {
+    let mut found = EdgePixel { x, y, is_inside: true, edges: 0 };
     for (index, edge) in edges.iter().enumerate() {
         let value = edge.at(x, y);
         if value < -edge.near {
@@ -102,7 +102,7 @@ mod tests {
             let mut found = Vec::new();
             band(&shape, AREA, |near| found.push(near));
             let all = (0..16).flat_map(|y| (0..16).map(move |x| (x, y)));
-            let expected: Vec<Near> = all.filter_map(|(x, y)| near(&edges[..*count], x, y)).collect();
+            let expected: Vec<EdgePixel> = all.filter_map(|(x, y)| edge_pixel(&edges[..*count], x, y)).collect();
             assert_eq!(found, expected);
             total += found.len();
         }

@@ -15,7 +15,8 @@
 //!
 //! The goal is 1/255 of the range of the picture's values, unless it is given: of all channels that the programs write,
 //! over the covered pixels, alpha included. A picture of one value has no range; its goal is 1/255 of 1/255 of its
-//! largest magnitude. In 8 bits, the goal is at least one step: nothing is between.
+//! largest magnitude. In 8 bits, the goal is at least one step, because nothing
+//! is between, and two steps where a draw blends, which rounds twice.
 //!
 //! *Holds:* the counts of the classes add up to the number of covered pixels, and so do those of the widths.
 
@@ -27,6 +28,9 @@ use serde::Serialize;
 
 /// The goal for the width of an envelope, as a share of the range of the picture's values.
 const GOAL: f64 = 1.0 / 255.0;
+
+/// The least difference that says something, as a share of the range of the picture's values.
+pub const LEAST: f64 = 1.0 / 65_536.0;
 
 /// How a covered pixel was compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -177,6 +181,8 @@ pub struct Written {
     full: Option<(f64, f64)>,
     /// The distance of neighboring values of the format, if it is the same for all; 0 for floats.
     step: f64,
+    /// For floats, the distance as a share of the value.
+    relative: f64,
 }
 
 impl Written {
@@ -201,12 +207,20 @@ impl Written {
             }
         }
         let format = scene.framebuffer.format;
-        Self { channels, full: full_range(format), step: step(format) }
+        let blends = scene.draws.iter().any(|draw| draw.state.blend.is_some());
+        // Blending rounds its factors and products as well (§4.1.7).
+        let steps = if blends { 2.0 } else { 1.0 };
+        Self { channels, full: full_range(format), step: steps * step(format), relative: relative_step(format) }
     }
 
     /// Every channel of some attachments, of floats.
     pub fn everything(attachments: usize) -> Self {
-        Self { channels: vec![[true; 4]; attachments], full: None, step: 0.0 }
+        Self {
+            channels: vec![[true; 4]; attachments],
+            full: None,
+            step: 0.0,
+            relative: relative_step(Format::Rgba32Float),
+        }
     }
 
     /// Whether a program writes the channel.
@@ -224,8 +238,17 @@ impl Written {
 /// The distance of neighboring values, and what rounding adds to it.
 fn step(format: Format) -> f64 {
     match format {
-        Format::Rgba8Unorm => 1.000_01 / 255.0,
+        Format::Rgba8Unorm => 1.0001 / 255.0,
         Format::Rgba32Sint | Format::Rgba32Uint | Format::Rgba32Float | Format::Rgba16Float => 0.0,
+    }
+}
+
+/// The distance of neighboring floats, as a share of the larger one.
+fn relative_step(format: Format) -> f64 {
+    match format {
+        Format::Rgba16Float => 1.0 / 1024.0,
+        Format::Rgba32Float => f64::from(f32::EPSILON),
+        Format::Rgba8Unorm | Format::Rgba32Sint | Format::Rgba32Uint => 0.0,
     }
 }
 
@@ -281,6 +304,12 @@ impl<'a> Ruler<'a> {
             .map(Interval::width)
             .map(|width| if width.is_nan() { f64::INFINITY } else { width })
             .fold(0.0, f64::max)
+    }
+
+    /// How far a number may be off for no reason: what the format rounds to, and a small share of the range.
+    pub(super) fn unit(&self, value: f64) -> f64 {
+        let rounding = (self.written.step / 2.0).max(4.0 * self.written.relative * value.abs());
+        rounding.max(self.range * LEAST)
     }
 
     /// The class of a pixel that is covered and not excused.
@@ -377,7 +406,7 @@ mod tests {
     #[test]
     fn a_channel_that_is_not_written_measures_nothing() {
         let picture = reference(&[Interval::ALL]);
-        let written = Written { channels: vec![[false, true, true, false]], full: None, step: 0.0 };
+        let written = Written { channels: vec![[false, true, true, false]], full: None, step: 0.0, relative: 0.0 };
         let ruler = Ruler::new(&picture, &written, None);
         assert_eq!((ruler.range, ruler.class(2), ruler.width(2)), (0.0, Class::Judged, 0.0));
     }

@@ -14,5 +14,5 @@ pub use evidence::{Class, Evidence, Written};
 #[cfg(feature = "flip")]
 pub use flip::flip;
 pub use population::Population;
-pub use tally::{Compared, Judge, shares};
+pub use tally::{Compared, Comparison, shares};
 pub use verdict::{Conclusion, Contributed, Criterion, Demands, FaultCount, Verdict, Worst, ulp_f32};

@@ -1,20 +1,21 @@
 //! [`Population`]: what a number of simulated conforming GPUs drew, and whether a pixel lies far outside of that.
 //!
-//! *In:* the colors of the members, and a GPU's color. *Out:* whether the color is suspect.
+//! *In:* the pictures of the members, and a GPU's. *Out:* which of its pixels are suspect.
 //!
-//! *The rule:* a channel is suspect if it is further outside of the population's range than [`SPREADS`] times the
-//! width of that range and [`ULPS`] units in the last place of the larger bound, or if it is not finite and no member's
-//! is. Only a pixel that all members cover is judged so. From [`MIN_SHARE`] of the covered pixels and [`MIN_PIXELS`]
-//! pixels on, suspects fail a comparison.
+//! *The rule:* a channel is suspect if it is further outside of the population's range than [`FAR`] times its spread: the
+//! width of that range, but at least [`LEAST`](super::evidence::LEAST) of the range of the picture's values and what the format rounds to. A few
+//! dozen members do not reach the ends of what rounding may do, so what is nearer says nothing. It is also suspect if it
+//! is not finite and no member's is. Where a member has NaN, the language leaves the result undefined, and nothing is
+//! suspect. Where the envelope is wider than the goal for evidence, it may hide a jump: on which
+//! side of it a pixel lies may be decided by one rounding, so there the eight pixels around count as well. A pixel that
+//! only one side covers is suspect if no pixel around differs in coverage within the population. From [`MIN_SHARE`] of the
+//! covered pixels and [`MIN_PIXELS`] pixels on, suspects fail a comparison.
 
-use super::ulp_f32;
-use crate::picture::Interval;
+use super::evidence::Ruler;
+use crate::picture::{Interval, Picture};
 
-/// How many widths of the population's range a number may be outside of it.
-pub const SPREADS: f64 = 8.0;
-
-/// How many units in the last place a number may be outside of the population's range.
-pub const ULPS: f64 = 64.0;
+/// How many spreads of the population a number may be outside of its range.
+pub const FAR: f64 = 4.0;
 
 /// The share of the covered pixels from which suspects fail.
 pub const MIN_SHARE: f64 = 0.001;
@@ -29,32 +30,105 @@ pub struct Population {
     pub members: u32,
     /// The seed of their differences.
     pub seed: u64,
-    /// For each attachment, pixel and channel, the lowest and highest number of the members that cover the pixel, and
-    /// whether one of them is NaN. Infinities are bounds like other numbers.
+    /// The width of the pictures.
+    pub width: u32,
+    /// For each attachment, pixel and channel, the lowest and highest number of the members, and whether one of them is
+    /// NaN. Infinities are bounds like other numbers.
     pub ranges: Vec<Vec<[Interval; 4]>>,
     /// The number of members that cover each pixel.
     pub covered: Vec<u32>,
 }
 
+/// No number.
+const NOTHING: Interval = Interval { low: f64::INFINITY, high: f64::NEG_INFINITY, may_be_nan: false };
+
 impl Population {
-    /// Whether a GPU's color is far outside of what the members drew.
-    pub fn is_suspect(&self, attachment: usize, pixel: usize, color: [f64; 4]) -> bool {
-        let all_cover = self.covered.get(pixel) == Some(&self.members);
-        let ranges = self.ranges.get(attachment).and_then(|colors| colors.get(pixel)).filter(|_| all_cover);
-        ranges.is_some_and(|ranges| ranges.iter().zip(color).any(|(range, value)| is_outside(*range, value)))
+    /// The population without members.
+    pub fn new(seed: u64, [width, height]: [u32; 2], attachments: u32) -> Self {
+        let count = width as usize * height as usize;
+        let ranges = vec![vec![[NOTHING; 4]; count]; attachments as usize];
+        Self { members: 0, seed, width, ranges, covered: vec![0; count] }
+    }
+
+    /// Adds the picture of a member.
+    pub fn add(&mut self, picture: &Picture) {
+        self.members += 1;
+        for (ranges, colors) in self.ranges.iter_mut().zip(&picture.attachments) {
+            for (ranges, color) in ranges.iter_mut().zip(colors) {
+                ranges.iter_mut().zip(color).for_each(|(range, value)| *range = with(*range, *value));
+            }
+        }
+        for (count, covered) in self.covered.iter_mut().zip(&picture.covered) {
+            *count += u32::from(*covered);
+        }
+    }
+
+    /// Whether a pixel that the GPU covers is suspect: see the rule above. `reference` has the envelopes.
+    pub(super) fn is_suspect(&self, gpu: &Picture, reference: &Picture, ruler: &Ruler<'_>, pixel: usize) -> bool {
+        if self.covered.get(pixel) != Some(&self.members) {
+            return self.is_covered_by_chance(true, pixel);
+        }
+        (0..gpu.attachments.len()).any(|attachment| {
+            let color = gpu.attachments.get(attachment).and_then(|colors| colors.get(pixel));
+            let intervals = reference.intervals.as_ref().and_then(|all| all.get(attachment)?.get(pixel));
+            let (Some(color), Some(intervals)) = (color, intervals) else { return false };
+            (0..4).any(|channel| {
+                let (value, unit) = (color[channel], ruler.unit(color[channel]));
+                let is_far = |range: Interval| distance(range, value, unit) > FAR;
+                let may_jump = !(intervals[channel].width() <= ruler.goal);
+                is_far(self.range(attachment, pixel, channel))
+                    && !(may_jump && !is_far(self.range_around(attachment, pixel, channel)))
+            })
+        })
+    }
+
+    /// Whether a pixel that only one side covers is suspect.
+    pub(super) fn is_covered_by_chance(&self, gpu_covers: bool, pixel: usize) -> bool {
+        let expected = if gpu_covers { 0 } else { self.members };
+        self.members > 0 && self.around(pixel).all(|place| self.covered.get(place) == Some(&expected))
+    }
+
+    fn range(&self, attachment: usize, pixel: usize, channel: usize) -> Interval {
+        self.ranges.get(attachment).and_then(|ranges| ranges.get(pixel)).map_or(NOTHING, |ranges| ranges[channel])
+    }
+
+    /// The range at a pixel and those around it.
+    fn range_around(&self, attachment: usize, pixel: usize, channel: usize) -> Interval {
+        let ranges = self.around(pixel).map(|place| self.range(attachment, place, channel));
+        ranges.fold(NOTHING, |hull, range| Interval {
+            low: hull.low.min(range.low),
+            high: hull.high.max(range.high),
+            may_be_nan: hull.may_be_nan || range.may_be_nan,
+        })
+    }
+
+    /// A pixel and those around it.
+    fn around(&self, pixel: usize) -> impl Iterator<Item = usize> {
+        let width = self.width.max(1) as usize;
+        let (x, y, height) = (pixel % width, pixel / width, self.covered.len() / width);
+        let rows = y.saturating_sub(1)..(y + 2).min(height);
+        rows.flat_map(move |row| (x.saturating_sub(1)..(x + 2).min(width)).map(move |column| row * width + column))
     }
 }
 
-fn is_outside(range: Interval, value: f64) -> bool {
-    if range.contains(value) {
-        return false;
+/// The range with a further number.
+fn with(range: Interval, value: f64) -> Interval {
+    match value.is_nan() {
+        true => Interval { may_be_nan: true, ..range },
+        false => Interval { low: range.low.min(value), high: range.high.max(value), ..range },
     }
-    if !value.is_finite() || !range.width().is_finite() {
-        return !value.is_finite();
+}
+
+/// How far a number is outside of a range, in widths of the range or, if that is more, in units.
+fn distance(range: Interval, value: f64, unit: f64) -> f64 {
+    if range.may_be_nan || range.contains(value) {
+        return 0.0;
     }
-    let largest = range.low.abs().max(range.high.abs());
-    let margin = SPREADS * range.width() + ULPS * ulp_f32(largest);
-    value < range.low - margin || value > range.high + margin
+    if !value.is_finite() || range.low > range.high {
+        return f64::INFINITY;
+    }
+    // An infinite width tells nothing.
+    (range.low - value).max(value - range.high) / range.width().max(unit).max(f64::MIN_POSITIVE)
 }
 
 /// Whether so many suspects fail a comparison.
@@ -66,25 +140,53 @@ pub(super) fn fails(suspect: u64, covered: u64) -> bool {
 mod tests {
     use super::*;
 
+    /// Three members that draw a step of two grays, which one of them moves by a pixel.
+    fn population() -> Population {
+        let mut population = Population::new(1, [6, 1], 1);
+        for step in [3, 3, 4] {
+            let gray = |x: usize| if x < step { 0.25 } else { 0.75 };
+            let colors = (0..6).map(|x| [gray(x) + 1e-6 * step as f64, 0.0, 0.0, 1.0]).collect();
+            population.add(&Picture::of_colors(6, 1, colors));
+        }
+        population
+    }
+
+    fn suspects(reds: [f64; 6], is_wide: bool) -> Vec<usize> {
+        let gpu = Picture::of_colors(6, 1, reds.map(|red| [red, 0.0, 0.0, 1.0]).to_vec());
+        let mut reference = population_reference();
+        let width = if is_wide { 1.0 } else { 1e-4 };
+        let around = |color: &[f64; 4]| color.map(|value| Interval::around(value, width / 2.0));
+        reference.intervals = Some(vec![reference.attachments[0].iter().map(around).collect()]);
+        let written = super::super::evidence::Written::everything(1);
+        let ruler = Ruler::new(&reference, &written, None);
+        let population = population();
+        (0..6).filter(|pixel| population.is_suspect(&gpu, &reference, &ruler, *pixel)).collect()
+    }
+
+    fn population_reference() -> Picture {
+        Picture::of_colors(6, 1, [0.25, 0.25, 0.25, 0.75, 0.75, 0.75].map(|red| [red, 0.0, 0.0, 1.0]).to_vec())
+    }
+
     #[test]
     fn far_outside_is_suspect() {
-        let range = Interval { low: 0.5, high: 0.5 + 1e-5, may_be_nan: false };
-        let cases = [
-            (0.5, false),
-            (0.5 - 7e-5, false),
-            (0.5 - 1e-4, true),
-            (0.5 + 1.5e-4, true),
-            (f64::NAN, true),
-            (f64::INFINITY, true),
-        ];
-        let population = Population { members: 2, seed: 1, ranges: vec![vec![[range; 4]; 2]], covered: vec![2, 1] };
-        for (value, suspect) in cases {
-            assert_eq!(population.is_suspect(0, 0, [0.5, 0.5, value, 0.5]), suspect, "{value}");
-            assert!(!population.is_suspect(0, 1, [value; 4]), "not all members cover it");
-        }
-        assert!(!is_outside(Interval::point(1.0), 1.0 + 60.0 * ulp_f32(1.0)));
-        assert!(!is_outside(Interval { may_be_nan: true, ..range }, f64::NAN));
-        assert!(!is_outside(Interval { high: f64::INFINITY, ..range }, 0.1), "an unbounded range tells nothing");
+        assert_eq!(suspects([0.25, 0.25, 0.25, 0.75, 0.75, 0.75], false), [0_usize; 0]);
+        assert_eq!(suspects([0.2501, 0.25, 0.25, 0.75, 0.75, 0.7499], false), [0, 5]);
+        assert_eq!(distance(Interval { may_be_nan: true, ..Interval::point(1.0) }, 57.2, 1e-6), 0.0, "undefined");
+        assert_eq!(suspects([f64::NAN, f64::INFINITY, 0.25, 0.75, 0.75, 0.75], false), [0, 1]);
+        // The member that moves the step shows that either is possible there.
+        assert_eq!(suspects([0.25, 0.25, 0.25, 0.25, 0.75, 0.75], false), [0_usize; 0]);
+        // Farther away the step cannot be, unless the envelope is wide and the step one pixel away.
+        assert_eq!(suspects([0.25, 0.25, 0.75, 0.75, 0.25, 0.25], false), [2, 4, 5]);
+        assert_eq!(suspects([0.25, 0.25, 0.75, 0.75, 0.25, 0.25], true), [5]);
+    }
+
+    #[test]
+    fn coverage_is_suspect_where_no_member_leaves_it_open() {
+        let mut population = population();
+        population.covered = vec![3, 3, 3, 1, 0, 0];
+        assert!(population.is_covered_by_chance(false, 0) && population.is_covered_by_chance(true, 5));
+        assert!(!population.is_covered_by_chance(false, 2) && !population.is_covered_by_chance(true, 4));
+        assert!(!Population::new(1, [2, 2], 1).is_covered_by_chance(true, 0), "nobody says anything");
     }
 
     #[test]

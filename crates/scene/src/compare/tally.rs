@@ -1,4 +1,4 @@
-//! [`Judge`]: compares two pictures, pixel by pixel.
+//! [`Comparison`]: compares two pictures, pixel by pixel.
 //!
 //! *In:* a GPU's picture, the reference's, the [`Criterion`]. *Out:* a [`Verdict`], and the [`Class`] of each pixel.
 //!
@@ -14,9 +14,9 @@ use super::population::Population;
 use super::verdict::{Criterion, FaultCount, Verdict, Worst, ulp_f32};
 use crate::picture::{Interval, Picture};
 
-/// What a picture is judged by.
+/// The standards of a comparison.
 #[derive(Clone, Copy, Debug)]
-pub struct Judge<'a> {
+pub struct Comparison<'a> {
     /// The standard by which a difference is explained.
     pub criterion: Criterion,
     /// A further picture of the reference for each known fault of the driver that is excused.
@@ -25,11 +25,11 @@ pub struct Judge<'a> {
     pub written: Option<&'a Written>,
     /// The largest width of the envelope of a judged pixel; `None`: 1/255 of the range of the picture's values.
     pub width: Option<f64>,
-    /// What simulated GPUs drew.
+    /// The pictures of simulated GPUs.
     pub population: Option<&'a Population>,
 }
 
-impl Default for Judge<'_> {
+impl Default for Comparison<'_> {
     fn default() -> Self {
         Self { criterion: Criterion::Envelope, faults: &[], written: None, width: None, population: None }
     }
@@ -44,7 +44,7 @@ pub struct Compared {
     pub classes: Vec<Option<Class>>,
 }
 
-impl Judge<'_> {
+impl Comparison<'_> {
     /// Compares two pictures of the same size and number of attachments.
     pub fn compare(&self, gpu: &Picture, cpu: &Picture) -> Compared {
         let everything = Written::everything(cpu.attachments.len());
@@ -58,10 +58,23 @@ impl Judge<'_> {
     }
 }
 
+impl Verdict {
+    /// Compares two pictures of the same size and number of attachments.
+    pub fn new(gpu: &Picture, cpu: &Picture, criterion: Criterion) -> Self {
+        Self::excusing(gpu, cpu, criterion, &[])
+    }
+
+    /// Compares like [`Self::new`], given a further reference picture for each known fault of the driver that is
+    /// excused.
+    pub fn excusing(gpu: &Picture, cpu: &Picture, criterion: Criterion, faults: &[(&'static str, Picture)]) -> Self {
+        Comparison { criterion, faults, ..Comparison::default() }.compare(gpu, cpu).verdict
+    }
+}
+
 /// For each pixel, the largest difference of its channels relative to the bound. It is infinite where only one side
 /// covers a decided pixel, or where a number is not finite but must be.
 pub fn shares(gpu: &Picture, cpu: &Picture, criterion: Criterion) -> Vec<f64> {
-    let tally = Tally::new(Judge { criterion, ..Judge::default() }, gpu, cpu);
+    let tally = Tally::new(Comparison { criterion, ..Comparison::default() }, gpu, cpu);
     (0..cpu.covered.len())
         .map(|pixel| {
             let covers = [&gpu.covered, &cpu.covered].map(|covered| tally.is_flagged(covered, pixel));
@@ -80,7 +93,7 @@ pub fn shares(gpu: &Picture, cpu: &Picture, criterion: Criterion) -> Vec<f64> {
 
 /// A comparison in progress.
 struct Tally<'a> {
-    judge: Judge<'a>,
+    comparison: Comparison<'a>,
     gpu: &'a Picture,
     cpu: &'a Picture,
     verdict: Verdict,
@@ -108,14 +121,14 @@ struct PixelError {
 }
 
 impl<'a> Tally<'a> {
-    fn new(judge: Judge<'a>, gpu: &'a Picture, cpu: &'a Picture) -> Self {
-        let judged_by = match judge.criterion {
+    fn new(comparison: Comparison<'a>, gpu: &'a Picture, cpu: &'a Picture) -> Self {
+        let judged_by = match comparison.criterion {
             Criterion::Envelope => "envelope",
             Criterion::Tolerance(_) => "tolerance",
         };
-        let suspect = judge.population.map(|_| 0);
+        let suspect = comparison.population.map(|_| 0);
         Self {
-            judge,
+            comparison,
             gpu,
             cpu,
             verdict: Verdict { judged_by, suspect, ..Verdict::default() },
@@ -150,6 +163,8 @@ impl<'a> Tally<'a> {
             [gpu_covers, _] if undecided || may_miss => {
                 let count = if may_miss { &mut self.verdict.edge_pixels } else { &mut self.verdict.undecided };
                 *count += 1;
+                let suspect = |all: &Population| !may_miss && all.is_covered_by_chance(gpu_covers, pixel);
+                self.count_suspect(suspect);
                 if gpu_covers && self.cpu.intervals.is_some() {
                     self.colors(pixel, true, None);
                 }
@@ -183,11 +198,14 @@ impl<'a> Tally<'a> {
         } else {
             self.verdict.non_finite_gpu += any(|error| error.non_finite[0]);
             self.verdict.non_finite_cpu += any(|error| error.non_finite[1]);
-            self.count_suspect(pixel, is_wrong || is_edge);
+        }
+        if let Some(ruler) = ruler.filter(|_| !is_wrong && !is_edge) {
+            let (gpu, cpu) = (self.gpu, self.cpu);
+            self.count_suspect(|population| population.is_suspect(gpu, cpu, ruler, pixel));
         }
         for (attachment, error) in errors.iter().enumerate() {
             if !is_open {
-                self.add_differences(attachment, pixel);
+                self.add_differences(attachment, pixel, is_wrong);
             }
             if error.rank > self.worst_rank && (error.outside || !is_open && !is_edge) {
                 self.worst_rank = error.rank;
@@ -199,7 +217,7 @@ impl<'a> Tally<'a> {
     /// Counts a pixel that both sides cover by its class and its width.
     fn classify(&mut self, ruler: Option<&Ruler<'_>>, pixel: usize, known: Option<Class>) {
         let Some(ruler) = ruler else { return };
-        let (class, width) = match self.judge.criterion {
+        let (class, width) = match self.comparison.criterion {
             Criterion::Envelope => (ruler.class(pixel), ruler.width(pixel)),
             // Whoever names a tolerance finds it narrow enough.
             Criterion::Tolerance(tolerance) => {
@@ -220,11 +238,10 @@ impl<'a> Tally<'a> {
         }
     }
 
-    fn count_suspect(&mut self, pixel: usize, is_judged_otherwise: bool) {
-        let (Some(population), Some(count)) = (self.judge.population, &mut self.verdict.suspect) else { return };
-        let suspect =
-            |attachment: usize| population.is_suspect(attachment, pixel, Self::color(self.gpu, attachment, pixel));
-        *count += u64::from(!is_judged_otherwise && (0..self.cpu.attachments.len()).any(suspect));
+    fn count_suspect(&mut self, is_suspect: impl FnOnce(&Population) -> bool) {
+        if let (Some(population), Some(count)) = (self.comparison.population, &mut self.verdict.suspect) {
+            *count += u64::from(is_suspect(population));
+        }
     }
 
     /// Whether a known fault explains the pixel, which is then counted under that fault.
@@ -244,7 +261,8 @@ impl<'a> Tally<'a> {
                 (false, false) => true,
             }
         };
-        let Some(fault) = self.judge.faults.iter().find(|(_, picture)| explains(picture)).map(|(name, _)| *name) else {
+        let Some(fault) = self.comparison.faults.iter().find(|(_, picture)| explains(picture)).map(|(name, _)| *name)
+        else {
             return false;
         };
         match self.verdict.known_faults.iter_mut().find(|count| count.fault == fault) {
@@ -266,7 +284,7 @@ impl<'a> Tally<'a> {
     /// The allowed values of each channel.
     fn allowed(&self, attachment: usize, pixel: usize) -> [Interval; 4] {
         let envelopes = || Self::intervals(self.cpu, attachment, pixel);
-        match self.judge.criterion {
+        match self.comparison.criterion {
             Criterion::Tolerance(tolerance) if self.is_flagged(&self.cpu.near_edge, pixel) => {
                 // Which primitive owns the pixel is open, whatever the tolerance.
                 envelopes().map(|hull| Interval { low: hull.low - tolerance, high: hull.high + tolerance, ..hull })
@@ -309,11 +327,11 @@ impl<'a> Tally<'a> {
         error
     }
 
-    fn add_differences(&mut self, attachment: usize, pixel: usize) {
+    fn add_differences(&mut self, attachment: usize, pixel: usize, is_wrong: bool) {
         let gpu = Self::color(self.gpu, attachment, pixel);
         let cpu = Self::color(self.cpu, attachment, pixel);
-        // At an edge, a larger difference is that of two primitives' colors.
-        let most = match self.is_flagged(&self.cpu.near_edge, pixel) {
+        // At an edge, a larger difference inside the hull is that of two primitives' colors.
+        let most = match !is_wrong && self.is_flagged(&self.cpu.near_edge, pixel) {
             true => self.cpu.owner_width.get(pixel).copied().map_or(f64::INFINITY, f64::from),
             false => f64::INFINITY,
         };

@@ -1,12 +1,11 @@
 //! [`Verdict`]: how far a GPU's picture is from the reference's, whether the difference is explained, and how much of
 //! the picture was judged at all.
 //!
-//! *In:* the counts of a comparison ([`Judge`]). *Out:* error figures, and a [`Conclusion`] by [`Demands`].
+//! *In:* the counts of a comparison ([`Comparison`](super::Comparison)). *Out:* error figures, and a
+//! [`Conclusion`] by [`Demands`].
 
 use super::evidence::{Evidence, Width};
 use super::population;
-use super::tally::Judge;
-use crate::picture::Picture;
 use serde::Serialize;
 
 /// The standard by which a difference is explained.
@@ -149,20 +148,9 @@ pub struct Verdict {
 }
 
 impl Verdict {
-    /// Compares two pictures of the same size and number of attachments.
-    pub fn new(gpu: &Picture, cpu: &Picture, criterion: Criterion) -> Self {
-        Self::excusing(gpu, cpu, criterion, &[])
-    }
-
-    /// Compares like [`Self::new`], given a further reference picture for each known fault of the driver that is
-    /// excused.
-    pub fn excusing(gpu: &Picture, cpu: &Picture, criterion: Criterion, faults: &[(&'static str, Picture)]) -> Self {
-        Judge { criterion, faults, ..Judge::default() }.compare(gpu, cpu).verdict
-    }
-
     /// The result in one word.
     pub fn conclusion(&self, demands: &Demands) -> Conclusion {
-        let suspects = demands.likely && population::fails(self.suspect.unwrap_or(0), self.covered);
+        let suspects = demands.likely && self.is_suspect();
         match () {
             () if self.needs_excuse() || suspects => Conclusion::Fails,
             () if self.covered == 0 || self.share_judged(demands) < demands.evidence_share => Conclusion::Inconclusive,
@@ -170,10 +158,21 @@ impl Verdict {
         }
     }
 
+    /// Whether so many pixels are suspect that the picture is.
+    pub fn is_suspect(&self) -> bool {
+        population::fails(self.suspect.unwrap_or(0), self.covered)
+    }
+
     /// Whether the conclusion is [`Conclusion::Holds`] by the usual [`Demands`], with undecided pixels as judged ones if
     /// they are allowed.
     pub fn holds(&self, allow_undecided: bool) -> bool {
         self.conclusion(&Demands { allow_undecided, ..Demands::default() }) == Conclusion::Holds
+    }
+
+    /// Whether there is a difference that nothing explains, by the usual [`Demands`]: the conclusion is
+    /// [`Conclusion::Fails`].
+    pub fn fails(&self) -> bool {
+        self.conclusion(&Demands::default()) == Conclusion::Fails
     }
 
     /// The share of the covered pixels that is judged, at an edge, or excused. Undecided pixels that only one side covers
@@ -248,7 +247,8 @@ pub fn ulp_f32(value: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::compare::evidence::Class;
-    use crate::picture::Interval;
+    use crate::compare::tally::Comparison;
+    use crate::picture::{Interval, Picture};
 
     fn picture(values: &[f64]) -> Picture {
         let n = values.len();
@@ -385,12 +385,12 @@ mod tests {
             color[0] = Interval { low: 0.1, high: 0.5, may_be_nan: false };
         }
         cpu.owner_width = vec![1e-6, 1e-6, 0.0];
-        let compared = Judge::default().compare(&gpu, &cpu);
+        let compared = Comparison::default().compare(&gpu, &cpu);
         assert_eq!(compared.classes, [Some(Class::Edge), Some(Class::Edge), Some(Class::Judged)]);
         let verdict = compared.verdict;
         assert_eq!((verdict.outside, verdict.evidence.edge, verdict.edge_pixels), (1, 2, 0));
         // The first pixel has another owner's color, which is no error.
-        assert_eq!((verdict.max_abs, verdict.worst.map(|worst| worst.x)), (0.0, Some(1)));
+        assert_eq!((verdict.max_abs, verdict.worst.map(|worst| worst.x)), (0.5, Some(1)));
     }
 
     #[test]
@@ -416,10 +416,9 @@ mod tests {
         for color in cpu.intervals.iter_mut().flatten().flatten() {
             color[0] = Interval { low: 0.0, high: 1.0, may_be_nan: false };
         }
-        let drawn = [0.6, 0.0, 0.0, 1.0].map(Interval::point);
-        let population =
-            population::Population { members: 4, seed: 1, ranges: vec![vec![drawn; 20]], covered: vec![4; 20] };
-        let verdict = Judge { population: Some(&population), ..Judge::default() }.compare(&gpu, &cpu).verdict;
+        let mut population = population::Population::new(1, [20, 1], 1);
+        (0..4).for_each(|_| population.add(&picture(&[0.6; 20])));
+        let verdict = Comparison { population: Some(&population), ..Comparison::default() }.compare(&gpu, &cpu).verdict;
         assert_eq!((verdict.suspect, verdict.outside), (Some(20), 0));
         let usual = Demands::default();
         assert_eq!(verdict.conclusion(&usual), Conclusion::Fails);

@@ -1,0 +1,159 @@
+//! The report on the library: one scene, shaded by each of its models, per fragment and per vertex.
+//!
+//! *In:* nothing. *Out:* [`LibraryFiles`], which has the scene with its `[report]` table as a file. *Holds:* the standard
+//! program per fragment is the truth of each model; a program of its own, where there is one, is another way of that model.
+
+use glisten_scene::{FileError, FileSource};
+use std::fmt::Write;
+
+/// The name of the scene's file.
+pub const LIBRARY_SCENE: &str = "library.toml";
+
+/// A model of the library.
+struct Model {
+    name: &'static str,
+    /// Keys of its material.
+    material: &'static str,
+    /// The library's program for this model alone. There is one per vertex, with `_vertex` after its name.
+    program: Option<&'static str>,
+}
+
+const fn model(name: &'static str, material: &'static str, program: Option<&'static str>) -> Model {
+    Model { name, material, program }
+}
+
+static MODELS: &[Model] = &[
+    model("Lambert (83)", "specular_model = \"none\"", Some("lambert")),
+    model("half Lambert", "diffuse_model = \"half_lambert\", specular_model = \"none\"", None),
+    model(
+        "soft toon",
+        "diffuse_model = \"toon_soft\", specular_model = \"none\", ramp = { pattern = \"soft\", filter = \"linear\" }",
+        None,
+    ),
+    model("hard toon", "diffuse_model = \"toon_hard\", specular_model = \"none\", shade = [0.2, 0.15, 0.35]", None),
+    model("Phong (86)", "specular_model = \"phong\"", Some("phong")),
+    model("Blinn-Phong (89)", "specular_model = \"blinn_phong\"", Some("blinn_phong")),
+    model("Schlick (90) on R.V", "specular_model = \"schlick_phong\"", None),
+    model("Schlick (90) on N.H", "specular_model = \"schlick_blinn\"", Some("schlick")),
+    model("threshold (91)", "specular_model = \"threshold\", threshold = 0.95", Some("threshold")),
+    model("the article's fourth power", "specular_model = \"quartic\"", None),
+    model(
+        "table on N.H",
+        "specular_model = \"table_half\", highlight = { pattern = \"specular\", exponent = 40, filter = \"linear\" }",
+        None,
+    ),
+    model(
+        "table on N.L, mottled",
+        "specular_model = \"table_light\", highlight = { pattern = \"metal\", exponent = 40, filter = \"linear\" }",
+        None,
+    ),
+];
+
+/// The scene without its ways: a knot under a warm and a dim blue light.
+const SCENE: &str = r#"
+global_ambient = [0.03, 0.03, 0.04]
+
+[framebuffer]
+width = 240
+height = 240
+clear = [0.009, 0.01, 0.015, 1.0]
+encode = "srgb"
+
+[camera]
+eye = [0.0, 0.0, 6.0]
+target = [0.0, 0.0, 0.0]
+fovy = 30
+near = 1.0
+far = 20.0
+
+[[light]]
+kind = "directional"
+towards = [0.5, 0.7, 0.6]
+color = [1.0, 0.95, 0.85]
+
+[[light]]
+kind = "point"
+position = [-3.0, 0.5, 2.0]
+attenuation = [0.4, 0.2, 0.05]
+color = [0.1, 0.2, 0.45]
+
+[[draw]]
+program = "standard"
+cull = "back"
+depth_test = true
+mesh = { shape = "torus_knot", radius = 0.82, minor_radius = 0.36, tube = 0.23 }
+transform = { rotate = [72.0, 0.0, 18.0] }
+
+[report]
+tessellations = [[192, 24]]
+truth_tessellation = [192, 24]
+"#;
+
+/// What all materials have.
+const MATERIAL: &str = "diffuse = [0.6, 0.3, 0.2], specular = [0.5, 0.5, 0.5], shininess = 40";
+
+/// The text of the scene.
+fn text() -> String {
+    let mut text = SCENE.to_owned();
+    for Model { name, material, program } in MODELS {
+        let mut way = |what: &str, program: &str, is_truth: bool| {
+            let truth = if is_truth { "truth = true\n" } else { "" };
+            let _ = write!(
+                text,
+                "\n[[report.way]]\nname = \"{name}, {what}\"\nmodel = \"{name}\"\n{truth}\
+                 set = {{ program = \"{program}\", material = {{ {MATERIAL}, {material} }} }}\n"
+            );
+        };
+        way("standard program", "standard", true);
+        way("standard program per vertex", "standard_vertex", false);
+        if let Some(program) = program {
+            way("program of its own", program, false);
+            way("program of its own per vertex", &format!("{program}_vertex"), false);
+        }
+    }
+    text
+}
+
+/// The file of the report on the library. The files that it names are embedded.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct LibraryFiles;
+
+impl FileSource for LibraryFiles {
+    fn read(&self, path: &str) -> Result<Vec<u8>, FileError> {
+        if path == LIBRARY_SCENE { Ok(text().into_bytes()) } else { Err(FileError::Missing) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{LIBRARY_SCENE, LibraryFiles, MODELS, text};
+    use crate::report::plan::plan;
+    use crate::scene::{FileSource, MemoryFiles, load};
+    use glisten_front::{Compiler, Options};
+
+    #[test]
+    fn every_way_loads_without_a_warning() {
+        let plan = plan("library", &text(), 0).expect("the table is right");
+        let programs = MODELS.iter().filter(|model| model.program.is_some()).count();
+        assert_eq!((plan.ways.len(), plan.truths.len()), (2 * MODELS.len() + 2 * programs, MODELS.len()));
+        let compiler = Compiler::new(Options::default()).with_includes(crate::library::Embedded);
+        for way in &plan.ways {
+            let crate::report::plan::Drawn::Text(text) = &way.drawn else { panic!("a text") };
+            let loaded = load("s.toml", &MemoryFiles::new([("s.toml", text.as_str())]), &compiler);
+            let found: Vec<String> = loaded.diagnostics.iter().map(|one| one.message.clone()).collect();
+            assert!(loaded.scene.is_some(), "{}: {found:?}", way.name);
+        }
+    }
+
+    #[test]
+    fn no_other_file_is_there() {
+        assert!(LibraryFiles.read(LIBRARY_SCENE).is_ok() && LibraryFiles.read("a.vert").is_err());
+    }
+
+    #[test]
+    fn every_program_of_a_model_is_among_them() {
+        for program in crate::library::programs().iter().filter_map(|program| program.name.strip_suffix("_vertex")) {
+            assert!(program == "standard" || MODELS.iter().any(|model| model.program == Some(program)), "{program}");
+        }
+    }
+}
