@@ -7,7 +7,7 @@ use super::regions::Maker;
 use glisten::diagnostic::{Severity, codes};
 use glisten::library;
 use glisten_front::builtin;
-use glisten_reference::domain::{faults, rules};
+use glisten_reference::domain::{faults, fitted, rules};
 use std::fmt::Write;
 use std::path::PathBuf;
 use std::process::Command;
@@ -33,6 +33,7 @@ static REGIONS: &[(&str, Source)] = &[
     ("claims-time", Source::Example("claims", &["time"])),
     ("codes", Source::Tables(diagnostics)),
     ("faults", Source::Tables(known_faults)),
+    ("fitted", Source::Tables(fitted_constants)),
     ("library", Source::Output(&["lib", "list"])),
     ("library-errors", Source::Measured(&["lib", "measure", "--backend", "gpu"])),
     ("library-stability", Source::Examined(super::numerics::equations)),
@@ -165,6 +166,15 @@ fn pipeline() -> String {
         let _ = writeln!(out, "| {} | {} | {} |", step.operation, step.describe(), step.source);
     }
     out
+}
+
+fn fitted_constants() -> String {
+    let mut text = "| constant | value | profile | measured by |\n| --- | --- | --- | --- |\n".to_owned();
+    for row in fitted::FITTED {
+        let value = format!("{} {}", row.value, row.unit);
+        let _ = writeln!(text, "| {} | {} | {} | {} |", row.what, value.trim(), row.profile, row.measured);
+    }
+    text
 }
 
 fn known_faults() -> String {

@@ -44,6 +44,8 @@ mod multisample;
 mod mutation;
 #[cfg(feature = "gpu")]
 mod mutations;
+#[cfg(feature = "gpu")]
+mod numeric;
 #[cfg(feature = "gl")]
 mod opengl;
 mod operations;
@@ -86,5 +88,7 @@ mod targets;
 mod tutorial;
 #[cfg(feature = "cli")]
 mod wgsl;
+#[cfg(feature = "reference")]
+mod widths;
 mod witness;
 mod words;

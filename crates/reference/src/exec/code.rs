@@ -103,7 +103,7 @@ impl Section {
 }
 
 impl Inner {
-    /// What is given to a run.
+    /// The ports that are filled in before a run.
     pub(super) fn given(&self) -> impl Iterator<Item = &Port> {
         self.inputs.iter().chain(&self.noises)
     }

@@ -488,6 +488,13 @@ impl Inst {
         }
     }
 
+    /// Whether lanes diverge or join at the instruction.
+    pub(super) fn is_control(&self) -> bool {
+        let mut inst = *self;
+        inst.target_mut().is_some()
+            || matches!(inst, Self::Save { .. } | Self::Join { .. } | Self::Leave { .. } | Self::Discard | Self::Idle)
+    }
+
     /// Whether it changes the home of a variable.
     pub(super) fn stores(&self) -> bool {
         matches!(

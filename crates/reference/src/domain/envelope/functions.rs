@@ -86,7 +86,7 @@ impl EnvelopeFloat {
         self.exponential_off(0.0, value, f)
     }
 
-    /// The same inherited by a function whose exponent is wrong by up to `off`.
+    /// An exponential inherited by a function whose exponent is wrong by up to `off`.
     fn exponential_off(self, off: f64, value: f64, f: impl Fn(f64) -> f64) -> Self {
         let n = |x: f64| rules::EXP.ulps_at(x);
         let (low, high) = (f(self.low), f(self.high));

@@ -1,4 +1,4 @@
-//! What is known of the error of a derivative's argument: how far apart its errors in two lanes of a quad may be.
+//! The noise of derivatives' arguments: how far apart the errors of one register may be in two lanes of a quad.
 //!
 //! *In:* the definitions of registers. *Out:* for a register that is a varying, or linear in varyings with uniforms and
 //! constants as factors, a register with its *noise*: the part of its error that is not common to the fragments of a
@@ -11,15 +11,7 @@ use super::super::code::Port;
 use super::super::inst::{Class, Float2, Inst, Operand};
 use super::Compiler;
 use super::emit::Emitter;
-
-/// The definition of a register that is linear in its operands.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Definition {
-    /// An operation.
-    Of(Float2, Operand, Operand),
-    /// A copy, or the negative.
-    Same(Operand),
-}
+use super::facts::Definition;
 
 /// Longer chains of operations are not followed.
 const MAX_DEPTH: u32 = 24;

@@ -3,9 +3,7 @@
 
 use super::super::code::{Form, PoolSource, Section};
 use super::super::inst::{Class, Inst, List, Operand, Slot, Target, TextureCall};
-use super::affine::Definition;
-use super::chains::Chain;
-use super::fuse::is_control;
+use super::facts::{Chain, Definition};
 use glisten_front::link::RootIndex;
 use glisten_front::source::Span;
 use rustc_hash::FxHashMap;
@@ -33,7 +31,7 @@ pub(super) struct Emitter {
     preamble_lists: FxHashMap<(Class, Vec<Operand>), List>,
     /// The sums and products with constants.
     pub(super) chains: FxHashMap<Operand, Chain>,
-    /// What registers are computed from, as far as that is linear.
+    /// The definitions of registers, as far as they are linear.
     pub(super) definitions: FxHashMap<Operand, Definition>,
     /// The registers with the noise of registers.
     pub(super) noises: FxHashMap<Operand, Operand>,
@@ -109,7 +107,7 @@ impl Emitter {
     }
 
     pub(super) fn push(&mut self, inst: Inst) {
-        self.stores += u32::from(is_control(&inst) || inst.stores());
+        self.stores += u32::from(inst.is_control() || inst.stores());
         self.main.push(inst, self.span);
     }
 

@@ -1,8 +1,8 @@
 //! Compiles expressions (§5).
 
 use super::super::inst::{Class, Compare, Float1, Float2, FloatToInt, Inst, Int1, Int2, IntToFloat, Operand};
-use super::affine::Definition;
 use super::effects::Assigned;
+use super::facts::Definition;
 use super::{Compiler, Scope, Val};
 use glisten_front::diagnostic::codes;
 use glisten_front::hir::{

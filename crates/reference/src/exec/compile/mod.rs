@@ -15,6 +15,7 @@ mod dead;
 mod effects;
 mod emit;
 mod expr;
+mod facts;
 mod fuse;
 mod matrix;
 mod path;
