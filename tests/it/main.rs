@@ -61,6 +61,7 @@ mod readme;
 #[cfg(feature = "cli")]
 mod report;
 mod report_checks;
+mod report_page;
 #[cfg(feature = "reference")]
 mod scenes;
 #[cfg(feature = "cli")]
