@@ -64,6 +64,9 @@ mod readme;
 mod report;
 #[cfg(feature = "cli")]
 mod report_checks;
+#[cfg(feature = "cli")]
+mod report_page;
+#[cfg(feature = "cli")]
 mod report_ways;
 #[cfg(feature = "reference")]
 mod scenes;

@@ -16,7 +16,7 @@ struct Data<'a> {
     page: Page,
 }
 
-/// What only the page needs.
+/// The part that only the page needs.
 #[derive(Serialize)]
 struct Page {
     /// The colors of the codes of differences; code 1 is the low decade, the last before 255 the high one.

@@ -23,7 +23,7 @@ const UP = {
 
 // For each way "yes", "no" or "open", by the rules of the report, with the error that is plotted.
 const front = (x, y) => {
-  const error = UP[y].of;
+  const error = (way) => UP[y].of(way) ?? NaN;
   const work = (way) => way.work.operations;
   return ways.map((way) => {
     if (way.unfit || way.model === null) return "no";
@@ -58,7 +58,7 @@ const logarithmic = (values, from, to, margin) => {
   const ticks = (apart) => {
     const steps = [[1, 1.2, 1.4, 1.6, 1.8, 2, 2.5, 3, 3.5, 4, 5, 6, 7, 8, 9], [1, 1.5, 2, 3, 4, 5, 7], [1, 2, 5], [1, 3], [1]].map(multiples);
     const far = (found) => found.every((tick, index) => index === 0 || Math.abs(place(tick) - place(found[index - 1])) >= apart);
-    const fit = steps.find((found) => found.length <= 12 && far(found));
+    const fit = high - low > 4 ? null : steps.find((found) => found.length <= 12 && far(found));
     if (fit && fit.length > 1) return fit;
     const decades = steps[4];
     const every = Math.ceil(apart / (Math.abs(to - from) / (high - low)));

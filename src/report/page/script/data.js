@@ -32,8 +32,9 @@ const scientific = (value, digits = 1) => {
 };
 
 const COLORS = 8;
-// A kind of way has one mark; ways that the scene declares differ by their names.
-const kindOf = (way) => (way.kind === "declared" ? way.name : way.kind);
+// A kind of way has one mark; ways that the scene declares differ by their names, without that of the model.
+const withoutModel = (name, model) => (name.startsWith(model + " ") ? name.slice(model.length + 1) : name);
+const kindOf = (way) => (way.kind === "declared" ? withoutModel(way.name, way.model) : way.kind);
 const kinds = [...new Set(report.ways.map(kindOf))];
 const ways = report.ways.map((way, number) => ({
   ...way,

@@ -102,7 +102,7 @@ const drawFronts = (drawing, { frame }) => {
       drawing.append(svg("path", { class: `front ${best[0].way.color}`, d: pathOf(steps) }));
     }
     for (const name of new Set(members.map((point) => point.way.name))) {
-      const series = members.filter((point) => point.way.name === name);
+      const series = members.filter((point) => point.way.name === name).sort((a, b) => a.way.vertices - b.way.vertices);
       if (series.length < 2) continue;
       const places = series.map((point) => [point.x, point.y]);
       joined(places);
