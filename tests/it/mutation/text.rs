@@ -134,9 +134,11 @@ impl<'a> Text<'a> {
 
     fn word(&self, place: usize, token: &Token<'_>, target: Target) -> Vec<Mutation> {
         let is_name = !self.is(place + 1, ":");
+        // The variable of a built-in value has the name of the value.
+        let is_variable = token.text.ends_with("_index") && !self.is(place.saturating_sub(2), "builtin");
         let mut found: Vec<Mutation> = match WORDS.iter().find(|row| row.0 == token.text) {
-            Some((_, becomes, kind)) => becomes.iter().map(|new| self.replaced(*kind, token, new)).collect(),
-            None => Vec::new(),
+            Some((_, becomes, kind)) if !is_variable => becomes.iter().map(|new| self.replaced(*kind, token, new)).collect(),
+            _ => Vec::new(),
         };
         match token.text {
             "if" | "while" => found.extend(self.condition(place)),

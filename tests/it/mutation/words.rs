@@ -24,7 +24,6 @@ pub(crate) mod op {
     pub(crate) const CONSTANT: u16 = 43;
     pub(crate) const CONSTANT_COMPOSITE: u16 = 44;
     pub(crate) const FUNCTION: u16 = 54;
-    pub(crate) const FUNCTION_END: u16 = 56;
     pub(crate) const FUNCTION_CALL: u16 = 57;
     pub(crate) const VARIABLE: u16 = 59;
     pub(crate) const LOAD: u16 = 61;
@@ -59,7 +58,6 @@ pub(crate) mod op {
     pub(crate) const BRANCH: u16 = 249;
     pub(crate) const BRANCH_CONDITIONAL: u16 = 250;
     pub(crate) const SWITCH: u16 = 251;
-    pub(crate) const UNREACHABLE: u16 = 255;
 }
 
 /// The numbers of the instructions of GLSL.std.450 that the tests refer to by name.
@@ -95,11 +93,6 @@ impl Instruction<'_> {
     /// The identifier of the result; 0 if there is none.
     pub(crate) fn result(&self) -> u32 {
         if has_result(self.opcode()) { self.word(2) } else { 0 }
-    }
-
-    /// Whether it has a result of this identifier.
-    pub(crate) fn defines(&self, id: u32) -> bool {
-        id != 0 && self.result() == id
     }
 
     /// Replaces it by other words.
