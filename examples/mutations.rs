@@ -1,13 +1,14 @@
-//! Plants faults in the SPIR-V that glisten emits for scenes, draws each one, and counts how many `verify` catches.
+//! Plants faults in the code that glisten emits for scenes, draws each one, and counts how many `verify` catches.
 //!
 //! ```text
-//! cargo run --release --example mutations -- fixtures/scenes [--each N] [--seed N] [--list]
+//! cargo run --release --example mutations -- fixtures/scenes [--each N] [--seed N] [--list] [--legal | --no-legal]
 //! ```
 //!
-//! The arguments are scene files and folders, which are searched recursively. For each kind of fault, it prints how
-//! many change the picture, and how many of those the derived bound and a tolerance of 1/255 catch; then each fault
-//! that passes, with the reason. `--each` tries at most N faults of each kind per scene; `--list` prints the outcome
-//! of every fault. It needs a Vulkan software adapter and `spirv-val`.
+//! The arguments are scene files and folders, which are searched recursively. For each kind of fault and each class of
+//! scenes, it prints how many change the picture, and how many of those `verify` and a tolerance of 1/255 catch; then the
+//! legal changes that `verify` fails; then each fault that passes, with the width and the class of the envelope. `--each`
+//! tries at most N faults of each kind per scene and form; `--list` prints the outcome of every fault; `--legal` tries
+//! legal changes alone, `--no-legal` faults alone. It needs a Vulkan software adapter and `spirv-val`.
 
 #[path = "../tests/it/mutation/mod.rs"]
 mod mutation;
@@ -15,24 +16,28 @@ mod mutation;
 use glisten::scene::{DiskFiles, Scene, load};
 use glisten_front::{Compiler, Options};
 use glisten_gpu::Gpu;
-use mutation::{Choice, Study};
+use mutation::{Choice, Parts, Study};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 struct Arguments {
     paths: Vec<PathBuf>,
     choice: Choice,
+    parts: Parts,
     list: bool,
 }
 
 fn arguments() -> Option<Arguments> {
-    let mut parsed = Arguments { paths: Vec::new(), choice: Choice { each: None, seed: 0 }, list: false };
+    let parts = Parts { faults: true, legal: true };
+    let mut parsed = Arguments { paths: Vec::new(), choice: Choice { each: None, seed: 0 }, parts, list: false };
     let mut words = std::env::args().skip(1);
     while let Some(word) = words.next() {
         match word.as_str() {
             "--each" => parsed.choice.each = Some(words.next()?.parse().ok()?),
             "--seed" => parsed.choice.seed = words.next()?.parse().ok()?,
             "--list" => parsed.list = true,
+            "--legal" => parsed.parts.faults = false,
+            "--no-legal" => parsed.parts.legal = false,
             _ => parsed.paths.push(word.into()),
         }
     }
@@ -64,8 +69,8 @@ fn scene(path: &Path) -> Result<(String, Scene), String> {
 
 #[expect(clippy::print_stdout, clippy::print_stderr, reason = "a program that prints a report")]
 fn main() -> ExitCode {
-    let Some(Arguments { paths, choice, list }) = arguments() else {
-        eprintln!("usage: mutations SCENE|FOLDER... [--each N] [--seed N] [--list]");
+    let Some(Arguments { paths, choice, parts, list }) = arguments() else {
+        eprintln!("usage: mutations SCENE|FOLDER... [--each N] [--seed N] [--list] [--legal | --no-legal]");
         return ExitCode::from(2);
     };
     let mut files = Vec::new();
@@ -85,7 +90,7 @@ fn main() -> ExitCode {
             return ExitCode::from(3);
         }
     };
-    let study = Study::of(&gpu, &scenes, choice, &mut |name, faults| eprintln!("{name}: {faults} faults"));
+    let study = Study::of(&gpu, &scenes, (choice, parts), &mut |name, faults| eprintln!("{name}: {faults} faults"));
     if list {
         study.trials.iter().for_each(|trial| println!("{trial}"));
     }

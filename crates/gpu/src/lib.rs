@@ -22,6 +22,8 @@
 
 mod assembly;
 mod device;
+#[cfg(feature = "edited-modules")]
+mod edited;
 mod error;
 mod foreign;
 mod frame;

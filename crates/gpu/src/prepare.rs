@@ -46,7 +46,7 @@ type Replaced = [Option<usize>; 2];
 /// The stages of a draw.
 const STAGES: [Stage; 2] = [Stage::Vertex, Stage::Fragment];
 
-fn emitted(draw: &Draw, stage: Stage, target: Target) -> Result<Emitted, Error> {
+pub(super) fn emitted(draw: &Draw, stage: Stage, target: Target) -> Result<Emitted, Error> {
     emit::emit(&draw.program, stage, target, &conventions(draw, target)).map_err(Error::Emit)
 }
 

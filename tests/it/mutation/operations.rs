@@ -146,7 +146,7 @@ pub(super) fn operation(instruction: Instruction<'_>) -> Option<Mutation> {
     let row = table.iter().find(|row| row.code == code)?;
     let splice = changed(instruction, row.change, operands, extended)?;
     let name = format!("%{} {} becomes {}", instruction.word(2), row.name, row.becomes);
-    Some(Mutation { kind: Kind::Operation, name, splices: vec![splice], more_ids: 0 })
+    Some(Mutation::new(Kind::Operation, name, splice))
 }
 
 /// The changed instruction; `None` if nothing would change.

@@ -48,6 +48,7 @@ mod corrected_run;
 mod count;
 mod exactly;
 mod explore;
+mod follow;
 mod identity;
 mod inst;
 mod lookup;
