@@ -2,7 +2,7 @@
 //!
 //! *In:* a report. *Out:* terms with their facts. *Holds:* what is not known is said to be unknown.
 
-use super::super::model::{Ended, Report, Way};
+use super::super::model::{Ended, Report, Timing, Way};
 use super::words::{fixed, interval, percent};
 use minijinja::{Value, context};
 
@@ -44,7 +44,7 @@ pub(super) fn facts(report: &Report) -> Vec<Value> {
             percent(timing.margin),
             "by so much, beyond doubt, a way must be faster than another to beat it".to_owned(),
         ),
-        ("Baseline", timing.baseline.clone(), format!("{} ms a frame", fixed(timing.baseline_ms, 3))),
+        ("Baseline", timing.baseline.clone(), frames(timing)),
         ("Weights", report.weights.clone(), "by which operations are counted".to_owned()),
     ];
     let fact = |(term, text, remark): (&str, String, String)| context! { term, text, remark };
@@ -74,6 +74,12 @@ fn widths(ways: &[Way]) -> [f64; 2] {
     let mut widths: Vec<f64> = ways.iter().map(width).filter(|width| width.is_finite()).collect();
     widths.sort_by(f64::total_cmp);
     [widths.get(widths.len() / 2), widths.last()].map(|width| width.copied().unwrap_or(f64::NAN))
+}
+
+/// The time of the baseline, and the part that clears.
+fn frames(timing: &Timing) -> String {
+    let [whole, empty] = [timing.baseline_ms, timing.empty_ms].map(|time| fixed(time, 3));
+    format!("{whole} ms a frame; {empty} ms for one that only clears")
 }
 
 #[cfg(test)]
