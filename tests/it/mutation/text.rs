@@ -137,7 +137,9 @@ impl<'a> Text<'a> {
         // The variable of a built-in value has the name of the value.
         let is_variable = token.text.ends_with("_index") && !self.is(place.saturating_sub(2), "builtin");
         let mut found: Vec<Mutation> = match WORDS.iter().find(|row| row.0 == token.text) {
-            Some((_, becomes, kind)) if !is_variable => becomes.iter().map(|new| self.replaced(*kind, token, new)).collect(),
+            Some((_, becomes, kind)) if !is_variable => {
+                becomes.iter().map(|new| self.replaced(*kind, token, new)).collect()
+            }
             _ => Vec::new(),
         };
         match token.text {
