@@ -27,11 +27,11 @@ fn compiler() -> Compiler {
 fn ways(path: &str, text: &str, files: &dyn FileSource) -> Vec<FoundWay> {
     let compiler = compiler();
     let loaded = |text: &str| load(path, &Text(path, text, files), &compiler);
-    let Loaded { scene, sources, diagnostics, .. } = loaded(text);
+    let Loaded { scene, diagnostics, .. } = loaded(text);
     let messages: Vec<String> = diagnostics.iter().map(|one| one.message.clone()).collect();
     let Some(scene) = scene else { panic!("{path}: {messages:?}") };
     let load = |text: &str| loaded(text).scene;
-    found(&Origin { name: "scene", scene: &scene, sources: &sources, text, compiler: &compiler, load: &load })
+    found(&Origin { name: "scene", scene: &scene, text, load: &load })
 }
 
 fn picture(scene: &Scene, precision: Precision) -> Picture {
