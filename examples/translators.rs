@@ -24,7 +24,7 @@ use std::process::{Command, ExitCode, Stdio};
 /// The stages that are translated.
 const STAGES: [Stage; 2] = [Stage::Vertex, Stage::Fragment];
 
-/// What became of the stages of one translator.
+/// The fates of the stages of one translator.
 #[derive(Default)]
 struct Row {
     stages: u32,

@@ -2,9 +2,10 @@
 // kind: light
 // equation: (94), (95), (96): r = |P_l - P|, d = 1 / r^2, d = 1 / (s_c + s_l r + s_q r^2)
 // source: textbook, section 10.1.5
-// stability: the literal (96) is NaN for a zero weight once r^2 overflows; this is correct up to rounding for every r
+// stability: the literal (96) is NaN for a zero weight once r^2 overflows; this is correct to rounding of normal floats
 //
-// Outside the model: r = 0 in (95), and weights of (96) that are all zero, yield the largest float.
+// Outside the model: r = 0 in (95), and weights of (96) that are all zero, yield the largest float. A GPU may take a
+// sum of (96) below the smallest normal float, 2^-126, for zero, too, and a result below it.
 #ifndef GLISTEN_ATTENUATION
 #define GLISTEN_ATTENUATION
 #include "safe.glsl"

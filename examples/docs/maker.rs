@@ -7,7 +7,7 @@ use super::regions::Maker;
 use glisten::diagnostic::{Severity, codes};
 use glisten::library;
 use glisten_front::builtin;
-use glisten_reference::domain::{faults, rules};
+use glisten_reference::domain::{faults, fitted, rules};
 use std::fmt::Write;
 use std::path::PathBuf;
 use std::process::Command;
@@ -24,11 +24,16 @@ enum Source {
     Measured(&'static [&'static str]),
     /// From the output of a benchmark with an argument.
     Bench(&'static str, &'static str),
+    /// From the output of an example with arguments.
+    Example(&'static str, &'static [&'static str]),
 }
 
 static REGIONS: &[(&str, Source)] = &[
+    ("claims", Source::Example("claims", &[])),
+    ("claims-time", Source::Example("claims", &["time"])),
     ("codes", Source::Tables(diagnostics)),
     ("faults", Source::Tables(known_faults)),
+    ("fitted", Source::Tables(fitted_constants)),
     ("library", Source::Output(&["lib", "list"])),
     ("library-errors", Source::Measured(&["lib", "measure", "--backend", "gpu"])),
     ("library-stability", Source::Examined(super::numerics::equations)),
@@ -69,12 +74,22 @@ impl Generator {
 
     /// The output of a benchmark.
     fn bench(&self, name: &str, argument: &str) -> Result<String, String> {
+        self.cargo(name, &["bench", "--quiet", "--bench", name, "--", argument])
+    }
+
+    /// The output of an example.
+    fn example(&self, name: &str, arguments: &[&str]) -> Result<String, String> {
+        self.cargo(name, &[&["run", "--quiet", "--release", "--example", name, "--"], arguments].concat())
+    }
+
+    /// The output of what cargo builds and runs.
+    fn cargo(&self, name: &str, arguments: &[&str]) -> Result<String, String> {
         let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
         let mut command = Command::new(cargo);
-        command.args(["bench", "--quiet", "--bench", name, "--", argument]).current_dir(&self.root);
+        command.args(arguments).current_dir(&self.root);
         let output = command.output().map_err(|error| format!("cargo cannot run: {error}"))?;
         if !output.status.success() {
-            return Err(format!("the benchmark `{name}` fails: {}", String::from_utf8_lossy(&output.stderr)));
+            return Err(format!("`{name}` fails: {}", String::from_utf8_lossy(&output.stderr)));
         }
         Ok(String::from_utf8_lossy(&output.stdout).into_owned())
     }
@@ -105,7 +120,11 @@ impl Maker for Generator {
                 let text = self.run(arguments)?;
                 self.make(format!("```text\n{}\n```", text.trim_end()))
             }
-            Source::Measured(_) | Source::Bench(..) if !self.measured => self.leave(),
+            Source::Measured(_) | Source::Bench(..) | Source::Example(..) if !self.measured => self.leave(),
+            Source::Example(name, arguments) => {
+                let text = self.example(name, arguments)?;
+                self.make(text)
+            }
             Source::Bench(name, argument) => {
                 let text = self.bench(name, argument)?;
                 self.make(text)
@@ -147,6 +166,15 @@ fn pipeline() -> String {
         let _ = writeln!(out, "| {} | {} | {} |", step.operation, step.describe(), step.source);
     }
     out
+}
+
+fn fitted_constants() -> String {
+    let mut text = "| constant | value | profile | measured by |\n| --- | --- | --- | --- |\n".to_owned();
+    for row in fitted::FITTED {
+        let value = format!("{} {}", row.value, row.unit);
+        let _ = writeln!(text, "| {} | {} | {} | {} |", row.what, value.trim(), row.profile, row.measured);
+    }
+    text
 }
 
 fn known_faults() -> String {

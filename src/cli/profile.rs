@@ -9,11 +9,11 @@ use glisten_reference::domain::Profile;
 /// The choices.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(super) enum ProfileChoice {
-    /// What every implementation of Vulkan may draw
+    /// Every implementation of Vulkan
     Vulkan,
-    /// What every implementation of WGSL may draw: derivatives have no accuracy there
+    /// Every implementation of WGSL, where derivatives have no accuracy
     Wgsl,
-    /// What this device may draw: the specifications with the limits that it reports
+    /// This device: the specifications with the limits that it reports
     #[default]
     Device,
 }

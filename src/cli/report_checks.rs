@@ -22,7 +22,7 @@ pub(super) struct CheckArgs {
     budget: Option<String>,
 }
 
-/// What the arguments name.
+/// The earlier report and the limits that the arguments name.
 pub(super) struct Checks {
     past: Option<(String, Past)>,
     budget: Option<(String, Budget)>,

@@ -236,7 +236,7 @@ pub(super) fn run(args: &VerifyArgs, console: &Console) -> Outcome {
         ResultFormat::Human => {
             let mut text = told::told(&verification, &runs, &skipped, forms_bit_unequal);
             let notes = [
-                verification.note.as_ref().filter(|_| !holds),
+                verification.note.as_ref().filter(|_| verification.fails()),
                 verification.weakness.as_ref().and_then(|w| w.note.as_ref()),
             ];
             for note in notes.into_iter().flatten() {

@@ -1,6 +1,6 @@
 //! Times all ways of a report, in rounds.
 //!
-//! *In:* ways on the device. *Out:* their times round by round, and those of a second copy of the first way.
+//! *In:* ways on the device, and an empty frame. *Out:* their times round by round, and those of a second copy of the first way.
 //!
 //! *Holds:* each round times every way once, in an order by chance with a fixed seed, so that no way always follows the same
 //! other way. A time is the mean of as many frames as last tens of milliseconds. Rounds go on until the interval of every
@@ -50,6 +50,8 @@ pub(super) struct Times {
     pub(super) ways: Vec<Vec<f64>>,
     /// Of the second copy of the first way.
     pub(super) again: Vec<f64>,
+    /// Of a frame that only clears, if it is measured.
+    pub(super) empty: Vec<f64>,
     /// Why there were no more rounds.
     pub(super) ended: Ended,
 }
@@ -78,28 +80,32 @@ impl Times {
     }
 }
 
-/// Times all ways; the steps of the watcher are those before it and one a round. An error names the way by its number.
+/// Times all ways and the empty frame; the steps of the watcher are those before it and one a round. An error names the way by
+/// its number.
 pub(super) fn time(
     gpu: &Gpu,
-    candidates: &[Candidate],
+    (candidates, empty): (&[Candidate], Option<&Candidate>),
     limits: Limits,
     (before, watcher): (usize, &mut dyn Watcher),
 ) -> Result<Times, (usize, Error)> {
-    let mut times = Times { ways: vec![Vec::new(); candidates.len()], again: Vec::new(), ended: Ended::Rounds };
+    let mut times =
+        Times { ways: vec![Vec::new(); candidates.len()], again: Vec::new(), empty: Vec::new(), ended: Ended::Rounds };
+    // The second copy of the baseline, and then the empty frame, are numbered after the ways.
+    let turns: Vec<&Candidate> = candidates.iter().chain(candidates.first()).chain(empty).collect();
     let mut random = Random::new(SEED);
     let start = Instant::now();
     let limits = Limits { rounds: limits.rounds.max(FEWEST), ..limits };
     loop {
         let rounds = times.rounds();
         times.ended = match &times {
-            _ if watcher.is_stopped() => Ended::Stopped,
+            _ if watcher.is_stopped() || turns.is_empty() => Ended::Stopped,
             times if rounds >= DECIDING.min(limits.rounds) && times.widest() < NARROW => Ended::Narrow,
             _ if rounds >= limits.rounds => Ended::Rounds,
             _ if rounds >= FEWEST && start.elapsed() >= limits.time => Ended::Seconds,
             _ => {
                 watcher.steps(before + expected(&times, limits, start.elapsed()) as usize);
                 watcher.step(&format!("timing, round {}", rounds + 1));
-                round(gpu, candidates, &mut random, &mut times, watcher)?;
+                round(gpu, &turns, &mut random, &mut times, watcher)?;
                 continue;
             }
         };
@@ -110,27 +116,24 @@ pub(super) fn time(
 /// One round; it counts only if it is complete.
 fn round(
     gpu: &Gpu,
-    candidates: &[Candidate],
+    turns: &[&Candidate],
     random: &mut Random,
     times: &mut Times,
     watcher: &dyn Watcher,
 ) -> Result<(), (usize, Error)> {
-    let count = candidates.len();
-    let mut measured = vec![0.0; count + 1];
-    for turn in random.permutation(count + 1) {
+    let mut measured = vec![0.0; turns.len()];
+    for turn in random.permutation(turns.len()) {
         if watcher.is_stopped() {
             return Ok(());
         }
-        // The number after the last is the second copy of the baseline.
-        let number = if turn == count { 0 } else { turn };
-        let Some(candidate) = candidates.get(number) else { continue };
-        let time = gpu.measure(&candidate.prepared, candidate.frames).map_err(|error| (number, error))?;
-        if let Some(slot) = measured.get_mut(turn) {
-            *slot = time;
+        if let (Some(candidate), Some(slot)) = (turns.get(turn), measured.get_mut(turn)) {
+            *slot = gpu.measure(&candidate.prepared, candidate.frames).map_err(|error| (turn, error))?;
         }
     }
-    times.again.extend(measured.pop());
+    let others = measured.split_off(times.ways.len().min(measured.len()));
     times.ways.iter_mut().zip(measured).for_each(|(times, time)| times.push(time));
+    times.again.extend(others.first());
+    times.empty.extend(others.get(1));
     Ok(())
 }
 
@@ -154,7 +157,7 @@ mod tests {
     fn times(rounds: usize, noise: f64) -> Times {
         let mut random = Random::new(4);
         let mut series = || (0..rounds).map(|_| 1.0 + noise * random.unit()).collect::<Vec<f64>>();
-        Times { ways: vec![vec![1.0; rounds], series()], again: series(), ended: Ended::Rounds }
+        Times { ways: vec![vec![1.0; rounds], series()], again: series(), empty: Vec::new(), ended: Ended::Rounds }
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! What got worse since an earlier report.
+//! Tells what got worse since an earlier report.
 //!
 //! *In:* a report and an earlier one of the same scene. *Out:* a [`Comparison`]: lines that say what got worse, and notes.
 //!
@@ -9,14 +9,14 @@
 use super::model::Report;
 use super::past::{Past, PastFigures, PastWay, PastWork};
 
-/// What is different from an earlier report.
+/// The differences from an earlier report.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Comparison {
-    /// What got worse, a line each.
+    /// The figures that got worse, a line each.
     pub worse: Vec<String>,
-    /// How many figures got better.
+    /// The number of figures that got better.
     pub better: usize,
-    /// What else a reader should know, a line each.
+    /// Further facts for the reader, a line each.
     pub notes: Vec<String>,
 }
 
@@ -146,7 +146,7 @@ mod tests {
         Past::of(&example()).expect("a report can be read")
     }
 
-    /// What is worse, from a report in which one way was changed to an earlier one.
+    /// The lines of what is worse, from a report in which one way was changed to an earlier one.
     fn worse(change: impl FnOnce(&mut Report)) -> Vec<String> {
         let mut report = example();
         change(&mut report);

@@ -23,7 +23,7 @@ pub(super) struct Draw {
     pub(super) candidate: Candidate,
 }
 
-/// What was drawn so far.
+/// The truths and ways that were drawn so far.
 pub(super) struct Drawing<'a> {
     pub(super) gpu: &'a Gpu,
     pub(super) options: &'a Options,
@@ -75,6 +75,15 @@ impl Drawing<'_> {
             }),
         }
         Ok(())
+    }
+
+    /// A frame that only clears, on the device.
+    pub(super) fn empty(&self) -> Option<Candidate> {
+        let scene = &self.done.first()?.way.scene;
+        let empty = Scene { name: scene.name.clone(), framebuffer: scene.framebuffer, draws: Vec::new() };
+        let prepared = self.gpu.prepare(&empty, self.options.via).ok()?;
+        let frames = self.gpu.frames_for_a_stretch(&prepared).ok()?;
+        Some(Candidate { prepared, frames })
     }
 
     fn drawn(&mut self, planned: &PlannedWay, scene: &Scene, watcher: &mut dyn Watcher) -> Result<Draw, Error> {

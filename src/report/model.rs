@@ -97,6 +97,8 @@ pub struct Timing {
     pub baseline: String,
     /// Its median time in milliseconds per frame.
     pub baseline_ms: f64,
+    /// The median time of a frame that only clears: a part of every way's time.
+    pub empty_ms: f64,
     /// How often all ways were drawn, each round in an order by chance.
     pub rounds: u32,
     /// The seed of the orders.
@@ -143,7 +145,7 @@ pub struct Way {
     pub name: String,
     /// The kind of way in a word: `declared` in the scene, or that of a way that was found.
     pub kind: &'static str,
-    /// What is done in a sentence, if there is more to say than the name.
+    /// A sentence on what is done, if there is more to say than the name.
     pub about: String,
     /// The model, which selects the truth.
     pub model: String,
@@ -153,7 +155,7 @@ pub struct Way {
     pub vertices: u64,
     /// How often the fragment stage ran in a frame; null if the adapter does not count.
     pub fragments: Option<u64>,
-    /// What the reference executes for the picture.
+    /// The work of the reference for the picture.
     pub work: Work,
     /// The GPU's picture compared with the truth.
     pub error: Figures,
@@ -187,7 +189,7 @@ pub struct Way {
     pub difference: Vec<Option<f64>>,
 }
 
-/// What the reference executes for a picture: the same on every machine.
+/// The work of the reference for a picture: the same on every machine.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Work {
     /// Invocations of the vertex stage, one for each distinct vertex of an instance.

@@ -1,4 +1,4 @@
-//! What a report is asked for: [`Options`], a [`Watcher`], and why there may be none.
+//! The demands on a report: [`Options`], a [`Watcher`]; and the [`Error`]s for which there may be none.
 
 use super::model::Machine;
 use super::weights::Weights;
@@ -64,7 +64,7 @@ pub enum Ways {
     Auto,
 }
 
-/// What to compare, and how.
+/// The ways to compare, and how to measure them.
 #[derive(Clone, Debug)]
 pub struct Options {
     /// The form of the emitted code that the GPU runs.

@@ -96,7 +96,7 @@ impl PastWay {
         }
     }
 
-    /// What tells it from others.
+    /// The part that tells it from others.
     pub(super) fn key(&self) -> (&str, &str, Option<[u32; 2]>) {
         (&self.model, &self.name, self.tessellation)
     }

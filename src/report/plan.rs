@@ -47,7 +47,7 @@ pub(super) struct Plan {
     pub(super) text: String,
 }
 
-/// What to draw.
+/// A scene, loaded or not.
 #[derive(Clone, Debug)]
 pub(super) enum Drawn {
     /// The text of a scene file, at the place of the scene's own.
@@ -62,7 +62,7 @@ pub(super) struct PlannedWay {
     pub(super) name: String,
     /// The kind of the way in a word: `declared` for those of the scene's file.
     pub(super) kind: &'static str,
-    /// What is done in a sentence, if there is more to say than the name.
+    /// A sentence on what is done, if there is more to say than the name.
     pub(super) about: String,
     pub(super) model: String,
     pub(super) tessellation: Option<[u32; 2]>,

@@ -59,7 +59,7 @@ pub(crate) fn difference_uri(differences: &[Option<f64>], width: u32, height: u3
 }
 
 /// The color of a difference.
-fn scale_color(difference: f64, Decades { low, high }: Decades) -> [u8; 3] {
+pub(super) fn scale_color(difference: f64, Decades { low, high }: Decades) -> [u8; 3] {
     let part = (difference.max(f64::MIN_POSITIVE).log10() - f64::from(low)) / f64::from(high - low);
     let place = part.clamp(0.0, 1.0) * (SCALE.len() - 1) as f64;
     let index = (place as usize).min(SCALE.len() - 2);
@@ -68,7 +68,8 @@ fn scale_color(difference: f64, Decades { low, high }: Decades) -> [u8; 3] {
     std::array::from_fn(|i| (f64::from(low[i]) * (1.0 - mix) + f64::from(high[i]) * mix).round() as u8)
 }
 
-fn data_uri(pixels: &[[u8; 3]], width: u32, height: u32) -> String {
+/// The PNG data URI of some pixels.
+pub(super) fn data_uri(pixels: &[[u8; 3]], width: u32, height: u32) -> String {
     // Writing to memory fails only if the sizes disagree; an empty picture shows that better than no page at all.
     let png = png_rgb(width, height, pixels, Effort::Fast).unwrap_or_default();
     format!("data:image/png;base64,{}", base64(&png))

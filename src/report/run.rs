@@ -51,11 +51,11 @@ pub fn run(
         time: options.time.unwrap_or(Limits::default().time),
     };
     let all = drawing.done.len() + drawing.skipped.len() == drawn;
-    let steps = drawing.steps;
+    let (steps, empty) = (drawing.steps, drawing.empty());
     let Drawing { truths, done, skipped, .. } = drawing;
     let (mut ways, candidates): (Vec<Way>, Vec<Candidate>) =
         done.into_iter().map(|Draw { way, candidate }| (way, candidate)).unzip();
-    let times = time(gpu, &candidates, limits, (steps, watcher))
+    let times = time(gpu, (&candidates, empty.as_ref()), limits, (steps, watcher))
         .map_err(|(number, error)| Error::Gpu { way: ways.get(number).map(Way::title).unwrap_or_default(), error })?;
     let timing = settle(&mut ways, &truths, times);
     let framebuffer = whole.scene.map(|scene| scene.framebuffer);
@@ -113,6 +113,7 @@ fn settle(ways: &mut [Way], truths: &[Truth], times: Times) -> Timing {
     Timing {
         baseline: ways.first().map(Way::title).unwrap_or_default(),
         baseline_ms: ways.first().map_or(f64::NAN, |way| way.milliseconds),
+        empty_ms: spread(&times.empty).median,
         rounds: times.rounds(),
         seed: SEED,
         ended: times.ended,

@@ -65,10 +65,12 @@ fn times(timing: &Timing) -> String {
     };
     let [low, high] = timing.same_again.interval.map(|end| figure(end, 2));
     format!(
-        "time: ratios to `{}` ({} ms), median of {} rounds ({ended}) and its interval; the same again: {} ({low}-{high})\n\
+        "time: ratios to `{}` ({} ms; a frame that only clears: {} ms), median of {} rounds ({ended}) and its\n\
+         interval; the same again: {} ({low}-{high})\n\
          front: no way of the model is nearer to the truth and takes less work, or less time by {:.0} % beyond doubt\n",
         timing.baseline,
         figure(timing.baseline_ms, 3),
+        figure(timing.empty_ms, 3),
         timing.rounds,
         figure(timing.same_again.median, 2),
         timing.margin * 100.0,

@@ -107,7 +107,7 @@ impl Weights {
         Self::default().with(text)
     }
 
-    /// What the file calls itself.
+    /// The name that the file gives itself.
     pub fn name(&self) -> &str {
         &self.name
     }

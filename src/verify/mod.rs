@@ -76,7 +76,7 @@ pub struct Options<'a> {
     pub demands: Demands,
     /// Whether a picture of which too little was judged is accepted, such as one in which no pixel is covered. Default: no.
     pub allow_inconclusive: bool,
-    /// What the device may do where the specifications leave it open. Default: what Mesa's llvmpipe does.
+    /// The freedoms of the device where the specifications leave something open. Default: those of Mesa's llvmpipe.
     pub profile: Profile,
     /// The largest width of the envelope of a judged pixel. Default: 1/255 of the range of the picture's values.
     pub width: Option<f64>,

@@ -172,7 +172,7 @@ fn measured_rules_rest_on_what_the_driver_does() {
         let found = error(&gpu, &format!("void main() {{ {angle} color = vec4({body}); }}"), 0);
         measured(what, found, rules::SIN.absolute(), "");
     }
-    for name in ["quad_smooth.toml", "triangle.toml", "core/depth_less.toml"] {
+    for name in ["quad_smooth.toml", "triangle.toml", "core/depth_less.toml", "core/derivatives.toml"] {
         let scene = from_disk(format!("fixtures/scenes/{name}"));
         let used = shares(&drawn(&gpu, &scene), &reference(&scene, Precision::Envelope), Criterion::Envelope);
         let used = used.into_iter().filter(|share| share.is_finite()).fold(0.0, f64::max);
@@ -186,4 +186,106 @@ fn measured_rules_rest_on_what_the_driver_does() {
     let pairs = picture.attachments[0].iter().flatten().zip(exact.attachments[0].iter().flatten());
     let found = pairs.map(|(gpu, cpu)| (gpu - cpu).abs()).fold(0.0, f64::max);
     measured("linear filtering of floats", found, Profile::LLVMPIPE.filter_weight(), "times the range of the texels");
+}
+
+/// Whether each channel of each pixel lies in its envelope.
+#[track_caller]
+fn assert_inside(name: &str, picture: &Picture, envelope: &Picture) {
+    let intervals = &envelope.intervals.as_ref().expect("it has envelopes")[0];
+    for (pixel, (drawn, intervals)) in picture.attachments[0].iter().zip(intervals).enumerate() {
+        for (drawn, interval) in drawn.iter().zip(intervals) {
+            assert!(interval.contains(*drawn), "{name}, pixel {pixel}: {drawn:e} is not in {interval:?}");
+        }
+    }
+}
+
+/// Mesa combines the constants of a chain, as Vulkan and WGSL allow.
+#[test]
+fn constants_of_a_chain_may_be_combined() {
+    let gpu = gpu();
+    for (name, body) in [
+        ("products", "float x = 1e-30 * (1.0 + place.x); color = vec4((x * 1e30) * 1e30);"),
+        ("small products", "float x = 1e35 * (1.0 + place.x); color = vec4((x * 1e-25) * 1e-25);"),
+        ("sums", "float x = 1e38 * (1.0 + place.x); color = vec4((x - 3e38) - 3e38);"),
+        ("more terms", "color = vec4(((place.x * 1e30) * (1.0 + place.y)) * 1e20);"),
+        ("quotients", "color = vec4((place.x / 1e-30) / 1e-30);"),
+    ] {
+        let scene = square(&format!("void main() {{ {body} }}"), "rgba32float");
+        let envelope = reference(&scene, Precision::Envelope);
+        for via in [Via::Spirv, Via::Wgsl] {
+            assert_inside(name, &gpu.render(&scene, via).expect("it draws").picture, &envelope);
+        }
+    }
+}
+
+/// The widest channel of an envelope.
+fn widest(scene: &Scene, profile: Profile) -> f64 {
+    let options = glisten_reference::RenderOptions { profile, ..as_on_vulkan(Precision::Envelope, Faults::NONE) };
+    let picture = glisten_reference::render(scene, &options).expect("the reference draws it");
+    let intervals = &picture.intervals.as_ref().expect("it has envelopes")[0];
+    intervals.iter().flatten().map(|interval| interval.width()).fold(0.0, f64::max)
+}
+
+#[test]
+fn a_profile_allows_what_its_devices_may_do() {
+    let halves = square("void main() { color = vec4(floor(gl_FragCoord.x) / 4.0); }", "rgba32float");
+    assert_eq!(widest(&halves, Profile::LLVMPIPE), 0.0);
+    assert!(widest(&halves, Profile::VULKAN) > 1e-6);
+    let slopes = square("void main() { color = vec4(dFdx(place.x)); }", "rgba32float");
+    assert!(widest(&slopes, Profile::VULKAN) < 1e-5 && widest(&slopes, Profile::WGSL).is_infinite());
+    let reported = gpu().precision().expect("lavapipe reports its limits");
+    assert_eq!(
+        Profile::of_device("llvmpipe", Some(reported.bits())),
+        Profile::LLVMPIPE,
+        "the table is what it reports"
+    );
+}
+
+/// An error that both fragments of a derivative share does not count: the difference is as narrow as the rounding of its operands.
+#[test]
+fn fragments_of_a_derivative_lie_on_one_plane() {
+    let gpu = gpu();
+    for (body, most) in [("dFdx(place.x)", 1e-6), ("dFdy(3.0 * place.y - 1.0)", 4e-6), ("fwidth(place.x / 3.0)", 2e-6)]
+    {
+        let scene = square(&format!("void main() {{ color = vec4({body}); }}"), "rgba32float");
+        let width = widest(&scene, Profile::LLVMPIPE);
+        assert!(width > 0.0 && width < most, "{body}: {width:e}");
+        assert_inside(body, &drawn(&gpu, &scene), &reference(&scene, Precision::Envelope));
+    }
+}
+
+/// A surface drawn twice, the second time where depth is equal: decided, if the positions are invariant.
+#[test]
+fn a_prepass_decides_depth() {
+    let vertex = |invariant: &str| {
+        format!(
+            "#version 150\n{invariant}\nin vec3 p;\nuniform mat4 m;\nout vec3 n;\nvoid main() {{ n = p; gl_Position = m * vec4(p, 1); }}\n"
+        )
+    };
+    let draws = |function: &str| {
+        let mesh = "cull = \"back\"\ndepth_test = true\n[draw.mesh]\nshape = \"sphere\"\nposition = \"p\"\n\
+                    [draw.matrices]\nm = \"model_view_projection\"\n";
+        format!(
+            "framebuffer = {{ width = 48, height = 48 }}\n[camera]\neye = [0.4, 0.5, 4.0]\ntarget = [0.0, 0.0, 0.0]\nfovy = 32.0\nnear = \
+             1.0\nfar = 10.0\n[[draw]]\nvertex = \"a.vert\"\nfragment = \"dark.frag\"\n{mesh}[[draw]]\nvertex = \"a.vert\"\nfragment = \
+             \"lit.frag\"\ndepth_func = \"{function}\"\ndepth_write = false\n{mesh}"
+        )
+    };
+    let dark = "#version 150\nin vec3 n;\nout vec4 color;\nvoid main() { color = vec4(0.1 * n.x); }\n";
+    let lit = "#version 150\nin vec3 n;\nout vec4 color;\nvoid main() { color = vec4(n * 0.5 + 0.5, 1.0); }\n";
+    let undecided = |function: &str, invariant: &str| {
+        let (text, vertex) = (draws(function), vertex(invariant));
+        let scene = crate::drawing::from_texts([
+            ("a.toml", text.as_str()),
+            ("a.vert", vertex.as_str()),
+            ("dark.frag", dark),
+            ("lit.frag", lit),
+        ]);
+        let picture = reference(&scene, Precision::Envelope);
+        picture.undecided.iter().filter(|undecided| **undecided).count()
+    };
+    for function in ["equal", "lequal", "gequal"] {
+        assert_eq!(undecided(function, "invariant gl_Position;"), 0, "{function}");
+    }
+    assert!(undecided("equal", "") > 400, "another program may compute other positions");
 }

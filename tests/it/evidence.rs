@@ -77,9 +77,8 @@ fn noise_is_inconclusive_with_the_line_that_makes_it_so() {
         let (exit, json) = verify(&folder, &["--no-likely"]);
         assert_eq!((exit, &json["verdict"]), (1, &"inconclusive".into()), "{json}");
         let causes = json["weakness"]["contributions"].as_array().expect("they are named");
-        // Either alone suffices: `sin` may be off by 2^-11, and `fract` wraps what interpolation leaves open.
-        let is_named = |one: &Value| one["line"] == 6 && (one["operation"] == "sin" || one["operation"] == "fract");
-        assert!(causes.iter().any(is_named), "{json}");
+        // Several expressions of the line suffice alone; it depends on the pixel which of them is named.
+        assert!(causes.iter().any(|one| one["line"] == 6), "{json}");
         let told = out(&folder.run(&["verify", "a.toml", "--no-likely"]));
         assert!(told.contains("inconclusive: only ") && told.contains("a.frag:6:"), "{told}");
         let (exit, json) = verify(&folder, &["--no-likely", "--allow-inconclusive"]);
@@ -151,7 +150,37 @@ fn modules_of_others_are_judged_or_refused() {
 }
 
 /// Scenes of which too little can be judged, each with the reason.
-const INCONCLUSIVE: &[(&str, &str)] = &[("depth_never", "nothing is covered")];
+const INCONCLUSIVE: &[(&str, &str)] = &[
+    ("cull_back_ccw", NOTHING),
+    ("cull_front_cw", NOTHING),
+    ("depth_equal", NOTHING),
+    ("depth_gequal", NOTHING),
+    ("depth_greater", NOTHING),
+    ("depth_never", NOTHING),
+    ("gamma_8_bits", "a gamma curve is steep, and blending in 8 bits rounds each factor and product"),
+    ("lower_always_discard", NOTHING),
+    ("lower_builtins", "it calls functions where they are undefined or not precise"),
+    ("lower_constants", "it divides by numbers beyond those for which Vulkan has a rule"),
+    ("lower_samplers", FILTERED),
+    ("lower_textures", FILTERED),
+    ("mipmaps_implicit", FILTERED),
+    ("normal_map", "derivatives choose the level of detail, and the texels differ"),
+    ("root_of_negative", "GLSL leaves the root and the power of a negative number undefined"),
+    ("screen_lines", "the lines are as thin as derivatives are uncertain"),
+    ("sphere_trace", "the march may end a step sooner or later, and the normal is a difference"),
+    ("texture_1d", FILTERED),
+    ("texture_3d", FILTERED),
+    ("texture_cube", FILTERED),
+    ("texture_emulated", FILTERED),
+    ("texture_linear", FILTERED),
+    ("texture_trilinear", FILTERED),
+];
+
+/// The scene tests that nothing is drawn.
+const NOTHING: &str = "nothing is covered";
+
+/// A weight of 1/256 between texels far apart is more than 1/255 of the range.
+const FILTERED: &str = "linear filtering between hard contrasts";
 
 #[test]
 fn the_classes_of_every_scene_add_up() {

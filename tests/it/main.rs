@@ -44,6 +44,8 @@ mod multisample;
 mod mutation;
 #[cfg(feature = "gpu")]
 mod mutations;
+#[cfg(feature = "gpu")]
+mod numeric;
 #[cfg(feature = "gl")]
 mod opengl;
 mod operations;
@@ -60,7 +62,12 @@ mod read_back;
 mod readme;
 #[cfg(feature = "cli")]
 mod report;
+#[cfg(feature = "cli")]
 mod report_checks;
+#[cfg(feature = "cli")]
+mod report_page;
+#[cfg(feature = "cli")]
+mod report_ways;
 #[cfg(feature = "reference")]
 mod scenes;
 #[cfg(feature = "cli")]
@@ -84,5 +91,7 @@ mod targets;
 mod tutorial;
 #[cfg(feature = "cli")]
 mod wgsl;
+#[cfg(feature = "reference")]
+mod widths;
 mod witness;
 mod words;

@@ -66,8 +66,6 @@ fn error_against_run_time_of_a_sphere() {
     assert_eq!(conforms(&report, &schema, "report"), [""; 0]);
     assert!(conforms(&serde_json::json!({ "ways": [{}] }), &schema, "broken").len() > 20, "the check finds nothing");
     assert_eq!(report["complete"], true);
-    let page = std::fs::read_to_string(folder.path().join("out/report.html")).expect("report.html");
-    assert!(page.contains("<svg viewBox") && page.matches("data:image/png;base64,").count() == 2 + 2 * 8);
 }
 
 #[test]

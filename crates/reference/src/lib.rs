@@ -75,7 +75,7 @@ pub struct RenderOptions {
     pub faults: Faults,
     /// Whose positions decide coverage.
     pub positions: Positions,
-    /// What the device may do where the specifications leave it open.
+    /// The freedom of the device where the specifications leave it open.
     pub profile: Profile,
 }
 

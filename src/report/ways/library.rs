@@ -54,8 +54,8 @@ const SCENE: &str = r#"
 global_ambient = [0.03, 0.03, 0.04]
 
 [framebuffer]
-width = 320
-height = 320
+width = 240
+height = 240
 clear = [0.009, 0.01, 0.015, 1.0]
 encode = "srgb"
 

@@ -16,6 +16,9 @@ use std::fmt;
 /// The largest uniform block in bytes (WebGPU's `maxUniformBufferBindingSize`).
 const MAX_BLOCK: u32 = 65_536;
 
+/// More locations than any stage passes.
+const MAX_LOCATIONS: u32 = 256;
+
 /// An input or output with a location.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Slot {
@@ -84,15 +87,26 @@ fn slots(
         return members.iter().try_for_each(|member| slots(module, member.ty, member.binding.as_ref(), to));
     }
     let Some(&Binding::Location { location, interpolation, sampling, .. }) = binding else { return Ok(()) };
-    let (scalar, components) = match module.types[ty].inner {
-        TypeInner::Scalar(scalar) => (scalar, 1),
-        TypeInner::Vector { size, scalar } => (scalar, size as u8),
+    // A matrix has a location for each column, an array for each element (GLSL 1.50 §4.3.4, Vulkan: Location Assignment).
+    let (ty, count) = match module.types[ty].inner {
+        TypeInner::Array { base, size: ArraySize::Constant(count), .. } => (base, count.get()),
+        _ => (ty, 1),
+    };
+    let (scalar, components, columns) = match module.types[ty].inner {
+        TypeInner::Scalar(scalar) => (scalar, 1, 1),
+        TypeInner::Vector { size, scalar } => (scalar, size as u8, 1),
+        TypeInner::Matrix { columns, rows, scalar } => (scalar, rows as u8, columns as u32),
         _ => return Err(format!("location {location} has a type that no stage passes")),
     };
-    match to.insert(location, Slot { scalar, components, interpolation, sampling }) {
-        Some(_) => Err(format!("two inputs or outputs have location {location}")),
-        None => Ok(()),
+    if count > MAX_LOCATIONS || location > MAX_LOCATIONS {
+        return Err(format!("location {location} is beyond all that a stage passes"));
     }
+    for location in location..location + count * columns {
+        if to.insert(location, Slot { scalar, components, interpolation, sampling }).is_some() {
+            return Err(format!("two inputs or outputs have location {location}"));
+        }
+    }
+    Ok(())
 }
 
 /// The scalars of a uniform block.

@@ -23,6 +23,7 @@
 mod big;
 mod envelope;
 pub mod faults;
+pub mod fitted;
 mod integer;
 mod lanes;
 mod number;

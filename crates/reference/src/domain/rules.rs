@@ -66,6 +66,8 @@ steps! { PIPELINE: "The rows of the specifications.";
 steps! { OWN: "Rules where no specification speaks. `cargo test --test it -- envelope::measured --nocapture` prints the measurements again.";
     VARYING = "interpolation of varyings, depth", OfUlps(2.0),
         "of the largest term of a plane equation from the window's corner: its slope times the distance, and the value; measured: up to 12 % of that";
+    SLOPE = "difference of a varying between fragments of a quad", OfUlps(0.5),
+        "for each fragment, of the value and of the terms of the plane there: its value at the window's corner, and its slope times the distance; besides, the error of the slope; measured: up to 35 % of that";
     SNAPPING = "vertices that varyings are interpolated between, in pixels", OfSize(0.0),
         "where they are computed to be, not where they are snapped for coverage; measured: 1e-4 pixel, 1/512 of snapping would be 2e-3";
     POINT_COORD = "gl_PointCoord", OfSize(4.768_371_582_031_25e-7), "four ULP of 1; measured: within 1 ULP";

@@ -21,7 +21,7 @@ pub(super) enum PoolSource {
     Uniform(RootIndex, u32),
 }
 
-/// What a stage is compiled for. The numbers are the same.
+/// The purpose for which a stage is compiled. The numbers are the same.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Form {
     /// Speed.
@@ -83,6 +83,8 @@ pub(super) struct Inner {
     /// Registers that contain one number of the pool in all lanes.
     pub(super) splats: Vec<(Class, usize, Operand)>,
     pub(super) inputs: Vec<Port>,
+    /// The registers with the noise of inputs.
+    pub(super) noises: Vec<Port>,
     pub(super) outputs: Vec<Port>,
     pub(super) mask_slots: usize,
 }
@@ -101,6 +103,11 @@ impl Section {
 }
 
 impl Inner {
+    /// The ports that are filled in before a run.
+    pub(super) fn given(&self) -> impl Iterator<Item = &Port> {
+        self.inputs.iter().chain(&self.noises)
+    }
+
     #[inline(always)]
     pub(super) fn words(&self, list: List) -> &[u32] {
         self.words.get(list.start as usize..(list.start + list.len) as usize).unwrap_or(&[])

@@ -4,6 +4,7 @@ use super::code::Section;
 use super::inst::{Compare, Derivative, Float1, Float2, Float3, FloatToInt, Inst, Int1, Int2, IntToFloat, Operand};
 use super::registers::{Filled, Registers, blocks1, blocks2, blocks3, calls1, calls2, calls3, copy, map1, map2, map3};
 use super::{DFDY_SIGN, LANES};
+use crate::domain::rules;
 use crate::domain::{Block, Domain, Element, Integer, Lanes, Number, NumberBlock, Source};
 use glisten_scene::picture::Interval;
 
@@ -178,13 +179,51 @@ fn compare_with_itself<N: Number>(op: Compare, out: &mut Lanes<N::Int>, a: Sourc
     }
 }
 
-/// Differences in quads, separately for each row and column.
-fn derivative<N: Number>(op: Derivative, out: &mut Lanes<N>, a: Source<'_, N>) {
-    let up = |upper: N, lower: N| if DFDY_SIGN < 0.0 { upper.sub(lower) } else { lower.sub(upper) };
+/// The difference of two numbers, whose errors are at most `apart` from each other.
+fn difference<N: Number>(a: N, b: N, apart: Option<f64>) -> N {
+    let plain = a.sub(b);
+    let Some(apart) = apart else { return plain };
+    let value = a.value() - b.value();
+    let (wide, near) = (plain.interval(), N::with_error(value, apart).interval());
+    let (low, high) = (wide.low.max(near.low), wide.high.min(near.high));
+    if low <= high { N::with_interval(value, Interval { low, high, ..wide }) } else { plain }
+}
+
+/// The noise of a sum of terms: that of each times its factor, and the roundings of the sum itself.
+fn noise<D: Domain>(
+    this: &Registers<D>,
+    of: Source<'_, Float<D>>,
+    roundings: f64,
+    terms: &[Operand],
+    out: &mut Lanes<Float<D>>,
+) {
+    let largest = |number: Float<D>| {
+        let interval = number.interval();
+        interval.low.abs().max(interval.high.abs())
+    };
+    let term = |pair: &[Operand], lane: usize| match pair {
+        [noise, factor] => this.float(*noise).at(lane).value() * largest(this.float(*factor).at(lane)),
+        _ => f64::INFINITY,
+    };
+    out.update(|lane, _| {
+        let own = roundings * rules::ulp(largest(of.at(lane)));
+        let sum: f64 = terms.chunks(2).map(|pair| term(pair, lane)).sum();
+        Number::integer_with_interval(sum + own, Interval::point(sum + own))
+    });
+}
+
+/// Differences in quads, separately for each row and column. With the noise of the numbers, the errors of two of them
+/// are at most its sum apart.
+fn derivative<N: Number>(op: Derivative, out: &mut Lanes<N>, a: Source<'_, N>, noise: Option<Source<'_, N>>) {
     for quad in (0..LANES).step_by(4) {
-        let [a0, a1, a2, a3] = [0, 1, 2, 3].map(|place| a.at(quad + place));
-        let (top, bottom) = either(a1.sub(a0), a3.sub(a2));
-        let (left, right) = either(up(a0, a2), up(a1, a3));
+        let less = |one: usize, other: usize| {
+            let (one, other) = (quad + one, quad + other);
+            let apart = noise.map(|noise| noise.at(one).value() + noise.at(other).value());
+            difference(a.at(one), a.at(other), apart)
+        };
+        let up = |upper: usize, lower: usize| if DFDY_SIGN < 0.0 { less(upper, lower) } else { less(lower, upper) };
+        let (top, bottom) = either(less(1, 0), less(3, 2));
+        let (left, right) = either(up(0, 2), up(1, 3));
         let (bottom, right) = if N::coarse() { (top, left) } else { (bottom, right) };
         let differences = match op {
             Derivative::X => [top, top, bottom, bottom],
@@ -311,9 +350,18 @@ impl<D: Domain> Registers<D> {
             Inst::Composite { op, size, results, arguments } => {
                 self.composite(op, size, section.list(results), section.list(arguments));
             }
-            Inst::Derivative { op, dst, a } => self.write_float(dst, |this, out| {
+            Inst::Noise { .. } if !D::HAS_INTERVALS => {}
+            Inst::Noise { dst, of, divides, list } => {
+                let roundings = if divides { rules::DIV.ulps() } else { 1.0 };
+                self.write_float(dst, |this, out| {
+                    noise(this, this.float(of), roundings, section.list(list), out);
+                    Filled::Lanes
+                });
+            }
+            Inst::Derivative { op, dst, a, noise } => self.write_float(dst, |this, out| {
                 // Infinity and envelopes have differences other than 0, even if all lanes are equal.
-                derivative(op, out, this.float(a));
+                let noise = noise.filter(|_| D::HAS_INTERVALS).map(|noise| this.float(noise));
+                derivative(op, out, this.float(a), noise);
                 if D::HAS_INTERVALS && !this.profile.limits_differences {
                     out.update(|_, number| Number::with_interval(number.value(), Interval::ALL));
                 }

@@ -1,75 +1,17 @@
-//! [`Step`]: what a machine executes, for those who count.
+//! Tells an observer which steps a machine executes.
 //!
 //! *In:* instructions as they run, of code in the counted form. *Out:* a [`Step`] for each that is an operation of the text.
 //!
-//! *Holds:* copies, masks and what no output depends on are no steps. Names are those of the table of operations, and of
-//! [`Step::OTHERS`] for what that table does not have.
+//! *Holds:* copies, masks and what no output depends on are not steps.
 
 use super::code::{Inner, Section};
 use super::inst::{Composite, Inst, Int2, Lookup, TextureCall};
 use super::machine::Machine;
+use super::step::{Step, name_of_unary};
 use crate::domain::{Domain, Integer};
-use glisten_front::builtin::operations::{Binary, Derivative, Ternary, Unary};
+use glisten_front::builtin::operations::Derivative;
 use glisten_front::hir::{SamplerDim, Stage};
 use glisten_scene::Filter;
-
-/// A kind of step with its size. What it costs is for others to say.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Step {
-    /// The name: `+`, `pow`, `normalize`, `lookup`, `branch`, `fragment`.
-    pub name: &'static str,
-    /// The components of the result; of an invocation, the components of its outputs; of a lookup, 4.
-    pub results: u32,
-    /// The components of the first argument; of an invocation, the components of its inputs; of a lookup, the texels that
-    /// it reads.
-    pub argument: u32,
-}
-
-impl Step {
-    /// The invocation of the vertex stage.
-    pub const VERTEX: &str = "vertex";
-    /// The invocation of the fragment stage.
-    pub const FRAGMENT: &str = "fragment";
-    /// A lookup in a texture.
-    pub const LOOKUP: &str = "lookup";
-    /// The steps that are not in the table of operations.
-    pub const OTHERS: &[&str] = &[
-        Self::VERTEX,
-        Self::FRAGMENT,
-        Self::LOOKUP,
-        "negation",
-        "comparison",
-        "conversion",
-        "selection",
-        "branch",
-        "index",
-        "integer",
-        "integer division",
-    ];
-
-    /// The names of all steps, sorted.
-    pub fn names() -> Vec<&'static str> {
-        let unary = Unary::ALL.iter().map(|op| name_of_unary(*op));
-        let binary = Binary::ALL.iter().map(|op| op.name());
-        let ternary = Ternary::ALL.iter().map(|op| op.name());
-        let composite = Composite::ALL.iter().map(|op| op.name());
-        let mut names: Vec<&str> = unary.chain(binary).chain(ternary).chain(composite).collect();
-        names.extend(["dFdx", "dFdy", "fwidth"]);
-        names.extend(Self::OTHERS);
-        names.sort_unstable();
-        names.dedup();
-        names
-    }
-
-    fn scalar(name: &'static str) -> Option<Self> {
-        Some(Self { name, results: 1, argument: 1 })
-    }
-}
-
-fn name_of_unary(op: Unary) -> &'static str {
-    // `-` is the name of the subtraction.
-    if op == Unary::Neg { "negation" } else { op.name() }
-}
 
 /// The step of an instruction, except for lookups.
 fn step(inst: &Inst) -> Option<Step> {

@@ -14,10 +14,10 @@ use crate::domain::{Domain, Integer, Number};
 use glisten_scene::picture::Interval;
 
 /// The share of the groups that are fragments when a run begins; the others are for their ways. The following runs have
-/// more or fewer, depending on how many ways there were.
+/// more if these were few.
 const PACKED: usize = 8;
 /// Loops may run this many times as long as in the first run, and the number of instructions below.
-const LONGER: u64 = 3;
+const LONGER: u64 = 2;
 const AT_LEAST: u64 = 1 << 12;
 
 /// Registers of some ports, floats and ints.
@@ -74,11 +74,9 @@ impl<D: Domain> Machine<D> {
                     joined.add(self, number * group, way * group, group);
                 }
             }
-            packed = match (self.ways.crowded, 2 * self.ways.most <= capacity) {
-                (true, _) => (packed / 2).max(1),
-                (false, true) => (packed * 2).min(capacity / 2),
-                (false, false) => packed,
-            };
+            if !self.ways.crowded && 2 * self.ways.most <= capacity {
+                packed = (packed * 2).min(capacity / 2);
+            }
         }
         self.ways.exploring = false;
         self.restore_inputs(&inputs);
@@ -108,7 +106,7 @@ impl<D: Domain> Machine<D> {
 
     fn copy_inputs(&self) -> Files<D> {
         let inner = &self.code.inner;
-        let of = |class: Class| inner.inputs.iter().filter(move |port| port.class == class);
+        let of = |class: Class| inner.given().filter(move |port| port.class == class);
         (
             of(Class::Float).filter_map(|port| self.registers.floats.get(port.register).cloned()).collect(),
             of(Class::Int).filter_map(|port| self.registers.ints.get(port.register).cloned()).collect(),
@@ -118,7 +116,7 @@ impl<D: Domain> Machine<D> {
     /// Copies the original inputs of a group's lanes into other lanes.
     fn move_group(&mut self, inputs: &Files<D>, from: usize, to: usize, group: usize) {
         let code = std::sync::Arc::clone(&self.code.inner);
-        let of = |class: Class| code.inputs.iter().filter(move |port| port.class == class);
+        let of = |class: Class| code.given().filter(move |port| port.class == class);
         for (port, saved) in of(Class::Float).zip(&inputs.0) {
             if let Some(register) = self.registers.floats.get_mut(port.register) {
                 register.copy_lanes(saved, from, to, group);

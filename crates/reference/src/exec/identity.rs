@@ -1,4 +1,4 @@
-//! What the outputs of a stage are computed from, as a number: two stages whose numbers are equal compute equal outputs.
+//! The expressions of a stage's outputs as a number: two stages with equal numbers compute equal outputs.
 //!
 //! *In:* code without fused instructions, uniforms, and a number for each input. *Out:* a hash of the expressions of some
 //! outputs ([`Code::expressions`]), or of all instructions ([`Code::text`]). *Holds:* the hash has the operations in order,

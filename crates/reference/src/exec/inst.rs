@@ -253,6 +253,15 @@ pub(super) enum Inst {
         op: Derivative,
         dst: Operand,
         a: Operand,
+        /// How far apart the errors of `a` may be in two lanes: the sum of both lanes' numbers.
+        noise: Option<Operand>,
+    },
+    /// The noise of `of`, a sum of terms: that of each in a list, followed by its factor, and the rounding.
+    Noise {
+        dst: Operand,
+        of: Operand,
+        divides: bool,
+        list: List,
     },
     Texture {
         call: u32,
@@ -367,7 +376,12 @@ impl Inst {
         use Class::{Float, Int};
         use Use::{Read, Write};
         match self {
-            Self::Float1 { dst, a, .. } | Self::Derivative { dst, a, .. } | Self::Folded { dst, a, .. } => {
+            Self::Derivative { dst, a, noise, .. } => {
+                f(Float, Read, a);
+                noise.iter_mut().for_each(|noise| f(Float, Read, noise));
+                f(Float, Write, dst);
+            }
+            Self::Float1 { dst, a, .. } | Self::Folded { dst, a, .. } | Self::Noise { dst, of: a, .. } => {
                 f(Float, Read, a);
                 f(Float, Write, dst);
             }
@@ -460,7 +474,7 @@ impl Inst {
     /// The lists of operands that the instruction reads and writes.
     pub(super) fn lists(&self) -> [Option<(Class, Use, List)>; 2] {
         match *self {
-            Self::SumOfProducts { list, .. } | Self::Folded { list, .. } => {
+            Self::SumOfProducts { list, .. } | Self::Folded { list, .. } | Self::Noise { list, .. } => {
                 [Some((Class::Float, Use::Read, list)), None]
             }
             Self::Composite { results, arguments, .. } => {
@@ -472,6 +486,13 @@ impl Inst {
             Self::StoreIndexedInt { table, .. } => [Some((Class::Int, Use::Write, table)), None],
             _ => [None, None],
         }
+    }
+
+    /// Whether lanes diverge or join at the instruction.
+    pub(super) fn is_control(&self) -> bool {
+        let mut inst = *self;
+        inst.target_mut().is_some()
+            || matches!(inst, Self::Save { .. } | Self::Join { .. } | Self::Leave { .. } | Self::Discard | Self::Idle)
     }
 
     /// Whether it changes the home of a variable.

@@ -142,6 +142,13 @@ impl<D: Domain> Machine<D> {
         self.registers.ints.get_mut(register).map(Register::spread)
     }
 
+    /// The lanes for the noise of a `float` input: the part of its error that is not common to the fragments of a
+    /// primitive. `None` if no derivative needs it.
+    pub fn noise_input(&mut self, global: GlobalId, flat: u32) -> Option<&mut Lanes<D::Float>> {
+        let register = Self::port(&self.code.inner.noises, Class::Float, global, flat)?;
+        self.registers.floats.get_mut(register).map(Register::spread)
+    }
+
     /// Runs `main` on the lanes of both masks. Helper lanes run for the derivatives of their quads and have no other
     /// effect. The other lanes are undefined after the run.
     pub fn run(&mut self, live: Mask, helpers: Mask) {

@@ -48,6 +48,7 @@ mod corrected_run;
 mod count;
 mod exactly;
 mod explore;
+mod follow;
 mod identity;
 mod inst;
 mod lookup;
@@ -59,17 +60,18 @@ mod observe;
 mod registers;
 mod run;
 mod show;
+mod step;
 #[cfg(test)]
 mod tests;
 mod ways;
 
 pub use code::{Code, Form};
-pub use count::Step;
 pub use exactly::Exactly;
 pub(crate) use identity::hashed;
 pub use machine::{LOOP_BUDGET, Machine, Purpose};
 pub use mute::{Muted, Operation};
 pub use observe::{Event, Kind, Observer, Order, Piece, Values, What};
+pub use step::Step;
 
 /// The number of invocations that run at once: a tile of 8x8 pixels (quad by quad), or 64 vertices.
 ///

@@ -1,8 +1,8 @@
 //! [`Observer`]: sees the results of a machine as [`Event`]s.
 
 use super::Mask;
-use super::count::Step;
 use super::inst::{Composite, Float1, Float2, Float3, Inst};
+use super::step::Step;
 use crate::domain::{Domain, Source};
 use glisten_front::hir::Stage;
 use glisten_front::source::Span;

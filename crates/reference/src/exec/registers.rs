@@ -39,7 +39,7 @@ pub(super) struct File<T: Element> {
 pub(super) struct Registers<D: Domain> {
     pub(super) floats: File<D::Float>,
     pub(super) ints: File<D::Int>,
-    /// What the device may do where the specifications leave it open.
+    /// The freedom of the device where the specifications leave it open.
     pub(super) profile: Profile,
 }
 

@@ -9,21 +9,13 @@
 //! may not draw.
 
 use super::assembly::{Corners, Prim};
+use super::fragment_tests::Role;
 use super::target::local;
 use super::vertices::Vertices;
 use crate::domain::Domain;
 use crate::raster::band::band;
 use crate::raster::{Bounds, Fixed, triangle};
 use smallvec::SmallVec;
-
-/// Whether a fragment near an edge is drawn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Role {
-    /// It is drawn, or not, whatever happens to others.
-    Open,
-    /// Exactly one fragment of this role is drawn to its pixel.
-    Owner,
-}
 
 /// A fragment near an edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

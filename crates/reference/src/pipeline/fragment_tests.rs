@@ -2,8 +2,16 @@
 //!
 //! *In:* coverage, depth tests and discards. *Out:* which fragments are drawn, may be drawn, and why that is open.
 
-use super::edges::Role;
 use super::store::Test;
+
+/// Whether a fragment near an edge is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Role {
+    /// It is drawn, or not, whatever happens to others.
+    Open,
+    /// Exactly one fragment of this role is drawn to its pixel.
+    Owner,
+}
 
 /// The test results of the fragments of a batch.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -171,7 +171,7 @@ impl<D: Domain> Shading<'_, D> {
             }
         });
         for fragment in near.fragments {
-            let (row, column) = (fragment.place / BIN as u32 & !1, fragment.place % BIN as u32 & !1);
+            let (row, column) = ((fragment.place / BIN as u32) & !1, (fragment.place % BIN as u32) & !1);
             let Some(done) = done.get_mut(row as usize / 2).filter(|done| **done >> column & 1 == 0) else { continue };
             *done |= 1 << column;
             let first = row * BIN as u32 + column;
@@ -382,6 +382,14 @@ impl<D: Domain> WithSimd for Interpolate<'_, '_, D> {
                 run.source.varying(&batch.fragments, lanes, (index, varying.interpolation), to);
             }
             input.load(&numbers);
+        }
+        for (index, varying) in plan.floats.iter().enumerate().filter(|_| D::HAS_INTERVALS) {
+            let Some(noise) = machine.noise_input(varying.to.0, varying.to.1) else { continue };
+            for (run, lanes) in batch.runs() {
+                let to = &mut numbers[lanes.clone()];
+                run.source.noise(&batch.fragments, lanes, (index, varying.interpolation), to);
+            }
+            noise.load(&numbers);
         }
         for (index, varying) in plan.ints.iter().enumerate() {
             fill_int(machine, varying.to, batch, |run| run.source.ints.get(index).copied().unwrap_or_default());

@@ -39,6 +39,7 @@ mod source;
 mod store;
 mod surface;
 mod target;
+mod tilt;
 mod vertices;
 mod watch;
 mod worlds;

@@ -10,7 +10,7 @@ use crate::exec::LANES;
 use crate::interpolate::{linear, weights};
 
 /// An ULP of f32 at 1.
-const ULP: f64 = 1.0 / (1 << 23) as f64;
+pub(super) const ULP: f64 = 1.0 / (1 << 23) as f64;
 
 /// The error of an f32 GPU that evaluates plane equations `a + b x + c y` from the corner of the window. Each of its
 /// roundings costs up to half an ULP of the largest term, and an error of a vertex moves the plane by its slope.
@@ -19,13 +19,13 @@ const ULP: f64 = 1.0 / (1 << 23) as f64;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Slack {
     /// The slopes in x for unit differences along the first and the second edge.
-    x: [f64; 2],
+    pub(super) x: [f64; 2],
     /// The slopes in y for unit differences along the first and the second edge.
-    y: [f64; 2],
+    pub(super) y: [f64; 2],
     /// The largest error of the vertices in x and y.
     off: [f64; 2],
     /// The position of the first vertex.
-    origin: [f64; 2],
+    pub(super) origin: [f64; 2],
 }
 
 impl Slack {
@@ -54,17 +54,17 @@ impl Slack {
 /// A value over a primitive.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Plane {
-    values: [f64; 3],
+    pub(super) values: [f64; 3],
     /// The largest errors of the vertices' values.
-    errors: [f64; 3],
+    pub(super) errors: [f64; 3],
     /// The absolute slopes in x and y.
-    sizes: [f64; 2],
+    pub(super) sizes: [f64; 2],
     /// The absolute position of the first vertex.
     origin: [f64; 2],
     /// The largest absolute value.
     largest: f64,
     /// How far the value moves with the errors of the vertices.
-    moved: f64,
+    pub(super) moved: f64,
 }
 
 impl Plane {
@@ -100,7 +100,7 @@ impl Plane {
 
     /// The value at a fragment, and the largest error of a GPU.
     #[inline(always)]
-    fn at(&self, weights: [f64; 3], [x, y]: [f64; 2]) -> (f64, f64) {
+    pub(super) fn at(&self, weights: [f64; 3], [x, y]: [f64; 2]) -> (f64, f64) {
         let value = linear(weights, self.values);
         let terms = self.sizes[0] * (x + self.origin[0]) + self.sizes[1] * (y + self.origin[1]);
         let sizes = weights.map(f64::abs);

@@ -11,11 +11,13 @@
 use super::assembly::{Corners, Prim};
 use super::slack::{Plane, Slack};
 use super::surface::BIN;
+use super::tilt::Tilted;
 use super::vertices::Vertices;
 use crate::domain::{Domain, F64, Number, Planes, rules};
 use crate::exec::LANES;
 use crate::interpolate::{Frame, Vec2, along, linear, perspective, perspective_w, weights};
 use glisten_front::hir::Interpolation;
+use glisten_scene::picture::Interval;
 use std::ops::Range;
 
 /// The positions of fragments, lane by lane.
@@ -271,6 +273,33 @@ impl<'v, D: Domain> Source<'v, D> {
 }
 
 impl<D: Domain> Source<'_, D> {
+    /// The part of the error of a varying that neighbors do not share, at the fragments in some lanes.
+    pub(super) fn noise(
+        &self,
+        fragments: &Fragments<D>,
+        lanes: Range<usize>,
+        (index, interpolation): (usize, Interpolation),
+        to: &mut [D::Float],
+    ) {
+        let plain = match &self.plain {
+            Some(plain) if interpolation != Interpolation::Flat && !matches!(self.kind, Kind::Point) => plain,
+            // The same number at all fragments.
+            _ => return to.fill(D::Float::default()),
+        };
+        let values = self.quotients.map(|quotients| quotients.get(index).copied().unwrap_or_default());
+        let (value, reciprocal) = (Tilted::new(&plain.slack, values), Tilted::new(&plain.slack, self.reciprocals));
+        let Fragments { places: Places { x, y, plain: [u, v], .. }, .. } = fragments;
+        for (to, lane) in to.iter_mut().zip(lanes) {
+            let place = [x[lane], y[lane]];
+            let weights = weights(u[lane], v[lane]);
+            let noise = match interpolation {
+                Interpolation::Smooth => value.noise_over(&reciprocal, weights, place),
+                Interpolation::Noperspective | Interpolation::Flat => value.noise(weights, place),
+            };
+            *to = D::Float::integer_with_interval(noise, Interval::point(noise));
+        }
+    }
+
     /// The value of a varying that is the same at all vertices: it is interpolated to that very value, as
     /// [`linear`] does in the window. Programs compare such values for equality, and what is known of them is a constant.
     #[inline(always)]

@@ -55,7 +55,7 @@ pub(super) struct Vertices<D: Domain> {
     pub(super) viewport: [f32; 2],
     /// The faults of a driver that are excused.
     pub(super) faults: Faults,
-    /// What the device may do where the specifications leave it open.
+    /// The freedom of the device where the specifications leave it open.
     pub(super) profile: Profile,
 }
 

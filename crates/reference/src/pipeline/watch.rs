@@ -37,7 +37,7 @@ pub(crate) struct Study<'a, D: Domain> {
     pub(crate) exact_inputs: &'a [GlobalId],
     /// Sees the values of varyings at a pixel.
     pub(crate) probe: Option<&'a Probe>,
-    /// What the stages are compiled for.
+    /// The purpose for which the stages are compiled.
     pub(crate) form: Form,
     /// The GPU that is simulated, in the domain of simulated GPUs.
     pub(crate) gpu: Option<Gpu>,

@@ -20,7 +20,6 @@
 //!
 //! *Holds:* the counts of the classes add up to the number of covered pixels, and so do those of the widths.
 
-use super::population::LEAST;
 use crate::picture::{Interval, Picture};
 use crate::{Format, Scene};
 use glisten_front::builtin::BuiltinVariable;
@@ -29,6 +28,9 @@ use serde::Serialize;
 
 /// The goal for the width of an envelope, as a share of the range of the picture's values.
 const GOAL: f64 = 1.0 / 255.0;
+
+/// The least difference that says something, as a share of the range of the picture's values.
+pub const LEAST: f64 = 1.0 / 65_536.0;
 
 /// How a covered pixel was compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -179,7 +181,7 @@ pub struct Written {
     full: Option<(f64, f64)>,
     /// The distance of neighboring values of the format, if it is the same for all; 0 for floats.
     step: f64,
-    /// The same as a share of the value, of floats.
+    /// For floats, the distance as a share of the value.
     relative: f64,
 }
 
@@ -304,7 +306,7 @@ impl<'a> Ruler<'a> {
             .fold(0.0, f64::max)
     }
 
-    /// What a number may be off for no reason: what the format rounds to, and a small share of the range.
+    /// How far a number may be off for no reason: what the format rounds to, and a small share of the range.
     pub(super) fn unit(&self, value: f64) -> f64 {
         let rounding = (self.written.step / 2.0).max(4.0 * self.written.relative * value.abs());
         rounding.max(self.range * LEAST)

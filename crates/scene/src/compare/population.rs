@@ -3,9 +3,10 @@
 //! *In:* the pictures of the members, and a GPU's. *Out:* which of its pixels are suspect.
 //!
 //! *The rule:* a channel is suspect if it is further outside of the population's range than [`FAR`] times its spread: the
-//! width of that range, but at least [`LEAST`] of the range of the picture's values and what the format rounds to. A few
+//! width of that range, but at least [`LEAST`](super::evidence::LEAST) of the range of the picture's values and what the format rounds to. A few
 //! dozen members do not reach the ends of what rounding may do, so what is nearer says nothing. It is also suspect if it
-//! is not finite and no member's is. Where the envelope is wider than the goal for evidence, it may hide a jump: on which
+//! is not finite and no member's is. Where a member has NaN, the language leaves the result undefined, and nothing is
+//! suspect. Where the envelope is wider than the goal for evidence, it may hide a jump: on which
 //! side of it a pixel lies may be decided by one rounding, so there the eight pixels around count as well. A pixel that
 //! only one side covers is suspect if no pixel around differs in coverage within the population. From [`MIN_SHARE`] of the
 //! covered pixels and [`MIN_PIXELS`] pixels on, suspects fail a comparison.
@@ -15,9 +16,6 @@ use crate::picture::{Interval, Picture};
 
 /// How many spreads of the population a number may be outside of its range.
 pub const FAR: f64 = 4.0;
-
-/// The least spread, as a share of the range of the picture's values.
-pub const LEAST: f64 = 1.0 / 65_536.0;
 
 /// The share of the covered pixels from which suspects fail.
 pub const MIN_SHARE: f64 = 0.001;
@@ -123,7 +121,7 @@ fn with(range: Interval, value: f64) -> Interval {
 
 /// How far a number is outside of a range, in widths of the range or, if that is more, in units.
 fn distance(range: Interval, value: f64, unit: f64) -> f64 {
-    if range.contains(value) {
+    if range.may_be_nan || range.contains(value) {
         return 0.0;
     }
     if !value.is_finite() || range.low > range.high {
@@ -173,6 +171,7 @@ mod tests {
     fn far_outside_is_suspect() {
         assert_eq!(suspects([0.25, 0.25, 0.25, 0.75, 0.75, 0.75], false), [0_usize; 0]);
         assert_eq!(suspects([0.2501, 0.25, 0.25, 0.75, 0.75, 0.7499], false), [0, 5]);
+        assert_eq!(distance(Interval { may_be_nan: true, ..Interval::point(1.0) }, 57.2, 1e-6), 0.0, "undefined");
         assert_eq!(suspects([f64::NAN, f64::INFINITY, 0.25, 0.75, 0.75, 0.75], false), [0, 1]);
         // The member that moves the step shows that either is possible there.
         assert_eq!(suspects([0.25, 0.25, 0.25, 0.25, 0.75, 0.75], false), [0_usize; 0]);

@@ -25,7 +25,7 @@ pub struct Comparison<'a> {
     pub written: Option<&'a Written>,
     /// The largest width of the envelope of a judged pixel; `None`: 1/255 of the range of the picture's values.
     pub width: Option<f64>,
-    /// What simulated GPUs drew.
+    /// The pictures of simulated GPUs.
     pub population: Option<&'a Population>,
 }
 
@@ -199,7 +199,9 @@ impl<'a> Tally<'a> {
             self.verdict.non_finite_gpu += any(|error| error.non_finite[0]);
             self.verdict.non_finite_cpu += any(|error| error.non_finite[1]);
         }
-        if let Some(ruler) = ruler.filter(|_| !is_wrong && !is_edge) {
+        // Where exact arithmetic has no number, any number is right, whatever simulated GPUs make of it.
+        let is_defined = !errors.iter().any(|error| error.non_finite[1]);
+        if let Some(ruler) = ruler.filter(|_| !is_wrong && !is_edge && is_defined) {
             let (gpu, cpu) = (self.gpu, self.cpu);
             self.count_suspect(|population| population.is_suspect(gpu, cpu, ruler, pixel));
         }

@@ -424,6 +424,10 @@ mod tests {
         assert_eq!(verdict.conclusion(&usual), Conclusion::Fails);
         assert_eq!(verdict.conclusion(&Demands { likely: false, ..usual }), Conclusion::Inconclusive);
         assert_eq!(Verdict::new(&gpu, &cpu, Criterion::Envelope).suspect, None);
+        // Where the exact result is not a number, nothing is suspect.
+        cpu.attachments.iter_mut().flatten().for_each(|color| color[0] = f64::NAN);
+        let verdict = Comparison { population: Some(&population), ..Comparison::default() }.compare(&gpu, &cpu).verdict;
+        assert_eq!((verdict.suspect, verdict.outside), (Some(0), 0));
     }
 
     #[test]

@@ -83,18 +83,19 @@ impl EnvelopeFloat {
 
     /// An exponential function, with the exact value and the function for its bounds.
     pub(super) fn exponential(self, value: f64, f: impl Fn(f64) -> f64) -> Self {
-        self.exponential_times(1.0, value, f)
+        self.exponential_off(0.0, value, f)
     }
 
-    /// The same with its lower bound times a number.
-    fn exponential_times(self, share: f64, value: f64, f: impl Fn(f64) -> f64) -> Self {
+    /// An exponential inherited by a function whose exponent is wrong by up to `off`.
+    fn exponential_off(self, off: f64, value: f64, f: impl Fn(f64) -> f64) -> Self {
         let n = |x: f64| rules::EXP.ulps_at(x);
         let (low, high) = (f(self.low), f(self.high));
         let below = if low == 0.0 { 0.0 } else { ulps_below(low, high, n(self.low)) };
         let above = if high.is_finite() { ulps_above(low, high, n(self.high)) } else { high };
         // The number of ULPs decreases toward 0, but the result increases faster, so its bounds are at those of the
         // interval.
-        Self::rounded(value, below.max(0.0) * share, above, self.may_be_nan)
+        let below = Self::mirrored(below.max(0.0), low, off, n(self.low));
+        Self::rounded(value, below, above, self.may_be_nan)
     }
 
     /// A logarithm, with the exact value and the function for its bounds.
@@ -133,27 +134,37 @@ impl EnvelopeFloat {
         if product.low > product.high {
             return Self::anything(value);
         }
-        let share = if product.low.is_finite() && product.high.is_finite() {
+        let off = if product.low.is_finite() && product.high.is_finite() {
             let ends = [self.low, self.high].map(powers::log2);
             let error = (ends[0] - logarithm.low).max(logarithm.high - ends[1]);
             let largest = exponent.low.abs().max(exponent.high.abs());
-            Self::share_below(largest * error + ulp(product.low.abs().max(product.high.abs())))
+            largest * error + ulp(product.low.abs().max(product.high.abs()))
         } else {
-            1.0
+            0.0
         };
-        product.exponential_times(share, value, powers::exp2)
+        // The product may be rounded to either side, and so the result be off to either side.
+        let rounding = if off == 0.0 { 0.0 } else { ulp(product.low.abs().max(product.high.abs())) };
+        let product = Self { low: product.low - rounding, high: product.high + rounding, ..product };
+        product.exponential_off(off, value, powers::exp2)
     }
 
-    /// By how much the lower bound of a power is below `2^-off` of the exact one, if the exponent is wrong by `off`: the
-    /// result may be as far below as the formula is above, which is `2 - 2^off`.
+    /// The lower bound of a power whose exponent is wrong by up to `off`, where the formula's is `below`, from a result
+    /// of `low`: the result may be as far below the exact one as the formula is above, `2 - 2^off` of it and ULPs of
+    /// that.
     #[inline(always)]
-    pub(super) fn share_below(off: f64) -> f64 {
-        if off <= Self::FAR_OFF {
+    pub(super) fn mirrored(below: f64, low: f64, off: f64, ulps: f64) -> f64 {
+        if off == 0.0 || low == 0.0 {
+            return below;
+        }
+        let share = if off <= Self::FAR_OFF {
             1.0 - Self::ROUND_TRIP * off * off
         } else {
             let above = off.exp2();
             above * (2.0 - above * (1.0 + 1e-4))
-        }
+        };
+        // The formula's result is below `low 2^(2 off)`.
+        let upper = low * if off <= Self::FAR_OFF { 1.0 + 2.0 * off } else { (2.0 * off).exp2() };
+        below.min(low * share - (ulps + 4.0 * off) * OUTWARD * ulp(upper))
     }
 
     /// The extremes of a cosine between two angles.
@@ -334,7 +345,14 @@ impl EnvelopeFloat {
         };
         let t = evaluate(t, &[&[edge0], &[edge1], &[x]], 0);
         let found = t.by_ends(|t| evaluate(curve, &[&[t]], 0), |t| evaluate(curve, &[&[t]], 0));
-        // The error is a share of the result, so it never reaches below 0.
-        Self { low: found.low.max(0.0), ..found }
+        if t.low == t.high || t.may_be_nan {
+            return found;
+        }
+        // Exact at both ends of the curve, but not between them. The error is a share of the result: that of `t t`, of
+        // `3 - 2 t`, which is half as large at most, and of their product.
+        const SHARE: f64 = 5.0 / (1 << 23) as f64;
+        let of = |t: f64| t * t * (3.0 - 2.0 * t);
+        let (low, high) = (of(t.low) * (1.0 - SHARE), of(t.high) * (1.0 + SHARE));
+        Self::rounded(found.value, low.min(found.low).max(0.0), high.max(found.high), found.may_be_nan)
     }
 }

@@ -30,6 +30,8 @@ mod powers;
 mod round;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod text_tests;
 mod vector;
 
 pub use block::EnvelopeBlock;

@@ -11,22 +11,8 @@ use super::super::code::{Form, PoolSource};
 use super::super::inst::{Class, Float2, Inst, Operand};
 use super::Compiler;
 use super::emit::Emitter;
+use super::facts::{Chain, Definition, MAX_TERMS};
 use smallvec::SmallVec;
-
-/// The terms of a longer chain are not followed.
-const MAX_TERMS: usize = 4;
-
-/// A sum or a product, without the order of its operations.
-#[derive(Clone, Debug)]
-pub(super) struct Chain {
-    sum: bool,
-    terms: SmallVec<[Operand; MAX_TERMS]>,
-    /// The combination of all constants.
-    constant: f64,
-    constants: u32,
-    /// The number of stores before the chain, if one of its terms is a variable's home.
-    stores: Option<u32>,
-}
 
 impl Emitter {
     /// The value of a float operand that the text knows.
@@ -95,6 +81,8 @@ impl Compiler<'_> {
         let operands: Vec<Operand> = chain.terms.iter().copied().chain([constant]).collect();
         let hoisted = plain.is_scalar();
         let list = self.emit.list(Class::Float, &operands, hoisted);
-        self.emit.pure(Class::Float, &[plain], |dst| Inst::Folded { sum: chain.sum, dst, a: plain, list })
+        let both = self.emit.pure(Class::Float, &[plain], |dst| Inst::Folded { sum: chain.sum, dst, a: plain, list });
+        self.emit.define(both, Definition::Same(plain));
+        both
     }
 }

@@ -3,8 +3,7 @@
 
 use super::super::code::{Form, PoolSource, Section};
 use super::super::inst::{Class, Inst, List, Operand, Slot, Target, TextureCall};
-use super::chains::Chain;
-use super::fuse::is_control;
+use super::facts::{Chain, Definition};
 use glisten_front::link::RootIndex;
 use glisten_front::source::Span;
 use rustc_hash::FxHashMap;
@@ -32,6 +31,10 @@ pub(super) struct Emitter {
     preamble_lists: FxHashMap<(Class, Vec<Operand>), List>,
     /// The sums and products with constants.
     pub(super) chains: FxHashMap<Operand, Chain>,
+    /// The definitions of registers, as far as they are linear.
+    pub(super) definitions: FxHashMap<Operand, Definition>,
+    /// The registers with the noise of registers.
+    pub(super) noises: FxHashMap<Operand, Operand>,
     /// The number of stores, and of points where lanes diverge or join.
     pub(super) stores: u32,
     /// Preamble instructions by what they compute (with `dst` blanked).
@@ -104,7 +107,7 @@ impl Emitter {
     }
 
     pub(super) fn push(&mut self, inst: Inst) {
-        self.stores += u32::from(is_control(&inst) || inst.stores());
+        self.stores += u32::from(inst.is_control() || inst.stores());
         self.main.push(inst, self.span);
     }
 

@@ -2,6 +2,7 @@
 
 use super::super::inst::{Class, Compare, Float1, Float2, FloatToInt, Inst, Int1, Int2, IntToFloat, Operand};
 use super::effects::Assigned;
+use super::facts::Definition;
 use super::{Compiler, Scope, Val};
 use glisten_front::diagnostic::codes;
 use glisten_front::hir::{
@@ -78,10 +79,18 @@ impl Compiler<'_> {
     }
 
     pub(super) fn float1(&mut self, op: Float1, a: Operand) -> Operand {
-        self.emit.pure(Class::Float, &[a], |dst| Inst::Float1 { op, dst, a })
+        let dst = self.emit.pure(Class::Float, &[a], |dst| Inst::Float1 { op, dst, a });
+        if op == Float1::Neg {
+            self.emit.define(dst, Definition::Same(a));
+        }
+        dst
     }
     pub(super) fn float2(&mut self, op: Float2, a: Operand, b: Operand) -> Operand {
-        self.emit.pure(Class::Float, &[a, b], |dst| Inst::Float2 { op, dst, a, b })
+        let dst = self.emit.pure(Class::Float, &[a, b], |dst| Inst::Float2 { op, dst, a, b });
+        if matches!(op, Float2::Add | Float2::Sub | Float2::Mul | Float2::Div) {
+            self.emit.define(dst, Definition::Of(op, a, b));
+        }
+        dst
     }
     pub(super) fn int1(&mut self, op: Int1, a: Operand) -> Operand {
         self.emit.pure(Class::Int, &[a], |dst| Inst::Int1 { op, dst, a })

@@ -43,18 +43,11 @@ pub(super) fn fuse(emitter: &mut Emitter) {
                 }
             }
             // Beyond an instruction where lanes diverge or join, the product might not run as often as the sum.
-            _ if is_control(&inst) => pending.clear(),
+            _ if inst.is_control() => pending.clear(),
             _ => {}
         }
     }
     remove(emitter, &gone);
-}
-
-/// Whether lanes diverge or join at the instruction.
-pub(super) fn is_control(inst: &Inst) -> bool {
-    let mut inst = *inst;
-    inst.target_mut().is_some()
-        || matches!(inst, Inst::Save { .. } | Inst::Join { .. } | Inst::Leave { .. } | Inst::Discard | Inst::Idle)
 }
 
 /// How often each virtual float register is read.

@@ -7,6 +7,7 @@
 //!
 //! What depends only on constants and uniforms goes into the preamble ([`Emitter::pure`]).
 
+mod affine;
 mod alloc;
 mod builtin;
 mod chains;
@@ -14,6 +15,7 @@ mod dead;
 mod effects;
 mod emit;
 mod expr;
+mod facts;
 mod fuse;
 mod matrix;
 mod path;
@@ -78,6 +80,8 @@ struct Compiler<'a> {
     vars: Vec<Var>,
     globals: Vec<Option<VarId>>,
     inputs: Vec<Port>,
+    /// The noise of inputs.
+    noises: Vec<Port>,
     frames: Vec<Frame>,
     scopes: Vec<Scope>,
     region: u32,
@@ -133,6 +137,7 @@ impl<'a> Compiler<'a> {
             vars: Vec::new(),
             globals: vec![None; shader.globals.len()],
             inputs: Vec::new(),
+            noises: Vec::new(),
             frames: Vec::new(),
             scopes: Vec::new(),
             region: 0,
@@ -163,8 +168,9 @@ impl<'a> Compiler<'a> {
         if self.emit.form == Form::Counted {
             self.emit.main.dead = dead::dead(&mut self.emit, &outputs);
         }
-        let mut ports: Vec<Port> = self.inputs.iter().chain(&outputs).copied().collect();
+        let mut ports: Vec<Port> = self.inputs.iter().chain(&outputs).chain(&self.noises).copied().collect();
         let registers = alloc::allocate(&mut self.emit, &mut ports);
+        let noises = ports.split_off(self.inputs.len() + outputs.len());
         let outputs = ports.split_off(self.inputs.len());
         let Emitter { main, preamble, words, textures, pools, preamble_results, mask_slots, splats, .. } = self.emit;
         let [float_pool, int_pool] = pools;
@@ -180,6 +186,7 @@ impl<'a> Compiler<'a> {
             registers,
             splats: splats.into_iter().map(|(class, register, from)| (class, register.number(), from)).collect(),
             inputs: ports,
+            noises,
             outputs,
             mask_slots: mask_slots as usize,
         })

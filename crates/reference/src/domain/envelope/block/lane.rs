@@ -193,15 +193,20 @@ impl LaneBounds {
     /// An exponential function, with the function for its bounds.
     #[inline(always)]
     pub(super) fn exponential(self, f: impl Fn(f64) -> f64) -> Self {
-        self.exponential_times(1.0, f)
+        self.exponential_off(0.0, f)
     }
 
     #[inline(always)]
-    fn exponential_times(self, share: f64, f: impl Fn(f64) -> f64) -> Self {
+    fn exponential_off(self, off: f64, f: impl Fn(f64) -> f64) -> Self {
         let n = |x: f64| rules::EXP.ulps_at(x);
         let (low, high) = (f(self.low), f(self.high));
         let below = if low == 0.0 { 0.0 } else { ulps_below(low, high, n(self.low)) };
-        Self::rounded(greatest(below, 0.0) * share, ulps_above(low, high, n(self.high)))
+        // `mirrored` of a number that is not special.
+        let share = 1.0 - EnvelopeFloat::ROUND_TRIP * off * off;
+        let mirrored = low * share - (n(self.low) + 4.0 * off) * OUTWARD * ulp(low * (1.0 + 2.0 * off));
+        let below = greatest(below, 0.0);
+        let below = if (off == 0.0) | (low == 0.0) { below } else { least(below, mirrored) };
+        Self::rounded(below, ulps_above(low, high, n(self.high)))
     }
 
     /// The bounds of a logarithm before rounding, of which the lower one may be infinite, and the exact ones.
@@ -246,9 +251,11 @@ impl LaneBounds {
         let error = greatest(ends.0 - low, high - ends.1);
         let off = exponent.high * error + ulp(greatest(product.low.abs(), product.high.abs()));
         let bounded = product.low >= -MAX;
-        let share = if bounded { 1.0 - EnvelopeFloat::ROUND_TRIP * off * off } else { 1.0 };
         let far = bounded & (off > EnvelopeFloat::FAR_OFF);
-        product.exponential_times(share, powers::exp2).or_special(far | !fine)
+        // The product may be rounded to either side, and so the result be off to either side.
+        let rounding = if bounded & (off != 0.0) { ulp(greatest(product.low.abs(), product.high.abs())) } else { 0.0 };
+        let product = Self::of(product.low - rounding, product.high + rounding);
+        product.exponential_off(if bounded { off } else { 0.0 }, powers::exp2).or_special(far | !fine)
     }
 
     /// `x (1 - a) + y a` or `x + (y - x) a`.

@@ -1,0 +1,30 @@
+//! Facts about registers that later instructions use: what a register is computed from.
+//!
+//! *In:* nothing. *Out:* the types of what the [emitter](super::emit) remembers.
+
+use super::super::inst::{Float2, Operand};
+use smallvec::SmallVec;
+
+/// The definition of a register that is linear in its operands.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Definition {
+    /// An operation.
+    Of(Float2, Operand, Operand),
+    /// A copy, or the negative.
+    Same(Operand),
+}
+
+/// The terms of a longer chain are not followed.
+pub(super) const MAX_TERMS: usize = 4;
+
+/// A sum or a product, without the order of its operations.
+#[derive(Clone, Debug)]
+pub(super) struct Chain {
+    pub(super) sum: bool,
+    pub(super) terms: SmallVec<[Operand; MAX_TERMS]>,
+    /// The combination of all constants.
+    pub(super) constant: f64,
+    pub(super) constants: u32,
+    /// The number of stores before the chain, if one of its terms is a variable's home.
+    pub(super) stores: Option<u32>,
+}
