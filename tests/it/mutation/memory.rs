@@ -22,7 +22,10 @@ pub(super) fn faults(module: &Module<'_>) -> Vec<Mutation> {
     let mut found = Vec::new();
     for one in module.instructions {
         match one.opcode() {
-            op::MEMBER_DECORATE if structs.contains(&one.word(1)) => found.extend(member(one)),
+            op::MEMBER_DECORATE if structs.contains(&one.word(1)) => {
+                found.extend(member(one));
+                found.extend(shifted(module, one));
+            }
             op::DECORATE => found.extend(decorated(one, &structs)),
             op::STORE => {
                 let name = format!("the store to %{} is dropped", one.word(1));
@@ -63,13 +66,7 @@ fn member(one: &Instruction<'_>) -> Vec<Mutation> {
     };
     let valued = |more: u32| encoded(op::MEMBER_DECORATE, &[ty, member, what, more]);
     match what {
-        decoration::OFFSET => {
-            let mut found = vec![fault("the offset is 16 more", valued(value + 16))];
-            if value >= 16 {
-                found.push(fault("the offset is 16 less", valued(value - 16)));
-            }
-            found
-        }
+        decoration::OFFSET if value >= 16 => vec![fault("the offset is 16 less", valued(value - 16))],
         decoration::MATRIX_STRIDE => vec![
             fault("the stride of columns is doubled", valued(value * 2)),
             fault("the stride of columns is halved", valued(value / 2)),
@@ -80,6 +77,23 @@ fn member(one: &Instruction<'_>) -> Vec<Mutation> {
         }
         _ => Vec::new(),
     }
+}
+
+/// A member and all that follow it are 16 bytes further.
+fn shifted(module: &Module<'_>, one: &Instruction<'_>) -> Option<Mutation> {
+    let [ty, member, what, value] = [1, 2, 3, 4].map(|place| one.word(place));
+    if what != decoration::OFFSET {
+        return None;
+    }
+    let follows = |other: &&Instruction<'_>| {
+        let [of, number, decorates, at] = [1, 2, 3, 4].map(|place| other.word(place));
+        other.opcode() == op::MEMBER_DECORATE && (of, decorates) == (ty, what) && (number == member || at > value)
+    };
+    let all = module.instructions.iter().filter(follows);
+    let splices = all.map(|other| other.with(4, other.word(4) + 16)).collect();
+    let name = format!("member {member} of %{ty} and those after it: the offset is 16 more");
+    let rewrite = Rewrite::Words { splices, more_ids: 0 };
+    Some(Mutation { kind: Kind::Memory, name, rewrite })
 }
 
 /// The stride of an array; a decoration that is missing.

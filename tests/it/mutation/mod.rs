@@ -162,6 +162,8 @@ enum Rewrite {
     },
     /// Ranges of bytes and their new text.
     Text(Vec<(Range<usize>, String)>),
+    /// A text that all stages have in common, and its replacement: the stages of WebGPU must agree on interpolation.
+    Everywhere(String, String),
 }
 
 impl Rewrite {
@@ -169,11 +171,17 @@ impl Rewrite {
         Self::Words { splices: vec![splice], more_ids: 0 }
     }
 
+    /// Whether it changes the other stages as well.
+    fn is_everywhere(&self) -> bool {
+        matches!(self, Self::Everywhere(..))
+    }
+
     /// The changed code. A rewrite of the other form changes nothing.
     fn apply(&self, code: &Code) -> Code {
         match (self, code) {
             (Self::Words { splices, more_ids }, Code::Words(words)) => Code::Words(spliced(words, splices, *more_ids)),
             (Self::Text(edits), Code::Text(text)) => Code::Text(tokens::edited(text, edits)),
+            (Self::Everywhere(from, to), Code::Text(text)) => Code::Text(text.replace(from, to)),
             _ => code.clone(),
         }
     }

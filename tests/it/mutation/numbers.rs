@@ -16,7 +16,7 @@ pub(super) fn faults(module: &Module<'_>) -> Vec<Mutation> {
     found
 }
 
-/// A constant with the digits of a half float, and one that is a hundredth too large.
+/// A constant with the digits of a half float, one that is a hundredth too large, and one of the other sign.
 fn constants(module: &Module<'_>, one: &Instruction<'_>) -> Vec<Mutation> {
     if one.opcode() != op::CONSTANT || module.ty(one.word(1)) != Type::Float {
         return Vec::new();
@@ -24,9 +24,14 @@ fn constants(module: &Module<'_>, one: &Instruction<'_>) -> Vec<Mutation> {
     let (bits, value) = (one.word(3), f32::from_bits(one.word(3)));
     // Ten bits of the fraction, to the nearest.
     let half = bits.wrapping_add(0x1000) & !0x1fff;
-    [(half, "has the digits of a half float"), ((value * 1.01).to_bits(), "is 1 % larger")]
+    let changes = [
+        (half, "has the digits of a half float"),
+        ((value * 1.01).to_bits(), "is 1 % larger"),
+        ((-value).to_bits(), "has the other sign"),
+    ];
+    changes
         .into_iter()
-        .filter(|(new, _)| *new != bits && value.is_finite())
+        .filter(|(new, _)| *new != bits && value.is_finite() && value != 0.0)
         .map(|(new, what)| {
             let name = format!("%{} constant {value} {what}", one.word(2));
             Mutation::new(Kind::Constant, name, one.with(3, new))

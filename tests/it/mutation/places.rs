@@ -6,9 +6,9 @@ use super::words::{Instruction, encoded, op};
 use super::{Kind, Mutation};
 use glisten_front::hir::Stage;
 
-/// The bits of a constant's fraction that are flipped, counted from the lowest. The lowest eight are not flipped, as
-/// that may be within what a GPU is allowed.
-const FLIPPED_BITS: [u32; 4] = [8, 11, 14, 18];
+/// The bits of a constant's fraction that are flipped, counted from the lowest: changes by 2^-12, 2^-9 and 2^-5, about as much
+/// as digits that are missing.
+const FLIPPED_BITS: [u32; 3] = [11, 14, 18];
 
 /// The qualifiers, by their decorations.
 const QUALIFIERS: [(u32, &str); 3] = [(FLAT, "flat"), (NO_PERSPECTIVE, "noperspective"), (CENTROID, "centroid")];
@@ -26,12 +26,14 @@ struct Nudge {
 /// The side of a picture in pixels; half of it is one unit of normalized device coordinates.
 const SIDE: f32 = super::SIDE as f32;
 
+/// A GPU may snap positions to 1/16 pixel (Vulkan, `subPixelPrecisionBits`), so a shift by 1/32 pixel is no fault. All of
+/// these are larger, except for that of depth.
 const NUDGES: [Nudge; 5] = [
-    Nudge { name: "x is 1/256 pixel off", component: 0, factor: 1.0, shift: 2.0 / SIDE / 256.0 },
     Nudge { name: "x is 1/16 pixel off", component: 0, factor: 1.0, shift: 2.0 / SIDE / 16.0 },
-    Nudge { name: "y is 2^-12 of itself off", component: 1, factor: 1.0 + 1.0 / 4096.0, shift: 0.0 },
+    Nudge { name: "x is 1/4 pixel off", component: 0, factor: 1.0, shift: 2.0 / SIDE / 4.0 },
+    Nudge { name: "y is 2^-8 of itself off", component: 1, factor: 1.0 + 1.0 / 256.0, shift: 0.0 },
     Nudge { name: "z is 2^-12 of itself off", component: 2, factor: 1.0 + 1.0 / 4096.0, shift: 0.0 },
-    Nudge { name: "w is 2^-12 of itself off", component: 3, factor: 1.0 + 1.0 / 4096.0, shift: 0.0 },
+    Nudge { name: "w is 2^-8 of itself off", component: 3, factor: 1.0 + 1.0 / 256.0, shift: 0.0 },
 ];
 
 /// The sources of mutations in a module.

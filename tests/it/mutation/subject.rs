@@ -136,18 +136,20 @@ impl<'a> Subject<'a> {
         let (stage, code) = &self.modules[module];
         let (stage, form) = (*stage, code.form());
         let mutant = guard::bounded(&mutation.rewrite.apply(code));
+        let other = |code: Code| {
+            let changed = if mutation.rewrite.is_everywhere() { mutation.rewrite.apply(&code) } else { code };
+            guard::bounded(&changed)
+        };
         let outcome = match is_valid(&mutant) {
             false => Outcome::Invalid,
-            true => self.outcome(module, form, &mutant),
+            true => self.outcome(form, &|number, code| if number == module { mutant.clone() } else { other(code) }),
         };
         let (scene, name) = (self.name.clone(), mutation.name.clone());
         Trial { scene, scenery: self.scenery, form, stage, kind: mutation.kind, name, outcome }
     }
 
-    fn outcome(&mut self, module: usize, form: Form, mutant: &Code) -> Outcome {
-        let picture = match self.drawn_with(form, &|number, code| {
-            if number == module { mutant.clone() } else { guard::bounded(&code) }
-        }) {
+    fn outcome(&mut self, form: Form, edit: &dyn Fn(usize, Code) -> Code) -> Outcome {
+        let picture = match self.drawn_with(form, edit) {
             Ok(picture) => picture,
             Err(error) => return Outcome::Refused(error.to_string()),
         };
@@ -165,6 +167,7 @@ impl<'a> Subject<'a> {
             by_envelope: verdict.conclusion(&Demands { likely: false, ..Demands::default() }) == Conclusion::Fails,
             was_open: plain.is_open,
             by_hand: (!plain.is_false_alarm).then(|| fails_by_hand(&picture, reference)),
+            suspect: verdict.suspect.unwrap_or(0),
             change: difference(&picture, &plain.picture, reference, &classes),
         })
     }

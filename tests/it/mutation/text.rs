@@ -5,6 +5,7 @@
 
 use super::tokens::{Sort, Token, body, closing, is_binary, tokens};
 use super::{Kind, Mutation, Rewrite, Target, text_calls};
+use glisten_front::hir::Stage;
 use std::ops::Range;
 
 /// Marks between operands, and what they become.
@@ -32,12 +33,9 @@ const MARKS: [(&str, &[&str], Kind); 20] = [
 ];
 
 /// Words, and what they become.
-const WORDS: [(&str, &[&str], Kind); 15] = [
+const WORDS: [(&str, &[&str], Kind); 12] = [
     ("break", &["continue"], Kind::Control),
     ("continue", &["break"], Kind::Control),
-    ("flat", &["linear", "perspective"], Kind::Qualifier),
-    ("linear", &["perspective"], Kind::Qualifier),
-    ("centroid", &["center"], Kind::Qualifier),
     ("vertex_index", &["instance_index"], Kind::Convention),
     ("instance_index", &["vertex_index"], Kind::Convention),
     ("dpdx", &["dpdy", "-dpdx"], Kind::Convention),
@@ -72,6 +70,11 @@ pub(super) fn mutations(text: &str, target: Target) -> Vec<Mutation> {
     found.extend(text.exchanged("location", "@location"));
     found.extend(text_calls::faults(&text));
     found
+}
+
+/// A float as WGSL writes it.
+fn written(value: f32) -> String {
+    if value < 0.0 { format!("({value:e}f)") } else { format!("{value:e}f") }
 }
 
 impl<'a> Text<'a> {
@@ -145,11 +148,12 @@ impl<'a> Text<'a> {
         match token.text {
             "if" | "while" => found.extend(self.condition(place)),
             "discard" => found.push(self.replaced(Kind::Dropped, token, "")),
-            "interpolate" | "invariant" if place > 0 => found.extend(self.attribute(place)),
+            "invariant" if place > 0 => found.extend(self.attribute(place)),
+            "interpolate" if target.stage == Stage::Vertex => found.extend(self.interpolation(place)),
             "front_facing" if is_name && !self.is(place - 1, "(") => {
                 found.push(self.replaced(Kind::Convention, token, "!front_facing"));
             }
-            "position" if is_name && self.is(place + 1, ".") && target.stage == glisten_front::hir::Stage::Fragment => {
+            "position" if is_name && self.is(place + 1, ".") && target.stage == Stage::Fragment => {
                 found.extend(self.coordinate(place, target));
             }
             "gl_Position" if self.is(place + 1, ".") => found.extend(self.written(place)),
@@ -178,6 +182,29 @@ impl<'a> Text<'a> {
         let always =
             self.fault(Kind::Control, &format!("`{condition}` becomes `true`"), vec![(range, " true ".to_owned())]);
         vec![negated, always]
+    }
+
+    /// Another interpolation, or none, of a varying in both stages: `@location(1) @interpolate(flat)`.
+    fn interpolation(&self, place: usize) -> Vec<Mutation> {
+        let (Some(first), Some(close)) = (place.checked_sub(6), closing(&self.list, place + 1)) else {
+            return Vec::new();
+        };
+        let from = &self.text[self.list[first].at..self.list[close].range().end];
+        let location = &self.text[self.list[first].at..self.list[place - 1].at];
+        let old = &self.text[self.list[place + 1].range().end..self.list[close].at];
+        let made = |new: &str| {
+            let (to, kind) = match new {
+                "" => (location.trim_end().to_owned(), Kind::Dropped),
+                new => (format!("{location}@interpolate({new})"), Kind::Qualifier),
+            };
+            let name = format!("`{from}` becomes `{to}`");
+            Mutation { kind, name, rewrite: Rewrite::Everywhere(from.to_owned(), to) }
+        };
+        ["", "flat", "linear", "perspective", "perspective, centroid"]
+            .iter()
+            .filter(|new| **new != old)
+            .map(|new| made(new))
+            .collect()
     }
 
     /// An attribute is dropped.
@@ -252,8 +279,8 @@ impl<'a> Text<'a> {
     fn float(&self, token: &Token<'_>, digits: &str) -> Vec<Mutation> {
         let Ok(value) = digits.parse::<f32>() else { return Vec::new() };
         let half = f32::from_bits(value.to_bits().wrapping_add(0x1000) & !0x1fff);
-        let changed = [half, value * 1.01].into_iter().filter(|new| *new != value && new.is_finite());
-        changed.map(|new| self.replaced(Kind::Constant, token, &format!("{new:e}f"))).collect()
+        let changed = [half, value * 1.01, -value].into_iter().filter(|new| *new != value && new.is_finite());
+        changed.map(|new| self.replaced(Kind::Constant, token, &written(new))).collect()
     }
 
     /// Two neighboring members of a struct of one type in exchange.
@@ -289,8 +316,10 @@ impl<'a> Text<'a> {
             let rest = self.text[token.at..].lines().next().unwrap_or_default();
             let head = self.text[line..token.at].trim_start();
             if is_number && head.starts_with(begins) {
-                let ty = rest.rsplit(": ").next().unwrap_or_default();
-                all.push((token, format!("{head} {ty}")));
+                // Without the name: `) @interpolate(flat)` and `vec4<f32>,`.
+                let (name, ty) = rest.split_once(": ").unwrap_or((rest, ""));
+                let attributes = name.rsplit_once(' ').map_or("", |(attributes, _)| attributes);
+                all.push((token, format!("{head} {attributes} {ty}")));
             }
         }
         for (place, (first, of)) in all.iter().enumerate() {

@@ -49,6 +49,8 @@ pub(crate) struct Seen {
     pub(crate) was_open: bool,
     /// Whether `verify --tolerance` with 1/255 fails; `None` if it also fails without a fault.
     pub(crate) by_hand: Option<bool>,
+    /// The number of pixels that are far from what the population of simulated GPUs drew.
+    pub(crate) suspect: u64,
     pub(crate) change: Change,
 }
 
@@ -98,7 +100,7 @@ impl fmt::Display for Trial {
                 };
                 let class = class.map_or("not covered", Class::name);
                 write!(f, "{verdict}: {pixels} pixels, up to {absolute:.1e} ({ulps:.1} ulp), in an envelope ")?;
-                write!(f, "{width:.1e} wide, {class}")?;
+                write!(f, "{width:.1e} wide, {class}, {} suspect", seen.suspect)?;
                 f.write_str(if seen.by_hand == Some(true) { "; 1/255 catches it" } else { "" })
             }
         }
