@@ -17,7 +17,7 @@ const LEFT: f64 = 76.0;
 const FOOT: f64 = HEIGHT - 58.0;
 
 /// The number of model colors in the style sheet.
-pub(super) const COLORS: usize = 8;
+pub(super) const COLORS: usize = 12;
 
 /// The two axes of the plot.
 struct Axes {

@@ -44,9 +44,13 @@ pub(super) const SCALE: [[u8; 3]; 8] = [
 
 /// The first attachment as a PNG data URI.
 pub(crate) fn color_uri(picture: &Picture, by: Transfer) -> String {
+    data_uri(&colors(picture, by), picture.width, picture.height, Effort::Fast)
+}
+
+/// The first attachment in 8 bits.
+pub(super) fn colors(picture: &Picture, by: Transfer) -> Vec<[u8; 3]> {
     let pixels = picture.attachments.first().map(Vec::as_slice).unwrap_or_default();
-    let pixels: Vec<[u8; 3]> = pixels.iter().map(|&pixel| visible_rgb(by.encode_pixel(pixel))).collect();
-    data_uri(&pixels, picture.width, picture.height)
+    pixels.iter().map(|&pixel| visible_rgb(by.encode_pixel(pixel))).collect()
 }
 
 /// The differences from the truth as a PNG data URI.
@@ -55,7 +59,7 @@ pub(crate) fn difference_uri(differences: &[Option<f64>], width: u32, height: u3
         Some(difference) => scale_color(*difference, scale),
         None => [0, 200, 220],
     });
-    data_uri(&pixels.collect::<Vec<_>>(), width, height)
+    data_uri(&pixels.collect::<Vec<_>>(), width, height, Effort::Fast)
 }
 
 /// The color of a difference.
@@ -69,9 +73,9 @@ pub(super) fn scale_color(difference: f64, Decades { low, high }: Decades) -> [u
 }
 
 /// The PNG data URI of some pixels.
-pub(super) fn data_uri(pixels: &[[u8; 3]], width: u32, height: u32) -> String {
+pub(super) fn data_uri(pixels: &[[u8; 3]], width: u32, height: u32, effort: Effort) -> String {
     // Writing to memory fails only if the sizes disagree; an empty picture shows that better than no page at all.
-    let png = png_rgb(width, height, pixels, Effort::Fast).unwrap_or_default();
+    let png = png_rgb(width, height, pixels, effort).unwrap_or_default();
     format!("data:image/png;base64,{}", base64(&png))
 }
 

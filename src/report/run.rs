@@ -35,7 +35,7 @@ pub fn run(
     let mut plan = files.plan(&whole)?;
     if let (Ways::Auto, Some(scene)) = (options.ways, &whole.scene) {
         watcher.step("looking for ways");
-        files.find((scene, &whole.sources), &mut plan);
+        files.find(scene, &mut plan);
     }
     let mut drawing = Drawing { gpu, options, truths: Vec::new(), done: Vec::new(), skipped: Vec::new(), steps: 0 };
     let drawn = if options.specialized.is_some() { 2 * plan.ways.len() } else { plan.ways.len() };
@@ -154,11 +154,11 @@ impl Files<'_> {
     }
 
     /// Adds the ways that are found by themselves.
-    fn find(&self, (scene, sources): (&Scene, &SourceMap), plan: &mut Plan) {
+    fn find(&self, scene: &Scene, plan: &mut Plan) {
         let text = plan.text.clone();
         let name = stem(self.path);
         let load = |text: &str| self.scene_of(&Drawn::Text(text.to_owned())).ok();
-        let origin = Origin { name: &name, scene, sources, text: &text, compiler: self.compiler, load: &load };
+        let origin = Origin { name: &name, scene, text: &text, load: &load };
         plan.add(scene, ways::found(&origin));
     }
 

@@ -223,7 +223,9 @@ fn widest(scene: &Scene, profile: Profile) -> f64 {
     let options = glisten_reference::RenderOptions { profile, ..as_on_vulkan(Precision::Envelope, Faults::NONE) };
     let picture = glisten_reference::render(scene, &options).expect("the reference draws it");
     let intervals = &picture.intervals.as_ref().expect("it has envelopes")[0];
-    intervals.iter().flatten().map(|interval| interval.width()).fold(0.0, f64::max)
+    // Far from the edges of the square, where coverage is a matter of the profile, too.
+    let inner = intervals.chunks(64).skip(16).take(32).flat_map(|row| &row[16..48]);
+    inner.flatten().map(|interval| interval.width()).fold(0.0, f64::max)
 }
 
 #[test]

@@ -6,14 +6,14 @@
 //! are made smaller by a whole number: colors by their mean, differences and bands by their largest.
 
 use super::super::model::{Report, Way};
-use super::super::raster::{color_uri, data_uri};
+use super::super::raster::{colors, data_uri};
 use super::bands::{self, Luminance};
 use super::differences::Scale;
-use glisten_scene::picture::Picture;
+use glisten_scene::picture::{Effort, Picture, Transfer};
 use std::collections::BTreeMap;
 
 /// The bytes that all pictures of a page may have together.
-const MOST_BYTES: usize = 6 << 20;
+const MOST_BYTES: usize = 8 << 20;
 /// The pixels beyond which no page is tried.
 const MOST_PIXELS: u64 = 40_000_000;
 
@@ -81,13 +81,13 @@ impl Album {
         let mut album = Self { factor, ..Self::default() };
         let size = report.size;
         for (truth, model) in report.truths.iter().zip(models) {
-            let picture = album.add(color_uri(&smaller(&truth.picture, factor), report.encode));
+            let picture = album.picture(&truth.picture, report.encode);
             let bands = album.bands(&model.truth.0, size, model.bound);
             let (bound, row, profile) = (model.bound, model.row, model.truth.1.clone());
             album.truths.push(OfTruth { picture, bands, bound, row, profile });
         }
         for (number, way) in report.ways.iter().enumerate() {
-            let picture = album.add(color_uri(&smaller(&way.picture, factor), report.encode));
+            let picture = album.picture(&way.picture, report.encode);
             let difference = album.difference(way, size, scale);
             let of_model = models.iter().find_map(|model| Some((model.ways.get(&number)?, model.bound)));
             let (bands, profile) = match of_model {
@@ -109,11 +109,16 @@ impl Album {
         index
     }
 
+    fn picture(&mut self, picture: &Picture, by: Transfer) -> usize {
+        let picture = smaller(picture, self.factor);
+        self.add(data_uri(&colors(&picture, by), picture.width, picture.height, Effort::Best))
+    }
+
     fn difference(&mut self, way: &Way, size: [u32; 2], scale: Scale) -> usize {
         let largest = |block: &[Option<f64>]| block.iter().try_fold(0.0, |most: f64, one| one.map(|one| most.max(one)));
         let (values, size) = reduce(&way.difference, size, self.factor, largest);
         let colors: Vec<[u8; 3]> = values.into_iter().map(|difference| scale.color(difference)).collect();
-        self.add(data_uri(&colors, size[0], size[1]))
+        self.add(data_uri(&colors, size[0], size[1], Effort::Best))
     }
 
     fn bands(&mut self, second: &[Option<f64>], size: [u32; 2], bound: f64) -> usize {
@@ -123,7 +128,7 @@ impl Album {
         };
         let (values, size) = reduce(second, size, self.factor, largest);
         let colors: Vec<[u8; 3]> = values.into_iter().map(|second| bands::color(second, bound)).collect();
-        self.add(data_uri(&colors, size[0], size[1]))
+        self.add(data_uri(&colors, size[0], size[1], Effort::Best))
     }
 }
 

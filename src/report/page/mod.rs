@@ -318,7 +318,7 @@ pub(in crate::report) mod tests {
             "glisten report &#x27;&lt;a&gt;.toml&#x27;",
             "1970-01-02",
             env!("CARGO_PKG_VERSION"),
-            "A/A control",
+            "A&#x2f;A control",
             "Mesa",
         ] {
             assert!(page.contains(told), "{told}");

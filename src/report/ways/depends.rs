@@ -63,7 +63,7 @@ pub(super) fn tabulated(types: &Types, shader: &Shader, fixed: &Fixed) -> Vec<Ta
             search.largest(function, root, &mut found);
         }
     }
-    found.sort_by(|a, b| b.weight.cmp(&a.weight));
+    found.sort_by_key(|one| std::cmp::Reverse(one.weight));
     found
 }
 

@@ -29,9 +29,7 @@ mod vertex;
 pub use library::{LIBRARY_SCENE, LibraryFiles};
 
 use crate::scene::Scene;
-use glisten_front::compiler::Compiler;
 use glisten_front::hir::Stage;
-use glisten_front::source::SourceMap;
 use glisten_gpu::Via;
 
 /// The name and the kind of the scene as written.
@@ -44,12 +42,8 @@ pub(super) struct Origin<'a> {
     pub(super) name: &'a str,
     /// The scene as written.
     pub(super) scene: &'a Scene,
-    /// The scene file and its shaders.
-    pub(super) sources: &'a SourceMap,
     /// The text of the scene file, without its `[report]` table.
     pub(super) text: &'a str,
-    /// Compiles texts as the scene's shaders were compiled.
-    pub(super) compiler: &'a Compiler,
     /// Loads the scene from another text of its file; `None` if that has errors.
     pub(super) load: &'a dyn Fn(&str) -> Option<Scene>,
 }

@@ -45,9 +45,8 @@ impl Names {
     fn declare(&mut self, id: FunctionId, stmt: &Stmt) {
         match &stmt.kind {
             StmtKind::Local(local, Some(value)) => {
-                if self.known.insert((id, *local), (id, *value)).is_some() {
-                    self.assigned.insert((id, *local));
-                }
+                let before = self.known.insert((id, *local), (id, *value));
+                self.assigned.extend(before.map(|_| (id, *local)));
             }
             StmtKind::Local(local, None) => {
                 self.assigned.insert((id, *local));

@@ -31,9 +31,12 @@ const scientific = (value, digits = 1) => {
   return `${factor} × 10${raised(Number(exponent))}`;
 };
 
-const COLORS = 8;
+const COLORS = 12;
 // A kind of way has one mark; ways that the scene declares differ by their names, without that of the model.
-const withoutModel = (name, model) => (name.startsWith(model + " ") ? name.slice(model.length + 1) : name);
+const withoutModel = (name, model) => {
+  const rest = name.startsWith(model) ? /^[\s,:]+(.+)$/.exec(name.slice(model.length)) : null;
+  return rest ? rest[1] : name;
+};
 const kindOf = (way) => (way.kind === "declared" ? withoutModel(way.name, way.model) : way.kind);
 const kinds = [...new Set(report.ways.map(kindOf))];
 const ways = report.ways.map((way, number) => ({

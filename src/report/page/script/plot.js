@@ -9,7 +9,7 @@ const isOn = (way) => !hidden.has("model:" + way.model) && !hidden.has("kind:" +
 const shortName = (way) => {
   const several = way.tessellation && ways.some((other) => other !== way && other.name === way.name && other.model === way.model);
   if (several) return `${way.number + 1} · ${way.tessellation.join("×")}`;
-  const name = way.name.length > 32 ? way.name.slice(0, 31) + "…" : way.name;
+  const name = way.name.length > 44 ? way.name.slice(0, 43) + "…" : way.name;
   return `${way.number + 1} · ${name}`;
 };
 

@@ -28,8 +28,14 @@ impl Emitter {
 
     /// An operand as a chain of the kind.
     fn chain_of(&self, operand: Operand, sum: bool) -> Chain {
-        let blank =
-            Chain { sum, terms: SmallVec::new(), constant: if sum { 0.0 } else { 1.0 }, constants: 0, stores: None };
+        let blank = Chain {
+            sum,
+            terms: SmallVec::new(),
+            constant: if sum { 0.0 } else { 1.0 },
+            constants: 0,
+            prefixes: SmallVec::new(),
+            stores: None,
+        };
         if let Some(value) = self.known_float(operand) {
             return Chain { constant: value, constants: 1, ..blank };
         }
@@ -55,7 +61,25 @@ impl Emitter {
             }
             other.constant = if sum { -other.constant } else { 1.0 / other.constant };
         }
-        chain.constant = if sum { chain.constant + other.constant } else { chain.constant * other.constant };
+        let combined = |x: f64, y: f64| if sum { x + y } else { x * y };
+        let (result, added) = match (chain.terms.is_empty(), other.terms.is_empty()) {
+            (false, true) => (Some(a), other.constant),
+            (true, false) => {
+                chain.prefixes = std::mem::take(&mut other.prefixes);
+                (Some(b), chain.constant)
+            }
+            _ => (None, 0.0),
+        };
+        match result {
+            Some(result) => {
+                chain.prefixes.iter_mut().for_each(|(_, constant)| *constant = combined(*constant, added));
+                chain.prefixes.push((result, added));
+                // The latest ones.
+                chain.prefixes.drain(..chain.prefixes.len().saturating_sub(MAX_TERMS));
+            }
+            None => chain.prefixes.clear(),
+        }
+        chain.constant = combined(chain.constant, other.constant);
         chain.constants += other.constants;
         chain.stores = chain.stores.or(other.stores);
         chain.terms.extend(other.terms);
@@ -71,17 +95,25 @@ impl Compiler<'_> {
             return plain;
         }
         let Some(chain) = self.emit.chain(op, a, b) else { return plain };
-        let result = if chain.constants > 1 { self.folded(plain, &chain) } else { plain };
+        let mut result = plain;
+        if chain.constants > 1 {
+            result = self.folded(result, chain.sum, &chain.terms, chain.constant);
+            // Some constants may be combined, and not others: those after an earlier result. The last one is as written.
+            let (_, earlier) = chain.prefixes.split_last().unwrap_or((&(plain, 0.0), &[]));
+            for (prefix, constant) in earlier.iter().filter(|(prefix, _)| chain.terms[..] != [*prefix]) {
+                result = self.folded(result, chain.sum, &[*prefix], *constant);
+            }
+        }
         self.emit.chains.insert(result, chain);
         result
     }
 
-    fn folded(&mut self, plain: Operand, chain: &Chain) -> Operand {
-        let constant = self.emit.float(chain.constant as f32);
-        let operands: Vec<Operand> = chain.terms.iter().copied().chain([constant]).collect();
+    fn folded(&mut self, plain: Operand, sum: bool, terms: &[Operand], constant: f64) -> Operand {
+        let constant = self.emit.float(constant as f32);
+        let operands: Vec<Operand> = terms.iter().copied().chain([constant]).collect();
         let hoisted = plain.is_scalar();
         let list = self.emit.list(Class::Float, &operands, hoisted);
-        let both = self.emit.pure(Class::Float, &[plain], |dst| Inst::Folded { sum: chain.sum, dst, a: plain, list });
+        let both = self.emit.pure(Class::Float, &[plain], |dst| Inst::Folded { sum, dst, a: plain, list });
         self.emit.define(both, Definition::Same(plain));
         both
     }

@@ -25,6 +25,8 @@ pub(super) struct Chain {
     /// The combination of all constants.
     pub(super) constant: f64,
     pub(super) constants: u32,
+    /// Earlier results of the chain, each with the combination of all constants since.
+    pub(super) prefixes: SmallVec<[(Operand, f64); MAX_TERMS]>,
     /// The number of stores before the chain, if one of its terms is a variable's home.
     pub(super) stores: Option<u32>,
 }
