@@ -7,7 +7,8 @@
 //! dozen members do not reach the ends of what rounding may do, so what is nearer says nothing. It is also suspect if it
 //! is not finite and no member's is. Where a member has NaN, the language leaves the result undefined, and nothing is
 //! suspect. Where the envelope is wider than the goal for evidence, it may hide a jump: on which
-//! side of it a pixel lies may be decided by one rounding, so there the eight pixels around count as well. A pixel that
+//! side of it a pixel lies may be decided by one rounding, so there the eight pixels around count as well. But a jump is a
+//! line: where more than [`MAX_JUMPS`] of the covered pixels need those around them, they are suspect. A pixel that
 //! only one side covers is suspect if no pixel around differs in coverage within the population. From [`MIN_SHARE`] of the
 //! covered pixels and [`MIN_PIXELS`] pixels on, suspects fail a comparison.
 
@@ -19,6 +20,9 @@ pub const FAR: f64 = 4.0;
 
 /// The share of the covered pixels from which suspects fail.
 pub const MIN_SHARE: f64 = 0.001;
+
+/// The share of the covered pixels that may lie on the other side of a jump.
+pub const MAX_JUMPS: f64 = 0.01;
 
 /// The number of suspects that fail at least.
 pub const MIN_PIXELS: u64 = 8;
@@ -37,6 +41,17 @@ pub struct Population {
     pub ranges: Vec<Vec<[Interval; 4]>>,
     /// The number of members that cover each pixel.
     pub covered: Vec<u32>,
+}
+
+/// Where a pixel lies in relation to what the members drew there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Place {
+    /// In the range or near it.
+    Near,
+    /// Far outside, but in the range of the pixels around, or near it, and the envelope may hide a jump.
+    AcrossJump,
+    /// Far outside.
+    Far,
 }
 
 /// No number.
@@ -63,23 +78,29 @@ impl Population {
         }
     }
 
-    /// Whether a pixel that the GPU covers is suspect: see the rule above. `reference` has the envelopes.
-    pub(super) fn is_suspect(&self, gpu: &Picture, reference: &Picture, ruler: &Ruler<'_>, pixel: usize) -> bool {
+    /// Where a pixel that the GPU covers lies: see the rule above. `reference` has the envelopes.
+    pub(super) fn place(&self, gpu: &Picture, reference: &Picture, ruler: &Ruler<'_>, pixel: usize) -> Place {
         if self.covered.get(pixel) != Some(&self.members) {
-            return self.is_covered_by_chance(true, pixel);
+            return if self.is_covered_by_chance(true, pixel) { Place::Far } else { Place::Near };
         }
-        (0..gpu.attachments.len()).any(|attachment| {
+        let places = (0..gpu.attachments.len()).flat_map(|attachment| {
             let color = gpu.attachments.get(attachment).and_then(|colors| colors.get(pixel));
             let intervals = reference.intervals.as_ref().and_then(|all| all.get(attachment)?.get(pixel));
-            let (Some(color), Some(intervals)) = (color, intervals) else { return false };
-            (0..4).any(|channel| {
-                let (value, unit) = (color[channel], ruler.unit(color[channel]));
-                let is_far = |range: Interval| distance(range, value, unit) > FAR;
-                let may_jump = !(intervals[channel].width() <= ruler.goal);
-                is_far(self.range(attachment, pixel, channel))
-                    && !(may_jump && !is_far(self.range_around(attachment, pixel, channel)))
+            let both = color.zip(intervals).into_iter();
+            both.flat_map(move |(color, intervals)| {
+                (0..4).map(move |channel| {
+                    let (value, unit) = (color[channel], ruler.unit(color[channel]));
+                    let is_far = |range: Interval| distance(range, value, unit) > FAR;
+                    let may_jump = !(intervals[channel].width() <= ruler.goal);
+                    match is_far(self.range(attachment, pixel, channel)) {
+                        false => Place::Near,
+                        true if may_jump && !is_far(self.range_around(attachment, pixel, channel)) => Place::AcrossJump,
+                        true => Place::Far,
+                    }
+                })
             })
-        })
+        });
+        places.max().unwrap_or(Place::Near)
     }
 
     /// Whether a pixel that only one side covers is suspect.
@@ -131,6 +152,11 @@ fn distance(range: Interval, value: f64, unit: f64) -> f64 {
     (range.low - value).max(value - range.high) / range.width().max(unit).max(f64::MIN_POSITIVE)
 }
 
+/// Whether so many pixels across a jump are suspect.
+pub(super) fn are_too_many(jumps: u64, covered: u64) -> bool {
+    jumps >= MIN_PIXELS && jumps as f64 > MAX_JUMPS * covered as f64
+}
+
 /// Whether so many suspects fail a comparison.
 pub(super) fn fails(suspect: u64, covered: u64) -> bool {
     suspect >= MIN_PIXELS && suspect as f64 > MIN_SHARE * covered as f64
@@ -160,7 +186,7 @@ mod tests {
         let written = super::super::evidence::Written::everything(1);
         let ruler = Ruler::new(&reference, &written, None);
         let population = population();
-        (0..6).filter(|pixel| population.is_suspect(&gpu, &reference, &ruler, *pixel)).collect()
+        (0..6).filter(|pixel| population.place(&gpu, &reference, &ruler, *pixel) == Place::Far).collect()
     }
 
     fn population_reference() -> Picture {
@@ -194,6 +220,9 @@ mod tests {
         let cases = [(7, 100, false), (8, 100, true), (8, 8000, false), (9, 8000, true)];
         for (suspect, covered, expected) in cases {
             assert_eq!(fails(suspect, covered), expected, "{suspect} of {covered}");
+        }
+        for (jumps, covered, expected) in [(7, 100, false), (8, 100, true), (8, 800, false), (9, 800, true)] {
+            assert_eq!(are_too_many(jumps, covered), expected, "{jumps} of {covered}");
         }
     }
 }

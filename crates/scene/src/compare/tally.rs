@@ -10,7 +10,7 @@
 //! difference that only a known fault of the driver explains is counted under the fault's name.
 
 use super::evidence::{Class, Ruler, Widths, Written};
-use super::population::Population;
+use super::population::{Place, Population, are_too_many};
 use super::verdict::{Criterion, FaultCount, Verdict, Worst, ulp_f32};
 use crate::picture::{Interval, Picture};
 
@@ -99,6 +99,8 @@ struct Tally<'a> {
     verdict: Verdict,
     classes: Vec<Option<Class>>,
     widths: Widths,
+    /// Pixels that only the pixels around keep from being suspect.
+    jumps: u64,
     squares: f64,
     channels: u64,
     worst_rank: f64,
@@ -134,6 +136,7 @@ impl<'a> Tally<'a> {
             verdict: Verdict { judged_by, suspect, ..Verdict::default() },
             classes: vec![None; cpu.covered.len()],
             widths: Widths::default(),
+            jumps: 0,
             squares: 0.0,
             channels: 0,
             worst_rank: -1.0,
@@ -203,7 +206,9 @@ impl<'a> Tally<'a> {
         let is_defined = !errors.iter().any(|error| error.non_finite[1]);
         if let Some(ruler) = ruler.filter(|_| !is_wrong && !is_edge && is_defined) {
             let (gpu, cpu) = (self.gpu, self.cpu);
-            self.count_suspect(|population| population.is_suspect(gpu, cpu, ruler, pixel));
+            let place = self.comparison.population.map(|population| population.place(gpu, cpu, ruler, pixel));
+            self.count_suspect(|_| place == Some(Place::Far));
+            self.jumps += u64::from(place == Some(Place::AcrossJump));
         }
         for (attachment, error) in errors.iter().enumerate() {
             if !is_open {
@@ -368,6 +373,10 @@ impl<'a> Tally<'a> {
     }
 
     fn finish(mut self) -> Compared {
+        if let Some(suspect) = self.verdict.suspect.as_mut().filter(|_| are_too_many(self.jumps, self.verdict.covered))
+        {
+            *suspect += self.jumps;
+        }
         self.verdict.pixels = self.cpu.covered.len() as u64;
         if self.channels > 0 {
             self.verdict.rmse = (self.squares / self.channels as f64).sqrt();

@@ -430,6 +430,26 @@ mod tests {
         assert_eq!((verdict.suspect, verdict.outside), (Some(0), 0));
     }
 
+    /// A gradient whose first pixels have the color of their neighbors.
+    fn shifted(count: usize) -> Option<u64> {
+        let gray = |x: usize| x as f64 / 40.0;
+        let plain: Vec<f64> = (0..40).map(gray).collect();
+        let moved: Vec<f64> = (0..40).map(|x| if x < count { gray(x + 1) } else { gray(x) }).collect();
+        let mut cpu = picture(&plain);
+        for color in cpu.intervals.iter_mut().flatten().flatten() {
+            color[0] = Interval { low: -1.0, high: 2.0, may_be_nan: false };
+        }
+        let mut population = population::Population::new(1, [40, 1], 1);
+        population.add(&picture(&plain));
+        let comparison = Comparison { population: Some(&population), ..Comparison::default() };
+        comparison.compare(&picture(&moved), &cpu).verdict.suspect
+    }
+
+    #[test]
+    fn a_jump_is_no_area() {
+        assert_eq!([0, 7, 8, 30].map(shifted), [Some(0), Some(0), Some(8), Some(30)]);
+    }
+
     #[test]
     fn numbers_that_are_not_finite_are_counted_apart() {
         let verdict =
