@@ -9,7 +9,7 @@ use super::rules::{self, Step};
 /// A fitted constant.
 #[derive(Clone, Copy, Debug)]
 pub struct Fitted {
-    /// What it limits.
+    /// The quantity that it limits.
     pub what: &'static str,
     /// The number in use.
     pub value: f64,

@@ -225,7 +225,7 @@ fn functions_stay_within_what_they_can_give() {
     assert!(rest.low > -1e-5 && rest.high < 1.0 + 1e-5, "{rest:?}");
 }
 
-/// What GLSL leaves undefined may be anything, and the last argument with a meaning does not.
+/// A result that GLSL leaves undefined may be anything, and the last argument with a meaning does not.
 #[test]
 fn what_is_undefined_may_be_anything() {
     let below = -f32::MIN_POSITIVE;
