@@ -50,13 +50,16 @@ pub(super) struct OfWay {
     pub(super) profile: Vec<Option<f64>>,
 }
 
+/// The second difference of a luminance, and its profile.
+type OfLuminance = (Vec<Option<f64>>, Vec<Option<f64>>);
+
 /// The second differences and profiles of a model.
 struct Model {
-    truth: (Vec<Option<f64>>, Vec<Option<f64>>),
+    truth: OfLuminance,
     bound: f64,
     row: usize,
     /// By the number of the way.
-    ways: BTreeMap<usize, (Vec<Option<f64>>, Vec<Option<f64>>)>,
+    ways: BTreeMap<usize, OfLuminance>,
 }
 
 impl Album {

@@ -122,6 +122,12 @@ const drawPoints = (drawing, frame, foot) => {
     point.label = shortName(point.way) + (point.together.length > 1 ? ` +${point.together.length - 1}` : "");
   }
   const boxes = placeLabels(order, { width: frame.width - 2, height: foot - 2, left: frame.left + 3, top: frame.top, font: fontOf, lines: plotted.lines });
+  for (const { way, y, ends } of order) {
+    if (!ends || ends[0] === null || ends[1] === null) continue;
+    const [from, to] = ends.map((end) => end.toFixed(1));
+    const [at, above] = [y.toFixed(1), (y - 4).toFixed(1)];
+    drawing.append(svg("path", { class: `spread ${way.color}`, d: `M${from} ${at}H${to}M${from} ${above}v8M${to} ${above}v8` }));
+  }
   order.forEach((point, index) => {
     const box = boxes[index];
     if (!box) return;
@@ -134,11 +140,8 @@ const drawPoints = (drawing, frame, foot) => {
   });
   // The front is drawn last, so that it is on top.
   for (const point of [...order].reverse()) {
-    const { way, state, x, y, ends } = point;
-    const bar = ends && ends[0] !== null && ends[1] !== null
-      ? svg("path", { class: "spread", d: `M${ends[0].toFixed(1)} ${y.toFixed(1)}H${ends[1].toFixed(1)}M${ends[0].toFixed(1)} ${(y - 4).toFixed(1)}v8M${ends[1].toFixed(1)} ${(y - 4).toFixed(1)}v8` }) : null;
+    const { way, state, x, y } = point;
     point.node = svg("g", { class: `point ${way.color} ${state}`, tabindex: "-1", role: "button", "aria-pressed": "false", "aria-label": spoken(point), focus: () => hover(way.number), blur: () => hover(null) },
-      bar,
       svg("g", { transform: `translate(${x.toFixed(1)} ${y.toFixed(1)})` },
         svg("circle", { class: "halo", r: "12" }),
         state === "no" ? null : svg("circle", { class: "ring", r: "10.5" }),
