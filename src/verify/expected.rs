@@ -106,7 +106,7 @@ impl<'a> Expected<'a> {
         let ruler = Ruler::new(&self.picture, &self.written, self.options.width);
         let covered = (0..self.picture.covered.len()).filter(|pixel| self.picture.covered.get(*pixel) == Some(&true));
         let (count, wide) = covered.fold((0_u64, 0_u64), |(count, wide), pixel| {
-            let is_wide = !(ruler.width(pixel) <= ruler.goal * NARROW);
+            let is_wide = ruler.width(pixel) > ruler.goal * NARROW;
             (count + 1, wide + u64::from(is_wide))
         });
         let open = self.picture.undecided.iter().filter(|open| **open).count() as u64;

@@ -91,7 +91,9 @@ impl Population {
                 (0..4).map(move |channel| {
                     let (value, unit) = (color[channel], ruler.unit(color[channel]));
                     let is_far = |range: Interval| distance(range, value, unit) > FAR;
-                    let may_jump = !(intervals[channel].width() <= ruler.goal);
+                    // A NaN is no width.
+                    let width = intervals[channel].width();
+                    let may_jump = width.is_nan() || width > ruler.goal;
                     match is_far(self.range(attachment, pixel, channel)) {
                         false => Place::Near,
                         true if may_jump && !is_far(self.range_around(attachment, pixel, channel)) => Place::AcrossJump,

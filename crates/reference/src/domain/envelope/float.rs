@@ -306,7 +306,8 @@ impl Number for EnvelopeFloat {
         if self.is_infinite_perhaps() || self.may_be_nan { self.sub(self) } else { Self::exact(0.0) }
     }
     fn over_itself(self) -> Self {
-        let value = self.value / self.value;
+        // 1, or NaN for 0, an infinity and NaN.
+        let value = if self.value == 0.0 || !self.value.is_finite() { f64::NAN } else { 1.0 };
         let (least, most) = (self.low.abs().min(self.high.abs()), self.low.abs().max(self.high.abs()));
         if self.holds_zero() || self.may_be_nan || least < FLUSH || most > 1.0 / FLUSH {
             return self.div(self);

@@ -36,7 +36,7 @@ impl Gpu {
     /// "Correctly rounded": either of the two neighbors.
     fn rounded(&mut self, exact: f64) -> f64 {
         let (low, high) = neighbors(exact);
-        if self.next() % 2 == 0 { low } else { high }
+        if self.next().is_multiple_of(2) { low } else { high }
     }
 
     fn ulps(&mut self, exact: f64, n: f64) -> f64 {
@@ -85,7 +85,7 @@ impl Gpu {
     fn inherited(&mut self, exact: f64, by_formula: f64) -> f64 {
         let mirrored = neighbors(2.0 * exact - by_formula);
         let inward = if by_formula > exact { mirrored.1 } else { mirrored.0 };
-        if self.next() % 2 == 0 { by_formula } else { inward }
+        if self.next().is_multiple_of(2) { by_formula } else { inward }
     }
 }
 
@@ -194,8 +194,8 @@ const TEXTS: &[Text] = &[
             gpu.inherited(x.powf(y), by_formula)
         },
     },
-    Text { name: "sin", low: -3.14, high: 3.14, envelope: |[x, ..]| x.sin(), gpu: |gpu, [x, ..]| gpu.sin(x) },
-    Text { name: "cos", low: -3.14, high: 3.14, envelope: |[x, ..]| x.cos(), gpu: |gpu, [x, ..]| gpu.cos(x) },
+    Text { name: "sin", low: -3.1, high: 3.1, envelope: |[x, ..]| x.sin(), gpu: |gpu, [x, ..]| gpu.sin(x) },
+    Text { name: "cos", low: -3.1, high: 3.1, envelope: |[x, ..]| x.cos(), gpu: |gpu, [x, ..]| gpu.cos(x) },
     Text {
         name: "tan",
         low: -1.4,

@@ -123,8 +123,8 @@ thread_local! {
     /// The GPU that computes on this thread.
     static CURRENT: Cell<Gpu> = const { Cell::new(Gpu::STRICT) };
     /// The errors of its functions.
-    static SWINGS: Cell<[Swing; FUNCTIONS]> =
-        const { Cell::new([Swing { size: 0.0, begin: 0.0, times: 0.0 }; FUNCTIONS]) };
+    static SWINGS: [Cell<Swing>; FUNCTIONS] =
+        const { [const { Cell::new(Swing { size: 0.0, begin: 0.0, times: 0.0 }) }; FUNCTIONS] };
 }
 
 /// Mixes the bits of a number (the finalizer of SplitMix64).
@@ -189,7 +189,7 @@ impl Gpu {
     /// Computes on this thread from now on.
     pub fn enter(self) {
         CURRENT.set(self);
-        SWINGS.set(std::array::from_fn(|function| self.swing(function)));
+        SWINGS.with(|swings| swings.iter().enumerate().for_each(|(function, swing)| swing.set(self.swing(function))));
     }
 
     /// Half of all GPUs compute a function as well as possible.
@@ -234,7 +234,7 @@ impl Gpu {
 
     #[inline(always)]
     fn swing_of(function: Function) -> Swing {
-        SWINGS.with(|swings| swings.as_array_of_cells()[function as usize].get())
+        SWINGS.with(|swings| swings[function as usize].get())
     }
 
     /// The error of a function at a place between 0 and 1, as a share of the allowed one, -1 to 1. It swings like the
