@@ -9,6 +9,9 @@
 use super::model::Report;
 use super::past::{Past, PastFigures, PastWay, PastWork};
 
+/// The least margin between times of two runs: the load of the machine changes ratios, too.
+const BETWEEN_RUNS: f64 = 0.25;
+
 /// The differences from an earlier report.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Comparison {
@@ -73,7 +76,7 @@ fn compare(new: &Past, old: &Past) -> Result<Comparison, String> {
     if driver && !times {
         found.notes.push("another baseline: times are not compared".into());
     }
-    let margin = [new, old].into_iter().filter_map(|past| past.timing.margin).fold(0.0, f64::max);
+    let margin = [new, old].into_iter().filter_map(|past| past.timing.margin).fold(BETWEEN_RUNS, f64::max);
     for way in &old.ways {
         match new.ways.iter().find(|other| other.key() == way.key()) {
             Some(now) => found.way(now, way, weights, times.then_some(margin)),

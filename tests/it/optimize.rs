@@ -149,7 +149,7 @@ mod drawn {
     use super::optimized_scene;
     use crate::random::{scene, seeds, text};
     use crate::specialize::{Instead, bits, load, share};
-    use glisten::verify::{OnGpu, Options, Runner, verify};
+    use glisten::verify::{Demands, OnGpu, Options, Runner, verify};
     use glisten_emit::{Conventions, Target, emit};
     use glisten_gpu::Gpu;
 
@@ -180,7 +180,9 @@ mod drawn {
             let runners = OnGpu::both(&gpu);
             let runners = runners.each_ref().map(|runner| Instead { runner, scene: &optimized });
             let runners = [&runners[0] as &dyn Runner, &runners[1]];
-            match verify(&scene, &runners, &Options::default()) {
+            // Another test compares the same scenes with the population.
+            let demands = Demands { likely: false, ..Demands::default() };
+            match verify(&scene, &runners, &Options { demands, ..Options::default() }) {
                 Ok(verification) if !verification.fails() => {}
                 Ok(verification) => wrong.push(format!("{}\n{verification}", path.display())),
                 Err(failure) => wrong.push(format!("{}: {failure}", path.display())),
