@@ -1,6 +1,6 @@
 //! Is a table coarser? Errors, the number of shades, and the jumps that the eye sees as Mach bands.
 
-use super::scenes::{At, Ball, By, Highlight, errors, picture, scene};
+use super::scenes::{Ball, By, Highlight, Place, errors, picture, scene};
 use glisten::Picture;
 use std::fmt::Write;
 
@@ -39,13 +39,13 @@ pub(crate) fn table() -> Result<String, String> {
          | --- | --- | --- | --- | --- | --- |",
     );
     for exponent in [4, 32] {
-        let computed = Highlight::new(At::Fragments, By::Squaring, exponent);
+        let computed = Highlight::new(Place::Fragments, By::Squaring, exponent);
         let truth = picture(&scene(computed, BALL)?)?;
         let true_row = row(&truth, &truth);
         let _ = write!(text, "\n| {exponent} | computed | 0 | 0 | {} | 0 |", shades(&true_row));
         for linear in [false, true] {
             for texels in TEXELS {
-                let way = Highlight::new(At::Fragments, By::Table(texels, linear), exponent);
+                let way = Highlight::new(Place::Fragments, By::Table(texels, linear), exponent);
                 let drawn = picture(&scene(way, BALL)?)?;
                 let (largest, rmse) = errors(&drawn, &truth);
                 let own = row(&drawn, &truth);

@@ -1,6 +1,6 @@
 //! Is a table faster? Work by count, and GPU time as a ratio.
 
-use super::scenes::{At, Ball, By, Highlight, errors, files, picture, scene};
+use super::scenes::{Ball, By, Highlight, Place, errors, files, picture, scene};
 use glisten::report::{self, Weights};
 use glisten::{Compiler, Gpu, Options};
 use glisten_gpu::Via;
@@ -17,10 +17,10 @@ const TIME: Duration = Duration::from_secs(30);
 /// The ways to draw a highlight of an exponent, those at the vertices first.
 fn ways(exponent: u32) -> Vec<Highlight> {
     let mut ways = Vec::new();
-    for at in [At::Vertices, At::Fragments] {
+    for at in [Place::Vertices, Place::Fragments] {
         let kinds = [By::Pow, By::Squaring, By::Table(256, false), By::Table(256, true)];
         ways.extend(kinds.map(|by| Highlight::new(at, by, exponent)));
-        if exponent == 4 && at == At::Vertices {
+        if exponent == 4 && at == Place::Vertices {
             ways.push(Highlight::new(at, By::Mirror, exponent));
         }
     }
@@ -49,7 +49,7 @@ pub(crate) fn work() -> Result<String, String> {
     let weights = Weights::default();
     for exponent in EXPONENTS {
         let balls = MESHES.map(|segments| Ball { size: SIZE, segments });
-        let truth = picture(&scene(Highlight::new(At::Fragments, By::Pow, exponent), balls[0])?)?;
+        let truth = picture(&scene(Highlight::new(Place::Fragments, By::Pow, exponent), balls[0])?)?;
         for way in ways(exponent) {
             let _ = write!(text, "\n| {exponent} | {} |", way.name());
             for ball in balls {

@@ -1,6 +1,6 @@
 //! Do colors at vertices lose the highlight? And does interpolation without perspective bend (figure 137)?
 
-use super::scenes::{At, Ball, By, Highlight, errors, loaded, picture, scene};
+use super::scenes::{Ball, By, Highlight, Place, errors, loaded, picture, scene};
 use glisten::Picture;
 use glisten::scene::MemoryFiles;
 use std::fmt::Write;
@@ -31,10 +31,10 @@ fn peaks() -> Result<String, String> {
          again: peak | largest error |\n| --- | --- | --- | --- | --- | --- | --- |",
     );
     let finest = Ball { size: SIZE, segments: 1024 };
-    let truth = picture(&scene(Highlight::new(At::Fragments, By::Squaring, EXPONENT), finest)?)?;
+    let truth = picture(&scene(Highlight::new(Place::Fragments, By::Squaring, EXPONENT), finest)?)?;
     for segments in SEGMENTS {
         let _ = write!(text, "\n| {segments}x{} |", segments / 2);
-        for (at, renormalized) in [(At::Vertices, true), (At::Fragments, false), (At::Fragments, true)] {
+        for (at, renormalized) in [(Place::Vertices, true), (Place::Fragments, false), (Place::Fragments, true)] {
             let way = Highlight { renormalized, ..Highlight::new(at, By::Squaring, EXPONENT) };
             let drawn = picture(&scene(way, Ball { size: SIZE, segments })?)?;
             let _ = write!(text, " {:.3} | {:.1e} |", brightest(&drawn), errors(&drawn, &truth).0);

@@ -8,7 +8,7 @@ use glisten::{Compiler, Options, Picture, RenderOptions, render};
 
 /// Where the highlight is computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum At {
+pub(crate) enum Place {
     Vertices,
     Fragments,
 }
@@ -27,7 +27,7 @@ pub(crate) enum By {
 /// A way to draw the highlight.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Highlight {
-    pub(crate) at: At,
+    pub(crate) at: Place,
     pub(crate) by: By,
     /// A power of two.
     pub(crate) exponent: u32,
@@ -43,7 +43,7 @@ pub(crate) struct Ball {
 }
 
 impl Highlight {
-    pub(crate) fn new(at: At, by: By, exponent: u32) -> Self {
+    pub(crate) fn new(at: Place, by: By, exponent: u32) -> Self {
         Self { at, by, exponent, renormalized: true }
     }
 
@@ -56,7 +56,7 @@ impl Highlight {
             By::Table(texels, true) => format!("table of {texels} texels, linear"),
             By::Table(texels, false) => format!("table of {texels} texels, nearest"),
         };
-        let place = if self.at == At::Vertices { "vertices" } else { "fragments" };
+        let place = if self.at == Place::Vertices { "vertices" } else { "fragments" };
         format!("{how}, at the {place}")
     }
 
@@ -91,7 +91,7 @@ impl Highlight {
         let head = "in vec3 pv;\nin vec3 nv;\nuniform mat4 mc;\n";
         let position = "gl_Position = mc * vec4(pv, 1.0);";
         let [vertex, fragment] = match self.at {
-            At::Fragments => [
+            Place::Fragments => [
                 format!("{head}out vec3 normal;\nvoid main()\n{{\n    normal = nv;\n    {position}\n}}\n"),
                 format!(
                     "in vec3 normal;\n{uniforms}out vec4 color;\n{function}void main()\n{{\n    vec3 n = {unit};\n    \
@@ -99,7 +99,7 @@ impl Highlight {
                 ),
             ],
             // The cosine is a texture coordinate that is interpolated, as in the article.
-            At::Vertices if table => [
+            Place::Vertices if table => [
                 format!(
                     "{head}{uniforms}out float x;\nvoid main()\n{{\n    vec3 n = nv;\n    x = {cosine};\n    {position}\n}}\n"
                 ),
@@ -107,7 +107,7 @@ impl Highlight {
                     "in float x;\nout vec4 color;\n{function}void main()\n{{\n    color = vec4(vec3(f(x)), 1.0);\n}}\n"
                 ),
             ],
-            At::Vertices => [
+            Place::Vertices => [
                 format!(
                     "{head}{uniforms}out float shade;\n{function}void main()\n{{\n    vec3 n = nv;\n    \
                      shade = f({cosine});\n    {position}\n}}\n"

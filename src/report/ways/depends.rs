@@ -12,7 +12,7 @@ use glisten_front::builtin::BuiltinFunction as F;
 use glisten_front::hir::{BinaryOp, ExprId, ExprKind, FunctionId, Shader, TypeId, Types, VarRef};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// What a look-up has to save: the weight of a power is 9, that of a division or a root 4, that of a product 1.
+/// The work that a look-up has to save: the weight of a power is 9, that of a division or a root 4, that of a product 1.
 const LEAST_WEIGHT: u32 = 6;
 
 /// A function of one number.
@@ -110,7 +110,7 @@ impl Search<'_> {
         }
     }
 
-    /// What a local stands for, if that is a function of a scalar that can be evaluated wherever the local can be read.
+    /// The expression that a local stands for, if that is a function of a scalar that can be evaluated wherever the local can be read.
     fn seen_through(&mut self, function: FunctionId, id: ExprId) -> Option<ExprId> {
         let shader = self.at.shader;
         let ExprKind::Var(VarRef::Local(local)) = shader.expr(id).kind else { return None };

@@ -89,7 +89,7 @@ tessellations = [[192, 24]]
 truth_tessellation = [192, 24]
 "#;
 
-/// What all materials have.
+/// The uniforms that all materials have.
 const MATERIAL: &str = "diffuse = [0.6, 0.3, 0.2], specular = [0.5, 0.5, 0.5], shininess = 40";
 
 /// The text of the scene.
