@@ -36,7 +36,7 @@ fn drawn(gpu: &Gpu, scene: &Scene) -> Picture {
 #[test]
 fn known_faults_explain_what_the_strict_envelope_leaves_outside() {
     let gpu = gpu();
-    let scene = from_disk("fixtures/scenes/core/behind_the_eye_noperspective.toml".to_owned());
+    let scene = from_disk("fixtures/scenes/core/behind_the_eye_noperspective.toml");
     let picture = drawn(&gpu, &scene);
     let judged = |options: &Options<'_>| {
         let mut expected = Expected::new(&scene, options).expect("the reference draws it");
