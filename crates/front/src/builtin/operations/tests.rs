@@ -77,7 +77,7 @@ fn formulas_are_written_as_glsl_writes_them() {
     assert_eq!(text(&precision::POW), "exp2(y * log2(x))");
     assert_eq!(text(&precision::MIX), "x * (1.0 - a) + y * a, or x + (y - x) * a");
     assert_eq!(text(&precision::TANH), "(exp(x) - exp(-x)) * 0.5 / ((exp(x) + exp(-x)) * 0.5)");
-    assert_eq!(text(&precision::NORMALIZE), "x * inversesqrt(dot(x, x))");
+    assert_eq!(text(&precision::NORMALIZE), "x * inversesqrt(dot(x, x)), or x / sqrt(dot(x, x))");
     assert_eq!(text(&precision::CROSS), "x[i + 1] * y[i + 2] - y[i + 1] * x[i + 2]");
 }
 
