@@ -6,7 +6,7 @@
 //! *Holds:* the counts are the same on every machine and with any number of threads. A step counts once in each invocation
 //! that executes it; what only constants determine, what no output depends on, and helper invocations do not count. Nothing
 //! is moved out of an invocation because it depends on uniforms alone: hardly any GPU does that. *Not done here:* weights; and
-//! see [`work`](crate::work) for the operations of floats alone.
+//! see [`work`](crate::work()) for the operations of floats alone.
 
 use crate::RenderOptions;
 use crate::domain::F32;

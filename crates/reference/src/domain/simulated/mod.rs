@@ -1,6 +1,6 @@
 //! The simulated domain: the arithmetic of one conforming GPU, which [`Gpu`] describes.
 //!
-//! *In:* f32 values. *Out:* results that the [rules](super::rules) allow: each differs from the exact one as this GPU's
+//! *In:* f32 values. *Out:* results that the [rules] allow: each differs from the exact one as this GPU's
 //! may. *Holds:* a picture in this domain is inside of the picture in envelopes, as a test checks over the fixtures. The
 //! thread knows the GPU ([`Gpu::enter`]), so that a number is one machine number.
 //!
