@@ -4,16 +4,8 @@
 //! width; what is read from the interface is converted as soon as it is a scalar, vector or matrix.
 
 use super::Refusal;
-use super::function::Rewriter;
+use super::rewriter::{Rewriter, Value};
 use naga::{ArraySize, Expression, Handle, MathFunction, SampleLevel, ScalarKind, Type, TypeInner};
-
-/// The result of rewriting an expression.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Value {
-    pub(super) handle: Handle<Expression>,
-    /// Whether it is an aggregate in f32, or a pointer to f32.
-    pub(super) kept: bool,
-}
 
 /// No aggregate with more parts is converted as a whole.
 const MOST_PARTS: u32 = 256;

@@ -10,15 +10,16 @@
 
 mod expressions;
 mod function;
+mod rewriter;
 mod types;
 
 use crate::target::FloatWidth;
-use function::Rewriter;
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::targets::FEATURE_NOT_IN_TARGET;
 use glisten_front::source::Span;
 use naga::valid::ModuleInfo;
 use naga::{Bytes, Handle, Literal, Module, Type};
+use rewriter::Rewriter;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// Why a module has no other width, in words.
