@@ -45,8 +45,8 @@ impl Block<SimulatedFloat> for SimulatedBlock {
 #[inline(always)]
 fn each(f: impl Fn(usize) -> f64) -> SimulatedBlock {
     let mut out = [0.0; WIDTH];
-    for (lane, out) in out.iter_mut().enumerate() {
-        *out = f(lane);
+    for lane in 0..WIDTH {
+        out[lane] = f(lane);
     }
     SimulatedBlock(out)
 }
@@ -133,8 +133,8 @@ impl SimulatedBlock {
         let gpu = Gpu::current();
         let (a, b) = (self.read(&gpu), other.read(&gpu));
         let mut out = [0; WIDTH];
-        for (lane, out) in out.iter_mut().enumerate() {
-            *out = u32::from(f(a.0[lane], b.0[lane]));
+        for lane in 0..WIDTH {
+            out[lane] = u32::from(f(a.0[lane], b.0[lane]));
         }
         out
     }
@@ -149,6 +149,10 @@ impl NumberBlock<SimulatedFloat> for SimulatedBlock {
     #[inline(always)]
     fn vectorized<R>(work: impl FnOnce() -> R) -> R {
         unit::widest(work)
+    }
+    #[inline(always)]
+    fn of_values(values: &[f64; WIDTH]) -> Self {
+        Self(*values).rounded(&Gpu::current())
     }
     #[inline(always)]
     fn widen(&self) -> Self {

@@ -37,20 +37,24 @@ impl Rounder {
     /// The f32 to which it rounds the number of each lane.
     #[inline(always)]
     pub(super) fn all(self, exact: &[f64; WIDTH]) -> [f64; WIDTH] {
+        // Loops, because a closure that an iterator calls would not be compiled for the vector unit.
         let mut singles = [0.0; WIDTH];
         match self.rounding {
-            Rounding::Nearest => (0..WIDTH).for_each(
-                #[inline(always)]
-                |lane| singles[lane] = exact[lane] as f32,
-            ),
-            Rounding::TowardZero => (0..WIDTH).for_each(
-                #[inline(always)]
-                |lane| singles[lane] = toward_zero(exact[lane]),
-            ),
-            Rounding::Either => (0..WIDTH).for_each(
-                #[inline(always)]
-                |lane| singles[lane] = either(exact[lane], self.seed),
-            ),
+            Rounding::Nearest => {
+                for lane in 0..WIDTH {
+                    singles[lane] = exact[lane] as f32;
+                }
+            }
+            Rounding::TowardZero => {
+                for lane in 0..WIDTH {
+                    singles[lane] = toward_zero(exact[lane]);
+                }
+            }
+            Rounding::Either => {
+                for lane in 0..WIDTH {
+                    singles[lane] = either(exact[lane], self.seed);
+                }
+            }
         }
         let mut out = [0.0; WIDTH];
         for lane in 0..WIDTH {
