@@ -28,6 +28,8 @@ pub mod cli;
 #[cfg(feature = "reference")]
 pub mod evaluate;
 #[cfg(feature = "cli")]
+pub mod engines;
+#[cfg(feature = "cli")]
 pub mod gallery;
 #[cfg(feature = "cli")]
 pub mod made;

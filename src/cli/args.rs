@@ -3,6 +3,8 @@
 use super::exit::Failure;
 use super::stages::StageArg;
 use crate::specialize::Contract;
+use crate::engines::{self, Style};
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 use glisten_emit::{ClipZ, Conventions, FloatWidth, GlslVersion, SpirvEnv, WindowOrigin};
 use glisten_front::builtin::constants::{MAX_DRAW_BUFFERS, MAX_VERTEX_ATTRIBS};
@@ -45,6 +47,18 @@ pub(super) struct SourceArgs {
     /// Search this folder for included files
     #[arg(short = 'I', value_name = "DIR")]
     pub(super) include_dirs: Vec<PathBuf>,
+    /// Read this text before each source, after its #version line (repeatable)
+    #[arg(long = "prelude", value_name = "FILE")]
+    pub(super) preludes: Vec<PathBuf>,
+    /// The version of sources without a #version line, such as `330`, `150 core`, `300 es`
+    #[arg(long, value_name = "VERSION", value_parser = parse_version)]
+    pub(super) assume_version: Option<String>,
+    /// How sources name the files that they include
+    #[arg(long, value_name = "STYLE", value_parser = style_words())]
+    pub(super) include_style: Option<Style>,
+    /// Complete the sources as this engine does
+    #[arg(long, value_name = "ENGINE", value_parser = PossibleValuesParser::new(engines::names()))]
+    pub(super) engine: Option<String>,
     /// Report an error for what the specification forbids and every driver accepts
     #[arg(long)]
     pub(super) strict: bool,
@@ -70,6 +84,7 @@ impl SourceArgs {
             strict: self.strict,
             attribute_locations: bindings.attributes.clone(),
             frag_data_locations: bindings.frag_data.clone(),
+            ..Options::default()
         }
     }
 }
@@ -277,7 +292,7 @@ enum GlslVersionArg {
     Es300,
 }
 
-fn parse_define(text: &str) -> Result<(String, String), String> {
+pub(super) fn parse_define(text: &str) -> Result<(String, String), String> {
     let (name, value) = text.split_once('=').unwrap_or((text, "1"));
     let starts_well = name.starts_with(|first: char| first.is_ascii_alphabetic() || first == '_');
     if !starts_well || !name.chars().all(|character| character.is_ascii_alphanumeric() || character == '_') {
@@ -287,6 +302,24 @@ fn parse_define(text: &str) -> Result<(String, String), String> {
         return Err("a macro's value is one line".to_owned());
     }
     Ok((name.to_owned(), value.to_owned()))
+}
+
+/// A version as a `#version` line has it: `330`, `150 core`, `300 es`; `300es` will do.
+pub(super) fn parse_version(text: &str) -> Result<String, String> {
+    let text = text.trim();
+    let text = text.strip_prefix("#version").map_or(text, str::trim);
+    let (number, profile) = text.split_at(text.find(|sign: char| !sign.is_ascii_digit()).unwrap_or(text.len()));
+    let profile = profile.trim();
+    if number.len() != 3 || !["", "core", "compatibility", "es"].contains(&profile) {
+        return Err(format!("`{text}` is no version: write a number and a profile, such as `150 core`"));
+    }
+    Ok(format!("{number} {profile}").trim().to_owned())
+}
+
+/// Reads the name of an include style.
+fn style_words() -> impl TypedValueParser<Value = Style> {
+    let names = engines::STYLES.iter().map(|row| row.name);
+    PossibleValuesParser::new(names).try_map(|name| Style::named(&name).ok_or("no such style"))
 }
 
 /// The arguments of `glBindAttribLocation` (OpenGL 3.2 §2.11.3).
@@ -322,7 +355,15 @@ fn parse_binding(text: &str) -> Result<(String, u32), String> {
 
 #[cfg(test)]
 mod tests {
-    use super::{parse_binding, parse_define};
+    use super::{parse_binding, parse_define, parse_version};
+
+    #[test]
+    fn versions() {
+        for (text, version) in [("330", "330"), ("150 core", "150 core"), ("300es", "300 es"), ("#version 110", "110")] {
+            assert_eq!(parse_version(text).as_deref(), Ok(version));
+        }
+        assert!(parse_version("").is_err() && parse_version("150 Core").is_err() && parse_version("15").is_err());
+    }
 
     #[test]
     fn defines_and_bindings() {

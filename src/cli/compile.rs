@@ -92,7 +92,7 @@ type Output = (PathBuf, Vec<u8>);
 
 /// Runs the command.
 pub(super) fn run(args: &CompileArgs, console: &Console) -> Outcome {
-    let inputs = inputs::collect(&args.files, &args.programs, false)?;
+    let inputs = inputs::collect(&args.files, &args.programs, &args.sources, false)?;
     let plan = OutputPlan::new(args, &inputs.groups)?;
     let mut session = Session::new(console, &args.sources, &args.bindings, &args.levels, args.jobs)?;
     let mut units = session.compile(inputs.groups);

@@ -12,6 +12,8 @@
 //! "*.toml" = 0.001
 //! ```
 //!
+//! `[[source]]` tables say how the engine of a folder completes its sources ([`super::rules`]).
+//!
 //! `exclude` names what a search of a folder passes over, by the patterns of `.gitignore`, relative to the file's folder. It may
 //! also stand above all tables. `[stability.bounds]` states the accepted error of scenes by such patterns; the last one that
 //! fits counts, in the order of the file.
@@ -21,6 +23,7 @@
 use super::args::set_level;
 use super::batch::Batch;
 use super::files;
+use super::rules::{Rule, RuleReader, SourceTable};
 use glisten_front::diagnostic::codes::general::BAD_CONFIG;
 use glisten_front::diagnostic::{Diagnostic, Level, Levels};
 use glisten_front::source::{SourceMap, Span};
@@ -42,6 +45,8 @@ struct Config {
     lint: LintTable,
     #[serde(default)]
     stability: StabilityTable,
+    #[serde(default)]
+    source: Vec<SourceTable>,
 }
 
 #[derive(Default, Deserialize)]
@@ -81,6 +86,15 @@ pub(super) fn excluded(folder: &Path) -> Option<Gitignore> {
         let _ = patterns.add_line(None, pattern.get_ref());
     }
     patterns.build().ok()
+}
+
+/// The rules of the nearest configuration for the sources of a folder. Its errors are reported when its levels are read.
+pub(super) fn rules(folder: &Path) -> Vec<Rule> {
+    let Some(path) = nearest(folder) else { return Vec::new() };
+    let Ok(bytes) = files::read(&path.to_string_lossy(), &path) else { return Vec::new() };
+    let Ok(config) = toml::from_str::<Config>(&String::from_utf8_lossy(&bytes)) else { return Vec::new() };
+    let mut reader = RuleReader::new(path.parent().unwrap_or(Path::new("")), 0);
+    config.source.iter().map(|table| reader.rule(table)).collect()
 }
 
 /// The accepted error of a scene by the nearest configuration.
@@ -167,6 +181,11 @@ fn parse(text: &str, name: &str, sources: &mut SourceMap, levels: &mut Levels) -
     {
         diagnostics.push(Diagnostic::new(&BAD_CONFIG, at(bound.span()), "a bound is a positive number"));
     }
+    let mut reader = RuleReader::new(Path::new(name).parent().unwrap_or(Path::new("")), base);
+    for table in &config.source {
+        reader.rule(table);
+    }
+    diagnostics.append(&mut reader.diagnostics);
     for (level, keys) in lists {
         for key in keys {
             if let Err((message, help)) = set_level(levels, level, key.get_ref()) {

@@ -3,7 +3,7 @@
 use super::exit::Failure;
 use glisten_front::diagnostic::codes::general;
 use glisten_front::diagnostic::{Code, Diagnostic};
-use glisten_front::source::{SourceMap, Span};
+use glisten_front::source::{Prelude, SourceMap, Span};
 use std::fs;
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
@@ -42,6 +42,14 @@ pub(super) fn read_source(name: &str, path: Option<&Path>) -> Result<Arc<str>, R
         None => read_all(name, io::stdin().lock())?,
     };
     text_of(name, bytes)
+}
+
+/// Reads a text to put before sources. It may be empty.
+pub(super) fn read_prelude(path: &Path) -> Result<Prelude, ReadError> {
+    let name = path.to_string_lossy().into_owned();
+    let bytes = read(&name, path)?;
+    let text = if bytes.is_empty() { "".into() } else { text_of(&name, bytes)? };
+    Ok(Prelude { name, text })
 }
 
 /// Reads a file of any kind.

@@ -2,28 +2,69 @@
 //!
 //! *Holds:* `"x"` is searched next to the including file, then in the `-I` folders in order; `<x>` in the `-I`
 //! folders, then among the embedded modules (`<glisten/phong.glsl>`). A path that begins with `/`, as all of
-//! ARB_shading_language_include do, starts at an `-I` folder, or else at the root of the disk. The name of an included
-//! file is the path under which it was found, so that diagnostics and depfiles show a path that opens.
+//! ARB_shading_language_include do, starts at an `-I` folder, or else at the root of the disk. An engine's style may try
+//! several paths below each folder, and the folders above the including file. The name of an included file is the path under
+//! which it was found, so that diagnostics and depfiles show a path that opens.
 
 use super::files;
+use crate::engines::{Lookup, Style};
 use crate::library::{self, Embedded};
-use glisten_front::source::{IncludeForm, IncludeResolver, Included};
+use glisten_front::source::{IncludeForm, IncludeResolver, Included, blanked, version_line};
+use ignore::WalkBuilder;
+use std::collections::BTreeMap;
 use std::path::{Component, Path, PathBuf};
+use std::sync::{Arc, OnceLock};
+
+/// The largest number of files below a search folder among which one is found by its name alone.
+const MAX_FILES: usize = 50_000;
 
 /// Finds files next to the including one and along a search path.
 #[derive(Clone, Debug)]
 pub(super) struct DiskIncludes {
     folders: Vec<PathBuf>,
+    lookup: &'static Lookup,
+    /// The names of folders above an including file that are search folders, too.
+    roots: Vec<String>,
+    /// All files below the search folders by their names, if the style looks there.
+    below: Arc<OnceLock<BTreeMap<String, PathBuf>>>,
 }
 
 impl DiskIncludes {
     /// A resolver that searches `folders` (`-I`).
+    #[cfg(test)]
     pub(super) fn new(folders: &[PathBuf]) -> Self {
-        Self { folders: folders.to_vec() }
+        Self::of_engine(folders.to_vec(), Style::Quote, &[])
+    }
+
+    /// A resolver that searches `folders`, and the folders called `roots` above an including file, in the style of an engine.
+    pub(super) fn of_engine(folders: Vec<PathBuf>, style: Style, roots: &[String]) -> Self {
+        Self { folders, lookup: style.lookup(), roots: roots.to_vec(), below: Arc::default() }
+    }
+
+    /// The search folders for the includes of a file: those that were given, and those above it.
+    fn search(&self, from: &str) -> Vec<PathBuf> {
+        let names: Vec<&str> =
+            self.roots.iter().map(String::as_str).chain(self.lookup.ancestors.iter().copied()).collect();
+        let is_root = |folder: &&Path| {
+            folder.file_name().and_then(|name| name.to_str()).is_some_and(|name| names.contains(&name))
+        };
+        let above = Path::new(from).ancestors().skip(1).filter(is_root).map(Path::to_owned);
+        let mut folders: Vec<PathBuf> = self.folders.iter().cloned().chain(above).collect();
+        if folders.len() == self.folders.len() && !names.is_empty() {
+            // The command may run inside of the folder.
+            let absolute = std::path::absolute(from).unwrap_or_default();
+            folders.extend(absolute.ancestors().skip(1).filter(is_root).map(Path::to_owned));
+        }
+        folders
     }
 
     fn candidates(&self, path: &str, form: IncludeForm, from: &str) -> Vec<PathBuf> {
-        let along = |path: &str| self.folders.iter().map(|folder| normal(&folder.join(path))).collect::<Vec<_>>();
+        let folders = self.search(from);
+        let along = |path: &str| {
+            let paths = self.lookup.paths(path);
+            let below = |folder: &PathBuf| paths.iter().map(|path| normal(&folder.join(path))).collect::<Vec<_>>();
+            folders.iter().flat_map(below).collect::<Vec<_>>()
+        };
         let inner = path.trim_start_matches('/');
         if inner != path {
             return along(inner).into_iter().chain([normal(Path::new(path))]).collect();
@@ -31,6 +72,45 @@ impl DiskIncludes {
         let folder = Path::new(from).parent().unwrap_or(Path::new(""));
         let own = (form == IncludeForm::Quoted).then(|| normal(&folder.join(path)));
         own.into_iter().chain(along(path)).collect()
+    }
+
+    /// The file with this name anywhere below the search folders, if the style looks there.
+    fn deep(&self, path: &str) -> Option<&PathBuf> {
+        let name = Path::new(path).file_name()?.to_str()?;
+        self.lookup.deep.then(|| self.below.get_or_init(|| files_below(&self.folders)).get(name)).flatten()
+    }
+
+    /// The text of a file, as the style reads it.
+    fn read(&self, path: &Path) -> Result<Included, String> {
+        let name = path.to_string_lossy().into_owned();
+        // An included file may be empty; otherwise the same rules hold as for a source.
+        let bytes = files::read(&name, path).map_err(|error| error.message)?;
+        let text =
+            if bytes.is_empty() { "".into() } else { files::text_of(&name, bytes).map_err(|error| error.message)? };
+        let text = if name.ends_with(".js") { in_backquotes(&text) } else { text };
+        let version = if self.lookup.drops_version { version_line(&text) } else { None };
+        let text = version.map_or(text.clone(), |line| blanked(&text, &[line]));
+        Ok(Included { name, text })
+    }
+}
+
+/// The files below folders, by their names; of several, the first in order.
+fn files_below(folders: &[PathBuf]) -> BTreeMap<String, PathBuf> {
+    let mut files = BTreeMap::new();
+    let walks = folders.iter().map(|folder| WalkBuilder::new(folder).sort_by_file_path(Path::cmp).build());
+    let entries = walks.flatten().filter_map(Result::ok).take(MAX_FILES);
+    for entry in entries.filter(|entry| entry.file_type().is_some_and(|kind| kind.is_file())) {
+        let name = entry.file_name().to_string_lossy().into_owned();
+        files.entry(name).or_insert_with(|| normal(entry.path()));
+    }
+    files
+}
+
+/// The text of a module of JavaScript between its first and its last backquote; everything else is blank.
+fn in_backquotes(text: &str) -> Arc<str> {
+    match (text.find('`'), text.rfind('`')) {
+        (Some(first), Some(last)) if first < last => blanked(text, &[0..first + 1, last..text.len()]),
+        _ => text.into(),
     }
 }
 
@@ -43,19 +123,11 @@ impl IncludeResolver for DiskIncludes {
             return Ok(module);
         }
         let candidates = self.candidates(path, form, from);
-        for candidate in &candidates {
-            if !candidate.exists() {
-                continue;
-            }
-            let name = candidate.to_string_lossy().into_owned();
-            // An included file may be empty; otherwise the same rules hold as for a source.
-            let bytes = files::read(&name, candidate).map_err(|error| error.message)?;
-            let text = if bytes.is_empty() {
-                "".into()
-            } else {
-                files::text_of(&name, bytes).map_err(|error| error.message)?
-            };
-            return Ok(Included { name, text });
+        // A chunk may have the name of a folder next to its file.
+        let several = self.lookup.patterns.len() > 1;
+        let found = candidates.iter().find(|candidate| if several { candidate.is_file() } else { candidate.exists() });
+        if let Some(found) = found.or_else(|| self.deep(path)) {
+            return self.read(found);
         }
         if let Some(module) = Embedded::find(path, form, from) {
             return Ok(module);
@@ -90,6 +162,7 @@ fn normal(path: &Path) -> PathBuf {
 #[cfg(test)]
 mod tests {
     use super::DiskIncludes;
+    use crate::engines::Style;
     use glisten_front::source::{IncludeForm, IncludeResolver};
     use std::fs;
 
@@ -115,5 +188,36 @@ mod tests {
         let absolute = path("src/a.glsl").to_string_lossy().into_owned();
         assert_eq!(text(IncludeForm::Quoted, &absolute).as_deref(), Ok("folder"));
         assert!(text(IncludeForm::Quoted, "sub").expect_err("a folder").contains("is a folder"));
+    }
+
+    #[test]
+    fn styles_find_files_of_their_engines() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let path = |name: &str| folder.path().join(name);
+        for (name, text) in [
+            ("assets/minecraft/shaders/include/fog.glsl", "#version 150\nfog"),
+            ("assets/mine/shaders/include/sky.glsl", "sky"),
+            ("pack/shaders/lib/sun.glsl", "sun"),
+            ("chunks/common.glsl.js", "export default /* glsl */`\nchunk\n`;\n"),
+            ("media/deep/er/moon.glsl", "moon"),
+        ] {
+            fs::create_dir_all(path(name).parent().expect("a folder")).expect("a folder");
+            fs::write(path(name), text).expect("written");
+        }
+        let text = |style, folders: &[&str], roots: &[&str], from: &str, name: &str| {
+            let folders = folders.iter().map(|name| path(name)).collect();
+            let roots: Vec<String> = roots.iter().map(|root| (*root).to_owned()).collect();
+            let includes = DiskIncludes::of_engine(folders, style, &roots);
+            let found = includes.resolve(name, IncludeForm::Angled, &path(from).to_string_lossy());
+            found.map(|included| included.text.trim().to_owned()).unwrap_or_else(|why| why)
+        };
+        let core = "assets/minecraft/shaders/core/a.fsh";
+        assert_eq!(text(Style::Moj, &[], &[], core, "fog.glsl"), "fog", "without its version");
+        assert_eq!(text(Style::Moj, &[], &[], core, "mine:sky.glsl"), "sky");
+        assert_eq!(text(Style::Moj, &["assets"], &[], "b.fsh", "minecraft:fog.glsl"), "fog");
+        assert_eq!(text(Style::Quote, &[], &["shaders"], "pack/shaders/world0/a.fsh", "/lib/sun.glsl"), "sun");
+        assert_eq!(text(Style::Three, &["chunks"], &[], "a.frag", "common"), "chunk");
+        assert_eq!(text(Style::Ogre, &["media"], &[], "a.frag", "moon.glsl"), "moon");
+        assert!(text(Style::Quote, &["media"], &[], "a.frag", "moon.glsl").contains("there is no"));
     }
 }

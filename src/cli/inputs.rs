@@ -5,16 +5,20 @@
 //!
 //! *Holds:* a file that is named twice counts once; a file in a `--program` forms no group of its own.
 
-use super::args::ProgramArgs;
+use super::args::{ProgramArgs, SourceArgs};
 use super::config;
+use super::engine::{self, Engines, STDIN as SHOWN_STDIN};
 use super::exit::Failure;
+use super::files;
 use super::stages;
+use crate::engines::combined;
 use glisten_front::hir::Stage;
 use ignore::WalkBuilder;
 use ignore::gitignore::Gitignore;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// The name of standard input on the command line.
 const STDIN: &str = "-";
@@ -28,25 +32,47 @@ pub(super) struct Input {
     pub(super) path: Option<PathBuf>,
     /// The stage.
     pub(super) stage: Stage,
+    /// The program of the file, if it contains several stages.
+    pub(super) part: Option<PartOf>,
+}
+
+/// A program of a file that contains several stages.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct PartOf {
+    /// Its index.
+    index: usize,
+    /// Its name, if the file has several programs.
+    name: Option<String>,
+}
+
+impl PartOf {
+    /// The text of a stage, where the file has several programs; otherwise the whole text, which is taken apart later.
+    pub(super) fn text(&self, text: &Arc<str>, stage: Stage) -> Arc<str> {
+        let members = self.name.as_ref().map(|_| combined::members(text)).unwrap_or_default();
+        let part = members.get(self.index).and_then(|member| member.part(stage));
+        part.map_or_else(|| Arc::clone(text), |part| part.text(text))
+    }
 }
 
 impl Input {
     /// The name for its outputs: `phong.vert`; for standard input, `stdin.vert`.
     pub(super) fn file_name(&self) -> String {
         match &self.path {
+            Some(_) if self.part.is_some() => format!("{}.{}", self.stem(), stages::extension(self.stage)),
             Some(path) => path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default(),
-            None => match self.stage {
-                Stage::Vertex => "stdin.vert",
-                Stage::Geometry => "stdin.geom",
-                Stage::Fragment => "stdin.frag",
-            }
-            .to_owned(),
+            None => format!("stdin.{}", stages::extension(self.stage)),
         }
+    }
+
+    /// Whether it is of a program after the first of its file.
+    fn is_later(&self) -> bool {
+        self.part.as_ref().is_some_and(|part| part.index > 0)
     }
 
     /// The name without the part that says the stage.
     pub(super) fn stem(&self) -> String {
-        self.path.as_deref().map_or("stdin".to_owned(), stages::stem)
+        let named = self.part.as_ref().and_then(|part| part.name.clone());
+        named.or(self.path.as_deref().map(stages::stem)).unwrap_or("stdin".to_owned())
     }
 }
 
@@ -107,13 +133,19 @@ pub(super) fn scene_files(names: &[String]) -> Result<Vec<String>, Failure> {
 
 /// Collects the inputs of a command. Folders are searched only if `scans` is set. Otherwise they stay in the list,
 /// and reading them gives the error.
-pub(super) fn collect(files: &[String], args: &ProgramArgs, scans: bool) -> Result<Inputs, Failure> {
+pub(super) fn collect(
+    files: &[String],
+    args: &ProgramArgs,
+    sources: &SourceArgs,
+    scans: bool,
+) -> Result<Inputs, Failure> {
+    let engines = Engines::new(sources)?;
     let mut inputs = Inputs::default();
     let mut named = Vec::new();
     for file in files {
         if scans && Path::new(file).is_dir() {
             let before = named.len();
-            scan(Path::new(file), &mut named)?;
+            scan(Path::new(file), &engines, &mut named)?;
             if named.len() == before {
                 inputs.empty_folders.push(file.clone());
             }
@@ -132,16 +164,18 @@ pub(super) fn collect(files: &[String], args: &ProgramArgs, scans: bool) -> Resu
             return Err(Failure::usage("--program names no file").help("write `--program a.vert,b.frag`"));
         }
         in_programs.extend(names.iter().map(|name| identity(name)));
-        let listed: Vec<Input> = names.iter().map(|name| input(name, args, false)).collect::<Result<_, _>>()?;
+        let mut listed = Vec::new();
+        for name in names {
+            listed.extend(stages_of(name, args, &engines, false)?.into_iter().filter(|input| !input.is_later()));
+        }
         groups.push(Group { name: listed.first().map(Input::stem).unwrap_or_default(), inputs: listed });
     }
     let mut seen = BTreeSet::new();
     let alone = named.len() == 1 && args.programs.is_empty();
-    let listed: Vec<Input> = named
-        .iter()
-        .filter(|name| !in_programs.contains(&identity(name)) && seen.insert(identity(name)))
-        .map(|name| input(name, args, alone))
-        .collect::<Result<_, _>>()?;
+    let mut listed = Vec::new();
+    for name in named.iter().filter(|name| !in_programs.contains(&identity(name)) && seen.insert(identity(name))) {
+        listed.extend(stages_of(name, args, &engines, alone)?);
+    }
     inputs.groups = group(listed);
     inputs.groups.extend(groups);
     Ok(inputs)
@@ -152,24 +186,44 @@ fn identity(name: &str) -> PathBuf {
     if name == STDIN { PathBuf::from(STDIN) } else { fs::canonicalize(name).unwrap_or_else(|_| PathBuf::from(name)) }
 }
 
-fn input(name: &str, args: &ProgramArgs, alone: bool) -> Result<Input, Failure> {
+/// The stages of a file: one, unless it contains several.
+fn stages_of(name: &str, args: &ProgramArgs, engines: &Engines, alone: bool) -> Result<Vec<Input>, Failure> {
     let given = args.stage.map(Stage::from);
     if name == STDIN {
         let stage = given.ok_or_else(|| {
             Failure::usage("standard input has no name that says its stage").help("add `--stage vertex` or another")
         })?;
-        return Ok(Input { name: "<stdin>".to_owned(), path: None, stage });
+        return Ok(vec![Input { name: SHOWN_STDIN.to_owned(), path: None, stage, part: None }]);
     }
     let path = PathBuf::from(name);
     let told = stages::by_name(&path);
-    let stage = if alone { given.or(told) } else { told.or(given) };
+    if told.is_none() {
+        let parts = parts(name, &path);
+        let wanted = |input: &Input| given.is_none_or(|stage| stage == input.stage);
+        if parts.iter().any(wanted) {
+            return Ok(parts.into_iter().filter(wanted).collect());
+        }
+    }
+    let stage = if alone { given.or(told) } else { told.or(given) }.or_else(|| engines.stage(&path));
     // Reading reports what is not a readable file; its stage does not matter then.
     let stage = stage.or_else(|| (!path.is_file()).then_some(Stage::Vertex));
     match stage {
-        Some(stage) => Ok(Input { name: name.to_owned(), path: Some(path), stage }),
+        Some(stage) => Ok(vec![Input { name: name.to_owned(), path: Some(path), stage, part: None }]),
         None => Err(Failure::usage(format!("the name of `{name}` does not tell its stage"))
             .help(format!("add `--stage vertex` or another, or name it {}", stages::all_extensions()))),
     }
+}
+
+/// The stages in a file that contains several.
+fn parts(name: &str, path: &Path) -> Vec<Input> {
+    let Ok(text) = files::read_source(name, Some(path)) else { return Vec::new() };
+    let mut inputs = Vec::new();
+    for (index, member) in engine::members(Some(path), &text).into_iter().enumerate() {
+        let part = PartOf { index, name: member.name };
+        let input = |stage| Input { name: name.to_owned(), path: Some(path.to_owned()), stage, part: Some(part.clone()) };
+        inputs.extend(member.parts.iter().map(|part| input(part.stage)));
+    }
+    inputs
 }
 
 /// Whether a file is there to be included: its name ends in `.glsl`, and it has no `main`.
@@ -179,10 +233,19 @@ fn is_part(path: &Path) -> bool {
         && fs::read(path).is_ok_and(|bytes| !bytes.windows(MAIN.len()).any(|word| word == MAIN))
 }
 
+/// Whether a search of a folder takes a file: its name tells its stage, or its engine does, or it contains several stages.
+fn is_shader(path: &Path, engines: &Engines) -> bool {
+    let is_whole = stages::by_name(path).is_some() || engines.stage(path).is_some() && stages::may_be_included(path);
+    if is_whole {
+        return !is_part(path) && !stages::is_assembly(path);
+    }
+    stages::may_be_combined(path) && !parts(&path.to_string_lossy(), path).is_empty()
+}
+
 /// Adds all shaders in a folder and its subfolders, in the order of their names, except what `.gitignore` or the `exclude` of
 /// a configuration names. Hidden folders are skipped, and links to folders are not followed, so that a cycle of links does no
 /// harm.
-fn scan(root: &Path, found: &mut Vec<String>) -> Result<(), Failure> {
+fn scan(root: &Path, engines: &Engines, found: &mut Vec<String>) -> Result<(), Failure> {
     let mut excludes: BTreeMap<PathBuf, Option<Gitignore>> = BTreeMap::new();
     let mut walk = WalkBuilder::new(root);
     // Without a repository, `.gitignore` says as much about what is generated.
@@ -193,7 +256,7 @@ fn scan(root: &Path, found: &mut Vec<String>) -> Result<(), Failure> {
             entry.map_err(|error| Failure::usage(format!("cannot read the folder `{}`: {error}", root.display())))?;
         let path = entry.path();
         let is_folder = entry.file_type().is_some_and(|kind| kind.is_dir());
-        if !is_folder && stages::by_name(path).is_some() && !is_part(path) && !is_excluded(path, &mut excludes) {
+        if !is_folder && is_shader(path, engines) && !is_excluded(path, &mut excludes) {
             files.push(entry.into_path());
         }
     }
@@ -218,12 +281,14 @@ fn is_excluded(path: &Path, excludes: &mut BTreeMap<PathBuf, Option<Gitignore>>)
 
 /// Groups files by folder and stem; each stage occurs at most once in a group.
 fn group(inputs: Vec<Input>) -> Vec<Group> {
-    let mut groups: Vec<((PathBuf, String), Group)> = Vec::new();
+    let mut groups: Vec<((PathBuf, String, String), Group)> = Vec::new();
     for input in inputs {
         let folder = input.path.as_deref().and_then(Path::parent).map(Path::to_owned).unwrap_or_default();
         let folder = if folder.as_os_str().is_empty() { PathBuf::from(".") } else { folder };
         let folder = fs::canonicalize(&folder).unwrap_or(folder);
-        let key = (folder, input.stem());
+        // The stages of one file belong to each other, whatever files of the same stem there are.
+        let own = input.part.as_ref().map_or(String::new(), |part| format!("{}:{}", input.name, part.index));
+        let key = (folder, input.stem(), own);
         let fits = |group: &Group| group.inputs.iter().all(|other| other.stage != input.stage);
         match groups.iter_mut().find(|(other, group)| *other == key && fits(group)) {
             Some((_, group)) => group.inputs.push(input),
@@ -251,6 +316,7 @@ mod tests {
             name: (*name).to_owned(),
             path: Some(PathBuf::from(name)),
             stage: stages::by_name(Path::new(name)).expect("the name tells the stage"),
+            part: None,
         };
         names.iter().map(input).collect()
     }
@@ -280,6 +346,10 @@ mod tests {
             ("a.vertex", "a", Some(Stage::Vertex)),
             ("a.fragmentshader", "a", Some(Stage::Fragment)),
             ("a.ps", "a", None),
+            ("old.vp", "old", Some(Stage::Vertex)),
+            ("old_fp.glsl", "old", Some(Stage::Fragment)),
+            ("deferred-f.sdr", "deferred", Some(Stage::Fragment)),
+            ("light_v.glsl", "light_v", None),
             ("waves.glsl", "waves", None),
             ("_vs.glsl", "_vs", None),
         ] {

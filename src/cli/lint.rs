@@ -35,7 +35,7 @@ pub(super) struct LintArgs {
 
 /// Runs the command.
 pub(super) fn run(args: &LintArgs, console: &Console) -> Outcome {
-    let inputs = inputs::collect(&args.files, &args.programs, true)?;
+    let inputs = inputs::collect(&args.files, &args.programs, &args.sources, true)?;
     for folder in &inputs.empty_folders {
         console.remark(&format!("no shader was found in `{folder}`"));
     }

@@ -111,7 +111,7 @@ fn with_vertex_shader(
 }
 
 fn input((file, stage): (&String, Stage)) -> Input {
-    Input { name: file.clone(), path: Some(PathBuf::from(file)), stage }
+    Input { name: file.clone(), path: Some(PathBuf::from(file)), stage, part: None }
 }
 
 fn told(input: &Input) -> Option<Stage> {

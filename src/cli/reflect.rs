@@ -54,7 +54,7 @@ struct Reflected<'a> {
 
 /// Runs the command.
 pub(super) fn run(args: &ReflectArgs, console: &Console) -> Outcome {
-    let inputs = inputs::collect(&args.files, &args.programs, false)?;
+    let inputs = inputs::collect(&args.files, &args.programs, &args.sources, false)?;
     let mut session = Session::new(console, &args.sources, &args.bindings, &args.levels, 0)?;
     let units = session.compile(inputs.groups);
     let exit = session.tell_units(&units, false)?;

@@ -6,12 +6,13 @@ use super::args::{BindingArgs, DiagnosticFormat, LevelArgs, SourceArgs};
 use super::batch::Batch;
 use super::config::Configs;
 use super::console::Console;
+use super::engine::Engines;
 use super::exit::{Exit, Failure};
 use super::files;
 use super::guard;
-use super::includes::DiskIncludes;
 use super::inputs::{Group, Input};
 use super::progress::Progress;
+use crate::engines;
 use glisten_front::compiler::{Compiler, Source};
 use glisten_front::diagnostic::codes::link::BINDING_WITHOUT_VARIABLE;
 use glisten_front::diagnostic::codes::scenes;
@@ -80,7 +81,7 @@ impl<'a> Session<'a> {
             .map_err(|error| Failure::new(Exit::Machine, format!("the system gives no threads: {error}")))?;
         Ok(Self {
             console,
-            compiler: compiler(sources, bindings),
+            compiler: compiler(sources, bindings)?,
             format: levels.diagnostics,
             configs: Configs::new(levels.levels()?),
             pool,
@@ -151,6 +152,10 @@ impl<'a> Session<'a> {
         for mut diagnostic in found {
             let file = sources.file_of(sources.call_site(diagnostic.primary.span));
             let name = file.or(sources.files().next().map(|(id, _)| id)).map_or("", |id| sources.file(id).name());
+            // The texts of an engine serve all its sources: what one does not use is no finding.
+            if name.starts_with(engines::SHOWN) && !diagnostic.is_error() {
+                continue;
+            }
             if self.configs.levels(name).apply(sources, &mut diagnostic) {
                 batch.diagnostics.push(diagnostic);
             }
@@ -241,9 +246,10 @@ fn is_told_last(diagnostic: &Diagnostic) -> bool {
 }
 
 /// The compiler of the command line. It reports everything: the session applies the levels of each file.
-fn compiler(sources: &SourceArgs, bindings: &BindingArgs) -> Compiler {
-    let includes = DiskIncludes::new(&sources.include_dirs);
-    Compiler::new(sources.options(bindings)).with_includes(includes).without_levels()
+fn compiler(sources: &SourceArgs, bindings: &BindingArgs) -> Result<Compiler, Failure> {
+    let engines = Engines::new(sources)?;
+    let compiler = Compiler::new(sources.options(bindings)).with_includes(engines.includes());
+    Ok(compiler.with_preparation(engines).without_levels())
 }
 
 /// The diagnostics that have been reported.
@@ -323,7 +329,10 @@ fn internal(sources: &[Source], panic: &str) -> Batch {
 
 fn read(input: &Input) -> Result<Source, Batch> {
     match files::read_source(&input.name, input.path.as_deref()) {
-        Ok(text) => Ok(Source { name: input.name.clone(), text, stage: input.stage }),
+        Ok(text) => {
+            let text = input.part.as_ref().map_or(text.clone(), |part| part.text(&text, input.stage));
+            Ok(Source { name: input.name.clone(), text, stage: input.stage })
+        }
         Err(error) => {
             let mut sources = SourceMap::default();
             let diagnostics = vec![error.diagnostic(&mut sources, &input.name)];

@@ -2,6 +2,7 @@
 
 use clap::ValueEnum;
 use glisten_front::hir::Stage;
+use std::fs;
 use std::path::Path;
 
 /// File extensions, with their stages.
@@ -17,6 +18,8 @@ static EXTENSIONS: &[(&str, Stage)] = &[
     ("geom", Stage::Geometry),
     ("gs", Stage::Geometry),
     ("gsh", Stage::Geometry),
+    ("vp", Stage::Vertex),
+    ("fp", Stage::Fragment),
 ];
 
 /// A stage on the command line.
@@ -63,6 +66,8 @@ static WORDS: &[(&str, Stage)] = &[
     ("geom", Stage::Geometry),
     ("gs", Stage::Geometry),
 ];
+/// Words of one letter, after the name of an `.sdr` file (`deferred-f.sdr`).
+static LETTERS: &[(&str, Stage)] = &[("v", Stage::Vertex), ("f", Stage::Fragment), ("g", Stage::Geometry)];
 /// The signs between such a word and the rest of a name.
 const SIGNS: [char; 3] = ['_', '-', '.'];
 /// The name of a program whose files are named by their stages alone.
@@ -81,12 +86,14 @@ fn read(path: &Path) -> Option<(Stage, String)> {
     if let Some(stage) = by_extension(path) {
         return Some((stage, stem_of(name)));
     }
-    let inner = without_glsl(name)?;
+    let in_sdr = without(name, "sdr");
+    let inner = without(name, "glsl").or(in_sdr)?;
     if let Some(stage) = by_extension(Path::new(inner)) {
         return Some((stage, stem_of(inner)));
     }
     let lower = inner.to_ascii_lowercase();
-    WORDS.iter().find_map(|(word, stage)| {
+    let letters = LETTERS.iter().filter(|_| in_sdr.is_some());
+    WORDS.iter().chain(letters).find_map(|(word, stage)| {
         let rest = match (lower.strip_suffix(word), lower.strip_prefix(word)) {
             (Some(""), _) => NAMELESS,
             (Some(before), _) if before.ends_with(SIGNS) => inner.get(..before.len() - 1)?,
@@ -104,12 +111,13 @@ pub(super) fn by_name(path: &Path) -> Option<Stage> {
 
 /// Whether the name ends in `.glsl`, as those of files do that others include.
 pub(super) fn may_be_included(path: &Path) -> bool {
-    path.file_name().and_then(|name| without_glsl(name.to_str()?)).is_some()
+    path.file_name().and_then(|name| without(name.to_str()?, "glsl")).is_some()
 }
 
-fn without_glsl(name: &str) -> Option<&str> {
+/// The name without this extension.
+fn without<'n>(name: &'n str, wanted: &str) -> Option<&'n str> {
     let (inner, extension) = name.rsplit_once('.')?;
-    extension.eq_ignore_ascii_case("glsl").then_some(inner)
+    extension.eq_ignore_ascii_case(wanted).then_some(inner)
 }
 
 /// The name without the part that tells the stage: `phong` for `phong.vert`, `phong.vert.glsl` and `phong_vs.glsl`.
@@ -120,6 +128,27 @@ pub(super) fn stem(path: &Path) -> String {
 
 fn stem_of(name: &str) -> String {
     Path::new(name).file_stem().map_or(name.to_owned(), |stem| stem.to_string_lossy().into_owned())
+}
+
+/// Whether the name is one of files that contain several stages.
+pub(super) fn may_be_combined(path: &Path) -> bool {
+    let is_one = |extension: &str| ["glsl", "shader"].iter().any(|known| known.eq_ignore_ascii_case(extension));
+    path.extension().and_then(|extension| extension.to_str()).is_some_and(is_one)
+}
+
+/// Whether a file is a program in the assembly language of ARB_vertex_program, which has the extensions `.vp` and `.fp`, too.
+pub(super) fn is_assembly(path: &Path) -> bool {
+    let is_named = ["vp", "fp"].iter().any(|known| path.extension().is_some_and(|extension| extension == *known));
+    is_named && fs::read(path).is_ok_and(|bytes| bytes.trim_ascii_start().starts_with(b"!!"))
+}
+
+/// The extension for a stage.
+pub(super) fn extension(stage: Stage) -> &'static str {
+    match stage {
+        Stage::Vertex => "vert",
+        Stage::Geometry => "geom",
+        Stage::Fragment => "frag",
+    }
 }
 
 /// All extensions with their dots, for messages.

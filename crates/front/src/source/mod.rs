@@ -8,10 +8,12 @@
 //! *Holds:* neither this phase nor any later one does I/O. The caller supplies the texts.
 
 pub mod comments;
+mod completion;
 mod map;
 mod span;
 mod whole;
 
+pub use completion::{Completion, ImportDirective, Prelude, blanked, version_line};
 pub use map::{Expansion, FileId, IncludeForm, IncludeResolver, Included, Location, NoIncludes, SourceFile, SourceMap};
 pub use span::{ExpansionId, Span};
 pub use whole::{Inclusion, whole_text};

@@ -21,29 +21,37 @@ pub struct Inclusion {
 /// The largest depth of nested includes, the same as the preprocessor's.
 const MAX_DEPTH: usize = 64;
 
-/// The text of `file` with its includes inserted and `defines` added after its `#version` line, which is at
-/// `version`. The `inclusions` are in the order in which the preprocessor entered them.
+/// The text of `file` with its includes inserted, and with `defines` and the `preludes` added after its `#version` line, which
+/// is at `version`. The line may be in one of the preludes; they come first then. The `inclusions` are in the order in which
+/// the preprocessor entered them.
 pub fn whole_text(
     sources: &SourceMap,
     file: FileId,
     version: Span,
     inclusions: &[Inclusion],
     defines: &[(String, String)],
+    preludes: &[FileId],
 ) -> Arc<str> {
-    if inclusions.is_empty() && defines.is_empty() {
+    if inclusions.is_empty() && defines.is_empty() && preludes.is_empty() {
         return Arc::clone(sources.file(file).text());
     }
-    let version = if sources.file_of(version) == Some(file) { sources.line(version) } else { None };
+    let place = sources.file_of(version).filter(|found| *found == file || preludes.contains(found));
+    let version = place.and_then(|place| Some((place, sources.line(version)?)));
     let mut writer = Writer { sources, inclusions, text: String::new() };
     if version.is_none() {
         writer.define(defines);
     }
-    let lines = sources.file(file).line_count();
-    for line in 1..=lines {
-        writer.line(file, line, 0);
-        if Some(line) == version {
-            writer.define(defines);
+    let is_first = place == Some(file);
+    let before = preludes.iter().filter(|_| !is_first).chain([&file]);
+    for &text in before {
+        for line in 1..=sources.file(text).line_count() {
+            writer.line(text, line, 0);
+            if Some((text, line)) == version {
+                writer.define(defines);
+                preludes.iter().filter(|_| is_first).for_each(|prelude| writer.whole(*prelude));
+            }
         }
+        writer.end_line_unless(text == file);
     }
     writer.text.into()
 }
@@ -67,6 +75,18 @@ impl Writer<'_> {
         if !self.text.is_empty() && !self.text.ends_with('\n') {
             self.text.push('\n');
         }
+    }
+
+    fn end_line_unless(&mut self, last: bool) {
+        if !last {
+            self.end_line();
+        }
+    }
+
+    /// Every line of a file.
+    fn whole(&mut self, id: FileId) {
+        (1..=self.sources.file(id).line_count()).for_each(|line| self.line(id, line, 0));
+        self.end_line();
     }
 
     fn line(&mut self, id: FileId, line: u32, depth: usize) {

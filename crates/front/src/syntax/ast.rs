@@ -8,7 +8,7 @@
 use super::names::Names;
 use super::token::Symbol;
 pub use crate::language::{Behavior, Extensions, IncDec, Profile, Version};
-use crate::source::{Inclusion, Span};
+use crate::source::{FileId, Inclusion, Span};
 
 /// The handle of an expression in an [`Ast`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -49,6 +49,8 @@ pub struct Ast {
     pub extension_lines: Vec<(String, Behavior, Span)>,
     /// The files that `#include` lines brought in, in reading order.
     pub inclusions: Vec<Inclusion>,
+    /// The texts of an engine that were read before the source, in order.
+    pub preludes: Vec<FileId>,
     /// The macros without parameters that are defined at the end, for "did you mean".
     pub macros: Vec<std::sync::Arc<str>>,
 }

@@ -23,7 +23,7 @@ pub mod token;
 
 use crate::diagnostic::Diagnostics;
 use crate::language::Stage;
-use crate::source::{FileId, IncludeResolver, SourceMap, Span};
+use crate::source::{Completion, FileId, IncludeResolver, SourceMap, Span};
 use ast::{Ast, Profile, Version};
 use names::Names;
 use parser::Parser;
@@ -40,6 +40,8 @@ pub struct ParseOptions {
     pub defines: Vec<(String, String)>,
     /// Reports an error instead of a warning for what the specification forbids and every driver accepts.
     pub strict: bool,
+    /// What an engine adds to the text.
+    pub completion: Completion,
 }
 
 /// Parses the shader in `file`.
@@ -52,6 +54,7 @@ pub fn parse(
 ) -> Ast {
     let mut session = ParseSession { sources, diagnostics, names: Names::with_keywords() };
     let mut preprocessor = Preprocessor::new(&mut session, file, &options.defines, options.strict, includes);
+    preprocessor.complete(&mut session, file, &options.completion);
     let mut ast = Parser::new(&mut preprocessor, &mut session, empty_tree(), options.strict).translation_unit();
     let outcome = preprocessor.finish();
     if !outcome.supported {
@@ -62,6 +65,7 @@ pub fn parse(
     ast.allows = outcome.allows;
     ast.extension_lines = outcome.extension_lines;
     ast.inclusions = outcome.inclusions;
+    ast.preludes = outcome.preludes;
     ast.macros = outcome.macros;
     ast.names = session.names;
     ast
@@ -77,6 +81,7 @@ fn empty_tree() -> Ast {
         allows: Vec::new(),
         extension_lines: Vec::new(),
         inclusions: Vec::new(),
+        preludes: Vec::new(),
         macros: Vec::new(),
     }
 }

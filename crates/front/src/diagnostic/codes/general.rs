@@ -40,6 +40,11 @@ codes! {
     BAD_CONFIG = "E0015" "bad-configuration" Error ""
         "A `glisten.toml` is not TOML, or contains a key or a code that glisten does not know."
         bad Text("[lint]\nalow = [\"L0001\"]"), good Text("[lint]\nallow = [\"L0001\"]");
+    BAD_HEADER = "E0016" "bad-engine-header" Error ""
+        "The engine of the source reads a header in it, such as the JSON of the Interactive Shader Format, and the header \
+         is missing or wrong. `--engine` or a `[[source]]` table of `glisten.toml` names the engine."
+        bad Text("/*{ \"INPUTS\": [{\"NAME\": \"level\", \"TYPE\": \"number\"}] }*/"),
+        good Text("/*{ \"INPUTS\": [{\"NAME\": \"level\", \"TYPE\": \"float\"}] }*/");
     LONE_STAGE = "W0001" "lone-stage" Warning "OpenGL 3.2 §2.11"
         "A stage is compiled without its partner. The locations of varyings, the uniform block and the bindings are \
          then those of this stage alone. They do not fit another stage that is compiled alone, too. Give both files \

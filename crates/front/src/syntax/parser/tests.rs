@@ -4,7 +4,7 @@
 
 use crate::diagnostic::Diagnostics;
 use crate::language::Stage;
-use crate::source::{NoIncludes, SourceMap};
+use crate::source::{Completion, NoIncludes, SourceMap};
 use crate::syntax::ast::{Ast, DeclarationKind, ExprId, ExprKind, IncDec, Literal, Stmt, StmtKind, TypeBase, UnaryOp};
 use crate::syntax::{ParseOptions, parse};
 
@@ -13,7 +13,8 @@ fn tree(body: &str) -> (Ast, Vec<String>) {
     let mut diagnostics = Diagnostics::default();
     let text = format!("#version 150\nvoid main() {{ {body} }}");
     let file = sources.add("test.vert", text).expect("room");
-    let options = ParseOptions { stage: Stage::Vertex, defines: Vec::new(), strict: false };
+    let (defines, completion) = (Vec::new(), Completion::default());
+    let options = ParseOptions { stage: Stage::Vertex, defines, strict: false, completion };
     let ast = parse(&mut sources, file, &options, &NoIncludes, &mut diagnostics);
     let messages = diagnostics.iter().map(|diagnostic| diagnostic.message.clone()).collect();
     (ast, messages)

@@ -39,6 +39,8 @@ enum Directive {
     Version,
     Line,
     Include,
+    /// The engine's own word for it.
+    Import,
 }
 
 /// All directives by name.
@@ -59,6 +61,10 @@ static DIRECTIVES: &[(&str, Directive)] = &[
     ("include", Directive::Include),
 ];
 
+/// Directives of engines, with the help on how to read them.
+static ENGINES: &[(&str, &str)] =
+    &[("moj_import", "Minecraft replaces it: `--engine minecraft` or `--include-style moj` does the same")];
+
 fn directive_named(name: &str) -> Option<Directive> {
     DIRECTIVES.iter().find(|row| row.0 == name).map(|row| row.1)
 }
@@ -74,6 +80,7 @@ impl Preprocessor<'_> {
         }
         let directive = match token.kind {
             TokenKind::Newline | TokenKind::Eof => return,
+            TokenKind::Word if self.is_import(session.spelling(token)) => Some(Directive::Import),
             TokenKind::Word => directive_named(session.spelling(token)),
             _ => None,
         };
@@ -97,17 +104,23 @@ impl Preprocessor<'_> {
             Directive::Error => self.error_directive(session, span),
             Directive::Pragma => self.pragma(session, span),
             Directive::Extension => self.extension(session, span),
-            Directive::Version => self.version(session, span),
+            Directive::Version => {
+                self.version(session, span);
+                self.enter_preludes(session);
+            }
             Directive::Line => self.line(session, span),
-            Directive::Include => self.include(session, span),
+            Directive::Include => self.include(session, span, false),
+            Directive::Import => self.include(session, span, true),
         }
     }
 
     fn unknown_directive(&mut self, session: &mut ParseSession<'_>, token: Token, span: Span) {
         let name = session.sources.snippet(token.span).to_owned();
         let near = did_you_mean(&name, DIRECTIVES.iter().map(|row| row.0));
+        let of_engine = ENGINES.iter().find(|row| row.0 == name).map(|row| row.1.to_owned());
+        let help = of_engine.or(near.map(|near| format!("did you mean `#{near}`?")));
         let diagnostic = Diagnostic::new(&codes::UNKNOWN_DIRECTIVE, span, format!("there is no directive `#{name}`"))
-            .maybe_help(near.map(|near| format!("did you mean `#{near}`?")));
+            .maybe_help(help);
         session.report(diagnostic);
         self.skip_line(session);
     }

@@ -16,8 +16,8 @@ struct Header {
 }
 
 impl Preprocessor<'_> {
-    /// `#include "x"`, `#include <x>`, or macros that expand to one of them.
-    pub(super) fn include(&mut self, session: &mut ParseSession<'_>, directive: Span) {
+    /// `#include "x"`, `#include <x>`, or macros that expand to one of them. An `import` is the engine's own directive.
+    pub(super) fn include(&mut self, session: &mut ParseSession<'_>, directive: Span, import: bool) {
         let plain = self.frames.last_mut().and_then(|frame| frame.lexer.header_name());
         let header = match plain {
             Some(span) => {
@@ -30,7 +30,8 @@ impl Preprocessor<'_> {
             },
         };
         let whole = session.sources.join(directive, header.span);
-        if !self.extensions.contains(Extensions::INCLUDE) {
+        let resolved = import || self.engine.resolves_includes;
+        if !self.extensions.contains(Extensions::INCLUDE) && !resolved {
             let diagnostic = kind::INCLUDE_WITHOUT_EXTENSION
                 .diagnostic(self.strict, whole, "`#include` without the extension that provides it")
                 .help("write `#extension GL_ARB_shading_language_include : require` before it");
@@ -43,6 +44,9 @@ impl Preprocessor<'_> {
         self.outcome.inclusions.push(Inclusion { directive, file: entered.then_some(file) });
         if !entered {
             return;
+        }
+        if import && self.engine.directive.is_some_and(|directive| directive.once) {
+            self.once.insert(file);
         }
         if self.frames.len() >= MAX_DEPTH {
             let name = session.sources.file(file).name();

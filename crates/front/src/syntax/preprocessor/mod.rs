@@ -18,6 +18,7 @@ mod expand;
 pub(super) mod extension;
 mod finish;
 mod include;
+mod prelude;
 #[cfg(test)]
 mod tests;
 mod version;
@@ -49,6 +50,8 @@ pub(super) struct PreprocessorOutcome {
     pub(super) allows: Vec<Allow>,
     pub(super) extension_lines: Vec<(String, Behavior, Span)>,
     pub(super) inclusions: Vec<Inclusion>,
+    /// The texts of an engine that were read before the source.
+    pub(super) preludes: Vec<FileId>,
     pub(super) macros: Vec<Arc<str>>,
 }
 
@@ -106,6 +109,7 @@ pub(super) struct Preprocessor<'a> {
     /// The files in which joined lines have been reported.
     continued: FxHashSet<FileId>,
     resolved: FxHashMap<(FileId, IncludeForm, String), FileId>,
+    engine: prelude::Engine,
     outcome: PreprocessorOutcome,
 }
 
@@ -144,6 +148,7 @@ impl<'a> Preprocessor<'a> {
             once: FxHashSet::default(),
             continued: FxHashSet::default(),
             resolved: FxHashMap::default(),
+            engine: prelude::Engine::default(),
             outcome: PreprocessorOutcome {
                 version: Version { number: version::NEWEST_SUPPORTED, profile: Profile::Core, span: Span::default() },
                 supported: true,
@@ -151,6 +156,7 @@ impl<'a> Preprocessor<'a> {
                 allows: Vec::new(),
                 extension_lines: Vec::new(),
                 inclusions: Vec::new(),
+                preludes: Vec::new(),
                 macros: Vec::new(),
             },
         };

@@ -1,12 +1,16 @@
 //! [`Compiler`] turns texts into a [`Program`] and diagnostics. It is the only entry to the front end.
 
+mod preparation;
+
+pub use preparation::{Preparation, Prepared, Problem};
+
 use crate::analysis::{analyze, keep_understood};
 use crate::diagnostic::codes::general::TOO_LARGE;
 use crate::diagnostic::codes::{names, preprocess};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, Levels};
 use crate::hir::{Stage, Types};
 use crate::link::{Bindings, Program, Understood, check_understood, link};
-use crate::source::{IncludeResolver, NoIncludes, SourceMap, Span, whole_text};
+use crate::source::{Completion, FileId, IncludeResolver, NoIncludes, SourceMap, Span, whole_text};
 use crate::syntax;
 use std::sync::Arc;
 
@@ -21,6 +25,9 @@ pub struct Options {
     pub attribute_locations: Vec<(String, u32)>,
     /// `glBindFragDataLocation`: name and color number.
     pub frag_data_locations: Vec<(String, u32)>,
+    /// What an engine adds to each source: the version of those without a `#version` line, texts before them. A
+    /// [`Preparation`] decides for each source instead.
+    pub completion: Completion,
 }
 
 impl Options {
@@ -61,6 +68,7 @@ pub struct Compilation {
 pub struct Compiler {
     options: Options,
     includes: Arc<dyn IncludeResolver + Send + Sync>,
+    preparation: Option<Arc<dyn Preparation + Send + Sync>>,
     /// Applied to the diagnostics of each compilation; `None` if the caller applies its own.
     levels: Option<Levels>,
 }
@@ -68,7 +76,8 @@ pub struct Compiler {
 impl Compiler {
     /// A compiler that resolves no includes. Comments `// glisten: allow(CODE)` are applied to its diagnostics.
     pub fn new(options: Options) -> Self {
-        Self { options, includes: Arc::new(NoIncludes), levels: Some(Levels::default()) }
+        let includes = Arc::new(NoIncludes);
+        Self { options, includes, preparation: None, levels: Some(Levels::default()) }
     }
 
     /// The same compiler, which applies these levels to its diagnostics.
@@ -88,6 +97,12 @@ impl Compiler {
     #[must_use]
     pub fn with_includes(self, includes: impl IncludeResolver + Send + Sync + 'static) -> Self {
         Self { includes: Arc::new(includes), ..self }
+    }
+
+    /// This compiler, which completes each source so.
+    #[must_use]
+    pub fn with_preparation(self, preparation: impl Preparation + Send + Sync + 'static) -> Self {
+        Self { preparation: Some(Arc::new(preparation)), ..self }
     }
 
     /// This compiler with other options.
@@ -160,6 +175,19 @@ impl Compiler {
         link(name, types, shaders, self.options.bindings(), diagnostics)
     }
 
+    /// The source as its engine completes it, with the macros of the options.
+    fn prepared(&self, source: &Source) -> Prepared {
+        let Some(preparation) = &self.preparation else {
+            let completion = self.options.completion.clone();
+            return Prepared { defines: self.options.defines.clone(), completion, ..Prepared::default() };
+        };
+        let mut prepared = preparation.prepare(source);
+        let own = &self.options.defines;
+        prepared.defines.retain(|(name, _)| own.iter().all(|(other, _)| other != name));
+        prepared.defines.extend_from_slice(own);
+        prepared
+    }
+
     /// Parses and analyzes one text.
     fn shader(
         &self,
@@ -168,19 +196,35 @@ impl Compiler {
         map: &mut SourceMap,
         diagnostics: &mut Diagnostics,
     ) -> Option<Understood> {
-        let Some(file) = map.add(source.name.as_str(), Arc::clone(&source.text)) else {
+        let prepared = self.prepared(source);
+        let text = prepared.text.as_ref().unwrap_or(&source.text);
+        let Some(file) = map.add(source.name.as_str(), Arc::clone(text)) else {
             let message = format!("there is no room for `{}`", source.name);
             diagnostics.push(Diagnostic::new(&TOO_LARGE, Span::default(), message));
             return None;
         };
         let (strict, first_error) = (self.options.strict, diagnostics.len());
-        let options = syntax::ParseOptions { stage: source.stage, defines: self.options.defines.clone(), strict };
-        let ast = syntax::parse(map, file, &options, &*self.includes, diagnostics);
+        report_problems(&prepared.problems, file, map, diagnostics);
+        let Prepared { defines, completion, includes, .. } = prepared;
+        let options = syntax::ParseOptions { stage: source.stage, defines, strict, completion };
+        let includes = includes.as_ref().unwrap_or(&self.includes);
+        let ast = syntax::parse(map, file, &options, &**includes, diagnostics);
         let mut shader = analyze(&ast, source.stage, strict, types, map, diagnostics);
-        shader.texts.push(whole_text(map, file, ast.version.span, &ast.inclusions, &self.options.defines));
+        let (inclusions, preludes) = (&ast.inclusions, &ast.preludes);
+        shader.texts.push(whole_text(map, file, ast.version.span, inclusions, &options.defines, preludes));
         let is_complete = !keep_understood(&ast, &mut shader, types, map, diagnostics, first_error);
         forget_names_of_missing_includes(map, diagnostics, first_error);
         Some(Understood { shader, is_complete })
+    }
+}
+
+/// Reports what is wrong with a source for its engine.
+fn report_problems(problems: &[Problem], file: FileId, map: &SourceMap, diagnostics: &mut Diagnostics) {
+    let base = map.file(file).base();
+    for problem in problems {
+        let span = Span::new(base + problem.range.start as u32, base + problem.range.end as u32);
+        let diagnostic = Diagnostic::new(problem.code, span, problem.message.clone());
+        diagnostics.push(diagnostic.maybe_help(problem.help.clone()));
     }
 }
 

@@ -1,0 +1,211 @@
+//! [`Engines`]: completes each source that a command reads, by its flags and by the `[[source]]` tables of `glisten.toml`.
+//!
+//! *In:* the name of a source, its text and its stage. *Out:* its part of a file with several stages, macros, preludes, the
+//! version if it has none, and the resolver of its includes. *Holds:* all commands compile through it, so a source means the
+//! same to each of them. Flags take precedence over tables, and those over the profile of the engine.
+
+use super::args::SourceArgs;
+use super::config;
+use super::exit::{Exit, Failure};
+use super::files;
+use super::includes::DiskIncludes;
+use super::rules::Rule;
+use super::stages;
+use crate::engines::combined::{self, Member};
+use crate::engines::{self, Profile, Style};
+use glisten_front::compiler::{Preparation, Prepared, Source};
+use glisten_front::diagnostic::codes::general;
+use glisten_front::hir::Stage;
+use glisten_front::source::{Completion, Prelude};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// The name of standard input in diagnostics.
+pub(super) const STDIN: &str = "<stdin>";
+
+/// The settings that the flags and the tables give to one source.
+struct Settings {
+    profile: Option<&'static Profile>,
+    version: Option<String>,
+    style: Option<Style>,
+    stage: Option<Stage>,
+    preludes: Vec<Prelude>,
+    defines: Vec<(String, String)>,
+    folders: Vec<PathBuf>,
+}
+
+/// Completes sources.
+#[derive(Clone, Debug)]
+pub(super) struct Engines {
+    flags: Arc<Flags>,
+    /// The rules of each folder so far.
+    rules: Arc<Mutex<BTreeMap<PathBuf, Arc<Vec<Rule>>>>>,
+}
+
+/// The flags of the command line.
+#[derive(Debug)]
+struct Flags {
+    profile: Option<&'static Profile>,
+    version: Option<String>,
+    style: Option<Style>,
+    preludes: Vec<Prelude>,
+    folders: Vec<PathBuf>,
+}
+
+impl Engines {
+    /// The engines of a command.
+    ///
+    /// # Errors
+    /// A prelude that cannot be read.
+    pub(super) fn new(args: &SourceArgs) -> Result<Self, Failure> {
+        let mut preludes = Vec::new();
+        for path in &args.preludes {
+            preludes.push(files::read_prelude(path).map_err(|error| {
+                let is_text = [general::BINARY_SOURCE.id, general::TOO_LARGE.id].contains(&error.code.id);
+                let failure = Failure::new(if is_text { Exit::Content } else { Exit::Usage }, error.message);
+                if let Some(help) = error.help { failure.help(help) } else { failure }
+            })?);
+        }
+        let flags = Flags {
+            profile: args.engine.as_deref().and_then(engines::find),
+            version: args.assume_version.clone(),
+            style: args.include_style,
+            preludes,
+            folders: args.include_dirs.clone(),
+        };
+        Ok(Self { flags: Arc::new(flags), rules: Arc::default() })
+    }
+
+    /// The resolver of includes for sources that no engine completes.
+    pub(super) fn includes(&self) -> DiskIncludes {
+        DiskIncludes::of_engine(self.flags.folders.clone(), Style::Quote, &[])
+    }
+
+    /// The rules for a folder.
+    fn rules(&self, folder: &Path) -> Arc<Vec<Rule>> {
+        let mut known = self.rules.lock().unwrap_or_else(PoisonError::into_inner);
+        let rules = known.entry(folder.to_owned()).or_insert_with(|| Arc::new(config::rules(folder)));
+        Arc::clone(rules)
+    }
+
+    /// What the flags and the tables say about a file.
+    fn settings(&self, path: Option<&Path>) -> Settings {
+        let flags = &*self.flags;
+        let mut settings = Settings {
+            profile: None,
+            version: None,
+            style: None,
+            stage: None,
+            preludes: Vec::new(),
+            defines: Vec::new(),
+            folders: flags.folders.clone(),
+        };
+        if let Some(path) = path {
+            let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+            for rule in self.rules(folder).iter().filter(|rule| rule.fits(path)) {
+                settings.add(rule);
+            }
+        }
+        settings.profile = flags.profile.or(settings.profile);
+        settings.version = flags.version.clone().or(settings.version);
+        settings.style = flags.style.or(settings.style);
+        settings.preludes.extend_from_slice(&flags.preludes);
+        settings
+    }
+
+    /// The stage that the flags and the tables give to a file whose name tells none.
+    pub(super) fn stage(&self, path: &Path) -> Option<Stage> {
+        let settings = self.settings(Some(path));
+        settings.stage.or(settings.profile.and_then(|profile| profile.stage))
+    }
+}
+
+impl Settings {
+    fn add(&mut self, rule: &Rule) {
+        self.profile = rule.profile.or(self.profile);
+        self.version = rule.version.clone().or(self.version.take());
+        self.style = rule.style.or(self.style);
+        self.stage = rule.stage.or(self.stage);
+        self.preludes.extend_from_slice(&rule.preludes);
+        self.defines.extend_from_slice(&rule.defines);
+        self.folders.extend_from_slice(&rule.includes);
+    }
+
+    /// Whether nothing is to be done.
+    fn is_plain(&self) -> bool {
+        let no_engine = self.profile.is_none() && self.version.is_none() && self.style.is_none();
+        no_engine && self.preludes.is_empty() && self.defines.is_empty()
+    }
+
+    /// The source with all that belongs to it.
+    fn complete(self, source: &Source, header: &str, prepared: &mut Prepared) {
+        let style = self.style.or(self.profile.and_then(|profile| profile.style));
+        let roots = self.profile.map_or(&[][..], |profile| &profile.roots);
+        let text = prepared.text.as_ref().unwrap_or(&source.text);
+        let mut added = self.profile.map(|profile| profile.addition(text, source.stage, header)).unwrap_or_default();
+        let taken = match self.profile {
+            Some(profile) => profile.taken(text, self.defines),
+            None => self.defines,
+        };
+        let of_stage = std::mem::take(&mut prepared.defines);
+        prepared.defines = last_of_each(added.defines.into_iter().chain(of_stage).chain(taken).collect());
+        added.preludes.extend(self.preludes);
+        prepared.completion = Completion {
+            assumed_version: self.version.or(self.profile.and_then(|profile| profile.version.clone())),
+            preludes: added.preludes,
+            directive: style.and_then(|style| style.lookup().directive),
+            resolves_includes: style.is_some(),
+        };
+        prepared.problems = added.problems;
+        let includes = DiskIncludes::of_engine(self.folders, style.unwrap_or(Style::Quote), roots);
+        prepared.includes = Some(Arc::new(includes));
+    }
+}
+
+/// The last definition of each macro.
+fn last_of_each(defines: Vec<(String, String)>) -> Vec<(String, String)> {
+    let mut kept: Vec<(String, String)> = Vec::new();
+    for (name, value) in defines {
+        kept.retain(|(other, _)| *other != name);
+        kept.push((name, value));
+    }
+    kept
+}
+
+/// The programs of a file with several stages; none if its name tells its stage.
+pub(super) fn members(path: Option<&Path>, text: &str) -> Vec<Member> {
+    if path.is_some_and(|path| stages::by_name(path).is_some()) { Vec::new() } else { combined::members(text) }
+}
+
+/// The text with the header of a source: the fragment shader next to a vertex shader, otherwise the source itself.
+fn header_of(source: &Source, path: Option<&Path>) -> Arc<str> {
+    let fragment = || {
+        let path = path?.with_extension("fs");
+        files::read_source(&path.to_string_lossy(), Some(&path)).ok()
+    };
+    let other = if source.stage == Stage::Vertex { fragment() } else { None };
+    other.unwrap_or_else(|| Arc::clone(&source.text))
+}
+
+impl Preparation for Engines {
+    fn prepare(&self, source: &Source) -> Prepared {
+        let mut prepared = Prepared::default();
+        if source.name.starts_with('<') && source.name != STDIN {
+            return prepared;
+        }
+        let path = (source.name != STDIN).then(|| Path::new(source.name.as_str()));
+        let members = members(path, &source.text);
+        if let Some(part) = members.iter().find_map(|member| member.part(source.stage)) {
+            prepared.text = (!part.others.is_empty()).then(|| part.text(&source.text));
+            prepared.defines.clone_from(&part.defines);
+        }
+        let settings = self.settings(path);
+        if !settings.is_plain() || !settings.folders.is_empty() {
+            let has_header = settings.profile.is_some_and(|profile| profile.has_isf_header);
+            let header = if has_header { header_of(source, path) } else { Arc::clone(&source.text) };
+            settings.complete(source, &header, &mut prepared);
+        }
+        prepared
+    }
+}

@@ -1,0 +1,74 @@
+//! The code of a text, without its comments.
+//!
+//! *In:* a text. *Out:* the same text with spaces for its comments, so that offsets stay; its words. *Holds:* nothing is
+//! preprocessed: code in a conditional group counts.
+
+use glisten_front::source::blanked;
+use std::sync::Arc;
+
+/// The text with spaces for its comments.
+pub fn without_comments(text: &str) -> Arc<str> {
+    let mut ranges = Vec::new();
+    let mut at = 0;
+    while let Some(found) = text.get(at..).and_then(|rest| rest.find('/')).map(|found| at + found) {
+        let rest = text.get(found..).unwrap_or("");
+        let end = match rest.as_bytes() {
+            [b'/', b'/', ..] => found + rest.find('\n').unwrap_or(rest.len()),
+            [b'/', b'*', ..] => found + rest.get(2..).and_then(|rest| rest.find("*/")).map_or(rest.len(), |end| end + 4),
+            _ => {
+                at = found + 1;
+                continue;
+            }
+        };
+        ranges.push(found..end);
+        at = end;
+    }
+    blanked(text, &ranges)
+}
+
+/// Whether a character can be part of a name.
+pub fn is_name(character: char) -> bool {
+    character.is_ascii_alphanumeric() || character == '_'
+}
+
+/// The names in a text, with their offsets.
+pub fn words(text: &str) -> impl Iterator<Item = (usize, &str)> {
+    let mut at = 0;
+    text.split(|character: char| !is_name(character)).filter_map(move |word| {
+        let start = at;
+        // Splitting at a character leaves out all its bytes.
+        at += word.len() + text.get(at + word.len()..).and_then(|rest| rest.chars().next()).map_or(0, char::len_utf8);
+        (!word.is_empty()).then_some((start, word))
+    })
+}
+
+/// How often a text without comments defines the function `name`.
+pub fn count_definitions(code: &str, name: &str) -> usize {
+    let is_definition = |(at, word): &(usize, &str)| {
+        let rest = code.get(at + word.len()..).unwrap_or("").trim_start();
+        let Some(end) = rest.strip_prefix('(').and_then(|rest| rest.find(')')) else { return false };
+        rest.get(end + 2..).is_some_and(|rest| rest.trim_start().starts_with('{'))
+    };
+    words(code).filter(|(_, word)| *word == name).filter(is_definition).count()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{count_definitions, without_comments, words};
+
+    #[test]
+    fn comments_are_blank() {
+        assert_eq!(without_comments("a/b // c\n/* d\n*/ e /*").as_ref(), "a/b     \n    \n   e   ");
+        assert_eq!(without_comments("/**/x//").as_ref(), "    x  ");
+    }
+
+    #[test]
+    fn words_have_places() {
+        assert_eq!(words("é a_1+(b").collect::<Vec<_>>(), [(3, "a_1"), (8, "b")]);
+    }
+
+    #[test]
+    fn definitions_have_bodies() {
+        assert_eq!(count_definitions("void main();\nvoid main( void )\n{ domain(); } void main(){}", "main"), 2);
+    }
+}

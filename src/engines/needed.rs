@@ -1,0 +1,97 @@
+//! The lines of an engine's prelude that a source needs: engines declare what a source does not declare itself.
+//!
+//! *In:* a prelude with one declaration, macro or function a line, and a source. *Out:* the prelude, with blank lines for what
+//! the source declares. *Holds:* lines stay where they are.
+
+use super::code::{count_definitions, is_name, without_comments, words};
+use glisten_front::source::blanked;
+use std::ops::Range;
+use std::sync::Arc;
+
+/// The first words of declarations at global scope.
+const QUALIFIERS: &[&str] =
+    &["uniform", "in", "out", "attribute", "varying", "const", "flat", "smooth", "layout", "highp", "mediump", "lowp"];
+
+/// A declaration of a prelude's line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Line<'a> {
+    Macro(&'a str),
+    Function(&'a str),
+    Variable(&'a str),
+}
+
+/// The declaration of a line.
+fn declaration(line: &str) -> Option<Line<'_>> {
+    if let Some(rest) = line.trim_start().strip_prefix("#define") {
+        return words(rest).next().map(|(_, name)| Line::Macro(name));
+    }
+    let mut all = words(line);
+    let (_, first) = all.next()?;
+    if QUALIFIERS.contains(&first) {
+        let end = line.find([';', '=', '[']).unwrap_or(line.len());
+        return words(line.get(..end)?).last().map(|(_, name)| Line::Variable(name));
+    }
+    let before = line.get(..line.find('(')?)?;
+    line.contains('{').then(|| words(before).last().map(|(_, name)| Line::Function(name))).flatten()
+}
+
+/// Whether a text without comments declares a name by a declaration with a qualifier.
+fn declares(code: &str, name: &str) -> bool {
+    words(code).filter(|(_, word)| *word == name).any(|(at, _)| {
+        let before = code.get(..at).unwrap_or("");
+        let start = before.rfind([';', '{', '}']).map_or(0, |end| end + 1);
+        // Directives end with their lines, and belong to no declaration.
+        let statement = before.get(start..).unwrap_or("").lines().filter(|line| !line.trim_start().starts_with('#'));
+        statement.flat_map(words).any(|(_, word)| QUALIFIERS.contains(&word))
+    })
+}
+
+fn defines(code: &str, name: &str) -> bool {
+    let define = |line: &str| {
+        let rest = line.trim_start().strip_prefix('#')?.trim_start().strip_prefix("define")?.trim_start();
+        Some(rest.split(|character: char| !is_name(character)).next() == Some(name))
+    };
+    code.lines().any(|line| define(line).unwrap_or(false))
+}
+
+/// The prelude, with blank lines for what the source declares itself.
+pub fn needed(prelude: &str, source: &str) -> Arc<str> {
+    let code = without_comments(source);
+    let mut at = 0;
+    let mut unneeded: Vec<Range<usize>> = Vec::new();
+    for line in prelude.split_inclusive('\n') {
+        let declared = match declaration(line) {
+            Some(Line::Macro(name)) => defines(&code, name),
+            Some(Line::Function(name)) => count_definitions(&code, name) > 0,
+            Some(Line::Variable(name)) => declares(&code, name),
+            None => false,
+        };
+        if declared {
+            unneeded.push(at..at + line.len());
+        }
+        at += line.len();
+    }
+    blanked(prelude, &unneeded)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Line, declaration, needed};
+
+    #[test]
+    fn lines_declare() {
+        assert_eq!(declaration("uniform vec3 a[4];"), Some(Line::Variable("a")));
+        assert_eq!(declaration("#define B(x) x"), Some(Line::Macro("B")));
+        assert_eq!(declaration("void main() { f(); }"), Some(Line::Function("main")));
+        assert_eq!(declaration("void f(vec2 p);"), None);
+    }
+
+    #[test]
+    fn only_what_is_missing_is_declared() {
+        let prelude = "uniform float time;\nuniform vec2 size;\n#define PI 3.0\nvoid main() { f(); }\n";
+        let source = "// uniform float time;\n#define PI 3.14\n#ifdef X\n#endif\nuniform\n  vec2 size;\nvoid g() { time; size; }";
+        let text = needed(prelude, source);
+        assert_eq!(text.lines().map(str::trim).collect::<Vec<_>>(), ["uniform float time;", "", "", "void main() { f(); }"]);
+        assert!(!needed(prelude, "void main()\n{}").contains("main"));
+    }
+}

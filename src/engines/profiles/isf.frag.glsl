@@ -1,0 +1,1 @@
+in vec2 isf_FragNormCoord;
