@@ -129,7 +129,17 @@ pub fn stage_named(word: &str) -> Option<Stage> {
         (Stage::Vertex, &["vertex", "vert", "vs", "vertexshader", "vertex_shader", "vertexprogram"]),
         (
             Stage::Fragment,
-            &["fragment", "frag", "fs", "pixel", "ps", "fragmentshader", "fragment_shader", "pixelshader", "fragmentprogram"],
+            &[
+                "fragment",
+                "frag",
+                "fs",
+                "pixel",
+                "ps",
+                "fragmentshader",
+                "fragment_shader",
+                "pixelshader",
+                "fragmentprogram",
+            ],
         ),
         (Stage::Geometry, &["geometry", "geom", "gs", "geometryshader", "geometry_shader"]),
     ];
@@ -140,11 +150,8 @@ pub fn stage_named(word: &str) -> Option<Stage> {
 fn load((name, text, preludes): &Embedded) -> Profile {
     let mut settings = settings(text);
     let base = settings.extends.take().and_then(|name| EMBEDDED.iter().find(|row| row.0 == name)).map(load);
-    let stages = [
-        (Stage::Vertex, settings.vertex),
-        (Stage::Fragment, settings.fragment),
-        (Stage::Geometry, settings.geometry),
-    ];
+    let stages =
+        [(Stage::Vertex, settings.vertex), (Stage::Fragment, settings.fragment), (Stage::Geometry, settings.geometry)];
     let own = Profile {
         name,
         about: settings.about,
@@ -198,7 +205,8 @@ impl Profile {
         if self.has_isf_header {
             match isf::inputs(header) {
                 Ok(text) => {
-                    let prelude = Prelude { name: format!("{SHOWN}isf.inputs.glsl"), text: needed::needed(&text, source) };
+                    let prelude =
+                        Prelude { name: format!("{SHOWN}isf.inputs.glsl"), text: needed::needed(&text, source) };
                     added.preludes.insert(0, prelude);
                 }
                 // A vertex shader has no header of its own to report.

@@ -46,7 +46,8 @@ fn read(text: &str) -> (Vec<Section<'_>>, Vec<[&str; 3]>) {
                 open = Some(Section { tag, name, inside: range.end..text.len(), includes, tags });
             }
             ("end", _, section @ Some(_)) => {
-                let section = section.take().map(|section| Section { inside: section.inside.start..range.start, ..section });
+                let section =
+                    section.take().map(|section| Section { inside: section.inside.start..range.start, ..section });
                 sections.extend(section);
             }
             ("include_block", [name, ..], Some(section)) => {

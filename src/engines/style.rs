@@ -93,10 +93,7 @@ impl Lookup {
             (Some(namespace), None) => (namespace, name),
             (None, _) => ("", name),
         };
-        self.patterns
-            .iter()
-            .map(|pattern| pattern.replace("{namespace}", namespace).replace("{path}", path))
-            .collect()
+        self.patterns.iter().map(|pattern| pattern.replace("{namespace}", namespace).replace("{path}", path)).collect()
     }
 }
 
