@@ -312,6 +312,26 @@ impl<'a> Ruler<'a> {
         rounding.max(self.range * LEAST)
     }
 
+    /// The pixels that the reference covers and decides, away from edges.
+    pub(super) fn places(&self) -> Vec<usize> {
+        let flag = |flags: &[bool], pixel: usize| flags.get(pixel).copied().unwrap_or(false);
+        let is_plain = |pixel: &usize| {
+            let Picture { covered, undecided, near_edge, .. } = self.cpu;
+            flag(covered, *pixel) && !flag(undecided, *pixel) && !flag(near_edge, *pixel)
+        };
+        (0..self.cpu.covered.len()).filter(is_plain).collect()
+    }
+
+    /// The channels that the programs write: attachment, channel, and the colors of the attachment.
+    pub(super) fn written_channels(&self) -> impl Iterator<Item = (usize, usize, &'a [[f64; 4]])> {
+        let (cpu, written) = (self.cpu, self.written);
+        let attachments = cpu.attachments.iter().enumerate();
+        attachments.flat_map(move |(attachment, colors)| {
+            let channels = (0..4).filter(move |channel| written.is_written(attachment, *channel));
+            channels.map(move |channel| (attachment, channel, colors.as_slice()))
+        })
+    }
+
     /// The class of a pixel that is covered and not excused.
     pub fn class(&self, pixel: usize) -> Class {
         let flag = |flags: &[bool]| flags.get(pixel).copied().unwrap_or(false);
