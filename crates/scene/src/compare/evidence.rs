@@ -27,7 +27,7 @@ use glisten_front::hir::{Stage, Type};
 use serde::Serialize;
 
 /// The goal for the width of an envelope, as a share of the range of the picture's values.
-const GOAL: f64 = 1.0 / 255.0;
+pub const GOAL: f64 = 1.0 / 255.0;
 
 /// The least difference that says something, as a share of the range of the picture's values.
 pub const LEAST: f64 = 1.0 / 65_536.0;
