@@ -25,10 +25,10 @@ pub mod account;
 #[cfg(feature = "cli")]
 #[doc(hidden)]
 pub mod cli;
-#[cfg(feature = "reference")]
-pub mod evaluate;
 #[cfg(feature = "cli")]
 pub mod engines;
+#[cfg(feature = "reference")]
+pub mod evaluate;
 #[cfg(feature = "cli")]
 pub mod gallery;
 #[cfg(feature = "cli")]

@@ -2,8 +2,8 @@
 
 use super::exit::Failure;
 use super::stages::StageArg;
-use crate::specialize::Contract;
 use crate::engines::{self, Style};
+use crate::specialize::Contract;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 use glisten_emit::{ClipZ, Conventions, GlslVersion, SpirvEnv, WindowOrigin};
@@ -340,7 +340,8 @@ mod tests {
 
     #[test]
     fn versions() {
-        for (text, version) in [("330", "330"), ("150 core", "150 core"), ("300es", "300 es"), ("#version 110", "110")] {
+        for (text, version) in [("330", "330"), ("150 core", "150 core"), ("300es", "300 es"), ("#version 110", "110")]
+        {
             assert_eq!(parse_version(text).as_deref(), Ok(version));
         }
         assert!(parse_version("").is_err() && parse_version("150 Core").is_err() && parse_version("15").is_err());

@@ -220,7 +220,8 @@ fn parts(name: &str, path: &Path) -> Vec<Input> {
     let mut inputs = Vec::new();
     for (index, member) in engine::members(Some(path), &text).into_iter().enumerate() {
         let part = PartOf { index, name: member.name };
-        let input = |stage| Input { name: name.to_owned(), path: Some(path.to_owned()), stage, part: Some(part.clone()) };
+        let input =
+            |stage| Input { name: name.to_owned(), path: Some(path.to_owned()), stage, part: Some(part.clone()) };
         inputs.extend(member.parts.iter().map(|part| input(part.stage)));
     }
     inputs

@@ -208,7 +208,9 @@ impl<'a> RuleReader<'a> {
     fn defines(&mut self, defines: &Spanned<Defines>) -> Vec<(String, String)> {
         let texts: Vec<String> = match defines.get_ref() {
             Defines::Texts(texts) => texts.list().to_vec(),
-            Defines::Table(table) => table.iter().map(|(name, value)| format!("{name}={}", macro_text(value))).collect(),
+            Defines::Table(table) => {
+                table.iter().map(|(name, value)| format!("{name}={}", macro_text(value))).collect()
+            }
         };
         let mut read = Vec::new();
         for text in texts {

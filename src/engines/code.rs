@@ -14,7 +14,9 @@ pub fn without_comments(text: &str) -> Arc<str> {
         let rest = text.get(found..).unwrap_or("");
         let end = match rest.as_bytes() {
             [b'/', b'/', ..] => found + rest.find('\n').unwrap_or(rest.len()),
-            [b'/', b'*', ..] => found + rest.get(2..).and_then(|rest| rest.find("*/")).map_or(rest.len(), |end| end + 4),
+            [b'/', b'*', ..] => {
+                found + rest.get(2..).and_then(|rest| rest.find("*/")).map_or(rest.len(), |end| end + 4)
+            }
             _ => {
                 at = found + 1;
                 continue;

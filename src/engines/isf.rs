@@ -128,7 +128,8 @@ mod tests {
 
     #[test]
     fn wrong_headers_are_told() {
-        let told = |text: &str| inputs(text).map_err(|problem| (problem.range.start, problem.message)).expect_err("wrong");
+        let told =
+            |text: &str| inputs(text).map_err(|problem| (problem.range.start, problem.message)).expect_err("wrong");
         assert_eq!(told("void main() {}").0, 0);
         assert_eq!(told("/*{\n  ]}*/").0, 6);
         assert!(told("/*{\"INPUTS\": [{\"NAME\": \"a\", \"TYPE\": \"vec9\"}]}*/").1.contains("vec9"));

@@ -3,8 +3,8 @@
 //! *In:* a text. *Out:* a part for each stage: the lines from its mark to the next, and the lines before the first mark, which
 //! belong to all. *Holds:* all marks of a file are of one kind.
 
-use super::combined::Part;
 use super::code::without_comments;
+use super::part::Part;
 use super::profile::stage_named;
 use glisten_front::Stage;
 use std::collections::BTreeMap;
@@ -53,8 +53,7 @@ impl Mark {
     fn read(&self, line: &str) -> Option<Option<Stage>> {
         let name = line.strip_prefix(self.before)?.strip_suffix(self.after)?.trim().trim_matches(['"', ':']);
         // The names of glsw are `Program.Vertex.GL3`.
-        let word = name.split('.').find_map(|word| stage_named(word).map(Some).or(other(word)));
-        word
+        name.split('.').find_map(|word| stage_named(word).map(Some).or(other(word)))
     }
 
     fn marks(&self, text: &str, code: &str) -> Vec<Found> {
@@ -73,8 +72,19 @@ impl Mark {
 
 /// A stage that glisten does not have.
 fn other(word: &str) -> Option<Option<Stage>> {
-    static OTHERS: &[&str] =
-        &["compute", "cs", "tesscontrol", "tesseval", "tess_control", "tess_eval", "hull", "domain", "mesh", "task", "raygen"];
+    static OTHERS: &[&str] = &[
+        "compute",
+        "cs",
+        "tesscontrol",
+        "tesseval",
+        "tess_control",
+        "tess_eval",
+        "hull",
+        "domain",
+        "mesh",
+        "task",
+        "raygen",
+    ];
     OTHERS.iter().any(|other| other.eq_ignore_ascii_case(word)).then_some(None)
 }
 
@@ -140,7 +150,9 @@ mod tests {
 
     #[test]
     fn other_files_are_whole() {
-        for text in ["#pragma vertex vert\n#pragma fragment frag\n", "/*\n[vertex]\n[fragment]\n*/", "a[vs];\n-- vertex;\n"] {
+        for text in
+            ["#pragma vertex vert\n#pragma fragment frag\n", "/*\n[vertex]\n[fragment]\n*/", "a[vs];\n-- vertex;\n"]
+        {
             assert!(parts(text).is_none(), "{text}");
         }
     }

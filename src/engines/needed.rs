@@ -91,7 +91,10 @@ mod tests {
         let prelude = "uniform float time;\nuniform vec2 size;\n#define PI 3.0\nvoid main() { f(); }\n";
         let source = "// uniform float time;\n#define PI 3.14\n#ifdef X\n#endif\nuniform\n  vec2 size;\nvoid g() { time; size; }";
         let text = needed(prelude, source);
-        assert_eq!(text.lines().map(str::trim).collect::<Vec<_>>(), ["uniform float time;", "", "", "void main() { f(); }"]);
+        assert_eq!(
+            text.lines().map(str::trim).collect::<Vec<_>>(),
+            ["uniform float time;", "", "", "void main() { f(); }"]
+        );
         assert!(!needed(prelude, "void main()\n{}").contains("main"));
     }
 }

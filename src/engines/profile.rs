@@ -99,7 +99,7 @@ pub struct Profile {
     preludes: &'static [(Option<Stage>, &'static str, &'static str)],
 }
 
-/// What an engine adds to one source.
+/// The macros and texts that an engine adds to one source.
 #[derive(Clone, Debug, Default)]
 pub struct Addition {
     /// Macros.
@@ -111,7 +111,7 @@ pub struct Addition {
 }
 
 /// All profiles.
-pub static PROFILES: LazyLock<Vec<Profile>> = LazyLock::new(|| EMBEDDED.iter().map(|row| load(row)).collect());
+pub static PROFILES: LazyLock<Vec<Profile>> = LazyLock::new(|| EMBEDDED.iter().map(load).collect());
 
 /// The profile with this name.
 pub fn find(name: &str) -> Option<&'static Profile> {
@@ -129,7 +129,17 @@ pub fn stage_named(word: &str) -> Option<Stage> {
         (Stage::Vertex, &["vertex", "vert", "vs", "vertexshader", "vertex_shader", "vertexprogram"]),
         (
             Stage::Fragment,
-            &["fragment", "frag", "fs", "pixel", "ps", "fragmentshader", "fragment_shader", "pixelshader", "fragmentprogram"],
+            &[
+                "fragment",
+                "frag",
+                "fs",
+                "pixel",
+                "ps",
+                "fragmentshader",
+                "fragment_shader",
+                "pixelshader",
+                "fragmentprogram",
+            ],
         ),
         (Stage::Geometry, &["geometry", "geom", "gs", "geometryshader", "geometry_shader"]),
     ];
@@ -140,11 +150,8 @@ pub fn stage_named(word: &str) -> Option<Stage> {
 fn load((name, text, preludes): &Embedded) -> Profile {
     let mut settings = settings(text);
     let base = settings.extends.take().and_then(|name| EMBEDDED.iter().find(|row| row.0 == name)).map(load);
-    let stages = [
-        (Stage::Vertex, settings.vertex),
-        (Stage::Fragment, settings.fragment),
-        (Stage::Geometry, settings.geometry),
-    ];
+    let stages =
+        [(Stage::Vertex, settings.vertex), (Stage::Fragment, settings.fragment), (Stage::Geometry, settings.geometry)];
     let own = Profile {
         name,
         about: settings.about,
@@ -184,7 +191,7 @@ impl Profile {
         }
     }
 
-    /// What the engine adds to a source, given the text that has its header: the source itself, or the fragment shader of its
+    /// The macros and texts that the engine adds to a source, given the text that has its header: the source itself, or the fragment shader of its
     /// program.
     pub fn addition(&self, source: &str, stage: Stage, header: &str) -> Addition {
         let mut added = Addition::default();
@@ -198,7 +205,8 @@ impl Profile {
         if self.has_isf_header {
             match isf::inputs(header) {
                 Ok(text) => {
-                    let prelude = Prelude { name: format!("{SHOWN}isf.inputs.glsl"), text: needed::needed(&text, source) };
+                    let prelude =
+                        Prelude { name: format!("{SHOWN}isf.inputs.glsl"), text: needed::needed(&text, source) };
                     added.preludes.insert(0, prelude);
                 }
                 // A vertex shader has no header of its own to report.

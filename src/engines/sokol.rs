@@ -3,7 +3,7 @@
 //! *In:* a text. *Out:* its programs; without a `@program` line, the first of each stage. *Holds:* a block that a stage includes
 //! is part of it at the place where the block is written, which is before the stage.
 
-use super::combined::{Member, Part};
+use super::part::{Member, Part};
 use glisten_front::Stage;
 use std::ops::Range;
 
@@ -46,7 +46,8 @@ fn read(text: &str) -> (Vec<Section<'_>>, Vec<[&str; 3]>) {
                 open = Some(Section { tag, name, inside: range.end..text.len(), includes, tags });
             }
             ("end", _, section @ Some(_)) => {
-                let section = section.take().map(|section| Section { inside: section.inside.start..range.start, ..section });
+                let section =
+                    section.take().map(|section| Section { inside: section.inside.start..range.start, ..section });
                 sections.extend(section);
             }
             ("include_block", [name, ..], Some(section)) => {

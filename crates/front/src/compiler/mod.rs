@@ -25,7 +25,7 @@ pub struct Options {
     pub attribute_locations: Vec<(String, u32)>,
     /// `glBindFragDataLocation`: name and color number.
     pub frag_data_locations: Vec<(String, u32)>,
-    /// What an engine adds to each source: the version of those without a `#version` line, texts before them. A
+    /// The additions of an engine to each source: the version of those without a `#version` line, texts before them. A
     /// [`Preparation`] decides for each source instead.
     pub completion: Completion,
 }

@@ -40,7 +40,7 @@ pub struct ParseOptions {
     pub defines: Vec<(String, String)>,
     /// Reports an error instead of a warning for what the specification forbids and every driver accepts.
     pub strict: bool,
-    /// What an engine adds to the text.
+    /// The additions of an engine to the text.
     pub completion: Completion,
 }
 
