@@ -1,6 +1,6 @@
 //! [`Compiler`] turns texts into a [`Program`] and diagnostics. It is the only entry to the front end.
 
-use crate::analysis::{analyze, keep_understood};
+use crate::analysis::{analyze, keep_decisive, keep_understood};
 use crate::diagnostic::codes::general::TOO_LARGE;
 use crate::diagnostic::codes::{names, preprocess};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, Levels};
@@ -180,6 +180,7 @@ impl Compiler {
         shader.texts.push(whole_text(map, file, ast.version.span, &ast.inclusions, &self.options.defines));
         let is_complete = !keep_understood(&ast, &mut shader, types, map, diagnostics, first_error);
         forget_names_of_missing_includes(map, diagnostics, first_error);
+        keep_decisive(diagnostics, first_error);
         Some(Understood { shader, is_complete })
     }
 }
