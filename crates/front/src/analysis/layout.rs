@@ -1,12 +1,15 @@
 //! Layout qualifiers (§4.3.8): one row per identifier, with the declarations that accept it.
 
 use super::context::Analyzer;
+use super::features::{remedy, of_version};
 use super::qualifiers::Qualifiers;
 use crate::diagnostic::codes::qualifiers;
 use crate::diagnostic::{Diagnostic, did_you_mean};
 use crate::hir::{BlockLayout, MatrixLayout, PrimitiveIn, PrimitiveOut};
+use crate::language::{Extensions, NEVER, Since};
 use crate::source::Span;
-use crate::syntax::ast::{ExprKind as AstExprKind, Extensions, LayoutId, Literal};
+use crate::syntax::ast::{ExprKind as AstExprKind, LayoutId, Literal};
+use crate::syntax::warning_of_use;
 
 /// The declaration that a layout qualifier applies to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -72,8 +75,8 @@ struct Row {
     effect: Effect,
     value: bool,
     subjects: &'static [LayoutSubject],
-    extension: Extensions,
-    since: u16,
+    since: Since,
+    extensions: Extensions,
 }
 
 use LayoutSubject::{
@@ -82,11 +85,11 @@ use LayoutSubject::{
 };
 
 const fn row(name: &'static str, effect: Effect, subjects: &'static [LayoutSubject]) -> Row {
-    Row { name, effect, value: false, subjects, extension: Extensions::empty(), since: 150 }
+    Row { name, effect, value: false, subjects, extensions: Extensions::empty(), since: Since::new(150, NEVER) }
 }
 
-const fn since(version: u16, extension: Extensions, row: Row) -> Row {
-    Row { extension, since: version, ..row }
+const fn since(desktop: u16, es: u16, extensions: Extensions, row: Row) -> Row {
+    Row { extensions, since: Since::new(desktop, es), ..row }
 }
 
 const fn valued(row: Row) -> Row {
@@ -100,16 +103,16 @@ const BLOCK_PLACES: &[LayoutSubject] = &[UniformBlock, UniformDefault];
 const MATRIX_PLACES: &[LayoutSubject] = &[UniformBlock, UniformDefault, UniformMember];
 
 static ROWS: &[Row] = &[
-    valued(since(330, LOCATION, row("location", Effect::Location, &[VertexInput, FragmentOutput]))),
-    valued(since(330, LOCATION, row("index", Effect::Index, &[FragmentOutput]))),
-    valued(since(420, PACK, row("binding", Effect::Binding, &[Sampler, UniformBlock]))),
+    valued(since(330, 300, LOCATION, row("location", Effect::Location, &[VertexInput, FragmentOutput]))),
+    valued(since(330, 300, LOCATION, row("index", Effect::Index, &[FragmentOutput]))),
+    valued(since(420, 310, PACK, row("binding", Effect::Binding, &[Sampler, UniformBlock]))),
     row("origin_upper_left", Effect::OriginUpperLeft, &[FragCoord]),
     row("pixel_center_integer", Effect::PixelCenterInteger, &[FragCoord]),
-    since(140, BLOCKS, row("shared", Effect::Block(BlockLayout::Shared), BLOCK_PLACES)),
-    since(140, BLOCKS, row("packed", Effect::Block(BlockLayout::Packed), BLOCK_PLACES)),
-    since(140, BLOCKS, row("std140", Effect::Block(BlockLayout::Std140), BLOCK_PLACES)),
-    since(140, BLOCKS, row("row_major", Effect::Matrix(MatrixLayout::RowMajor), MATRIX_PLACES)),
-    since(140, BLOCKS, row("column_major", Effect::Matrix(MatrixLayout::ColumnMajor), MATRIX_PLACES)),
+    since(140, 300, BLOCKS, row("shared", Effect::Block(BlockLayout::Shared), BLOCK_PLACES)),
+    since(140, 300, BLOCKS, row("packed", Effect::Block(BlockLayout::Packed), BLOCK_PLACES)),
+    since(140, 300, BLOCKS, row("std140", Effect::Block(BlockLayout::Std140), BLOCK_PLACES)),
+    since(140, 300, BLOCKS, row("row_major", Effect::Matrix(MatrixLayout::RowMajor), MATRIX_PLACES)),
+    since(140, 300, BLOCKS, row("column_major", Effect::Matrix(MatrixLayout::ColumnMajor), MATRIX_PLACES)),
     row("points", Effect::Points, &[GeometryIn, GeometryOut]),
     row("lines", Effect::In(PrimitiveIn::Lines), &[GeometryIn]),
     row("lines_adjacency", Effect::In(PrimitiveIn::LinesAdjacency), &[GeometryIn]),
@@ -176,16 +179,7 @@ impl Analyzer<'_> {
             self.report(unknown(spelling, id.name.span));
             return None;
         };
-        if !self.allows(row.extension, row.since, id.name.span) {
-            let name = extension_name(row.extension);
-            self.report(
-                Diagnostic::new(
-                    &qualifiers::NEEDS_EXTENSION,
-                    id.name.span,
-                    format!("`{spelling}` in a layout is not in this version"),
-                )
-                .help(format!("put `#extension {name} : enable` at the top")),
-            );
+        if !self.allows_layout(row, spelling, id.name.span) {
             return None;
         }
         if !row.subjects.contains(&subject) {
@@ -209,6 +203,25 @@ impl Analyzer<'_> {
         let help = row.value.then(|| format!("write `{} = 0`", row.name));
         self.report(Diagnostic::new(&qualifiers::LAYOUT_VALUE, id.name.span, message).maybe_help(help));
         None
+    }
+
+    /// Whether the language has a layout identifier; if not, that is reported.
+    fn allows_layout(&mut self, row: &Row, spelling: &str, span: Span) -> bool {
+        let version = self.ast.version;
+        if version.reaches(row.since) {
+            return true;
+        }
+        if let Some(warning) = warning_of_use(self.extensions, row.extensions, span) {
+            self.report(warning);
+        }
+        if self.extensions.intersects(row.extensions) {
+            return true;
+        }
+        let message = format!("`{spelling}` in a layout is not in this version");
+        let finding = Diagnostic::new(&qualifiers::NEEDS_EXTENSION, span, message)
+            .maybe_help(remedy(version, row.since, Since::NEVER, row.extensions));
+        self.report(of_version(finding, version));
+        false
     }
 
     /// The value after `=`, a non-negative integer.
@@ -263,17 +276,4 @@ fn unknown(spelling: &str, span: Span) -> Diagnostic {
     Diagnostic::new(&qualifiers::UNKNOWN_LAYOUT, span, format!("`{spelling}` is not a layout identifier"))
         .here("not known in this version")
         .maybe_help(help)
-}
-
-/// The name of the one extension in a set, for messages.
-pub(super) fn extension_name(extension: Extensions) -> &'static str {
-    match extension {
-        Extensions::EXPLICIT_ATTRIB_LOCATION => "GL_ARB_explicit_attrib_location",
-        Extensions::SHADING_LANGUAGE_420PACK => "GL_ARB_shading_language_420pack",
-        Extensions::TEXTURE_RECTANGLE => "GL_ARB_texture_rectangle",
-        Extensions::UNIFORM_BUFFER_OBJECT => "GL_ARB_uniform_buffer_object",
-        Extensions::DRAW_INSTANCED => "GL_ARB_draw_instanced",
-        Extensions::SEPARATE_SHADER_OBJECTS => "GL_ARB_separate_shader_objects",
-        _ => "the extension",
-    }
 }

@@ -4,6 +4,7 @@ use super::context::Analyzer;
 use crate::diagnostic::codes::qualifiers;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::hir::Interpolation;
+use crate::language::Feature;
 use crate::source::Span;
 use crate::syntax::ast::{LayoutId, Qualifier, QualifierKind};
 
@@ -179,7 +180,7 @@ impl Analyzer<'_> {
         let before_storage = |rank: u8| rank == 0;
         if let Some((earlier, other)) = *last {
             let wrong = if before_storage(rank) { earlier >= 4 } else { rank < earlier };
-            if wrong && !self.allows_420pack(qualifier.span) {
+            if wrong && !self.allows(Feature::QualifierOrder, qualifier.span) {
                 let what = row.what;
                 self.report(
                     Diagnostic::new(&qualifiers::ORDER, qualifier.span, format!("{what} comes too late"))
@@ -219,7 +220,7 @@ impl Analyzer<'_> {
             QualifierKind::Uniform => self.storage(record, storage(StorageWord::Uniform)),
             QualifierKind::Layout(ids) => {
                 if let Some(first) = record.layout_span
-                    && !self.allows_420pack(span)
+                    && !self.allows(Feature::RepeatedLayouts, span)
                 {
                     self.repeated(&qualifiers::REPEATED, first, span, "a layout qualifier");
                 }

@@ -143,7 +143,7 @@ impl Analyzer<'_> {
             Some(known) => Some(known),
             None => {
                 let name = self.ast.names.spelling(symbol);
-                let ty = keywords::type_of(name, self.ast.version, self.extensions);
+                let ty = keywords::type_of(name);
                 let known = ty.map(|ty| self.types.intern(ty));
                 // A name that is unknown here may be known after an `#extension` line.
                 if let Some(known) = known {

@@ -4,7 +4,7 @@ mod preparation;
 
 pub use preparation::{Preparation, Prepared, Problem};
 
-use crate::analysis::{analyze, keep_understood};
+use crate::analysis::{analyze, keep_decisive, keep_understood};
 use crate::diagnostic::codes::general::TOO_LARGE;
 use crate::diagnostic::codes::{names, preprocess};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, Levels};
@@ -214,6 +214,7 @@ impl Compiler {
         shader.texts.push(whole_text(map, file, ast.version.span, inclusions, &options.defines, preludes));
         let is_complete = !keep_understood(&ast, &mut shader, types, map, diagnostics, first_error);
         forget_names_of_missing_includes(map, diagnostics, first_error);
+        keep_decisive(diagnostics, first_error);
         Some(Understood { shader, is_complete })
     }
 }

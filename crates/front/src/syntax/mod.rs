@@ -28,8 +28,8 @@ use ast::{Ast, Profile, Version};
 use names::Names;
 use parser::Parser;
 use preprocessor::Preprocessor;
-pub(crate) use preprocessor::extension::warning_of_use;
-use session::ParseSession;
+pub(crate) use preprocessor::extension::{name_of as extension_name, warning_of_use};
+use session::{ExtensionSets, ParseSession};
 
 /// ParseOptions of a parse.
 #[derive(Clone, Debug)]
@@ -52,7 +52,7 @@ pub fn parse(
     includes: &(dyn IncludeResolver + Sync),
     diagnostics: &mut Diagnostics,
 ) -> Ast {
-    let mut session = ParseSession { sources, diagnostics, names: Names::with_keywords() };
+    let mut session = ParseSession { sources, diagnostics, names: Names::with_keywords(), extension_sets: ExtensionSets::default() };
     let mut preprocessor = Preprocessor::new(&mut session, file, &options.defines, options.strict, includes);
     preprocessor.complete(&mut session, file, &options.completion);
     let mut ast = Parser::new(&mut preprocessor, &mut session, empty_tree(), options.strict).translation_unit();

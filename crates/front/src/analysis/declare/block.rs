@@ -12,6 +12,7 @@ use crate::diagnostic::codes::{names, qualifiers, types};
 use crate::hir::{
     ArraySize, BlockInfo, GlobalId, Interpolation, MatrixLayout, Member, Scalar, Stage, Storage, Type, TypeId, VarRef,
 };
+use crate::language::Feature;
 use crate::source::Span;
 use crate::syntax::ast::{ArrayDim, BlockDecl, Declarator, Ident, MemberDecl, TypeBase};
 
@@ -39,6 +40,11 @@ impl Analyzer<'_> {
             self.poison_block(block);
             return;
         };
+        let feature = if storage == Storage::Uniform { Feature::UniformBlocks } else { Feature::InterfaceBlocks };
+        self.require(feature, block.name.span);
+        if let Some((instance, _)) = &block.instance {
+            self.require(Feature::BlockInstances, instance.span);
+        }
         let name = self.name(block.name);
         if name == "gl_PerVertex" {
             self.redeclare_per_vertex(block, storage);

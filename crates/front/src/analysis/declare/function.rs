@@ -7,6 +7,7 @@ use super::super::state::Signature;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::{names, statements, types};
 use crate::hir::{ArraySize, Function, FunctionId, Local, LocalId, LocalKind, ParamMode, Type, TypeId, VarRef};
+use crate::language::Feature;
 use crate::syntax::ast::{FunctionHeader, Ident, ParamDecl, Stmt, TypeBase};
 
 /// The largest number of overloads of one name: each call that needs a conversion considers all of them.
@@ -186,6 +187,9 @@ impl Analyzer<'_> {
             );
         }
         let ty = self.type_spec(&header.ty);
+        if matches!(self.types.get(ty), Type::Array(..)) {
+            self.require(Feature::ArrayObjects, header.ty.span);
+        }
         if let Type::Array(_, ArraySize::Unsized) = self.types.get(ty) {
             self.report(
                 Diagnostic::new(&types::UNSIZED_ARRAY, header.ty.span, "a function must return an array with a size")
@@ -254,6 +258,9 @@ impl Analyzer<'_> {
                     .here("no size given"),
             );
             return TypeId::ERROR;
+        }
+        if matches!(self.types.get(ty), Type::Array(..)) && matches!(mode, ParamMode::Out | ParamMode::Inout) {
+            self.require(Feature::ArrayObjects, param.span);
         }
         if self.types.contains_sampler(ty) && matches!(mode, ParamMode::Out | ParamMode::Inout) {
             let name = self.type_name(ty);

@@ -6,6 +6,7 @@ use super::super::scope::Entry;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::{general, names, types};
 use crate::hir::{ArraySize, MatrixLayout, Member, StructType, Type, TypeId};
+use crate::language::Feature;
 use crate::source::Span;
 use crate::syntax::ast::{Declarator, Ident, MemberDecl, StructSpec, TypeBase};
 use crate::syntax::token::Symbol;
@@ -36,6 +37,9 @@ impl Analyzer<'_> {
     pub(in crate::analysis) fn structure(&mut self, spec: &StructSpec, span: Span) -> TypeId {
         let name = spec.name.map_or("", |name| self.ast.name(name));
         let declared = spec.name.map_or(span, |name| name.span);
+        if spec.name.is_none() {
+            self.require(Feature::NamelessStructs, span);
+        }
         let good_name = spec.name.is_none_or(|name| self.check_name(name));
         let mut members = MemberList::default();
         for row in &spec.members {

@@ -8,6 +8,7 @@ use super::super::state::ArrayKey;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::{qualifiers, syntax, types};
 use crate::hir::{ArraySize, ExprId, Global, GlobalId, Interpolation, Stage, Storage, Type, TypeId, Value, VarRef};
+use crate::language::Feature;
 use crate::source::Span;
 use crate::syntax::ast::{Declarator, TypeBase, TypeSpec, VariableDecl};
 
@@ -73,6 +74,11 @@ impl Analyzer<'_> {
         let Some((word, span)) = record.storage else {
             return if record.constant.is_some() { Storage::Const } else { Storage::Private };
         };
+        match word {
+            StorageWord::In | StorageWord::Out => self.require(Feature::InOut, span),
+            StorageWord::Attribute | StorageWord::Varying => self.require(Feature::Attributes, span),
+            StorageWord::Uniform | StorageWord::Inout => {}
+        }
         match (word, self.stage) {
             (StorageWord::Uniform, _) => Storage::Uniform,
             (StorageWord::In, _) => Storage::In,
@@ -215,8 +221,17 @@ impl Analyzer<'_> {
         if self.ty(expr).is_error() {
             return (if storage == Storage::Const { TypeId::ERROR } else { ty }, None);
         }
+        if matches!(self.types.get(ty), Type::Array(..)) {
+            self.require(Feature::ArrayObjects, self.span(expr));
+        }
         if storage == Storage::Private {
+            if !self.is_constant(expr) {
+                self.require_here(Feature::GlobalInitializers, self.span(expr));
+            }
             return (ty, Some(Initial { expr, value: None }));
+        }
+        if storage == Storage::Uniform {
+            self.require(Feature::UniformInitializers, self.span(expr));
         }
         if self.types.contains_sampler(ty) {
             let span = self.span(expr);

@@ -4,18 +4,16 @@ use super::super::context::Analyzer;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::types;
 use crate::hir::{ArraySize, ConstructKind, ExprId, ExprKind, Scalar, Type, TypeId};
+use crate::language::Feature;
 use crate::source::Span;
 use crate::syntax::ast;
 
 impl Analyzer<'_> {
-    /// The initializer of a variable of type `ty`: an expression or, where the extension is enabled, a list.
+    /// The initializer of a variable of type `ty`: an expression or a list.
     pub(in crate::analysis) fn initializer(&mut self, id: ast::ExprId, ty: TypeId) -> ExprId {
         let expr = self.ast.expr(id);
         let ast::ExprKind::List(elements) = &expr.kind else { return self.expr(id) };
-        if !self.allows_420pack(expr.span) {
-            // The parser has reported it.
-            return self.poison(expr.span);
-        }
+        self.require(Feature::InitializerLists, expr.span);
         self.list(elements, ty, expr.span)
     }
 

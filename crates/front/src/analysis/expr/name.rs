@@ -112,7 +112,7 @@ impl Analyzer<'_> {
             if self.is_left_out(row, name.span) {
                 return self.poison(name.span);
             }
-            self.allows(row.availability.extensions, row.availability.since, name.span);
+            self.note_builtin(row.availability, name.span);
             let id = self.builtin_global(row);
             return self.variable(VarRef::Global(id), name.span);
         }

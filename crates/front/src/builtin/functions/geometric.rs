@@ -3,17 +3,19 @@
 
 use super::{Availability, BuiltinFunction, Effect, Parameter, Row, matcher, rows};
 use crate::builtin::Stages;
+use crate::language::{Extensions, NEVER};
 
 const G110: Row = Row::base("§8.4", 110);
 const M110: Row = Row::base("§8.5", 110);
 const M120: Row = Row::base("§8.5", 120);
-const M150: Row = Row::base("§8.5", 150);
+const M150: Row = Row::base("§8.5", 150).available(Availability::since(150).es(300));
 const R110: Row = Row::base("§8.6", 110);
 const R130: Row = Row::base("§8.6", 130);
 /// Zero in a constant expression (§4.3.3).
-const D110: Row =
-    Row::base("§8.8", 110).with(Effect::Derivative, true).available(Availability::since(110).stages(Stages::FRAGMENT));
-const N110: Row = Row::base("§8.9", 110).with(Effect::None, false);
+const D110: Row = Row::base("§8.8", 110)
+    .with(Effect::Derivative, true)
+    .available(Availability::since(110).es(300).or(Extensions::STANDARD_DERIVATIVES).stages(Stages::FRAGMENT));
+const N110: Row = Row::base("§8.9", 110).with(Effect::None, false).available(Availability::since(110).es(NEVER));
 const EMIT: Row =
     Row::base("§8.10", 150).with(Effect::Emits, false).available(Availability::since(150).stages(Stages::GEOMETRY));
 

@@ -42,7 +42,8 @@ impl<T: TokenSource> Parser<'_, '_, T> {
             DeclarationKind::Broken(names)
         });
         let span = self.since(start.span);
-        self.ast.declarations.push(Declaration { kind, span, extensions: start.extensions() });
+        let extensions = self.session.extensions_at(start);
+        self.ast.declarations.push(Declaration { kind, span, extensions });
     }
 
     /// Handles a stray `}`. If an opening brace was assumed before, this one may be its partner.

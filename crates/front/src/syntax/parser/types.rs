@@ -3,7 +3,6 @@
 use super::{Parse, Parser, TokenKind, TokenSource, codes};
 use crate::diagnostic::Diagnostic;
 use crate::source::Span;
-use crate::syntax::ast::Extensions;
 use crate::syntax::ast::{
     ArrayDim, Declarator, ExprId, ExprKind, LayoutId, MemberDecl, Qualifier, QualifierKind, StructSpec, TypeBase,
     TypeSpec,
@@ -243,22 +242,10 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         Ok(Declarator { name, array, initializer: None })
     }
 
-    /// initializer, including the lists of 420pack
+    /// initializer, including the lists of 420pack; the analysis knows whether the language has them
     pub(super) fn initializer(&mut self) -> Parse<ExprId> {
         if self.kind() != TokenKind::LeftBrace {
             return self.assignment_expression();
-        }
-        let extensions = self.current.extensions();
-        let span = self.current.span;
-        if !extensions.contains(Extensions::SHADING_LANGUAGE_420PACK) {
-            let diagnostic = Diagnostic::new(
-                &codes::LIST_WITHOUT_EXTENSION,
-                span,
-                "initializer lists need GL_ARB_shading_language_420pack",
-            )
-            .here("a list begins here")
-            .help("write a constructor, or `#extension GL_ARB_shading_language_420pack : require`");
-            self.session.report(diagnostic);
         }
         self.initializer_list()
     }
