@@ -1,16 +1,17 @@
 //! Measures the CPU reference's time for the Blinn-Phong sphere, as a ratio to lavapipe's for the same scene.
 //!
 //! The scene has 512x512 pixels and a mesh of 64x32; both sides run in turns, without start-up and compilation:
-//! `RAYON_NUM_THREADS=2 cargo bench --bench reference`. The goal is 3 for f64 and 2 for f32, and 8 times f64 for the
-//! envelope. Ratios are of medians; the A/A row compares lavapipe with itself.
+//! `RAYON_NUM_THREADS=2 cargo bench --bench reference`. The goal is 3 for f64 and 2 for f32, 8 times f64 for the
+//! envelope, and twice f32 for a simulated GPU. Ratios are of medians; the A/A row compares lavapipe with itself.
 
 use glisten::scene::{MemoryFiles, Scene, load};
 use glisten_front::{Compiler, Options};
 use glisten_gpu::{Gpu, Via};
-use glisten_reference::{LineRule, Precision, RenderOptions};
+use glisten_reference::{LineRule, Precision, RenderOptions, render, simulate};
 use std::time::Instant;
 
 const ROUNDS: usize = 25;
+const PRECISIONS: [Precision; 3] = [Precision::F64, Precision::F32, Precision::Envelope];
 
 fn scene() -> Scene {
     let root = env!("CARGO_MANIFEST_DIR");
@@ -37,19 +38,23 @@ fn main() {
     let scene = scene();
     let gpu = Gpu::new(None).expect("this needs Mesa's Vulkan driver: apt-get install mesa-vulkan-drivers");
     let prepared = gpu.prepare(&scene, Via::Spirv).expect("it can be drawn");
-    let mut rows: [(&str, Vec<f64>); 5] =
-        [("lavapipe", vec![]), ("lavapipe (A/A)", vec![]), ("f64", vec![]), ("f32", vec![]), ("envelope", vec![])];
+    let names = ["lavapipe", "lavapipe (A/A)", "f64", "f32", "envelope", "simulated"];
+    let mut rows = names.map(|name| (name, Vec::new()));
     for round in 0..ROUNDS + 2 {
         for (index, (_, times)) in rows.iter_mut().enumerate() {
             let start = Instant::now();
-            let time = if index < 2 {
-                gpu.draw(&prepared).expect("it draws").milliseconds
-            } else {
-                let precision = [Precision::F64, Precision::F32, Precision::Envelope][index - 2];
-                let options =
-                    RenderOptions { precision, lines: LineRule::OpenGl, mark_edges: false, ..RenderOptions::default() };
-                glisten_reference::render(&scene, &options).expect("it draws");
-                start.elapsed().as_secs_f64() * 1e3
+            let options = RenderOptions { lines: LineRule::OpenGl, mark_edges: false, ..RenderOptions::default() };
+            let time = match PRECISIONS.get(index.wrapping_sub(2)) {
+                _ if index < 2 => gpu.draw(&prepared).expect("it draws").milliseconds,
+                Some(precision) => {
+                    render(&scene, &RenderOptions { precision: *precision, ..options }).expect("it draws");
+                    start.elapsed().as_secs_f64() * 1e3
+                }
+                // Each of the population in turn.
+                None => {
+                    simulate(&scene, &options, (1, round as u32)).expect("it draws");
+                    start.elapsed().as_secs_f64() * 1e3
+                }
             };
             // The first rounds compile and warm up.
             if round >= 2 {

@@ -67,7 +67,7 @@ fn scenes(asked: &[String]) -> Vec<(String, Scene)> {
 /// The operations of a scene by each of the weights.
 fn sums(scene: &Scene, weights: &[Weights]) -> Vec<f64> {
     let counts = steps(scene).expect("the reference draws it");
-    weights.iter().map(|weights| work(&counts, weights).operations as f64).collect()
+    weights.iter().map(|weights| work(&counts, weights, glisten::emit::FloatWidth::Single).operations as f64).collect()
 }
 
 /// The steps of a scene, as tab-separated lines.

@@ -61,8 +61,8 @@ pub use glisten_scene::picture::Picture;
 /// Translates programs to targets, and reflects what a host needs to know.
 pub mod emit {
     pub use glisten_emit::{
-        ClipZ, Conventions, Emitted, GlslVersion, Reflection, SpirvEnv, Target, WindowOrigin, emit, emit_with_sources,
-        reflect, reflection,
+        ClipZ, Conventions, Emitted, FloatWidth, GlslVersion, Reflection, SpirvEnv, Target, WindowOrigin, emit,
+        emit_with_sources, reflect, reflection,
     };
     pub use glisten_specialize::{left_out, optimize};
 }

@@ -66,7 +66,7 @@ pub(crate) fn work() -> Result<String, String> {
 
 fn work_of(scene: &glisten::scene::Scene, weights: &Weights) -> Result<(u64, u64), String> {
     let steps = report::steps(scene).map_err(|errors| format!("{errors:?}"))?;
-    let counted = report::work(&steps, weights);
+    let counted = report::work(&steps, weights, glisten::emit::FloatWidth::Single);
     Ok((counted.operations, counted.texture_lookups))
 }
 

@@ -6,7 +6,7 @@ use crate::engines::{self, Style};
 use crate::specialize::Contract;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
-use glisten_emit::{ClipZ, Conventions, GlslVersion, SpirvEnv, WindowOrigin};
+use glisten_emit::{ClipZ, Conventions, FloatWidth, GlslVersion, SpirvEnv, WindowOrigin};
 use glisten_front::builtin::constants::{MAX_DRAW_BUFFERS, MAX_VERTEX_ATTRIBS};
 use glisten_front::compiler::Options;
 use glisten_front::diagnostic::{Code, Level, Levels, Severity, codes, did_you_mean};
@@ -201,6 +201,9 @@ pub(super) struct ConventionArgs {
     /// Enable gl_PointSize; without it, points are one pixel wide
     #[arg(long)]
     program_point_size: bool,
+    /// The width of floats: f16 in the fragment stage (WGSL, SPIR-V, MSL, HLSL), f64 in both stages (SPIR-V)
+    #[arg(long, value_enum, value_name = "TYPE", default_value_t)]
+    floats: FloatsArg,
 }
 
 impl ConventionArgs {
@@ -228,8 +231,24 @@ impl ConventionArgs {
                 GlslVersionArg::Es300 => GlslVersion::Es300,
             },
             debug_lines,
+            floats: match self.floats {
+                FloatsArg::F16 => FloatWidth::Half,
+                FloatsArg::F32 => FloatWidth::Single,
+                FloatsArg::F64 => FloatWidth::Double,
+            },
         }
     }
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+enum FloatsArg {
+    /// 16 bits, with numbers up to 65,504
+    F16,
+    /// 32 bits, as in OpenGL
+    #[default]
+    F32,
+    /// 64 bits
+    F64,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]

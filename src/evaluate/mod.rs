@@ -17,9 +17,7 @@
 
 mod generate;
 
-use crate::scene::{
-    Compare, Cull, Draw, Filter, Format, Framebuffer, Primitive, Scene, State, Texels, Texture, TextureLevel, Wrap,
-};
+use crate::scene::{Compare, Draw, Filter, Format, Framebuffer, Scene, State, Texels, Texture, TextureLevel, Wrap};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::hir::{SamplerDim, SamplerType, Scalar, Stage};
 use glisten_front::link::Program;
@@ -162,7 +160,7 @@ impl Evaluator {
         };
         let draw = Draw {
             program: Arc::clone(&self.program),
-            state: STATE,
+            state: State::INITIAL,
             vertex_count: 3,
             indices: None,
             instances: 1,
@@ -217,19 +215,6 @@ impl Evaluator {
         Ok(self.read(&picture, inputs.len().checked_div(self.inputs).unwrap_or(1)))
     }
 }
-
-const STATE: State = State {
-    primitive: Primitive::Triangles,
-    cull: Cull::None,
-    front_ccw: true,
-    provoking_last: true,
-    depth_test: false,
-    depth_write: false,
-    depth_func: Compare::Always,
-    blend: None,
-    clip_distances: 0,
-    program_point_size: false,
-};
 
 fn table_of(level: TextureLevel, filter: Filter) -> Texture {
     let kind = SamplerType { texel: Scalar::Float, dim: SamplerDim::D2, arrayed: false, shadow: false };

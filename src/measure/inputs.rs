@@ -1,6 +1,7 @@
 //! Inputs for the value tests: random numbers from a fixed seed, including the edge cases of each kind.
 
 use super::vector::{V, add, scale, unit};
+use glisten_scene::random::SplitMix64;
 
 /// The kind of values for a parameter, or for a few that belong together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -68,24 +69,20 @@ pub enum InputKind {
 }
 
 /// Random numbers from a fixed seed (splitmix64).
-pub(crate) struct Random(u64);
+pub(crate) struct Random(SplitMix64);
 
 impl Random {
     pub(crate) fn new(seed: u64) -> Self {
-        Self(seed)
+        Self(SplitMix64::new(seed))
     }
 
     fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
+        self.0.bits()
     }
 
     /// 0 to 1, excluding 1.
     pub(crate) fn unit(&mut self) -> f64 {
-        (self.next() >> 11) as f64 / (1u64 << 53) as f64
+        self.0.unit()
     }
 
     pub(crate) fn range(&mut self, low: f64, high: f64) -> f64 {

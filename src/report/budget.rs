@@ -3,10 +3,12 @@
 //! *In:* limits of error figures (`rmse=1e-3,psnr>=40`), and a report. *Out:* for each model a [`Choice`]: the way within the
 //! limits that takes the least work, and the one that takes the least time if that is beyond doubt.
 //!
-//! *Holds:* a way that is unfit for the fronts is within no budget. Of equal ways the more exact one is chosen, then the first.
+//! *Holds:* a way that is unfit for the fronts is within no budget, nor is one in f16 or f64, whose program GLSL 1.50 cannot
+//! express. Of equal ways the more exact one is chosen, then the first.
 
 use super::front::{is_faster, unfit};
 use super::model::{Figures, Report, Way};
+use glisten_emit::FloatWidth;
 use glisten_front::diagnostic::did_you_mean;
 use glisten_front::hir::Stage;
 use glisten_scene::{Scene, ShaderFiles, write};
@@ -105,7 +107,13 @@ impl Report {
     /// The cheapest ways within a budget, a model after the other.
     pub fn choose(&self, budget: &Budget) -> Vec<Choice<'_>> {
         let unfit = unfit(&self.ways, &self.truths);
-        let fit: Vec<&Way> = self.ways.iter().zip(&unfit).filter(|(_, unfit)| !**unfit).map(|(way, _)| way).collect();
+        let fit: Vec<&Way> = self
+            .ways
+            .iter()
+            .zip(&unfit)
+            .filter(|(way, unfit)| !**unfit && way.floats == FloatWidth::Single)
+            .map(|(way, _)| way)
+            .collect();
         let mut models: Vec<&str> = Vec::new();
         for way in &self.ways {
             if !models.contains(&way.model.as_str()) {

@@ -93,7 +93,7 @@ impl Drawing<'_> {
         let counts = steps(scene).map_err(|diagnostics| Error::Reference { way: planned.name.clone(), diagnostics })?;
         self.step(&format!("{} on the GPU", planned.name), watcher);
         let (gpu, via) = (self.gpu, planned.via.unwrap_or(self.options.via));
-        let prepared = gpu.prepare(scene, via).map_err(failed)?;
+        let prepared = gpu.prepare_in(scene, via, planned.floats).map_err(failed)?;
         let picture = gpu.draw(&prepared).map_err(failed)?.picture;
         let fragments = gpu.fragments_shaded(&prepared).map_err(failed)?;
         let frames = gpu.frames_for_a_stretch(&prepared).map_err(failed)?;
@@ -111,7 +111,7 @@ impl Drawing<'_> {
             tessellation: planned.tessellation,
             vertices,
             fragments,
-            work: work(&counts, &self.options.weights),
+            work: work(&counts, &self.options.weights, planned.floats),
             error,
             rounding,
             milliseconds: f64::NAN,
@@ -119,6 +119,7 @@ impl Drawing<'_> {
             pareto: false,
             pareto_time: OnFront::Open,
             via: via.name(),
+            floats: planned.floats,
             times: Vec::new(),
             scene: Arc::new(scene.clone()),
             programs: planned.programs.clone(),

@@ -6,9 +6,10 @@
 //! it was measured, is NaN, and null in JSON.
 
 use crate::scene::Scene;
+use glisten_emit::FloatWidth;
 use glisten_front::hir::Stage;
 use glisten_scene::picture::{Picture, Transfer};
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 use std::sync::Arc;
 
 /// The error against run time of each way to shade a scene.
@@ -171,6 +172,9 @@ pub struct Way {
     pub pareto_time: OnFront,
     /// The form of the code that the GPU ran.
     pub via: &'static str,
+    /// The width of floats on the GPU.
+    #[serde(serialize_with = "ty")]
+    pub floats: FloatWidth,
     /// The time of each round, in milliseconds per frame.
     #[serde(skip)]
     pub times: Vec<f64>,
@@ -255,4 +259,9 @@ impl Way {
             None => self.name.clone(),
         }
     }
+}
+/// `f16`, `f32`, `f64`
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes references")]
+fn ty<S: Serializer>(floats: &FloatWidth, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(floats.ty())
 }

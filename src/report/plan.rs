@@ -22,6 +22,7 @@
 //! rings. *Holds:* `set` merges tables (`set = { mesh = { radius = 2.0 } }` keeps the other keys of the mesh).
 
 use super::ways::{AS_WRITTEN, FoundTruth, FoundWay};
+use glisten_emit::FloatWidth;
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::scenes::{SCENE_SYNTAX, SCENE_WRONG_VALUE};
 use glisten_front::hir::Stage;
@@ -69,6 +70,8 @@ pub(super) struct PlannedWay {
     pub(super) drawn: Drawn,
     /// The form of the code that this way needs.
     pub(super) via: Option<Via>,
+    /// The width of floats on the GPU.
+    pub(super) floats: FloatWidth,
     /// The GLSL texts of each draw, if they are at hand.
     pub(super) programs: Option<Vec<Vec<(Stage, String)>>>,
 }
@@ -174,6 +177,7 @@ impl Plan {
                 tessellation: way.tessellation,
                 drawn: Drawn::Scene(Box::new(way.scene)),
                 via: way.via,
+                floats: way.floats,
                 programs: way.programs,
             });
         }
@@ -206,6 +210,7 @@ fn build(scene_name: &str, scene: &Table, report: ReportTable) -> Result<Plan, S
                 tessellation,
                 drawn: Drawn::Text(text(way, tessellation)?),
                 via: None,
+                floats: FloatWidth::Single,
                 programs: None,
             });
         }

@@ -13,6 +13,7 @@
 //! *Holds:* what a file does not name has the weight of the default file. A name that is not a step is an error with the nearest
 //! one.
 
+use glisten_emit::FloatWidth;
 use glisten_front::diagnostic::did_you_mean;
 use glisten_reference::{Counts, Step};
 use serde::Deserialize;
@@ -70,18 +71,31 @@ struct File {
     about: String,
     #[serde(default)]
     weights: BTreeMap<String, Written>,
+    /// The weights of all operations in f16 and f64, against f32.
+    #[serde(default)]
+    width: WidthTable,
+}
+
+/// The table of the widths of floats.
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct WidthTable {
+    f16: Option<f64>,
+    f64: Option<f64>,
 }
 
 /// The weight of every step.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Weights {
     name: String,
+    /// The factors of f16 and f64.
+    widths: [f64; 2],
     steps: BTreeMap<&'static str, Sized>,
 }
 
 impl Default for Weights {
     fn default() -> Self {
-        let none = || Self { name: String::new(), steps: BTreeMap::new() };
+        let none = || Self { name: String::new(), widths: [1.0; 2], steps: BTreeMap::new() };
         // A test reads the file.
         none().with(OPERATIONS).unwrap_or_else(|_| none())
     }
@@ -133,17 +147,29 @@ impl Weights {
             }
             self.steps.insert(known, sized);
         }
+        for (own, (name, given)) in self.widths.iter_mut().zip([("f16", file.width.f16), ("f64", file.width.f64)]) {
+            let Some(factor) = given else { continue };
+            if !(factor > 0.0 && factor <= MOST) {
+                return Err(format!("the weight of `{name}` is a number above 0 and at most {MOST}"));
+            }
+            *own = factor;
+        }
         self.name = file.name;
         Ok(self)
     }
 
     /// The weighted sum, rounded to a whole number. The invocations of a stage are no operations, but may have a weight.
-    pub(super) fn sum(&self, counts: &Counts) -> u64 {
+    pub(super) fn sum(&self, counts: &Counts, floats: FloatWidth) -> u64 {
+        let factor = match floats {
+            FloatWidth::Half => self.widths[0],
+            FloatWidth::Single => 1.0,
+            FloatWidth::Double => self.widths[1],
+        };
         let parts = counts.iter().map(|(step, count)| {
             let weight = self.steps.get(step.name).copied().unwrap_or_default();
             weight.of(*step) * *count as f64
         });
-        parts.sum::<f64>().round() as u64
+        (factor * parts.sum::<f64>()).round() as u64
     }
 }
 
@@ -203,7 +229,9 @@ mod tests {
             Weights::parse("name = \"x\"\n[weights]\npow = 0.5\ndot = { fixed = -1, argument = 2 }").expect("good");
         let step = |name, results, argument| Step { name, results, argument };
         let counts = Counts::from([(step("pow", 1, 1), 10), (step("dot", 1, 3), 2), (step("+", 1, 1), 7)]);
-        assert_eq!(weights.sum(&counts), 5 + 10 + 7);
+        assert_eq!(weights.sum(&counts, FloatWidth::Single), 5 + 10 + 7);
+        let wide = Weights::parse("name = \"x\"\n[width]\nf64 = 32").expect("good");
+        assert_eq!(wide.sum(&counts, FloatWidth::Double), 32 * wide.sum(&counts, FloatWidth::Single));
     }
 
     #[test]
@@ -214,6 +242,8 @@ mod tests {
             ("name = \"x\"\n[weights]\npow = { fix = 1 }", "line 3"),
             ("name = \"x\"\n[weights]\npow = 1e300", "the weight of `pow`"),
             ("name = \"x\"\n[weights]\npow = nan", "the weight of `pow`"),
+            ("name = \"x\"\n[width]\nf16 = 0", "above 0"),
+            ("name = \"x\"\n[width]\nf32 = 1", "line 3"),
             ("[weights]\npow = 1", "name"),
             ("name = \"x\"\nweight = 3", "weight"),
         ] {

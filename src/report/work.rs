@@ -2,6 +2,7 @@
 
 use super::model::Work;
 use super::weights::Weights;
+use glisten_emit::FloatWidth;
 use glisten_front::diagnostic::Diagnostic;
 use glisten_reference::{Counts, RenderOptions, Step, counts};
 use glisten_scene::Scene;
@@ -23,13 +24,13 @@ pub fn steps(scene: &Scene) -> Result<Counts, Vec<Diagnostic>> {
     Ok(all)
 }
 
-/// The work of a scene, by its steps.
-pub fn work(all: &Counts, weights: &Weights) -> Work {
+/// The work of a scene with floats of a width, by its steps.
+pub fn work(all: &Counts, weights: &Weights, floats: FloatWidth) -> Work {
     let of = |name: &str| all.iter().filter(|(step, _)| step.name == name).map(|(_, count)| count).sum();
     Work {
         vertices: of(Step::VERTEX),
         fragments: of(Step::FRAGMENT),
-        operations: weights.sum(all),
+        operations: weights.sum(all, floats),
         texture_lookups: of(Step::LOOKUP),
     }
 }

@@ -67,18 +67,7 @@ const MOST_DRAWS: usize = 1024;
 
 impl TestSession {
     fn new(program: Arc<Program>, data: VertexData, [width, height]: [u32; 2]) -> Self {
-        let state = State {
-            primitive: Primitive::TriangleStrip,
-            cull: Cull::None,
-            front_ccw: true,
-            provoking_last: true,
-            depth_test: false,
-            depth_write: true,
-            depth_func: Compare::Less,
-            blend: None,
-            clip_distances: 0,
-            program_point_size: false,
-        };
+        let state = State { primitive: Primitive::TriangleStrip, ..State::INITIAL };
         // A window stores 8 bits per channel.
         let framebuffer = Framebuffer {
             width,

@@ -18,10 +18,9 @@ const SEED: u64 = 1;
 /// An envelope is narrow up to this share of the goal for evidence: 1/4080 of the range of the picture's values. Where
 /// all are, a population would find nothing.
 const NARROW: f64 = 1.0 / 16.0;
-/// The simulated GPUs that a picture is compared with if its envelopes leave room.
-const FEW: u32 = 8;
-/// Those that a picture is compared with if the few find it suspect.
-const ALL: u32 = 32;
+/// The numbers of simulated GPUs that a picture is compared with if its envelopes leave room: each only if it is suspect by
+/// fewer. More of them never make a picture suspect, because they widen what is likely.
+const MEMBERS: [u32; 5] = [2, 4, 8, 16, 32];
 
 /// The picture of the reference, with which others are compared. For pictures that no [`Runner`](super::Runner) drew.
 pub struct Expected<'a> {
@@ -79,7 +78,7 @@ impl<'a> Expected<'a> {
         let mut compared = self.comparison(&[]).compare(picture, &self.picture);
         let is_asked = self.options.demands.likely && criterion == Criterion::Envelope;
         if is_asked && !compared.verdict.needs_excuse() && self.leaves_room() {
-            for members in [FEW, ALL] {
+            for members in MEMBERS {
                 if compared.verdict.suspect.is_none() || compared.verdict.is_suspect() {
                     self.populate(members)?;
                     compared = self.comparison(&[]).compare(picture, &self.picture);

@@ -43,7 +43,7 @@ static ORDER: &[(&str, &[&str])] = &[
             "compiler",
         ],
     ),
-    ("crates/emit/src", &["target", "lower", "emit"]),
+    ("crates/emit/src", &["target", "lower", "width", "emit"]),
     ("crates/scene/src", &["picture", "compare", "model", "files", "library", "values", "reads", "load"]),
     (
         "src",

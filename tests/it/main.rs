@@ -23,6 +23,8 @@ mod exec;
 mod first_hour;
 #[cfg(feature = "cli")]
 mod first_steps;
+#[cfg(feature = "gpu")]
+mod floats;
 #[cfg(feature = "cli")]
 mod gallery;
 #[cfg(feature = "gpu")]

@@ -67,7 +67,9 @@ fn ways_are_found_for_a_scene_that_is_not_of_the_library() {
     let first = report(folder.path(), "a");
     let ways = first["ways"].as_array().expect("ways");
     let kinds: BTreeSet<&str> = ways.iter().filter_map(|way| way["kind"].as_str()).collect();
-    for kind in ["as written", "specialized", "pow", "schlick", "inversesqrt", "vertex", "table", "tessellation"] {
+    for kind in
+        ["as written", "specialized", "pow", "schlick", "inversesqrt", "vertex", "table", "tessellation", "f16", "f64"]
+    {
         assert!(kinds.contains(kind), "{kind} is not among {kinds:?}");
     }
     assert!((12..=28).contains(&ways.len()), "{} ways", ways.len());
@@ -79,6 +81,9 @@ fn ways_are_found_for_a_scene_that_is_not_of_the_library() {
     assert!(coarse > 4.0 * figure("table of 64 texels, linear", "error", "rmse"));
     assert!(figure("table of 64 texels, linear", "work", "texture_lookups") > 0.0);
     assert!(figure("powers by squaring", "work", "operations") < figure("specialized", "work", "operations"));
+    let [half, single] = ["f16", "specialized"].map(|name| figure(name, "error", "rmse"));
+    assert!(half > 50.0 * single && half < 0.01, "{half} against {single}");
+    assert_eq!((&of("f16")["floats"], &of("f64")["via"]), (&Value::from("f16"), &Value::from("spirv")));
     assert!(figure("per vertex", "work", "operations") < figure("specialized", "work", "operations"));
     assert_eq!(fixed(&first), fixed(&report(folder.path(), "b")));
 }

@@ -9,7 +9,7 @@ const [folder, ...files] = process.argv.slice(2);
 const { create } = await import(pathToFileURL(join(folder, 'index.js')).href);
 const gpu = create(['backend=null']);
 const adapter = await gpu.requestAdapter();
-const wanted = ['clip-distances', 'dual-source-blending', 'primitive-index', 'float32-filterable'];
+const wanted = ['shader-f16', 'clip-distances', 'dual-source-blending', 'primitive-index', 'float32-filterable'];
 const requiredFeatures = wanted.filter((feature) => adapter.features.has(feature));
 const device = await adapter.requestDevice({ requiredFeatures });
 

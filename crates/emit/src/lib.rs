@@ -2,7 +2,7 @@
 //! host.
 //!
 //! ```text
-//!  program ──► lower ──► naga ──► emit ──► text or binary
+//!  program ──► lower ──► naga ──► width ──► emit ──► text or binary
 //!     └──────────────► reflection
 //! ```
 //!
@@ -12,9 +12,12 @@
 mod emit;
 mod lower;
 mod target;
+mod width;
 
 pub use emit::{Emitted, Reflection, emit, emit_with_sources, levels_of_comparisons, notes, reflect, reflection};
-pub use target::{BUFFER_WIDTH, ClipZ, Conventions, GlslVersion, SpirvEnv, Target, WindowOrigin, viewport_slot};
+pub use target::{
+    BUFFER_WIDTH, ClipZ, Conventions, FloatWidth, GlslVersion, SpirvEnv, Target, WindowOrigin, viewport_slot,
+};
 
 /// Lowers without emitting, for a benchmark of the two parts. Returns how many functions the lowered module has.
 ///

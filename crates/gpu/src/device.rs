@@ -1,6 +1,7 @@
 //! [`Gpu`]: an adapter and its device, opened once and used for any number of scenes.
 
 use super::{Error, PrecisionLimits};
+use glisten_emit::FloatWidth;
 use std::fmt;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
@@ -45,10 +46,21 @@ const WANTED: wgpu::Features = wgpu::Features::PASSTHROUGH_SHADERS
     .union(wgpu::Features::FLOAT32_BLENDABLE)
     .union(wgpu::Features::FLOAT32_FILTERABLE)
     .union(wgpu::Features::DEPTH32FLOAT_STENCIL8)
+    .union(wgpu::Features::SHADER_F16)
+    .union(wgpu::Features::SHADER_F64)
     .union(wgpu::Features::CLIP_DISTANCES)
     .union(wgpu::Features::PRIMITIVE_INDEX)
     .union(wgpu::Features::DUAL_SOURCE_BLENDING)
     .union(wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES);
+
+/// The feature that a width of floats needs.
+pub(super) fn feature_of(floats: FloatWidth) -> wgpu::Features {
+    match floats {
+        FloatWidth::Half => wgpu::Features::SHADER_F16,
+        FloatWidth::Single => wgpu::Features::empty(),
+        FloatWidth::Double => wgpu::Features::SHADER_F64,
+    }
+}
 
 impl Gpu {
     /// The time limit of a scene, unless [`Gpu::with_timeout`] sets another.
@@ -113,6 +125,11 @@ impl Gpu {
     /// The precision of its fixed-function parts, if the adapter reports it.
     pub fn precision(&self) -> Option<PrecisionLimits> {
         self.precision
+    }
+
+    /// Whether programs can compute with floats of a width.
+    pub fn has(&self, floats: FloatWidth) -> bool {
+        self.features.contains(feature_of(floats))
     }
 
     /// Runs `work` and turns errors that wgpu reports meanwhile into an [`Error`].

@@ -5,11 +5,12 @@
 //! bindings count from 0 without gaps. wgpu renumbers the bindings of a pass-through module's layout, so a gap would
 //! silently bind the wrong resource; it is rejected here.
 
+use super::device::feature_of;
 use super::states::{blend, color_format, depth_stencil, primitive_state};
 use super::textures::{self, Bound};
 use super::vertices::{self, Rows};
 use super::{Error, Foreign, Gpu, Via, assembly, multisample_upload, sprites, uniforms};
-use glisten_emit::{self as emit, Conventions, Emitted, Target};
+use glisten_emit::{self as emit, Conventions, Emitted, FloatWidth, Target};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::targets::FEATURE_NOT_IN_TARGET;
 use glisten_front::hir::{Interpolation, SamplerDim, SamplerType, Stage, Type};
@@ -69,11 +70,24 @@ impl Gpu {
     /// # Errors
     /// [`Error::Emit`] if the target cannot represent a program, [`Error::Refused`] if wgpu or the driver rejects it.
     pub fn prepare(&self, scene: &Scene, via: Via) -> Result<Prepared, Error> {
+        self.prepare_in(scene, via, FloatWidth::Single)
+    }
+
+    /// Prepares a scene whose programs compute with floats of a width.
+    ///
+    /// # Errors
+    /// Those of [`Gpu::prepare`], and [`Error::Unsupported`] if the device does not have that width.
+    pub fn prepare_in(&self, scene: &Scene, via: Via, floats: FloatWidth) -> Result<Prepared, Error> {
         let target = match via {
             Via::Spirv => Target::Spirv,
             Via::Wgsl => Target::Wgsl,
         };
-        self.prepare_with(scene, target, &|draw, stage| emitted(draw, stage, target))
+        self.require(feature_of(floats), &format!("{} in shaders", floats.ty()))?;
+        let code = |draw: &Draw, stage| {
+            let conventions = Conventions { floats, ..conventions(draw, target) };
+            emit::emit(&draw.program, stage, target, &conventions).map_err(Error::Emit)
+        };
+        self.prepare_with(scene, target, &code)
     }
 
     /// Prepares a scene with modules of others in place of the emitted ones. Those of the other form are not used.

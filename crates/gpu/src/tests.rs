@@ -13,8 +13,8 @@ use glisten_front::source::Span;
 use glisten_front::syntax::ast::{Profile, Version};
 use glisten_scene::picture::Transfer;
 use glisten_scene::{
-    AttributeData, AttributeValues, Compare, Cull, Draw, Filter, Format, Framebuffer, Primitive, Scene, State, Texels,
-    Texture, TextureLevel, Wrap,
+    AttributeData, AttributeValues, Compare, Cull, Draw, Filter, Format, Framebuffer, Scene, State, Texels, Texture,
+    TextureLevel, Wrap,
 };
 use std::sync::Arc;
 
@@ -68,21 +68,6 @@ fn data(size: u32, values: &[f32]) -> Option<AttributeData> {
     Some(AttributeData { size, divisor: 0, values: AttributeValues::Float(values.to_vec()) })
 }
 
-fn state() -> State {
-    State {
-        primitive: Primitive::Triangles,
-        cull: Cull::None,
-        front_ccw: true,
-        provoking_last: true,
-        depth_test: false,
-        depth_write: true,
-        depth_func: Compare::Less,
-        blend: None,
-        clip_distances: 0,
-        program_point_size: false,
-    }
-}
-
 /// A triangle over the lower left half of the window, with red, green and blue corners.
 fn scene(types: Types, interface: Interface) -> Scene {
     let version = Version { number: 150, profile: Profile::Core, span: Span::default() };
@@ -94,7 +79,7 @@ fn scene(types: Types, interface: Interface) -> Scene {
     };
     let draw = Draw {
         program: Arc::new(program),
-        state: state(),
+        state: State::INITIAL,
         vertex_count: 3,
         indices: None,
         instances: 1,

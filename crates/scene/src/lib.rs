@@ -14,6 +14,7 @@ mod library;
 mod load;
 mod model;
 pub mod picture;
+pub mod random;
 mod reads;
 pub mod values;
 

@@ -166,6 +166,22 @@ pub struct State {
     pub program_point_size: bool,
 }
 
+impl State {
+    /// The initial state of OpenGL, for triangles.
+    pub const INITIAL: Self = Self {
+        primitive: Primitive::Triangles,
+        cull: Cull::None,
+        front_ccw: true,
+        provoking_last: true,
+        depth_test: false,
+        depth_write: true,
+        depth_func: Compare::Less,
+        blend: None,
+        clip_distances: 0,
+        program_point_size: false,
+    };
+}
+
 /// One draw call.
 #[derive(Clone, Debug)]
 pub struct Draw {

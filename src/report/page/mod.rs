@@ -237,6 +237,7 @@ pub(in crate::report) mod tests {
             pareto: false,
             pareto_time: OnFront::Open,
             via: "spirv",
+            floats: glisten_emit::FloatWidth::Single,
             times: Vec::new(),
             scene: no_scene(),
             programs: None,

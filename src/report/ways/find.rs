@@ -9,7 +9,9 @@ use super::models;
 use super::{FoundTruth, FoundWay, List, Origin};
 use super::{naive, powers, roots, screen, stable, tables, vertex};
 use crate::specialize::{Contract, specialize_scene_by};
+use glisten_emit::FloatWidth;
 use glisten_front::source::SourceMap;
+use glisten_gpu::Via;
 use glisten_scene::{Filter, Scene};
 use toml::Table;
 
@@ -34,6 +36,7 @@ pub(super) fn all(origin: &Origin<'_>, list: &mut List) {
     let powers = finder.forms();
     finder.powers(&powers);
     finder.roots();
+    finder.widths();
     finder.vertices();
     finder.screen();
     finder.tables(&powers);
@@ -116,6 +119,28 @@ impl Finder<'_, '_> {
             let about =
                 format!("{} by `inversesqrt`, the same in exact arithmetic.", counted(&count, "reciprocal root"));
             self.add(("roots by inversesqrt", "inversesqrt"), about, specialized(&scene, Contract::default()));
+        }
+    }
+
+    /// Floats of other widths.
+    fn widths(&mut self) {
+        let kinds = [
+            (
+                FloatWidth::Half,
+                "f16",
+                "The fragment stage computes in f16; uniforms, varyings and texels are converted.",
+            ),
+            (
+                FloatWidth::Double,
+                "f64",
+                "Both stages compute in f64; their inputs, outputs and elementary functions are f32.",
+            ),
+        ];
+        for (floats, name, about) in kinds {
+            let way = FoundWay::new((name, name), about.into(), self.origin.name, self.base.clone());
+            // WGSL has no f64.
+            let via = (floats == FloatWidth::Double).then_some(Via::Spirv);
+            self.list.add(FoundWay { floats, via, ..way });
         }
     }
 

@@ -29,6 +29,7 @@ mod vertex;
 pub use library::{LIBRARY_SCENE, LibraryFiles};
 
 use crate::scene::Scene;
+use glisten_emit::FloatWidth;
 use glisten_front::hir::Stage;
 use glisten_gpu::Via;
 
@@ -65,6 +66,8 @@ pub(super) struct FoundWay {
     pub(super) tessellation: Option<[u32; 2]>,
     /// The form of the code that this way needs, if the user's choice does not matter.
     pub(super) via: Option<Via>,
+    /// The width of floats on the GPU.
+    pub(super) floats: FloatWidth,
     /// The GLSL texts of each draw, if they are at hand; otherwise they are printed from the programs.
     pub(super) programs: Option<Vec<Vec<(Stage, String)>>>,
     /// The truth of its model, if that is not the scene as written. The first way of a model decides.
@@ -105,6 +108,7 @@ impl FoundWay {
             scene,
             tessellation: None,
             via: None,
+            floats: FloatWidth::Single,
             programs: None,
             truth: None,
         }
@@ -126,7 +130,8 @@ impl List {
 
     /// Adds a way, unless it is one that is there, or one that no GPU could draw.
     fn add(&mut self, way: FoundWay) {
-        let is_new = self.ways.iter().all(|known| edit::differs(&known.scene, &way.scene));
+        let is_new =
+            self.ways.iter().all(|known| known.floats != way.floats || edit::differs(&known.scene, &way.scene));
         if is_new && self.ways.len() < Self::MOST && edit::is_emitted(&way.scene) {
             self.ways.push(way);
         }

@@ -18,7 +18,7 @@ use glisten_front::hir::{
 };
 use glisten_front::source::Span;
 use glisten_reference::{Precision, RenderOptions, render};
-use glisten_scene::{Compare, Cull, Draw, Filter, Format, Framebuffer, Primitive, Scene, State};
+use glisten_scene::{Draw, Filter, Format, Framebuffer, Scene, State};
 use std::fmt::Write;
 use std::sync::Arc;
 
@@ -119,7 +119,7 @@ fn values(draw: &Draw, candidate: &Candidate, texels: u32) -> Option<Vec<[f32; 4
         .replace("RANGE_WIDTH", &numbers[1])
         .replace("LAST_TEXEL", &format!("{}.0", texels - 1));
     let mut filler = rebuilt(draw, &[WHOLE.to_owned(), fragment])?;
-    (filler.state, filler.vertex_count, filler.instances, filler.indices) = (PLAIN, 3, 1, None);
+    (filler.state, filler.vertex_count, filler.instances, filler.indices) = (State::INITIAL, 3, 1, None);
     filler.attributes.clear();
     let framebuffer = Framebuffer {
         width: texels,
@@ -143,19 +143,6 @@ void main() {
     gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0);
 }
 ";
-
-const PLAIN: State = State {
-    primitive: Primitive::Triangles,
-    cull: Cull::None,
-    front_ccw: true,
-    provoking_last: true,
-    depth_test: false,
-    depth_write: false,
-    depth_func: Compare::Always,
-    blend: None,
-    clip_distances: 0,
-    program_point_size: false,
-};
 
 /// A fragment stage that writes a function's values, with `RANGE_LOW`, `RANGE_WIDTH` and `LAST_TEXEL` in the place of numbers.
 fn source(draw: &Draw, fixed: &Fixed, found: &Tabulated) -> Option<String> {

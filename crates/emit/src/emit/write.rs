@@ -9,7 +9,8 @@ use super::messages::{chain, without_handles};
 use super::naga_repairs::nesting::is_nested;
 use super::targets::{self, Job};
 use super::wgsl_text::{commented, header};
-use crate::target::{Conventions, Slots, Target};
+use crate::target::{Conventions, FloatWidth, Slots, Target};
+use crate::width::in_width;
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::general;
 use glisten_front::diagnostic::codes::targets::FEATURE_NOT_IN_TARGET;
@@ -43,6 +44,7 @@ pub fn emit_with_sources(
     conventions: &Conventions,
     sources: Option<&SourceMap>,
 ) -> Result<Emitted, Vec<Diagnostic>> {
+    let floats = width_of(stage, target, conventions)?;
     if target == Target::Glsl {
         let emitted = targets::glsl::write(program, stage, conventions, sources)?;
         return Ok(with_comments(emitted, program, stage, target, sources));
@@ -56,7 +58,12 @@ pub fn emit_with_sources(
         return Err(vec![found]);
     }
     let write = || {
-        let info = validate(&module)?;
+        let mut module = module;
+        let mut info = validate(&module)?;
+        if floats != FloatWidth::Single {
+            module = in_width(&module, &info, floats)?;
+            info = validate(&module)?;
+        }
         let job = Job { module, info: &info, stage, conventions, sources, slots: &slots };
         targets::write(target, job).map_err(|message| vec![failed(target, &message)])
     };
@@ -66,6 +73,22 @@ pub fn emit_with_sources(
         })
     })?;
     Ok(with_comments(emitted, program, stage, target, sources))
+}
+
+/// The width of floats in a stage.
+fn width_of(stage: Stage, target: Target, conventions: &Conventions) -> Result<FloatWidth, Vec<Diagnostic>> {
+    let refused = |what: &str| {
+        let message = format!("{} has no {what}", target.name());
+        Err(vec![Diagnostic::new(&FEATURE_NOT_IN_TARGET, Span::default(), message)])
+    };
+    match (conventions.floats, target) {
+        (FloatWidth::Single, _) => Ok(FloatWidth::Single),
+        (FloatWidth::Half, Target::Glsl) => refused("f16"),
+        (FloatWidth::Double, Target::Spirv) => Ok(FloatWidth::Double),
+        (FloatWidth::Double, _) => refused("f64"),
+        (FloatWidth::Half, _) if stage == Stage::Fragment => Ok(FloatWidth::Half),
+        (FloatWidth::Half, _) => Ok(FloatWidth::Single),
+    }
 }
 
 /// Text with a header, and WGSL with the comments of the source, too, if the sources are known.

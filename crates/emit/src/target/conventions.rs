@@ -53,6 +53,38 @@ impl GlslVersion {
     }
 }
 
+/// The width of floating-point numbers in emitted code.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum FloatWidth {
+    /// f16 in the fragment stage: 11 bits, and numbers up to 65,504. The vertex stage keeps f32, since positions need it.
+    Half,
+    /// f32, as OpenGL has it.
+    #[default]
+    Single,
+    /// f64 in both stages, which WGSL does not have.
+    Double,
+}
+
+impl FloatWidth {
+    /// Its word in options.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Half => "half",
+            Self::Single => "single",
+            Self::Double => "double",
+        }
+    }
+
+    /// `f16`, `f32`, `f64`
+    pub fn ty(self) -> &'static str {
+        match self {
+            Self::Half => "f16",
+            Self::Single => "f32",
+            Self::Double => "f64",
+        }
+    }
+}
+
 /// The expectations of the host.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Conventions {
@@ -72,4 +104,6 @@ pub struct Conventions {
     pub glsl_version: GlslVersion,
     /// Whether SPIR-V contains source lines.
     pub debug_lines: bool,
+    /// The width of floats.
+    pub floats: FloatWidth,
 }

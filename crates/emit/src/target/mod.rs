@@ -8,7 +8,7 @@ mod language;
 mod slots;
 mod textures;
 
-pub use conventions::{ClipZ, Conventions, GlslVersion, SpirvEnv, WindowOrigin};
+pub use conventions::{ClipZ, Conventions, FloatWidth, GlslVersion, SpirvEnv, WindowOrigin};
 pub use language::Target;
 pub use slots::viewport_slot;
 pub(crate) use slots::{SlotKind, Slots};

@@ -73,7 +73,8 @@ pub(super) fn validate(name: &str, words: &[u32]) -> Result<(), Error> {
         return Ok(());
     }
     let told = [output.stderr, output.stdout].map(|bytes| String::from_utf8_lossy(&bytes).trim().to_owned());
-    let first = told.iter().flat_map(|text| text.lines()).find(|line| !line.is_empty()).unwrap_or("it says not why");
+    let first =
+        told.iter().flat_map(|text| text.lines()).find(|line| !line.is_empty()).unwrap_or("it does not say why");
     let first: String = first.trim_start_matches("error: ").chars().take(300).collect();
     Err(Error::Foreign(format!("`{name}`: it is no valid SPIR-V: {VALIDATOR}: {first}")))
 }

@@ -34,6 +34,7 @@ mod simulated;
 mod single;
 #[cfg(any(test, feature = "stability"))]
 mod stepwise;
+mod unit;
 mod wide;
 
 #[cfg(any(test, feature = "stability"))]

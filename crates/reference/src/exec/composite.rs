@@ -328,7 +328,13 @@ fn loops_by_lane<N: Number>(op: (Composite, bool), size: usize, arguments: &[Sou
 
 fn vectors<N: Number>(op: (Composite, bool), size: usize, arguments: &[Source<'_, N>], outs: &mut [Register<N>]) {
     if N::Wide::PLAIN && size == 3 {
-        return loops::<N, 3>(op, 3, arguments, outs);
+        let done = <N::Wide as Element>::Block::if_vectorized(
+            #[inline(always)]
+            || loops::<N, 3>(op, 3, arguments, outs),
+        );
+        if done.is_some() {
+            return;
+        }
     }
     // The number of components is hidden from the compiler, which would otherwise unroll each loop for each number.
     let size = black_box(size);

@@ -63,10 +63,12 @@ impl<D: Domain> Machine<D> {
     #[cold]
     #[inline(never)]
     fn open(&mut self, undecided: u64, truth: u64, mask: &mut u64, find: impl Fn(&Self, u64) -> (u64, u64)) -> u64 {
+        self.ways.count_open(undecided);
         if !self.ways.exploring {
             self.ways.met |= undecided;
             return truth;
         }
+        self.give_up_hopeless(mask);
         loop {
             let (truth, undecided) = find(self, *mask);
             if self.needed(undecided) <= self.ways.free() {
@@ -107,7 +109,7 @@ impl<D: Domain> Machine<D> {
 
     /// Makes a free group a copy of another.
     fn copy_way(&mut self, from: usize, to: usize, mask: &mut u64) {
-        self.ways.owners[to] = self.ways.owners[from];
+        self.ways.copy_group(from, to);
         let (size, members) = (self.ways.group, self.ways.members());
         let (from, to) = (from * size, to * size);
         for bits in self.slots.iter_mut().chain([mask, &mut self.discarded, &mut self.undecided, &mut self.ways.used]) {
@@ -166,6 +168,15 @@ impl<D: Domain> Machine<D> {
         self.ways.given_up |= 1 << fragment;
         let groups: SmallVec<[usize; 16]> = self.ways.of(fragment).collect();
         groups.into_iter().for_each(|group| self.release(group, mask));
+    }
+
+    /// Gives up all fragments with a way that has met too many undecided conditions.
+    fn give_up_hopeless(&mut self, mask: &mut u64) {
+        for fragment in 0..self.ways.capacity() {
+            if self.ways.of(fragment).any(|group| self.ways.is_hopeless(group)) {
+                self.give_up(fragment, mask);
+            }
+        }
     }
 
     /// Gives up all fragments with a way among these lanes.

@@ -157,7 +157,7 @@ impl<D: Domain> Machine<D> {
         self.discarded = 0;
         self.undecided = 0;
         self.perhaps_discarded = 0;
-        (self.ways.met, self.ways.exploring) = (0, false);
+        self.ways.begin_first();
         // A machine that has exceeded its budget is likely to do so again. Then it should end soon.
         self.budget = if self.budget_exceeded { self.loop_budget >> 6 } else { self.loop_budget };
         self.watched = live.0;

@@ -5,14 +5,18 @@
 //!
 //! *Holds:* a lane of a fragment is one way. Two ways that are at the same place, active or waiting for the same
 //! constructs, may be merged: their numbers become the hull of both. That happens only when no lane is free, and
-//! bounds the time by that of a few runs, however many ways there are. A fragment whose ways cannot be merged, or whose
-//! loops run far longer than in the first run, is given up.
+//! bounds the time by that of a few runs, however many ways there are. A fragment whose ways cannot be merged, one of whose
+//! ways meets more than [`MOST_OPEN`] undecided conditions, or whose loops run far longer than in the first run, is given up.
 //!
 //! Lanes that derivatives couple decide together: a quad is one group. Without derivatives, a lane is one.
 
 use super::LANES;
 use super::inst::{Inst, Lookup};
 use smallvec::SmallVec;
+
+/// The undecided conditions that a way may meet. A fragment with a way that meets more is given up: where the bounds of a
+/// loop's variables have grown until every step is undecided, nothing comes of following it.
+pub(super) const MOST_OPEN: u8 = 24;
 
 /// A group that belongs to no fragment.
 pub(super) const FREE: u8 = u8::MAX;
@@ -36,6 +40,8 @@ pub(super) struct Ways {
     pub(super) crowded: bool,
     /// The largest number of groups in use.
     pub(super) most: usize,
+    /// The number of undecided conditions that each group has met.
+    opened: [u8; LANES],
 }
 
 impl Ways {
@@ -49,7 +55,32 @@ impl Ways {
             given_up: 0,
             crowded: false,
             most: 0,
+            opened: [0; LANES],
         }
+    }
+
+    /// Begins the first run.
+    pub(super) fn begin_first(&mut self) {
+        (self.met, self.exploring, self.opened) = (0, false, [0; LANES]);
+    }
+
+    /// Counts a condition for the groups that have not decided it.
+    pub(super) fn count_open(&mut self, undecided: u64) {
+        for (number, count) in self.opened.iter_mut().enumerate().take(LANES / self.group) {
+            let members = (1 << self.group) - 1;
+            let is_open = undecided >> (number * self.group) & members != 0;
+            *count = count.saturating_add(u8::from(is_open));
+        }
+    }
+
+    /// Whether a group has met more undecided conditions than can be followed.
+    pub(super) fn is_hopeless(&self, number: usize) -> bool {
+        self.opened.get(number).is_some_and(|count| *count > MOST_OPEN)
+    }
+
+    /// Lets a group go on as another one did.
+    pub(super) fn copy_group(&mut self, from: usize, to: usize) {
+        (self.owners[to], self.opened[to]) = (self.owners[from], self.opened[from]);
     }
 
     /// The number of groups in all lanes.
@@ -68,7 +99,7 @@ impl Ways {
         for (number, owner) in self.owners.iter_mut().enumerate().take(fragments) {
             *owner = number as u8;
         }
-        (self.exploring, self.used, self.given_up) = (true, lanes, 0);
+        (self.exploring, self.used, self.given_up, self.opened) = (true, lanes, 0, [0; LANES]);
         (self.crowded, self.most) = (false, fragments);
     }
 

@@ -35,6 +35,7 @@ mod plan;
 mod reach;
 mod same_surface;
 mod slack;
+mod sloped;
 mod source;
 mod store;
 mod surface;

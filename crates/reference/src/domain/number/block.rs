@@ -26,6 +26,15 @@ pub trait NumberBlock<N: Number>: Block<N> {
     fn vectorized<R>(work: impl FnOnce() -> R) -> R {
         work()
     }
+    /// The nearest number in each lane.
+    #[inline(always)]
+    fn of_values(values: &[f64; WIDTH]) -> Self {
+        let mut out = Self::default();
+        for (lane, value) in values.iter().enumerate() {
+            out.set(lane, N::from_f64(*value));
+        }
+        out
+    }
     /// Applies a function in each lane.
     #[inline(always)]
     fn map(&self, f: impl Fn(N) -> N) -> Self {

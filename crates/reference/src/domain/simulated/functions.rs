@@ -5,25 +5,30 @@
 //! rule. A function that inherits from a formula is either, or the formula step by step.
 
 use super::SimulatedFloat;
-use super::gpu::{Form, Function, Gpu};
+use super::gpu::{Form, Function, Gpu, Swing};
 use crate::domain::rules::{self, ulp};
 use crate::domain::{Number, evaluate};
 use glisten_front::builtin::operations::precision::{Precision, Rule};
 
-/// The place of a number in its binade, 0 to 1.
-fn place(x: f64) -> f64 {
-    f64::from(x as f32 as f64 as f32).to_bits().wrapping_shl(12) as f64 / (u64::MAX as f64)
+/// How far a number is in its binade, 0 to 1.
+#[inline(always)]
+pub(super) fn fraction(x: f64) -> f64 {
+    const FRACTION: u64 = (1 << 52) - 1;
+    f64::from_bits(x.to_bits() & FRACTION | 1.0_f64.to_bits()) - 1.0
+}
+
+/// The f32 near an exact result that is off by the swing of a GPU's error at a place, at most by `allowed`.
+#[inline(always)]
+pub(super) fn off(exact: f64, allowed: f64, swing: Swing, place: f64) -> f64 {
+    // The rounding to f32 is a part of it.
+    let room = (allowed - 0.5 * ulp(exact)).max(0.0);
+    f64::from((exact + swing.at(place) * room) as f32)
 }
 
 /// The exact result with this GPU's error, at most `allowed`.
 fn with_error(gpu: &Gpu, exact: f64, allowed: f64, function: Function, place: f64) -> f64 {
-    let share = Gpu::share(function, place);
-    if share == 0.0 || !exact.is_finite() {
-        return gpu.rounded(f64::from(exact as f32));
-    }
-    // The rounding to f32 is a part of it.
-    let room = (allowed - 0.5 * ulp(exact)).max(0.0);
-    gpu.rounded(f64::from((exact + share * room) as f32))
+    let swing = Gpu::swing_of(function);
+    gpu.rounded(if swing.is_none() { exact } else { off(exact, allowed, swing, place) })
 }
 
 impl SimulatedFloat {
@@ -56,7 +61,7 @@ impl SimulatedFloat {
             | Precision::EitherDifference
             | Precision::Cofactors => 0.0,
         };
-        Self(with_error(&gpu, exact, allowed, function, place(x)))
+        Self(with_error(&gpu, exact, allowed, function, fraction(x)))
     }
 
     /// `a / b`
@@ -64,10 +69,16 @@ impl SimulatedFloat {
         let gpu = Gpu::current();
         let (a, b) = (self.read(&gpu), other.read(&gpu));
         let exact = a / b;
-        if Gpu::is_precise(Function::Divide) {
-            return Self(gpu.rounded(exact));
+        Self(with_error(&gpu, exact, rules::DIV.ulps() * ulp(exact), Function::Divide, fraction(b)))
+    }
+
+    /// `1.0 / inversesqrt(x)`, or the exact root.
+    pub(super) fn root(self) -> Self {
+        let gpu = Gpu::current();
+        if Gpu::is_precise(Function::Sqrt) || gpu.has_second(Form::Inherited) {
+            return Self(gpu.rounded(self.read(&gpu).sqrt()));
         }
-        Self(with_error(&gpu, exact, rules::DIV.ulps() * ulp(exact), Function::Divide, place(b)))
+        Self(1.0).div(self.inversesqrt())
     }
 
     /// `exp2(y log2(x))`, or the exact power.
@@ -86,7 +97,7 @@ impl SimulatedFloat {
         let (y, x) = (self.read(&gpu), x.read(&gpu));
         let exact = y.atan2(x);
         let allowed = rules::ATAN.ulps() * ulp(exact);
-        Self(with_error(&gpu, exact, allowed, Function::Atan, place(y / x)))
+        Self(with_error(&gpu, exact, allowed, Function::Atan, fraction(y / x)))
     }
 }
 
@@ -97,9 +108,9 @@ fn angular(gpu: &Gpu, x: f64, exact: f64, function: Function, [error, reduced, l
         return SimulatedFloat(exact);
     }
     let turn = (x / std::f64::consts::TAU).fract().abs();
-    let share = Gpu::share(function, turn);
-    if x.abs() >= lost && share != 0.0 {
-        return SimulatedFloat(f64::from(share as f32));
+    let swing = Gpu::swing_of(function);
+    if x.abs() >= lost && !swing.is_none() {
+        return SimulatedFloat(f64::from(swing.at(turn) as f32));
     }
     let angle = if x.abs() > reduced { ulp(x) } else { 0.0 };
     SimulatedFloat(with_error(gpu, exact, error + angle, function, turn).clamp(-1.0, 1.0))
@@ -113,7 +124,7 @@ mod tests {
 
     fn arguments() -> impl Iterator<Item = f64> {
         (1..400).map(|k| {
-            let bits = super::super::gpu::mixed(k);
+            let bits = glisten_scene::random::mixed(k);
             let unit = (bits >> 40) as f64 / (1_u64 << 24) as f64;
             let scale = 2f64.powi((bits % 13) as i32 - 8);
             f64::from(((unit * 2.0 - 1.0) * scale) as f32)

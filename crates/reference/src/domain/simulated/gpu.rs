@@ -5,16 +5,9 @@
 //! GPUs are drawn by no chance: number 0 rounds each operation to the nearest, number 1 as well but interpolates by
 //! planes and flushes subnormals, as most drivers do.
 
+use super::rounding::{Rounder, Rounding};
+use glisten_scene::random::{mixed, unit};
 use std::cell::Cell;
-
-/// The rounding of an operation whose rule is "correctly rounded", which means either neighbor.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Rounding {
-    Nearest,
-    TowardZero,
-    /// Up or down, by the digits that are lost.
-    Either,
-}
 
 /// The equation by which varyings are interpolated over a triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -108,7 +101,7 @@ pub(super) enum Form {
 
 /// The error of a function.
 #[derive(Clone, Copy, Debug, Default)]
-struct Swing {
+pub(super) struct Swing {
     /// The largest, as a share of the allowed one, -1 to 1; 0 if the function is computed as well as possible.
     size: f64,
     /// Where it begins to swing, 0 to 1.
@@ -127,11 +120,20 @@ thread_local! {
         const { [const { Cell::new(Swing { size: 0.0, begin: 0.0, times: 0.0 }) }; FUNCTIONS] };
 }
 
-/// Mixes the bits of a number (the finalizer of SplitMix64).
-pub(super) const fn mixed(mut state: u64) -> u64 {
-    state = (state ^ (state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    state = (state ^ (state >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    state ^ (state >> 31)
+impl Swing {
+    /// Whether the function is computed as well as possible.
+    #[inline(always)]
+    pub(super) fn is_none(self) -> bool {
+        self.size == 0.0
+    }
+
+    /// The error at a place between 0 and 1, as a share of the allowed one, -1 to 1. It swings like the error of a
+    /// polynomial.
+    #[inline(always)]
+    pub(super) fn at(self, place: f64) -> f64 {
+        let turn = place * self.times + self.begin;
+        self.size * (1.0 - 4.0 * (turn - turn.floor() - 0.5).abs())
+    }
 }
 
 impl Gpu {
@@ -194,7 +196,6 @@ impl Gpu {
 
     /// Half of all GPUs compute a function as well as possible.
     fn swing(&self, function: usize) -> Swing {
-        let unit = |bits: u64| (bits >> 11) as f64 / (1_u64 << 53) as f64;
         let bits = mixed(self.seed ^ mixed(Choice::Functions as u64 + function as u64));
         if self.is_strict() || bits & 1 == 0 {
             return Swing::default();
@@ -229,50 +230,26 @@ impl Gpu {
     /// Whether the GPU of this thread computes a function as well as possible.
     #[inline(always)]
     pub(super) fn is_precise(function: Function) -> bool {
-        Self::swing_of(function).size == 0.0
+        Self::swing_of(function).is_none()
     }
 
+    /// The error of a function of the GPU of this thread.
     #[inline(always)]
-    fn swing_of(function: Function) -> Swing {
+    pub(super) fn swing_of(function: Function) -> Swing {
         SWINGS.with(|swings| swings[function as usize].get())
     }
 
-    /// The error of a function at a place between 0 and 1, as a share of the allowed one, -1 to 1. It swings like the
-    /// error of a polynomial.
-    pub(super) fn share(function: Function, place: f64) -> f64 {
-        let Swing { size, begin, times } = Self::swing_of(function);
-        let turn = place * times + begin;
-        size * (1.0 - 4.0 * (turn.fract() - 0.5).abs())
+    /// How it rounds.
+    #[inline(always)]
+    pub(super) fn rounder(&self) -> Rounder {
+        Rounder { rounding: self.rounding, seed: (self.seed >> 32) as u32, flushes: self.flushes }
     }
 
     /// The f32 to which it rounds.
     #[inline(always)]
     pub(super) fn rounded(&self, exact: f64) -> f64 {
-        let nearest = exact as f32;
-        let single = if f64::from(nearest) == exact || !nearest.is_finite() {
-            nearest
-        } else {
-            match self.rounding {
-                Rounding::Nearest => nearest,
-                Rounding::TowardZero if f64::from(nearest).abs() > exact.abs() => toward_zero(nearest),
-                Rounding::TowardZero => nearest,
-                Rounding::Either if mixed(exact.to_bits() ^ self.seed) & 1 == 0 => nearest,
-                Rounding::Either if f64::from(nearest).abs() > exact.abs() => toward_zero(nearest),
-                Rounding::Either => from_zero(nearest),
-            }
-        };
-        f64::from(if self.flushes && single.is_subnormal() { 0.0 * single } else { single })
+        self.rounder().one(exact)
     }
-}
-
-/// The neighbor of smaller size; that of 0 has the other sign.
-fn toward_zero(x: f32) -> f32 {
-    if x > 0.0 { x.next_down() } else { x.next_up() }
-}
-
-/// The neighbor of larger size.
-fn from_zero(x: f32) -> f32 {
-    if x > 0.0 { x.next_up() } else { x.next_down() }
 }
 
 #[cfg(test)]
@@ -307,7 +284,7 @@ mod tests {
         for number in 2..66 {
             Gpu::of(1, number).enter();
             precise += u32::from(Gpu::is_precise(Function::Sin));
-            let share = |k: i32| Gpu::share(Function::Sin, f64::from(k) / 100.0).abs();
+            let share = |k: i32| Gpu::swing_of(Function::Sin).at(f64::from(k) / 100.0).abs();
             let largest = (0..100).map(share).fold(0.0, f64::max);
             assert!(largest <= 1.0);
             most = most.max(largest);

@@ -6,23 +6,20 @@
 //!
 //! A product is kept exact until something reads it, because a GPU may add it without rounding it first.
 
+mod block;
 mod functions;
 mod gpu;
+mod rounding;
 
 pub use gpu::{Gpu, Planes};
 
-use super::{Element, Number, WIDTH, rules};
+use super::{Number, rules};
 use gpu::{Form, Function, Gpu as Current};
 use smallvec::SmallVec;
 
 /// A `float`: an f32, or the exact product of two.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SimulatedFloat(f64);
-
-impl Element for SimulatedFloat {
-    const PLAIN: bool = true;
-    type Block = [Self; WIDTH];
-}
 
 impl SimulatedFloat {
     /// The f32.
@@ -31,29 +28,18 @@ impl SimulatedFloat {
         if gpu.fuses { gpu.rounded(self.0) } else { self.0 }
     }
 
-    #[inline(always)]
-    fn is_rounded(self) -> bool {
-        f64::from(self.0 as f32) == self.0 || !self.0.is_finite()
-    }
-
     /// A sum. One of the terms may be a product that is not rounded.
     #[inline(always)]
     fn plus(self, other: Self, sign: f64) -> Self {
         let gpu = Current::current();
-        let (a, b) = match gpu.fuses {
-            true if other.is_rounded() => (self.0, other.read(&gpu)),
-            true if self.is_rounded() => (self.read(&gpu), other.0),
-            true => (self.0, other.read(&gpu)),
-            false => (self.read(&gpu), other.read(&gpu)),
-        };
-        Self(gpu.rounded(a + sign * b))
+        let other = if gpu.fuses { addends(self.0, other.0, gpu.rounded(other.0)) } else { other.0 };
+        Self(gpu.rounded(self.0 + sign * other))
     }
 
     /// A function whose result is an f32 if its operand is one.
     #[inline(always)]
     fn exactly(self, f: impl Fn(f64) -> f64) -> Self {
-        let gpu = Current::current();
-        Self(gpu.rounded(f(self.read(&gpu))))
+        Self(f(self.read(&Current::current())))
     }
 
     fn limit(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
@@ -61,6 +47,26 @@ impl SimulatedFloat {
         let (a, b) = (self.read(&gpu), other.read(&gpu));
         if gpu.passes_nan && (a.is_nan() || b.is_nan()) { Self(f64::NAN) } else { Self(f(a, b)) }
     }
+}
+
+/// The second term of a sum of terms of which one may be a product that is not rounded: rounded if the first one is such
+/// a product as well.
+#[inline(always)]
+fn addends(first: f64, second: f64, rounded: f64) -> f64 {
+    let is_product = (f64::from(first as f32) != first) & first.is_finite();
+    if is_product { rounded } else { second }
+}
+
+/// The smaller one; a NaN is dropped.
+#[inline(always)]
+fn smaller(a: f64, b: f64) -> f64 {
+    if (a < b) | b.is_nan() { a } else { b }
+}
+
+/// The larger one; a NaN is dropped.
+#[inline(always)]
+fn larger(a: f64, b: f64) -> f64 {
+    if (a > b) | b.is_nan() { a } else { b }
 }
 
 macro_rules! exact_functions {
@@ -154,13 +160,12 @@ impl Number for SimulatedFloat {
         self.mul(one.sub(a)).add(y.mul(a))
     }
     fn min(self, other: Self) -> Self {
-        self.limit(other, <f64 as Number>::min)
+        self.limit(other, smaller)
     }
     fn max(self, other: Self) -> Self {
-        self.limit(other, <f64 as Number>::max)
+        self.limit(other, larger)
     }
     functions! {
-        sqrt Sqrt SQRT
         inversesqrt Inversesqrt INVERSESQRT
         exp Exp EXP
         exp2 Exp2 EXP
@@ -178,6 +183,9 @@ impl Number for SimulatedFloat {
         asinh Asinh ASINH
         acosh Acosh ACOSH
         atanh Atanh ATANH
+    }
+    fn sqrt(self) -> Self {
+        self.root()
     }
     fn pow(self, exponent: Self) -> Self {
         self.power(exponent)
@@ -223,7 +231,7 @@ impl super::Domain for Simulated {
         Current::current().weight_bits
     }
     fn point_size_share() -> f64 {
-        Current::share(Function::PointSize, 0.0)
+        Current::swing_of(Function::PointSize).at(0.0)
     }
     fn level(exact: f64) -> f64 {
         match Current::current().level_bits {

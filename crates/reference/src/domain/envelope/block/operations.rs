@@ -4,16 +4,11 @@ use super::EnvelopeBlock;
 use super::lane::LaneBounds;
 use super::sum::Sum;
 use crate::domain::envelope::{EnvelopeFloat, EnvelopeInt, powers};
-use crate::domain::{Block, Integer, Number, NumberBlock, WIDTH};
-use pulp::Arch;
+use crate::domain::{Block, Integer, Number, NumberBlock, WIDTH, unit};
 use std::f64::consts::{LN_2, LOG2_E};
-use std::sync::LazyLock;
 
 /// The answers for the lanes of a block.
 pub(super) type Answers = [EnvelopeInt; WIDTH];
-
-/// The vector unit of this machine.
-static UNIT: LazyLock<Arch> = LazyLock::new(Arch::new);
 
 impl EnvelopeBlock {
     /// A comparison, given the lanes where it is true of all pairs, and those where it is true of none.
@@ -46,18 +41,11 @@ impl NumberBlock<EnvelopeFloat> for EnvelopeBlock {
     const OWN: bool = true;
     #[inline(always)]
     fn if_vectorized<R>(work: impl FnOnce() -> R) -> Option<R> {
-        match *UNIT {
-            #[cfg(target_arch = "x86_64")]
-            Arch::V3(unit) => Some(unit.vectorize(work)),
-            #[cfg(target_arch = "x86_64")]
-            _ => None,
-            #[cfg(not(target_arch = "x86_64"))]
-            _ => Some(work()),
-        }
+        unit::if_wide(work)
     }
     #[inline(always)]
     fn vectorized<R>(work: impl FnOnce() -> R) -> R {
-        UNIT.dispatch(work)
+        unit::widest(work)
     }
     #[inline(always)]
     fn widen(&self) -> Self {
