@@ -23,7 +23,6 @@ mod tests;
 mod version;
 
 use super::ast::{Allow, Behavior, Extensions, Profile, Version};
-use crate::language::Feature;
 use super::keywords;
 use super::kind;
 use super::lexer::{Lexer, Mode, Trivia};
@@ -31,6 +30,7 @@ use super::session::{ParseSession, TokenSource};
 use super::token::{Symbol, Token, TokenFlags, TokenKind};
 use crate::diagnostic::codes::preprocess as codes;
 use crate::diagnostic::{Diagnostic, codes::general};
+use crate::language::Feature;
 use crate::source::{FileId, IncludeForm, IncludeResolver, Inclusion, Span};
 use define::Macro;
 use expand::TokenRun;
