@@ -19,12 +19,7 @@ impl Ctx<'_, '_> {
     }
 
     /// A function of integers. naga's functions return the type of their argument, and take counts that are `uint`s.
-    pub(super) fn bit_function(
-        &mut self,
-        op: BitFunction,
-        values: &[Typed],
-        ty: TypeId,
-    ) -> Try<Handle<Expression>> {
+    pub(super) fn bit_function(&mut self, op: BitFunction, values: &[Typed], ty: TypeId) -> Try<Handle<Expression>> {
         let function = match op {
             BitFunction::Extract => MathFunction::ExtractBits,
             BitFunction::Insert => MathFunction::InsertBits,

@@ -6,7 +6,7 @@
 //! Every name that cannot be resolved becomes poison after its one message.
 
 use super::scope::{Entry, Scopes};
-use super::state::{Budget, Declared, Layouts, Uses};
+use super::state::{Budget, Declared, Layouts, Precisions, Uses};
 use super::wording::{LONGEST_QUOTE, worded};
 use crate::diagnostic::codes::names;
 use crate::diagnostic::{Diagnostic, Diagnostics};
@@ -49,6 +49,8 @@ pub(super) struct Analyzer<'a> {
     pub(super) scopes: Scopes,
     /// The extensions that are enabled at the current declaration.
     pub(super) extensions: Extensions,
+    /// The types that have a default precision, in ES (§4.5.4).
+    pub(super) precisions: Precisions,
     /// The features whose lack has been reported, by bit.
     pub(super) lacking: u64,
     /// The current function.
@@ -83,6 +85,7 @@ impl<'a> Analyzer<'a> {
             facts: Vec::with_capacity(ast.exprs.len()),
             scopes: Scopes::default(),
             extensions: Extensions::empty(),
+            precisions: Precisions::of(stage, ast.version),
             lacking: 0,
             body: None,
             declared: Declared::default(),

@@ -7,7 +7,7 @@ use super::context::Analyzer;
 use crate::builtin::Availability;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::preprocess::MISSING_VERSION;
-use crate::diagnostic::codes::{qualifiers, syntax};
+use crate::diagnostic::codes::qualifiers;
 use crate::language::{Extensions, Feature, NEVER, Since, Version};
 use crate::source::Span;
 use crate::syntax::{extension_name, warning_of_use};
@@ -46,14 +46,10 @@ impl Analyzer<'_> {
     fn report_lacking(&mut self, feature: Feature, span: Span) {
         let row = feature.row();
         let version = self.ast.version;
-        let code = if feature == Feature::InitializerLists {
-            &syntax::LIST_WITHOUT_EXTENSION
-        } else {
-            &qualifiers::NEEDS_EXTENSION
-        };
-        let finding = Diagnostic::new(code, span, format!("{} is not in {}", row.name, version.name()))
-            .here("not in this version of the language")
-            .maybe_help(remedy(version, row.since, row.gone, row.extensions));
+        let finding =
+            Diagnostic::new(&qualifiers::NEEDS_EXTENSION, span, format!("{} is not in {}", row.name, version.name()))
+                .here("not in this version of the language")
+                .maybe_help(remedy(version, row.since, row.gone, row.extensions));
         self.report(of_version(finding, version));
     }
 
@@ -83,7 +79,8 @@ pub(super) fn remedy(version: Version, since: Since, gone: Since, extensions: Ex
     }
     .or_else(|| {
         let other = if version.is_es() { since.desktop } else { since.es };
-        (other != NEVER).then(|| if version.is_es() { "only OpenGL has it" } else { "only OpenGL ES has it" }.to_owned())
+        (other != NEVER)
+            .then(|| if version.is_es() { "only OpenGL has it" } else { "only OpenGL ES has it" }.to_owned())
     })
 }
 

@@ -102,7 +102,7 @@ static CLASSES: &[ClassRow] = &[
     ClassRow { class: Class::Const, what: "`const`", rank: 4, contexts: &[Global, Local, Parameter] },
     ClassRow { class: Class::Storage, what: "a storage qualifier", rank: 5, contexts: &[Global, Parameter, BlockMember, Block, Alone] },
     ClassRow { class: Class::Precision, what: "a precision qualifier", rank: 6, contexts: &[Global, Local, Parameter, Return, StructMember, BlockMember] },
-    ClassRow { class: Class::Precise, what: "`precise`", rank: 0, contexts: &[] },
+    ClassRow { class: Class::Precise, what: "`precise`", rank: 0, contexts: &[Global, Local, Parameter, Return, StructMember, BlockMember, Block, Alone] },
 ];
 
 fn class_of(kind: &QualifierKind) -> Class {

@@ -8,7 +8,8 @@ use super::operators::{as_float, componentwise};
 use super::{Held, Operand, Scalars};
 use crate::builtin::BuiltinFunction;
 use crate::builtin::operations::{
-    Binary, BitCast, BitFunction, BooleanFunction, Class, Composite, MatrixFunction, Numbers, Relation, Ternary, Test, Unary,
+    Binary, BitCast, BitFunction, BooleanFunction, Class, Composite, MatrixFunction, Numbers, Relation, Ternary, Test,
+    Unary,
 };
 use crate::hir::{ScalarValue, Type, TypeId, Types};
 use ScalarValue::{Bool, Float, Int, Uint};

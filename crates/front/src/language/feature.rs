@@ -59,6 +59,10 @@ features! {
     FloatSuffix "the suffix `f`" since(120, 300), STAYS, NONE, "§4.1.4";
     /// `##` in macros.
     TokenPasting "`##`" since(130, 300), STAYS, NONE, "§3.3";
+    /// `#extension GL_ARB_compatibility`
+    CompatibilityExtension "GL_ARB_compatibility" since(140, NEVER), STAYS, NONE, "§3.3";
+    /// Arrays as `out` and `inout` arguments.
+    ArrayArguments "an array that a function writes" since(120, 100), STAYS, NONE, "§6.1";
     /// Precision qualifiers, and the macro that tells that `highp` is there.
     Precision "a precision qualifier" since(130, 100), STAYS, NONE, "§4.5";
     /// `\` at the end of a line.
@@ -116,6 +120,8 @@ features! {
     /// Layout values that are constant expressions.
     LayoutExpressions "a layout value that is not a literal" since(440, NEVER), STAYS,
         Extensions::ENHANCED_LAYOUTS, "§4.4";
+    /// `layout(depth_greater) out float gl_FragDepth;`
+    DepthLayouts "a layout of `gl_FragDepth`" since(420, NEVER), STAYS, Extensions::CONSERVATIVE_DEPTH, "§4.4.2";
     /// Redeclaring `gl_PerVertex`.
     PerVertex "a declaration of `gl_PerVertex`" since(410, NEVER), STAYS, Extensions::SEPARATE_SHADER_OBJECTS, "§7.1";
     /// Samplers, and blocks, are indexed by constant expressions alone.
@@ -195,7 +201,9 @@ mod tests {
         assert!(!version(300, Profile::Es).has(Feature::ImplicitToFloat));
         assert!(core(410).has(Feature::Attributes) && !core(420).has(Feature::Attributes));
         assert!(version(460, Profile::Compatibility).has(Feature::Attributes));
-        assert!(!version(300, Profile::Es).has(Feature::Attributes) && version(100, Profile::Es).has(Feature::Attributes));
+        assert!(
+            !version(300, Profile::Es).has(Feature::Attributes) && version(100, Profile::Es).has(Feature::Attributes)
+        );
         assert!(core(150).has_with(Feature::ImplicitToUint, Extensions::GPU_SHADER5));
         assert!(!core(150).has_with(Feature::ImplicitToUint, Extensions::SHADING_LANGUAGE_420PACK));
     }

@@ -51,8 +51,7 @@ impl Analyzer<'_> {
             return;
         }
         let is_uniform = storage == Storage::Uniform;
-        let subject =
-            if is_uniform { LayoutSubject::UniformBlock } else { LayoutSubject::Other("an input or output block") };
+        let subject = if is_uniform { LayoutSubject::UniformBlock } else { LayoutSubject::VaryingBlock };
         let layout = self.layout(&record, subject);
         let good_name = self.check_name(block.name);
         if good_name {
@@ -119,7 +118,7 @@ impl Analyzer<'_> {
             };
             let layout = self.layout(&record, subject);
             let base = self.block_member_base(row);
-            self.check_precision(record.precision, base);
+            self.check_precision(record.precision, base, row.ty.span);
             for declarator in &row.declarators {
                 self.no_member_initializer(declarator);
                 let ty = self.with_array(base, &declarator.array);

@@ -145,7 +145,7 @@ impl Analyzer<'_> {
             );
             return None;
         };
-        let wanted = row.make_type(self.types);
+        let wanted = row.make_type(self.types, self.ast.version);
         let fits = match (self.types.get(wanted), self.types.get(ty)) {
             (Type::Array(element, _), Type::Array(given, _)) => element == given,
             _ => wanted == ty,

@@ -45,7 +45,7 @@ impl Analyzer<'_> {
         for row in &spec.members {
             let record = self.qualifiers(&row.qualifiers, DeclarationContext::StructMember);
             let base = self.member_base(row);
-            self.check_precision(record.precision, base);
+            self.check_precision(record.precision, base, row.ty.span);
             for declarator in &row.declarators {
                 let ty = self.member_type(declarator, base, row);
                 let member = Member {

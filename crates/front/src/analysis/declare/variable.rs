@@ -26,7 +26,7 @@ impl Analyzer<'_> {
             return;
         }
         let base = self.type_spec(&declaration.ty);
-        self.check_precision(record.precision, base);
+        self.check_precision(record.precision, base, declaration.ty.span);
         let storage = self.global_storage(&record);
         if declaration.declarators.is_empty() {
             self.layout(&record, self.layout_subject(storage, base));
@@ -183,11 +183,11 @@ impl Analyzer<'_> {
     fn layout_subject(&self, storage: Storage, ty: TypeId) -> LayoutSubject {
         match (storage, self.stage) {
             (Storage::In, Stage::Vertex) => LayoutSubject::VertexInput,
-            (Storage::In, _) => LayoutSubject::Other("an input variable"),
+            (Storage::In, _) => LayoutSubject::Varying,
             (Storage::Out, Stage::Fragment) => LayoutSubject::FragmentOutput,
-            (Storage::Out, _) => LayoutSubject::Other("an output variable"),
+            (Storage::Out, _) => LayoutSubject::Varying,
             (Storage::Uniform, _) if self.types.contains_sampler(ty) => LayoutSubject::Sampler,
-            (Storage::Uniform, _) => LayoutSubject::Other("a uniform outside a block"),
+            (Storage::Uniform, _) => LayoutSubject::Uniform,
             (Storage::Const, _) => LayoutSubject::Other("a constant"),
             (Storage::Private, _) => LayoutSubject::Other("a variable without a storage qualifier"),
         }

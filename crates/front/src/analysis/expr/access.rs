@@ -32,7 +32,9 @@ impl Analyzer<'_> {
                 self.poison(span)
             }
             Type::Vector(scalar, size) => self.swizzle(base, field, (scalar, size), span),
-            Type::Scalar(scalar) if self.allows(Feature::ScalarSwizzles, field.span) => self.scalar_swizzle(base, field, scalar, span),
+            Type::Scalar(scalar) if self.allows(Feature::ScalarSwizzles, field.span) => {
+                self.scalar_swizzle(base, field, scalar, span)
+            }
             _ => {
                 let name = self.type_name(self.ty(base));
                 let at = self.span(base);
@@ -148,8 +150,8 @@ impl Analyzer<'_> {
         }
         let at = self.span(index);
         if let Type::Array(element, _) = self.types.get(ty) {
-            let constant = self.ast.version.has(Feature::ConstantSamplers)
-                && !self.extensions.contains(Extensions::GPU_SHADER5);
+            let constant =
+                self.ast.version.has(Feature::ConstantSamplers) && !self.extensions.contains(Extensions::GPU_SHADER5);
             if self.types.contains_sampler(element) && constant {
                 let finding = self.not_constant(index, "the index of an array of samplers");
                 self.report(Diagnostic { code: &types::SAMPLER_INDEX, ..finding });

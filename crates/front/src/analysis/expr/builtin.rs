@@ -1,11 +1,11 @@
 //! Analyzes calls of built-in functions (§8): resolves overloads over the rows of the table.
 
 use super::super::context::Analyzer;
-use super::super::features::{remedy, of_version};
+use super::super::features::{of_version, remedy};
 use super::overload::{Resolution, resolve};
-use crate::builtin::{Availability, BuiltinFunction};
 use crate::builtin::functions::{self, Row, Signature};
 use crate::builtin::operations::Class;
+use crate::builtin::{Availability, BuiltinFunction};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::names;
 use crate::hir::{ExprId, ExprKind, Stage, TypeId};

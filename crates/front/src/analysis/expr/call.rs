@@ -10,8 +10,8 @@ use super::overload::{Resolution, Rules, resolve};
 use crate::builtin::functions;
 use crate::diagnostic::codes::{names, types};
 use crate::diagnostic::{Diagnostic, did_you_mean};
-use crate::language::Feature;
 use crate::hir::{ExprId, ExprKind, FunctionId, ParamMode, TypeId};
+use crate::language::Feature;
 use crate::source::Span;
 use crate::syntax::ast::{self, Ident};
 use smallvec::SmallVec;
@@ -110,8 +110,12 @@ impl Analyzer<'_> {
     /// The overload that takes the arguments after implicit conversions, if there is exactly one.
     fn by_conversion(&mut self, name: Ident, set: OverloadSet, given: &[TypeId]) -> Option<FunctionId> {
         let candidates: Vec<FunctionId> = self.scopes.functions(set).to_vec();
-        let resolution =
-            resolve(self.types, self.rules(), given, candidates.iter().map(|&id| self.shader.function(id).param_types()));
+        let resolution = resolve(
+            self.types,
+            self.rules(),
+            given,
+            candidates.iter().map(|&id| self.shader.function(id).param_types()),
+        );
         match resolution {
             Resolution::Found(index) => candidates.get(index).copied(),
             Resolution::Ambiguous(first, second) => {

@@ -4,10 +4,8 @@
 //! *Holds:* arguments are evaluated once and in order. What is used twice is kept in a local.
 
 use super::super::context::Analyzer;
-use crate::builtin::BuiltinFunction as F;
-use crate::hir::{
-    BinaryOp, ConstructKind, ExprId, ExprKind, Local, LocalKind, Scalar, ScalarValue, TypeId, VarRef,
-};
+use crate::builtin::{BuiltinFunction as F, fixed};
+use crate::hir::{BinaryOp, ConstructKind, ExprId, ExprKind, Local, LocalKind, Scalar, ScalarValue, TypeId, VarRef};
 use crate::source::Span;
 
 /// The bits of the exponent of a float, and the exponent that is 0.
@@ -17,6 +15,9 @@ const BIAS: i32 = 127;
 impl Analyzer<'_> {
     /// A call of such a function; its arguments have the types of the parameters.
     pub(super) fn composed(&mut self, function: F, arguments: &[ExprId], span: Span) -> ExprId {
+        if function == F::Ftransform {
+            return self.ftransform(span);
+        }
         let mut out = Writer { analyzer: self, span };
         let call = match (function, arguments) {
             (F::Ldexp, &[x, exponent]) => out.ldexp(x, exponent),
@@ -28,6 +29,23 @@ impl Analyzer<'_> {
             _ => None,
         };
         call.unwrap_or_else(|| self.poison(span))
+    }
+}
+
+impl Analyzer<'_> {
+    /// `gl_ModelViewProjectionMatrix * gl_Vertex` (GLSL 1.20 §8.4).
+    fn ftransform(&mut self, span: Span) -> ExprId {
+        let mut variable = |name| {
+            let row = fixed::named(name, self.ast.version, self.stage)?;
+            let id = self.fixed_global(row);
+            Some(self.variable(VarRef::Global(id), span))
+        };
+        match (variable("gl_ModelViewProjectionMatrix"), variable("gl_Vertex")) {
+            (Some(matrix), Some(vertex)) => {
+                self.push(ExprKind::Binary(BinaryOp::MatMul, matrix, vertex), TypeId::VEC4, span)
+            }
+            _ => self.poison(span),
+        }
     }
 }
 
@@ -78,8 +96,7 @@ impl Writer<'_, '_> {
     /// A local that holds a value, and the assignment. Outside of functions there is none.
     fn keep(&mut self, value: ExprId) -> Option<(VarRef, ExprId)> {
         let ty = self.analyzer.ty(value);
-        let local =
-            Local { name: "part".to_owned(), ty, kind: LocalKind::Variable, value: None, span: self.span };
+        let local = Local { name: "part".to_owned(), ty, kind: LocalKind::Variable, value: None, span: self.span };
         let place = VarRef::Local(self.analyzer.add_local(local)?);
         let target = self.push(ExprKind::Var(place), ty);
         Some((place, self.push(ExprKind::Assign(None, target, value), ty)))

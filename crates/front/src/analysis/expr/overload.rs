@@ -55,9 +55,9 @@ where
         [(first, _), (second, _), ..] => {
             // Of two, that is better which converts fewer arguments and no other ones.
             let better = |one: u32, other: u32| one != other && one & !other == 0;
-            let best = found.iter().find(|(index, one)| {
-                found.iter().all(|(place, other)| place == index || better(*one, *other))
-            });
+            let best = found
+                .iter()
+                .find(|(index, one)| found.iter().all(|(place, other)| place == index || better(*one, *other)));
             match best {
                 Some((best, _)) if rules.best => Resolution::Found(*best),
                 _ => Resolution::Ambiguous(*first, *second),

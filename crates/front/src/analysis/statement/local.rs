@@ -17,7 +17,7 @@ impl Analyzer<'_> {
     pub(super) fn local_variables(&mut self, declaration: &VariableDecl, out: &mut Vec<Stmt>) {
         let record = self.qualifiers(&declaration.qualifiers, DeclarationContext::Local);
         let base = self.type_spec(&declaration.ty);
-        self.check_precision(record.precision, base);
+        self.check_precision(record.precision, base, declaration.ty.span);
         for declarator in &declaration.declarators {
             let (local, initializer) = self.local_variable(declarator, base, &record, declaration);
             if let Some(local) = local {

@@ -7,7 +7,9 @@
 
 use super::cost::{LOOKUP, each, special, whole};
 use super::precision::{self, Rule};
-use super::{BitCast, BitFunction, BooleanFunction, CallCost, Class, Derivative, Emission, Format, Lookup, MatrixFunction};
+use super::{
+    BitCast, BitFunction, BooleanFunction, CallCost, Class, Derivative, Emission, Format, Lookup, MatrixFunction,
+};
 use super::{Noise, Numbers, Operation, Packing, Relation, Test, TextureForm, kernel};
 
 macro_rules! class {
@@ -275,6 +277,7 @@ operations! {
         FloatBitsToUint "floatBitsToUint" Class::BitCast(BitCast::FloatToUint), each(1), None;
         IntBitsToFloat "intBitsToFloat" Class::BitCast(BitCast::IntToFloat), each(1), Some(&precision::EXACT);
         UintBitsToFloat "uintBitsToFloat" Class::BitCast(BitCast::UintToFloat), each(1), Some(&precision::EXACT);
+        Ftransform "ftransform" Class::Composed, each(7), None;
         Frexp "frexp" Class::Composed, each(8), Some(&precision::EXACT);
         Ldexp "ldexp" Class::Composed, each(8), Some(&precision::MUL);
         UaddCarry "uaddCarry" Class::Composed, each(3), None;

@@ -130,8 +130,8 @@ codes! {
     EXTENSION_IGNORED = "W0106" "extension-ignored" Warning "GLSL 1.50 §3.3"
         "The source requests an extension that glisten does not implement or that is not in any registry, but does \
          not require it: nothing is enabled."
-        bad Fragment("#extension GL_ARB_gpu_shader5 : enable\nvoid main() {}"),
-        good Fragment("#ifdef GL_ARB_gpu_shader5\n#extension GL_ARB_gpu_shader5 : enable\n#endif\nvoid main() {}");
+        bad Fragment("#extension GL_ARB_gpu_shader_fp64 : enable\nvoid main() {}"),
+        good Fragment("#ifdef GL_ARB_gpu_shader_fp64\n#extension GL_ARB_gpu_shader_fp64 : enable\n#endif\nvoid main() {}");
     RESERVED_NAME = "W0107" "double-underscore" Warning "GLSL 1.50 §3.3, §3.6"
         "Names that contain two consecutive underscores are reserved for future keywords and predefined macros. \
          Drivers accept them; some prefix such names or warn."

@@ -12,6 +12,7 @@
 
 mod declaration;
 mod expr;
+mod foreign;
 mod recover;
 mod statement;
 #[cfg(test)]

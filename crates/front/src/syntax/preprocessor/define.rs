@@ -1,6 +1,9 @@
 //! Macros: `#define`, `#undef`, and the predefined ones (GLSL 1.50 §3.3).
 
-use super::{Feature, ParseSession, Preprocessor, Profile, Span, Symbol, Token, TokenFlags, TokenKind, codes, extension, kind, version};
+use super::{
+    Feature, ParseSession, Preprocessor, Profile, Span, Symbol, Token, TokenFlags, TokenKind, codes, extension, kind,
+    version,
+};
 use crate::diagnostic::Diagnostic;
 use crate::source::SourceMap;
 use std::sync::Arc;

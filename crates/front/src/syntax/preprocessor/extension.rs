@@ -1,6 +1,8 @@
 //! `#extension` (GLSL 1.50 §3.3), and the table of known extensions.
 
-use super::{Behavior, Extensions, Feature, ParseSession, Preprocessor, Profile, Span, Token, TokenKind, Version, codes, kind};
+use super::{
+    Behavior, Extensions, Feature, ParseSession, Preprocessor, Profile, Span, Token, TokenKind, Version, codes, kind,
+};
 use crate::diagnostic::{Diagnostic, did_you_mean};
 use std::sync::LazyLock;
 
@@ -166,7 +168,7 @@ impl Preprocessor<'_> {
         if name == "all" {
             return self.set_all(session, token, behavior);
         }
-        if name == "GL_ARB_compatibility" && self.version.number == 140 && !self.version.is_es() {
+        if name == "GL_ARB_compatibility" && self.version.has(Feature::CompatibilityExtension) {
             return self.set_compatibility(session, behavior);
         }
         let version = self.version;
@@ -201,7 +203,7 @@ impl Preprocessor<'_> {
         session.report(Diagnostic::new(code, token.span, message).here(here).maybe_help(help));
     }
 
-    /// GL_ARB_compatibility makes 1.40 what the compatibility profile is later.
+    /// GL_ARB_compatibility makes the core of 1.40 and later versions the compatibility profile.
     fn set_compatibility(&mut self, session: &mut ParseSession<'_>, behavior: Behavior) {
         if behavior != Behavior::Disable {
             self.version.profile = Profile::Compatibility;

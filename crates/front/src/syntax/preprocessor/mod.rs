@@ -24,7 +24,6 @@ mod tests;
 mod version;
 
 use super::ast::{Allow, Behavior, Extensions, Profile, Version};
-use crate::language::Feature;
 use super::keywords;
 use super::kind;
 use super::lexer::{Lexer, Mode, Trivia};
@@ -32,6 +31,7 @@ use super::session::{ParseSession, TokenSource};
 use super::token::{Symbol, Token, TokenFlags, TokenKind};
 use crate::diagnostic::codes::preprocess as codes;
 use crate::diagnostic::{Diagnostic, codes::general};
+use crate::language::Feature;
 use crate::source::{FileId, IncludeForm, IncludeResolver, Inclusion, Span};
 use define::Macro;
 use expand::TokenRun;

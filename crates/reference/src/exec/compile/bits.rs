@@ -44,7 +44,8 @@ impl Compiler<'_> {
         let scalar = |value: Option<&Val>| value.and_then(|value| component(value, 0));
         let (Some(count), Some(offset)) = (scalar(Some(count)), scalar(rest.last())) else { return Val::new() };
         let mask = self.mask(count);
-        let inserted: &[Operand] = if op == BitFunction::Insert { values.get(1).map_or(&[], |value| value) } else { &[] };
+        let inserted: &[Operand] =
+            if op == BitFunction::Insert { values.get(1).map_or(&[], |value| value) } else { &[] };
         (0..first.len())
             .filter_map(|flat| {
                 let value = component(first, flat)?;
@@ -112,8 +113,13 @@ impl Compiler<'_> {
             Format::Snorm => -1.0,
         };
         let (least, most, one) = (self.emit.float(least), self.emit.float(1.0), self.emit.float(op.one() as f32));
-        let limited =
-            self.emit.pure(File::Float, &[value, least, most], |dst| Inst::Float3 { op: Float3::Clamp, dst, a: value, b: least, c: most });
+        let limited = self.emit.pure(File::Float, &[value, least, most], |dst| Inst::Float3 {
+            op: Float3::Clamp,
+            dst,
+            a: value,
+            b: least,
+            c: most,
+        });
         let scaled = self.float2(Float2::Mul, limited, one);
         let rounded = self.float1(Float1::Round, scaled);
         let bits = self.from_float(FloatToInt::Int, rounded);
