@@ -167,7 +167,8 @@ fn parse(name: &str, text: &str, stage: Stage) -> usize {
     let mut sources = SourceMap::default();
     let mut diagnostics = Diagnostics::default();
     let file = sources.add(name, text).expect("room");
-    let options = syntax::ParseOptions { stage, defines: Vec::new(), strict: false };
+    let completion = glisten_front::source::Completion::default();
+    let options = syntax::ParseOptions { stage, defines: Vec::new(), strict: false, completion };
     let tree = syntax::parse(&mut sources, file, &options, &NoIncludes, &mut diagnostics);
     assert!(!diagnostics.has_errors(), "{name}");
     tree.exprs.len()

@@ -11,8 +11,7 @@ use super::files;
 use super::includes::DiskIncludes;
 use super::rules::Rule;
 use super::stages;
-use crate::engines::combined::{self, Member};
-use crate::engines::{self, Profile, Style};
+use crate::engines::{self, Member, Profile, Style, combined};
 use glisten_front::compiler::{Preparation, Prepared, Source};
 use glisten_front::diagnostic::codes::general;
 use glisten_front::hir::Stage;
@@ -89,7 +88,7 @@ impl Engines {
         Arc::clone(rules)
     }
 
-    /// What the flags and the tables say about a file.
+    /// The settings of a file by the flags and the tables.
     fn settings(&self, path: Option<&Path>) -> Settings {
         let flags = &*self.flags;
         let mut settings = Settings {

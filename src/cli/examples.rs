@@ -16,6 +16,7 @@ const EXAMPLES: &[(&str, &[(&str, &str)])] = &[
                 "one program, with a macro and a folder of includes",
             ),
             ("glisten lint . --deny warnings --format github", "in CI: annotations on the changed lines"),
+            ("glisten lint pack/ --engine iris", "sources that an engine completes"),
         ],
     ),
     (

@@ -71,7 +71,9 @@ impl DiskIncludes {
         }
         let folder = Path::new(from).parent().unwrap_or(Path::new(""));
         let own = (form == IncludeForm::Quoted).then(|| normal(&folder.join(path)));
-        own.into_iter().chain(along(path)).collect()
+        let last = self.lookup.paths_from_here(path);
+        let last = last.iter().map(|path| normal(&folder.join(path)));
+        own.into_iter().chain(along(path)).chain(last).collect()
     }
 
     /// The file with this name anywhere below the search folders, if the style looks there.

@@ -66,7 +66,14 @@ fn pass_over_versions(unit: &mut Unit, found: &BTreeSet<String>) -> usize {
     let sources = &unit.batch.sources;
     let file = |diagnostic: &Diagnostic| sources.file_of(sources.call_site(diagnostic.primary.span));
     let other = |diagnostic: &&Diagnostic| [&UNSUPPORTED_VERSION, &MISSING_VERSION].contains(&diagnostic.code);
-    let files: Vec<FileId> = unit.batch.diagnostics.iter().filter(other).filter_map(file).collect();
+    // A text without a version that is not of 1.10 gets one from its engine.
+    let is_input = |name: &str| unit.group.inputs.iter().any(|input| input.name == name);
+    let has_version = |file: FileId| sources.file(file).text().contains("#version");
+    let given = sources.files().any(|(id, file)| !is_input(file.name()) && has_version(id));
+    let unversioned = |file: &FileId| !given && !has_version(*file);
+    let errors = unit.batch.diagnostics.iter().filter(|diagnostic| diagnostic.is_error());
+    let files = errors.clone().filter_map(file).filter(unversioned);
+    let files: Vec<FileId> = files.chain(errors.filter(other).filter_map(file)).collect();
     let names: BTreeSet<&str> =
         files.iter().map(|file| sources.file(*file).name()).filter(|name| found.contains(*name)).collect();
     if names.is_empty() {

@@ -229,6 +229,7 @@ impl SceneArgs {
             Failure::new(Exit::Content, format!("internal error: {panic}")).help("please report it with the scene")
         })?;
         let mut batch = Batch { sources: loaded.sources, diagnostics: Vec::new() };
+        session.read_configuration(&self.scene);
         session.add(&mut batch, loaded.diagnostics);
         let exit = session.exit(&batch);
         let scene = loaded.scene.filter(|_| exit == Exit::Ok);

@@ -145,6 +145,11 @@ impl<'a> Session<'a> {
         units.into_iter().map(|(unit, _)| unit).collect()
     }
 
+    /// Reads the configuration for a file, so that its errors are reported even if the file has none.
+    pub(super) fn read_configuration(&mut self, name: &str) {
+        self.configs.levels(name);
+    }
+
     /// Adds diagnostics to a batch by the levels of the files that they are in, and sorts the batch by position in the
     /// text. What a scene lacks comes last, since another diagnostic may be the reason for it.
     pub(super) fn add(&mut self, batch: &mut Batch, found: impl IntoIterator<Item = Diagnostic>) {

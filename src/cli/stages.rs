@@ -123,7 +123,9 @@ fn without<'n>(name: &'n str, wanted: &str) -> Option<&'n str> {
 /// The name without the part that tells the stage: `phong` for `phong.vert`, `phong.vert.glsl` and `phong_vs.glsl`.
 pub(super) fn stem(path: &Path) -> String {
     let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-    read(path).map_or_else(|| stem_of(&name), |(_, stem)| stem)
+    // `phong.glsl.js` is a module of three.js.
+    let inner = without(&name, "js").and_then(|name| without(name, "glsl")).map(str::to_owned);
+    read(path).map(|(_, stem)| stem).or(inner).unwrap_or_else(|| stem_of(&name))
 }
 
 fn stem_of(name: &str) -> String {
@@ -133,7 +135,8 @@ fn stem_of(name: &str) -> String {
 /// Whether the name is one of files that contain several stages.
 pub(super) fn may_be_combined(path: &Path) -> bool {
     let is_one = |extension: &str| ["glsl", "shader"].iter().any(|known| known.eq_ignore_ascii_case(extension));
-    path.extension().and_then(|extension| extension.to_str()).is_some_and(is_one)
+    let is_module = path.file_name().is_some_and(|name| name.to_string_lossy().ends_with(".glsl.js"));
+    is_module || path.extension().and_then(|extension| extension.to_str()).is_some_and(is_one)
 }
 
 /// Whether a file is a program in the assembly language of ARB_vertex_program, which has the extensions `.vp` and `.fp`, too.

@@ -4,7 +4,7 @@
 //! file defines itself chooses nothing.
 
 use super::code::{count_definitions, without_comments, words};
-use super::combined::Part;
+use super::part::Part;
 use glisten_front::Stage;
 
 /// Macros of the vertex, the fragment and the geometry stage.

@@ -4,7 +4,7 @@
 //! belong to all. *Holds:* all marks of a file are of one kind.
 
 use super::code::without_comments;
-use super::combined::Part;
+use super::part::Part;
 use super::profile::stage_named;
 use glisten_front::Stage;
 use std::collections::BTreeMap;
@@ -53,8 +53,7 @@ impl Mark {
     fn read(&self, line: &str) -> Option<Option<Stage>> {
         let name = line.strip_prefix(self.before)?.strip_suffix(self.after)?.trim().trim_matches(['"', ':']);
         // The names of glsw are `Program.Vertex.GL3`.
-        let word = name.split('.').find_map(|word| stage_named(word).map(Some).or(other(word)));
-        word
+        name.split('.').find_map(|word| stage_named(word).map(Some).or(other(word)))
     }
 
     fn marks(&self, text: &str, code: &str) -> Vec<Found> {

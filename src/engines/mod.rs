@@ -10,10 +10,13 @@ pub mod combined;
 mod conditional;
 pub mod isf;
 mod marks;
+mod modules;
 pub mod needed;
+mod part;
 mod profile;
 mod sokol;
 mod style;
 
+pub use part::{Member, Part};
 pub use profile::{Addition, PROFILES, Profile, SHOWN, find, names, stage_named};
 pub use style::{Lookup, STYLES, Style};

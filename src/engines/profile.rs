@@ -99,7 +99,7 @@ pub struct Profile {
     preludes: &'static [(Option<Stage>, &'static str, &'static str)],
 }
 
-/// What an engine adds to one source.
+/// The macros and texts that an engine adds to one source.
 #[derive(Clone, Debug, Default)]
 pub struct Addition {
     /// Macros.
@@ -111,7 +111,7 @@ pub struct Addition {
 }
 
 /// All profiles.
-pub static PROFILES: LazyLock<Vec<Profile>> = LazyLock::new(|| EMBEDDED.iter().map(|row| load(row)).collect());
+pub static PROFILES: LazyLock<Vec<Profile>> = LazyLock::new(|| EMBEDDED.iter().map(load).collect());
 
 /// The profile with this name.
 pub fn find(name: &str) -> Option<&'static Profile> {
@@ -191,7 +191,7 @@ impl Profile {
         }
     }
 
-    /// What the engine adds to a source, given the text that has its header: the source itself, or the fragment shader of its
+    /// The macros and texts that the engine adds to a source, given the text that has its header: the source itself, or the fragment shader of its
     /// program.
     pub fn addition(&self, source: &str, stage: Stage, header: &str) -> Addition {
         let mut added = Addition::default();

@@ -3,7 +3,7 @@
 //! *In:* a text. *Out:* its programs; without a `@program` line, the first of each stage. *Holds:* a block that a stage includes
 //! is part of it at the place where the block is written, which is before the stage.
 
-use super::combined::{Member, Part};
+use super::part::{Member, Part};
 use glisten_front::Stage;
 use std::ops::Range;
 

@@ -29,6 +29,8 @@ pub struct Lookup {
     pub directive: Option<ImportDirective>,
     /// The paths below a search folder, with `{namespace}` and `{path}`.
     pub patterns: &'static [&'static str],
+    /// Paths from the folder of the including file, which are tried last.
+    pub from_here: &'static [&'static str],
     /// The names of folders above a source that are search folders, too.
     pub ancestors: &'static [&'static str],
     /// The namespace of a name that has none.
@@ -44,6 +46,7 @@ const PLAIN: Lookup = Lookup {
     name: "quote",
     directive: None,
     patterns: &["{path}"],
+    from_here: &[],
     ancestors: &[],
     namespace: None,
     deep: false,
@@ -64,6 +67,7 @@ pub static STYLES: &[Lookup] = &[
             "include/{path}",
             "{path}",
         ],
+        from_here: &["../include/{path}"],
         ancestors: &["assets", "shaders"],
         namespace: Some("minecraft"),
         drops_version: true,
@@ -88,12 +92,21 @@ impl Style {
 impl Lookup {
     /// The paths of an included file below a search folder, in the order in which they are tried.
     pub fn paths(&self, name: &str) -> Vec<String> {
+        self.filled(self.patterns, name)
+    }
+
+    /// The paths of an included file from the folder of the including one, after all others.
+    pub fn paths_from_here(&self, name: &str) -> Vec<String> {
+        self.filled(self.from_here, name)
+    }
+
+    fn filled(&self, patterns: &[&str], name: &str) -> Vec<String> {
         let (namespace, path) = match (self.namespace, name.split_once(':')) {
             (Some(_), Some((namespace, path))) => (namespace, path),
             (Some(namespace), None) => (namespace, name),
             (None, _) => ("", name),
         };
-        self.patterns.iter().map(|pattern| pattern.replace("{namespace}", namespace).replace("{path}", path)).collect()
+        patterns.iter().map(|pattern| pattern.replace("{namespace}", namespace).replace("{path}", path)).collect()
     }
 }
 

@@ -3,6 +3,8 @@
 //!
 //! *Holds:* without its tags, the HTML is the escaped text: nothing is lost, whatever the text.
 
+use glisten_front::language::{Profile, Version};
+use glisten_front::source::{ExpansionId, Span};
 use glisten_front::syntax::keywords::WordClass;
 
 /// The language of a text.
@@ -13,7 +15,8 @@ pub(crate) enum Language {
 }
 
 /// The version that the library and the programs of the gallery are written in.
-const VERSION: u16 = 150;
+const VERSION: Version = Version { number: 150, profile: Profile::Core, span: NOWHERE };
+const NOWHERE: Span = Span { start: 0, end: 0, expansion: ExpansionId::NONE };
 
 /// The text with a `<span>` around each token that has a class.
 pub(crate) fn html(text: &str, language: Language) -> String {

@@ -56,6 +56,7 @@ static ORDER: &[(&str, &[&str])] = &[
             "shader_test",
             "specialize",
             "made",
+            "engines",
             "gallery",
             "report",
             "account",

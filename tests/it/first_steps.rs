@@ -220,7 +220,7 @@ fn a_text_that_rejects_itself_is_one_error() {
 #[test]
 fn a_file_without_a_version_is_not_laid_at_what_it_includes() {
     let folder = Folder::new(&[
-        ("a.frag", b"#include \"lib.glsl\"\nvoid main() { }\n"),
+        ("a.frag", b"#include \"lib.glsl\"\nout vec4 c;\nvoid main() { c = vec4(twice(0.5)); }\n"),
         ("lib.glsl", b"float twice(float x) { return 2.0 * x; }\n"),
         ("ok.frag", b"#version 150\nout vec4 c;\nvoid main() { c = vec4(1.0); }\n"),
     ]);

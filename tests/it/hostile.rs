@@ -4,7 +4,7 @@ use crate::support::compiler;
 use glisten_front::Source;
 use glisten_front::diagnostic::Diagnostics;
 use glisten_front::hir::Stage;
-use glisten_front::source::{IncludeForm, IncludeResolver, Included, SourceMap};
+use glisten_front::source::{Completion, IncludeForm, IncludeResolver, Included, SourceMap};
 use glisten_front::syntax::{ParseOptions, parse};
 use std::fmt::Write as _;
 
@@ -37,7 +37,8 @@ fn codes(text: String) -> Vec<&'static str> {
         let mut sources = SourceMap::default();
         let mut diagnostics = Diagnostics::default();
         let file = sources.add("hostile.vert", text).expect("room for the text");
-        let options = ParseOptions { stage: Stage::Vertex, defines: Vec::new(), strict: false };
+        let completion = Completion::default();
+        let options = ParseOptions { stage: Stage::Vertex, defines: Vec::new(), strict: false, completion };
         parse(&mut sources, file, &options, &Endless, &mut diagnostics);
         diagnostics.iter().map(|diagnostic| diagnostic.code.id).collect()
     };

@@ -9,6 +9,8 @@ mod diagnostics;
 #[cfg(feature = "reference")]
 mod drawing;
 mod emit;
+#[cfg(feature = "cli")]
+mod engines;
 #[cfg(feature = "gpu")]
 mod envelope;
 #[cfg(feature = "cli")]

@@ -246,11 +246,13 @@ fn read_back(program: &Program, stages: &[ResidualStage]) -> Result<(Program, So
             stage: stage.stage,
         })
         .collect();
-    let attributes = &program.interface.attributes;
-    let outputs = &program.interface.outputs;
+    // What is built in has its location, and cannot be bound.
+    let is_own = |name: &str| !name.starts_with("gl_");
+    let attributes = program.interface.attributes.iter().filter(|one| is_own(&one.name));
+    let outputs = program.interface.outputs.iter().filter(|one| is_own(&one.name));
     let options = glisten_front::Options {
-        attribute_locations: attributes.iter().map(|one| (one.name.clone(), one.location)).collect(),
-        frag_data_locations: outputs.iter().map(|one| (one.name.clone(), one.location)).collect(),
+        attribute_locations: attributes.map(|one| (one.name.clone(), one.location)).collect(),
+        frag_data_locations: outputs.map(|one| (one.name.clone(), one.location)).collect(),
         ..glisten_front::Options::default()
     };
     let compiled = Compiler::new(options).compile(&sources);

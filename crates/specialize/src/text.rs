@@ -3,7 +3,9 @@
 //! *In:* a stage, the texts of the original. *Out:* text with the names of the original, with the comments that were above
 //! or next to what is left, and for each line the place in the original that it comes from.
 
-use glisten_front::hir::{Notes, Shader, Stage, Types, print_with};
+use glisten_front::builtin::BuiltinFunction;
+use glisten_front::hir::{ExprKind, Notes, Shader, Stage, Types, print_with};
+use glisten_front::language::{Profile, Version};
 use glisten_front::source::{SourceMap, Span, comments};
 use std::cell::RefCell;
 
@@ -13,7 +15,7 @@ const MARK: &str = "//\u{1}";
 /// Writes a stage. Lines that come from nowhere, such as closing braces, have an unknown span.
 pub(crate) fn write(types: &Types, shader: &Shader, sources: Option<&SourceMap>) -> (String, Vec<Span>) {
     let mut shader = shader.clone();
-    shader.version.number = 150;
+    shader.version = language(&shader);
     let comments = Comments { sources, marks: RefCell::default() };
     let marked = print_with(types, &shader, Some(&comments));
     let marks = comments.marks.into_inner();
@@ -29,6 +31,20 @@ pub(crate) fn write(types: &Types, shader: &Shader, sources: Option<&SourceMap>)
         lines.push(std::mem::take(&mut next));
     }
     (text, lines)
+}
+
+/// The first version of OpenGL's language, from 1.50 on, that has all functions that the stage calls.
+fn language(shader: &Shader) -> Version {
+    let since = |function: BuiltinFunction| {
+        let rows = function.operation().prototypes().filter(|row| !row.deprecated);
+        rows.map(|row| row.availability.since.desktop).min().unwrap_or(0)
+    };
+    let called = shader.exprs.iter().filter_map(|expr| match expr.kind {
+        ExprKind::BuiltinCall(function, _) => Some(since(function)),
+        _ => None,
+    });
+    let number = called.max().unwrap_or(0).max(150);
+    Version { number, profile: Profile::Core, span: shader.version.span }
 }
 
 /// The extension of a stage's files.

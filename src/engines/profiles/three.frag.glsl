@@ -4,3 +4,4 @@ uniform mat4 viewMatrix;
 uniform vec3 cameraPosition;
 uniform bool isOrthographic;
 vec4 linearToOutputTexel(vec4 value) { return value; }
+vec3 toneMapping(vec3 color) { return color; }

@@ -149,7 +149,11 @@ pub(super) fn is_arithmetic(function: BuiltinFunction) -> bool {
         | Class::Matrix(_)
         | Class::Relation(_)
         | Class::Boolean(_)
-        | Class::Test(_) => true,
+        | Class::Test(_)
+        | Class::BitCast(_)
+        | Class::Bits(_)
+        | Class::Packing(_)
+        | Class::Composed => true,
         Class::Modf | Class::Derivative(_) | Class::Noise(_) | Class::Texture(_) | Class::Emission(_) => false,
     }
 }

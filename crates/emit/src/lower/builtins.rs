@@ -117,6 +117,15 @@ impl Ctx<'_, '_> {
                 };
                 Ok(self.bits_beyond_infinity(a, self.size_of(a_ty), op))
             }
+            Class::BitCast(op) => {
+                let [(a, _)] = self.of(&values)?;
+                Ok(self.bit_cast(op, a))
+            }
+            Class::Bits(op) => self.bit_function(op, &values, ty),
+            Class::Packing(op) => {
+                let [(a, _)] = self.of(&values)?;
+                Ok(self.packing(op, a))
+            }
             Class::Derivative(of) => {
                 let [(a, _)] = self.of(&values)?;
                 Ok(self.derivative(axis(of), a))
@@ -130,6 +139,7 @@ impl Ctx<'_, '_> {
                 Err(unsupported(self.here(), format!("`{}`", function.name())))
             }
             Class::Texture(_) | Class::Modf => Err(self.internal_error("these are lowered before their arguments")),
+            Class::Composed => Err(self.internal_error("the analysis writes this function out")),
         }
     }
 
@@ -168,6 +178,7 @@ impl Ctx<'_, '_> {
             Ternary::Clamp => Ok(self.math(MathFunction::Clamp, values)),
             Ternary::Mix => self.mix(a, b, c),
             Ternary::Smoothstep => self.smoothstep(a, b, c),
+            Ternary::Fma => Ok(self.math(MathFunction::Fma, values)),
         }
     }
 

@@ -23,6 +23,7 @@
 //! | `constants` | constant values, and how to keep the target from evaluating what is not finite |
 
 mod aggregates;
+mod bits;
 mod builtins;
 mod calls;
 mod constants;

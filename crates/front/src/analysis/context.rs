@@ -6,7 +6,7 @@
 //! Every name that cannot be resolved becomes poison after its one message.
 
 use super::scope::{Entry, Scopes};
-use super::state::{Budget, Declared, Layouts, Uses};
+use super::state::{Budget, Declared, Layouts, Precisions, Uses};
 use super::wording::{LONGEST_QUOTE, worded};
 use crate::diagnostic::codes::names;
 use crate::diagnostic::{Diagnostic, Diagnostics};
@@ -16,7 +16,6 @@ use crate::hir::{
 };
 use crate::source::{SourceMap, Span};
 use crate::syntax::ast::{Ast, DeclarationKind, Extensions, Ident};
-use crate::syntax::warning_of_use;
 
 /// Facts about an expression besides its type.
 #[derive(Clone, Copy, Debug, Default)]
@@ -50,6 +49,10 @@ pub(super) struct Analyzer<'a> {
     pub(super) scopes: Scopes,
     /// The extensions that are enabled at the current declaration.
     pub(super) extensions: Extensions,
+    /// The types that have a default precision, in ES (§4.5.4).
+    pub(super) precisions: Precisions,
+    /// The features whose lack has been reported, by bit.
+    pub(super) lacking: u64,
     /// The current function.
     pub(super) body: Option<Body>,
     /// Types, functions, blocks and built-in variables by name.
@@ -82,6 +85,8 @@ impl<'a> Analyzer<'a> {
             facts: Vec::with_capacity(ast.exprs.len()),
             scopes: Scopes::default(),
             extensions: Extensions::empty(),
+            precisions: Precisions::of(stage, ast.version),
+            lacking: 0,
             body: None,
             declared: Declared::default(),
             uses: Uses::default(),
@@ -128,23 +133,6 @@ impl<'a> Analyzer<'a> {
     /// The name of a type, as written in GLSL.
     pub(super) fn type_name(&self, ty: TypeId) -> String {
         self.types.name(ty)
-    }
-
-    /// Whether the feature at `span` is available: either the language has had it since version `since`, or an
-    /// enabled extension provides it. Warns about the use if the source asks for that (§3.3).
-    pub(super) fn allows(&mut self, extension: Extensions, since: u16, span: Span) -> bool {
-        if self.ast.version.number >= since {
-            return true;
-        }
-        if let Some(warning) = warning_of_use(self.extensions, extension, span) {
-            self.report(warning);
-        }
-        self.extensions.intersects(extension)
-    }
-
-    /// Whether ARB_shading_language_420pack makes the construct at `span` available.
-    pub(super) fn allows_420pack(&mut self, span: Span) -> bool {
-        self.allows(Extensions::SHADING_LANGUAGE_420PACK, 420, span)
     }
 
     /// Adds an expression and its facts.

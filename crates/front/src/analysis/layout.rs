@@ -1,12 +1,16 @@
 //! Layout qualifiers (§4.3.8): one row per identifier, with the declarations that accept it.
 
 use super::context::Analyzer;
+use super::features::{of_version, remedy};
 use super::qualifiers::Qualifiers;
+use crate::diagnostic::codes::general::NOT_SUPPORTED_YET;
 use crate::diagnostic::codes::qualifiers;
 use crate::diagnostic::{Diagnostic, did_you_mean};
 use crate::hir::{BlockLayout, MatrixLayout, PrimitiveIn, PrimitiveOut};
+use crate::language::{Extensions, Feature, NEVER, Since, Version};
 use crate::source::Span;
-use crate::syntax::ast::{ExprKind as AstExprKind, Extensions, LayoutId, Literal};
+use crate::syntax::ast::{ExprKind as AstExprKind, LayoutId, Literal};
+use crate::syntax::warning_of_use;
 
 /// The declaration that a layout qualifier applies to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,6 +33,14 @@ pub(super) enum LayoutSubject {
     GeometryIn,
     /// `layout(..) out;` of a geometry shader.
     GeometryOut,
+    /// An input of a stage after the first, or an output of a stage before the last.
+    Varying,
+    /// A block of such inputs or outputs.
+    VaryingBlock,
+    /// A uniform outside of blocks, other than a sampler.
+    Uniform,
+    /// `gl_FragDepth`.
+    FragDepth,
     /// Any other declaration, with its description.
     Other(&'static str),
 }
@@ -45,6 +57,10 @@ impl LayoutSubject {
             Self::UniformDefault => "`uniform` alone",
             Self::GeometryIn => "`in` alone, in a geometry shader",
             Self::GeometryOut => "`out` alone, in a geometry shader",
+            Self::Varying => "an input or output between stages",
+            Self::VaryingBlock => "an input or output block",
+            Self::Uniform => "a uniform outside a block",
+            Self::FragDepth => "`gl_FragDepth`",
             Self::Other(name) => name,
         }
     }
@@ -65,6 +81,8 @@ enum Effect {
     /// `points` is both an input and an output primitive.
     Points,
     MaxVertices,
+    /// The location of a uniform, and what is known of a depth: they change no value.
+    Nothing,
 }
 
 struct Row {
@@ -72,21 +90,21 @@ struct Row {
     effect: Effect,
     value: bool,
     subjects: &'static [LayoutSubject],
-    extension: Extensions,
-    since: u16,
+    since: Since,
+    extensions: Extensions,
 }
 
 use LayoutSubject::{
-    FragCoord, FragmentOutput, GeometryIn, GeometryOut, Sampler, UniformBlock, UniformDefault, UniformMember,
-    VertexInput,
+    FragCoord, FragDepth, FragmentOutput, GeometryIn, GeometryOut, Sampler, Uniform, UniformBlock, UniformDefault,
+    UniformMember, Varying, VaryingBlock, VertexInput,
 };
 
 const fn row(name: &'static str, effect: Effect, subjects: &'static [LayoutSubject]) -> Row {
-    Row { name, effect, value: false, subjects, extension: Extensions::empty(), since: 150 }
+    Row { name, effect, value: false, subjects, extensions: Extensions::empty(), since: Since::new(150, NEVER) }
 }
 
-const fn since(version: u16, extension: Extensions, row: Row) -> Row {
-    Row { extension, since: version, ..row }
+const fn since(desktop: u16, es: u16, extensions: Extensions, row: Row) -> Row {
+    Row { extensions, since: Since::new(desktop, es), ..row }
 }
 
 const fn valued(row: Row) -> Row {
@@ -96,20 +114,31 @@ const fn valued(row: Row) -> Row {
 const LOCATION: Extensions = Extensions::EXPLICIT_ATTRIB_LOCATION;
 const BLOCKS: Extensions = Extensions::UNIFORM_BUFFER_OBJECT;
 const PACK: Extensions = Extensions::SHADING_LANGUAGE_420PACK;
+const SEPARATE: Extensions = Extensions::SEPARATE_SHADER_OBJECTS;
+const UNIFORM_LOCATION: Extensions = Extensions::EXPLICIT_UNIFORM_LOCATION;
+const COORD: Extensions = Extensions::FRAGMENT_COORD_CONVENTIONS;
+const DEPTH: Extensions = Extensions::CONSERVATIVE_DEPTH;
 const BLOCK_PLACES: &[LayoutSubject] = &[UniformBlock, UniformDefault];
 const MATRIX_PLACES: &[LayoutSubject] = &[UniformBlock, UniformDefault, UniformMember];
 
 static ROWS: &[Row] = &[
-    valued(since(330, LOCATION, row("location", Effect::Location, &[VertexInput, FragmentOutput]))),
-    valued(since(330, LOCATION, row("index", Effect::Index, &[FragmentOutput]))),
-    valued(since(420, PACK, row("binding", Effect::Binding, &[Sampler, UniformBlock]))),
-    row("origin_upper_left", Effect::OriginUpperLeft, &[FragCoord]),
-    row("pixel_center_integer", Effect::PixelCenterInteger, &[FragCoord]),
-    since(140, BLOCKS, row("shared", Effect::Block(BlockLayout::Shared), BLOCK_PLACES)),
-    since(140, BLOCKS, row("packed", Effect::Block(BlockLayout::Packed), BLOCK_PLACES)),
-    since(140, BLOCKS, row("std140", Effect::Block(BlockLayout::Std140), BLOCK_PLACES)),
-    since(140, BLOCKS, row("row_major", Effect::Matrix(MatrixLayout::RowMajor), MATRIX_PLACES)),
-    since(140, BLOCKS, row("column_major", Effect::Matrix(MatrixLayout::ColumnMajor), MATRIX_PLACES)),
+    valued(since(330, 300, LOCATION, row("location", Effect::Location, &[VertexInput, FragmentOutput]))),
+    valued(since(410, NEVER, SEPARATE, row("location", Effect::Location, &[Varying]))),
+    valued(since(440, NEVER, Extensions::ENHANCED_LAYOUTS, row("location", Effect::Location, &[VaryingBlock]))),
+    valued(since(430, 310, UNIFORM_LOCATION, row("location", Effect::Nothing, &[Uniform, Sampler]))),
+    valued(since(330, NEVER, LOCATION, row("index", Effect::Index, &[FragmentOutput]))),
+    valued(since(420, 310, PACK, row("binding", Effect::Binding, &[Sampler, UniformBlock]))),
+    since(150, NEVER, COORD, row("origin_upper_left", Effect::OriginUpperLeft, &[FragCoord])),
+    since(150, NEVER, COORD, row("pixel_center_integer", Effect::PixelCenterInteger, &[FragCoord])),
+    since(420, NEVER, DEPTH, row("depth_any", Effect::Nothing, &[FragDepth])),
+    since(420, NEVER, DEPTH, row("depth_greater", Effect::Nothing, &[FragDepth])),
+    since(420, NEVER, DEPTH, row("depth_less", Effect::Nothing, &[FragDepth])),
+    since(420, NEVER, DEPTH, row("depth_unchanged", Effect::Nothing, &[FragDepth])),
+    since(140, 300, BLOCKS, row("shared", Effect::Block(BlockLayout::Shared), BLOCK_PLACES)),
+    since(140, 300, BLOCKS, row("packed", Effect::Block(BlockLayout::Packed), BLOCK_PLACES)),
+    since(140, 300, BLOCKS, row("std140", Effect::Block(BlockLayout::Std140), BLOCK_PLACES)),
+    since(140, 300, BLOCKS, row("row_major", Effect::Matrix(MatrixLayout::RowMajor), MATRIX_PLACES)),
+    since(140, 300, BLOCKS, row("column_major", Effect::Matrix(MatrixLayout::ColumnMajor), MATRIX_PLACES)),
     row("points", Effect::Points, &[GeometryIn, GeometryOut]),
     row("lines", Effect::In(PrimitiveIn::Lines), &[GeometryIn]),
     row("lines_adjacency", Effect::In(PrimitiveIn::LinesAdjacency), &[GeometryIn]),
@@ -120,21 +149,21 @@ static ROWS: &[Row] = &[
     valued(row("max_vertices", Effect::MaxVertices, &[GeometryOut])),
 ];
 
-/// Identifiers of later versions, which get another message than misspelled ones.
-static LATER: &[(&str, &str)] = &[
-    ("stream", "4.00"),
-    ("invocations", "4.00"),
-    ("component", "4.40"),
-    ("offset", "4.20"),
-    ("align", "4.40"),
-    ("std430", "4.30"),
-    ("early_fragment_tests", "4.20"),
-    ("depth_any", "4.20"),
-    ("depth_greater", "4.20"),
-    ("depth_less", "4.20"),
-    ("depth_unchanged", "4.20"),
-    ("set", "4.50 for Vulkan"),
-    ("push_constant", "4.50 for Vulkan"),
+/// Identifiers that no declaration of glisten's takes, with the version that brought each.
+static LATER: &[(&str, u16)] = &[
+    ("stream", 400),
+    ("invocations", 400),
+    ("component", 440),
+    ("offset", 420),
+    ("align", 440),
+    ("xfb_buffer", 440),
+    ("xfb_offset", 440),
+    ("xfb_stride", 440),
+    ("std430", 430),
+    ("early_fragment_tests", 420),
+    ("bindless_sampler", NEVER),
+    ("set", NEVER),
+    ("push_constant", NEVER),
 ];
 
 /// The contents of a `layout(...)`.
@@ -172,24 +201,16 @@ impl Analyzer<'_> {
     fn layout_row(&mut self, id: &LayoutId, subject: LayoutSubject) -> Option<&'static Row> {
         let spelling = self.name(id.name);
         // In 1.50 the identifiers are not case-sensitive.
-        let Some(row) = ROWS.iter().find(|row| row.name.eq_ignore_ascii_case(spelling)) else {
-            self.report(unknown(spelling, id.name.span));
+        let named = || ROWS.iter().filter(|row| row.name.eq_ignore_ascii_case(spelling));
+        let Some(row) = named().find(|row| row.subjects.contains(&subject)).or_else(|| named().next()) else {
+            self.report(unknown(spelling, id.name.span, self.ast.version));
             return None;
         };
-        if !self.allows(row.extension, row.since, id.name.span) {
-            let name = extension_name(row.extension);
-            self.report(
-                Diagnostic::new(
-                    &qualifiers::NEEDS_EXTENSION,
-                    id.name.span,
-                    format!("`{spelling}` in a layout is not in this version"),
-                )
-                .help(format!("put `#extension {name} : enable` at the top")),
-            );
+        if !self.allows_layout(row, spelling, id.name.span) {
             return None;
         }
         if !row.subjects.contains(&subject) {
-            let subjects: Vec<_> = row.subjects.iter().map(|subject| subject.name()).collect();
+            let subjects: Vec<_> = named().take(1).flat_map(|row| row.subjects).map(|subject| subject.name()).collect();
             self.report(
                 Diagnostic::new(
                     &qualifiers::LAYOUT_PLACE,
@@ -211,13 +232,44 @@ impl Analyzer<'_> {
         None
     }
 
-    /// The value after `=`, a non-negative integer.
+    /// Whether the language has a layout identifier; if not, that is reported.
+    fn allows_layout(&mut self, row: &Row, spelling: &str, span: Span) -> bool {
+        let version = self.ast.version;
+        if version.reaches(row.since) {
+            return true;
+        }
+        if let Some(warning) = warning_of_use(self.extensions, row.extensions, span) {
+            self.report(warning);
+        }
+        if self.extensions.intersects(row.extensions) {
+            return true;
+        }
+        let message = format!("`{spelling}` in a layout is not in this version");
+        let finding = Diagnostic::new(&qualifiers::NEEDS_EXTENSION, span, message).maybe_help(remedy(
+            version,
+            row.since,
+            Since::NEVER,
+            row.extensions,
+        ));
+        self.report(of_version(finding, version));
+        false
+    }
+
+    /// The value after `=`, a non-negative integer: a literal, and from 4.40 on any constant expression.
     fn layout_value(&mut self, id: &LayoutId) -> Option<(u32, Span)> {
-        let expr = self.ast.expr(id.value?);
+        let root = id.value?;
+        let expr = self.ast.expr(root);
         let value = match &expr.kind {
             AstExprKind::Literal(Literal::Int(value)) => u32::try_from(*value).ok(),
             AstExprKind::Literal(Literal::Uint(value)) => Some(*value),
             AstExprKind::Error => return None,
+            _ if self.allows(Feature::LayoutExpressions, expr.span) => {
+                let typed = self.expr(root);
+                if self.ty(typed).is_error() {
+                    return None;
+                }
+                self.evaluate_integer(typed).and_then(|value| u32::try_from(value).ok())
+            }
             _ => None,
         };
         if value.is_none() {
@@ -250,30 +302,22 @@ impl Layout {
             Effect::Points if subject == GeometryIn => self.inputs.push((PrimitiveIn::Points, span)),
             Effect::Points => self.outputs.push((PrimitiveOut::Points, span)),
             Effect::MaxVertices => self.max_vertices = Some((value, span)),
+            Effect::Nothing => {}
         }
     }
 }
 
-fn unknown(spelling: &str, span: Span) -> Diagnostic {
+fn unknown(spelling: &str, span: Span, version: Version) -> Diagnostic {
     let later = LATER.iter().find(|(name, _)| name.eq_ignore_ascii_case(spelling));
     let help = match later {
-        Some((_, version)) => Some(format!("`{spelling}` came with GLSL {version}")),
+        Some(&(_, since)) if version.reaches(Since::new(since, NEVER)) => {
+            return Diagnostic::new(&NOT_SUPPORTED_YET, span, format!("the layout `{spelling}` is not supported yet"));
+        }
+        Some((_, NEVER)) => Some(format!("`{spelling}` belongs to GLSL 4.50 for Vulkan")),
+        Some((_, since)) => Some(format!("`{spelling}` came with GLSL {}.{:02}", since / 100, since % 100)),
         None => did_you_mean(spelling, ROWS.iter().map(|row| row.name)).map(|near| format!("did you mean `{near}`?")),
     };
     Diagnostic::new(&qualifiers::UNKNOWN_LAYOUT, span, format!("`{spelling}` is not a layout identifier"))
         .here("not known in this version")
         .maybe_help(help)
-}
-
-/// The name of the one extension in a set, for messages.
-pub(super) fn extension_name(extension: Extensions) -> &'static str {
-    match extension {
-        Extensions::EXPLICIT_ATTRIB_LOCATION => "GL_ARB_explicit_attrib_location",
-        Extensions::SHADING_LANGUAGE_420PACK => "GL_ARB_shading_language_420pack",
-        Extensions::TEXTURE_RECTANGLE => "GL_ARB_texture_rectangle",
-        Extensions::UNIFORM_BUFFER_OBJECT => "GL_ARB_uniform_buffer_object",
-        Extensions::DRAW_INSTANCED => "GL_ARB_draw_instanced",
-        Extensions::SEPARATE_SHADER_OBJECTS => "GL_ARB_separate_shader_objects",
-        _ => "the extension",
-    }
 }

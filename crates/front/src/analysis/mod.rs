@@ -20,8 +20,10 @@
 
 mod constant;
 mod context;
+mod decisive;
 mod declare;
 mod expr;
+mod features;
 mod finish;
 mod keywords;
 mod layout;
@@ -45,6 +47,7 @@ use crate::stack::with_stack;
 use crate::syntax::ast::Ast;
 use context::Analyzer;
 
+pub use decisive::keep_decisive;
 pub use understood::keep_understood;
 
 /// Analyzes a syntax tree. `strict` turns what every driver accepts into errors; all stages of a compilation share

@@ -4,6 +4,7 @@ use super::context::Analyzer;
 use crate::diagnostic::codes::qualifiers;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::hir::Interpolation;
+use crate::language::Feature;
 use crate::source::Span;
 use crate::syntax::ast::{LayoutId, Qualifier, QualifierKind};
 
@@ -101,7 +102,7 @@ static CLASSES: &[ClassRow] = &[
     ClassRow { class: Class::Const, what: "`const`", rank: 4, contexts: &[Global, Local, Parameter] },
     ClassRow { class: Class::Storage, what: "a storage qualifier", rank: 5, contexts: &[Global, Parameter, BlockMember, Block, Alone] },
     ClassRow { class: Class::Precision, what: "a precision qualifier", rank: 6, contexts: &[Global, Local, Parameter, Return, StructMember, BlockMember] },
-    ClassRow { class: Class::Precise, what: "`precise`", rank: 0, contexts: &[] },
+    ClassRow { class: Class::Precise, what: "`precise`", rank: 0, contexts: &[Global, Local, Parameter, Return, StructMember, BlockMember, Block, Alone] },
 ];
 
 fn class_of(kind: &QualifierKind) -> Class {
@@ -179,7 +180,7 @@ impl Analyzer<'_> {
         let before_storage = |rank: u8| rank == 0;
         if let Some((earlier, other)) = *last {
             let wrong = if before_storage(rank) { earlier >= 4 } else { rank < earlier };
-            if wrong && !self.allows_420pack(qualifier.span) {
+            if wrong && !self.allows(Feature::QualifierOrder, qualifier.span) {
                 let what = row.what;
                 self.report(
                     Diagnostic::new(&qualifiers::ORDER, qualifier.span, format!("{what} comes too late"))
@@ -219,7 +220,7 @@ impl Analyzer<'_> {
             QualifierKind::Uniform => self.storage(record, storage(StorageWord::Uniform)),
             QualifierKind::Layout(ids) => {
                 if let Some(first) = record.layout_span
-                    && !self.allows_420pack(span)
+                    && !self.allows(Feature::RepeatedLayouts, span)
                 {
                     self.repeated(&qualifiers::REPEATED, first, span, "a layout qualifier");
                 }

@@ -3,7 +3,7 @@
 use super::context::Analyzer;
 use super::keywords;
 use super::scope::Entry;
-use crate::diagnostic::codes::{names, types};
+use crate::diagnostic::codes::{names, qualifiers, types};
 use crate::diagnostic::{Diagnostic, did_you_mean};
 use crate::hir::{ArraySize, Scalar, ScalarValue, Type, TypeId};
 use crate::source::Span;
@@ -108,6 +108,11 @@ impl Analyzer<'_> {
     /// `precision highp float;` (§4.5.3), which has no effect.
     pub(super) fn precision(&mut self, qualifier: &Qualifier, spec: &TypeSpec) {
         let ty = self.type_spec(spec);
+        match self.types.get(ty) {
+            Type::Scalar(Scalar::Float) => self.precisions.set_float(),
+            Type::Sampler(sampler) => self.precisions.set_sampler(sampler),
+            _ => {}
+        }
         // GLSL ES and 4.x added samplers here; every driver accepts them, also without effect.
         let forgiven = !self.strict && self.types.contains_sampler(ty);
         if ty.is_error() || ty == TypeId::INT || ty == TypeId::FLOAT || forgiven {
@@ -121,8 +126,12 @@ impl Analyzer<'_> {
         );
     }
 
-    /// Reports a precision qualifier on a type that cannot have one (§4.5.2).
-    pub(super) fn check_precision(&mut self, precision: Option<Span>, ty: TypeId) {
+    /// Reports a precision qualifier on a type that cannot have one (§4.5.2), and in ES a type at `at` without a
+    /// precision (GLSL ES 3.00 §4.5.4).
+    pub(super) fn check_precision(&mut self, precision: Option<Span>, ty: TypeId, at: Span) {
+        if precision.is_none() {
+            return self.check_default_precision(ty, at);
+        }
         let Some(span) = precision.filter(|_| !ty.is_error()) else { return };
         let element = self.element_of(ty);
         let takes = match self.types.get(element) {
@@ -138,12 +147,30 @@ impl Analyzer<'_> {
         }
     }
 
+    fn check_default_precision(&mut self, ty: TypeId, at: Span) {
+        let element = self.element_of(ty);
+        let lacks = match self.types.get(element) {
+            Type::Sampler(sampler) => self.precisions.lacks_sampler(sampler),
+            _ => self.types.scalar_of(element).is_some_and(|scalar| self.precisions.lacks(scalar)),
+        };
+        if lacks {
+            let is_float = self.types.scalar_of(element).is_some();
+            let name = if is_float { "float".to_owned() } else { self.type_name(element) };
+            let message = format!("`{name}` has no default precision in a {} shader of ES", self.stage.name());
+            self.report(
+                Diagnostic::new(&qualifiers::MISSING_PRECISION, at, message)
+                    .here("no precision here")
+                    .help(format!("write `precision highp {name};` before it")),
+            );
+        }
+    }
+
     fn keyword_type(&mut self, symbol: Symbol, span: Span) -> TypeId {
         let known = match self.declared.keyword_type(symbol) {
             Some(known) => Some(known),
             None => {
                 let name = self.ast.names.spelling(symbol);
-                let ty = keywords::type_of(name, self.ast.version, self.extensions);
+                let ty = keywords::type_of(name);
                 let known = ty.map(|ty| self.types.intern(ty));
                 // A name that is unknown here may be known after an `#extension` line.
                 if let Some(known) = known {
@@ -180,6 +207,9 @@ impl Analyzer<'_> {
                 TypeId::ERROR
             }
             None => {
+                if let Some(ty) = self.fixed_struct(spelling) {
+                    return ty;
+                }
                 let near = |this: &mut Self| Some(format!("did you mean `{}`?", this.nearest_type(spelling)?));
                 let help = super::expr::foreign::type_name(spelling).or_else(|| near(self));
                 self.report(

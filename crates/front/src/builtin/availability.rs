@@ -1,10 +1,9 @@
 //! [`Availability`]: the languages and stages in which a built-in exists.
 //!
-//! *In:* the version, profile and extensions at a position in a text, and its stage. *Out:* yes or no. Nothing else
-//! in glisten compares version numbers.
+//! *In:* the version, profile and extensions at a position in a text, and its stage. *Out:* yes or no.
 
 use crate::language::Stage;
-use crate::language::{Extensions, Profile, Version};
+use crate::language::{Extensions, NEVER, Since, Version};
 
 bitflags::bitflags! {
     /// A set of stages.
@@ -33,25 +32,41 @@ impl Stages {
 /// The languages and stages in which a built-in exists.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Availability {
-    /// The first version that has it without an extension; `u16::MAX` if there is none.
-    pub since: u16,
+    /// The first versions that have it without an extension.
+    pub since: Since,
+    /// The first versions that have it no more.
+    pub gone: Since,
     /// Extensions, each of which adds it to older versions.
     pub extensions: Extensions,
-    /// Whether the core profile lacks it.
+    /// Whether the core profile lacks it from 1.40 on.
     pub compatibility_only: bool,
     /// The stages in which it may be named.
     pub stages: Stages,
 }
 
+/// The first version whose core lacks what 1.30 deprecated.
+const CORE: Since = Since::new(140, NEVER);
+
 impl Availability {
-    /// In every stage, from a version.
+    /// In every stage, from a desktop version and the ES version that was made from it.
     pub const fn since(version: u16) -> Self {
-        Self { since: version, extensions: Extensions::empty(), compatibility_only: false, stages: Stages::all() }
+        Self::from(Since::of(version))
+    }
+
+    /// In every stage, from these versions.
+    pub const fn from(since: Since) -> Self {
+        Self {
+            since,
+            gone: Since::NEVER,
+            extensions: Extensions::empty(),
+            compatibility_only: false,
+            stages: Stages::all(),
+        }
     }
 
     /// Only with an extension.
     pub const fn extension(extensions: Extensions) -> Self {
-        Self { since: u16::MAX, extensions, compatibility_only: false, stages: Stages::all() }
+        Self { extensions, ..Self::from(Since::NEVER) }
     }
 
     /// Restricts it to some stages.
@@ -66,10 +81,28 @@ impl Availability {
         Self { extensions, ..self }
     }
 
+    /// With another first ES version.
+    #[must_use]
+    pub const fn es(self, es: u16) -> Self {
+        Self { since: self.since.es(es), ..self }
+    }
+
+    /// Only up to the version before these.
+    #[must_use]
+    pub const fn until(self, gone: Since) -> Self {
+        Self { gone, ..self }
+    }
+
+    /// Whether the version alone has it, in any stage.
+    pub fn in_version(self, version: Version) -> bool {
+        version.reaches(self.since)
+            && version.still_has(self.gone)
+            && (!self.compatibility_only || version.still_has(CORE))
+    }
+
     /// Whether it exists in this language, in any stage.
     pub fn in_language(self, version: Version, extensions: Extensions) -> bool {
-        let profile = !self.compatibility_only || version.profile == Profile::Compatibility;
-        profile && (version.number >= self.since || self.extensions.intersects(extensions))
+        self.in_version(version) || self.extensions.intersects(extensions)
     }
 
     /// Whether it exists in this language and stage.

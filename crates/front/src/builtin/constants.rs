@@ -1,7 +1,7 @@
 //! The built-in constants (GLSL 1.50 §7.4), each with the smallest value that an implementation may have.
 
 use super::Availability;
-use crate::language::{Extensions, Version};
+use crate::language::{Extensions, NEVER, Since, Version};
 
 /// A `const int`.
 #[derive(Clone, Copy, Debug)]
@@ -21,8 +21,21 @@ const fn row(name: &'static str, value: i32, version: u16) -> Constant {
 }
 
 const fn pack420(name: &'static str, value: i32) -> Constant {
-    let availability = Availability::since(420).or(Extensions::SHADING_LANGUAGE_420PACK);
+    let availability = Availability::from(Since::new(420, 300)).or(Extensions::SHADING_LANGUAGE_420PACK);
     Constant { name, value, availability, section: "ARB_shading_language_420pack" }
+}
+
+/// A limit that 4.10 took over from ES.
+const fn vectors(name: &'static str, value: i32) -> Constant {
+    row(name, value, 410)
+}
+
+const fn es(constant: Constant) -> Constant {
+    Constant { availability: constant.availability.es(100), section: "GLSL ES 1.00 §7.4", ..constant }
+}
+
+const fn es300(constant: Constant) -> Constant {
+    Constant { availability: constant.availability.es(300), section: "GLSL ES 3.00 §7.3", ..constant }
 }
 
 const fn compatibility(constant: Constant) -> Constant {
@@ -74,6 +87,12 @@ pub static CONSTANTS: &[Constant] = &[
     row("gl_MaxGeometryTotalOutputComponents", 1024, 150),
     row("gl_MaxGeometryUniformComponents", MAX_UNIFORM_COMPONENTS as i32, 150),
     row("gl_MaxGeometryVaryingComponents", 64, 150),
+    es(vectors("gl_MaxVertexUniformVectors", 256)),
+    es(vectors("gl_MaxFragmentUniformVectors", 256)),
+    es(vectors("gl_MaxVaryingVectors", 15)),
+    es300(row("gl_MaxVertexOutputVectors", 16, NEVER)),
+    es300(row("gl_MaxFragmentInputVectors", 15, NEVER)),
+    compatibility(row("gl_MaxLights", 8, 110)),
     compatibility(row("gl_MaxTextureUnits", 2, 110)),
     compatibility(row("gl_MaxTextureCoords", 8, 110)),
     compatibility(row("gl_MaxClipPlanes", 8, 110)),

@@ -6,6 +6,7 @@ use super::operations::{
     Binary, BuiltinFunction, CallCost, Class, Formula, Linear, Lookup, Operation, Precision, Rule, Unary,
 };
 use super::{Availability, Stages};
+use crate::language::NEVER;
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
@@ -94,8 +95,8 @@ impl Availability {
         let named: Vec<&str> =
             stages.iter().filter(|(stage, _)| self.stages.contains(*stage)).map(|(_, name)| *name).collect();
         let stages = if self.stages.is_all() { String::new() } else { format!(" ({} stage)", named.join(", ")) };
-        match self.since {
-            u16::MAX => format!("extension{stages}"),
+        match self.since.desktop {
+            NEVER => format!("extension{stages}"),
             since => format!("{since}{stages}"),
         }
     }
@@ -113,7 +114,11 @@ impl Class {
             Self::Relation(_) => "comparison, by component",
             Self::Boolean(_) => "`bvec`",
             Self::Test(_) => "kind of a float",
+            Self::BitCast(_) => "bits of a number",
+            Self::Bits(_) => "bits of integers, by component",
+            Self::Packing(_) => "floats in a `uint`",
             Self::Modf => "writes an argument",
+            Self::Composed => "written out in other operations",
             Self::Derivative(_) => "difference of fragments",
             Self::Noise(_) => "noise, which is 0",
             Self::Emission(_) => "geometry output",

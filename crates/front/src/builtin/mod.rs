@@ -6,6 +6,7 @@
 
 mod availability;
 pub mod constants;
+pub mod fixed;
 pub mod functions;
 mod ids;
 mod markdown;

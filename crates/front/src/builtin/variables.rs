@@ -3,9 +3,10 @@
 //! *In:* a name, a language and a stage. *Out:* the variable's identity, storage and type. *Not done here:* the sizes
 //! of `gl_ClipDistance` and `gl_in`, which follow from redeclarations, uses or the input primitive.
 
-use super::{Availability, BuiltinVariable, Stages, constants};
+use super::{Availability, BuiltinVariable, Stages, constants, fixed};
 use crate::language::{
-    ArraySize, Extensions, MatrixLayout, Member, Scalar, Stage, Storage, StructType, TypeId, Types, Version,
+    ArraySize, Extensions, MatrixLayout, Member, NEVER, Scalar, Since, Stage, Storage, StructType, TypeId, Types,
+    Version,
 };
 use crate::source::Span;
 
@@ -33,6 +34,8 @@ pub enum Redeclaration {
     Size,
     /// The layout qualifiers.
     Layout,
+    /// What is known of the depth that is written.
+    Depth,
 }
 
 /// A built-in variable in one direction.
@@ -89,23 +92,37 @@ impl Row {
         Self { section: "§7.2", ..self }.at(since, Stages::FRAGMENT)
     }
 
+    /// The names of 1.10 that the core of 4.20 and ES 3.00 lack.
     const fn deprecated(self) -> Self {
-        Self { deprecated: true, ..self }
+        Self { deprecated: true, availability: self.availability.until(Since::new(420, 300)), ..self }
+    }
+
+    const fn es(self, es: u16) -> Self {
+        Self { availability: self.availability.es(es), ..self }
+    }
+
+    const fn or(self, extensions: Extensions) -> Self {
+        Self { availability: self.availability.or(extensions), ..self }
     }
 
     /// The type. The two structs are created at each call.
-    pub fn make_type(&self, types: &mut Types) -> TypeId {
+    pub fn make_type(&self, types: &mut Types, version: Version) -> TypeId {
         match self.ty {
             VariableType::Plain(ty) => ty,
             VariableType::UnsizedFloats => types.array(TypeId::FLOAT, ArraySize::Unsized),
             VariableType::Vec4s(size) => types.array(TypeId::VEC4, ArraySize::Sized(size)),
             VariableType::PerVertexArray => {
                 let clip_distance = types.array(TypeId::FLOAT, ArraySize::Unsized);
-                let members = [
+                let mut members = vec![
                     ("gl_Position", TypeId::VEC4),
                     ("gl_PointSize", TypeId::FLOAT),
                     ("gl_ClipDistance", clip_distance),
                 ];
+                for name in fixed::PER_VERTEX {
+                    if let Some(row) = fixed::named(name, version, Stage::Geometry) {
+                        members.push((name, row.make_type(types, &mut |_, _| TypeId::ERROR)));
+                    }
+                }
                 let block = structure(types, "gl_PerVertex", &members, true);
                 types.array(block, ArraySize::Unsized)
             }
@@ -151,10 +168,11 @@ pub static VARIABLES: &[Row] = &[
     Row::new(V::PointSize, "gl_PointSize", Out, FLOAT).at(110, WRITERS).per_vertex(),
     Row::new(V::ClipDistance, "gl_ClipDistance", Out, VariableType::UnsizedFloats)
         .at(130, WRITERS)
+        .es(NEVER)
         .per_vertex()
         .redeclared(Redeclaration::Size),
-    Row::new(V::VertexId, "gl_VertexID", In, INT).at(130, Stages::VERTEX),
-    Row::new(V::InstanceId, "gl_InstanceID", In, INT).at(140, Stages::VERTEX),
+    Row::new(V::VertexId, "gl_VertexID", In, INT).at(130, Stages::VERTEX).or(Extensions::GPU_SHADER4),
+    Row::new(V::InstanceId, "gl_InstanceID", In, INT).at(140, Stages::VERTEX).es(300).or(Extensions::GPU_SHADER4),
     Row {
         availability: INSTANCING,
         section: "ARB_draw_instanced",
@@ -170,14 +188,20 @@ pub static VARIABLES: &[Row] = &[
     Row::new(V::FrontFacing, "gl_FrontFacing", In, BOOL).fragment(110),
     Row::new(V::ClipDistance, "gl_ClipDistance", In, VariableType::UnsizedFloats)
         .fragment(130)
+        .es(NEVER)
         .redeclared(Redeclaration::Size),
     Row::new(V::FragColor, "gl_FragColor", Out, VEC4).fragment(110).deprecated(),
     Row::new(V::FragData, "gl_FragData", Out, VariableType::Vec4s(constants::MAX_DRAW_BUFFERS))
         .fragment(110)
         .deprecated(),
-    Row::new(V::FragDepth, "gl_FragDepth", Out, FLOAT).fragment(110),
-    Row::new(V::PointCoord, "gl_PointCoord", In, VEC2).fragment(120),
-    Row::new(V::PrimitiveId, "gl_PrimitiveID", In, INT).fragment(150),
+    Row::new(V::FragDepth, "gl_FragDepth", Out, FLOAT).fragment(110).es(300).redeclared(Redeclaration::Depth),
+    Row {
+        availability: Availability::extension(Extensions::FRAG_DEPTH).stages(Stages::FRAGMENT),
+        section: "EXT_frag_depth",
+        ..Row::new(V::FragDepth, "gl_FragDepthEXT", Out, FLOAT)
+    },
+    Row::new(V::PointCoord, "gl_PointCoord", In, VEC2).fragment(120).es(100),
+    Row::new(V::PrimitiveId, "gl_PrimitiveID", In, INT).fragment(150).or(Extensions::GPU_SHADER4),
     Row { section: "§7.5", ..Row::new(V::DepthRange, "gl_DepthRange", Uniform, VariableType::DepthRange) },
 ];
 

@@ -4,7 +4,7 @@ mod preparation;
 
 pub use preparation::{Preparation, Prepared, Problem};
 
-use crate::analysis::{analyze, keep_understood};
+use crate::analysis::{analyze, keep_decisive, keep_understood};
 use crate::diagnostic::codes::general::TOO_LARGE;
 use crate::diagnostic::codes::{names, preprocess};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, Levels};
@@ -25,7 +25,7 @@ pub struct Options {
     pub attribute_locations: Vec<(String, u32)>,
     /// `glBindFragDataLocation`: name and color number.
     pub frag_data_locations: Vec<(String, u32)>,
-    /// What an engine adds to each source: the version of those without a `#version` line, texts before them. A
+    /// The additions of an engine to each source: the version of those without a `#version` line, texts before them. A
     /// [`Preparation`] decides for each source instead.
     pub completion: Completion,
 }
@@ -214,6 +214,7 @@ impl Compiler {
         shader.texts.push(whole_text(map, file, ast.version.span, inclusions, &options.defines, preludes));
         let is_complete = !keep_understood(&ast, &mut shader, types, map, diagnostics, first_error);
         forget_names_of_missing_includes(map, diagnostics, first_error);
+        keep_decisive(diagnostics, first_error);
         Some(Understood { shader, is_complete })
     }
 }

@@ -8,7 +8,8 @@ use super::operators::{as_float, componentwise};
 use super::{Held, Operand, Scalars};
 use crate::builtin::BuiltinFunction;
 use crate::builtin::operations::{
-    Binary, BooleanFunction, Class, Composite, MatrixFunction, Numbers, Relation, Ternary, Test, Unary,
+    Binary, BitCast, BitFunction, BooleanFunction, Class, Composite, MatrixFunction, Numbers, Relation, Ternary, Test,
+    Unary,
 };
 use crate::hir::{ScalarValue, Type, TypeId, Types};
 use ScalarValue::{Bool, Float, Int, Uint};
@@ -36,7 +37,18 @@ pub(super) fn call(types: &Types, function: BuiltinFunction, ty: TypeId, operand
         Class::Test(Test::Infinite) => arguments.each(|x| Some(Bool(as_float(&x)?.is_infinite()))),
         // Zero in a constant expression (§4.3.3).
         Class::Derivative(_) => Some(Scalars::from_elem(Float(0.0), types.flat_len(ty) as usize)),
-        Class::Modf | Class::Noise(_) | Class::Texture(_) | Class::Emission(_) => None,
+        Class::BitCast(op) => arguments.each(|x| bit_cast(op, x)),
+        Class::Bits(op) => arguments.bits(op),
+        Class::Packing(op) if op.unpacks => {
+            let Uint(bits) = *operands.first()?.scalars.first()? else { return None };
+            let part = |index: u32| bits.checked_shr(index * op.bits()).unwrap_or(0);
+            Some((0..u32::from(op.components)).map(|index| Float(op.unpacked(part(index)) as f32)).collect())
+        }
+        Class::Packing(op) => {
+            let parts = arguments.vector(0)?.into_iter().zip(0..);
+            one(Uint(parts.fold(0, |all, (value, index)| all | op.packed(value) << (index * op.bits()))))
+        }
+        Class::Composed | Class::Modf | Class::Noise(_) | Class::Texture(_) | Class::Emission(_) => None,
     }
 }
 
@@ -119,6 +131,26 @@ impl Arguments<'_> {
         Some(pairs.zip(&*a.scalars).map(|((x, y), a)| if *a == Bool(true) { *y } else { *x }).collect())
     }
 
+    /// A function of the bits of integers, with counts that are scalars. A result that counts is an `int`.
+    fn bits(&self, op: BitFunction) -> Option<Scalars> {
+        let integer = |operand: usize, index: usize| match *self.operand(operand)?.scalars.get(index)? {
+            Int(x) => Some((x as u32, true)),
+            Uint(x) => Some((x, false)),
+            _ => None,
+        };
+        let scalar = |operand: usize| integer(operand, 0).map_or(0, |(bits, _)| bits);
+        let first_count = if op == BitFunction::Insert { 2 } else { 1 };
+        let counts = matches!(op, BitFunction::Count | BitFunction::Lowest | BitFunction::Highest);
+        (0..self.operand(0)?.scalars.len())
+            .map(|index| {
+                let (a, signed) = integer(0, index)?;
+                let b = if op == BitFunction::Insert { integer(1, index)?.0 } else { 0 };
+                let bits = op.of(a, b, scalar(first_count), scalar(first_count + 1), signed);
+                Some(if signed || counts { Int(bits as i32) } else { Uint(bits) })
+            })
+            .collect()
+    }
+
     fn relation(&self, op: Relation) -> Option<Scalars> {
         componentwise(self.operand(0)?, self.operand(1)?, |x, y| {
             Some(Bool(match op {
@@ -189,6 +221,17 @@ impl Arguments<'_> {
     fn square(&self, index: usize) -> Option<Vec<Vec<f64>>> {
         let Type::Matrix(size, _) = self.types.get(self.operand(index)?.ty) else { return None };
         Some(self.vector(index)?.chunks(usize::from(size)).map(<[f64]>::to_vec).collect())
+    }
+}
+
+/// The same bits as another type.
+fn bit_cast(op: BitCast, x: ScalarValue) -> Option<ScalarValue> {
+    match (op, x) {
+        (BitCast::FloatToInt, Float(x)) => Some(Int(x.to_bits() as i32)),
+        (BitCast::FloatToUint, Float(x)) => Some(Uint(x.to_bits())),
+        (BitCast::IntToFloat, Int(x)) => Some(Float(f32::from_bits(x as u32))),
+        (BitCast::UintToFloat, Uint(x)) => Some(Float(f32::from_bits(x))),
+        _ => None,
     }
 }
 

@@ -73,11 +73,22 @@ pub struct Global {
 impl Global {
     /// The name by which a variable or block of one stage matches that of another.
     pub fn match_name(&self) -> &str {
-        self.block.as_ref().map_or(&self.name, |block| &block.name)
+        let own = self.block.as_ref().map_or(&self.name, |block| &block.name);
+        match (self.storage, own.as_str()) {
+            // The fragment stage reads the front color under another name (§7.2).
+            (Storage::In, "gl_Color") => "gl_FrontColor",
+            (Storage::In, "gl_SecondaryColor") => "gl_FrontSecondaryColor",
+            (_, own) => own,
+        }
     }
 }
 
 impl Global {
+    /// Whether it is a variable of the fixed-function pipeline (`gl_Vertex`), which texts name and do not declare.
+    pub fn is_fixed(&self) -> bool {
+        self.builtin.is_none() && self.block.is_none() && self.name.starts_with("gl_")
+    }
+
     /// The texture unit or buffer binding point that `layout(binding = n)` selects.
     pub fn unit(&self) -> Option<u32> {
         self.block.as_ref().map_or(self.binding, |block| block.binding)

@@ -3,15 +3,17 @@
 //! *In:* nothing but [`source`](crate::source). *Out:* stages, versions, types and operators. *Holds:* no phase is
 //! known here, so that the tables of built-ins, the syntax tree and the typed program can all use these terms.
 
+mod feature;
 pub(crate) mod foreign;
 mod operators;
 mod stage;
 mod types;
 mod version;
 
+pub use feature::{FEATURES, Feature, FeatureRow};
 pub use operators::IncDec;
 pub use stage::{Interpolation, ParamMode, Stage, Storage};
 pub use types::{
     ArraySize, MatrixLayout, Member, SamplerDim, SamplerType, Scalar, StructId, StructType, Type, TypeId, Types,
 };
-pub use version::{Behavior, Extensions, Profile, Version};
+pub use version::{Behavior, Extensions, NEVER, Profile, Since, Version};

@@ -36,11 +36,12 @@ impl<'a> Outputs<'a> {
         Self { producer, by_name, by_location }
     }
 
-    /// The output that feeds an input: one of the same name and kind, or else of the same explicit location.
+    /// The output that feeds an input: one of the same explicit location (GLSL 4.10 §4.4.1), or else of the same name
+    /// and kind.
     pub(super) fn partner(&self, input: &Global) -> Option<(GlobalId, &'a Global)> {
         let is_block = input.block.is_some();
         let by_location = || self.by_location.get(&(input.location?, is_block));
-        let id = *self.by_name.get(&(input.match_name(), is_block)).or_else(by_location)?;
+        let id = *by_location().or_else(|| self.by_name.get(&(input.match_name(), is_block)))?;
         Some((id, self.producer.global(id)))
     }
 }

@@ -25,7 +25,7 @@ pub struct ImportDirective {
     pub once: bool,
 }
 
-/// What an engine adds to a source.
+/// The additions of an engine to a source.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Completion {
     /// The version of a source without a `#version` line, as that line would have it: `330`, `150 core`, `300 es`. The
@@ -111,6 +111,7 @@ fn is_version(text: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::{Completion, Prelude, blanked, version_line};
+    use std::ops::Range;
 
     #[test]
     fn the_version_line_is_found_outside_of_comments() {
@@ -143,7 +144,8 @@ mod tests {
 
     #[test]
     fn blanking_keeps_lines_and_offsets() {
-        assert_eq!(blanked("a\r\né b\n", &[0..5]).as_ref(), " \r\n   b\n");
-        assert_eq!(blanked("é", &[1..2]).as_ref(), "é", "half a character is none");
+        let one = |text, range: Range<usize>| blanked(text, std::slice::from_ref(&range)).to_string();
+        assert_eq!(one("a\r\né b\n", 0..5), " \r\n   b\n");
+        assert_eq!(one("é", 1..2), "é", "half a character is none");
     }
 }

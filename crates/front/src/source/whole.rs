@@ -127,7 +127,7 @@ fn allows_includes(line: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use crate::hir::Stage;
-    use crate::source::{IncludeForm, IncludeResolver, Included};
+    use crate::source::{Completion, IncludeForm, IncludeResolver, Included, Prelude};
     use crate::{Compiler, Options, Source};
 
     struct Two;
@@ -170,5 +170,28 @@ mod tests {
         );
         let found = text(source, &[("SCALE".into(), "2.0".into())]);
         assert_eq!(found, whole);
+    }
+
+    #[test]
+    fn preludes_are_where_they_were_read() {
+        let whole = |source: &str, prelude: &str, version: Option<&str>| {
+            let preludes = vec![Prelude { name: "p".into(), text: prelude.into() }];
+            let assumed_version = version.map(str::to_owned);
+            let completion = Completion { assumed_version, preludes, ..Completion::default() };
+            let options = Options { defines: vec![("SCALE".into(), "2.0".into())], completion, ..Options::default() };
+            let source = Source { name: "a.frag".into(), text: source.into(), stage: Stage::Fragment };
+            let compilation = Compiler::new(options).with_includes(Two).compile(&[source]);
+            let found: Vec<_> = compilation.diagnostics.iter().map(|found| found.message.clone()).collect();
+            let program = compilation.program.unwrap_or_else(|| panic!("{found:?}"));
+            program.stages[0].texts.iter().map(|text| text.to_string()).collect::<String>()
+        };
+        let body = "out vec4 c; void main() { c = vec4(A); }\n";
+        let define = "#define A SCALE";
+        let expected = format!("#version 150\n#define SCALE 2.0\n{define}\n{body}");
+        assert_eq!(whole(&format!("#version 150\n{body}"), define, None), expected);
+        assert_eq!(whole(body, &format!("#version 150\n{define}"), None), expected);
+        assert_eq!(whole(body, define, Some("150")), expected);
+        let ignored = whole(&format!("#version 150\n{body}"), &format!("#version 110\n{define}"), None);
+        assert_eq!(ignored, format!("#version 150\n#define SCALE 2.0\n            \n{define}\n{body}"));
     }
 }

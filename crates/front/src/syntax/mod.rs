@@ -28,8 +28,8 @@ use ast::{Ast, Profile, Version};
 use names::Names;
 use parser::Parser;
 use preprocessor::Preprocessor;
-pub(crate) use preprocessor::extension::warning_of_use;
-use session::ParseSession;
+pub(crate) use preprocessor::extension::{name_of as extension_name, warning_of_use};
+use session::{ExtensionSets, ParseSession};
 
 /// ParseOptions of a parse.
 #[derive(Clone, Debug)]
@@ -40,7 +40,7 @@ pub struct ParseOptions {
     pub defines: Vec<(String, String)>,
     /// Reports an error instead of a warning for what the specification forbids and every driver accepts.
     pub strict: bool,
-    /// What an engine adds to the text.
+    /// The additions of an engine to the text.
     pub completion: Completion,
 }
 
@@ -52,7 +52,8 @@ pub fn parse(
     includes: &(dyn IncludeResolver + Sync),
     diagnostics: &mut Diagnostics,
 ) -> Ast {
-    let mut session = ParseSession { sources, diagnostics, names: Names::with_keywords() };
+    let mut session =
+        ParseSession { sources, diagnostics, names: Names::with_keywords(), extension_sets: ExtensionSets::default() };
     let mut preprocessor = Preprocessor::new(&mut session, file, &options.defines, options.strict, includes);
     preprocessor.complete(&mut session, file, &options.completion);
     let mut ast = Parser::new(&mut preprocessor, &mut session, empty_tree(), options.strict).translation_unit();

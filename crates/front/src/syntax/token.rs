@@ -2,7 +2,6 @@
 //!
 //! *Holds:* every word and every number is interned, so that two of them are equal exactly if their symbols are.
 
-use super::ast::Extensions;
 use crate::source::Span;
 
 /// An interned name; its spelling is in the [`Names`](super::names::Names) of the tree it belongs to.
@@ -99,6 +98,10 @@ token_kinds! {
     Inout "inout",
     Invariant "invariant",
     Precise "precise",
+    /// `unsigned`, which GL_EXT_gpu_shader4 puts before `int`.
+    Unsigned "unsigned",
+    /// A keyword of a feature that glisten does not support.
+    Foreign "keyword",
     Discard "discard",
     Return "return",
     Lowp "lowp",
@@ -174,7 +177,8 @@ pub struct Token {
     pub kind: TokenKind,
     /// The context.
     pub flags: TokenFlags,
-    /// The extensions that are enabled here, as [`Extensions`] bits.
+    /// The number of the set of extensions that are enabled here, in the
+    /// [session](super::session::ParseSession::extensions_at).
     pub(super) extensions: u16,
     /// A symbol or the bits of a value, depending on the kind.
     pub payload: u32,
@@ -191,17 +195,6 @@ impl Token {
     /// The symbol of a word.
     pub fn symbol(self) -> Symbol {
         Symbol(self.payload)
-    }
-
-    /// The extensions that are enabled here.
-    pub fn extensions(self) -> Extensions {
-        Extensions::from_bits_truncate(u32::from(self.extensions))
-    }
-
-    /// This token with these extensions enabled.
-    #[must_use]
-    pub fn with_extensions(self, extensions: Extensions) -> Self {
-        Self { extensions: extensions.bits() as u16, ..self }
     }
 
     /// Whether it is the first token on its line.

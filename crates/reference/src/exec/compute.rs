@@ -6,6 +6,7 @@ use super::registers::{Filled, Registers, blocks1, blocks2, blocks3, calls1, cal
 use super::{DFDY_SIGN, LANES};
 use crate::domain::rules;
 use crate::domain::{Block, Domain, Element, Integer, Lanes, Number, NumberBlock, Source};
+use glisten_front::builtin::operations::BitFunction;
 use glisten_scene::picture::Interval;
 
 type Float<D> = <D as Domain>::Float;
@@ -111,6 +112,7 @@ fn float3<N: Number>(op: Float3, out: &mut Lanes<N>, a: Source<'_, N>, b: Source
             N::limited,
         ),
         Float3::Smoothstep => map3(out, a, b, c, N::smoothstep),
+        Float3::Fma => map3(out, a, b, c, N::fma),
     }
 }
 
@@ -132,6 +134,11 @@ fn int1<I: Integer>(op: Int1, out: &mut Lanes<I>, a: Source<'_, I>) -> Filled {
         Int1::Bool => map1(out, a, |a| a.lift1(|a| u32::from(a != 0))),
         Int1::Abs => map1(out, a, |a| a.lift1(|a| (a as i32).wrapping_abs() as u32)),
         Int1::Sign => map1(out, a, |a| a.lift1(|a| (a as i32).signum() as u32)),
+        Int1::Reverse => map1(out, a, |a| a.lift1(u32::reverse_bits)),
+        Int1::Count => map1(out, a, |a| a.lift1(u32::count_ones)),
+        Int1::Lowest => map1(out, a, |a| a.lift1(|a| BitFunction::Lowest.of(a, 0, 0, 0, false))),
+        Int1::HighestSigned => map1(out, a, |a| a.lift1(|a| BitFunction::Highest.of(a, 0, 0, 0, true))),
+        Int1::HighestUnsigned => map1(out, a, |a| a.lift1(|a| BitFunction::Highest.of(a, 0, 0, 0, false))),
     }
 }
 
@@ -333,11 +340,15 @@ impl<D: Domain> Registers<D> {
                     FloatToInt::Bool => map1(out, a, |a| a.equal(constant(0.0)).not()),
                     FloatToInt::IsNan => map1(out, a, Float::<D>::isnan),
                     FloatToInt::IsInf => map1(out, a, Float::<D>::isinf),
+                    FloatToInt::Bits => map1(out, a, Float::<D>::to_bits),
+                    FloatToInt::Half => map1(out, a, Float::<D>::to_half),
                 }
             }),
             Inst::IntToFloat { op, dst, a } => self.write_float(dst, |this, out| match op {
                 IntToFloat::Int => map1(out, this.int(a), Float::<D>::from_int),
                 IntToFloat::Uint => map1(out, this.int(a), Float::<D>::from_uint),
+                IntToFloat::Bits => map1(out, this.int(a), Float::<D>::from_bits),
+                IntToFloat::Half => map1(out, this.int(a), Float::<D>::from_half),
             }),
             Inst::Int1 { op, dst, a } => self.write_int(dst, |this, out| int1(op, out, this.int(a))),
             Inst::Int2 { op, dst, a, b } => self.write_int(dst, |this, out| int2(op, out, this.int(a), this.int(b))),

@@ -91,6 +91,10 @@ pub(super) enum FloatToInt {
     Bool,
     IsNan,
     IsInf,
+    /// The bits of the nearest f32.
+    Bits,
+    /// The bits of the nearest 16-bit float.
+    Half,
 }
 
 /// int to float
@@ -98,6 +102,10 @@ pub(super) enum FloatToInt {
 pub(super) enum IntToFloat {
     Int,
     Uint,
+    /// The f32 with these bits.
+    Bits,
+    /// The 16-bit float with the lowest bits.
+    Half,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -110,6 +118,11 @@ pub(super) enum Int1 {
     Bool,
     Abs,
     Sign,
+    Reverse,
+    Count,
+    Lowest,
+    HighestSigned,
+    HighestUnsigned,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -192,7 +192,7 @@ impl Kind {
 
     fn of_ternary(op: Float3) -> Self {
         match op {
-            Float3::Mix | Float3::Smoothstep => Self::Blend,
+            Float3::Mix | Float3::Smoothstep | Float3::Fma => Self::Blend,
             _ => Self::Other,
         }
     }

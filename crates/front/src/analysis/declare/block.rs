@@ -12,6 +12,7 @@ use crate::diagnostic::codes::{names, qualifiers, types};
 use crate::hir::{
     ArraySize, BlockInfo, GlobalId, Interpolation, MatrixLayout, Member, Scalar, Stage, Storage, Type, TypeId, VarRef,
 };
+use crate::language::Feature;
 use crate::source::Span;
 use crate::syntax::ast::{ArrayDim, BlockDecl, Declarator, Ident, MemberDecl, TypeBase};
 
@@ -39,14 +40,18 @@ impl Analyzer<'_> {
             self.poison_block(block);
             return;
         };
+        let feature = if storage == Storage::Uniform { Feature::UniformBlocks } else { Feature::InterfaceBlocks };
+        self.require(feature, block.name.span);
+        if let Some((instance, _)) = &block.instance {
+            self.require(Feature::BlockInstances, instance.span);
+        }
         let name = self.name(block.name);
         if name == "gl_PerVertex" {
             self.redeclare_per_vertex(block, storage);
             return;
         }
         let is_uniform = storage == Storage::Uniform;
-        let subject =
-            if is_uniform { LayoutSubject::UniformBlock } else { LayoutSubject::Other("an input or output block") };
+        let subject = if is_uniform { LayoutSubject::UniformBlock } else { LayoutSubject::VaryingBlock };
         let layout = self.layout(&record, subject);
         let good_name = self.check_name(block.name);
         if good_name {
@@ -113,7 +118,7 @@ impl Analyzer<'_> {
             };
             let layout = self.layout(&record, subject);
             let base = self.block_member_base(row);
-            self.check_precision(record.precision, base);
+            self.check_precision(record.precision, base, row.ty.span);
             for declarator in &row.declarators {
                 self.no_member_initializer(declarator);
                 let ty = self.with_array(base, &declarator.array);

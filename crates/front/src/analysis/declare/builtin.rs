@@ -9,6 +9,7 @@ use crate::builtin::{BuiltinVariable, constants};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::{names, qualifiers, types};
 use crate::hir::{ArraySize, BlockInfo, BlockLayout, FragCoordLayout, GlobalId, Stage, Storage, Type, TypeId};
+use crate::language::Feature;
 use crate::source::Span;
 use crate::syntax::ast::Declarator;
 
@@ -18,7 +19,7 @@ impl Analyzer<'_> {
         if let Some(id) = self.declared.builtin(row.variable) {
             return id;
         }
-        let mut ty = row.make_type(self.types);
+        let mut ty = row.make_type(self.types, self.ast.version);
         let mut global = self.new_global(
             Span::default(),
             row.name,
@@ -49,6 +50,9 @@ impl Analyzer<'_> {
         let name = self.name(declarator.name);
         let span = declarator.name.span;
         let Some(row) = variables::named(name, self.ast.version, self.extensions, self.stage) else {
+            if self.redeclare_fixed(declarator, ty, record) {
+                return true;
+            }
             let stages: Vec<&str> = variables::stages_with(name).map(Stage::name).collect();
             if stages.is_empty() {
                 return false;
@@ -75,6 +79,7 @@ impl Analyzer<'_> {
             ),
             Redeclaration::Size => self.resize_builtin(row, declarator, ty, record),
             Redeclaration::Layout => self.redeclare_frag_coord(row, declarator, ty, record),
+            Redeclaration::Depth => self.redeclare_frag_depth(row, declarator, ty, record),
         }
         true
     }
@@ -145,6 +150,27 @@ impl Analyzer<'_> {
                 .here(format!("at most gl_MaxClipDistances, which is {max}")),
         );
         false
+    }
+
+    /// `layout(depth_greater) out float gl_FragDepth;` (GLSL 4.20 §4.4.2.4, ARB_conservative_depth). What it promises
+    /// lets a driver test earlier, and changes no value.
+    fn redeclare_frag_depth(&mut self, row: &Row, declarator: &Declarator, ty: TypeId, record: &Qualifiers) {
+        let span = declarator.name.span;
+        if record.layout.is_empty() || !self.allows(Feature::DepthLayouts, span) {
+            self.report(
+                Diagnostic::new(&names::BUILTIN_REDECLARED, span, "`gl_FragDepth` cannot be declared again")
+                    .here("it is built in")
+                    .help("remove the declaration"),
+            );
+            return;
+        }
+        self.layout(record, LayoutSubject::FragDepth);
+        if self.same_storage(row, span, record).is_some() && ty != TypeId::FLOAT {
+            self.report(
+                Diagnostic::new(&names::BUILTIN_REDECLARED, span, "`gl_FragDepth` is a `float`")
+                    .here("declared as something else"),
+            );
+        }
     }
 
     /// `layout(origin_upper_left) in vec4 gl_FragCoord;` (§4.3.8.1)

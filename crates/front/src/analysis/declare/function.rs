@@ -4,9 +4,11 @@ use super::super::context::{Analyzer, Body};
 use super::super::qualifiers::{DeclarationContext, StorageWord};
 use super::super::scope::Entry;
 use super::super::state::Signature;
+use crate::builtin::functions;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::{names, statements, types};
 use crate::hir::{ArraySize, Function, FunctionId, Local, LocalId, LocalKind, ParamMode, Type, TypeId, VarRef};
+use crate::language::Feature;
 use crate::syntax::ast::{FunctionHeader, Ident, ParamDecl, Stmt, TypeBase};
 
 /// The largest number of overloads of one name: each call that needs a conversion considers all of them.
@@ -47,6 +49,7 @@ impl Analyzer<'_> {
 
     fn function_body(&mut self, id: FunctionId, header: &FunctionHeader, body: &[Stmt]) {
         let first = self.shader.exprs.len();
+        let precisions = self.precisions.clone();
         self.budget.begin_function();
         self.body = Some(Body { function: id, loops: 0, switches: 0, returns: false });
         self.scopes.open();
@@ -61,6 +64,7 @@ impl Analyzer<'_> {
         self.scopes.close();
         self.scopes.close();
         self.size_locals(first);
+        self.precisions = self.precisions.ended(&precisions);
         self.check_returns(id);
         self.body = None;
         if self.name(header.name) == "main" && header.params.is_empty() {
@@ -93,6 +97,10 @@ impl Analyzer<'_> {
         let function = self.header(header);
         let name = header.name;
         let good_name = self.check_name(name) && self.check_block_name(name);
+        let (version, extensions) = (self.ast.version, self.extensions);
+        if functions::named(&function.name).iter().any(|row| row.availability.in_language(version, extensions)) {
+            self.require_here(Feature::BuiltinsHidden, name.span);
+        }
         if function.name == "main" {
             self.check_main(header, &function);
         }
@@ -153,7 +161,7 @@ impl Analyzer<'_> {
     fn header(&mut self, header: &FunctionHeader) -> Function {
         let record = self.qualifiers(&header.qualifiers, DeclarationContext::Return);
         let ret = self.return_type(header);
-        self.check_precision(record.precision, ret);
+        self.check_precision(record.precision, ret, header.ty.span);
         let locals: Vec<Local> = header.params.iter().map(|param| self.parameter(param)).collect();
         Function {
             name: self.name(header.name).to_owned(),
@@ -186,6 +194,9 @@ impl Analyzer<'_> {
             );
         }
         let ty = self.type_spec(&header.ty);
+        if matches!(self.types.get(ty), Type::Array(..)) {
+            self.require(Feature::ArrayObjects, header.ty.span);
+        }
         if let Type::Array(_, ArraySize::Unsized) = self.types.get(ty) {
             self.report(
                 Diagnostic::new(&types::UNSIZED_ARRAY, header.ty.span, "a function must return an array with a size")
@@ -223,7 +234,7 @@ impl Analyzer<'_> {
             }
         };
         let ty = self.parameter_type(param, mode);
-        self.check_precision(record.precision, ty);
+        self.check_precision(record.precision, ty, param.ty.span);
         let ty = if self.check_size(ty, param.span) { ty } else { TypeId::ERROR };
         let name = param.name.map_or(String::new(), |name| {
             self.check_name(name);
@@ -254,6 +265,9 @@ impl Analyzer<'_> {
                     .here("no size given"),
             );
             return TypeId::ERROR;
+        }
+        if matches!(self.types.get(ty), Type::Array(..)) && matches!(mode, ParamMode::Out | ParamMode::Inout) {
+            self.require(Feature::ArrayArguments, param.span);
         }
         if self.types.contains_sampler(ty) && matches!(mode, ParamMode::Out | ParamMode::Inout) {
             let name = self.type_name(ty);

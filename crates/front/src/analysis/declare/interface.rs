@@ -5,6 +5,7 @@ use super::super::qualifiers::{Qualifiers, StorageWord};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::{qualifiers, types};
 use crate::hir::{ArraySize, Interpolation, Scalar, Stage, Storage, Type, TypeId};
+use crate::language::Feature;
 use crate::source::Span;
 
 /// An interface of a stage, and the types that cannot cross it.
@@ -97,6 +98,7 @@ impl Analyzer<'_> {
         {
             self.misplaced(span, "`varying` takes no interpolation qualifier", "use `in` or `out`");
         }
+        self.require_crossing(ty, border, ty_span);
         if let Some(why) = self.cannot_cross(ty, border) {
             let type_name = self.type_name(ty);
             self.report(
@@ -142,6 +144,21 @@ impl Analyzer<'_> {
                 .label(name, "declared here")
                 .help("write `flat` before `in`, on both sides"),
             );
+        }
+    }
+
+    /// Reports types that cross interfaces only in later versions.
+    fn require_crossing(&mut self, ty: TypeId, border: &Border, span: Span) {
+        let inner = self.types.get(self.element_of(ty));
+        if border.structs && matches!(inner, Type::Struct(_)) {
+            self.require(Feature::StructInterfaces, span);
+        }
+        if self.types.summary(ty).holds(&[Scalar::Int, Scalar::Uint]) {
+            self.require(Feature::IntegerInterfaces, span);
+        }
+        let attribute = self.stage == Stage::Vertex && border.storage == Storage::In;
+        if attribute && matches!(self.types.get(ty), Type::Array(..)) {
+            self.require(Feature::ArrayAttributes, span);
         }
     }
 

@@ -7,6 +7,7 @@
 
 mod block;
 mod builtin;
+mod fixed;
 mod function;
 mod geometry;
 mod interface;

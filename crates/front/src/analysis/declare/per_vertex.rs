@@ -12,8 +12,9 @@ use crate::builtin::variables::{self, Row, VARIABLES};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::names;
 use crate::hir::{ArraySize, Member, Stage, Storage, StructType, Type, TypeId};
+use crate::language::Feature;
 use crate::source::Span;
-use crate::syntax::ast::{BlockDecl, Declarator, Extensions};
+use crate::syntax::ast::{BlockDecl, Declarator};
 
 impl Analyzer<'_> {
     /// `out gl_PerVertex { vec4 gl_Position; };`
@@ -23,7 +24,7 @@ impl Analyzer<'_> {
             self.report(problem);
             return;
         }
-        self.allows(Extensions::SEPARATE_SHADER_OBJECTS, 410, span);
+        self.allows(Feature::PerVertex, span);
         let members = self.per_vertex_members(block);
         let names: Vec<String> = members.iter().map(|member| member.name.clone()).collect();
         if storage == Storage::In {
@@ -144,7 +145,7 @@ impl Analyzer<'_> {
             );
             return None;
         };
-        let wanted = row.make_type(self.types);
+        let wanted = row.make_type(self.types, self.ast.version);
         let fits = match (self.types.get(wanted), self.types.get(ty)) {
             (Type::Array(element, _), Type::Array(given, _)) => element == given,
             _ => wanted == ty,

@@ -5,7 +5,7 @@ use super::super::layout::LayoutSubject;
 use super::super::qualifiers::{DeclarationContext, Qualifiers, StorageWord};
 use super::super::scope::Entry;
 use super::super::state::BlockDefaults;
-use crate::builtin::variables;
+use crate::builtin::{fixed, variables};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::{names, qualifiers};
 use crate::hir::{GlobalId, Stage, Storage, Type, VarRef};
@@ -18,6 +18,13 @@ impl Analyzer<'_> {
         let record = self.qualifiers(list, DeclarationContext::Alone);
         if idents.is_empty() {
             self.default_layout(&record, span);
+            return;
+        }
+        if record.precise.is_some() && record.invariant.is_none() {
+            // `precise a;` changes how `a` is computed, and no value that is exact.
+            for &name in idents {
+                self.global_named(name);
+            }
             return;
         }
         if record.invariant.is_none() {
@@ -102,6 +109,9 @@ impl Analyzer<'_> {
                 None
             }
             None => {
+                if let Some(row) = fixed::named(spelling, self.ast.version, self.stage) {
+                    return Some((self.fixed_global(row), None));
+                }
                 let row = variables::named(spelling, self.ast.version, self.extensions, self.stage);
                 if row.is_none() {
                     self.report(

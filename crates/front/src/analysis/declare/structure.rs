@@ -6,6 +6,7 @@ use super::super::scope::Entry;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::{general, names, types};
 use crate::hir::{ArraySize, MatrixLayout, Member, StructType, Type, TypeId};
+use crate::language::Feature;
 use crate::source::Span;
 use crate::syntax::ast::{Declarator, Ident, MemberDecl, StructSpec, TypeBase};
 use crate::syntax::token::Symbol;
@@ -36,12 +37,15 @@ impl Analyzer<'_> {
     pub(in crate::analysis) fn structure(&mut self, spec: &StructSpec, span: Span) -> TypeId {
         let name = spec.name.map_or("", |name| self.ast.name(name));
         let declared = spec.name.map_or(span, |name| name.span);
+        if spec.name.is_none() {
+            self.require(Feature::NamelessStructs, span);
+        }
         let good_name = spec.name.is_none_or(|name| self.check_name(name));
         let mut members = MemberList::default();
         for row in &spec.members {
             let record = self.qualifiers(&row.qualifiers, DeclarationContext::StructMember);
             let base = self.member_base(row);
-            self.check_precision(record.precision, base);
+            self.check_precision(record.precision, base, row.ty.span);
             for declarator in &row.declarators {
                 let ty = self.member_type(declarator, base, row);
                 let member = Member {

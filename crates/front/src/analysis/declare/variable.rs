@@ -8,6 +8,7 @@ use super::super::state::ArrayKey;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::{qualifiers, syntax, types};
 use crate::hir::{ArraySize, ExprId, Global, GlobalId, Interpolation, Stage, Storage, Type, TypeId, Value, VarRef};
+use crate::language::Feature;
 use crate::source::Span;
 use crate::syntax::ast::{Declarator, TypeBase, TypeSpec, VariableDecl};
 
@@ -25,7 +26,7 @@ impl Analyzer<'_> {
             return;
         }
         let base = self.type_spec(&declaration.ty);
-        self.check_precision(record.precision, base);
+        self.check_precision(record.precision, base, declaration.ty.span);
         let storage = self.global_storage(&record);
         if declaration.declarators.is_empty() {
             self.layout(&record, self.layout_subject(storage, base));
@@ -73,6 +74,11 @@ impl Analyzer<'_> {
         let Some((word, span)) = record.storage else {
             return if record.constant.is_some() { Storage::Const } else { Storage::Private };
         };
+        match word {
+            StorageWord::In | StorageWord::Out => self.require(Feature::InOut, span),
+            StorageWord::Attribute | StorageWord::Varying => self.require(Feature::Attributes, span),
+            StorageWord::Uniform | StorageWord::Inout => {}
+        }
         match (word, self.stage) {
             (StorageWord::Uniform, _) => Storage::Uniform,
             (StorageWord::In, _) => Storage::In,
@@ -177,11 +183,11 @@ impl Analyzer<'_> {
     fn layout_subject(&self, storage: Storage, ty: TypeId) -> LayoutSubject {
         match (storage, self.stage) {
             (Storage::In, Stage::Vertex) => LayoutSubject::VertexInput,
-            (Storage::In, _) => LayoutSubject::Other("an input variable"),
+            (Storage::In, _) => LayoutSubject::Varying,
             (Storage::Out, Stage::Fragment) => LayoutSubject::FragmentOutput,
-            (Storage::Out, _) => LayoutSubject::Other("an output variable"),
+            (Storage::Out, _) => LayoutSubject::Varying,
             (Storage::Uniform, _) if self.types.contains_sampler(ty) => LayoutSubject::Sampler,
-            (Storage::Uniform, _) => LayoutSubject::Other("a uniform outside a block"),
+            (Storage::Uniform, _) => LayoutSubject::Uniform,
             (Storage::Const, _) => LayoutSubject::Other("a constant"),
             (Storage::Private, _) => LayoutSubject::Other("a variable without a storage qualifier"),
         }
@@ -215,8 +221,17 @@ impl Analyzer<'_> {
         if self.ty(expr).is_error() {
             return (if storage == Storage::Const { TypeId::ERROR } else { ty }, None);
         }
+        if matches!(self.types.get(ty), Type::Array(..)) {
+            self.require(Feature::ArrayObjects, self.span(expr));
+        }
         if storage == Storage::Private {
+            if !self.is_constant(expr) {
+                self.require_here(Feature::GlobalInitializers, self.span(expr));
+            }
             return (ty, Some(Initial { expr, value: None }));
+        }
+        if storage == Storage::Uniform {
+            self.require(Feature::UniformInitializers, self.span(expr));
         }
         if self.types.contains_sampler(ty) {
             let span = self.span(expr);

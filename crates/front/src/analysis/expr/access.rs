@@ -6,6 +6,7 @@ use super::swizzle::{self, Fault};
 use crate::diagnostic::codes::{names, types};
 use crate::diagnostic::{Diagnostic, did_you_mean};
 use crate::hir::{ArraySize, ExprId, ExprKind, Scalar, ScalarValue, Stage, Storage, StructId, Type, TypeId, VarRef};
+use crate::language::{Extensions, Feature};
 use crate::source::Span;
 use crate::syntax::ast::{self, Ident};
 
@@ -31,7 +32,9 @@ impl Analyzer<'_> {
                 self.poison(span)
             }
             Type::Vector(scalar, size) => self.swizzle(base, field, (scalar, size), span),
-            Type::Scalar(scalar) if self.allows_420pack(field.span) => self.scalar_swizzle(base, field, scalar, span),
+            Type::Scalar(scalar) if self.allows(Feature::ScalarSwizzles, field.span) => {
+                self.scalar_swizzle(base, field, scalar, span)
+            }
             _ => {
                 let name = self.type_name(self.ty(base));
                 let at = self.span(base);
@@ -147,12 +150,14 @@ impl Analyzer<'_> {
         }
         let at = self.span(index);
         if let Type::Array(element, _) = self.types.get(ty) {
-            if self.types.contains_sampler(element) && self.ast.version.number < 400 {
+            let constant =
+                self.ast.version.has(Feature::ConstantSamplers) && !self.extensions.contains(Extensions::GPU_SHADER5);
+            if self.types.contains_sampler(element) && constant {
                 let finding = self.not_constant(index, "the index of an array of samplers");
                 self.report(Diagnostic { code: &types::SAMPLER_INDEX, ..finding });
                 return false;
             }
-            if self.is_uniform_block_array(base) && self.ast.version.number < 400 {
+            if self.is_uniform_block_array(base) && constant {
                 let finding = self.not_constant(index, "the index of an array of uniform blocks");
                 self.report(Diagnostic { code: &types::SAMPLER_INDEX, ..finding });
                 return false;
@@ -238,11 +243,14 @@ impl Analyzer<'_> {
             self.report(Diagnostic::new(&types::METHOD, span, "`length` takes no arguments").here("arguments given"));
             return self.poison(span);
         }
+        if matches!(self.types.get(ty), Type::Array(..)) {
+            self.require(Feature::ArrayObjects, name.span);
+        }
         let length = match self.types.get(ty) {
             Type::Error => return self.poison(span),
             Type::Array(_, ArraySize::Sized(size)) => size,
-            Type::Vector(_, size) if self.allows_420pack(name.span) => u32::from(size),
-            Type::Matrix(columns, _) if self.allows_420pack(name.span) => u32::from(columns),
+            Type::Vector(_, size) if self.allows(Feature::VectorLength, name.span) => u32::from(size),
+            Type::Matrix(columns, _) if self.allows(Feature::VectorLength, name.span) => u32::from(columns),
             Type::Array(_, ArraySize::Unsized) => {
                 let at = self.span(base);
                 let help = if self.is_geometry_input(base) {

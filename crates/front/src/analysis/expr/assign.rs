@@ -5,6 +5,7 @@ use super::Purpose;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::types;
 use crate::hir::{ArraySize, ExprId, ExprKind, IncDec, Scalar, Type, TypeId};
+use crate::language::Feature;
 use crate::source::Span;
 use crate::syntax::ast;
 
@@ -39,6 +40,9 @@ impl Analyzer<'_> {
                     .help("declare it with a size"),
             );
             return self.poison(span);
+        }
+        if matches!(self.types.get(ty), Type::Array(..)) {
+            self.require(Feature::ArrayObjects, self.span(target));
         }
         let value = self.convert_or_report(value, ty, "the left side");
         if self.ty(value).is_error() {

@@ -1,15 +1,16 @@
 //! Analyzes calls of built-in functions (§8): resolves overloads over the rows of the table.
 
 use super::super::context::Analyzer;
-use super::super::layout::extension_name;
+use super::super::features::{of_version, remedy};
 use super::overload::{Resolution, resolve};
-use crate::builtin::BuiltinFunction;
 use crate::builtin::functions::{self, Row, Signature};
+use crate::builtin::operations::Class;
+use crate::builtin::{Availability, BuiltinFunction};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::names;
 use crate::hir::{ExprId, ExprKind, Stage, TypeId};
 use crate::source::Span;
-use crate::syntax::ast::{Extensions, Ident};
+use crate::syntax::ast::Ident;
 
 impl Analyzer<'_> {
     /// A call of a name that is a built-in function in some version.
@@ -30,10 +31,13 @@ impl Analyzer<'_> {
         });
         let found = exact.or_else(|| self.builtin_by_conversion(name, &signatures().collect::<Vec<_>>(), rows, &given));
         let Some((row, signature)) = found else { return self.poison(span) };
-        self.allows(row.availability.extensions, row.availability.since, name.span);
+        self.note_builtin(row.availability, name.span);
         let Some(arguments) = self.pass(arguments, signature.params()) else { return self.poison(span) };
         if !self.check_offset(row, &arguments) {
             return self.poison(span);
+        }
+        if row.function.class() == Class::Composed {
+            return self.composed(row.function, &arguments, span);
         }
         self.push(ExprKind::BuiltinCall(row.function, arguments), signature.ret, span)
     }
@@ -70,13 +74,13 @@ impl Analyzer<'_> {
     /// float)` for one float) count once.
     fn resolve_builtin(&self, candidates: &[(&'static Row, Signature)], given: &[TypeId]) -> Resolution {
         let params = candidates.iter().map(|(_, signature)| signature.params().iter().copied());
-        let found = resolve(self.types, given, params);
+        let found = resolve(self.types, self.rules(), given, params);
         let Resolution::Ambiguous(first, _) = found else { return found };
         let Some(wanted) = candidates.get(first).map(|(_, signature)| signature.params()) else { return found };
         let same = |params: &[_]| params == wanted;
         let rest = candidates.iter().skip(first + 1).map(|(_, signature)| signature.params());
         let others = rest.map(|params| if same(params) { [].iter() } else { params.iter() }.copied());
-        match resolve(self.types, given, others) {
+        match resolve(self.types, self.rules(), given, others) {
             Resolution::Missing => Resolution::Found(first),
             Resolution::Found(index) | Resolution::Ambiguous(index, _) => {
                 Resolution::Ambiguous(first, first + 1 + index)
@@ -104,18 +108,13 @@ impl Analyzer<'_> {
             .map(Stage::name)
             .collect();
         let finding = if elsewhere.is_empty() {
-            let extensions = rows.iter().fold(Extensions::empty(), |all, row| all | row.availability.extensions);
-            let help = extensions
-                .iter()
-                .next()
-                .map(|extension| format!("put `#extension {} : enable` at the top", extension_name(extension)));
-            Diagnostic::new(
-                &names::BUILTIN_UNAVAILABLE,
-                name.span,
-                format!("the function `{spelling}` is not in this version of the language"),
-            )
-            .here("not available here")
-            .maybe_help(help)
+            let message = format!("the function `{spelling}` is not in {}", version.name());
+            let remedy = rows.iter().find_map(|row| {
+                let Availability { since, gone, extensions, .. } = row.availability;
+                remedy(version, since, gone, extensions)
+            });
+            let finding = Diagnostic::new(&names::BUILTIN_UNAVAILABLE, name.span, message).here("not available here");
+            of_version(finding.maybe_help(remedy), version)
         } else {
             Diagnostic::new(
                 &names::BUILTIN_UNAVAILABLE,

@@ -5,11 +5,13 @@ use super::super::context::Analyzer;
 use super::super::scope::{Entry, OverloadSet};
 use super::super::state::Signature;
 use super::Purpose;
-use super::overload::{Resolution, resolve};
+use super::convert::Conversions;
+use super::overload::{Resolution, Rules, resolve};
 use crate::builtin::functions;
 use crate::diagnostic::codes::{names, types};
 use crate::diagnostic::{Diagnostic, did_you_mean};
 use crate::hir::{ExprId, ExprKind, FunctionId, ParamMode, TypeId};
+use crate::language::Feature;
 use crate::source::Span;
 use crate::syntax::ast::{self, Ident};
 use smallvec::SmallVec;
@@ -108,8 +110,12 @@ impl Analyzer<'_> {
     /// The overload that takes the arguments after implicit conversions, if there is exactly one.
     fn by_conversion(&mut self, name: Ident, set: OverloadSet, given: &[TypeId]) -> Option<FunctionId> {
         let candidates: Vec<FunctionId> = self.scopes.functions(set).to_vec();
-        let resolution =
-            resolve(self.types, given, candidates.iter().map(|&id| self.shader.function(id).param_types()));
+        let resolution = resolve(
+            self.types,
+            self.rules(),
+            given,
+            candidates.iter().map(|&id| self.shader.function(id).param_types()),
+        );
         match resolution {
             Resolution::Found(index) => candidates.get(index).copied(),
             Resolution::Ambiguous(first, second) => {
@@ -152,6 +158,14 @@ impl Analyzer<'_> {
             });
         }
         good.then_some(passed)
+    }
+
+    /// The rules of overloads at the current declaration.
+    pub(super) fn rules(&self) -> Rules {
+        let best = self.ast.version.has_with(Feature::BestOverload, self.extensions);
+        // A conversion that only a later version has is reported where it happens.
+        let conversions = Conversions { to_float: true, ..self.conversions() };
+        Rules { conversions, best }
     }
 
     pub(in crate::analysis) fn params_of(&self, id: FunctionId) -> Params {

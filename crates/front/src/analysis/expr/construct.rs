@@ -4,6 +4,7 @@ use super::super::context::Analyzer;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::types;
 use crate::hir::{ArraySize, ConstructKind, ExprId, ExprKind, Scalar, StructId, Swizzle, Type, TypeId};
+use crate::language::Feature;
 use crate::source::Span;
 use crate::syntax::ast::{self, TypeSpec};
 
@@ -100,6 +101,7 @@ impl Analyzer<'_> {
                     return self.push(ExprKind::Construct(kind, vec![only]), ty, span);
                 }
                 Type::Matrix(..) if is_matrix => {
+                    self.require(Feature::MatrixFromMatrix, head);
                     return self.push(ExprKind::Construct(ConstructKind::Resize, vec![only]), ty, span);
                 }
                 _ => {}
@@ -183,6 +185,7 @@ impl Analyzer<'_> {
         head: Span,
         span: Span,
     ) -> ExprId {
+        self.require(Feature::ArrayObjects, head);
         let given = arguments.len() as u32;
         if let ArraySize::Sized(size) = size
             && size != given

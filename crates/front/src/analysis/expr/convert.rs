@@ -1,4 +1,4 @@
-//! Implicit conversions (§4.1.10).
+//! Implicit conversions (§4.1.10): none in 1.10 and ES, integers to `float` from 1.20 on, `int` to `uint` from 4.00 on.
 //!
 //! *Holds:* a conversion is an expression of its own in the typed program; nothing later converts.
 
@@ -6,29 +6,58 @@ use super::super::context::Analyzer;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::types;
 use crate::hir::{ArraySize, ExprId, ExprKind, Scalar, Type, TypeId, Types};
+use crate::language::Feature;
 
-/// Whether one type converts implicitly to another. A type does not convert to itself.
-pub(in crate::analysis) fn converts(types: &Types, from: TypeId, to: TypeId) -> bool {
-    match (types.get(from), types.get(to)) {
-        (Type::Scalar(from), Type::Scalar(to)) => scalar_converts(from, to),
-        (Type::Vector(from, size), Type::Vector(to, other)) => size == other && scalar_converts(from, to),
-        _ => false,
+/// The implicit conversions of a language.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::analysis) struct Conversions {
+    /// Integers to `float`, from 1.20 on.
+    pub(in crate::analysis) to_float: bool,
+    /// `int` to `uint`, from 4.00 on.
+    pub(in crate::analysis) to_uint: bool,
+}
+
+impl Conversions {
+    /// Whether one type converts implicitly to another. A type does not convert to itself.
+    pub(in crate::analysis) fn convert(self, types: &Types, from: TypeId, to: TypeId) -> bool {
+        match (types.get(from), types.get(to)) {
+            (Type::Scalar(from), Type::Scalar(to)) => self.scalars(from, to),
+            (Type::Vector(from, size), Type::Vector(to, other)) => size == other && self.scalars(from, to),
+            _ => false,
+        }
+    }
+
+    fn scalars(self, from: Scalar, to: Scalar) -> bool {
+        match (from, to) {
+            (Scalar::Int | Scalar::Uint, Scalar::Float) => self.to_float,
+            (Scalar::Int, Scalar::Uint) => self.to_uint,
+            _ => false,
+        }
     }
 }
 
-/// The table of 1.50: integers convert to `float`; there is no other conversion.
-fn scalar_converts(from: Scalar, to: Scalar) -> bool {
-    matches!((from, to), (Scalar::Int | Scalar::Uint, Scalar::Float))
-}
-
 impl Analyzer<'_> {
+    /// The implicit conversions at the current declaration.
+    pub(in crate::analysis) fn conversions(&self) -> Conversions {
+        let has = |feature| self.ast.version.has_with(feature, self.extensions);
+        Conversions { to_float: has(Feature::ImplicitToFloat), to_uint: has(Feature::ImplicitToUint) }
+    }
+
     /// The expression converted to a type; `None` if there is no such conversion.
     pub(in crate::analysis) fn convert(&mut self, id: ExprId, to: TypeId) -> Option<ExprId> {
         let from = self.ty(id);
         if from == to || from.is_error() || to.is_error() {
             return Some(id);
         }
-        converts(self.types, from, to).then(|| self.push_convert(id, to))
+        if self.conversions().convert(self.types, from, to) {
+            return Some(self.push_convert(id, to));
+        }
+        let of_later = Conversions { to_float: true, to_uint: false };
+        if of_later.convert(self.types, from, to) {
+            self.require_here(Feature::ImplicitToFloat, self.span(id));
+            return Some(self.push_convert(id, to));
+        }
+        None
     }
 
     /// Like [`Self::convert`], but reports an expression that does not convert; `what` must be a `to`.

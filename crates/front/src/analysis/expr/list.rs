@@ -2,18 +2,23 @@
 
 use super::super::context::Analyzer;
 use crate::diagnostic::Diagnostic;
-use crate::diagnostic::codes::types;
+use crate::diagnostic::codes::{syntax, types};
 use crate::hir::{ArraySize, ConstructKind, ExprId, ExprKind, Scalar, Type, TypeId};
+use crate::language::Feature;
 use crate::source::Span;
 use crate::syntax::ast;
 
 impl Analyzer<'_> {
-    /// The initializer of a variable of type `ty`: an expression or, where the extension is enabled, a list.
+    /// The initializer of a variable of type `ty`: an expression or a list.
     pub(in crate::analysis) fn initializer(&mut self, id: ast::ExprId, ty: TypeId) -> ExprId {
         let expr = self.ast.expr(id);
         let ast::ExprKind::List(elements) = &expr.kind else { return self.expr(id) };
-        if !self.allows_420pack(expr.span) {
-            // The parser has reported it.
+        if !self.allows(Feature::InitializerLists, expr.span) {
+            let brace = Span { end: expr.span.start + 1, ..expr.span };
+            let message = "initializer lists need GL_ARB_shading_language_420pack";
+            let help = "write a constructor, or `#extension GL_ARB_shading_language_420pack : require`";
+            let finding = Diagnostic::new(&syntax::LIST_WITHOUT_EXTENSION, brace, message);
+            self.report(finding.here("a list begins here").help(help));
             return self.poison(expr.span);
         }
         self.list(elements, ty, expr.span)

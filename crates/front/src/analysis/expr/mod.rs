@@ -8,6 +8,7 @@ mod access;
 mod assign;
 mod builtin;
 mod call;
+mod composed;
 mod construct;
 mod convert;
 pub(super) mod foreign;
@@ -20,6 +21,8 @@ mod swizzle;
 
 use super::context::Analyzer;
 use crate::hir::{ExprId, ScalarValue};
+use crate::language::Feature;
+use crate::source::Span;
 use crate::syntax::ast::{self, ExprKind, IncDec, Literal};
 
 pub(in crate::analysis) use lvalue::Purpose;
@@ -45,7 +48,10 @@ impl Analyzer<'_> {
         let expr = self.ast.expr(id);
         let span = expr.span;
         match &expr.kind {
-            ExprKind::Literal(literal) => self.literal(scalar(*literal), span),
+            ExprKind::Literal(literal) => {
+                self.check_suffix(*literal, span);
+                self.literal(scalar(*literal), span)
+            }
             ExprKind::Name(name) => self.name_expr(*name),
             ExprKind::Unary(operator, operand) => {
                 let operand = self.expr(*operand);
@@ -60,6 +66,19 @@ impl Analyzer<'_> {
             ExprKind::List(elements) => self.misplaced_list(elements, span),
             // Expressions with a left operand never get here; `left_operand` has taken them apart.
             _ => self.poison(span),
+        }
+    }
+
+    /// Reports the suffixes that 1.10 and ES 1.00 lack.
+    fn check_suffix(&mut self, literal: Literal, span: Span) {
+        match literal {
+            Literal::Uint(_) => self.require(Feature::UnsignedLiterals, span),
+            Literal::Float(_) if !self.ast.version.has(Feature::FloatSuffix) => {
+                if self.sources.snippet(span).ends_with(['f', 'F']) {
+                    self.require(Feature::FloatSuffix, span);
+                }
+            }
+            Literal::Float(_) | Literal::Bool(_) | Literal::Int(_) => {}
         }
     }
 

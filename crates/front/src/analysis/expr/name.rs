@@ -2,60 +2,14 @@
 //! constants.
 
 use super::super::context::Analyzer;
+use super::super::features::{of_version, remedy};
 use super::super::scope::Entry;
-use crate::builtin::{constants, variables};
+use crate::builtin::{constants, fixed, variables};
 use crate::diagnostic::codes::names;
 use crate::diagnostic::{Diagnostic, did_you_mean};
 use crate::hir::{ExprId, ExprKind, ScalarValue, Stage, Storage, Type, TypeId, VarRef};
 use crate::source::Span;
 use crate::syntax::ast::Ident;
-
-/// The variables of §7.1.1, §7.3, §7.5.1 and §7.6 that the core profile lacks, without the digits at their ends. They
-/// are not in the table of built-in variables because no phase supports them.
-static COMPATIBILITY: [&str; 42] = [
-    "gl_Vertex",
-    "gl_Normal",
-    "gl_Color",
-    "gl_SecondaryColor",
-    "gl_MultiTexCoord",
-    "gl_FogCoord",
-    "gl_ClipVertex",
-    "gl_FrontColor",
-    "gl_BackColor",
-    "gl_FrontSecondaryColor",
-    "gl_BackSecondaryColor",
-    "gl_TexCoord",
-    "gl_FogFragCoord",
-    "gl_ModelViewMatrix",
-    "gl_ProjectionMatrix",
-    "gl_ModelViewProjectionMatrix",
-    "gl_TextureMatrix",
-    "gl_NormalMatrix",
-    "gl_ModelViewMatrixInverse",
-    "gl_ProjectionMatrixInverse",
-    "gl_ModelViewProjectionMatrixInverse",
-    "gl_TextureMatrixInverse",
-    "gl_ModelViewMatrixTranspose",
-    "gl_ProjectionMatrixTranspose",
-    "gl_ModelViewProjectionMatrixTranspose",
-    "gl_TextureMatrixTranspose",
-    "gl_NormalScale",
-    "gl_ClipPlane",
-    "gl_Point",
-    "gl_FrontMaterial",
-    "gl_BackMaterial",
-    "gl_LightSource",
-    "gl_LightModel",
-    "gl_FrontLightModelProduct",
-    "gl_BackLightModelProduct",
-    "gl_FrontLightProduct",
-    "gl_BackLightProduct",
-    "gl_TextureEnvColor",
-    "gl_EyePlaneS",
-    "gl_ObjectPlaneS",
-    "gl_Fog",
-    "gl_MaxTextureUnits",
-];
 
 impl Analyzer<'_> {
     /// The variable that a name denotes.
@@ -112,8 +66,12 @@ impl Analyzer<'_> {
             if self.is_left_out(row, name.span) {
                 return self.poison(name.span);
             }
-            self.allows(row.availability.extensions, row.availability.since, name.span);
+            self.note_builtin(row.availability, name.span);
             let id = self.builtin_global(row);
+            return self.variable(VarRef::Global(id), name.span);
+        }
+        if let Some(row) = fixed::named(spelling, version, self.stage) {
+            let id = self.fixed_global(row);
             return self.variable(VarRef::Global(id), name.span);
         }
         self.report_unknown(name);
@@ -129,8 +87,19 @@ impl Analyzer<'_> {
             let stage = self.stage.name();
             let known_here = stages.contains(&stage);
             let finding = if known_here {
-                Diagnostic::new(&names::BUILTIN_UNAVAILABLE, name.span, format!("`{spelling}` needs an extension here"))
-                    .here("not in this version of the language")
+                let finding = Diagnostic::new(
+                    &names::BUILTIN_UNAVAILABLE,
+                    name.span,
+                    format!("`{spelling}` is not in {}", self.ast.version.name()),
+                );
+                let remedies = variables::VARIABLES
+                    .iter()
+                    .filter(|row| row.name == spelling && row.availability.stages.has(self.stage));
+                let remedy = remedies
+                    .map(|row| row.availability)
+                    .find_map(|row| remedy(self.ast.version, row.since, row.gone, row.extensions));
+                let finding = finding.here("not in this version of the language").maybe_help(remedy);
+                of_version(finding, self.ast.version)
             } else {
                 let message = format!("`{spelling}` does not exist in a {stage} shader");
                 Diagnostic::new(&names::BUILTIN_UNAVAILABLE, name.span, message)
@@ -139,16 +108,22 @@ impl Analyzer<'_> {
             self.report(finding);
             return;
         }
-        if COMPATIBILITY.contains(&spelling.trim_end_matches(|letter: char| letter.is_ascii_digit())) {
-            self.report(
-                Diagnostic::new(
+        if fixed::is_fixed(spelling) {
+            let finding = match fixed::stages_with(spelling, self.ast.version).map(Stage::name).collect::<Vec<_>>() {
+                stages if stages.is_empty() => Diagnostic::new(
                     &names::BUILTIN_UNAVAILABLE,
                     name.span,
                     format!("`{spelling}` is not in the core profile of this version"),
                 )
                 .here("only in the compatibility profile")
                 .help("declare an `in`, `out` or `uniform` of your own and let the application set it"),
-            );
+                stages => {
+                    let message = format!("`{spelling}` does not exist in a {} shader", self.stage.name());
+                    Diagnostic::new(&names::BUILTIN_UNAVAILABLE, name.span, message)
+                        .here(format!("only in {} shaders", stages.join(" and ")))
+                }
+            };
+            self.report(finding);
             return;
         }
         let help = super::foreign::variable(spelling);

@@ -4,6 +4,7 @@ use super::super::context::Analyzer;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::types;
 use crate::hir::{ArraySize, BinaryOp, ExprId, ExprKind, LogicalOp, Scalar, Type, TypeId, UnaryOp};
+use crate::language::Feature;
 use crate::source::Span;
 use crate::syntax::ast;
 
@@ -44,6 +45,9 @@ impl Analyzer<'_> {
                     .maybe_help(help),
             );
             return self.poison(span);
+        }
+        if operator == ast::UnaryOp::BitNot {
+            self.require(Feature::IntegerOperators, span);
         }
         if operator == ast::UnaryOp::Plus {
             if self.shader.root_variable(operand).is_none() {
@@ -93,6 +97,9 @@ impl Analyzer<'_> {
     pub(super) fn typed_binary(&mut self, operator: ast::BinaryOp, left: ExprId, right: ExprId) -> Option<Typed> {
         use ast::BinaryOp as B;
         let operands = (left, right);
+        if matches!(operator, B::Rem | B::BitAnd | B::BitXor | B::BitOr | B::Shl | B::Shr) {
+            self.require(Feature::IntegerOperators, self.span(right));
+        }
         match operator {
             B::Add => self.arithmetic(BinaryOp::Add, operands),
             B::Sub => self.arithmetic(BinaryOp::Sub, operands),
@@ -126,8 +133,10 @@ impl Analyzer<'_> {
         let (left, right) = match kinds {
             (Scalar::Bool, _) | (_, Scalar::Bool) => return None,
             (a, b) if a == b => (left, right),
-            (Scalar::Float, _) => (left, self.with_scalar(right, Scalar::Float)),
-            (_, Scalar::Float) => (self.with_scalar(left, Scalar::Float), right),
+            (Scalar::Float, _) => (left, self.implicitly_float(right)),
+            (_, Scalar::Float) => (self.implicitly_float(left), right),
+            (Scalar::Uint, _) if self.conversions().to_uint => (left, self.with_scalar(right, Scalar::Uint)),
+            (_, Scalar::Uint) if self.conversions().to_uint => (self.with_scalar(left, Scalar::Uint), right),
             _ => return None,
         };
         let (a, b) = (self.ty(left), self.ty(right));
@@ -152,8 +161,20 @@ impl Analyzer<'_> {
         Some(Typed { left, right, operator, ty })
     }
 
-    /// `% & ^ |` on integers of the same signedness.
+    /// An operand of floats, after the implicit conversion.
+    fn implicitly_float(&mut self, id: ExprId) -> ExprId {
+        self.require_here(Feature::ImplicitToFloat, self.span(id));
+        self.with_scalar(id, Scalar::Float)
+    }
+
+    /// `% & ^ |` on integers of the same signedness, from 4.00 on after conversion.
     fn integers(&mut self, operator: BinaryOp, (left, right): (ExprId, ExprId)) -> Option<Typed> {
+        let kinds = (self.types.scalar_of(self.ty(left))?, self.types.scalar_of(self.ty(right))?);
+        let (left, right) = match kinds {
+            (Scalar::Uint, Scalar::Int) if self.conversions().to_uint => (left, self.with_scalar(right, Scalar::Uint)),
+            (Scalar::Int, Scalar::Uint) if self.conversions().to_uint => (self.with_scalar(left, Scalar::Uint), right),
+            _ => (left, right),
+        };
         let (a, b) = (self.ty(left), self.ty(right));
         let kind = self.types.scalar_of(a)?;
         if !kind.is_integer() || self.types.scalar_of(b) != Some(kind) {
@@ -198,6 +219,9 @@ impl Analyzer<'_> {
         let comparable = ty != TypeId::VOID
             && !self.types.contains_sampler(ty)
             && !matches!(self.types.get(ty), Type::Array(_, ArraySize::Unsized));
+        if matches!(self.types.get(ty), Type::Array(..)) {
+            self.require(Feature::ArrayObjects, self.span(right));
+        }
         comparable.then_some(Typed { left, right, operator, ty: TypeId::BOOL })
     }
 

@@ -24,6 +24,9 @@ pub(in crate::analysis) struct Declared {
     members: FxHashMap<StructId, FxHashMap<Symbol, u32>>,
     /// The built-in variables that are used or redeclared.
     builtins: FxHashMap<BuiltinVariable, GlobalId>,
+    /// The variables of the fixed-function pipeline that are used or redeclared, and its structs.
+    fixed: FxHashMap<&'static str, GlobalId>,
+    fixed_structs: FxHashMap<&'static str, TypeId>,
 }
 
 impl Declared {
@@ -76,6 +79,21 @@ impl Declared {
     /// The global of a built-in variable, if it is used or redeclared.
     pub(in crate::analysis) fn builtin(&self, variable: BuiltinVariable) -> Option<GlobalId> {
         self.builtins.get(&variable).copied()
+    }
+
+    /// The global of a variable of the fixed-function pipeline, if it is used or redeclared.
+    pub(in crate::analysis) fn fixed(&self, name: &str) -> Option<GlobalId> {
+        self.fixed.get(name).copied()
+    }
+
+    /// Enters the global of such a variable.
+    pub(in crate::analysis) fn add_fixed(&mut self, name: &'static str, id: GlobalId) {
+        self.fixed.insert(name, id);
+    }
+
+    /// A struct of the fixed-function pipeline, which its first use makes.
+    pub(in crate::analysis) fn fixed_struct(&mut self, name: &'static str, make: impl FnOnce() -> TypeId) -> TypeId {
+        *self.fixed_structs.entry(name).or_insert_with(make)
     }
 
     /// All built-in variables that are used or redeclared, in no order.

@@ -7,16 +7,19 @@
 //! * [`budget`]: how much time, and how many variables, a shader may still take.
 //! * [`declared`]: everything declared, by name. Names that have scopes are in [`scope`](super::scope).
 //! * [`layouts`]: layouts and redeclarations that concern the whole shader, with their spans.
+//! * [`precisions`]: the types that have a default precision, in ES.
 //! * [`uses`]: where something is used first.
 
 mod arrays;
 mod budget;
 mod declared;
 mod layouts;
+mod precisions;
 mod uses;
 
 pub(super) use arrays::ArrayKey;
 pub(super) use budget::{Budget, MAX_BOUND};
 pub(super) use declared::{Declared, Signature};
 pub(super) use layouts::{BlockDefaults, Layouts, PerVertex};
+pub(super) use precisions::Precisions;
 pub(super) use uses::Uses;

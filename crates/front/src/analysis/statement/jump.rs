@@ -4,6 +4,7 @@ use super::super::context::Analyzer;
 use crate::diagnostic::codes::statements;
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::hir::{ExprId, Stage, StmtKind, TypeId};
+use crate::language::Feature;
 use crate::source::Span;
 use crate::syntax::ast;
 
@@ -102,7 +103,7 @@ impl Analyzer<'_> {
         }
         match self.convert(value, ret) {
             Some(converted) => {
-                if converted != value && !self.allows_420pack(span) {
+                if converted != value && !self.allows(Feature::ReturnConversions, span) {
                     self.report_conversion(span, ty, ret);
                 }
                 converted

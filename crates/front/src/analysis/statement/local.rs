@@ -9,6 +9,7 @@ use crate::diagnostic::codes::{qualifiers, types};
 use crate::hir::{
     ArraySize, Condition, ExprId, Local, LocalId, LocalKind, Stmt, StmtKind, Type, TypeId, Value, VarRef,
 };
+use crate::language::Feature;
 use crate::syntax::ast::{Declarator, VariableDecl};
 
 impl Analyzer<'_> {
@@ -16,7 +17,7 @@ impl Analyzer<'_> {
     pub(super) fn local_variables(&mut self, declaration: &VariableDecl, out: &mut Vec<Stmt>) {
         let record = self.qualifiers(&declaration.qualifiers, DeclarationContext::Local);
         let base = self.type_spec(&declaration.ty);
-        self.check_precision(record.precision, base);
+        self.check_precision(record.precision, base, declaration.ty.span);
         for declarator in &declaration.declarators {
             let (local, initializer) = self.local_variable(declarator, base, &record, declaration);
             if let Some(local) = local {
@@ -120,12 +121,15 @@ impl Analyzer<'_> {
         if self.ty(expr).is_error() {
             return (if constant { TypeId::ERROR } else { ty }, None, None);
         }
+        if matches!(self.types.get(ty), Type::Array(..)) {
+            self.require(Feature::ArrayObjects, self.span(expr));
+        }
         if !constant {
             return (ty, Some(expr), None);
         }
         let value = self.evaluate(expr);
         let span = self.span(expr);
-        if value.is_none() && !self.allows_420pack(span) {
+        if value.is_none() && !self.allows(Feature::DynamicConstants, span) {
             self.report(self.not_constant_value(expr, "the value of a constant"));
             return (TypeId::ERROR, None, None);
         }

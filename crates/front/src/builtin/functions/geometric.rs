@@ -3,17 +3,23 @@
 
 use super::{Availability, BuiltinFunction, Effect, Parameter, Row, matcher, rows};
 use crate::builtin::Stages;
+use crate::language::{Extensions, NEVER};
 
 const G110: Row = Row::base("§8.4", 110);
+/// §8.4 of 1.10 to 1.30 and of the compatibility profile.
+const FIXED: Row = Row::base("GLSL 1.20 §8.4", 110)
+    .with(Effect::None, false)
+    .available(Availability { compatibility_only: true, ..Availability::since(110).es(NEVER).stages(Stages::VERTEX) });
 const M110: Row = Row::base("§8.5", 110);
 const M120: Row = Row::base("§8.5", 120);
-const M150: Row = Row::base("§8.5", 150);
+const M150: Row = Row::base("§8.5", 150).available(Availability::since(150).es(300));
 const R110: Row = Row::base("§8.6", 110);
 const R130: Row = Row::base("§8.6", 130);
 /// Zero in a constant expression (§4.3.3).
-const D110: Row =
-    Row::base("§8.8", 110).with(Effect::Derivative, true).available(Availability::since(110).stages(Stages::FRAGMENT));
-const N110: Row = Row::base("§8.9", 110).with(Effect::None, false);
+const D110: Row = Row::base("§8.8", 110)
+    .with(Effect::Derivative, true)
+    .available(Availability::since(110).es(300).or(Extensions::STANDARD_DERIVATIVES).stages(Stages::FRAGMENT));
+const N110: Row = Row::base("§8.9", 110).with(Effect::None, false).available(Availability::since(110).es(NEVER));
 const EMIT: Row =
     Row::base("§8.10", 150).with(Effect::Emits, false).available(Availability::since(150).stages(Stages::GEOMETRY));
 
@@ -24,6 +30,7 @@ pub(super) static ROWS: &[Row] = rows! {
     G110 Cross: vec3 cross(vec3 x, vec3 y);
     G110 Normalize: genType normalize(genType x);
     G110 Faceforward: genType faceforward(genType N, genType I, genType Nref);
+    FIXED Ftransform: vec4 ftransform();
     G110 Reflect: genType reflect(genType I, genType N);
     G110 Refract: genType refract(genType I, genType N, float eta);
 

@@ -132,6 +132,8 @@ names! {
     genUType = Matcher::Gen(Scalar::Uint);
     genBType = Matcher::Gen(Scalar::Bool);
     out_genType = Matcher::OutGen(Scalar::Float);
+    out_genIType = Matcher::OutGen(Scalar::Int);
+    out_genUType = Matcher::OutGen(Scalar::Uint);
     vec = Matcher::Vec(Scalar::Float);
     ivec = Matcher::Vec(Scalar::Int);
     uvec = Matcher::Vec(Scalar::Uint);

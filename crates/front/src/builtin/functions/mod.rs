@@ -5,6 +5,7 @@
 //! here:* overload resolution (`analysis`), and the computation of a function, which
 //! [`operations`](super::operations) defines by the [`BuiltinFunction`] of the row.
 
+mod bits;
 mod common;
 mod geometric;
 mod matcher;
@@ -190,7 +191,7 @@ macro_rules! rows {
 }
 use rows;
 
-static TABLES: &[&[Row]] = &[common::ROWS, geometric::ROWS, texture::ROWS, texture_old::ROWS];
+static TABLES: &[&[Row]] = &[common::ROWS, bits::ROWS, geometric::ROWS, texture::ROWS, texture_old::ROWS];
 
 /// All rows, in the order of the specification's sections.
 pub fn all() -> impl Iterator<Item = &'static Row> {

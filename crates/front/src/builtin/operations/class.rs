@@ -24,8 +24,16 @@ pub enum Class {
     Boolean(BooleanFunction),
     /// A test of a float.
     Test(Test),
+    /// The bits of a float as an integer, or of an integer as a float.
+    BitCast(BitCast),
+    /// A function of the bits of integers, component by component.
+    Bits(BitFunction),
+    /// Floats of fewer bits in a `uint`.
+    Packing(Packing),
     /// `modf`, which writes an argument.
     Modf,
+    /// A function that the analysis writes out in other operations, so that no later phase knows it.
+    Composed,
     /// A difference between neighboring fragments (§8.8).
     Derivative(Derivative),
     /// Noise with a number of components (§8.9).
@@ -96,6 +104,14 @@ plain!(
     Test { Nan, Infinite }
 );
 plain!(
+    /// `floatBitsToInt`, `floatBitsToUint`, `intBitsToFloat`, `uintBitsToFloat`
+    BitCast { FloatToInt, FloatToUint, IntToFloat, UintToFloat }
+);
+plain!(
+    /// `bitfieldExtract`, `bitfieldInsert`, `bitfieldReverse`, `bitCount`, `findLSB`, `findMSB`
+    BitFunction { Extract, Insert, Reverse, Count, Lowest, Highest }
+);
+plain!(
     /// `dFdx`, `dFdy`, `fwidth`
     Derivative { X, Y, Width }
 );
@@ -107,3 +123,37 @@ plain!(
 /// The number of components of `noise1` to `noise4`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Noise(pub u8);
+
+/// How floats are packed into a `uint`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Format {
+    /// 0 to 1 as the integers from 0.
+    Unorm,
+    /// -1 to 1 as signed integers.
+    Snorm,
+    /// Floats of 16 bits.
+    Half,
+}
+
+/// `packUnorm4x8`, `unpackHalf2x16` and so on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Packing {
+    /// Whether the `uint` is the argument.
+    pub unpacks: bool,
+    /// What the bits mean.
+    pub format: Format,
+    /// The number of components: 2 of 16 bits or 4 of 8 bits.
+    pub components: u8,
+}
+
+impl Packing {
+    /// The bits of a component.
+    pub fn bits(self) -> u32 {
+        32 / u32::from(self.components.max(1))
+    }
+
+    /// What 1.0 is as an integer, for the normalized formats.
+    pub fn one(self) -> u32 {
+        (1u32 << (self.bits() - u32::from(self.format == Format::Snorm))) - 1
+    }
+}

@@ -7,6 +7,7 @@
 //! match the [`Class`] without a wildcard, so a new row does not compile until each of them supports it. *Not done
 //! here:* the prototypes with their versions and stages ([`functions`](super::functions)), which name their identity.
 
+mod bits;
 mod class;
 mod cost;
 mod formula;
@@ -15,7 +16,11 @@ pub mod precision;
 mod table;
 mod texture;
 
-pub use class::{BooleanFunction, Class, Derivative, Emission, MatrixFunction, Noise, Numbers, Relation, Test};
+pub use bits::{from_half, to_half};
+pub use class::{
+    BitCast, BitFunction, BooleanFunction, Class, Derivative, Emission, Format, MatrixFunction, Noise, Numbers,
+    Packing, Relation, Test,
+};
 pub use cost::{CallCost, Linear};
 pub use formula::Formula;
 pub use precision::{Precision, Rule};
@@ -46,7 +51,14 @@ impl Operation {
             Class::Ternary(op) => op.jumps(),
             Class::Composite(op) => op.jumps(),
             Class::Numbers(op) => op.jumps(),
-            Class::Relation(_) | Class::Boolean(_) | Class::Test(_) | Class::Modf => true,
+            Class::Relation(_)
+            | Class::Boolean(_)
+            | Class::Test(_)
+            | Class::BitCast(_)
+            | Class::Bits(_)
+            | Class::Packing(_)
+            | Class::Composed
+            | Class::Modf => true,
             Class::Matrix(_) | Class::Derivative(_) | Class::Noise(_) | Class::Texture(_) | Class::Emission(_) => false,
         }
     }
@@ -67,7 +79,11 @@ impl Operation {
             | Class::Relation(_)
             | Class::Boolean(_)
             | Class::Test(_)
+            | Class::BitCast(_)
+            | Class::Bits(_)
+            | Class::Packing(_)
             | Class::Modf
+            | Class::Composed
             | Class::Noise(_)
             | Class::Emission(_) => false,
         }

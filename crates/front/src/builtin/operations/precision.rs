@@ -159,9 +159,9 @@ const COSH_OF_X: Formula = formula!((* (+ (Exp x) (Exp (Neg x))) 0.5));
 
 rules! {
     ADD = "+, -" ("x", "y"), Correct, "Vulkan: OpFAdd, OpFSub";
-    MUL = "*, matrixCompMult, outerProduct" ("x", "y"), Correct, "Vulkan: OpFMul";
+    MUL = "*, matrixCompMult, outerProduct, ldexp" ("x", "y"), Correct, "Vulkan: OpFMul";
     DIV = "/" ("x", "y"), Ulps(2.5), "Vulkan: OpFDiv, for |y| in [2^-126, 2^126]; beyond, anything";
-    EXACT = "-x, abs, sign, floor, ceil, trunc, step, clamp, transpose" ("x"), Exact, "Vulkan: correctly rounded, and an f32";
+    EXACT = "-x, abs, sign, floor, ceil, trunc, step, clamp, transpose, frexp, intBitsToFloat, uintBitsToFloat" ("x"), Exact, "Vulkan: correctly rounded, and an f32";
     FRACT = "fract, modf" ("x"), Correct, "Vulkan: correctly rounded";
     ROUND = "round, roundEven" ("x"), EitherHalf, "GLSL 1.50 8.3";
     EXTREMUM = "min, max" ("x", "y"), EitherOfNan, "GLSL.std.450: FMin, FMax";
@@ -189,6 +189,7 @@ rules! {
     MOD = "mod" ("x", "y"), Inherited(&formula!((- x (* y (Floor (/ x y)))))), "Vulkan: OpFMod";
     MIX = "mix" ("x", "y", "a"), Inherited(&formula!((either (+ (* x (- 1.0 z)) (* y z)) (+ x (* (- y x) z))))),
         "Vulkan: FMix";
+    FMA = "fma" ("a", "b", "c"), Inherited(&formula!((+ (* x y) z))), "Vulkan: Fma: as a * b + c, or rounded once";
     SMOOTHSTEP = "smoothstep" ("edge0", "edge1", "x"),
         Inherited(&formula!((with (* (* x x) (- 3.0 (* x 2.0))) (Min (Max (/ (- z x) (- y x)) 0.0) 1.0)))),
         "Vulkan: SmoothStep";

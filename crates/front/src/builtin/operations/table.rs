@@ -7,8 +7,10 @@
 
 use super::cost::{LOOKUP, each, special, whole};
 use super::precision::{self, Rule};
-use super::{BooleanFunction, CallCost, Class, Derivative, Emission, Lookup, MatrixFunction};
-use super::{Noise, Numbers, Operation, Relation, Test, TextureForm, kernel};
+use super::{
+    BitCast, BitFunction, BooleanFunction, CallCost, Class, Derivative, Emission, Format, Lookup, MatrixFunction,
+};
+use super::{Noise, Numbers, Operation, Packing, Relation, Test, TextureForm, kernel};
 
 macro_rules! class {
     (floats $kind:ident $name:ident) => {
@@ -163,6 +165,10 @@ const fn texture(lookup: Lookup, projective: bool, offset: bool) -> Class {
     Class::Texture(TextureForm::new(lookup, projective, offset))
 }
 
+const fn pack(unpacks: bool, format: Format, components: u8) -> Class {
+    Class::Packing(Packing { unpacks, format, components })
+}
+
 operations! {
     unary {
         floats Radians "radians" smooth each(1), RADIANS, kernel::radians;
@@ -214,6 +220,7 @@ operations! {
         numbers Clamp "clamp" smooth each(2), EXACT, kernel::clamp;
         numbers Mix "mix" smooth each(3), MIX, kernel::mix;
         floats Smoothstep "smoothstep" smooth special(1, 7), SMOOTHSTEP, kernel::smoothstep;
+        floats Fma "fma" smooth each(2), FMA, f64::mul_add;
     }
     composite {
         Length "length" smooth whole(1, -1, 0, 2), LENGTH;
@@ -266,6 +273,33 @@ operations! {
         Noise2 "noise2" Class::Noise(Noise(2)), each(1), None;
         Noise3 "noise3" Class::Noise(Noise(3)), each(1), None;
         Noise4 "noise4" Class::Noise(Noise(4)), each(1), None;
+        FloatBitsToInt "floatBitsToInt" Class::BitCast(BitCast::FloatToInt), each(1), None;
+        FloatBitsToUint "floatBitsToUint" Class::BitCast(BitCast::FloatToUint), each(1), None;
+        IntBitsToFloat "intBitsToFloat" Class::BitCast(BitCast::IntToFloat), each(1), Some(&precision::EXACT);
+        UintBitsToFloat "uintBitsToFloat" Class::BitCast(BitCast::UintToFloat), each(1), Some(&precision::EXACT);
+        Ftransform "ftransform" Class::Composed, each(7), None;
+        Frexp "frexp" Class::Composed, each(8), Some(&precision::EXACT);
+        Ldexp "ldexp" Class::Composed, each(8), Some(&precision::MUL);
+        UaddCarry "uaddCarry" Class::Composed, each(3), None;
+        UsubBorrow "usubBorrow" Class::Composed, each(3), None;
+        UmulExtended "umulExtended" Class::Composed, each(16), None;
+        ImulExtended "imulExtended" Class::Composed, each(20), None;
+        BitfieldExtract "bitfieldExtract" Class::Bits(BitFunction::Extract), each(2), None;
+        BitfieldInsert "bitfieldInsert" Class::Bits(BitFunction::Insert), each(4), None;
+        BitfieldReverse "bitfieldReverse" Class::Bits(BitFunction::Reverse), each(1), None;
+        BitCount "bitCount" Class::Bits(BitFunction::Count), each(1), None;
+        FindLsb "findLSB" Class::Bits(BitFunction::Lowest), each(1), None;
+        FindMsb "findMSB" Class::Bits(BitFunction::Highest), each(1), None;
+        PackUnorm2x16 "packUnorm2x16" pack(false, Format::Unorm, 2), each(8), None;
+        PackSnorm2x16 "packSnorm2x16" pack(false, Format::Snorm, 2), each(8), None;
+        PackUnorm4x8 "packUnorm4x8" pack(false, Format::Unorm, 4), each(16), None;
+        PackSnorm4x8 "packSnorm4x8" pack(false, Format::Snorm, 4), each(16), None;
+        PackHalf2x16 "packHalf2x16" pack(false, Format::Half, 2), each(4), None;
+        UnpackUnorm2x16 "unpackUnorm2x16" pack(true, Format::Unorm, 2), each(3), None;
+        UnpackSnorm2x16 "unpackSnorm2x16" pack(true, Format::Snorm, 2), each(3), None;
+        UnpackUnorm4x8 "unpackUnorm4x8" pack(true, Format::Unorm, 4), each(3), None;
+        UnpackSnorm4x8 "unpackSnorm4x8" pack(true, Format::Snorm, 4), each(3), None;
+        UnpackHalf2x16 "unpackHalf2x16" pack(true, Format::Half, 2), each(2), None;
         EmitVertex "EmitVertex" Class::Emission(Emission::Vertex), each(1), None;
         EndPrimitive "EndPrimitive" Class::Emission(Emission::Primitive), each(1), None;
     }

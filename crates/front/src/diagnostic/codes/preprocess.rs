@@ -68,16 +68,16 @@ codes! {
         bad Fragment("#ifndef LIGHTS\n#error LIGHTS is not set\n#endif\nvoid main() {}"),
         good Fragment("#ifndef LIGHTS\n#define LIGHTS 4\n#endif\nvoid main() {}");
     MISSING_VERSION = "E0120" "missing-version" Error "GLSL 1.50 §3.3"
-        "By the specification, a shader without a `#version` line is written in GLSL 1.10. glisten compiles GLSL \
-         1.50, whose shaders must say so."
-        bad None, good Fragment("void main() {}");
+        "By the specification, a shader without a `#version` line is written in GLSL 1.10. This one uses what 1.10 does \
+         not have, so it is written in another version and must say so. Other errors of the source are not reported, \
+         because they depend on its version."
+        bad None, good Fragment("#version 130\nin vec4 a; out vec4 c; void main() { c = a; }");
     UNKNOWN_VERSION = "E0121" "unknown-version" Error "GLSL 1.50 §3.3"
         "The `#version` line names a version that does not exist, or a profile that the version does not have."
         bad Vertex("#version 155\nvoid main() {}"), good Vertex("#version 150\nvoid main() {}");
     UNSUPPORTED_VERSION = "E0122" "unsupported-version" Error "GLSL 1.50 §3.3"
-        "The version or profile exists, but glisten does not support it yet. It compiles 1.50 with the core \
-         profile."
-        bad Vertex("#version 430\nvoid main() {}"), good Vertex("#version 150 core\nvoid main() {}");
+        "The version exists, but glisten does not support it yet. It reads 1.10 to 4.60, and 1.00 and 3.00 of OpenGL ES."
+        bad Vertex("#version 310 es\nvoid main() {}"), good Vertex("#version 300 es\nvoid main() {}");
     LATE_VERSION = "E0123" "late-version" Error "GLSL 1.50 §3.3"
         "`#version` must come before everything but comments and white space, and may occur only once."
         bad Vertex("float a;\n#version 150\nvoid main() {}"), good Vertex("// A shader\n#version 150\nvoid main() {}");
@@ -130,8 +130,8 @@ codes! {
     EXTENSION_IGNORED = "W0106" "extension-ignored" Warning "GLSL 1.50 §3.3"
         "The source requests an extension that glisten does not implement or that is not in any registry, but does \
          not require it: nothing is enabled."
-        bad Fragment("#extension GL_ARB_gpu_shader5 : enable\nvoid main() {}"),
-        good Fragment("#ifdef GL_ARB_gpu_shader5\n#extension GL_ARB_gpu_shader5 : enable\n#endif\nvoid main() {}");
+        bad Fragment("#extension GL_ARB_gpu_shader_fp64 : enable\nvoid main() {}"),
+        good Fragment("#ifdef GL_ARB_gpu_shader_fp64\n#extension GL_ARB_gpu_shader_fp64 : enable\n#endif\nvoid main() {}");
     RESERVED_NAME = "W0107" "double-underscore" Warning "GLSL 1.50 §3.3, §3.6"
         "Names that contain two consecutive underscores are reserved for future keywords and predefined macros. \
          Drivers accept them; some prefix such names or warn."

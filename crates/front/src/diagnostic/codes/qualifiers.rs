@@ -82,9 +82,15 @@ codes! {
         bad Vertex("uniform vec4 a; invariant a; void main() { gl_Position = a; }"),
         good Vertex("out vec4 a; invariant a; void main() { a = vec4(0.0); gl_Position = a; }");
     NEEDS_EXTENSION = "E0617" "needs-extension" Error "GLSL 1.50 §3.3"
-        "This version of the language does not have the construct. An extension that glisten knows provides it, if \
-         the source enables the extension."
+        "This version of the language does not have the construct. A later version has it, or an earlier one, or an \
+         extension provides it that the source can enable; the message says which. docs/versions.md lists the versions."
         bad Vertex("layout(location = 1) in vec4 a; void main() { gl_Position = a; }"),
         good Vertex("#extension GL_ARB_explicit_attrib_location : enable\nlayout(location = 1) in vec4 a; \
             void main() { gl_Position = a; }");
+    MISSING_PRECISION = "E0618" "missing-precision" Error "GLSL ES 3.00 §4.5.4"
+        "In GLSL ES, `float` has no default precision in fragment shaders, and neither have the samplers that came with \
+         ES 3.00 in any stage. A precision statement gives one, or each declaration names its own. OpenGL's language has \
+         no precision and needs none."
+        bad Fragment("#version 300 es\nout vec4 c; void main() { c = vec4(1.0); }"),
+        good Fragment("#version 300 es\nprecision highp float; out vec4 c; void main() { c = vec4(1.0); }");
 }

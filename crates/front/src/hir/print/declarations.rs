@@ -11,13 +11,18 @@ use crate::language::Profile;
 impl Printer<'_> {
     pub(super) fn header(&mut self) {
         let version = self.shader.version;
+        let globals = &self.shader.globals;
         let profile = match version.profile {
-            Profile::Core => "",
-            Profile::Compatibility => " compatibility",
+            _ if globals.iter().any(Global::is_fixed) => " compatibility",
+            Profile::Core | Profile::Compatibility => "",
             Profile::Es => " es",
         };
-        self.line(&format!("#version {}{profile}", version.number));
-        let globals = &self.shader.globals;
+        // Older texts are written as 1.50 is, and those of ES as the desktop's unless the target is ES.
+        let number = match version.profile {
+            Profile::Es => version.number,
+            Profile::Core | Profile::Compatibility => version.number.max(150),
+        };
+        self.line(&format!("#version {number}{profile}"));
         let located = globals.iter().any(|global| global.location.is_some() || global.index.is_some());
         let bound = globals.iter().any(|global| {
             global.binding.is_some() || global.block.as_ref().is_some_and(|block| block.binding.is_some())
@@ -94,6 +99,10 @@ impl Printer<'_> {
                 self.builtin(global);
                 continue;
             }
+            if global.is_fixed() {
+                self.fixed(global);
+                continue;
+            }
             self.above(global.span);
             if global.block.is_some() {
                 self.block(id, global);
@@ -101,6 +110,16 @@ impl Printer<'_> {
                 self.variable(id, global);
                 self.behind(global.span);
             }
+        }
+    }
+
+    /// A redeclaration of a variable of the fixed-function pipeline, if its interpolation was declared.
+    fn fixed(&mut self, global: &Global) {
+        if global.interpolation_written || global.centroid {
+            let interpolation = if global.interpolation_written { global.interpolation.name() } else { "" };
+            let centroid = if global.centroid { "centroid " } else { "" };
+            let (storage, ty) = (storage(global.storage), self.type_name(global.ty));
+            self.line(format!("{interpolation} {centroid}{storage}{ty} {};", global.name).trim_start());
         }
     }
 

@@ -278,6 +278,16 @@ impl Printer<'_> {
         self.write(right, own.tighter(), text);
     }
 
+    /// Whether the shader calls something else by the name of a function, as sources of 1.20 may: `uniform sampler2D
+    /// texture;`.
+    fn is_hidden(&self, name: &str) -> bool {
+        let shader = self.shader;
+        let mut locals = shader.functions.iter().flat_map(|function| &function.locals);
+        shader.globals.iter().any(|global| global.name == name)
+            || shader.functions.iter().any(|function| function.name == name)
+            || locals.any(|local| local.name == name)
+    }
+
     /// The name whose row has these types: `shadow2D` returns a `vec4`, `texture` of the same sampler a `float`.
     fn builtin_name(&self, function: BuiltinFunction, ret: TypeId, arguments: &[ExprId]) -> &'static str {
         let types: Vec<(TypeId, ParamMode)> =
@@ -291,7 +301,7 @@ impl Printer<'_> {
         let rows = || functions::all().filter(|row| row.function == function);
         let modern =
             rows().filter(|row| !row.deprecated).any(|row| row.signatures(self.shader.stage).any(|s| fits(&s)));
-        if modern {
+        if modern && !self.is_hidden(function.name()) {
             return function.name();
         }
         let old = rows().find(|row| row.deprecated && row.signatures(self.shader.stage).any(|s| fits(&s)));

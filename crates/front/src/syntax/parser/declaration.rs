@@ -42,7 +42,8 @@ impl<T: TokenSource> Parser<'_, '_, T> {
             DeclarationKind::Broken(names)
         });
         let span = self.since(start.span);
-        self.ast.declarations.push(Declaration { kind, span, extensions: start.extensions() });
+        let extensions = self.session.extensions_at(start);
+        self.ast.declarations.push(Declaration { kind, span, extensions });
     }
 
     /// Handles a stray `}`. If an opening brace was assumed before, this one may be its partner.
@@ -354,6 +355,8 @@ impl<T: TokenSource> Parser<'_, '_, T> {
     pub(super) fn begins_declaration(&mut self) -> bool {
         match self.kind() {
             TokenKind::Struct | TokenKind::Precision | TokenKind::Void => true,
+            TokenKind::Foreign => self.is_foreign_qualifier() || self.ahead(1).kind != TokenKind::LeftParen,
+            TokenKind::Unsigned => true,
             TokenKind::Type => {
                 let behind = self.behind_brackets();
                 !matches!(behind, TokenKind::LeftParen | TokenKind::Dot)

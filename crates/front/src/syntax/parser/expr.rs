@@ -332,6 +332,13 @@ impl<T: TokenSource> Parser<'_, '_, T> {
                 return Ok(self.error_expr(token.span));
             }
             TokenKind::Type => return self.constructor(),
+            TokenKind::Foreign => return Err(self.foreign()),
+            TokenKind::Unsigned => {
+                let ty = self.type_specifier()?;
+                let arguments = self.arguments()?;
+                let whole = self.since(token.span);
+                return self.push(ExprKind::Construct(Box::new(ty), arguments), whole);
+            }
             TokenKind::LeftParen => return self.parenthesized(),
             TokenKind::Int => Literal::Int(token.payload as i32),
             TokenKind::Uint => Literal::Uint(token.payload),

@@ -12,6 +12,7 @@
 
 mod declaration;
 mod expr;
+mod foreign;
 mod recover;
 mod statement;
 #[cfg(test)]
@@ -19,11 +20,12 @@ mod tests;
 mod types;
 
 use super::ast::{Ast, BinaryOp, ExprId, Ident};
-use super::keywords::{NEVER, TABLE};
+use super::keywords::TABLE;
 use super::session::{ParseSession, TokenSource};
 use super::token::{Token, TokenKind};
 use crate::diagnostic::codes::{general, syntax as codes};
 use crate::diagnostic::{Code, Diagnostic};
+use crate::language::NEVER;
 use crate::source::Span;
 use crate::stack::with_stack;
 use rustc_hash::FxHashSet;
@@ -246,7 +248,7 @@ impl<'p, 's, T: TokenSource> Parser<'p, 's, T> {
     fn report_reserved(&mut self, token: Token, what: &str) {
         let name = self.session.spelling(token).to_owned();
         let message = format!("the reserved word `{name}` cannot be {what}");
-        let since = TABLE.iter().find(|row| row.spelling == name).map_or(NEVER, |row| row.keyword_since);
+        let since = TABLE.iter().find(|row| row.spelling == name).map_or(NEVER, |row| row.keyword.desktop);
         let mut diagnostic =
             Diagnostic::new(&codes::RESERVED_WORD, token.span, message).here("reserved for later versions");
         if since != NEVER {

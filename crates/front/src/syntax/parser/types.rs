@@ -3,7 +3,6 @@
 use super::{Parse, Parser, TokenKind, TokenSource, codes};
 use crate::diagnostic::Diagnostic;
 use crate::source::Span;
-use crate::syntax::ast::Extensions;
 use crate::syntax::ast::{
     ArrayDim, Declarator, ExprId, ExprKind, LayoutId, MemberDecl, Qualifier, QualifierKind, StructSpec, TypeBase,
     TypeSpec,
@@ -61,6 +60,8 @@ impl<T: TokenSource> Parser<'_, '_, T> {
             } else if self.kind() == TokenKind::Layout {
                 let kind = QualifierKind::Layout(self.layout()?);
                 list.push(Qualifier { kind, span: self.since(start) });
+            } else if self.is_foreign_qualifier() {
+                let _: super::Reported = self.foreign();
             } else if self.is_reserved_qualifier() {
                 let token = self.current;
                 let message = format!("the reserved word `{}` is not a qualifier", self.session.spelling(token));
@@ -142,6 +143,11 @@ impl<T: TokenSource> Parser<'_, '_, T> {
                 self.bump();
                 TypeBase::Keyword(token.symbol())
             }
+            TokenKind::Unsigned => self.unsigned(),
+            TokenKind::Foreign => {
+                let _: super::Reported = self.foreign();
+                TypeBase::Error
+            }
             TokenKind::Ident => TypeBase::Named(self.ident("a type")?),
             TokenKind::Reserved => {
                 self.report_reserved_type();
@@ -152,6 +158,15 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         };
         let array = self.array_specifiers()?;
         Ok(TypeSpec { base, array, span: self.since(token.span) })
+    }
+
+    /// `unsigned int`, which GL_EXT_gpu_shader4 spells as C does.
+    fn unsigned(&mut self) -> TypeBase {
+        self.bump();
+        if self.kind() == TokenKind::Type && self.session.spelling(self.current) == "int" {
+            self.bump();
+        }
+        TypeBase::Keyword(self.session.names.intern("uint"))
     }
 
     /// Reports a reserved word used as a type, at each use, since no declaration can make it right.
@@ -243,22 +258,10 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         Ok(Declarator { name, array, initializer: None })
     }
 
-    /// initializer, including the lists of 420pack
+    /// initializer, including the lists of 420pack; the analysis knows whether the language has them
     pub(super) fn initializer(&mut self) -> Parse<ExprId> {
         if self.kind() != TokenKind::LeftBrace {
             return self.assignment_expression();
-        }
-        let extensions = self.current.extensions();
-        let span = self.current.span;
-        if !extensions.contains(Extensions::SHADING_LANGUAGE_420PACK) {
-            let diagnostic = Diagnostic::new(
-                &codes::LIST_WITHOUT_EXTENSION,
-                span,
-                "initializer lists need GL_ARB_shading_language_420pack",
-            )
-            .here("a list begins here")
-            .help("write a constructor, or `#extension GL_ARB_shading_language_420pack : require`");
-            self.session.report(diagnostic);
         }
         self.initializer_list()
     }

@@ -1,6 +1,9 @@
 //! Macros: `#define`, `#undef`, and the predefined ones (GLSL 1.50 §3.3).
 
-use super::{ParseSession, Preprocessor, Span, Symbol, Token, TokenFlags, TokenKind, codes, extension, kind, version};
+use super::{
+    Feature, ParseSession, Preprocessor, Profile, Span, Symbol, Token, TokenFlags, TokenKind, codes, extension, kind,
+    version,
+};
 use crate::diagnostic::Diagnostic;
 use crate::source::SourceMap;
 use std::sync::Arc;
@@ -61,15 +64,42 @@ impl Macro {
 impl Preprocessor<'_> {
     /// Defines the macros that every shader of the version has.
     pub(super) fn define_predefined(&mut self, session: &mut ParseSession<'_>) {
-        let number = version::NEWEST_SUPPORTED.to_string();
-        let plain = [("__VERSION__", number.as_str()), ("GL_core_profile", "1")];
-        for (name, value) in plain {
-            self.predefine(session, name, value, Meaning::Body);
-        }
+        self.predefine(session, "__VERSION__", &version::UNWRITTEN.number.to_string(), Meaning::Body);
         self.predefine(session, "__LINE__", "0", Meaning::Line);
         self.predefine(session, "__FILE__", "0", Meaning::File);
-        for row in extension::implemented() {
+        let version = self.version;
+        for row in extension::implemented().filter(|row| row.is_for(version)) {
             self.predefine(session, row.name, "1", Meaning::Body);
+        }
+    }
+
+    /// Defines the macro of the profile, and gives `__VERSION__` its value.
+    pub(super) fn define_version(&mut self, session: &mut ParseSession<'_>) {
+        let number = session.names.intern(&self.version.number.to_string()).bits();
+        let name = session.names.intern("__VERSION__");
+        let definition = self.macro_of(name).and_then(|index| self.macros.get_mut(index));
+        if let Some(definition) = definition {
+            definition.body = definition.body.iter().map(|token| Token { payload: number, ..*token }).collect();
+        }
+        if self.version.has(Feature::Precision) {
+            self.predefine(session, "GL_FRAGMENT_PRECISION_HIGH", "1", Meaning::Body);
+        }
+        match self.version.profile {
+            Profile::Es => {
+                for row in extension::implemented() {
+                    match row.is_for(self.version) {
+                        true => self.predefine(session, row.name, "1", Meaning::Body),
+                        false => {
+                            let symbol = session.names.intern(row.name);
+                            self.word(symbol).definition = 0;
+                        }
+                    }
+                }
+                self.predefine(session, "GL_ES", "1", Meaning::Body);
+            }
+            Profile::Compatibility => self.predefine(session, "GL_compatibility_profile", "1", Meaning::Body),
+            Profile::Core if self.version.number < 150 => {}
+            Profile::Core => self.predefine(session, "GL_core_profile", "1", Meaning::Body),
         }
     }
 

@@ -1,6 +1,6 @@
 //! Directives by name, conditional groups, `#line`, `#error` and `#pragma` (GLSL 1.50 §3.3).
 
-use super::{Extensions, Mode, ParseSession, Preprocessor, Span, Token, TokenKind, codes, kind};
+use super::{Extensions, Feature, Mode, ParseSession, Preprocessor, Span, Token, TokenKind, codes, kind};
 use crate::diagnostic::{Diagnostic, did_you_mean};
 
 /// An open conditional group.
@@ -403,7 +403,7 @@ impl Preprocessor<'_> {
         };
         let small = |number: i64| u32::try_from(number.max(0)).unwrap_or(u32::MAX);
         // After the directive, the line number is one more than it says (§3.3); 3.30 says otherwise.
-        let next = small(line).saturating_add(u32::from(self.version.number < 330));
+        let next = small(line).saturating_add(u32::from(!self.version.has(Feature::LineNumbersNext)));
         session.sources.renumber(span, next);
         if let (Some(&string), Some(frame)) = (numbers.get(1), self.frames.last_mut()) {
             frame.number = small(string);

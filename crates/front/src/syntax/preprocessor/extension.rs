@@ -1,6 +1,8 @@
 //! `#extension` (GLSL 1.50 §3.3), and the table of known extensions.
 
-use super::{Behavior, Extensions, ParseSession, Preprocessor, Span, Token, TokenKind, codes, kind};
+use super::{
+    Behavior, Extensions, Feature, ParseSession, Preprocessor, Profile, Span, Token, TokenKind, Version, codes, kind,
+};
 use crate::diagnostic::{Diagnostic, did_you_mean};
 use std::sync::LazyLock;
 
@@ -9,23 +11,79 @@ use std::sync::LazyLock;
 pub(in crate::syntax) struct Implemented {
     pub(in crate::syntax) name: &'static str,
     bit: Extensions,
+    families: Families,
+}
+
+/// The families of versions for which an extension is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Families {
+    Desktop,
+    Es,
+    Both,
+}
+
+const fn desktop(name: &'static str, bit: Extensions) -> Implemented {
+    Implemented { name, bit, families: Families::Desktop }
+}
+
+const fn es(name: &'static str, bit: Extensions) -> Implemented {
+    Implemented { name, bit, families: Families::Es }
+}
+
+const fn both(name: &'static str, bit: Extensions) -> Implemented {
+    Implemented { name, bit, families: Families::Both }
 }
 
 static IMPLEMENTED: &[Implemented] = &[
-    Implemented { name: "GL_ARB_draw_instanced", bit: Extensions::DRAW_INSTANCED },
-    Implemented { name: "GL_ARB_explicit_attrib_location", bit: Extensions::EXPLICIT_ATTRIB_LOCATION },
-    // What this extension and ARB_texture_multisample provide is part of 1.50; sources of that time still enable
-    // them.
-    Implemented { name: "GL_ARB_fragment_coord_conventions", bit: Extensions::empty() },
-    Implemented { name: "GL_ARB_separate_shader_objects", bit: Extensions::SEPARATE_SHADER_OBJECTS },
-    Implemented { name: "GL_ARB_shading_language_420pack", bit: Extensions::SHADING_LANGUAGE_420PACK },
-    Implemented { name: "GL_ARB_shading_language_include", bit: Extensions::INCLUDE },
-    Implemented { name: "GL_ARB_texture_multisample", bit: Extensions::empty() },
-    Implemented { name: "GL_ARB_texture_rectangle", bit: Extensions::TEXTURE_RECTANGLE },
-    Implemented { name: "GL_ARB_uniform_buffer_object", bit: Extensions::UNIFORM_BUFFER_OBJECT },
-    Implemented { name: "GL_GOOGLE_cpp_style_line_directive", bit: Extensions::INCLUDE },
-    Implemented { name: "GL_GOOGLE_include_directive", bit: Extensions::INCLUDE },
+    desktop("GL_AMD_conservative_depth", Extensions::CONSERVATIVE_DEPTH),
+    desktop("GL_ARB_arrays_of_arrays", Extensions::ARRAYS_OF_ARRAYS),
+    desktop("GL_ARB_conservative_depth", Extensions::CONSERVATIVE_DEPTH),
+    desktop("GL_ARB_derivative_control", Extensions::DERIVATIVE_CONTROL),
+    // Since 1.10 the language has what these provide; sources of that time still enable them.
+    desktop("GL_ARB_draw_buffers", Extensions::empty()),
+    desktop("GL_ARB_draw_instanced", Extensions::DRAW_INSTANCED),
+    desktop("GL_ARB_enhanced_layouts", Extensions::ENHANCED_LAYOUTS),
+    desktop("GL_ARB_explicit_attrib_location", Extensions::EXPLICIT_ATTRIB_LOCATION),
+    desktop("GL_ARB_explicit_uniform_location", Extensions::EXPLICIT_UNIFORM_LOCATION),
+    desktop("GL_ARB_fragment_coord_conventions", Extensions::FRAGMENT_COORD_CONVENTIONS),
+    desktop("GL_ARB_gpu_shader5", Extensions::GPU_SHADER5),
+    desktop("GL_ARB_separate_shader_objects", Extensions::SEPARATE_SHADER_OBJECTS),
+    desktop("GL_ARB_shader_bit_encoding", Extensions::SHADER_BIT_ENCODING),
+    desktop("GL_ARB_shader_texture_lod", Extensions::SHADER_TEXTURE_LOD),
+    desktop("GL_ARB_shading_language_420pack", Extensions::SHADING_LANGUAGE_420PACK),
+    desktop("GL_ARB_shading_language_include", Extensions::INCLUDE),
+    desktop("GL_ARB_shading_language_packing", Extensions::SHADING_LANGUAGE_PACKING),
+    desktop("GL_ARB_texture_gather", Extensions::TEXTURE_GATHER),
+    desktop("GL_ARB_texture_multisample", Extensions::TEXTURE_MULTISAMPLE),
+    desktop("GL_ARB_texture_query_levels", Extensions::TEXTURE_QUERY_LEVELS),
+    desktop("GL_ARB_texture_query_lod", Extensions::TEXTURE_QUERY_LOD),
+    desktop("GL_ARB_texture_rectangle", Extensions::TEXTURE_RECTANGLE),
+    desktop("GL_ARB_uniform_buffer_object", Extensions::UNIFORM_BUFFER_OBJECT),
+    es("GL_EXT_draw_buffers", Extensions::DRAW_BUFFERS),
+    es("GL_EXT_frag_depth", Extensions::FRAG_DEPTH),
+    desktop("GL_EXT_gpu_shader4", Extensions::GPU_SHADER4),
+    es("GL_EXT_shader_texture_lod", Extensions::SHADER_TEXTURE_LOD),
+    desktop("GL_EXT_texture_array", Extensions::TEXTURE_ARRAY),
+    both("GL_GOOGLE_cpp_style_line_directive", Extensions::INCLUDE),
+    both("GL_GOOGLE_include_directive", Extensions::INCLUDE),
+    es("GL_OES_standard_derivatives", Extensions::STANDARD_DERIVATIVES),
 ];
+
+impl Implemented {
+    /// Whether sources of this language may enable it.
+    pub(in crate::syntax) fn is_for(&self, version: Version) -> bool {
+        match self.families {
+            Families::Both => true,
+            Families::Desktop => !version.is_es(),
+            Families::Es => version.is_es(),
+        }
+    }
+}
+
+/// The name of an extension that glisten implements, for messages.
+pub(crate) fn name_of(extensions: Extensions) -> Option<&'static str> {
+    IMPLEMENTED.iter().find(|row| !row.bit.is_empty() && extensions.contains(row.bit)).map(|row| row.name)
+}
 
 /// Every extension name of the OpenGL and OpenGL ES registries and of the Khronos GLSL repository, sorted, one on
 /// each line.
@@ -47,8 +105,7 @@ fn is_registered(name: &str) -> bool {
 /// enabled extension that allows the use is enabled with `warn` (§3.3).
 pub(crate) fn warning_of_use(on: Extensions, bringing: Extensions, span: Span) -> Option<Diagnostic> {
     let warned = on.to_warn_of(bringing)?;
-    let row = IMPLEMENTED.iter().find(|row| !row.bit.is_empty() && warned.contains(row.bit));
-    let name = row.map_or("an extension", |row| row.name);
+    let name = name_of(warned).unwrap_or("an extension");
     let message = format!("this is not in the language without `{name}`");
     let diagnostic = Diagnostic::new(&codes::EXTENSION_USED, span, message).here("a use of the extension");
     Some(diagnostic.note("`#extension` requests a warning for each use"))
@@ -89,10 +146,14 @@ impl Preprocessor<'_> {
             session.report(diagnostic);
         }
         let spelled = session.spelling(name).to_owned();
+        let before = self.extensions;
         self.set_behavior(session, name, &spelled, meant, span);
+        if self.extensions != before {
+            self.extension_set = session.extension_sets.number(self.extensions);
+            self.set_keywords();
+        }
         if let Some(frame) = self.frames.last_mut() {
-            frame.lexer.joins_comments =
-                self.version.number >= 420 || self.extensions.contains(Extensions::SHADING_LANGUAGE_420PACK);
+            frame.lexer.joins_comments = self.version.has_with(Feature::LineContinuation, self.extensions);
         }
     }
 
@@ -107,7 +168,11 @@ impl Preprocessor<'_> {
         if name == "all" {
             return self.set_all(session, token, behavior);
         }
-        if let Some(row) = IMPLEMENTED.iter().find(|row| row.name == name) {
+        if name == "GL_ARB_compatibility" && self.version.has(Feature::CompatibilityExtension) {
+            return self.set_compatibility(session, behavior);
+        }
+        let version = self.version;
+        if let Some(row) = IMPLEMENTED.iter().find(|row| row.name == name && row.is_for(version)) {
             self.extensions.set(row.bit, behavior != Behavior::Disable);
             self.extensions.set_warned(row.bit, behavior == Behavior::Warn);
             if behavior != Behavior::Disable {
@@ -136,6 +201,14 @@ impl Preprocessor<'_> {
         };
         let here = if required { "and the source requires it" } else { "the line is ignored" };
         session.report(Diagnostic::new(code, token.span, message).here(here).maybe_help(help));
+    }
+
+    /// GL_ARB_compatibility makes the core of 1.40 and later versions the compatibility profile.
+    fn set_compatibility(&mut self, session: &mut ParseSession<'_>, behavior: Behavior) {
+        if behavior != Behavior::Disable {
+            self.version.profile = Profile::Compatibility;
+            self.define_version(session);
+        }
     }
 
     fn set_all(&mut self, session: &mut ParseSession<'_>, token: Token, behavior: Behavior) {

@@ -48,7 +48,8 @@ impl Preprocessor<'_> {
         }
         self.last_kind = token.kind;
         self.first_token.get_or_insert(token.span);
-        Some(token.with_extensions(self.extensions))
+        token.extensions = self.extension_set;
+        Some(token)
     }
 }
 

@@ -31,6 +31,7 @@ use super::session::{ParseSession, TokenSource};
 use super::token::{Symbol, Token, TokenFlags, TokenKind};
 use crate::diagnostic::codes::preprocess as codes;
 use crate::diagnostic::{Diagnostic, codes::general};
+use crate::language::Feature;
 use crate::source::{FileId, IncludeForm, IncludeResolver, Inclusion, Span};
 use define::Macro;
 use expand::TokenRun;
@@ -89,6 +90,8 @@ pub(super) struct Preprocessor<'a> {
     /// The first directive before `#version`.
     before_version: Option<Span>,
     extensions: Extensions,
+    /// Their number in the session.
+    extension_set: u16,
     /// The first token handed to the parser.
     first_token: Option<Span>,
     stopped: bool,
@@ -129,12 +132,13 @@ impl<'a> Preprocessor<'a> {
             contexts: Vec::new(),
             macros: Vec::new(),
             words: Vec::new(),
-            kinds: keywords::kinds_in(version::NEWEST_SUPPORTED),
+            kinds: keywords::kinds_in(version::UNWRITTEN, Extensions::empty()),
             trivia: Vec::new(),
-            version: Version { number: version::NEWEST_SUPPORTED, profile: Profile::Core, span: Span::default() },
+            version: version::UNWRITTEN,
             version_seen: false,
             before_version: None,
             extensions: Extensions::empty(),
+            extension_set: 0,
             first_token: None,
             stopped: false,
             bytes: 0,
@@ -150,7 +154,7 @@ impl<'a> Preprocessor<'a> {
             resolved: FxHashMap::default(),
             engine: prelude::Engine::default(),
             outcome: PreprocessorOutcome {
-                version: Version { number: version::NEWEST_SUPPORTED, profile: Profile::Core, span: Span::default() },
+                version: version::UNWRITTEN,
                 supported: true,
                 invariant_all: None,
                 allows: Vec::new(),
@@ -236,7 +240,7 @@ impl<'a> Preprocessor<'a> {
 
     /// Whether the version allows a backslash to join lines, rather than glisten forgiving it.
     fn joins_lines(&self) -> bool {
-        self.version.number >= 420 || self.extensions.contains(Extensions::SHADING_LANGUAGE_420PACK)
+        self.version.has_with(Feature::LineContinuation, self.extensions)
     }
 
     /// Facts about a word.
@@ -320,8 +324,8 @@ impl<'a> Preprocessor<'a> {
                     session.report(diagnostic.help(help));
                 }
                 Trivia::Continuation(span, _) => {
-                    let bringing = Extensions::SHADING_LANGUAGE_420PACK;
-                    if self.version.number < 420
+                    let bringing = Feature::LineContinuation.row().extensions;
+                    if !self.version.has(Feature::LineContinuation)
                         && let Some(warning) = extension::warning_of_use(self.extensions, bringing, span)
                     {
                         session.report(warning);

@@ -8,7 +8,7 @@ use super::{FileId, ParseSession, Preprocessor, Span};
 use crate::diagnostic::{Diagnostic, codes::general};
 use crate::source::{Completion, ImportDirective};
 
-/// What the preprocessor knows of an engine.
+/// The preprocessor's knowledge of an engine.
 #[derive(Debug, Default)]
 pub(super) struct Engine {
     /// The texts that are read after the `#version` line of the main file.

@@ -4,7 +4,7 @@ use super::Preprocessor;
 use crate::diagnostic::Diagnostics;
 use crate::source::{IncludeForm, IncludeResolver, Included, SourceMap};
 use crate::syntax::names::Names;
-use crate::syntax::session::{ParseSession, TokenSource};
+use crate::syntax::session::{ExtensionSets, ParseSession, TokenSource};
 use crate::syntax::token::TokenKind;
 
 /// Files by name.
@@ -21,8 +21,12 @@ fn run(text: &str, files: &'static [(&'static str, &'static str)]) -> (String, V
     let mut sources = SourceMap::default();
     let mut diagnostics = Diagnostics::default();
     let file = sources.add("main", format!("#version 150\n{text}")).expect("room");
-    let mut session =
-        ParseSession { sources: &mut sources, diagnostics: &mut diagnostics, names: Names::with_keywords() };
+    let mut session = ParseSession {
+        sources: &mut sources,
+        diagnostics: &mut diagnostics,
+        names: Names::with_keywords(),
+        extension_sets: ExtensionSets::default(),
+    };
     let files = Files(files);
     let defines = [("FROM".to_owned(), "outside".to_owned())];
     let mut preprocessor = Preprocessor::new(&mut session, file, &defines, false, &files);
@@ -154,8 +158,12 @@ fn a_use_of_a_macro_is_traced() {
     let mut diagnostics = Diagnostics::default();
     let text = "#version 150\n#define ONE 1\n#define TWO ONE + x\nTWO";
     let file = sources.add("main", text).expect("room");
-    let mut session =
-        ParseSession { sources: &mut sources, diagnostics: &mut diagnostics, names: Names::with_keywords() };
+    let mut session = ParseSession {
+        sources: &mut sources,
+        diagnostics: &mut diagnostics,
+        names: Names::with_keywords(),
+        extension_sets: ExtensionSets::default(),
+    };
     let mut preprocessor = Preprocessor::new(&mut session, file, &[], false, &Files(&[]));
     let token = preprocessor.next(&mut session);
     assert_eq!(session.sources.snippet(token.span), "1");

@@ -3,8 +3,12 @@
 use super::{ParseSession, Preprocessor, Profile, Span, Token, TokenKind, Version, codes, keywords, kind};
 use crate::diagnostic::{Diagnostic, codes::general};
 
-/// The newest version that glisten compiles; it also reads texts without a version.
-pub(super) const NEWEST_SUPPORTED: u16 = 150;
+/// The language of a text without a `#version` line (§3.3).
+pub(super) const UNWRITTEN: Version = Version {
+    number: 110,
+    profile: Profile::Core,
+    span: Span { start: 0, end: 0, expansion: crate::source::ExpansionId::NONE },
+};
 
 /// A version of the language.
 struct Edition {
@@ -13,32 +17,37 @@ struct Edition {
     es: bool,
     /// Whether it has profiles.
     profiles: bool,
+    /// Whether glisten reads it.
     supported: bool,
 }
 
-const fn edition(number: u16, es: bool, profiles: bool, supported: bool) -> Edition {
-    Edition { number, es, profiles, supported }
+const fn desktop(number: u16) -> Edition {
+    Edition { number, es: false, profiles: number >= 150, supported: true }
+}
+
+const fn es(number: u16) -> Edition {
+    Edition { number, es: true, profiles: false, supported: number <= 300 }
 }
 
 /// All versions.
 static EDITIONS: &[Edition] = &[
-    edition(100, true, false, false),
-    edition(110, false, false, false),
-    edition(120, false, false, false),
-    edition(130, false, false, false),
-    edition(140, false, false, false),
-    edition(150, false, true, true),
-    edition(300, true, false, false),
-    edition(310, true, false, false),
-    edition(320, true, false, false),
-    edition(330, false, true, false),
-    edition(400, false, true, false),
-    edition(410, false, true, false),
-    edition(420, false, true, false),
-    edition(430, false, true, false),
-    edition(440, false, true, false),
-    edition(450, false, true, false),
-    edition(460, false, true, false),
+    es(100),
+    desktop(110),
+    desktop(120),
+    desktop(130),
+    desktop(140),
+    desktop(150),
+    es(300),
+    es(310),
+    es(320),
+    desktop(330),
+    desktop(400),
+    desktop(410),
+    desktop(420),
+    desktop(430),
+    desktop(440),
+    desktop(450),
+    desktop(460),
 ];
 
 const HELP: &str = "write `#version 150`";
@@ -141,37 +150,29 @@ impl Preprocessor<'_> {
         };
         version.profile = wanted;
         self.version = version;
-        if edition.supported && wanted == Profile::Core {
-            self.apply_version(session);
-            return;
+        if edition.supported {
+            return self.apply_version(session);
         }
-        let (span, message) = if edition.supported {
-            (profile, format!("the {named} profile of GLSL {} is not supported yet", version.number))
-        } else {
-            (number, format!("GLSL version {} is not supported yet", version.number))
-        };
-        let diagnostic = Diagnostic::new(&codes::UNSUPPORTED_VERSION, span, message)
-            .here("glisten compiles version 150 with the core profile")
-            .help(HELP);
+        let message = format!("{} is not supported yet", version.name());
+        let diagnostic = Diagnostic::new(&codes::UNSUPPORTED_VERSION, number, message)
+            .here("glisten reads 1.10 to 4.60, and 1.00 and 3.00 of ES")
+            .help("write `#version 300 es`");
         session.report(diagnostic);
         self.outcome.supported = false;
         self.stop();
     }
 
-    /// Sets the keywords and `__VERSION__` of the version.
+    /// Sets the keywords and macros of the version.
     fn apply_version(&mut self, session: &mut ParseSession<'_>) {
-        if self.version.number == NEWEST_SUPPORTED {
-            return;
-        }
-        self.kinds = keywords::kinds_in(self.version.number);
+        self.set_keywords();
+        self.define_version(session);
+    }
+
+    /// Gives each word the kind that it has in the version with the enabled extensions.
+    pub(super) fn set_keywords(&mut self) {
+        self.kinds = keywords::kinds_in(self.version, self.extensions);
         for (word, kind) in self.words.iter_mut().zip(&self.kinds) {
             word.kind = *kind;
-        }
-        let number = session.names.intern(&self.version.number.to_string()).bits();
-        let name = session.names.intern("__VERSION__");
-        let definition = self.macro_of(name).and_then(|index| self.macros.get_mut(index));
-        if let Some(definition) = definition {
-            definition.body = definition.body.iter().map(|token| Token { payload: number, ..*token }).collect();
         }
     }
 
@@ -181,27 +182,17 @@ impl Preprocessor<'_> {
             return;
         }
         self.version_seen = true;
+        if self.first_token.or(self.before_version).is_some() {
+            return;
+        }
         self.outcome.supported = false;
-        // The first token may be in an included file; the line belongs in the main file.
-        let main = self.frames.first().map(|frame| frame.file);
-        let in_main = |span: &Span| session.sources.file_of(session.sources.call_site(*span)) == main;
-        let places = [self.first_token, self.before_version];
-        let first = places.into_iter().flatten().find(in_main).or(self.first_token.or(self.before_version));
-        let Some(first) = first else {
-            let span = self.frames.first().map_or(Span::default(), |frame| {
-                let base = session.sources.file(frame.file).base();
-                Span::new(base, base)
-            });
-            let diagnostic = Diagnostic::new(&general::EMPTY_SOURCE, span, "the source is empty")
-                .help("a shader begins with `#version 150` and defines `void main()`");
-            session.report(diagnostic);
-            return self.stop();
-        };
-        self.version = Version { number: 110, profile: Profile::Core, span: Span::default() };
-        let diagnostic = Diagnostic::new(&codes::MISSING_VERSION, first, "the source has no `#version` line")
-            .here("such a line belongs before this")
-            .note("without it the language is GLSL 1.10, which glisten does not support yet")
-            .help("begin the source with `#version 150`");
+        let span = self.frames.first().map_or(Span::default(), |frame| {
+            let base = session.sources.file(frame.file).base();
+            Span::new(base, base)
+        });
+        let diagnostic = Diagnostic::new(&general::EMPTY_SOURCE, span, "the source is empty")
+            .help("a shader begins with `#version 150` and defines `void main()`");
         session.report(diagnostic);
+        self.stop();
     }
 }

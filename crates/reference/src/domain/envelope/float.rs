@@ -493,6 +493,18 @@ impl Number for EnvelopeFloat {
         }
         self.to_int_by(Number::to_uint(self.value), |end| i64::from(end as u32))
     }
+    fn to_bits(self) -> EnvelopeInt {
+        self.bits_of()
+    }
+    fn from_bits(bits: EnvelopeInt) -> Self {
+        Self::with_bits(bits)
+    }
+    fn to_half(self) -> EnvelopeInt {
+        self.half_of()
+    }
+    fn from_half(bits: EnvelopeInt) -> Self {
+        Self::with_half(bits)
+    }
     fn sum(terms: impl Iterator<Item = Self> + Clone) -> Self {
         Self::summed(terms)
     }

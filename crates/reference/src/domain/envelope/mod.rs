@@ -21,6 +21,7 @@
 //! | `block` | the same operations on eight numbers at once |
 //! | `integer` | intervals of `int`s |
 
+mod bits;
 mod block;
 mod float;
 mod formula;

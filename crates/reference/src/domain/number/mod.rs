@@ -5,6 +5,7 @@ mod block;
 pub use block::{Answers, NumberBlock};
 
 use super::{Element, Integer};
+use glisten_front::builtin::operations::{from_half, to_half};
 use glisten_scene::picture::Interval;
 
 /// A part of the error of a result in f32.
@@ -279,6 +280,30 @@ pub trait Number: Element<Block: NumberBlock<Self>> {
     fn to_int(self) -> Self::Int;
     /// `uint(float)`, rounding toward zero.
     fn to_uint(self) -> Self::Int;
+    /// `a * b + c`, rounded once or twice (GLSL 4.00 §8.3).
+    #[inline(always)]
+    fn fma(self, b: Self, c: Self) -> Self {
+        let (x, y, z) = (self.widen(), b.widen(), c.widen());
+        Self::narrow(x.mul(y).add(z))
+    }
+    /// `floatBitsToInt` (GLSL 3.30 §8.3): the bits of the nearest f32.
+    fn to_bits(self) -> Self::Int {
+        let bits = |value: f64| (value as f32).to_bits();
+        Self::Int::paired(bits(self.value()), bits(self.second()))
+    }
+    /// `intBitsToFloat` (GLSL 3.30 §8.3)
+    fn from_bits(bits: Self::Int) -> Self {
+        let value = |bits: u32| f64::from(f32::from_bits(bits));
+        Self::paired(value(bits.bits()), value(bits.second()))
+    }
+    /// The bits of the nearest 16-bit float.
+    fn to_half(self) -> Self::Int {
+        Self::Int::paired(to_half(self.value()), to_half(self.second()))
+    }
+    /// The number that the bits of a 16-bit float mean.
+    fn from_half(bits: Self::Int) -> Self {
+        Self::paired(from_half(bits.bits() & 0xffff), from_half(bits.second() & 0xffff))
+    }
     /// Whether derivatives are those of one row and one column of the quad (§8.8 lets a GPU choose).
     #[inline(always)]
     fn coarse() -> bool {

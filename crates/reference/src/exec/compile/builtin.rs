@@ -62,6 +62,9 @@ impl Compiler<'_> {
             Class::Boolean(BooleanFunction::Not) => a.iter().map(|a| self.int1(Int1::Not, *a)).collect(),
             Class::Test(Test::Nan) => a.iter().map(|a| self.classify(FloatToInt::IsNan, *a)).collect(),
             Class::Test(Test::Infinite) => a.iter().map(|a| self.classify(FloatToInt::IsInf, *a)).collect(),
+            Class::BitCast(op) => self.bit_cast(op, a),
+            Class::Bits(op) => self.bit_function(op, values, scalar),
+            Class::Packing(op) => self.packing(op, a),
             Class::Derivative(op) => self.derivative(op, a),
             // §8.9 leaves the values open. 0 has the right range and mean.
             Class::Noise(_) => {
@@ -73,8 +76,8 @@ impl Compiler<'_> {
                 Val::new()
             }
             Class::Texture(form) => self.texture_call(form, values, first_ty, ty),
-            // `modf` writes an argument, and is compiled before its arguments are.
-            Class::Modf => Val::new(),
+            // `modf` writes an argument, and is compiled before its arguments are; the analysis writes others out.
+            Class::Modf | Class::Composed => Val::new(),
         }
     }
 

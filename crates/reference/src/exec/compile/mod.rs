@@ -9,6 +9,7 @@
 
 mod affine;
 mod alloc;
+mod bits;
 mod builtin;
 mod chains;
 mod dead;

@@ -5,6 +5,7 @@
 
 use crate::target::GlslVersion;
 use glisten_front::builtin::functions;
+use glisten_front::builtin::operations::Class;
 use glisten_front::hir::{Shader, StructId, Type, TypeId, Types};
 use glisten_front::link::Program;
 use std::collections::{BTreeMap, BTreeSet};
@@ -77,10 +78,18 @@ pub(in crate::emit) fn renamed(program: &Program, version: GlslVersion) -> BTree
         // GLSL ES 3.00 §6.1: built-in functions cannot be redefined. Global names share their scope.
         let redefines = version == GlslVersion::Es300 && global.contains(name) && !functions::named(name).is_empty();
         let underscores = version == GlslVersion::Es300 && is_kept_by_webgl(name);
-        if !reserved && !redefines && !underscores {
+        // The older names of texture functions are written as the newer ones, which nothing may hide.
+        let hides = functions::named(name).iter().any(|row| matches!(row.function.class(), Class::Texture(_)));
+        // What the compatibility profile declares, the core does not, and no text may declare such names.
+        let fixed = name.strip_prefix("gl_");
+        if !reserved && !redefines && !underscores && !hides && fixed.is_none() {
             continue;
         }
-        let mut new = if underscores { format!("n{}", name.replace("__", "_0_")) } else { format!("{name}_") };
+        let mut new = match fixed {
+            Some(rest) => format!("fixed_{rest}"),
+            None if underscores => format!("n{}", name.replace("__", "_0_")),
+            None => format!("{name}_"),
+        };
         while all.contains(new.as_str()) || names.values().any(|other| *other == new) {
             new.push('0');
         }
@@ -137,6 +146,9 @@ fn all_types(shader: &Shader) -> Vec<TypeId> {
     globals.chain(functions).chain(shader.exprs.iter().map(|expr| expr.ty)).collect()
 }
 
+/// The structs that the core profile has.
+static BUILT_IN: &[&str] = &["gl_DepthRangeParameters", "gl_PerVertex"];
+
 /// The structs in types, without those that are built in.
 fn structs(types: &Types, roots: impl IntoIterator<Item = TypeId>) -> BTreeSet<StructId> {
     let mut found = BTreeSet::new();
@@ -144,7 +156,7 @@ fn structs(types: &Types, roots: impl IntoIterator<Item = TypeId>) -> BTreeSet<S
     while let Some(ty) = pending.pop() {
         match types.get(ty) {
             Type::Array(element, _) => pending.push(element),
-            Type::Struct(id) if !types.structure(id).name.starts_with("gl_") && found.insert(id) => {
+            Type::Struct(id) if !BUILT_IN.contains(&types.structure(id).name.as_str()) && found.insert(id) => {
                 pending.extend(types.structure(id).members.iter().map(|member| member.ty));
             }
             _ => {}

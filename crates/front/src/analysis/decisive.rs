@@ -1,0 +1,39 @@
+//! Errors that explain all others of a shader: its language is not the one that it is written in (`E0120`), or it has a
+//! feature that glisten does not support (`E0001`).
+//!
+//! *In:* the diagnostics of one shader. *Out:* the same, without the errors that follow from a decisive one.
+
+use crate::diagnostic::codes::general::NOT_SUPPORTED_YET;
+use crate::diagnostic::codes::preprocess::MISSING_VERSION;
+use crate::diagnostic::{Code, Diagnostic, Diagnostics};
+
+/// Drops what follows from a decisive error, among the diagnostics from number `first` on: with a missing version all
+/// other errors, after an unsupported feature those of the syntax and the meaning of the text.
+pub fn keep_decisive(diagnostics: &mut Diagnostics, first: usize) {
+    let place = |code: &Code| {
+        let found = diagnostics.iter().skip(first).position(|diagnostic: &Diagnostic| *diagnostic.code == *code);
+        found.map(|place| place + first)
+    };
+    let (version, feature) = (place(&MISSING_VERSION), place(&NOT_SUPPORTED_YET));
+    let start = diagnostics.iter().nth(feature.unwrap_or(0)).map_or(0, |diagnostic| diagnostic.primary.span.start);
+    let mut messages: Vec<String> = Vec::new();
+    let mut index = 0;
+    diagnostics.retain_mut(|diagnostic| {
+        let own = index;
+        index += 1;
+        if own < first || !diagnostic.is_error() || (version.is_none() && feature.is_none()) {
+            return true;
+        }
+        if let Some(version) = version {
+            return own == version;
+        }
+        if *diagnostic.code != NOT_SUPPORTED_YET {
+            let follows = matches!(diagnostic.code.id.get(..3), Some("E02" | "E03" | "E04" | "E05" | "E06"));
+            return !follows || diagnostic.primary.span.start < start;
+        }
+        // Each feature is named once.
+        let is_new = !messages.contains(&diagnostic.message);
+        messages.push(diagnostic.message.clone());
+        is_new
+    });
+}

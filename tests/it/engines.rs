@@ -1,0 +1,287 @@
+//! Sources that engines complete, end to end: profiles, preludes, assumed versions, include styles, files of several stages.
+//!
+//! *In:* the small examples of `fixtures/engines`, one folder for each profile, and sources in temporary folders. *Out:* every
+//! example compiles to WGSL and SPIR-V, and none does without its profile; diagnostics are at the lines of the files.
+
+use crate::cli::{Folder, code, codes, err, out};
+use crate::support::root;
+use serde_json::Value;
+use std::process::{Command, Output};
+
+/// The profiles, and how many stages their examples have.
+const PROFILES: &[(&str, usize)] = &[
+    ("minecraft", 2),
+    ("optifine", 2),
+    ("iris", 2),
+    ("libretro", 2),
+    ("isf", 2),
+    ("openscenegraph", 1),
+    ("three", 2),
+    ("shadertoy", 1),
+];
+
+/// Runs the program in the folder of the package.
+fn here(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_glisten")).args(arguments).current_dir(root()).output().expect("the program runs")
+}
+
+fn findings(output: &Output) -> Vec<Value> {
+    serde_json::from_slice(&output.stdout).unwrap_or_else(|error| panic!("{error}: {output:?}"))
+}
+
+fn errors(output: &Output) -> Vec<Value> {
+    findings(output).into_iter().filter(|finding| finding["severity"] == "error").collect()
+}
+
+#[test]
+fn every_profile_accepts_its_example() {
+    for (profile, n_stages) in PROFILES {
+        let folder = format!("fixtures/engines/{profile}");
+        let output = here(&["lint", &folder]);
+        assert_eq!(code(&output), 0, "{profile}: {}", out(&output));
+        let counted = if *n_stages == 1 { "1 file: " } else { "" };
+        assert!(err(&output).contains(counted) && !err(&output).contains("other versions"), "{}", err(&output));
+    }
+}
+
+/// The sources of a profile's example, copied to a place without its configuration.
+fn without_configuration(profile: &str) -> Folder {
+    let base = root().join("fixtures/engines").join(profile);
+    let files: Vec<(String, Vec<u8>)> = crate::support::files_under(&base)
+        .into_iter()
+        .filter(|path| path.extension().is_some_and(|extension| extension != "toml"))
+        .map(|path| {
+            let name = path.strip_prefix(&base).expect("below it").to_string_lossy().into_owned();
+            (name, std::fs::read(path).expect("readable"))
+        })
+        .collect();
+    let files: Vec<(&str, &[u8])> = files.iter().map(|(name, bytes)| (name.as_str(), bytes.as_slice())).collect();
+    Folder::new(&files)
+}
+
+#[test]
+fn a_flag_says_the_same_as_a_table_and_without_either_it_is_an_error() {
+    for (profile, sources, more) in [
+        (
+            "minecraft",
+            &["assets/minecraft/shaders/core/portal.vsh", "assets/minecraft/shaders/core/portal.fsh"][..],
+            &[][..],
+        ),
+        ("optifine", &["shaders/world0/final.vsh", "shaders/world0/final.fsh"], &["--assume-version", "150"]),
+        ("iris", &["shaders/composite.vsh", "shaders/composite.fsh"], &[]),
+        ("libretro", &["lines.glsl"], &[]),
+        ("isf", &["ripple.fs", "ripple.vs"], &[]),
+        ("three", &["wrapped.vert", "wrapped.frag"], &["-I", "chunks"]),
+        ("shadertoy", &["waves.glsl", "--stage", "fragment"], &[]),
+    ] {
+        let folder = without_configuration(profile);
+        let plain = folder.run(&[&["lint"], sources].concat());
+        assert_ne!(code(&plain), 0, "{profile} needs its profile");
+        let given = folder.run(&[&["lint", "--engine", profile], sources, more].concat());
+        assert_eq!(code(&given), 0, "{profile}: {}", out(&given));
+    }
+}
+
+#[test]
+fn examples_compile_to_every_target() {
+    let folder = Folder::new(&[]);
+    let into = folder.path("out").to_string_lossy().into_owned();
+    let base = "fixtures/engines";
+    let files = [
+        "minecraft/assets/minecraft/shaders/core/portal.vsh",
+        "minecraft/assets/minecraft/shaders/core/portal.fsh",
+        "libretro/lines.glsl",
+        "isf/ripple.vs",
+        "isf/ripple.fs",
+        "three/wrapped.vert",
+        "three/wrapped.frag",
+        "combined/marked.shader",
+        "combined/several.glsl",
+    ];
+    let files: Vec<String> = files.iter().map(|file| format!("{base}/{file}")).collect();
+    let files: Vec<&str> = files.iter().map(String::as_str).collect();
+    let targets = ["--target", "wgsl", "--target", "spirv", "--target", "glsl"];
+    let output = here(&[&["compile", "-q", "-o", &into], &targets[..], &files].concat());
+    assert_eq!(code(&output), 0, "{}", err(&output));
+    let written = folder.names("out");
+    for name in
+        ["lines.vert.wgsl", "lines.frag.spv", "lines.json", "plain.vert.wgsl", "shaded.frag.glsl", "marked.json"]
+    {
+        assert!(written.iter().any(|other| other == name), "{name} is not in {written:?}");
+    }
+}
+
+#[test]
+fn a_prelude_has_lines_of_its_own() {
+    let folder = Folder::new(&[
+        ("lib/p.glsl", b"#define K 2.0\nuniform float u;\nfloat f() { return wrong; }\n"),
+        ("a.frag", b"#version 150\nout vec4 c;\nvoid main() {\n    c = vec4(u * K + missing);\n}\n"),
+    ]);
+    let (found, exit) = folder.lint(&["a.frag", "--prelude", "lib/p.glsl"]);
+    assert_eq!((codes(&found), exit), (vec!["E0301", "E0301"], 1));
+    let place = |finding: &Value| (finding["file"].as_str().unwrap_or("").to_owned(), finding["line"].as_u64());
+    let mut places: Vec<_> = found.iter().map(place).collect();
+    places.sort();
+    assert_eq!(places, [("a.frag".to_owned(), Some(4)), ("lib/p.glsl".to_owned(), Some(3))]);
+    let missing = folder.run(&["lint", "a.frag", "--prelude", "nowhere.glsl"]);
+    assert_eq!(code(&missing), 2);
+    assert!(err(&missing).contains("nowhere.glsl"));
+}
+
+#[test]
+fn one_version_line_counts() {
+    let prelude = b"#version 150\n#if __VERSION__ != 150\n#error version\n#endif\nuniform float u;\n" as &[u8];
+    let without = b"out vec4 c;\nvoid main() { c = vec4(u); }\n" as &[u8];
+    let with = b"// first\n#version 150 core\nout vec4 c;\nvoid main() { c = vec4(u); }\n" as &[u8];
+    let folder =
+        Folder::new(&[("p.glsl", prelude), ("q.glsl", b"uniform float u;\n"), ("a.frag", without), ("b.frag", with)]);
+    for arguments in [
+        &["a.frag", "--prelude", "p.glsl"][..],
+        // The source's own line comes first, and the prelude after it.
+        &["b.frag", "--prelude", "p.glsl"],
+        &["b.frag", "--prelude", "q.glsl", "--prelude", "p.glsl", "--assume-version", "999"],
+        &["a.frag", "--prelude", "q.glsl", "--assume-version", "150 core"],
+        // The prelude with the version comes before the others.
+        &["a.frag", "--prelude", "p.glsl", "--assume-version", "999"],
+    ] {
+        let (found, exit) = folder.lint(arguments);
+        let twice = arguments.iter().filter(|argument| **argument == "--prelude").count() == 2;
+        // Two preludes that declare the same uniform are no error of GLSL.
+        assert_eq!(exit, i32::from(twice && !found.is_empty()), "{arguments:?}: {found:?}");
+    }
+    let (found, exit) = folder.lint(&["a.frag", "--prelude", "q.glsl", "--assume-version", "999"]);
+    assert_eq!((codes(&found), exit), (vec!["E0121"], 1));
+    assert_eq!(found[0]["file"], "<assumed version>");
+    let wrong = folder.run(&["lint", "a.frag", "--assume-version", "fast"]);
+    assert_eq!(code(&wrong), 2);
+}
+
+#[test]
+fn an_import_of_another_engine_says_who_reads_it() {
+    let folder = without_configuration("minecraft");
+    let (found, _) = folder.lint(&["assets/minecraft/shaders/core/portal.vsh"]);
+    assert!(found[0]["help"].as_str().is_some_and(|help| help.contains("--include-style moj")), "{found:?}");
+    let path = "assets/minecraft/shaders/core/portal.vsh";
+    let styled = folder.run(&["lint", path, "--include-style", "moj", "-D", "PORTAL_LAYERS=15"]);
+    assert_eq!(code(&styled), 0, "{}", out(&styled));
+}
+
+#[test]
+fn styles_find_includes() {
+    let base = "fixtures/engines/ogre";
+    let plain = here(&["lint", &format!("{base}/Tone_fp.glsl"), "-I", &format!("{base}/media")]);
+    assert_eq!(code(&plain), 2, "{}", out(&plain));
+    let ogre =
+        here(&["lint", &format!("{base}/Tone_fp.glsl"), "-I", &format!("{base}/media"), "--include-style", "ogre"]);
+    assert_eq!(code(&ogre), 0, "{}", out(&ogre));
+}
+
+#[test]
+fn parts_of_a_file_keep_its_lines() {
+    let output = here(&["lint", "--format", "json", "fixtures/engines/combined/wrong.glsl"]);
+    let errors = errors(&output);
+    assert_eq!(errors.len(), 1, "{errors:?}");
+    assert_eq!((errors[0]["line"].as_u64(), errors[0]["column"].as_u64()), (Some(10), Some(23)));
+    let folder = Folder::new(&[(
+        "a.glsl",
+        b"#shader vertex\n#version 150\nout vec3 v;\nvoid main() { v = vec3(1.0); gl_Position = vec4(0.0); }\n#shader fragment\n\
+          #version 150\nin vec4 v;\nout vec4 c;\nvoid main() { c = v; }\n",
+    )]);
+    let (found, exit) = folder.lint(&["a.glsl"]);
+    assert_eq!((codes(&found), exit), (vec!["E0703"], 1), "the stages form a program");
+    let labels = found[0]["labels"].as_array().expect("a list");
+    assert_eq!(found[0]["line"], 7);
+    assert!(labels.iter().any(|label| label["line"] == 3 && label["file"] == "a.glsl"), "{labels:?}");
+    let (_, exit) = folder.lint(&["a.glsl", "--stage", "vertex"]);
+    assert_eq!(exit, 0, "one stage alone");
+}
+
+#[test]
+fn a_search_finds_files_of_several_stages() {
+    let folder = Folder::new(&[
+        ("a.glsl", include_bytes!("../../fixtures/engines/combined/chosen.glsl")),
+        ("lib.glsl", b"float f() { return 1.0; }\n"),
+        ("toy/image.glsl", include_bytes!("../../fixtures/engines/shadertoy/waves.glsl")),
+        ("toy/glisten.toml", b"[[source]]\nglob = \"*.glsl\"\nprofile = \"shadertoy\"\n"),
+        ("old.vp", b"!!ARBvp1.0\nEND\n"),
+    ]);
+    let output = folder.run(&["lint", "."]);
+    assert_eq!(code(&output), 0, "{}", out(&output));
+    assert!(err(&output).contains("3 files, 1 program"), "{}", err(&output));
+}
+
+#[test]
+fn scenes_draw_files_of_several_stages() {
+    let scene = "fixtures/engines/libretro/lines.toml";
+    let folder = Folder::new(&[]);
+    let picture = folder.path("lines.npy").to_string_lossy().into_owned();
+    let output = here(&["render", scene, "-o", &picture, "--backend", "cpu"]);
+    assert_eq!(code(&output), 0, "{}", err(&output));
+    let bytes = std::fs::read(folder.path("lines.npy")).expect("it was written");
+    let floats: Vec<f32> = bytes[bytes.len() - 16 * 16 * 16..]
+        .chunks_exact(4)
+        .map(|bytes| f32::from_le_bytes(bytes.try_into().expect("four")))
+        .collect();
+    // Every other pair of rows is darker by DARKNESS.
+    let reds: Vec<f32> = floats.iter().step_by(4 * 16).copied().collect();
+    assert!(reds.contains(&0.25) && reds.contains(&0.0625) && reds.len() == 16, "{reds:?}");
+    let into = folder.path("out").to_string_lossy().into_owned();
+    let special = here(&["specialize", "-q", scene, "-o", &into]);
+    assert_eq!(code(&special), 0, "{}", err(&special));
+}
+
+#[test]
+fn tables_add_up_and_are_checked() {
+    let source = b"out vec4 c;\nvoid main() { c = vec4(A + B); }\n" as &[u8];
+    let folder = Folder::new(&[
+        ("a/x.frag", source),
+        ("b/x.frag", source),
+        ("glisten.toml", b"[[source]]\nversion = \"150\"\ndefines = { A = 1.0, B = 1.0 }\n[[source]]\nglob = \"b/\"\ndefines = \"B=wrong\"\n"),
+        ("bad/x.frag", source),
+        ("bad/glisten.toml", b"[[source]]\nprofile = \"minecraf\"\nversion = \"new\"\nprelude = \"none.glsl\"\nincludes = [\"none\"]\ninclude-style = \"moi\"\nstage = \"tess\"\ndefines = [\"1\"]\n"),
+        ("key/x.frag", source),
+        ("key/glisten.toml", b"[[source]]\nprofle = \"iris\"\n"),
+    ]);
+    assert_eq!(folder.lint(&["a/x.frag"]).1, 0);
+    let (found, exit) = folder.lint(&["b/x.frag"]);
+    assert_eq!((codes(&found), exit), (vec!["E0301"], 1), "the later table counts");
+    assert_eq!(folder.lint(&["b/x.frag", "-D", "B=2.0"]).1, 0, "a flag takes precedence");
+    let (found, exit) = folder.lint(&["bad/x.frag"]);
+    let wrong: Vec<(u64, &str)> = found
+        .iter()
+        .filter(|finding| finding["file"].as_str().is_some_and(|file| file.ends_with("glisten.toml")))
+        .map(|finding| (finding["line"].as_u64().unwrap_or(0), finding["code"].as_str().unwrap_or("")))
+        .collect();
+    assert_eq!(exit, 2, "a file that is missing");
+    let mut lines: Vec<u64> = wrong.iter().map(|(line, _)| *line).collect();
+    lines.sort_unstable();
+    assert_eq!(lines, [2, 3, 4, 5, 6, 7, 8], "{wrong:?}");
+    let help = found.iter().find_map(|finding| finding["help"].as_str().filter(|help| help.contains("minecraft")));
+    assert!(help.is_some(), "{found:?}");
+    assert!(codes(&folder.lint(&["key/x.frag"]).0).contains(&"E0015"));
+}
+
+#[test]
+fn a_wrong_header_is_told_at_its_place() {
+    let folder = Folder::new(&[("a.fs", b"/*{\n  \"INPUTS\": [ } }*/\nvoid main() { gl_FragColor = vec4(1.0); }\n")]);
+    let (found, exit) = folder.lint(&["a.fs", "--engine", "isf"]);
+    assert_eq!((codes(&found), exit), (vec!["E0016"], 1));
+    assert_eq!((found[0]["file"].as_str(), found[0]["line"].as_u64()), (Some("a.fs"), Some(2)));
+}
+
+#[test]
+fn hostile_sources_end() {
+    let marks = "#shader vertex\n#shader fragment\n".repeat(20_000);
+    let tags = "@vs a\n@include_block b\n@end\n@block b\n@include_block b\n@end\n@program p a a\n".repeat(5_000);
+    let cut = "/*{\"INPUTS\": [\u{e9}";
+    let folder = Folder::new(&[
+        ("marks.glsl", marks.as_bytes()),
+        ("tags.glsl", tags.as_bytes()),
+        ("cut.fs", cut.as_bytes()),
+        ("quote.glsl", "vertex = `\u{e9}fragment=`".as_bytes()),
+    ]);
+    for file in ["marks.glsl", "tags.glsl", "cut.fs", "quote.glsl"] {
+        let (_, exit) = folder.lint(&[file, "--stage", "fragment", "--engine", "isf"]);
+        assert_eq!(exit, 1, "{file}");
+    }
+}
