@@ -16,8 +16,10 @@
 //! `evaluate` calls a single function with many inputs. With `gpu` or `gl`, drivers draw them, too, and `verify` judges the
 //! pictures.
 //!
-//! Without features, this is the compiler core, for build scripts: no GPU, no command line, no I/O.
+//! Without features, this is the compiler core and [`build`], for build scripts: no GPU, no command line. Only `build` reads and
+//! writes files.
 
+pub mod build;
 pub mod library;
 
 #[cfg(feature = "cli")]

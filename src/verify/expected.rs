@@ -9,7 +9,8 @@ use crate::scene::Scene;
 use glisten_reference::domain::faults::Faults;
 use glisten_reference::faults_of;
 use glisten_scene::compare::evidence::Ruler;
-use glisten_scene::compare::{Compared, Comparison, Criterion, Population, Verdict, Written};
+use glisten_scene::compare::population::MIN_SHARE;
+use glisten_scene::compare::{Compared, Comparison, Criterion, Gauge, Population, Verdict, Written};
 use glisten_scene::picture::Picture;
 use std::time::Instant;
 
@@ -75,28 +76,30 @@ impl<'a> Expected<'a> {
     /// The reference cannot draw the scene with a fault excused.
     pub fn compared(&mut self, picture: &Picture) -> Result<Compared, Failure> {
         let Options { criterion, excuse_known_faults, .. } = *self.options;
+        let is_by_envelope = criterion == Criterion::Envelope;
         let mut compared = self.comparison(&[]).compare(picture, &self.picture);
-        let is_asked = self.options.demands.likely && criterion == Criterion::Envelope;
-        if is_asked && !compared.verdict.needs_excuse() && self.leaves_room() {
-            for members in MEMBERS {
-                if compared.verdict.suspect.is_none() || compared.verdict.is_suspect() {
-                    self.populate(members)?;
-                    compared = self.comparison(&[]).compare(picture, &self.picture);
+        let mut excused = Vec::new();
+        if is_by_envelope && excuse_known_faults && compared.verdict.needs_excuse() {
+            excused = match self.excused.take() {
+                Some(excused) => excused,
+                None => self.draw_excused()?,
+            };
+            compared = self.comparison(&excused).compare(picture, &self.picture);
+        }
+        if is_by_envelope && self.options.demands.likely {
+            if !compared.verdict.needs_excuse() && self.leaves_room() {
+                for members in MEMBERS {
+                    if compared.verdict.suspect.is_none() || compared.verdict.is_suspect() {
+                        self.populate(members)?;
+                        compared = self.comparison(&excused).compare(picture, &self.picture);
+                    }
                 }
             }
-        }
-        if is_asked {
             compared.verdict.suspect.get_or_insert(0);
         }
-        if criterion != Criterion::Envelope || !compared.verdict.needs_excuse() || !excuse_known_faults {
-            return Ok(compared);
+        if !excused.is_empty() {
+            self.excused = Some(excused);
         }
-        let excused = match self.excused.take() {
-            Some(excused) => excused,
-            None => self.draw_excused()?,
-        };
-        let compared = self.comparison(&excused).compare(picture, &self.picture);
-        self.excused = Some(excused);
         Ok(compared)
     }
 
@@ -109,13 +112,16 @@ impl<'a> Expected<'a> {
             (count + 1, wide + u64::from(is_wide))
         });
         let open = self.picture.undecided.iter().filter(|open| **open).count() as u64;
-        (wide + open) as f64 > 0.001 * count as f64
+        (wide + open) as f64 > MIN_SHARE * count as f64
     }
 
     /// Draws with more simulated GPUs, so that there are `members`.
     fn populate(&mut self, members: u32) -> Result<(), Failure> {
         let Picture { width, height, .. } = self.picture;
-        let blank = || Population::new(SEED, [width, height], self.picture.attachments.len() as u32);
+        let blank = || {
+            let gauge = Gauge::new(&Ruler::new(&self.picture, &self.written, self.options.width));
+            Population::new(SEED, [width, height], self.picture.attachments.len() as u32).with_gauge(gauge)
+        };
         let population = self.population.take().unwrap_or_else(blank);
         let missing = population.members..members.max(population.members);
         let options = self.options.reference_options(Faults::NONE);
@@ -136,5 +142,41 @@ impl<'a> Expected<'a> {
         let (names, options): (Vec<_>, Vec<_>) =
             named.map(|(name, faults)| (name, self.options.reference_options(faults))).unzip();
         Ok(names.into_iter().zip(self.options.reference.render_all(self.scene, &options)?).collect())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{DiskFiles, load};
+    use glisten_front::{Compiler, Options as CompilerOptions};
+
+    #[test]
+    fn a_picture_with_an_excused_pixel_is_compared_with_the_population() {
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/scenes/core/behind_the_eye_noperspective.toml");
+        let scene = load(path, &DiskFiles, &Compiler::new(CompilerOptions::default())).scene.expect("a fixture");
+        let options = Options::default();
+        let mut expected = Expected::new(&scene, &options).expect("it can be drawn");
+        let faulty =
+            options.reference.render(&scene, &options.reference_options(Faults::all())).expect("it can be drawn");
+        // One number that only the fault explains.
+        let mut picture = expected.picture().clone();
+        let strict = picture.intervals.clone().expect("it has envelopes");
+        let wide = faulty.intervals.expect("it has envelopes");
+        let inside = |pixel: &usize| picture.covered[*pixel] && !picture.near_edge[*pixel];
+        let differs = |pixel: &usize| !strict[0][*pixel][0].contains(f64::NAN) && wide[0][*pixel][0].contains(f64::NAN);
+        let pixel = (0..strict[0].len()).filter(inside).find(differs).expect("the fault shows");
+        picture.attachments[0][pixel][0] = f64::NAN;
+        let verdict = expected.compare(&picture).expect("it can be drawn");
+        assert_eq!(verdict.known_faults.iter().map(|fault| fault.pixels).sum::<u64>(), 1, "{verdict:?}");
+        assert_eq!((verdict.suspect, verdict.needs_excuse()), (Some(0), false));
+        // And where all is far from what they draw, an excused pixel hides nothing.
+        for (color, intervals) in picture.attachments[0].iter_mut().zip(&strict[0]).skip(pixel + 1) {
+            *color = std::array::from_fn(|channel| intervals[channel].low.max(color[channel] - 1e-3));
+        }
+        let verdict = expected.compare(&picture).expect("it can be drawn");
+        assert_eq!(verdict.known_faults.len(), 1);
+        assert!(expected.population.is_some() == expected.leaves_room());
+        assert!(verdict.suspect.is_some(), "{verdict:?}");
     }
 }

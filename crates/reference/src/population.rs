@@ -43,7 +43,7 @@ pub fn simulate(
     (seed, number): (u64, u32),
 ) -> Result<Picture, Vec<Diagnostic>> {
     let options = RenderOptions { precision: Precision::F32, mark_edges: false, ..*options };
-    let gpu = Gpu::of(seed, number);
+    let gpu = Gpu::of(seed, number).on(&options.profile);
     gpu.enter();
     let drawn = pipeline::render_studied::<Simulated>(scene, &options, Study { gpu: Some(gpu), ..Study::NONE });
     Gpu::STRICT.enter();

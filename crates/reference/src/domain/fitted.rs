@@ -3,8 +3,9 @@
 //! *In:* the constants where they are used. *Out:* [`FITTED`], with a row for each: its value, the profile that it belongs
 //! to, and the command that measures it. *Holds:* the values are those in use, not copies. The docs print the table.
 
-use super::Profile;
 use super::rules::{self, Step};
+use super::{Profile, limits};
+use glisten_scene::compare::{evidence, population, whole};
 
 /// A fitted constant.
 #[derive(Clone, Copy, Debug)]
@@ -27,6 +28,17 @@ const NUMERIC_TEST: &str = "`cargo test --test it -- numeric --nocapture`";
 const REPORTED: &str =
     "reported by the adapter (`VkPhysicalDeviceLimits`); without a report, this for llvmpipe, else Vulkan's 4";
 const CHOSEN: &str = "chosen: a budget of time";
+const TIMED: &str =
+    "chosen: a march of 96 steps takes less than 10 s; `cargo test --test it -- widths` shows what becomes wider";
+const CALIBRATED: &str = "`cargo run --release --example population -- fixtures/scenes shader_lib/scenes --programs 0..1000` prints the alarms";
+
+const POPULATION_TEST: &str =
+    "`cargo test --test it -- scenes`: pictures of derivatives and of filters are as the population's";
+
+/// A constant of all profiles.
+const fn constant(what: &'static str, value: f64, unit: &'static str, measured: &'static str) -> Fitted {
+    Fitted { what, value, unit, profile: "all", measured }
+}
 
 const fn row(step: &Step, value: f64, unit: &'static str, measured: &'static str) -> Fitted {
     Fitted { what: step.operation, value, unit, profile: "all", measured }
@@ -79,12 +91,37 @@ pub static FITTED: &[Fitted] = &[
         measured: NUMERIC_TEST,
     },
     Fitted {
-        what: "lanes for all ways of the fragments of a run",
-        value: super::LANES as f64,
+        what: "rows and columns of a quad that have derivatives of their own",
+        value: 2.0,
         unit: "",
-        profile: "all",
-        measured: CHOSEN,
+        profile: "device, for llvmpipe alone; else 1 or 2",
+        measured: POPULATION_TEST,
     },
+    Fitted {
+        what: "bits of the weights of linear filters, for textures of floats",
+        value: 24.0,
+        unit: "bits",
+        profile: "device, for llvmpipe alone; else from 8 on",
+        measured: POPULATION_TEST,
+    },
+    constant("lanes for all ways of the fragments of a run", super::LANES as f64, "", CHOSEN),
+    constant("undecided conditions that a way may meet", limits::MOST_OPEN as f64, "", TIMED),
+    constant("texels that a lookup with filtering may touch", limits::MOST_TEXELS as f64, "", CHOSEN),
+    constant("texels that `texelFetch` may read", limits::MOST_FETCHED as f64, "", CHOSEN),
+    constant("size of a point", limits::POINT_SIZE_ERROR, "pixels", RASTER_TEST),
+    constant("distance of a suspect from the population", population::FAR, "widths of its range", CALIBRATED),
+    constant("least width of that range", evidence::LEAST, "of the picture's range", CALIBRATED),
+    constant("pixels that may lie across a jump", population::MAX_JUMPS, "of those covered", CALIBRATED),
+    constant(
+        "width of an envelope from which it may hide a jump",
+        evidence::GOAL,
+        "of the picture's range",
+        CALIBRATED,
+    ),
+    constant("suspects from which a picture fails", population::MIN_SHARE, "of the covered pixels", CALIBRATED),
+    constant("suspects from which a picture fails, at least", population::MIN_PIXELS as f64, "pixels", CALIBRATED),
+    constant("distance of a picture as a whole", whole::FAR_AS_A_WHOLE, "widths of the population's range", CALIBRATED),
+    constant("pixels that a mean over a picture leaves out", whole::TRIMMED, "at either end", CALIBRATED),
 ];
 
 #[cfg(test)]

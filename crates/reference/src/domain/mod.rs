@@ -26,6 +26,7 @@ pub mod faults;
 pub mod fitted;
 mod integer;
 mod lanes;
+pub mod limits;
 mod number;
 mod profile;
 pub mod rules;

@@ -21,6 +21,10 @@ pub struct Profile {
     pub mipmap_bits: u8,
     /// Whether `x / 2^n` is exact, as on hardware that multiplies by a reciprocal. The specifications allow 2.5 ULP.
     pub exact_halves: bool,
+    /// Whether derivatives are those of each row and column of a quad. A GPU may use one of them for all.
+    pub fine_derivatives: bool,
+    /// Whether the weights of linear filters are floats, for textures of floats. A GPU may give them `subtexel_bits`.
+    pub float_weights: bool,
     /// Whether derivatives are differences in the quad, and determinants sums of products. WGSL states no accuracy.
     pub limits_differences: bool,
 }
@@ -33,6 +37,8 @@ impl Profile {
         subtexel_bits: 4,
         mipmap_bits: 4,
         exact_halves: false,
+        fine_derivatives: false,
+        float_weights: false,
         limits_differences: true,
     };
 
@@ -40,13 +46,16 @@ impl Profile {
     /// infinite there.
     pub const WGSL: Self = Self { name: "wgsl", limits_differences: false, ..Self::VULKAN };
 
-    /// Mesa's llvmpipe and lavapipe, as it reports them. It divides by `divps`, which rounds correctly.
+    /// Mesa's llvmpipe and lavapipe, as it reports them. It divides by `divps`, which rounds correctly. Its derivatives and its
+    /// filters are known to the simulated GPUs, but no reason for narrower envelopes.
     pub const LLVMPIPE: Self = Self {
         name: "device",
         subpixel_bits: 8,
         subtexel_bits: 8,
         mipmap_bits: 4,
         exact_halves: true,
+        fine_derivatives: true,
+        float_weights: true,
         limits_differences: true,
     };
 

@@ -4,7 +4,7 @@ use super::inst::{Lookup, Operand, TextureCall};
 use super::machine::Machine;
 use super::registers::Registers;
 use super::{LANES, Mask};
-use crate::domain::{Domain, Integer, Number};
+use crate::domain::{Domain, Integer, Number, limits};
 use crate::texture::{self, BoundedFloat, BoundedInt, Gradients, MISSING, Request, Sampled, Steps};
 use glisten_front::hir::{SamplerDim, Scalar, Stage};
 use glisten_scene::picture::Interval;
@@ -146,7 +146,6 @@ impl<D: Domain> LaneLookup<'_, D> {
 
     /// Reads a texel. If the coordinates are undecided: the hull of those that they may select, if these are few.
     fn fetch(&self, texture: &Texture) -> Sampled {
-        const MOST: i64 = 64;
         let offset = self.ints(&self.call.offset);
         let offset = &offset[..self.call.offset.len().min(3)];
         let level = self.call.level.map(|level| self.int(level));
@@ -161,7 +160,7 @@ impl<D: Domain> LaneLookup<'_, D> {
         }
         let count = intervals.iter().map(|(low, high)| i64::from(*high) - i64::from(*low) + 1);
         let count = count.fold(1i64, i64::saturating_mul);
-        if count > MOST || !level.is_none_or(Integer::is_decided) {
+        if count > limits::MOST_FETCHED || !level.is_none_or(Integer::is_decided) {
             return likely.unknown();
         }
         let mut hull = likely;

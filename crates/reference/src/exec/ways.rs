@@ -12,11 +12,8 @@
 
 use super::LANES;
 use super::inst::{Inst, Lookup};
+use crate::domain::limits::MOST_OPEN;
 use smallvec::SmallVec;
-
-/// The undecided conditions that a way may meet. A fragment with a way that meets more is given up: where the bounds of a
-/// loop's variables have grown until every step is undecided, nothing comes of following it.
-pub(super) const MOST_OPEN: u8 = 24;
 
 /// A group that belongs to no fragment.
 pub(super) const FREE: u8 = u8::MAX;

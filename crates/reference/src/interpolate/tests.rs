@@ -4,6 +4,7 @@
 //! the problem grows; the tests separate it from the error of the result.
 
 use super::*;
+use crate::domain::Number;
 
 /// Random numbers from a seed, the same in every run.
 fn numbers(seed: u64) -> impl FnMut(i64, i64) -> i64 {

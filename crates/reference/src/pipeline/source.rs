@@ -14,6 +14,7 @@ use super::sloped::SlopedPlane;
 use super::surface::BIN;
 use super::tilt::Tilted;
 use super::vertices::Vertices;
+use crate::domain::limits::POINT_SIZE_ERROR;
 use crate::domain::{Domain, Element, F64, Number, NumberBlock, Planes, WIDTH, rules};
 use crate::exec::LANES;
 use crate::interpolate::{Eight, Frame, Vec2, along, linear, perspective, perspective_w, weights};
@@ -118,10 +119,6 @@ enum Kind<D: Domain> {
     Line(Vec2<D::Float>, Vec2<D::Float>),
     Triangle(Frame<D::Float>),
 }
-
-/// How far a driver's point size may be from the requested size: half of its granularity (OpenGL 3.2 §3.4.1), here
-/// 1/256 pixel, as for window positions.
-const POINT_SIZE_ERROR: f64 = 0.5 / 256.0;
 
 /// The square of a point, for `gl_PointCoord`.
 #[derive(Clone, Copy, Debug)]

@@ -2,7 +2,7 @@
 
 use super::texel;
 use super::{BoundedFloat, BoundedInt, Sampled, cube, level};
-use crate::domain::{Profile, rules};
+use crate::domain::{Profile, limits, rules};
 use glisten_front::hir::{SamplerDim, SamplerType, Scalar};
 use glisten_scene::{Compare, Filter, Texture, TextureLevel, Wrap};
 
@@ -197,7 +197,6 @@ impl Footprint {
 
     /// Shows every texel that it may touch. Returns false if there are too many.
     fn each_touched(&self, level: &TextureLevel, mut show: impl FnMut([i64; 3])) -> bool {
-        const MOST: i64 = 4096;
         let sizes = [level.width, level.height, level.depth].map(i64::from);
         let mut ranges = [(0i64, 0i64); 3];
         let mut total = self.slices.1 - self.slices.0 + 1;
@@ -210,7 +209,7 @@ impl Footprint {
             *range = (low, high.min(low.saturating_add(2 * sizes[axis])));
             total = total.saturating_mul(range.1 - range.0 + 1);
         }
-        if total > MOST {
+        if total > limits::MOST_TEXELS {
             return false;
         }
         for slice in self.slices.0..=self.slices.1 {

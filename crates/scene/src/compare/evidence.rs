@@ -27,7 +27,7 @@ use glisten_front::hir::{Stage, Type};
 use serde::Serialize;
 
 /// The goal for the width of an envelope, as a share of the range of the picture's values.
-const GOAL: f64 = 1.0 / 255.0;
+pub const GOAL: f64 = 1.0 / 255.0;
 
 /// The least difference that says something, as a share of the range of the picture's values.
 pub const LEAST: f64 = 1.0 / 65_536.0;
@@ -310,6 +310,26 @@ impl<'a> Ruler<'a> {
     pub(super) fn unit(&self, value: f64) -> f64 {
         let rounding = (self.written.step / 2.0).max(4.0 * self.written.relative * value.abs());
         rounding.max(self.range * LEAST)
+    }
+
+    /// The pixels that the reference covers and decides, away from edges.
+    pub(super) fn places(&self) -> Vec<usize> {
+        let flag = |flags: &[bool], pixel: usize| flags.get(pixel).copied().unwrap_or(false);
+        let is_plain = |pixel: &usize| {
+            let Picture { covered, undecided, near_edge, .. } = self.cpu;
+            flag(covered, *pixel) && !flag(undecided, *pixel) && !flag(near_edge, *pixel)
+        };
+        (0..self.cpu.covered.len()).filter(is_plain).collect()
+    }
+
+    /// The channels that the programs write: attachment, channel, and the colors of the attachment.
+    pub(super) fn written_channels(&self) -> impl Iterator<Item = (usize, usize, &'a [[f64; 4]])> {
+        let (cpu, written) = (self.cpu, self.written);
+        let attachments = cpu.attachments.iter().enumerate();
+        attachments.flat_map(move |(attachment, colors)| {
+            let channels = (0..4).filter(move |channel| written.is_written(attachment, *channel));
+            channels.map(move |channel| (attachment, channel, colors.as_slice()))
+        })
     }
 
     /// The class of a pixel that is covered and not excused.

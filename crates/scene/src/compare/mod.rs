@@ -9,6 +9,7 @@ mod flip;
 pub mod population;
 mod tally;
 mod verdict;
+pub mod whole;
 
 pub use evidence::{Class, Evidence, Written};
 #[cfg(feature = "flip")]
@@ -16,3 +17,4 @@ pub use flip::flip;
 pub use population::Population;
 pub use tally::{Compared, Comparison, shares};
 pub use verdict::{Conclusion, Contributed, Criterion, Demands, FaultCount, Verdict, Worst, ulp_f32};
+pub use whole::Gauge;

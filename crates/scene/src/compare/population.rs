@@ -9,10 +9,12 @@
 //! suspect. Where the envelope is wider than the goal for evidence, it may hide a jump: on which
 //! side of it a pixel lies may be decided by one rounding, so there the eight pixels around count as well. But a jump is a
 //! line: where more than [`MAX_JUMPS`] of the covered pixels need those around them, they are suspect. A pixel that
-//! only one side covers is suspect if no pixel around differs in coverage within the population. From [`MIN_SHARE`] of the
+//! only one side covers is suspect if no pixel around differs in coverage within the population. If the picture as a whole
+//! is far from those of the members ([`Gauge`]), each pixel of it is suspect. From [`MIN_SHARE`] of the
 //! covered pixels and [`MIN_PIXELS`] pixels on, suspects fail a comparison.
 
 use super::evidence::Ruler;
+use super::whole::{Figures, Gauge};
 use crate::picture::{Interval, Picture};
 
 /// How many spreads of the population a number may be outside of its range.
@@ -41,6 +43,8 @@ pub struct Population {
     pub ranges: Vec<Vec<[Interval; 4]>>,
     /// The number of members that cover each pixel.
     pub covered: Vec<u32>,
+    /// What the pictures are as a whole, with the figures of each member.
+    whole: Option<(Gauge, Vec<Figures>)>,
 }
 
 /// Where a pixel lies in relation to what the members drew there.
@@ -62,7 +66,18 @@ impl Population {
     pub fn new(seed: u64, [width, height]: [u32; 2], attachments: u32) -> Self {
         let count = width as usize * height as usize;
         let ranges = vec![vec![[NOTHING; 4]; count]; attachments as usize];
-        Self { members: 0, seed, width, ranges, covered: vec![0; count] }
+        Self { members: 0, seed, width, ranges, covered: vec![0; count], whole: None }
+    }
+
+    /// The same population without members, whose pictures are also compared as a whole.
+    #[must_use]
+    pub fn with_gauge(self, gauge: Gauge) -> Self {
+        Self { whole: Some((gauge, Vec::new())), ..self }
+    }
+
+    /// Whether a picture as a whole is far from those of the members.
+    pub(super) fn is_far_as_a_whole(&self, picture: &Picture) -> bool {
+        self.whole.as_ref().is_some_and(|(gauge, members)| gauge.is_far(&gauge.figures(picture), members))
     }
 
     /// Adds the picture of a member.
@@ -75,6 +90,9 @@ impl Population {
         }
         for (count, covered) in self.covered.iter_mut().zip(&picture.covered) {
             *count += u32::from(*covered);
+        }
+        if let Some((gauge, members)) = &mut self.whole {
+            members.push(gauge.figures(picture));
         }
     }
 

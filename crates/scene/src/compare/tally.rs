@@ -99,6 +99,8 @@ struct Tally<'a> {
     verdict: Verdict,
     classes: Vec<Option<Class>>,
     widths: Widths,
+    /// Pixels that are compared with the population.
+    examined: u64,
     /// Pixels that only the pixels around keep from being suspect.
     jumps: u64,
     squares: f64,
@@ -136,6 +138,7 @@ impl<'a> Tally<'a> {
             verdict: Verdict { judged_by, suspect, ..Verdict::default() },
             classes: vec![None; cpu.covered.len()],
             widths: Widths::default(),
+            examined: 0,
             jumps: 0,
             squares: 0.0,
             channels: 0,
@@ -206,6 +209,7 @@ impl<'a> Tally<'a> {
         let is_defined = !errors.iter().any(|error| error.non_finite[1]);
         if let Some(ruler) = ruler.filter(|_| !is_wrong && !is_edge && is_defined) {
             let (gpu, cpu) = (self.gpu, self.cpu);
+            self.examined += 1;
             let place = self.comparison.population.map(|population| population.place(gpu, cpu, ruler, pixel));
             self.count_suspect(|_| place == Some(Place::Far));
             self.jumps += u64::from(place == Some(Place::AcrossJump));
@@ -373,9 +377,13 @@ impl<'a> Tally<'a> {
     }
 
     fn finish(mut self) -> Compared {
-        if let Some(suspect) = self.verdict.suspect.as_mut().filter(|_| are_too_many(self.jumps, self.verdict.covered))
-        {
-            *suspect += self.jumps;
+        if let (Some(population), Some(suspect)) = (self.comparison.population, &mut self.verdict.suspect) {
+            if are_too_many(self.jumps, self.verdict.covered) {
+                *suspect += self.jumps;
+            }
+            if population.is_far_as_a_whole(self.gpu) {
+                *suspect = (*suspect).max(self.examined);
+            }
         }
         self.verdict.pixels = self.cpu.covered.len() as u64;
         if self.channels > 0 {

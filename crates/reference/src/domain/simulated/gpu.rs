@@ -6,6 +6,7 @@
 //! planes and flushes subnormals, as most drivers do.
 
 use super::rounding::{Rounder, Rounding};
+use crate::domain::Profile;
 use glisten_scene::random::{mixed, unit};
 use std::cell::Cell;
 
@@ -185,6 +186,16 @@ impl Gpu {
             },
             forms: blank.pick(Choice::Forms, 256) as u8,
             ..blank
+        }
+    }
+
+    /// The same GPU with what is known of a device.
+    #[must_use]
+    pub fn on(self, profile: &Profile) -> Self {
+        Self {
+            coarse: self.coarse && !profile.fine_derivatives,
+            weight_bits: self.weight_bits.filter(|_| !profile.float_weights),
+            ..self
         }
     }
 

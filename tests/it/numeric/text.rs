@@ -1,20 +1,14 @@
-//! Random numeric programs: what lavapipe draws of them lies in the envelope. Their numbers round at every step, unlike
-//! those of [`random`](crate::random), which are exact.
+//! Generates random numeric programs as text: nested built-in functions, operators, loops and branches over two varyings.
 //!
-//! Each program is a fragment shader of nested built-in functions, operators, loops and branches over two varyings, drawn
-//! as 8x8 pixels. `NUMERIC_PROGRAMS=first..end` runs other seeds; `--nocapture` prints what was checked.
+//! *In:* a seed. *Out:* a fragment stage. *Holds:* each function is defined for the arguments that it gets.
 
-#![expect(clippy::print_stdout, reason = "what was checked is printed here")]
-
-use crate::drawing::{from_texts, gpu, reference};
-use glisten_gpu::Via;
-use glisten_reference::Precision;
 use std::fmt::Write;
-use std::ops::Range;
 
-const SCENE: &str = "[framebuffer]\nwidth = 8\nheight = 8\n[[draw]]\nvertex = \"n.vert\"\nfragment = \"n.frag\"\n\
+/// The scene of every program.
+pub(crate) const SCENE: &str = "[framebuffer]\nwidth = 8\nheight = 8\n[[draw]]\nvertex = \"n.vert\"\nfragment = \"n.frag\"\n\
     primitive = \"triangles\"\nvertex_count = 3\n[draw.uniforms]\nu = [0.37, -1.9, 2.3]\n";
-const VERTEX: &str = "#version 150\nout vec2 a;\nout vec3 b;\nvoid main() { vec2 p = vec2(gl_VertexID % 2 * 4 - 1, gl_VertexID / 2 \
+/// The vertex stage of every program.
+pub(crate) const VERTEX: &str = "#version 150\nout vec2 a;\nout vec3 b;\nvoid main() { vec2 p = vec2(gl_VertexID % 2 * 4 - 1, gl_VertexID / 2 \
     * 4 - 1); a = p * vec2(1.3, 0.7) + 0.11; b = vec3(p.y * 2.1, 0.3 - p.x, p.x * 0.9 + 1.7); gl_Position = vec4(p, 0, 1); }\n";
 
 /// Functions of one number, defined for every argument.
@@ -81,6 +75,11 @@ const VECTORS: &[&str] = &[
 /// Numbers of vectors.
 const LENGTHS: &[&str] = &["dot(@, @)", "length(@)", "distance(@, @)"];
 
+/// The fragment stage of a seed.
+pub(crate) fn fragment(seed: u64) -> String {
+    Writer(seed * 7919 + 1).fragment()
+}
+
 struct Writer(u64);
 
 impl Writer {
@@ -146,51 +145,4 @@ impl Writer {
              s + t);\n}}\n"
         )
     }
-}
-
-fn seeds() -> Range<u64> {
-    let Ok(asked) = std::env::var("NUMERIC_PROGRAMS") else { return 0..240 };
-    let (first, end) = asked.split_once("..").expect("NUMERIC_PROGRAMS=first..end");
-    first.parse().expect("a number")..end.parse().expect("a number")
-}
-
-#[test]
-fn what_lavapipe_makes_of_numeric_programs_lies_in_their_envelopes() {
-    let gpu = gpu();
-    let (mut checked, mut limited, mut decided, mut programs) = (0_u64, 0_u64, 0_u64, 0_u64);
-    let mut outside = Vec::new();
-    for seed in seeds() {
-        let fragment = Writer(seed * 7919 + 1).fragment();
-        let scene = from_texts([("n.toml", SCENE), ("n.vert", VERTEX), ("n.frag", fragment.as_str())]);
-        let envelope = reference(&scene, Precision::Envelope);
-        let intervals = &envelope.intervals.as_ref().expect("it has envelopes")[0];
-        programs += 1;
-        for via in [Via::Spirv, Via::Wgsl] {
-            let picture =
-                gpu.render(&scene, via).unwrap_or_else(|error| panic!("seed {seed}: {error}\n{fragment}")).picture;
-            for (pixel, intervals) in intervals.iter().enumerate() {
-                if envelope.undecided[pixel] {
-                    continue;
-                }
-                decided += 1;
-                for (channel, interval) in intervals.iter().enumerate() {
-                    let drawn = picture.attachments[0][pixel][channel];
-                    checked += 1;
-                    limited += u64::from(interval.width().is_finite() && !interval.may_be_nan);
-                    if !interval.contains(drawn) && outside.len() < 4 {
-                        outside.push(format!(
-                            "seed {seed}, {}, pixel {pixel}: {drawn:e} not in {interval:?}\n{fragment}",
-                            via.name()
-                        ));
-                    }
-                }
-            }
-        }
-    }
-    println!(
-        "{programs} numeric programs by SPIR-V and WGSL: {checked} numbers of {decided} decided pixels checked, {limited} of them with \
-         a finite envelope"
-    );
-    assert!(outside.is_empty(), "{}", outside.join("\n"));
-    assert!(checked >= 100 * programs && limited * 10 > checked * 9, "{limited} of {checked} numbers are limited");
 }

@@ -1,0 +1,76 @@
+//! [`BuildError`]: the reasons why a build writes nothing.
+
+use std::fmt;
+use std::io;
+use std::path::PathBuf;
+
+/// A failed build.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum BuildError {
+    /// Shaders have errors.
+    Shaders {
+        /// All errors, as `glisten lint` prints them.
+        text: String,
+        /// The files that were read.
+        read: Vec<PathBuf>,
+    },
+    /// A file or folder cannot be read or written.
+    File {
+        /// Its path.
+        path: PathBuf,
+        /// The reason.
+        error: io::Error,
+    },
+    /// A folder contains no program.
+    NoProgram(PathBuf),
+    /// A shader of a folder has no partner of the same name.
+    NoPartner(PathBuf),
+    /// Two programs would be modules of the same name.
+    SameName(String),
+    /// Outside of a build script there is no `OUT_DIR`, and no other folder was given.
+    NoFolder,
+}
+
+impl BuildError {
+    /// The files that a build script should be run for again.
+    pub fn read(&self) -> &[PathBuf] {
+        match self {
+            Self::Shaders { read, .. } => read,
+            Self::File { path, .. } | Self::NoProgram(path) | Self::NoPartner(path) => std::slice::from_ref(path),
+            Self::SameName(_) | Self::NoFolder => &[],
+        }
+    }
+}
+
+impl fmt::Display for BuildError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Shaders { text, .. } => f.write_str(text),
+            Self::File { path, error } => write!(f, "{}: {error}", path.display()),
+            Self::NoProgram(path) => {
+                write!(f, "{}: no vertex shader (.vert, .vs, .vsh) is in this folder", path.display())
+            }
+            Self::NoPartner(path) => write!(
+                f,
+                "{}: its program has no other stage; name it with `Build::program`, or move it out of the folder",
+                path.display()
+            ),
+            Self::SameName(name) => {
+                write!(f, "two programs would be the module `{name}`; name one with `Build::named_program`")
+            }
+            Self::NoFolder => {
+                f.write_str("OUT_DIR is not set, as it is in build scripts; name a folder with `output_folder`")
+            }
+        }
+    }
+}
+
+impl std::error::Error for BuildError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match self {
+            Self::File { error, .. } => Some(error),
+            _ => None,
+        }
+    }
+}

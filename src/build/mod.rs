@@ -1,0 +1,284 @@
+//! Compiles shaders in build scripts: three lines in `build.rs`, and a Rust module with code, types and layouts.
+//!
+//! ```no_run
+//! // The whole of build.rs, inside of `fn main`.
+//! glisten::build::Build::new().folder("shaders").run();
+//! ```
+//!
+//! ```ignore
+//! // src/main.rs
+//! mod shaders {
+//!     include!(concat!(env!("OUT_DIR"), "/shaders.rs"));
+//! }
+//! let code = shaders::phong::VERTEX_WGSL;
+//! ```
+//!
+//! *In:* programs by pairs of files or by folders, and options. *Out:* [`Built`]: a Rust module in which each program is a module
+//! with WGSL and SPIR-V, structs of its uniforms in the layout of the buffer, its vertices, and on request descriptors for wgpu.
+//!
+//! *Holds:* the same inputs give the same bytes, and a file whose bytes are the same is not written again. Cargo is told of
+//! every file that was read. All errors of all programs are reported together. *Not done here:* what a program or a struct is
+//! in Rust ([`rust`]).
+
+mod error;
+mod files;
+mod includes;
+mod programs;
+mod rust;
+
+pub use error::BuildError;
+
+use crate::library::Embedded;
+use files::Reads;
+use glisten_emit::Conventions;
+use glisten_front::compiler::{Compiler, Options};
+use glisten_front::diagnostic::Severity;
+use glisten_front::diagnostic::write::human;
+use includes::Folders;
+use programs::{Given, Named};
+use std::collections::BTreeSet;
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+/// A build of shaders: programs, options, and where the module goes.
+#[derive(Clone, Debug)]
+pub struct Build {
+    programs: Vec<Given>,
+    options: Options,
+    folders: Vec<PathBuf>,
+    conventions: Conventions,
+    optimize: bool,
+    rust: rust::Choices,
+    file: String,
+    folder: Option<PathBuf>,
+}
+
+/// The result of a build.
+#[derive(Clone, Debug)]
+pub struct Built {
+    /// The path of the Rust module.
+    pub module: PathBuf,
+    /// The text of the Rust module.
+    pub text: String,
+    /// The files that were read: sources and includes, in order.
+    pub read: Vec<PathBuf>,
+    /// Warnings, as `glisten lint` prints them; empty if there are none.
+    pub warnings: String,
+}
+
+impl Default for Build {
+    fn default() -> Self {
+        Self {
+            programs: Vec::new(),
+            options: Options::default(),
+            folders: Vec::new(),
+            conventions: Conventions::default(),
+            optimize: true,
+            rust: rust::Choices::default(),
+            file: "shaders.rs".into(),
+            folder: None,
+        }
+    }
+}
+
+impl Build {
+    /// A build of no programs, for WGSL and SPIR-V.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Adds a program of a vertex and a fragment shader, named after the vertex shader's file.
+    #[must_use]
+    pub fn program(self, vertex: impl AsRef<Path>, fragment: impl AsRef<Path>) -> Self {
+        let name = programs::stem(vertex.as_ref());
+        self.named_program(name, vertex, fragment)
+    }
+
+    /// Adds a program with a name of its own, for files that belong to several programs.
+    #[must_use]
+    pub fn named_program(
+        mut self,
+        name: impl Into<String>,
+        vertex: impl AsRef<Path>,
+        fragment: impl AsRef<Path>,
+    ) -> Self {
+        let (vertex, fragment) = (vertex.as_ref().to_owned(), fragment.as_ref().to_owned());
+        self.programs.push(Given::Pair(Named { name: name.into(), vertex, fragment }));
+        self
+    }
+
+    /// Adds all programs of a folder and of the folders below it: a vertex and a fragment shader of the same name each. Vertex
+    /// shaders end in `.vert`, `.vs` or `.vsh`, fragment shaders in `.frag`, `.fs` or `.fsh`, both with or without `.glsl`.
+    #[must_use]
+    pub fn folder(mut self, folder: impl AsRef<Path>) -> Self {
+        self.programs.push(Given::Folder(folder.as_ref().to_owned()));
+        self
+    }
+
+    /// Adds a folder to the search path of `#include`, like `-I`.
+    #[must_use]
+    pub fn include(mut self, folder: impl AsRef<Path>) -> Self {
+        self.folders.push(folder.as_ref().to_owned());
+        self
+    }
+
+    /// Defines a macro before the first line of each shader, like `-D NAME=VALUE`.
+    #[must_use]
+    pub fn define(mut self, name: impl Into<String>, value: impl Into<String>) -> Self {
+        self.options.defines.push((name.into(), value.into()));
+        self
+    }
+
+    /// Binds an attribute to a location, like `glBindAttribLocation`.
+    #[must_use]
+    pub fn bind_attribute(mut self, name: impl Into<String>, location: u32) -> Self {
+        self.options.attribute_locations.push((name.into(), location));
+        self
+    }
+
+    /// Binds an output to a color number, like `glBindFragDataLocation`.
+    #[must_use]
+    pub fn bind_output(mut self, name: impl Into<String>, number: u32) -> Self {
+        self.options.frag_data_locations.push((name.into(), number));
+        self
+    }
+
+    /// Replaces the conventions of the host: the range of clip-space z, the window's origin, points.
+    #[must_use]
+    pub fn conventions(self, conventions: Conventions) -> Self {
+        Self { conventions, ..self }
+    }
+
+    /// Keeps what reaches no output, like `-O0`.
+    #[must_use]
+    pub fn keep_everything(self) -> Self {
+        Self { optimize: false, ..self }
+    }
+
+    /// Leaves SPIR-V out of the module.
+    #[must_use]
+    pub fn without_spirv(mut self) -> Self {
+        self.rust.spirv = false;
+        self
+    }
+
+    /// Derives `bytemuck::Pod` and `bytemuck::Zeroable` for structs. The crate needs `bytemuck` with its feature `derive`.
+    #[must_use]
+    pub fn bytemuck(mut self) -> Self {
+        self.rust.bytemuck = true;
+        self
+    }
+
+    /// Lets setters take vectors and matrices of `glam`.
+    #[must_use]
+    pub fn glam(mut self) -> Self {
+        self.rust.glam = true;
+        self
+    }
+
+    /// Adds descriptors and constructors for `wgpu` 30: vertex buffer layouts, bind groups, pipelines.
+    #[must_use]
+    pub fn wgpu(mut self) -> Self {
+        self.rust.wgpu = true;
+        self
+    }
+
+    /// Steps an attribute by instance: it becomes a field of `Instance` instead of `Vertex`.
+    #[must_use]
+    pub fn instanced(mut self, attribute: impl Into<String>) -> Self {
+        self.rust.instanced.push(attribute.into());
+        self
+    }
+
+    /// The name of the module's file in its folder; `shaders.rs` by default.
+    #[must_use]
+    pub fn output(self, file: impl Into<String>) -> Self {
+        Self { file: file.into(), ..self }
+    }
+
+    /// The folder of the module's file, instead of `OUT_DIR`.
+    #[must_use]
+    pub fn output_folder(self, folder: impl AsRef<Path>) -> Self {
+        Self { folder: Some(folder.as_ref().to_owned()), ..self }
+    }
+
+    /// Builds, tells Cargo which files were read, prints warnings, and writes the module to `OUT_DIR`. It is the last line of
+    /// a build script.
+    ///
+    /// # Panics
+    /// With all errors, as `glisten lint` prints them. A build script that panics shows them and ends the build.
+    #[expect(clippy::print_stdout, reason = "Cargo reads what a build script prints")]
+    pub fn run(self) {
+        match self.build() {
+            Ok(built) => {
+                for file in &built.read {
+                    println!("cargo::rerun-if-changed={}", file.display());
+                }
+                for line in built.warnings.lines() {
+                    println!("cargo::warning={line}");
+                }
+            }
+            Err(error) => {
+                for file in error.read() {
+                    println!("cargo::rerun-if-changed={}", file.display());
+                }
+                panic!("\n{error}");
+            }
+        }
+    }
+
+    /// Builds and writes the module, and tells nobody.
+    ///
+    /// # Errors
+    /// [`BuildError`]: all errors of all programs, or that a file cannot be read or written.
+    pub fn build(&self) -> Result<Built, BuildError> {
+        let folder = match &self.folder {
+            Some(folder) => folder.clone(),
+            None => std::env::var_os("OUT_DIR").map(PathBuf::from).ok_or(BuildError::NoFolder)?,
+        };
+        let built = self.text()?;
+        let module = folder.join(&self.file);
+        files::write(&module, &built.text)?;
+        Ok(Built { module, ..built })
+    }
+
+    /// Builds the text of the module without writing it.
+    ///
+    /// # Errors
+    /// Those of [`Build::build`].
+    pub fn text(&self) -> Result<Built, BuildError> {
+        let reads = Reads::default();
+        let programs = programs::collect(&self.programs, &reads)?;
+        let includes = Folders::new(self.folders.clone(), Embedded, reads.clone());
+        let compiler = Compiler::new(self.options.clone()).with_includes(includes);
+        let (mut modules, mut errors, mut warnings) = (Vec::new(), String::new(), String::new());
+        for named in &programs {
+            let compilation = compiler.compile(&named.sources(&reads)?);
+            let failed = compilation.diagnostics.has_errors();
+            let told = compilation.diagnostics.iter().filter(|found| failed || found.severity == Severity::Warning);
+            let told = human(&compilation.sources, told, false);
+            if failed { &mut errors } else { &mut warnings }.push_str(&told);
+            let Some(program) = compilation.program.filter(|_| !failed) else { continue };
+            let program = if self.optimize { glisten_specialize::optimize(&program) } else { program };
+            match rust::module(&named.name, &program, &compilation.sources, &self.conventions, &self.rust) {
+                Ok(module) => modules.push(module),
+                Err(found) => errors.push_str(&human(&compilation.sources, &found, false)),
+            }
+        }
+        if !errors.is_empty() {
+            return Err(BuildError::Shaders { text: errors, read: reads.files() });
+        }
+        let mut text = rust::opening();
+        for module in &modules {
+            // Writing to a string cannot fail.
+            let _ = write!(text, "\n{module}");
+        }
+        Ok(Built { module: PathBuf::new(), text, read: reads.files(), warnings })
+    }
+}
+
+/// Names of which each may be given once.
+fn repeated<'n>(names: impl Iterator<Item = &'n str>) -> Option<&'n str> {
+    let mut seen = BTreeSet::new();
+    names.into_iter().find(|name| !seen.insert(*name))
+}
