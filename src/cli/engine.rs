@@ -149,6 +149,7 @@ impl Settings {
         };
         let of_stage = std::mem::take(&mut prepared.defines);
         prepared.defines = last_of_each(added.defines.into_iter().chain(of_stage).chain(taken).collect());
+        added.preludes.extend(self.profile.and_then(|profile| companion(profile, &source.name)));
         added.preludes.extend(self.preludes);
         prepared.completion = Completion {
             assumed_version: self.version.or(self.profile.and_then(|profile| profile.version.clone())),
@@ -160,6 +161,19 @@ impl Settings {
         let includes = DiskIncludes::of_engine(self.folders, style.unwrap_or(Style::Quote), roots);
         prepared.includes = Some(Arc::new(includes));
     }
+}
+
+/// The file next to a source that its engine reads before it.
+fn companion(profile: &Profile, source: &str) -> Option<Prelude> {
+    let source = Path::new(source);
+    // The names may differ in case alone, and so may files.
+    let is_source = |path: &Path| {
+        path.file_name().map(|name| name.to_ascii_lowercase())
+            == source.file_name().map(|name| name.to_ascii_lowercase())
+    };
+    let paths = profile.before.iter().map(|name| source.with_file_name(name));
+    let path = paths.into_iter().find(|path| path.is_file() && !is_source(path))?;
+    files::read_prelude(&path).ok()
 }
 
 /// The last definition of each macro.

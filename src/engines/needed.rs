@@ -1,7 +1,7 @@
 //! The lines of an engine's prelude that a source needs: engines declare what a source does not declare itself.
 //!
 //! *In:* a prelude with one declaration, macro or function a line, and a source. *Out:* the prelude, with blank lines for what
-//! the source declares. *Holds:* lines stay where they are.
+//! the source declares. *Holds:* lines stay where they are. A line that ends in `// with f` is for sources that define `f`.
 
 use super::code::{count_definitions, is_name, without_comments, words};
 use glisten_front::source::blanked;
@@ -66,7 +66,8 @@ pub fn needed(prelude: &str, source: &str) -> Arc<str> {
             Some(Line::Variable(name)) => declares(&code, name),
             None => false,
         };
-        if declared {
+        let user = line.trim_end().rsplit_once("// with ").map(|(_, name)| name);
+        if declared || user.is_some_and(|name| count_definitions(&code, name) == 0) {
             unneeded.push(at..at + line.len());
         }
         at += line.len();
@@ -96,5 +97,7 @@ mod tests {
             ["uniform float time;", "", "", "void main() { f(); }"]
         );
         assert!(!needed(prelude, "void main()\n{}").contains("main"));
+        let line = "void main() { f(); } // with f\n";
+        assert!(needed(line, "void f() {}").contains("main") && !needed(line, "void f();").contains("main"));
     }
 }

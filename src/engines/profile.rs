@@ -65,6 +65,8 @@ struct Settings {
     roots: Vec<String>,
     /// The stage of files whose names tell none.
     stage: Option<String>,
+    /// The names of files next to a source that are read before it.
+    before: Vec<String>,
     /// The kind of header that the sources begin with.
     header: Option<String>,
     /// The pragma that names the macros that a source takes.
@@ -91,6 +93,8 @@ pub struct Profile {
     pub roots: Vec<String>,
     /// The stage of files whose names tell none.
     pub stage: Option<Stage>,
+    /// The names of files next to a source that are read before it; the first one that is there.
+    pub before: Vec<String>,
     /// Whether sources begin with a header of the Interactive Shader Format.
     pub has_isf_header: bool,
     define_pragma: Option<String>,
@@ -159,6 +163,7 @@ fn load((name, text, preludes): &Embedded) -> Profile {
         style: settings.include_style.as_deref().and_then(Style::named),
         roots: settings.roots,
         stage: settings.stage.as_deref().and_then(stage_named),
+        before: settings.before,
         has_isf_header: settings.header.as_deref() == Some("isf"),
         define_pragma: settings.define_pragma,
         defines: settings.defines,

@@ -1,5 +1,11 @@
 // What Shadertoy puts around a picture. One declaration a line; a line that the shader has itself is left out.
 // A channel that is no 2D texture: -D SHADERTOY_CHANNEL1=samplerCube.
+#ifdef GL_ES
+precision highp float;
+precision highp int;
+precision highp sampler2D;
+precision highp sampler3D;
+#endif
 #ifndef SHADERTOY_CHANNEL0
 #define SHADERTOY_CHANNEL0 sampler2D
 #endif
@@ -28,5 +34,5 @@ uniform vec4 iDate;
 uniform float iSampleRate;
 #define iGlobalTime iTime
 out vec4 shadertoyColor;
-void mainImage(out vec4 fragColor, in vec2 fragCoord);
-void main() { mainImage(shadertoyColor, gl_FragCoord.xy); }
+void mainImage(out vec4 fragColor, in vec2 fragCoord); // with mainImage
+void main() { mainImage(shadertoyColor, gl_FragCoord.xy); } // with mainImage

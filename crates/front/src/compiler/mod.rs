@@ -210,6 +210,11 @@ impl Compiler {
         let includes = includes.as_ref().unwrap_or(&self.includes);
         let ast = syntax::parse(map, file, &options, &**includes, diagnostics);
         let mut shader = analyze(&ast, source.stage, strict, types, map, diagnostics);
+        if ast.version.span.is_known() && map.file_of(ast.version.span) != Some(file) {
+            // What is said about the whole shader is said about its own text.
+            let start = map.file(file).base();
+            shader.version.span = Span::new(start, start);
+        }
         let (inclusions, preludes) = (&ast.inclusions, &ast.preludes);
         shader.texts.push(whole_text(map, file, ast.version.span, inclusions, &options.defines, preludes));
         let is_complete = !keep_understood(&ast, &mut shader, types, map, diagnostics, first_error);
