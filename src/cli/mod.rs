@@ -49,6 +49,7 @@ mod stages;
 mod test;
 mod timed;
 mod verify;
+mod watch;
 mod with;
 
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
@@ -98,6 +99,7 @@ enum Command {
     Lib(library::LibArgs),
     NewScene(new_scene::NewSceneArgs),
     Completions(completions::CompletionsArgs),
+    Watch(watch::WatchArgs),
     Man(man::ManArgs),
 }
 
@@ -143,6 +145,7 @@ fn dispatch(command: &Command, console: &Console) -> Outcome {
         Command::Lib(args) => library::run(args, console),
         Command::NewScene(args) => new_scene::run(args, console),
         Command::Completions(args) => completions::run(args, Cli::command(), console),
+        Command::Watch(args) => watch::run(args, console),
         Command::Man(args) => man::run(args, examples::with_examples(Cli::command()), console),
     }
 }

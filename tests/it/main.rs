@@ -95,6 +95,8 @@ mod targets;
 #[cfg(feature = "gpu")]
 mod tutorial;
 #[cfg(feature = "cli")]
+#[cfg(feature = "cli")]
+mod watch;
 mod wgsl;
 #[cfg(feature = "reference")]
 mod widths;
