@@ -89,6 +89,7 @@ mod support;
 mod targets;
 #[cfg(feature = "gpu")]
 mod tutorial;
+mod versions;
 #[cfg(feature = "cli")]
 mod wgsl;
 #[cfg(feature = "reference")]
