@@ -94,6 +94,7 @@ mod support;
 mod targets;
 #[cfg(feature = "gpu")]
 mod tutorial;
+mod versions;
 #[cfg(feature = "cli")]
 #[cfg(feature = "cli")]
 mod watch;

@@ -97,7 +97,9 @@ impl Writer<'_, '_> {
     fn keep(&mut self, value: ExprId) -> Option<(VarRef, ExprId)> {
         let ty = self.analyzer.ty(value);
         let local = Local { name: "part".to_owned(), ty, kind: LocalKind::Variable, value: None, span: self.span };
-        let place = VarRef::Local(self.analyzer.add_local(local)?);
+        let id = self.analyzer.add_local(local)?;
+        self.analyzer.body.as_mut()?.parts.push(id);
+        let place = VarRef::Local(id);
         let target = self.push(ExprKind::Var(place), ty);
         Some((place, self.push(ExprKind::Assign(None, target, value), ty)))
     }
@@ -148,7 +150,8 @@ impl Writer<'_, '_> {
         let ty = self.analyzer.ty(exponent);
         let (least, most) = (self.int(-252, ty), self.int(254, ty));
         let limited = self.call(F::Clamp, vec![exponent, least, most], ty);
-        if self.analyzer.body.is_none() {
+        let is_constant = self.analyzer.is_constant(x) && self.analyzer.is_constant(exponent);
+        if is_constant || self.analyzer.body.is_none() {
             // A constant, or the initializer of a global: it is written out twice.
             let (half, rest) = self.halves(limited, limited);
             return Some(self.scaled(x, half, rest));
