@@ -57,6 +57,7 @@ static ORDER: &[(&str, &[&str])] = &[
             "specialize",
             "made",
             "engines",
+            "upgrade",
             "gallery",
             "report",
             "account",

@@ -76,7 +76,8 @@ fn a_flag_says_the_same_as_a_table_and_without_either_it_is_an_error() {
     ] {
         let folder = without_configuration(profile);
         let plain = folder.run(&[&["lint"], sources].concat());
-        assert_ne!(code(&plain), 0, "{profile} needs its profile");
+        // A file of libretro says itself what its stages are, and is GLSL 1.10 without its profile.
+        assert_eq!(code(&plain) == 0, profile == "libretro", "{profile} needs its profile");
         let given = folder.run(&[&["lint", "--engine", profile], sources, more].concat());
         assert_eq!(code(&given), 0, "{profile}: {}", out(&given));
     }

@@ -94,6 +94,8 @@ mod targets;
 #[cfg(feature = "gpu")]
 mod tutorial;
 #[cfg(feature = "cli")]
+mod upgrade;
+#[cfg(feature = "cli")]
 mod wgsl;
 #[cfg(feature = "reference")]
 mod widths;
