@@ -71,7 +71,7 @@ fn found(sources: &SourceMap, diagnostics: &Diagnostics) -> Vec<Finding> {
 }
 
 /// Compiles a program and reports how its diagnostics differ from those that its comments expect.
-fn check(shaders: &[Shader]) -> Result<(), String> {
+pub(crate) fn check(shaders: &[Shader]) -> Result<(), String> {
     let first = shaders.first().map_or("", |shader| &shader.text);
     let (sources, diagnostics) = compile(shaders, &settings(first));
     let mut wanted: Vec<Finding> = sources.files().flat_map(|(_, file)| expected(file.name(), file.text())).collect();

@@ -491,9 +491,9 @@ fn a_search_passes_over_what_is_ignored_and_counts_other_versions() {
         ("deep/d.frag", broken),
         ("third/party/e.frag", broken),
         ("gen/f.gen.frag", broken),
-        ("old/g.vert", b"#version 110\nvoid main() { gl_Position = ftransform(); }\n"),
-        ("old/h.frag", b"#version 330 core\nlayout(location = 0) out vec4 c;\nvoid main() { c = vec4(1.0); }\n"),
-        ("old/i.frag", b"#version 300 es\nprecision mediump float;\nvoid main() {}\n"),
+        ("old/g.vert", b"void main() { gl_Position = engine_matrix * engine_vertex; }\n"),
+        ("old/h.frag", b"#version 320 es\nlayout(location = 0) out highp vec4 c;\nvoid main() { c = vec4(1.0); }\n"),
+        ("old/i.frag", b"#version 310 es\nprecision mediump float;\nvoid main() {}\n"),
         ("glisten.toml", b"[lint]\nexclude = [\"third\", \"*.gen.frag\"]\n"),
     ]);
     let output = folder.run(&["lint", "."]);

@@ -93,6 +93,7 @@ mod support;
 mod targets;
 #[cfg(feature = "gpu")]
 mod tutorial;
+mod versions;
 #[cfg(feature = "cli")]
 mod upgrade;
 #[cfg(feature = "cli")]

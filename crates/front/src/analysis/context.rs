@@ -33,6 +33,8 @@ pub(super) struct Body {
     pub(super) switches: u32,
     /// Whether it contains a `return`, or something broken that may have been one.
     pub(super) returns: bool,
+    /// Locals that calls written out in other operations need, which are declared first.
+    pub(super) parts: Vec<LocalId>,
 }
 
 /// The state of the traversal.

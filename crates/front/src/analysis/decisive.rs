@@ -5,6 +5,7 @@
 
 use crate::diagnostic::codes::general::NOT_SUPPORTED_YET;
 use crate::diagnostic::codes::preprocess::MISSING_VERSION;
+use crate::diagnostic::codes::qualifiers::UNKNOWN_LAYOUT;
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 
 /// Drops what follows from a decisive error, among the diagnostics from number `first` on: with a missing version all
@@ -29,7 +30,9 @@ pub fn keep_decisive(diagnostics: &mut Diagnostics, first: usize) {
         }
         if *diagnostic.code != NOT_SUPPORTED_YET {
             let follows = matches!(diagnostic.code.id.get(..3), Some("E02" | "E03" | "E04" | "E05" | "E06"));
-            return !follows || diagnostic.primary.span.start < start;
+            // A layout that is not known may be of the feature's declaration.
+            let is_layout = *diagnostic.code == UNKNOWN_LAYOUT;
+            return !follows || (diagnostic.primary.span.start < start && !is_layout);
         }
         // Each feature is named once.
         let is_new = !messages.contains(&diagnostic.message);

@@ -10,7 +10,7 @@ use crate::diagnostic::codes::preprocess::MISSING_VERSION;
 use crate::diagnostic::codes::qualifiers;
 use crate::language::{Extensions, Feature, NEVER, Since, Version};
 use crate::source::Span;
-use crate::syntax::{extension_name, warning_of_use};
+use crate::syntax::warning_of_use;
 
 impl Analyzer<'_> {
     /// Whether the language has the feature used at `span`, by its version or by an enabled extension. Warns about the
@@ -64,14 +64,14 @@ impl Analyzer<'_> {
     }
 }
 
-/// What makes a language one that has something: `write #version 330, or #extension .. : enable`.
+/// How a language becomes one that has something.
 pub(super) fn remedy(version: Version, since: Since, gone: Since, extensions: Extensions) -> Option<String> {
     if version.reaches(since) && !version.still_has(gone) {
         let last = if version.is_es() { gone.es } else { gone.desktop };
         return Some(format!("versions before {} have it", Version { number: last, ..version }.name()));
     }
-    let first = version.first(since).map(|line| format!("write `{line}`"));
-    let extension = extension_name(extensions).filter(|_| !version.is_es());
+    let first = version.first(since).map(|line| format!("`{line}` has it"));
+    let extension = extensions.name().filter(|_| !version.is_es());
     let extension = extension.map(|name| format!("put `#extension {name} : enable` at the top"));
     match (first, extension) {
         (Some(first), Some(extension)) => Some(format!("{first}, or {extension}")),

@@ -6,6 +6,7 @@ use super::scope::Entry;
 use crate::diagnostic::codes::{names, qualifiers, types};
 use crate::diagnostic::{Diagnostic, did_you_mean};
 use crate::hir::{ArraySize, Scalar, ScalarValue, Type, TypeId};
+use crate::language::Feature;
 use crate::source::Span;
 use crate::syntax::ast::{ArrayDim, ExprId as AstExprId, Ident, Qualifier, TypeBase, TypeSpec};
 use crate::syntax::token::Symbol;
@@ -26,7 +27,7 @@ impl Analyzer<'_> {
         self.with_array(base, &spec.array)
     }
 
-    /// An array of `base` for each pair of brackets; 1.50 has only one-dimensional arrays.
+    /// An array of `base` for each pair of brackets; before 4.30 there are only one-dimensional arrays.
     pub(super) fn with_array(&mut self, base: TypeId, dims: &[ArrayDim]) -> TypeId {
         let mut ty = base;
         for dim in dims.iter().rev() {
@@ -35,7 +36,9 @@ impl Analyzer<'_> {
                 self.report(Diagnostic::new(&types::VOID_VALUE, dim.span, "an array of `void` holds nothing"));
                 return TypeId::ERROR;
             }
-            if let Type::Array(..) = self.types.get(ty) {
+            if let Type::Array(_, inner) = self.types.get(ty)
+                && (inner == ArraySize::Unsized || !self.allows(Feature::ArraysOfArrays, dim.span))
+            {
                 let name = self.type_name(ty);
                 self.report(
                     Diagnostic::new(
@@ -160,7 +163,7 @@ impl Analyzer<'_> {
             self.report(
                 Diagnostic::new(&qualifiers::MISSING_PRECISION, at, message)
                     .here("no precision here")
-                    .help(format!("write `precision highp {name};` before it")),
+                    .help(format!("begin the shader with `precision highp {name};`")),
             );
         }
     }

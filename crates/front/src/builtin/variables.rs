@@ -34,7 +34,7 @@ pub enum Redeclaration {
     Size,
     /// The layout qualifiers.
     Layout,
-    /// What is known of the depth that is written.
+    /// A hint about the depth that is written.
     Depth,
 }
 

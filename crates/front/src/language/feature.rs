@@ -10,7 +10,7 @@ use super::version::{Extensions, NEVER, Since, Version};
 pub struct FeatureRow {
     /// The feature.
     pub feature: Feature,
-    /// What a message calls it.
+    /// The name in messages.
     pub name: &'static str,
     /// The first versions that have it.
     pub since: Since,

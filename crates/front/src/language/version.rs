@@ -57,7 +57,7 @@ impl Since {
         Self::new(desktop, es)
     }
 
-    /// The same with another ES version.
+    /// These versions with another ES version.
     #[must_use]
     pub const fn es(self, es: u16) -> Self {
         Self { es, ..self }
@@ -164,7 +164,43 @@ bitflags::bitflags! {
     }
 }
 
+/// The name of each extension, for messages and texts.
+static NAMES: &[(Extensions, &str)] = &[
+    (Extensions::EXPLICIT_ATTRIB_LOCATION, "GL_ARB_explicit_attrib_location"),
+    (Extensions::SHADING_LANGUAGE_420PACK, "GL_ARB_shading_language_420pack"),
+    (Extensions::TEXTURE_RECTANGLE, "GL_ARB_texture_rectangle"),
+    (Extensions::UNIFORM_BUFFER_OBJECT, "GL_ARB_uniform_buffer_object"),
+    (Extensions::DRAW_INSTANCED, "GL_ARB_draw_instanced"),
+    (Extensions::INCLUDE, "GL_ARB_shading_language_include"),
+    (Extensions::SEPARATE_SHADER_OBJECTS, "GL_ARB_separate_shader_objects"),
+    (Extensions::SHADER_BIT_ENCODING, "GL_ARB_shader_bit_encoding"),
+    (Extensions::SHADER_TEXTURE_LOD, "GL_ARB_shader_texture_lod"),
+    (Extensions::GPU_SHADER4, "GL_EXT_gpu_shader4"),
+    (Extensions::TEXTURE_ARRAY, "GL_EXT_texture_array"),
+    (Extensions::GPU_SHADER5, "GL_ARB_gpu_shader5"),
+    (Extensions::TEXTURE_GATHER, "GL_ARB_texture_gather"),
+    (Extensions::TEXTURE_QUERY_LOD, "GL_ARB_texture_query_lod"),
+    (Extensions::TEXTURE_QUERY_LEVELS, "GL_ARB_texture_query_levels"),
+    (Extensions::CONSERVATIVE_DEPTH, "GL_ARB_conservative_depth"),
+    (Extensions::ARRAYS_OF_ARRAYS, "GL_ARB_arrays_of_arrays"),
+    (Extensions::STANDARD_DERIVATIVES, "GL_OES_standard_derivatives"),
+    (Extensions::FRAG_DEPTH, "GL_EXT_frag_depth"),
+    (Extensions::FRAGMENT_COORD_CONVENTIONS, "GL_ARB_fragment_coord_conventions"),
+    (Extensions::TEXTURE_MULTISAMPLE, "GL_ARB_texture_multisample"),
+    (Extensions::SHADING_LANGUAGE_PACKING, "GL_ARB_shading_language_packing"),
+    (Extensions::EXPLICIT_UNIFORM_LOCATION, "GL_ARB_explicit_uniform_location"),
+    (Extensions::ENHANCED_LAYOUTS, "GL_ARB_enhanced_layouts"),
+    (Extensions::DERIVATIVE_CONTROL, "GL_ARB_derivative_control"),
+    (Extensions::TEXTURE_CUBE_MAP_ARRAY, "GL_ARB_texture_cube_map_array"),
+    (Extensions::DRAW_BUFFERS, "GL_EXT_draw_buffers"),
+];
+
 impl Extensions {
+    /// The name of the first extension of a set.
+    pub fn name(self) -> Option<&'static str> {
+        NAMES.iter().find(|row| self.contains(row.0)).map(|row| row.1)
+    }
+
     const WARN_SHIFT: u32 = 32;
 
     /// The extensions that a source may enable.

@@ -98,6 +98,7 @@ pub fn link(
     let lone = shaders.len() < 2;
     canonical::unify(&mut types, &mut shaders, Sizes::Tentative);
     let mut found = Vec::new();
+    stages::check_languages(&shaders, &mut found);
     let mut stages = stages::in_order(&mut types, shaders, &mut found);
     canonical::unify(&mut types, &mut stages, Sizes::Final);
     let mut ctx = Linker { types: &types, bindings, diagnostics, failed: false };

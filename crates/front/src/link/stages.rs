@@ -18,6 +18,22 @@ pub(super) fn in_order(types: &mut Types, shaders: Vec<Shader>, found: &mut Vec<
     by_stage.into_iter().filter_map(|shaders| merge::merge(types, shaders, found)).collect()
 }
 
+/// Checks that all shaders are of one language: the desktop's in any versions, or one version of ES's (GLSL ES 3.00
+/// §3.4).
+pub(super) fn check_languages(shaders: &[Shader], found: &mut Vec<Diagnostic>) {
+    let Some((first, rest)) = shaders.split_first() else { return };
+    let same = |other: &&Shader| {
+        let (a, b) = (first.version, other.version);
+        a.is_es() == b.is_es() && (!a.is_es() || a.number == b.number)
+    };
+    if let Some(other) = rest.iter().find(|other| !same(other)) {
+        let (one, another) = (first.version.name(), other.version.name());
+        let message = format!("a shader of {another} in a program of {one}");
+        let finding = Diagnostic::new(&codes::link::MIXED_LANGUAGES, other.anchor(), message);
+        found.push(finding.label(first.anchor(), format!("this is {one}")));
+    }
+}
+
 /// Checks that the stages can run. What only a program must have is a warning instead of an error in a single shader.
 pub(super) fn check(ctx: &mut Linker<'_>, stages: &[Shader], lone: bool) -> bool {
     let mut complete = !stages.is_empty();

@@ -28,7 +28,7 @@ use ast::{Ast, Profile, Version};
 use names::Names;
 use parser::Parser;
 use preprocessor::Preprocessor;
-pub(crate) use preprocessor::extension::{name_of as extension_name, warning_of_use};
+pub(crate) use preprocessor::extension::warning_of_use;
 use session::{ExtensionSets, ParseSession};
 
 /// ParseOptions of a parse.

@@ -7,7 +7,9 @@ use super::super::state::Signature;
 use crate::builtin::functions;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::{names, statements, types};
-use crate::hir::{ArraySize, Function, FunctionId, Local, LocalId, LocalKind, ParamMode, Type, TypeId, VarRef};
+use crate::hir::{
+    ArraySize, Function, FunctionId, Local, LocalId, LocalKind, ParamMode, StmtKind, Type, TypeId, VarRef,
+};
 use crate::language::Feature;
 use crate::syntax::ast::{FunctionHeader, Ident, ParamDecl, Stmt, TypeBase};
 
@@ -51,7 +53,7 @@ impl Analyzer<'_> {
         let first = self.shader.exprs.len();
         let precisions = self.precisions.clone();
         self.budget.begin_function();
-        self.body = Some(Body { function: id, loops: 0, switches: 0, returns: false });
+        self.body = Some(Body { function: id, loops: 0, switches: 0, returns: false, parts: Vec::new() });
         self.scopes.open();
         for (index, param) in header.params.iter().enumerate() {
             if let Some(name) = param.name {
@@ -60,7 +62,10 @@ impl Analyzer<'_> {
         }
         // The body is a scope nested inside that of the parameters (§4.2).
         self.scopes.open();
-        let body = self.statements(body);
+        let mut body = self.statements(body);
+        let parts = self.body.as_mut().map_or_else(Vec::new, |body| std::mem::take(&mut body.parts));
+        let declared = |part| crate::hir::Stmt { kind: StmtKind::Local(part, None), span: header.name.span };
+        body.splice(0..0, parts.into_iter().map(declared));
         self.scopes.close();
         self.scopes.close();
         self.size_locals(first);

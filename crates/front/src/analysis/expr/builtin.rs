@@ -29,7 +29,16 @@ impl Analyzer<'_> {
             let params = signature.params();
             params.len() == given.len() && params.iter().zip(&given).all(|((param, _), given)| param == given)
         });
-        let found = exact.or_else(|| self.builtin_by_conversion(name, &signatures().collect::<Vec<_>>(), rows, &given));
+        let found = exact.or_else(|| {
+            // Two rows may have one signature: `max(genType, genType)` and `max(genType, float)` for one float.
+            let mut candidates: Vec<(&'static Row, Signature)> = Vec::new();
+            for (row, signature) in signatures() {
+                if !candidates.iter().any(|(_, other)| other.params() == signature.params()) {
+                    candidates.push((row, signature));
+                }
+            }
+            self.builtin_by_conversion(name, &candidates, rows, &given)
+        });
         let Some((row, signature)) = found else { return self.poison(span) };
         self.note_builtin(row.availability, name.span);
         let Some(arguments) = self.pass(arguments, signature.params()) else { return self.poison(span) };
@@ -70,26 +79,17 @@ impl Analyzer<'_> {
         }
     }
 
-    /// Resolves the overload. Two rows that have the same signature (`max(genType, genType)` and `max(genType,
-    /// float)` for one float) count once.
+    /// Resolves the overload.
     fn resolve_builtin(&self, candidates: &[(&'static Row, Signature)], given: &[TypeId]) -> Resolution {
         let params = candidates.iter().map(|(_, signature)| signature.params().iter().copied());
-        let found = resolve(self.types, self.rules(), given, params);
-        let Resolution::Ambiguous(first, _) = found else { return found };
-        let Some(wanted) = candidates.get(first).map(|(_, signature)| signature.params()) else { return found };
-        let same = |params: &[_]| params == wanted;
-        let rest = candidates.iter().skip(first + 1).map(|(_, signature)| signature.params());
-        let others = rest.map(|params| if same(params) { [].iter() } else { params.iter() }.copied());
-        match resolve(self.types, self.rules(), given, others) {
-            Resolution::Missing => Resolution::Found(first),
-            Resolution::Found(index) | Resolution::Ambiguous(index, _) => {
-                Resolution::Ambiguous(first, first + 1 + index)
-            }
-        }
+        resolve(self.types, self.rules(), given, params)
     }
 
     /// Checks that the offsets of texture functions are constant expressions (§8.7).
     fn check_offset(&mut self, row: &Row, arguments: &[ExprId]) -> bool {
+        if !matches!(row.function.class(), Class::Texture(_)) {
+            return true;
+        }
         let position = row.params.iter().position(|param| param.name == "offset");
         let Some(&offset) = position.and_then(|index| arguments.get(index)) else { return true };
         if self.is_constant(offset) {
@@ -110,7 +110,10 @@ impl Analyzer<'_> {
         let finding = if elsewhere.is_empty() {
             let message = format!("the function `{spelling}` is not in {}", version.name());
             let remedy = rows.iter().find_map(|row| {
-                let Availability { since, gone, extensions, .. } = row.availability;
+                let Availability { since, gone, extensions, compatibility_only, .. } = row.availability;
+                if compatibility_only && version.reaches(since) {
+                    return Some("only the compatibility profile has it".to_owned());
+                }
                 remedy(version, since, gone, extensions)
             });
             let finding = Diagnostic::new(&names::BUILTIN_UNAVAILABLE, name.span, message).here("not available here");

@@ -8,6 +8,7 @@ use super::Purpose;
 use super::convert::Conversions;
 use super::overload::{Resolution, Rules, resolve};
 use crate::builtin::functions;
+use crate::diagnostic::codes::general::NOT_SUPPORTED_YET;
 use crate::diagnostic::codes::{names, types};
 use crate::diagnostic::{Diagnostic, did_you_mean};
 use crate::hir::{ExprId, ExprKind, FunctionId, ParamMode, TypeId};
@@ -68,6 +69,11 @@ impl Analyzer<'_> {
         let spelling = self.name(name);
         if !functions::named(spelling).is_empty() {
             return true;
+        }
+        if super::foreign::is_unsupported(spelling, self.ast.version) {
+            let message = format!("the function `{spelling}` is not supported yet");
+            self.report(Diagnostic::new(&NOT_SUPPORTED_YET, name.span, message));
+            return false;
         }
         let near = |this: &mut Self| Some(format!("did you mean `{}`?", this.nearest_function(spelling)?));
         let help = super::foreign::function(spelling).or_else(|| near(self));

@@ -97,7 +97,9 @@ impl Writer<'_, '_> {
     fn keep(&mut self, value: ExprId) -> Option<(VarRef, ExprId)> {
         let ty = self.analyzer.ty(value);
         let local = Local { name: "part".to_owned(), ty, kind: LocalKind::Variable, value: None, span: self.span };
-        let place = VarRef::Local(self.analyzer.add_local(local)?);
+        let id = self.analyzer.add_local(local)?;
+        self.analyzer.body.as_mut()?.parts.push(id);
+        let place = VarRef::Local(id);
         let target = self.push(ExprKind::Var(place), ty);
         Some((place, self.push(ExprKind::Assign(None, target, value), ty)))
     }

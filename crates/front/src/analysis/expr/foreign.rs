@@ -2,7 +2,7 @@
 //!
 //! *In:* an unknown name. *Out:* what to write instead. *Not done here:* misspelled names.
 
-use crate::language;
+use crate::language::{self, NEVER, Since, Version};
 
 /// Functions of HLSL and similar languages, and their equivalent in GLSL.
 #[rustfmt::skip]
@@ -54,14 +54,11 @@ static SHADERTOY: &[(&str, &str)] = &[
 /// Functions of later versions.
 #[rustfmt::skip]
 static LATER: &[(&str, u16)] = &[
-    ("floatBitsToInt", 330), ("floatBitsToUint", 330), ("intBitsToFloat", 330), ("uintBitsToFloat", 330),
-    ("fma", 400), ("frexp", 400), ("ldexp", 400), ("textureGather", 400), ("textureGatherOffset", 400),
-    ("textureQueryLod", 400), ("bitfieldExtract", 400), ("bitfieldInsert", 400), ("bitfieldReverse", 400),
-    ("bitCount", 400), ("findLSB", 400), ("findMSB", 400), ("uaddCarry", 400), ("interpolateAtCentroid", 400),
-    ("interpolateAtSample", 400), ("interpolateAtOffset", 400), ("EmitStreamVertex", 400), ("EndStreamPrimitive", 400),
-    ("packUnorm2x16", 410), ("unpackUnorm2x16", 410), ("packUnorm4x8", 400), ("unpackUnorm4x8", 400),
-    ("packHalf2x16", 420), ("unpackHalf2x16", 420), ("packSnorm2x16", 420), ("unpackSnorm2x16", 420),
-    ("imageLoad", 420), ("imageStore", 420), ("atomicAdd", 430), ("textureQueryLevels", 430), ("imageSize", 430),
+    ("textureGather", 400), ("textureGatherOffset", 400), ("textureGatherOffsets", 400), ("textureQueryLod", 400),
+    ("interpolateAtCentroid", 400), ("interpolateAtSample", 400), ("interpolateAtOffset", 400),
+    ("EmitStreamVertex", 400), ("EndStreamPrimitive", 400), ("packDouble2x32", 400), ("unpackDouble2x32", 400),
+    ("anyInvocation", 460), ("allInvocations", 460), ("allInvocationsEqual", 460),
+    ("atomicCounter", 420), ("imageLoad", 420), ("imageStore", 420), ("atomicAdd", 430), ("textureQueryLevels", 430), ("imageSize", 430),
     ("barrier", 400), ("memoryBarrier", 420),
 ];
 
@@ -73,6 +70,11 @@ pub(super) fn function(name: &str) -> Option<String> {
         let since = LATER.iter().find(|row| row.0 == name)?.1;
         Some(format!("`{name}` came with GLSL {}.{:02}", since / 100, since % 100))
     })
+}
+
+/// Whether a version has a function that glisten does not support.
+pub(super) fn is_unsupported(name: &str, version: Version) -> bool {
+    LATER.iter().any(|row| row.0 == name && version.reaches(Since::new(row.1, NEVER)))
 }
 
 /// The replacement for a method that does not exist.

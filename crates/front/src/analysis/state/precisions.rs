@@ -12,7 +12,7 @@ pub(in crate::analysis) struct Precisions {
     needed: bool,
     float: bool,
     samplers: Vec<SamplerType>,
-    /// What has been reported, so that each type is reported once.
+    /// The types that have been reported, each once.
     reported_float: bool,
     reported_samplers: Vec<SamplerType>,
 }

@@ -97,6 +97,10 @@ const fn plain(dim: SamplerDim, arrayed: bool) -> Matcher {
     Matcher::Fixed(TypeId::sampler(SamplerType { texel: Scalar::Float, dim, arrayed, shadow: false }))
 }
 
+const fn texels(texel: Scalar, dim: SamplerDim) -> Matcher {
+    Matcher::Fixed(TypeId::sampler(SamplerType { texel, dim, arrayed: false, shadow: false }))
+}
+
 const fn shadow(dim: SamplerDim, arrayed: bool) -> Matcher {
     Matcher::Fixed(TypeId::sampler(SamplerType { texel: Scalar::Float, dim, arrayed, shadow: true }))
 }
@@ -156,6 +160,16 @@ names! {
     sampler3D = plain(SamplerDim::D3, false);
     samplerCube = plain(SamplerDim::Cube, false);
     sampler2DRect = plain(SamplerDim::Rect, false);
+    ivec4 = fixed(Scalar::Int, 4);
+    uvec4 = fixed(Scalar::Uint, 4);
+    isampler1D = texels(Scalar::Int, SamplerDim::D1);
+    usampler1D = texels(Scalar::Uint, SamplerDim::D1);
+    isampler2D = texels(Scalar::Int, SamplerDim::D2);
+    usampler2D = texels(Scalar::Uint, SamplerDim::D2);
+    isampler3D = texels(Scalar::Int, SamplerDim::D3);
+    usampler3D = texels(Scalar::Uint, SamplerDim::D3);
+    isamplerCube = texels(Scalar::Int, SamplerDim::Cube);
+    usamplerCube = texels(Scalar::Uint, SamplerDim::Cube);
     sampler1DShadow = shadow(SamplerDim::D1, false);
     sampler2DShadow = shadow(SamplerDim::D2, false);
     samplerCubeShadow = shadow(SamplerDim::Cube, false);

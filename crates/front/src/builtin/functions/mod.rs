@@ -10,6 +10,7 @@ mod common;
 mod geometric;
 mod matcher;
 mod texture;
+mod texture_extensions;
 mod texture_old;
 
 pub use matcher::Matcher;
@@ -191,7 +192,8 @@ macro_rules! rows {
 }
 use rows;
 
-static TABLES: &[&[Row]] = &[common::ROWS, bits::ROWS, geometric::ROWS, texture::ROWS, texture_old::ROWS];
+static TABLES: &[&[Row]] =
+    &[common::ROWS, bits::ROWS, geometric::ROWS, texture::ROWS, texture_old::ROWS, texture_extensions::ROWS];
 
 /// All rows, in the order of the specification's sections.
 pub fn all() -> impl Iterator<Item = &'static Row> {

@@ -19,6 +19,9 @@ const LODF: Row = Row { section: "ARB_shader_texture_lod", ..OLD }.available(
         .or(Extensions::SHADER_TEXTURE_LOD.union(Extensions::GPU_SHADER4))
         .stages(Stages::FRAGMENT.union(Stages::GEOMETRY)),
 );
+/// Samplers of integers, by EXT_gpu_shader4.
+const INTEGER: Row =
+    Row { section: "EXT_gpu_shader4", ..OLD }.available(Availability::extension(Extensions::GPU_SHADER4));
 const RECT: Row = Row { deprecated: true, section: "ARB_texture_rectangle", ..Row::base("", 110) }
     .with(Effect::Texture, false)
     .available(Availability::extension(Extensions::TEXTURE_RECTANGLE));
@@ -63,6 +66,15 @@ pub(super) static ROWS: &[Row] = rows! {
     LODF TextureProjLod: vec4 shadow1DProjLod(sampler1DShadow sampler, vec4 coord, float lod);
     LOD TextureProjLod: vec4 shadow2DProjLod(sampler2DShadow sampler, vec4 coord, float lod);
     LODF TextureProjLod: vec4 shadow2DProjLod(sampler2DShadow sampler, vec4 coord, float lod);
+
+    INTEGER Texture: ivec4 texture1D(isampler1D sampler, float coord, optional bias);
+    INTEGER Texture: uvec4 texture1D(usampler1D sampler, float coord, optional bias);
+    INTEGER Texture: ivec4 texture2D(isampler2D sampler, vec2 coord, optional bias);
+    INTEGER Texture: uvec4 texture2D(usampler2D sampler, vec2 coord, optional bias);
+    INTEGER Texture: ivec4 texture3D(isampler3D sampler, vec3 coord, optional bias);
+    INTEGER Texture: uvec4 texture3D(usampler3D sampler, vec3 coord, optional bias);
+    INTEGER Texture: ivec4 textureCube(isamplerCube sampler, vec3 coord, optional bias);
+    INTEGER Texture: uvec4 textureCube(usamplerCube sampler, vec3 coord, optional bias);
 
     RECT Texture: vec4 texture2DRect(sampler2DRect sampler, vec2 coord);
     RECT TextureProj: vec4 texture2DRectProj(sampler2DRect sampler, vec3 coord);

@@ -140,7 +140,7 @@ pub enum Format {
 pub struct Packing {
     /// Whether the `uint` is the argument.
     pub unpacks: bool,
-    /// What the bits mean.
+    /// The meaning of the bits.
     pub format: Format,
     /// The number of components: 2 of 16 bits or 4 of 8 bits.
     pub components: u8,
@@ -152,7 +152,7 @@ impl Packing {
         32 / u32::from(self.components.max(1))
     }
 
-    /// What 1.0 is as an integer, for the normalized formats.
+    /// 1.0 as an integer, for the normalized formats.
     pub fn one(self) -> u32 {
         (1u32 << (self.bits() - u32::from(self.format == Format::Snorm))) - 1
     }

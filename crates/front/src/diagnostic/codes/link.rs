@@ -286,6 +286,13 @@ codes! {
         good Vertex("#extension GL_ARB_explicit_attrib_location : enable\nlayout(location = 1) in vec4 a;\n\
                      layout(location = 2) in vec4 b; uniform bool u;\n\
                      void main() { if (u) gl_Position = a; else gl_Position = b; }");
+    MIXED_LANGUAGES = "E0730" "mixed-languages" Error "GLSL ES 3.00 §3.4"
+        "The shaders of one program are all of OpenGL's language, in any versions, or all of the same version of OpenGL \
+         ES's."
+        bad Program("#version 330\nvoid main() { gl_Position = vec4(0.0); }",
+            "#version 300 es\nprecision highp float; out vec4 c; void main() { c = vec4(1.0); }"),
+        good Program("#version 150\nvoid main() { gl_Position = vec4(0.0); }",
+            "#version 330\nout vec4 c; void main() { c = vec4(1.0); }");
     VARYINGS_ABOVE_MINIMUM = "W0705" "varyings-above-minimum" Warning "GLSL 1.50 §7.4"
         "The varyings have more components than the smallest value that gl_MaxVaryingComponents may have, 60. Many \
          implementations support more; some do not."

@@ -3,10 +3,11 @@
 use super::Printer;
 use crate::builtin::BuiltinVariable;
 use crate::hir::{
-    BlockLayout, ExprKind, Global, GlobalId, MatrixLayout, Member, PrimitiveIn, PrimitiveOut, ScalarValue, Storage,
-    Type, TypeId, Value,
+    BlockLayout, Expr, ExprKind, Global, GlobalId, MatrixLayout, Member, PrimitiveIn, PrimitiveOut, ScalarValue,
+    Storage, Type, TypeId, Value,
 };
-use crate::language::Profile;
+use crate::language::{Extensions, Profile};
+use std::collections::BTreeSet;
 
 impl Printer<'_> {
     pub(super) fn header(&mut self) {
@@ -34,7 +35,30 @@ impl Printer<'_> {
         if bound && version.number < 420 {
             self.line("#extension GL_ARB_shading_language_420pack : enable");
         }
+        let nests = |ty| matches!(self.types.get(ty), Type::Array(element, _) if matches!(self.types.get(element), Type::Array(..)));
+        let locals = self.shader.functions.iter().flat_map(|function| &function.locals).map(|local| local.ty);
+        let mut needed = self.needed_extensions(number);
+        if number < 430 && self.shader.globals.iter().map(|global| global.ty).chain(locals).any(nests) {
+            needed.extend(Extensions::ARRAYS_OF_ARRAYS.name());
+        }
+        for name in needed {
+            self.line(&format!("#extension {name} : require"));
+        }
         self.geometry_layout();
+    }
+
+    /// The extensions that bring the functions which are called and are not in a desktop version.
+    fn needed_extensions(&self, number: u16) -> BTreeSet<&'static str> {
+        let lacking = |expr: &Expr| {
+            let ExprKind::BuiltinCall(function, _) = expr.kind else { return None };
+            let rows = || function.operation().prototypes().filter(|row| !row.deprecated);
+            let is_in = rows().any(|row| row.availability.since.desktop <= number);
+            if is_in { None } else { rows().next()?.availability.extensions.name() }
+        };
+        match self.shader.version.profile {
+            Profile::Es => BTreeSet::new(),
+            Profile::Core | Profile::Compatibility => self.shader.exprs.iter().filter_map(lacking).collect(),
+        }
     }
 
     fn geometry_layout(&mut self) {

@@ -108,12 +108,17 @@ impl Printer<'_> {
     fn type_name(&self, ty: TypeId) -> String {
         match self.types.get(ty) {
             Type::Struct(id) => self.names.structure(id).to_owned(),
-            Type::Array(element, size) => {
-                let dim = match size {
-                    super::ArraySize::Sized(size) => format!("[{size}]"),
-                    super::ArraySize::Unsized => "[]".into(),
-                };
-                format!("{}{dim}", self.type_name(element))
+            Type::Array(..) => {
+                // The outermost size comes first.
+                let (mut base, mut dims) = (ty, String::new());
+                while let Type::Array(element, size) = self.types.get(base) {
+                    dims.push_str(&match size {
+                        super::ArraySize::Sized(size) => format!("[{size}]"),
+                        super::ArraySize::Unsized => "[]".into(),
+                    });
+                    base = element;
+                }
+                self.type_name(base) + &dims
             }
             _ => self.types.name(ty),
         }

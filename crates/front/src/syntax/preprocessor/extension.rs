@@ -80,11 +80,6 @@ impl Implemented {
     }
 }
 
-/// The name of an extension that glisten implements, for messages.
-pub(crate) fn name_of(extensions: Extensions) -> Option<&'static str> {
-    IMPLEMENTED.iter().find(|row| !row.bit.is_empty() && extensions.contains(row.bit)).map(|row| row.name)
-}
-
 /// Every extension name of the OpenGL and OpenGL ES registries and of the Khronos GLSL repository, sorted, one on
 /// each line.
 static REGISTERED: &str = include_str!("extensions.txt");
@@ -105,7 +100,7 @@ fn is_registered(name: &str) -> bool {
 /// enabled extension that allows the use is enabled with `warn` (§3.3).
 pub(crate) fn warning_of_use(on: Extensions, bringing: Extensions, span: Span) -> Option<Diagnostic> {
     let warned = on.to_warn_of(bringing)?;
-    let name = name_of(warned).unwrap_or("an extension");
+    let name = warned.name().unwrap_or("an extension");
     let message = format!("this is not in the language without `{name}`");
     let diagnostic = Diagnostic::new(&codes::EXTENSION_USED, span, message).here("a use of the extension");
     Some(diagnostic.note("`#extension` requests a warning for each use"))

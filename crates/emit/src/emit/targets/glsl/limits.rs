@@ -5,11 +5,13 @@
 
 use crate::target::GlslVersion;
 use glisten_front::builtin::BuiltinVariable;
+use glisten_front::builtin::functions::Row;
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::targets::{FEATURE_NOT_IN_TARGET, STAGE_NOT_IN_TARGET};
 use glisten_front::hir::{
-    Global, Interpolation, Member, SamplerDim, SamplerType, Shader, Stage, Storage, Type, TypeId, Types,
+    ExprKind, Global, Interpolation, Member, SamplerDim, SamplerType, Shader, Stage, Storage, Type, TypeId, Types,
 };
+use glisten_front::language::NEVER;
 use glisten_front::link::Program;
 use glisten_front::source::Span;
 
@@ -37,10 +39,40 @@ pub(super) fn of_es(program: &Program, shader: &Shader) -> Vec<Diagnostic> {
             }
         }
     }
+    for span in arrays_of_arrays(types, shader).take(1) {
+        lacks.push(lacking(span, "array of arrays".into(), "compute one index from two"));
+    }
+    for (name, span) in later_functions(shader) {
+        lacks.push(lacking(span, format!("function `{name}`"), "compile for `--glsl-version 330`"));
+    }
     if program.interface.outputs.iter().any(|output| output.index == 1) && shader.stage == Stage::Fragment {
         lacks.push(lacking(anchor, "second source of blending".into(), "compile for `--glsl-version 330`"));
     }
     lacks
+}
+
+/// The variables that are arrays of arrays.
+fn arrays_of_arrays<'a>(types: &'a Types, shader: &'a Shader) -> impl Iterator<Item = Span> {
+    let globals = shader.globals.iter().map(|global| (global.ty, global.span));
+    let locals = shader.functions.iter().flat_map(|function| &function.locals).map(|local| (local.ty, local.span));
+    let nests = |ty| matches!(types.get(ty), Type::Array(element, _) if matches!(types.get(element), Type::Array(..)));
+    globals.chain(locals).filter(move |(ty, _)| nests(*ty)).map(|(_, span)| span)
+}
+
+/// The functions that came after ES 3.00, each with its first call.
+fn later_functions(shader: &Shader) -> Vec<(&'static str, Span)> {
+    let mut found: Vec<(&'static str, Span)> = Vec::new();
+    for expr in &shader.exprs {
+        let ExprKind::BuiltinCall(function, _) = expr.kind else { continue };
+        let is_in = |row: &Row| row.availability.since.es <= 300;
+        let rows = || function.operation().prototypes();
+        // What ES never had is said in other words, or refused by its types.
+        let came_later = rows().any(|row| row.availability.since.es != NEVER) && !rows().any(is_in);
+        if came_later && !found.iter().any(|(name, _)| *name == function.name()) {
+            found.push((function.name(), expr.span));
+        }
+    }
+    found
 }
 
 const SAMPLERS: &str = "use a 2D texture, or compile for `--glsl-version 330`";

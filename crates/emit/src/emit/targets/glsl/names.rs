@@ -6,7 +6,7 @@
 use crate::target::GlslVersion;
 use glisten_front::builtin::functions;
 use glisten_front::builtin::operations::Class;
-use glisten_front::hir::{Shader, StructId, Type, TypeId, Types};
+use glisten_front::hir::{ExprKind, Shader, StructId, Type, TypeId, Types};
 use glisten_front::link::Program;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -72,6 +72,7 @@ pub(in crate::emit) fn renamed(program: &Program, version: GlslVersion) -> BTree
     for shader in &program.stages {
         collect(&program.types, shader, &mut all, &mut global);
     }
+    let called: BTreeSet<&str> = program.stages.iter().flat_map(texture_functions).collect();
     let mut names = BTreeMap::new();
     for &name in &all {
         let reserved = words(version).contains(&name);
@@ -79,7 +80,7 @@ pub(in crate::emit) fn renamed(program: &Program, version: GlslVersion) -> BTree
         let redefines = version == GlslVersion::Es300 && global.contains(name) && !functions::named(name).is_empty();
         let underscores = version == GlslVersion::Es300 && is_kept_by_webgl(name);
         // The older names of texture functions are written as the newer ones, which nothing may hide.
-        let hides = functions::named(name).iter().any(|row| matches!(row.function.class(), Class::Texture(_)));
+        let hides = called.contains(name);
         // What the compatibility profile declares, the core does not, and no text may declare such names.
         let fixed = name.strip_prefix("gl_");
         if !reserved && !redefines && !underscores && !hides && fixed.is_none() {
@@ -96,6 +97,14 @@ pub(in crate::emit) fn renamed(program: &Program, version: GlslVersion) -> BTree
         names.insert(name.to_owned(), new);
     }
     names
+}
+
+/// The names of the texture functions that a stage calls.
+fn texture_functions(shader: &Shader) -> impl Iterator<Item = &'static str> {
+    shader.exprs.iter().filter_map(|expr| match expr.kind {
+        ExprKind::BuiltinCall(function, _) if matches!(function.class(), Class::Texture(_)) => Some(function.name()),
+        _ => None,
+    })
 }
 
 /// Names that GLSL ES 3.00 §3.8 and WebGL keep to themselves.
