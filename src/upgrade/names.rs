@@ -47,7 +47,7 @@ pub(super) fn lookup(name: &str) -> Option<Lookup> {
             let ending = rest.strip_prefix(*dimension)?;
             ENDINGS.iter().find(|(old, _)| *old == ending).map(|(_, new)| *new)
         };
-        if let Some(ending) = DIMENSIONS.iter().find_map(|dimension| ending(&dimension)) {
+        if let Some(ending) = DIMENSIONS.iter().find_map(ending) {
             return Some(Lookup { name: format!("texture{ending}"), is_shadow });
         }
     }

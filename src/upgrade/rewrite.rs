@@ -12,6 +12,23 @@ use glisten_front::source::version_line;
 use std::cmp::Reverse;
 use std::ops::Range;
 
+/// The samplers without a default precision.
+static SAMPLERS: &[&str] = &[
+    "sampler3D",
+    "sampler2DShadow",
+    "samplerCubeShadow",
+    "sampler2DArray",
+    "sampler2DArrayShadow",
+    "isampler2D",
+    "isampler3D",
+    "isamplerCube",
+    "isampler2DArray",
+    "usampler2D",
+    "usampler3D",
+    "usamplerCube",
+    "usampler2DArray",
+];
+
 /// A replacement.
 type Edit = (Range<usize>, String);
 
@@ -35,12 +52,9 @@ pub fn rewrite(text: &Text<'_>, plan: &Plan) -> String {
     }
     if text.is_shader {
         version_edit(text, plan.target, version, &code, &mut edits);
-        let mut declarations: Vec<&str> = plan.declarations(text.stage).collect();
-        if plan.target == Target::Es300
-            && text.stage == Stage::Fragment
-            && !all.iter().any(|token| token.text == "precision")
-        {
-            declarations.insert(0, "precision highp float;");
+        let mut declarations: Vec<String> = plan.declarations(text.stage).map(str::to_owned).collect();
+        if plan.target == Target::Es300 {
+            declarations.splice(0..0, precisions(text.stage, &all));
         }
         let place = first_code(&code, &lines);
         if !declarations.is_empty() {
@@ -48,6 +62,17 @@ pub fn rewrite(text: &Text<'_>, plan: &Plan) -> String {
         }
     }
     applied(text.text, edits)
+}
+
+/// The default precisions that ES lacks, for the types that a stage uses (GLSL ES 3.00 §4.5.4).
+fn precisions(stage: Stage, all: &[Token<'_>]) -> Vec<String> {
+    let is_set = |ty: &str| {
+        all.windows(3).any(|words| matches!(words, [word, _, of] if word.text == "precision" && of.text == ty))
+    };
+    let uses = |ty: &str| all.iter().any(|token| token.text == ty);
+    let samplers = SAMPLERS.iter().copied().filter(|ty| uses(ty));
+    let float = (stage == Stage::Fragment).then_some("float");
+    float.into_iter().chain(samplers).filter(|ty| !is_set(ty)).map(|ty| format!("precision highp {ty};")).collect()
 }
 
 /// The text with its replacements, which do not overlap.
@@ -125,7 +150,7 @@ fn redeclaration(all: &[Token<'_>], index: usize) -> Option<Range<usize>> {
     let first = all.get(start)?;
     let qualified = ["varying", "in", "out", "flat", "centroid", "smooth"].contains(&first.text) && start < index;
     let end = all.iter().skip(index).find(|token| token.text == ";")?;
-    (qualified && all.get(index)?.text.starts_with("gl_")).then(|| first.range.start..end.range.end)
+    (qualified && all.get(index)?.text.starts_with("gl_")).then_some(first.range.start..end.range.end)
 }
 
 /// The text in place of a word, or nothing in place of a declaration.
@@ -230,6 +255,18 @@ mod tests {
         let new = "#version 300 es // old\n#ifdef GL_ES\nprecision mediump float;\n#endif\nout mediump vec4 fragData[2];\n#ifdef A\n\
                    in vec2 p;\n#endif\nvoid main() { fragData[1] = fragData[0]; }\n";
         assert_eq!(upgraded(old, Stage::Fragment, Target::Es300), new);
+    }
+
+    #[test]
+    fn precisions_that_es_lacks_are_set() {
+        let new = upgraded(
+            "uniform sampler3D t; void main() { gl_FragColor = texture3D(t, vec3(1.0)); }",
+            Stage::Fragment,
+            Target::Es300,
+        );
+        let start =
+            "#version 300 es\nprecision highp float;\nprecision highp sampler3D;\nout mediump vec4 fragColor;\nuniform";
+        assert!(new.starts_with(start), "{new}");
     }
 
     #[test]

@@ -28,7 +28,7 @@ pub(super) fn tokens(text: &str) -> Vec<Token<'_>> {
         let rest = code.get(at..).unwrap_or("");
         let length = if is_name(first) {
             let is_number = first.is_ascii_digit();
-            rest.find(|next: char| !is_name(next) && !(is_number && next == '.')).unwrap_or(rest.len())
+            rest.find(|next: char| !(is_name(next) || is_number && next == '.')).unwrap_or(rest.len())
         } else {
             first.len_utf8()
         };
