@@ -28,12 +28,13 @@ mod rust;
 
 pub use error::BuildError;
 
-use crate::library::Embedded;
+use crate::library::{Embedded, is_embedded};
 use files::Reads;
 use glisten_emit::Conventions;
 use glisten_front::compiler::{Compiler, Options};
-use glisten_front::diagnostic::Severity;
 use glisten_front::diagnostic::write::human;
+use glisten_front::diagnostic::{Diagnostic, Severity};
+use glisten_front::source::SourceMap;
 use includes::Folders;
 use programs::{Given, Named};
 use std::collections::BTreeSet;
@@ -62,8 +63,8 @@ pub struct Built {
     pub text: String,
     /// The files that were read: sources and includes, in order.
     pub read: Vec<PathBuf>,
-    /// Warnings, as `glisten lint` prints them; empty if there are none.
-    pub warnings: String,
+    /// Warnings, a line each.
+    pub warnings: Vec<String>,
 }
 
 impl Default for Build {
@@ -214,7 +215,7 @@ impl Build {
                 for file in &built.read {
                     println!("cargo::rerun-if-changed={}", file.display());
                 }
-                for line in built.warnings.lines() {
+                for line in &built.warnings {
                     println!("cargo::warning={line}");
                 }
             }
@@ -251,13 +252,16 @@ impl Build {
         let programs = programs::collect(&self.programs, &reads)?;
         let includes = Folders::new(self.folders.clone(), Embedded, reads.clone());
         let compiler = Compiler::new(self.options.clone()).with_includes(includes);
-        let (mut modules, mut errors, mut warnings) = (Vec::new(), String::new(), String::new());
+        let (mut modules, mut errors, mut warnings) = (Vec::new(), String::new(), Vec::new());
         for named in &programs {
             let compilation = compiler.compile(&named.sources(&reads)?);
             let failed = compilation.diagnostics.has_errors();
-            let told = compilation.diagnostics.iter().filter(|found| failed || found.severity == Severity::Warning);
-            let told = human(&compilation.sources, told, false);
-            if failed { &mut errors } else { &mut warnings }.push_str(&told);
+            if failed {
+                errors.push_str(&human(&compilation.sources, &compilation.diagnostics, false));
+            } else {
+                warnings
+                    .extend(compilation.diagnostics.iter().filter_map(|found| warning(&compilation.sources, found)));
+            }
             let Some(program) = compilation.program.filter(|_| !failed) else { continue };
             let program = if self.optimize { glisten_specialize::optimize(&program) } else { program };
             match rust::module(&named.name, &program, &compilation.sources, &self.conventions, &self.rust) {
@@ -275,6 +279,14 @@ impl Build {
         }
         Ok(Built { module: PathBuf::new(), text, read: reads.files(), warnings })
     }
+}
+
+/// A warning in a line, unless it is about a module of the library.
+fn warning(sources: &SourceMap, found: &Diagnostic) -> Option<String> {
+    let place = sources.location(found.primary.span)?;
+    let file = sources.file(place.file).name();
+    let told = found.severity == Severity::Warning && !is_embedded(file);
+    told.then(|| format!("{file}:{}:{}: {} [{}]", place.line, place.column, found.message, found.code))
 }
 
 /// Names of which each may be given once.

@@ -1,15 +1,17 @@
-//! Shows the results of `build.rs`: WGSL for the pipeline, and the offset of each uniform in the uniform buffer.
+//! Shows the results of `build.rs`: WGSL for the pipeline, and the uniforms as a struct with the layout of the buffer.
 
-/// Byte offsets of the uniforms in their buffer.
-mod offsets {
-    include!(concat!(env!("OUT_DIR"), "/offsets.rs"));
+/// The shaders, as `build.rs` wrote them.
+mod shaders {
+    include!(concat!(env!("OUT_DIR"), "/shaders.rs"));
 }
 
-const VERTEX: &str = include_str!(concat!(env!("OUT_DIR"), "/wave.vert.wgsl"));
-const FRAGMENT: &str = include_str!(concat!(env!("OUT_DIR"), "/wave.frag.wgsl"));
+use shaders::glisten_memory::Bytes;
+use shaders::wave;
 
 fn main() {
-    println!("`mc` at byte {}, `time` at byte {}, `color` at byte {}", offsets::MC, offsets::TIME, offsets::COLOR);
-    println!("`light` at byte {}", offsets::LIGHT);
-    println!("{VERTEX}\n{FRAGMENT}");
+    let mut uniforms = wave::Uniforms::new();
+    uniforms.set_time(0.5).set_color([0.2, 0.4, 0.8, 1.0]);
+    println!("{} bytes of uniforms: {:?}", wave::Uniforms::SIZE, uniforms);
+    assert_eq!(uniforms.to_bytes().len() as u64, wave::Uniforms::SIZE);
+    println!("{}\n{}", wave::VERTEX_WGSL, wave::FRAGMENT_WGSL);
 }

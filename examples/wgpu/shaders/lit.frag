@@ -1,4 +1,5 @@
 #version 150
+#extension GL_ARB_shading_language_include : require
 #include <glisten/lambert.glsl>
 #include <glisten/blinn_phong.glsl>
 

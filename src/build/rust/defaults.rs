@@ -3,7 +3,7 @@
 //! *In:* the value of an initializer, and a field. *Out:* the text of the field's value in memory. *Holds:* `None` where it is
 //! zero anyway.
 
-use super::layout::{FieldType, Struct};
+use super::fields::{FieldType, Struct};
 use super::types::{Element, Shape};
 use glisten_front::hir::{ScalarValue, Value};
 use std::slice::Iter;

@@ -5,6 +5,7 @@
 
 use super::defaults::literal;
 use super::documentation;
+use super::fields::{Field, FieldType, Struct};
 use super::names::{field, fresh, pascal};
 use super::types::Element;
 use glisten_emit::Reflection;
@@ -12,62 +13,6 @@ use glisten_front::hir::{ArraySize, StructId, Type, TypeId, Types, Value};
 use glisten_front::link::{Program, RootIndex, UniformLeaf, UniformRoot};
 use glisten_front::source::{SourceMap, Span};
 use std::collections::BTreeMap;
-
-/// A struct in the layout of a buffer.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Struct {
-    pub(super) name: String,
-    pub(super) doc: String,
-    /// In bytes.
-    pub(super) size: u32,
-    pub(super) fields: Vec<Field>,
-}
-
-/// A field of a struct.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Field {
-    pub(super) name: String,
-    pub(super) doc: String,
-    /// In bytes, from the start of the struct.
-    pub(super) offset: u32,
-    pub(super) ty: FieldType,
-    /// The initial value, if it is not zero.
-    pub(super) initial: Option<String>,
-}
-
-/// The type of a field.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum FieldType {
-    Element(Element),
-    Elements(Element, u32),
-    Struct(String, u32),
-    Structs(String, u32, u32),
-    /// Words that mean nothing.
-    Padding(u32),
-}
-
-impl FieldType {
-    /// The type in Rust.
-    pub(super) fn text(&self) -> String {
-        match self {
-            Self::Element(element) => element.stored(),
-            Self::Elements(element, count) => format!("[{}; {count}]", element.stored_in_array()),
-            Self::Struct(name, _) => name.clone(),
-            Self::Structs(name, count, _) => format!("[{name}; {count}]"),
-            Self::Padding(words) => format!("[u32; {words}]"),
-        }
-    }
-
-    fn size(&self) -> u32 {
-        match self {
-            Self::Element(element) => element.size(),
-            Self::Elements(element, count) => element.stride() * count,
-            Self::Struct(_, size) => *size,
-            Self::Structs(_, count, size) => count * size,
-            Self::Padding(words) => 4 * words,
-        }
-    }
-}
 
 /// A uniform buffer and its struct.
 #[derive(Clone, Debug)]
@@ -96,7 +41,7 @@ struct Maker<'a> {
 
 /// A place in the flat layout of a uniform.
 #[derive(Clone, Copy)]
-struct At<'a> {
+struct FlatPlace<'a> {
     root: RootIndex,
     flat: u32,
     initial: Option<&'a Value>,
@@ -135,7 +80,7 @@ impl<'a> Maker<'a> {
             if root.block.is_some() {
                 continue;
             }
-            let at = At { root: RootIndex(index), flat: 0, initial: root.default.as_ref() };
+            let at = FlatPlace { root: RootIndex(index), flat: 0, initial: root.default.as_ref() };
             let doc = self.doc(&format!("`{}`", root.name), self.span(root));
             fields.extend(self.field(&root.name, doc, root.ty, at, 0));
         }
@@ -170,7 +115,7 @@ impl<'a> Maker<'a> {
             ty = element;
         }
         let Type::Struct(id) = self.types().get(ty) else { return None };
-        let at = At { root: block.root, flat: 0, initial: None };
+        let at = FlatPlace { root: block.root, flat: 0, initial: None };
         let fields = self.members(id, at, 0);
         let doc = self.doc(&format!("The uniform block `{}`.", block.name), self.span(root));
         let name = pascal(&block.name);
@@ -178,19 +123,19 @@ impl<'a> Maker<'a> {
     }
 
     /// The fields of a struct that begins at `base` bytes.
-    fn members(&mut self, id: StructId, at: At<'_>, base: u32) -> Vec<Field> {
+    fn members(&mut self, id: StructId, at: FlatPlace<'_>, base: u32) -> Vec<Field> {
         let mut flat = at.flat;
         let mut fields = Vec::new();
         for member in &self.types().structure(id).members {
             let doc = self.doc(&format!("`{}`", member.name), member.span);
-            fields.extend(self.field(&member.name, doc, member.ty, At { flat, ..at }, base));
+            fields.extend(self.field(&member.name, doc, member.ty, FlatPlace { flat, ..at }, base));
             flat = flat.saturating_add(self.types().flat_len(member.ty));
         }
         fields
     }
 
     /// A field; `None` for samplers, which are in no buffer.
-    fn field(&mut self, name: &str, doc: String, ty: TypeId, at: At<'_>, base: u32) -> Option<Field> {
+    fn field(&mut self, name: &str, doc: String, ty: TypeId, at: FlatPlace<'_>, base: u32) -> Option<Field> {
         let (offset, ty) = match self.leaves.get(&(at.root, at.flat)).copied() {
             Some(leaf) if !self.holds_structs(ty) => {
                 let element = Element::of(self.types(), leaf.ty, leaf.matrix_layout)?;
@@ -213,7 +158,7 @@ impl<'a> Maker<'a> {
     }
 
     /// A field of structs: its offset and its type.
-    fn structs(&mut self, name: &str, ty: TypeId, at: At<'_>) -> Option<(u32, FieldType)> {
+    fn structs(&mut self, name: &str, ty: TypeId, at: FlatPlace<'_>) -> Option<(u32, FieldType)> {
         let (id, count) = match self.types().get(ty) {
             Type::Struct(id) => (id, None),
             Type::Array(element, ArraySize::Sized(count)) => match self.types().get(element) {
@@ -227,7 +172,7 @@ impl<'a> Maker<'a> {
             (own.0.0 == at.root).then_some(own.1.offset)
         };
         let base = first(at.flat, self)?;
-        let fields = self.members(id, At { initial: None, ..at }, base);
+        let fields = self.members(id, FlatPlace { initial: None, ..at }, base);
         let end = fields.iter().map(|field| field.offset + field.ty.size()).max()?;
         let size = match count {
             Some((count, len)) if count > 1 => first(at.flat.checked_add(len)?, self)?.checked_sub(base)?,

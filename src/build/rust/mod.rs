@@ -7,6 +7,7 @@
 //! field when it is compiled.
 
 mod defaults;
+mod fields;
 mod layout;
 mod names;
 mod structs;

@@ -4,7 +4,8 @@
 //! the size and of each offset.
 
 use super::Choices;
-use super::layout::{Field, FieldType, Layouts, Struct};
+use super::fields::{Field, FieldType, Struct};
+use super::layout::Layouts;
 use super::types::{Element, Shape};
 use glisten_front::hir::Scalar;
 use std::fmt::Write;
@@ -51,7 +52,7 @@ pub(super) fn derives(choices: &Choices) -> &'static str {
     }
 }
 
-/// What must hold for the struct to have the layout of the buffer.
+/// Assertions that the struct has the layout of the buffer.
 pub(super) fn assertions<'f>(name: &str, size: u32, fields: impl Iterator<Item = (&'f str, u32)>) -> String {
     let mut text = format!("const _: () = {{\nassert!(core::mem::size_of::<{name}>() == {size});\n");
     for (field, offset) in fields {

@@ -111,6 +111,7 @@ pub static FITTED: &[Fitted] = &[
     constant("size of a point", limits::POINT_SIZE_ERROR, "pixels", RASTER_TEST),
     constant("distance of a suspect from the population", population::FAR, "widths of its range", CALIBRATED),
     constant("least width of that range", evidence::LEAST, "of the picture's range", CALIBRATED),
+    constant("distance across a jump", population::BEYOND_JUMP, "widths of the range of the pixels around", CALIBRATED),
     constant("pixels that may lie across a jump", population::MAX_JUMPS, "of those covered", CALIBRATED),
     constant(
         "width of an envelope from which it may hide a jump",
@@ -121,6 +122,7 @@ pub static FITTED: &[Fitted] = &[
     constant("suspects from which a picture fails", population::MIN_SHARE, "of the covered pixels", CALIBRATED),
     constant("suspects from which a picture fails, at least", population::MIN_PIXELS as f64, "pixels", CALIBRATED),
     constant("distance of a picture as a whole", whole::FAR_AS_A_WHOLE, "widths of the population's range", CALIBRATED),
+    constant("least width of that range", whole::OF_A_MEAN, "of that for a pixel", CALIBRATED),
     constant("pixels that a mean over a picture leaves out", whole::TRIMMED, "at either end", CALIBRATED),
 ];
 

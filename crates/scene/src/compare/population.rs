@@ -20,6 +20,10 @@ use crate::picture::{Interval, Picture};
 /// How many spreads of the population a number may be outside of its range.
 pub const FAR: f64 = 4.0;
 
+/// How many widths of the range of the pixels around a number may be outside of it across a jump: a color goes on beyond the
+/// pixels that have it.
+pub const BEYOND_JUMP: f64 = 1.0;
+
 /// The share of the covered pixels from which suspects fail.
 pub const MIN_SHARE: f64 = 0.001;
 
@@ -108,13 +112,14 @@ impl Population {
             both.flat_map(move |(color, intervals)| {
                 (0..4).map(move |channel| {
                     let (value, unit) = (color[channel], ruler.unit(color[channel]));
-                    let is_far = |range: Interval| distance(range, value, unit) > FAR;
+                    let far = |range: Interval| distance(range, value, unit);
+                    let around = || self.range_around(attachment, pixel, channel);
                     // A NaN is no width.
                     let width = intervals[channel].width();
                     let may_jump = width.is_nan() || width > ruler.goal;
-                    match is_far(self.range(attachment, pixel, channel)) {
+                    match far(self.range(attachment, pixel, channel)) > FAR {
                         false => Place::Near,
-                        true if may_jump && !is_far(self.range_around(attachment, pixel, channel)) => Place::AcrossJump,
+                        true if may_jump && far(around()) <= BEYOND_JUMP => Place::AcrossJump,
                         true => Place::Far,
                     }
                 })

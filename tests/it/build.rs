@@ -1,0 +1,166 @@
+//! `glisten::build`: what it writes compiles without warnings, puts every value where the reflection says, and is not written
+//! again without need; what it refuses.
+
+use crate::support::{files_under, root, stage_of};
+use glisten::Stage;
+use glisten::build::{Build, BuildError};
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+/// Runs rustc on a text that contains the module, and gives the program's output if there is one.
+fn rustc(folder: &Path, text: &str, kind: &str) -> String {
+    let source = folder.join("host.rs");
+    fs::write(&source, text).expect("the folder can be written to");
+    let mut command = Command::new(std::env::var_os("RUSTC").unwrap_or("rustc".into()));
+    command.args(["--edition", "2024", "-D", "warnings", "--crate-type", kind, "--out-dir"]).arg(folder).arg(&source);
+    let run = command.output().expect("rustc is there, since Cargo runs this");
+    assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
+    if kind != "bin" {
+        return String::new();
+    }
+    let run = Command::new(folder.join("host")).output().expect("the host runs");
+    assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
+    String::from_utf8_lossy(&run.stdout).into_owned()
+}
+
+#[test]
+fn modules_of_all_fixtures_compile_without_warnings() {
+    let mut build = Build::new();
+    let mut count = 0;
+    for folder in ["programs", "build", "lower", "readme", "tutorial"] {
+        for vertex in files_under(&root().join("fixtures").join(folder)) {
+            let fragment = vertex.with_extension("frag");
+            if stage_of(&vertex) == Some(Stage::Vertex) && fragment.is_file() {
+                let single = Build::new().program(&vertex, &fragment);
+                if single.text().is_ok() {
+                    count += 1;
+                    build = build.named_program(format!("program {count}"), vertex, fragment);
+                }
+            }
+        }
+    }
+    assert!(count > 12, "only {count} programs");
+    let text = build.text().expect("each of them builds").text;
+    assert_eq!(text, build.text().expect("again").text, "the text is the same on every run");
+    let folder = tempfile::tempdir().expect("a folder");
+    // Dead code is allowed in the modules, and nothing else is.
+    rustc(folder.path(), &text, "lib");
+}
+
+const HOST: &str = r#"
+mod shaders { include!("shaders.rs"); }
+use shaders::everything as one;
+use shaders::glisten_memory::Bytes;
+fn main() {
+    let mut loose = one::Uniforms::new();
+    loose.set_normal_matrix([[1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [7.0, 8.0, 9.0]]).set_eye([10.0, 11.0, 12.0]).set_time(13.0);
+    loose.set_flags([[false, true], [true, false]]).set_cells([-1, 2, -3]);
+    loose.lights[2].set_power(14.0).set_turn([[15.0, 16.0], [17.0, 18.0]]);
+    loose.grid.set_type(19.0);
+    let mut camera = one::Camera::default();
+    camera.set_slanted([[1.0, 2.0], [3.0, 4.0], [5.0, 6.0]]).set_fn(7.0).set_is_flipped(true);
+    camera.key.set_color([8.0, 9.0, 10.0]);
+    let vertex = one::Vertex { position: [1.0; 3], color: [2.0; 4], ids: [3, 4], skew: [[5.0, 6.0], [7.0, 8.0]], self_: 9.0 };
+    for bytes in [loose.to_bytes(), camera.to_bytes(), vertex.to_bytes(), one::Bones::new().to_bytes()] {
+        println!("{}", bytes.iter().map(u8::to_string).collect::<Vec<_>>().join(" "));
+    }
+}
+"#;
+
+#[test]
+fn values_are_where_the_reflection_says() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let files = ["vert", "frag"].map(|extension| root().join(format!("fixtures/build/everything.{extension}")));
+    let build = Build::new().program(&files[0], &files[1]).output_folder(folder.path());
+    build.build().expect("it builds");
+    let output = rustc(folder.path(), HOST, "bin");
+    let buffers: Vec<Vec<u8>> =
+        output.lines().map(|line| line.split(' ').filter_map(|byte| byte.parse().ok()).collect()).collect();
+    let compilation = crate::support::compile_files(&files);
+    let program = compilation.program.expect("it compiles");
+    let reflection = glisten::emit::reflect(&program, &glisten::emit::Conventions::default());
+    assert_eq!(buffers[0].len() as u32, reflection.loose_block.as_ref().map_or(0, |block| block.size));
+    assert_eq!(buffers[1].len() as u32, reflection.blocks[0].size);
+    assert_eq!(buffers[3].len() as u32, reflection.blocks[1].size);
+    let word = |buffer: usize, name: &str, more: u32| {
+        let leaf = reflection.uniforms.iter().find(|leaf| leaf.name == name);
+        let at = (leaf.unwrap_or_else(|| panic!("no uniform `{name}`")).offset + more) as usize;
+        buffers[buffer][at..at + 4].try_into().map(u32::from_le_bytes).expect("four bytes")
+    };
+    let number = |buffer, name: &str, more| f32::from_bits(word(buffer, name, more));
+    // Values that setters set, columns of a matrix 16 bytes apart.
+    assert_eq!([0, 4, 16, 40].map(|more| number(0, "normalMatrix", more)), [1.0, 2.0, 4.0, 9.0]);
+    assert_eq!((number(0, "eye", 8), number(0, "time", 0)), (12.0, 13.0));
+    assert_eq!([0, 4, 16].map(|more| word(0, "flags", more)), [0, 1, 1]);
+    assert_eq!(word(0, "cells", 8), u32::from_le_bytes((-3i32).to_le_bytes()));
+    assert_eq!((number(0, "lights[2].power", 0), number(0, "lights[2].turn", 20)), (14.0, 18.0));
+    assert_eq!(number(0, "grid.type", 0), 19.0);
+    // Initial values.
+    assert_eq!([0, 16, 32].map(|more| number(0, "weights", more)), [0.25, 0.5, 0.25]);
+    assert_eq!((word(0, "isOn", 0), number(0, "turns", 36), number(0, "turns", 48)), (1, 1.0, -1.0));
+    // Rows of a matrix that is stored by rows.
+    assert_eq!([0, 4, 16, 24].map(|more| number(1, "Camera.slanted", more)), [1.0, 3.0, 2.0, 6.0]);
+    assert_eq!((number(1, "Camera.fn", 0), word(1, "Camera.isFlipped", 0)), (7.0, 1));
+    assert_eq!(number(1, "Camera.key.color", 8), 10.0);
+    assert_eq!(buffers[2].len(), 4 * (3 + 4 + 2 + 4 + 1));
+}
+
+#[test]
+fn nothing_is_written_without_need() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let shaders = folder.path().join("shaders");
+    fs::create_dir_all(shaders.join("include")).expect("a folder");
+    let write = |name: &str, text: &str| fs::write(shaders.join(name), text).expect("the folder can be written to");
+    write("a.vert", "#version 150\nin vec4 p;\nvoid main() { gl_Position = p; }\n");
+    write("a.frag", "#version 150\n#include \"tint.glsl\"\nout vec4 c;\nvoid main() { c = tint(vec4(1.0)); }\n");
+    write("include/tint.glsl", "vec4 tint(vec4 c) { return c * 0.5; }\n");
+    let build = Build::new().folder(&shaders).include(shaders.join("include")).output_folder(folder.path());
+    let first = build.build().expect("it builds");
+    let names: Vec<String> =
+        first.read.iter().map(|path| path.file_name().unwrap_or_default().to_string_lossy().into()).collect();
+    for name in ["shaders", "a.vert", "a.frag", "tint.glsl"] {
+        assert!(names.iter().any(|known| known == name), "{name} is not among {names:?}");
+    }
+    let written = || fs::metadata(&first.module).and_then(|data| data.modified()).expect("the module is there");
+    let before = written();
+    build.build().expect("it builds again");
+    assert_eq!(written(), before);
+    assert_eq!(fs::read_dir(folder.path()).expect("the folder").count(), 2, "nothing else is left");
+    write("include/tint.glsl", "vec4 tint(vec4 c) { return c * 0.25; }\n");
+    assert!(build.build().expect("it builds").text.contains("0.25"));
+    // One warning, in a line.
+    assert_eq!(first.warnings.len(), 1);
+    assert!(first.warnings[0].contains("a.frag:2:1: `#include` without"), "{:?}", first.warnings);
+}
+
+#[test]
+fn mistakes_are_told_together() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let write = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        fs::write(&path, text).expect("the folder can be written to");
+        path
+    };
+    let good = write("good.vert", "#version 150\nvoid main() { gl_Position = vec4(0.0); }\n");
+    let one = write("one.frag", "#version 150\nout vec4 c;\nvoid main() { c = vec3(1.0); }\n");
+    let two = write("two.frag", "#version 150\nout vec4 c;\nvoid main() { c = missing; }\n");
+    let error = Build::new().named_program("one", &good, &one).named_program("two", &good, &two).text();
+    let error = error.expect_err("both have errors");
+    assert_eq!(error.read().len(), 3);
+    let told = error.to_string();
+    assert!(
+        told.contains("one.frag:3") && told.contains("two.frag:3") && told.contains("`missing` is not declared"),
+        "{told}"
+    );
+
+    let lone = Build::new().folder(folder.path()).text().expect_err("three names are three programs");
+    assert!(matches!(lone, BuildError::NoPartner(_)), "{lone}");
+    let same = Build::new().program(&good, &one).program(&good, &two).text().expect_err("the same name");
+    assert!(same.to_string().contains("the module `good`"), "{same}");
+    let gone = Build::new().program(&good, folder.path().join("gone.frag")).text().expect_err("no such file");
+    assert!(gone.to_string().contains("gone.frag"), "{gone}");
+    fs::create_dir(folder.path().join("empty")).expect("a folder");
+    let empty = Build::new().folder(folder.path().join("empty")).text().expect_err("no program");
+    assert!(matches!(empty, BuildError::NoProgram(_)), "{empty}");
+}
