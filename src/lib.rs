@@ -46,6 +46,8 @@ pub mod shader_test;
 pub mod specialize;
 #[cfg(feature = "stability")]
 pub mod stability;
+#[cfg(feature = "cli")]
+pub mod upgrade;
 #[cfg(feature = "reference")]
 pub mod verify;
 

@@ -98,6 +98,14 @@ const EXAMPLES: &[(&str, &[(&str, &str)])] = &[
         &[("glisten new-scene a.vert a.frag -o scene.toml", "a scene with everything that the program reads")],
     ),
     (
+        "upgrade",
+        &[
+            ("glisten upgrade old.frag", "the text as GLSL 1.50 core"),
+            ("glisten upgrade a.vert a.frag --to 330 -o new", "a program as GLSL 3.30"),
+            ("glisten upgrade a.vert a.frag --in-place --scene a.toml", "if the picture of a scene stays the same"),
+        ],
+    ),
+    (
         "completions",
         &[
             ("glisten completions bash > ~/.local/share/bash-completion/completions/glisten", ""),

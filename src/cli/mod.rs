@@ -48,6 +48,7 @@ mod stability_library;
 mod stages;
 mod test;
 mod timed;
+mod upgrade;
 mod verify;
 mod watch;
 mod with;
@@ -98,6 +99,7 @@ enum Command {
     Test(test::TestArgs),
     Lib(library::LibArgs),
     NewScene(new_scene::NewSceneArgs),
+    Upgrade(upgrade::UpgradeArgs),
     Completions(completions::CompletionsArgs),
     Watch(watch::WatchArgs),
     Man(man::ManArgs),
@@ -144,6 +146,7 @@ fn dispatch(command: &Command, console: &Console) -> Outcome {
         Command::Test(args) => test::run(args, console),
         Command::Lib(args) => library::run(args, console),
         Command::NewScene(args) => new_scene::run(args, console),
+        Command::Upgrade(args) => upgrade::run(args, console),
         Command::Completions(args) => completions::run(args, Cli::command(), console),
         Command::Watch(args) => watch::run(args, console),
         Command::Man(args) => man::run(args, examples::with_examples(Cli::command()), console),

@@ -5,12 +5,14 @@
 
 use super::args::{BindingArgs, LevelArgs, SourceArgs};
 use super::console::Console;
+use super::engine;
 use super::exit::{Exit, Failure, Outcome};
 use super::files;
 use super::fullscreen;
 use super::inputs::{Group, Input};
 use super::session::Session;
 use super::stages;
+use crate::engines::Member;
 use clap::Args;
 use glisten_front::hir::{SamplerDim, SamplerType, Scalar, Stage, Type, TypeId, Types};
 use glisten_front::link::{Program, UniformLeaf};
@@ -44,6 +46,7 @@ pub(super) fn run(args: &NewSceneArgs, console: &Console) -> Outcome {
     }
     let mut session = Session::new(console, &args.sources, &BindingArgs::default(), &args.levels, 0)?;
     let files = match args.files.as_slice() {
+        [both] if contains_both(both) => vec![both.clone(), both.clone()],
         [fragment] => match with_vertex_shader(args, fragment, &mut session, console)? {
             Ok(files) => files,
             Err(exit) => return Ok(exit),
@@ -73,6 +76,15 @@ pub(super) fn run(args: &NewSceneArgs, console: &Console) -> Outcome {
         None => console.output(&text)?,
     }
     Ok(exit)
+}
+
+/// Whether a file contains the vertex and the fragment shader.
+fn contains_both(file: &str) -> bool {
+    let path = Path::new(file);
+    let text = files::read_source(file, Some(path)).ok();
+    let members = text.map(|text| engine::members(Some(path), &text)).unwrap_or_default();
+    let has = |member: &Member, stage| member.part(stage).is_some();
+    members.first().is_some_and(|member| has(member, Stage::Vertex) && has(member, Stage::Fragment))
 }
 
 /// Writes a vertex shader for a fragment shader that comes alone, and returns the names of both.

@@ -46,7 +46,8 @@ pub(super) fn run(args: &WatchArgs, console: &Console) -> Outcome {
     }
     loop {
         let run = Command::new(&program).args(&args.command).status();
-        let status = run.map_err(|error| Failure::new(Exit::Machine, format!("the command does not start: {error}")))?;
+        let status =
+            run.map_err(|error| Failure::new(Exit::Machine, format!("the command does not start: {error}")))?;
         let list: Vec<String> = watched.folders.iter().map(|folder| folder.display().to_string()).collect();
         let ended = if status.success() { "no error" } else { "errors" };
         console.message(&format!("{ended}; watching {}, Ctrl-C ends", list.join(", ")));
@@ -136,7 +137,9 @@ impl Watched {
         let below = folders.into_iter().find_map(|folder| path.strip_prefix(folder).map(Path::to_owned).ok());
         let is_hidden = |part: Component<'_>| part.as_os_str().to_string_lossy().starts_with('.');
         let is_output = self.outputs.iter().any(|output| path.starts_with(output));
-        !is_output && below.is_some_and(|below| !below.components().any(is_hidden)) && !path.to_string_lossy().ends_with('~')
+        !is_output
+            && below.is_some_and(|below| !below.components().any(is_hidden))
+            && !path.to_string_lossy().ends_with('~')
     }
 }
 

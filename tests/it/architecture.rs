@@ -58,6 +58,7 @@ static ORDER: &[(&str, &[&str])] = &[
             "specialize",
             "made",
             "engines",
+            "upgrade",
             "gallery",
             "report",
             "account",

@@ -96,6 +96,8 @@ mod targets;
 mod tutorial;
 mod versions;
 #[cfg(feature = "cli")]
+mod upgrade;
+#[cfg(feature = "cli")]
 #[cfg(feature = "cli")]
 mod watch;
 mod wgsl;

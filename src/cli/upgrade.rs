@@ -1,0 +1,332 @@
+//! `glisten upgrade`: rewrites old shaders as 1.50 core, 3.30 or ES 3.00.
+//!
+//! *In:* the files of programs that compile. *Out:* their new texts, which compile, too, on standard output or in files; with
+//! `--scene`, the proof that the picture stays. *Holds:* nothing is written unless all new texts are valid and the picture is
+//! the same.
+
+use super::args::{BindingArgs, LevelArgs, ProgramArgs, SourceArgs};
+use super::batch::Batch;
+use super::console::Console;
+use super::engine::Engines;
+use super::exit::{Exit, Failure, Outcome};
+use super::files;
+use super::inputs::{self, Input};
+use super::session::{Session, Unit};
+use crate::engines;
+use crate::scene::{self, DiskFiles, Scene};
+use crate::upgrade::{Plan, Target, Text, rewrite};
+use clap::{Args, ValueEnum};
+use glisten_front::Stage;
+use glisten_front::compiler::{Compiler, Preparation, Prepared, Source};
+use glisten_front::source::{Completion, IncludeForm, IncludeResolver, Included, Prelude, SourceMap};
+use glisten_reference::{Precision, RenderOptions};
+use glisten_scene::{FileError, FileSource};
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// Rewrite old shaders (GLSL 1.10 to 1.40, compatibility, ES 1.00) as 1.50 core, 3.30 or ES 3.00
+#[derive(Args, Debug)]
+pub(super) struct UpgradeArgs {
+    /// The shaders; files of one program are rewritten together, so that their stages still fit
+    #[arg(required_unless_present = "programs", value_name = "FILE")]
+    files: Vec<String>,
+    /// The language to write
+    #[arg(long, value_enum, default_value_t, value_name = "VERSION")]
+    to: ToArg,
+    /// Write the new files into this folder (default: standard output, for a single file)
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// Replace the files
+    #[arg(long, conflicts_with = "output")]
+    in_place: bool,
+    /// A scene of the program, whose picture has to stay the same to the bit on the reference (repeatable)
+    #[arg(long = "scene", value_name = "SCENE.toml")]
+    scenes: Vec<String>,
+    #[command(flatten)]
+    programs: ProgramArgs,
+    #[command(flatten)]
+    sources: SourceArgs,
+    #[command(flatten)]
+    levels: LevelArgs,
+}
+
+/// The language to write, on the command line.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+enum ToArg {
+    /// GLSL 1.50, core profile
+    #[default]
+    #[value(name = "150")]
+    Core150,
+    /// GLSL 3.30, core profile
+    #[value(name = "330")]
+    Core330,
+    /// GLSL ES 3.00
+    #[value(name = "300es", alias = "300-es")]
+    Es300,
+}
+
+impl From<ToArg> for Target {
+    fn from(to: ToArg) -> Self {
+        match to {
+            ToArg::Core150 => Self::Core150,
+            ToArg::Core330 => Self::Core330,
+            ToArg::Es300 => Self::Es300,
+        }
+    }
+}
+
+/// A file with its new text.
+struct Upgraded {
+    input: Input,
+    text: String,
+}
+
+/// Runs the command.
+pub(super) fn run(args: &UpgradeArgs, console: &Console) -> Outcome {
+    let inputs = inputs::collect(&args.files, &args.programs, &args.sources, false)?;
+    let n_files: usize = inputs.groups.iter().map(|group| group.inputs.len()).sum();
+    if n_files > 1 && args.output.is_none() && !args.in_place {
+        let failure = Failure::usage("the new texts of several files do not fit on standard output");
+        return Err(failure.help("add `-o DIR` or `--in-place`"));
+    }
+    if let Some(input) = inputs.groups.iter().flat_map(|group| &group.inputs).find(|input| input.part.is_some()) {
+        let failure = Failure::usage(format!("`{}` contains several stages, which are not upgraded", input.name));
+        return Err(failure.help("write each stage into a file of its own"));
+    }
+    let mut session = Session::new(console, &args.sources, &BindingArgs::default(), &args.levels, 0)?;
+    let units = session.compile(inputs.groups);
+    let batches: Vec<&Batch> = units.iter().flat_map(|unit| unit.unread.iter().chain([&unit.batch])).collect();
+    let exit = units.iter().map(Unit::exit).max().unwrap_or_default();
+    if exit > Exit::Ok {
+        return session.tell(&batches, false);
+    }
+    let mut written = Vec::new();
+    for unit in &units {
+        let plan = Arc::new(plan(unit, session.compiler(), args.to.into())?);
+        if let Some(name) = plan.refused.first() {
+            let failure = Failure::new(Exit::Content, format!("`{name}` has no counterpart, and nothing was written"));
+            return Err(failure
+                .help("write it in the terms of GLSL 1.50 first; for `gl_ClipVertex`, that is `gl_ClipDistance`"));
+        }
+        plan.notes.iter().for_each(|note| console.remark(&format!("note: {note}")));
+        let texts = rewritten(unit, &plan);
+        let compiler = checker(args, session.compiler(), &plan)?;
+        let exit = check(&compiler, &mut session, &texts)?;
+        if exit > Exit::Ok {
+            return Ok(exit);
+        }
+        for scene in &args.scenes {
+            prove(scene, &texts, &plan, session.compiler(), &compiler, console)?;
+        }
+        written.extend(texts);
+    }
+    write(args, console, &written)
+}
+
+/// The text of an input, as it was compiled.
+fn text_of<'s>(sources: &'s SourceMap, input: &Input) -> &'s str {
+    sources.files().find(|(_, file)| file.name() == input.name).map_or("", |(_, file)| file.text())
+}
+
+/// The number of the version of a stage.
+fn version_of(unit: &Unit, stage: Stage) -> u16 {
+    unit.program.as_ref().and_then(|program| program.stage(stage)).map_or(110, |shader| shader.version.number)
+}
+
+/// The texts that a stage reads besides its own: preludes and included files.
+fn other_texts(compiler: &Compiler, unit: &Unit, input: &Input) -> Vec<Arc<str>> {
+    let text = text_of(&unit.batch.sources, input);
+    let source = Source { name: input.name.clone(), text: text.into(), stage: input.stage };
+    let sources = compiler.compile(&[source]).sources;
+    let is_other = |name: &str| ![input.name.as_str(), SourceMap::COMMAND_LINE, Completion::ASSUMED].contains(&name);
+    sources.files().filter(|(_, file)| is_other(file.name())).map(|(_, file)| Arc::clone(file.text())).collect()
+}
+
+/// The plan of a program.
+fn plan(unit: &Unit, compiler: &Compiler, target: Target) -> Result<Plan, Failure> {
+    let newest = if target == Target::Core330 { 330 } else { 150 };
+    let others: Vec<Vec<Arc<str>>> = unit.group.inputs.iter().map(|input| other_texts(compiler, unit, input)).collect();
+    let mut texts = Vec::new();
+    for (input, others) in unit.group.inputs.iter().zip(&others) {
+        let version = version_of(unit, input.stage);
+        if version > newest && !(target == Target::Es300 && version == 300) {
+            let message = format!("`{}` is of a later version than the one to write", input.name);
+            return Err(Failure::new(Exit::Content, message));
+        }
+        let text = text_of(&unit.batch.sources, input);
+        texts.push(Text { text, stage: input.stage, is_shader: true, version });
+        texts.extend(others.iter().map(|text| Text { text, stage: input.stage, is_shader: false, version }));
+    }
+    Ok(Plan::new(&texts, target))
+}
+
+fn rewritten(unit: &Unit, plan: &Plan) -> Vec<Upgraded> {
+    let upgraded = |input: &Input| {
+        let text = text_of(&unit.batch.sources, input);
+        let version = version_of(unit, input.stage);
+        let text = rewrite(&Text { text, stage: input.stage, is_shader: true, version }, plan);
+        Upgraded { input: input.clone(), text }
+    };
+    unit.group.inputs.iter().map(upgraded).collect()
+}
+
+/// A compiler that upgrades what the new texts include and what engines put before them.
+fn checker(args: &UpgradeArgs, compiler: &Compiler, plan: &Arc<Plan>) -> Result<Compiler, Failure> {
+    let preparation = Upgrading { engines: Engines::new(&args.sources)?, plan: Arc::clone(plan) };
+    Ok(compiler.clone().with_preparation(preparation))
+}
+
+/// Compiles the new texts and reports what is wrong with them.
+fn check(compiler: &Compiler, session: &mut Session<'_>, texts: &[Upgraded]) -> Result<Exit, Failure> {
+    let source = |upgraded: &Upgraded| Source {
+        name: upgraded.input.name.clone(),
+        text: upgraded.text.as_str().into(),
+        stage: upgraded.input.stage,
+    };
+    let compilation = compiler.compile(&texts.iter().map(source).collect::<Vec<_>>());
+    let mut batch = Batch { sources: compilation.sources, diagnostics: Vec::new() };
+    session.add(&mut batch, compilation.diagnostics.into_iter().filter(glisten_front::Diagnostic::is_error));
+    if batch.diagnostics.is_empty() {
+        return Ok(Exit::Ok);
+    }
+    session.tell(&[&batch], false)?;
+    let names: Vec<&str> = texts.iter().map(|upgraded| upgraded.input.name.as_str()).collect();
+    let message = format!("the new text of `{}` is not valid, and nothing was written", names.join("`, `"));
+    Err(Failure::new(Exit::Content, message)
+        .help("the errors above are at lines of the new text; change the old one there"))
+}
+
+/// Draws a scene with the old and with the new texts.
+fn prove(
+    path: &str,
+    texts: &[Upgraded],
+    plan: &Plan,
+    old: &Compiler,
+    new: &Compiler,
+    console: &Console,
+) -> Result<(), Failure> {
+    let before = load(path, &DiskFiles, old)?;
+    let files: BTreeMap<PathBuf, &str> = texts
+        .iter()
+        .filter_map(|upgraded| Some((fs::canonicalize(upgraded.input.path.as_ref()?).ok()?, upgraded.text.as_str())))
+        .collect();
+    let after = load(path, &NewFiles { scene: path, files, plan }, new)?;
+    let options = RenderOptions { precision: Precision::F32, mark_edges: false, ..RenderOptions::default() };
+    let failed = |_| Failure::new(Exit::Content, format!("`{path}` cannot be drawn"));
+    let before = glisten_reference::render(&before, &options).map_err(failed)?;
+    let after = glisten_reference::render(&after, &options).map_err(failed)?;
+    match before.bit_unequal(&after) {
+        0 => {
+            console.remark(&format!("{path}: the picture is the same to the bit"));
+            Ok(())
+        }
+        n => Err(Failure::new(
+            Exit::Content,
+            format!("{path}: {n} values of the picture change, and nothing was written"),
+        )),
+    }
+}
+
+fn load(path: &str, files: &dyn FileSource, compiler: &Compiler) -> Result<Scene, Failure> {
+    let loaded = scene::load(path, files, compiler);
+    loaded.scene.ok_or_else(|| {
+        let first = loaded.diagnostics.iter().find(|found| found.is_error());
+        let why = first.map_or(String::new(), |error| format!(": {}", error.message));
+        let exit = if loaded.io_error { Exit::Usage } else { Exit::Content };
+        Failure::new(exit, format!("the scene `{path}` does not load{why}"))
+    })
+}
+
+fn write(args: &UpgradeArgs, console: &Console, texts: &[Upgraded]) -> Outcome {
+    if let Some(folder) = &args.output {
+        fs::create_dir_all(folder)
+            .map_err(|error| Failure::usage(format!("cannot create `{}`: {error}", folder.display())))?;
+    }
+    for upgraded in texts {
+        let path = match (&args.output, &upgraded.input.path) {
+            (Some(folder), _) => folder.join(upgraded.input.file_name()),
+            (None, Some(path)) if args.in_place => path.clone(),
+            _ => {
+                console.output(&upgraded.text)?;
+                continue;
+            }
+        };
+        files::write(&path, upgraded.text.as_bytes())?;
+        console.remark(&format!("wrote {}", path.display()));
+    }
+    Ok(Exit::Ok)
+}
+
+/// The files of the disk, with the new texts in place of the old ones, and new names in the scene.
+struct NewFiles<'a> {
+    scene: &'a str,
+    files: BTreeMap<PathBuf, &'a str>,
+    plan: &'a Plan,
+}
+
+impl FileSource for NewFiles<'_> {
+    fn read(&self, path: &str) -> Result<Vec<u8>, FileError> {
+        if let Some(text) = fs::canonicalize(path).ok().and_then(|path| self.files.get(&path)) {
+            return Ok(text.as_bytes().to_vec());
+        }
+        let bytes = DiskFiles.read(path)?;
+        if path != self.scene {
+            return Ok(bytes);
+        }
+        let text = String::from_utf8_lossy(&bytes).into_owned();
+        let mut new = String::new();
+        let mut at = 0;
+        for (start, word) in engines::code::words(&text) {
+            let Some(name) = self.plan.renamed(word).filter(|_| word.starts_with("gl_")) else { continue };
+            new.push_str(text.get(at..start).unwrap_or(""));
+            new.push_str(name);
+            at = start + word.len();
+        }
+        new.push_str(text.get(at..).unwrap_or(""));
+        Ok(new.into_bytes())
+    }
+}
+
+/// Completes sources as their engines do, and upgrades what they add.
+struct Upgrading {
+    engines: Engines,
+    plan: Arc<Plan>,
+}
+
+impl Upgrading {
+    fn part(&self, text: &str, stage: Stage) -> Arc<str> {
+        rewrite(&Text { text, stage, is_shader: false, version: 110 }, &self.plan).into()
+    }
+}
+
+impl Preparation for Upgrading {
+    fn prepare(&self, source: &Source) -> Prepared {
+        let mut prepared = self.engines.prepare(source);
+        let preludes = std::mem::take(&mut prepared.completion.preludes);
+        let new = |prelude: Prelude| Prelude { text: self.part(&prelude.text, source.stage), ..prelude };
+        prepared.completion.preludes = preludes.into_iter().map(new).collect();
+        let inner = prepared.includes.unwrap_or_else(|| Arc::new(self.engines.includes()));
+        prepared.includes = Some(Arc::new(NewIncludes { inner, plan: Arc::clone(&self.plan), stage: source.stage }));
+        prepared
+    }
+}
+
+/// Included files with their new texts.
+struct NewIncludes {
+    inner: Arc<dyn IncludeResolver + Send + Sync>,
+    plan: Arc<Plan>,
+    stage: Stage,
+}
+
+impl IncludeResolver for NewIncludes {
+    fn resolve(&self, path: &str, form: IncludeForm, from: &str) -> Result<Included, String> {
+        let found = self.inner.resolve(path, form, from)?;
+        if !Path::new(&found.name).exists() {
+            return Ok(found);
+        }
+        let text = rewrite(&Text { text: &found.text, stage: self.stage, is_shader: false, version: 110 }, &self.plan);
+        Ok(Included { text: text.into(), ..found })
+    }
+}

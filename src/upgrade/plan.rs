@@ -1,0 +1,320 @@
+//! [`Plan`]: the names that the texts of a program get, decided for all of them together, so that its stages still fit.
+//!
+//! *In:* all texts of a program, with those that they include. *Out:* the new name of each output, attribute, varying and
+//! uniform that was built in, and of each name that means something else today. *Holds:* a new name occurs in no text.
+
+use super::names::TAKEN;
+use super::tokens::tokens;
+use glisten_front::Stage;
+use glisten_front::builtin::fixed::{FIXED, FixedRow, FixedType, STRUCTS};
+use glisten_front::language::{Storage, Types};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The language to write.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Target {
+    /// `#version 150`.
+    Core150,
+    /// `#version 330`.
+    Core330,
+    /// `#version 300 es`.
+    Es300,
+}
+
+impl Target {
+    /// The `#version` line.
+    pub fn version_line(self) -> &'static str {
+        match self {
+            Self::Core150 => "#version 150",
+            Self::Core330 => "#version 330 core",
+            Self::Es300 => "#version 300 es",
+        }
+    }
+}
+
+/// A text of a program.
+#[derive(Clone, Copy, Debug)]
+pub struct Text<'t> {
+    /// The text.
+    pub text: &'t str,
+    /// The stage that reads it.
+    pub stage: Stage,
+    /// Whether it is a shader, and not only included by one.
+    pub is_shader: bool,
+    /// The number of its version: 110 for GLSL 1.10.
+    pub version: u16,
+}
+
+/// Names without a counterpart: clipping by a vertex, and the inputs of EXT_geometry_shader4.
+static REFUSED: &[&str] = &["gl_ClipVertex", "gl_PositionIn", "gl_VerticesIn"];
+
+/// A declaration that a stage gets.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Declared {
+    stage: Stage,
+    line: String,
+}
+
+/// The new names of a program.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// The language to write.
+    pub target: Target,
+    /// The new text of an old word in a stage.
+    words: BTreeMap<(Stage, String), String>,
+    declarations: Vec<Declared>,
+    /// Sentences for the author of the host.
+    pub notes: Vec<String>,
+    /// Names that the target has no counterpart for.
+    pub refused: Vec<&'static str>,
+}
+
+/// The name without `gl_`, as a variable is written.
+fn plain_name(name: &str) -> String {
+    let name = name.strip_prefix("gl_").unwrap_or(name);
+    let mut letters = name.chars();
+    letters.next().map_or_else(String::new, |first| format!("{}{}", first.to_lowercase(), letters.as_str()))
+}
+
+impl Plan {
+    /// The plan for the texts of one program.
+    pub fn new(texts: &[Text<'_>], target: Target) -> Self {
+        let mut used: BTreeSet<&str> = BTreeSet::new();
+        let mut by_stage: BTreeSet<(Stage, &str)> = BTreeSet::new();
+        for text in texts {
+            for token in tokens(text.text).iter().filter(|token| token.is_word()) {
+                used.insert(token.text);
+                by_stage.insert((text.stage, token.text));
+            }
+        }
+        let plan =
+            Self { target, words: BTreeMap::new(), declarations: Vec::new(), notes: Vec::new(), refused: Vec::new() };
+        let mut planner = Planner { plan, used, by_stage, structs: BTreeSet::new() };
+        planner.taken(texts);
+        planner.fixed(texts);
+        planner.outputs(texts);
+        planner.plan
+    }
+
+    /// The new text of a word.
+    pub(super) fn word(&self, stage: Stage, word: &str) -> Option<&str> {
+        self.words.get(&(stage, word.to_owned())).map(String::as_str)
+    }
+
+    /// The declarations that a stage gets.
+    pub(super) fn declarations(&self, stage: Stage) -> impl Iterator<Item = &str> {
+        self.declarations.iter().filter(move |declared| declared.stage == stage).map(|declared| declared.line.as_str())
+    }
+
+    /// The new name of an old one in any stage, for texts of the host such as scenes.
+    pub fn renamed(&self, word: &str) -> Option<&str> {
+        Stage::ALL.into_iter().find_map(|stage| self.word(stage, word))
+    }
+}
+
+/// A plan in progress.
+struct Planner<'t> {
+    plan: Plan,
+    used: BTreeSet<&'t str>,
+    by_stage: BTreeSet<(Stage, &'t str)>,
+    /// The structs that a stage has declared.
+    structs: BTreeSet<(Stage, &'static str)>,
+}
+
+impl Planner<'_> {
+    fn uses(&self, stage: Stage, word: &str) -> bool {
+        self.by_stage.contains(&(stage, word))
+    }
+
+    /// A name that occurs nowhere.
+    fn free(&self, name: &str) -> String {
+        let taken = |name: &str| {
+            self.used.contains(name) || self.plan.words.values().any(|other| other == name) || TAKEN.contains(&name)
+        };
+        let mut free = name.to_owned();
+        while taken(&free) {
+            free.push('_');
+        }
+        // Two underscores in a row are reserved.
+        if free.contains("__") { format!("{name}{}", self.used.len()) } else { free }
+    }
+
+    fn replace(&mut self, stage: Stage, old: &str, new: &str) {
+        self.plan.words.insert((stage, old.to_owned()), new.to_owned());
+    }
+
+    fn declare(&mut self, stage: Stage, line: String) {
+        self.plan.declarations.push(Declared { stage, line });
+    }
+
+    /// Names of the program that mean something else in the target.
+    fn taken(&mut self, texts: &[Text<'_>]) {
+        let is_old = |text: &Text<'_>| text.version < 130;
+        let names = TAKEN.iter().filter(|name| self.used.contains(*name)).copied();
+        for name in names.filter(|_| texts.iter().all(is_old)).collect::<Vec<_>>() {
+            let new = self.free(name);
+            Stage::ALL.into_iter().for_each(|stage| self.replace(stage, name, &new));
+            self.plan
+                .notes
+                .push(format!("`{name}` means something else now, and is called `{new}`; the host may name it, too"));
+        }
+    }
+
+    /// Variables of the fixed-function pipeline.
+    fn fixed(&mut self, texts: &[Text<'_>]) {
+        self.plan.refused.extend(REFUSED.iter().filter(|name| self.used.contains(*name)));
+        if self.used.contains("gl_BackColor") || self.used.contains("gl_BackSecondaryColor") {
+            let note =
+                "the fragment shader reads the front color alone; for two sides, let it choose by `gl_FrontFacing`";
+            self.plan.notes.push(note.to_owned());
+        }
+        let types = Types::new();
+        let units = units(texts);
+        let mut names: BTreeMap<String, String> = BTreeMap::new();
+        for stage in Stage::ALL {
+            let rows = FIXED.iter().filter(|row| row.availability.stages.has(stage) && self.uses(stage, row.name));
+            for row in rows.collect::<Vec<_>>() {
+                let old = varying_name(row, stage);
+                let new = names.get(old).cloned().unwrap_or_else(|| self.free(&plain_name(old)));
+                self.declare_fixed(row, stage, &new, &types, units);
+                self.replace(stage, row.name, &new);
+                names.insert(old.to_owned(), new);
+            }
+        }
+        self.transform(&mut names, &types);
+        if !names.is_empty() {
+            let list: Vec<String> = names.iter().map(|(old, new)| format!("`{old}` is `{new}`")).collect();
+            self.plan.notes.push(format!("the host provides what was built in: {}", list.join(", ")));
+        }
+    }
+
+    fn declare_fixed(&mut self, row: &FixedRow, stage: Stage, new: &str, types: &Types, units: u32) {
+        let (ty, array) = match row.ty {
+            FixedType::Plain(ty) => (types.name(ty), String::new()),
+            FixedType::Array(ty, size) => {
+                let size = if row.name == "gl_TexCoord" { units } else { size };
+                (types.name(ty), format!("[{size}]"))
+            }
+            FixedType::Struct(name) => (self.structure(stage, name, types), String::new()),
+            FixedType::Structs(name, size) => (self.structure(stage, name, types), format!("[{size}]")),
+        };
+        let storage = match row.storage {
+            Storage::In => "in",
+            Storage::Out => "out",
+            _ => "uniform",
+        };
+        self.declare(stage, format!("{storage} {ty} {new}{array};"));
+    }
+
+    /// The name of a struct, which the stage declares once.
+    fn structure(&mut self, stage: Stage, old: &'static str, types: &Types) -> String {
+        let new = old.strip_prefix("gl_").unwrap_or(old).to_owned();
+        let members = STRUCTS.iter().find(|row| row.0 == old).map(|row| row.1).unwrap_or_default();
+        if self.structs.insert((stage, old)) {
+            let members: Vec<String> =
+                members.iter().map(|(name, ty)| format!("{} {name};", types.name(*ty))).collect();
+            self.declare(stage, format!("struct {new} {{ {} }};", members.join(" ")));
+            self.replace(stage, old, &new);
+        }
+        new
+    }
+
+    /// `ftransform()`: the position that the fixed-function pipeline computes.
+    fn transform(&mut self, names: &mut BTreeMap<String, String>, types: &Types) {
+        if !self.uses(Stage::Vertex, "ftransform") {
+            return;
+        }
+        let mut parts = Vec::new();
+        for old in ["gl_ModelViewProjectionMatrix", "gl_Vertex"] {
+            let row = FIXED.iter().find(|row| row.name == old);
+            let known = self.plan.word(Stage::Vertex, old).map(str::to_owned);
+            let new = known.clone().or(names.get(old).cloned()).unwrap_or_else(|| self.free(&plain_name(old)));
+            if let Some(row) = row.filter(|_| known.is_none()) {
+                self.declare_fixed(row, Stage::Vertex, &new, types, 1);
+                self.replace(Stage::Vertex, old, &new);
+            }
+            names.insert(old.to_owned(), new.clone());
+            parts.push(new);
+        }
+        self.replace(Stage::Vertex, "ftransform", &format!("({})", parts.join(" * ")));
+    }
+
+    /// `gl_FragColor` and `gl_FragData`.
+    fn outputs(&mut self, texts: &[Text<'_>]) {
+        let precision = if self.plan.target == Target::Es300 { "mediump " } else { "" };
+        let stage = Stage::Fragment;
+        if self.uses(stage, "gl_FragData") {
+            let name = self.free("fragData");
+            let size = largest_index(texts, "gl_FragData").map_or(8, |largest| largest + 1);
+            self.declare(stage, format!("out {precision}vec4 {name}[{size}];"));
+            self.replace(stage, "gl_FragData", &name);
+            self.replace(stage, "gl_FragColor", &format!("{name}[0]"));
+        } else if self.uses(stage, "gl_FragColor") {
+            let name = self.free("fragColor");
+            self.declare(stage, format!("out {precision}vec4 {name};"));
+            self.replace(stage, "gl_FragColor", &name);
+        }
+    }
+}
+
+/// The name of a variable for all stages: what a fragment shader reads as `gl_Color` is written as `gl_FrontColor`.
+fn varying_name(row: &FixedRow, stage: Stage) -> &'static str {
+    match (row.name, stage) {
+        ("gl_Color", Stage::Fragment) => "gl_FrontColor",
+        ("gl_SecondaryColor", Stage::Fragment) => "gl_FrontSecondaryColor",
+        _ => row.name,
+    }
+}
+
+/// The number of elements of `gl_TexCoord` that the stages use.
+fn units(texts: &[Text<'_>]) -> u32 {
+    largest_index(texts, "gl_TexCoord").map_or(8, |largest| largest + 1).min(8)
+}
+
+/// The largest index of an array, if all are literals; a size in a declaration counts as one less.
+fn largest_index(texts: &[Text<'_>], name: &str) -> Option<u32> {
+    let mut largest = 0;
+    for text in texts {
+        let tokens = tokens(text.text);
+        for (index, _) in tokens.iter().enumerate().filter(|(_, token)| token.text == name) {
+            let at = |offset: usize| tokens.get(index + offset).map(|token| token.text);
+            match (at(1), at(2).and_then(|number| number.parse::<u32>().ok()), at(3)) {
+                (Some("["), Some(number), Some("]")) if number < 8 => largest = largest.max(number),
+                _ => return None,
+            }
+        }
+    }
+    Some(largest)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Plan, Target, Text, plain_name};
+    use glisten_front::Stage;
+
+    fn text(text: &str, stage: Stage) -> Text<'_> {
+        Text { text, stage, is_shader: true, version: 110 }
+    }
+
+    #[test]
+    fn stages_agree() {
+        let vertex = text("gl_FrontColor = gl_Color; gl_TexCoord[1] = ftransform(); vec4 color;", Stage::Vertex);
+        let fragment = text("gl_FragColor = gl_Color * gl_TexCoord[0]; // fragColor\nfloat texture;", Stage::Fragment);
+        let plan = Plan::new(&[vertex, fragment], Target::Core150);
+        assert_eq!(plan.word(Stage::Vertex, "gl_Color"), Some("color_"));
+        assert_eq!(plan.word(Stage::Vertex, "gl_FrontColor"), plan.word(Stage::Fragment, "gl_Color"));
+        assert_eq!(plan.word(Stage::Vertex, "ftransform"), Some("(modelViewProjectionMatrix * vertex)"));
+        assert_eq!(plan.word(Stage::Fragment, "texture"), Some("texture_"));
+        let lines: Vec<&str> = plan.declarations(Stage::Fragment).collect();
+        assert_eq!(lines, ["in vec4 frontColor;", "in vec4 texCoord[2];", "out vec4 fragColor;"]);
+        assert_eq!(plain_name("gl_ModelViewMatrix"), "modelViewMatrix");
+    }
+
+    #[test]
+    fn structs_are_declared_before_their_use() {
+        let plan = Plan::new(&[text("gl_LightSource[0].position", Stage::Vertex)], Target::Core330);
+        let lines: Vec<&str> = plan.declarations(Stage::Vertex).collect();
+        assert!(lines[0].starts_with("struct LightSourceParameters {"), "{lines:?}");
+        assert_eq!(lines[1], "uniform LightSourceParameters lightSource[8];");
+    }
+}

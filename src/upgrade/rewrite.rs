@@ -1,0 +1,280 @@
+//! [`rewrite`]: the new text of a source, by a plan.
+//!
+//! *In:* a text and the plan of its program. *Out:* the new text. *Holds:* everything that is not replaced is the same, byte for
+//! byte.
+
+use super::names::{BUILT_IN, WORDS, lookup};
+use super::plan::{Plan, Target, Text};
+use super::tokens::{Token, closing, tokens};
+use crate::engines::code::without_comments;
+use glisten_front::Stage;
+use glisten_front::source::version_line;
+use std::cmp::Reverse;
+use std::ops::Range;
+
+/// The samplers without a default precision.
+static SAMPLERS: &[&str] = &[
+    "sampler3D",
+    "sampler2DShadow",
+    "samplerCubeShadow",
+    "sampler2DArray",
+    "sampler2DArrayShadow",
+    "isampler2D",
+    "isampler3D",
+    "isamplerCube",
+    "isampler2DArray",
+    "usampler2D",
+    "usampler3D",
+    "usamplerCube",
+    "usampler2DArray",
+];
+
+/// A replacement.
+type Edit = (Range<usize>, String);
+
+/// The new text of a source.
+pub fn rewrite(text: &Text<'_>, plan: &Plan) -> String {
+    let mut edits: Vec<Edit> = Vec::new();
+    let code = without_comments(text.text);
+    // Comments are not code; a macro may be used anywhere.
+    let all = tokens(text.text);
+    let lines = directive_lines(&code);
+    edits.extend(extension_lines(&code));
+    let is_dropped: Vec<Range<usize>> = edits.iter().map(|(range, _)| range.clone()).collect();
+    let version = version_line(text.text);
+    let is_left = |token: &Token<'_>| {
+        let inside = |range: &Range<usize>| range.contains(&token.range.start);
+        is_dropped.iter().any(inside) || version.as_ref().is_some_and(inside)
+    };
+    let own = own_functions(&all);
+    for (index, _) in all.iter().enumerate().filter(|(_, token)| token.is_word() && !is_left(token)) {
+        words(text.stage, plan, &all, index, &own, &mut edits);
+    }
+    if text.is_shader {
+        version_edit(text, plan.target, version, &code, &mut edits);
+        let mut declarations: Vec<String> = plan.declarations(text.stage).map(str::to_owned).collect();
+        if plan.target == Target::Es300 {
+            declarations.splice(0..0, precisions(text.stage, &all));
+        }
+        let place = first_code(&code, &lines);
+        if !declarations.is_empty() {
+            edits.push((place..place, declarations.iter().map(|line| format!("{line}\n")).collect()));
+        }
+    }
+    applied(text.text, edits)
+}
+
+/// The default precisions that ES lacks, for the types that a stage uses (GLSL ES 3.00 §4.5.4).
+fn precisions(stage: Stage, all: &[Token<'_>]) -> Vec<String> {
+    let is_set = |ty: &str| {
+        all.windows(3).any(|words| matches!(words, [word, _, of] if word.text == "precision" && of.text == ty))
+    };
+    let uses = |ty: &str| all.iter().any(|token| token.text == ty);
+    let samplers = SAMPLERS.iter().copied().filter(|ty| uses(ty));
+    let float = (stage == Stage::Fragment).then_some("float");
+    float.into_iter().chain(samplers).filter(|ty| !is_set(ty)).map(|ty| format!("precision highp {ty};")).collect()
+}
+
+/// The text with its replacements, which do not overlap.
+fn applied(text: &str, mut edits: Vec<Edit>) -> String {
+    // Insertions come before what is replaced, and a whole declaration before its words.
+    edits.sort_by_key(|(range, _)| (range.start, !range.is_empty(), Reverse(range.end)));
+    let (mut new, mut at) = (String::new(), 0);
+    for (range, with) in edits {
+        if range.start < at {
+            continue;
+        }
+        new.push_str(text.get(at..range.start).unwrap_or(""));
+        new.push_str(&with);
+        at = range.end;
+    }
+    new.push_str(text.get(at..).unwrap_or(""));
+    new
+}
+
+/// The functions and macros that a text defines under names that were built in.
+fn own_functions<'t>(all: &[Token<'t>]) -> Vec<&'t str> {
+    let mut own = Vec::new();
+    for (index, token) in all.iter().enumerate().filter(|(_, token)| lookup(token.text).is_some()) {
+        let before = index.checked_sub(1).and_then(|before| all.get(before));
+        let is_macro = before.is_some_and(|before| before.text == "define");
+        let end = all.get(index + 1).filter(|next| next.text == "(").and_then(|_| closing(all, index + 1));
+        let has_body = end.and_then(|end| all.get(end + 1)).is_some_and(|next| next.text == "{");
+        if is_macro || has_body {
+            own.push(token.text);
+        }
+    }
+    own
+}
+
+/// The replacements at one word.
+fn words(stage: Stage, plan: &Plan, all: &[Token<'_>], index: usize, own: &[&str], edits: &mut Vec<Edit>) {
+    let Some(token) = all.get(index) else { return };
+    let at = |index: Option<usize>| index.and_then(|index| all.get(index)).map(|token| token.text);
+    let (before, after) = (at(index.checked_sub(1)), at(Some(index + 1)));
+    // A member has any name that it wants.
+    if before == Some(".") {
+        return;
+    }
+    let range = token.range.clone();
+    let storage = match (token.text, stage) {
+        ("attribute", _) => Some("in"),
+        ("varying", Stage::Fragment) => Some("in"),
+        ("varying", _) => Some("out"),
+        _ => None,
+    };
+    if let Some(word) = storage {
+        edits.push((range, word.to_owned()));
+    } else if token.text == "ftransform" && after == Some("(") {
+        let end = closing(all, index + 1).and_then(|end| all.get(end)).map_or(range.end, |token| token.range.end);
+        edits.extend(plan.word(stage, token.text).map(|new| (range.start..end, new.to_owned())));
+    } else if let Some(new) = plan.word(stage, token.text) {
+        edits.push((redeclaration(all, index).unwrap_or(range), new_text(all, index, new)));
+    } else if let Some((_, new)) = WORDS.iter().find(|(old, _)| *old == token.text) {
+        edits.push((range, (*new).to_owned()));
+    } else if let Some(new) = lookup(token.text).filter(|_| !own.contains(&token.text)) {
+        edits.push((range, if new.is_shadow && after == Some("(") { format!("vec4({}", new.name) } else { new.name }));
+        if let (true, Some("("), Some(end)) = (new.is_shadow, after, closing(all, index + 1)) {
+            edits.extend(all.get(end).map(|end| (end.range.end..end.range.end, ", 0.0, 0.0, 1.0)".to_owned())));
+        }
+    }
+}
+
+/// The whole declaration, where a shader declares a built-in variable again: `varying vec4 gl_TexCoord[2];`.
+fn redeclaration(all: &[Token<'_>], index: usize) -> Option<Range<usize>> {
+    let start = all
+        .get(..index)?
+        .iter()
+        .rposition(|token| [";", "{", "}", ")", "#"].contains(&token.text))
+        .map_or(0, |at| at + 1);
+    let first = all.get(start)?;
+    let qualified = ["varying", "in", "out", "flat", "centroid", "smooth"].contains(&first.text) && start < index;
+    let end = all.iter().skip(index).find(|token| token.text == ";")?;
+    (qualified && all.get(index)?.text.starts_with("gl_")).then_some(first.range.start..end.range.end)
+}
+
+/// The text in place of a word, or nothing in place of a declaration.
+fn new_text(all: &[Token<'_>], index: usize, new: &str) -> String {
+    if redeclaration(all, index).is_some() { String::new() } else { new.to_owned() }
+}
+
+/// The lines of a text without comments, and whether each is a directive.
+fn directive_lines(code: &str) -> Vec<(Range<usize>, Option<&str>)> {
+    let mut at = 0;
+    code.split_inclusive('\n')
+        .map(|line| {
+            let range = at..at + line.len();
+            at = range.end;
+            (range, line.trim_start().strip_prefix('#').map(str::trim))
+        })
+        .collect()
+}
+
+/// `#extension` lines for what is built in now.
+fn extension_lines(code: &str) -> Vec<Edit> {
+    let is_built_in = |line: &str| {
+        let name = line.strip_prefix("extension")?.trim_start().split([':', ' ', '\t']).next()?;
+        Some(BUILT_IN.contains(&name))
+    };
+    directive_lines(code)
+        .into_iter()
+        .filter(|(_, line)| line.and_then(is_built_in).unwrap_or(false))
+        .map(|(range, _)| {
+            (range.start..range.start + code.get(range).map_or(0, |line| line.trim_end().len()), String::new())
+        })
+        .collect()
+}
+
+/// Sets the version.
+fn version_edit(text: &Text<'_>, target: Target, version: Option<Range<usize>>, code: &str, edits: &mut Vec<Edit>) {
+    let line = target.version_line();
+    match version {
+        Some(range) => {
+            let length = code.get(range.clone()).map_or(0, |line| line.trim_end().len());
+            edits.push((range.start..range.start + length, line.to_owned()));
+        }
+        None => {
+            let start = if text.text.starts_with('\u{feff}') { '\u{feff}'.len_utf8() } else { 0 };
+            edits.push((start..start, format!("{line}\n")));
+        }
+    }
+}
+
+/// The start of the first line with code, outside of conditional groups, or of the group that it is in.
+fn first_code(code: &str, lines: &[(Range<usize>, Option<&str>)]) -> usize {
+    let (mut depth, mut group) = (0_usize, 0);
+    for (range, directive) in lines {
+        match directive {
+            Some(line) if line.starts_with("if") => {
+                if depth == 0 {
+                    group = range.start;
+                }
+                depth += 1;
+            }
+            Some(line) if line.starts_with("endif") => depth = depth.saturating_sub(1),
+            Some(line) if line.starts_with("include") || line.starts_with("moj_import") => {
+                return if depth > 0 { group } else { range.start };
+            }
+            Some(_) => {}
+            None => {
+                let line = code.get(range.clone()).unwrap_or("").trim();
+                // A default precision comes before what it is for.
+                if !line.is_empty() && !line.starts_with("precision") {
+                    return if depth > 0 { group } else { range.start };
+                }
+            }
+        }
+    }
+    code.len()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::rewrite;
+    use crate::upgrade::{Plan, Target, Text};
+    use glisten_front::Stage;
+
+    fn upgraded(source: &str, stage: Stage, target: Target) -> String {
+        let text = Text { text: source, stage, is_shader: true, version: 110 };
+        rewrite(&text, &Plan::new(&[text], target))
+    }
+
+    #[test]
+    fn words_change_and_the_rest_stays() {
+        let old = "// varying\n#extension GL_EXT_gpu_shader4 : enable // was\nuniform sampler2D t;\nvarying\tvec2 p; /* texture2D */\n\
+                   #define LOOK(q) texture2D(t, q)\nvoid main() { gl_FragColor = LOOK(p).texture2D; }\n";
+        let new = "#version 150\n// varying\n // was\nout vec4 fragColor;\nuniform sampler2D t;\nin\tvec2 p; /* texture2D */\n\
+                   #define LOOK(q) texture(t, q)\nvoid main() { fragColor = LOOK(p).texture2D; }\n";
+        assert_eq!(upgraded(old, Stage::Fragment, Target::Core150), new);
+    }
+
+    #[test]
+    fn declarations_come_before_code_and_after_directives() {
+        let old = "#version 100 // old\n#ifdef GL_ES\nprecision mediump float;\n#endif\n#ifdef A\nvarying vec2 p;\n#endif\n\
+                   void main() { gl_FragData[1] = gl_FragColor; }\n";
+        let new = "#version 300 es // old\n#ifdef GL_ES\nprecision mediump float;\n#endif\nout mediump vec4 fragData[2];\n#ifdef A\n\
+                   in vec2 p;\n#endif\nvoid main() { fragData[1] = fragData[0]; }\n";
+        assert_eq!(upgraded(old, Stage::Fragment, Target::Es300), new);
+    }
+
+    #[test]
+    fn precisions_that_es_lacks_are_set() {
+        let new = upgraded(
+            "uniform sampler3D t; void main() { gl_FragColor = texture3D(t, vec3(1.0)); }",
+            Stage::Fragment,
+            Target::Es300,
+        );
+        let start =
+            "#version 300 es\nprecision highp float;\nprecision highp sampler3D;\nout mediump vec4 fragColor;\nuniform";
+        assert!(new.starts_with(start), "{new}");
+    }
+
+    #[test]
+    fn old_lookups_and_functions_of_the_text() {
+        let old = "vec4 texture2D(vec2 p) { return vec4(p, p); }\nvarying vec4 gl_TexCoord[1];\nvoid main() { shadow2D(s, f(c)).r; \
+                   texture2D(vec2(1.0)); gl_TexCoord[0]; ftransform( ); }\n";
+        let new = upgraded(old, Stage::Vertex, Target::Core330);
+        assert!(new.contains("vec4(texture(s, f(c)), 0.0, 0.0, 1.0).r; texture2D(vec2(1.0)); texCoord[0]; (modelViewProjectionMatrix * vertex);"), "{new}");
+        assert!(new.starts_with("#version 330 core\n") && !new.contains("gl_TexCoord"), "{new}");
+    }
+}

@@ -1,0 +1,94 @@
+//! `glisten upgrade` end to end: old programs become programs of 1.50, 3.30 and ES 3.00 that compile, with their comments.
+
+use crate::cli::{Folder, code, err, out};
+use crate::support::root;
+use std::fs;
+use std::process::{Command, Output};
+
+const BASE: &str = "fixtures/upgrade";
+
+fn here(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_glisten")).args(arguments).current_dir(root()).output().expect("the program runs")
+}
+
+#[test]
+fn old_programs_become_new_ones_that_compile() {
+    for (to, version) in [("150", "#version 150"), ("330", "#version 330 core"), ("300es", "#version 300 es")] {
+        let folder = Folder::new(&[]);
+        let into = folder.path("new").to_string_lossy().into_owned();
+        let files = [format!("{BASE}/lit.vert"), format!("{BASE}/lit.frag")];
+        let output = here(&["upgrade", &files[0], &files[1], "--to", to, "-o", &into]);
+        assert_eq!(code(&output), 0, "{to}: {}", err(&output));
+        assert!(err(&output).contains("`gl_Vertex` is `vertex`"), "{}", err(&output));
+        for name in ["lit.vert", "lit.frag"] {
+            let text = fs::read_to_string(folder.path(&format!("new/{name}"))).expect("it was written");
+            assert!(text.starts_with(version), "{text}");
+            assert!(!text.contains("varying") && !text.contains("gl_Frag") && !text.contains("texture2D"), "{text}");
+            let old = fs::read_to_string(root().join(BASE).join(name)).expect("readable");
+            for comment in old.lines().filter_map(|line| Some(&line[line.find("//")?..])) {
+                assert!(text.contains(comment), "{comment} is not in {text}");
+            }
+        }
+        let checked = folder.run(&["lint", "new", "--deny", "warnings"]);
+        assert_eq!(code(&checked), 0, "{to}: {}", out(&checked));
+        assert!(err(&checked).contains("2 files, 1 program"), "{}", err(&checked));
+    }
+}
+
+#[test]
+fn the_picture_of_a_scene_stays() {
+    let folder = Folder::new(&[]);
+    let into = folder.path("new").to_string_lossy().into_owned();
+    let [vertex, fragment, scene] = ["plain.vert", "plain.frag", "plain.toml"].map(|name| format!("{BASE}/{name}"));
+    let output = here(&["upgrade", &vertex, &fragment, "-o", &into, "--scene", &scene]);
+    assert_eq!(code(&output), 0, "{}", err(&output));
+    assert!(err(&output).contains("the same to the bit"), "{}", err(&output));
+    let missing = here(&["upgrade", &vertex, &fragment, "-o", &into, "--scene", "nowhere.toml"]);
+    assert_eq!(code(&missing), 2, "{}", err(&missing));
+}
+
+#[test]
+fn a_single_file_goes_to_standard_output_or_replaces_itself() {
+    let es = format!("{BASE}/es.frag");
+    let output = here(&["upgrade", &es, "--to", "300es"]);
+    assert_eq!(code(&output), 0, "{}", err(&output));
+    assert!(out(&output).contains("precision mediump float;\nout mediump vec4 fragColor;"), "{}", out(&output));
+    let old = fs::read(root().join(&es)).expect("readable");
+    let folder = Folder::new(&[
+        ("a.frag", &old),
+        ("lib.glsl", b"varying vec2 place;\n"),
+        ("b.frag", b"#include \"lib.glsl\"\nvoid main() { gl_FragColor = vec4(place, 0.0, 1.0); }\n"),
+    ]);
+    assert_eq!(code(&folder.run(&["upgrade", "a.frag", "--in-place"])), 0);
+    assert!(fs::read_to_string(folder.path("a.frag")).is_ok_and(|text| text.starts_with("#version 150\n")));
+    let both = folder.run(&["upgrade", "a.frag", "b.frag"]);
+    assert_eq!(code(&both), 2, "several files need a place");
+    let including = folder.run(&["upgrade", "b.frag"]);
+    assert_eq!(code(&including), 0, "{}", err(&including));
+    assert!(
+        out(&including).contains("#version 150\nout vec4 fragColor;\n#include \"lib.glsl\"\n"),
+        "{}",
+        out(&including)
+    );
+}
+
+#[test]
+fn what_cannot_be_upgraded_is_told_and_nothing_is_written() {
+    let folder = Folder::new(&[
+        ("clip.vert", b"void main() { gl_ClipVertex = gl_Vertex; gl_Position = ftransform(); }\n"),
+        ("wrong.frag", b"void main() { gl_FragColor = missing; }\n"),
+        ("new.frag", b"#version 330\nout vec4 c;\nvoid main() { c = vec4(1.0); }\n"),
+        ("two.glsl", b"#shader vertex\nvoid main() { gl_Position = vec4(0.0); }\n#shader fragment\nvoid main() {}\n"),
+    ]);
+    for (file, exit, told) in [
+        ("clip.vert", 1, "gl_ClipVertex"),
+        ("wrong.frag", 1, "missing"),
+        ("new.frag", 1, "later version"),
+        ("two.glsl", 2, "several stages"),
+    ] {
+        let output = folder.run(&["upgrade", file, "-o", "new"]);
+        assert_eq!(code(&output), exit, "{file}: {}", err(&output));
+        assert!(err(&output).contains(told), "{file}: {}", err(&output));
+    }
+    assert!(folder.names("new").is_empty());
+}
