@@ -57,6 +57,7 @@ enum Choice {
     Weights,
     Levels,
     Forms,
+    DividedByZero,
     /// Of each [`Function`], from here on.
     Functions,
 }
@@ -230,6 +231,17 @@ impl Gpu {
     /// One of `count` choices.
     fn pick(&self, choice: Choice, count: u64) -> u64 {
         mixed(self.seed ^ mixed(choice as u64)) % count.max(1)
+    }
+
+    /// An integer divided by zero: the number that others define, 0, or the end of the range on either side.
+    pub(super) fn divided_by_zero(&self, defined: u32) -> u32 {
+        match self.pick(Choice::DividedByZero, 4) {
+            _ if self.is_strict() => defined,
+            0 => defined,
+            1 => 0,
+            2 => i32::MAX as u32,
+            _ => i32::MIN as u32,
+        }
     }
 
     /// Whether an operation has its second form.
