@@ -27,8 +27,12 @@ fn start(folder: &Path, arguments: &[&str]) -> (Running, Receiver<String>) {
     let output = child.stdout.take().expect("it is piped");
     let messages = child.stderr.take().expect("it is piped");
     let other = sender.clone();
-    std::thread::spawn(move || BufReader::new(output).lines().map_while(Result::ok).all(|line| sender.send(line).is_ok()));
-    std::thread::spawn(move || BufReader::new(messages).lines().map_while(Result::ok).all(|line| other.send(line).is_ok()));
+    std::thread::spawn(move || {
+        BufReader::new(output).lines().map_while(Result::ok).all(|line| sender.send(line).is_ok())
+    });
+    std::thread::spawn(move || {
+        BufReader::new(messages).lines().map_while(Result::ok).all(|line| other.send(line).is_ok())
+    });
     (Running(child), lines)
 }
 
