@@ -50,9 +50,9 @@ pub(super) fn run(args: &WatchArgs, console: &Console) -> Outcome {
             run.map_err(|error| Failure::new(Exit::Machine, format!("the command does not start: {error}")))?;
         let list: Vec<String> = watched.folders.iter().map(|folder| folder.display().to_string()).collect();
         let ended = if status.success() { "no error" } else { "errors" };
-        console.message(&format!("{ended}; watching {}, Ctrl-C ends", list.join(", ")));
+        console.remark(&format!("{ended}; watching {}, Ctrl-C ends", list.join(", ")));
         let Some(changed) = next_change(&changes, &watched) else { return Ok(Exit::Machine) };
-        console.message(&format!("{} changed", changed.display()));
+        console.remark(&format!("{} changed", changed.display()));
     }
 }
 
