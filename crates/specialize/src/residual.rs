@@ -250,7 +250,12 @@ fn read_back(program: &Program, stages: &[ResidualStage]) -> Result<(Program, So
     let outputs = &program.interface.outputs;
     let options = glisten_front::Options {
         attribute_locations: attributes.iter().map(|one| (one.name.clone(), one.location)).collect(),
-        frag_data_locations: outputs.iter().map(|one| (one.name.clone(), one.location)).collect(),
+        // `gl_FragColor` has its place, and no host binds it.
+        frag_data_locations: outputs
+            .iter()
+            .filter(|one| !one.name.starts_with("gl_"))
+            .map(|one| (one.name.clone(), one.location))
+            .collect(),
         ..glisten_front::Options::default()
     };
     let compiled = Compiler::new(options).compile(&sources);
