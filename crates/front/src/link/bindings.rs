@@ -59,7 +59,9 @@ fn check_one(ctx: &mut Linker<'_>, kind: &Bindable, (name, number): (&str, u32),
         let help = format!("`{}` gives {error}", kind.call);
         Diagnostic::new(&BINDING_REFUSED, shader.anchor(), message).help(help)
     };
-    if name.starts_with("gl_") {
+    // Those of the fixed-function pipeline are attributes like any other.
+    let is_fixed = |global: &Global| global.is_fixed() && global.storage == kind.storage && global.name == name;
+    if name.starts_with("gl_") && !shader.globals.iter().any(is_fixed) {
         ctx.report(refused(format!("`{name}` is built in and cannot be bound"), "GL_INVALID_OPERATION"));
         return;
     }
