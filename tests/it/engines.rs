@@ -178,6 +178,33 @@ fn styles_find_includes() {
 }
 
 #[test]
+fn a_pragma_may_be_an_include() {
+    let folder = Folder::new(&[
+        ("lib/f.glsl", b"float f() { return 1.0; }\n"),
+        ("g.glsl", b"float g() { return f(); }\n"),
+        ("a.frag", b"#version 150\n#pragma include \"lib/f.glsl\"\n# pragma include : \"g.glsl\"\nout vec4 c;\nvoid main() { c = vec4(g()); }\n"),
+        ("b.frag", b"#version 150\n#pragma include \"none.glsl\"\nout vec4 c;\nvoid main() { c = vec4(1.0); }\n"),
+    ]);
+    assert_eq!(folder.lint(&["a.frag", "--include-style", "quote"]).1, 0);
+    assert_eq!(folder.lint(&["a.frag"]).1, 1, "without an engine it is any pragma");
+    let (found, exit) = folder.lint(&["b.frag", "--include-style", "quote"]);
+    assert_eq!((codes(&found), exit), (vec!["E0127"], 2));
+    assert_eq!(folder.lint(&["b.frag"]).1, 0);
+}
+
+#[test]
+fn a_picture_of_shadertoy_becomes_a_scene() {
+    let folder = Folder::new(&[
+        ("waves.glsl", include_bytes!("../../fixtures/engines/shadertoy/waves.glsl")),
+        ("glisten.toml", include_bytes!("../../fixtures/engines/shadertoy/glisten.toml")),
+    ]);
+    let made = folder.run(&["new-scene", "waves.glsl", "-o", "scene.toml"]);
+    assert_eq!(code(&made), 0, "{}", err(&made));
+    let drawn = folder.run(&["render", "scene.toml", "--backend", "cpu", "-o", "a.npy"]);
+    assert_eq!(code(&drawn), 0, "{}", err(&drawn));
+}
+
+#[test]
 fn parts_of_a_file_keep_its_lines() {
     let output = here(&["lint", "--format", "json", "fixtures/engines/combined/wrong.glsl"]);
     let errors = errors(&output);

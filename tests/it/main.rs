@@ -94,9 +94,9 @@ mod support;
 mod targets;
 #[cfg(feature = "gpu")]
 mod tutorial;
-mod versions;
 #[cfg(feature = "cli")]
 mod upgrade;
+mod versions;
 #[cfg(feature = "cli")]
 mod wgsl;
 #[cfg(feature = "reference")]
