@@ -304,15 +304,31 @@ fn a_wrong_header_is_told_at_its_place() {
 fn hostile_sources_end() {
     let marks = "#shader vertex\n#shader fragment\n".repeat(20_000);
     let tags = "@vs a\n@include_block b\n@end\n@block b\n@include_block b\n@end\n@program p a a\n".repeat(5_000);
+    let quotes = "*/`".repeat(400_000);
+    let words = format!("void f(float iTime) {{ {} }}", "iTime ".repeat(200_000));
+    let mains = "main( ".repeat(200_000);
     let cut = "/*{\"INPUTS\": [\u{e9}";
     let folder = Folder::new(&[
         ("marks.glsl", marks.as_bytes()),
         ("tags.glsl", tags.as_bytes()),
         ("cut.fs", cut.as_bytes()),
+        ("quotes.glsl", quotes.as_bytes()),
+        ("words.glsl", words.as_bytes()),
+        ("mains.glsl", mains.as_bytes()),
         ("quote.glsl", "vertex = `\u{e9}fragment=`".as_bytes()),
     ]);
-    for file in ["marks.glsl", "tags.glsl", "cut.fs", "quote.glsl"] {
-        let (_, exit) = folder.lint(&[file, "--stage", "fragment", "--engine", "isf"]);
+    let begun = std::time::Instant::now();
+    for (file, engine) in [
+        ("marks.glsl", "isf"),
+        ("tags.glsl", "isf"),
+        ("cut.fs", "isf"),
+        ("quote.glsl", "isf"),
+        ("quotes.glsl", "isf"),
+        ("words.glsl", "shadertoy"),
+        ("mains.glsl", "shadertoy"),
+    ] {
+        let (_, exit) = folder.lint(&[file, "--stage", "fragment", "--engine", engine]);
         assert_eq!(exit, 1, "{file}");
     }
+    assert!(begun.elapsed().as_secs() < 60, "{:?}", begun.elapsed());
 }
