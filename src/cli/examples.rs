@@ -52,6 +52,13 @@ const EXAMPLES: &[(&str, &[(&str, &str)])] = &[
         ],
     ),
     (
+        "watch",
+        &[
+            ("glisten watch lint shaders", "the findings again after each change"),
+            ("glisten watch render scene.toml -o picture.png", "the picture again after each change"),
+        ],
+    ),
+    (
         "specialize",
         &[
             ("glisten specialize scene.toml -o out", "programs of which nothing is left but what the scene needs"),

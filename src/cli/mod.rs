@@ -50,6 +50,7 @@ mod test;
 mod timed;
 mod upgrade;
 mod verify;
+mod watch;
 mod with;
 
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
@@ -100,6 +101,7 @@ enum Command {
     NewScene(new_scene::NewSceneArgs),
     Upgrade(upgrade::UpgradeArgs),
     Completions(completions::CompletionsArgs),
+    Watch(watch::WatchArgs),
     Man(man::ManArgs),
 }
 
@@ -146,6 +148,7 @@ fn dispatch(command: &Command, console: &Console) -> Outcome {
         Command::NewScene(args) => new_scene::run(args, console),
         Command::Upgrade(args) => upgrade::run(args, console),
         Command::Completions(args) => completions::run(args, Cli::command(), console),
+        Command::Watch(args) => watch::run(args, console),
         Command::Man(args) => man::run(args, examples::with_examples(Cli::command()), console),
     }
 }

@@ -20,6 +20,9 @@ pub(super) struct Geometry {
 /// The attribute of a rectangle's corners, and that of its texture coordinates.
 const VERTEX: &str = "piglit_vertex";
 const TEXCOORD: &str = "piglit_texcoord";
+/// The same attributes of the fixed-function pipeline.
+const FIXED_VERTEX: &str = "gl_Vertex";
+const FIXED_TEXCOORD: &str = "gl_MultiTexCoord0";
 /// The largest number of instances of a draw.
 const MOST_INSTANCES: u32 = 1 << 16;
 
@@ -63,7 +66,8 @@ pub(super) fn parse(
     }
     let mut columns = vec![rectangle(corner_attribute(program), corners)];
     if textured {
-        columns.push(rectangle(TEXCOORD, words.numbers()?));
+        let fixed = program.interface.attributes.iter().any(|attribute| attribute.name == FIXED_TEXCOORD);
+        columns.push(rectangle(if fixed { FIXED_TEXCOORD } else { TEXCOORD }, words.numbers()?));
     }
     let data = VertexData { columns, rows: 4 };
     Ok(Geometry {
@@ -78,9 +82,11 @@ pub(super) fn parse(
 /// The attribute that receives a rectangle's corners: the one with that name, or else the one at location 0.
 fn corner_attribute(program: &Program) -> &str {
     let attributes = &program.interface.attributes;
-    let named = attributes.iter().any(|attribute| attribute.name == VERTEX);
+    if let Some(name) = [VERTEX, FIXED_VERTEX].into_iter().find(|name| attributes.iter().any(|row| row.name == *name)) {
+        return name;
+    }
     let first = attributes.iter().find(|attribute| attribute.location == 0 && attribute.name != TEXCOORD);
-    first.filter(|_| !named).map_or(VERTEX, |attribute| attribute.name.as_str())
+    first.map_or(VERTEX, |attribute| attribute.name.as_str())
 }
 
 /// The four corners of a rectangle as a triangle strip.

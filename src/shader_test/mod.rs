@@ -23,8 +23,7 @@
 //! ```
 //!
 //! *Holds:* if a test requests something that this runner does not support, the test is skipped with its name, and
-//! never passes. A shader of an older version runs with its version raised to 1.50, and is skipped if that makes it
-//! invalid.
+//! never passes.
 //! *Not done here:* geometry, tessellation and compute shaders, compatibility state, transform feedback.
 
 mod draw;

@@ -70,7 +70,7 @@ pub(super) fn check(lines: &[Line]) -> Result<Setup, TestResult> {
                 if words.eat("ES") {
                     return skip(line.number, "requires GLSL ES");
                 }
-                setup.version = (versions(line, &mut words, 1.50, "GLSL")? * 100.0).round() as u32;
+                setup.version = (versions(line, &mut words, 4.60, "GLSL")? * 100.0).round() as u32;
             }
             "GL" => {
                 setup.compatibility |= words.eat("COMPAT");
@@ -152,7 +152,7 @@ mod unit {
             assert!(checked(met).is_ok(), "{met}");
         }
         for unmet in [
-            "GLSL >= 4.00",
+            "GLSL >= 4.70",
             "GL < 3.0",
             "GL_ARB_gpu_shader_fp64",
             "GL_MAX_VERTEX_OUTPUT_COMPONENTS >= 128",

@@ -98,6 +98,8 @@ mod tutorial;
 mod upgrade;
 mod versions;
 #[cfg(feature = "cli")]
+#[cfg(feature = "cli")]
+mod watch;
 mod wgsl;
 #[cfg(feature = "reference")]
 mod widths;

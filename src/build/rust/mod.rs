@@ -8,6 +8,7 @@
 
 mod defaults;
 mod fields;
+mod indent;
 mod layout;
 mod names;
 mod structs;
@@ -93,7 +94,7 @@ pub(super) fn module(
     text.push_str("use super::glisten_memory::Bytes;\n\n");
     text.push_str(&body);
     text.push_str("}\n");
-    Ok(text)
+    Ok(indent::indented(&text))
 }
 
 /// The file of a stage, as code in a comment.

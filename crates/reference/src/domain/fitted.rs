@@ -122,7 +122,7 @@ pub static FITTED: &[Fitted] = &[
     constant("suspects from which a picture fails", population::MIN_SHARE, "of the covered pixels", CALIBRATED),
     constant("suspects from which a picture fails, at least", population::MIN_PIXELS as f64, "pixels", CALIBRATED),
     constant("distance of a picture as a whole", whole::FAR_AS_A_WHOLE, "widths of the population's range", CALIBRATED),
-    constant("least width of that range", whole::OF_A_MEAN, "of that for a pixel", CALIBRATED),
+    constant("least width of that range", evidence::OF_A_MEAN, "of that for a pixel", CALIBRATED),
     constant("pixels that a mean over a picture leaves out", whole::TRIMMED, "at either end", CALIBRATED),
 ];
 

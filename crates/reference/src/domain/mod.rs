@@ -64,6 +64,13 @@ pub trait Domain: Copy + Send + Sync + std::fmt::Debug + 'static {
     /// Whether conditions may be undecided, because conforming GPUs may disagree.
     const HAS_INTERVALS: bool = <Self::Float as Number>::HAS_INTERVALS;
 
+    /// Whether what the language leaves undefined of integers is a GPU's choice.
+    const CHOOSES: bool = false;
+    /// An integer divided by zero, or its remainder (GLSL 1.50 §5.9), given the one that [`Integer`] defines.
+    #[inline(always)]
+    fn divided_by_zero(defined: Self::Int) -> Self::Int {
+        defined
+    }
     /// Computes as this GPU on this thread from now on, in the domain of simulated GPUs.
     #[inline(always)]
     fn enter(gpu: Gpu) {

@@ -351,6 +351,15 @@ impl<D: Domain> Registers<D> {
                 IntToFloat::Half => map1(out, this.int(a), Float::<D>::from_half),
             }),
             Inst::Int1 { op, dst, a } => self.write_int(dst, |this, out| int1(op, out, this.int(a))),
+            Inst::Int2 { op, dst, a, b } if D::CHOOSES && op.divides() => {
+                self.write_int(dst, |this, out| {
+                    let divisor = this.int(b);
+                    let filled = int2(op, out, this.int(a), divisor);
+                    let is_zero = |lane: usize| divisor.at(lane).bits() == 0;
+                    out.update(|lane, found| if is_zero(lane) { D::divided_by_zero(found) } else { found });
+                    filled
+                });
+            }
             Inst::Int2 { op, dst, a, b } => self.write_int(dst, |this, out| int2(op, out, this.int(a), this.int(b))),
             Inst::SelectFloat { dst, c, a, b } => {
                 self.write_float(dst, |this, out| select(out, this.int(c), this.float(a), this.float(b)));

@@ -23,9 +23,7 @@ fn step(inst: &Inst) -> Option<Step> {
         Inst::FloatToInt { .. } | Inst::IntToFloat { .. } => Step::scalar("conversion"),
         Inst::SelectFloat { .. } | Inst::SelectInt { .. } => Step::scalar("selection"),
         Inst::Int2 { op: Int2::ClampIndex, .. } => None,
-        Inst::Int2 { op: Int2::DivSigned | Int2::DivUnsigned | Int2::RemSigned | Int2::RemUnsigned, .. } => {
-            Step::scalar("integer division")
-        }
+        Inst::Int2 { op, .. } if op.divides() => Step::scalar("integer division"),
         Inst::Int1 { .. } | Inst::Int2 { .. } => Step::scalar("integer"),
         Inst::Composite { op, size, results, .. } => {
             let size = u32::from(size);

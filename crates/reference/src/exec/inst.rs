@@ -154,6 +154,14 @@ pub(super) enum Int2 {
     ClampIndex,
 }
 
+impl Int2 {
+    /// Whether it is a quotient or a remainder.
+    #[inline(always)]
+    pub(super) fn divides(self) -> bool {
+        matches!(self, Self::DivSigned | Self::DivUnsigned | Self::RemSigned | Self::RemUnsigned)
+    }
+}
+
 /// The operands of a texture instruction, all of which are registers.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct TextureCall {

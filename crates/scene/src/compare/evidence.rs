@@ -32,6 +32,10 @@ pub const GOAL: f64 = 1.0 / 255.0;
 /// The least difference that says something, as a share of the range of the picture's values.
 pub const LEAST: f64 = 1.0 / 65_536.0;
 
+/// The share of what a number may be off for no reason that a mean of many may be off, in floats of 32 bits. A coarser format
+/// may be rounded to one side.
+pub const OF_A_MEAN: f64 = 0.125;
+
 /// How a covered pixel was compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Class {
@@ -310,6 +314,12 @@ impl<'a> Ruler<'a> {
     pub(super) fn unit(&self, value: f64) -> f64 {
         let rounding = (self.written.step / 2.0).max(4.0 * self.written.relative * value.abs());
         rounding.max(self.range * LEAST)
+    }
+
+    /// How far the mean of many numbers of this size may be off for no reason.
+    pub(super) fn unit_of_a_mean(&self, value: f64) -> f64 {
+        let is_fine = self.written.step == 0.0 && self.written.relative <= relative_step(Format::Rgba32Float);
+        self.unit(value) * if is_fine { OF_A_MEAN } else { 1.0 }
     }
 
     /// The pixels that the reference covers and decides, away from edges.

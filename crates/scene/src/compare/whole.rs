@@ -21,9 +21,6 @@ pub const TRIMMED: f64 = 0.05;
 /// How many spreads of the others the figures of a picture may be outside of theirs.
 pub const FAR_AS_A_WHOLE: f64 = 2.0;
 
-/// The share of what a number may be off for no reason that a mean of many may be off.
-pub const OF_A_MEAN: f64 = 0.125;
-
 /// The number of pixels below which nothing is concluded.
 const LEAST_SAMPLES: usize = 64;
 
@@ -86,7 +83,7 @@ impl Channel {
         let spread = values.iter().map(|(_, value)| (value - median).abs()).sum::<f64>() / values.len().max(1) as f64;
         let deviation = |value: f64| if spread > 0.0 { ((value - median) / spread).clamp(-1.0, 1.0) } else { 0.0 };
         let samples = values.iter().map(|(pixel, value)| (*pixel, *value, deviation(*value))).collect();
-        Self { attachment, channel, unit: OF_A_MEAN * ruler.unit(median.abs() + spread), samples }
+        Self { attachment, channel, unit: ruler.unit_of_a_mean(median.abs() + spread), samples }
     }
 
     fn figures(&self, picture: &Picture) -> Option<[f64; 3]> {

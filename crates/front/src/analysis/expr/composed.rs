@@ -150,7 +150,8 @@ impl Writer<'_, '_> {
         let ty = self.analyzer.ty(exponent);
         let (least, most) = (self.int(-252, ty), self.int(254, ty));
         let limited = self.call(F::Clamp, vec![exponent, least, most], ty);
-        if self.analyzer.body.is_none() {
+        let is_constant = self.analyzer.is_constant(x) && self.analyzer.is_constant(exponent);
+        if is_constant || self.analyzer.body.is_none() {
             // A constant, or the initializer of a global: it is written out twice.
             let (half, rest) = self.halves(limited, limited);
             return Some(self.scaled(x, half, rest));

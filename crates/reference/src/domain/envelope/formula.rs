@@ -227,7 +227,7 @@ mod tests {
             assert!(close(evaluate(formula, &[&[0.2], &[1.3], &[0.6]], 0), op.of(0.2, 1.3, 0.6)), "{}", op.name());
             count += 1;
         }
-        assert_eq!(count, 16, "every formula of numbers");
+        assert_eq!(count, 17, "every formula of numbers");
     }
 
     #[test]

@@ -37,6 +37,7 @@ impl SimulatedFloat {
         let gpu = Gpu::current();
         let x = self.read(&gpu);
         let exact = f(x);
+        let by_formula = || !Gpu::is_precise(function) && exact.is_finite() && !gpu.has_second(Form::Inherited);
         let allowed = match rule.precision {
             Precision::Ulps(_) | Precision::UlpsWithArgument { .. } => rule.ulps_at(x) * ulp(exact),
             Precision::UlpsOrWithin { ulps, error, low, high } => {
@@ -47,9 +48,8 @@ impl SimulatedFloat {
             Precision::Angle { error, reduced, lost } => {
                 return angular(&gpu, x, exact, function, [error, reduced, lost]);
             }
-            Precision::Inherited(formula) | Precision::InheritedOr(formula, _)
-                if !Gpu::is_precise(function) && exact.is_finite() && !gpu.has_second(Form::Inherited) =>
-            {
+            Precision::Inherited(formula) if by_formula() => return evaluate(formula, &[&[Self(x)]], 0),
+            Precision::InheritedOr(formula, _) if by_formula() && !gpu.is_extreme() => {
                 return evaluate(formula, &[&[Self(x)]], 0);
             }
             Precision::InheritedOr(_, error) => error,

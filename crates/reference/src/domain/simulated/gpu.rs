@@ -3,7 +3,8 @@
 //! *In:* a seed and a number. *Out:* the choices, the same for the same seed and number. *Holds:* a choice is a GPU's, not
 //! an operation's: the same operation on the same numbers always has the same result, as in hardware. The first two
 //! GPUs are drawn by no chance: number 0 rounds each operation to the nearest, number 1 as well but interpolates by
-//! planes and flushes subnormals, as most drivers do.
+//! planes and flushes subnormals, as most drivers do. The functions of numbers 2 and 3 err as far as they may, up and down:
+//! some rules are the errors of polynomials that drivers use.
 
 use super::rounding::{Rounder, Rounding};
 use crate::domain::Profile;
@@ -42,7 +43,12 @@ pub struct Gpu {
     pub(super) level_bits: Option<u32>,
     /// A bit for each [`Form`].
     forms: u8,
+    /// The error of every function, as a share of the allowed one, of a GPU that errs as far as it may; else 0.
+    extreme: f64,
 }
+
+/// The error of such a GPU.
+const EXTREME: f64 = 0.97;
 
 /// A choice of its own of each GPU.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -57,6 +63,7 @@ enum Choice {
     Weights,
     Levels,
     Forms,
+    DividedByZero,
     /// Of each [`Function`], from here on.
     Functions,
 }
@@ -151,6 +158,7 @@ impl Gpu {
         weight_bits: None,
         level_bits: None,
         forms: 0,
+        extreme: 0.0,
     };
 
     /// The GPU of this number in the population of a seed.
@@ -161,6 +169,9 @@ impl Gpu {
             _ => {}
         }
         let blank = Self { seed: mixed(seed ^ mixed(u64::from(number))) | 1, ..Self::STRICT };
+        if let 2 | 3 = number {
+            return Self { extreme: if number == 2 { EXTREME } else { -EXTREME }, ..blank };
+        }
         let yes = |choice: Choice| blank.pick(choice, 2) == 1;
         Self {
             rounding: match blank.pick(Choice::Rounding, 8) {
@@ -207,6 +218,9 @@ impl Gpu {
 
     /// Half of all GPUs compute a function as well as possible.
     fn swing(&self, function: usize) -> Swing {
+        if self.is_extreme() {
+            return Swing { size: self.extreme, begin: 0.5, times: 0.0 };
+        }
         let bits = mixed(self.seed ^ mixed(Choice::Functions as u64 + function as u64));
         if self.is_strict() || bits & 1 == 0 {
             return Swing::default();
@@ -227,9 +241,26 @@ impl Gpu {
         self.seed == 0
     }
 
+    /// Whether each function errs as far as it may, always to the same side.
+    #[inline(always)]
+    pub(super) fn is_extreme(&self) -> bool {
+        self.extreme != 0.0
+    }
+
     /// One of `count` choices.
     fn pick(&self, choice: Choice, count: u64) -> u64 {
         mixed(self.seed ^ mixed(choice as u64)) % count.max(1)
+    }
+
+    /// An integer divided by zero: the number that others define, 0, or the end of the range on either side.
+    pub(super) fn divided_by_zero(&self, defined: u32) -> u32 {
+        match self.pick(Choice::DividedByZero, 4) {
+            _ if self.is_strict() => defined,
+            0 => defined,
+            1 => 0,
+            2 => i32::MAX as u32,
+            _ => i32::MIN as u32,
+        }
     }
 
     /// Whether an operation has its second form.

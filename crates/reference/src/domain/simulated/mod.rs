@@ -220,6 +220,11 @@ impl super::Domain for Simulated {
     type Float = SimulatedFloat;
     type Int = u32;
     const NAME: &'static str = "simulated";
+    const CHOOSES: bool = true;
+
+    fn divided_by_zero(defined: u32) -> u32 {
+        Current::current().divided_by_zero(defined)
+    }
 
     fn enter(gpu: Gpu) {
         gpu.enter();

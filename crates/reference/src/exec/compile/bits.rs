@@ -9,17 +9,17 @@ use glisten_front::hir::Scalar;
 impl Compiler<'_> {
     pub(super) fn bit_cast(&mut self, op: BitCast, values: &[Operand]) -> Val {
         let one = |this: &mut Self, a: Operand| match op {
-            BitCast::FloatToInt | BitCast::FloatToUint => this.from_float(FloatToInt::Bits, a),
-            BitCast::IntToFloat | BitCast::UintToFloat => this.to_float(IntToFloat::Bits, a),
+            BitCast::FloatToInt | BitCast::FloatToUint => this.float_as_int(FloatToInt::Bits, a),
+            BitCast::IntToFloat | BitCast::UintToFloat => this.int_as_float(IntToFloat::Bits, a),
         };
         values.iter().map(|a| one(self, *a)).collect()
     }
 
-    fn from_float(&mut self, op: FloatToInt, a: Operand) -> Operand {
+    fn float_as_int(&mut self, op: FloatToInt, a: Operand) -> Operand {
         self.emit.pure(File::Int, &[a], |dst| Inst::FloatToInt { op, dst, a })
     }
 
-    fn to_float(&mut self, op: IntToFloat, a: Operand) -> Operand {
+    fn int_as_float(&mut self, op: IntToFloat, a: Operand) -> Operand {
         self.emit.pure(File::Float, &[a], |dst| Inst::IntToFloat { op, dst, a })
     }
 
@@ -108,7 +108,7 @@ impl Compiler<'_> {
 
     fn packed(&mut self, op: Packing, value: Operand) -> Operand {
         let least = match op.format {
-            Format::Half => return self.from_float(FloatToInt::Half, value),
+            Format::Half => return self.float_as_int(FloatToInt::Half, value),
             Format::Unorm => 0.0,
             Format::Snorm => -1.0,
         };
@@ -122,7 +122,7 @@ impl Compiler<'_> {
         });
         let scaled = self.float2(Float2::Mul, limited, one);
         let rounded = self.float1(Float1::Round, scaled);
-        let bits = self.from_float(FloatToInt::Int, rounded);
+        let bits = self.float_as_int(FloatToInt::Int, rounded);
         let mask = self.emit.int((1u32 << op.bits()) - 1);
         self.int2(Int2::And, bits, mask)
     }
@@ -134,16 +134,16 @@ impl Compiler<'_> {
         let part = self.int2(Int2::And, shifted, mask);
         let one = self.emit.float(op.one() as f32);
         match op.format {
-            Format::Half => self.to_float(IntToFloat::Half, part),
+            Format::Half => self.int_as_float(IntToFloat::Half, part),
             Format::Unorm => {
-                let number = self.to_float(IntToFloat::Uint, part);
+                let number = self.int_as_float(IntToFloat::Uint, part);
                 self.float2(Float2::Div, number, one)
             }
             Format::Snorm => {
                 let spare = self.emit.int(32 - width);
                 let raised = self.int2(Int2::Shl, part, spare);
                 let number = self.int2(Int2::ShrSigned, raised, spare);
-                let number = self.to_float(IntToFloat::Int, number);
+                let number = self.int_as_float(IntToFloat::Int, number);
                 let quotient = self.float2(Float2::Div, number, one);
                 let least = self.emit.float(-1.0);
                 self.float2(Float2::Max, quotient, least)

@@ -8,6 +8,7 @@
 use crate::domain::{Domain, F32, Integer, Number};
 use crate::exec::{Code, LANES, Machine, Mask};
 use glisten_front::builtin::functions::{Effect, all};
+use glisten_front::builtin::operations::Class;
 use glisten_front::compiler::{Compiler, Options, Source};
 use glisten_front::fold;
 use glisten_front::hir::{
@@ -54,7 +55,7 @@ fn carrier(types: &Types, ty: TypeId) -> String {
 impl Case {
     fn text(&self) -> String {
         let types = Types::basic();
-        let mut text = String::from("#version 150\n");
+        let mut text = String::from("#version 460\n");
         let mut call = self.expression.clone();
         for (index, ty) in self.inputs.iter().enumerate() {
             text += &format!("in {} a{index};\n", carrier(types, *ty));
@@ -193,7 +194,8 @@ fn check(case: &Case) -> Option<usize> {
 #[test]
 fn every_overload_folds_to_what_is_executed() {
     let mut count = 0;
-    for row in all().filter(|row| row.effect == Effect::None) {
+    // Functions that the analysis writes out with locals are constant only if it knows their arguments.
+    for row in all().filter(|row| row.effect == Effect::None && row.function.class() != Class::Composed) {
         for signature in row.signatures(Stage::Vertex) {
             let inputs: Vec<TypeId> = signature.params().iter().map(|param| param.0).collect();
             let arguments: Vec<String> = (0..inputs.len()).map(|index| format!("${index}")).collect();

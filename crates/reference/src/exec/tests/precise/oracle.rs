@@ -4,6 +4,7 @@
 //! here.
 
 use super::big::Big;
+use super::bits;
 use super::matrix;
 use astro_float_num::BigFloat;
 use glisten_front::builtin::BuiltinFunction as F;
@@ -117,6 +118,7 @@ pub(super) fn expected(function: F, arguments: &[Argument], count: usize) -> Opt
             Some(rest.chain((0..count).map(|k| Want::Exactly(truncated(a.at(0, k))))).collect())
         }
         F::Min | F::Max | F::Clamp => each(&|k| extremum(function, arguments, k)),
+        F::Mix if !is_float => each(&|k| Want::Bits(arguments[if arguments[2].bits[k] != 0 { 1 } else { 0 }].bits[k])),
         F::Mix => each(&|k| match arguments[2].scalar {
             Scalar::Bool => Want::Exactly(a.at(if arguments[2].bits[k] != 0 { 1 } else { 0 }, k)),
             _ => {
@@ -195,6 +197,33 @@ pub(super) fn expected(function: F, arguments: &[Argument], count: usize) -> Opt
         | F::TextureGradOffset
         | F::TextureProjGrad
         | F::TextureProjGradOffset => None,
+        F::Fma => each(&|k| {
+            let product = &a.big(0, k) * &a.big(1, k);
+            let terms = product.approx().abs() + a.at(2, k).abs();
+            near_sum(&product + &a.big(2, k), terms, 2.0)
+        }),
+        F::FloatBitsToInt | F::FloatBitsToUint => each(&|k| Want::Bits((a.at(0, k) as f32).to_bits())),
+        F::IntBitsToFloat | F::UintBitsToFloat => {
+            each(&|k| Want::Exactly(f64::from(f32::from_bits(arguments[0].bits[k]))))
+        }
+        F::BitfieldExtract | F::BitfieldInsert | F::BitfieldReverse | F::BitCount | F::FindLsb | F::FindMsb => {
+            each(&|k| bits::expected(function, arguments, k))
+        }
+        F::UnpackHalf2x16 => each(&|k| Want::Exactly(bits::unpacked(function, arguments, k))),
+        F::UnpackUnorm2x16 | F::UnpackSnorm2x16 | F::UnpackUnorm4x8 | F::UnpackSnorm4x8 => {
+            each(&|k| near(Big::of(bits::unpacked(function, arguments, k)), 2.0))
+        }
+        // In f32, the product before the rounding may be the next number of a tie. The table of operations has tests.
+        F::PackUnorm2x16 | F::PackSnorm2x16 | F::PackUnorm4x8 | F::PackSnorm4x8 | F::PackHalf2x16 => {
+            each(&|_| Want::Anything)
+        }
+        // By powers of normal floats.
+        F::Ldexp => each(&|k| match integer(arguments, 1, k, Scalar::Int) {
+            exponent @ -100..=100 => near(&a.big(0, k) * &Big::of(2.0_f64.powi(exponent as i32)), 1.0),
+            _ => Want::Anything,
+        }),
+        // These write an argument, or need names of the fixed-function pipeline.
+        F::Frexp | F::UaddCarry | F::UsubBorrow | F::UmulExtended | F::ImulExtended | F::Ftransform => None,
         // Geometry stages are not supported.
         F::EmitVertex | F::EndPrimitive => None,
     }
