@@ -129,8 +129,9 @@ impl TestSession {
                 Ok(())
             }
             "polygon" => skip(line.number, "`polygon mode`: WebGPU draws polygons filled"),
-            // Fixed-function matrices and shading, which a core program does not see.
-            "ortho" | "frustum" | "hint" | "shade" => Ok(()),
+            "ortho" => self.ortho(&mut words),
+            // What no shader sees.
+            "frustum" | "hint" | "shade" => Ok(()),
             _ => skip(line.number, format_args!("`{}` is not supported", line.text)),
         }
     }
@@ -151,6 +152,24 @@ impl TestSession {
             }
             _ => skip(words.line, format_args!("`clear {}` is not supported", words.rest().join(" "))),
         }
+    }
+
+    /// `ortho`, `ortho 0 1 0 1`: the projection from the window's pixels, or from a rectangle, for programs that read the
+    /// matrices of the fixed-function pipeline.
+    fn ortho(&mut self, words: &mut Words<'_>) -> Result<(), TestResult> {
+        let (width, height) = (f64::from(self.framebuffer.width), f64::from(self.framebuffer.height));
+        let [left, right, bottom, top] =
+            if words.rest().is_empty() { [0.0, width, 0.0, height] } else { words.numbers()? };
+        let (x, y) = (2.0 / (right - left), 2.0 / (top - bottom));
+        let (to_x, to_y) = (-(right + left) / (right - left), -(top + bottom) / (top - bottom));
+        let matrix = format!("{x} 0 0 0 0 {y} 0 0 0 0 -1 0 {to_x} {to_y} 0 1");
+        for name in ["gl_ProjectionMatrix", "gl_ModelViewProjectionMatrix"] {
+            if super::uniforms::find(&self.program, name, 0).is_some() {
+                let text = format!("mat4 {name} {matrix}");
+                self.uniforms.set(&self.program, &mut Words::new(words.line, &text), 0)?;
+            }
+        }
+        Ok(())
     }
 
     fn capability(&mut self, words: &mut Words<'_>, on: bool) -> Result<(), TestResult> {

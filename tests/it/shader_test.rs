@@ -64,7 +64,7 @@ fn a_mistake_in_a_shader_fails_with_its_line() {
 
 #[test]
 fn what_is_not_supported_is_skipped_with_its_reason() {
-    let (results, code) = changed("GLSL >= 1.50", "GLSL >= 4.00");
+    let (results, code) = changed("GLSL >= 1.50", "GLSL >= 4.70");
     assert_eq!(code, Some(0));
     for result in results {
         assert_eq!(result["result"], "skip");

@@ -195,6 +195,53 @@ pub fn structure(types: &mut Types, name: &str, version: Version) -> Option<Type
     Some(types.add_struct(StructType { name: (*name).to_owned(), members, is_block: false, span: Span::default() }))
 }
 
+/// The initial values of the structs (OpenGL 2.1, tables 6.9 to 6.12), in the order of the members.
+#[rustfmt::skip]
+static INITIAL: &[(&str, &[f32])] = &[
+    ("gl_PointParameters", &[1.0, 0.0, 1.0, 1.0, 1.0, 0.0, 0.0]),
+    ("gl_MaterialParameters", &[
+        0.0, 0.0, 0.0, 1.0,  0.2, 0.2, 0.2, 1.0,  0.8, 0.8, 0.8, 1.0,  0.0, 0.0, 0.0, 1.0,  0.0,
+    ]),
+    ("gl_LightSourceParameters", &[
+        0.0, 0.0, 0.0, 1.0,  0.0, 0.0, 0.0, 1.0,  0.0, 0.0, 0.0, 1.0,  0.0, 0.0, 1.0, 0.0,  0.0, 0.0, 1.0, 0.0,
+        0.0, 0.0, -1.0,  0.0, 180.0, -1.0, 1.0, 0.0, 0.0,
+    ]),
+    ("gl_LightModelParameters", &[0.2, 0.2, 0.2, 1.0]),
+    ("gl_LightModelProducts", &[0.04, 0.04, 0.04, 1.0]),
+    ("gl_LightProducts", &[0.0, 0.0, 0.0, 1.0,  0.0, 0.0, 0.0, 1.0,  0.0, 0.0, 0.0, 1.0]),
+    ("gl_FogParameters", &[0.0, 0.0, 0.0, 0.0,  1.0, 0.0, 1.0, 1.0]),
+];
+
+/// The components of the first light's diffuse and specular colors, which are 1, and those of their products with the
+/// initial material.
+static FIRST_LIGHT: &[(&str, std::ops::Range<usize>, f32)] =
+    &[("gl_LightSource", 4..12, 1.0), ("gl_FrontLightProduct", 4..7, 0.8), ("gl_BackLightProduct", 4..7, 0.8)];
+
+impl FixedRow {
+    /// The initial value of a uniform, in flat order: the identity for matrices, the tables of OpenGL for structs, 0 for
+    /// everything else.
+    pub fn initial(&self) -> Vec<f32> {
+        let identity = |ty: TypeId| match ty {
+            _ if ty == TypeId::matrix(3, 3) => (0..9).map(|index| f32::from(u8::from(index % 4 == 0))).collect(),
+            _ if ty == TypeId::matrix(4, 4) => (0..16).map(|index| f32::from(u8::from(index % 5 == 0))).collect(),
+            _ if ty == TypeId::VEC4 => vec![0.0; 4],
+            _ => vec![0.0],
+        };
+        let structure = |name: &str| INITIAL.iter().find(|row| row.0 == name).map_or(Vec::new(), |row| row.1.to_vec());
+        let (one, count) = match self.ty {
+            FixedType::Plain(ty) => (identity(ty), 1),
+            FixedType::Array(ty, count) => (identity(ty), count),
+            FixedType::Struct(name) => (structure(name), 1),
+            FixedType::Structs(name, count) => (structure(name), count),
+        };
+        let mut all = one.repeat(count as usize);
+        for (_, range, value) in FIRST_LIGHT.iter().filter(|row| row.0 == self.name) {
+            all.iter_mut().take(range.end).skip(range.start).for_each(|slot| *slot = *value);
+        }
+        all
+    }
+}
+
 /// The members of `gl_PerVertex` that the compatibility profile adds (§7.1.1).
 pub(super) static PER_VERTEX: &[&str] = &[
     "gl_ClipVertex",
@@ -258,5 +305,11 @@ mod tests {
             }
         }
         assert!(PER_VERTEX.iter().all(|name| is_fixed(name)));
+        for row in FIXED.iter().filter(|row| row.storage == Storage::Uniform) {
+            let ty = row.make_type(&mut types, &mut |types, name| {
+                structure(types, name, version(110, Profile::Core)).unwrap_or(TypeId::ERROR)
+            });
+            assert_eq!(row.initial().len(), types.flat_len(ty) as usize, "{}", row.name);
+        }
     }
 }

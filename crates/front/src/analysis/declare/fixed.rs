@@ -25,7 +25,8 @@ impl Analyzer<'_> {
         let (record, layout) = (Qualifiers::default(), Layout::default());
         let mut global = self.new_global(Span::default(), row.name, ty, row.storage, &record, &layout, None);
         if row.storage == Storage::Uniform {
-            global.value = identity(self.types, ty);
+            let scalars = row.initial().into_iter().map(ScalarValue::Float).collect();
+            global.value = Some(Value { ty, scalars });
         }
         let id = self.add_global(global);
         self.declared.add_fixed(row.name, id);
@@ -74,18 +75,4 @@ impl Analyzer<'_> {
         }
         true
     }
-}
-
-/// The identity, which is the initial value of every matrix (OpenGL 2.1 §2.11.2).
-fn identity(types: &Types, ty: TypeId) -> Option<Value> {
-    let element = match types.get(ty) {
-        Type::Array(element, _) => element,
-        _ => ty,
-    };
-    let Type::Matrix(columns, rows) = types.get(element) else { return None };
-    let cell = |index: usize| f32::from(u8::from(index % usize::from(rows) == index / usize::from(rows)));
-    let size = usize::from(columns) * usize::from(rows);
-    let count = types.flat_len(ty) as usize;
-    let scalars = (0..count).map(|index| ScalarValue::Float(cell(index % size))).collect();
-    Some(Value { ty, scalars })
 }
