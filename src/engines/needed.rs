@@ -13,6 +13,8 @@ use std::sync::Arc;
 const QUALIFIERS: &[&str] =
     &["uniform", "in", "out", "attribute", "varying", "const", "flat", "smooth", "layout", "highp", "mediump", "lowp"];
 
+/// The number of uses of a name among which its declaration is: it comes before the others.
+const MAX_USES: usize = 256;
 /// The largest length of a declaration up to the name.
 const MAX_STATEMENT: usize = 512;
 
@@ -41,7 +43,7 @@ fn declaration(line: &str) -> Option<Line<'_>> {
 
 /// Whether a text without comments declares a name by a declaration with a qualifier.
 fn declares(code: &str, name: &str) -> bool {
-    words(code).filter(|(_, word)| *word == name).any(|(at, _)| {
+    words(code).filter(|(_, word)| *word == name).take(MAX_USES).any(|(at, _)| {
         let before = tail(code.get(..at).unwrap_or(""), MAX_STATEMENT);
         let start = before.rfind([';', '{', '}']).map_or(0, |end| end + 1);
         // Directives end with their lines, and belong to no declaration.
