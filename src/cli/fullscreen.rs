@@ -8,11 +8,25 @@ use super::exit::{Exit, Failure};
 use glisten_front::hir::{Interpolation, Scalar, Shader, Storage, Type, Types};
 use std::fmt::Write;
 
+/// The `#version` line of the vertex shader: both stages are of OpenGL or both are of OpenGL ES.
+fn version_line(fragment: &Shader) -> Result<&'static str, Failure> {
+    match (fragment.version.is_es(), fragment.version.number) {
+        (false, _) => Ok("#version 150"),
+        (true, 300..) => Ok("#version 300 es"),
+        (true, _) => {
+            let message = "a triangle without attributes needs `gl_VertexID`, which GLSL ES 1.00 lacks";
+            let help = "name the vertex shader before the fragment shader, or write the fragment shader in ES 3.00 (`glisten upgrade`)";
+            Err(Failure::new(Exit::Content, message).help(help))
+        }
+    }
+}
+
 /// The text of the vertex shader.
 ///
 /// # Errors
 /// The fragment shader reads something that a full-screen triangle has no values for.
 pub(super) fn vertex_shader(types: &Types, fragment: &Shader) -> Result<String, Failure> {
+    let version = version_line(fragment)?;
     let mut outputs = String::new();
     let mut writes = String::new();
     let inputs = fragment.globals.iter().filter(|global| global.storage == Storage::In && global.builtin.is_none());
@@ -45,7 +59,7 @@ pub(super) fn vertex_shader(types: &Types, fragment: &Shader) -> Result<String, 
     }
     let uv = if writes.contains("uv") { "    vec2 uv = 0.5 * corner + 0.5;\n" } else { "" };
     Ok(format!(
-        "#version 150\n// A triangle that covers the window: draw 3 vertices, without attributes.\n{outputs}\nvoid main()\n{{\n    \
+        "{version}\n// A triangle that covers the window: draw 3 vertices, without attributes.\n{outputs}\nvoid main()\n{{\n    \
          vec2 corner = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);\n{uv}{writes}    \
          gl_Position = vec4(corner, 0.0, 1.0);\n}}\n"
     ))

@@ -44,10 +44,31 @@ pub fn words(text: &str) -> impl Iterator<Item = (usize, &str)> {
     })
 }
 
+/// The end of a text, at most this many bytes: declarations are short, and hostile texts are not.
+pub fn tail(text: &str, most: usize) -> &str {
+    let mut start = text.len().saturating_sub(most);
+    while !text.is_char_boundary(start) {
+        start += 1;
+    }
+    text.get(start..).unwrap_or("")
+}
+
+/// The beginning of a text, at most this many bytes.
+pub fn head(text: &str, most: usize) -> &str {
+    let mut end = text.len().min(most);
+    while !text.is_char_boundary(end) {
+        end -= 1;
+    }
+    text.get(..end).unwrap_or("")
+}
+
+/// The largest length of the head of a function.
+const MAX_HEAD: usize = 2048;
+
 /// How often a text without comments defines the function `name`.
 pub fn count_definitions(code: &str, name: &str) -> usize {
     let is_definition = |(at, word): &(usize, &str)| {
-        let rest = code.get(at + word.len()..).unwrap_or("").trim_start();
+        let rest = head(code.get(at + word.len()..).unwrap_or(""), MAX_HEAD).trim_start();
         let Some(end) = rest.strip_prefix('(').and_then(|rest| rest.find(')')) else { return false };
         rest.get(end + 2..).is_some_and(|rest| rest.trim_start().starts_with('{'))
     };

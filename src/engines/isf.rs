@@ -22,6 +22,8 @@ static TYPES: &[(&str, &str)] = &[
     ("audio", IMAGE),
     ("audioFFT", IMAGE),
 ];
+/// The largest number of inputs, and of images.
+const MAX_INPUTS: usize = 1024;
 const IMAGE: &str = "sampler2D";
 
 /// The declarations that a shader's header asks for.
@@ -42,13 +44,21 @@ pub fn inputs(text: &str) -> Result<String, Problem> {
         problem(at..at, format!("the header is not JSON: {error}"), None)
     })?;
     let mut text_out = String::new();
+    let n_inputs = header.get("INPUTS").and_then(Value::as_array).map_or(0, Vec::len);
+    if n_inputs > MAX_INPUTS {
+        let message = format!("the header has {n_inputs} inputs, and at most {MAX_INPUTS} are read");
+        return Err(problem(range.clone(), message, None));
+    }
     let list = |key: &str| header.get(key).and_then(Value::as_array).map(Vec::as_slice).unwrap_or_default();
     for input in list("INPUTS") {
         declare_input(input, &mut text_out).map_err(|message| problem(range.clone(), message, None))?;
     }
     let targets = list("PASSES").iter().filter_map(|pass| pass.get("TARGET")?.as_str());
-    targets.chain(named(&header, "PERSISTENT_BUFFERS")).for_each(|name| declare_image(name, IMAGE, &mut text_out));
-    for name in named(&header, "IMPORTED") {
+    targets
+        .chain(named(&header, "PERSISTENT_BUFFERS"))
+        .take(MAX_INPUTS)
+        .for_each(|name| declare_image(name, IMAGE, &mut text_out));
+    for name in named(&header, "IMPORTED").into_iter().take(MAX_INPUTS) {
         let kind = header.get("IMPORTED").and_then(|images| images.get(name)?.get("TYPE")?.as_str());
         declare_image(name, if kind == Some("cube") { "samplerCube" } else { IMAGE }, &mut text_out);
     }

@@ -3,15 +3,19 @@
 //! *In:* a text. *Out:* a part for each stage: the text between the backquotes. *Holds:* a text with `${` in it is put together
 //! when the module runs, and is left alone.
 
+use super::code::tail;
 use super::part::Part;
 use super::profile::stage_named;
 use glisten_front::Stage;
 use std::ops::Range;
 
+/// The largest length of what is between a name and its text.
+const MAX_LOOK_BACK: usize = 256;
+
 /// The constant that begins at a backquote: the last name before a `=`.
 fn name_before(text: &str) -> Option<&str> {
     // A comment such as `/* glsl */` may be between.
-    let before = text.trim_end();
+    let before = tail(text, MAX_LOOK_BACK).trim_end();
     let comment = before.strip_suffix("*/").and_then(|rest| rest.rfind("/*"));
     let before = comment.and_then(|at| before.get(..at)).unwrap_or(before);
     let before = before.trim_end().strip_suffix('=')?.trim_end();

@@ -3,14 +3,20 @@
 //! *In:* a prelude with one declaration, macro or function a line, and a source. *Out:* the prelude, with blank lines for what
 //! the source declares. *Holds:* lines stay where they are. A line that ends in `// with f` is for sources that define `f`.
 
-use super::code::{count_definitions, is_name, without_comments, words};
+use super::code::{count_definitions, is_name, tail, without_comments, words};
 use glisten_front::source::blanked;
+use std::collections::BTreeSet;
 use std::ops::Range;
 use std::sync::Arc;
 
 /// The first words of declarations at global scope.
 const QUALIFIERS: &[&str] =
     &["uniform", "in", "out", "attribute", "varying", "const", "flat", "smooth", "layout", "highp", "mediump", "lowp"];
+
+/// The number of uses of a name among which its declaration is: it comes before the others.
+const MAX_USES: usize = 256;
+/// The largest length of a declaration up to the name.
+const MAX_STATEMENT: usize = 512;
 
 /// A declaration of a prelude's line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,8 +43,8 @@ fn declaration(line: &str) -> Option<Line<'_>> {
 
 /// Whether a text without comments declares a name by a declaration with a qualifier.
 fn declares(code: &str, name: &str) -> bool {
-    words(code).filter(|(_, word)| *word == name).any(|(at, _)| {
-        let before = code.get(..at).unwrap_or("");
+    words(code).filter(|(_, word)| *word == name).take(MAX_USES).any(|(at, _)| {
+        let before = tail(code.get(..at).unwrap_or(""), MAX_STATEMENT);
         let start = before.rfind([';', '{', '}']).map_or(0, |end| end + 1);
         // Directives end with their lines, and belong to no declaration.
         let statement = before.get(start..).unwrap_or("").lines().filter(|line| !line.trim_start().starts_with('#'));
@@ -57,10 +63,12 @@ fn defines(code: &str, name: &str) -> bool {
 /// The prelude, with blank lines for what the source declares itself.
 pub fn needed(prelude: &str, source: &str) -> Arc<str> {
     let code = without_comments(source);
+    let used: BTreeSet<&str> = words(&code).map(|(_, word)| word).collect();
     let mut at = 0;
     let mut unneeded: Vec<Range<usize>> = Vec::new();
     for line in prelude.split_inclusive('\n') {
         let declared = match declaration(line) {
+            Some(Line::Macro(name) | Line::Function(name) | Line::Variable(name)) if !used.contains(name) => false,
             Some(Line::Macro(name)) => defines(&code, name),
             Some(Line::Function(name)) => count_definitions(&code, name) > 0,
             Some(Line::Variable(name)) => declares(&code, name),

@@ -8,7 +8,9 @@ use glisten_front::Stage;
 use std::ops::Range;
 
 /// The largest number of sections and of programs that are read.
-const MAX_SECTIONS: usize = 512;
+const MAX_SECTIONS: usize = 128;
+/// The largest number of tags in a section.
+const MAX_TAGS: usize = 1024;
 
 /// A section of the file.
 struct Section<'a> {
@@ -50,6 +52,7 @@ fn read(text: &str) -> (Vec<Section<'_>>, Vec<[&str; 3]>) {
                     section.take().map(|section| Section { inside: section.inside.start..range.start, ..section });
                 sections.extend(section);
             }
+            (_, _, Some(section)) if section.tags.len() >= MAX_TAGS => {}
             ("include_block", [name, ..], Some(section)) => {
                 section.includes.push(name);
                 section.tags.push(range);

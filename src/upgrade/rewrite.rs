@@ -43,8 +43,11 @@ pub fn rewrite(text: &Text<'_>, plan: &Plan) -> String {
     let is_dropped: Vec<Range<usize>> = edits.iter().map(|(range, _)| range.clone()).collect();
     let version = version_line(text.text);
     let is_left = |token: &Token<'_>| {
-        let inside = |range: &Range<usize>| range.contains(&token.range.start);
-        is_dropped.iter().any(inside) || version.as_ref().is_some_and(inside)
+        let at = token.range.start;
+        let dropped = is_dropped.partition_point(|range| range.start <= at);
+        let is_inside = |range: &Range<usize>| range.contains(&at);
+        let before = dropped.checked_sub(1).and_then(|index| is_dropped.get(index));
+        before.is_some_and(is_inside) || version.as_ref().is_some_and(is_inside)
     };
     let own = own_functions(&all);
     for (index, _) in all.iter().enumerate().filter(|(_, token)| token.is_word() && !is_left(token)) {
@@ -140,17 +143,21 @@ fn words(stage: Stage, plan: &Plan, all: &[Token<'_>], index: usize, own: &[&str
     }
 }
 
+/// The largest number of tokens of a declaration before its name, and after it.
+const MAX_DECLARATION: usize = 32;
+
 /// The whole declaration, where a shader declares a built-in variable again: `varying vec4 gl_TexCoord[2];`.
 fn redeclaration(all: &[Token<'_>], index: usize) -> Option<Range<usize>> {
-    let start = all
-        .get(..index)?
-        .iter()
-        .rposition(|token| [";", "{", "}", ")", "#"].contains(&token.text))
-        .map_or(0, |at| at + 1);
+    if !all.get(index)?.text.starts_with("gl_") {
+        return None;
+    }
+    let from = index.saturating_sub(MAX_DECLARATION);
+    let ends = |token: &Token<'_>| [";", "{", "}", ")", "#"].contains(&token.text);
+    let start = all.get(from..index)?.iter().rposition(ends).map_or(from, |at| from + at + 1);
     let first = all.get(start)?;
     let qualified = ["varying", "in", "out", "flat", "centroid", "smooth"].contains(&first.text) && start < index;
-    let end = all.iter().skip(index).find(|token| token.text == ";")?;
-    (qualified && all.get(index)?.text.starts_with("gl_")).then_some(first.range.start..end.range.end)
+    let end = all.iter().skip(index).take(MAX_DECLARATION).find(|token| token.text == ";")?;
+    qualified.then_some(first.range.start..end.range.end)
 }
 
 /// The text in place of a word, or nothing in place of a declaration.

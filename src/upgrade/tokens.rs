@@ -42,10 +42,13 @@ pub(super) fn tokens(text: &str) -> Vec<Token<'_>> {
     found
 }
 
+/// The largest number of tokens in the arguments of a call.
+const MAX_ARGUMENTS: usize = 4096;
+
 /// The index of the bracket that closes the one at `open`.
 pub(super) fn closing(tokens: &[Token<'_>], open: usize) -> Option<usize> {
     let mut depth = 0_usize;
-    for (index, token) in tokens.iter().enumerate().skip(open) {
+    for (index, token) in tokens.iter().enumerate().skip(open).take(MAX_ARGUMENTS) {
         match token.text {
             "(" | "[" => depth += 1,
             ")" | "]" => {

@@ -178,6 +178,33 @@ fn styles_find_includes() {
 }
 
 #[test]
+fn a_pragma_may_be_an_include() {
+    let folder = Folder::new(&[
+        ("lib/f.glsl", b"float f() { return 1.0; }\n"),
+        ("g.glsl", b"float g() { return f(); }\n"),
+        ("a.frag", b"#version 150\n#pragma include \"lib/f.glsl\"\n# pragma include : \"g.glsl\"\nout vec4 c;\nvoid main() { c = vec4(g()); }\n"),
+        ("b.frag", b"#version 150\n#pragma include \"none.glsl\"\nout vec4 c;\nvoid main() { c = vec4(1.0); }\n"),
+    ]);
+    assert_eq!(folder.lint(&["a.frag", "--include-style", "quote"]).1, 0);
+    assert_eq!(folder.lint(&["a.frag"]).1, 1, "without an engine it is any pragma");
+    let (found, exit) = folder.lint(&["b.frag", "--include-style", "quote"]);
+    assert_eq!((codes(&found), exit), (vec!["E0127"], 2));
+    assert_eq!(folder.lint(&["b.frag"]).1, 0);
+}
+
+#[test]
+fn a_picture_of_shadertoy_becomes_a_scene() {
+    let folder = Folder::new(&[
+        ("waves.glsl", include_bytes!("../../fixtures/engines/shadertoy/waves.glsl")),
+        ("glisten.toml", include_bytes!("../../fixtures/engines/shadertoy/glisten.toml")),
+    ]);
+    let made = folder.run(&["new-scene", "waves.glsl", "-o", "scene.toml"]);
+    assert_eq!(code(&made), 0, "{}", err(&made));
+    let drawn = folder.run(&["render", "scene.toml", "--backend", "cpu", "-o", "a.npy"]);
+    assert_eq!(code(&drawn), 0, "{}", err(&drawn));
+}
+
+#[test]
 fn parts_of_a_file_keep_its_lines() {
     let output = here(&["lint", "--format", "json", "fixtures/engines/combined/wrong.glsl"]);
     let errors = errors(&output);
@@ -277,15 +304,31 @@ fn a_wrong_header_is_told_at_its_place() {
 fn hostile_sources_end() {
     let marks = "#shader vertex\n#shader fragment\n".repeat(20_000);
     let tags = "@vs a\n@include_block b\n@end\n@block b\n@include_block b\n@end\n@program p a a\n".repeat(5_000);
+    let quotes = "*/`".repeat(400_000);
+    let words = format!("void f(float iTime) {{ {} }}", "iTime ".repeat(200_000));
+    let mains = "main( ".repeat(200_000);
     let cut = "/*{\"INPUTS\": [\u{e9}";
     let folder = Folder::new(&[
         ("marks.glsl", marks.as_bytes()),
         ("tags.glsl", tags.as_bytes()),
         ("cut.fs", cut.as_bytes()),
+        ("quotes.glsl", quotes.as_bytes()),
+        ("words.glsl", words.as_bytes()),
+        ("mains.glsl", mains.as_bytes()),
         ("quote.glsl", "vertex = `\u{e9}fragment=`".as_bytes()),
     ]);
-    for file in ["marks.glsl", "tags.glsl", "cut.fs", "quote.glsl"] {
-        let (_, exit) = folder.lint(&[file, "--stage", "fragment", "--engine", "isf"]);
+    let begun = std::time::Instant::now();
+    for (file, engine) in [
+        ("marks.glsl", "isf"),
+        ("tags.glsl", "isf"),
+        ("cut.fs", "isf"),
+        ("quote.glsl", "isf"),
+        ("quotes.glsl", "isf"),
+        ("words.glsl", "shadertoy"),
+        ("mains.glsl", "shadertoy"),
+    ] {
+        let (_, exit) = folder.lint(&[file, "--stage", "fragment", "--engine", engine]);
         assert_eq!(exit, 1, "{file}");
     }
+    assert!(begun.elapsed().as_secs() < 60, "{:?}", begun.elapsed());
 }

@@ -350,6 +350,11 @@ impl Preprocessor<'_> {
     fn pragma(&mut self, session: &mut ParseSession<'_>, directive: Span) {
         let mut tokens = Vec::new();
         self.rest_of_line(session, &mut tokens);
+        let includes = self.engine.resolves_includes
+            && tokens.first().is_some_and(|token| session.sources.snippet(token.span) == "include");
+        if includes && self.pragma_include(session, directive, tokens.get(1..).unwrap_or_default()) {
+            return;
+        }
         let text: Vec<&str> = tokens.iter().map(|token| session.sources.snippet(token.span)).collect();
         let understood = match text.as_slice() {
             ["STDGL", "invariant", "(", "all", ")"] => {

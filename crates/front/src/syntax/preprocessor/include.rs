@@ -1,6 +1,8 @@
 //! `#include` (ARB_shading_language_include, GL_GOOGLE_include_directive).
 
-use super::{Extensions, FileId, ParseSession, Preprocessor, Span, TokenFlags, TokenKind, codes, extension, kind};
+use super::{
+    Extensions, FileId, ParseSession, Preprocessor, Span, Token, TokenFlags, TokenKind, codes, extension, kind,
+};
 use crate::diagnostic::{Diagnostic, codes::general};
 use crate::source::{IncludeForm, Included, Inclusion};
 
@@ -29,6 +31,28 @@ impl Preprocessor<'_> {
                 None => return,
             },
         };
+        self.include_header(session, directive, &header, import);
+    }
+
+    /// `#pragma include "x"` and `#pragma include : "x"`, of engines that replace it. The tokens are those after `include`.
+    pub(super) fn pragma_include(&mut self, session: &mut ParseSession<'_>, directive: Span, tokens: &[Token]) -> bool {
+        let tokens = match tokens {
+            [colon, rest @ ..] if colon.kind == TokenKind::Colon => rest,
+            all => all,
+        };
+        let (Some(first), Some(last)) = (tokens.first(), tokens.last()) else { return false };
+        let span = session.sources.join(first.span, last.span);
+        let text = session.sources.snippet(span).to_owned();
+        let is_header = text.len() > 2
+            && (text.starts_with('"') && text.ends_with('"') || text.starts_with('<') && text.ends_with('>'));
+        if is_header {
+            self.include_header(session, directive, &Header { text, span }, true);
+        }
+        is_header
+    }
+
+    /// Begins to read the file that a header names.
+    fn include_header(&mut self, session: &mut ParseSession<'_>, directive: Span, header: &Header, import: bool) {
         let whole = session.sources.join(directive, header.span);
         let resolved = import || self.engine.resolves_includes;
         if !self.extensions.contains(Extensions::INCLUDE) && !resolved {
@@ -39,7 +63,7 @@ impl Preprocessor<'_> {
         } else if let Some(warning) = extension::warning_of_use(self.extensions, Extensions::INCLUDE, whole) {
             session.report(warning);
         }
-        let Some(file) = self.find_include(session, &header) else { return };
+        let Some(file) = self.find_include(session, header) else { return };
         let entered = !self.once.contains(&file);
         self.outcome.inclusions.push(Inclusion { directive, file: entered.then_some(file) });
         if !entered {
