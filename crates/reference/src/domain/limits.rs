@@ -8,7 +8,7 @@ pub const POINT_SIZE_ERROR: f64 = 0.5 / 256.0;
 
 /// The undecided conditions that a way of a fragment may meet, if one of its numbers is wider than [`WIDEST`]. A fragment with
 /// a way that meets more is given up: where the bounds of a loop's variables have grown until every step is undecided,
-/// nothing comes of following it.
+/// following it finds no bound.
 pub const MOST_OPEN: u8 = 24;
 
 /// The width of an envelope that is hardly a bound, in sizes of the value.

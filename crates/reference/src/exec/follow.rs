@@ -180,7 +180,7 @@ impl<D: Domain> Machine<D> {
         }
     }
 
-    /// Whether nothing comes of following a way: it has met many undecided conditions, and one of its numbers has hardly a
+    /// Whether following a way finds no bound: it has met many undecided conditions, and one of its numbers has hardly a
     /// bound.
     pub(super) fn is_hopeless(&self, group: usize) -> bool {
         let is_wide = |number: D::Float| {
