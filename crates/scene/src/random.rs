@@ -3,7 +3,7 @@
 //!
 //! *In:* a seed. *Out:* numbers of 64 bits. *Holds:* every number comes once in a period of 2^64. Not for secrets.
 
-/// What the state of the generator grows by: 2^64 over the golden ratio.
+/// The step of the state of the generator: 2^64 over the golden ratio.
 const STEP: u64 = 0x9e37_79b9_7f4a_7c15;
 
 /// Mixes the bits of a number, so that each depends on all (the finalizer of SplitMix64). Different numbers stay different.

@@ -106,6 +106,7 @@ pub static FITTED: &[Fitted] = &[
     },
     constant("lanes for all ways of the fragments of a run", super::LANES as f64, "", CHOSEN),
     constant("undecided conditions that a way may meet", limits::MOST_OPEN as f64, "", TIMED),
+    constant("width of a number that such a way may have", limits::WIDEST, "sizes of the value", TIMED),
     constant("texels that a lookup with filtering may touch", limits::MOST_TEXELS as f64, "", CHOSEN),
     constant("texels that `texelFetch` may read", limits::MOST_FETCHED as f64, "", CHOSEN),
     constant("size of a point", limits::POINT_SIZE_ERROR, "pixels", RASTER_TEST),

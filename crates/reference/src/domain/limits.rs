@@ -6,9 +6,13 @@
 /// 1/256 pixel, as for window positions.
 pub const POINT_SIZE_ERROR: f64 = 0.5 / 256.0;
 
-/// The undecided conditions that a way of a fragment may meet. A fragment with a way that meets more is given up: where the
-/// bounds of a loop's variables have grown until every step is undecided, nothing comes of following it.
+/// The undecided conditions that a way of a fragment may meet, if one of its numbers is wider than [`WIDEST`]. A fragment with
+/// a way that meets more is given up: where the bounds of a loop's variables have grown until every step is undecided,
+/// following it finds no bound.
 pub const MOST_OPEN: u8 = 24;
+
+/// The width of an envelope that is hardly a bound, in sizes of the value.
+pub const WIDEST: f64 = 1024.0;
 
 /// The texels of a lookup with filtering that are joined; if it may touch more, anything is possible.
 pub const MOST_TEXELS: i64 = 4096;

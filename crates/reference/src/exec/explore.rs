@@ -48,8 +48,7 @@ impl<D: Domain> Machine<D> {
         let capacity = self.ways.capacity();
         let open: Vec<usize> =
             (0..capacity).filter(|number| self.ways.met & lanes & members << (number * group) != 0).collect();
-        let (hopeless, open): (Vec<usize>, Vec<usize>) =
-            open.into_iter().partition(|group| self.ways.is_hopeless(*group));
+        let (hopeless, open): (Vec<usize>, Vec<usize>) = open.into_iter().partition(|group| self.is_hopeless(*group));
         let mut joined = self.first_outcome();
         joined.unlimited = hopeless.iter().fold(0, |all, number| all | members << (number * group));
         let inputs = self.copy_inputs();

@@ -9,6 +9,7 @@ use super::inst::Operand;
 use super::machine::Machine;
 use super::run::bits_where;
 use super::ways::FREE;
+use crate::domain::limits::WIDEST;
 use crate::domain::{Domain, Integer, Number, Source};
 use smallvec::SmallVec;
 
@@ -170,13 +171,24 @@ impl<D: Domain> Machine<D> {
         groups.into_iter().for_each(|group| self.release(group, mask));
     }
 
-    /// Gives up all fragments with a way that has met too many undecided conditions.
+    /// Gives up all fragments with a hopeless way.
     fn give_up_hopeless(&mut self, mask: &mut u64) {
         for fragment in 0..self.ways.capacity() {
-            if self.ways.of(fragment).any(|group| self.ways.is_hopeless(group)) {
+            if self.ways.of(fragment).any(|group| self.is_hopeless(group)) {
                 self.give_up(fragment, mask);
             }
         }
+    }
+
+    /// Whether following a way finds no bound: it has met many undecided conditions, and one of its numbers has hardly a
+    /// bound.
+    pub(super) fn is_hopeless(&self, group: usize) -> bool {
+        let is_wide = |number: D::Float| {
+            let width = number.interval().width();
+            width.is_nan() || width > WIDEST * (1.0 + number.value().abs())
+        };
+        let size = self.ways.group;
+        self.ways.is_open(group) && self.registers.floats.any(group * size, size, is_wide)
     }
 
     /// Gives up all fragments with a way among these lanes.

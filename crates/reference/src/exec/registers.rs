@@ -115,6 +115,12 @@ impl<T: Element> File<T> {
         }
     }
 
+    /// Whether a number in some lanes, of any register, is like this.
+    pub(super) fn any(&self, from: usize, count: usize, is_like: impl Fn(T) -> bool) -> bool {
+        let registers = self.registers.iter().filter(|register| register.filled == Filled::Lanes);
+        registers.into_iter().any(|register| (from..from + count).any(|lane| is_like(register.lanes.get(lane))))
+    }
+
     /// Copies some lanes of every register to others.
     pub(super) fn copy_lanes(&mut self, from: usize, to: usize, count: usize) {
         self.registers.iter_mut().for_each(|register| register.copy_within(from, to, count));

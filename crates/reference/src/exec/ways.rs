@@ -6,7 +6,8 @@
 //! *Holds:* a lane of a fragment is one way. Two ways that are at the same place, active or waiting for the same
 //! constructs, may be merged: their numbers become the hull of both. That happens only when no lane is free, and
 //! bounds the time by that of a few runs, however many ways there are. A fragment whose ways cannot be merged, one of whose
-//! ways meets more than [`MOST_OPEN`] undecided conditions, or whose loops run far longer than in the first run, is given up.
+//! ways meets more than [`MOST_OPEN`] undecided conditions while its numbers have hardly a bound, or whose loops run far longer
+//! than in the first run, is given up.
 //!
 //! Lanes that derivatives couple decide together: a quad is one group. Without derivatives, a lane is one.
 
@@ -70,8 +71,8 @@ impl Ways {
         }
     }
 
-    /// Whether a group has met more undecided conditions than can be followed.
-    pub(super) fn is_hopeless(&self, number: usize) -> bool {
+    /// Whether a group has met many undecided conditions.
+    pub(super) fn is_open(&self, number: usize) -> bool {
         self.opened.get(number).is_some_and(|count| *count > MOST_OPEN)
     }
 

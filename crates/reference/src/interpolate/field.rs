@@ -5,7 +5,7 @@
 
 use crate::domain::{Block, Number, NumberBlock, WIDTH};
 
-/// What the equations compute with. Operations are those of [`Number`].
+/// A number, or several. Operations are those of [`Number`].
 pub(crate) trait Field: Copy {
     /// The nearest number, in each lane.
     fn constant(value: f64) -> Self;

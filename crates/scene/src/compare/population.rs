@@ -47,7 +47,7 @@ pub struct Population {
     pub ranges: Vec<Vec<[Interval; 4]>>,
     /// The number of members that cover each pixel.
     pub covered: Vec<u32>,
-    /// What the pictures are as a whole, with the figures of each member.
+    /// The measure of pictures as a whole, with the figures of each member.
     whole: Option<(Gauge, Vec<Figures>)>,
 }
 

@@ -24,7 +24,7 @@ pub const FAR_AS_A_WHOLE: f64 = 2.0;
 /// The number of pixels below which nothing is concluded.
 const LEAST_SAMPLES: usize = 64;
 
-/// What is known of a channel from the reference.
+/// The reference's values of a channel.
 #[derive(Clone, Debug, PartialEq)]
 struct Channel {
     attachment: usize,
