@@ -45,8 +45,8 @@ impl Block<SimulatedFloat> for SimulatedBlock {
 #[inline(always)]
 fn each(f: impl Fn(usize) -> f64) -> SimulatedBlock {
     let mut out = [0.0; WIDTH];
-    for lane in 0..WIDTH {
-        out[lane] = f(lane);
+    for (lane, out) in out.iter_mut().enumerate() {
+        *out = f(lane);
     }
     SimulatedBlock(out)
 }
@@ -133,8 +133,8 @@ impl SimulatedBlock {
         let gpu = Gpu::current();
         let (a, b) = (self.read(&gpu), other.read(&gpu));
         let mut out = [0; WIDTH];
-        for lane in 0..WIDTH {
-            out[lane] = u32::from(f(a.0[lane], b.0[lane]));
+        for (lane, out) in out.iter_mut().enumerate() {
+            *out = u32::from(f(a.0[lane], b.0[lane]));
         }
         out
     }
@@ -200,6 +200,7 @@ impl NumberBlock<SimulatedFloat> for SimulatedBlock {
         );
         exact.with_error(&gpu, &b, Function::Divide, rules::DIV.ulps())
     }
+    #[expect(clippy::redundant_closure, reason = "a function passed by name is not compiled for the vector unit")]
     #[inline(always)]
     fn min(&self, other: &Self) -> Self {
         self.limit(
@@ -208,6 +209,7 @@ impl NumberBlock<SimulatedFloat> for SimulatedBlock {
             |a, b| smaller(a, b),
         )
     }
+    #[expect(clippy::redundant_closure, reason = "a function passed by name is not compiled for the vector unit")]
     #[inline(always)]
     fn max(&self, other: &Self) -> Self {
         self.limit(
