@@ -9,6 +9,11 @@ use glisten_front::link::Program;
 
 /// Compiles and links the texts of a program.
 pub(super) fn link(api: &Api, program: &Program) -> Result<glow::Program, Error> {
+    if let Some(name) = fixed_function(program) {
+        return Err(Error::Unsupported(format!(
+            "`{name}` in a core context, where there is no fixed-function pipeline"
+        )));
+    }
     let linked = api.create_program().map_err(Error::Refused)?;
     for shader in &program.stages {
         for text in &shader.texts {
@@ -28,6 +33,13 @@ pub(super) fn link(api: &Api, program: &Program) -> Result<glow::Program, Error>
     }
     api.check("linking")?;
     Ok(linked)
+}
+
+/// A name of the fixed-function pipeline that the program uses: OpenGL takes its value from state that a core context lacks.
+fn fixed_function(program: &Program) -> Option<&str> {
+    let attributes = program.interface.attributes.iter().map(|one| one.name.as_str());
+    let uniforms = program.interface.roots.iter().map(|one| one.name.as_str());
+    attributes.chain(uniforms).find(|name| name.starts_with("gl_") && *name != "gl_DepthRange")
 }
 
 fn compile(api: &Api, program: &str, shader: &Shader, text: &str) -> Result<glow::Shader, Error> {

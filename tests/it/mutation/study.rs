@@ -83,9 +83,15 @@ impl Study {
 
     /// The faults that change the picture and do not fail `verify`, by the class of the pixel that moves most.
     pub(crate) fn survivors(&self, wanted: Option<Class>) -> Vec<&Trial> {
-        let survives =
-            |trial: &&Trial| trial.seen().is_some_and(|seen| !seen.is_caught() && seen.change.class == wanted);
+        let survives = |trial: &&Trial| {
+            trial.seen().is_some_and(|seen| !seen.is_caught() && !seen.is_rounding() && seen.change.class == wanted)
+        };
         self.trials.iter().filter(survives).collect()
+    }
+
+    /// The faults that pass and move the picture by no more than rounding.
+    pub(crate) fn roundings(&self) -> impl Iterator<Item = &Trial> {
+        self.trials.iter().filter(|trial| trial.seen().is_some_and(|seen| !seen.is_caught() && seen.is_rounding()))
     }
 
     /// The legal changes that fail `verify`.

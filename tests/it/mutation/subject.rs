@@ -10,6 +10,7 @@ use glisten::scene::Scene;
 use glisten::verify::{Conclusion, Demands, Expected, Options};
 use glisten_front::hir::Stage;
 use glisten_gpu::{Error, Gpu};
+use glisten_scene::compare::evidence::{Ruler, Written};
 use glisten_scene::compare::{Compared, Criterion, Verdict};
 use glisten_scene::picture::Picture;
 use std::cell::{Cell, RefCell};
@@ -162,13 +163,15 @@ impl<'a> Subject<'a> {
             return Outcome::Unseen;
         }
         let reference = self.expected.picture();
+        let written = Written::of(self.scene);
+        let ruler = Ruler::new(reference, &written, None);
         Outcome::Seen(Seen {
             conclusion: verdict.conclusion(&Demands::default()),
             by_envelope: verdict.conclusion(&Demands { likely: false, ..Demands::default() }) == Conclusion::Fails,
             was_open: plain.is_open,
             by_hand: (!plain.is_false_alarm).then(|| fails_by_hand(&picture, reference)),
             suspect: verdict.suspect.unwrap_or(0),
-            change: difference(&picture, &plain.picture, reference, &classes),
+            change: difference([&picture, &plain.picture, reference], &ruler, &classes),
         })
     }
 

@@ -19,6 +19,8 @@ pub(crate) struct Count {
     pub(crate) invalid: usize,
     pub(crate) refused: usize,
     pub(crate) unseen: usize,
+    /// How many move the picture by no more than rounding.
+    pub(crate) rounding: usize,
     pub(crate) seen: usize,
     /// How many of those seen are in scenes that are inconclusive without a fault.
     pub(crate) open: usize,
@@ -41,6 +43,7 @@ impl Count {
             Outcome::Invalid => self.invalid += 1,
             Outcome::Refused(_) => self.refused += 1,
             Outcome::Unseen => self.unseen += 1,
+            Outcome::Seen(seen) if seen.is_rounding() => self.rounding += 1,
             Outcome::Seen(seen) => {
                 self.seen += 1;
                 self.open += usize::from(seen.was_open);
@@ -68,13 +71,12 @@ fn percent(part: usize, whole: usize) -> f64 {
     if whole == 0 { 100.0 } else { 100.0 * part as f64 / whole as f64 }
 }
 
-const HEAD: &str =
-    "planted invalid refused  unseen    seen (open)  envelope + likely =  caught          1/255 catches    worst scene";
+const HEAD: &str = "planted invalid refused  unseen rounding   seen (open)  envelope + likely =  caught          1/255 catches    worst scene";
 
 fn line(f: &mut fmt::Formatter<'_>, name: &str, count: Count, worst: &str) -> fmt::Result {
-    let Count { invalid, refused, unseen, seen, open, by_envelope, caught, by_hand_of, by_hand, .. } = count;
-    let planted = invalid + refused + unseen + seen;
-    write!(f, "{name:<12} {planted:>7} {invalid:>7} {refused:>7} {unseen:>7} {seen:>7} {open:>6}  ")?;
+    let Count { invalid, refused, unseen, rounding, seen, open, by_envelope, caught, by_hand_of, by_hand, .. } = count;
+    let planted = invalid + refused + unseen + rounding + seen;
+    write!(f, "{name:<12} {planted:>7} {invalid:>7} {refused:>7} {unseen:>7} {rounding:>8} {seen:>6} {open:>6}  ")?;
     let (more, ours, theirs) = (caught.saturating_sub(by_envelope), count.percent(), percent(by_hand, by_hand_of));
     write!(f, "{by_envelope:>8} {more:>8} {caught:>8} {ours:>6.1} %  {by_hand:>5} of {by_hand_of:>5} {theirs:>6.1} %")?;
     writeln!(f, "  {worst}")
@@ -174,7 +176,9 @@ impl Study {
                 writeln!(f, "  {trial}")?;
             }
         }
-        Ok(())
+        let roundings: Vec<_> = self.roundings().collect();
+        writeln!(f, "\nno more than rounding: {}", roundings.len())?;
+        roundings.into_iter().try_for_each(|trial| writeln!(f, "  {trial}"))
     }
 }
 

@@ -6,6 +6,7 @@ use super::scenery::Scenery;
 use super::{Form, Kind};
 use glisten::verify::Conclusion;
 use glisten_front::hir::Stage;
+use glisten_scene::compare::evidence::Ruler;
 use glisten_scene::compare::{Class, ulp_f32};
 use glisten_scene::picture::Picture;
 use std::fmt;
@@ -23,6 +24,8 @@ pub(crate) struct Change {
     pub(crate) class: Option<Class>,
     /// The number of pixels that differ at all.
     pub(crate) pixels: u64,
+    /// Whether some channel differs by more than conforming GPUs may for no reason ([`Ruler::unit`]), or in coverage.
+    pub(crate) is_beyond_rounding: bool,
 }
 
 /// The outcome of a mutant.
@@ -34,7 +37,7 @@ pub(crate) enum Outcome {
     Refused(String),
     /// The picture is the same bit for bit: for this scene it is not a fault.
     Unseen,
-    /// The picture differs.
+    /// The picture differs. If it does so by no more than rounding, it is counted apart: any GPU may draw it.
     Seen(Seen),
 }
 
@@ -55,6 +58,11 @@ pub(crate) struct Seen {
 }
 
 impl Seen {
+    /// Whether the picture moves by no more than rounding, so that for this scene it is not a fault either.
+    pub(crate) fn is_rounding(&self) -> bool {
+        !self.change.is_beyond_rounding
+    }
+
     /// Whether `verify` fails.
     pub(crate) fn is_caught(&self) -> bool {
         self.conclusion == Conclusion::Fails
@@ -91,7 +99,7 @@ impl fmt::Display for Trial {
             Outcome::Refused(why) => write!(f, "refused: {}", why.lines().next().unwrap_or_default()),
             Outcome::Unseen => f.write_str("the picture is the same"),
             Outcome::Seen(seen) => {
-                let Change { absolute, ulps, width, class, pixels } = seen.change;
+                let Change { absolute, ulps, width, class, pixels, .. } = seen.change;
                 let verdict = match (seen.conclusion, seen.by_envelope) {
                     (Conclusion::Fails, true) => "caught",
                     (Conclusion::Fails, false) => "caught by the population",
@@ -108,7 +116,11 @@ impl fmt::Display for Trial {
 }
 
 /// Where a picture differs from the one without the fault, and by how much.
-pub(super) fn difference(picture: &Picture, plain: &Picture, reference: &Picture, classes: &[Option<Class>]) -> Change {
+pub(super) fn difference(
+    [picture, plain, reference]: [&Picture; 3],
+    ruler: &Ruler<'_>,
+    classes: &[Option<Class>],
+) -> Change {
     let mut change = Change::default();
     for pixel in 0..picture.covered.len() {
         let is_covered_alike = picture.covered[pixel] == plain.covered[pixel];
@@ -117,15 +129,18 @@ pub(super) fn difference(picture: &Picture, plain: &Picture, reference: &Picture
             (0..4).map(move |channel| (number, channel, ours[pixel][channel], plain[pixel][channel]))
         });
         let mut is_changed = !is_covered_alike;
+        change.is_beyond_rounding |= !is_covered_alike;
         for (number, channel, ours, plain) in channels.filter(|(_, _, a, b)| a.to_bits() != b.to_bits()) {
             is_changed = true;
             let difference = (ours - plain).abs();
             // A number that is not finite on one side is the largest difference.
             let difference = if difference.is_nan() { f64::INFINITY } else { difference };
+            let value = reference.attachments[number][pixel][channel];
+            change.is_beyond_rounding |= difference > ruler.unit(value);
             if difference > change.absolute {
                 let interval = reference.intervals.as_ref().and_then(|all| all.get(number)?.get(pixel));
                 change.absolute = difference;
-                change.ulps = difference / ulp_f32(reference.attachments[number][pixel][channel]);
+                change.ulps = difference / ulp_f32(value);
                 change.width = interval.map_or(0.0, |interval| interval[channel].width());
                 change.class = classes.get(pixel).copied().flatten();
             }

@@ -311,7 +311,7 @@ impl<'a> Ruler<'a> {
     }
 
     /// How far a number may be off for no reason: what the format rounds to, and a small share of the range.
-    pub(super) fn unit(&self, value: f64) -> f64 {
+    pub fn unit(&self, value: f64) -> f64 {
         let rounding = (self.written.step / 2.0).max(4.0 * self.written.relative * value.abs());
         rounding.max(self.range * LEAST)
     }

@@ -1,27 +1,27 @@
 //! The functions of the bits of numbers on plain `u32`s and f64s, for constant folding and for the reference.
 //!
-//! Undefined by GLSL and defined here: a field beyond bit 31 ends there; a NaN is packed as the least number.
+//! Undefined by GLSL and defined here: the place and the size of a field that is not inside of 32 bits are amounts of shifts, of
+//! which the lowest five bits count; a NaN is packed as the least number.
 
 use super::{BitFunction, Format, Packing, kernel};
 
 /// The lowest `count` bits.
 #[inline(always)]
 pub(super) fn mask(count: u32) -> u32 {
-    if count >= 32 { u32::MAX } else { (1 << count) - 1 }
+    if count as i32 >= 32 { u32::MAX } else { 1u32.wrapping_shl(count).wrapping_sub(1) }
 }
 
 /// `bitfieldExtract`: `count` bits from `offset` on, the highest of them repeated if `signed` (GLSL 4.00 §8.8).
 pub(super) fn extract(value: u32, offset: u32, count: u32, signed: bool) -> u32 {
-    let count = count.min(32);
-    let field = value.checked_shr(offset).unwrap_or(0) & mask(count);
-    let spare = 32 - count;
-    if !signed || spare == 32 { field } else { (((field << spare) as i32) >> spare) as u32 }
+    let field = value.wrapping_shr(offset) & mask(count);
+    let spare = 32u32.wrapping_sub(count);
+    if signed { (field.wrapping_shl(spare) as i32).wrapping_shr(spare) as u32 } else { field }
 }
 
 /// `bitfieldInsert`: `base` with the lowest `count` bits of `insert` from `offset` on (GLSL 4.00 §8.8).
 pub(super) fn insert(base: u32, insert: u32, offset: u32, count: u32) -> u32 {
-    let field = mask(count.min(32)).checked_shl(offset).unwrap_or(0);
-    base & !field | insert.checked_shl(offset).unwrap_or(0) & field
+    let low = mask(count);
+    base & !low.wrapping_shl(offset) | (insert & low).wrapping_shl(offset)
 }
 
 /// `findLSB`: the place of the lowest bit that is set, or -1.
