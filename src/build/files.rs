@@ -1,4 +1,4 @@
-//! Files of a build: [`Reads`] remembers which were read; [`write`] leaves a file alone that is up to date.
+//! Files of a build: [`Reads`] remembers which were read; [`write()`] leaves a file alone that is up to date.
 
 use super::error::BuildError;
 use std::collections::BTreeSet;

@@ -18,7 +18,7 @@
 //!
 //! *Holds:* the same inputs give the same bytes, and a file whose bytes are the same is not written again. Cargo is told of
 //! every file that was read. All errors of all programs are reported together. *Not done here:* what a program or a struct is
-//! in Rust ([`rust`]).
+//! in Rust.
 
 mod error;
 mod files;
