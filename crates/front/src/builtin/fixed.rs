@@ -6,7 +6,7 @@
 //! values from its host. Not here: lighting, texture environments and fog, which a host computes.
 
 use super::{Availability, Stages};
-use crate::language::{ArraySize, MatrixLayout, Member, NEVER, Stage, Storage, StructType, TypeId, Types, Version};
+use crate::language::{ArraySize, Member, NEVER, Stage, Storage, StructType, TypeId, Types, Version};
 use crate::source::Span;
 
 /// The type of such a variable.
@@ -181,16 +181,7 @@ pub fn stages_with(name: &str, version: Version) -> impl Iterator<Item = Stage> 
 pub fn structure(types: &mut Types, name: &str, version: Version) -> Option<TypeId> {
     let has = FIXED.first().is_some_and(|row| row.availability.in_version(version));
     let (name, members) = STRUCTS.iter().find(|row| row.0 == name && has)?;
-    let member = |&(name, ty): &(&str, TypeId)| Member {
-        name: name.to_owned(),
-        ty,
-        matrix_layout: MatrixLayout::default(),
-        interpolation: None,
-        centroid: false,
-        invariant: false,
-        implicitly_sized: false,
-        span: Span::default(),
-    };
+    let member = |&(name, ty): &(&str, TypeId)| Member::plain(name, ty, Span::default());
     let members = members.iter().map(member).collect();
     Some(types.add_struct(StructType { name: (*name).to_owned(), members, is_block: false, span: Span::default() }))
 }

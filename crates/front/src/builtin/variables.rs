@@ -5,8 +5,7 @@
 
 use super::{Availability, BuiltinVariable, Stages, constants, fixed};
 use crate::language::{
-    ArraySize, Extensions, MatrixLayout, Member, NEVER, Scalar, Since, Stage, Storage, StructType, TypeId, Types,
-    Version,
+    ArraySize, Extensions, Member, NEVER, Scalar, Since, Stage, Storage, StructType, TypeId, Types, Version,
 };
 use crate::source::Span;
 
@@ -135,19 +134,7 @@ impl Row {
 }
 
 fn structure(types: &mut Types, name: &str, members: &[(&str, TypeId)], is_block: bool) -> TypeId {
-    let members = members
-        .iter()
-        .map(|&(name, ty)| Member {
-            name: name.into(),
-            ty,
-            matrix_layout: MatrixLayout::default(),
-            interpolation: None,
-            centroid: false,
-            invariant: false,
-            implicitly_sized: false,
-            span: Span::default(),
-        })
-        .collect();
+    let members = members.iter().map(|&(name, ty)| Member::plain(name, ty, Span::default())).collect();
     types.add_struct(StructType { name: name.into(), members, is_block, span: Span::default() })
 }
 

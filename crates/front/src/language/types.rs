@@ -227,6 +227,22 @@ pub struct Member {
     pub span: crate::source::Span,
 }
 
+impl Member {
+    /// A member without qualifiers.
+    pub fn plain(name: impl Into<String>, ty: TypeId, span: crate::source::Span) -> Self {
+        Self {
+            name: name.into(),
+            ty,
+            matrix_layout: MatrixLayout::default(),
+            interpolation: None,
+            centroid: false,
+            invariant: false,
+            implicitly_sized: false,
+            span,
+        }
+    }
+}
+
 /// A struct type. Two declarations are two types, whatever their members.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct StructType {

@@ -5,7 +5,7 @@ use super::super::qualifiers::DeclarationContext;
 use super::super::scope::Entry;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::{general, names, types};
-use crate::hir::{ArraySize, MatrixLayout, Member, StructType, Type, TypeId};
+use crate::hir::{ArraySize, Member, StructType, Type, TypeId};
 use crate::language::Feature;
 use crate::source::Span;
 use crate::syntax::ast::{Declarator, Ident, MemberDecl, StructSpec, TypeBase};
@@ -48,16 +48,7 @@ impl Analyzer<'_> {
             self.check_precision(record.precision, base, row.ty.span);
             for declarator in &row.declarators {
                 let ty = self.member_type(declarator, base, row);
-                let member = Member {
-                    name: self.name(declarator.name).to_owned(),
-                    ty,
-                    matrix_layout: MatrixLayout::default(),
-                    interpolation: None,
-                    centroid: false,
-                    invariant: false,
-                    implicitly_sized: false,
-                    span: declarator.name.span,
-                };
+                let member = Member::plain(self.name(declarator.name), ty, declarator.name.span);
                 self.add_member(&mut members, declarator.name, member);
             }
         }
