@@ -21,6 +21,7 @@ use glisten_front::source::SourceMap;
 use glisten_gpu::{AdapterFacts, Foreign, Via};
 use glisten_scene::compare::{Criterion, Verdict, flip};
 use glisten_scene::picture::{Picture, Transfer};
+use rayon::prelude::*;
 use serde::Serialize;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -143,12 +144,27 @@ impl Skip {
 }
 
 impl Run {
-    fn new(run: &verify::Run, verification: &Verification) -> Self {
+    /// All runs of a verification. What costs much is done once for equal pictures.
+    fn all(verification: &Verification) -> Vec<Self> {
+        let pictures: Vec<&Picture> = verification.runs.iter().map(|run| &run.picture).collect();
+        let flip = |(place, picture): (usize, &&Picture)| {
+            let is_known = pictures.iter().take(place).any(|earlier| earlier.has_bits_of(picture));
+            (!is_known).then(|| flip(&verification.reference, picture))
+        };
+        let flips: Vec<Option<f64>> = pictures.par_iter().enumerate().map(flip).collect();
+        let of = |run: &verify::Run| {
+            let first = pictures.iter().position(|picture| picture.has_bits_of(&run.picture));
+            first.and_then(|first| flips.get(first).copied().flatten()).unwrap_or(f64::NAN)
+        };
+        verification.runs.iter().map(|run| Self::new(run, of(run), verification)).collect()
+    }
+
+    fn new(run: &verify::Run, flip: f64, verification: &Verification) -> Self {
         let reference = &verification.reference;
         Self {
             via: run.runner,
             verdict: run.verdict.clone(),
-            flip: flip(reference, &run.picture),
+            flip,
             bit_unequal: run.picture.bit_unequal(reference),
             gpu_ms: run.milliseconds,
             cpu_ms: verification.reference_milliseconds,
@@ -209,7 +225,7 @@ pub(super) fn run(args: &VerifyArgs, console: &Console) -> Outcome {
     if let Some(target) = evidence {
         write_map(console, &target, &verification.evidence(), verify::EVIDENCE_LEGEND)?;
     }
-    let runs: Vec<Run> = verification.runs.iter().map(|run| Run::new(run, &verification)).collect();
+    let runs = Run::all(&verification);
     let skipped: Vec<Skip> = verification.skipped.iter().map(Skip::new).collect();
     let Some(worse) = worst_of(&runs) else { return Ok(Exit::Ok) };
     let forms_bit_unequal = match &verification.runs[..] {

@@ -62,6 +62,7 @@ use glisten_reference::{LineRule, Precision, RenderOptions};
 use glisten_scene::compare::{self, Compared, Criterion, Verdict};
 pub use glisten_scene::compare::{Conclusion, Demands};
 use glisten_scene::picture::Picture;
+use rayon::prelude::*;
 
 /// Options for verification.
 #[derive(Clone, Copy)]
@@ -144,7 +145,7 @@ pub struct Skip {
 pub fn verify(scene: &Scene, runners: &[&dyn Runner], options: &Options<'_>) -> Result<Verification, Failure> {
     let mut expected = Expected::new(scene, options)?;
     let mut runs: Vec<Run> = Vec::new();
-    let (mut skipped, mut classes) = (Vec::new(), Vec::new());
+    let (mut skipped, mut classes, mut distinct) = (Vec::new(), Vec::new(), Vec::new());
     for runner in runners {
         let Drawn { picture, milliseconds } = match runner.draw(scene) {
             Err(Failure::Diagnostics(diagnostics)) if !runs.is_empty() => {
@@ -153,13 +154,22 @@ pub fn verify(scene: &Scene, runners: &[&dyn Runner], options: &Options<'_>) -> 
             }
             drawn => drawn?,
         };
-        let Compared { verdict, classes: these } = expected.compared(&picture)?;
-        maps::worse_classes(&mut classes, these);
+        // Both forms mostly draw the same bits. Then one comparison serves both.
+        let verdict = match runs.iter().find(|run| run.picture.has_bits_of(&picture)) {
+            Some(run) => run.verdict.clone(),
+            None => {
+                distinct.push(runs.len());
+                let Compared { verdict, classes: these } = expected.compared(&picture)?;
+                maps::worse_classes(&mut classes, these);
+                verdict
+            }
+        };
         runs.push(Run { runner: runner.name(), picture, milliseconds, verdict });
     }
     let mut shares = vec![0.0; expected.picture().covered.len()];
-    for run in &runs {
-        let these = compare::shares(&run.picture, expected.picture(), options.criterion);
+    let (reference, criterion) = (expected.picture(), options.criterion);
+    let of_run = |run: &usize| compare::shares(&runs[*run].picture, reference, criterion);
+    for these in distinct.par_iter().map(of_run).collect::<Vec<_>>() {
         shares.iter_mut().zip(these).for_each(|(most, share): (&mut f64, f64)| *most = share.max(*most));
     }
     let mut explanations = Explanations::new(scene, options);

@@ -11,7 +11,7 @@ use super::target::Patch;
 use super::watch::{Study, Watch};
 use super::{draw_all, refuse};
 use crate::domain::Envelope;
-use crate::exec::{Code, Form, Machine, Muted, Purpose};
+use crate::exec::{Code, Form, Machine, Muted, Operation, Purpose};
 use crate::raster::Bounds;
 use crate::{Contribution, RenderOptions};
 use glisten_front::diagnostic::Diagnostic;
@@ -19,6 +19,7 @@ use glisten_front::diagnostic::codes::scenes::SCENE_CANNOT_DRAW;
 use glisten_front::hir::Stage;
 use glisten_scene::Scene;
 use glisten_scene::picture::Interval;
+use rayon::prelude::*;
 
 /// The operation's name for an input.
 const INTERPOLATION: &str = "interpolation";
@@ -100,11 +101,12 @@ fn of_draw(
         return None;
     }
     let share = |muted: Muted| share(whole, interval(&mut drawn(Some(muted))));
-    let mut contributions = Vec::new();
-    for operation in code.operations() {
+    let operations = code.operations();
+    let contribution = |operation: &Operation| {
         let share = share(operation.muted());
-        contributions.push(Contribution { span: operation.span, operation: operation.name, share });
-    }
+        Contribution { span: operation.span, operation: operation.name, share }
+    };
+    let mut contributions: Vec<Contribution> = operations.par_iter().map(contribution).collect();
     let fragment = shading.draw.program.stage(Stage::Fragment)?;
     let mut inputs: Vec<_> = shading.plan.floats.iter().map(|varying| varying.to.0).collect();
     inputs.sort_unstable();
@@ -116,7 +118,7 @@ fn of_draw(
     if contributions.iter().all(|one| one.share < LEAST_SHARE) {
         let origin = Origin::default();
         drawn_for(Purpose::Watching(Box::new(origin.clone())));
-        contributions.extend(origin.contributions(&code.operations()));
+        contributions.extend(origin.contributions(&operations));
     }
     Some(contributions)
 }

@@ -239,8 +239,9 @@ fn worse_faults(a: &[FaultCount], b: &[FaultCount]) -> Vec<FaultCount> {
 /// The distance between neighboring f32 numbers at `value`; below the smallest normal number, the distance there.
 pub fn ulp_f32(value: f64) -> f64 {
     let magnitude = value.abs().max(f64::from(f32::MIN_POSITIVE));
-    // This is exact: the exponent is computed in f64, which represents every f32 and its neighbors.
-    2.0_f64.powi(magnitude.log2().floor() as i32 - 23)
+    // The power of two at or below it, by its exponent alone: f64 has every f32 and its neighbors as normal numbers.
+    const EXPONENT: u64 = 0x7ff << 52;
+    f64::from_bits(magnitude.to_bits() & EXPONENT) / f64::from(1 << 23)
 }
 
 #[cfg(test)]

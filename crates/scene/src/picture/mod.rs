@@ -64,6 +64,16 @@ impl Picture {
         }
         unequal.into_iter().filter(|unequal| *unequal).count() as u64
     }
+
+    /// Whether both have the same coverage and, bit by bit, the same colors, so that whatever compares one of them with a
+    /// third picture finds the same for the other.
+    pub fn has_bits_of(&self, other: &Self) -> bool {
+        let bits = |color: &[f64; 4]| color.map(f64::to_bits);
+        let same = |(ours, theirs): (&Vec<[f64; 4]>, &Vec<[f64; 4]>)| ours.iter().map(bits).eq(theirs.iter().map(bits));
+        (self.width, self.height, self.attachments.len()) == (other.width, other.height, other.attachments.len())
+            && self.covered == other.covered
+            && self.attachments.iter().zip(&other.attachments).all(same)
+    }
 }
 
 #[cfg(test)]
@@ -72,6 +82,16 @@ mod tests {
 
     fn picture(reds: &[f64]) -> Picture {
         Picture::of_colors(reds.len() as u32, 1, reds.iter().map(|&red| [red, 0.0, 0.0, 1.0]).collect())
+    }
+
+    #[test]
+    fn pictures_have_the_same_bits_or_not() {
+        let one = picture(&[0.0, f64::NAN, 2.0]);
+        assert!(one.has_bits_of(&one.clone()));
+        assert!(!one.has_bits_of(&picture(&[-0.0, f64::NAN, 2.0])));
+        assert!(!one.has_bits_of(&picture(&[0.0, f64::NAN])));
+        let uncovered = Picture { covered: vec![true, true, false], ..one.clone() };
+        assert!(!one.has_bits_of(&uncovered));
     }
 
     #[test]

@@ -430,16 +430,16 @@ impl Number for EnvelopeFloat {
         self.hyperbolic_cosine()
     }
     fn tanh(self) -> Self {
-        self.hyperbolic_tangent()
+        self.hyperbolic_tangent(self.at_ends(&rules::TANH))
     }
     fn asinh(self) -> Self {
         self.rising_by(&rules::ASINH, f64::asinh)
     }
     fn acosh(self) -> Self {
-        self.area_cosine()
+        self.area_cosine(self.at_ends(&rules::ACOSH))
     }
     fn atanh(self) -> Self {
-        self.area_tangent()
+        self.area_tangent(self.at_ends(&rules::ATANH))
     }
     #[inline(always)]
     fn less(self, other: Self) -> EnvelopeInt {

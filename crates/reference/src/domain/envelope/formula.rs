@@ -101,8 +101,22 @@ impl EnvelopeFloat {
         }
     }
 
+    /// The intervals of a rule's formula at both bounds. A rule without a formula has none that anything reads.
+    pub(super) fn at_ends(self, rule: &Rule) -> [Self; 2] {
+        match rule.formula() {
+            Some(formula) if self.is_point() => [evaluate(formula, &[&[Self::exact(self.low)]], 0); 2],
+            Some(formula) => self.bounds().map(|end| evaluate(formula, &[&[end]], 0)),
+            None => [self; 2],
+        }
+    }
+
     /// A function that never decreases, by its rule.
     pub(super) fn rising_by(self, rule: &Rule, f: impl Fn(f64) -> f64) -> Self {
+        self.rising_between(rule, f, self.at_ends(rule))
+    }
+
+    /// A function that never decreases, by its rule and the intervals of its formula [at both bounds](Self::at_ends).
+    pub(super) fn rising_between(self, rule: &Rule, f: impl Fn(f64) -> f64, ends: [Self; 2]) -> Self {
         let (value, low, high) = (f(self.value), f(self.low), f(self.high));
         let between = |low: f64, high: f64| Self::rounded(value, low, high, self.may_be_nan);
         match rule.precision {
@@ -118,9 +132,9 @@ impl EnvelopeFloat {
                 between(ulps_below(low, high, ulps).min(low - error), ulps_above(low, high, ulps).max(high + error))
             }
             Precision::Absolute(error) | Precision::Angle { error, .. } => between(low - error, high + error),
-            Precision::Inherited(formula) => self.by_ends(f, |x| evaluate(formula, &[&[x]], 0)),
-            Precision::InheritedOr(formula, error) => {
-                let found = self.by_ends(f, |x| evaluate(formula, &[&[x]], 0));
+            Precision::Inherited(_) => self.between_ends(f, ends),
+            Precision::InheritedOr(_, error) => {
+                let found = self.between_ends(f, ends);
                 Self { low: found.low.min(low - error), high: found.high.max(high + error), ..found }
             }
             // A half may go to either side.

@@ -16,8 +16,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 impl EnvelopeFloat {
     /// An increasing function that inherits its error from a formula: the error of the formula at both bounds, to
     /// either side. Between them it may be twice as large, if there is a power of two.
-    pub(super) fn by_ends(self, f: impl Fn(f64) -> f64, formula: impl Fn(Self) -> Self) -> Self {
-        let [low, high] = self.bounds().map(formula);
+    pub(super) fn between_ends(self, f: impl Fn(f64) -> f64, [low, high]: [Self; 2]) -> Self {
         let (least, most) = (f(self.low), f(self.high));
         let off = |exact: f64, end: Self| (exact - end.low).max(end.high - exact);
         let may_be_nan = self.may_be_nan || low.may_be_nan || high.may_be_nan;
@@ -262,17 +261,18 @@ impl EnvelopeFloat {
         self.arc(self.value.acos(), f64::acos, &rules::ACOS)
     }
 
-    /// Undefined below 1 (§8.1).
-    pub(super) fn area_cosine(self) -> Self {
+    /// Undefined below 1 (§8.1). The ends are those of the rule's formula.
+    pub(super) fn area_cosine(self, ends: [Self; 2]) -> Self {
         let value = Number::acosh(self.value);
-        if self.low < 1.0 { Self::anything(value) } else { self.rising_by(&rules::ACOSH, Number::acosh) }
+        let inside = self.low >= 1.0;
+        if inside { self.rising_between(&rules::ACOSH, Number::acosh, ends) } else { Self::anything(value) }
     }
 
-    /// Undefined from 1 on (§8.1).
-    pub(super) fn area_tangent(self) -> Self {
+    /// Undefined from 1 on (§8.1). The ends are those of the rule's formula.
+    pub(super) fn area_tangent(self, ends: [Self; 2]) -> Self {
         let value = Number::atanh(self.value);
         let inside = self.low > -1.0 && self.high < 1.0;
-        if inside { self.rising_by(&rules::ATANH, Number::atanh) } else { Self::anything(value) }
+        if inside { self.rising_between(&rules::ATANH, Number::atanh, ends) } else { Self::anything(value) }
     }
 
     /// By its formula, whose error at a point counts to either side.
@@ -288,8 +288,8 @@ impl EnvelopeFloat {
 
     /// By its formula, or with WGSL's absolute error. Where the formula's powers overflow, its result is not limited:
     /// there the range is that of the absolute error, and NaN, which infinity over infinity is.
-    pub(super) fn hyperbolic_tangent(self) -> Self {
-        let found = self.rising_by(&rules::TANH, f64::tanh);
+    pub(super) fn hyperbolic_tangent(self, ends: [Self; 2]) -> Self {
+        let found = self.rising_between(&rules::TANH, f64::tanh, ends);
         let most = 1.0 + rules::TANH.absolute();
         if found.low.is_finite() && found.high.is_finite() { found } else { found.within(-most, most) }
     }
@@ -344,7 +344,7 @@ impl EnvelopeFloat {
             return Self::by_formula(&rules::SMOOTHSTEP, value, &[edge0, edge1, x]);
         };
         let t = evaluate(t, &[&[edge0], &[edge1], &[x]], 0);
-        let found = t.by_ends(|t| evaluate(curve, &[&[t]], 0), |t| evaluate(curve, &[&[t]], 0));
+        let found = t.between_ends(|t| evaluate(curve, &[&[t]], 0), t.bounds().map(|t| evaluate(curve, &[&[t]], 0)));
         if t.low == t.high || t.may_be_nan {
             return found;
         }

@@ -186,6 +186,36 @@ pub trait NumberBlock<N: Number>: Block<N> {
     fn log2(&self) -> Self {
         self.map(N::log2)
     }
+    /// §8.1
+    #[inline(always)]
+    fn sinh(&self) -> Self {
+        self.map(N::sinh)
+    }
+    /// §8.1
+    #[inline(always)]
+    fn cosh(&self) -> Self {
+        self.map(N::cosh)
+    }
+    /// §8.1
+    #[inline(always)]
+    fn tanh(&self) -> Self {
+        self.map(N::tanh)
+    }
+    /// §8.1
+    #[inline(always)]
+    fn asinh(&self) -> Self {
+        self.map(N::asinh)
+    }
+    /// §8.1
+    #[inline(always)]
+    fn acosh(&self) -> Self {
+        self.map(N::acosh)
+    }
+    /// §8.1
+    #[inline(always)]
+    fn atanh(&self) -> Self {
+        self.map(N::atanh)
+    }
     /// [`Number::unit_scale`]
     #[inline(always)]
     fn unit_scale(&self) -> Self {

@@ -9,10 +9,12 @@
 //!
 //! | file | contents |
 //! | --- | --- |
+//! | `inherited` | functions that inherit from a formula, at both bounds of all lanes |
 //! | `lane` | the operations on one lane's bounds, without branches |
 //! | `operations` | the operations on blocks |
 //! | `sum` | sums of products, in any order |
 
+mod inherited;
 mod lane;
 mod operations;
 mod sum;

@@ -4,7 +4,7 @@ use super::EnvelopeBlock;
 use super::lane::LaneBounds;
 use super::sum::Sum;
 use crate::domain::envelope::{EnvelopeFloat, EnvelopeInt, powers};
-use crate::domain::{Block, Integer, Number, NumberBlock, WIDTH, unit};
+use crate::domain::{Block, Integer, Number, NumberBlock, WIDTH, rules, unit};
 use std::f64::consts::{LN_2, LOG2_E};
 
 /// The answers for the lanes of a block.
@@ -222,6 +222,26 @@ impl NumberBlock<EnvelopeFloat> for EnvelopeBlock {
             |a, b| a.power(b),
             Number::pow,
         )
+    }
+    fn sinh(&self) -> Self {
+        self.between_ends(&rules::SINH, |x, ends| x.rising_between(&rules::SINH, f64::sinh, ends))
+    }
+    fn cosh(&self) -> Self {
+        let mut out = self.abs().between_ends(&rules::COSH, |x, ends| x.rising_between(&rules::COSH, f64::cosh, ends));
+        out.value = self.value.map(f64::cosh);
+        out
+    }
+    fn tanh(&self) -> Self {
+        self.between_ends(&rules::TANH, EnvelopeFloat::hyperbolic_tangent)
+    }
+    fn asinh(&self) -> Self {
+        self.between_ends(&rules::ASINH, |x, ends| x.rising_between(&rules::ASINH, f64::asinh, ends))
+    }
+    fn acosh(&self) -> Self {
+        self.between_ends(&rules::ACOSH, EnvelopeFloat::area_cosine)
+    }
+    fn atanh(&self) -> Self {
+        self.between_ends(&rules::ATANH, EnvelopeFloat::area_tangent)
     }
     #[inline(always)]
     fn unit_scale(&self) -> Self {

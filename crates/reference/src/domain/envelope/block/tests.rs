@@ -123,8 +123,27 @@ macro_rules! pairs {
     ($($name:ident),*) => { &[$((stringify!($name), <EnvelopeBlock as NumberBlock<EnvelopeFloat>>::$name, <EnvelopeFloat as Number>::$name)),*] };
 }
 
-const UNARY: &[Unary] =
-    pairs!(neg, abs, square, floor, fract, sqrt, inversesqrt, exp, exp2, log, log2, cosine_at_most, unit_scale);
+const UNARY: &[Unary] = pairs!(
+    neg,
+    abs,
+    square,
+    floor,
+    fract,
+    sqrt,
+    inversesqrt,
+    exp,
+    exp2,
+    log,
+    log2,
+    sinh,
+    cosh,
+    tanh,
+    asinh,
+    acosh,
+    atanh,
+    cosine_at_most,
+    unit_scale
+);
 const BINARY: &[Binary] = pairs!(add, sub, mul, div, min, max, pow, scaled);
 const ANSWERS: &[Answer] = pairs!(less, less_equal, equal);
 
