@@ -88,6 +88,36 @@ fn noise_is_inconclusive_with_the_line_that_makes_it_so() {
     }
 }
 
+/// GLSL 1.50 §5.9 and §5.4.1: what the language leaves undefined is anything, so no GPU is wrong, and the operation is named.
+#[test]
+fn what_the_language_leaves_undefined_of_integers_is_anything() {
+    let cases = [
+        ("x / (x - x)", "/", false),
+        ("x % (x - x)", "%", false),
+        ("(-2 - x) % 3", "%", false),
+        ("x << 32 + x", "<<", false),
+        ("x >> -1 - x", ">>", false),
+        ("int(uint(x) / uint(x - x))", "/", false),
+        ("int(gl_FragCoord.x * 1e20)", "int", false),
+        ("int(uint(-1.0 - gl_FragCoord.x))", "uint", false),
+        ("x / (x + 1) + x % (x + 1) + (x << 3) + (x >> 31)", "", true),
+    ];
+    for (expression, operation, is_defined) in cases {
+        let fragment = format!(
+            "#version 150\nout vec4 color;\nvoid main() {{\n    int x = int(gl_FragCoord.x);\n    int y = {expression};\n    \
+             color = vec4(y, 0, 0, 1);\n}}\n"
+        );
+        let folder = quad(1, &fragment);
+        let (code, json) = verify(&folder, &[]);
+        let expected = if is_defined { ("holds", 0) } else { ("inconclusive", 1) };
+        assert_eq!((json["verdict"].as_str().unwrap(), code), expected, "{expression}: {json}");
+        if !is_defined {
+            let first = &json["weakness"]["contributions"][0];
+            assert_eq!((&first["operation"], &first["line"]), (&operation.into(), &5.into()), "{expression}: {json}");
+        }
+    }
+}
+
 #[test]
 fn three_lines_are_enough_where_all_is_well() {
     let folder = quad(1, GRADIENT);

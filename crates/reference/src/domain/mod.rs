@@ -66,9 +66,10 @@ pub trait Domain: Copy + Send + Sync + std::fmt::Debug + 'static {
 
     /// Whether what the language leaves undefined of integers is a GPU's choice.
     const CHOOSES: bool = false;
-    /// An integer divided by zero, or its remainder (GLSL 1.50 §5.9), given the one that [`Integer`] defines.
+    /// The result of an operation on integers that the language leaves undefined (GLSL 1.50 §5.9), given the one that
+    /// [`Integer`] defines.
     #[inline(always)]
-    fn divided_by_zero(defined: Self::Int) -> Self::Int {
+    fn undefined(defined: Self::Int) -> Self::Int {
         defined
     }
     /// Computes as this GPU on this thread from now on, in the domain of simulated GPUs.
@@ -126,6 +127,11 @@ impl Domain for Envelope {
     type Float = EnvelopeFloat;
     type Int = EnvelopeInt;
     const NAME: &'static str = "envelope";
+    const CHOOSES: bool = true;
+
+    fn undefined(defined: EnvelopeInt) -> EnvelopeInt {
+        EnvelopeInt::unknown(defined.bits)
+    }
 }
 
 /// f32 and f64 side by side.

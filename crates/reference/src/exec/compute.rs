@@ -351,12 +351,12 @@ impl<D: Domain> Registers<D> {
                 IntToFloat::Half => map1(out, this.int(a), Float::<D>::from_half),
             }),
             Inst::Int1 { op, dst, a } => self.write_int(dst, |this, out| int1(op, out, this.int(a))),
-            Inst::Int2 { op, dst, a, b } if D::CHOOSES && op.divides() => {
+            Inst::Int2 { op, dst, a, b } if D::CHOOSES && op.undefined_name().is_some() => {
                 self.write_int(dst, |this, out| {
-                    let divisor = this.int(b);
-                    let filled = int2(op, out, this.int(a), divisor);
-                    let is_zero = |lane: usize| divisor.at(lane).bits() == 0;
-                    out.update(|lane, found| if is_zero(lane) { D::divided_by_zero(found) } else { found });
+                    let (a, b) = (this.int(a), this.int(b));
+                    let filled = int2(op, out, a, b);
+                    let is_undefined = |lane: usize| op.is_undefined(a.at(lane).interval(), b.at(lane).interval());
+                    out.update(|lane, found| if is_undefined(lane) { D::undefined(found) } else { found });
                     filled
                 });
             }

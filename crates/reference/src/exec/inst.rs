@@ -160,6 +160,30 @@ impl Int2 {
     pub(super) fn divides(self) -> bool {
         matches!(self, Self::DivSigned | Self::DivUnsigned | Self::RemSigned | Self::RemUnsigned)
     }
+
+    /// The operation as GLSL writes it, if §5.9 leaves its result undefined for some operands.
+    #[inline(always)]
+    pub(super) fn undefined_name(self) -> Option<&'static str> {
+        match self {
+            Self::DivSigned | Self::DivUnsigned => Some("/"),
+            Self::RemSigned | Self::RemUnsigned => Some("%"),
+            Self::Shl => Some("<<"),
+            Self::ShrSigned | Self::ShrUnsigned => Some(">>"),
+            _ => None,
+        }
+    }
+
+    /// Whether §5.9 leaves its result undefined for some integers of two intervals: a divisor of zero, a negative operand
+    /// of a remainder, a shift by a negative number or by 32 bits or more.
+    #[inline(always)]
+    pub(super) fn is_undefined(self, (least, _): (i32, i32), (low, high): (i32, i32)) -> bool {
+        match self {
+            Self::DivSigned | Self::DivUnsigned | Self::RemUnsigned => low <= 0 && high >= 0,
+            Self::RemSigned => least < 0 || low <= 0,
+            Self::Shl | Self::ShrSigned | Self::ShrUnsigned => low < 0 || high > 31,
+            _ => false,
+        }
+    }
 }
 
 /// The operands of a texture instruction, all of which are registers.

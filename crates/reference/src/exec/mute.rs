@@ -6,7 +6,7 @@
 //! bounds of each result. A muted input is exact.
 
 use super::code::{Code, Runs};
-use super::inst::{Float2, Inst};
+use super::inst::{Float2, FloatToInt, Inst};
 use glisten_front::builtin::operations::Rule;
 use glisten_front::hir::GlobalId;
 use glisten_front::source::Span;
@@ -62,7 +62,8 @@ fn own_error(rule: &Rule, name: &'static str) -> Option<&'static str> {
     rule.adds_error().then_some(name)
 }
 
-/// The operation of an instruction as GLSL writes it; `None` if it adds nothing.
+/// The operation of an instruction as GLSL writes it; `None` if it adds nothing. Of integers, what the language may leave
+/// undefined adds everything.
 fn name(inst: &Inst) -> Option<&'static str> {
     Some(match inst {
         Inst::Float1 { op, .. } => own_error(op.rule(), op.name())?,
@@ -71,6 +72,9 @@ fn name(inst: &Inst) -> Option<&'static str> {
         Inst::Composite { op, .. } => op.name(),
         Inst::MulAdd { .. } | Inst::SumOfProducts { .. } => Float2::Mul.name(),
         Inst::IntToFloat { .. } => "float",
+        Inst::FloatToInt { op: FloatToInt::Int, .. } => "int",
+        Inst::FloatToInt { op: FloatToInt::Uint, .. } => "uint",
+        Inst::Int2 { op, .. } => op.undefined_name()?,
         Inst::Derivative { .. } => "derivative",
         Inst::Texture { .. } => "texture",
         _ => return None,

@@ -134,12 +134,12 @@ impl EnvelopeFloat {
 
     fn to_int_by(self, bits: u32, limit: impl Fn(f64) -> i64) -> EnvelopeInt {
         if self.may_be_nan {
-            return EnvelopeInt::with_interval(bits, i32::MIN, i32::MAX);
+            return EnvelopeInt::unknown(bits);
         }
         match (i32::try_from(limit(self.low)), i32::try_from(limit(self.high))) {
             (Ok(low), Ok(high)) => EnvelopeInt::with_interval(bits, low, high),
             _ if self.low == self.high => EnvelopeInt::from_bits(bits),
-            _ => EnvelopeInt::with_interval(bits, i32::MIN, i32::MAX),
+            _ => EnvelopeInt::unknown(bits),
         }
     }
 }
@@ -484,12 +484,16 @@ impl Number for EnvelopeFloat {
         Self::rounded(f64::from(value.bits), low, high, false)
     }
     fn to_int(self) -> EnvelopeInt {
+        const BEYOND: f64 = 2_147_483_648.0;
+        if self.low <= -BEYOND - 1.0 || self.high >= BEYOND {
+            return EnvelopeInt::unknown(Number::to_int(self.value));
+        }
         self.to_int_by(Number::to_int(self.value), |end| i64::from(end as i32))
     }
     fn to_uint(self) -> EnvelopeInt {
-        if self.low <= -1.0 {
-            // A negative number has no `uint` (§5.4.1).
-            return EnvelopeInt::with_interval(Number::to_uint(self.value), i32::MIN, i32::MAX);
+        // A negative number has no `uint` (§5.4.1), nor has one that needs more than 32 bits.
+        if self.low <= -1.0 || self.high >= 4_294_967_296.0 {
+            return EnvelopeInt::unknown(Number::to_uint(self.value));
         }
         self.to_int_by(Number::to_uint(self.value), |end| i64::from(end as u32))
     }

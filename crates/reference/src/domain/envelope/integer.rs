@@ -31,7 +31,8 @@ impl EnvelopeInt {
         Self { bits: u32::from(answer), low: 0, high: 1 }
     }
 
-    fn unknown(bits: u32) -> Self {
+    /// Any integer.
+    pub(in crate::domain) fn unknown(bits: u32) -> Self {
         Self { bits, low: i32::MIN, high: i32::MAX }
     }
 

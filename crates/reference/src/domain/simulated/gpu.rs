@@ -63,7 +63,7 @@ enum Choice {
     Weights,
     Levels,
     Forms,
-    DividedByZero,
+    Undefined,
     /// Of each [`Function`], from here on.
     Functions,
 }
@@ -252,9 +252,10 @@ impl Gpu {
         mixed(self.seed ^ mixed(choice as u64)) % count.max(1)
     }
 
-    /// An integer divided by zero: the number that others define, 0, or the end of the range on either side.
-    pub(super) fn divided_by_zero(&self, defined: u32) -> u32 {
-        match self.pick(Choice::DividedByZero, 4) {
+    /// An integer that the language leaves undefined: the number that others define, 0, or the end of the range on either
+    /// side.
+    pub(super) fn undefined(&self, defined: u32) -> u32 {
+        match self.pick(Choice::Undefined, 4) {
             _ if self.is_strict() => defined,
             0 => defined,
             1 => 0,

@@ -222,8 +222,8 @@ impl super::Domain for Simulated {
     const NAME: &'static str = "simulated";
     const CHOOSES: bool = true;
 
-    fn divided_by_zero(defined: u32) -> u32 {
-        Current::current().divided_by_zero(defined)
+    fn undefined(defined: u32) -> u32 {
+        Current::current().undefined(defined)
     }
 
     fn enter(gpu: Gpu) {
