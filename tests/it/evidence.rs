@@ -193,7 +193,6 @@ const INCONCLUSIVE: &[(&str, &str)] = &[
     ("lower_constants", "it divides by numbers beyond those for which Vulkan has a rule"),
     ("lower_samplers", FILTERED),
     ("lower_textures", FILTERED),
-    ("lower_undefined", "it divides integers by zero and shifts them by too much"),
     ("mipmaps_implicit", FILTERED),
     ("normal_map", "derivatives choose the level of detail, and the texels differ"),
     ("root_of_negative", "GLSL leaves the root and the power of a negative number undefined"),
