@@ -26,6 +26,22 @@ pub enum BuildError {
     NoProgram(PathBuf),
     /// A shader of a folder has no partner of the same name.
     NoPartner(PathBuf),
+    /// A fixed uniform has another number of components.
+    Fixed {
+        /// Its name.
+        uniform: String,
+        /// How many it has, of all elements together.
+        wanted: u32,
+        /// How many were given.
+        given: usize,
+    },
+    /// No program has a fixed uniform.
+    NoUniform {
+        /// Its name.
+        uniform: String,
+        /// The uniform that may be meant.
+        similar: Option<String>,
+    },
     /// Two programs would be modules of the same name.
     SameName(String),
     /// Outside of a build script there is no `OUT_DIR`, and no other folder was given.
@@ -38,7 +54,7 @@ impl BuildError {
         match self {
             Self::Shaders { read, .. } => read,
             Self::File { path, .. } | Self::NoProgram(path) | Self::NoPartner(path) => std::slice::from_ref(path),
-            Self::SameName(_) | Self::NoFolder => &[],
+            Self::Fixed { .. } | Self::NoUniform { .. } | Self::SameName(_) | Self::NoFolder => &[],
         }
     }
 }
@@ -56,6 +72,16 @@ impl fmt::Display for BuildError {
                 "{}: its program has no other stage; name it with `Build::program`, or move it out of the folder",
                 path.display()
             ),
+            Self::Fixed { uniform, wanted, given } => {
+                write!(
+                    f,
+                    "`{uniform}` has {wanted} components, of all elements together, and is fixed to {given} numbers"
+                )
+            }
+            Self::NoUniform { uniform, similar } => {
+                write!(f, "no program has the uniform `{uniform}` that is fixed")?;
+                similar.as_ref().map_or(Ok(()), |similar| write!(f, "; did you mean `{similar}`?"))
+            }
             Self::SameName(name) => {
                 write!(f, "two programs would be the module `{name}`; name one with `Build::named_program`")
             }

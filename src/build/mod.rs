@@ -13,7 +13,7 @@
 //! let code = shaders::phong::VERTEX_WGSL;
 //! ```
 //!
-//! *In:* programs by pairs of files or by folders, and options. *Out:* [`Built`]: a Rust module in which each program is a module
+//! *In:* programs by pairs of files, by folders or by scenes, and options. *Out:* [`Built`]: a Rust module in which each program is a module
 //! with WGSL and SPIR-V, structs of its uniforms in the layout of the buffer, its vertices, and on request descriptors for wgpu.
 //!
 //! *Holds:* the same inputs give the same bytes, and a file whose bytes are the same is not written again. Cargo is told of
@@ -22,21 +22,23 @@
 
 mod error;
 mod files;
+mod fixed;
 mod includes;
 mod programs;
 mod rust;
+#[cfg(feature = "reference")]
+mod scenes;
 
 pub use error::BuildError;
 
-use crate::library::{Embedded, is_embedded};
+use crate::library::Embedded;
 use files::Reads;
-use glisten_emit::Conventions;
+use fixed::Fixed;
+use glisten_emit::{Conventions, Target};
 use glisten_front::compiler::{Compiler, Options};
 use glisten_front::diagnostic::write::human;
-use glisten_front::diagnostic::{Diagnostic, Severity};
-use glisten_front::source::SourceMap;
 use includes::Folders;
-use programs::{Given, Named};
+use programs::{Compiled, Given, Named};
 use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -47,6 +49,7 @@ pub struct Build {
     programs: Vec<Given>,
     options: Options,
     folders: Vec<PathBuf>,
+    fixed: Vec<Fixed>,
     conventions: Conventions,
     optimize: bool,
     rust: rust::Choices,
@@ -73,6 +76,7 @@ impl Default for Build {
             programs: Vec::new(),
             options: Options::default(),
             folders: Vec::new(),
+            fixed: Vec::new(),
             conventions: Conventions::default(),
             optimize: true,
             rust: rust::Choices::default(),
@@ -159,7 +163,42 @@ impl Build {
     /// Leaves SPIR-V out of the module.
     #[must_use]
     pub fn without_spirv(mut self) -> Self {
-        self.rust.spirv = false;
+        self.rust.targets.retain(|target| *target != Target::Spirv);
+        self
+    }
+
+    /// Adds the code of another target: `VERTEX_MSL` and so on.
+    #[must_use]
+    pub fn target(mut self, target: Target) -> Self {
+        if !self.rust.targets.contains(&target) {
+            self.rust.targets.push(target);
+        }
+        self
+    }
+
+    /// Fixes a uniform in every program that has it, and leaves out what that makes needless: a count of lights, a
+    /// switch. The name is that of the reflection (`lights`, `light[1].power`, `Block.member`). The numbers are those of
+    /// its components, of all elements and by columns; they become its type, a `bool` by whether they are not 0.
+    #[must_use]
+    pub fn fix(mut self, uniform: impl Into<String>, numbers: impl Into<Vec<f64>>) -> Self {
+        self.fixed.push(Fixed { name: uniform.into(), numbers: numbers.into() });
+        self
+    }
+
+    /// Adds the programs of a scene's draws, each of which is named like the scene, with a number if there are several.
+    #[cfg(feature = "reference")]
+    #[must_use]
+    pub fn scene(mut self, scene: impl AsRef<Path>) -> Self {
+        self.programs.push(Given::Scene { path: scene.as_ref().to_owned(), specialized: false });
+        self
+    }
+
+    /// Adds the programs of a scene's draws without what its picture does not need, like `glisten specialize`. Only
+    /// what the scene calls `dynamic` stays an input.
+    #[cfg(feature = "reference")]
+    #[must_use]
+    pub fn specialized_scene(mut self, scene: impl AsRef<Path>) -> Self {
+        self.programs.push(Given::Scene { path: scene.as_ref().to_owned(), specialized: true });
         self
     }
 
@@ -249,24 +288,17 @@ impl Build {
     /// Those of [`Build::build`].
     pub fn text(&self) -> Result<Built, BuildError> {
         let reads = Reads::default();
-        let programs = programs::collect(&self.programs, &reads)?;
         let includes = Folders::new(self.folders.clone(), Embedded, reads.clone());
         let compiler = Compiler::new(self.options.clone()).with_includes(includes);
-        let (mut modules, mut errors, mut warnings) = (Vec::new(), String::new(), Vec::new());
-        for named in &programs {
-            let compilation = compiler.compile(&named.sources(&reads)?);
-            let failed = compilation.diagnostics.has_errors();
-            if failed {
-                errors.push_str(&human(&compilation.sources, &compilation.diagnostics, false));
-            } else {
-                warnings
-                    .extend(compilation.diagnostics.iter().filter_map(|found| warning(&compilation.sources, found)));
-            }
-            let Some(program) = compilation.program.filter(|_| !failed) else { continue };
+        let found = programs::compile(&self.programs, &compiler, &reads)?;
+        fixed::check(&self.fixed, &found)?;
+        let (mut modules, mut errors) = (Vec::new(), found.errors);
+        for Compiled { name, program, sources } in found.programs {
+            let program = fixed::without_known(&self.fixed, program, &sources)?;
             let program = if self.optimize { glisten_specialize::optimize(&program) } else { program };
-            match rust::module(&named.name, &program, &compilation.sources, &self.conventions, &self.rust) {
+            match rust::module(&name, &program, &sources, &self.conventions, &self.rust) {
                 Ok(module) => modules.push(module),
-                Err(found) => errors.push_str(&human(&compilation.sources, &found, false)),
+                Err(found) => errors.push_str(&human(&sources, &found, false)),
             }
         }
         if !errors.is_empty() {
@@ -277,16 +309,8 @@ impl Build {
             // Writing to a string cannot fail.
             let _ = write!(text, "\n{module}");
         }
-        Ok(Built { module: PathBuf::new(), text, read: reads.files(), warnings })
+        Ok(Built { module: PathBuf::new(), text, read: reads.files(), warnings: found.warnings })
     }
-}
-
-/// A warning in a line, unless it is about a module of the library.
-fn warning(sources: &SourceMap, found: &Diagnostic) -> Option<String> {
-    let place = sources.location(found.primary.span)?;
-    let file = sources.file(place.file).name();
-    let told = found.severity == Severity::Warning && !is_embedded(file);
-    told.then(|| format!("{file}:{}:{}: {} [{}]", place.line, place.column, found.message, found.code))
 }
 
 /// Names of which each may be given once.

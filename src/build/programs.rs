@@ -1,12 +1,18 @@
 //! The programs of a build.
 //!
-//! *In:* pairs of files, and folders. *Out:* [`Named`] programs, in the order in which they were given, those of a folder in the
-//! order of their paths. *Holds:* no two programs have the same name as a Rust module.
+//! *In:* pairs of files, folders, scenes. *Out:* [`Compiled`] programs, in the order in which they were given, those of a folder
+//! in the order of their paths; the errors and warnings of all. *Holds:* no two programs have the same name as a Rust module.
 
 use super::error::BuildError;
 use super::files::Reads;
+#[cfg(feature = "reference")]
+use super::scenes;
 use super::{repeated, rust};
-use glisten_front::{Source, Stage};
+use crate::library::is_embedded;
+use glisten_front::diagnostic::write::human;
+use glisten_front::diagnostic::{Diagnostic, Diagnostics, Severity};
+use glisten_front::source::SourceMap;
+use glisten_front::{Compilation, Compiler, Program, Source, Stage};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -18,6 +24,9 @@ pub(super) enum Given {
     Pair(Named),
     /// All programs of a folder.
     Folder(PathBuf),
+    /// The programs of a scene.
+    #[cfg(feature = "reference")]
+    Scene { path: PathBuf, specialized: bool },
 }
 
 /// A pair of files with a name.
@@ -64,20 +73,81 @@ fn stage(path: &Path) -> Option<Stage> {
     EXTENSIONS.iter().find(|(known, _)| *known == extension).map(|(_, stage)| *stage)
 }
 
-/// All programs.
-pub(super) fn collect(given: &[Given], reads: &Reads) -> Result<Vec<Named>, BuildError> {
-    let mut programs = Vec::new();
+/// A program that was compiled, with its texts.
+pub(super) struct Compiled {
+    pub(super) name: String,
+    pub(super) program: Program,
+    pub(super) sources: SourceMap,
+}
+
+/// The programs of a build, and what there is to say about them.
+#[derive(Default)]
+pub(super) struct Found {
+    pub(super) programs: Vec<Compiled>,
+    /// The names of all, also of those with errors.
+    names: Vec<String>,
+    /// All errors, as `glisten lint` prints them.
+    pub(super) errors: String,
+    /// Warnings, a line each.
+    pub(super) warnings: Vec<String>,
+}
+
+impl Found {
+    /// Takes over diagnostics. Returns whether there is no error among them.
+    pub(super) fn hears(&mut self, sources: &SourceMap, diagnostics: &Diagnostics) -> bool {
+        let failed = diagnostics.has_errors();
+        if failed {
+            self.errors.push_str(&human(sources, diagnostics, false));
+        } else {
+            self.warnings.extend(diagnostics.iter().filter_map(|found| warning(sources, found)));
+        }
+        !failed
+    }
+
+    /// Adds a program without errors.
+    pub(super) fn add(&mut self, name: String, program: Program, sources: SourceMap) {
+        self.names.push(name.clone());
+        self.programs.push(Compiled { name, program, sources });
+    }
+
+    fn compile(&mut self, named: &Named, compiler: &Compiler, reads: &Reads) -> Result<(), BuildError> {
+        let Compilation { program, sources, diagnostics, .. } = compiler.compile(&named.sources(reads)?);
+        match (self.hears(&sources, &diagnostics), program) {
+            (true, Some(program)) => self.add(named.name.clone(), program, sources),
+            _ => self.names.push(named.name.clone()),
+        }
+        Ok(())
+    }
+}
+
+/// Compiles all programs.
+pub(super) fn compile(given: &[Given], compiler: &Compiler, reads: &Reads) -> Result<Found, BuildError> {
+    let mut found = Found::default();
     for one in given {
         match one {
-            Given::Pair(named) => programs.push(named.clone()),
-            Given::Folder(folder) => programs.extend(of_folder(folder, reads)?),
+            Given::Pair(named) => found.compile(named, compiler, reads)?,
+            Given::Folder(folder) => {
+                for named in of_folder(folder, reads)? {
+                    found.compile(&named, compiler, reads)?;
+                }
+            }
+            #[cfg(feature = "reference")]
+            Given::Scene { path, specialized } => scenes::compile(path, *specialized, compiler, reads, &mut found),
         }
     }
-    let modules: Vec<String> = programs.iter().map(|named| rust::module_name(&named.name)).collect();
+    let modules: Vec<String> = found.names.iter().map(|name| rust::module_name(name)).collect();
     match repeated(modules.iter().map(String::as_str)) {
         Some(name) => Err(BuildError::SameName(name.to_owned())),
-        None => Ok(programs),
+        None => Ok(found),
     }
+}
+
+/// A warning in a line, unless it is about a module of the library.
+fn warning(sources: &SourceMap, found: &Diagnostic) -> Option<String> {
+    let place = sources.location(found.primary.span)?;
+    let file = sources.file(place.file).name();
+    let told = found.severity == Severity::Warning && !is_embedded(file);
+    told.then(|| format!("{file}:{}:{}: {} [{}]", place.line, place.column, found.message, found.code))
 }
 
 fn of_folder(folder: &Path, reads: &Reads) -> Result<Vec<Named>, BuildError> {

@@ -4,6 +4,7 @@
 use crate::support::{files_under, root, stage_of};
 use glisten::Stage;
 use glisten::build::{Build, BuildError};
+use glisten::emit::Target;
 use std::fs;
 use std::path::Path;
 use std::process::Command;
@@ -163,4 +164,61 @@ fn mistakes_are_told_together() {
     fs::create_dir(folder.path().join("empty")).expect("a folder");
     let empty = Build::new().folder(folder.path().join("empty")).text().expect_err("no program");
     assert!(matches!(empty, BuildError::NoProgram(_)), "{empty}");
+}
+
+#[test]
+fn scenes_give_their_programs_and_what_is_left_of_them() {
+    let folder = root().join("fixtures/specialize/by_hand");
+    let whole = Build::new().scene(folder.join("spot.toml")).text().expect("it builds");
+    assert!(whole.text.contains("pub mod spot {") && whole.text.contains("light_count"), "{}", whole.text);
+    for name in ["spot.toml", "uber.vert", "uber.frag"] {
+        assert!(whole.read.iter().any(|path| path.ends_with(name)), "{name} is not among {:?}", whole.read);
+    }
+    let residual = Build::new().specialized_scene(folder.join("spot.toml")).text().expect("it builds");
+    // The scene fixes the count of lights, and calls the matrices dynamic.
+    assert!(!residual.text.contains("light_count") && residual.text.contains("model_view"), "{}", residual.text);
+    assert!(residual.text.len() < whole.text.len() / 2, "{} of {}", residual.text.len(), whole.text.len());
+    let both = Build::new().scene(folder.join("spot.toml")).specialized_scene(folder.join("spot.toml")).text();
+    assert!(matches!(both, Err(BuildError::SameName(name)) if name == "spot"));
+    let gone = Build::new().scene(folder.join("gone.toml")).text().expect_err("no such scene");
+    assert!(gone.to_string().contains("gone.toml"), "{gone}");
+    let host = tempfile::tempdir().expect("a folder");
+    rustc(host.path(), &residual.text, "lib");
+}
+
+#[test]
+fn fixed_uniforms_leave_no_trace() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let write =
+        |name: &str, text: &str| fs::write(folder.path().join(name), text).expect("the folder can be written to");
+    write("a.vert", "#version 150\nin vec4 p;\nvoid main() { gl_Position = p; }\n");
+    write(
+        "a.frag",
+        "#version 150\nuniform bool bright;\nuniform int count;\nuniform vec2 scale[2];\nuniform float time;\nout vec4 c;\n\
+         void main() {\n    c = vec4(time, scale[1], 1.0);\n    if (bright) { c *= 2.0; }\n\
+         for (int i = 0; i < count; i++) { c += 0.1; }\n}\n",
+    );
+    let build = || Build::new().folder(folder.path());
+    assert!(build().text().expect("it builds").text.contains("set_count"));
+    let fixed = build().fix("bright", [0.0]).fix("count", [0.0]).fix("scale", [1.0, 1.0, 0.25, 0.5]);
+    let text = fixed.text().expect("it builds").text;
+    assert!(text.contains("set_time") && text.contains("0.25"), "{text}");
+    assert!(!text.contains("set_count") && !text.contains("bright") && !text.contains("set_scale"), "{text}");
+    let few = build().fix("scale", [1.0]).text().expect_err("too few");
+    assert!(few.to_string().contains("`scale` has 4 components"), "{few}");
+    let unknown = build().fix("tme", [1.0]).text().expect_err("no such uniform");
+    assert!(unknown.to_string().contains("did you mean `time`?"), "{unknown}");
+}
+
+#[test]
+fn the_code_of_each_target_is_a_constant() {
+    let program = root().join("fixtures/programs");
+    let mut build = Build::new().program(program.join("phong.vert"), program.join("phong.frag")).without_spirv();
+    for target in [Target::Msl, Target::Hlsl, Target::Glsl, Target::Glsl] {
+        build = build.target(target);
+    }
+    let text = build.text().expect("it builds").text;
+    let constants: Vec<&str> =
+        text.lines().filter_map(|line| line.trim().strip_prefix("pub const FRAGMENT_")?.split(':').next()).collect();
+    assert_eq!(constants, ["WGSL", "MSL", "HLSL", "GLSL"]);
 }

@@ -20,6 +20,7 @@ pub(super) use names::module_name;
 
 use glisten_emit::{self as emit, Conventions, Emitted, Target};
 use glisten_front::diagnostic::Diagnostic;
+use glisten_front::hir::Stage;
 use glisten_front::link::Program;
 use glisten_front::source::{SourceMap, comments};
 use layout::Layouts;
@@ -28,7 +29,8 @@ use std::fmt::Write;
 /// The parts of a module that are chosen.
 #[derive(Clone, Debug)]
 pub(super) struct Choices {
-    pub(super) spirv: bool,
+    /// The targets of the code, each once.
+    pub(super) targets: Vec<Target>,
     pub(super) bytemuck: bool,
     pub(super) glam: bool,
     pub(super) wgpu: bool,
@@ -38,7 +40,13 @@ pub(super) struct Choices {
 
 impl Default for Choices {
     fn default() -> Self {
-        Self { spirv: true, bytemuck: false, glam: false, wgpu: false, instanced: Vec::new() }
+        Self {
+            targets: vec![Target::Wgsl, Target::Spirv],
+            bytemuck: false,
+            glam: false,
+            wgpu: false,
+            instanced: Vec::new(),
+        }
     }
 }
 
@@ -64,16 +72,8 @@ pub(super) fn module(
 ) -> Result<String, Vec<Diagnostic>> {
     let mut body = String::new();
     for shader in &program.stages {
-        let code = |target| emit::emit(program, shader.stage, target, conventions);
-        let constant = shader.stage.name().to_uppercase();
-        if let Emitted::Text(text) = code(Target::Wgsl)? {
-            let _ = writeln!(body, "/// The {} stage in WGSL.", shader.stage.name());
-            let _ = writeln!(body, "pub const {constant}_WGSL: &str = {};\n", raw(&text));
-        }
-        if let (true, Emitted::Words(words)) = (choices.spirv, code(Target::Spirv)?) {
-            let _ = writeln!(body, "/// The {} stage in SPIR-V. The entry point is `main`.", shader.stage.name());
-            let words: Vec<String> = words.iter().map(u32::to_string).collect();
-            let _ = writeln!(body, "pub const {constant}_SPIRV: &[u32] = &[{}];\n", words.join(","));
+        for target in &choices.targets {
+            body.push_str(&code(shader.stage, *target, emit::emit(program, shader.stage, *target, conventions)?));
         }
     }
     let reflection = emit::reflect(program, conventions);
@@ -95,6 +95,20 @@ pub(super) fn module(
     text.push_str(&body);
     text.push_str("}\n");
     Ok(indent::indented(&text))
+}
+
+/// The constant with the code of a stage.
+fn code(stage: Stage, target: Target, emitted: Emitted) -> String {
+    let constant = format!("{}_{}", stage.name(), target.word()).to_uppercase();
+    let (what, ty, value) = match emitted {
+        Emitted::Text(text) => ("", "&str", raw(&text)),
+        Emitted::Words(words) => {
+            let words: Vec<String> = words.iter().map(u32::to_string).collect();
+            (" The entry point is `main`.", "&[u32]", format!("&[{}]", words.join(",")))
+        }
+    };
+    let (stage, target) = (stage.name(), target.name());
+    format!("/// The {stage} stage in {target}.{what}\npub const {constant}: {ty} = {value};\n\n")
 }
 
 /// The file of a stage, as code in a comment.
