@@ -129,6 +129,7 @@ fn draw(args: &RenderArgs, scene: Scene) -> Result<Drawing, DrawError> {
             let gpu = args.scene.gpu()?;
             let drawn_by = Some(gpu.adapter().to_string());
             let picture = args.scene.within_time(move || {
+                let scene = glisten_reference::expand(&scene)?;
                 let prepared = gpu.prepare_foreign(&scene, via, &foreign)?;
                 Ok(gpu.draw(&prepared)?.picture)
             })?;

@@ -34,6 +34,10 @@ const MODES: &[(&str, Primitive)] = &[
     ("GL_TRIANGLES", Primitive::Triangles),
     ("GL_TRIANGLE_STRIP", Primitive::TriangleStrip),
     ("GL_TRIANGLE_FAN", Primitive::TriangleFan),
+    ("GL_LINES_ADJACENCY", Primitive::LinesAdjacency),
+    ("GL_LINE_STRIP_ADJACENCY", Primitive::LineStripAdjacency),
+    ("GL_TRIANGLES_ADJACENCY", Primitive::TrianglesAdjacency),
+    ("GL_TRIANGLE_STRIP_ADJACENCY", Primitive::TriangleStripAdjacency),
 ];
 
 /// Parses what follows `draw`.

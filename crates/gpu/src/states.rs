@@ -26,10 +26,16 @@ pub(super) fn pixel_size(format: Format) -> u32 {
 pub(super) fn topology(primitive: Primitive) -> wgpu::PrimitiveTopology {
     match primitive {
         Primitive::Points => wgpu::PrimitiveTopology::PointList,
-        Primitive::Lines | Primitive::LineStrip | Primitive::LineLoop => wgpu::PrimitiveTopology::LineList,
-        Primitive::Triangles | Primitive::TriangleStrip | Primitive::TriangleFan => {
-            wgpu::PrimitiveTopology::TriangleList
-        }
+        Primitive::Lines
+        | Primitive::LineStrip
+        | Primitive::LineLoop
+        | Primitive::LinesAdjacency
+        | Primitive::LineStripAdjacency => wgpu::PrimitiveTopology::LineList,
+        Primitive::Triangles
+        | Primitive::TriangleStrip
+        | Primitive::TriangleFan
+        | Primitive::TrianglesAdjacency
+        | Primitive::TriangleStripAdjacency => wgpu::PrimitiveTopology::TriangleList,
     }
 }
 

@@ -4,7 +4,7 @@
 //! a runner can draw a scene without further checks of sizes.
 
 use crate::picture::Transfer;
-use glisten_front::hir::{SamplerType, ScalarValue};
+use glisten_front::hir::{PrimitiveIn, SamplerType, ScalarValue};
 use glisten_front::link::Program;
 use std::sync::Arc;
 
@@ -58,6 +58,32 @@ pub enum Primitive {
     Triangles,
     TriangleStrip,
     TriangleFan,
+    LinesAdjacency,
+    LineStripAdjacency,
+    TrianglesAdjacency,
+    TriangleStripAdjacency,
+}
+
+impl Primitive {
+    /// Whether primitives have adjacent vertices, which only a geometry shader sees.
+    pub fn has_adjacency(self) -> bool {
+        matches!(
+            self,
+            Self::LinesAdjacency | Self::LineStripAdjacency | Self::TrianglesAdjacency | Self::TriangleStripAdjacency
+        )
+    }
+
+    /// Whether a geometry shader with this input primitive takes these primitives (§2.12.1).
+    pub fn feeds(self, input: PrimitiveIn) -> bool {
+        let wanted = match self {
+            Self::Points => PrimitiveIn::Points,
+            Self::Lines | Self::LineStrip | Self::LineLoop => PrimitiveIn::Lines,
+            Self::Triangles | Self::TriangleStrip | Self::TriangleFan => PrimitiveIn::Triangles,
+            Self::LinesAdjacency | Self::LineStripAdjacency => PrimitiveIn::LinesAdjacency,
+            Self::TrianglesAdjacency | Self::TriangleStripAdjacency => PrimitiveIn::TrianglesAdjacency,
+        };
+        wanted == input
+    }
 }
 
 /// Which faces are culled.

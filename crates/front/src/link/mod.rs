@@ -14,6 +14,7 @@
 //! | `compatible` | whether two declarations in different shaders have the same type |
 //! | `stages` | the stages of a program; `main`; geometry layouts |
 //! | `matching` | outputs of one stage against inputs of the next |
+//! | `geometry_inputs` | which outputs of the vertex stage the geometry stage reads |
 //! | `per_vertex` | redeclarations of `gl_PerVertex` |
 //! | `varyings` | interpolated variables, split and with locations |
 //! | `clip_distances` | `gl_ClipDistance` as an input of the fragment stage |
@@ -34,6 +35,7 @@ mod compatible;
 mod declared;
 mod flatten;
 mod geometry;
+mod geometry_inputs;
 mod layout;
 mod locations;
 mod matching;
@@ -52,8 +54,8 @@ mod varyings;
 pub use layout::MAX_BLOCK_BYTES;
 pub use partial::{Understood, check_understood};
 pub use program::{
-    Attribute, Block, BlockIndex, Interface, Output, Program, RootIndex, SamplerSlot, SlotBinding, UniformLeaf,
-    UniformRoot, Varying, VaryingEnd,
+    Attribute, Block, BlockIndex, GeometryInput, Interface, Output, Program, RootIndex, SamplerSlot, SlotBinding,
+    UniformLeaf, UniformRoot, Varying, VaryingEnd,
 };
 pub use remap::Remap;
 
@@ -120,6 +122,9 @@ fn interface(ctx: &mut Linker<'_>, stages: &[Shader]) -> Interface {
     }
     if let Some(vertex) = of(Stage::Vertex) {
         interface.attributes = attributes::assign(ctx, vertex);
+    }
+    if let (Some(vertex), Some(geometry)) = (of(Stage::Vertex), of(Stage::Geometry)) {
+        interface.geometry_inputs = geometry_inputs::connect(ctx.types, vertex, geometry);
     }
     let producer = of(Stage::Geometry).or(of(Stage::Vertex));
     (interface.varyings, interface.clip_distances) = varyings::assign(ctx, producer, of(Stage::Fragment));

@@ -87,7 +87,7 @@ impl<D: Domain> Machine<D> {
     /// Tells the observer of the invocations that are about to run.
     pub(super) fn count_invocations(&mut self, inner: &Inner) {
         let Some(observer) = &mut self.observer else { return };
-        let name = if inner.stage == Stage::Vertex { Step::VERTEX } else { Step::FRAGMENT };
+        let name = if inner.stage == Stage::Fragment { Step::FRAGMENT } else { Step::VERTEX };
         let [results, argument] = [&inner.outputs, &inner.inputs].map(|ports| ports.len() as u32);
         observer.count(Step { name, results, argument }, self.watched.count_ones());
     }

@@ -24,6 +24,7 @@ use toml::de::{DeTable, DeValue};
 const KEYS: &[&str] = &[
     "program",
     "vertex",
+    "geometry",
     "fragment",
     "defines",
     "primitive",
@@ -68,6 +69,7 @@ pub(super) fn load_draw(loader: &mut Loader<'_>, node: &Node<'_>, around: &Surro
     let mesh = table.get("mesh").map(|node| load_mesh(loader, node, conventional));
     let program = load_program(loader, table, files)?;
     check_program(&mut loader.reader, &program, framebuffer, place)?;
+    check_primitive(&mut loader.reader, table, &program, &state, place)?;
     let mesh = match mesh {
         Some(mesh) => Some(mesh?),
         None => None,
@@ -119,13 +121,16 @@ fn load_blend(reader: &mut Reader, table: &DeTable<'_>) -> Option<(BlendFactor, 
     }
 }
 
-/// The shaders of a draw: stage, name, span of the name. Fewer than two if one is missing (reported).
+/// The shaders of a draw: stage, name, span of the name. None if one is missing (reported).
 fn load_files(loader: &mut Loader<'_>, table: &DeTable<'_>, place: Span) -> Vec<(Stage, String, Span)> {
-    let stages = [("vertex", Stage::Vertex), ("fragment", Stage::Fragment)];
+    let stages = [("vertex", Stage::Vertex), ("geometry", Stage::Geometry), ("fragment", Stage::Fragment)];
     let Some(node) = table.get("program") else {
         let mut files = Vec::new();
         for (key, stage) in stages {
             let Some(node) = table.get(key) else {
+                if stage == Stage::Geometry {
+                    continue;
+                }
                 let message = format!("a draw names its {key} shader");
                 let help = format!("add `{key} = \"...\"`, relative to the scene file, or `program = \"...\"`");
                 loader.missing_key(place, &message, &help);
@@ -135,7 +140,10 @@ fn load_files(loader: &mut Loader<'_>, table: &DeTable<'_>, place: Span) -> Vec<
                 files.push((stage, name.to_owned(), loader.reader.span_of(node)));
             }
         }
-        return files;
+        let has = |wanted: Stage| files.iter().any(|(stage, _, _)| *stage == wanted);
+        let complete =
+            has(Stage::Vertex) && has(Stage::Fragment) && has(Stage::Geometry) == table.get("geometry").is_some();
+        return if complete { files } else { Vec::new() };
     };
     if let Some((key, _)) = stages.iter().find_map(|(key, _)| table.get_key_value(*key)) {
         let span = loader.reader.span_of(key);
@@ -197,7 +205,7 @@ fn load_program(
     let attribute_locations = load_locations(&mut loader.reader, table, "attribute_locations");
     let frag_data_locations = load_locations(&mut loader.reader, table, "frag_data_locations");
     let defines = load_defines(&mut loader.reader, table);
-    if files.len() < 2 {
+    if files.is_empty() {
         return None;
     }
     let places: Vec<Span> = files.iter().map(|(_, _, span)| *span).collect();
@@ -269,6 +277,30 @@ fn check_program(reader: &mut Reader, program: &Program, framebuffer: &Framebuff
         }
     }
     Some(())
+}
+
+/// Reports a primitive that the geometry shader does not take (OpenGL 3.2 §2.12.1).
+fn check_primitive(
+    reader: &mut Reader,
+    table: &DeTable<'_>,
+    program: &Program,
+    state: &State,
+    place: Span,
+) -> Option<()> {
+    let Some(input) = program.stage(Stage::Geometry).and_then(|shader| shader.geometry.input) else { return Some(()) };
+    if state.primitive.feeds(input) {
+        return Some(());
+    }
+    let of = |list: &[(&'static str, Primitive)], wanted: &dyn Fn(Primitive) -> bool| -> Vec<&'static str> {
+        list.iter().filter(|(_, primitive)| wanted(*primitive)).map(|(name, _)| *name).collect()
+    };
+    let drawn = of(PRIMITIVES, &|primitive| primitive == state.primitive).concat();
+    let taken = of(PRIMITIVES, &|primitive| primitive.feeds(input));
+    let span = table.get("primitive").map_or(place, |node| reader.span_of(node));
+    let message = format!("the draw has `{drawn}`, and the geometry shader takes other primitives");
+    let help = format!("`primitive` may be \"{}\" with this shader", taken.join("\", \""));
+    reader.report(Diagnostic::new(&SCENE_CANNOT_DRAW, span, message).help(help));
+    None
 }
 
 fn load_dynamic(reader: &mut Reader, table: &DeTable<'_>, program: &Program) -> Vec<String> {

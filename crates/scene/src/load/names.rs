@@ -19,6 +19,10 @@ pub(super) const PRIMITIVES: &[(&str, Primitive)] = &[
     ("triangles", Primitive::Triangles),
     ("triangle_strip", Primitive::TriangleStrip),
     ("triangle_fan", Primitive::TriangleFan),
+    ("lines_adjacency", Primitive::LinesAdjacency),
+    ("line_strip_adjacency", Primitive::LineStripAdjacency),
+    ("triangles_adjacency", Primitive::TrianglesAdjacency),
+    ("triangle_strip_adjacency", Primitive::TriangleStripAdjacency),
 ];
 
 pub(super) const CULLS: &[(&str, Cull)] = &[("none", Cull::None), ("front", Cull::Front), ("back", Cull::Back)];
