@@ -91,7 +91,7 @@ pub(super) fn run(args: &RenderArgs, console: &Console) -> Outcome {
     };
     drop(progress);
     if let Some(adapter) = drawn_by.filter(|_| read.is_human()) {
-        console.remark(&format!("drawn by {adapter}"));
+        console.remark(&format!("drawn by {adapter}{}", read.host_part()));
     }
     let (files, nans) = target.encode(&picture, read.scene.framebuffer.encode)?;
     if nans > 0 {
