@@ -245,6 +245,7 @@ impl TestSession {
             uniforms: self.uniforms.values.roots.clone(),
             textures,
             dynamic: Vec::new(),
+            fixed: None,
         })
     }
 

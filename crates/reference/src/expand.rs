@@ -61,6 +61,7 @@ fn expand_draw(draw: &Draw, framebuffer: Framebuffer) -> Result<Draw, Vec<Diagno
         uniforms: uniforms.collect(),
         textures: textures.collect(),
         dynamic: draw.dynamic.clone(),
+        fixed: draw.fixed.clone(),
         indices: Some(emission.indices),
         program: Arc::new(program),
     })

@@ -11,7 +11,7 @@ use glisten_front::hir::{
     ExprId, ExprKind, Function, FunctionId, Global, GlobalId, Interpolation, Scalar, ScalarValue, Shader, Stage, Stmt,
     StmtKind, Storage, Type, TypeId, Types, VarRef,
 };
-use glisten_front::link::{Bindings, Program, link};
+use glisten_front::link::{Bindings, FixedState, Program, link};
 use glisten_front::source::Span;
 use rustc_hash::FxHashMap;
 
@@ -73,7 +73,9 @@ pub(crate) fn pass_through(
     let (shader, attributes) = builder.finish();
     let outputs = program.interface.outputs.iter().filter(|output| !output.name.starts_with("gl_"));
     let colors: Vec<(String, u32)> = outputs.map(|output| (output.name.clone(), output.location)).collect();
-    let bindings = Bindings { attribute_locations: &[], frag_data_locations: &colors };
+    // The stages have the statements of the fixed-function state already.
+    let fixed = FixedState { unclamped_colors: true, ..FixedState::default() };
+    let bindings = Bindings { attribute_locations: &[], frag_data_locations: &colors, fixed };
     let mut found = Diagnostics::default();
     match link(program.name.clone(), types, vec![shader, fragment], bindings, &mut found) {
         Some(program) => Ok((program, attributes)),

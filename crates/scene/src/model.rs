@@ -3,9 +3,10 @@
 //! *Holds:* indices are below the length of each attribute's data; the values of a root have the length of its type;
 //! a runner can draw a scene without further checks of sizes.
 
+use crate::fixed::FixedFunction;
 use crate::picture::Transfer;
 use glisten_front::hir::{PrimitiveIn, SamplerType, ScalarValue};
-use glisten_front::link::Program;
+use glisten_front::link::{FixedState, Program};
 use std::sync::Arc;
 
 /// Everything that one picture needs.
@@ -230,6 +231,18 @@ pub struct Draw {
     pub textures: Vec<Option<Arc<Texture>>>,
     /// The uniforms that change from frame to frame.
     pub dynamic: Vec<String>,
+    /// The state of the fixed-function pipeline, for programs of that time. It is in the uniforms and in the program
+    /// already; a runner that has the pipeline itself sets it.
+    pub fixed: Option<Arc<FixedDraw>>,
+}
+
+/// The state of the fixed-function pipeline for a draw.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FixedDraw {
+    /// Matrices, lights and so on.
+    pub state: FixedFunction,
+    /// The switches that the program was compiled for.
+    pub switches: FixedState,
 }
 
 /// The data of one attribute.

@@ -229,6 +229,12 @@ impl FixedRow {
         for (_, range, value) in FIRST_LIGHT.iter().filter(|row| row.0 == self.name) {
             all.iter_mut().take(range.end).skip(range.start).for_each(|slot| *slot = *value);
         }
+        // Texture coordinates are generated from x and y (table 6.17).
+        let generated = self.name.starts_with("gl_EyePlane") || self.name.starts_with("gl_ObjectPlane");
+        let first = ["S", "T"].iter().position(|end| generated && self.name.ends_with(end));
+        if let Some(first) = first {
+            all.iter_mut().skip(first).step_by(4).for_each(|slot| *slot = 1.0);
+        }
         all
     }
 }

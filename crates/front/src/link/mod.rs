@@ -24,6 +24,7 @@
 //! | `locations` | the allocator of all locations |
 //! | `uniforms`, `samplers` | the variables that are constant during a draw, with locations and bindings |
 //! | `layout` | std140 |
+//! | `fixed` | clamped colors, the color of a side, clip planes: state of the fixed-function pipeline as statements |
 //! | `partial` | checks between stages with errors |
 
 mod aliasing;
@@ -33,6 +34,7 @@ mod canonical;
 mod clip_distances;
 mod compatible;
 mod declared;
+mod fixed;
 mod flatten;
 mod geometry;
 mod geometry_inputs;
@@ -51,6 +53,7 @@ mod uniforms;
 pub mod usage;
 mod varyings;
 
+pub use fixed::FixedState;
 pub use layout::MAX_BLOCK_BYTES;
 pub use partial::{Understood, check_understood};
 pub use program::{
@@ -85,6 +88,8 @@ pub struct Bindings<'a> {
     pub attribute_locations: &'a [(String, u32)],
     /// `glBindFragDataLocation`: name and color number. The last entry for a name counts.
     pub frag_data_locations: &'a [(String, u32)],
+    /// The state of the fixed-function pipeline.
+    pub fixed: FixedState,
 }
 
 /// Links analyzed shaders; `None` if that fails. A single shader links, too: its interface is then that of one stage.
@@ -103,6 +108,7 @@ pub fn link(
     stages::check_languages(&shaders, &mut found);
     let mut stages = stages::in_order(&mut types, shaders, &mut found);
     canonical::unify(&mut types, &mut stages, Sizes::Final);
+    fixed::apply(&mut types, &mut stages, bindings.fixed);
     let mut ctx = Linker { types: &types, bindings, diagnostics, failed: false };
     found.into_iter().for_each(|diagnostic| ctx.report(diagnostic));
     let complete = stages::check(&mut ctx, &stages, lone);

@@ -1,8 +1,9 @@
 //! Loads a `[[draw]]` table as a [`Draw`].
 
 use super::attributes::{load_attributes, scalar_of};
+use super::fixed::{self, GENERATED, load_pipeline, load_switches, other_stage};
 use super::lights::{LIGHT_SPACES, LightSpace};
-use super::material::load_material;
+use super::material::{load_colors, load_material};
 use super::matrices::View;
 use super::mesh::{Mesh, load_mesh};
 use super::names::{BLENDS, CULLS, FRONT_FACES, PRIMITIVES, PROVOKING};
@@ -10,13 +11,14 @@ use super::reader::{Node, NumberValue, Reader, report_unknown_name};
 use super::textures::load_textures;
 use super::uniforms::{Context, load_uniforms};
 use super::{Loader, ProgramKey, Surroundings, library_file};
-use crate::model::{AttributeData, BlendFactor, Compare, Cull, Draw, Format, Framebuffer, Primitive, State};
+use crate::fixed::{FixedFunction, uses_fixed_state};
+use crate::model::{AttributeData, BlendFactor, Compare, Cull, Draw, FixedDraw, Format, Framebuffer, Primitive, State};
 use glisten_front::diagnostic::codes::scenes::{
     SCENE_CANNOT_DRAW, SCENE_WRONG_SIZE, SCENE_WRONG_TYPE, SCENE_WRONG_VALUE,
 };
 use glisten_front::diagnostic::{Diagnostic, did_you_mean};
-use glisten_front::hir::{Scalar, Stage};
-use glisten_front::link::Program;
+use glisten_front::hir::{Global, Scalar, Shader, Stage};
+use glisten_front::link::{FixedState, Program};
 use glisten_front::source::Span;
 use std::sync::Arc;
 use toml::de::{DeTable, DeValue};
@@ -52,6 +54,9 @@ const KEYS: &[&str] = &[
     "matrices",
     "material",
     "light_space",
+    "vertex_program_two_side",
+    "clamp_vertex_color",
+    "fixed_function",
 ];
 
 /// The largest number of vertices or indices of a draw, and of instances.
@@ -64,10 +69,11 @@ pub(super) fn load_draw(loader: &mut Loader<'_>, node: &Node<'_>, around: &Surro
     // The header only, so that an excerpt does not show the whole table.
     let place = loader.reader.span(node.span());
     let state = load_state(&mut loader.reader, table);
-    let files = load_files(loader, table, place);
+    let switches = load_switches(&mut loader.reader, table);
+    let (files, generated) = load_stages(loader, table, place, (around, switches));
     let conventional = files.iter().any(|(_, name, _)| library_file(name).is_some());
     let mesh = table.get("mesh").map(|node| load_mesh(loader, node, conventional));
-    let program = load_program(loader, table, files)?;
+    let program = load_program(loader, table, files, (switches, generated))?;
     check_program(&mut loader.reader, &program, framebuffer, place)?;
     check_primitive(&mut loader.reader, table, &program, &state, place)?;
     let mesh = match mesh {
@@ -82,12 +88,48 @@ pub(super) fn load_draw(loader: &mut Loader<'_>, node: &Node<'_>, around: &Surro
     let instances = loader.reader.count(table, "instances", 1, 0..=MAX_COUNT);
     let space = loader.reader.choice_at(table, "light_space", LightSpace::World, LIGHT_SPACES);
     let context = Context { program: &program, view: &view, lighting: &around.lighting, space, conventional };
-    let uniforms = load_uniforms(&mut loader.reader, table, &context, material.as_ref(), place);
+    let mut fixed = load_fixed(&mut loader.reader, table, (&program, &view), around);
+    let uniforms = load_uniforms(&mut loader.reader, table, &context, material.as_ref(), fixed.as_mut(), place);
+    let fixed = fixed.map(|state| Arc::new(FixedDraw { state, switches }));
     let own_material = material.and_then(|(_, node)| node.get_ref().as_table());
     let textures = load_textures(loader, table, own_material, &program, conventional, place);
     let dynamic = load_dynamic(&mut loader.reader, table, &program);
     let (vertex_count, indices) = load_counts(loader, table, mesh.as_ref(), &program, &attributes, instances, place)?;
-    Some(Draw { program, state, vertex_count, indices, instances, attributes, uniforms, textures, dynamic })
+    Some(Draw { program, state, vertex_count, indices, instances, attributes, uniforms, textures, dynamic, fixed })
+}
+
+/// The state of the fixed-function pipeline, if the program has anything of it.
+fn load_fixed(
+    reader: &mut Reader,
+    table: &DeTable<'_>,
+    (program, view): (&Program, &View),
+    around: &Surroundings<'_, '_>,
+) -> Option<FixedFunction> {
+    let has = |shader: &Shader| shader.globals.iter().any(Global::is_fixed);
+    if !uses_fixed_state(program) && !program.stages.iter().any(has) {
+        return None;
+    }
+    let colors = load_colors(reader, table, around.material, program);
+    Some(fixed::state(view, &around.lighting, colors.as_ref()))
+}
+
+/// The stages of a draw. If it names only one, and that is of a language with the fixed-function pipeline, the text of the
+/// other one is generated.
+fn load_stages(
+    loader: &mut Loader<'_>,
+    table: &DeTable<'_>,
+    place: Span,
+    (around, switches): (&Surroundings<'_, '_>, FixedState),
+) -> (Vec<(Stage, String, Span)>, Option<String>) {
+    let named = |key: &str| table.contains_key(key);
+    let alone = !named("program") && named("vertex") != named("fragment");
+    let one = if alone { loader.lone_stage(table) } else { None };
+    let Some((types, shader, file)) = one else { return (load_files(loader, table, place), None) };
+    let pipeline = load_pipeline(&mut loader.reader, table, around.lighting.lights.len(), switches);
+    let (stage, text) = other_stage(pipeline, &types, &shader);
+    let other = (stage, GENERATED.to_owned(), file.2);
+    let files = if stage == Stage::Vertex { vec![other, file] } else { vec![file, other] };
+    (files, Some(text))
 }
 
 fn load_state(reader: &mut Reader, table: &DeTable<'_>) -> State {
@@ -166,7 +208,7 @@ fn load_files(loader: &mut Loader<'_>, table: &DeTable<'_>, place: Span) -> Vec<
 }
 
 /// `[draw.defines]`: macros of the draw's program.
-fn load_defines(reader: &mut Reader, table: &DeTable<'_>) -> Vec<(String, String)> {
+pub(super) fn load_defines(reader: &mut Reader, table: &DeTable<'_>) -> Vec<(String, String)> {
     let Some(defines) = reader.table_at(table, "defines") else { return Vec::new() };
     let mut list = Vec::new();
     for (name, node) in defines {
@@ -201,6 +243,7 @@ fn load_program(
     loader: &mut Loader<'_>,
     table: &DeTable<'_>,
     files: Vec<(Stage, String, Span)>,
+    (switches, generated): (FixedState, Option<String>),
 ) -> Option<Arc<Program>> {
     let attribute_locations = load_locations(&mut loader.reader, table, "attribute_locations");
     let frag_data_locations = load_locations(&mut loader.reader, table, "frag_data_locations");
@@ -213,6 +256,8 @@ fn load_program(
         ProgramKey {
             files: files.into_iter().map(|(stage, name, _)| (stage, name)).collect(),
             defines,
+            switches,
+            generated,
             attribute_locations: attribute_locations.iter().map(|(name, value, _)| (name.clone(), *value)).collect(),
             frag_data_locations: frag_data_locations.iter().map(|(name, value, _)| (name.clone(), *value)).collect(),
         },

@@ -59,6 +59,7 @@ pub fn write(scene: &Scene, files: &[ShaderFiles]) -> String {
         }
         let _ = writeln!(text, "fragment = {}", quoted(&files.fragment));
         state(&mut text, &draw.state);
+        switches(&mut text, draw);
         counts(&mut text, draw);
         if !draw.dynamic.is_empty() {
             let names: Vec<String> = draw.dynamic.iter().map(|name| quoted(name)).collect();
@@ -156,6 +157,17 @@ fn state(text: &mut String, state: &State) {
     }
     if state.clip_distances > 0 {
         let _ = writeln!(text, "clip_distances = {}", state.clip_distances);
+    }
+}
+
+/// The switches of the fixed-function pipeline.
+fn switches(text: &mut String, draw: &Draw) {
+    let Some(fixed) = &draw.fixed else { return };
+    if fixed.switches.two_side {
+        text.push_str("vertex_program_two_side = true\n");
+    }
+    if fixed.switches.unclamped_colors {
+        text.push_str("clamp_vertex_color = false\n");
     }
 }
 
