@@ -411,7 +411,7 @@ fn refuse_samples(draw: &Draw) -> Result<(), Error> {
 /// Rejects comparisons at explicit levels of detail, which are compiled only for depth textures of one level.
 fn refuse_levels(draw: &Draw) -> Result<(), Error> {
     let deep = draw.textures.iter().flatten().any(|texture| {
-        texture.kind.shadow && texture.levels.len() > 1 && texture.filter == glisten_scene::Filter::Trilinear
+        texture.kind.shadow && texture.levels.len() > 1 && texture.filter.uses_levels()
     });
     match emit::levels_of_comparisons(&draw.program).next().filter(|_| deep) {
         Some(span) => {

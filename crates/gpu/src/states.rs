@@ -122,8 +122,5 @@ pub(super) fn address_mode(wrap: Wrap) -> wgpu::AddressMode {
 
 /// The filter within a level.
 pub(super) fn filter_mode(filter: Filter) -> wgpu::FilterMode {
-    match filter {
-        Filter::Nearest => wgpu::FilterMode::Nearest,
-        Filter::Linear | Filter::Trilinear => wgpu::FilterMode::Linear,
-    }
+    if filter.is_linear() { wgpu::FilterMode::Linear } else { wgpu::FilterMode::Nearest }
 }

@@ -314,6 +314,29 @@ pub enum Filter {
     Linear,
     /// Linear within levels and between them.
     Trilinear,
+    /// Nearest within the nearest level.
+    NearestMipmapNearest,
+    /// Linear within the nearest level.
+    LinearMipmapNearest,
+    /// Nearest within levels, linear between them.
+    NearestMipmapLinear,
+}
+
+impl Filter {
+    /// Whether it is linear within a level.
+    pub fn is_linear(self) -> bool {
+        matches!(self, Self::Linear | Self::Trilinear | Self::LinearMipmapNearest)
+    }
+
+    /// Whether it uses other levels than the first.
+    pub fn uses_levels(self) -> bool {
+        !matches!(self, Self::Nearest | Self::Linear)
+    }
+
+    /// Whether it is linear between levels.
+    pub fn blends_levels(self) -> bool {
+        matches!(self, Self::Trilinear | Self::NearestMipmapLinear)
+    }
 }
 
 /// The treatment of coordinates outside `[0, 1]`.
