@@ -5,13 +5,11 @@
 
 use super::TestResult;
 use super::words::Words;
-use crate::scene::AttributeData;
-use crate::scene::AttributeValues;
-use glisten_front::hir::{Shader, Stage, Storage};
+use crate::scene::{AttributeData, AttributeValues};
+use glisten_front::hir::{Global, ScalarValue, Shader, Stage, Storage};
 use glisten_front::link::{FixedState, Program, UniformRoot};
 use glisten_scene::FixedDraw;
 use glisten_scene::fixed::{FixedFunction, GlslDialect, Pipeline, current_attribute, is_fixed_uniform};
-use glisten_front::hir::ScalarValue;
 use std::sync::Arc;
 
 /// What the commands have set.
@@ -118,8 +116,13 @@ pub(super) fn value(draw: &FixedDraw, root: &UniformRoot) -> Option<Vec<ScalarVa
     draw.state.root_values(root)
 }
 
-/// The text of a stage that a test leaves to the fixed-function pipeline.
+/// The text of a stage that a test leaves to the fixed-function pipeline. `known` is the stage next to it.
 pub(super) fn other_stage(stage: Stage, known: Option<&Shader>, clips: bool) -> String {
+    let colors = |global: &Global| global.name == "gl_FrontColor" && global.written;
+    if stage == Stage::Fragment && !known.is_some_and(|shader| shader.globals.iter().any(colors)) {
+        // The color is undefined (OpenGL 3.2 §2.11).
+        return "#version 120\nvoid main() { gl_FragColor = vec4(0.0, 0.0, 0.0, 1.0); }\n".into();
+    }
     let modern = known.is_some_and(|shader| shader.version.number >= 140);
     let dialect = if modern { GlslDialect::V150 } else { GlslDialect::V120 };
     let pipeline = Pipeline { dialect, clip: clips, ..Pipeline::default() };

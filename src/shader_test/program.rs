@@ -63,7 +63,8 @@ pub(super) fn build(
             let missing = [Stage::Vertex, Stage::Fragment].into_iter().find(|stage| program.stage(*stage).is_none());
             if let Some(stage) = missing {
                 let clips = expects("clip plane");
-                let text = other_stage(stage, program.stages.first(), clips);
+                let next = if stage == Stage::Vertex { program.stages.first() } else { program.stages.last() };
+                let text = other_stage(stage, next, clips);
                 let source = Source { name: name.into(), text: text.into(), stage };
                 sources.insert(if stage == Stage::Vertex { 0 } else { sources.len() }, source);
                 compilation = compiler.compile(&sources);

@@ -121,7 +121,10 @@ impl Units {
                 TextureUnit { levels, wrap: Wrap::ClampToEdge, ..plane() }
             }
             _ => {
-                return skip(line, format_args!("`texture {form} {}` is not supported", dimensions.unwrap_or_default()));
+                return skip(
+                    line,
+                    format_args!("`texture {form} {}` is not supported", dimensions.unwrap_or_default()),
+                );
             }
         };
         self.units.insert(number, made);

@@ -167,6 +167,12 @@ pub fn named(name: &str, version: Version, stage: Stage) -> Option<&'static Fixe
         .find(|row| row.name == name && row.availability.stages.has(stage) && row.availability.in_version(version))
 }
 
+/// The member of `gl_PerVertex` with a name that the compatibility profile of a version adds.
+pub fn per_vertex(name: &str, version: Version, stage: Stage) -> Option<&'static FixedRow> {
+    let stage = if stage == Stage::Geometry { Stage::Vertex } else { stage };
+    named(name, version, stage).filter(|row| row.storage == Storage::Out && PER_VERTEX.contains(&row.name))
+}
+
 /// Whether a name is one of the fixed-function pipeline, in any language and stage.
 pub fn is_fixed(name: &str) -> bool {
     FIXED.iter().any(|row| row.name == name)

@@ -30,7 +30,8 @@ fn add_members(types: &Types, vertex: &Shader, id: GlobalId, element: TypeId, li
     let mut offset = 0;
     for member in &types.structure(block).members {
         let output = vertex.globals().find(|(_, global)| {
-            global.storage == Storage::Out && global.builtin.is_some() && global.name == member.name
+            let is_built_in = global.builtin.is_some() || global.is_fixed();
+            global.storage == Storage::Out && is_built_in && global.name == member.name
         });
         if let Some((from, output)) = output {
             let scalars = types.flat_len(member.ty).min(types.flat_len(output.ty));
