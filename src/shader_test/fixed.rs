@@ -6,10 +6,12 @@
 use super::TestResult;
 use super::words::Words;
 use crate::scene::{AttributeData, AttributeValues};
-use glisten_front::hir::{Global, ScalarValue, Shader, Stage, Storage};
+use glisten_front::hir::{ArraySize, Global, ScalarValue, Shader, Stage, Storage, Type, Types};
 use glisten_front::link::{FixedState, Program, UniformRoot};
 use glisten_scene::FixedDraw;
-use glisten_scene::fixed::{FixedFunction, GlslDialect, Pipeline, current_attribute, is_fixed_uniform};
+use glisten_scene::fixed::{
+    FixedFunction, GlslDialect, Pipeline, TextureUnit, UNITS, current_attribute, is_fixed_uniform,
+};
 use std::sync::Arc;
 
 /// What the commands have set.
@@ -117,7 +119,7 @@ pub(super) fn value(draw: &FixedDraw, root: &UniformRoot) -> Option<Vec<ScalarVa
 }
 
 /// The text of a stage that a test leaves to the fixed-function pipeline. `known` is the stage next to it.
-pub(super) fn other_stage(stage: Stage, known: Option<&Shader>, clips: bool) -> String {
+pub(super) fn other_stage(stage: Stage, types: &Types, known: Option<&Shader>, clips: bool) -> String {
     let colors = |global: &Global| global.name == "gl_FrontColor" && global.written;
     if stage == Stage::Fragment && !known.is_some_and(|shader| shader.globals.iter().any(colors)) {
         // The color is undefined (OpenGL 3.2 §2.11).
@@ -125,7 +127,16 @@ pub(super) fn other_stage(stage: Stage, known: Option<&Shader>, clips: bool) -> 
     }
     let modern = known.is_some_and(|shader| shader.version.number >= 140);
     let dialect = if modern { GlslDialect::V150 } else { GlslDialect::V120 };
-    let pipeline = Pipeline { dialect, clip: clips, ..Pipeline::default() };
+    let mut pipeline = Pipeline { dialect, clip: clips, ..Pipeline::default() };
+    let coordinates = known.and_then(|shader| shader.globals.iter().find(|global| global.name == "gl_TexCoord"));
+    if let Some(global) = coordinates.filter(|_| stage == Stage::Vertex) {
+        let size = match types.get(global.ty) {
+            Type::Array(_, ArraySize::Sized(size)) => size as usize,
+            _ => UNITS,
+        };
+        pipeline.units.iter_mut().take(size).for_each(|unit| *unit = Some(TextureUnit::default()));
+        pipeline.texture_coordinates = Some(size as u32).filter(|_| size != UNITS);
+    }
     if stage == Stage::Vertex { pipeline.vertex() } else { pipeline.fragment() }
 }
 

@@ -64,7 +64,7 @@ pub(super) fn build(
             if let Some(stage) = missing {
                 let clips = expects("clip plane");
                 let next = if stage == Stage::Vertex { program.stages.first() } else { program.stages.last() };
-                let text = other_stage(stage, next, clips);
+                let text = other_stage(stage, &program.types, next, clips);
                 let source = Source { name: name.into(), text: text.into(), stage };
                 sources.insert(if stage == Stage::Vertex { 0 } else { sources.len() }, source);
                 compilation = compiler.compile(&sources);

@@ -93,7 +93,7 @@ impl Units {
                     (true, false) => BLUE,
                     (false, false) => WHITE,
                 });
-                TextureUnit { levels: vec![level], ..plane() }
+                plane().with(level)
             }
             ("rgbw", Some("1D")) => {
                 let texels = vec![RED, GREEN, BLUE, WHITE];
@@ -217,6 +217,9 @@ fn size(words: &mut Words<'_>) -> Result<[u32; 2], TestResult> {
 }
 
 fn image(width: u32, height: u32, texel: impl Fn(u32, u32) -> [f32; 4]) -> TextureLevel {
-    let texels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| texel(x, y)).collect();
+    // Textures of tests store 8 bits per channel.
+    let stored = |texel: [f32; 4]| texel.map(|channel| (channel.clamp(0.0, 1.0) * 255.0).round() / 255.0);
+    let places = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+    let texels = places.map(|(x, y)| stored(texel(x, y))).collect();
     TextureLevel { width, height, depth: 1, texels: Texels::Float(texels) }
 }
