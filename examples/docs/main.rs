@@ -3,14 +3,17 @@
 //! ```sh
 //! cargo run --example docs                        # the parts that are the same on every machine
 //! cargo run --example docs -- --check             # exit code 1 if those are not current
+//! cargo run --example docs -- docs/conformance.md # one page
 //! cargo run --release --example docs -- --measured   # the measured parts, too
 //! ```
 
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a program for the terminal")]
 
+mod conformance;
 mod maker;
 mod numerics;
 mod regions;
+mod sections;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
@@ -19,11 +22,13 @@ use std::{env, fs};
 fn main() -> ExitCode {
     let arguments: Vec<String> = env::args().skip(1).collect();
     let has = |flag: &str| arguments.iter().any(|argument| argument == flag);
-    if let Some(unknown) = arguments.iter().find(|argument| !["--check", "--measured"].contains(&argument.as_str())) {
+    let (flags, wanted): (Vec<String>, Vec<String>) =
+        arguments.iter().cloned().partition(|argument| argument.starts_with("--"));
+    if let Some(unknown) = flags.iter().find(|flag| !["--check", "--measured"].contains(&flag.as_str())) {
         eprintln!("unknown argument {unknown}; there are --check and --measured");
         return ExitCode::from(2);
     }
-    match run(has("--check"), has("--measured")) {
+    match run(has("--check"), has("--measured"), &wanted) {
         Ok(stale) if stale.is_empty() => ExitCode::SUCCESS,
         Ok(stale) => {
             eprintln!("not current: {}\nrun: cargo run --example docs", stale.join(", "));
@@ -36,8 +41,8 @@ fn main() -> ExitCode {
     }
 }
 
-/// Generates all pages again. Returns the pages that differ and were not written.
-fn run(check: bool, measured: bool) -> Result<Vec<String>, String> {
+/// Generates the wanted pages again, or all. Returns the pages that differ and were not written.
+fn run(check: bool, measured: bool, wanted: &[String]) -> Result<Vec<String>, String> {
     let root = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
     let program = program(&root)?;
     let mut generator = maker::Generator { program, root: root.clone(), measured, made: 0, left: 0 };
@@ -45,6 +50,9 @@ fn run(check: bool, measured: bool) -> Result<Vec<String>, String> {
     let pages = pages(&root).map_err(|error| format!("docs cannot be read: {error}"))?;
     for page in &pages {
         let name = page.strip_prefix(&root).unwrap_or(page).display().to_string();
+        if !wanted.is_empty() && !wanted.contains(&name) {
+            continue;
+        }
         let old = fs::read_to_string(page).map_err(|error| format!("{name}: {error}"))?;
         let new = regions::remake(&old, &mut generator).map_err(|error| format!("{name}: {error}"))?;
         match (old == new, check) {

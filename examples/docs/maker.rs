@@ -32,6 +32,7 @@ static REGIONS: &[(&str, Source)] = &[
     ("claims", Source::Example("claims", &[])),
     ("claims-time", Source::Example("claims", &["time"])),
     ("codes", Source::Tables(diagnostics)),
+    ("conformance", Source::Examined(super::conformance::conformance)),
     ("faults", Source::Tables(known_faults)),
     ("fitted", Source::Tables(fitted_constants)),
     ("library", Source::Output(&["lib", "list"])),

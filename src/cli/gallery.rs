@@ -112,7 +112,9 @@ impl GalleryBackend {
             contract => specialize_scene_by(contract, &scene, &SourceMap::default(), &[]).scene,
         };
         let picture = match self {
-            Self::Gpu(gpu, via) => gpu.render(&scene, *via).map(|rendered| rendered.picture).map_err(DrawError::from),
+            Self::Gpu(gpu, via) => glisten_reference::expand(&scene)
+                .map_err(DrawError::from)
+                .and_then(|scene| gpu.render(&scene, *via).map(|rendered| rendered.picture).map_err(DrawError::from)),
             Self::Cpu => {
                 let options =
                     RenderOptions { precision: Precision::F64, lines: LineRule::OpenGl, ..RenderOptions::default() };

@@ -91,7 +91,7 @@ pub(super) fn run(args: &RenderArgs, console: &Console) -> Outcome {
     };
     drop(progress);
     if let Some(adapter) = drawn_by.filter(|_| read.is_human()) {
-        console.remark(&format!("drawn by {adapter}"));
+        console.remark(&format!("drawn by {adapter}{}", read.host_part()));
     }
     let (files, nans) = target.encode(&picture, read.scene.framebuffer.encode)?;
     if nans > 0 {
@@ -129,6 +129,7 @@ fn draw(args: &RenderArgs, scene: Scene) -> Result<Drawing, DrawError> {
             let gpu = args.scene.gpu()?;
             let drawn_by = Some(gpu.adapter().to_string());
             let picture = args.scene.within_time(move || {
+                let scene = glisten_reference::expand(&scene)?;
                 let prepared = gpu.prepare_foreign(&scene, via, &foreign)?;
                 Ok(gpu.draw(&prepared)?.picture)
             })?;

@@ -122,6 +122,15 @@ impl Read<'_> {
         self.session.tell(&[&self.batch], false)
     }
 
+    /// What stands after the name of the GPU that drew the scene.
+    pub(super) fn host_part(&self) -> &'static str {
+        if glisten_reference::has_geometry_stage(&self.scene) {
+            "; the geometry stage ran on the host, and the GPU drew what it emitted"
+        } else {
+            ""
+        }
+    }
+
     /// The warning that nothing was drawn: no pixel is covered.
     pub(super) fn nothing_covered(&self) -> Diagnostic {
         let scene = self.sources().files().next().map(|(id, _)| self.sources().file(id));

@@ -9,6 +9,7 @@ use super::exit::{Exit, Failure, Outcome};
 use super::files;
 use super::progress::Progress;
 use super::scenes::{DrawError, MachineArgs, Read, SceneArgs};
+use super::stages::extension;
 use crate::account::{PAGE, SceneOnPage, page};
 use crate::specialize::{Account, PictureError, Pictures, SpecializedScene, account, pictures, specialize_scene_by};
 use clap::Args;
@@ -229,7 +230,7 @@ fn write_residual(
         targets.extend([Target::Wgsl, Target::Spirv]);
     }
     for (stage, text) in texts {
-        let name = format!("{stem}.{}", if *stage == Stage::Vertex { "vert" } else { "frag" });
+        let name = format!("{stem}.{}", extension(*stage));
         files::write(&folder.join(&name), text.as_bytes())?;
         for target in &targets {
             match emit::emit(program, *stage, *target, conventions) {
@@ -263,7 +264,8 @@ fn write_scene(
     let shaders: Vec<ShaderFiles> = one
         .names
         .iter()
-        .map(|[_, _, stem]| ShaderFiles { vertex: format!("{stem}.vert"), fragment: format!("{stem}.frag") })
+        .zip(&one.specialized.scene.draws)
+        .map(|([_, _, stem], draw)| ShaderFiles::of(draw, stem))
         .collect();
     let text = write(&one.specialized.scene, &shaders);
     files::write(&folder.join(format!("{}.toml", one.name)), text.as_bytes())?;

@@ -357,10 +357,12 @@ fn write_worst(path: &Path, done: &[Done<'_>]) -> Result<(), Failure> {
     let stem = path.file_stem().map_or_else(|| "worst".to_owned(), |stem| stem.to_string_lossy().into_owned());
     let mut shaders = Vec::new();
     for (number, draw) in scene.draws.iter().enumerate() {
-        let name =
-            |stage: &str| if number == 0 { format!("{stem}.{stage}") } else { format!("{stem}_{number}.{stage}") };
-        let files = ShaderFiles { vertex: name("vert"), fragment: name("frag") };
-        for (stage, file) in [(Stage::Vertex, &files.vertex), (Stage::Fragment, &files.fragment)] {
+        let stem = if number == 0 { stem.clone() } else { format!("{stem}_{number}") };
+        let files = ShaderFiles::of(draw, &stem);
+        let geometry = files.geometry.iter().map(|file| (Stage::Geometry, file));
+        for (stage, file) in
+            [(Stage::Vertex, &files.vertex), (Stage::Fragment, &files.fragment)].into_iter().chain(geometry)
+        {
             let text = draw.program.stage(stage).and_then(|shader| shader.texts.first());
             let text = text.map_or("", |text| text);
             files::write(&path.with_file_name(file), text.as_bytes())?;

@@ -152,7 +152,9 @@ struct GpuBackend {
 
 impl TestBackend for GpuBackend {
     fn draw(&mut self, scene: &Scene) -> Result<Picture, TestResult> {
-        match self.gpu.render(scene, self.via) {
+        // What a geometry stage emits may be more than a vertex stage passes on.
+        let scene = glisten_reference::expand(scene).map_err(|found| TestResult::Skip(first(&found)))?;
+        match self.gpu.render(&scene, self.via) {
             Ok(rendered) => Ok(rendered.picture),
             Err(glisten_gpu::Error::Emit(diagnostics)) => Err(TestResult::Fail(first(&diagnostics))),
             Err(error @ glisten_gpu::Error::Unsupported(_)) => Err(TestResult::Skip(error.to_string())),

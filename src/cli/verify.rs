@@ -263,7 +263,7 @@ pub(super) fn run(args: &VerifyArgs, console: &Console) -> Outcome {
         }
     };
     if args.format == ResultFormat::Human && read.is_human() {
-        console.remark(&format!("drawn by {facts}"));
+        console.remark(&format!("drawn by {facts}{}", read.host_part()));
     }
     console.output(&text)?;
     let exit = if holds { Exit::Ok } else { Exit::Content };

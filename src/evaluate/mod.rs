@@ -168,6 +168,7 @@ impl Evaluator {
             uniforms: Vec::new(),
             textures,
             dynamic: Vec::new(),
+            fixed: None,
         };
         Ok(Scene { name: "evaluate".into(), framebuffer, draws: vec![draw] })
     }

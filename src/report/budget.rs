@@ -163,7 +163,7 @@ impl Way {
             for (stage, text) in texts {
                 shaders.push((format!("{stem}.{}", extension(*stage)), text.clone()));
             }
-            names.push(ShaderFiles { vertex: format!("{stem}.vert"), fragment: format!("{stem}.frag") });
+            names.extend(scene.draws.get(number).map(|draw| ShaderFiles::of(draw, &stem)));
         }
         WayFiles { scene: write(&scene, &names), shaders }
     }

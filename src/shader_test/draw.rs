@@ -4,7 +4,7 @@ use super::vertex_data::{Column, VertexData};
 use super::words::Words;
 use super::{TestResult, fail, skip};
 use crate::scene::{AttributeData, AttributeValues, Primitive};
-use glisten_front::hir::{Scalar, Type, TypeId, Types};
+use glisten_front::hir::{Global, GlobalId, Scalar, Stage, Type, TypeId, Types};
 use glisten_front::link::{Attribute, Program};
 
 /// The vertices of a draw command.
@@ -34,6 +34,10 @@ const MODES: &[(&str, Primitive)] = &[
     ("GL_TRIANGLES", Primitive::Triangles),
     ("GL_TRIANGLE_STRIP", Primitive::TriangleStrip),
     ("GL_TRIANGLE_FAN", Primitive::TriangleFan),
+    ("GL_LINES_ADJACENCY", Primitive::LinesAdjacency),
+    ("GL_LINE_STRIP_ADJACENCY", Primitive::LineStripAdjacency),
+    ("GL_TRIANGLES_ADJACENCY", Primitive::TrianglesAdjacency),
+    ("GL_TRIANGLE_STRIP_ADJACENCY", Primitive::TriangleStripAdjacency),
 ];
 
 /// Parses what follows `draw`.
@@ -139,9 +143,10 @@ fn arrays(words: &mut Words<'_>, program: &Program, data: &VertexData) -> Result
     })
 }
 
-/// Whether the fragment stage could tell that a quad is two triangles.
+/// Whether a stage could tell that a quad is two triangles.
 fn counts_primitives(program: &Program) -> bool {
-    program.stages.iter().flat_map(|shader| shader.globals()).any(|(_, global)| global.name == "gl_PrimitiveID")
+    let counts = |(_, global): (GlobalId, &Global)| global.name == "gl_PrimitiveID";
+    program.stages.iter().any(|shader| shader.stage == Stage::Geometry || shader.globals().any(counts))
 }
 
 /// The data of every attribute of a program; `None` where the table has no column for it.

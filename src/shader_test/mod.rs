@@ -24,9 +24,10 @@
 //!
 //! *Holds:* if a test requests something that this runner does not support, the test is skipped with its name, and
 //! never passes.
-//! *Not done here:* geometry, tessellation and compute shaders, compatibility state, transform feedback.
+//! *Not done here:* tessellation and compute shaders, lighting and fog of the fixed-function pipeline, transform feedback.
 
 mod draw;
+mod fixed;
 mod introspection;
 mod parse;
 mod probe;

@@ -119,8 +119,9 @@ fn open(file: &mut TestFile, name: &str, number: u32) -> Result<Section, TestRes
             file.shaders.push(shader(Stage::Vertex, PASSTHROUGH.into(), true));
             Section::Ignored
         }
-        "vertex shader" | "fragment shader" => {
-            let stage = if name.starts_with("vertex") { Stage::Vertex } else { Stage::Fragment };
+        "vertex shader" | "geometry shader" | "fragment shader" => {
+            let word = name.split(' ').next();
+            let stage = Stage::ALL.into_iter().find(|stage| Some(stage.name()) == word).unwrap_or(Stage::Fragment);
             file.shaders.push(shader(stage, "\n".repeat(number as usize), false));
             Section::Shader
         }

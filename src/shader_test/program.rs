@@ -1,14 +1,41 @@
 //! The program of a test: compiles and links its shaders, and checks whether the link should succeed.
 
+use super::fixed::other_stage;
 use super::parse::TestFile;
 use super::require::Setup;
 use super::{TestResult, fail};
-use glisten_front::compiler::{Compiler, Source};
+use glisten_front::compiler::{Compilation, Compiler, Options, Source};
 use glisten_front::diagnostic::Diagnostics;
 use glisten_front::diagnostic::codes::general::NOT_SUPPORTED_YET;
-use glisten_front::link::Program;
+use glisten_front::hir::Stage;
+use glisten_front::link::{FixedState, Program};
 use glisten_front::source::SourceMap;
 use std::sync::Arc;
+
+/// A program, and how it is compiled again for other state of the fixed-function pipeline.
+pub(super) struct Built {
+    pub(super) program: Arc<Program>,
+    sources: Vec<Source>,
+    compiler: Compiler,
+    variants: Vec<(FixedState, Arc<Program>)>,
+}
+
+impl Built {
+    /// The program for a state. A test changes the state between draws.
+    pub(super) fn variant(&mut self, fixed: FixedState) -> Result<Arc<Program>, TestResult> {
+        if fixed == FixedState::default() {
+            return Ok(Arc::clone(&self.program));
+        }
+        if let Some((_, program)) = self.variants.iter().find(|(known, _)| *known == fixed) {
+            return Ok(Arc::clone(program));
+        }
+        let options = Options { fixed, ..self.compiler.options().clone() };
+        let compilation = self.compiler.with_options(options).compile(&self.sources);
+        let program = linked(compilation)?;
+        self.variants.push((fixed, Arc::clone(&program)));
+        Ok(program)
+    }
+}
 
 /// The program, or `None` if it does not link and the test expects `link error`.
 pub(super) fn build(
@@ -16,8 +43,8 @@ pub(super) fn build(
     file: &TestFile,
     setup: &Setup,
     compiler: &Compiler,
-) -> Result<Option<Arc<Program>>, TestResult> {
-    let sources: Vec<Source> = file
+) -> Result<Option<Built>, TestResult> {
+    let mut sources: Vec<Source> = file
         .shaders
         .iter()
         .map(|shader| {
@@ -25,22 +52,40 @@ pub(super) fn build(
             Source { name: name.into(), text: text.into(), stage: shader.stage }
         })
         .collect();
-    let compilation = compiler.compile(&sources);
+    let mut compilation = compiler.compile(&sources);
     let expects = |phrase: &str| file.commands.iter().any(|line| line.text.starts_with(phrase));
-    match compilation.program {
+    match &compilation.program {
         Some(program) if expects("link error") => {
-            fail(0, format_args!("program `{}` links, and the test expects a link error", program.name))
+            return fail(0, format_args!("program `{}` links, and the test expects a link error", program.name));
         }
-        Some(program) => Ok(Some(Arc::new(program))),
-        None if expects("link error") => Ok(None),
-        None => {
-            let reason = first_error(&compilation.diagnostics, &compilation.sources);
-            let unsupported = compilation.diagnostics.iter().any(|diagnostic| *diagnostic.code == NOT_SUPPORTED_YET);
-            match unsupported {
-                true => Err(TestResult::Skip(reason)),
-                false => Err(TestResult::Fail(reason)),
+        Some(program) if expects("draw") => {
+            // A stage that is missing is that of the fixed-function pipeline.
+            let missing = [Stage::Vertex, Stage::Fragment].into_iter().find(|stage| program.stage(*stage).is_none());
+            if let Some(stage) = missing {
+                let clips = expects("clip plane");
+                let next = if stage == Stage::Vertex { program.stages.first() } else { program.stages.last() };
+                let text = other_stage(stage, &program.types, next, clips);
+                let source = Source { name: name.into(), text: text.into(), stage };
+                sources.insert(if stage == Stage::Vertex { 0 } else { sources.len() }, source);
+                compilation = compiler.compile(&sources);
             }
         }
+        None if expects("link error") => return Ok(None),
+        _ => {}
+    }
+    let program = linked(compilation)?;
+    Ok(Some(Built { program, sources, compiler: compiler.clone(), variants: Vec::new() }))
+}
+
+fn linked(compilation: Compilation) -> Result<Arc<Program>, TestResult> {
+    if let Some(program) = compilation.program {
+        return Ok(Arc::new(program));
+    }
+    let reason = first_error(&compilation.diagnostics, &compilation.sources);
+    let unsupported = compilation.diagnostics.iter().any(|diagnostic| *diagnostic.code == NOT_SUPPORTED_YET);
+    match unsupported {
+        true => Err(TestResult::Skip(reason)),
+        false => Err(TestResult::Fail(reason)),
     }
 }
 

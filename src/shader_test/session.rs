@@ -4,7 +4,9 @@
 //! the uniforms and the state of its command.
 
 use super::draw::{self, Geometry};
+use super::fixed::{self, FixedSetup};
 use super::parse::{Line, TestFile, parse};
+use super::program::Built;
 use super::textures::Units;
 use super::uniforms::Uniforms;
 use super::vertex_data::{self, VertexData};
@@ -12,7 +14,7 @@ use super::words::Words;
 use super::{TestBackend, TestResult, fail, introspection, probe, program, require, skip};
 use crate::scene::{BlendFactor, Compare, Cull, Draw, Format, Framebuffer, Primitive, Scene, State};
 use glisten_front::compiler::Compiler;
-use glisten_front::hir::{Stage, Type};
+use glisten_front::hir::{Scalar, Stage, Type};
 use glisten_front::link::Program;
 use glisten_scene::picture::{Picture, Transfer};
 use std::sync::Arc;
@@ -27,8 +29,8 @@ pub(super) fn run(
     let file = parse(text)?;
     let setup = require::check(&file.requirements)?;
     let data = vertex_data::parse(&file.vertex_data)?;
-    let Some(program) = program::build(name, &file, &setup, compiler)? else { return Ok(()) };
-    let mut session = TestSession::new(program, data, setup.size);
+    let Some(built) = program::build(name, &file, &setup, compiler)? else { return Ok(()) };
+    let mut session = TestSession::new(built, data, setup.size);
     commands(&file, &mut session, backend)
 }
 
@@ -42,10 +44,12 @@ fn commands(file: &TestFile, session: &mut TestSession, backend: &mut dyn TestBa
 /// The state that commands change.
 struct TestSession {
     program: Arc<Program>,
+    built: Built,
     data: VertexData,
     uniforms: Uniforms,
     units: Units,
     state: State,
+    fixed: FixedSetup,
     /// The enabled GL_CLIP_DISTANCEi, one bit each.
     clip: u32,
     blending: bool,
@@ -66,7 +70,8 @@ const TOLERANCE: f64 = 0.01;
 const MOST_DRAWS: usize = 1024;
 
 impl TestSession {
-    fn new(program: Arc<Program>, data: VertexData, [width, height]: [u32; 2]) -> Self {
+    fn new(built: Built, data: VertexData, [width, height]: [u32; 2]) -> Self {
+        let program = Arc::clone(&built.program);
         let state = State { primitive: Primitive::TriangleStrip, ..State::INITIAL };
         // A window stores 8 bits per channel.
         let framebuffer = Framebuffer {
@@ -80,6 +85,8 @@ impl TestSession {
         Self {
             uniforms: Uniforms::new(&program),
             program,
+            built,
+            fixed: FixedSetup::default(),
             data,
             units: Units::default(),
             state,
@@ -129,9 +136,12 @@ impl TestSession {
                 Ok(())
             }
             "polygon" => skip(line.number, "`polygon mode`: WebGPU draws polygons filled"),
-            "ortho" => self.ortho(&mut words),
+            "ortho" => self.fixed.ortho(&mut words, [self.framebuffer.width, self.framebuffer.height]),
+            "frustum" => self.fixed.frustum(&mut words),
+            "color" => self.fixed.color(&mut words),
+            "clip" if words.eat("plane") => self.fixed.clip_plane(&mut words),
             // What no shader sees.
-            "frustum" | "hint" | "shade" => Ok(()),
+            "hint" | "shade" => Ok(()),
             _ => skip(line.number, format_args!("`{}` is not supported", line.text)),
         }
     }
@@ -154,24 +164,6 @@ impl TestSession {
         }
     }
 
-    /// `ortho`, `ortho 0 1 0 1`: the projection from the window's pixels, or from a rectangle, for programs that read the
-    /// matrices of the fixed-function pipeline.
-    fn ortho(&mut self, words: &mut Words<'_>) -> Result<(), TestResult> {
-        let (width, height) = (f64::from(self.framebuffer.width), f64::from(self.framebuffer.height));
-        let [left, right, bottom, top] =
-            if words.rest().is_empty() { [0.0, width, 0.0, height] } else { words.numbers()? };
-        let (x, y) = (2.0 / (right - left), 2.0 / (top - bottom));
-        let (to_x, to_y) = (-(right + left) / (right - left), -(top + bottom) / (top - bottom));
-        let matrix = format!("{x} 0 0 0 0 {y} 0 0 0 0 -1 0 {to_x} {to_y} 0 1");
-        for name in ["gl_ProjectionMatrix", "gl_ModelViewProjectionMatrix"] {
-            if super::uniforms::find(&self.program, name, 0).is_some() {
-                let text = format!("mat4 {name} {matrix}");
-                self.uniforms.set(&self.program, &mut Words::new(words.line, &text), 0)?;
-            }
-        }
-        Ok(())
-    }
-
     fn capability(&mut self, words: &mut Words<'_>, on: bool) -> Result<(), TestResult> {
         let name = words.word()?;
         let clip = name.strip_prefix("GL_CLIP_PLANE").or_else(|| name.strip_prefix("GL_CLIP_DISTANCE"));
@@ -180,6 +172,7 @@ impl TestSession {
             return Ok(());
         }
         match name {
+            "GL_VERTEX_PROGRAM_TWO_SIDE" => self.fixed.two_side = on,
             "GL_DEPTH_TEST" => self.state.depth_test = on,
             "GL_BLEND" => self.blending = on,
             "GL_CULL_FACE" => self.state.cull = if on { Cull::Back } else { Cull::None },
@@ -201,13 +194,17 @@ impl TestSession {
     fn draw(&mut self, words: &mut Words<'_>) -> Result<(), TestResult> {
         let line = words.line;
         if self.program.stage(Stage::Vertex).is_none() || self.program.stage(Stage::Fragment).is_none() {
-            return skip(line, "a draw with one of the two stages alone: the other one would be the fixed function");
+            return skip(line, "a draw with one of the two stages alone");
         }
         if self.draws.len() >= MOST_DRAWS {
             return skip(line, format_args!("more than {MOST_DRAWS} draws without a clear"));
         }
-        if !(self.clip + 1).is_power_of_two() {
+        let (by_vertex, by_distance) = (fixed::clips_by_vertex(&self.program), fixed::clips_by_distance(&self.program));
+        if by_distance && !(self.clip + 1).is_power_of_two() {
             return skip(line, "enabled clip distances with gaps");
+        }
+        if self.clip != 0 && !by_vertex && !by_distance {
+            return skip(line, "clip planes for a program that writes neither gl_ClipVertex nor gl_ClipDistance");
         }
         let size = [self.framebuffer.width, self.framebuffer.height];
         let geometry = draw::parse(words, &self.program, &self.data, size)?;
@@ -217,34 +214,51 @@ impl TestSession {
         Ok(())
     }
 
-    fn scene_draw(&self, line: u32, geometry: Geometry) -> Result<Draw, TestResult> {
-        let interface = &self.program.interface;
-        let missing =
-            interface.attributes.iter().zip(&geometry.attributes).find(|(a, data)| a.active && data.is_none());
-        if let Some((attribute, _)) = missing {
-            return skip(line, format_args!("no data for the attribute `{}`", attribute.name));
+    fn scene_draw(&mut self, line: u32, mut geometry: Geometry) -> Result<Draw, TestResult> {
+        let switches = self.fixed.switches(&self.program, self.clip);
+        let program = self.built.variant(switches)?;
+        let interface = &program.interface;
+        for (attribute, data) in interface.attributes.iter().zip(&mut geometry.attributes) {
+            if data.is_none() {
+                let is_float = program.types.scalar_of(attribute.ty) == Some(Scalar::Float);
+                *data = self.fixed.current(&attribute.name, is_float && attribute.columns == 1);
+            }
+            if attribute.active && data.is_none() {
+                return skip(line, format_args!("no data for the attribute `{}`", attribute.name));
+            }
         }
+        let fixed = self.fixed.draw(switches, self.clip);
+        let own = &self.program.interface.roots;
+        let uniforms = interface.roots.iter().map(|root| {
+            let set = || {
+                let index = own.iter().position(|known| known.name == root.name)?;
+                self.uniforms.values.roots.get(index).cloned()
+            };
+            fixed::value(&fixed, root).or_else(set).unwrap_or_default()
+        });
+        let uniforms = uniforms.collect();
         let mut textures = Vec::new();
         for (slot, &unit) in interface.samplers.iter().zip(&self.uniforms.units) {
-            let Type::Sampler(kind) = self.program.types.get(slot.ty) else { continue };
-            textures.push(self.units.texture(line, unit, kind)?);
+            let Type::Sampler(kind) = program.types.get(slot.ty) else { continue };
+            textures.push(self.units.texture(line, unit, kind, compares_to_vector(&program))?);
         }
         let state = State {
             primitive: geometry.primitive,
             blend: self.blending.then_some(self.factors),
-            clip_distances: self.clip.count_ones(),
+            clip_distances: u32::BITS - self.clip.leading_zeros(),
             ..self.state
         };
         Ok(Draw {
-            program: Arc::clone(&self.program),
+            program: Arc::clone(&program),
             state,
             vertex_count: geometry.count,
             indices: geometry.indices,
             instances: geometry.instances,
             attributes: geometry.attributes,
-            uniforms: self.uniforms.values.roots.clone(),
+            uniforms,
             textures,
             dynamic: Vec::new(),
+            fixed: fixed::shared(fixed),
         })
     }
 
@@ -259,6 +273,12 @@ impl TestSession {
         };
         Ok(self.picture.insert(picture))
     }
+}
+
+/// Whether the program may call functions whose result of a comparison has four components (GLSL 1.20 §8.7): the texture's
+/// state says which of them is the result.
+fn compares_to_vector(program: &Program) -> bool {
+    program.stages.iter().any(|shader| shader.version.number < 130)
 }
 
 fn named<T>(words: &mut Words<'_>, of: impl Fn(&str) -> Option<T>) -> Result<T, TestResult> {

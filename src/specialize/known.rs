@@ -81,7 +81,12 @@ fn state(draw: &Draw, framebuffer: &Framebuffer) -> KnownState {
     let points = draw.state.primitive == Primitive::Points;
     let flat = matches!(
         draw.state.primitive,
-        Primitive::Points | Primitive::Lines | Primitive::LineStrip | Primitive::LineLoop
+        Primitive::Points
+            | Primitive::Lines
+            | Primitive::LineStrip
+            | Primitive::LineLoop
+            | Primitive::LinesAdjacency
+            | Primitive::LineStripAdjacency
     );
     let front_facing = match draw.state.cull {
         // Points and lines face the front (OpenGL 3.2 §3.9.2).
@@ -94,10 +99,12 @@ fn state(draw: &Draw, framebuffer: &Framebuffer) -> KnownState {
         Some(indices) => indices.iter().copied().max().map(|last| last.saturating_add(1)),
         None => Some(draw.vertex_count),
     };
+    // What a geometry stage reads and emits is its own affair.
+    let direct = draw.program.stage(Stage::Geometry).is_none();
     KnownState {
-        point_size: Some(points && draw.state.program_point_size),
-        clip_distances: Some(draw.state.clip_distances),
-        front_facing,
+        point_size: direct.then_some(points && draw.state.program_point_size),
+        clip_distances: direct.then_some(draw.state.clip_distances),
+        front_facing: front_facing.filter(|_| direct),
         attachments: Some(framebuffer.attachments),
         framebuffer: Some([framebuffer.width, framebuffer.height]),
         vertices,

@@ -198,7 +198,8 @@ impl Runner for OnGpu<'_> {
     }
 
     fn draw(&self, scene: &Scene) -> Result<Drawn, Failure> {
-        let prepared = self.gpu.prepare_foreign(scene, self.via, self.foreign)?;
+        let scene = glisten_reference::expand(scene)?;
+        let prepared = self.gpu.prepare_foreign(&scene, self.via, self.foreign)?;
         let glisten_gpu::Rendered { picture, milliseconds } = self.gpu.draw(&prepared)?;
         Ok(Drawn { picture, milliseconds })
     }

@@ -29,6 +29,8 @@ mod floats;
 #[cfg(feature = "cli")]
 mod gallery;
 #[cfg(feature = "gpu")]
+mod geometry;
+#[cfg(feature = "gpu")]
 mod gpu;
 mod helps;
 #[cfg(feature = "cli")]

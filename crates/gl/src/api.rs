@@ -5,12 +5,14 @@
 //! OpenGL does not check the length, it is checked here.
 
 use super::Error;
+use super::old::Old;
 use glow::HasContext;
 
 /// The functions of a context.
 pub(super) struct Api {
     gl: glow::Context,
     more: More,
+    old: Option<Old>,
 }
 
 /// Functions of OpenGL 3.2 that `glow` leaves out.
@@ -80,8 +82,13 @@ type Location<'a> = Option<&'a glow::UniformLocation>;
 
 #[expect(unsafe_code, reason = "every function of OpenGL is unsafe to call where no context is current")]
 impl Api {
-    pub(super) fn new(gl: glow::Context, more: More) -> Self {
-        Self { gl, more }
+    pub(super) fn new(gl: glow::Context, more: More, old: Option<Old>) -> Self {
+        Self { gl, more, old }
+    }
+
+    /// The functions of OpenGL 2.1, in a compatibility context.
+    pub(super) fn old(&self) -> Option<&Old> {
+        self.old.as_ref()
     }
 
     safe! {

@@ -6,6 +6,7 @@
 
 use super::Error;
 use super::api::{Api, More};
+use super::old::Old;
 use khronos_egl as egl;
 use std::ffi::{CStr, c_void};
 use std::marker::PhantomData;
@@ -58,16 +59,17 @@ impl Gl {
         let config = library.choose_first_config(display, &wanted);
         let config = config.map_err(|error| refused("a display reports no configurations", error))?;
         let config = config.ok_or_else(|| Error::NoDriver("no display draws with OpenGL".to_owned()))?;
-        let context = Context::new(library, display, config)?;
+        let context = Context::new(library, display, config, false)?;
         let api = context.api();
         let renderer =
             format!("{}, OpenGL {}", api.get_parameter_string(glow::RENDERER), api.get_parameter_string(glow::VERSION));
         Ok((config, renderer))
     }
 
-    /// A context for one scene, current on this thread until dropped.
-    pub(super) fn context(&self) -> Result<Context<'_>, Error> {
-        Context::new(&self.library, self.display, self.config)
+    /// A context for one scene, current on this thread until dropped: a core context, or one with the fixed-function
+    /// pipeline.
+    pub(super) fn context(&self, compatibility: bool) -> Result<Context<'_>, Error> {
+        Context::new(&self.library, self.display, self.config, compatibility)
     }
 }
 
@@ -143,9 +145,19 @@ pub(super) struct Context<'a> {
 }
 
 impl<'a> Context<'a> {
-    fn new(library: &'a Library, display: egl::Display, config: egl::Config) -> Result<Self, Error> {
+    fn new(
+        library: &'a Library,
+        display: egl::Display,
+        config: egl::Config,
+        compatibility: bool,
+    ) -> Result<Self, Error> {
         let (major, minor) = OLDEST;
-        let too_old = |error| Error::Unsupported(format!("a core context of OpenGL {major}.{minor} ({error})"));
+        let (profile, bit) = if compatibility {
+            ("compatibility", egl::CONTEXT_OPENGL_COMPATIBILITY_PROFILE_BIT)
+        } else {
+            ("core", egl::CONTEXT_OPENGL_CORE_PROFILE_BIT)
+        };
+        let too_old = |error| Error::Unsupported(format!("a {profile} context of OpenGL {major}.{minor} ({error})"));
         library.bind_api(egl::OPENGL_API).map_err(|error| refused("EGL has no OpenGL", error))?;
         let wanted = [
             egl::CONTEXT_MAJOR_VERSION,
@@ -153,14 +165,14 @@ impl<'a> Context<'a> {
             egl::CONTEXT_MINOR_VERSION,
             minor,
             egl::CONTEXT_OPENGL_PROFILE_MASK,
-            egl::CONTEXT_OPENGL_CORE_PROFILE_BIT,
+            bit,
             egl::NONE,
         ];
         let context = library.create_context(display, config, None, &wanted).map_err(too_old)?;
         let api = library
             .make_current(display, None, None, Some(context))
             .map_err(|error| refused("a context needs a surface", error))
-            .and_then(|()| api(library));
+            .and_then(|()| api(library, compatibility));
         match api {
             Ok(api) => Ok(Self { library, display, context, api, here: PhantomData }),
             Err(error) => {
@@ -190,7 +202,7 @@ type MultisampleImage = extern "system" fn(u32, i32, u32, i32, i32, i32, u8);
 
 /// The functions of the current context.
 #[expect(unsafe_code, reason = "functions are asked for by name")]
-fn api(library: &Library) -> Result<Api, Error> {
+fn api(library: &Library, compatibility: bool) -> Result<Api, Error> {
     let address = |name: &str| library.get_proc_address(name);
     // SAFETY: a context is current, and EGL returns the functions with these names.
     let gl = unsafe {
@@ -207,5 +219,6 @@ fn api(library: &Library) -> Result<Api, Error> {
             tex_image_3d_multisample: std::mem::transmute::<extern "system" fn(), MultisampleImage>(image),
         }
     };
-    Ok(Api::new(gl, more))
+    let old = if compatibility { Some(Old::load(&address)?) } else { None };
+    Ok(Api::new(gl, more, old))
 }

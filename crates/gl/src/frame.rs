@@ -6,7 +6,7 @@
 
 use super::api::{Api, PixelLayout};
 use super::states::{STENCIL, color_layout, compare, factor, mode};
-use super::{Error, Gl, programs, textures, uniforms, vertices};
+use super::{Error, Gl, fixed, programs, textures, uniforms, vertices};
 use glisten_front::link::Program;
 use glisten_scene::picture::Picture;
 use glisten_scene::{Cull, Draw, Format, Framebuffer, Scene, State};
@@ -19,7 +19,8 @@ impl Gl {
     /// [`Error::Compile`] and [`Error::Link`] if the driver rejects a program, [`Error::Unsupported`] and
     /// [`Error::Refused`] if it rejects the scene.
     pub fn render(&self, scene: &Scene) -> Result<Picture, Error> {
-        let context = self.context()?;
+        let compatibility = scene.draws.iter().any(|draw| fixed::needs_compatibility(&draw.program));
+        let context = self.context(compatibility)?;
         let api = context.api();
         attach(api, &scene.framebuffer)?;
         clear(api, &scene.framebuffer);
@@ -86,6 +87,9 @@ fn clear(api: &Api, framebuffer: &Framebuffer) {
 
 fn draw(api: &Api, framebuffer: &Framebuffer, linked: glow::Program, draw: &Draw) -> Result<(), Error> {
     api.use_program(Some(linked));
+    if let (Some(old), Some(state)) = (api.old(), &draw.fixed) {
+        fixed::set(api, old, state)?;
+    }
     uniforms::set(api, linked, draw)?;
     textures::bind(api, linked, draw, framebuffer)?;
     vertices::bind(api, draw)?;

@@ -9,19 +9,14 @@ use glisten_front::link::Program;
 
 /// Compiles and links the texts of a program.
 pub(super) fn link(api: &Api, program: &Program) -> Result<glow::Program, Error> {
-    if let Some(name) = fixed_function(program) {
-        return Err(Error::Unsupported(format!(
-            "`{name}` in a core context, where there is no fixed-function pipeline"
-        )));
-    }
     let linked = api.create_program().map_err(Error::Refused)?;
     for shader in &program.stages {
         for text in &shader.texts {
             api.attach_shader(linked, compile(api, &program.name, shader, text)?);
         }
     }
-    for attribute in &program.interface.attributes {
-        api.bind_attrib_location(linked, attribute.location, &attribute.name);
+    for attribute in program.interface.attributes.iter().filter(|attribute| !attribute.name.starts_with("gl_")) {
+        api.bind_attrib_location(linked, attribute.location + first_location(api), &attribute.name);
     }
     // `gl_FragColor` and the other built-in outputs have fixed color numbers.
     for output in program.interface.outputs.iter().filter(|output| !output.name.starts_with("gl_")) {
@@ -35,11 +30,9 @@ pub(super) fn link(api: &Api, program: &Program) -> Result<glow::Program, Error>
     Ok(linked)
 }
 
-/// A name of the fixed-function pipeline that the program uses: OpenGL takes its value from state that a core context lacks.
-fn fixed_function(program: &Program) -> Option<&str> {
-    let attributes = program.interface.attributes.iter().map(|one| one.name.as_str());
-    let uniforms = program.interface.roots.iter().map(|one| one.name.as_str());
-    attributes.chain(uniforms).find(|name| name.starts_with("gl_") && *name != "gl_DepthRange")
+/// The location of the first attribute. In a compatibility context, location 0 is that of `gl_Vertex`.
+pub(super) fn first_location(api: &Api) -> u32 {
+    u32::from(api.old().is_some())
 }
 
 fn compile(api: &Api, program: &str, shader: &Shader, text: &str) -> Result<glow::Shader, Error> {

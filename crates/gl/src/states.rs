@@ -29,6 +29,10 @@ pub(super) fn mode(primitive: Primitive) -> u32 {
         Primitive::Triangles => glow::TRIANGLES,
         Primitive::TriangleStrip => glow::TRIANGLE_STRIP,
         Primitive::TriangleFan => glow::TRIANGLE_FAN,
+        Primitive::LinesAdjacency => glow::LINES_ADJACENCY,
+        Primitive::LineStripAdjacency => glow::LINE_STRIP_ADJACENCY,
+        Primitive::TrianglesAdjacency => glow::TRIANGLES_ADJACENCY,
+        Primitive::TriangleStripAdjacency => glow::TRIANGLE_STRIP_ADJACENCY,
     }
 }
 

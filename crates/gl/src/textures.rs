@@ -9,7 +9,7 @@ use super::states::{compare, wrap};
 use super::texels::{layout, texel_bytes};
 use super::{Error, multisample};
 use glisten_front::hir::{SamplerDim, SamplerType, Scalar, Type};
-use glisten_scene::{Draw, Filter, Framebuffer, Texture, TextureLevel};
+use glisten_scene::{Draw, Framebuffer, Texture, TextureLevel};
 
 /// Binds all textures. The program must be current.
 pub(super) fn bind(api: &Api, linked: glow::Program, draw: &Draw, framebuffer: &Framebuffer) -> Result<(), Error> {
@@ -96,13 +96,16 @@ fn faces(api: &Api, number: i32, kind: SamplerType, level: &TextureLevel, bytes:
 
 fn parameters(api: &Api, target: u32, kind: SamplerType, texture: &Texture) {
     let filtered = kind.texel == Scalar::Float;
-    let mipmapped = texture.filter == Filter::Trilinear && kind.dim != SamplerDim::Rect;
-    let linear = filtered && texture.filter != Filter::Nearest;
+    let mipmapped = texture.filter.uses_levels() && kind.dim != SamplerDim::Rect;
+    let linear = filtered && texture.filter.is_linear();
+    let blended = filtered && texture.filter.blends_levels();
     let within = if linear { glow::LINEAR } else { glow::NEAREST };
-    let minification = match (mipmapped, linear) {
-        (true, true) => glow::LINEAR_MIPMAP_LINEAR,
-        (true, false) => glow::NEAREST_MIPMAP_NEAREST,
-        (false, _) => within,
+    let minification = match (mipmapped, linear, blended) {
+        (true, true, true) => glow::LINEAR_MIPMAP_LINEAR,
+        (true, true, false) => glow::LINEAR_MIPMAP_NEAREST,
+        (true, false, true) => glow::NEAREST_MIPMAP_LINEAR,
+        (true, false, false) => glow::NEAREST_MIPMAP_NEAREST,
+        (false, ..) => within,
     };
     let set = |what: u32, value: u32| api.tex_parameter_i32(target, what, value as i32);
     set(glow::TEXTURE_MIN_FILTER, minification);

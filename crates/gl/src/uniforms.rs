@@ -16,7 +16,9 @@ pub(super) fn set(api: &Api, linked: glow::Program, draw: &Draw) -> Result<(), E
     let program = &draw.program;
     for leaf in &program.interface.uniforms {
         let Some(root) = program.interface.roots.get(leaf.root.0 as usize) else { continue };
+        // State of the fixed-function pipeline is no uniform that a host may set.
         if root.block.is_none()
+            && !(api.old().is_some() && root.name.starts_with("gl_"))
             && let Some(location) = api.get_uniform_location(linked, &leaf.name)
             && let Some(shape) = LeafShape::of(&program.types, leaf)
         {

@@ -3,8 +3,8 @@
 //! *In:* a draw's attributes and indices. *Out:* a vertex array with a buffer for each attribute. *Holds:* OpenGL
 //! fills in components that the data lacks. No draw reads past the end of a buffer.
 
-use super::Error;
 use super::api::Api;
+use super::{Error, fixed, programs};
 use glisten_front::hir::{Scalar, Type, TypeId, Types};
 use glisten_front::link::Attribute;
 use glisten_scene::{AttributeData, AttributeValues, Draw};
@@ -24,6 +24,13 @@ pub(super) fn bind(api: &Api, draw: &Draw) -> Result<(), Error> {
         let rows = rows.checked_div(data.divisor).unwrap_or(vertices);
         if (data.values.len() as u64) < u64::from(rows) * u64::from(data.size) {
             return Err(Error::Refused(format!("`{}` has fewer rows than are drawn", attribute.name)));
+        }
+        if let Some(old) = api.old().filter(|_| attribute.name.starts_with("gl_")) {
+            let widened = fixed::widened(&attribute.name, data);
+            let data = widened.as_ref().unwrap_or(data);
+            fill(api, glow::ARRAY_BUFFER, &bytes(&data.values))?;
+            fixed::feed(old, &attribute.name, data)?;
+            continue;
         }
         feed(api, attribute, data, &draw.program.types)?;
     }
@@ -57,7 +64,7 @@ fn feed(api: &Api, attribute: &Attribute, data: &AttributeData, types: &Types) -
     fill(api, glow::ARRAY_BUFFER, &bytes(&data.values))?;
     let stride = data.size as i32 * 4;
     for index in 0..attribute.columns {
-        let location = attribute.location + index;
+        let location = programs::first_location(api) + attribute.location + index;
         let start = index * height;
         let present = data.size.saturating_sub(start).min(height) as i32;
         let offset = start as i32 * 4;

@@ -21,7 +21,14 @@ pub(super) fn list(
     let as_is = match primitive {
         Primitive::Points => true,
         Primitive::Lines | Primitive::Triangles => !provoking_last,
-        Primitive::LineStrip | Primitive::LineLoop | Primitive::TriangleStrip | Primitive::TriangleFan => false,
+        Primitive::LineStrip
+        | Primitive::LineLoop
+        | Primitive::TriangleStrip
+        | Primitive::TriangleFan
+        | Primitive::LinesAdjacency
+        | Primitive::LineStripAdjacency
+        | Primitive::TrianglesAdjacency
+        | Primitive::TriangleStripAdjacency => false,
     };
     if as_is {
         return indices.map(<[u32]>::to_vec);
@@ -58,6 +65,25 @@ pub(super) fn list(
             // The hub never provokes: under the first-vertex convention it is the vertex after it.
             let corners = (0..count.saturating_sub(2)).map(|i| [0, i + 1, i + 2]);
             triangles(&mut positions, corners, if provoking_last { 2 } else { 1 });
+        }
+        // Without a geometry shader, adjacent vertices are ignored (§2.6.1).
+        Primitive::LinesAdjacency => {
+            lines(&mut positions, (0..count / 4).map(|i| [4 * i + 1, 4 * i + 2]), provoking_last);
+        }
+        Primitive::LineStripAdjacency => {
+            lines(&mut positions, (1..count.saturating_sub(2)).map(|i| [i, i + 1]), provoking_last);
+        }
+        Primitive::TrianglesAdjacency => {
+            let corners = (0..count / 6).map(|i| [6 * i, 6 * i + 2, 6 * i + 4]);
+            triangles(&mut positions, corners, if provoking_last { 2 } else { 0 });
+        }
+        Primitive::TriangleStripAdjacency => {
+            for i in 0..count.saturating_sub(4) / 2 {
+                let (at, odd) = (2 * i, i % 2 == 1);
+                let corners = if odd { [at + 2, at, at + 4] } else { [at, at + 2, at + 4] };
+                let first = if provoking_last { 2 } else { usize::from(odd) };
+                triangles(&mut positions, std::iter::once(corners), first);
+            }
         }
     }
     Some(positions.into_iter().map(number).collect())

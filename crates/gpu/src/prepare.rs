@@ -410,9 +410,11 @@ fn refuse_samples(draw: &Draw) -> Result<(), Error> {
 
 /// Rejects comparisons at explicit levels of detail, which are compiled only for depth textures of one level.
 fn refuse_levels(draw: &Draw) -> Result<(), Error> {
-    let deep = draw.textures.iter().flatten().any(|texture| {
-        texture.kind.shadow && texture.levels.len() > 1 && texture.filter == glisten_scene::Filter::Trilinear
-    });
+    let deep = draw
+        .textures
+        .iter()
+        .flatten()
+        .any(|texture| texture.kind.shadow && texture.levels.len() > 1 && texture.filter.uses_levels());
     match emit::levels_of_comparisons(&draw.program).next().filter(|_| deep) {
         Some(span) => {
             let message = "no target compares depth in a level of detail of the shader's choice, and this depth texture has several";

@@ -26,10 +26,16 @@ pub(super) fn pixel_size(format: Format) -> u32 {
 pub(super) fn topology(primitive: Primitive) -> wgpu::PrimitiveTopology {
     match primitive {
         Primitive::Points => wgpu::PrimitiveTopology::PointList,
-        Primitive::Lines | Primitive::LineStrip | Primitive::LineLoop => wgpu::PrimitiveTopology::LineList,
-        Primitive::Triangles | Primitive::TriangleStrip | Primitive::TriangleFan => {
-            wgpu::PrimitiveTopology::TriangleList
-        }
+        Primitive::Lines
+        | Primitive::LineStrip
+        | Primitive::LineLoop
+        | Primitive::LinesAdjacency
+        | Primitive::LineStripAdjacency => wgpu::PrimitiveTopology::LineList,
+        Primitive::Triangles
+        | Primitive::TriangleStrip
+        | Primitive::TriangleFan
+        | Primitive::TrianglesAdjacency
+        | Primitive::TriangleStripAdjacency => wgpu::PrimitiveTopology::TriangleList,
     }
 }
 
@@ -116,8 +122,5 @@ pub(super) fn address_mode(wrap: Wrap) -> wgpu::AddressMode {
 
 /// The filter within a level.
 pub(super) fn filter_mode(filter: Filter) -> wgpu::FilterMode {
-    match filter {
-        Filter::Nearest => wgpu::FilterMode::Nearest,
-        Filter::Linear | Filter::Trilinear => wgpu::FilterMode::Linear,
-    }
+    if filter.is_linear() { wgpu::FilterMode::Linear } else { wgpu::FilterMode::Nearest }
 }

@@ -90,6 +90,7 @@ fn scene(types: Types, interface: Interface) -> Scene {
         uniforms: vec![],
         textures: vec![],
         dynamic: vec![],
+        fixed: None,
     };
     let framebuffer = Framebuffer {
         width: 8,

@@ -96,7 +96,7 @@ fn black_texel(kind: SamplerType) -> Texture {
 fn sampler(gpu: &Gpu, kind: SamplerType, texture: &Texture) -> wgpu::Sampler {
     let wrap = address_mode(texture.wrap);
     let filter = filter_mode(texture.filter);
-    let trilinear = texture.filter == Filter::Trilinear;
+    let blended = texture.filter.blends_levels();
     gpu.device.create_sampler(&wgpu::SamplerDescriptor {
         label: None,
         address_mode_u: wrap,
@@ -104,10 +104,10 @@ fn sampler(gpu: &Gpu, kind: SamplerType, texture: &Texture) -> wgpu::Sampler {
         address_mode_w: wrap,
         mag_filter: filter,
         min_filter: filter,
-        mipmap_filter: if trilinear { wgpu::MipmapFilterMode::Linear } else { wgpu::MipmapFilterMode::Nearest },
+        mipmap_filter: if blended { wgpu::MipmapFilterMode::Linear } else { wgpu::MipmapFilterMode::Nearest },
         lod_min_clamp: 0.0,
         // OpenGL's NEAREST and LINEAR never leave the base level, whatever level is requested.
-        lod_max_clamp: if trilinear { 1000.0 } else { 0.0 },
+        lod_max_clamp: if texture.filter.uses_levels() { 1000.0 } else { 0.0 },
         compare: kind.shadow.then(|| compare(texture.compare)),
         ..wgpu::SamplerDescriptor::default()
     })

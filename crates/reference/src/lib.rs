@@ -8,7 +8,9 @@
 mod counts;
 pub mod domain;
 pub mod exec;
+mod expand;
 mod interpolate;
+mod pass_through;
 mod pipeline;
 mod population;
 mod raster;
@@ -19,6 +21,7 @@ mod work;
 
 pub use counts::{Counts, counts};
 pub use exec::Step;
+pub use expand::{expand, has_geometry_stage};
 pub use population::{populate, simulate};
 pub use work::{Work, work};
 
@@ -95,7 +98,7 @@ impl Default for RenderOptions {
 /// Draws a scene.
 ///
 /// # Errors
-/// What the reference does not support: a geometry stage, an endless loop.
+/// What the reference does not support, for example an endless loop.
 pub fn render(scene: &Scene, options: &RenderOptions) -> Result<Picture, Vec<Diagnostic>> {
     match options.precision {
         Precision::F64 => pipeline::render::<F64>(scene, options),

@@ -17,7 +17,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// The operations that a draw executes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Work {
-    /// Operations of the vertex stage.
+    /// Operations of the vertex stage, and of the geometry stage.
     pub vertex_operations: u64,
     /// Operations of the fragment stage.
     pub fragment_operations: u64,
@@ -49,10 +49,9 @@ impl Observer<F32> for Counter {
     fn finish(self: Box<Self>, order: Order) {
         let mut totals = self.totals.lock().unwrap_or_else(PoisonError::into_inner);
         let Some(work) = totals.get_mut(order.draw) else { return };
-        if order.piece.stage() == Stage::Vertex {
-            work.vertex_operations += self.operations;
-        } else {
-            work.fragment_operations += self.operations;
+        match order.piece.stage() {
+            Stage::Vertex | Stage::Geometry => work.vertex_operations += self.operations,
+            Stage::Fragment => work.fragment_operations += self.operations,
         }
         work.texture_lookups += self.lookups;
     }

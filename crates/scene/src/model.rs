@@ -3,9 +3,10 @@
 //! *Holds:* indices are below the length of each attribute's data; the values of a root have the length of its type;
 //! a runner can draw a scene without further checks of sizes.
 
+use crate::fixed::FixedFunction;
 use crate::picture::Transfer;
-use glisten_front::hir::{SamplerType, ScalarValue};
-use glisten_front::link::Program;
+use glisten_front::hir::{PrimitiveIn, SamplerType, ScalarValue};
+use glisten_front::link::{FixedState, Program};
 use std::sync::Arc;
 
 /// Everything that one picture needs.
@@ -58,6 +59,32 @@ pub enum Primitive {
     Triangles,
     TriangleStrip,
     TriangleFan,
+    LinesAdjacency,
+    LineStripAdjacency,
+    TrianglesAdjacency,
+    TriangleStripAdjacency,
+}
+
+impl Primitive {
+    /// Whether primitives have adjacent vertices, which only a geometry shader sees.
+    pub fn has_adjacency(self) -> bool {
+        matches!(
+            self,
+            Self::LinesAdjacency | Self::LineStripAdjacency | Self::TrianglesAdjacency | Self::TriangleStripAdjacency
+        )
+    }
+
+    /// Whether a geometry shader with this input primitive takes these primitives (§2.12.1).
+    pub fn feeds(self, input: PrimitiveIn) -> bool {
+        let wanted = match self {
+            Self::Points => PrimitiveIn::Points,
+            Self::Lines | Self::LineStrip | Self::LineLoop => PrimitiveIn::Lines,
+            Self::Triangles | Self::TriangleStrip | Self::TriangleFan => PrimitiveIn::Triangles,
+            Self::LinesAdjacency | Self::LineStripAdjacency => PrimitiveIn::LinesAdjacency,
+            Self::TrianglesAdjacency | Self::TriangleStripAdjacency => PrimitiveIn::TrianglesAdjacency,
+        };
+        wanted == input
+    }
 }
 
 /// Which faces are culled.
@@ -204,6 +231,18 @@ pub struct Draw {
     pub textures: Vec<Option<Arc<Texture>>>,
     /// The uniforms that change from frame to frame.
     pub dynamic: Vec<String>,
+    /// The state of the fixed-function pipeline, for programs of that time. It is in the uniforms and in the program
+    /// already; a runner that has the pipeline itself sets it.
+    pub fixed: Option<Arc<FixedDraw>>,
+}
+
+/// The state of the fixed-function pipeline for a draw.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FixedDraw {
+    /// Matrices, lights and so on.
+    pub state: FixedFunction,
+    /// The switches that the program was compiled for.
+    pub switches: FixedState,
 }
 
 /// The data of one attribute.
@@ -275,6 +314,29 @@ pub enum Filter {
     Linear,
     /// Linear within levels and between them.
     Trilinear,
+    /// Nearest within the nearest level.
+    NearestMipmapNearest,
+    /// Linear within the nearest level.
+    LinearMipmapNearest,
+    /// Nearest within levels, linear between them.
+    NearestMipmapLinear,
+}
+
+impl Filter {
+    /// Whether it is linear within a level.
+    pub fn is_linear(self) -> bool {
+        matches!(self, Self::Linear | Self::Trilinear | Self::LinearMipmapNearest)
+    }
+
+    /// Whether it uses other levels than the first.
+    pub fn uses_levels(self) -> bool {
+        !matches!(self, Self::Nearest | Self::Linear)
+    }
+
+    /// Whether it is linear between levels.
+    pub fn blends_levels(self) -> bool {
+        matches!(self, Self::Trilinear | Self::NearestMipmapLinear)
+    }
 }
 
 /// The treatment of coordinates outside `[0, 1]`.

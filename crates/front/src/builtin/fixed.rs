@@ -167,6 +167,12 @@ pub fn named(name: &str, version: Version, stage: Stage) -> Option<&'static Fixe
         .find(|row| row.name == name && row.availability.stages.has(stage) && row.availability.in_version(version))
 }
 
+/// The member of `gl_PerVertex` with a name that the compatibility profile of a version adds.
+pub fn per_vertex(name: &str, version: Version, stage: Stage) -> Option<&'static FixedRow> {
+    let stage = if stage == Stage::Geometry { Stage::Vertex } else { stage };
+    named(name, version, stage).filter(|row| row.storage == Storage::Out && PER_VERTEX.contains(&row.name))
+}
+
 /// Whether a name is one of the fixed-function pipeline, in any language and stage.
 pub fn is_fixed(name: &str) -> bool {
     FIXED.iter().any(|row| row.name == name)
@@ -228,6 +234,12 @@ impl FixedRow {
         let mut all = one.repeat(count as usize);
         for (_, range, value) in FIRST_LIGHT.iter().filter(|row| row.0 == self.name) {
             all.iter_mut().take(range.end).skip(range.start).for_each(|slot| *slot = *value);
+        }
+        // Texture coordinates are generated from x and y (table 6.17).
+        let generated = self.name.starts_with("gl_EyePlane") || self.name.starts_with("gl_ObjectPlane");
+        let first = ["S", "T"].iter().position(|end| generated && self.name.ends_with(end));
+        if let Some(first) = first {
+            all.iter_mut().skip(first).step_by(4).for_each(|slot| *slot = 1.0);
         }
         all
     }

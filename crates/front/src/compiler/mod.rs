@@ -9,7 +9,7 @@ use crate::diagnostic::codes::general::TOO_LARGE;
 use crate::diagnostic::codes::{names, preprocess};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, Levels};
 use crate::hir::{Stage, Types};
-use crate::link::{Bindings, Program, Understood, check_understood, link};
+use crate::link::{Bindings, FixedState, Program, Understood, check_understood, link};
 use crate::source::{Completion, FileId, IncludeResolver, NoIncludes, SourceMap, Span, whole_text};
 use crate::syntax;
 use std::sync::Arc;
@@ -25,6 +25,8 @@ pub struct Options {
     pub attribute_locations: Vec<(String, u32)>,
     /// `glBindFragDataLocation`: name and color number.
     pub frag_data_locations: Vec<(String, u32)>,
+    /// The state of the fixed-function pipeline that programs of that time are compiled for.
+    pub fixed: FixedState,
     /// The additions of an engine to each source: the version of those without a `#version` line, texts before them. A
     /// [`Preparation`] decides for each source instead.
     pub completion: Completion,
@@ -34,7 +36,7 @@ impl Options {
     /// The options that the linker uses.
     fn bindings(&self) -> Bindings<'_> {
         let (attribute_locations, frag_data_locations) = (&self.attribute_locations, &self.frag_data_locations);
-        Bindings { attribute_locations, frag_data_locations }
+        Bindings { attribute_locations, frag_data_locations, fixed: self.fixed }
     }
 }
 

@@ -8,6 +8,7 @@ use super::compatible::same_value;
 use super::remap::Remap;
 use crate::builtin::BuiltinVariable;
 use crate::diagnostic::{Diagnostic, codes};
+use crate::fold;
 use crate::hir::{
     ArraySize, Function, FunctionId, Global, GlobalId, LocalKind, Member, Shader, Stage, Storage, Type, TypeId, Types,
 };
@@ -145,7 +146,9 @@ impl Merge<'_> {
 
     fn unite_global(&mut self, place: GlobalId, global: Global) {
         let Some(known) = self.all.globals.get(place.index()) else { return };
-        if let Some(problem) = global_problem(self.types, known, &global) {
+        let problem =
+            global_problem(self.types, known, &global).or_else(|| self.initializer_problem(known, &global));
+        if let Some(problem) = problem {
             self.found.push(problem);
             return;
         }
@@ -164,6 +167,24 @@ impl Merge<'_> {
         if let (Some(known), Some(other)) = (&mut known.block, &global.block) {
             known.binding = known.binding.or(other.binding);
         }
+    }
+
+    /// Several initializers of a global variable must be constant expressions of the same value (§4.3).
+    fn initializer_problem(&self, known: &Global, other: &Global) -> Option<Diagnostic> {
+        let (Some(first), Some(second)) = (known.initializer, other.initializer) else { return None };
+        if known.storage != Storage::Private {
+            return None;
+        }
+        let value = |expr| fold::evaluate(self.all, self.types, expr, &|_| None);
+        if let (Some(first), Some(second)) = (value(first), value(second))
+            && same_value(&first, &second)
+        {
+            return None;
+        }
+        let message = format!("several shaders of one stage initialize `{}`", known.match_name());
+        let help = "leave all initializers but one out, or make them the same constant expression";
+        let finding = Diagnostic::new(&codes::link::SHARED_GLOBAL_MISMATCH, other.span, message);
+        Some(finding.label(known.span, "and here").help(help))
     }
 
     fn unite_function(&mut self, place: FunctionId, function: Function) {

@@ -14,6 +14,7 @@
 //! | `compatible` | whether two declarations in different shaders have the same type |
 //! | `stages` | the stages of a program; `main`; geometry layouts |
 //! | `matching` | outputs of one stage against inputs of the next |
+//! | `geometry_inputs` | which outputs of the vertex stage the geometry stage reads |
 //! | `per_vertex` | redeclarations of `gl_PerVertex` |
 //! | `varyings` | interpolated variables, split and with locations |
 //! | `clip_distances` | `gl_ClipDistance` as an input of the fragment stage |
@@ -23,6 +24,7 @@
 //! | `locations` | the allocator of all locations |
 //! | `uniforms`, `samplers` | the variables that are constant during a draw, with locations and bindings |
 //! | `layout` | std140 |
+//! | `fixed` | clamped colors, the color of a side, clip planes: state of the fixed-function pipeline as statements |
 //! | `partial` | checks between stages with errors |
 
 mod aliasing;
@@ -32,8 +34,10 @@ mod canonical;
 mod clip_distances;
 mod compatible;
 mod declared;
+mod fixed;
 mod flatten;
 mod geometry;
+mod geometry_inputs;
 mod layout;
 mod locations;
 mod matching;
@@ -49,11 +53,12 @@ mod uniforms;
 pub mod usage;
 mod varyings;
 
+pub use fixed::FixedState;
 pub use layout::MAX_BLOCK_BYTES;
 pub use partial::{Understood, check_understood};
 pub use program::{
-    Attribute, Block, BlockIndex, Interface, Output, Program, RootIndex, SamplerSlot, SlotBinding, UniformLeaf,
-    UniformRoot, Varying, VaryingEnd,
+    Attribute, Block, BlockIndex, GeometryInput, Interface, Output, Program, RootIndex, SamplerSlot, SlotBinding,
+    UniformLeaf, UniformRoot, Varying, VaryingEnd,
 };
 pub use remap::Remap;
 
@@ -83,6 +88,8 @@ pub struct Bindings<'a> {
     pub attribute_locations: &'a [(String, u32)],
     /// `glBindFragDataLocation`: name and color number. The last entry for a name counts.
     pub frag_data_locations: &'a [(String, u32)],
+    /// The state of the fixed-function pipeline.
+    pub fixed: FixedState,
 }
 
 /// Links analyzed shaders; `None` if that fails. A single shader links, too: its interface is then that of one stage.
@@ -101,6 +108,7 @@ pub fn link(
     stages::check_languages(&shaders, &mut found);
     let mut stages = stages::in_order(&mut types, shaders, &mut found);
     canonical::unify(&mut types, &mut stages, Sizes::Final);
+    fixed::apply(&mut types, &mut stages, bindings.fixed);
     let mut ctx = Linker { types: &types, bindings, diagnostics, failed: false };
     found.into_iter().for_each(|diagnostic| ctx.report(diagnostic));
     let complete = stages::check(&mut ctx, &stages, lone);
@@ -120,6 +128,9 @@ fn interface(ctx: &mut Linker<'_>, stages: &[Shader]) -> Interface {
     }
     if let Some(vertex) = of(Stage::Vertex) {
         interface.attributes = attributes::assign(ctx, vertex);
+    }
+    if let (Some(vertex), Some(geometry)) = (of(Stage::Vertex), of(Stage::Geometry)) {
+        interface.geometry_inputs = geometry_inputs::connect(ctx.types, vertex, geometry);
     }
     let producer = of(Stage::Geometry).or(of(Stage::Vertex));
     (interface.varyings, interface.clip_distances) = varyings::assign(ctx, producer, of(Stage::Fragment));

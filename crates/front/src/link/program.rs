@@ -53,6 +53,8 @@ pub struct RootIndex(pub u32);
 pub struct Interface {
     /// Vertex inputs, in order of declaration, without the built-in ones.
     pub attributes: Vec<Attribute>,
+    /// What the geometry stage reads of each vertex; empty without one.
+    pub geometry_inputs: Vec<GeometryInput>,
     /// Varyings, split into scalars and vectors, in order of location.
     pub varyings: Vec<Varying>,
     /// The elements of `gl_ClipDistance` that the fragment stage reads: varyings that no host names.
@@ -99,6 +101,17 @@ pub struct VaryingEnd {
     pub global: GlobalId,
     /// The index of its first scalar in the variable's flat layout. The varying's type determines how many follow.
     pub flat_offset: u32,
+}
+
+/// An input of the geometry stage, or a member of `gl_in`, with the output of the vertex stage that it reads.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct GeometryInput {
+    /// The output of the vertex stage.
+    pub from: VaryingEnd,
+    /// The input, which is an array of vertices: the place in the element of one vertex.
+    pub to: VaryingEnd,
+    /// The number of scalars.
+    pub scalars: u32,
 }
 
 /// A scalar or vector that the rasterizer interpolates.

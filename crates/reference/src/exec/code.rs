@@ -12,6 +12,30 @@ pub struct Code {
     pub(super) inner: Arc<Inner>,
 }
 
+impl Code {
+    /// The place of a `float` output of a geometry stage among the floats of an emitted vertex.
+    pub fn emitted_float(&self, global: GlobalId, flat: u32) -> Option<usize> {
+        self.inner.emitted[0].iter().position(|place| *place == (global, flat))
+    }
+
+    /// The place of an `int`, `uint` or `bool` output among the ints of an emitted vertex.
+    pub fn emitted_int(&self, global: GlobalId, flat: u32) -> Option<usize> {
+        self.inner.emitted[1].iter().position(|place| *place == (global, flat))
+    }
+
+    /// The number of floats and of ints of an emitted vertex.
+    pub fn emitted_sizes(&self) -> [usize; 2] {
+        [self.inner.emitted[0].len(), self.inner.emitted[1].len()]
+    }
+
+    /// Whether the first scalar of the inputs that the stage reads, of those asked for, is a `float`; `None` if it reads
+    /// none of them.
+    pub fn reads(&self, is_asked: impl Fn(GlobalId, u32) -> bool) -> Option<bool> {
+        let port = self.inner.inputs.iter().find(|port| is_asked(port.global, port.flat))?;
+        Some(port.class == Class::Float)
+    }
+}
+
 /// The source of a number for all lanes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum PoolSource {
@@ -86,6 +110,10 @@ pub(super) struct Inner {
     /// The registers with the noise of inputs.
     pub(super) noises: Vec<Port>,
     pub(super) outputs: Vec<Port>,
+    /// The scalars of an emitted vertex, floats and ints.
+    pub(super) emitted: [Vec<(GlobalId, u32)>; 2],
+    /// The largest number of vertices that an invocation emits.
+    pub(super) max_vertices: u32,
     pub(super) mask_slots: usize,
 }
 

@@ -46,15 +46,16 @@ fn step(inst: &Inst) -> Option<Step> {
 
 /// The texels that a lookup reads.
 fn texels(call: &TextureCall, filter: Filter) -> u32 {
-    if call.lookup == Lookup::Fetch || filter == Filter::Nearest {
-        return 1;
+    let levels = u32::from(call.lookup != Lookup::Fetch && filter.blends_levels());
+    if call.lookup == Lookup::Fetch || !filter.is_linear() {
+        return 1 << levels;
     }
     let directions = match call.kind.dim {
         SamplerDim::D1 => 1,
         SamplerDim::D3 => 3,
         _ => 2,
     };
-    1 << (directions + u32::from(filter == Filter::Trilinear))
+    1 << (directions + levels)
 }
 
 impl<D: Domain> Machine<D> {
@@ -87,7 +88,7 @@ impl<D: Domain> Machine<D> {
     /// Tells the observer of the invocations that are about to run.
     pub(super) fn count_invocations(&mut self, inner: &Inner) {
         let Some(observer) = &mut self.observer else { return };
-        let name = if inner.stage == Stage::Vertex { Step::VERTEX } else { Step::FRAGMENT };
+        let name = if inner.stage == Stage::Fragment { Step::FRAGMENT } else { Step::VERTEX };
         let [results, argument] = [&inner.outputs, &inner.inputs].map(|ports| ports.len() as u32);
         observer.count(Step { name, results, argument }, self.watched.count_ones());
     }

@@ -9,6 +9,7 @@
 use super::inst::{Class, Inst};
 use super::machine::Machine;
 use super::registers::Register;
+use super::streams::Streams;
 use super::{LANES, Mask};
 use crate::domain::{Domain, Integer, Number};
 use glisten_scene::picture::Interval;
@@ -36,6 +37,8 @@ struct Joined<D: Domain> {
     undecided: u64,
     /// Lanes whose outputs may be anything.
     unlimited: u64,
+    /// What a geometry stage emits.
+    streams: Streams<D>,
 }
 
 impl<D: Domain> Machine<D> {
@@ -88,6 +91,7 @@ impl<D: Domain> Machine<D> {
     fn run_ways(&mut self, mask: u64, allowance: u64) {
         let code = std::sync::Arc::clone(&self.code.inner);
         (self.discarded, self.undecided) = (0, 0);
+        self.streams.clear();
         (self.budget, self.allowance) = (allowance, allowance);
         self.run_main(&code, mask);
     }
@@ -103,6 +107,7 @@ impl<D: Domain> Machine<D> {
             kept: !self.discarded,
             undecided: self.undecided,
             unlimited: 0,
+            streams: self.streams.clone(),
         }
     }
 
@@ -140,6 +145,7 @@ impl<D: Domain> Machine<D> {
         let code = std::sync::Arc::clone(&self.code.inner);
         let of = |class: Class| code.outputs.iter().filter(move |port| port.class == class);
         for lane in Mask(joined.unlimited).lanes() {
+            joined.streams.unlimit(lane);
             for lanes in joined.floats.iter_mut().map(Register::spread) {
                 lanes.set(lane, D::Float::with_interval(lanes.get(lane).value(), Interval::ALL));
             }
@@ -157,6 +163,7 @@ impl<D: Domain> Machine<D> {
                 *register = outcome;
             }
         }
+        self.streams = joined.streams;
         self.discarded = joined.first;
         let discards = code.main.insts.iter().any(|inst| matches!(inst, Inst::Discard));
         let unknown = if discards { joined.unlimited } else { 0 };
@@ -180,6 +187,9 @@ impl<D: Domain> Joined<D> {
             // If nothing was kept so far, there is nothing to join.
             let fresh = self.kept >> from & 1 == 0;
             self.kept |= 1 << from;
+            if let Some(stream) = machine.streams.get(at) {
+                self.streams.join_one(stream, from, fresh);
+            }
             for (port, register) in of(Class::Float).zip(&mut self.floats) {
                 let Some(new) = machine.registers.floats.get(port.register).map(|new| new.source().at(at)) else {
                     continue;

@@ -119,6 +119,7 @@ impl<D: Domain> Machine<D> {
         self.whole = self.ways.used;
         self.registers.floats.copy_lanes(from, to, size);
         self.registers.ints.copy_lanes(from, to, size);
+        self.streams.copy(from, to, size);
     }
 
     /// Merges ways of the fragment that has most of those that can be; if there are none, gives up the largest.
@@ -148,6 +149,7 @@ impl<D: Domain> Machine<D> {
                 let size = self.ways.group;
                 self.registers.floats.join_lanes(last * size, into * size, size, D::Float::joined);
                 self.registers.ints.join_lanes(last * size, into * size, size, D::Int::joined);
+                self.streams.join(last * size, into * size, size);
                 self.undecided |= (self.undecided >> (last * size) & self.ways.members()) << (into * size);
                 self.release(last, mask);
                 merged = true;

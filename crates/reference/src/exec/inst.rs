@@ -375,6 +375,13 @@ pub(super) enum Inst {
         slots: List,
     },
     Discard,
+    /// Adds a vertex with these numbers to the stream of each active lane (`EmitVertex`).
+    Emit {
+        floats: List,
+        ints: List,
+    },
+    /// Ends the primitive of each active lane (`EndPrimitive`).
+    EndPrimitive,
     /// The lanes where `c` is true stay in the loop. Jumps to `exit` if there is none.
     LoopTest {
         c: Operand,
@@ -509,6 +516,8 @@ impl Inst {
             | Self::Join { .. }
             | Self::Leave { .. }
             | Self::Discard
+            | Self::Emit { .. }
+            | Self::EndPrimitive
             | Self::LoopNext { .. }
             | Self::LoopBack { .. }
             | Self::Idle
@@ -524,6 +533,9 @@ impl Inst {
             }
             Self::Composite { results, arguments, .. } => {
                 [Some((Class::Float, Use::Read, arguments)), Some((Class::Float, Use::Write, results))]
+            }
+            Self::Emit { floats, ints } => {
+                [Some((Class::Float, Use::Read, floats)), Some((Class::Int, Use::Read, ints))]
             }
             Self::LoadFloat { table, .. } => [Some((Class::Float, Use::Read, table)), None],
             Self::LoadInt { table, .. } => [Some((Class::Int, Use::Read, table)), None],

@@ -7,8 +7,8 @@ use super::{LANES, Mask};
 use crate::domain::{Domain, Integer, Number, limits};
 use crate::texture::{self, BoundedFloat, BoundedInt, Gradients, MISSING, Request, Sampled, Steps};
 use glisten_front::hir::{SamplerDim, Scalar, Stage};
+use glisten_scene::Texture;
 use glisten_scene::picture::Interval;
-use glisten_scene::{Filter, Texture};
 
 impl<D: Domain> Machine<D> {
     /// Runs a texture instruction in these lanes. Returns the lanes whose texture is undecided.
@@ -186,11 +186,7 @@ impl<D: Domain> LaneLookup<'_, D> {
             at,
             layer: layer.first().map_or(BoundedFloat::default(), |layer| self.bounded(*layer)),
             reference: self.call.reference.map_or(BoundedFloat::default(), |reference| self.bounded(reference)),
-            level: if texture.filter == Filter::Trilinear {
-                self.level(texture, stage, at)
-            } else {
-                BoundedFloat::default()
-            },
+            level: if texture.filter.uses_levels() { self.level(texture, stage, at) } else { BoundedFloat::default() },
             offset: self.ints(&self.call.offset),
             bounded: D::HAS_INTERVALS,
             weight_bits: D::weight_bits(),

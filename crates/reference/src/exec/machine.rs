@@ -7,9 +7,10 @@ use super::inst::Class;
 use super::mute::Muted;
 use super::observe::Observer;
 use super::registers::{Register, Registers};
+use super::streams::Streams;
 use super::ways::{Ways, couples};
 use crate::domain::{Domain, Integer, Lanes, Number, Profile};
-use glisten_front::hir::{GlobalId, ScalarValue};
+use glisten_front::hir::{GlobalId, ScalarValue, Stage};
 use glisten_front::source::Span;
 use glisten_scene::Texture;
 use std::sync::Arc;
@@ -32,6 +33,8 @@ pub struct Machine<D: Domain> {
     /// Lanes that may or may not be discarded.
     pub(super) perhaps_discarded: u64,
     pub(super) ways: Ways,
+    /// What a geometry stage emits.
+    pub(super) streams: Streams<D>,
     /// All lanes that run.
     pub(super) whole: u64,
     /// The operation or input that adds nothing to envelopes.
@@ -99,6 +102,7 @@ impl<D: Domain> Machine<D> {
             undecided: 0,
             perhaps_discarded: 0,
             ways: Ways::new(couples(&inner.main, inner)),
+            streams: Streams::new(inner.stage == Stage::Geometry, inner.max_vertices),
             whole: 1,
             muted,
             loop_budget: LOOP_BUDGET,
@@ -158,6 +162,7 @@ impl<D: Domain> Machine<D> {
         self.undecided = 0;
         self.perhaps_discarded = 0;
         self.ways.begin_first();
+        self.streams.clear();
         // A machine that has exceeded its budget is likely to do so again. Then it should end soon.
         self.budget = if self.budget_exceeded { self.loop_budget >> 6 } else { self.loop_budget };
         self.watched = live.0;

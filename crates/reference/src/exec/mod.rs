@@ -61,6 +61,7 @@ mod registers;
 mod run;
 mod show;
 mod step;
+mod streams;
 #[cfg(test)]
 mod tests;
 mod ways;
@@ -72,6 +73,7 @@ pub use machine::{LOOP_BUDGET, Machine, Purpose};
 pub use mute::{Muted, Operation};
 pub use observe::{Event, Kind, Observer, Order, Piece, Values, What};
 pub use step::Step;
+pub use streams::Stream;
 
 /// The number of invocations that run at once: a tile of 8x8 pixels (quad by quad), or 64 vertices.
 ///

@@ -32,8 +32,12 @@ pub enum Piece {
     SameForVertices,
     /// The computations that are the same for all fragments.
     SameForFragments,
+    /// The computations that are the same for all primitives of a geometry stage.
+    SameForPrimitives,
     /// A batch of vertices.
     Vertices,
+    /// A batch of primitives of a geometry stage.
+    Primitives,
     /// The fragments of a bin.
     Fragments,
 }
@@ -43,6 +47,7 @@ impl Piece {
     pub fn stage(self) -> Stage {
         match self {
             Self::SameForVertices | Self::Vertices => Stage::Vertex,
+            Self::SameForPrimitives | Self::Primitives => Stage::Geometry,
             Self::SameForFragments | Self::Fragments => Stage::Fragment,
         }
     }

@@ -81,6 +81,10 @@ impl<D: Domain> Machine<D> {
                     self.discarded |= mask;
                     mask = 0;
                 }
+                Inst::Emit { floats, ints } => {
+                    self.emit_vertices(section.list(floats), section.list(ints), mask);
+                }
+                Inst::EndPrimitive => self.end_primitives(mask),
                 Inst::LoopTest { c, active, exit } => {
                     mask = self.truth(c, &mut mask);
                     self.slots[active as usize] = mask;

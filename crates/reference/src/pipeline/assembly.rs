@@ -3,6 +3,7 @@
 //! *In:* shaded vertices, and their order in a draw. *Out:* [`Prim`]s in order. *Holds:* culling and facing depend on
 //! the sign of the snapped area (§3.6.1).
 
+use super::adjacency;
 use super::clip::SIDES;
 use super::vertices::Vertices;
 use crate::LineRule;
@@ -37,9 +38,9 @@ pub(super) struct Prim {
     pub(super) undecided: bool,
 }
 
-/// The positions of a primitive's vertices in the order of the draw, and its provoking vertex.
+/// The vertices of a primitive, and its provoking vertex.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Assembled {
+pub(super) enum Assembled {
     Point(u32),
     Line([u32; 2]),
     /// The corners, and the index of the provoking one by the first-vertex convention; by the other convention it is
@@ -47,7 +48,35 @@ enum Assembled {
     Triangle([u32; 3], usize),
 }
 
-fn assemble(primitive: Primitive, count: u32) -> Vec<Assembled> {
+impl Assembled {
+    /// With other numbers for the vertices.
+    pub(super) fn map(self, f: impl Fn(u32) -> u32) -> Self {
+        match self {
+            Self::Point(vertex) => Self::Point(f(vertex)),
+            Self::Line(ends) => Self::Line(ends.map(f)),
+            Self::Triangle(corners, first) => Self::Triangle(corners.map(f), first),
+        }
+    }
+
+    /// The provoking vertex.
+    pub(super) fn provoking(self, last: bool) -> u32 {
+        match self {
+            Self::Point(vertex) => vertex,
+            Self::Line([from, to]) => {
+                if last {
+                    to
+                } else {
+                    from
+                }
+            }
+            Self::Triangle(corners, first) => corners[if last { 2 } else { first }],
+        }
+    }
+}
+
+/// The primitives that `count` vertices form. Adjacent vertices are left out: without a geometry shader, they are ignored
+/// (§2.6.1).
+pub(super) fn assemble(primitive: Primitive, count: u32) -> Vec<Assembled> {
     let line = |from: u32, to: u32| Assembled::Line([from, to]);
     let triangle = Assembled::Triangle;
     match primitive {
@@ -63,13 +92,20 @@ fn assemble(primitive: Primitive, count: u32) -> Vec<Assembled> {
             .map(|i| if i % 2 == 1 { triangle([i + 1, i, i + 2], 1) } else { triangle([i, i + 1, i + 2], 0) })
             .collect(),
         Primitive::TriangleFan => (0..count.saturating_sub(2)).map(|i| triangle([0, i + 1, i + 2], 1)).collect(),
+        Primitive::LinesAdjacency
+        | Primitive::LineStripAdjacency
+        | Primitive::TrianglesAdjacency
+        | Primitive::TriangleStripAdjacency => {
+            let primitives = adjacency::primitives(primitive, count).into_iter();
+            primitives.enumerate().map(|(number, all)| adjacency::inner(primitive, number, all)).collect()
+        }
     }
 }
 
-/// The primitives of one instance. `order` lists the shaded vertices in the order of the draw.
+/// The primitives of one instance: assembled from shaded vertices, each with its `gl_PrimitiveID`.
 pub(super) fn primitives<D: Domain>(
     vertices: &mut Vertices<D>,
-    order: &[u32],
+    assembled: impl Iterator<Item = (Assembled, u32)>,
     state: &State,
     lines: LineRule,
 ) -> Vec<Prim> {
@@ -77,23 +113,19 @@ pub(super) fn primitives<D: Domain>(
     // clipped primitive depend on which vertex comes first, if only by rounding.
     let is_flat = vertices.int_count > 0 || vertices.interpolations.contains(&Interpolation::Flat);
     let last_first = is_flat && state.provoking_last;
-    let assembled = assemble(state.primitive, order.len() as u32);
-    let mut list = Vec::with_capacity(assembled.len());
-    let vertex = |position: u32| order.get(position as usize).copied().unwrap_or(0);
-    for (id, assembled) in assembled.into_iter().enumerate() {
-        let id = id as u32;
+    let mut list = Vec::with_capacity(assembled.size_hint().0);
+    for (assembled, id) in assembled {
+        let provoking = assembled.provoking(state.provoking_last);
         match assembled {
-            Assembled::Point(position) => list.extend(point_prim(vertices, vertex(position), id, lines)),
+            Assembled::Point(vertex) => list.extend(point_prim(vertices, vertex, id, lines)),
             Assembled::Line([from, to]) => {
-                let provoking = if state.provoking_last { to } else { from };
                 let turned = last_first && lines == LineRule::Vulkan;
-                let ends = if turned { [to, from] } else { [from, to] }.map(vertex);
-                list.extend(line_prim(vertices, ends, vertex(provoking), id, lines));
+                let ends = if turned { [to, from] } else { [from, to] };
+                list.extend(line_prim(vertices, ends, provoking, id, lines));
             }
             Assembled::Triangle(mut corners, first) => {
-                let provoking = corners[if state.provoking_last { 2 } else { first }];
                 corners.rotate_left(if last_first { 2 } else { first });
-                triangle_prims(vertices, corners.map(vertex), vertex(provoking), id, state, &mut list);
+                triangle_prims(vertices, corners, provoking, id, state, &mut list);
             }
         }
     }
@@ -217,26 +249,13 @@ mod tests {
     use super::*;
 
     fn provoking(primitive: Primitive, count: u32, last: bool) -> Vec<u32> {
-        assemble(primitive, count)
-            .into_iter()
-            .map(|assembled| match assembled {
-                Assembled::Point(vertex) => vertex,
-                Assembled::Line([from, to]) => {
-                    if last {
-                        to
-                    } else {
-                        from
-                    }
-                }
-                Assembled::Triangle(corners, first) => corners[if last { 2 } else { first }],
-            })
-            .collect()
+        assemble(primitive, count).into_iter().map(|assembled| assembled.provoking(last)).collect()
     }
 
     #[test]
     fn table_2_12() {
         // Vertex indices from 0: first-vertex convention, then last-vertex convention.
-        let rows: [(Primitive, u32, &[u32], &[u32]); 7] = [
+        let rows: [(Primitive, u32, &[u32], &[u32]); 11] = [
             (Primitive::Points, 3, &[0, 1, 2], &[0, 1, 2]),
             (Primitive::Lines, 5, &[0, 2], &[1, 3]),
             (Primitive::LineStrip, 3, &[0, 1], &[1, 2]),
@@ -244,6 +263,10 @@ mod tests {
             (Primitive::Triangles, 7, &[0, 3], &[2, 5]),
             (Primitive::TriangleStrip, 5, &[0, 1, 2], &[2, 3, 4]),
             (Primitive::TriangleFan, 5, &[1, 2, 3], &[2, 3, 4]),
+            (Primitive::LinesAdjacency, 9, &[1, 5], &[2, 6]),
+            (Primitive::LineStripAdjacency, 5, &[1, 2], &[2, 3]),
+            (Primitive::TrianglesAdjacency, 12, &[0, 6], &[4, 10]),
+            (Primitive::TriangleStripAdjacency, 10, &[0, 2, 4], &[4, 6, 8]),
         ];
         for (primitive, count, first, last) in rows {
             assert_eq!(provoking(primitive, count, false), first, "{primitive:?}");

@@ -2,6 +2,7 @@
 //!
 //! ```text
 //!  Draw ──► vertices    64 vertices at a time, positions in the domain and in f32
+//!       ──► emitted     the primitives of a geometry stage, from the vertices that it reads (staged, adjacency)
 //!       ──► assembly    primitives, clipped (clip), their pixels (raster), culled
 //!       ──► bins        32x32 pixels each, the primitives that touch them in order; threads take bins
 //!       ──► edges       pixels near edges, and which primitives may own them (worlds)
@@ -22,13 +23,18 @@
 //! the executor reads them; colors are written directly to the picture. Memory is touched once if possible: new pages
 //! cost more than what is drawn on them.
 
+mod adjacency;
 mod assembly;
 mod batch;
+mod before;
 mod clip;
 mod edges;
+mod emitted;
+mod expand;
 mod explain;
 mod fragment_tests;
 mod fragments;
+mod invoke;
 mod origin;
 mod outputs;
 mod plan;
@@ -37,6 +43,7 @@ mod same_surface;
 mod slack;
 mod sloped;
 mod source;
+mod staged;
 mod store;
 mod surface;
 mod target;
@@ -49,10 +56,12 @@ use super::RenderOptions;
 use super::domain::Domain;
 use super::exec::{Code, Form, LOOP_BUDGET, Machine, Piece, hashed};
 use super::raster::Shape;
-use assembly::{Prim, primitives};
+use assembly::Prim;
+use before::{Before, Run};
+pub(super) use expand::{Emission, expand};
 pub(super) use explain::explain;
 use fragments::{Shading, draw_bin};
-use glisten_front::diagnostic::codes::scenes::{SCENE_CANNOT_DRAW, SCENE_LOOP_BUDGET};
+use glisten_front::diagnostic::codes::scenes::SCENE_LOOP_BUDGET;
 use glisten_front::diagnostic::{Code as DiagnosticCode, Diagnostic};
 use glisten_front::hir::Stage;
 use glisten_front::source::Span;
@@ -66,7 +75,7 @@ use smallvec::SmallVec;
 use std::sync::{Mutex, OnceLock};
 use surface::{BIN, Surface};
 use target::Target;
-use vertices::{Invocation, ShadeOptions, shade};
+use vertices::{Invocation, ShadeOptions};
 #[cfg(any(test, feature = "stability"))]
 pub(super) use watch::Chosen;
 #[cfg(any(test, feature = "stability"))]
@@ -126,12 +135,9 @@ fn draw_all<D: Domain>(
     mut watch: Watch<'_, D>,
     paint: &mut Paint<'_, D>,
 ) -> Result<(), Vec<Diagnostic>> {
-    if draw.program.stage(Stage::Geometry).is_some() {
-        return Err(vec![refuse(&SCENE_CANNOT_DRAW, "a program with a geometry stage cannot be drawn")]);
-    }
-    let vertex_code = Code::compile_as(&draw.program, Stage::Vertex, watch.study.form)?;
+    let before = Before::compile(draw, watch.study.form)?;
     let fragment_code = Code::compile_as(&draw.program, Stage::Fragment, watch.study.form)?;
-    watch.common(&vertex_code, draw, Piece::SameForVertices);
+    before.show_common(draw, &watch);
     watch.common(&fragment_code, draw, Piece::SameForFragments);
     let plan = Plan::new(&draw.program);
     let outputs = output_plans(draw, scene.framebuffer.attachments);
@@ -147,10 +153,8 @@ fn draw_all<D: Domain>(
         watch.instance = first;
         let RenderOptions { faults, profile, positions, .. } = *options;
         let shaded = ShadeOptions { viewport, faults, profile, positions };
-        let mut vertices = shade::<D>(draw, &vertex_code, &plan, &invocations, shaded, &endless, &watch);
-        if endless.get().is_some() {
-            break;
-        }
+        let run = Run { draw, plan: &plan, options: shaded, endless: &endless, watch: &watch };
+        let mut front = before.run(&run, &invocations);
         for local in 0..instances.len() as u32 {
             if endless.get().is_some() {
                 break;
@@ -159,11 +163,12 @@ fn draw_all<D: Domain>(
             watch.enter();
             let base = local * unique.len() as u32;
             let order: Vec<u32> = order.iter().map(|&position| base + position).collect();
-            let prims = primitives(&mut vertices, &order, &draw.state, options.lines);
+            let run = Run { draw, plan: &plan, options: shaded, endless: &endless, watch: &watch };
+            let (vertices, prims) = before.primitives(&run, &mut front, &order, options.lines)?;
             let shading = Shading {
                 draw,
                 plan: &plan,
-                vertices: &vertices,
+                vertices,
                 prims: &prims,
                 framebuffer: scene.framebuffer,
                 outputs: &outputs,
@@ -175,7 +180,12 @@ fn draw_all<D: Domain>(
                 exact_inputs: watch.study.exact_inputs,
                 surface: if watch.surface == 0 { 0 } else { hashed((watch.surface, watch.instance)) | 1 },
             };
-            paint(&shading, &fragment_code, &endless, &watch);
+            if endless.get().is_none() {
+                paint(&shading, &fragment_code, &endless, &watch);
+            }
+        }
+        if endless.get().is_some() {
+            break;
         }
         first = instances.end;
     }

@@ -1,10 +1,10 @@
-//! Plans the data flow from the vertex stage to the fragment stage, once for each draw.
+//! Plans the data flow between the stages, once for each draw.
 //!
 //! *In:* a linked program. *Out:* for each scalar that is passed on, its source and destination; the built-in
 //! variables that each stage uses.
 
 use glisten_front::builtin::BuiltinVariable;
-use glisten_front::hir::{ExprKind, GlobalId, Interpolation, Scalar, Shader, Stage, Stmt, StmtKind};
+use glisten_front::hir::{ExprKind, Global, GlobalId, Interpolation, Scalar, Shader, Stage, Stmt, StmtKind, Storage};
 use glisten_front::link::Program;
 
 /// A scalar in a variable's flat layout.
@@ -30,10 +30,16 @@ pub(super) struct IntVarying {
 pub(super) struct Plan {
     pub(super) floats: Vec<FloatVarying>,
     pub(super) ints: Vec<IntVarying>,
-    /// Outputs of the vertex stage.
+    /// The stage before the rasterizer.
+    pub(super) producer: Stage,
+    /// Its outputs.
     pub(super) position: Option<GlobalId>,
     pub(super) point_size: Option<GlobalId>,
     pub(super) clip_distance: Option<GlobalId>,
+    /// An output of the geometry stage.
+    pub(super) written_id: Option<GlobalId>,
+    /// An input of the geometry stage.
+    pub(super) primitive_id_in: Option<GlobalId>,
     /// Inputs of the vertex stage.
     pub(super) vertex_id: Option<GlobalId>,
     pub(super) instance_id: Option<GlobalId>,
@@ -51,21 +57,29 @@ pub(super) struct Plan {
 }
 
 impl Plan {
-    /// The plan of a program with both stages.
+    /// The plan of a program with a vertex and a fragment stage.
     pub(super) fn new(program: &Program) -> Self {
         let vertex = program.stage(Stage::Vertex);
         let fragment = program.stage(Stage::Fragment);
-        let of_vertex = |builtin| vertex.and_then(|shader| find(shader, builtin));
-        let of_fragment = |builtin| fragment.and_then(|shader| find(shader, builtin));
-        let frag_depth = of_fragment(BuiltinVariable::FragDepth)
+        let geometry = program.stage(Stage::Geometry);
+        let producer = geometry.or(vertex);
+        let of_producer = |builtin| producer.and_then(|shader| find(shader, builtin, Storage::Out));
+        let of_geometry = |builtin, storage| geometry.and_then(|shader| find(shader, builtin, storage));
+        let of_vertex = |builtin| vertex.and_then(|shader| find(shader, builtin, Storage::In));
+        let of_fragment = |builtin| fragment.and_then(|shader| find(shader, builtin, Storage::In));
+        let frag_depth = fragment
+            .and_then(|shader| find(shader, BuiltinVariable::FragDepth, Storage::Out))
             .filter(|&id| fragment.and_then(|shader| shader.globals.get(id.index())).is_some_and(|g| g.written));
         let discards = fragment.is_some_and(discards);
         let mut plan = Self {
             floats: Vec::new(),
             ints: Vec::new(),
-            position: of_vertex(BuiltinVariable::Position),
-            point_size: of_vertex(BuiltinVariable::PointSize),
-            clip_distance: of_vertex(BuiltinVariable::ClipDistance),
+            producer: producer.map_or(Stage::Vertex, |shader| shader.stage),
+            position: of_producer(BuiltinVariable::Position),
+            point_size: of_producer(BuiltinVariable::PointSize),
+            clip_distance: of_producer(BuiltinVariable::ClipDistance),
+            written_id: of_geometry(BuiltinVariable::PrimitiveId, Storage::Out),
+            primitive_id_in: of_geometry(BuiltinVariable::PrimitiveIdIn, Storage::In),
             vertex_id: of_vertex(BuiltinVariable::VertexId),
             instance_id: of_vertex(BuiltinVariable::InstanceId),
             frag_coord: of_fragment(BuiltinVariable::FragCoord),
@@ -97,8 +111,9 @@ impl Plan {
     }
 }
 
-fn find(shader: &Shader, builtin: BuiltinVariable) -> Option<GlobalId> {
-    shader.globals().find(|(_, global)| global.builtin == Some(builtin)).map(|(id, _)| id)
+fn find(shader: &Shader, builtin: BuiltinVariable, storage: Storage) -> Option<GlobalId> {
+    let is_it = |global: &Global| global.builtin == Some(builtin) && global.storage == storage;
+    shader.globals().find(|(_, global)| is_it(global)).map(|(id, _)| id)
 }
 
 /// Whether the shader takes derivatives anywhere, even if only for a level of detail.

@@ -47,13 +47,21 @@ struct Corner {
 
 /// The factor of a draw; `None` if nothing bounds it.
 pub(crate) fn reach(draw: &Draw, framebuffer: Framebuffer, options: &RenderOptions) -> Option<f64> {
-    match draw.state.primitive {
-        Primitive::Points => return Some(0.0),
-        Primitive::Lines | Primitive::LineStrip | Primitive::LineLoop => return None,
-        Primitive::Triangles | Primitive::TriangleStrip | Primitive::TriangleFan => {}
-    }
     if draw.program.stage(Stage::Geometry).is_some() {
         return None;
+    }
+    match draw.state.primitive {
+        Primitive::Points => return Some(0.0),
+        Primitive::Lines
+        | Primitive::LineStrip
+        | Primitive::LineLoop
+        | Primitive::LinesAdjacency
+        | Primitive::LineStripAdjacency => return None,
+        Primitive::Triangles
+        | Primitive::TriangleStrip
+        | Primitive::TriangleFan
+        | Primitive::TrianglesAdjacency
+        | Primitive::TriangleStripAdjacency => {}
     }
     let code = Code::compile(&draw.program, Stage::Vertex).ok()?;
     let plan = Plan::new(&draw.program);

@@ -38,6 +38,9 @@ pub(super) fn surfaces(scene: &Scene) -> Vec<u64> {
 }
 
 fn surface(draw: &Draw) -> Option<u64> {
+    if draw.program.stage(Stage::Geometry).is_some() {
+        return None;
+    }
     let vertex = draw.program.stage(Stage::Vertex)?;
     let (position, global) = vertex.globals().find(|(_, global)| global.builtin == Some(BuiltinVariable::Position))?;
     let code = Code::compile_as(&draw.program, Stage::Vertex, Form::Unfused).ok()?;

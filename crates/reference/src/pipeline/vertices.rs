@@ -4,16 +4,16 @@
 //! vertex of every instance, in the draw's domain, and positions also in f32, which decide coverage. *Holds:* a
 //! vertex that several indices refer to is shaded once. The order does not depend on threads.
 
+use super::invoke::Job;
 use super::plan::Plan;
 use super::watch::{Watch, jittered};
 use crate::Positions;
 use crate::domain::faults::Faults;
 use crate::domain::{Domain, F32, Integer, Number, Profile};
-use crate::exec::{Code, LANES, Machine, Mask, Piece};
+use crate::exec::{Code, Machine, Mask, Piece};
 use glisten_front::hir::{GlobalId, Interpolation, ScalarValue, Stage, Type, TypeId, Types};
 use glisten_front::source::Span;
 use glisten_scene::Draw;
-use rayon::prelude::*;
 use std::sync::OnceLock;
 
 /// Shaded vertices, structure of arrays.
@@ -78,6 +78,32 @@ impl<D: Domain> Vertices<D> {
         self.ints.get(start..start + self.int_count).unwrap_or(&[])
     }
 
+    /// No vertices yet.
+    pub(super) fn with_capacity(count: usize, draw: &Draw, plan: &Plan, options: ShadeOptions) -> Self {
+        let ShadeOptions { viewport, faults, profile, .. } = options;
+        Self {
+            clip: Vec::with_capacity(count),
+            clip32: Vec::with_capacity(count),
+            window: Vec::with_capacity(count),
+            window32: Vec::with_capacity(count),
+            outside: Vec::with_capacity(count),
+            size: Vec::with_capacity(count),
+            distances: Vec::new(),
+            distances32: Vec::new(),
+            distance_count: distance_count(draw, plan),
+            floats: Vec::with_capacity(count * plan.floats.len()),
+            quotients: Vec::with_capacity(count * plan.floats.len()),
+            float_count: plan.floats.len(),
+            ints: Vec::with_capacity(count * plan.ints.len()),
+            int_count: plan.ints.len(),
+            undecided: Vec::with_capacity(count),
+            interpolations: plan.floats.iter().map(|varying| varying.interpolation).collect(),
+            viewport,
+            faults,
+            profile,
+        }
+    }
+
     /// Adds the window position and the quotients of the last vertex.
     pub(super) fn finish_last(&mut self) {
         let (Some(&clip), Some(&clip32)) = (self.clip.last(), self.clip32.last()) else { return };
@@ -133,53 +159,16 @@ pub(super) fn shade<D: Domain>(
     endless: &OnceLock<Span>,
     watch: &Watch<'_, D>,
 ) -> Vertices<D> {
-    let machines = || {
-        let machine = watch.machine(Stage::Vertex, code, draw, profile);
-        (machine, Machine::<F32>::new(code, &draw.uniforms, &draw.textures))
-    };
-    let chunks: Vec<Chunk<D>> = invocations
-        .par_chunks(LANES)
-        .enumerate()
-        .with_min_len(4)
-        .map_init(machines, |(machine, single), (part, lanes)| {
-            if endless.get().is_some() {
-                // Nothing will be drawn.
-                return Chunk::with_capacity(0, plan);
-            }
-            watch.begin(machine);
-            let mut chunk = shade_chunk(draw, plan, lanes, machine, single, watch.study.jitter);
-            if positions == Positions::Own {
-                chunk.cover_by_own_positions();
-            }
-            watch.end(machine, Piece::Vertices, part);
-            if let Some(found) = machine.endless_loop().or(single.endless_loop()) {
-                endless.get_or_init(|| found);
-            }
-            chunk
-        })
-        .collect();
-    let count = invocations.len();
-    let mut vertices = Vertices {
-        clip: Vec::with_capacity(count),
-        clip32: Vec::with_capacity(count),
-        window: Vec::with_capacity(count),
-        window32: Vec::with_capacity(count),
-        outside: Vec::with_capacity(count),
-        size: Vec::with_capacity(count),
-        distances: Vec::new(),
-        distances32: Vec::new(),
-        distance_count: distance_count(draw, plan),
-        floats: Vec::with_capacity(count * plan.floats.len()),
-        quotients: Vec::with_capacity(count * plan.floats.len()),
-        float_count: plan.floats.len(),
-        ints: Vec::with_capacity(count * plan.ints.len()),
-        int_count: plan.ints.len(),
-        undecided: Vec::with_capacity(count),
-        interpolations: plan.floats.iter().map(|varying| varying.interpolation).collect(),
-        viewport,
-        faults,
-        profile,
-    };
+    let job = Job { stage: Stage::Vertex, piece: Piece::Vertices, code, draw, profile, endless, watch };
+    let chunks: Vec<Chunk<D>> = job.run(invocations, |machine, single, lanes| {
+        let mut chunk = shade_chunk(draw, plan, lanes, machine, single, watch.study.jitter);
+        if positions == Positions::Own {
+            chunk.cover_by_own_positions();
+        }
+        chunk
+    });
+    let mut vertices =
+        Vertices::with_capacity(invocations.len(), draw, plan, ShadeOptions { viewport, faults, profile, positions });
     watch.enter();
     for chunk in chunks {
         vertices.append(chunk);
@@ -188,28 +177,28 @@ pub(super) fn shade<D: Domain>(
 }
 
 /// The number of clip distances that are both enabled and written.
-fn distance_count(draw: &Draw, plan: &Plan) -> usize {
+pub(super) fn distance_count(draw: &Draw, plan: &Plan) -> usize {
     let written = plan.clip_distance.and_then(|id| {
-        let shader = draw.program.stage(Stage::Vertex)?;
+        let shader = draw.program.stage(plan.producer)?;
         shader.globals.get(id.index()).map(|global| draw.program.types.flat_len(global.ty))
     });
     written.unwrap_or(0).min(draw.state.clip_distances) as usize
 }
 
 /// The results of one batch, lane by lane.
-struct Chunk<D: Domain> {
-    clip: Vec<[D::Float; 4]>,
-    clip32: Vec<[f32; 4]>,
-    size: Vec<f32>,
-    distances: Vec<D::Float>,
-    distances32: Vec<f32>,
-    floats: Vec<D::Float>,
-    ints: Vec<D::Int>,
-    undecided: Vec<bool>,
+pub(super) struct Chunk<D: Domain> {
+    pub(super) clip: Vec<[D::Float; 4]>,
+    pub(super) clip32: Vec<[f32; 4]>,
+    pub(super) size: Vec<f32>,
+    pub(super) distances: Vec<D::Float>,
+    pub(super) distances32: Vec<f32>,
+    pub(super) floats: Vec<D::Float>,
+    pub(super) ints: Vec<D::Int>,
+    pub(super) undecided: Vec<bool>,
 }
 
 impl<D: Domain> Chunk<D> {
-    fn with_capacity(count: usize, plan: &Plan) -> Self {
+    pub(super) fn with_capacity(count: usize, plan: &Plan) -> Self {
         Self {
             clip: Vec::with_capacity(count),
             clip32: Vec::with_capacity(count),
@@ -225,7 +214,7 @@ impl<D: Domain> Chunk<D> {
 
 impl<D: Domain> Chunk<D> {
     /// Lets the positions of the domain decide coverage, not those of f32.
-    fn cover_by_own_positions(&mut self) {
+    pub(super) fn cover_by_own_positions(&mut self) {
         for (clip32, clip) in self.clip32.iter_mut().zip(&self.clip) {
             *clip32 = clip.map(|number| number.value() as f32);
         }
@@ -236,7 +225,7 @@ impl<D: Domain> Chunk<D> {
 }
 
 impl<D: Domain> Vertices<D> {
-    fn append(&mut self, chunk: Chunk<D>) {
+    pub(super) fn append(&mut self, chunk: Chunk<D>) {
         let mut floats = chunk.floats.chunks(self.float_count.max(1));
         self.size.extend(chunk.size);
         self.distances.extend(chunk.distances);
@@ -293,7 +282,7 @@ fn shade_chunk<D: Domain>(
 }
 
 /// Whether a position may be anywhere else: it depends on an undecided branch.
-fn may_jump<D: Domain>(clip: [D::Float; 4]) -> bool {
+pub(super) fn may_jump<D: Domain>(clip: [D::Float; 4]) -> bool {
     const FAR: f64 = 1.0 / 256.0;
     D::HAS_INTERVALS && clip.iter().any(|value| value.error() > FAR * clip[3].value().abs())
 }
@@ -307,7 +296,7 @@ pub(super) fn read_int<D: Domain>(machine: &Machine<D>, (global, flat): (GlobalI
 }
 
 /// Moves the attributes that are set by an ULP of f32.
-fn jitter_attributes<D: Domain>(seed: u64, draw: &Draw, lanes: &[Invocation], machine: &mut Machine<D>) {
+pub(super) fn jitter_attributes<D: Domain>(seed: u64, draw: &Draw, lanes: &[Invocation], machine: &mut Machine<D>) {
     for attribute in &draw.program.interface.attributes {
         for flat in 0..draw.program.types.flat_len(attribute.ty) {
             let name = attribute.global.index() as u64 * 64 + u64::from(flat);
@@ -319,7 +308,7 @@ fn jitter_attributes<D: Domain>(seed: u64, draw: &Draw, lanes: &[Invocation], ma
     }
 }
 
-fn fill_inputs<D: Domain>(draw: &Draw, plan: &Plan, lanes: &[Invocation], machine: &mut Machine<D>) {
+pub(super) fn fill_inputs<D: Domain>(draw: &Draw, plan: &Plan, lanes: &[Invocation], machine: &mut Machine<D>) {
     for (attribute, data) in draw.program.interface.attributes.iter().zip(&draw.attributes) {
         let Some(data) = data else { continue };
         let rows = column_len(&draw.program.types, attribute.ty);

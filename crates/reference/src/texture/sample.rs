@@ -4,7 +4,7 @@ use super::texel;
 use super::{BoundedFloat, BoundedInt, Sampled, cube, level};
 use crate::domain::{Profile, limits, rules};
 use glisten_front::hir::{SamplerDim, SamplerType, Scalar};
-use glisten_scene::{Compare, Filter, Texture, TextureLevel, Wrap};
+use glisten_scene::{Compare, Texture, TextureLevel, Wrap};
 
 /// One lookup.
 #[derive(Clone, Copy, Debug)]
@@ -51,17 +51,13 @@ pub(crate) fn sample(texture: &Texture, request: &Request) -> Sampled {
         let Some(base) = level(texture, 0) else { return Sampled::Ints([BoundedInt::default(); 4]) };
         return Sampled::Ints(nearest_bits(texture, base, &request));
     }
-    let floats = match texture.filter {
-        Filter::Nearest => at_level(texture, 0, &request, false),
-        Filter::Linear => at_level(texture, 0, &request, true),
-        Filter::Trilinear => trilinear(texture, &request),
-    };
-    Sampled::Floats(floats)
+    let (linear, uses_levels) = (texture.filter.is_linear(), texture.filter.uses_levels());
+    Sampled::Floats(if uses_levels { mipmapped(texture, &request) } else { at_level(texture, 0, &request, linear) })
 }
 
-/// Linear between levels; for magnification, the base level. The interval is the hull over the possible levels of
-/// detail, linear between whole ones.
-fn trilinear(texture: &Texture, request: &Request) -> [BoundedFloat; 4] {
+/// In the nearest level, or linear between levels; for magnification, the base level. The interval is the hull over the
+/// possible levels of detail, linear between whole ones.
+fn mipmapped(texture: &Texture, request: &Request) -> [BoundedFloat; 4] {
     let last = texture.levels.len().saturating_sub(1) as f64;
     let limited = |lambda: f64| if lambda.is_nan() { 0.0 } else { lambda.clamp(0.0, last) };
     let at = |lambda: f64| between(texture, request, lambda);
@@ -79,14 +75,18 @@ fn trilinear(texture: &Texture, request: &Request) -> [BoundedFloat; 4] {
     result
 }
 
-/// Between the two levels around a level of detail.
+/// In the level nearest to a level of detail (OpenGL 3.2 equation 3.23), or between the two around it.
 fn between(texture: &Texture, request: &Request, lambda: f64) -> [BoundedFloat; 4] {
+    let linear = texture.filter.is_linear();
+    if !texture.filter.blends_levels() {
+        return at_level(texture, ((lambda + 0.5).ceil() - 1.0).max(0.0) as usize, request, linear);
+    }
     let (below, weight) = (lambda.floor(), lambda - lambda.floor());
-    let finer = at_level(texture, below as usize, request, true);
+    let finer = at_level(texture, below as usize, request, linear);
     if weight == 0.0 {
         return finer;
     }
-    let coarser = at_level(texture, below as usize + 1, request, true);
+    let coarser = at_level(texture, below as usize + 1, request, linear);
     let mix = |a: f64, b: f64| a * (1.0 - weight) + b * weight;
     std::array::from_fn(|k| {
         let (a, b) = (finer[k], coarser[k]);

@@ -3,6 +3,7 @@
 use super::mesh::{Mesh, Stream};
 use super::names::ATTRIBUTE_KINDS;
 use super::reader::{Node, Number, NumberValue, Reader, report_unknown_name};
+use crate::fixed::current_attribute;
 use crate::model::{AttributeData, AttributeValues};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::scenes::{
@@ -58,6 +59,13 @@ pub(super) fn load_attributes(
             set(reader, name.get_ref(), span, &mut |reader, attribute| {
                 load_attribute(reader, &program.types, attribute, node)
             });
+        }
+    }
+    for ((attribute, given), data) in attributes.iter().zip(&mut given).zip(&mut data) {
+        if !*given && let Some(current) = current_attribute(&attribute.name) {
+            let (size, values) = (current.len() as u32, AttributeValues::Float(current));
+            // One row for all instances.
+            (*given, *data) = (true, Some(AttributeData { size, divisor: u32::MAX, values }));
         }
     }
     let missing = attributes.iter().zip(given).filter(|(attribute, given)| attribute.active && !given);

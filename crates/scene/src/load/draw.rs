@@ -1,8 +1,9 @@
 //! Loads a `[[draw]]` table as a [`Draw`].
 
 use super::attributes::{load_attributes, scalar_of};
+use super::fixed::{self, GENERATED, load_pipeline, load_switches, other_stage};
 use super::lights::{LIGHT_SPACES, LightSpace};
-use super::material::load_material;
+use super::material::{load_colors, load_material};
 use super::matrices::View;
 use super::mesh::{Mesh, load_mesh};
 use super::names::{BLENDS, CULLS, FRONT_FACES, PRIMITIVES, PROVOKING};
@@ -10,13 +11,14 @@ use super::reader::{Node, NumberValue, Reader, report_unknown_name};
 use super::textures::load_textures;
 use super::uniforms::{Context, load_uniforms};
 use super::{Loader, ProgramKey, Surroundings, library_file};
-use crate::model::{AttributeData, BlendFactor, Compare, Cull, Draw, Format, Framebuffer, Primitive, State};
+use crate::fixed::{FixedFunction, uses_fixed_state};
+use crate::model::{AttributeData, BlendFactor, Compare, Cull, Draw, FixedDraw, Format, Framebuffer, Primitive, State};
 use glisten_front::diagnostic::codes::scenes::{
     SCENE_CANNOT_DRAW, SCENE_WRONG_SIZE, SCENE_WRONG_TYPE, SCENE_WRONG_VALUE,
 };
 use glisten_front::diagnostic::{Diagnostic, did_you_mean};
-use glisten_front::hir::{Scalar, Stage};
-use glisten_front::link::Program;
+use glisten_front::hir::{Global, Scalar, Shader, Stage};
+use glisten_front::link::{FixedState, Program};
 use glisten_front::source::Span;
 use std::sync::Arc;
 use toml::de::{DeTable, DeValue};
@@ -24,6 +26,7 @@ use toml::de::{DeTable, DeValue};
 const KEYS: &[&str] = &[
     "program",
     "vertex",
+    "geometry",
     "fragment",
     "defines",
     "primitive",
@@ -51,6 +54,9 @@ const KEYS: &[&str] = &[
     "matrices",
     "material",
     "light_space",
+    "vertex_program_two_side",
+    "clamp_vertex_color",
+    "fixed_function",
 ];
 
 /// The largest number of vertices or indices of a draw, and of instances.
@@ -63,11 +69,13 @@ pub(super) fn load_draw(loader: &mut Loader<'_>, node: &Node<'_>, around: &Surro
     // The header only, so that an excerpt does not show the whole table.
     let place = loader.reader.span(node.span());
     let state = load_state(&mut loader.reader, table);
-    let files = load_files(loader, table, place);
+    let switches = load_switches(&mut loader.reader, table);
+    let (files, generated) = load_stages(loader, table, place, (around, switches));
     let conventional = files.iter().any(|(_, name, _)| library_file(name).is_some());
     let mesh = table.get("mesh").map(|node| load_mesh(loader, node, conventional));
-    let program = load_program(loader, table, files)?;
+    let program = load_program(loader, table, files, (switches, generated))?;
     check_program(&mut loader.reader, &program, framebuffer, place)?;
+    check_primitive(&mut loader.reader, table, &program, &state, place)?;
     let mesh = match mesh {
         Some(mesh) => Some(mesh?),
         None => None,
@@ -80,12 +88,48 @@ pub(super) fn load_draw(loader: &mut Loader<'_>, node: &Node<'_>, around: &Surro
     let instances = loader.reader.count(table, "instances", 1, 0..=MAX_COUNT);
     let space = loader.reader.choice_at(table, "light_space", LightSpace::World, LIGHT_SPACES);
     let context = Context { program: &program, view: &view, lighting: &around.lighting, space, conventional };
-    let uniforms = load_uniforms(&mut loader.reader, table, &context, material.as_ref(), place);
+    let mut fixed = load_fixed(&mut loader.reader, table, (&program, &view), around);
+    let uniforms = load_uniforms(&mut loader.reader, table, &context, material.as_ref(), fixed.as_mut(), place);
+    let fixed = fixed.map(|state| Arc::new(FixedDraw { state, switches }));
     let own_material = material.and_then(|(_, node)| node.get_ref().as_table());
     let textures = load_textures(loader, table, own_material, &program, conventional, place);
     let dynamic = load_dynamic(&mut loader.reader, table, &program);
     let (vertex_count, indices) = load_counts(loader, table, mesh.as_ref(), &program, &attributes, instances, place)?;
-    Some(Draw { program, state, vertex_count, indices, instances, attributes, uniforms, textures, dynamic })
+    Some(Draw { program, state, vertex_count, indices, instances, attributes, uniforms, textures, dynamic, fixed })
+}
+
+/// The state of the fixed-function pipeline, if the program has anything of it.
+fn load_fixed(
+    reader: &mut Reader,
+    table: &DeTable<'_>,
+    (program, view): (&Program, &View),
+    around: &Surroundings<'_, '_>,
+) -> Option<FixedFunction> {
+    let has = |shader: &Shader| shader.globals.iter().any(Global::is_fixed);
+    if !uses_fixed_state(program) && !program.stages.iter().any(has) {
+        return None;
+    }
+    let colors = load_colors(reader, table, around.material, program);
+    Some(fixed::state(view, &around.lighting, colors.as_ref()))
+}
+
+/// The stages of a draw. If it names only one, and that is of a language with the fixed-function pipeline, the text of the
+/// other one is generated.
+fn load_stages(
+    loader: &mut Loader<'_>,
+    table: &DeTable<'_>,
+    place: Span,
+    (around, switches): (&Surroundings<'_, '_>, FixedState),
+) -> (Vec<(Stage, String, Span)>, Option<String>) {
+    let named = |key: &str| table.contains_key(key);
+    let alone = !named("program") && named("vertex") != named("fragment");
+    let one = if alone { loader.lone_stage(table) } else { None };
+    let Some((types, shader, file)) = one else { return (load_files(loader, table, place), None) };
+    let pipeline = load_pipeline(&mut loader.reader, table, around.lighting.lights.len(), switches);
+    let (stage, text) = other_stage(pipeline, &types, &shader);
+    let other = (stage, GENERATED.to_owned(), file.2);
+    let files = if stage == Stage::Vertex { vec![other, file] } else { vec![file, other] };
+    (files, Some(text))
 }
 
 fn load_state(reader: &mut Reader, table: &DeTable<'_>) -> State {
@@ -119,13 +163,16 @@ fn load_blend(reader: &mut Reader, table: &DeTable<'_>) -> Option<(BlendFactor, 
     }
 }
 
-/// The shaders of a draw: stage, name, span of the name. Fewer than two if one is missing (reported).
+/// The shaders of a draw: stage, name, span of the name. None if one is missing (reported).
 fn load_files(loader: &mut Loader<'_>, table: &DeTable<'_>, place: Span) -> Vec<(Stage, String, Span)> {
-    let stages = [("vertex", Stage::Vertex), ("fragment", Stage::Fragment)];
+    let stages = [("vertex", Stage::Vertex), ("geometry", Stage::Geometry), ("fragment", Stage::Fragment)];
     let Some(node) = table.get("program") else {
         let mut files = Vec::new();
         for (key, stage) in stages {
             let Some(node) = table.get(key) else {
+                if stage == Stage::Geometry {
+                    continue;
+                }
                 let message = format!("a draw names its {key} shader");
                 let help = format!("add `{key} = \"...\"`, relative to the scene file, or `program = \"...\"`");
                 loader.missing_key(place, &message, &help);
@@ -135,7 +182,10 @@ fn load_files(loader: &mut Loader<'_>, table: &DeTable<'_>, place: Span) -> Vec<
                 files.push((stage, name.to_owned(), loader.reader.span_of(node)));
             }
         }
-        return files;
+        let has = |wanted: Stage| files.iter().any(|(stage, _, _)| *stage == wanted);
+        let complete =
+            has(Stage::Vertex) && has(Stage::Fragment) && has(Stage::Geometry) == table.get("geometry").is_some();
+        return if complete { files } else { Vec::new() };
     };
     if let Some((key, _)) = stages.iter().find_map(|(key, _)| table.get_key_value(*key)) {
         let span = loader.reader.span_of(key);
@@ -158,7 +208,7 @@ fn load_files(loader: &mut Loader<'_>, table: &DeTable<'_>, place: Span) -> Vec<
 }
 
 /// `[draw.defines]`: macros of the draw's program.
-fn load_defines(reader: &mut Reader, table: &DeTable<'_>) -> Vec<(String, String)> {
+pub(super) fn load_defines(reader: &mut Reader, table: &DeTable<'_>) -> Vec<(String, String)> {
     let Some(defines) = reader.table_at(table, "defines") else { return Vec::new() };
     let mut list = Vec::new();
     for (name, node) in defines {
@@ -193,11 +243,12 @@ fn load_program(
     loader: &mut Loader<'_>,
     table: &DeTable<'_>,
     files: Vec<(Stage, String, Span)>,
+    (switches, generated): (FixedState, Option<String>),
 ) -> Option<Arc<Program>> {
     let attribute_locations = load_locations(&mut loader.reader, table, "attribute_locations");
     let frag_data_locations = load_locations(&mut loader.reader, table, "frag_data_locations");
     let defines = load_defines(&mut loader.reader, table);
-    if files.len() < 2 {
+    if files.is_empty() {
         return None;
     }
     let places: Vec<Span> = files.iter().map(|(_, _, span)| *span).collect();
@@ -205,6 +256,8 @@ fn load_program(
         ProgramKey {
             files: files.into_iter().map(|(stage, name, _)| (stage, name)).collect(),
             defines,
+            switches,
+            generated,
             attribute_locations: attribute_locations.iter().map(|(name, value, _)| (name.clone(), *value)).collect(),
             frag_data_locations: frag_data_locations.iter().map(|(name, value, _)| (name.clone(), *value)).collect(),
         },
@@ -269,6 +322,30 @@ fn check_program(reader: &mut Reader, program: &Program, framebuffer: &Framebuff
         }
     }
     Some(())
+}
+
+/// Reports a primitive that the geometry shader does not take (OpenGL 3.2 §2.12.1).
+fn check_primitive(
+    reader: &mut Reader,
+    table: &DeTable<'_>,
+    program: &Program,
+    state: &State,
+    place: Span,
+) -> Option<()> {
+    let Some(input) = program.stage(Stage::Geometry).and_then(|shader| shader.geometry.input) else { return Some(()) };
+    if state.primitive.feeds(input) {
+        return Some(());
+    }
+    let of = |list: &[(&'static str, Primitive)], wanted: &dyn Fn(Primitive) -> bool| -> Vec<&'static str> {
+        list.iter().filter(|(_, primitive)| wanted(*primitive)).map(|(name, _)| *name).collect()
+    };
+    let drawn = of(PRIMITIVES, &|primitive| primitive == state.primitive).concat();
+    let taken = of(PRIMITIVES, &|primitive| primitive.feeds(input));
+    let span = table.get("primitive").map_or(place, |node| reader.span_of(node));
+    let message = format!("the draw has `{drawn}`, and the geometry shader takes other primitives");
+    let help = format!("`primitive` may be \"{}\" with this shader", taken.join("\", \""));
+    reader.report(Diagnostic::new(&SCENE_CANNOT_DRAW, span, message).help(help));
+    None
 }
 
 fn load_dynamic(reader: &mut Reader, table: &DeTable<'_>, program: &Program) -> Vec<String> {

@@ -5,6 +5,7 @@
 //! once. Directions keep the length given in the scene.
 
 use super::reader::{Node, Reader};
+use crate::fixed::LightSource;
 use glam::{DMat4, DVec3};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::scenes::SCENE_MISSING_KEY;
@@ -147,6 +148,35 @@ impl Light {
         })
     }
 
+    /// The light as a source of OpenGL, in eye space. Half spheres become ambient light of their mean color, and a beam
+    /// has no edge, so that its cutoff is 90 degrees.
+    pub(super) fn source(&self, view: DMat4) -> LightSource {
+        let position = view.transform_point3(self.position).extend(1.0).to_array();
+        let direction = view.transform_vector3(self.direction);
+        let lit = LightSource {
+            ambient: opaque(self.ambient),
+            diffuse: opaque(self.diffuse),
+            specular: opaque(self.specular),
+            attenuation: self.attenuation,
+            position,
+            ..LightSource::initial(1)
+        };
+        match self.kind {
+            Kind::Directional => LightSource { position: (-direction).extend(0.0).to_array(), ..lit },
+            Kind::Point => lit,
+            Kind::Spot => LightSource {
+                spot_direction: direction.normalize_or(DVec3::NEG_Z).to_array(),
+                spot_exponent: self.exponent,
+                spot_cutoff: 90.0,
+                ..lit
+            },
+            Kind::Hemisphere => {
+                let (sky, ground) = (DVec3::from(self.diffuse), DVec3::from(self.ambient));
+                LightSource { ambient: opaque(((sky + ground) / 2.0).to_array()), ..LightSource::initial(1) }
+            }
+        }
+    }
+
     /// The members of the struct `Light`, by name.
     pub(super) fn members(&self, space: LightSpace, view: DMat4) -> [(&'static str, Member); 8] {
         let (position, direction) = match space {
@@ -164,6 +194,11 @@ impl Light {
             ("exponent", Member::Float(self.exponent)),
         ]
     }
+}
+
+/// A color with alpha 1.
+pub(super) fn opaque([r, g, b]: [f64; 3]) -> [f64; 4] {
+    [r, g, b, 1.0]
 }
 
 /// Reports a missing key without which a light of this kind has no position or direction.

@@ -7,6 +7,7 @@
 
 use super::lights::Member;
 use super::reader::{Node, Reader};
+use crate::fixed::uses_fixed_state;
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::scenes::{SCENE_MISSING_KEY, SCENE_UNKNOWN_NAME};
 use glisten_front::link::Program;
@@ -85,6 +86,9 @@ pub(super) fn load_material<'t, 'i>(
     program: &Program,
 ) -> Option<(Material, &'t Node<'i>)> {
     let declared = program.interface.roots.iter().any(|root| root.name == "material");
+    if !declared && uses_fixed_state(program) {
+        return None;
+    }
     let own = draw.get_key_value("material");
     if let Some((key, _)) = own
         && !declared
@@ -118,6 +122,37 @@ pub(super) fn load_material<'t, 'i>(
         ("finish.specular_model", Member::Int(specular_model as i32)),
     ];
     Some((members, node))
+}
+
+/// The colors of a material that the fixed-function pipeline has.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Colors {
+    pub(super) emission: [f64; 3],
+    pub(super) ambient: [f64; 3],
+    pub(super) diffuse: [f64; 3],
+    pub(super) specular: [f64; 3],
+    pub(super) shininess: f64,
+}
+
+/// The colors of the material of a draw, or of the scene; `None` if there is none.
+pub(super) fn load_colors(
+    reader: &mut Reader,
+    draw: &DeTable<'_>,
+    scene: Option<&Node<'_>>,
+    program: &Program,
+) -> Option<Colors> {
+    let table = reader.table(draw.get("material").or(scene)?, "material")?;
+    if program.interface.roots.iter().all(|root| root.name != "material") {
+        reader.check_keys(table, "a material", KEYS);
+    }
+    let diffuse = reader.reals(table, "diffuse", [0.8; 3]);
+    Some(Colors {
+        emission: reader.reals(table, "emission", [0.0; 3]),
+        ambient: reader.reals(table, "ambient", diffuse),
+        specular: reader.reals(table, "specular", [0.0; 3]),
+        shininess: reader.real(table, "shininess", 32.0),
+        diffuse,
+    })
 }
 
 /// Reports a model that reads a texture which is not there.

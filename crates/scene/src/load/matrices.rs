@@ -88,6 +88,16 @@ impl View {
         };
     }
 
+    /// The matrix from object space to eye space.
+    pub(super) fn model_view(&self) -> DMat4 {
+        self.view * self.model
+    }
+
+    /// The matrix from eye space to clip space.
+    pub(super) fn projection(&self) -> DMat4 {
+        self.projection
+    }
+
     /// The matrix from world space to eye space.
     pub(super) fn view_matrix(&self) -> DMat4 {
         self.view

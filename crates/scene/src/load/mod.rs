@@ -6,6 +6,7 @@
 
 mod attributes;
 mod draw;
+mod fixed;
 mod lights;
 mod material;
 mod matrices;
@@ -19,7 +20,8 @@ mod uniforms;
 mod unread;
 mod write;
 
-use self::draw::load_draw;
+use self::draw::{load_defines, load_draw};
+use self::fixed::{GENERATED, has_fixed_function};
 use self::lights::Lighting;
 use self::names::FORMATS;
 use self::reader::{Node, Reader};
@@ -35,8 +37,8 @@ use glisten_front::diagnostic::codes::scenes::{
     SCENE_WRONG_TYPE, SCENE_WRONG_VALUE,
 };
 use glisten_front::diagnostic::{Diagnostic, Diagnostics, did_you_mean};
-use glisten_front::hir::Stage;
-use glisten_front::link::Program;
+use glisten_front::hir::{Shader, Stage, Types};
+use glisten_front::link::{FixedState, Program};
 use glisten_front::source::{SourceMap, Span};
 pub use mesh::default_tessellation;
 use std::path::Path;
@@ -89,12 +91,15 @@ pub fn load(path: &str, files: &dyn FileSource, library: &dyn Library, compiler:
 }
 
 /// The identity of a program: draws with the same key share it.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 struct ProgramKey {
     files: Vec<(Stage, String)>,
     attribute_locations: Vec<(String, u32)>,
     frag_data_locations: Vec<(String, u32)>,
     defines: Vec<(String, String)>,
+    switches: FixedState,
+    /// The text of the stage that the fixed-function pipeline provides.
+    generated: Option<String>,
 }
 
 /// The settings of a scene for all its draws.
@@ -108,6 +113,25 @@ struct Surroundings<'t, 'i> {
 /// The file that a scene refers to with `<glisten/programs/phong.frag>`.
 fn library_file(name: &str) -> Option<&str> {
     name.strip_prefix("<glisten/programs/")?.strip_suffix('>')
+}
+
+/// The extension of a file of a stage.
+fn stage_extension(stage: Stage) -> &'static str {
+    match stage {
+        Stage::Vertex => "vert",
+        Stage::Geometry => "geom",
+        Stage::Fragment => "frag",
+    }
+}
+
+/// Whether a uniform of the fixed-function pipeline depends on a table of the scene.
+fn is_lit_by(key: &str, uniform: &str) -> bool {
+    let product = uniform.starts_with("gl_Front") || uniform.starts_with("gl_Back");
+    match key {
+        "light" => product || uniform == "gl_LightSource",
+        "global_ambient" => product || uniform == "gl_LightModel",
+        _ => product,
+    }
 }
 
 /// The state of loading.
@@ -184,7 +208,9 @@ impl Loader<'_> {
     fn warn_unlit(&mut self, table: &DeTable<'_>, draws: &[Draw]) {
         for (key, root) in [("light", "light"), ("material", "material"), ("global_ambient", "global_ambient")] {
             let Some((name, _)) = table.get_key_value(key) else { continue };
-            let asked = |draw: &Draw| draw.program.interface.roots.iter().any(|known| known.name == root);
+            let asked = |draw: &Draw| {
+                draw.program.interface.roots.iter().any(|known| known.name == root || is_lit_by(key, &known.name))
+            };
             if !draws.iter().any(asked) {
                 let span = self.reader.span_of(name);
                 let message = format!("no program of the scene declares a uniform `{root}`");
@@ -306,7 +332,12 @@ impl Loader<'_> {
     fn compile(&mut self, key: &ProgramKey, places: &[Span]) -> Option<Arc<Program>> {
         let mut shaders = Vec::new();
         for ((stage, name), &span) in key.files.iter().zip(places) {
-            if let Some((path, text)) = self.shader_text(name, span) {
+            let generated = key.generated.as_ref().filter(|_| name == GENERATED);
+            let found = match generated {
+                Some(text) => Some((format!("{GENERATED}.{}", stage_extension(*stage)), text.as_str().into())),
+                None => self.shader_text(name, span),
+            };
+            if let Some((path, text)) = found {
                 shaders.push(Source { name: path, text, stage: *stage });
             }
         }
@@ -318,6 +349,7 @@ impl Loader<'_> {
             attribute_locations: key.attribute_locations.clone(),
             frag_data_locations: key.frag_data_locations.clone(),
             defines,
+            fixed: key.switches,
             ..self.compiler.options().clone()
         };
         let sources = std::mem::take(&mut self.sources);
@@ -335,6 +367,26 @@ impl Loader<'_> {
         let found = compilation.diagnostics.into_iter().filter(|found| found.code.id != BINDING_WITHOUT_VARIABLE.id);
         self.reader.diagnostics.extend(found);
         compilation.program.map(Arc::new)
+    }
+
+    /// The only stage that a draw names, if its language has the fixed-function pipeline. Its diagnostics are those of
+    /// the whole program, unless there is none.
+    fn lone_stage(&mut self, draw: &DeTable<'_>) -> Option<(Types, Shader, (Stage, String, Span))> {
+        let stages = [("vertex", Stage::Vertex), ("fragment", Stage::Fragment)];
+        let (key, stage, node) = stages.into_iter().find_map(|(key, stage)| Some((key, stage, draw.get(key)?)))?;
+        let (name, span) = (self.reader.text(node, key)?.to_owned(), self.reader.span_of(node));
+        let (path, text) = self.shader_text(&name, span)?;
+        let mut quiet = Reader::default();
+        let defines = [&self.compiler.options().defines[..], &load_defines(&mut quiet, draw)].concat();
+        let compiler = self.compiler.with_options(Options { defines, ..self.compiler.options().clone() });
+        let compilation = compiler.compile(&[Source { name: path, text, stage }]);
+        let Some(program) = compilation.program else {
+            let key = ProgramKey { files: vec![(stage, name)], ..ProgramKey::default() };
+            self.program(key, &[span]);
+            return None;
+        };
+        let shader = program.stages.into_iter().find(has_fixed_function)?;
+        Some((program.types, shader, (stage, name, span)))
     }
 
     /// The text of a shader that the scene refers to: a file, or one from the library.

@@ -19,6 +19,10 @@ pub(super) const PRIMITIVES: &[(&str, Primitive)] = &[
     ("triangles", Primitive::Triangles),
     ("triangle_strip", Primitive::TriangleStrip),
     ("triangle_fan", Primitive::TriangleFan),
+    ("lines_adjacency", Primitive::LinesAdjacency),
+    ("line_strip_adjacency", Primitive::LineStripAdjacency),
+    ("triangles_adjacency", Primitive::TrianglesAdjacency),
+    ("triangle_strip_adjacency", Primitive::TriangleStripAdjacency),
 ];
 
 pub(super) const CULLS: &[(&str, Cull)] = &[("none", Cull::None), ("front", Cull::Front), ("back", Cull::Back)];
@@ -36,8 +40,14 @@ pub(super) const BLENDS: &[(&str, Option<(BlendFactor, BlendFactor)>)] = &[
     ("multiply", Some((BlendFactor::DstColor, BlendFactor::Zero))),
 ];
 
-pub(super) const FILTERS: &[(&str, Filter)] =
-    &[("nearest", Filter::Nearest), ("linear", Filter::Linear), ("trilinear", Filter::Trilinear)];
+pub(super) const FILTERS: &[(&str, Filter)] = &[
+    ("nearest", Filter::Nearest),
+    ("linear", Filter::Linear),
+    ("trilinear", Filter::Trilinear),
+    ("nearest_mipmap_nearest", Filter::NearestMipmapNearest),
+    ("linear_mipmap_nearest", Filter::LinearMipmapNearest),
+    ("nearest_mipmap_linear", Filter::NearestMipmapLinear),
+];
 
 pub(super) const ATTRIBUTE_KINDS: &[(&str, Scalar)] =
     &[("float", Scalar::Float), ("int", Scalar::Int), ("uint", Scalar::Uint)];

@@ -6,9 +6,12 @@ use super::lights::{LightSpace, Lighting, Member};
 use super::material::Material;
 use super::matrices::{ROLES, View};
 use super::reader::{Node, Number, NumberValue, Reader, report_unknown_name};
-use crate::values::{Fill, UniformValues, value_text};
+use crate::fixed::{FixedFunction, SetError, is_fixed_uniform};
+use crate::values::{Fill, UniformValues, bits, value_text};
 use glisten_front::diagnostic::Diagnostic;
-use glisten_front::diagnostic::codes::scenes::{SCENE_UNSET_UNIFORM, SCENE_WRONG_KIND, SCENE_WRONG_SIZE};
+use glisten_front::diagnostic::codes::scenes::{
+    SCENE_UNSET_UNIFORM, SCENE_WRONG_KIND, SCENE_WRONG_SIZE, SCENE_WRONG_VALUE,
+};
 use glisten_front::hir::{Scalar, ScalarValue, Type, Types};
 use glisten_front::link::{Program, UniformLeaf};
 use glisten_front::source::Span;
@@ -42,10 +45,12 @@ pub(super) fn load_uniforms(
     draw: &DeTable<'_>,
     context: &Context<'_>,
     material: Option<&(Material, &Node<'_>)>,
+    fixed: Option<&mut FixedFunction>,
     place: Span,
 ) -> Vec<Vec<ScalarValue>> {
     let Context { program, view, .. } = *context;
     let mut values = Values::initial(program);
+    let mut own = Own { state: fixed, values: Vec::new() };
     if context.conventional {
         values.fill_roles(view);
     }
@@ -60,6 +65,12 @@ pub(super) fn load_uniforms(
         for (name, node) in table {
             let span = reader.span_of(name);
             let role = reader.choice(node, name.get_ref(), ROLES);
+            if let Some(role) = role {
+                own.set(name.get_ref(), &view.matrix(role).1);
+            }
+            if own.is_only_state(program, name.get_ref()) {
+                continue;
+            }
             let Some(target) = values.find(reader, name.get_ref(), span) else { continue };
             let Some(role) = role else {
                 values.mark(&target);
@@ -78,22 +89,103 @@ pub(super) fn load_uniforms(
             }
             let scalars: Vec<ScalarValue> = numbers.into_iter().map(ScalarValue::Float).collect();
             values.store(&target, &scalars);
+            own.keep(target, scalars);
         }
     }
     if let Some(table) = reader.table_at(draw, "uniforms") {
         for (name, node) in table {
             let span = reader.span_of(name);
+            if own.is_only_state(program, name.get_ref()) {
+                own.load(reader, name.get_ref(), node);
+                continue;
+            }
             let Some(target) = values.find(reader, name.get_ref(), span) else { continue };
             let numbers = reader.numbers(node, name.get_ref());
             let span = reader.span(node.span());
             match numbers.and_then(|numbers| convert(reader, &program.types, &target, &numbers, span)) {
-                Some(scalars) => values.store(&target, &scalars),
+                Some(scalars) => {
+                    values.store(&target, &scalars);
+                    own.set(name.get_ref(), &floats(&scalars));
+                    own.keep(target, scalars);
+                }
                 None => values.mark(&target),
             }
         }
     }
+    own.derive(&mut values);
     values.warn_unset(reader, place);
     values.given.roots
+}
+
+/// The draw's own values for state of the fixed-function pipeline, from which the rest is derived.
+struct Own<'p, 's> {
+    state: Option<&'s mut FixedFunction>,
+    values: Vec<(Target<'p>, Vec<ScalarValue>)>,
+}
+
+impl<'p> Own<'p, '_> {
+    /// Whether a name is state that the program itself does not read. It may read what follows from it.
+    fn is_only_state(&self, program: &Program, name: &str) -> bool {
+        let root = name.split(['.', '[']).next().unwrap_or(name);
+        let reads = |root: &str| program.interface.roots.iter().any(|known| known.name == root);
+        self.state.is_some() && is_fixed_uniform(root) && !reads(root)
+    }
+
+    /// Sets state. Derived values and other names are no state.
+    fn set(&mut self, name: &str, numbers: &[f32]) {
+        if let Some(state) = &mut self.state {
+            let numbers: Vec<f64> = numbers.iter().map(|&number| f64::from(number)).collect();
+            let _ = state.set(name, &numbers);
+        }
+    }
+
+    /// Sets state that the program does not read.
+    fn load(&mut self, reader: &mut Reader, name: &str, node: &Node<'_>) {
+        let Some(numbers) = reader.numbers(node, name) else { return };
+        let number = |number: &Number| match number.value {
+            NumberValue::Float(value) | NumberValue::Int(_, value) => f64::from(value),
+            NumberValue::Bool(value) => f64::from(u8::from(value)),
+        };
+        let numbers: Vec<f64> = numbers.iter().map(number).collect();
+        let Some(state) = &mut self.state else { return };
+        let span = reader.span_of(node);
+        match state.set(name, &numbers) {
+            Ok(()) => {}
+            // A derived value that nothing reads.
+            Err(SetError::Unknown) if !name.contains(['.', '[']) => {}
+            Err(SetError::Unknown) => {
+                let message = format!("the fixed-function pipeline has no state `{name}`");
+                reader.error(&SCENE_WRONG_VALUE, span, message, "no such state");
+            }
+            Err(SetError::Count { wanted }) => {
+                let message = format!("`{name}` takes {wanted} number{}, not {}", plural(wanted), numbers.len());
+                reader.error(&SCENE_WRONG_SIZE, span, message, "of another size");
+            }
+        }
+    }
+
+    fn keep(&mut self, target: Target<'p>, scalars: Vec<ScalarValue>) {
+        if self.state.is_some() && target.leaf.name.starts_with("gl_") {
+            self.values.push((target, scalars));
+        }
+    }
+
+    /// Gives all state its value, derived from the draw's own where that gives none.
+    fn derive(self, values: &mut Values<'p>) {
+        let Some(state) = self.state else { return };
+        for (root, into) in values.program.interface.roots.iter().zip(&mut values.given.roots) {
+            if let Some(derived) = state.root_values(root).filter(|derived| derived.len() == into.len()) {
+                *into = derived;
+            }
+        }
+        for (target, scalars) in &self.values {
+            values.store(target, scalars);
+        }
+    }
+}
+
+fn floats(scalars: &[ScalarValue]) -> Vec<f32> {
+    scalars.iter().map(|&value| f32::from_bits(bits(value))).collect()
 }
 
 /// A leaf, or one element of a leaf.

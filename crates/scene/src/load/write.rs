@@ -9,7 +9,7 @@ use crate::model::{
     TextureLevel, Wrap,
 };
 use crate::picture::Transfer;
-use glisten_front::hir::{SamplerDim, ScalarValue};
+use glisten_front::hir::{SamplerDim, ScalarValue, Stage};
 use std::fmt::Write;
 
 /// The file names of a draw's shaders, relative to the scene's file.
@@ -17,8 +17,18 @@ use std::fmt::Write;
 pub struct ShaderFiles {
     /// The vertex shader.
     pub vertex: String,
+    /// The geometry shader, if there is one.
+    pub geometry: Option<String>,
     /// The fragment shader.
     pub fragment: String,
+}
+
+impl ShaderFiles {
+    /// The files of a draw, which differ only in their extensions.
+    pub fn of(draw: &Draw, stem: &str) -> Self {
+        let geometry = draw.program.stage(Stage::Geometry).map(|_| format!("{stem}.geom"));
+        Self { vertex: format!("{stem}.vert"), geometry, fragment: format!("{stem}.frag") }
+    }
 }
 
 /// Writes a scene whose draws have these shaders.
@@ -43,9 +53,13 @@ pub fn write(scene: &Scene, files: &[ShaderFiles]) -> String {
         let _ = writeln!(text, "attachments = {}", framebuffer.attachments);
     }
     for (draw, files) in scene.draws.iter().zip(files) {
-        let _ =
-            write!(text, "\n[[draw]]\nvertex = {}\nfragment = {}\n", quoted(&files.vertex), quoted(&files.fragment));
+        let _ = write!(text, "\n[[draw]]\nvertex = {}\n", quoted(&files.vertex));
+        if let Some(geometry) = &files.geometry {
+            let _ = writeln!(text, "geometry = {}", quoted(geometry));
+        }
+        let _ = writeln!(text, "fragment = {}", quoted(&files.fragment));
         state(&mut text, &draw.state);
+        switches(&mut text, draw);
         counts(&mut text, draw);
         if !draw.dynamic.is_empty() {
             let names: Vec<String> = draw.dynamic.iter().map(|name| quoted(name)).collect();
@@ -143,6 +157,17 @@ fn state(text: &mut String, state: &State) {
     }
     if state.clip_distances > 0 {
         let _ = writeln!(text, "clip_distances = {}", state.clip_distances);
+    }
+}
+
+/// The switches of the fixed-function pipeline.
+fn switches(text: &mut String, draw: &Draw) {
+    let Some(fixed) = &draw.fixed else { return };
+    if fixed.switches.two_side {
+        text.push_str("vertex_program_two_side = true\n");
+    }
+    if fixed.switches.unclamped_colors {
+        text.push_str("clamp_vertex_color = false\n");
     }
 }
 

@@ -7,8 +7,8 @@
 use super::super::context::Analyzer;
 use super::super::qualifiers::DeclarationContext;
 use super::super::state::PerVertex;
-use crate::builtin::BuiltinVariable;
 use crate::builtin::variables::{self, Row, VARIABLES};
+use crate::builtin::{BuiltinVariable, fixed};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::names;
 use crate::hir::{ArraySize, Member, Stage, Storage, StructType, Type, TypeId};
@@ -32,8 +32,13 @@ impl Analyzer<'_> {
             return;
         }
         for member in members {
-            let Some(row) = self.per_vertex_row(&member.name) else { continue };
-            let id = self.builtin_global(row);
+            let id = match self.per_vertex_row(&member.name) {
+                Some(row) => self.builtin_global(row),
+                None => match fixed::per_vertex(&member.name, self.ast.version, self.stage) {
+                    Some(row) => self.fixed_global(row),
+                    None => continue,
+                },
+            };
             if let Some(global) = self.shader.globals.get_mut(id.index()) {
                 global.ty = member.ty;
                 global.span = member.span;
@@ -136,8 +141,9 @@ impl Analyzer<'_> {
     }
 
     fn per_vertex_member(&mut self, declarator: &Declarator, ty: TypeId, invariant: bool) -> Option<Member> {
-        let (name, span) = (self.name(declarator.name), declarator.name.span);
-        let Some(row) = self.per_vertex_row(name) else {
+        let (name, span) = (self.name(declarator.name).to_owned(), declarator.name.span);
+        let name = name.as_str();
+        let Some(wanted) = self.per_vertex_type(name) else {
             self.report(
                 Diagnostic::new(&names::PER_VERTEX, span, format!("`gl_PerVertex` has no member `{name}`"))
                     .here("only the built-in members")
@@ -145,7 +151,6 @@ impl Analyzer<'_> {
             );
             return None;
         };
-        let wanted = row.make_type(self.types, self.ast.version);
         let fits = match (self.types.get(wanted), self.types.get(ty)) {
             (Type::Array(element, _), Type::Array(given, _)) => element == given,
             _ => wanted == ty,
@@ -157,7 +162,7 @@ impl Analyzer<'_> {
                     .here("declared as something else"),
             );
         }
-        if let Type::Array(_, ArraySize::Sized(size)) = self.types.get(ty) {
+        if let (Type::Array(_, ArraySize::Sized(size)), "gl_ClipDistance") = (self.types.get(ty), name) {
             self.check_clip_distances(size, span);
         }
         Some(Member {
@@ -170,6 +175,16 @@ impl Analyzer<'_> {
             implicitly_sized: false,
             span,
         })
+    }
+
+    /// The type of a member that is built in, or that the compatibility profile adds.
+    fn per_vertex_type(&mut self, name: &str) -> Option<TypeId> {
+        let version = self.ast.version;
+        if let Some(row) = self.per_vertex_row(name) {
+            return Some(row.make_type(self.types, version));
+        }
+        let row = fixed::per_vertex(name, version, self.stage)?;
+        Some(row.make_type(self.types, &mut |_, _| TypeId::ERROR))
     }
 
     fn per_vertex_row(&self, name: &str) -> Option<&'static Row> {

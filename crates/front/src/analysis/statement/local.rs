@@ -7,10 +7,19 @@ use super::super::state::ArrayKey;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::{qualifiers, types};
 use crate::hir::{
-    ArraySize, Condition, ExprId, Local, LocalId, LocalKind, Stmt, StmtKind, Type, TypeId, Value, VarRef,
+    ArraySize, Condition, ExprId, ExprKind, Local, LocalId, LocalKind, Stmt, StmtKind, Type, TypeId, Value, VarRef,
 };
 use crate::language::Feature;
+use crate::source::Span;
 use crate::syntax::ast::{Declarator, VariableDecl};
+
+/// What a declarator declares.
+enum Declared {
+    /// A local, unless it is in error, and its initializer.
+    New(Option<LocalId>, Option<ExprId>),
+    /// An array of before, with its size now; the assignment of its initializer.
+    Again(Option<ExprId>),
+}
 
 impl Analyzer<'_> {
     /// `vec3 a = b, c;` inside a function.
@@ -19,10 +28,11 @@ impl Analyzer<'_> {
         let base = self.type_spec(&declaration.ty);
         self.check_precision(record.precision, base, declaration.ty.span);
         for declarator in &declaration.declarators {
-            let (local, initializer) = self.local_variable(declarator, base, &record, declaration);
-            if let Some(local) = local {
-                out.push(Stmt { kind: StmtKind::Local(local, initializer), span: declarator.name.span });
-            }
+            let kind = match self.local_variable(declarator, base, &record, declaration) {
+                Declared::New(local, initializer) => local.map(|local| StmtKind::Local(local, initializer)),
+                Declared::Again(assignment) => assignment.map(StmtKind::Expr),
+            };
+            out.extend(kind.map(|kind| Stmt { kind, span: declarator.name.span }));
         }
     }
 
@@ -32,7 +42,7 @@ impl Analyzer<'_> {
         base: TypeId,
         record: &Qualifiers,
         declaration: &VariableDecl,
-    ) -> (Option<LocalId>, Option<ExprId>) {
+    ) -> Declared {
         let name = declarator.name;
         let good_name = self.check_name(name);
         let ty = self.with_array(base, &declarator.array);
@@ -44,8 +54,9 @@ impl Analyzer<'_> {
         // An array that its initializer sizes counts with that size.
         let fits = ty == declared || self.check_local_size(ty, name.span);
         let ty = if fits { ty } else { TypeId::ERROR };
-        if initializer.is_none() && self.resizes_local(declarator, ty) {
-            return (None, None);
+        if !constant && let Some(known) = self.resizes_local(declarator, ty) {
+            let assignment = initializer.map(|value| self.assign_local(known, ty, value, name.span));
+            return Declared::Again(assignment);
         }
         let kind = if constant { LocalKind::Const } else { LocalKind::Variable };
         let local = Local { name: self.name(name).to_owned(), ty, kind, value, span: name.span };
@@ -55,21 +66,26 @@ impl Analyzer<'_> {
             _ => Entry::Poison,
         };
         self.enter(name, entry);
-        (id.filter(|_| !ty.is_error()), initializer)
+        Declared::New(id.filter(|_| !ty.is_error()), initializer)
     }
 
-    /// Whether this redeclares, with a size, an array that was declared in this scope without one (§4.1.9).
-    fn resizes_local(&mut self, declarator: &Declarator, ty: TypeId) -> bool {
+    fn assign_local(&mut self, local: LocalId, ty: TypeId, value: ExprId, span: Span) -> ExprId {
+        let place = self.shader.push(ExprKind::Var(VarRef::Local(local)), ty, span);
+        self.shader.push(ExprKind::Assign(None, place, value), ty, span)
+    }
+
+    /// The array without a size in this scope that this declares again with one (§4.1.9).
+    fn resizes_local(&mut self, declarator: &Declarator, ty: TypeId) -> Option<LocalId> {
         let found = self.scopes.find_here(declarator.name.symbol).map(|binding| binding.entry);
-        let Some(Entry::Variable(VarRef::Local(id))) = found else { return false };
-        let Some(earlier) = self.local(id).map(|local| local.ty) else { return false };
+        let Some(Entry::Variable(VarRef::Local(id))) = found else { return None };
+        let earlier = self.local(id).map(|local| local.ty)?;
         let (Type::Array(element, ArraySize::Unsized), Type::Array(other, size)) =
             (self.types.get(earlier), self.types.get(ty))
         else {
-            return false;
+            return None;
         };
         if element != other {
-            return false;
+            return None;
         }
         if let ArraySize::Sized(size) = size {
             self.check_resize(ArrayKey::Local(id), size, declarator.name.span);
@@ -77,7 +93,7 @@ impl Analyzer<'_> {
         if let Some(local) = self.current_function().and_then(|function| function.locals.get_mut(id.index())) {
             local.ty = ty;
         }
-        true
+        Some(id)
     }
 
     fn check_local_type(&mut self, ty: TypeId, declaration: &VariableDecl, declarator: &Declarator) -> TypeId {
@@ -143,7 +159,9 @@ impl Analyzer<'_> {
         let Some(declarator) = declaration.declarators.first() else {
             return Condition { local: None, expr: self.poison(declaration.ty.span) };
         };
-        let (local, initializer) = self.local_variable(declarator, base, &record, declaration);
+        let Declared::New(local, initializer) = self.local_variable(declarator, base, &record, declaration) else {
+            return Condition { local: None, expr: self.poison(declarator.name.span) };
+        };
         let span = declarator.name.span;
         let expr = initializer.unwrap_or_else(|| self.poison(span));
         self.require_bool(expr, "the condition of a loop");

@@ -8,9 +8,7 @@ use super::expr::component;
 use super::{Compiler, Val};
 use glisten_front::builtin::BuiltinFunction;
 use glisten_front::builtin::operations::{BooleanFunction, Class, Emission, MatrixFunction, Numbers, Relation, Test};
-use glisten_front::diagnostic::codes;
 use glisten_front::hir::{BinaryOp, ExprId, Scalar, Stage, Type, TypeId};
-use glisten_front::source::Span;
 
 fn relation(op: Relation) -> BinaryOp {
     match op {
@@ -24,23 +22,17 @@ fn relation(op: Relation) -> BinaryOp {
 }
 
 impl Compiler<'_> {
-    pub(super) fn builtin_call(
-        &mut self,
-        function: BuiltinFunction,
-        arguments: &[ExprId],
-        ty: TypeId,
-        span: Span,
-    ) -> Val {
+    pub(super) fn builtin_call(&mut self, function: BuiltinFunction, arguments: &[ExprId], ty: TypeId) -> Val {
         if function.class() == Class::Modf {
             return self.modf(arguments);
         }
         let values = self.in_order(arguments);
         let types: Vec<TypeId> = arguments.iter().map(|argument| self.ty(*argument)).collect();
-        self.apply(function.class(), &values, &types, ty, span)
+        self.apply(function.class(), &values, &types, ty)
     }
 
     /// A function of evaluated arguments.
-    fn apply(&mut self, class: Class, values: &[Val], types: &[TypeId], ty: TypeId, span: Span) -> Val {
+    fn apply(&mut self, class: Class, values: &[Val], types: &[TypeId], ty: TypeId) -> Val {
         let a: &[Operand] = values.first().map_or(&[], |value| value);
         let b: &[Operand] = values.get(1).map_or(&[], |value| value);
         let first_ty = types.first().copied().unwrap_or(TypeId::ERROR);
@@ -71,10 +63,8 @@ impl Compiler<'_> {
                 let zero = self.emit.float(0.0);
                 (0..self.types.flat_len(ty)).map(|_| zero).collect()
             }
-            Class::Emission(Emission::Vertex | Emission::Primitive) => {
-                self.refuse(&codes::general::NOT_SUPPORTED_YET, span, "geometry stages");
-                Val::new()
-            }
+            Class::Emission(Emission::Vertex) => self.emit_vertex(),
+            Class::Emission(Emission::Primitive) => self.end_primitive(),
             Class::Texture(form) => self.texture_call(form, values, first_ty, ty),
             // `modf` writes an argument, and is compiled before its arguments are; the analysis writes others out.
             Class::Modf | Class::Composed => Val::new(),

@@ -48,7 +48,7 @@ impl Compiler<'_> {
                 self.expr(*second)
             }
             ExprKind::Call(function, arguments) => self.call(*function, arguments, expr.span),
-            ExprKind::BuiltinCall(function, arguments) => self.builtin_call(*function, arguments, expr.ty, expr.span),
+            ExprKind::BuiltinCall(function, arguments) => self.builtin_call(*function, arguments, expr.ty),
         }
     }
 

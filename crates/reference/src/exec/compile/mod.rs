@@ -14,6 +14,7 @@ mod builtin;
 mod chains;
 mod dead;
 mod effects;
+mod emission;
 mod emit;
 mod expr;
 mod facts;
@@ -99,7 +100,7 @@ impl Code {
     ///
     /// # Errors
     /// Returns diagnostics if the executor does not support something: a program without that stage or without
-    /// `main`, geometry stages, programs above the limits of the compiler.
+    /// `main`, programs above the limits of the compiler.
     pub fn compile(program: &Program, stage: Stage) -> Result<Self, Vec<Diagnostic>> {
         Self::compile_as(program, stage, Form::Fast)
     }
@@ -120,9 +121,6 @@ fn compile(program: &Program, stage: Stage, form: Form) -> Result<Inner, Vec<Dia
         vec![Diagnostic::new(&codes::general::NOT_SUPPORTED_YET, Span::default(), message)]
     };
     let Some(shader) = program.stage(stage) else { return Err(missing(&format!("{} stage", stage.name()))) };
-    if stage == Stage::Geometry {
-        return Err(missing("vertex and fragment stages alone: geometry stages are not run, and so no pipeline"));
-    }
     let Some(main) = shader.main else { return Err(missing("`main`")) };
     shader.on_stack(|| Compiler::new(program, shader, form).run(main))
 }
@@ -169,6 +167,7 @@ impl<'a> Compiler<'a> {
         if self.emit.form == Form::Counted {
             self.emit.main.dead = dead::dead(&mut self.emit, &outputs);
         }
+        let emitted = self.emitted_places();
         let mut ports: Vec<Port> = self.inputs.iter().chain(&outputs).chain(&self.noises).copied().collect();
         let registers = alloc::allocate(&mut self.emit, &mut ports);
         let noises = ports.split_off(self.inputs.len() + outputs.len());
@@ -189,6 +188,8 @@ impl<'a> Compiler<'a> {
             inputs: ports,
             noises,
             outputs,
+            emitted,
+            max_vertices: self.shader.geometry.max_vertices.unwrap_or(0),
             mask_slots: mask_slots as usize,
         })
     }

@@ -117,6 +117,10 @@ fn load_file(loader: &mut Loader<'_>, node: &Node<'_>) -> Option<Geometry> {
     }
 }
 
+/// The attributes of the fixed-function pipeline, which get these roles wherever a program reads them.
+const FIXED_ATTRIBUTES: &[(&str, &str)] =
+    &[("position", "gl_Vertex"), ("normal", "gl_Normal"), ("texcoord", "gl_MultiTexCoord0")];
+
 /// The data of each role that goes to an attribute, and the roles whose data goes to none.
 fn load_streams(
     loader: &mut Loader<'_>,
@@ -135,6 +139,11 @@ fn load_streams(
     for (role, size, values) in roles {
         let complete = values.len() == geometry.positions.len() * size as usize;
         let Some(node) = table.get(role) else {
+            if complete && let Some((_, attribute)) = FIXED_ATTRIBUTES.iter().find(|(known, _)| *known == role) {
+                let data = AttributeData { size, divisor: 0, values: AttributeValues::Float(values.clone()) };
+                let attribute = (*attribute).to_owned();
+                streams.push(Stream { attribute, span: Span::default(), implied: true, data });
+            }
             if conventional && complete {
                 let data = AttributeData { size, divisor: 0, values: AttributeValues::Float(values) };
                 streams.push(Stream { attribute: role.to_owned(), span: Span::default(), implied: true, data });

@@ -1,0 +1,196 @@
+//! The fixed-function pipeline in scenes: its state from `[camera]`, `[draw.transform]`, `[[light]]` and `[material]`,
+//! and the switches of a draw.
+//!
+//! *In:* the scene's and the draw's tables. *Out:* a [`FixedFunction`], the options of the compiler, and the
+//! [`Pipeline`] of a draw that names only one stage. *Holds:* lights are in eye space, as `glLightfv` puts them there
+//! (OpenGL 2.1 §2.14.1).
+
+use super::lights::{Lighting, opaque};
+use super::material::Colors;
+use super::matrices::View;
+use super::reader::{Node, Reader};
+use crate::fixed::{
+    ColorMaterial, EnvironmentMode, FixedFunction, FogMode, FogSource, GlslDialect, Material, NormalScaling,
+    Pipeline, TexGen, TextureTarget, TextureUnit, UNITS,
+};
+use glisten_front::diagnostic::codes::scenes::SCENE_WRONG_SIZE;
+use glisten_front::hir::{ArraySize, ExprKind, ScalarValue, Shader, Stage, Storage, Type, Types, VarRef};
+use glisten_front::language::Profile;
+use glisten_front::link::FixedState;
+use toml::de::DeTable;
+
+const KEYS: &[&str] = &[
+    "lighting",
+    "local_viewer",
+    "separate_specular",
+    "color_material",
+    "normals",
+    "color_sum",
+    "fog",
+    "fog_source",
+    "point_attenuation",
+    "units",
+];
+
+const UNIT_KEYS: &[&str] = &["target", "mode", "generate"];
+
+/// The name of the generated stage in diagnostics.
+pub(super) const GENERATED: &str = "<fixed-function>";
+
+/// The switches of a draw that change what a program of that time does.
+pub(super) fn load_switches(reader: &mut Reader, draw: &DeTable<'_>) -> FixedState {
+    FixedState {
+        two_side: reader.flag(draw, "vertex_program_two_side", false),
+        clip_planes: reader.count(draw, "clip_distances", 0, 0..=UNITS as u32),
+        unclamped_colors: !reader.flag(draw, "clamp_vertex_color", true),
+    }
+}
+
+/// The state of a draw before its own uniforms.
+pub(super) fn state(view: &View, lighting: &Lighting, material: Option<&Colors>) -> FixedFunction {
+    let mut state = FixedFunction { model_view: view.model_view(), projection: view.projection(), ..FixedFunction::default() };
+    if !lighting.lights.is_empty() {
+        state.light_model_ambient = opaque(lighting.global_ambient);
+    }
+    for (light, given) in state.lights.iter_mut().zip(&lighting.lights) {
+        *light = given.source(view.view_matrix());
+    }
+    if let Some(colors) = material {
+        let material = Material {
+            emission: opaque(colors.emission),
+            ambient: opaque(colors.ambient),
+            diffuse: opaque(colors.diffuse),
+            specular: opaque(colors.specular),
+            shininess: colors.shininess,
+        };
+        (state.front, state.back) = (material, material);
+    }
+    state
+}
+
+/// The pipeline whose other stage completes a draw that names only one.
+pub(super) fn load_pipeline(reader: &mut Reader, draw: &DeTable<'_>, lights: usize, switches: FixedState) -> Pipeline {
+    let empty = DeTable::new();
+    let table = reader.table_at(draw, "fixed_function").unwrap_or(&empty);
+    reader.check_keys(table, "`fixed_function`", KEYS);
+    let lighting = reader.flag(table, "lighting", lights > 0);
+    Pipeline {
+        lighting,
+        lights: std::array::from_fn(|index| lighting && index < lights.max(1)),
+        local_viewer: reader.flag(table, "local_viewer", false),
+        two_side: switches.two_side,
+        separate_specular: reader.flag(table, "separate_specular", false),
+        color_material: reader.choice_at(table, "color_material", None, ColorMaterial::NAMES),
+        normals: reader.choice_at(table, "normals", NormalScaling::None, NormalScaling::NAMES),
+        units: load_units(reader, draw, table),
+        color_sum: reader.flag(table, "color_sum", false),
+        fog: reader.choice_at(table, "fog", None, FogMode::NAMES),
+        fog_source: reader.choice_at(table, "fog_source", FogSource::Depth, FogSource::NAMES),
+        point_attenuation: reader.flag(table, "point_attenuation", false),
+        clip: switches.clip_planes > 0,
+        ..Pipeline::default()
+    }
+}
+
+/// The units of `units`, and those whose texture `[draw.textures]` has.
+fn load_units(reader: &mut Reader, draw: &DeTable<'_>, table: &DeTable<'_>) -> [Option<TextureUnit>; UNITS] {
+    let textures = draw.get("textures").and_then(|node| node.get_ref().as_table());
+    let mut units: [Option<TextureUnit>; UNITS] = std::array::from_fn(|index| {
+        let name = format!("texture{index}");
+        let texture = textures?.iter().find(|(key, _)| key.get_ref().as_ref() == name)?.1;
+        let kind = texture.get_ref().as_table().and_then(|table| table.get("kind"));
+        let kind = kind.and_then(|kind| kind.get_ref().as_str());
+        let target = TextureTarget::NAMES.iter().find(|(name, _)| Some(*name) == kind);
+        Some(TextureUnit { target: target.map_or(TextureTarget::D2, |row| row.1), ..TextureUnit::default() })
+    });
+    let Some(node) = table.get("units") else { return units };
+    let Some(list) = node.get_ref().as_array() else {
+        reader.wrong_type(node, "units", "a list of tables, one for each texture unit");
+        return units;
+    };
+    if list.len() > UNITS {
+        let span = reader.span_of(node);
+        let message = format!("there are {UNITS} texture units, and here are {}", list.len());
+        reader.error(&SCENE_WRONG_SIZE, span, message, "too many");
+    }
+    for (slot, node) in units.iter_mut().zip(list.iter()) {
+        *slot = load_unit(reader, node, slot.unwrap_or_default());
+    }
+    units
+}
+
+fn load_unit(reader: &mut Reader, node: &Node<'_>, known: TextureUnit) -> Option<TextureUnit> {
+    let table = reader.table(node, "units")?;
+    reader.check_keys(table, "a texture unit", UNIT_KEYS);
+    Some(TextureUnit {
+        target: reader.choice_at(table, "target", known.target, TextureTarget::NAMES),
+        mode: reader.choice_at(table, "mode", EnvironmentMode::Modulate, EnvironmentMode::NAMES),
+        generate: reader.choice_at(table, "generate", None, TexGen::NAMES),
+    })
+}
+
+/// Whether the language of a shader has the fixed-function pipeline.
+pub(super) fn has_fixed_function(shader: &Shader) -> bool {
+    match shader.version.profile {
+        Profile::Compatibility => true,
+        Profile::Core => shader.version.number <= 130,
+        Profile::Es => false,
+    }
+}
+
+/// The text of the stage that a lone shader lacks, and that stage.
+pub(super) fn other_stage(mut pipeline: Pipeline, types: &Types, shader: &Shader) -> (Stage, String) {
+    pipeline.dialect = if shader.version.number < 140 { GlslDialect::V120 } else { GlslDialect::V150 };
+    let coordinates = shader.globals.iter().find(|global| global.is_fixed() && global.name == "gl_TexCoord");
+    let size = coordinates.map(|global| types.get(global.ty)).and_then(|ty| match ty {
+        Type::Array(_, ArraySize::Sized(size)) => Some(size),
+        _ => None,
+    });
+    pipeline.texture_coordinates = size.filter(|&size| size != UNITS as u32);
+    if shader.stage == Stage::Vertex {
+        return (Stage::Fragment, pipeline.fragment());
+    }
+    let reads = |name: &str| {
+        let mut globals = shader.globals.iter();
+        globals.any(|global| global.is_fixed() && global.storage == Storage::In && global.used && global.name == name)
+    };
+    pipeline.color_sum |= reads("gl_SecondaryColor");
+    if reads("gl_FogFragCoord") {
+        pipeline.fog = pipeline.fog.or(Some(FogMode::Linear));
+    }
+    if reads("gl_TexCoord") {
+        let read = coordinates_read(shader);
+        for (unit, _) in pipeline.units.iter_mut().zip(read).filter(|(_, read)| *read) {
+            *unit = Some(unit.unwrap_or_default());
+        }
+    }
+    (Stage::Vertex, pipeline.vertex())
+}
+
+/// The elements of `gl_TexCoord` that a fragment shader reads; all of them if an index is not constant.
+fn coordinates_read(shader: &Shader) -> [bool; UNITS] {
+    let is_coordinates = |id| match shader.expr(id).kind {
+        ExprKind::Var(VarRef::Global(global)) => shader.global(global).name == "gl_TexCoord",
+        _ => false,
+    };
+    let mut read = [false; UNITS];
+    let (mut whole, mut parts) = (0, 0);
+    for expr in &shader.exprs {
+        match expr.kind {
+            ExprKind::Var(VarRef::Global(global)) if shader.global(global).name == "gl_TexCoord" => whole += 1,
+            ExprKind::Index(base, index) if is_coordinates(base) => {
+                let index = match shader.expr(index).kind {
+                    ExprKind::Literal(ScalarValue::Int(value)) => usize::try_from(value).ok(),
+                    ExprKind::Literal(ScalarValue::Uint(value)) => usize::try_from(value).ok(),
+                    _ => None,
+                };
+                if let Some(slot) = index.and_then(|index| read.get_mut(index)) {
+                    *slot = true;
+                    parts += 1;
+                }
+            }
+            _ => {}
+        }
+    }
+    if whole > parts { [true; UNITS] } else { read }
+}
