@@ -9,10 +9,13 @@
 
 mod args;
 mod batch;
+mod cache;
 mod compile;
 mod completions;
 mod config;
 mod console;
+mod depfile;
+mod digest;
 mod engine;
 mod examples;
 mod exit;
@@ -32,13 +35,16 @@ mod man;
 mod new_scene;
 mod opengl;
 mod optimize;
+mod outputs;
 mod pictures;
 mod profile;
 mod progress;
+mod recall;
 mod reflect;
 mod render;
 mod report;
 mod report_checks;
+mod responses;
 mod rules;
 mod scenes;
 mod session;
@@ -48,6 +54,7 @@ mod stability_library;
 mod stages;
 mod test;
 mod timed;
+mod trace;
 mod upgrade;
 mod verify;
 mod watch;
@@ -107,7 +114,10 @@ enum Command {
 
 /// Runs the program with these arguments, the first being its own name.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
-    let arguments: Vec<OsString> = arguments.into_iter().collect();
+    let arguments = match responses::expanded(arguments.into_iter().collect()) {
+        Ok(arguments) => arguments,
+        Err(failure) => return end(Err(failure), &Console::new(false, ColorChoice::Auto)),
+    };
     let parsed = examples::with_examples(Cli::command()).try_get_matches_from(arguments);
     let cli = match parsed.and_then(|matches| Cli::from_arg_matches(&matches)) {
         Ok(cli) => cli,
