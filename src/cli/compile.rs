@@ -11,6 +11,7 @@ use super::files;
 use super::inputs::{self, Group};
 use super::optimize;
 use super::outputs::{Output, OutputArgs, OutputPlan};
+use super::permutations::{self, Job};
 use super::recall::Recall;
 use super::session::{Session, Unit};
 use clap::{Args, ValueEnum};
@@ -26,11 +27,14 @@ use std::path::{Path, PathBuf};
 #[derive(Args, Debug)]
 pub(super) struct CompileArgs {
     /// Shaders, or `-` for standard input
-    #[arg(required_unless_present = "programs", value_name = "FILE")]
+    #[arg(required_unless_present_any = ["programs", "permutations"], value_name = "FILE")]
     files: Vec<String>,
     /// The output folder; `-` writes the code of one stage for one target to standard output
     #[arg(short, long, value_name = "DIR", required_unless_present_any = ["check", "emit"])]
     output: Option<PathBuf>,
+    /// Compile all variants that this TOML file asks for; equal outputs are one file
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["files", "programs", "emit"])]
+    permutations: Option<PathBuf>,
     /// Check everything, but write nothing
     #[arg(long)]
     check: bool,
@@ -69,6 +73,9 @@ enum EmitArg {
 
 /// Runs the command.
 pub(super) fn run(args: &CompileArgs, console: &Console) -> Outcome {
+    if let Some(file) = &args.permutations {
+        return permute(args, file, console);
+    }
     let inputs = inputs::collect(&args.files, &args.programs, &args.sources, false)?;
     let plan = OutputPlan::new(&args.outputs);
     let folder = args.output.clone().unwrap_or_default();
@@ -112,6 +119,30 @@ pub(super) fn run(args: &CompileArgs, console: &Console) -> Outcome {
         write_accounts(args, &plan, &folder, &units, &made)?;
     }
     Ok(exit)
+}
+
+/// Compiles all variants of a file.
+fn permute(args: &CompileArgs, file: &Path, console: &Console) -> Outcome {
+    let folder = args.output.clone().unwrap_or_default();
+    if is_standard_output(&folder) {
+        return Err(Failure::usage("`-o -` writes one stage for one target to standard output: there are variants")
+            .help("name a folder with `-o DIR`"));
+    }
+    let job = Job {
+        file,
+        folder: &folder,
+        check: args.check,
+        depfile: args.depfile.as_deref(),
+        manifest: args.manifest.as_deref(),
+        jobs: args.jobs,
+        programs: &args.programs,
+        outputs: &args.outputs,
+        sources: &args.sources,
+        bindings: &args.bindings,
+        levels: &args.levels,
+        cache: &args.cache,
+    };
+    permutations::run(&job, console)
 }
 
 /// What became of a program: nothing is output if there are errors.

@@ -59,6 +59,13 @@ const EXAMPLES: &[(&str, &[(&str, &str)])] = &[
         ],
     ),
     (
+        "cache",
+        &[
+            ("glisten cache stats --cache .glisten-cache", "how much a cache holds"),
+            ("glisten cache clean --cache .glisten-cache", "an empty cache"),
+        ],
+    ),
+    (
         "specialize",
         &[
             ("glisten specialize scene.toml -o out", "programs of which nothing is left but what the scene needs"),

@@ -10,6 +10,7 @@
 mod args;
 mod batch;
 mod cache;
+mod cache_command;
 mod compile;
 mod completions;
 mod config;
@@ -36,6 +37,7 @@ mod new_scene;
 mod opengl;
 mod optimize;
 mod outputs;
+mod permutations;
 mod pictures;
 mod profile;
 mod progress;
@@ -109,6 +111,7 @@ enum Command {
     Upgrade(upgrade::UpgradeArgs),
     Completions(completions::CompletionsArgs),
     Watch(watch::WatchArgs),
+    Cache(cache_command::CacheCommandArgs),
     Man(man::ManArgs),
 }
 
@@ -159,6 +162,7 @@ fn dispatch(command: &Command, console: &Console) -> Outcome {
         Command::Upgrade(args) => upgrade::run(args, console),
         Command::Completions(args) => completions::run(args, Cli::command(), console),
         Command::Watch(args) => watch::run(args, console),
+        Command::Cache(args) => cache_command::run(args, console),
         Command::Man(args) => man::run(args, examples::with_examples(Cli::command()), console),
     }
 }

@@ -101,6 +101,18 @@ impl OutputPlan {
         names
     }
 
+    /// The stage and the target of each of a program's outputs but the reflection, by their names.
+    pub(super) fn kinds(&self, group: &Group) -> BTreeMap<String, (Stage, Target)> {
+        let mut kinds = BTreeMap::new();
+        for stage in Stage::ALL {
+            if let Some(input) = group.inputs.iter().find(|input| input.stage == stage) {
+                let name = |target: &Target| format!("{}.{}", input.file_name(), target.extension());
+                kinds.extend(self.targets.iter().map(|target| (name(target), (stage, *target))));
+            }
+        }
+        kinds
+    }
+
     /// Two programs must not write the same file, nor one of the sources.
     ///
     /// # Errors

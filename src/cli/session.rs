@@ -181,7 +181,13 @@ impl<'a> Session<'a> {
             progress.step();
             unit
         };
-        let mut units: Vec<(Unit, usize)> = self.pool.install(|| groups.into_par_iter().map(work).collect());
+        let units: Vec<(Unit, usize)> = self.pool.install(|| groups.into_par_iter().map(work).collect());
+        drop(progress);
+        self.adopt(units)
+    }
+
+    /// Applies the levels to units that were compiled, each with the number of its diagnostics past the compiler's limit.
+    pub(super) fn adopt(&mut self, mut units: Vec<(Unit, usize)>) -> Vec<Unit> {
         keep_bindings_that_fit_nowhere(&mut units);
         for (unit, dropped) in &mut units {
             // Errors in a configuration are reported even if there are no diagnostics that it applies to.

@@ -41,6 +41,11 @@ impl CacheArgs {
         if self.no_cache { None } else { self.remote_cache.clone().or_else(given) }
     }
 
+    /// The limit of the command line.
+    pub(in crate::cli) fn given_limit(&self) -> Option<u64> {
+        self.cache_limit
+    }
+
     /// The limit in bytes.
     ///
     /// # Errors
