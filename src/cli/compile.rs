@@ -1,6 +1,6 @@
 //! `glisten compile`: translates programs to target languages and writes their reflection.
 //!
-//! *Holds:* nothing is written for a program with errors. What a cache holds is written like what is made anew.
+//! *Holds:* nothing is written for a program with errors. What a cache holds is written like what is compiled.
 
 use super::args::{BindingArgs, LevelArgs, ProgramArgs, SourceArgs};
 use super::cache::CacheArgs;
@@ -9,17 +9,15 @@ use super::depfile::{self, Made};
 use super::exit::{Exit, Failure, Outcome};
 use super::files;
 use super::inputs::{self, Group};
+use super::lone;
 use super::optimize;
 use super::outputs::{Output, OutputArgs, OutputPlan};
 use super::permutations::{self, Job};
 use super::recall::Recall;
 use super::session::{Session, Unit};
 use clap::{Args, ValueEnum};
-use glisten_front::diagnostic::codes::general::LONE_STAGE;
-use glisten_front::diagnostic::codes::link::{LONE_WITHOUT_DEFINITION, LONE_WITHOUT_MAIN};
-use glisten_front::diagnostic::{Diagnostic, Severity};
+use glisten_front::diagnostic::Diagnostic;
 use glisten_front::hir;
-use glisten_front::source::Span;
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 
@@ -93,9 +91,9 @@ pub(super) fn run(args: &CompileArgs, console: &Console) -> Outcome {
     let recall = Recall::new(&args.cache, session.engines(), &args.sources, &args.bindings, &plan)?;
     let mut units = session.compile_by(inputs.groups, |compiler, group| recall.compile(compiler, group, ""));
     for unit in &mut units {
-        let warning = lone_stage(unit);
+        let warning = lone::warning(unit);
         session.add(&mut unit.batch, warning);
-        refuse_what_is_no_program(unit);
+        lone::refuse_what_is_no_program(unit);
     }
     let emitted: Vec<Emitted> =
         session.pool().install(|| units.par_iter().map(|unit| emit(&plan, &recall, unit)).collect());
@@ -145,7 +143,7 @@ fn permute(args: &CompileArgs, file: &Path, console: &Console) -> Outcome {
     permutations::run(&job, console)
 }
 
-/// What became of a program: nothing is output if there are errors.
+/// The outputs of a program: none if there are errors.
 #[derive(Default)]
 struct Emitted {
     outputs: Vec<Output>,
@@ -242,32 +240,4 @@ fn typed_programs(units: &[Unit], optimized: bool) -> String {
         }
     }
     text
-}
-
-/// Turns the warnings of a single shader that lacks a function into errors. Such a shader is valid as part of a
-/// program, which `lint` accepts, but nothing can be emitted for it.
-fn refuse_what_is_no_program(unit: &mut Unit) {
-    if unit.is_program() {
-        return;
-    }
-    for diagnostic in &mut unit.batch.diagnostics {
-        if [&LONE_WITHOUT_MAIN, &LONE_WITHOUT_DEFINITION].contains(&diagnostic.code) {
-            diagnostic.severity = Severity::Error;
-        }
-    }
-}
-
-/// The warning about a program of a single stage.
-fn lone_stage(unit: &Unit) -> Option<Diagnostic> {
-    if !unit.group.is_lone() || !unit.is_program() {
-        return None;
-    }
-    let (_, file) = unit.batch.sources.files().next()?;
-    let stage = unit.group.inputs.first().map_or("", |input| input.stage.name());
-    let message = format!("`{}` is compiled without its partner", file.name());
-    let span = Span::new(file.base(), file.base());
-    let warning = Diagnostic::new(&LONE_STAGE, span, message)
-        .note(format!("locations of varyings and the uniform block are those of the {stage} stage alone"))
-        .help("name all files of a program in one command, or say `--program a.vert,b.frag`");
-    Some(warning)
 }

@@ -14,7 +14,7 @@ use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-/// What was made of one program.
+/// The files of one program.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Made {
     /// The name of the program.

@@ -100,7 +100,7 @@ impl Engines {
         known.entry(folder.to_owned()).or_insert_with(read).clone()
     }
 
-    /// What was read for the rules of a folder, or `None` if there is no rule.
+    /// The trace of reading the rules of a folder, or `None` if there is no rule.
     pub(super) fn trace_of_rules(&self, folder: &Path) -> Option<Arc<Trace>> {
         let (rules, trace) = self.known(folder);
         (!rules.is_empty()).then_some(trace)

@@ -30,6 +30,7 @@ mod inputs;
 mod interrupt;
 mod library;
 mod lint;
+mod lone;
 mod machine;
 mod made;
 mod man;

@@ -23,7 +23,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// What to write of a program.
+/// The parts of a program to write.
 #[derive(Args, Clone, Debug)]
 pub(super) struct OutputArgs {
     /// The target to write (repeatable; default: wgsl and spirv)
@@ -53,7 +53,7 @@ pub(super) fn target_words() -> impl TypedValueParser<Value = Target> {
 /// A file to write: its name, the digest of its bytes, its bytes.
 pub(super) type Output = (String, Digest, Arc<[u8]>);
 
-/// What to write of a program, in full.
+/// The parts of a program to write, in full.
 #[derive(Clone, Debug)]
 pub(super) struct OutputPlan {
     pub(super) targets: BTreeSet<Target>,

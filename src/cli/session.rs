@@ -43,7 +43,7 @@ pub(super) struct Unit {
     pub(super) program: Option<Program>,
     /// The outputs, if they come from a cache.
     pub(super) kept: Option<Kept>,
-    /// What a cache needs to keep the result.
+    /// The facts that a cache needs to keep the result.
     pub(super) fresh: Option<Fresh>,
     /// The watched macros that the result depends on.
     pub(super) asked: BTreeSet<String>,
@@ -54,7 +54,7 @@ pub(super) struct Unit {
 pub(super) struct Fresh {
     /// The key of its options.
     pub(super) key: Digest,
-    /// What was read.
+    /// All that was read.
     pub(super) trace: Trace,
     /// The diagnostics before any level.
     pub(super) diagnostics: Vec<Diagnostic>,

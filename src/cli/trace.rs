@@ -2,7 +2,7 @@
 //!
 //! *In:* [`read`], [`looked_for`] and the like, called where files are read. *Out:* of [`recorded`]: a [`Trace`], the places in
 //! the order of their first use, each with what was found there. *Holds:* a trace belongs to the thread that works; without
-//! [`recorded`], nothing is kept. What was found is what the work saw: a file that changes later has another digest.
+//! [`recorded`], nothing is kept. The digests are of the bytes that the work saw: a file that changes later has another digest.
 
 use super::digest::Digest;
 use serde::{Deserialize, Serialize};
@@ -21,7 +21,7 @@ pub(super) enum Place {
     Rules(String),
 }
 
-/// What is at a place.
+/// The state of a place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Found {
     /// Nothing, or nothing that can be read.
@@ -37,7 +37,7 @@ pub(super) enum Found {
 }
 
 impl Found {
-    /// What is at a path.
+    /// The state of a path.
     pub(super) fn at(path: &Path) -> Self {
         match std::fs::metadata(path) {
             Ok(found) if found.is_dir() => Self::Folder,

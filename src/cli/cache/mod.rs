@@ -8,7 +8,7 @@
 //! places now. So nothing but reading is needed to find a result.
 //!
 //! *Holds:* a result depends on the bytes of everything that was read, on the program's own bytes, and on no time. What is
-//! damaged, or cannot be read, is made anew. A cache that cannot be written to is a warning.
+//! damaged, or cannot be read, is made again. A cache that cannot be written to is a warning.
 
 mod action;
 mod args;
@@ -49,7 +49,7 @@ pub(super) struct Cache {
     /// The digest of this program.
     program: Digest,
     engines: Engines,
-    /// What is at a place, as far as it is known.
+    /// The state of each place, as far as it is known.
     places: Mutex<BTreeMap<Place, Found>>,
     /// Outputs that have been read or written.
     outputs: Mutex<BTreeMap<Digest, Arc<[u8]>>>,
@@ -85,7 +85,12 @@ impl Cache {
 
     /// The result that fits what is on disk now.
     pub(super) fn find(&self, key: Digest) -> Option<Kept> {
-        let found = self.find_in(&self.own_lists(key)).or_else(|| self.find_in(&self.remote_lists(key)));
+        let found = self.find_in(&self.own_lists(key)).or_else(|| {
+            let remote = self.remote_lists(key);
+            let found = self.find_in(&remote)?;
+            self.put_here(Kind::Result, key, &written_lists(&remote.1));
+            Some(found)
+        });
         let counter = if found.is_some() { &self.hits } else { &self.misses };
         counter.fetch_add(1, Ordering::Relaxed);
         found
@@ -119,8 +124,7 @@ impl Cache {
         lists.retain(|one| *one != list);
         lists.insert(0, list);
         lists.truncate(MAX_LISTS);
-        let stdout_raw = serde_json::to_vec(&lists).unwrap_or_default();
-        self.put(Kind::Result, key, &ActionResult { stdout_raw, ..ActionResult::default() }.encode_to_vec());
+        self.put(Kind::Result, key, &written_lists(&lists));
     }
 
     /// Tells what went wrong, and keeps the folder below its limit.
@@ -182,7 +186,7 @@ impl Cache {
         }
     }
 
-    /// What is at a place now. It is looked up once in a run.
+    /// The state of a place now. It is looked up once in a run.
     fn now(&self, place: &Place) -> Found {
         let known = self.places.lock().ok().and_then(|places| places.get(place).cloned());
         known.unwrap_or_else(|| {
@@ -222,6 +226,12 @@ fn result_key<'a>(key: Digest, places: impl Iterator<Item = (&'a Place, Found)>)
     let own = Hasher::new("places").with(key.to_string().as_bytes());
     let parts = places.map(|(place, found)| format!("{place:?} {found:?}"));
     parts.fold(own, |hasher, part| hasher.with(part.as_bytes())).finish()
+}
+
+fn written_lists(lists: &[Vec<Place>]) -> Vec<u8> {
+    // Only a map whose keys are no texts could fail.
+    let stdout_raw = serde_json::to_vec(lists).unwrap_or_default();
+    ActionResult { stdout_raw, ..ActionResult::default() }.encode_to_vec()
 }
 
 fn lists(bytes: Option<Vec<u8>>) -> Vec<Vec<Place>> {

@@ -21,9 +21,9 @@ pub(in crate::cli) struct Kept {
     pub(in crate::cli) outputs: Vec<KeptOutput>,
     /// The texts of the diagnostics.
     pub(in crate::cli) sources: SourceMap,
-    /// What the compiler found.
+    /// The compiler's diagnostics.
     pub(in crate::cli) diagnostics: Vec<Diagnostic>,
-    /// What is to be said of the outputs.
+    /// Notes on the outputs.
     pub(in crate::cli) notes: Vec<Diagnostic>,
     /// How many diagnostics past the compiler's limit there were.
     pub(in crate::cli) dropped: usize,

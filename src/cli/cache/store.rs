@@ -11,7 +11,7 @@ use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
-/// What an entry is: as in Bazel's protocol, a result, found by the digest of what it depends on, or bytes, found by their own.
+/// The kind of an entry: as in Bazel's protocol, a result, found by the digest of what it depends on, or bytes, found by their own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(in crate::cli) enum Kind {
     /// `ac`, the action cache.
@@ -51,7 +51,7 @@ pub(in crate::cli) struct Entry {
     pub(in crate::cli) path: PathBuf,
     /// Its size.
     pub(in crate::cli) bytes: u64,
-    /// What it is.
+    /// Its kind.
     pub(in crate::cli) kind: Kind,
 }
 
@@ -110,7 +110,8 @@ impl Store {
         let path = self.path(kind, digest);
         let sealed;
         let bytes = match kind {
-            Kind::Bytes if fs::metadata(&path).is_ok_and(|found| found.len() == bytes.len() as u64) => return Ok(()),
+            // One that is damaged is removed by reading it.
+            Kind::Bytes if self.get(kind, digest).is_some() => return Ok(()),
             Kind::Bytes => bytes,
             Kind::Result => {
                 sealed = [seal(bytes, digest).as_bytes(), bytes].concat();

@@ -9,7 +9,6 @@ use crate::cli::inputs::Group;
 use crate::cli::outputs::{Output, OutputPlan};
 use serde::Serialize;
 use std::collections::BTreeMap;
-use std::path::Path;
 use std::sync::Arc;
 
 /// How many digits of a digest are in the name of a file.
@@ -115,12 +114,6 @@ impl Index {
     /// The text of the index.
     pub(super) fn json(&self) -> String {
         serde_json::to_string_pretty(self).expect("texts and numbers are always JSON") + "\n"
-    }
-
-    /// The paths of all files in a folder, the index first.
-    pub(super) fn paths(&self, folder: &Path) -> Vec<String> {
-        let path = |name: &str| folder.join(name).to_string_lossy().into_owned();
-        [path(INDEX)].into_iter().chain(self.files.keys().map(|name| path(name))).collect()
     }
 }
 

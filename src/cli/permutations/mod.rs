@@ -16,12 +16,13 @@ mod scenes;
 mod shared;
 
 use super::args::{BindingArgs, LevelArgs, ProgramArgs, SourceArgs};
-use super::cache::CacheArgs;
+use super::cache::{CacheArgs, Kept};
 use super::console::Console;
 use super::depfile::{self, Made};
 use super::exit::{Exit, Failure, Outcome};
 use super::files;
 use super::inputs::{self, Group};
+use super::lone;
 use super::outputs::{Output, OutputArgs, OutputPlan};
 use super::progress::Progress;
 use super::recall::Recall;
@@ -38,7 +39,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// What to do.
+/// The arguments of a run.
 pub(super) struct Job<'a> {
     /// The file.
     pub(super) file: &'a Path,
@@ -77,7 +78,7 @@ struct Run<'a> {
     session: Session<'a>,
     recall: Recall,
     index: Index,
-    /// What was reported, in order.
+    /// The results that were reported, in order.
     units: Vec<Unit>,
     made: Vec<Made>,
     variants: usize,
@@ -173,7 +174,8 @@ impl Run<'_> {
             (None, None) => (Vec::new(), Vec::new()),
         };
         // The linked program is large, and has done its duty.
-        let unit = Unit { program: None, fresh: None, ..unit };
+        let kept = unit.is_program().then(Kept::default);
+        let unit = Unit { program: None, fresh: None, kept, ..unit };
         (asked, Done { unit: Mutex::new(Some((unit, dropped))), outputs, diagnostics })
     }
 
@@ -188,8 +190,9 @@ impl Run<'_> {
             unit.batch.diagnostics = unit.batch.diagnostics.iter().map(noted).collect();
             let mut adopted = self.session.adopt(vec![(unit, dropped)]);
             for unit in &mut adopted {
-                let added: Vec<Diagnostic> = done.diagnostics.iter().map(noted).collect();
+                let added: Vec<Diagnostic> = lone::warning(unit).iter().chain(&done.diagnostics).map(noted).collect();
                 self.session.add(&mut unit.batch, added);
+                lone::refuse_what_is_no_program(unit);
                 is_sound &= unit.exit() == Exit::Ok && !done.outputs.is_empty();
                 self.made.push(Made {
                     program: group.name.clone(),
@@ -228,7 +231,9 @@ impl Run<'_> {
         let sources: Vec<String> = self.made.iter().flat_map(|made| made.sources.clone()).collect();
         let all: Vec<String> = [permutations].into_iter().chain(sources).collect();
         if let Some(path) = self.job.depfile {
-            let rule = depfile::make_rule(self.index.paths(self.job.folder), all.clone());
+            // The other outputs are not known to a build system before they are written.
+            let index = self.job.folder.join(INDEX).to_string_lossy().into_owned();
+            let rule = depfile::make_rule([index], all.clone());
             files::write(path, rule.as_bytes())?;
         }
         if let Some(path) = self.job.manifest {

@@ -226,7 +226,10 @@ impl Compiler {
             shader.version.span = Span::new(start, start);
         }
         let (inclusions, preludes) = (&ast.inclusions, &ast.preludes);
-        shader.texts.push(whole_text(map, file, ast.version.span, inclusions, &options.defines, preludes));
+        // A macro that nothing asks for is no part of the text: with and without it, the outputs are the same.
+        let mut defines = options.defines;
+        defines.retain(|(name, _)| ast.asks(name.split('(').next().unwrap_or(name)));
+        shader.texts.push(whole_text(map, file, ast.version.span, inclusions, &defines, preludes));
         let is_complete = !keep_understood(&ast, &mut shader, types, map, diagnostics, first_error);
         forget_names_of_missing_includes(map, diagnostics, first_error);
         keep_decisive(diagnostics, first_error);
