@@ -36,8 +36,7 @@ impl Made {
 
 /// The names of the files that a program was read from.
 pub(super) fn files_read(group: &Group, sources: &SourceMap) -> Vec<String> {
-    let standard_input =
-        |name: &str| group.inputs.iter().any(|input| input.path.is_none() && input.name == name);
+    let standard_input = |name: &str| group.inputs.iter().any(|input| input.path.is_none() && input.name == name);
     let names = sources.files().map(|(_, file)| file.name());
     let is_file =
         |name: &&str| *name != SourceMap::COMMAND_LINE && !standard_input(name) && !library::is_embedded(name);
@@ -45,7 +44,10 @@ pub(super) fn files_read(group: &Group, sources: &SourceMap) -> Vec<String> {
 }
 
 /// One rule: all outputs, then all inputs and includes without repetitions.
-pub(super) fn make_rule(outputs: impl IntoIterator<Item = String>, sources: impl IntoIterator<Item = String>) -> String {
+pub(super) fn make_rule(
+    outputs: impl IntoIterator<Item = String>,
+    sources: impl IntoIterator<Item = String>,
+) -> String {
     let mut seen = BTreeSet::new();
     let mut words = |names: &mut dyn Iterator<Item = String>| {
         let fresh = names.filter(|name| seen.insert(name.clone()));

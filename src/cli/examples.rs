@@ -66,6 +66,13 @@ const EXAMPLES: &[(&str, &[(&str, &str)])] = &[
         ],
     ),
     (
+        "snapshots",
+        &[
+            ("glisten snapshots review -o page.html", "the pictures of tests that wait for a decision"),
+            ("glisten snapshots accept", "all of them become the stored ones"),
+        ],
+    ),
+    (
         "specialize",
         &[
             ("glisten specialize scene.toml -o out", "programs of which nothing is left but what the scene needs"),

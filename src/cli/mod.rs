@@ -51,6 +51,7 @@ mod responses;
 mod rules;
 mod scenes;
 mod session;
+mod snapshots;
 mod specialize;
 mod stability;
 mod stability_library;
@@ -113,6 +114,7 @@ enum Command {
     Completions(completions::CompletionsArgs),
     Watch(watch::WatchArgs),
     Cache(cache_command::CacheCommandArgs),
+    Snapshots(snapshots::SnapshotsArgs),
     Man(man::ManArgs),
 }
 
@@ -164,6 +166,7 @@ fn dispatch(command: &Command, console: &Console) -> Outcome {
         Command::Completions(args) => completions::run(args, Cli::command(), console),
         Command::Watch(args) => watch::run(args, console),
         Command::Cache(args) => cache_command::run(args, console),
+        Command::Snapshots(args) => snapshots::run(args, console),
         Command::Man(args) => man::run(args, examples::with_examples(Cli::command()), console),
     }
 }

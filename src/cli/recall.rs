@@ -88,7 +88,8 @@ impl Recall {
         let folders = group.inputs.iter().filter_map(|input| input.path.as_deref());
         let mut folders = folders.map(|path| folder_of(path).unwrap_or_else(|| ".".into()));
         // An engine may look into the folders above, whose names then matter.
-        let is_bound = self.engines.is_engine_given() || folders.any(|folder| self.engines.trace_of_rules(&folder).is_some());
+        let is_bound =
+            self.engines.is_engine_given() || folders.any(|folder| self.engines.trace_of_rules(&folder).is_some());
         let here = if is_bound { std::env::current_dir().unwrap_or_default() } else { Default::default() };
         Some(cache.key(&[&self.options, &format!("{group:?}"), variant, &here.to_string_lossy()]))
     }

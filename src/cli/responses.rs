@@ -84,7 +84,10 @@ mod tests {
             (r#"a\ b \"c\" "d\"e" 'f\'g' \\"#, &["a b", "\"c\"", "d\"e", "f'g", "\\"]),
             (r#"-DX="" '' -DY='"z"'"#, &["-DX=", "", "-DY=\"z\""]),
         ] {
-            assert_eq!(split(text).as_deref(), Some(&words.iter().map(|word| (*word).to_owned()).collect::<Vec<_>>()[..]));
+            assert_eq!(
+                split(text).as_deref(),
+                Some(&words.iter().map(|word| (*word).to_owned()).collect::<Vec<_>>()[..])
+            );
         }
         assert_eq!((split("\"a"), split("it's")), (None, None));
     }

@@ -63,8 +63,7 @@ fn copy_all(from: &Path, to: &Path) {
 
 /// Whether tools are there.
 fn are_there(tools: &[&str]) -> bool {
-    let missing: Vec<_> =
-        tools.iter().filter(|tool| Command::new(tool).arg("--version").output().is_err()).collect();
+    let missing: Vec<_> = tools.iter().filter(|tool| Command::new(tool).arg("--version").output().is_err()).collect();
     if missing.is_empty() {
         return true;
     }
@@ -132,4 +131,3 @@ fn meson_builds_what_changed() {
         builds(&copy, "integrations", &words, "integrations/built/wave.vert.wgsl", did);
     }
 }
-

@@ -36,7 +36,8 @@ pub(crate) fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
 
 /// Compiles with the cache. Returns whether it was a hit, and what was reported.
 fn compile(folder: &Folder, more: &[&str]) -> (bool, String) {
-    let words = ["compile", "a.vert", "a.frag", "-o", "out", "-I", "early", "-I", "late", "-DSCALE=0.5", "--cache", "kept"];
+    let words =
+        ["compile", "a.vert", "a.frag", "-o", "out", "-I", "early", "-I", "late", "-DSCALE=0.5", "--cache", "kept"];
     let run = folder.run(&[&words, more].concat());
     assert_eq!(code(&run), 0, "{}", err(&run));
     let text = err(&run);
@@ -51,7 +52,13 @@ fn a_hit_gives_the_same_files_and_diagnostics() {
     let more = ["--depfile", "d", "--manifest", "m.json"];
     let (is_hit, told) = compile(&folder, &more);
     assert!(!is_hit && told.contains("warning["), "{told}");
-    let rest = || (files(&folder.path("out")), fs::read(folder.path("d")).expect("d"), fs::read(folder.path("m.json")).expect("m"));
+    let rest = || {
+        (
+            files(&folder.path("out")),
+            fs::read(folder.path("d")).expect("d"),
+            fs::read(folder.path("m.json")).expect("m"),
+        )
+    };
     let first = rest();
     fs::remove_dir_all(folder.path("out")).expect("removed");
     assert_eq!(compile(&folder, &more), (true, told));
@@ -60,15 +67,45 @@ fn a_hit_gives_the_same_files_and_diagnostics() {
     let outputs = manifest["outputs"].as_array().expect("a list");
     assert_eq!(outputs.len(), 5);
     assert_eq!(outputs[0]["file"], "out/a.vert.wgsl");
-    let names: Vec<&str> = outputs[0]["sources"].as_array().expect("a list").iter().filter_map(|one| one["file"].as_str()).collect();
+    let names: Vec<&str> =
+        outputs[0]["sources"].as_array().expect("a list").iter().filter_map(|one| one["file"].as_str()).collect();
     assert_eq!(names, ["a.vert", "late/shape.glsl", "a.frag"]);
     // Levels apply to what is recalled, too; JSON is written from it.
-    let denied = ["compile", "a.vert", "a.frag", "-o", "x", "-I", "early", "-I", "late", "-DSCALE=0.5", "--cache", "kept", "--deny", "warnings"];
+    let denied = [
+        "compile",
+        "a.vert",
+        "a.frag",
+        "-o",
+        "x",
+        "-I",
+        "early",
+        "-I",
+        "late",
+        "-DSCALE=0.5",
+        "--cache",
+        "kept",
+        "--deny",
+        "warnings",
+    ];
     let run = folder.run(&denied);
     assert_eq!(code(&run), 1, "{}", err(&run));
     assert!(err(&run).contains("1 of 1 from the cache") && !folder.path("x").exists());
     let json = |more: &[&str]| {
-        let words = ["compile", "a.vert", "a.frag", "-o", "y", "-I", "early", "-I", "late", "-DSCALE=0.5", "-q", "--diagnostics", "json"];
+        let words = [
+            "compile",
+            "a.vert",
+            "a.frag",
+            "-o",
+            "y",
+            "-I",
+            "early",
+            "-I",
+            "late",
+            "-DSCALE=0.5",
+            "-q",
+            "--diagnostics",
+            "json",
+        ];
         err(&folder.run(&[&words, more].concat()))
     };
     assert_eq!(json(&["--cache", "kept"]), json(&["--no-cache"]));
@@ -91,7 +128,9 @@ fn whatever_a_result_depends_on_makes_it_a_miss() {
     assert!(fs::read_to_string(folder.path("out/a.vert.wgsl")).expect("written").contains("4f"));
     fs::remove_file(folder.path("early/shape.glsl")).expect("removed");
     assert!(compile(&folder, &[]).0, "as it was before");
-    for more in [&["-DMORE"][..], &["-g"], &["--target", "msl"], &["--clip-z", "minus-one-to-one"], &["-O0"], &["--flat"]] {
+    for more in
+        [&["-DMORE"][..], &["-g"], &["--target", "msl"], &["--clip-z", "minus-one-to-one"], &["-O0"], &["--flat"]]
+    {
         miss(&format!("{more:?}"), more);
     }
     fs::write(folder.path("p.glsl"), "#define A 1\n").expect("written");
@@ -131,7 +170,10 @@ fn the_environment_names_a_cache_and_stats_and_clean_know_it() {
     assert!(err(&compiled).contains("0 of 1 from the cache"), "{}", err(&compiled));
     let stats: serde_json::Value =
         serde_json::from_str(&out(&run(&["cache", "stats", "--format", "json"]))).expect("JSON");
-    assert_eq!((stats["results"].as_u64(), stats["outputs"].as_u64(), stats["limit"].as_u64()), (Some(2), Some(5), Some(2 << 20)));
+    assert_eq!(
+        (stats["results"].as_u64(), stats["outputs"].as_u64(), stats["limit"].as_u64()),
+        (Some(2), Some(5), Some(2 << 20))
+    );
     assert!(out(&run(&["cache", "stats"])).contains("of 2.0 MiB"));
     assert_eq!(code(&run(&["cache", "clean"])), 0);
     let stats = out(&run(&["cache", "stats", "--format", "json"]));
@@ -153,7 +195,8 @@ fn bytes_are_the_same_everywhere() {
             fs::rename(folder.path(name), folder.path(place).join(name)).expect("moved");
         }
         fs::write(folder.path(place).join("b.frag"), FRAGMENT).expect("written");
-        let all = ["compile", "a.vert", "a.frag", "b.frag", "-I", "late", "-DSCALE=0.5", "-o", "out", "--depfile", "out/d"];
+        let all =
+            ["compile", "a.vert", "a.frag", "b.frag", "-I", "late", "-DSCALE=0.5", "-o", "out", "--depfile", "out/d"];
         let mut command = folder.command(&[&all, words].concat());
         command.current_dir(folder.path(place)).envs(variables.iter().copied());
         let run = command.output().expect("it runs");

@@ -125,7 +125,8 @@ fn a_cache_keeps_below_its_limit() {
     let folder = project();
     let words = [&WORDS[..], &["--cache", "kept", "--cache-limit", "100K"]].concat();
     assert_eq!(code(&folder.run(&words)), 0);
-    let bytes: u64 = entries(&folder.path("kept")).iter().filter_map(|path| fs::metadata(path).ok()).map(|it| it.len()).sum();
+    let bytes: u64 =
+        entries(&folder.path("kept")).iter().filter_map(|path| fs::metadata(path).ok()).map(|it| it.len()).sum();
     assert!(bytes > 20_000 && bytes <= 100 << 10, "{bytes}");
     assert_eq!(code(&folder.run(&words)), 0);
 }

@@ -62,6 +62,8 @@ mod opengl;
 mod operations;
 #[cfg(feature = "reference")]
 mod optimize;
+#[cfg(all(feature = "cli", feature = "snapshot"))]
+mod own_snapshots;
 #[cfg(feature = "cli")]
 mod permutations;
 mod print;

@@ -64,7 +64,11 @@ fn each_variant_has_the_bytes_that_it_has_alone() {
     let mut named = BTreeSet::from(["index.json".to_owned()]);
     for shader in program["shaders"].as_array().expect("a list") {
         named.insert(shader["reflection"].as_str().expect("a path").to_owned());
-        let stages = shader["stages"].as_object().expect("stages").values().flat_map(|stage| stage.as_object().expect("targets").values());
+        let stages = shader["stages"]
+            .as_object()
+            .expect("stages")
+            .values()
+            .flat_map(|stage| stage.as_object().expect("targets").values());
         named.extend(stages.map(|path| path.as_str().expect("a path").to_owned()));
     }
     assert_eq!(written, named);
@@ -92,7 +96,9 @@ fn the_order_of_the_work_does_not_show() {
 
 #[test]
 fn an_error_names_its_variant_and_nothing_is_written() {
-    let folder = project("[[program]]\nfiles = [\"uber.vert\", \"uber.frag\"]\nvalues = { LIGHTS = [1, \"1.5\"], GGX = [false, true] }\n");
+    let folder = project(
+        "[[program]]\nfiles = [\"uber.vert\", \"uber.frag\"]\nvalues = { LIGHTS = [1, \"1.5\"], GGX = [false, true] }\n",
+    );
     let run = folder.run(&["compile", "--permutations", "p.toml", "-o", "out"]);
     assert_eq!(code(&run), 1, "{}", err(&run));
     assert!(err(&run).contains("in the variant `LIGHTS=1.5`"), "{}", err(&run));
@@ -139,5 +145,8 @@ fn draws_of_scenes_are_variants() {
     assert_eq!(code(&folder.run(&words)), 0);
     let other = files(&folder.path("other"));
     assert!(other.values().any(|bytes| *bytes == special.as_bytes()), "the residual is that of `specialize`");
-    assert_eq!(code(&project("[[scene]]\nfile = \"none.toml\"\n").run(&["compile", "--permutations", "p.toml", "-o", "x"])), 2);
+    assert_eq!(
+        code(&project("[[scene]]\nfile = \"none.toml\"\n").run(&["compile", "--permutations", "p.toml", "-o", "x"])),
+        2
+    );
 }

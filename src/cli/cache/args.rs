@@ -55,9 +55,8 @@ impl CacheArgs {
             return Ok(limit);
         }
         match env::var("GLISTEN_CACHE_LIMIT").ok().filter(|value| !value.is_empty()) {
-            Some(text) => {
-                parse_size(&text).map_err(|why| Failure::usage(format!("GLISTEN_CACHE_LIMIT of the environment: {why}")))
-            }
+            Some(text) => parse_size(&text)
+                .map_err(|why| Failure::usage(format!("GLISTEN_CACHE_LIMIT of the environment: {why}"))),
             None => Ok(LIMIT),
         }
     }
@@ -87,7 +86,8 @@ mod tests {
 
     #[test]
     fn sizes_have_units() {
-        for (text, bytes) in [("0", 0), ("12", 12), ("4k", 4096), ("5M", 5 << 20), ("2GiB", 2 << 30), ("1TB", 1 << 40)] {
+        for (text, bytes) in [("0", 0), ("12", 12), ("4k", 4096), ("5M", 5 << 20), ("2GiB", 2 << 30), ("1TB", 1 << 40)]
+        {
             assert_eq!(parse_size(text), Ok(bytes), "{text}");
         }
         for text in ["", "M", "1X", "-1", "1.5G", "99999999999G"] {

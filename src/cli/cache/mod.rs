@@ -245,7 +245,8 @@ fn program(store: Option<&Store>) -> Option<Digest> {
     let found = fs::metadata(&path).ok()?;
     let time = found.modified().ok()?.duration_since(UNIX_EPOCH).ok()?;
     let name = format!("{} {} {}", path.display(), found.len(), time.as_nanos());
-    let known = store.map(|store| (store, store.folder().join("programs").join(Digest::of(name.as_bytes()).to_string())));
+    let known =
+        store.map(|store| (store, store.folder().join("programs").join(Digest::of(name.as_bytes()).to_string())));
     let text = known.as_ref().and_then(|(_, path)| fs::read_to_string(path).ok());
     if let Some(digest) = text.and_then(|text| Digest::from_hex(text.trim())) {
         return Some(digest);

@@ -32,7 +32,9 @@ impl Remote {
     pub(super) fn new(address: &str) -> Result<Self, String> {
         let address = address.trim_end_matches('/');
         if address.starts_with("https://") || address.starts_with("grpc") {
-            return Err(format!("`{address}`: glisten speaks plain HTTP alone; a proxy on this machine can do the rest"));
+            return Err(format!(
+                "`{address}`: glisten speaks plain HTTP alone; a proxy on this machine can do the rest"
+            ));
         }
         if address.strip_prefix("http://").is_none_or(|host| host.is_empty() || host.contains(char::is_whitespace)) {
             return Err(format!("`{address}` is no address; write `http://host:port`"));

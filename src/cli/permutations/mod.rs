@@ -126,8 +126,7 @@ impl Run<'_> {
             progress.step();
             done
         };
-        let results: Vec<Arc<Done>> =
-            self.session.pool().install(|| program.variants.par_iter().map(one).collect());
+        let results: Vec<Arc<Done>> = self.session.pool().install(|| program.variants.par_iter().map(one).collect());
         drop(progress);
         let is_sound = self.report(&group, &program.variants, &results);
         self.variants += program.variants.len();
@@ -144,12 +143,7 @@ impl Run<'_> {
     }
 
     /// Compiles a variant. The first value is what the result depends on.
-    fn variant(
-        &self,
-        program: &PermutedProgram,
-        group: &Group,
-        variant: &Variant,
-    ) -> (BTreeSet<String>, Done) {
+    fn variant(&self, program: &PermutedProgram, group: &Group, variant: &Variant) -> (BTreeSet<String>, Done) {
         let compiler = self.session.compiler();
         let given = compiler.options().defines.iter().filter(|(name, _)| !variant.contains_key(name)).cloned();
         let own = variant.iter().map(|(name, value)| (name.clone(), value.clone()));
