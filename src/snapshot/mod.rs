@@ -9,7 +9,7 @@
 //! ```no_run
 //! use glisten::emit::Target;
 //! use glisten::scene::{DiskFiles, load};
-//! use glisten::snapshot::Judge;
+//! use glisten::snapshot::Criterion;
 //! use glisten::{Compiler, Options};
 //!
 //! # fn test() {
@@ -21,15 +21,15 @@
 //! glisten::assert_scene!("lit", scene);
 //! // The picture of a renderer has to look like the stored one.
 //! let picture = glisten::render(&scene, &glisten::RenderOptions::default()).expect("it can be drawn");
-//! glisten::assert_picture!("lit-picture", picture, Judge::Flip(0.01));
+//! glisten::assert_picture!("lit-picture", picture, Criterion::Flip(0.01));
 //! # }
 //! ```
 //!
-//! *Holds:* a picture is judged, never compared by its hash: rounding differs between GPUs. Only files in the folder `snapshots`
+//! *Holds:* a picture is compared, never compared by its hash: rounding differs between GPUs. Only files in the folder `snapshots`
 //! next to a test are written.
 
 #[cfg(feature = "snapshot")]
-mod judge;
+mod criterion;
 pub mod pending;
 #[cfg(feature = "snapshot")]
 mod pictures;
@@ -37,9 +37,9 @@ mod pictures;
 mod texts;
 
 #[cfg(feature = "snapshot")]
-pub use insta;
+pub use criterion::{Comparison, Criterion};
 #[cfg(feature = "snapshot")]
-pub use judge::{Judge, Judged};
+pub use insta;
 #[cfg(feature = "snapshot")]
 pub use pictures::{Place, check_picture, check_scene};
 #[cfg(feature = "snapshot")]
@@ -94,20 +94,20 @@ macro_rules! assert_account {
     };
 }
 
-/// Asserts a [`Picture`](crate::Picture) by a [`Judge`](crate::snapshot::Judge): `assert_picture!("name", picture, judge)`.
+/// Asserts a [`Picture`](crate::Picture) by a [`Criterion`](crate::snapshot::Criterion): `assert_picture!("name", picture, criterion)`.
 #[cfg(feature = "snapshot")]
 #[macro_export]
 macro_rules! assert_picture {
-    ($name:expr, $picture:expr, $judge:expr $(,)?) => {
+    ($name:expr, $picture:expr, $criterion:expr $(,)?) => {
         $crate::snapshot::check_picture(
             &$crate::snapshot::Place::new(env!("CARGO_MANIFEST_DIR"), file!(), module_path!(), $name),
             &$picture,
-            $judge,
+            $criterion,
         )
     };
 }
 
-/// Asserts that the stored picture is one that a conforming GPU may draw of a [`Scene`](crate::scene::Scene), judged by the
+/// Asserts that the stored picture is one that a conforming GPU may draw of a [`Scene`](crate::scene::Scene), compared by the
 /// reference's envelope: `assert_scene!("name", scene)`.
 #[cfg(feature = "snapshot")]
 #[macro_export]

@@ -5,7 +5,7 @@
 //! insta: `auto` (the default) leaves a pending picture, except where `CI` is set; `always` stores it; `no` leaves nothing;
 //! `unseen` stores what is not stored yet.
 
-use super::judge::{Judge, Judged, judge_scene};
+use super::criterion::{Comparison, Criterion, compare_scene};
 use super::pending::Pending;
 use crate::scene::Scene;
 use glisten_scene::picture::{Image, ImageFormat, Picture};
@@ -40,9 +40,9 @@ impl Place {
 ///
 /// # Panics
 /// It is not, or nothing is stored yet.
-pub fn check_picture(place: &Place, picture: &Picture, judge: Judge) {
-    let judged = stored(place).map(|stored| judge.judge(&stored, picture));
-    decide(place, judged, picture);
+pub fn check_picture(place: &Place, picture: &Picture, criterion: Criterion) {
+    let compared = stored(place).map(|stored| criterion.compare(&stored, picture));
+    decide(place, compared, picture);
 }
 
 /// Asserts that the stored picture is one that a scene may have; see [`assert_scene!`](crate::assert_scene).
@@ -51,8 +51,8 @@ pub fn check_picture(place: &Place, picture: &Picture, judge: Judge) {
 /// It is not, nothing is stored yet, or the scene cannot be drawn.
 pub fn check_scene(place: &Place, scene: &Scene) {
     let stored = stored(place);
-    match judge_scene(stored.as_ref(), scene) {
-        Ok((judged, picture)) => decide(place, stored.map(|_| judged), &picture),
+    match compare_scene(stored.as_ref(), scene) {
+        Ok((compared, picture)) => decide(place, stored.map(|_| compared), &picture),
         Err(why) => panic!("{}: {why}", place.pending.name),
     }
 }
@@ -84,15 +84,15 @@ fn update() -> Update {
     }
 }
 
-fn decide(place: &Place, judged: Option<Judged>, picture: &Picture) {
+fn decide(place: &Place, compared: Option<Comparison>, picture: &Picture) {
     let pending = &place.pending;
-    let (refused, difference) = match judged {
-        Some(Judged { refused: None, .. }) => {
+    let (refused, difference) = match compared {
+        Some(Comparison { refused: None, .. }) => {
             // A decision that is not needed any more.
             let _ = pending.reject();
             return;
         }
-        Some(Judged { refused: Some(why), difference }) => (why, difference),
+        Some(Comparison { refused: Some(why), difference }) => (why, difference),
         None => ("no picture is stored yet".to_owned(), None),
     };
     let is_unseen = difference.is_none() && !pending.stored().exists();

@@ -6,7 +6,7 @@ use crate::support::{compiler, root};
 use glisten::emit::Target;
 use glisten::scene::{DiskFiles, load};
 use glisten::snapshot::pending::find;
-use glisten::snapshot::{Judge, Place, check_picture};
+use glisten::snapshot::{Criterion, Place, check_picture};
 use glisten::{Compilation, Picture, RenderOptions, Source, Stage, render};
 use std::fs;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -40,7 +40,7 @@ fn scenes_and_their_accounts() {
         glisten::assert_scene!(name, scene);
         glisten::assert_account!(format!("{name}-account"), scene, loaded.sources);
         let picture = render(&scene, &RenderOptions::default()).expect("it can be drawn");
-        glisten::assert_picture!(format!("{name}-flip"), picture, Judge::Flip(0.01));
+        glisten::assert_picture!(format!("{name}-flip"), picture, Criterion::Flip(0.01));
     }
 }
 
@@ -49,9 +49,9 @@ fn gray(level: f64) -> Picture {
 }
 
 /// The message of a check that fails; `None` if it holds.
-fn check(folder: &Path, picture: &Picture, judge: Judge) -> Option<String> {
+fn check(folder: &Path, picture: &Picture, criterion: Criterion) -> Option<String> {
     let place = Place::new(&folder.to_string_lossy(), "test.rs", "a::b", "gray");
-    let failed = catch_unwind(AssertUnwindSafe(|| check_picture(&place, picture, judge))).err()?;
+    let failed = catch_unwind(AssertUnwindSafe(|| check_picture(&place, picture, criterion))).err()?;
     Some(failed.downcast_ref::<String>().cloned().unwrap_or_default())
 }
 
@@ -60,35 +60,35 @@ fn a_picture_waits_for_a_decision() {
     if std::env::var_os("CI").is_some() || std::env::var_os("INSTA_UPDATE").is_some() {
         // There, nothing is left; the messages are the same.
         let folder = tempfile::tempdir().expect("a folder");
-        assert!(check(folder.path(), &gray(0.5), Judge::Exact).is_some());
+        assert!(check(folder.path(), &gray(0.5), Criterion::Exact).is_some());
         return;
     }
     let folder = Folder::new(&[("test.rs", b"")]);
     let stored = folder.path("snapshots/a__b__gray.png");
-    let first = check(&folder.path(""), &gray(0.5), Judge::Exact).expect("nothing is stored");
+    let first = check(&folder.path(""), &gray(0.5), Criterion::Exact).expect("nothing is stored");
     assert!(first.contains("no picture is stored yet") && first.contains("accept a__b__gray"), "{first}");
     assert_eq!(out(&folder.run(&["snapshots", "list"])), "a__b__gray  ./snapshots/a__b__gray.new.png\n");
     assert_eq!(code(&folder.run(&["snapshots", "accept", "a__b__grey"])), 2);
     let accepted = folder.run(&["snapshots", "accept", "a__b__gray"]);
     assert_eq!(code(&accepted), 0, "{}", err(&accepted));
-    assert_eq!(check(&folder.path(""), &gray(0.5), Judge::Exact), None);
-    assert_eq!(check(&folder.path(""), &gray(0.5001), Judge::Exact), None, "the same in 8 bits");
-    assert_eq!(check(&folder.path(""), &gray(0.51), Judge::Flip(0.05)), None);
-    let told = check(&folder.path(""), &gray(0.51), Judge::Exact).expect("another gray");
+    assert_eq!(check(&folder.path(""), &gray(0.5), Criterion::Exact), None);
+    assert_eq!(check(&folder.path(""), &gray(0.5001), Criterion::Exact), None, "the same in 8 bits");
+    assert_eq!(check(&folder.path(""), &gray(0.51), Criterion::Flip(0.05)), None);
+    let told = check(&folder.path(""), &gray(0.51), Criterion::Exact).expect("another gray");
     assert!(told.contains("256 pixels differ, by up to 2 of 255"), "{told}");
-    let told = check(&folder.path(""), &gray(0.9), Judge::Flip(0.05)).expect("another gray");
+    let told = check(&folder.path(""), &gray(0.9), Criterion::Flip(0.05)).expect("another gray");
     assert!(told.contains("the mean FLIP error is 0."), "{told}");
     let review = folder.run(&["snapshots", "review", "-o", "page.html"]);
     assert_eq!(code(&review), 0, "{}", err(&review));
     let page = fs::read_to_string(folder.path("page.html")).expect("written");
     assert_eq!(page.matches("data:image/png;base64,").count(), 3, "stored, new, difference");
     // A picture that fits again needs no decision.
-    assert_eq!(check(&folder.path(""), &gray(0.5), Judge::Exact), None);
+    assert_eq!(check(&folder.path(""), &gray(0.5), Criterion::Exact), None);
     assert!(
         find(&folder.path("")).expect("read").is_empty()
             && !folder.path("snapshots/a__b__gray.difference.png").exists()
     );
-    check(&folder.path(""), &Picture::of_colors(8, 8, vec![[0.0; 4]; 64]), Judge::Exact).expect("another size");
+    check(&folder.path(""), &Picture::of_colors(8, 8, vec![[0.0; 4]; 64]), Criterion::Exact).expect("another size");
     let before = fs::read(&stored).expect("stored");
     assert_eq!(code(&folder.run(&["snapshots", "reject"])), 0);
     assert_eq!(fs::read(&stored).expect("stored"), before);

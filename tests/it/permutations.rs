@@ -72,8 +72,9 @@ fn each_variant_has_the_bytes_that_it_has_alone() {
         named.extend(stages.map(|path| path.as_str().expect("a path").to_owned()));
     }
     assert_eq!(written, named);
-    // Vertex shaders do not depend on the model of light.
-    assert!(written.iter().filter(|name| name.ends_with(".vert.spv")).count() <= 8, "{written:?}");
+    // Many variants share a vertex shader.
+    let count = |end: &str| written.iter().filter(|name| name.ends_with(end)).count();
+    assert!(count(".vert.spv") < count(".frag.spv"), "{} of {}", count(".vert.spv"), count(".frag.spv"));
 }
 
 #[test]
@@ -134,17 +135,17 @@ fn warnings_are_told_once_and_obey_levels() {
 fn draws_of_scenes_are_variants() {
     let scene = root().join("fixtures/scenes/phong.toml");
     let folder = project(&format!("[[scene]]\nfile = {:?}\n", scene.display().to_string()));
-    let run = folder.run(&["compile", "--permutations", "p.toml", "-o", "out", "--target", "wgsl", "-O0"]);
+    let run = folder.run(&["compile", "--permutations", "p.toml", "-o", "out", "--target", "spirv", "-O0"]);
     assert_eq!(code(&run), 0, "{}", err(&run));
     let index = index(&folder, "out");
     let program = &index["programs"][0];
     assert_eq!((&program["name"], &program["variants"][0]["draw"]), (&Value::from("phong"), &Value::from(0)));
-    let path = program["shaders"][0]["stages"]["fragment"]["wgsl"].as_str().expect("a path");
-    let special = fs::read_to_string(folder.path("out").join(path)).expect("written");
-    let words = ["specialize", scene.to_str().expect("a path"), "-o", "other", "--target", "wgsl", "-q"];
+    let path = program["shaders"][0]["stages"]["fragment"]["spirv"].as_str().expect("a path");
+    let special = fs::read(folder.path("out").join(path)).expect("written");
+    let words = ["specialize", scene.to_str().expect("a path"), "-o", "other", "--target", "spirv", "-q"];
     assert_eq!(code(&folder.run(&words)), 0);
     let other = files(&folder.path("other"));
-    assert!(other.values().any(|bytes| *bytes == special.as_bytes()), "the residual is that of `specialize`");
+    assert!(other.values().any(|bytes| *bytes == special), "the residual is that of `specialize`");
     assert_eq!(
         code(&project("[[scene]]\nfile = \"none.toml\"\n").run(&["compile", "--permutations", "p.toml", "-o", "x"])),
         2

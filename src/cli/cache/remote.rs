@@ -1,8 +1,8 @@
 //! [`Remote`]: a cache on another machine, by Bazel's HTTP protocol.
 //!
 //! *In:* a kind, a digest, bytes. *Out:* `GET` and `PUT` of `/ac/<digest>` and `/cas/<digest>`, as bazel-remote, nginx with
-//! WebDAV and others serve them (<https://bazel.build/remote/caching>). *Holds:* a server that does not answer is asked once
-//! more at most: then it is left alone, and the build goes on without it. *Not done here:* encryption, and gRPC; a proxy on
+//! WebDAV and others serve them (<https://bazel.build/remote/caching>). *Holds:* after a failure the server is left alone,
+//! and the build goes on without it. *Not done here:* encryption, and gRPC; a proxy on
 //! the same machine has both.
 
 use super::store::Kind;

@@ -105,7 +105,8 @@ pub(super) fn run(job: &Job<'_>, console: &Console) -> Outcome {
     run.recall.close(console);
     if exit == Exit::Ok {
         run.write_accounts()?;
-        console.remark(&format!("{} variants, {} distinct", run.variants, run.shaders));
+        let end = if run.variants == 1 { "" } else { "s" };
+        console.remark(&format!("{} variant{end}, {} distinct", run.variants, run.shaders));
     }
     Ok(exit)
 }

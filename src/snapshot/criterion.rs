@@ -1,6 +1,6 @@
-//! [`Judge`]: whether a picture still is the stored one.
+//! [`Criterion`]: whether a picture still is the stored one.
 //!
-//! *In:* the stored picture, in 8 bits, and the new one. *Out:* [`Judged`]: whether it holds, why not, and a picture of the
+//! *In:* the stored picture, in 8 bits, and the new one. *Out:* [`Comparison`]: whether it holds, why not, and a picture of the
 //! differences.
 
 use crate::scene::Scene;
@@ -11,23 +11,23 @@ use glisten_scene::picture::{Image, Interval, Picture, byte};
 
 /// A rule for pictures that are equal enough.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Judge {
+pub enum Criterion {
     /// All pixels are the same in 8 bits.
     Exact,
     /// The mean FLIP error is at most this. A person does not see 0.01; 0.05 is a difference between renderers.
     Flip(f64),
 }
 
-/// A judgment.
+/// A comparison of pictures.
 #[derive(Clone, Debug)]
-pub struct Judged {
+pub struct Comparison {
     /// The reason why the picture is refused; `None` if it holds.
     pub refused: Option<String>,
     /// The picture of the differences.
     pub difference: Option<Picture>,
 }
 
-impl Judged {
+impl Comparison {
     const HOLDS: Self = Self { refused: None, difference: None };
 
     fn of_size(stored: &Image, [width, height]: [u32; 2]) -> Option<Self> {
@@ -38,11 +38,11 @@ impl Judged {
     }
 }
 
-impl Judge {
+impl Criterion {
     /// Compares a picture with the stored one.
-    pub(super) fn judge(self, stored: &Image, picture: &Picture) -> Judged {
-        if let Some(judged) = Judged::of_size(stored, [picture.width, picture.height]) {
-            return judged;
+    pub(super) fn compare(self, stored: &Image, picture: &Picture) -> Comparison {
+        if let Some(compared) = Comparison::of_size(stored, [picture.width, picture.height]) {
+            return compared;
         }
         let new = picture.attachments.first().map_or(&[][..], Vec::as_slice);
         let old = Picture::of_colors(stored.width, stored.height, colors(stored));
@@ -63,7 +63,11 @@ impl Judge {
             }
         };
         let shares: Vec<f64> = steps.iter().map(|step| f64::from(*step)).collect();
-        if refused.is_none() { Judged::HOLDS } else { Judged { refused, difference: Some(difference(&old, &shares)) } }
+        if refused.is_none() {
+            Comparison::HOLDS
+        } else {
+            Comparison { refused, difference: Some(difference(&old, &shares)) }
+        }
     }
 }
 
@@ -72,15 +76,15 @@ impl Judge {
 ///
 /// # Errors
 /// The reference cannot draw the scene.
-pub(super) fn judge_scene(stored: Option<&Image>, scene: &Scene) -> Result<(Judged, Picture), String> {
+pub(super) fn compare_scene(stored: Option<&Image>, scene: &Scene) -> Result<(Comparison, Picture), String> {
     let options = RenderOptions { precision: Precision::Envelope, lines: LineRule::Vulkan, ..RenderOptions::default() };
     let picture = render(scene, &options).map_err(|errors| {
         let first = errors.first().map_or_else(String::new, |error| error.message.clone());
         format!("the reference cannot draw the scene: {first}")
     })?;
-    let Some(stored) = stored else { return Ok((Judged::HOLDS, picture)) };
-    if let Some(judged) = Judged::of_size(stored, [picture.width, picture.height]) {
-        return Ok((judged, picture));
+    let Some(stored) = stored else { return Ok((Comparison::HOLDS, picture)) };
+    if let Some(compared) = Comparison::of_size(stored, [picture.width, picture.height]) {
+        return Ok((compared, picture));
     }
     let intervals = picture.intervals.as_ref().and_then(|all| all.first()).map_or(&[][..], Vec::as_slice);
     let drawn = picture.attachments.first().map_or(&[][..], Vec::as_slice);
@@ -100,12 +104,12 @@ pub(super) fn judge_scene(stored: Option<&Image>, scene: &Scene) -> Result<(Judg
     let shares: Vec<f64> = colors(stored).iter().enumerate().map(|(pixel, stored)| share(pixel, stored)).collect();
     let count = shares.iter().filter(|share| **share > 0.0).count();
     if count == 0 {
-        return Ok((Judged::HOLDS, picture));
+        return Ok((Comparison::HOLDS, picture));
     }
     let most = shares.iter().copied().fold(0.0, f64::max) - 1.0;
     let refused = format!("{count} pixels of the stored picture are outside of the envelope, by up to {most} of 255");
     let map = difference(&picture, &shares);
-    Ok((Judged { refused: Some(refused), difference: Some(map) }, picture))
+    Ok((Comparison { refused: Some(refused), difference: Some(map) }, picture))
 }
 
 /// The colors of a stored picture.
